@@ -1,0 +1,76 @@
+# One library a module. Sources are found by pattern, so adding a file is one step.
+# A module that needs more than Eigen says so in src/<module>/module.cmake.
+
+add_library(osteon_flags INTERFACE)
+target_compile_options(osteon_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # One rounding a operation, on every compiler: recordings replay bit by bit.
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(osteon_flags INTERFACE
+    # g++ 12 drops the rounding of double -> float -> double where it joins neighbouring values.
+    -fno-tree-slp-vectorize
+    # g++ 12 warns of overlap in "literal" + std::string (GCC bug 105651).
+    -Wno-restrict)
+endif()
+target_include_directories(osteon_flags INTERFACE "${CMAKE_SOURCE_DIR}/include")
+if(OSTEON_SANITIZE)
+  target_compile_options(osteon_flags INTERFACE
+    -fsanitize=${OSTEON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(osteon_flags INTERFACE -fsanitize=${OSTEON_SANITIZE})
+endif()
+
+# Headers parsed once. A target of its own makes each set: one without any module's definitions.
+function(osteon_make_headers target header)
+  add_library(${target} OBJECT "${CMAKE_SOURCE_DIR}/cmake/headers.cpp")
+  target_link_libraries(${target} PRIVATE osteon_flags Eigen3::Eigen ${ARGN})
+  target_precompile_headers(${target} PRIVATE "${header}")
+endfunction()
+# Tells the compiler to leave marks by which ccache can tell. g++ 12 then warns of overruns inside
+# std::string that cannot be (GCC bugs 105329, 105651): it no longer knows the header for a system's.
+function(osteon_use_headers target from)
+  target_precompile_headers(${target} REUSE_FROM ${from})
+  target_compile_options(${target} PRIVATE
+    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>" $<$<CXX_COMPILER_ID:Clang>:-Xclang -fno-pch-timestamp>)
+endfunction()
+
+# Of the modules where OSTEON_PCH asks for it.
+if(OSTEON_PCH)
+  osteon_make_headers(osteon_headers "${CMAKE_SOURCE_DIR}/cmake/headers.h")
+endif()
+function(osteon_share_headers target)
+  if(OSTEON_PCH)
+    osteon_use_headers(${target} osteon_headers)
+  endif()
+endfunction()
+
+function(osteon_module name)
+  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
+  if(NOT sources)
+    return()
+  endif()
+  add_library(osteon_${name} STATIC ${sources})
+  add_library(osteon::${name} ALIAS osteon_${name})
+  target_include_directories(osteon_${name} PRIVATE "${CMAKE_SOURCE_DIR}/src/${name}")
+  target_link_libraries(osteon_${name} PRIVATE osteon_flags PUBLIC Eigen3::Eigen)
+  target_include_directories(osteon_${name} PUBLIC "${CMAKE_SOURCE_DIR}/include")
+  foreach(dep IN LISTS ARG_DEPS)
+    if(TARGET osteon_${dep})
+      target_link_libraries(osteon_${name} PUBLIC osteon_${dep})
+    endif()
+  endforeach()
+  osteon_share_headers(osteon_${name})
+  include("${CMAKE_SOURCE_DIR}/src/${name}/module.cmake" OPTIONAL)
+endfunction()
+
+# Puts a package's headers where their warnings do not stop the build.
+function(osteon_link_system target)
+  foreach(lib IN LISTS ARGN)
+    target_link_libraries(${target} PRIVATE ${lib})
+    get_target_property(dirs ${lib} INTERFACE_INCLUDE_DIRECTORIES)
+    if(dirs)
+      target_include_directories(${target} SYSTEM PRIVATE ${dirs})
+    endif()
+  endforeach()
+endfunction()

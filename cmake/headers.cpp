@@ -1,0 +1,1 @@
+// Nothing: cmake/headers.h is parsed for the others.

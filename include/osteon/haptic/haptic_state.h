@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "osteon/base/id.h"
+#include "osteon/collide/lp_contact.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// A plane that parts a piece of bone from a piece of the tool, in the bone's frame: it stays valid
+/// when either moves, with the tool's new support.
+struct PartingPlane {
+  Vec3 nhat_BT_B = Vec3::UnitZ();  ///< unit, from bone to tool
+  double bone_support = 0;         ///< largest n.b over the bone's piece, m
+  double gap = 0;                  ///< at the pose where it was found, m
+  Vec3 p_B = Vec3::Zero();         ///< between the two, where they are nearest
+};
+
+/// What is known of one pair of a bone's and a tool's piece.
+struct PairMemory {
+  LpBasis basis;
+  PartingPlane plane;
+  bool known = false;  ///< `plane` is one
+};
+
+/// Everything that one haptic tick leaves to the next. A value: copy it to save, compare or rewind.
+struct HapticState {
+  ToolState tool;        ///< as the last tick returned it
+  bool armed = false;    ///< the hand has been free of bone once since the start
+  bool sliding = false;  ///< dynamic friction acts
+  BoneId carrier;        ///< bone that the proxy rests on and moves with; none when free
+  std::uint32_t bone_count = 0;
+  std::array<Pose, kMaxBones> X_WB{};  ///< bones as the last tick saw them
+  std::vector<PairMemory> pairs;       ///< each bone's pieces beside each of the tool's
+};
+
+}  // namespace osteon

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "osteon/hull/hull.h"
+#include "osteon/mesh/tri_mesh.h"
+
+namespace osteon {
+
+struct DecomposeOptions {
+  double concavity_m = 0.0002;    ///< wanted: no piece stands higher over the mesh
+  std::size_t max_pieces = 64;    ///< at least 1
+  double search_cell_m = 0.0005;  ///< detail at which cuts are looked for; pieces are always exact
+};
+
+struct Decomposition {
+  /// Their union holds the mesh's inside and surface. Each is build_hull of its own vertices.
+  std::vector<Hull> pieces;
+  /// How far the pieces stand over the mesh at most, m, measured on a grid of `search_cell_m`.
+  double concavity_m = 0;
+};
+
+/// Convex pieces whose union follows a closed, outward mesh: approximate convex decomposition by
+/// planes through the deepest concave place, the worst piece first, and merging of what needs no
+/// cut. After Lien and Amato, "Approximate convex decomposition of polyhedra" (2007) for the cut at
+/// the deepest notch, and Wei et al., "CoACD" (SIGGRAPH 2022) for concavity measured from the
+/// hull's boundary and for the merge. Pieces are exact hulls of the mesh's surface clipped by the
+/// planes: neighbours share the points of their cut. Deterministic: the same mesh and options give
+/// the same bytes on every compiler. Empty when the mesh has no hull (see build_hull). A mesh that
+/// is not closed gives one piece, its hull, with a concavity of zero, since it has no inside to
+/// measure from.
+std::optional<Decomposition> decompose(const TriMesh& mesh, const DecomposeOptions& options = {});
+
+}  // namespace osteon

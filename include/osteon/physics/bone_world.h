@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "osteon/scene/case.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+struct PhysicsParams {
+  double step_s = 0.002;         ///< 500 Hz
+  bool hold_bones = true;        ///< true: bones do not move; false: springs hold them
+  double spring_n_per_m = 3000;  ///< of the soft parts that hold a bone
+  double spring_nm_per_rad = 0.5;
+  double damping_ratio = 1.0;  ///< 1: critical
+};
+
+/// Over all that a snapshot holds.
+std::uint64_t hash_of(const BoneSnapshot& snapshot);
+
+/// Bones as rigid bodies (Bullet, double precision), each held in its place by a spring and a
+/// damper, pushed by the tool. No gravity, no contact between bones. Fixed step; a function of its
+/// state and the tool states given to it.
+///
+/// Springs and dampers are integrated by backward Euler: stable for any mass and step. A bone moves
+/// at most 20 mm and turns at most about 0.5 rad from its rest pose. A contact whose force is not
+/// finite or above 1 kN, or that lies more than 1 m off the bone, is a fault and is not applied.
+class BoneWorld {
+ public:
+  explicit BoneWorld(std::shared_ptr<const Case> the_case, const PhysicsParams& params = {});
+  ~BoneWorld();
+  BoneWorld(BoneWorld&&) noexcept;
+
+  /// One step under the contact forces of `tool`. The reference stays valid until the next call.
+  const BoneSnapshot& step(const ToolState& tool);
+  const BoneSnapshot& snapshot() const;
+  /// Held bones are exactly at rest: holding puts them back there.
+  void set_hold(bool hold);
+  /// Over the snapshot and whether the bones are held: all that a later step depends on.
+  std::uint64_t state_hash() const;
+  /// Puts every bone back to a snapshot of this world; continuing gives the same bits.
+  void restore(const BoneSnapshot& snapshot, bool hold);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "osteon/base/types.h"
+#include "osteon/scene/case.h"
+
+namespace osteon {
+
+/// A bone's surface as it is drawn: smooth unit normals and light that does not depend on the view.
+/// Index k of all three vectors is one vertex, in Bone.
+struct ShadedMesh {
+  struct Shade {
+    std::uint8_t openness;  ///< 255: sees the whole sky; lower: other bone is near (occlusion)
+    std::uint8_t cavity;    ///< 128: flat; below: hollow; above: ridge
+    std::uint8_t mottle;    ///< 128: the bone's own colour; the rest is its slight variation
+    std::uint8_t unused;
+  };
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;
+  std::vector<Shade> shades;
+  std::vector<Triangle> triangles;
+  bool closed = false;  ///< every edge has two triangles that face outwards: no inside is ever seen
+  /// Fewer triangles over the same vertices, for a bone that is small on the screen.
+  struct Level {
+    std::vector<Triangle> triangles;
+    double error_m = 0;  ///< how far the surface may lie from the full one, about
+  };
+  std::vector<Level> coarser;  ///< the finest first; none where leaving out saves little
+};
+
+/// What is worked out once per case before it can be drawn; needs no OpenGL, so that a loading
+/// screen can do it on a worker thread.
+struct PreparedCase {
+  std::vector<ShadedMesh> bones;
+};
+
+/// Called with 0..1; returns false to stop.
+using PrepareProgress = std::function<bool(double)>;
+
+/// Welds equal vertices, makes normals and casts rays from every vertex in the rest pose for the
+/// occlusion in the joint spaces (about a second for a wrist of 35 000 vertices). Triangles with
+/// vertices that are missing or not finite are left out. The same case gives the same bytes. When
+/// stopped, vertices not reached keep openness 255.
+PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress = {});
+
+}  // namespace osteon

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/base/types.h"
+#include "osteon/render/anatomical_view.h"
+#include "osteon/render/camera.h"
+#include "osteon/render/prepare.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/state.h"
+#include "osteon/scene/tool.h"
+
+namespace osteon {
+
+struct BoneAppearance {
+  std::array<float, 3> color{0.89f, 0.84f, 0.73f};  ///< sRGB, 0..1
+  float opacity = 1;
+  bool visible = true;
+  bool highlighted = false;  ///< an accent outline
+  bool operator==(const BoneAppearance&) const = default;
+};
+
+enum class RenderQuality {
+  kFast,  ///< for a window: smooth edges as far as this OpenGL driver gives them cheaply
+  kFine   ///< for a still: supersampled
+};
+
+/// How to draw; all that a user may change without touching the simulation.
+struct ViewState {
+  Camera camera;
+  std::vector<BoneAppearance> bones;  ///< one a bone; bones past its end look as the default
+  bool show_hulls = false;
+  bool show_proxy = true;
+  bool show_force = true;
+  bool show_hand_ghost = true;      ///< the hand's own pose when it differs from the proxy's
+  double light_azimuth_rad = -0.7;  ///< of the key light, relative to the camera; negative: left
+  double light_elevation_rad = 0.8;
+  float light_brightness = 1;
+  float ambient_occlusion = 1;  ///< 0 switches it off
+  RenderQuality quality = RenderQuality::kFast;
+  bool operator==(const ViewState&) const = default;
+};
+/// Dorsal view, every bone in its own slight tone of ivory.
+ViewState default_view(const Case& the_case);
+
+/// The force arrow is this long for each newton.
+inline constexpr double kForceArrowMetresPerNewton = 0.010;
+
+/// Pixels, 8-bit RGB, top row first.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+/// Writes a PNG in one step, see write_file_atomic. Fails on an empty image.
+Result<void> save_png(const Image& image, const std::filesystem::path& file);
+
+/// The largest width or height of draw_image, pixels.
+inline constexpr int kMaxImageSide = 8192;
+
+/// Draws a snapshot with OpenGL 3.3. Needs a current context in every call and in the destructor,
+/// the same one. Keeps copies of what it needs of the case and the tool. A bone or tool whose pose
+/// is not finite is not drawn.
+class Renderer {
+ public:
+  /// Fails when the shaders in `data_dir`/shaders are missing or do not compile, or when the
+  /// context is older than OpenGL 3.3. `prepared` must come from prepare_case(the_case).
+  static Result<Renderer> create(const Case& the_case, const Tool& tool,
+                                 const std::filesystem::path& data_dir,
+                                 const PreparedCase& prepared);
+  /// Prepares the case itself: blocks for about a second on a real wrist.
+  static Result<Renderer> create(const Case& the_case, const Tool& tool,
+                                 const std::filesystem::path& data_dir);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Draws into the viewport of the framebuffer that is bound; touches nothing outside it. Leaves
+  /// that framebuffer bound, depth test, blending, culling and scissor off. Where a processor
+  /// draws, what stands still from one call to the next is kept, and only the parts that the tool
+  /// changes are drawn anew.
+  void draw(const RenderSnapshot& snapshot, const ViewState& view, const Viewport& viewport);
+  /// Draws off-screen and reads the pixels back. Sides are clamped to 1..kMaxImageSide. Empty when
+  /// the driver has no memory for it.
+  Image draw_image(const RenderSnapshot& snapshot, const ViewState& view, int width, int height);
+  /// Bone under a pixel of the viewport (origin top left), none over the ground. Only visible
+  /// bones; the force arrow and the probe are looked through. Needs no OpenGL.
+  BoneId pick(const RenderSnapshot& snapshot, const ViewState& view, const Viewport& viewport,
+              double x_px, double y_px) const;
+
+  /// "llvmpipe (LLVM 15.0.6, 256 bits)": OpenGL's own name of what draws.
+  std::string device_name() const;
+  /// True when a processor draws, not a graphics card.
+  bool software_driver() const;
+
+ private:
+  struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// OpenGL without a window (EGL, surfaceless; Mesa's software driver will do). Current on the
+/// thread that made it until destroyed.
+class OffscreenContext {
+ public:
+  static Result<OffscreenContext> create();
+  ~OffscreenContext();
+  OffscreenContext(OffscreenContext&&) noexcept;
+  OffscreenContext& operator=(OffscreenContext&&) noexcept;
+
+ private:
+  struct Impl;
+  explicit OffscreenContext(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace osteon

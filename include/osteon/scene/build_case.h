@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/scene/case.h"
+
+namespace osteon {
+
+/// A bone before its hulls are made.
+struct BoneDef {
+  std::string name;
+  int fma_id = 0;
+  Pose X_WB;
+  TriMesh mesh;  ///< in Bone, metres
+  double density_kg_per_m3 = 1900;
+  Material material;
+  Felt felt = Felt::kPieces;
+};
+
+struct CaseDef {
+  std::string name;
+  std::string side;
+  std::vector<BoneDef> bones;
+  std::vector<Landmark> landmarks;
+};
+
+class PieceCache;
+
+struct BuildOptions {
+  PieceCache* pieces = nullptr;  ///< asked first, told what was made; none: all is made anew
+  /// Called before each bone with its number and the count of bones.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
+
+/// Builds pieces, bodies and masses and hashes the lot. Fails with the bone's name when a hull
+/// cannot be made, when names repeat or when there are none or more than kMaxBones. The same case
+/// comes out whether its pieces were in the cache or not.
+Result<Case> build_case(CaseDef def, const BuildOptions& options = {});
+
+/// FMA id of a bone by its name or a usual file name ("1mc", "scaphoid"); 0 when unknown.
+int fma_id_of(const std::string& bone_name);
+/// Osteon's own name of a bone for a usual file name: "1mc" -> "metacarpal_1"; else the name
+/// itself.
+std::string canonical_bone_name(const std::string& file_stem);
+
+}  // namespace osteon

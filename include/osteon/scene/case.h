@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osteon/base/id.h"
+#include "osteon/base/types.h"
+#include "osteon/collide/convex_body.h"
+#include "osteon/hull/hull.h"
+#include "osteon/mesh/tri_mesh.h"
+
+namespace osteon {
+
+/// How a surface answers a probe.
+struct Material {
+  double stiffness_n_per_m = 2000;  ///< at the hand; the device's own limit may be lower
+  double static_friction = 0.20;    ///< ratio of tangential to normal force at which sliding starts
+  double dynamic_friction = 0.12;   ///< ratio while sliding; not above the static one
+};
+
+/// What of a bone is felt.
+enum class Felt : std::uint8_t {
+  kPieces,  ///< convex pieces that follow the mesh (osteon/hull/decompose.h)
+  kHull     ///< one convex hull
+};
+/// "pieces", "hull".
+std::string_view to_text(Felt felt);
+std::optional<Felt> felt_from_text(std::string_view text);
+
+/// One bone of a case. Immutable once the case is made.
+struct Bone {
+  std::string name;  ///< "scaphoid"
+  int fma_id = 0;    ///< Foundational Model of Anatomy; 0 when unknown
+  Pose X_WB;         ///< rest pose of the bone in World
+  TriMesh mesh;      ///< in Bone
+  Felt felt = Felt::kPieces;
+  std::vector<Hull> pieces;        ///< in Bone; their union is what is felt
+  std::vector<ConvexBody> bodies;  ///< one a piece, for contact queries
+  double mass_kg = 0.005;
+  Material material;
+};
+
+/// A named point of the case, in World.
+struct Landmark {
+  std::string name;
+  Vec3 p_W = Vec3::Zero();
+};
+
+/// The immutable half of a simulation: what is there. World: patient lying, z up, metres.
+struct Case {
+  std::string name;
+  std::string side;  ///< "left", "right" or empty
+  std::vector<Bone> bones;
+  std::vector<Landmark> landmarks;
+  std::uint64_t hash = 0;  ///< over everything that the simulation reads
+  BoneId find(std::string_view bone_name) const;
+  const Bone& bone(BoneId id) const { return bones[id.index]; }
+  Aabb bounds_W() const;
+};
+
+/// The most bones that a case may have: snapshots have fixed size.
+inline constexpr std::size_t kMaxBones = 64;
+
+}  // namespace osteon

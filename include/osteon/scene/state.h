@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "osteon/base/id.h"
+#include "osteon/base/types.h"
+#include "osteon/scene/case.h"
+
+namespace osteon {
+
+/// One sample of the hand, already mapped into World.
+struct ToolInput {
+  Pose X_WD;                ///< pose of the device's stylus (where the hand wants the tool)
+  Vec3 v_W = Vec3::Zero();  ///< velocity of its origin, m/s
+  Vec3 w_W = Vec3::Zero();  ///< angular velocity, rad/s
+  std::uint32_t buttons = 0;
+};
+
+/// Where a bone is and how it moves.
+struct BoneMotion {
+  Pose X_WB;
+  Vec3 v_W = Vec3::Zero();  ///< of the bone frame's origin, m/s
+  Vec3 w_W = Vec3::Zero();  ///< rad/s
+};
+
+/// Physics -> haptic, render: all bones after physics step `step`.
+struct BoneSnapshot {
+  std::uint64_t step = 0;
+  double time_s = 0;
+  std::uint32_t count = 0;
+  std::array<BoneMotion, kMaxBones> bones{};
+};
+
+/// One place where the tool touches a bone.
+struct Contact {
+  BoneId bone;
+  std::uint32_t piece = 0;
+  Vec3 p_W = Vec3::Zero();
+  Vec3 nhat_BT_W = Vec3::UnitZ();       ///< unit, from bone to tool
+  double depth_m = 0;                   ///< how far the hand is past the surface, along the normal
+  Vec3 force_on_tool_W = Vec3::Zero();  ///< N
+};
+inline constexpr std::size_t kMaxContacts = 8;
+
+/// What happened in a haptic tick; bits.
+enum TickStatus : std::uint32_t {
+  kTickOk = 0,
+  kTickInputNotFinite = 1u << 0,  ///< the sample was refused; force is zero
+  kTickForceNotFinite = 1u << 1,  ///< the tick's own result was refused; force is zero
+  kTickForceClamped = 1u << 2,    ///< the device's limit was reached
+  kTickForceSlewed = 1u << 3,     ///< the rate limit was reached
+  kTickSolverLimit = 1u << 4,     ///< a contact query stopped early; the proxy stayed where it was
+  kTickProxyBlocked = 1u << 5,    ///< no free position found; the proxy stayed where it was
+  kTickRotationHeld = 1u << 6,    ///< the proxy kept its old orientation to stay out of bone
+  kTickSticking = 1u << 7         ///< static friction holds
+};
+
+/// Haptic -> physics, render, metrics: the tool after haptic tick `tick`.
+struct ToolState {
+  std::uint64_t tick = 0;
+  double time_s = 0;
+  Pose X_WD;                    ///< the hand
+  Pose X_WP;                    ///< the proxy: the tool, kept out of bone
+  Vec3 force_W = Vec3::Zero();  ///< on the hand, N
+  std::uint32_t buttons = 0;
+  std::uint32_t status = kTickOk;
+  std::uint32_t contact_count = 0;
+  std::array<Contact, kMaxContacts> contacts{};
+};
+
+/// Everything that a picture shows at one moment.
+struct RenderSnapshot {
+  BoneSnapshot bones;
+  ToolState tool;
+};
+
+static_assert(std::is_trivially_destructible_v<RenderSnapshot>);
+
+/// All bones at rest.
+BoneSnapshot rest_snapshot(const Case& the_case);
+
+}  // namespace osteon

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "osteon/collide/convex_body.h"
+#include "osteon/hull/hull.h"
+#include "osteon/mesh/tri_mesh.h"
+
+namespace osteon {
+
+/// A hand instrument. Tool frame: origin at the middle of the tip, the shaft along +z.
+struct Tool {
+  std::string name;
+  std::vector<Hull> pieces;        ///< what touches, in Tool
+  std::vector<ConvexBody> bodies;  ///< one a piece
+  TriMesh mesh;                    ///< what is drawn, in Tool
+  double tip_radius_m = 0.00075;
+};
+
+/// Arthroscopic hook probe of the wrist: a ball-shaped tip (32 corners) on a shaft. Only the tip is
+/// felt, as in the wrist simulator's paper.
+Tool make_wrist_probe(double tip_radius_m = 0.00075);
+
+}  // namespace osteon

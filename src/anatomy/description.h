@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "shape.h"
+
+namespace osteon {
+
+/// "No point of this bone is nearer than `gap` to that one": a joint space. The other bone counts
+/// as its own parts alone, before its clearances, so that the order of bones does not matter.
+struct Clearance {
+  std::size_t other_bone = 0;
+  double gap = 0;    ///< metres
+  double blend = 0;  ///< metres, rounds the rim of the hollow
+};
+
+struct BoneDescription {
+  std::string name;
+  int fma_id = 0;
+  double density_kg_per_m3 = 1900;
+  Vec3 p_WB = Vec3::Zero();
+  Mat3 R_WB = Mat3::Identity();
+  Solid solid;  ///< in Bone
+  std::vector<Clearance> clearances;
+};
+
+struct LandmarkDescription {
+  std::string name;
+  Vec3 p_W = Vec3::Zero();
+};
+
+struct AnatomyDescription {
+  std::string name;
+  std::string side;
+  std::vector<BoneDescription> bones;
+  std::vector<LandmarkDescription> landmarks;
+};
+
+/// Reads a description (its grammar: docs/anatomy-description.md). Strict: a key that is missing,
+/// unknown, of the wrong type or out of its range fails, naming file, bone and key.
+Result<AnatomyDescription> parse_description(std::string_view toml, const std::string& file);
+
+}  // namespace osteon

@@ -1,0 +1,118 @@
+#include "osteon/anatomy/generate.h"
+
+#include <algorithm>
+
+#include "grow.h"
+#include "osteon/base/file.h"
+#include "osteon/mesh/isosurface.h"
+
+namespace osteon {
+namespace {
+
+/// A neighbour that keeps its distance, ready for evaluation in the frame of the bone it hollows.
+struct Neighbour {
+  const Solid* solid;
+  Aabb reach_N;  ///< outside this box the neighbour changes nothing
+  Mat3 R_NB;
+  Vec3 p_NB;
+  double gap, blend;
+};
+
+class BoneField {
+ public:
+  BoneField(const AnatomyDescription& anatomy, const BoneDescription& bone) : solid_(bone.solid) {
+    stretch_ = osteon::stretch(solid_);
+    for (const Part& part : solid_.parts) slack_ += 0.25 * part.blend;
+    for (const Clearance& c : bone.clearances) add(anatomy.bones[c.other_bone], bone, c);
+  }
+
+  double operator()(const Vec3& p_B) const {
+    double d = distance(solid_, p_B);
+    for (const Neighbour& n : neighbours_) {
+      const Vec3 p_N = n.R_NB * p_B + n.p_NB;
+      const Aabb at{p_N, p_N};
+      if (n.reach_N.overlaps(at)) d = smooth_max(d, n.gap - distance(*n.solid, p_N), n.blend);
+    }
+    return d;
+  }
+  double stretch() const { return stretch_; }
+  double slack() const { return slack_; }
+
+ private:
+  void add(const BoneDescription& other, const BoneDescription& bone, const Clearance& c) {
+    const double s = osteon::stretch(other.solid);
+    Neighbour n;
+    n.solid = &other.solid;
+    n.reach_N = bounds(other.solid).grown((c.gap + c.blend) * s);
+    n.R_NB = other.R_WB.transpose() * bone.R_WB;
+    n.p_NB = other.R_WB.transpose() * (bone.p_WB - other.p_WB);
+    n.gap = c.gap;
+    n.blend = c.blend;
+    neighbours_.push_back(n);
+    stretch_ = std::max(stretch_, s);
+    slack_ += c.gap + 0.25 * c.blend;
+    for (const Part& part : other.solid.parts) slack_ += 0.25 * part.blend;
+  }
+
+  const Solid& solid_;
+  std::vector<Neighbour> neighbours_;
+  double stretch_ = 1;
+  double slack_ = 0;
+};
+
+Result<GeneratedBone> grow(const AnatomyDescription& anatomy, const BoneDescription& bone,
+                           const GenerateOptions& options, const std::string& file) {
+  const BoneField field(anatomy, bone);
+  IsosurfaceOptions surface;
+  surface.cell_m = options.cell_m;
+  surface.stretch = field.stretch();
+  surface.slack_m = field.slack();
+  auto mesh = isosurface([&field](const Vec3& p_B) { return field(p_B); },
+                         bounds(bone.solid).grown(options.cell_m), surface);
+  if (!mesh)
+    return fail("its surface cannot be found: " + mesh.error().what,
+                file + ": bone '" + bone.name + "'", mesh.error().todo);
+  GeneratedBone grown;
+  grown.name = bone.name;
+  grown.fma_id = bone.fma_id;
+  grown.X_WB.p = bone.p_WB;
+  grown.X_WB.q = Quat(bone.R_WB);
+  grown.mesh = std::move(*mesh);
+  grown.density_kg_per_m3 = bone.density_kg_per_m3;
+  return grown;
+}
+
+}  // namespace
+
+Result<GeneratedAnatomy> grow_description(const AnatomyDescription& anatomy,
+                                          const GenerateOptions& options, const std::string& file) {
+  GeneratedAnatomy generated;
+  generated.name = anatomy.name;
+  generated.side = anatomy.side;
+  const auto say = [&](std::size_t done) {
+    if (options.progress && !anatomy.bones.empty())
+      options.progress(static_cast<double>(done) / static_cast<double>(anatomy.bones.size()));
+  };
+  for (const BoneDescription& bone : anatomy.bones) {
+    say(generated.bones.size());
+    auto grown = grow(anatomy, bone, options, file);
+    if (!grown) return tl::unexpected(grown.error());
+    generated.bones.push_back(std::move(*grown));
+  }
+  say(generated.bones.size());
+  for (const LandmarkDescription& landmark : anatomy.landmarks)
+    generated.landmarks.push_back({landmark.name, landmark.p_W});
+  return generated;
+}
+
+Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& description,
+                                          const GenerateOptions& options) {
+  const std::string file = description.string();
+  const auto text = read_file(description, 1 << 22);
+  if (!text) return tl::unexpected(text.error());
+  const auto anatomy = parse_description(*text, file);
+  if (!anatomy) return tl::unexpected(anatomy.error());
+  return grow_description(*anatomy, options, file);
+}
+
+}  // namespace osteon

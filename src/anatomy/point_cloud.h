@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "osteon/base/types.h"
+
+namespace osteon {
+
+/// Finds the nearest of a fixed set of points by trying them all, in single precision.
+class PointCloud {
+ public:
+  explicit PointCloud(const std::vector<Vec3>& points);
+  struct Hit {
+    std::size_t index = 0;
+    double distance_m = 1e9;
+  };
+  Hit nearest(const Vec3& p) const;
+  std::size_t size() const { return x_.size(); }
+
+ private:
+  Vec3 middle_ = Vec3::Zero();
+  std::vector<float> x_, y_, z_;
+};
+
+/// Every n-th of the points, so that about `most` are left.
+std::vector<Vec3> thinned(const std::vector<Vec3>& points, std::size_t most);
+
+}  // namespace osteon

@@ -1,0 +1,144 @@
+#include "checkup/computer_findings.h"
+
+#include <epoxy/gl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "loops/realtime.h"
+#include "loops/tick_pacer.h"
+#include "osteon/base/clock.h"
+#include "osteon/base/file.h"
+#include "osteon/base/percentiles.h"
+#include "osteon/device/udev_rules.h"
+#include "osteon/render/renderer.h"
+
+namespace osteon {
+namespace fs = std::filesystem;
+namespace {
+
+template <class... Args>
+std::string text(const char* format, Args... args) {
+  char out[256];
+  std::snprintf(out, sizeof out, format, args...);
+  return out;
+}
+
+struct LoopMeasure {
+  bool priority = false;
+  std::uint64_t ticks = 0, missed = 0;
+  double seconds = 0;
+  Percentiles late;
+};
+
+// On a thread of its own: a real-time priority shall not stay with the caller.
+LoopMeasure measure_loop(double seconds) {
+  LoopMeasure m;
+  std::thread([&] {
+    m.priority = request_priority();
+    TickPacer pacer(1'000'000);
+    const std::int64_t start_ns = steady_now_ns();
+    pacer.start(start_ns);
+    const auto end_ns = start_ns + static_cast<std::int64_t>(seconds * 1e9);
+    std::int64_t now_ns = start_ns;
+    while (now_ns < end_ns) {
+      const std::int64_t due_ns = pacer.next(now_ns);
+      sleep_until_ns(due_ns);
+      now_ns = steady_now_ns();
+      m.late.add_ns(std::max<std::int64_t>(0, now_ns - due_ns));
+      ++m.ticks;
+    }
+    m.missed = pacer.missed();
+    m.seconds = static_cast<double>(now_ns - start_ns) * 1e-9;
+  }).join();
+  return m;
+}
+
+Finding loop_finding(const LoopMeasure& m) {
+  Finding f{FindingLevel::kGood, "Loop", {}, {}};
+  f.text =
+      text("%.0f ticks a second, late by p50 %.0f us, p99 %.0f us, at most %.1f ms; %llu missed",
+           static_cast<double>(m.ticks) / m.seconds, m.late.quantile_ns(0.5) * 1e-3,
+           m.late.quantile_ns(0.99) * 1e-3, m.late.max_ns() * 1e-6,
+           static_cast<unsigned long long>(m.missed));
+  // One tick in a hundred that comes late by half a period is felt as roughness.
+  if (m.late.quantile_ns(0.99) > 500e3 || m.missed > m.ticks / 100) {
+    f.level = FindingLevel::kNote;
+    f.todo = "Close other programs; see the limits below";
+  }
+  return f;
+}
+
+Finding limit_finding(bool priority) {
+  const RealtimeLimits limits = realtime_limits();
+  Finding f{FindingLevel::kGood, "Limits", {}, {}};
+  f.text = std::string("rtprio ") + limits.priority + ", memlock " + limits.memory +
+           (priority ? ": real-time priority granted" : ": no real-time priority");
+  if (priority && limits.memory_unlimited) return f;
+  f.level = FindingLevel::kNote;
+  f.todo =
+      "As root write into /etc/security/limits.d/osteon.conf, then log in again:\n"
+      "@plugdev - rtprio 50\n@plugdev - memlock unlimited";
+  return f;
+}
+
+}  // namespace
+
+Findings realtime_findings(double seconds) {
+  const LoopMeasure m = measure_loop(seconds);
+  return {loop_finding(m), limit_finding(m.priority)};
+}
+
+Finding gl_finding() {
+  const auto context = OffscreenContext::create();
+  if (!context)
+    return {FindingLevel::kBad, "OpenGL", context.error().message(), context.error().todo};
+  const auto string = [](GLenum name) {
+    const auto* s = reinterpret_cast<const char*>(glGetString(name));
+    return std::string(s ? s : "unknown");
+  };
+  const std::string renderer = string(GL_RENDERER);
+  Finding f{FindingLevel::kGood, "OpenGL", string(GL_VERSION) + ", " + renderer, {}};
+  if (renderer.find("llvmpipe") != std::string::npos ||
+      renderer.find("softpipe") != std::string::npos) {
+    f.level = FindingLevel::kNote;
+    f.todo = "Pictures are drawn by the processor; a graphics card leaves more of it to the loops";
+  }
+  return f;
+}
+
+Findings usb_findings() {
+  std::error_code ec;
+  if (!fs::exists("/dev/bus/usb", ec))
+    return {{FindingLevel::kNote, "USB", "this computer shows no USB bus (/dev/bus/usb)", ""}};
+  for (const char* folder : {kUdevFolder, "/usr/lib/udev/rules.d", "/lib/udev/rules.d"})
+    if (const fs::path rule = fs::path(folder) / kUdevFile; fs::exists(rule, ec))
+      return {{FindingLevel::kGood, "USB", "the udev rule is installed: " + rule.string(), ""}};
+  if (::geteuid() == 0)
+    return {{FindingLevel::kNote, "USB", "root may open every device, others need the udev rule",
+             "osteon doctor --install-udev"}};
+  return {{FindingLevel::kNote, "USB", "no udev rule: only root may open haptic devices",
+           "sudo osteon doctor --install-udev, then plug the device in again"}};
+}
+
+Finding install_udev_rule(const fs::path& folder) {
+  const auto data = find_data_dir();
+  if (!data) return {FindingLevel::kBad, "USB", data.error().message(), data.error().todo};
+  const fs::path file = folder / kUdevFile;
+  const auto rules = udev_rules(known_usb_devices(*data / "assets" / "devices"));
+  if (const auto written = write_file_atomic(file, rules); !written)
+    return {FindingLevel::kBad, "USB", written.error().message(), "Run it as root, with sudo"};
+  Finding f{FindingLevel::kGood, "USB", "installed " + file.string(), ""};
+  const bool live = folder == kUdevFolder;
+  if (live && std::system("udevadm control --reload && udevadm trigger --subsystem-match=usb") == 0)
+    f.text += "; plug the device in again";
+  else
+    f.todo = "udevadm control --reload, then plug the device in again";
+  return f;
+}
+
+}  // namespace osteon

@@ -1,0 +1,19 @@
+#include "cli_support.h"
+
+#include <cstdio>
+
+#include "osteon/base/file.h"
+
+namespace osteon {
+
+int report_error(const Error& error) {
+  std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
+  return kExitBad;
+}
+
+Result<void> save_report(const Report& report, const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  return write_file_atomic(file, to_json(report));
+}
+
+}  // namespace osteon

@@ -1,0 +1,136 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "import_mesh.h"
+#include "open_case.h"
+#include "osteon/mesh/measure.h"
+#include "osteon/scene/case_io.h"
+#include "text_table.h"
+
+namespace osteon {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kNo = 1;
+constexpr int kBadInput = 2;
+
+int complain(const Error& error) {
+  std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
+  return kBadInput;
+}
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+std::string fma_text(int fma_id) { return fma_id == 0 ? "-" : std::to_string(fma_id); }
+std::string yes_no(bool yes) { return yes ? "yes" : "no"; }
+
+std::string size_text_mm(const TriMesh& mesh) {
+  const Vec3 size_mm = bounds(mesh).extent() * 1000;
+  std::string text = fixed(size_mm.x(), 1);
+  text.append(" x ").append(fixed(size_mm.y(), 1));
+  text.append(" x ").append(fixed(size_mm.z(), 1));
+  return text;
+}
+
+std::string plural(std::size_t count, const std::string& one) {
+  std::string text = std::to_string(count);
+  text.append(" ").append(one);
+  return count == 1 ? text : text + "s";
+}
+
+int run_import(const ImportOptions& options) {
+  const auto result = import_meshes(options);
+  if (!result) return complain(result.error());
+  TextTable table({"bone", "FMA", "file", "triangles", "closed", "mended"});
+  for (std::size_t i = 0; i < result->bones.size(); ++i) {
+    const ImportedBone& imported = result->bones[i];
+    const BoneDef& bone = result->def.bones[i];
+    table.add({bone.name, fma_text(bone.fma_id), imported.file.filename().string(),
+               std::to_string(imported.triangles), yes_no(imported.closed),
+               imported.repair.summary()});
+  }
+  print(table.text());
+  for (const std::string& finding : check_case(result->def)) print("note: " + finding + "\n");
+  print(plural(result->bones.size(), "bone") + " -> " + options.out.string() + "\n");
+  return kDone;
+}
+
+int run_info(const std::string& spec) {
+  const auto the_case = open_case(spec);
+  if (!the_case) return complain(the_case.error());
+  const Case& c = **the_case;
+  TextTable table(
+      {"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm", "hull vertices"});
+  for (const Bone& bone : c.bones) {
+    std::size_t corners = 0;
+    for (const Hull& piece : bone.pieces) corners += piece.vertices.size();
+    table.add({bone.name, fma_text(bone.fma_id), std::to_string(bone.mesh.triangles.size()),
+               yes_no(topology(bone.mesh).closed()), fixed(volume(bone.mesh) * 1e6, 3),
+               fixed(bone.mass_kg * 1e3, 2), size_text_mm(bone.mesh), std::to_string(corners)});
+  }
+  print(c.name + (c.side.empty() ? "" : " (" + c.side + ")") + ", " +
+        plural(c.bones.size(), "bone") + ", " + plural(c.landmarks.size(), "landmark") + "\n\n");
+  print(table.text());
+  std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
+  return kDone;
+}
+
+int run_check(const std::string& spec) {
+  auto def = open_case_def(spec);
+  if (!def) return complain(def.error());
+  std::vector<std::string> findings = check_case(*def);
+  const std::size_t bones = def->bones.size();
+  if (const auto built = build_case(std::move(*def)); !built)
+    findings.push_back(built.error().message());
+  for (const std::string& finding : findings) print(finding + "\n");
+  print(findings.empty() ? plural(bones, "bone") + ", sound\n"
+                         : plural(findings.size(), "finding") + "\n");
+  return findings.empty() ? kDone : kNo;
+}
+
+void add_import(CLI::App& app, int& exit_code) {
+  CLI::App* import = app.add_subcommand("import", "Make a case from other data");
+  import->require_subcommand(1);
+  CLI::App* mesh = import->add_subcommand(
+      "mesh", "Make a case from meshes in one common frame: mended, named by their files");
+  auto options = std::make_shared<ImportOptions>();
+  mesh->add_option("source", options->source, "a folder of STL, OBJ, PLY, glTF files, or one file")
+      ->required();
+  auto unit = std::make_shared<std::string>();
+  mesh->add_option("--unit", *unit, "unit of the files")
+      ->required()
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  mesh->add_option("--out", options->out, "the case folder to make")->required();
+  mesh->add_option("--name", options->name, "name of the case; default: that of the folder");
+  mesh->add_option("--side", options->side, "left or right")
+      ->check(CLI::IsMember({"left", "right"}));
+  mesh->callback([options, unit, &exit_code] {
+    options->metres_per_unit = *unit == "m" ? 1.0 : *unit == "cm" ? 0.01 : 0.001;
+    exit_code = run_import(*options);
+  });
+}
+
+void add_case(CLI::App& app, int& exit_code) {
+  CLI::App* group = app.add_subcommand("case", "Look at a case");
+  group->require_subcommand(1);
+  auto spec = std::make_shared<std::string>();
+  CLI::App* info = group->add_subcommand("info", "List the bones of a case");
+  info->add_option("case", *spec, "a case folder or builtin:wrist")->required();
+  info->callback([spec, &exit_code] { exit_code = run_info(*spec); });
+  CLI::App* check = group->add_subcommand(
+      "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
+  check->add_option("case", *spec, "a case folder or builtin:wrist")->required();
+  check->callback([spec, &exit_code] { exit_code = run_check(*spec); });
+}
+
+}  // namespace
+
+void add_case_commands(CLI::App& app, int& exit_code) {
+  add_import(app, exit_code);
+  add_case(app, exit_code);
+}
+
+}  // namespace osteon

@@ -1,0 +1,85 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "open_case.h"
+#include "osteon/base/file.h"
+#include "osteon/render/renderer.h"
+#include "render_options.h"
+
+namespace osteon {
+namespace {
+
+struct RenderOptions {
+  std::string case_spec;
+  std::string view = "dorsal";
+  std::string size = "1280x720";
+  std::vector<std::string> hidden;
+  bool hulls = false;
+  std::string out;
+};
+
+Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, double aspect) {
+  const auto preset = parse_view_preset(options.view);
+  if (!preset) return tl::unexpected(preset.error());
+  ViewState view = default_view(the_case);
+  view.camera = preset_camera(*preset, the_case, aspect);
+  view.quality = RenderQuality::kFine;
+  view.show_hulls = options.hulls;
+  view.show_proxy = view.show_force = view.show_hand_ghost = false;
+  if (auto ok = hide_bones(the_case, options.hidden, view); !ok) return tl::unexpected(ok.error());
+  return view;
+}
+
+Result<void> render(const RenderOptions& options) {
+  const auto size = parse_picture_size(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto opened = open_case(options.case_spec);
+  if (!opened) return tl::unexpected(opened.error());
+  const Case& the_case = **opened;
+  const auto view = make_view(options, the_case, static_cast<double>(size->width) / size->height);
+  if (!view) return tl::unexpected(view.error());
+  const auto data_dir = find_data_dir();
+  if (!data_dir) return tl::unexpected(data_dir.error());
+  const auto context = OffscreenContext::create();
+  if (!context) return tl::unexpected(context.error());
+  auto renderer = Renderer::create(the_case, Tool{}, *data_dir);
+  if (!renderer) return tl::unexpected(renderer.error());
+  RenderSnapshot snapshot;
+  snapshot.bones = rest_snapshot(the_case);
+  const Image image = renderer->draw_image(snapshot, *view, size->width, size->height);
+  if (image.rgb.empty())
+    return fail("the graphics driver has no memory for the picture", renderer->device_name(),
+                "choose a smaller --size");
+  return save_png(image, options.out);
+}
+
+int run(const RenderOptions& options) {
+  if (const auto done = render(options); !done) {
+    std::fprintf(stderr, "osteon: %s\n", done.error().message().c_str());
+    return 2;
+  }
+  std::printf("%s view of %s, %s pixels -> %s\n", options.view.c_str(), options.case_spec.c_str(),
+              options.size.c_str(), options.out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Draw a picture of a case, without a window");
+  command->add_option("--case", options->case_spec, "Case folder, or builtin:wrist")->required();
+  command->add_option("--view", options->view, "dorsal, palmar, radial, ulnar, ap or lateral")
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
+  command->add_flag("--hulls", options->hulls, "Draw the convex pieces that the probe feels");
+  command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
+  command->add_option("--out", options->out, "PNG file to write")->required();
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace osteon

@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <regex>
+#include <string>
+
+#include "commands.h"
+#include "loops/stop_signal.h"
+#include "window/window_app.h"
+
+namespace osteon {
+namespace {
+
+constexpr int kBadInput = 2;
+
+// "1280x720"
+bool parse_size(const std::string& text, WindowOrder& order) {
+  static const std::regex pattern(R"((\d{3,5})x(\d{3,5}))");
+  std::smatch match;
+  if (!std::regex_match(text, match, pattern)) return false;
+  order.width = std::stoi(match[1]);
+  order.height = std::stoi(match[2]);
+  return order.width >= 640 && order.height >= 400 && order.width <= 8192 && order.height <= 8192;
+}
+
+// A recording keeps its case's source: a folder must be found again from anywhere.
+std::string absolute_spec(const std::string& spec) {
+  if (spec.starts_with("builtin:")) return spec;
+  std::error_code ec;
+  const std::filesystem::path path = std::filesystem::absolute(spec, ec);
+  return ec ? spec : path.lexically_normal().string();
+}
+
+void print_stats(const WindowApp& app) {
+  const FrameStats& stats = app.frame_stats();
+  std::printf(
+      "%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms; processor %.2f ms, of it %.2f "
+      "ms for "
+      "the scene%s\n",
+      stats.count(), stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99),
+      app.processor_ms_per_picture(), app.scene_ms_per_picture(),
+      app.software_driver() ? " (no graphics card)" : "");
+}
+
+int run_window(const WindowOrder& order) {
+  const StopSignals signals;
+  const auto complain = [](const Error& error) {
+    std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
+    return kBadInput;
+  };
+  auto app = WindowApp::create(order);
+  if (!app) return complain(app.error());
+  const Result<void> ended = (*app)->run();
+  if (!ended) return complain(ended.error());
+  if (order.frames > 0) print_stats(**app);
+  return stop_signal() ? 128 + stop_signal() : 0;
+}
+
+}  // namespace
+
+void add_window_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("window", "Open the simulator's window");
+  const auto order = std::make_shared<WindowOrder>();
+  const auto size = std::make_shared<std::string>();
+  command->add_option("--case", order->case_spec, "Case: builtin:wrist or a case's folder")
+      ->capture_default_str();
+  command->add_option("--replay", order->replay, "Recording to open");
+  command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
+  command
+      ->add_option("--ui-scale", order->interface_scale,
+                   "Scale of the interface; the display's when not given")
+      ->check(CLI::Range(0.5, 4.0));
+  command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
+  command->add_option("--screenshot", order->screenshot,
+                      "Save a picture of the window (PNG), then end");
+  command
+      ->add_option("--frames", order->frames,
+                   "Draw this many pictures, print what they cost, then end")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([order, size, &exit_code] {
+    if (!size->empty() && !parse_size(*size, *order))
+      throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+    if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
+    // A measured run shall give the same picture for everyone.
+    order->fresh = order->frames > 0;
+    order->case_spec = absolute_spec(order->case_spec);
+    exit_code = run_window(*order);
+  });
+}
+
+}  // namespace osteon

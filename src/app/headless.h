@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "osteon/base/result.h"
+#include "osteon/device/virtual_hand.h"
+#include "osteon/procedure/report.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/path.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+
+/// A run of a path on a case with the virtual hand: no window, no threads, no pacing.
+struct HeadlessRun {
+  std::shared_ptr<const Case> the_case;
+  std::string case_source;  ///< as the user named it; kept in the recording
+  ProbePath path;
+  SessionSettings settings;
+  HandParams hand;
+  /// Plays the path on this device (driver's name), whose user must be an emulated one, with the
+  /// safety gate between; empty: the hand without a device.
+  std::string device;
+  std::optional<std::filesystem::path> record_to;
+  /// Sees every tick; may be empty.
+  std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;
+};
+
+/// Runs it to the path's end, with the settings kept within what the device bears. Tick times are
+/// measured around the session's tick alone. Fails when the device cannot be opened or its force is
+/// cut, or when the recording cannot be written; what was recorded until then stays.
+Result<Report> simulate(const HeadlessRun& run);
+
+}  // namespace osteon

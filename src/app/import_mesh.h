@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/mesh/repair.h"
+#include "osteon/scene/build_case.h"
+
+namespace osteon {
+
+struct ImportOptions {
+  std::filesystem::path source;  ///< a folder of meshes in one common frame, or one mesh
+  double metres_per_unit = 1;
+  std::filesystem::path out;  ///< the case folder to make
+  std::string name;           ///< of the case; empty: that of the folder
+  std::string side;           ///< "left", "right" or empty
+};
+
+/// One mesh file as it came in.
+struct ImportedBone {
+  std::filesystem::path file;
+  std::size_t triangles = 0;  ///< after repair
+  bool closed = false;
+  RepairReport repair;
+};
+
+struct ImportResult {
+  CaseDef def;
+  std::vector<ImportedBone> bones;  ///< parallel to def.bones
+};
+
+/// Reads, mends and names every mesh of the source in the order of their file names. World is the
+/// frame of the files; each bone's own frame sits in its centre of volume, axes along World.
+Result<ImportResult> read_meshes(const ImportOptions& options);
+
+/// Reads the meshes and writes the case: into a folder beside `out` that is renamed at the end, so
+/// that a stop leaves no half case under its name.
+Result<ImportResult> import_meshes(const ImportOptions& options);
+
+}  // namespace osteon

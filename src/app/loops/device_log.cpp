@@ -1,0 +1,48 @@
+#include "loops/device_log.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "osteon/base/file.h"
+
+namespace osteon {
+
+DeviceLog::DeviceLog(std::unique_ptr<HapticDevice> device, double seconds)
+    : device_(std::move(device)),
+      rows_(std::max<std::size_t>(
+          1, static_cast<std::size_t>(seconds * std::max(1.0, device_->info().rate_hz)))) {}
+
+DeviceSample DeviceLog::read() {
+  const DeviceSample sample = device_->read();
+  now_.time_ns = sample.time_ns;
+  now_.p_V = sample.X_VD.p;
+  return sample;
+}
+
+void DeviceLog::write_force(const Vec3& force_V) {
+  now_.force_V = force_V;
+  rows_[count_++ % rows_.size()] = now_;
+  device_->write_force(force_V);
+}
+
+void DeviceLog::close() {
+  device_->close();
+  closed_ = true;
+}
+
+Result<void> DeviceLog::save(const std::filesystem::path& file) const {
+  std::string text = "time_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n\n";
+  const std::size_t kept = std::min(count_, rows_.size());
+  for (std::size_t i = count_ - kept; i < count_; ++i) {
+    const Row& row = rows_[i % rows_.size()];
+    char line[200];
+    std::snprintf(line, sizeof line, "%.6f,%.4f,%.4f,%.4f,%.5f,%.5f,%.5f\n",
+                  static_cast<double>(row.time_ns) * 1e-9, row.p_V.x() * 1e3, row.p_V.y() * 1e3,
+                  row.p_V.z() * 1e3, row.force_V.x(), row.force_V.y(), row.force_V.z());
+    text += line;
+  }
+  if (closed_) text += "closed\n";
+  return write_file_atomic(file, text);
+}
+
+}  // namespace osteon

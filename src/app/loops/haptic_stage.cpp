@@ -1,0 +1,129 @@
+#include "loops/haptic_stage.h"
+
+#include <algorithm>
+
+#include "loops/record_feed.h"
+
+namespace osteon {
+namespace {
+
+// A window that has stopped drawing can tell nothing of a pedal any more.
+constexpr double kOldestPedal_s = 0.25;
+// A stall of this loop says nothing of the other's: one long tick counts no more than this.
+constexpr double kLongestCountedTick_s = 0.002;
+constexpr std::uint64_t kHealthTicks = 16 * kTelemetryTicks;
+
+bool is_usable(const DeviceSample& sample) {
+  return sample.connected && is_finite(sample.X_VD) && is_finite(sample.v_V) &&
+         is_finite(sample.w_V);
+}
+
+}  // namespace
+
+HapticStage::HapticStage(Session& session, HapticDevice& device, const HapticStageOptions& options,
+                         LoopExchange& exchange, RecordFeed* feed)
+    : session_(session),
+      device_(device),
+      options_(options),
+      exchange_(exchange),
+      feed_(feed),
+      mapping_(options.mapping, options.user),
+      assist_(options.user),
+      gate_(device.info(), options.safety) {
+  last_good_.X_WD = options.mapping.to_world(Pose{});
+}
+
+void HapticStage::step(double dt_s) {
+  obey_gate_wishes();
+  DeviceSample sample = device_.read();
+  obey_hand_wishes(sample, dt_s);
+  const ToolInput input = read_input(sample);
+  bool fresh = false;
+  const BoneSnapshot& bones = exchange_.bones_to_haptic.read(&fresh);
+  Command command;
+  exchange_.to_haptic.pop(command);
+
+  const ToolState& tool = session_.haptic_tick(input, bones, command);
+  touching_ = tool.contact_count > 0;
+  if (mapping_.released()) gate_.ramp_in_again();
+  const Vec3 force_V = mapping_.force_to_device(tool.force_W);
+  const double age_s = bones_age(fresh, dt_s);
+  status_.force_at_hand_V =
+      gate_.filter(force_V, sample, age_s, dt_s, assist_.force(sample.v_V, dt_s));
+  if (over_) status_.force_at_hand_V.setZero();
+  device_.write_force(status_.force_at_hand_V);
+
+  if (feed_) feed_->push(session_.last_tick_record());
+  publish(tool, bones);
+}
+
+void HapticStage::force_to_zero() {
+  over_ = true;
+  gate_.disable(ForceOff::kSoftware);
+  device_.write_force(Vec3::Zero());
+}
+
+void HapticStage::obey_gate_wishes() {
+  GateWish wish{};
+  while (exchange_.to_gate.pop(wish)) {
+    if (wish == GateWish::kEnable)
+      gate_.enable();
+    else if (wish == GateWish::kCalibrate)
+      device_.calibrate();
+    else
+      gate_.disable(ForceOff::kSoftware);
+  }
+}
+
+// Pedals and view, from the window. In contact the axes stay: turning them would drag the tool.
+void HapticStage::obey_hand_wishes(DeviceSample& sample, double dt_s) {
+  bool fresh = false;
+  wishes_ = exchange_.hand_wishes.read(&fresh);
+  wishes_age_s_ = fresh ? 0 : wishes_age_s_ + std::min(dt_s, kLongestCountedTick_s);
+  if (wishes_.has_dead_man && !(wishes_.dead_man_held && wishes_age_s_ < kOldestPedal_s))
+    sample.dead_man_held = false;
+  status_.dead_man_held = sample.dead_man_held;
+  if (fresh && wishes_.turn_axes && !touching_) mapping_.align(wishes_.q_WV);
+}
+
+// An unusable reading holds the hand where it was last seen, at rest, so that neither the proxy nor
+// the recording ever sees it; the gate trips at once and says why.
+ToolInput HapticStage::read_input(const DeviceSample& sample) {
+  if (!is_usable(sample)) {
+    ++status_.bad_samples;
+    gate_.disable(sample.connected ? ForceOff::kNotFinite : ForceOff::kDisconnect);
+    last_good_.v_W.setZero();
+    last_good_.w_W.setZero();
+    return last_good_;
+  }
+  last_good_ = mapping_.to_world(sample, wishes_.clutch);
+  return last_good_;
+}
+
+// The force is this tick's own, but the bones that it meets are as old as the physics left them.
+double HapticStage::bones_age(bool fresh, double dt_s) {
+  bones_age_s_ = fresh ? 0 : bones_age_s_ + std::min(dt_s, kLongestCountedTick_s);
+  return bones_age_s_;
+}
+
+void HapticStage::publish(const ToolState& tool, const BoneSnapshot& bones) {
+  exchange_.tool_to_physics.publish(tool);
+  telemetry_.peak_force_n =
+      std::max(telemetry_.peak_force_n, static_cast<float>(tool.force_W.norm()));
+  telemetry_.status |= tool.status;
+  for (std::uint32_t i = 0; i < tool.contact_count; ++i)
+    telemetry_.bones_mask |= std::uint64_t{1} << (tool.contacts[i].bone.index & 63u);
+  if (tool.tick % kTelemetryTicks != 0) return;
+
+  telemetry_.time_s = tool.time_s;
+  exchange_.telemetry.push(telemetry_);  // full: the window is busy, the plot may have a gap
+  telemetry_ = {};
+  status_.safety = gate_.state();
+  status_.cause = gate_.cause();
+  status_.clutched = mapping_.clutched();
+  if (tool.tick % kHealthTicks == 0) status_.health = device_.health();
+  exchange_.device_status.publish(status_);
+  exchange_.to_window.publish(RenderSnapshot{bones, tool});
+}
+
+}  // namespace osteon

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace osteon {
+
+/// While one exists, SIGINT, SIGTERM and SIGHUP ask the loops to end instead of killing the
+/// program, so that the motors are left at zero and the recording is closed. A second signal kills
+/// as usual. An uncaught exception gives the haptic loop a moment to do the same before the
+/// program aborts.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+};
+
+/// A signal, or the end of the program, has asked every loop to end. Any thread.
+bool stop_requested();
+/// Which signal; 0: none. A program that ends by it returns 128 more.
+int stop_signal();
+
+}  // namespace osteon

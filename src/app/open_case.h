@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "osteon/anatomy/generate.h"
+#include "osteon/base/result.h"
+#include "osteon/scene/build_case.h"
+#include "osteon/scene/case.h"
+
+namespace osteon {
+
+/// The bones and landmarks of a grown anatomy, with default materials.
+CaseDef case_from(GeneratedAnatomy anatomy);
+
+/// Case by what a user names it: `builtin:wrist` is grown from its description in the assets,
+/// anything else is a case folder.
+Result<CaseDef> open_case_def(const std::string& spec);
+/// The same, built. The pieces of its bones are kept beside the case (pieces.bin), or in the user's
+/// cache for a built-in case and where the folder cannot be written. `progress` is told what goes
+/// on and the share done; it may throw to stop.
+using OpenProgress = std::function<void(const char* what, double share)>;
+Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
+                                              const OpenProgress& progress = {});
+
+}  // namespace osteon

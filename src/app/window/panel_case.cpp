@@ -1,0 +1,89 @@
+#include <string>
+
+#include "window/panels.h"
+#include "window/ui_widgets.h"
+
+namespace osteon {
+namespace {
+
+constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_AlwaysAutoResize;
+
+void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {
+  if (!ImGui::BeginPopup("appearance")) return;
+  ui::text(color::kTextQuiet, c.model.bone_labels[i].c_str());
+  BoneAppearance& look = view.bones[i];
+  const bool recolored =
+      ImGui::ColorPicker3("##color", look.color.data(),
+                          ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs |
+                              ImGuiColorEditFlags_PickerHueWheel);
+  double opacity = 100.0 * static_cast<double>(look.opacity);
+  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%",
+                                "How much of what lies behind the bone is hidden, percent");
+  look.opacity = static_cast<float>(opacity / 100.0);
+  if (recolored || faded) c.requests.view = view;
+  ImGui::EndPopup();
+}
+
+void draw_swatch(const PanelContext& c, std::size_t i, ViewState& view) {
+  const BoneAppearance& look = view.bones[i];
+  const ImVec4 shown(look.color[0], look.color[1], look.color[2], 1);
+  const float size = c.px(12);
+  const float row = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(row + c.px(3));
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, c.px(3));
+  if (ImGui::ColorButton("##swatch", shown,
+                         ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                         {size, size}))
+    ImGui::OpenPopup("appearance");
+  ImGui::PopStyleVar();
+  ui::tooltip("Colour and opacity");
+  draw_appearance_popup(c, i, view);
+  ImGui::SameLine(0, c.px(8));
+  ImGui::SetCursorPosY(row);
+}
+
+void draw_bone_row(const PanelContext& c, std::size_t i, ViewState& view) {
+  const BoneId id{static_cast<std::uint32_t>(i)};
+  BoneAppearance& look = view.bones[i];
+  ImGui::PushID(static_cast<int>(i));
+  draw_swatch(c, i, view);
+  const float eye = c.px(18);
+  const float name_w = ImGui::GetContentRegionAvail().x - eye;
+  ImGui::PushStyleColor(ImGuiCol_Text, look.visible ? color::kText : color::kTextQuiet);
+  const bool chosen = c.model.picked == id;
+  if (ImGui::Selectable(c.model.bone_labels[i].c_str(), chosen, 0, {name_w, c.px(18)}))
+    c.requests.picked_row = id;
+  ImGui::PopStyleColor();
+  if (ImGui::IsItemHovered()) c.requests.hovered_row = id;
+  ImGui::SameLine(0, 0);
+  if (ui::eye_button("eye", look.visible, eye)) {
+    look.visible = !look.visible;
+    c.requests.view = view;
+  }
+  ui::tooltip(look.visible ? "Hide this bone" : "Show this bone");
+  ImGui::PopID();
+}
+
+void draw_bones(const PanelContext& c, ViewState& view) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});
+  for (std::size_t i = 0; i < c.model.bone_labels.size() && i < view.bones.size(); ++i)
+    draw_bone_row(c, i, view);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void draw_case_card(const PanelContext& c) {
+  const UiRect& r = c.layout.left;
+  ImGui::SetNextWindowPos({r.x, r.y});
+  ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
+  ImGui::Begin("##case", nullptr, kCard);
+  ViewState view = c.model.view;
+  if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
+  if (ui::section(c.fonts, "View")) draw_view_section(c);
+  ImGui::End();
+}
+
+}  // namespace osteon

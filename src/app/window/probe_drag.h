@@ -1,0 +1,31 @@
+#pragma once
+
+#include "osteon/base/types.h"
+#include "osteon/render/camera.h"
+
+namespace osteon {
+
+/// What the mouse and the keys did since the last frame, while they hold the probe.
+struct ProbeMotion {
+  double right_px = 0, up_px = 0;       ///< of the pointer
+  double wheel = 0;                     ///< notches, positive pushes the probe away from the viewer
+  double pitch = 0, yaw = 0, roll = 0;  ///< keys, each in [-1, 1]
+};
+
+/// Speeds by which the mouse holds the probe.
+struct ProbeDragParams {
+  double wheel_m = 0.002;           ///< along the view a notch
+  double turn_rad_per_s = 1.2;      ///< while a key is down
+  double max_from_target_m = 0.40;  ///< the probe stays within this of what the camera looks at
+};
+
+/// The hand's pose after `motion`: the tip follows the pointer in the plane of the view, at its own
+/// depth; turns are about the camera's axes through the tip.
+Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camera,
+                const Viewport& viewport, double dt_s, const ProbeDragParams& params = {});
+
+/// Where a probe is handed to the user: in front of the case as the camera sees it, tilted so that
+/// the shaft does not hide its tip.
+Pose offered_probe(const Camera& camera, const Aabb& case_bounds_W);
+
+}  // namespace osteon

@@ -1,0 +1,21 @@
+#pragma once
+
+namespace osteon {
+
+struct UiRect {
+  float x = 0, y = 0, w = 0, h = 0;
+  float right() const { return x + w; }
+  float bottom() const { return y + h; }
+};
+
+/// Where the parts of the window lie, pixels from its top left. The picture fills everything
+/// between the top bar and the timeline; the cards float on its left and right edge and are at most
+/// as tall as `left` and `right`.
+struct UiLayout {
+  UiRect top, left, right, bottom, picture;
+};
+
+/// On an 8-pixel grid times `scale`. Folded: the picture is the whole window.
+UiLayout make_layout(float width, float height, float scale, bool panels_open);
+
+}  // namespace osteon

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loops/loop_exchange.h"
+#include "loops/mapping_settings.h"
+#include "osteon/device/haptic_device.h"
+#include "osteon/render/renderer.h"
+#include "window/contact_timeline.h"
+#include "window/pedals.h"
+#include "window/toasts.h"
+
+namespace osteon {
+
+enum class UiPhase { kLoading, kReady, kFailed };
+
+/// Work that runs beside the picture.
+struct LoadingModel {
+  std::string what;          ///< "Growing the bones"
+  double fraction = 0;       ///< 0..1
+  double seconds_left = -1;  ///< -1: not known yet
+  std::string failure;       ///< in words, with what to do; empty unless it failed
+  bool can_cancel = false;
+};
+
+struct HandModel {
+  std::vector<std::string> devices;  ///< for the menu
+  int device = 0;
+  DeviceInfo info;
+  DeviceStatus status;
+  double force_n = 0;  ///< that the simulation computes
+  double force_limit_n = 8;
+  double stiffness_n_per_m = 2000;
+  double stiffness_max_n_per_m = 4000;  ///< of the device's profile
+  double friction_scale = 1;
+  bool bones_held = true;
+  LoopStats haptic, physics;
+  double picture_hz = 0;
+  std::string realtime_warning;
+  bool probe_in_hand = false;  ///< the mouse moves the probe
+  bool probe_by_mouse = true;  ///< the chosen device is the mouse
+  bool has_dead_man = false;   ///< the device's own switch, or a pedal
+  bool dead_man_held = true;
+  struct Mapping {
+    bool settable = false;  ///< a real device: an emulated one has its path
+    MappingSettings settings;
+    std::string dead_man = "none", clutch = "none";  ///< what drives the pedals, in words
+  } mapping;
+  std::string learning_pedal;  ///< the pedal that waits for its input; empty: none
+};
+
+struct ContactRow {
+  BoneId bone;
+  double force_n = 0;
+  double depth_mm = 0;
+  bool sticking = false;
+};
+
+struct RecordModel {
+  bool on = false;
+  double seconds = 0;
+  std::string file;
+};
+
+struct ReplayModel {
+  bool on = false;
+  bool playing = false;
+  double duration_s = 0;
+  double position_s = 0;
+  double speed = 1;
+  std::string file;
+  std::string verdict;  ///< "Repeats exactly", or where it differs
+  bool identical = true;
+};
+
+struct TimelineModel {
+  double end_s = 0;
+  std::span<const ContactSpan> spans;
+};
+
+struct RecordingFile {
+  std::string label;
+  std::string path;
+};
+
+/// All that the panels show, as values: one a frame.
+struct UiModel {
+  float width = 1280, height = 720;  ///< framebuffer, pixels
+  float scale = 1;                   ///< of the interface: 1 is 96 dots an inch
+  UiPhase phase = UiPhase::kReady;
+  LoadingModel loading;
+
+  std::string case_title;  ///< "Wrist, right"
+  std::string activity;    ///< "Exploring", "Replay", "Demonstration"
+  double time_s = 0;       ///< simulated
+  std::vector<std::string> bone_labels;
+  ViewState view;
+  BoneId hovered;  ///< under the pointer, in the picture
+  BoneId picked;
+  float pointer_x = 0, pointer_y = 0;
+
+  HandModel hand;
+  std::vector<ContactRow> contacts;
+  std::span<const float> force_history;  ///< N, oldest first, kForceHistoryHz
+  RecordModel record;
+  ReplayModel replay;
+  TimelineModel timeline;
+  std::vector<RecordingFile> recordings;  ///< newest first
+  std::span<const Toast> toasts;
+
+  bool panels_open = true;
+  bool help_open = false;
+  bool first_run_hint = false;
+};
+
+}  // namespace osteon

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loops/mapping_settings.h"
+#include "osteon/render/renderer.h"
+#include "osteon/scene/command.h"
+
+namespace osteon {
+
+/// What the user asked for in one frame. The panels change nothing by themselves.
+struct UiRequests {
+  std::optional<ViewState> view;
+  std::optional<ViewPreset> preset;
+  bool close_up = false;  ///< of the picked bone, else of the joint
+  std::vector<Command> commands;
+  std::optional<int> device;
+  std::optional<std::string> open_file;
+  std::optional<double> seek_s;
+  std::optional<double> speed;
+  std::optional<double> zoom_interface;  ///< factor on the interface's size
+  BoneId hovered_row;
+  BoneId picked_row;
+  std::optional<MappingSettings> mapping;
+  std::optional<std::string> learn_pedal;  ///< its name; empty: stop waiting
+  std::optional<std::string> forget_pedal;
+  bool calibrate = false;
+  bool force_off = false;
+  bool force_on = false;
+  bool toggle_probe = false;
+  bool toggle_record = false;
+  bool toggle_play = false;
+  bool toggle_panels = false;
+  bool toggle_help = false;
+  bool toggle_fullscreen = false;
+  bool list_recordings = false;
+  bool close_replay = false;
+  bool cancel_loading = false;
+  bool retry_loading = false;
+  bool screenshot_window = false;
+  bool screenshot_picture = false;
+  bool dismiss_hint = false;
+  bool quit = false;
+  std::optional<std::uint64_t> dismiss_toast;
+};
+
+}  // namespace osteon

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osteon/render/renderer.h"
+#include "window/app_settings.h"
+#include "window/camera_control.h"
+#include "window/device_choices.h"
+#include "window/frame_stats.h"
+#include "window/gl_window.h"
+#include "window/imgui_host.h"
+#include "window/live_run.h"
+#include "window/load_job.h"
+#include "window/panels.h"
+#include "window/pedals.h"
+#include "window/replay_player.h"
+#include "window/scene_poll.h"
+#include "window/toasts.h"
+
+namespace osteon {
+
+/// What the command line asks of the window.
+struct WindowOrder {
+  std::string case_spec = "builtin:wrist";
+  std::filesystem::path replay;      ///< a recording to open; empty: the live case
+  std::filesystem::path screenshot;  ///< saved after `frames` pictures; then the program ends
+  int frames = 0;                    ///< pictures to draw once loaded before ending; 0: no end
+  double at_s = 0;                   ///< of simulated time, reached before `frames` are counted
+  int width = 0, height = 0;         ///< 0: as last time
+  double interface_scale = 0;        ///< 0: the display's, times the user's zoom
+  bool demo = false;                 ///< the virtual hand plays the case's path
+  bool fresh = false;                ///< neither reads nor writes the settings file
+};
+
+/// The window's main loop: draws, and passes between panels, live run and replay. Runs on the main
+/// thread. Its parts are in window_*.cpp.
+class WindowApp {
+ public:
+  static Result<std::unique_ptr<WindowApp>> create(const WindowOrder& order);
+  ~WindowApp();
+  /// Until the user closes the window. Fails when an ordered screenshot could not be made.
+  Result<void> run();
+  const FrameStats& frame_stats() const { return work_; }
+  /// Processor time of the whole program for one measured picture, ms, and its share in drawing the
+  /// scene.
+  double processor_ms_per_picture() const;
+  double scene_ms_per_picture() const;
+  bool software_driver() const { return renderer_ && renderer_->software_driver(); }
+
+ private:
+  explicit WindowApp(const WindowOrder& order);
+
+  // window_app.cpp
+  void frame(double dt_s);
+  void draw_picture();
+  bool measured_run_over();
+  Result<void> finish_measured_run();
+  // window_open.cpp: what is being opened and what is open
+  void open(LoadOrder order);
+  void poll_loading();
+  void install(Loaded loaded);
+  void start_live(const std::string& driver);
+  void leave_replay();
+  void fail_loading(const std::string& message);
+  // window_model.cpp
+  UiModel build_model() const;
+  // window_requests.cpp
+  void apply(const UiRequests& requests);
+  void apply_view(const UiRequests& requests);
+  void apply_run(const UiRequests& requests);
+  void learn_pedal(const PedalReadings& now);
+  void apply_device(const UiRequests& requests);
+  void apply_replay(const UiRequests& requests);
+  void toggle_recording();
+  void list_recordings();
+  void save_screenshot(bool whole_window);
+  // window_scene.cpp: pointer and keys over the picture
+  void poll_scene(double dt_s, double wheel);
+  HandWishes poll_pedals();
+  void hold_probe(bool held);
+  void pick_under_pointer(const SceneInput& input);
+  Viewport viewport() const;
+  CoveredEdges covered_edges() const;
+  // window_settings.cpp
+  void recall_view();
+  void remember();
+  void recall_looks();
+  void remember_looks();
+  void remember_feel();
+
+  bool ready() const { return renderer_.has_value() && !job_; }
+  void note(ToastKind kind, const std::string& text) { toasts_.add(kind, text, now_s_); }
+
+  WindowOrder order_;
+  AppSettings settings_;
+  std::optional<GlWindow> window_;
+  std::unique_ptr<ImGuiHost> ui_;
+  Toasts toasts_;
+  FrameStats frames_;  ///< from picture to picture
+  FrameStats work_;    ///< the work of each picture
+  double now_s_ = 0;
+  int measured_frames_ = 0;
+  double processor_start_s_ = 0;  ///< when the measured pictures began
+  double scene_s_ = 0;            ///< processor time of the scene since then
+
+  std::unique_ptr<LoadJob> job_;
+  std::string load_failure_;
+  std::shared_ptr<const Case> case_;
+  std::string case_source_;
+  ProbePath demo_;
+  std::optional<Renderer> renderer_;
+  std::unique_ptr<LiveRun> live_;
+  std::optional<LoadedReplay> replay_;
+  std::optional<ReplayPlayer> player_;
+  std::vector<float> replay_force_;
+
+  std::vector<DeviceChoice> choices_;
+  std::vector<RecordingFile> recordings_;
+  ViewState view_;
+  RenderSnapshot shown_;
+  CameraControl control_;
+  ScenePoll poll_;
+  Pedals pedals_;
+  double mapping_changed_s_ = -1;  ///< not yet in effect; -1: it is
+  std::string learning_pedal_;     ///< waits for the input that shall drive it; empty: none
+  PedalReadings learning_from_;    ///< as all inputs were when the wait began
+  BoneId hovered_, picked_, hovered_row_;
+  double pointer_x_ = 0, pointer_y_ = 0;
+  bool pointer_moved_ = false;  ///< since the program began
+  bool probe_held_ = false;     ///< now
+  bool probe_toggled_ = false;  ///< by M, stays
+  bool help_open_ = false;
+};
+
+}  // namespace osteon

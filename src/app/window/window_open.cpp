@@ -1,0 +1,82 @@
+#include "osteon/base/file.h"
+#include "window/window_app.h"
+
+namespace osteon {
+namespace fs = std::filesystem;
+
+void WindowApp::open(LoadOrder order) {
+  if (live_ && live_->recording()) {
+    note(ToastKind::kWarning, "Stop the recording before opening something else.");
+    return;
+  }
+  load_failure_.clear();
+  job_ = std::make_unique<LoadJob>(std::move(order));
+}
+
+void WindowApp::poll_loading() {
+  if (!job_ || !job_->done()) return;
+  Result<Loaded> loaded = job_->take();
+  job_.reset();
+  if (loaded)
+    install(std::move(*loaded));
+  else
+    fail_loading(loaded.error().message());
+}
+
+// With a case on show, a failure to open another thing is a message beside it.
+void WindowApp::fail_loading(const std::string& message) {
+  if (renderer_)
+    note(ToastKind::kError, message);
+  else
+    load_failure_ = message;
+}
+
+void WindowApp::install(Loaded loaded) {
+  remember_looks();
+  case_source_ = loaded.case_source;
+  if (loaded.prepared) {
+    const auto data = find_data_dir();
+    if (!data) return fail_loading(data.error().message());
+    live_.reset();
+    replay_.reset();
+    auto renderer = Renderer::create(*loaded.the_case, make_wrist_probe(), *data, *loaded.prepared);
+    if (!renderer) return fail_loading(renderer.error().message());
+    renderer_ = std::move(*renderer);
+    case_ = loaded.the_case;
+    demo_ = loaded.demo;
+    recall_view();
+  }
+  live_.reset();
+  replay_ = std::move(loaded.replay);
+  player_.reset();
+  if (!replay_) return start_live(order_.demo ? "virtual" : settings_.device);
+  player_.emplace(replay_->track.duration_s());
+  player_->seek(order_.at_s);
+  if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still
+  if (!replay_->complete)
+    note(ToastKind::kWarning,
+         "This recording was cut short, by a crash or a power cut; all that was saved is here.");
+}
+
+void WindowApp::start_live(const std::string& driver) {
+  if (choices_.empty() || !case_) return;
+  remember_feel();
+  const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
+                          settings_.bones_held};
+  live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel);
+  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, driver))];
+  pedals_.set_map(settings_.pedals);
+  const MappingSettings user =
+      mapping_of(settings_.mappings, mapping_key(choice.info, case_->name));
+  const Result<void> started =
+      live_->start(choice, offered_probe(view_.camera, case_->bounds_W()), user, view_.camera.q_WC);
+  if (!started) note(ToastKind::kError, started.error().message());
+}
+
+void WindowApp::leave_replay() {
+  replay_.reset();
+  player_.reset();
+  start_live(settings_.device);
+}
+
+}  // namespace osteon

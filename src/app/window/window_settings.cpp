@@ -1,0 +1,79 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "osteon/base/log.h"
+#include "window/window_app.h"
+#include "xdg.h"
+
+namespace osteon {
+
+void WindowApp::recall_view() {
+  view_ = default_view(*case_);
+  view_.camera = preset_camera(ViewPreset::kDorsal, *case_, viewport().aspect(), covered_edges());
+  recall_looks();
+  view_.show_hulls = settings_.show_hulls;
+  view_.show_force = settings_.show_force;
+  view_.show_hand_ghost = settings_.show_hand_ghost;
+  view_.light_azimuth_rad = settings_.light_azimuth_rad;
+  view_.light_elevation_rad = settings_.light_elevation_rad;
+  view_.light_brightness = static_cast<float>(settings_.light_brightness);
+  view_.ambient_occlusion = static_cast<float>(settings_.ambient_occlusion);
+  control_ = CameraControl(anatomical_frame(*case_).distal_W);
+  shown_ = {rest_snapshot(*case_), {}};
+  hovered_ = picked_ = hovered_row_ = {};
+}
+
+void WindowApp::recall_looks() {
+  const auto looks = settings_.looks.find(case_source_);
+  if (looks == settings_.looks.end()) return;
+  for (std::size_t k = 0; k < case_->bones.size(); ++k) {
+    const auto look = looks->second.find(case_->bones[k].name);
+    if (look == looks->second.end()) continue;
+    view_.bones[k].color = look->second.color;
+    view_.bones[k].opacity = look->second.opacity;
+    view_.bones[k].visible = look->second.visible;
+  }
+}
+
+// Only what the user changed, so that better defaults reach the rest.
+void WindowApp::remember_looks() {
+  if (!case_ || view_.bones.size() != case_->bones.size()) return;
+  const ViewState usual = default_view(*case_);
+  std::map<std::string, BoneLook> changed;
+  for (std::size_t k = 0; k < case_->bones.size(); ++k) {
+    const BoneAppearance& look = view_.bones[k];
+    if (look == usual.bones[k]) continue;
+    changed[case_->bones[k].name] = {look.color, look.opacity, look.visible};
+  }
+  if (changed.empty())
+    settings_.looks.erase(case_source_);
+  else
+    settings_.looks[case_source_] = std::move(changed);
+}
+
+void WindowApp::remember() {
+  if (!glfwGetWindowMonitor(window_->handle()))
+    glfwGetWindowSize(window_->handle(), &settings_.window_width, &settings_.window_height);
+  if (renderer_) {
+    settings_.show_hulls = view_.show_hulls;
+    settings_.show_force = view_.show_force;
+    settings_.show_hand_ghost = view_.show_hand_ghost;
+    settings_.light_azimuth_rad = view_.light_azimuth_rad;
+    settings_.light_elevation_rad = view_.light_elevation_rad;
+    settings_.light_brightness = static_cast<double>(view_.light_brightness);
+    settings_.ambient_occlusion = static_cast<double>(view_.ambient_occlusion);
+  }
+  remember_looks();
+  remember_feel();
+  const Result<void> saved = save_app_settings(settings_, config_dir() / "settings.json");
+  if (!saved) log(LogLevel::kWarning, saved.error().message());
+}
+
+void WindowApp::remember_feel() {
+  if (!live_) return;
+  settings_.stiffness_n_per_m = live_->feel().stiffness_n_per_m;
+  settings_.friction_scale = live_->feel().friction_scale;
+  settings_.bones_held = live_->feel().bones_held;
+}
+
+}  // namespace osteon

@@ -1,0 +1,116 @@
+#include "osteon/base/file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace osteon {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason() { return std::strerror(errno); }
+
+struct FileCloser {
+  std::FILE* f;
+  ~FileCloser() {
+    if (f) std::fclose(f);
+  }
+};
+
+bool flush_to_disk(std::FILE* f) {
+  if (std::fflush(f) != 0) return false;
+#if defined(__unix__) || defined(__APPLE__)
+  return ::fsync(::fileno(f)) == 0;
+#else
+  return true;
+#endif
+}
+
+}  // namespace
+
+Result<std::string> read_file(const fs::path& path, std::uint64_t limit_bytes) {
+  std::error_code ec;
+  if (fs::is_directory(path, ec)) return fail("this is a folder, not a file", path.string());
+  std::FILE* f = std::fopen(path.string().c_str(), "rb");
+  if (!f) return fail("cannot be opened (" + reason() + ")", path.string(), "Check the name");
+  const FileCloser closer{f};
+  std::string content;
+  char block[65536];
+  for (;;) {
+    const std::size_t got = std::fread(block, 1, sizeof block, f);
+    content.append(block, got);
+    if (content.size() > limit_bytes)
+      return fail("is larger than " + std::to_string(limit_bytes) + " bytes", path.string());
+    if (got < sizeof block) break;
+  }
+  if (std::ferror(f)) return fail("could not be read to its end", path.string());
+  return content;
+}
+
+Result<void> write_file_atomic(const fs::path& path, std::string_view content) {
+  const fs::path temporary = path.string() + ".part";
+  std::FILE* f = std::fopen(temporary.string().c_str(), "wb");
+  if (!f)
+    return fail("cannot be written (" + reason() + ")", path.string(),
+                "Check that the folder exists and may be written to");
+  bool ok = std::fwrite(content.data(), 1, content.size(), f) == content.size();
+  ok = ok && flush_to_disk(f);
+  std::string why = ok ? "" : reason();
+  if (std::fclose(f) != 0 && ok) {
+    ok = false;
+    why = reason();
+  }
+  std::error_code ec;
+  if (ok) {
+    fs::rename(temporary, path, ec);
+    if (!ec) return {};
+    why = ec.message();
+  }
+  fs::remove(temporary, ec);
+  return fail("could not be written (" + why + "); what was there before is unchanged",
+              path.string(), "Free some space or choose another folder");
+}
+
+namespace {
+
+fs::path executable_dir() {
+#if defined(__linux__)
+  std::error_code ec;
+  const fs::path self = fs::read_symlink("/proc/self/exe", ec);
+  if (!ec) return self.parent_path();
+#endif
+  return {};
+}
+
+}  // namespace
+
+Result<fs::path> find_data_dir() {
+  std::error_code ec;
+  std::string tried;
+  const auto holds_assets = [&](const fs::path& dir) {
+    if (dir.empty()) return false;
+    tried += (tried.empty() ? "" : ", ") + dir.string();
+    return fs::is_directory(dir / "assets", ec) && fs::is_directory(dir / "shaders", ec);
+  };
+  if (const char* set = std::getenv("OSTEON_DATA"); set && *set) {
+    if (holds_assets(set)) return fs::path(set);
+    return fail("has no assets and shaders folders", set, "Mend or unset OSTEON_DATA");
+  }
+  const fs::path exe = executable_dir();
+  if (!exe.empty()) {
+    for (const fs::path& dir : {exe, exe / "../share/osteon"})
+      if (holds_assets(dir)) return dir;
+  }
+  if (holds_assets(OSTEON_SOURCE_DIR)) return fs::path(OSTEON_SOURCE_DIR);
+  return fail("the folders assets and shaders were not found (looked in " + tried + ")", "Osteon",
+              "Set OSTEON_DATA to the folder that holds them");
+}
+
+}  // namespace osteon

@@ -1,0 +1,195 @@
+#include "block_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "two_lanes.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::uint32_t kBlock = ConvexBody::kBlock;
+constexpr std::size_t kChunk = 64;  // runs whose bounds are held at a time
+using Bounds = std::array<double, kChunk>;
+constexpr double kLeast = -std::numeric_limits<double>::infinity();
+
+// n.u - offset of two planes, always in this order of operations.
+inline TwoLanes excess_of(const ConvexBody& body, std::size_t i, const ThreeLanes& u) {
+  return TwoLanes::load(&body.nx[i]) * u.x + TwoLanes::load(&body.ny[i]) * u.y +
+         TwoLanes::load(&body.nz[i]) * u.z - TwoLanes::load(&body.offset[i]);
+}
+
+inline TwoLanes height_of(const ConvexBody& body, std::size_t i, const ThreeLanes& n) {
+  return TwoLanes::load(&body.vx[i]) * n.x + TwoLanes::load(&body.vy[i]) * n.y +
+         TwoLanes::load(&body.vz[i]) * n.z;
+}
+
+inline TwoLanes plane_bound(const PlaneBlocks& b, std::size_t i, const ThreeLanes& u) {
+  const TwoLanes middle = TwoLanes::load(&b.mid_x[i]) * u.x + TwoLanes::load(&b.mid_y[i]) * u.y +
+                          TwoLanes::load(&b.mid_z[i]) * u.z + TwoLanes::load(&b.top[i]);
+  return middle + TwoLanes::load(&b.half_x[i]) * abs(u.x - TwoLanes::load(&b.at_x[i])) +
+         TwoLanes::load(&b.half_y[i]) * abs(u.y - TwoLanes::load(&b.at_y[i])) +
+         TwoLanes::load(&b.half_z[i]) * abs(u.z - TwoLanes::load(&b.at_z[i]));
+}
+
+inline TwoLanes vertex_bound(const VertexBlocks& b, std::size_t i, const ThreeLanes& n) {
+  return TwoLanes::load(&b.mid_x[i]) * n.x + TwoLanes::load(&b.mid_y[i]) * n.y +
+         TwoLanes::load(&b.mid_z[i]) * n.z + TwoLanes::load(&b.half_x[i]) * abs(n.x) +
+         TwoLanes::load(&b.half_y[i]) * abs(n.y) + TwoLanes::load(&b.half_z[i]) * abs(n.z);
+}
+
+// Largest value of a run, and the lowest index that has it when it beats `best`.
+template <class Value>
+void scan_run(std::size_t first, const Value& value, double& best, std::uint32_t& index) {
+  TwoLanes even = value(first), odd = value(first + 2);
+  for (std::size_t k = 4; k < kBlock; k += 4) {
+    even = max(even, value(first + k));
+    odd = max(odd, value(first + k + 2));
+  }
+  const double largest = max(even, odd).top();
+  if (!(largest > best)) return;
+  best = largest;
+  for (std::size_t k = first;; k += 2) {
+    std::array<double, 2> pair;
+    value(k).store(pair.data());
+    if (pair[0] != largest && pair[1] != largest) continue;
+    index = static_cast<std::uint32_t>(pair[0] == largest ? k : k + 1);
+    return;
+  }
+}
+
+// Index of the first of `count` bounds that equals `value`.
+std::size_t find(const Bounds& bounds, double value) {
+  std::size_t k = 0;
+  while (bounds[k] != value) ++k;
+  return k;
+}
+
+// Scans the runs whose bound beats the best so far, the most promising of each chunk first.
+template <class Bound, class Value>
+void scan_promising(std::size_t runs, const Bound& bound, const Value& value, double& best,
+                    std::uint32_t& index) {
+  Bounds bounds;
+  for (std::size_t base = 0; base < runs; base += kChunk) {
+    const std::size_t count = std::min(kChunk, runs - base);
+    TwoLanes top = TwoLanes::both(kLeast);
+    for (std::size_t k = 0; k < count; k += 2) {
+      const TwoLanes pair = bound(base + k);
+      pair.store(&bounds[k]);
+      top = max(top, pair);
+    }
+    if (!(top.top() > best)) continue;
+    const std::size_t first = find(bounds, top.top());
+    scan_run((base + first) * kBlock, value, best, index);
+    bounds[first] = kLeast;
+    for (std::size_t k = 0; k < count; k += 2) {
+      const int open = above(TwoLanes::load(&bounds[k]), TwoLanes::both(best));
+      if (open & 1) scan_run((base + k) * kBlock, value, best, index);
+      if (open & 2 && k + 1 < count) scan_run((base + k + 1) * kBlock, value, best, index);
+    }
+  }
+}
+
+template <std::size_t N>
+Vec3 middle_and_half(const std::vector<double>* const (&axes)[N], std::size_t first, Vec3& half) {
+  Vec3 mid;
+  for (std::size_t j = 0; j < N; ++j) {
+    const auto begin = axes[j]->begin() + static_cast<std::ptrdiff_t>(first);
+    const auto [lo, hi] = std::minmax_element(begin, begin + kBlock);
+    const auto axis = static_cast<Eigen::Index>(j);
+    mid[axis] = 0.5 * (*lo + *hi);
+    half[axis] = 0.5 * (*hi - *lo);
+  }
+  return mid;
+}
+
+void push(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z, const Vec3& v) {
+  x.push_back(v.x());
+  y.push_back(v.y());
+  z.push_back(v.z());
+}
+
+void add_plane_run(ConvexBody& body, std::size_t first, const std::vector<Vec3>& facet_points) {
+  PlaneBlocks& b = body.plane_blocks;
+  Vec3 half;
+  const Vec3 mid = middle_and_half<3>({&body.nx, &body.ny, &body.nz}, first, half);
+  Vec3 at = Vec3::Zero();
+  for (std::size_t i = first; i < first + kBlock; ++i)
+    at += (facet_points[std::min(i, facet_points.size() - 1)] - body.center) / kBlock;
+  double beyond = kLeast;
+  for (std::size_t i = first; i < first + kBlock; ++i)
+    beyond = std::max(beyond, body.normal(static_cast<std::uint32_t>(i)).dot(at) - body.offset[i]);
+  push(b.mid_x, b.mid_y, b.mid_z, mid);
+  push(b.half_x, b.half_y, b.half_z, half);
+  push(b.at_x, b.at_y, b.at_z, at);
+  b.top.push_back(beyond - mid.dot(at));
+}
+
+// Repeats the last run so that bounds can be read two at a time.
+template <class... Arrays>
+void pad_to_even(Arrays&... arrays) {
+  ((arrays.size() % 2 == 1 ? arrays.push_back(arrays.back()) : void()), ...);
+}
+
+}  // namespace
+
+Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
+  const ThreeLanes lanes(u);
+  Excess found{floor, Excess::kNone};
+  scan_promising(
+      body.nx.size() / kBlock,
+      [&](std::size_t i) { return plane_bound(body.plane_blocks, i, lanes); },
+      [&](std::size_t i) { return excess_of(body, i, lanes); }, found.value, found.plane);
+  return found;
+}
+
+Excess most_exceeded_near(const ConvexBody& body, std::uint32_t plane, const Vec3& u,
+                          double floor) {
+  const ThreeLanes lanes(u);
+  Excess found{floor, Excess::kNone};
+  scan_run(
+      plane / kBlock * kBlock, [&](std::size_t i) { return excess_of(body, i, lanes); },
+      found.value, found.plane);
+  return found;
+}
+
+Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
+  const ThreeLanes lanes(u);
+  for (std::uint32_t i = 0; i < body.plane_count; i += 2) {
+    std::array<double, 2> values;
+    excess_of(body, i, lanes).store(values.data());
+    if (values[0] > floor) return {values[0], i};
+    if (values[1] > floor) return {values[1], i + 1};
+  }
+  return {floor, Excess::kNone};
+}
+
+double support(const ConvexBody& body, const Vec3& n, std::uint32_t* vertex) {
+  const ThreeLanes lanes(n);
+  double best = kLeast;
+  std::uint32_t index = 0;
+  scan_promising(
+      body.vx.size() / kBlock,
+      [&](std::size_t i) { return vertex_bound(body.vertex_blocks, i, lanes); },
+      [&](std::size_t i) { return height_of(body, i, lanes); }, best, index);
+  if (vertex) *vertex = index;
+  return best;
+}
+
+void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points) {
+  for (std::size_t i = 0; i < body.nx.size(); i += kBlock) add_plane_run(body, i, facet_points);
+  PlaneBlocks& p = body.plane_blocks;
+  pad_to_even(p.mid_x, p.mid_y, p.mid_z, p.half_x, p.half_y, p.half_z, p.at_x, p.at_y, p.at_z,
+              p.top);
+  VertexBlocks& v = body.vertex_blocks;
+  for (std::size_t i = 0; i < body.vx.size(); i += kBlock) {
+    Vec3 half;
+    const Vec3 mid = middle_and_half<3>({&body.vx, &body.vy, &body.vz}, i, half);
+    push(v.mid_x, v.mid_y, v.mid_z, mid);
+    push(v.half_x, v.half_y, v.half_z, half);
+  }
+  pad_to_even(v.mid_x, v.mid_y, v.mid_z, v.half_x, v.half_y, v.half_z);
+}
+
+}  // namespace osteon

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "osteon/collide/convex_body.h"
+
+namespace osteon {
+
+/// A plane and how far a point lies beyond it.
+struct Excess {
+  double value = 0;
+  std::uint32_t plane = kNone;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+};
+
+/// Plane that `u` (from the body's centre, in its frame) exceeds most, among those exceeded by more
+/// than `floor`; {floor, kNone} when there is none. Skips runs of planes by their bounds.
+Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor);
+
+/// Plane of lowest index that `u` exceeds by more than `floor`.
+Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor);
+
+/// As most_exceeded, within the run of planes that holds `plane`.
+Excess most_exceeded_near(const ConvexBody& body, std::uint32_t plane, const Vec3& u, double floor);
+
+/// Fills the bounds of `body.plane_blocks` and `body.vertex_blocks`. `facet_points`: a point on
+/// each plane's facet, in the hull's frame.
+void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points);
+
+}  // namespace osteon

@@ -1,0 +1,149 @@
+#include "osteon/collide/capsule_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "block_scan.h"
+#include "nearest_simplex.h"
+
+namespace osteon {
+namespace {
+
+constexpr int kMostSteps = 100;
+constexpr double kRelative = 1e-12;  // of the squared distance: when the search ends
+constexpr double kTouching = 1e-12;  // share of the body's size that counts as no distance
+
+DifferencePoint farthest_against(const ConvexBody& a, const Capsule& c, const Vec3& v) {
+  std::uint32_t vertex = 0;
+  support(a, -v, &vertex);
+  const Vec3 p_a = a.vertex(vertex);
+  const Vec3 p_ax = v.dot(c.p0) >= v.dot(c.p1) ? c.p0 : c.p1;
+  return {p_a - p_ax, p_a, p_ax};
+}
+
+// Distance of the axis from the body; false when they meet.
+bool apart(const ConvexBody& a, const Capsule& c, CapsuleContact& out) {
+  NearestSimplex simplex;
+  Vec3 v = a.center - 0.5 * (c.p0 + c.p1);
+  if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
+  double square = std::numeric_limits<double>::infinity();
+  const double touching = kTouching * a.radius;
+  for (; out.steps < kMostSteps; ++out.steps) {
+    const DifferencePoint w = farthest_against(a, c, v);
+    if (simplex.count > 0 && square - v.dot(w.w) <= kRelative * square) break;
+    NearestSimplex next = simplex;
+    if (add_point(next, w)) return false;
+    const Vec3 nearer = next.nearest();
+    if (!(nearer.squaredNorm() < square)) break;  // rounding: the last one was the nearest
+    simplex = next;
+    v = nearer;
+    square = v.squaredNorm();
+    if (square <= touching * touching) return false;
+  }
+  const double distance = std::sqrt(square);
+  out.status = out.steps < kMostSteps ? LpStatus::kOptimal : LpStatus::kPivotLimit;
+  out.nhat_AB_A = -v / distance;
+  out.gap = distance - c.radius;
+  out.p_A = simplex.on_body();
+  out.p_axis_A = simplex.on_axis();
+  return true;
+}
+
+// A facet's height over the axis: value + slope s at p0 + s (p1 - p0).
+struct Line {
+  std::uint32_t plane = Excess::kNone;
+  double value = 0, slope = 0;
+  double at(double s) const { return value + s * slope; }
+};
+
+class AxisProgramme {
+ public:
+  AxisProgramme(const ConvexBody& a, const Capsule& c)
+      : a_(a), c_(c), along_(c.p1 - c.p0), low_(highest_at(0)), high_(highest_at(1)) {}
+
+  CapsuleContact solve() {
+    CapsuleContact out;
+    double s = end_if_there();
+    while (s < 0) {
+      s = meeting();
+      const Line top = highest_at(s);
+      const double level = low_.at(s);
+      const bool done = !(top.at(s) > level + kTouching * a_.radius) || ++out.steps > kMostSteps;
+      if (done) break;
+      (top.slope < 0 ? low_ : high_) = top;
+      s = -1;
+    }
+    finish(out, s);
+    return out;
+  }
+
+ private:
+  Line highest_at(double s) const {
+    const Vec3 x = c_.p0 + s * along_;
+    const Excess e = most_exceeded(a_, x - a_.center, -std::numeric_limits<double>::infinity());
+    const Vec3 n = a_.normal(e.plane);
+    return {e.plane, n.dot(c_.p0) - a_.d[e.plane], n.dot(along_)};
+  }
+  // The optimum at an end of the axis, else -1.
+  double end_if_there() {
+    if (low_.slope >= 0) {
+      high_ = low_;
+      return 0;
+    }
+    if (high_.slope <= 0) {
+      low_ = high_;
+      return 1;
+    }
+    return -1;
+  }
+  double meeting() const {
+    return std::clamp((high_.value - low_.value) / (low_.slope - high_.slope), 0.0, 1.0);
+  }
+  // The two facets' normals weighted so that their mean does not change along the axis.
+  void finish(CapsuleContact& out, double s) const {
+    const double spread = high_.slope - low_.slope;
+    const double share = spread > 0 ? -low_.slope / spread : 0;
+    const Vec3 n = (1 - share) * a_.normal(low_.plane) + share * a_.normal(high_.plane);
+    const double length = n.norm();
+    out.status = length > 1e-9 ? LpStatus::kOptimal : LpStatus::kNumerical;
+    if (!(length > 1e-9)) return;
+    out.nhat_AB_A = n / length;
+    const double lowest = std::min(out.nhat_AB_A.dot(c_.p0), out.nhat_AB_A.dot(c_.p1));
+    out.gap = lowest - support(a_, out.nhat_AB_A) - c_.radius;
+    out.p_axis_A = c_.p0 + s * along_;
+    out.p_A = out.p_axis_A;
+  }
+
+  const ConvexBody& a_;
+  const Capsule& c_;
+  Vec3 along_;
+  Line low_, high_;
+};
+
+bool is_usable(const Capsule& c) {
+  return is_finite(c.p0) && is_finite(c.p1) && std::isfinite(c.radius) && c.radius >= 0;
+}
+
+}  // namespace
+
+CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A) {
+  CapsuleContact out;
+  if (!is_usable(capsule_A) || apart(a, capsule_A, out)) return out;
+  return AxisProgramme(a, capsule_A).solve();
+}
+
+ChainContact chain_contact(const ConvexBody& a, std::span<const Vec3> points_A, double radius) {
+  ChainContact best;
+  if (points_A.empty()) return best;
+  const std::size_t links = std::max<std::size_t>(1, points_A.size() - 1);
+  for (std::size_t i = 0; i < links; ++i) {
+    const Vec3& end = points_A[std::min(i + 1, points_A.size() - 1)];
+    const CapsuleContact contact = capsule_contact(a, {points_A[i], end, radius});
+    if (contact.status != LpStatus::kOptimal) return {contact, i};
+    if (i == 0 || contact.gap < best.contact.gap) best = {contact, i};
+  }
+  return best;
+}
+
+}  // namespace osteon

@@ -1,0 +1,42 @@
+#include "separation.h"
+
+#include <limits>
+
+namespace osteon {
+namespace {
+
+// Best facet of `a`, starting from a gap to beat. B's centre lies inside B, so that no facet can do
+// better than the centre's height over it: most facets are dismissed by that alone.
+bool improve(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, double& best,
+             std::uint32_t& facet) {
+  const Vec3 center_A = X_AB * b.center;
+  bool improved = false;
+  for (std::uint32_t i = 0; i < a.plane_count; ++i) {
+    const Vec3 n = a.normal(i);
+    if (n.dot(center_A) - a.d[i] <= best) continue;
+    const double gap = gap_along(a, b, X_AB, n);
+    if (gap <= best) continue;
+    best = gap;
+    facet = i;
+    improved = true;
+  }
+  return improved;
+}
+
+}  // namespace
+
+double gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A) {
+  const Vec3 n_B = X_AB.q.conjugate() * nhat_A;
+  return -(support(a, nhat_A) + (support(b, -n_B) - nhat_A.dot(X_AB.p)));
+}
+
+Separation least_overlap_facet(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB) {
+  Separation out;
+  out.gap = -std::numeric_limits<double>::infinity();
+  std::uint32_t facet = 0;
+  if (improve(a, b, X_AB, out.gap, facet)) out.nhat_AB_A = a.normal(facet);
+  if (improve(b, a, X_AB.inverse(), out.gap, facet)) out.nhat_AB_A = -(X_AB.q * b.normal(facet));
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "osteon/collide/convex_body.h"
+
+namespace osteon {
+
+/// Gap of the pair along a unit direction of A's frame, m: smallest height of B less largest of A.
+double gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A);
+
+struct Separation {
+  Vec3 nhat_AB_A = Vec3::UnitZ();
+  double gap = 0;
+};
+
+/// The facet normal of A, or reversed facet normal of B, along which the gap is largest (the
+/// overlap least). The gap is continuous in the pose. Visits every facet: for one body deep inside
+/// the other only.
+Separation least_overlap_facet(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB);
+
+}  // namespace osteon

@@ -1,0 +1,36 @@
+#include "usb_transport.h"
+
+namespace osteon {
+
+const char* describe(UsbError error) {
+  switch (error) {
+    case UsbError::kNone:
+      return "no error";
+    case UsbError::kStall:
+      return "the device refused the transfer (STALL)";
+    case UsbError::kTimeout:
+      return "the device did not answer in time";
+    case UsbError::kGone:
+      return "the device was unplugged";
+    case UsbError::kOverflow:
+      return "the device sent more than was asked for";
+    case UsbError::kShort:
+      return "the device took less than was sent";
+    case UsbError::kOther:
+      return "the system refused the transfer";
+  }
+  return "unknown";
+}
+
+UsbControlResult control_and_wait(UsbLink& link, const UsbSetup& setup,
+                                  std::span<const std::uint8_t> out, double timeout_s) {
+  if (!link.start_control(setup, out, timeout_s))
+    return {false, link.gone() ? UsbError::kGone : UsbError::kOther, {}};
+  // The transfer ends by its own time-out; this one guards against one that does not.
+  wait_until(link, timeout_s + 0.1, [&] { return !link.control().running; });
+  UsbControlResult result = link.control();
+  if (result.running) result = {false, UsbError::kTimeout, {}};
+  return result;
+}
+
+}  // namespace osteon

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nearest_point.h"
+#include "osteon/collide/broad_phase.h"
+#include "osteon/collide/lp_contact.h"
+#include "osteon/haptic/haptic_state.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/tool.h"
+
+namespace osteon {
+
+/// The proxy keeps this distance to every bone, so that rounding cannot carry it in, m.
+inline constexpr double kSkin = 1e-6;
+
+/// Most pairs of pieces that one tick looks at.
+inline constexpr std::size_t kMaxCandidates = 64;
+
+/// One piece of a bone beside one piece of the tool.
+struct PiecePair {
+  std::uint32_t bone = 0;
+  std::uint32_t piece = 0;
+  std::uint32_t tool_piece = 0;
+};
+
+/// Candidates of one tick.
+struct CandidateList {
+  std::array<std::uint32_t, kMaxCandidates> pair{};
+  std::uint32_t count = 0;
+};
+
+/// All pairs of one case and one tool, and the queries on them. Immutable; allocates in its
+/// constructor only.
+class ContactField {
+ public:
+  ContactField(const Case& the_case, const Tool& tool);
+
+  std::span<const PiecePair> pairs() const { return pairs_; }
+  /// Of the tool about its origin, m.
+  double tool_radius() const { return tool_radius_; }
+  const Bone& bone(std::uint32_t index) const { return case_.bones[index]; }
+
+  /// Pairs that may touch while the tool's origin is within `reach_m` of p_W, with each bone
+  /// anywhere between its two poses. False when there are more than the list holds.
+  bool collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
+               std::span<const Pose> now_WB, CandidateList& out) const;
+
+  /// Parts one pair at a pose. False when the contact programme could not be solved and
+  /// the line between their middles does not part them either.
+  bool separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, LpBasis& basis,
+                PartingPlane& out) const;
+
+  /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
+  /// by kSkin. Any x in it keeps the pair apart, wherever it is.
+  HalfSpace half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
+                       const Quat& q_WT) const;
+
+ private:
+  bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
+
+  const Case& case_;
+  const Tool& tool_;
+  BroadPhase broad_phase_;
+  std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
+  std::vector<std::uint32_t> first_pair_;  ///< of each bone
+  double tool_radius_ = 0;                 ///< about the tool's origin, m
+};
+
+}  // namespace osteon

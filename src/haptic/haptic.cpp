@@ -1,0 +1,338 @@
+#include "osteon/haptic/haptic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact_field.h"
+#include "coupling.h"
+#include "friction.h"
+#include "osteon/base/check.h"
+#include "osteon/base/hash.h"
+#include "osteon/haptic/haptic_state.h"
+#include "proxy_solver.h"
+#include "rigid_motion.h"
+
+namespace osteon {
+namespace {
+
+// Coordinates beyond this are a broken reading: their squares must stay finite.
+constexpr double kFarthest_m = 1e6;
+// A snapshot older than this is not carried forward any further.
+constexpr double kOldestSnapshot_s = 0.05;
+constexpr double kAnyWay = 1e9;
+
+bool usable(const Pose& X) {
+  return is_finite(X) && X.p.norm() < kFarthest_m && std::abs(X.q.norm() - 1) < 0.1;
+}
+
+bool usable(const ToolInput& input) {
+  return usable(input.X_WD) && is_finite(input.v_W) && is_finite(input.w_W);
+}
+
+bool usable(const BoneSnapshot& bones, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const BoneMotion& bone = bones.bones[i];
+    if (!usable(bone.X_WB) || !is_finite(bone.v_W) || !is_finite(bone.w_W)) return false;
+  }
+  return true;
+}
+
+// Load of the planes that hold the proxy, and the material under it.
+struct Load {
+  Vec3 stretch_W = Vec3::Zero();  // frictionless proxy - hand
+  Vec3 nhat_W = Vec3::UnitZ();
+  double sum = 0;  // of the planes' weights, m
+  double stiffness = 0;
+  double static_lag = 0;
+  double dynamic_lag = 0;
+  Vec3 v_bone_W = Vec3::Zero();
+  BoneId carrier;
+};
+
+}  // namespace
+
+struct HapticLoop::Impl {
+  std::shared_ptr<const Case> the_case;
+  std::shared_ptr<const Tool> tool;
+  ContactField field;
+  HapticState state;
+  std::array<Pose, kMaxBones> now_WB{};
+  std::array<BoneMotion, kMaxBones> motion{};
+
+  Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t)
+      : the_case(std::move(c)), tool(std::move(t)), field(*the_case, *tool) {
+    state.bone_count = static_cast<std::uint32_t>(the_case->bones.size());
+    state.pairs.resize(field.pairs().size());
+  }
+
+  std::span<const Pose> before() const { return {state.X_WB.data(), state.bone_count}; }
+  std::span<const Pose> now() const { return {now_WB.data(), state.bone_count}; }
+
+  void refuse_input();
+  void see_bones(const BoneSnapshot& bones, double age_s);
+  void place(const Pose& X_WD);
+  void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
+  Vec3 carried_base() const;
+  double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
+  double glide(const Vec3& hand_W) const;
+  Load load(const ProxyMove& move, const HapticParams& params) const;
+  void list_contacts(const ProxyMove& move);
+  Load letting_go(const HapticParams& params) const;
+  void feel(const ToolInput& input, const Vec3& hand_W, const Load& held, bool sticking,
+            const HapticParams& params);
+  void share_force(const ProxyMove& move, const Load& load);
+};
+
+void HapticLoop::Impl::refuse_input() {
+  state.tool.status = kTickInputNotFinite;
+  state.tool.force_W.setZero();
+  state.tool.contact_count = 0;
+}
+
+void HapticLoop::Impl::see_bones(const BoneSnapshot& bones, double age_s) {
+  const double age = std::isfinite(age_s) ? std::clamp(age_s, 0.0, kOldestSnapshot_s) : 0.0;
+  for (std::uint32_t i = 0; i < state.bone_count; ++i) {
+    motion[i] = i < bones.count ? bones.bones[i] : BoneMotion{the_case->bones[i].X_WB};
+    motion[i].X_WB = now_WB[i] = carried_forward(motion[i], age);
+  }
+}
+
+// Before the hand has been free once, nothing is felt: a start inside bone must not kick. The
+// proxy is put out of the bone where there is room within reach.
+void HapticLoop::Impl::place(const Pose& X_WD) {
+  constexpr double kNear = 0.001;
+  constexpr double kFar = 0.020;
+  ProxySolver solver(field, state.pairs);
+  ProxyTask task{X_WD, X_WD.p, X_WD.p, X_WD.q, kNear, false, now(), now()};
+  ProxyMove move = solver.move(task);
+  if (move.status & kTickProxyBlocked) {
+    task.reach_m = kFar;
+    move = solver.move(task);
+  }
+  state.armed = move.free;
+  state.sliding = false;
+  state.carrier = {};
+  state.tool.X_WP = {move.end(), move.q_WP};
+  state.tool.status |= move.status;
+  state.tool.force_W.setZero();
+  list_contacts(move);
+}
+
+// The proxy's last place, moved along with the bone that it rests on.
+Vec3 HapticLoop::Impl::carried_base() const {
+  const Vec3& p_W = state.tool.X_WP.p;
+  if (!state.carrier.valid()) return p_W;
+  const Pose& before_WB = state.X_WB[state.carrier.index];
+  const Pose& X_WB = now_WB[state.carrier.index];
+  const bool same = before_WB.p == X_WB.p && before_WB.q.coeffs() == X_WB.q.coeffs();
+  return same ? p_W : X_WB * (before_WB.inverse() * p_W);
+}
+
+// How far the proxy may go in this tick: to the hand and around what lies between, but no farther
+// than a brisk hand needs, so that few pieces come into question.
+double HapticLoop::Impl::reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const {
+  constexpr double kBrisk = 0.002;
+  constexpr double kRoom = 0.0005;
+  const double way = (hand_W - base_W).norm();
+  const double hand_step = (hand_W - state.tool.X_WD.p).norm();
+  double pushed = 0;
+  for (std::uint32_t i = 0; i < state.bone_count; ++i)
+    pushed = std::max(pushed, travel(state.X_WB[i], now_WB[i], base_W, field.tool_radius()));
+  return std::min(2 * way, std::max(kBrisk, 2 * hand_step)) + kRoom + 2 * pushed +
+         turn_rad * field.tool_radius();
+}
+
+// How far a proxy in contact may go in this tick: ahead of the hand's own speed by half of it and
+// 10 mm/s more.
+double HapticLoop::Impl::glide(const Vec3& hand_W) const {
+  constexpr double kCreep = 1e-5;
+  return kCreep + 1.5 * (hand_W - state.tool.X_WD.p).norm();
+}
+
+Load HapticLoop::Impl::load(const ProxyMove& move, const HapticParams& params) const {
+  Load out;
+  double largest = 0;
+  for (std::uint32_t i = 0; i < move.holding_count; ++i) {
+    const HoldingPlane& plane = move.holding[i];
+    const std::uint32_t bone = field.pairs()[plane.pair].bone;
+    const Material& material = field.bone(bone).material;
+    const double w = plane.weight;
+    out.sum += w;
+    out.stretch_W += w * plane.nhat_BT_W;
+    out.stiffness += w * std::min(params.stiffness_n_per_m, material.stiffness_n_per_m);
+    out.static_lag += w * params.friction_scale * material.static_friction;
+    out.dynamic_lag += w * params.friction_scale * material.dynamic_friction;
+    out.v_bone_W += w * velocity_at(motion[bone], plane.p_W);
+    if (w > largest) {
+      largest = w;
+      out.carrier = BoneId{bone};
+    }
+  }
+  if (!(out.sum > 0)) return out;
+  out.stiffness /= out.sum;
+  out.v_bone_W /= out.sum;
+  const double size = out.stretch_W.norm();
+  if (size > 0) out.nhat_W = out.stretch_W / size;
+  return out;
+}
+
+void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
+  // The points were found with the proxy at query_W; they belong to the tool's surface.
+  const Vec3 shift = state.tool.X_WP.p - move.query_W;
+  state.tool.contact_count = move.holding_count;
+  for (std::uint32_t i = 0; i < move.holding_count; ++i) {
+    const HoldingPlane& plane = move.holding[i];
+    const PiecePair& pair = field.pairs()[plane.pair];
+    state.tool.contacts[i] = {BoneId{pair.bone}, pair.piece,  plane.p_W + shift,
+                              plane.nhat_BT_W,   plane.depth, Vec3::Zero()};
+  }
+}
+
+// Splits the force on the hand among the contacts: the part along the load's normal as the planes'
+// weights say, the rest (friction) in the same proportion.
+void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load) {
+  const Vec3& force = state.tool.force_W;
+  const double size = load.stretch_W.norm();
+  if (!(load.sum > 0) || !(size > 0)) return;
+  const double normal = std::max(0.0, force.dot(load.nhat_W));
+  const Vec3 rest = force - normal * load.nhat_W;
+  for (std::uint32_t i = 0; i < move.holding_count; ++i) {
+    const HoldingPlane& plane = move.holding[i];
+    state.tool.contacts[i].force_on_tool_W =
+        (normal * plane.weight / size) * plane.nhat_BT_W + (plane.weight / load.sum) * rest;
+  }
+}
+
+void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
+                              const HapticParams& params) {
+  const Vec3 base_W = carried_base();
+  const Quat q = turned_towards(state.tool.X_WP.q, X_WD.q, params.max_turn_rad_per_tick);
+  const double room = reach(base_W, X_WD.p, params.max_turn_rad_per_tick);
+  const bool was_held = state.carrier.valid();
+  const ProxyTask task{state.tool.X_WP, base_W, X_WD.p, q, room, was_held, before(), now()};
+  const ProxyMove move = ProxySolver(field, state.pairs).move(task);
+  Load held = load(move, params);
+  const bool way_known = !(move.status & kTickSolverLimit);
+  if (was_held && way_known && !held.carrier.valid()) held = letting_go(params);
+
+  // A proxy that has just landed has no place yet to which friction could hold it.
+  const bool rested = was_held && held.carrier.valid();
+  const Friction friction =
+      rested ? Friction{held.static_lag, held.dynamic_lag, glide(X_WD.p)} : Friction{0, 0, kAnyWay};
+  const std::span<const Vec3> path(move.path.data(), move.path_count);
+  const FrictionStep step = apply_friction(path, friction, state.sliding);
+  if (move.free && step.p_W == X_WD.p) held.carrier = {};
+  state.sliding = step.sliding;
+  state.carrier = held.carrier;
+  state.tool.X_WP = {step.p_W, move.q_WP};
+  state.tool.status |= move.status | (step.sticking ? kTickSticking : kTickOk);
+  list_contacts(move);
+  feel(input, X_WD.p, held, step.sticking, params);
+  share_force(move, held);
+}
+
+// The hand has a free way to go, but the proxy may still be gliding after it, around an edge.
+Load HapticLoop::Impl::letting_go(const HapticParams& params) const {
+  Load out;
+  out.carrier = state.carrier;
+  const Material& material = field.bone(out.carrier.index).material;
+  out.stiffness = std::min(params.stiffness_n_per_m, material.stiffness_n_per_m);
+  out.v_bone_W = velocity_at(motion[out.carrier.index], state.tool.X_WP.p);
+  return out;
+}
+
+// Sets the force on the hand from the place that the proxy has taken.
+void HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Load& held,
+                            bool sticking, const HapticParams& params) {
+  Vec3 force = Vec3::Zero();
+  if (held.carrier.valid()) {
+    const Vec3 stretch = state.tool.X_WP.p - hand_W;
+    const double size = stretch.norm();
+    const bool loaded = held.sum > 0 || !(size > 0);
+    force = coupling_force({held.stiffness, params.damping_n_s_per_m, stretch,
+                            loaded ? held.nhat_W : Vec3(stretch / size), held.v_bone_W, input.v_W,
+                            sticking});
+  }
+  const ForceLimits limits{params.max_force_n, params.max_slew_n_per_s * params.tick_s};
+  force = limited_force(force, state.tool.force_W, limits, state.tool.status);
+  state.tool.force_W = params.force_on ? force : Vec3(Vec3::Zero());
+}
+
+HapticLoop::HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool) {
+  demand(the_case && tool && the_case->bones.size() <= kMaxBones,
+         "the haptic loop needs a tool and a case of at most kMaxBones bones");
+  impl_ = std::make_unique<Impl>(std::move(the_case), std::move(tool));
+}
+
+HapticLoop::~HapticLoop() = default;
+HapticLoop::HapticLoop(HapticLoop&&) noexcept = default;
+
+const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bones,
+                                  double bones_age_s, const HapticParams& params) noexcept {
+  Impl& in = *impl_;
+  ToolState& out = in.state.tool;
+  ++out.tick;
+  out.time_s = static_cast<double>(out.tick) * params.tick_s;
+  const std::size_t seen = std::min<std::size_t>(bones.count, in.state.bone_count);
+  if (!usable(input) || !usable(bones, seen)) {
+    in.refuse_input();
+    return out;
+  }
+  out.status = kTickOk;
+  out.buttons = input.buttons;
+  const Pose X_WD{input.X_WD.p, input.X_WD.q.normalized()};
+  in.see_bones(bones, bones_age_s);
+  if (in.state.armed) {
+    in.follow(input, X_WD, params);
+  } else {
+    in.place(X_WD);
+  }
+  out.X_WD = X_WD;
+  std::copy_n(in.now_WB.begin(), in.state.bone_count, in.state.X_WB.begin());
+  return out;
+}
+
+void HapticLoop::reset() {
+  HapticState fresh;
+  fresh.bone_count = impl_->state.bone_count;
+  fresh.pairs.resize(impl_->field.pairs().size());
+  impl_->state = std::move(fresh);
+}
+
+std::uint64_t HapticLoop::state_hash() const {
+  const HapticState& s = impl_->state;
+  Hasher h;
+  h.add(s.tool.tick);
+  h.add(s.tool.X_WD);
+  h.add(s.tool.X_WP);
+  h.add(s.tool.force_W);
+  h.add(s.tool.buttons);
+  h.add(s.tool.status);
+  h.add(s.armed);
+  h.add(s.sliding);
+  h.add(s.carrier.index);
+  for (std::uint32_t i = 0; i < s.bone_count; ++i) h.add(s.X_WB[i]);
+  for (const PairMemory& pair : s.pairs) {
+    h.add(pair.basis.count);
+    for (std::uint8_t i = 0; i < pair.basis.count; ++i) h.add(pair.basis.rows[i]);
+    h.add(pair.known);
+    if (!pair.known) continue;
+    h.add(pair.plane.nhat_BT_B);
+    h.add(pair.plane.bone_support);
+    h.add(pair.plane.p_B);
+  }
+  return h.value();
+}
+
+std::unique_ptr<HapticState> HapticLoop::save() const {
+  return std::make_unique<HapticState>(impl_->state);
+}
+
+void HapticLoop::restore(const HapticState& state) {
+  demand(state.bone_count == impl_->state.bone_count &&
+             state.pairs.size() == impl_->state.pairs.size(),
+         "a haptic state can be restored only into a loop over the same case and tool");
+  impl_->state = state;
+}
+
+}  // namespace osteon

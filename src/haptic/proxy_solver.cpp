@@ -1,0 +1,195 @@
+#include "proxy_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/scene/state.h"
+
+namespace osteon {
+namespace {
+
+// The proxy stands still when a round moves it less than this, m.
+constexpr double kStill = 1e-7;
+// A plane with a larger gap, m, does not start a contact: it is only a bound that the next round or
+// tick will refine. It does not end one either: on its way over an edge the proxy may be so far.
+constexpr double kTouch = 2e-5;
+
+Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const Vec3& to) {
+  if ((to - center).squaredNorm() <= radius * radius) return to;
+  // Largest s with |from + s (to - from) - center| <= radius.
+  const Vec3 d = to - from;
+  const Vec3 f = from - center;
+  const double a = d.squaredNorm();
+  const double b = f.dot(d);
+  const double c = f.squaredNorm() - radius * radius;
+  const double s = (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
+  return from + std::clamp(s, 0.0, 1.0) * d;
+}
+
+bool inside_all(std::span<const HalfSpace> planes, const Vec3& x) {
+  for (const HalfSpace& plane : planes)
+    if (plane.n.dot(x) - plane.c < -kPlaneTolerance) return false;
+  return true;
+}
+
+}  // namespace
+
+// A way with more pieces than the list holds is taken in shorter stretches.
+bool ProxySolver::gather(const ProxyTask& task) {
+  constexpr double kShortest = 1e-5;
+  for (; reach_m_ >= kShortest; reach_m_ *= 0.5)
+    if (field_.collect(task.base_W, reach_m_, task.before_WB, task.now_WB, near_)) return true;
+  near_.count = 0;
+  return false;
+}
+
+// Parts one candidate at a pose, and remembers the plane.
+bool ProxySolver::part(std::uint32_t i, std::span<const Pose> X_WB, const Pose& X_WT) {
+  const std::uint32_t pair = near_.pair[i];
+  const Pose& bone = X_WB[field_.pairs()[pair].bone];
+  PairMemory& memory = memory_[pair];
+  if (!field_.separate(pair, bone, X_WT, memory.basis, parting_[i])) return false;
+  memory.plane = parting_[i];
+  memory.known = true;
+  return true;
+}
+
+// A plane that parted a pair once lies beside the bone for ever. While the tool is beyond it, it
+// will do: only a plane that comes to hold the proxy is worth finding again.
+bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
+  for (std::uint32_t i = 0; i < near_.count; ++i) {
+    const std::uint32_t pair = near_.pair[i];
+    const PairMemory& memory = memory_[pair];
+    if (memory.known) {
+      const Pose& bone = X_WB[field_.pairs()[pair].bone];
+      const HalfSpace plane = field_.half_space(pair, memory.plane, bone, X_WT.q);
+      const double slack = plane.n.dot(X_WT.p) - plane.c;
+      if (slack >= 0) {
+        parting_[i] = memory.plane;
+        parting_[i].gap = slack + kSkin;
+        continue;
+      }
+    }
+    if (!part(i, X_WB, X_WT)) return false;
+  }
+  return true;
+}
+
+void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
+  for (std::uint32_t i = 0; i < near_.count; ++i) {
+    const std::uint32_t pair = near_.pair[i];
+    const Pose& bone = X_WB[field_.pairs()[pair].bone];
+    planes_[i] = field_.half_space(pair, parting_[i], bone, q_WT);
+  }
+}
+
+// Puts the start of the path at the free point nearest to the task's start.
+bool ProxySolver::enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move) {
+  raise_planes(task.now_WB, q_WP);
+  const NearestPoint start = nearest_point(planes(), task.base_W);
+  if (!start.found || (start.x - task.base_W).norm() > reach_m_) return false;
+  move.q_WP = q_WP;
+  move.path[0] = start.x;
+  move.path_count = 1;
+  return true;
+}
+
+// Bones pinch the proxy: let it go wherever no overlap grows.
+void ProxySolver::leave_overlap(const ProxyTask& task, ProxyMove& move) {
+  raise_planes(task.now_WB, task.X_WP.q);
+  for (std::uint32_t i = 0; i < near_.count; ++i)
+    planes_[i].c = std::min(planes_[i].c, planes_[i].n.dot(task.base_W));
+  move.status |= kTickProxyBlocked;
+  move.q_WP = task.X_WP.q;
+  move.path[0] = task.base_W;
+  move.path_count = 1;
+  NearestPoint target;
+  if (step_towards(task, move, target)) note_holding(task, target, move);
+}
+
+bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) const {
+  target = nearest_point(planes(), task.hand_W);
+  if (!target.found) {
+    move.status |= kTickSolverLimit;
+    return false;
+  }
+  const Vec3 from = move.end();
+  move.path[move.path_count++] = clipped_to_ball(task.base_W, reach_m_, from, target.x);
+  return true;
+}
+
+// New planes at the path's end for the pairs that hold it back. The depth programme weighs
+// distances, so its plane may ask for a little more room than the last one gave: less than the
+// skin, which is granted if there is any.
+bool ProxySolver::look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) {
+  for (std::uint32_t k = 0; k < target.active_count; ++k)
+    if (!part(target.active[k], task.now_WB, {move.end(), move.q_WP})) {
+      move.status |= kTickSolverLimit;
+      return false;
+    }
+  raise_planes(task.now_WB, move.q_WP);
+  move.query_W = move.end();
+  if (inside_all(planes(), move.end())) return true;
+  const NearestPoint lifted = nearest_point(planes(), move.end());
+  if (!lifted.found || (lifted.x - move.end()).norm() > 10 * kSkin) return false;
+  move.path[move.path_count - 1] = lifted.x;
+  return true;
+}
+
+void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target,
+                               ProxyMove& move) const {
+  move.holding_count = 0;
+  for (std::uint32_t k = 0; k < target.active_count; ++k) {
+    const std::uint32_t i = target.active[k];
+    if (parting_[i].gap > kTouch && !task.held) continue;
+    const std::uint32_t pair = near_.pair[i];
+    const Pose& bone = task.now_WB[field_.pairs()[pair].bone];
+    const double depth = planes_[i].c - planes_[i].n.dot(task.hand_W);
+    move.holding[move.holding_count++] = {pair, planes_[i].n, target.weight[k], depth,
+                                          bone * parting_[i].p_B};
+  }
+}
+
+bool ProxySolver::touching(const NearestPoint& target) const {
+  for (std::uint32_t k = 0; k < target.active_count; ++k)
+    if (parting_[target.active[k]].gap > kTouch) return false;
+  return true;
+}
+
+void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
+  for (move.rounds = 1; move.rounds < ProxyMove::kMaxRounds; ++move.rounds) {
+    const Vec3 from = move.end();
+    NearestPoint target;
+    if (!step_towards(task, move, target)) break;
+    note_holding(task, target, move);
+    move.free = target.active_count == 0 && move.end() == task.hand_W;
+    // A plane whose gap was measured before bone or tool moved is looked at again.
+    const bool felt = touching(target) || move.rounds > 1;
+    if (move.free || (felt && (move.end() - from).norm() < kStill)) break;
+    if (!look_again(task, target, move)) break;
+  }
+}
+
+ProxyMove ProxySolver::move(const ProxyTask& task) {
+  ProxyMove move;
+  move.q_WP = task.X_WP.q;
+  move.path[0] = task.base_W;
+  move.path_count = 1;
+  move.query_W = task.X_WP.p;
+  reach_m_ = task.reach_m;
+  if (!gather(task) || !part_all(task.before_WB, task.X_WP)) {
+    move.status = kTickSolverLimit;
+    return move;
+  }
+  if (enter_free_space(task, task.q_WP, move)) {
+    approach(task, move);
+  } else if (enter_free_space(task, task.X_WP.q, move)) {
+    move.status |= kTickRotationHeld;
+    approach(task, move);
+  } else {
+    leave_overlap(task, move);
+  }
+  return move;
+}
+
+}  // namespace osteon

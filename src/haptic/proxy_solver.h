@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "contact_field.h"
+#include "nearest_point.h"
+#include "osteon/base/types.h"
+
+namespace osteon {
+
+/// What the proxy is asked to do in one tick.
+struct ProxyTask {
+  Pose X_WP;                   ///< where it was, free of the bones in their poses before
+  Vec3 base_W = Vec3::Zero();  ///< where it starts: X_WP.p, carried along by the bone it rests on
+  Vec3 hand_W = Vec3::Zero();  ///< where it is drawn to
+  Quat q_WP;                   ///< how it should be turned
+  double reach_m = 0;          ///< it stays within this distance of its start
+  bool held = false;           ///< bone held it in the last tick
+  std::span<const Pose> before_WB;
+  std::span<const Pose> now_WB;
+};
+
+/// A plane of bone that holds the proxy back.
+struct HoldingPlane {
+  std::uint32_t pair = 0;
+  Vec3 nhat_BT_W = Vec3::UnitZ();
+  double weight = 0;        ///< m: the planes' weights times normals add up to proxy - hand
+  double depth = 0;         ///< of the hand behind this plane, m
+  Vec3 p_W = Vec3::Zero();  ///< contact point, when the tool's origin is at the move's `query_W`
+};
+
+/// The proxy without friction. The path from its start to its end, straight between its points,
+/// is free of bone as they are.
+struct ProxyMove {
+  static constexpr std::size_t kMaxRounds = 8;
+  Quat q_WP;
+  std::array<Vec3, kMaxRounds + 1> path{};
+  std::uint32_t path_count = 0;
+  std::array<HoldingPlane, 3> holding{};
+  std::uint32_t holding_count = 0;  ///< without touch: none, unless the task says `held`
+  Vec3 query_W = Vec3::Zero();
+  std::uint32_t status = 0;  ///< TickStatus bits
+  std::uint32_t rounds = 0;
+  bool free = false;  ///< nothing lies between the proxy and the hand
+
+  const Vec3& end() const { return path[path_count - 1]; }
+};
+
+/// Moves the proxy to the point nearest to the hand that it can reach without entering bone.
+///
+/// Each candidate pair is parted by a plane (the depth programme's normal, with the exact supports
+/// of both pieces in its direction). Any place beyond all planes is free, and so is the straight
+/// way to it, since half-spaces are convex: the proxy cannot tunnel, however far the hand jumps.
+/// The planes of the last free pose are valid in the new one with the new supports, so neither a
+/// turn of the tool nor a moving bone lets it slip to a bone's other side. Then the planes are
+/// that hold it are found again at the new place until it stands still (Zilles and Salisbury's
+/// god-object, IROS 1995, with one convex local region a round).
+class ProxySolver {
+ public:
+  ProxySolver(const ContactField& field, std::span<PairMemory> memory)
+      : field_(field), memory_(memory) {}
+  ProxyMove move(const ProxyTask& task);
+
+ private:
+  bool gather(const ProxyTask& task);
+  bool part(std::uint32_t i, std::span<const Pose> X_WB, const Pose& X_WT);
+  bool part_all(std::span<const Pose> X_WB, const Pose& X_WT);
+  void raise_planes(std::span<const Pose> X_WB, const Quat& q_WT);
+  bool enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move);
+  void leave_overlap(const ProxyTask& task, ProxyMove& move);
+  void approach(const ProxyTask& task, ProxyMove& move);
+  bool step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) const;
+  bool look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move);
+  bool touching(const NearestPoint& target) const;
+  void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
+  std::span<const HalfSpace> planes() const { return {planes_.data(), near_.count}; }
+
+  const ContactField& field_;
+  std::span<PairMemory> memory_;
+  CandidateList near_;
+  std::array<PartingPlane, kMaxCandidates> parting_{};
+  std::array<HalfSpace, kMaxCandidates> planes_{};
+  double reach_m_ = 0;
+};
+
+}  // namespace osteon

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "osteon/base/types.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// Pose of a bone `age_s` after its snapshot, moving on with its velocities. The rotation over the
+/// age is the Cayley map's, which differs from the exact one by (w age)^3 / 12 rad.
+Pose carried_forward(const BoneMotion& motion, double age_s);
+
+/// From `from` towards `to` by the shorter way, by at most `limit_rad`. Unit quaternions.
+Quat turned_towards(const Quat& from, const Quat& to, double limit_rad);
+
+/// Velocity of the bone's material at p_W.
+Vec3 velocity_at(const BoneMotion& motion, const Vec3& p_W);
+
+/// How far the material of a moving bone goes at most within `reach_m` of p_W, m.
+double travel(const Pose& before_WB, const Pose& now_WB, const Vec3& p_W, double reach_m);
+
+}  // namespace osteon

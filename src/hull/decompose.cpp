@@ -1,0 +1,356 @@
+#include "osteon/hull/decompose.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "clip.h"
+#include "excess.h"
+#include "height_grid.h"
+#include "osteon/mesh/measure.h"
+#include "outer_surface.h"
+
+namespace osteon {
+namespace {
+
+using hull::Excess;
+using hull::HeightGrid;
+
+/// A part of the solid: what lies in some convex cells.
+struct Shape {
+  TriMesh surface;             ///< of the whole mesh, clipped
+  TriMesh coarse;              ///< of the mesh in which cuts are looked for, clipped
+  std::vector<TriMesh> cells;  ///< convex, closed
+};
+
+struct Part {
+  std::uint32_t id = 0;  ///< never used twice
+  Shape shape;
+  Hull hull;
+  Excess excess;               ///< of `hull`
+  Aabb box;                    ///< of `hull`
+  std::vector<Vec3> extremes;  ///< corners of `hull` that lie outermost in some directions
+  bool stuck = false;          ///< no cut was found
+};
+
+std::vector<Vec3> extremes_of(const Hull& hull) {
+  std::vector<Vec3> out;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Vec3 n(x, y, z);
+        const auto farthest =
+            std::max_element(hull.vertices.begin(), hull.vertices.end(),
+                             [&](const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b); });
+        if (n != Vec3::Zero()) out.push_back(*farthest);
+      }
+  return out;
+}
+
+/// One vertex a cell of a grid: the first of the mesh in it. Triangles within a cell vanish.
+TriMesh coarsened(const TriMesh& mesh, double cell) {
+  struct Keyed {
+    std::array<std::int64_t, 3> cell;
+    std::uint32_t vertex;
+  };
+  const Aabb box = bounds(mesh);
+  std::vector<Keyed> keyed;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 u = (mesh.vertices[v] - box.lo) / cell;
+    keyed.push_back({{static_cast<std::int64_t>(u.x()), static_cast<std::int64_t>(u.y()),
+                      static_cast<std::int64_t>(u.z())},
+                     v});
+  }
+  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.vertex < b.vertex;
+  });
+  TriMesh out;
+  std::vector<std::uint32_t> of_vertex(mesh.vertices.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    if (i == 0 || keyed[i].cell != keyed[i - 1].cell)
+      out.vertices.push_back(mesh.vertices[keyed[i].vertex]);
+    of_vertex[keyed[i].vertex] = static_cast<std::uint32_t>(out.vertices.size() - 1);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle s{of_vertex[t[0]], of_vertex[t[1]], of_vertex[t[2]]};
+    if (s[0] != s[1] && s[1] != s[2] && s[2] != s[0]) out.triangles.push_back(s);
+  }
+  return out;
+}
+
+void append(TriMesh& to, const TriMesh& from) {
+  const auto first = static_cast<std::uint32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const Triangle& t : from.triangles)
+    to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+TriMesh box_mesh(const Aabb& box) {
+  std::vector<Vec3> corners;
+  for (const double x : {box.lo.x(), box.hi.x()})
+    for (const double y : {box.lo.y(), box.hi.y()})
+      for (const double z : {box.lo.z(), box.hi.z()}) corners.emplace_back(x, y, z);
+  return to_mesh(*build_hull(corners).hull);
+}
+
+/// What of the cells lies on the plane's side that `pick` takes. A sliver without volume vanishes.
+template <class Pick>
+std::vector<TriMesh> clip_cells(const std::vector<TriMesh>& cells, const Plane& plane,
+                                const Pick& pick) {
+  std::vector<TriMesh> out;
+  for (const TriMesh& cell : cells) {
+    const HullOutcome outcome = build_hull(pick(hull::clip(cell, plane)).vertices);
+    if (outcome.hull) out.push_back(to_mesh(*outcome.hull));
+  }
+  return out;
+}
+
+class Decomposer {
+ public:
+  Decomposer(const TriMesh& mesh, const DecomposeOptions& options)
+      : options_(options), grid_(mesh, options.search_cell_m) {
+    constexpr double kCoarser = 1.5;
+    const Aabb box = bounds(mesh).grown(options.search_cell_m);
+    (void)add({mesh, coarsened(mesh, kCoarser * options.search_cell_m), {box_mesh(box)}});
+  }
+
+  Decomposition run() {
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round) {
+      while (parts_.size() < options_.max_pieces && cut_worst()) {
+      }
+      if (!merge_all()) break;
+    }
+    return finish();
+  }
+
+ private:
+  /// Hull of the solid in the cells: of its surface there and the cells' corners inside.
+  std::optional<Hull> hull_of(const TriMesh& surface, const std::vector<TriMesh>& cells) {
+    std::vector<Vec3> points = surface.vertices;
+    for (const TriMesh& cell : cells)
+      for (const Vec3& corner : cell.vertices)
+        if (grid_.at(corner) <= 0) points.push_back(corner);
+    return build_hull(points).hull;
+  }
+
+  bool add(Shape shape) {
+    Part part;
+    auto solid = hull_of(shape.surface, shape.cells);
+    if (!solid) return false;
+    part.shape = std::move(shape);
+    part.hull = std::move(*solid);
+    part.id = next_id_++;
+    part.excess = hull::excess(part.hull, grid_, options_.search_cell_m);
+    for (const Vec3& v : part.hull.vertices) part.box.include(v);
+    part.extremes = extremes_of(part.hull);
+    parts_.push_back(std::move(part));
+    return true;
+  }
+
+  std::size_t worst() const {
+    std::size_t worst = parts_.size();
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (!parts_[i].stuck &&
+          (worst == parts_.size() || parts_[i].excess.height > parts_[worst].excess.height))
+        worst = i;
+    return worst;
+  }
+
+  /// Cuts the part that stands highest. False when there is nothing to cut.
+  bool cut_worst() {
+    const std::size_t i = worst();
+    if (i == parts_.size() || parts_[i].excess.height <= options_.concavity_m) return false;
+    const auto plane = best_cut(parts_[i]);
+    if (plane && cut(i, *plane)) return true;
+    parts_[i].stuck = true;
+    return true;
+  }
+
+  bool cut(std::size_t i, const Plane& plane) {
+    const Shape& whole = parts_[i].shape;
+    auto [fine_below, fine_above] = hull::clip(whole.surface, plane);
+    auto [coarse_below, coarse_above] = hull::clip(whole.coarse, plane);
+    Shape below{std::move(fine_below), std::move(coarse_below), cells_below(whole.cells, plane)};
+    Shape above{std::move(fine_above), std::move(coarse_above), cells_above(whole.cells, plane)};
+    if (!add(std::move(below))) return false;
+    if (!add(std::move(above))) {
+      parts_.pop_back();
+      return false;
+    }
+    take(i);
+    return true;
+  }
+
+  static std::vector<TriMesh> cells_below(const std::vector<TriMesh>& cells, const Plane& plane) {
+    return clip_cells(cells, plane,
+                      [](const auto& sides) -> const TriMesh& { return sides.first; });
+  }
+  static std::vector<TriMesh> cells_above(const std::vector<TriMesh>& cells, const Plane& plane) {
+    return clip_cells(cells, plane,
+                      [](const auto& sides) -> const TriMesh& { return sides.second; });
+  }
+
+  Part take(std::size_t i) {
+    Part part = std::move(parts_[i]);
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
+    return part;
+  }
+
+  /// The cut that leaves least standing over the mesh.
+  std::optional<Plane> best_cut(const Part& part) {
+    const auto cut = best_of(part, notches(part));
+    return cut ? cut : best_of(part, halves(part));
+  }
+
+  std::optional<Plane> best_of(const Part& part, const std::vector<Plane>& cuts) {
+    std::optional<Plane> best;
+    double least = 1e300;
+    for (const Plane& plane : cuts) {
+      const auto cost = cost_of(part, plane);
+      if (!cost || *cost >= least) continue;
+      least = *cost;
+      best = plane;
+    }
+    return best;
+  }
+
+  /// Planes across, for a part whose notch cannot be told (in the middle of a hole).
+  static std::vector<Plane> halves(const Part& part) {
+    std::vector<Plane> cuts;
+    for (const Vec3& through : {part.excess.at, part.box.center()})
+      for (Eigen::Index k = 0; k < 3; ++k) cuts.push_back({Vec3::Unit(k), through[k]});
+    return cuts;
+  }
+
+  /// Planes through the deepest place and along its normal, turned about it.
+  std::vector<Plane> notches(const Part& part) {
+    std::vector<Plane> cuts;
+    const Vec3 up = grid_.upwards(part.excess.at);
+    if (up == Vec3::Zero()) return cuts;
+    const Vec3 deepest = part.excess.at - grid_.at(part.excess.at) * up;
+    const Vec3 any = std::abs(up.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
+    const Vec3 e1 = up.cross(any).normalized();
+    const Vec3 e2 = up.cross(e1);
+    constexpr int kDirections = 8;
+    for (int k = 0; k < kDirections; ++k) {
+      // Half a circle without trigonometry: points of a square, then unit length.
+      const double f = 2.0 * k / kDirections;
+      const Vec3 n =
+          (f <= 1 ? Vec3(e1 + (2 * f - 1) * e2) : Vec3((3 - 2 * f) * e1 + e2)).normalized();
+      cuts.push_back({n, n.dot(deepest)});
+    }
+    return cuts;
+  }
+
+  std::optional<double> cost_of(const Part& part, const Plane& plane) {
+    const auto [below, above] = hull::clip(part.shape.coarse, plane);
+    const auto a = moment_of(below, cells_below(part.shape.cells, plane));
+    if (!a) return std::nullopt;
+    const auto b = moment_of(above, cells_above(part.shape.cells, plane));
+    if (!b) return std::nullopt;
+    return *a + *b;
+  }
+
+  std::optional<double> moment_of(const TriMesh& coarse, const std::vector<TriMesh>& cells) {
+    const auto solid = hull_of(coarse, cells);
+    if (!solid) return std::nullopt;
+    return hull::excess(*solid, grid_, 2 * options_.search_cell_m).moment;
+  }
+
+  /// Joins the pairs that need no cut, the flattest first; with all pieces in use also those that
+  /// stand far lower than the worst piece, so that it can be cut further. False without any.
+  bool merge_all() {
+    constexpr double kWorthIt = 0.6;
+    double limit = options_.concavity_m;
+    const std::size_t w = worst();
+    if (parts_.size() >= options_.max_pieces && w < parts_.size())
+      limit = std::max(limit, kWorthIt * parts_[w].excess.height);
+    bool merged = false;
+    while (merge_flattest(limit)) merged = true;
+    return merged;
+  }
+
+  bool merge_flattest(double limit) {
+    std::size_t a = 0, b = 0;
+    double flattest = limit;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      for (std::size_t j = i + 1; j < parts_.size(); ++j) {
+        if (std::max(parts_[i].excess.height, parts_[j].excess.height) > flattest) continue;
+        if (!parts_[i].box.overlaps(parts_[j].box)) continue;
+        if (rises_above(parts_[i], parts_[j], limit)) continue;
+        const double height = height_together(parts_[i], parts_[j]);
+        if (height > flattest || (height == flattest && b > 0)) continue;
+        flattest = height;
+        a = i;
+        b = j;
+      }
+    if (b == 0) return false;
+    Shape joined = parts_[a].shape;
+    const Shape& other = parts_[b].shape;
+    append(joined.surface, other.surface);
+    append(joined.coarse, other.coarse);
+    joined.cells.insert(joined.cells.end(), other.cells.begin(), other.cells.end());
+    if (!add(std::move(joined))) return false;
+    take(b);
+    take(a);
+    return true;
+  }
+
+  /// True when a straight line between the two stands higher than that: so does their hull then.
+  /// Settles most pairs without one.
+  bool rises_above(const Part& a, const Part& b, double limit) {
+    for (const Vec3& p : a.extremes)
+      for (const Vec3& q : b.extremes)
+        for (const double share : {0.5, 0.25, 0.75}) {
+          const Vec3 x = p + share * (q - p);
+          if (grid_.at(x) > limit) return true;
+        }
+    return false;
+  }
+
+  double height_together(const Part& a, const Part& b) {
+    const auto [known, fresh] = together_.try_emplace({a.id, b.id}, 1e300);
+    if (!fresh) return known->second;
+    std::vector<Vec3> points = a.hull.vertices;
+    points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
+    const HullOutcome outcome = build_hull(points);
+    if (outcome.hull)
+      known->second = hull::excess(*outcome.hull, grid_, options_.search_cell_m).height;
+    return known->second;
+  }
+
+  Decomposition finish() {
+    Decomposition out;
+    for (Part& part : parts_) {
+      out.concavity_m = std::max(out.concavity_m, part.excess.height);
+      // From its corners alone: so it can be built again without the mesh, bit for bit.
+      HullOutcome piece = build_hull(part.hull.vertices);
+      assert(piece.hull);
+      out.pieces.push_back(std::move(*piece.hull));
+    }
+    return out;
+  }
+
+  DecomposeOptions options_;
+  HeightGrid grid_;
+  std::vector<Part> parts_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> together_;
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace
+
+std::optional<Decomposition> decompose(const TriMesh& mesh, const DecomposeOptions& options) {
+  assert(options.max_pieces > 0);
+  HullOutcome whole = build_hull(mesh.vertices);
+  if (!whole.hull) return std::nullopt;
+  if (options.max_pieces == 1 || !topology(mesh).closed())
+    return Decomposition{{std::move(*whole.hull)}, 0};
+  return Decomposer(hull::outer_surface(mesh), options).run();
+}
+
+}  // namespace osteon

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "osteon/mesh/distance.h"
+
+namespace osteon::hull {
+
+/// Signed distance to a closed mesh, interpolated between the nodes of a grid. A node is looked up
+/// in the mesh when it is first needed: a search asks millions of times about the same few places.
+class HeightGrid {
+ public:
+  HeightGrid(const TriMesh& mesh, double cell_m);
+
+  /// Height of a point over the surface (negative inside), m, trilinear; outside the grid that of
+  /// the nearest place inside.
+  double at(const Vec3& p);
+  /// Direction in which the height rises, unit; zero where it does not.
+  Vec3 upwards(const Vec3& p);
+  double cell() const { return cell_; }
+
+ private:
+  using Node = std::array<int, 3>;
+  double value(const Node& node);
+
+  MeshDistance exact_;
+  Vec3 lo_;
+  double cell_;
+  Node size_{};                       // nodes
+  Node blocks_{};                     // blocks of nodes
+  std::vector<std::uint32_t> first_;  // of each block in `values_`; kNone where none is known
+  std::vector<double> values_;        // NaN where not known
+};
+
+}  // namespace osteon::hull

@@ -1,0 +1,163 @@
+#include <gdcmImageReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+#include "dicom_stack.h"
+#include "osteon/image/dicom.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kAir = -1024;
+
+Result<std::vector<DicomHeader>> headers_of(const DicomSeries& series) {
+  std::vector<DicomHeader> headers;
+  for (const auto& file : series.files) {
+    auto header = read_dicom_header(file);
+    if (!header) return tl::unexpected(header.error());
+    headers.push_back(std::move(*header));
+  }
+  return headers;
+}
+
+Result<DicomStack> stack_of(const DicomSeries& series) {
+  auto headers = headers_of(series);
+  if (!headers) return tl::unexpected(headers.error());
+  return stack_slices(std::move(*headers), "series " + std::to_string(series.number));
+}
+
+template <class T>
+void to_hu(const std::vector<char>& bytes, const DicomHeader& slice, std::int16_t* out) {
+  const auto* stored = reinterpret_cast<const T*>(bytes.data());
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double hu = stored[n] * slice.slope + slice.intercept;
+    out[n] = static_cast<std::int16_t>(std::lround(std::clamp(hu, -32768.0, 32767.0)));
+  }
+}
+
+Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::int16_t* out) {
+  const std::string file = slice.file.string();
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const gdcm::PixelFormat& format = image.GetPixelFormat();
+  if (format.GetSamplesPerPixel() != 1)
+    return fail("is a colour picture", file, "Choose the series of the CT slices");
+  const std::size_t length = image.GetBufferLength();
+  std::vector<char> bytes(length);
+  if (length != count * format.GetPixelSize() || !image.GetBuffer(bytes.data()))
+    return fail("holds fewer pixels than it says, or in a compression that cannot be unpacked",
+                file, "Copy or export the series again, best uncompressed");
+  switch (format.GetScalarType()) {
+    case gdcm::PixelFormat::INT16:
+      to_hu<std::int16_t>(bytes, slice, out);
+      return {};
+    case gdcm::PixelFormat::UINT16:
+      to_hu<std::uint16_t>(bytes, slice, out);
+      return {};
+    case gdcm::PixelFormat::INT12:
+      to_hu<std::int16_t>(bytes, slice, out);
+      return {};
+    case gdcm::PixelFormat::UINT12:
+      to_hu<std::uint16_t>(bytes, slice, out);
+      return {};
+    case gdcm::PixelFormat::INT8:
+      to_hu<std::int8_t>(bytes, slice, out);
+      return {};
+    case gdcm::PixelFormat::UINT8:
+      to_hu<std::uint8_t>(bytes, slice, out);
+      return {};
+    default:
+      return fail("has pixels of an unusual kind", file, "Export it as 16-bit CT");
+  }
+}
+
+Result<void> read_slice(const DicomHeader& slice, std::int16_t* out) {
+  const auto broken = [&] {
+    return fail("is truncated or damaged: its pixels cannot be read", slice.file.string(),
+                "Copy or export the series again");
+  };
+  auto bytes = read_dicom_bytes(slice.file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  try {
+    std::istringstream stream(std::move(*bytes));
+    gdcm::ImageReader reader;
+    reader.SetStream(stream);
+    if (!reader.Read()) return broken();
+    return convert(reader.GetImage(), slice, out);
+  } catch (const std::exception&) {
+    return broken();
+  }
+}
+
+/// Value of a slice between its pixels; air outside.
+double sample(const std::int16_t* slice, const GridFrame& frame, double i, double j) {
+  const int i0 = static_cast<int>(std::floor(i)), j0 = static_cast<int>(std::floor(j));
+  const auto at = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= frame.size[0] || y >= frame.size[1]) return kAir;
+    return static_cast<double>(slice[frame.index(x, y, 0)]);
+  };
+  const double u = i - i0, v = j - j0;
+  return (1 - v) * ((1 - u) * at(i0, j0) + u * at(i0 + 1, j0)) +
+         v * ((1 - u) * at(i0, j0 + 1) + u * at(i0 + 1, j0 + 1));
+}
+
+/// The upright grid that holds every slice of a tilted stack.
+GridFrame upright(const DicomStack& stack) {
+  GridFrame frame = stack.frame;
+  for (std::size_t a = 0; a < 2; ++a) {
+    double lo = 0, hi = 0;
+    for (const auto& shift : stack.shift_m) {
+      lo = std::min(lo, shift[a]);
+      hi = std::max(hi, shift[a]);
+    }
+    const int axis = static_cast<int>(a);
+    frame.origin_P += lo * frame.axes_P.col(axis);
+    frame.size[a] += static_cast<int>(std::ceil((hi - lo) / frame.spacing_m[axis]));
+  }
+  return frame;
+}
+
+void place_tilted(const DicomStack& stack, const std::vector<std::int16_t>& slice, std::size_t k,
+                  Volume& volume) {
+  const Vec3 from = stack.frame.axes_P.transpose() * (volume.frame.origin_P - stack.frame.origin_P);
+  const double di = (from.x() - stack.shift_m[k][0]) / stack.frame.spacing_m.x();
+  const double dj = (from.y() - stack.shift_m[k][1]) / stack.frame.spacing_m.y();
+  for (int j = 0; j < volume.frame.size[1]; ++j)
+    for (int i = 0; i < volume.frame.size[0]; ++i)
+      volume.at(i, j, static_cast<int>(k)) =
+          static_cast<std::int16_t>(std::lround(sample(slice.data(), stack.frame, i + di, j + dj)));
+}
+
+}  // namespace
+
+Result<GridFrame> dicom_frame(const DicomSeries& series) {
+  const auto stack = stack_of(series);
+  if (!stack) return tl::unexpected(stack.error());
+  return stack->tilted ? upright(*stack) : stack->frame;
+}
+
+Result<Volume> read_dicom(const DicomSeries& series, const Progress& progress) {
+  const auto stack = stack_of(series);
+  if (!stack) return tl::unexpected(stack.error());
+  Volume volume;
+  volume.frame = stack->tilted ? upright(*stack) : stack->frame;
+  volume.values.resize(volume.frame.count());
+  std::vector<std::int16_t> slice(stack->frame.index(0, 0, 1));
+  const std::size_t count = stack->slices.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!goes_on(progress, "Reading slices", static_cast<double>(k) / static_cast<double>(count)))
+      return stopped();
+    std::int16_t* straight = volume.values.data() + k * slice.size();
+    auto read = read_slice(stack->slices[k], stack->tilted ? slice.data() : straight);
+    if (!read) return tl::unexpected(read.error());
+    if (stack->tilted) place_tilted(*stack, slice, k, volume);
+  }
+  return volume;
+}
+
+}  // namespace osteon

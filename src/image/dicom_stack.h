@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "dicom_header.h"
+#include "osteon/image/volume.h"
+
+namespace osteon {
+
+/// The slices of a series in their order along k, and the upright grid that they fill.
+struct DicomStack {
+  std::vector<DicomHeader> slices;
+  GridFrame frame;
+  /// By how much slice k lies aside of an upright stack, m along i and j; only with a tilted
+  /// gantry.
+  std::vector<std::array<double, 2>> shift_m;
+  bool tilted = false;
+};
+
+/// Sorts and checks; `where` names the series in errors.
+Result<DicomStack> stack_slices(std::vector<DicomHeader> slices, const std::string& where);
+
+}  // namespace osteon

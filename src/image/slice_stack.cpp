@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <system_error>
+
+#include "raw_values.h"
+#include "text_header.h"
+#include "volume_files.h"
+
+namespace osteon {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "slice9" comes before "slice10".
+bool natural_less(const fs::path& a, const fs::path& b) {
+  const std::string s = a.filename().string(), t = b.filename().string();
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < s.size() && j < t.size()) {
+    if (digit(s[i]) && digit(t[j])) {
+      while (i < s.size() && s[i] == '0') ++i;
+      while (j < t.size() && t[j] == '0') ++j;
+      std::size_t m = i, n = j;
+      while (m < s.size() && digit(s[m])) ++m;
+      while (n < t.size() && digit(t[n])) ++n;
+      if (m - i != n - j) return m - i < n - j;
+      if (const int order = s.compare(i, m - i, t, j, n - j)) return order < 0;
+      i = m;
+      j = n;
+    } else {
+      if (s[i] != t[j]) return s[i] < t[j];
+      ++i;
+      ++j;
+    }
+  }
+  return s.size() - i < t.size() - j;
+}
+
+Result<cv::Mat> read_picture(const fs::path& file) {
+  cv::Mat picture;
+  try {
+    picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    picture.release();
+  }
+  if (picture.empty())
+    return fail("is damaged or no picture", file.string(), "Export the slices again");
+  if (picture.channels() != 1 || (picture.depth() != CV_16U && picture.depth() != CV_16S))
+    return fail("is not a grey picture of 16 bits", file.string(),
+                "Export 16-bit slices: fewer bits cannot hold Hounsfield units");
+  return picture;
+}
+
+/// Unsigned pictures hold HU + 1024.
+void append(const cv::Mat& picture, Volume& volume) {
+  for (int row = 0; row < picture.rows; ++row)
+    for (int column = 0; column < picture.cols; ++column) {
+      const int hu = picture.depth() == CV_16U ? picture.at<std::uint16_t>(row, column) - 1024
+                                               : picture.at<std::int16_t>(row, column);
+      volume.values.push_back(static_cast<std::int16_t>(std::min(hu, 32767)));
+    }
+}
+
+}  // namespace
+
+bool is_picture(const fs::path& file) {
+  const std::string end = lower_case(file.extension().string());
+  return end == ".png" || end == ".tif" || end == ".tiff";
+}
+
+Result<Volume> read_slice_stack(const fs::path& folder, const std::optional<Vec3>& spacing_m) {
+  const std::string where = folder.string();
+  if (!spacing_m)
+    return fail("holds pictures, which do not say how large their pixels are", where,
+                "Give --spacing X,Y,Z in mm");
+  std::vector<fs::path> files;
+  std::error_code ec;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ec))
+    if (is_picture(entry.path())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), natural_less);
+  Volume volume;
+  volume.frame.spacing_m = *spacing_m;
+  for (const fs::path& file : files) {
+    const auto picture = read_picture(file);
+    if (!picture) return tl::unexpected(picture.error());
+    GridFrame& frame = volume.frame;
+    if (frame.size[2] > 0 && (picture->cols != frame.size[0] || picture->rows != frame.size[1]))
+      return fail("has another size than " + files.front().filename().string(), file.string(),
+                  "Put the slices of one scan into the folder");
+    frame.size = {picture->cols, picture->rows, frame.size[2] + 1};
+    if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
+    append(*picture, volume);
+  }
+  return volume;
+}
+
+}  // namespace osteon

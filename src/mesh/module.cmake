@@ -1,0 +1,10 @@
+# STL, OBJ and PLY are read by our own strict code; assimp reads glTF.
+find_package(assimp REQUIRED)
+osteon_link_system(osteon_mesh assimp::assimp)
+# Surface extraction runs when a case is loaded; a debug build gets the same bits, only sooner.
+set_source_files_properties("${CMAKE_SOURCE_DIR}/src/mesh/isosurface.cpp"
+  "${CMAKE_SOURCE_DIR}/src/mesh/isosurface_grid.cpp"
+  "${CMAKE_SOURCE_DIR}/src/mesh/surface_relax.cpp"
+  PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+find_package(meshoptimizer REQUIRED)
+osteon_link_system(osteon_mesh meshoptimizer::meshoptimizer)

@@ -1,0 +1,236 @@
+#include "osteon/physics/bone_world.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "bullet_bodies.h"
+#include "mass_properties.h"
+#include "osteon/base/hash.h"
+#include "spring.h"
+
+namespace osteon {
+namespace {
+
+// Soft parts do not let a bone of the wrist go further; a spring alone would.
+constexpr double kMaxShift = 0.020;
+constexpr double kMaxTurn = 0.5;
+// No hand pushes harder, and no bone is longer: what lies beyond is a fault and is not applied.
+constexpr double kMaxForce = 1000;
+constexpr double kMaxLever = 1.0;
+
+// Force on a body and torque about its centre of mass.
+struct Load {
+  Vec3 force_W = Vec3::Zero();
+  Vec3 torque_W = Vec3::Zero();
+};
+
+Load load_of(const ToolState& tool, std::size_t bone, const Vec3& p_WI) {
+  Load load;
+  const std::size_t count = std::min<std::size_t>(tool.contact_count, kMaxContacts);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Contact& contact = tool.contacts[i];
+    if (contact.bone.index != bone) continue;
+    const Vec3 force_W = -contact.force_on_tool_W;
+    const Vec3 lever_W = contact.p_W - p_WI;
+    // Written so that a NaN is refused.
+    if (!(force_W.norm() <= kMaxForce && lever_W.norm() <= kMaxLever)) continue;
+    load.force_W += force_W;
+    load.torque_W += lever_W.cross(force_W);
+  }
+  return load;
+}
+
+Vec3 half_extent(const Bone& bone, const Pose& X_IB) {
+  Aabb box;
+  for (const Hull& piece : bone.pieces)
+    for (const Vec3& v : piece.vertices) box.include(X_IB * v);
+  return box.empty() ? Vec3::Constant(0.005) : Vec3(0.5 * box.extent());
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const BoneSnapshot& snapshot) {
+  Hasher hasher;
+  hasher.add(snapshot.step);
+  hasher.add(snapshot.time_s);
+  hasher.add(snapshot.count);
+  for (std::uint32_t i = 0; i < snapshot.count; ++i) {
+    hasher.add(snapshot.bones[i].X_WB);
+    hasher.add(snapshot.bones[i].v_W);
+    hasher.add(snapshot.bones[i].w_W);
+  }
+  return hasher.value();
+}
+
+/// The snapshot is the whole state: each step starts from it, so that a restored world goes on with
+/// the same bits. Bullet holds nothing from one step to the next.
+struct BoneWorld::Impl {
+  // What a bone is, and where its springs pull it.
+  struct Body {
+    MassProperties mass;
+    Pose X_IB;
+    Pose X_WI_rest;
+    Pose X_WB_rest;
+    double damping_n_s_per_m = 0;
+    Vec3 damping_nm_s = Vec3::Zero();
+  };
+  // Motion of the principal frame.
+  struct BodyMotion {
+    Pose X_WI;
+    Vec3 v_W, w_W;
+  };
+
+  Impl(std::shared_ptr<const Case> c, const PhysicsParams& p);
+  Body make_body(const Bone& bone) const;
+  BodyMotion motion_of(std::size_t i) const;
+  void push(std::size_t i, const ToolState& tool, BodyMotion& motion) const;
+  void limit(std::size_t i, BodyMotion& motion) const;
+  void store(std::size_t i, const BodyMotion& motion);
+  void rest();
+  void move(const ToolState& tool);
+
+  std::shared_ptr<const Case> the_case;
+  PhysicsParams params;
+  bool hold;
+  std::vector<Body> bodies;
+  std::vector<BodyMotion> motions;  // scratch of one step
+  BulletBodies bullet;
+  BoneSnapshot snapshot;
+};
+
+BoneWorld::Impl::Impl(std::shared_ptr<const Case> c, const PhysicsParams& p)
+    : the_case(std::move(c)), params(p), hold(p.hold_bones) {
+  assert(the_case->bones.size() <= kMaxBones);
+  assert(params.step_s > 0);
+  for (const Bone& bone : the_case->bones) {
+    bodies.push_back(make_body(bone));
+    bullet.add(bodies.back().mass, half_extent(bone, bodies.back().X_IB));
+  }
+  motions.resize(bodies.size());
+  snapshot.count = static_cast<std::uint32_t>(bodies.size());
+  rest();
+}
+
+BoneWorld::Impl::Body BoneWorld::Impl::make_body(const Bone& bone) const {
+  assert(bone.mass_kg > 0);
+  Body body;
+  body.mass = mass_properties(bone.pieces, bone.mass_kg);
+  body.X_IB = body.mass.X_BI.inverse();
+  body.X_WB_rest = bone.X_WB;
+  body.X_WI_rest = bone.X_WB * body.mass.X_BI;
+  body.damping_n_s_per_m =
+      damping_constant(bone.mass_kg, params.spring_n_per_m, params.damping_ratio);
+  for (int i = 0; i < 3; ++i)
+    body.damping_nm_s[i] =
+        damping_constant(body.mass.moments[i], params.spring_nm_per_rad, params.damping_ratio);
+  return body;
+}
+
+void BoneWorld::Impl::rest() {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    snapshot.bones[i] = {bodies[i].X_WB_rest, Vec3::Zero(), Vec3::Zero()};
+}
+
+BoneWorld::Impl::BodyMotion BoneWorld::Impl::motion_of(std::size_t i) const {
+  const BoneMotion& bone = snapshot.bones[i];
+  const Pose X_WI = bone.X_WB * bodies[i].mass.X_BI;
+  const Vec3 arm_W = X_WI.p - bone.X_WB.p;
+  return {X_WI, bone.v_W + bone.w_W.cross(arm_W), bone.w_W};
+}
+
+// Velocities at the step's end under springs, dampers and the tool.
+void BoneWorld::Impl::push(std::size_t i, const ToolState& tool, BodyMotion& motion) const {
+  const Body& body = bodies[i];
+  const Load load = load_of(tool, i, motion.X_WI.p);
+  const Vec3 shift_W = motion.X_WI.p - body.X_WI_rest.p;
+  const Vec3 turn_I = turn_between(body.X_WI_rest.q, motion.X_WI.q);
+  const Quat q_IW = motion.X_WI.q.conjugate();
+  const Vec3 torque_I = q_IW * load.torque_W;
+  Vec3 w_I = q_IW * motion.w_W;
+  for (int a = 0; a < 3; ++a) {
+    motion.v_W[a] =
+        spring_velocity(body.mass.mass_kg, params.spring_n_per_m, body.damping_n_s_per_m,
+                        params.step_s, shift_W[a], motion.v_W[a], load.force_W[a]);
+    w_I[a] = spring_velocity(body.mass.moments[a], params.spring_nm_per_rad, body.damping_nm_s[a],
+                             params.step_s, turn_I[a], w_I[a], torque_I[a]);
+  }
+  motion.w_W = motion.X_WI.q * w_I;
+}
+
+// Stops a body at the end of its range.
+void BoneWorld::Impl::limit(std::size_t i, BodyMotion& motion) const {
+  const Pose& X_WI_rest = bodies[i].X_WI_rest;
+  const Vec3 shift_W = motion.X_WI.p - X_WI_rest.p;
+  const double length = shift_W.norm();
+  if (length > kMaxShift) {
+    const Vec3 outward = shift_W / length;
+    motion.X_WI.p = X_WI_rest.p + kMaxShift * outward;
+    motion.v_W -= std::max(0.0, motion.v_W.dot(outward)) * outward;
+  }
+  bool limited = false;
+  motion.X_WI.q = limit_turn(X_WI_rest.q, motion.X_WI.q, kMaxTurn, &limited);
+  if (limited) motion.w_W.setZero();
+}
+
+void BoneWorld::Impl::store(std::size_t i, const BodyMotion& motion) {
+  BoneMotion& bone = snapshot.bones[i];
+  bone.X_WB = motion.X_WI * bodies[i].X_IB;
+  // Rounding of the products must not grow over a long session.
+  bone.X_WB.q.normalize();
+  // Of q and -q always the one near the rest pose's: a reader may compare components.
+  if (bone.X_WB.q.dot(bodies[i].X_WB_rest.q) < 0) bone.X_WB.q.coeffs() *= -1.0;
+  bone.w_W = motion.w_W;
+  const Vec3 arm_W = bone.X_WB.p - motion.X_WI.p;
+  bone.v_W = motion.v_W + motion.w_W.cross(arm_W);
+}
+
+void BoneWorld::Impl::move(const ToolState& tool) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    motions[i] = motion_of(i);
+    push(i, tool, motions[i]);
+    bullet.set(i, motions[i].X_WI, motions[i].v_W, motions[i].w_W);
+  }
+  bullet.advance(params.step_s);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    motions[i].X_WI = bullet.pose(i);
+    limit(i, motions[i]);
+    store(i, motions[i]);
+  }
+}
+
+BoneWorld::BoneWorld(std::shared_ptr<const Case> the_case, const PhysicsParams& params)
+    : impl_(std::make_unique<Impl>(std::move(the_case), params)) {}
+BoneWorld::~BoneWorld() = default;
+BoneWorld::BoneWorld(BoneWorld&&) noexcept = default;
+
+const BoneSnapshot& BoneWorld::step(const ToolState& tool) {
+  if (!impl_->hold) impl_->move(tool);
+  BoneSnapshot& snapshot = impl_->snapshot;
+  ++snapshot.step;
+  snapshot.time_s = static_cast<double>(snapshot.step) * impl_->params.step_s;
+  return snapshot;
+}
+
+const BoneSnapshot& BoneWorld::snapshot() const { return impl_->snapshot; }
+
+void BoneWorld::set_hold(bool hold) {
+  impl_->hold = hold;
+  if (hold) impl_->rest();
+}
+
+std::uint64_t BoneWorld::state_hash() const {
+  Hasher hasher;
+  hasher.add(hash_of(impl_->snapshot));
+  hasher.add(static_cast<std::uint8_t>(impl_->hold));
+  return hasher.value();
+}
+
+void BoneWorld::restore(const BoneSnapshot& snapshot, bool hold) {
+  assert(snapshot.count == impl_->bodies.size());
+  impl_->snapshot = snapshot;
+  impl_->hold = hold;
+}
+
+}  // namespace osteon

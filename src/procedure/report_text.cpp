@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "hex.h"
+#include "osteon/procedure/report.h"
+
+namespace osteon {
+namespace {
+
+// Decimal point whatever the locale; padded on the left to `width`.
+std::string fixed(double value, int decimals, std::size_t width = 0) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  std::string result(text.data());
+  std::replace(result.begin(), result.end(), ',', '.');
+  return result.size() < width ? std::string(width - result.size(), ' ') + result : result;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
+  return text;
+}
+
+bool touched(const BoneReport& bone) { return bone.first_contact_s >= 0; }
+
+std::size_t name_width(const Report& report) {
+  std::size_t width = 4;
+  for (const BoneReport& bone : report.bones)
+    if (touched(bone)) width = std::max(width, bone.name.size());
+  return width;
+}
+
+std::string bone_table(const Report& report) {
+  const std::size_t width = name_width(report);
+  std::string text = padded("bone", width) + "  first s  contact s  peak N  mean N  deepest mm\n";
+  for (const BoneReport& bone : report.bones) {
+    if (!touched(bone)) continue;
+    text += padded(bone.name, width) + fixed(bone.first_contact_s, 3, 9) +
+            fixed(bone.contact_time_s, 3, 11) + fixed(bone.peak_force_n, 2, 8) +
+            fixed(bone.mean_force_n, 2, 8) + fixed(bone.deepest_mm, 3, 12) + "\n";
+  }
+  return text;
+}
+
+std::string untouched_line(const Report& report) {
+  std::string names;
+  for (const BoneReport& bone : report.bones)
+    if (!touched(bone)) names += (names.empty() ? "" : ", ") + bone.name;
+  return names.empty() ? "" : "never touched: " + names + "\n";
+}
+
+std::string timing_lines(const Report& report) {
+  std::string text;
+  if (report.tick_max_us > 0)
+    text += "tick time us   p50 " + fixed(report.tick_p50_us, 1) + ", p99 " +
+            fixed(report.tick_p99_us, 1) + ", p99.9 " + fixed(report.tick_p999_us, 1) + ", max " +
+            fixed(report.tick_max_us, 1) + "; missed ticks " + std::to_string(report.missed_ticks) +
+            "\n";
+  if (report.realtime_factor > 0)
+    text += "speed          " + fixed(report.realtime_factor, 1) + " times real time\n";
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Report& report) {
+  const bool any = std::any_of(report.bones.begin(), report.bones.end(), touched);
+  return "case           " + report.case_name + " (" + hex16(report.case_hash) + ")\n" +
+         "duration       " + fixed(report.duration_s, 3) + " s, " + std::to_string(report.ticks) +
+         " ticks\n" + "path length    " + fixed(report.path_length_mm, 1) + " mm\n" +
+         "smoothness     " + fixed(report.smoothness_sparc, 2) +
+         " (spectral arc length; nearer 0 is smoother)\n" + timing_lines(report) +
+         "state hash     " + hex16(report.state_hash) + "\n\n" +
+         (any ? bone_table(report) : std::string("no bone was touched\n")) + untouched_line(report);
+}
+
+}  // namespace osteon

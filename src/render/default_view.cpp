@@ -1,0 +1,21 @@
+#include "osteon/render/renderer.h"
+
+namespace osteon {
+
+ViewState default_view(const Case& the_case) {
+  ViewState view;
+  view.camera = preset_camera(ViewPreset::kDorsal, the_case, 16.0 / 9.0);
+  for (std::size_t k = 0; k < the_case.bones.size(); ++k) {
+    // Steps of a golden ratio spread the tones evenly, so that neighbours differ a little.
+    const double step = 0.618034 * static_cast<double>(k);
+    const auto tone = static_cast<float>(step - static_cast<double>(static_cast<int>(step)) - 0.5);
+    BoneAppearance look;
+    look.color[0] += 0.035f * tone;
+    look.color[1] += 0.045f * tone;
+    look.color[2] += 0.075f * tone;
+    view.bones.push_back(look);
+  }
+  return view;
+}
+
+}  // namespace osteon

@@ -1,0 +1,148 @@
+// Where a processor draws, most of a picture is the one before: bones stand still and the camera
+// rests while the tool moves. What stands still is kept as a picture; the tiles that the tool
+// reaches are drawn anew over it, in full, so that the result is that of drawing everything.
+#include <algorithm>
+
+#include "renderer_impl.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kTooMuch = 0.6;       // share of the picture beyond which keeping saves nothing
+constexpr int kSmoothingReach_px = 6;  // of the edge smoothing about a pixel
+
+ViewState without_tool(ViewState view) {
+  view.show_proxy = view.show_force = view.show_hand_ghost = false;
+  return view;
+}
+
+bool same(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
+
+bool looks_the_same(const ToolState& a, const ToolState& b) {
+  if (!same(a.X_WP, b.X_WP) || !same(a.X_WD, b.X_WD) || a.force_W != b.force_W) return false;
+  if (a.contact_count != b.contact_count) return false;
+  const std::size_t count = std::min<std::size_t>(a.contact_count, kMaxContacts);
+  for (std::size_t k = 0; k < count; ++k)
+    if (a.contacts[k].p_W != b.contacts[k].p_W) return false;
+  return true;
+}
+
+Viewport grown(const Viewport& r, int by, int width, int height) {
+  const int x = std::max(r.x - by, 0), y = std::max(r.y - by, 0);
+  return {x, y, std::min(r.x + r.width + by, width) - x, std::min(r.y + r.height + by, height) - y};
+}
+
+/// The smoothing compares with neighbours, which the outermost pixels lack.
+Viewport inner(const Viewport& r, int width, int height) {
+  const int x = std::max(r.x, 1), y = std::max(r.y, 1);
+  return {x, y, std::max(std::min(r.x + r.width, width - 1) - x, 0),
+          std::max(std::min(r.y + r.height, height - 1) - y, 0)};
+}
+
+}  // namespace
+
+bool Renderer::Impl::stands_still(const RenderSnapshot& snapshot, const ViewState& still_view,
+                                  int width, int height) const {
+  if (!kept || kept->width != width || kept->height != height) return false;
+  if (!(kept->view == still_view)) return false;
+  const double aspect = static_cast<double>(width) / height;
+  const Frame frame =
+      make_frame(still_view, aspect, painter.content(snapshot, still_view), {}, width, height);
+  return painter.bones_look_still(kept->bones, snapshot.bones, frame);
+}
+
+bool Renderer::Impl::keep(const RenderSnapshot& snapshot, const ViewState& still_view, int width,
+                          int height) {
+  const Aabb content = painter.content(snapshot, still_view);
+  const double aspect = static_cast<double>(width) / height;
+  const Frame frame = make_frame(still_view, aspect, content, {}, width, height);
+  if (!paint_scene(snapshot, still_view, frame, width, height, 0)) return false;
+  if (!kept_picture.ensure(width, height, 0) || !resolved.ensure(width, height, 0)) return false;
+  copy_color(drawn, kept_picture);
+  const Viewport busy = busy_part(frame, content, width, height);
+  smoother.smooth(drawn, kept_picture, {&busy, 1});
+  changed = TileMask(width, height);
+  changed.mark_all();
+  composed.reset();
+  kept_ready = true;
+  return true;
+}
+
+void Renderer::Impl::restore_kept() {
+  for (const Viewport& r : changed.rectangles()) copy_color(kept_picture, resolved, r);
+  changed = TileMask(kept_picture.width(), kept_picture.height());
+}
+
+/// Depth lets pixels pass in the tiles alone: elsewhere it holds the nearest.
+void Renderer::Impl::paint_tiles(const RenderSnapshot& snapshot, const ViewState& view, Frame frame,
+                                 const TileMask& tiles) {
+  const int width = drawn.width(), height = drawn.height();
+  std::vector<Viewport> areas;
+  for (const Viewport& r : tiles.rectangles())
+    areas.push_back(grown(r, kSmoothingReach_px, width, height));
+  for (const Viewport& r : areas) copy_color(ground, drawn, r);
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn.framebuffer());
+  glViewport(0, 0, width, height);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glClearDepth(0.0);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_SCISSOR_TEST);
+  glClearDepth(1.0);
+  for (const Viewport& r : areas) {
+    glScissor(r.x, r.y, r.width, r.height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
+  const Viewport all = grown(tiles.bounds(), kSmoothingReach_px, width, height);
+  frame.drawn << 2.0 * all.x / width - 1, 2.0 * all.y / height - 1,
+      2.0 * (all.x + all.width) / width - 1, 2.0 * (all.y + all.height) / height - 1;
+  frame.tiles = &tiles;
+  glScissor(all.x, all.y, all.width, all.height);
+  painter.paint(snapshot, view, frame);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& view, int width,
+                             int height) {
+  const double aspect = static_cast<double>(width) / height;
+  const Frame frame = make_frame(view, aspect, painter.content(snapshot, view), {}, width, height);
+  TileMask tiles = painter.moving_tiles(snapshot, view, frame, width, height);
+  if (tiles.share() > kTooMuch) return false;
+  restore_kept();
+  if (!tiles.empty()) {
+    paint_tiles(snapshot, view, frame, tiles);
+    std::vector<Viewport> areas;
+    for (const Viewport& r : tiles.rectangles()) {
+      copy_color(drawn, resolved, r);
+      areas.push_back(inner(r, width, height));
+    }
+    smoother.smooth(drawn, resolved, areas);
+  }
+  changed = std::move(tiles);
+  composed = snapshot.tool;
+  return true;
+}
+
+void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewState& view,
+                                  GLuint framebuffer, const Viewport& viewport) {
+  const int width = viewport.width, height = viewport.height;
+  const ViewState still_view = without_tool(view);
+  const auto draw_all = [&] {
+    composed.reset();
+    changed = TileMask(width, height);
+    changed.mark_all();
+    draw_tile(snapshot, view, viewport.aspect(), {}, framebuffer, viewport);
+  };
+  if (!stands_still(snapshot, still_view, width, height)) {
+    kept = Kept{still_view, snapshot.bones, width, height};
+    kept_ready = false;
+    return draw_all();
+  }
+  if (!kept_ready && !keep(snapshot, still_view, width, height)) return draw_all();
+  const bool shown = composed && composed_view == view && looks_the_same(*composed, snapshot.tool);
+  if (!shown && !compose(snapshot, view, width, height)) return draw_all();
+  composed_view = view;
+  show(resolved, framebuffer, viewport);
+}
+
+}  // namespace osteon

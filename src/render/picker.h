@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "osteon/render/renderer.h"
+#include "ray_bvh.h"
+
+namespace osteon {
+
+/// Finds the bone under a ray; a hierarchy for each bone, in Bone.
+class Picker {
+ public:
+  explicit Picker(const Case& the_case);
+  BoneId pick(const RenderSnapshot& snapshot, const ViewState& view, const Ray& ray) const;
+
+ private:
+  std::vector<RayBvh> bones_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+
+#include "edge_smoother.h"
+#include "osteon/render/renderer.h"
+#include "picker.h"
+#include "render_target.h"
+#include "scene_painter.h"
+
+namespace osteon {
+
+struct Renderer::Impl {
+  ScenePainter painter;
+  EdgeSmoother smoother;
+  Picker picker;
+  std::string device;
+  bool software = false;
+  RenderTarget drawn{}, resolved{}, still{};
+  RenderTarget ground{};  ///< drawn once a size: its shader costs more than all bones do
+  PictureWindow ground_window{};
+
+  /// What does not move, as it was when it was last seen to change.
+  struct Kept {
+    ViewState view;
+    BoneSnapshot bones;
+    int width = 0, height = 0;
+  };
+  std::optional<Kept> kept{};
+  RenderTarget kept_picture{};  ///< of `kept`, without the tool
+  bool kept_ready = false;
+  TileMask changed{};                   ///< where `resolved` is not `kept_picture`
+  std::optional<ToolState> composed{};  ///< the tool that `resolved` shows over `kept_picture`
+  ViewState composed_view{};
+
+  /// Draws one tile of the picture into the viewport of `framebuffer`.
+  bool draw_tile(const RenderSnapshot& snapshot, const ViewState& view, double aspect,
+                 const PictureWindow& window, GLuint framebuffer, const Viewport& viewport);
+  bool paint_scene(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
+                   int width, int height, int samples);
+  bool ensure_ground(const PictureWindow& window, int width, int height);
+
+  /// Draws what differs from the picture before; the whole where too much does.
+  void draw_changes(const RenderSnapshot& snapshot, const ViewState& view, GLuint framebuffer,
+                    const Viewport& viewport);
+  bool stands_still(const RenderSnapshot& snapshot, const ViewState& still_view, int width,
+                    int height) const;
+  bool keep(const RenderSnapshot& snapshot, const ViewState& still_view, int width, int height);
+  void restore_kept();
+  bool compose(const RenderSnapshot& snapshot, const ViewState& view, int width, int height);
+  void paint_tiles(const RenderSnapshot& snapshot, const ViewState& view, Frame frame,
+                   const TileMask& tiles);
+};
+
+/// Pixels of a picture that may show something else than ground, without its outermost ones: they
+/// lack a neighbour to be compared with.
+Viewport busy_part(const Frame& frame, const Aabb& content, int width, int height);
+
+void copy_color(const RenderTarget& from, const RenderTarget& to);
+/// The same place in both.
+void copy_color(const RenderTarget& from, const RenderTarget& to, const Viewport& part);
+
+/// Copies a finished picture into the viewport; one that is larger is averaged.
+void show(const RenderTarget& picture, GLuint framebuffer, const Viewport& viewport);
+
+}  // namespace osteon

@@ -1,0 +1,439 @@
+#include "scene_painter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapes.h"
+
+namespace osteon {
+namespace {
+
+using Color = Eigen::Vector4f;
+
+constexpr std::array<float, 3> kSteel{0.86f, 0.88f, 0.91f};
+const Color kAmber(1.00f, 0.70f, 0.20f, 1.0f);
+const Color kAccent(0.31f, 0.76f, 0.97f, 1.0f);
+
+constexpr float kSeenThrough = 0.02f;  // below this opacity a bone is not drawn
+constexpr float kOutline_px = 2.5f;
+constexpr double kLevelError_px = 0.30;  // of a coarser surface, in the picture
+constexpr double kLevelErrorFine_px = 0.10;
+constexpr double kGhostFrom_m = 2e-4;     // hand and proxy closer than this are drawn as one
+constexpr double kGhostFrom_rad = 0.035;  // 2 degrees
+constexpr double kSmallestForce_N = 0.02;
+constexpr double kArrowRadius_m = 0.0007;
+constexpr double kArrowHeadWidths = 2.4;
+constexpr std::size_t kPieceStep = 4;  // in the row of hull colours: about to the opposite hue
+constexpr double kContactRadius_m = 0.0006;
+
+bool is_clear(const BoneAppearance& look) { return look.opacity < 0.995f; }
+
+Color with_alpha(const std::array<float, 3>& rgb, float alpha) {
+  return {rgb[0], rgb[1], rgb[2], alpha};
+}
+
+/// Colours that neighbours can be told apart by: hues a golden angle apart, none of them amber.
+Color hull_color(std::size_t bone, float alpha) {
+  const double hue = std::fmod(0.52 + 0.381966 * static_cast<double>(bone), 1.0);
+  const auto channel = [hue](double shift) {
+    const double h = std::abs(std::fmod(hue + shift, 1.0) * 6 - 3) - 1;
+    return static_cast<float>(0.42 + 0.52 * std::clamp(h, 0.0, 1.0));
+  };
+  return {channel(0), channel(2.0 / 3), channel(1.0 / 3), alpha};
+}
+
+Aabb finite_bounds(const TriMesh& mesh) {
+  Aabb box;
+  for (const Vec3& p : mesh.vertices)
+    if (is_finite(p)) box.include(p);
+  return box;
+}
+
+/// Lines of a fine hull are fainter, so that they do not close over the bone.
+float line_opacity(std::size_t edges) {
+  const double share = std::sqrt(400.0 / static_cast<double>(std::max<std::size_t>(edges, 1)));
+  return static_cast<float>(std::clamp(0.75 * share, 0.10, 0.75));
+}
+
+/// Mean of the mesh in x and y behind its tip: a hook stands beside its shaft.
+Vec3 shaft_line(const TriMesh& mesh, double length_m) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  for (const Vec3& p : mesh.vertices) {
+    if (!is_finite(p) || p.z() < 0.05 * length_m) continue;
+    sum += p;
+    count += 1;
+  }
+  return count > 0 ? Vec3(sum.x() / count, sum.y() / count, 0) : Vec3::Zero();
+}
+
+bool hand_is_apart(const ToolState& tool) {
+  return (tool.X_WD.p - tool.X_WP.p).norm() > kGhostFrom_m ||
+         tool.X_WD.q.angularDistance(tool.X_WP.q) > kGhostFrom_rad;
+}
+
+/// Turns +z to the unit vector n; any rotation about n will do.
+Quat z_towards(const Vec3& n) { return Quat::FromTwoVectors(Vec3::UnitZ(), n); }
+
+Eigen::Matrix4f scaled(const Pose& X, double across, double along) {
+  Eigen::Matrix4f m = to_matrix(X);
+  m.col(0) *= static_cast<float>(across);
+  m.col(1) *= static_cast<float>(across);
+  m.col(2) *= static_cast<float>(along);
+  return m;
+}
+
+struct Arrow {
+  Vec3 from_W = Vec3::Zero(), dir_W = Vec3::UnitZ();
+  double length_m = 0;
+};
+
+/// The force on the hand, from the place where the probe touches.
+std::optional<Arrow> force_arrow(const ToolState& tool) {
+  const double force = tool.force_W.norm();
+  if (!std::isfinite(force) || force < kSmallestForce_N) return std::nullopt;
+  Arrow arrow{tool.X_WP.p, tool.force_W / force, force * kForceArrowMetresPerNewton};
+  if (tool.contact_count > 0 && is_finite(tool.contacts[0].p_W))
+    arrow.from_W = tool.contacts[0].p_W;
+  return is_finite(arrow.from_W) ? std::optional(arrow) : std::nullopt;
+}
+
+}  // namespace
+
+const BoneAppearance& appearance(const ViewState& view, std::size_t bone) {
+  static const BoneAppearance plain;
+  return bone < view.bones.size() ? view.bones[bone] : plain;
+}
+
+bool is_shown(const RenderSnapshot& snapshot, const ViewState& view, std::size_t bone) {
+  const BoneAppearance& look = appearance(view, bone);
+  return bone < std::min<std::size_t>(snapshot.bones.count, kMaxBones) && look.visible &&
+         look.opacity >= kSeenThrough && is_finite(snapshot.bones.bones[bone].X_WB);
+}
+
+ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone, const ShadedMesh& mesh) {
+  BoneModel model;
+  model.closed = mesh.closed;
+  model.levels.push_back({GpuMesh(mesh), 0});
+  for (const ShadedMesh::Level& level : mesh.coarser)
+    model.levels.push_back({GpuMesh(mesh, level.triangles), level.error_m});
+  std::size_t edges = 0;
+  for (const Hull& piece : bone.pieces) {
+    const auto ends = facet_edges({&piece, 1});
+    model.pieces.push_back({GpuMesh(faceted({&piece, 1})), GpuMesh::lines(ends)});
+    edges += ends.size() / 2;
+  }
+  model.line_opacity = line_opacity(edges);
+  if (const Aabb box = finite_bounds(bone.mesh); !box.empty()) {
+    model.center_B = box.center();
+    model.radius_m = 0.5 * box.extent().norm();
+    model.around = capsule_around(box);
+  }
+  return model;
+}
+
+Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,
+                                          const std::filesystem::path& shader_dir,
+                                          const PreparedCase& prepared) {
+  ScenePainter painter;
+  const struct {
+    Program* program;
+    const char *vert, *frag;
+  } programs[] = {{&painter.bone_, "surface", "bone"},
+                  {&painter.metal_, "surface", "metal"},
+                  {&painter.mark_, "surface", "mark"},
+                  {&painter.ground_, "screen", "ground"}};
+  for (const auto& p : programs) {
+    auto loaded = Program::load(shader_dir, p.vert, p.frag);
+    if (!loaded) return tl::unexpected(loaded.error());
+    *p.program = std::move(*loaded);
+  }
+  static const ShadedMesh nothing;
+  for (std::size_t k = 0; k < the_case.bones.size(); ++k)
+    painter.bones_.push_back(
+        make_bone(the_case.bones[k], k < prepared.bones.size() ? prepared.bones[k] : nothing));
+  painter.tool_ = GpuMesh(plain_shaded(tool.mesh));
+  painter.tool_capsules_ = capsules_along_z(tool.mesh);
+  painter.tool_length_m_ = std::max(0.0, finite_bounds(tool.mesh).hi.z());
+  painter.shaft_T_ = shaft_line(tool.mesh, painter.tool_length_m_);
+  painter.tip_radius_m_ = tool.tip_radius_m;
+  painter.shaft_ = GpuMesh(plain_shaded(cylinder(20)));
+  painter.head_ = GpuMesh(plain_shaded(cone(24)));
+  painter.ball_ = GpuMesh(plain_shaded(ball(12, 20)));
+  painter.no_vertices_ = make_vertex_array();
+  return painter;
+}
+
+bool ScenePainter::shows_hand(const RenderSnapshot& snapshot, const ViewState& view) {
+  return view.show_hand_ghost && hand_is_apart(snapshot.tool);
+}
+
+std::vector<ScenePainter::Capsule> ScenePainter::mark_capsules(const RenderSnapshot& snapshot) {
+  const ToolState& tool = snapshot.tool;
+  std::vector<Capsule> out;
+  for (std::size_t k = 0; k < std::min<std::size_t>(tool.contact_count, kMaxContacts); ++k)
+    if (is_finite(tool.contacts[k].p_W))
+      out.push_back({tool.contacts[k].p_W, tool.contacts[k].p_W, kContactRadius_m});
+  if (const auto arrow = force_arrow(tool))
+    out.push_back({arrow->from_W, arrow->from_W + arrow->length_m * arrow->dir_W,
+                   kArrowHeadWidths * kArrowRadius_m});
+  return out;
+}
+
+Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view) const {
+  Aabb box;
+  const auto include = [&box](const Vec3& p, double radius) {
+    if (!is_finite(p) || !std::isfinite(radius)) return;
+    box.include(p - Vec3::Constant(radius));
+    box.include(p + Vec3::Constant(radius));
+  };
+  for (std::size_t k = 0; k < bones_.size(); ++k)
+    if (is_shown(snapshot, view, k))
+      include(snapshot.bones.bones[k].X_WB * bones_[k].center_B, bones_[k].radius_m);
+  for (const Pose& X : {snapshot.tool.X_WP, snapshot.tool.X_WD}) {
+    if (!is_finite(X) || !view.show_proxy) continue;
+    include(X.p, 2 * tip_radius_m_);
+    include(X * Vec3(0, 0, tool_length_m_), 0.01);
+  }
+  if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
+    include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
+  if (box.empty()) box.include(view.camera.target_W);
+  return box;
+}
+
+void ScenePainter::set_shared(const Program& program, const ViewState& view,
+                              const Frame& frame) const {
+  program.use();
+  program.set("u_clip_from_view", frame.clip_from_view);
+  program.set("u_key_dir", frame.key_dir_C);
+  program.set("u_key_strength", view.light_brightness);
+  program.set("u_occlusion", std::clamp(view.ambient_occlusion, 0.0f, 1.0f));
+  program.set("u_orthographic", view.camera.orthographic ? 1 : 0);
+  program.set("u_outline", Eigen::Vector2f(0, 0));
+}
+
+void ScenePainter::set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
+                                  const Frame& frame) const {
+  const Pose& X_WP = snapshot.tool.X_WP;
+  const bool shades = view.show_proxy && !tool_.empty() && is_finite(X_WP) && tool_length_m_ > 0;
+  const Pose X_CP = frame.X_CW * X_WP;
+  const Eigen::Vector3f tip = X_CP.p.cast<float>();
+  const auto radius = static_cast<float>(shades ? tip_radius_m_ : 0.0);
+  bone_.set("u_tool_tip", shades ? Color(tip.x(), tip.y(), tip.z(), radius) : Color(0, 0, 0, 0));
+  const auto point = [&](double z, const Vec3& fallback) -> Eigen::Vector3f {
+    const Vec3 p = shades ? X_CP * Vec3(shaft_T_.x(), shaft_T_.y(), z) : fallback;
+    return p.cast<float>();
+  };
+  bone_.set("u_tool_start", point(std::min(3 * tip_radius_m_, 0.5 * tool_length_m_), Vec3::Zero()));
+  bone_.set("u_tool_reach", Eigen::Vector2f(static_cast<float>(shade_reach().near_m),
+                                            static_cast<float>(shade_reach().shadow_m)));
+  bone_.set("u_tool_end", point(tool_length_m_, Vec3::UnitZ()));
+}
+
+void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
+                         const Frame& frame) const {
+  for (const Program* p : {&metal_, &mark_, &bone_}) set_shared(*p, view, frame);
+  set_tool_shade(snapshot, view, frame);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  paint_opaque_bones(snapshot, view, frame);
+  if (view.show_proxy) paint_tool(snapshot.tool.X_WP, 1, frame);
+  paint_outlines(snapshot, view, frame);
+  glEnable(GL_BLEND);
+  // Colour is mixed; alpha stays that of a solid picture.
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  paint_clear_bones(snapshot, view, frame);
+  if (view.show_hulls) paint_hulls(snapshot, view, frame);
+  if (shows_hand(snapshot, view)) paint_tool(snapshot.tool.X_WD, 0.30f, frame);
+  if (view.show_force) paint_marks(snapshot, frame);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(0);
+}
+
+template <class Passes>
+std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapshot,
+                                                   const ViewState& view, const Frame& frame,
+                                                   Passes passes) const {
+  std::vector<std::pair<double, std::size_t>> by_depth;
+  for (std::size_t k = 0; k < bones_.size(); ++k) {
+    if (!is_shown(snapshot, view, k) || !passes(appearance(view, k))) continue;
+    const Vec3 center_W = snapshot.bones.bones[k].X_WB * bones_[k].center_B;
+    if (in_sight(frame, center_W, bones_[k].radius_m))
+      by_depth.emplace_back(-(frame.X_CW * center_W).z(), k);
+  }
+  std::sort(by_depth.begin(), by_depth.end());
+  std::vector<std::size_t> bones;
+  for (const auto& [depth, k] : by_depth) bones.push_back(k);
+  return bones;
+}
+
+const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapshot,
+                                     const ViewState& view, const Frame& frame) const {
+  const BoneModel& bone = bones_[k];
+  const double allowed_px =
+      view.quality == RenderQuality::kFine ? kLevelErrorFine_px : kLevelError_px;
+  const Vec3 center_W = snapshot.bones.bones[k].X_WB * bone.center_B;
+  const double allowed_m = allowed_px * finest_metres_per_pixel(frame, center_W, bone.radius_m);
+  std::size_t level = 0;
+  while (level + 1 < bone.levels.size() && bone.levels[level + 1].error_m <= allowed_m) ++level;
+  return bone.levels[level].surface;
+}
+
+void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
+                                const ViewState& view, const Frame& frame) const {
+  const GpuMesh& mesh = surface(k, snapshot, view, frame);
+  if (frame.tiles == nullptr) return mesh.draw();
+  const Pose X_CB = frame.X_CW * snapshot.bones.bones[k].X_WB;
+  mesh.draw([&](const GpuMesh::Chunk& chunk) {
+    return in_tiles(frame, X_CB * chunk.center, chunk.radius);
+  });
+}
+
+void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                              const Frame& frame) const {
+  const BoneAppearance& look = appearance(view, k);
+  bone_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+  bone_.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
+  Color rim = kAccent.cwiseProduct(kAccent);
+  rim.w() = look.highlighted ? 1.0f : 0.0f;
+  bone_.set("u_rim_color", rim);
+  draw_surface(k, snapshot, view, frame);
+}
+
+/// The nearest first: what they hide is never shaded.
+void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
+                                      const Frame& frame) const {
+  bone_.use();
+  glCullFace(GL_BACK);
+  const auto solid = [](const BoneAppearance& look) { return !is_clear(look); };
+  for (const std::size_t k : near_to_far(snapshot, view, frame, solid)) {
+    if (bones_[k].closed) glEnable(GL_CULL_FACE);
+    paint_bone(k, snapshot, view, frame);
+    glDisable(GL_CULL_FACE);
+  }
+}
+
+/// The bone's back faces, pushed outwards on the screen, show as a line around it.
+void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
+                                  const Frame& frame) const {
+  mark_.use();
+  mark_.set("u_color", kAccent);
+  mark_.set("u_form", 0.0f);
+  mark_.set("u_edge", 0.0f);
+  mark_.set("u_outline", Eigen::Vector2f(frame.pixel_clip * kOutline_px));
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
+  for (std::size_t k = 0; k < bones_.size(); ++k) {
+    if (!is_shown(snapshot, view, k) || !appearance(view, k).highlighted) continue;
+    mark_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+    draw_surface(k, snapshot, view, frame);
+  }
+  glDisable(GL_CULL_FACE);
+  mark_.set("u_outline", Eigen::Vector2f(0, 0));
+}
+
+void ScenePainter::paint_ground(const PictureWindow& w) const {
+  ground_.use();
+  ground_.set("u_window", Eigen::Vector4d(w.x, w.y, w.width, w.height).cast<float>().eval());
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(no_vertices_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+/// Far bones first; of each only the nearest surface, so that folds do not show as stains.
+void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewState& view,
+                                     const Frame& frame) const {
+  std::vector<std::size_t> order = near_to_far(snapshot, view, frame, is_clear);
+  std::reverse(order.begin(), order.end());
+  bone_.use();
+  for (const std::size_t k : order) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    paint_bone(k, snapshot, view, frame);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_FALSE);
+    paint_bone(k, snapshot, view, frame);
+    glDepthMask(GL_TRUE);
+  }
+}
+
+void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& view,
+                               const Frame& frame) const {
+  mark_.use();
+  glDepthMask(GL_FALSE);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  for (std::size_t k = 0; k < bones_.size(); ++k) {
+    if (!is_shown(snapshot, view, k)) continue;
+    mark_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+    for (std::size_t piece = 0; piece < bones_[k].pieces.size(); ++piece) {
+      const std::size_t tone = k + kPieceStep * piece;
+      mark_.set("u_color", hull_color(tone, 0.16f));
+      mark_.set("u_form", 0.8f);
+      mark_.set("u_edge", 0.15f);
+      bones_[k].pieces[piece].facets.draw();
+      mark_.set("u_color", hull_color(tone, bones_[k].line_opacity));
+      mark_.set("u_form", 0.0f);
+      mark_.set("u_edge", 0.0f);
+      bones_[k].pieces[piece].lines.draw();
+    }
+  }
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_TRUE);
+}
+
+void ScenePainter::paint_tool(const Pose& X_WT, float opacity, const Frame& frame) const {
+  if (tool_.empty() || !is_finite(X_WT)) return;
+  metal_.use();
+  metal_.set("u_view_from_model", to_matrix(frame.X_CW * X_WT));
+  metal_.set("u_color", with_alpha(kSteel, opacity));
+  if (opacity >= 1) return tool_.draw();
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glDepthMask(GL_FALSE);
+  tool_.draw();
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+}
+
+/// Once where it is in sight, and faintly where bone hides it.
+void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const {
+  mark_.set("u_view_from_model", view_from_model);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_GREATER);
+  mark_.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), 0.22f));
+  mesh.draw();
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  mark_.set("u_color", kAmber);
+  mesh.draw();
+}
+
+void ScenePainter::paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const {
+  mark_.use();
+  mark_.set("u_form", 0.75f);
+  mark_.set("u_edge", 0.0f);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  const ToolState& tool = snapshot.tool;
+  for (std::size_t k = 0; k < std::min<std::size_t>(tool.contact_count, kMaxContacts); ++k) {
+    const Pose X_CM = frame.X_CW * Pose{tool.contacts[k].p_W, Quat::Identity()};
+    if (is_finite(X_CM)) paint_mark(ball_, scaled(X_CM, kContactRadius_m, kContactRadius_m));
+  }
+  if (const auto arrow = force_arrow(tool)) {
+    const double head = std::min(5 * kArrowRadius_m, 0.6 * arrow->length_m);
+    const Pose X_WA{arrow->from_W, z_towards(arrow->dir_W)};
+    const Pose X_AH{Vec3(0, 0, arrow->length_m - head), Quat::Identity()};
+    paint_mark(shaft_, scaled(frame.X_CW * X_WA, kArrowRadius_m, arrow->length_m - head));
+    paint_mark(head_, scaled(frame.X_CW * X_WA * X_AH, kArrowHeadWidths * kArrowRadius_m, head));
+  }
+  glDisable(GL_CULL_FACE);
+}
+
+}  // namespace osteon

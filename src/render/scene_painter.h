@@ -1,0 +1,108 @@
+#pragma once
+
+#include <vector>
+
+#include "frame.h"
+#include "gl_objects.h"
+#include "gpu_mesh.h"
+#include "osteon/render/renderer.h"
+#include "tile_mask.h"
+
+namespace osteon {
+
+/// Programs and meshes of a case and its tool, and the order in which they are drawn.
+class ScenePainter {
+ public:
+  static Result<ScenePainter> create(const Case& the_case, const Tool& tool,
+                                     const std::filesystem::path& shader_dir,
+                                     const PreparedCase& prepared);
+
+  /// Box around everything that the snapshot shows.
+  Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
+  /// Fills the bound framebuffer's current viewport with what is behind everything.
+  void paint_ground(const PictureWindow& window) const;
+  /// Draws over the ground into the bound framebuffer's current viewport; its depth is cleared.
+  void paint(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
+
+  /// Tiles where the tool, the hand's ghost, the marks or their shade can be seen; `width` and
+  /// `height` are the frame's output pixels.
+  TileMask moving_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
+                        int width, int height) const;
+  /// True when no bone has moved by more than a twentieth of a pixel.
+  bool bones_look_still(const BoneSnapshot& before, const BoneSnapshot& now,
+                        const Frame& frame) const;
+
+ private:
+  /// All points within the radius of a segment.
+  struct Capsule {
+    Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+    double radius_m = 0;
+  };
+  /// How far from the tool its shade falls on bone: by closeness, and as a shadow along the light.
+  struct ShadeReach {
+    double near_m = 0, shadow_m = 0;
+  };
+  ShadeReach shade_reach() const { return {10 * tip_radius_m_, 30 * tip_radius_m_}; }
+  static std::vector<Capsule> capsules_along_z(const TriMesh& mesh);
+  static Capsule capsule_around(const Aabb& box);
+  static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
+  static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
+  TileMask shade_tiles(const Pose& X_WP, const Frame& frame, int width, int height) const;
+  TileMask bone_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
+                      int width, int height) const;
+  struct Level {
+    GpuMesh surface;
+    double error_m = 0;
+  };
+  struct Piece {
+    GpuMesh facets, lines;
+  };
+  struct BoneModel {
+    std::vector<Level> levels;  ///< the finest, exact one first
+    std::vector<Piece> pieces;
+    Vec3 center_B = Vec3::Zero();
+    double radius_m = 0;  ///< of a ball about the centre that holds the bone
+    Capsule around;
+    bool closed = false;
+    float line_opacity = 0;
+  };
+  /// Bones to draw whose appearance passes, the nearest first.
+  template <class Passes>
+  std::vector<std::size_t> near_to_far(const RenderSnapshot& snapshot, const ViewState& view,
+                                       const Frame& frame, Passes passes) const;
+  void set_shared(const Program& program, const ViewState& view, const Frame& frame) const;
+  void set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
+                      const Frame& frame) const;
+  static BoneModel make_bone(const Bone& bone, const ShadedMesh& mesh);
+  /// The coarsest surface that cannot be told from the exact one at its size on the screen.
+  const GpuMesh& surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                         const Frame& frame) const;
+  void draw_surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                    const Frame& frame) const;
+  void paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                  const Frame& frame) const;
+  void paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
+                          const Frame& frame) const;
+  void paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
+                      const Frame& frame) const;
+  void paint_clear_bones(const RenderSnapshot& snapshot, const ViewState& view,
+                         const Frame& frame) const;
+  void paint_hulls(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
+  void paint_tool(const Pose& X_WT, float opacity, const Frame& frame) const;
+  void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
+  void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
+
+  Program bone_, metal_, mark_, ground_;
+  std::vector<BoneModel> bones_;
+  GpuMesh tool_, shaft_, head_, ball_;
+  std::vector<Capsule> tool_capsules_;
+  double tool_length_m_ = 0, tip_radius_m_ = 0;
+  Vec3 shaft_T_ = Vec3::Zero();  ///< the shaft runs along z through here, in Tool
+  GlVertexArray no_vertices_;
+};
+
+/// Where bone k is, if it is to be drawn at all.
+bool is_shown(const RenderSnapshot& snapshot, const ViewState& view, std::size_t bone);
+const BoneAppearance& appearance(const ViewState& view, std::size_t bone);
+
+}  // namespace osteon

@@ -1,0 +1,46 @@
+#include "osteon/scene/bone_pieces.h"
+
+#include <utility>
+
+#include "osteon/base/hash.h"
+#include "osteon/mesh/measure.h"
+
+namespace osteon {
+namespace {
+
+// Counts up with every change of the algorithm that changes its pieces.
+constexpr std::uint32_t kVersion = 1;
+constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
+
+}  // namespace
+
+std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options) {
+  Hasher hasher;
+  hasher.add(kVersion);
+  hasher.add(options.concavity_m);
+  hasher.add(static_cast<std::uint64_t>(options.max_pieces));
+  hasher.add(options.search_cell_m);
+  hasher.add(static_cast<std::uint64_t>(mesh.vertices.size()));
+  for (const Vec3& p : mesh.vertices) hasher.add(p);
+  hasher.add(static_cast<std::uint64_t>(mesh.triangles.size()));
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) hasher.add(v);
+  return hasher.value();
+}
+
+std::optional<PieceCorners> cut_into_pieces(const TriMesh& mesh, const DecomposeOptions& options) {
+  if (!(bounds(mesh).extent().maxCoeff() > kLeastLength)) {
+    // Too small for the search's grid to mean anything.
+    HullOutcome outcome = build_hull(mesh.vertices);
+    if (!outcome.hull) return std::nullopt;
+    return PieceCorners{{std::move(outcome.hull->vertices)}, 0};
+  }
+  auto found = decompose(mesh, options);
+  if (!found) return std::nullopt;
+  PieceCorners corners;
+  corners.concavity_m = found->concavity_m;
+  for (Hull& piece : found->pieces) corners.pieces.push_back(std::move(piece.vertices));
+  return corners;
+}
+
+}  // namespace osteon

@@ -1,0 +1,183 @@
+#include "osteon/scene/build_case.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "osteon/base/hash.h"
+#include "osteon/mesh/measure.h"
+#include "osteon/scene/bone_pieces.h"
+#include "osteon/scene/piece_cache.h"
+
+namespace osteon {
+namespace {
+
+bool is_sound(const Material& m) {
+  const bool finite = std::isfinite(m.stiffness_n_per_m) && std::isfinite(m.static_friction) &&
+                      std::isfinite(m.dynamic_friction);
+  return finite && m.stiffness_n_per_m > 0 && m.dynamic_friction >= 0 &&
+         m.dynamic_friction <= m.static_friction;
+}
+
+bool indices_fit(const TriMesh& mesh) {
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      if (v >= mesh.vertices.size()) return false;
+  return true;
+}
+
+Result<void> check_bone(const BoneDef& def) {
+  const std::string where = "bone '" + def.name + "'";
+  if (def.name.empty()) return fail("a bone has no name", "case", "Give every bone a name");
+  if (!is_finite(def.X_WB) || std::abs(def.X_WB.q.norm() - 1) > 1e-6)
+    return fail("the pose is not finite with a unit quaternion", where);
+  if (!std::isfinite(def.density_kg_per_m3) || def.density_kg_per_m3 <= 0)
+    return fail("the density must be above zero", where, "Bone is near 1900 kg/m3");
+  if (!is_sound(def.material))
+    return fail("the material is out of range", where,
+                "Stiffness above zero, friction not negative, dynamic not above static");
+  if (!indices_fit(def.mesh)) return fail("a triangle names a vertex that is not there", where);
+  return {};
+}
+
+// The mesh encloses a volume when it is closed; else the hull has to do.
+double mass_of(const BoneDef& def, const std::vector<Hull>& pieces) {
+  double enclosed = topology(def.mesh).closed() ? std::abs(volume(def.mesh)) : 0;
+  if (enclosed <= 0)
+    for (const Hull& piece : pieces) enclosed += piece.volume;
+  return enclosed * def.density_kg_per_m3;
+}
+
+// Corners of the pieces of a bone, in Bone; none when no hull can be made.
+using Corners = std::vector<std::vector<Vec3>>;
+
+Corners piece_corners(const TriMesh& mesh, PieceCache* cache) {
+  const std::uint64_t key = piece_key(mesh);
+  if (cache)
+    if (const PieceCorners* known = cache->find(key)) return known->pieces;
+  auto made = cut_into_pieces(mesh);
+  if (!made) return {};
+  Corners corners = made->pieces;
+  if (cache) cache->put(key, std::move(*made));
+  return corners;
+}
+
+// Hulls are always built from corners alone, so that cached pieces give the same bits.
+Result<std::vector<Hull>> build_pieces(const BoneDef& bone, PieceCache* cache) {
+  Corners corners;
+  if (bone.felt != Felt::kHull) corners = piece_corners(bone.mesh, cache);
+  if (corners.empty()) corners.push_back(bone.mesh.vertices);
+  std::vector<Hull> pieces;
+  for (const auto& points : corners) {
+    HullOutcome outcome = build_hull(points);
+    if (!outcome.hull)
+      return fail("no hull can be made: " + std::string(describe(outcome.failure)),
+                  "bone '" + bone.name + "'", "Check the mesh");
+    pieces.push_back(std::move(*outcome.hull));
+  }
+  return pieces;
+}
+
+Result<Bone> build_bone(BoneDef def, PieceCache* cache) {
+  auto pieces = build_pieces(def, cache);
+  if (!pieces) return tl::unexpected(pieces.error());
+  Bone bone;
+  bone.felt = def.felt;
+  bone.pieces = std::move(*pieces);
+  for (const Hull& piece : bone.pieces) bone.bodies.push_back(make_convex_body(piece));
+  bone.mass_kg = mass_of(def, bone.pieces);
+  bone.name = std::move(def.name);
+  bone.fma_id = def.fma_id;
+  bone.X_WB = def.X_WB;
+  bone.mesh = std::move(def.mesh);
+  bone.material = def.material;
+  return bone;
+}
+
+void hash_triangles(Hasher& hasher, const std::vector<Triangle>& triangles) {
+  hasher.add(static_cast<std::uint64_t>(triangles.size()));
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) hasher.add(v);
+}
+
+void hash_points(Hasher& hasher, const std::vector<Vec3>& points) {
+  hasher.add(static_cast<std::uint64_t>(points.size()));
+  for (const Vec3& p : points) hasher.add(p);
+}
+
+void hash_piece(Hasher& hasher, const Hull& piece) {
+  hash_points(hasher, piece.vertices);
+  hash_triangles(hasher, piece.triangles);
+  hasher.add(static_cast<std::uint64_t>(piece.planes.size()));
+  for (const Plane& plane : piece.planes) {
+    hasher.add(plane.n);
+    hasher.add(plane.d);
+  }
+}
+
+void hash_bone(Hasher& hasher, const Bone& bone) {
+  hasher.add(std::string_view(bone.name));
+  hasher.add(bone.fma_id);
+  hasher.add(bone.X_WB);
+  hasher.add(static_cast<std::uint8_t>(bone.felt));
+  hash_points(hasher, bone.mesh.vertices);
+  hash_triangles(hasher, bone.mesh.triangles);
+  hasher.add(static_cast<std::uint64_t>(bone.pieces.size()));
+  for (const Hull& piece : bone.pieces) hash_piece(hasher, piece);
+  hasher.add(bone.mass_kg);
+  hasher.add(bone.material.stiffness_n_per_m);
+  hasher.add(bone.material.static_friction);
+  hasher.add(bone.material.dynamic_friction);
+}
+
+// The case's own name and side are left out: a renamed case replays the same.
+std::uint64_t hash_of(const Case& the_case) {
+  Hasher hasher;
+  hasher.add(static_cast<std::uint64_t>(the_case.bones.size()));
+  for (const Bone& bone : the_case.bones) hash_bone(hasher, bone);
+  hasher.add(static_cast<std::uint64_t>(the_case.landmarks.size()));
+  for (const Landmark& landmark : the_case.landmarks) {
+    hasher.add(std::string_view(landmark.name));
+    hasher.add(landmark.p_W);
+  }
+  return hasher.value();
+}
+
+Result<void> check_landmarks(const std::vector<Landmark>& landmarks) {
+  for (const Landmark& landmark : landmarks)
+    if (!is_finite(landmark.p_W))
+      return fail("the position is not finite", "landmark '" + landmark.name + "'");
+  return {};
+}
+
+}  // namespace
+
+Result<Case> build_case(CaseDef def, const BuildOptions& options) {
+  const std::string where = "case '" + def.name + "'";
+  if (def.bones.empty()) return fail("it has no bones", where, "Import at least one mesh");
+  if (def.bones.size() > kMaxBones)
+    return fail("it has " + std::to_string(def.bones.size()) + " bones, more than " +
+                    std::to_string(kMaxBones),
+                where, "Split it into several cases");
+  if (auto sound = check_landmarks(def.landmarks); !sound) return tl::unexpected(sound.error());
+  std::set<std::string> names;
+  for (const BoneDef& bone : def.bones) {
+    if (!names.insert(bone.name).second)
+      return fail("two bones have the name '" + bone.name + "'", where, "Rename one of them");
+    if (auto sound = check_bone(bone); !sound) return tl::unexpected(sound.error());
+  }
+  Case built;
+  for (std::size_t i = 0; i < def.bones.size(); ++i) {
+    if (options.progress) options.progress(i, def.bones.size());
+    auto bone = build_bone(std::move(def.bones[i]), options.pieces);
+    if (!bone) return tl::unexpected(bone.error());
+    built.bones.push_back(std::move(*bone));
+  }
+  built.name = std::move(def.name);
+  built.side = std::move(def.side);
+  built.landmarks = std::move(def.landmarks);
+  built.hash = hash_of(built);
+  return built;
+}
+
+}  // namespace osteon

@@ -1,0 +1,144 @@
+#include "osteon/scene/path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "numbers.h"
+#include "osteon/base/file.h"
+#include "slerp.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::string_view kHeader = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button";
+constexpr std::size_t kColumns = 9;
+constexpr double kFarthest_mm = 1e5;
+constexpr double kLatest_s = 1e7;
+
+std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Takes the text up to `separator` off the front.
+std::string_view take(std::string_view& text, char separator) {
+  const std::size_t end = std::min(text.find(separator), text.size());
+  const std::string_view front = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return front;
+}
+
+std::string column_name(std::size_t column) {
+  std::string_view header = kHeader;
+  std::string_view name;
+  for (std::size_t i = 0; i <= column; ++i) name = take(header, ',');
+  return std::string(name);
+}
+
+using Row = std::array<double, kColumns>;
+
+Result<Row> parse_numbers(std::string_view line, const std::string& where) {
+  const auto columns = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+  if (columns != kColumns)
+    return fail("has " + std::to_string(columns) + " values instead of " + std::to_string(kColumns),
+                where, "Write " + std::string(kHeader));
+  Row row{};
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    const auto value = parse_number(trimmed(take(line, ',')));
+    if (!value) return fail("the value of " + column_name(i) + " is not a finite number", where);
+    row[i] = *value;
+  }
+  return row;
+}
+
+Result<PathSample> parse_sample(std::string_view line, const std::string& where) {
+  const auto row = parse_numbers(line, where);
+  if (!row) return tl::unexpected(row.error());
+  const auto& [time, x, y, z, qw, qx, qy, qz, button] = *row;
+  if (std::abs(time) > kLatest_s)
+    return fail("the time is more than 1e7 s away", where, "Times are in seconds");
+  const Vec3 p_mm(x, y, z);
+  if (p_mm.cwiseAbs().maxCoeff() > kFarthest_mm)
+    return fail("the position is more than 100 m away", where, "Positions are in mm");
+  const auto q = as_unit(Quat(qw, qx, qy, qz));
+  if (!q) return fail("qw, qx, qy, qz are not a unit quaternion", where, "Scale them to length 1");
+  if (button != 0 && button != 1) return fail("button must be 0 or 1", where);
+  return PathSample{time, Pose{p_mm / 1000, *q}, button == 1};
+}
+
+// Millimetres that parse back to the same metres, where there are such.
+double as_mm(double metres) {
+  const double mm = metres * 1000;
+  for (const double near : {mm, std::nextafter(mm, -1e300), std::nextafter(mm, 1e300)})
+    if (near / 1000 == metres) return near;
+  return mm;
+}
+
+}  // namespace
+
+double ProbePath::duration_s() const {
+  return samples.empty() ? 0 : samples.back().time_s - samples.front().time_s;
+}
+
+PathSample ProbePath::at(double time_s) const {
+  if (samples.empty()) return {};
+  const auto after =
+      std::upper_bound(samples.begin(), samples.end(), time_s,
+                       [](double t, const PathSample& sample) { return t < sample.time_s; });
+  PathSample result = after == samples.begin() ? *after : *(after - 1);
+  if (after != samples.begin() && after != samples.end()) {
+    const PathSample& before = *(after - 1);
+    const double t = (time_s - before.time_s) / (after->time_s - before.time_s);
+    result.X_WD.p = (1 - t) * before.X_WD.p + t * after->X_WD.p;
+    result.X_WD.q = slerp(before.X_WD.q, after->X_WD.q, t);
+  }
+  result.time_s = time_s;
+  return result;
+}
+
+Result<ProbePath> parse_path(std::string_view text, const std::string& where) {
+  std::size_t line_number = 1;
+  if (trimmed(take(text, '\n')) != kHeader)
+    return fail("the first line must be " + std::string(kHeader), where + ":1");
+  ProbePath path;
+  while (!text.empty()) {
+    const std::string_view line = trimmed(take(text, '\n'));
+    const std::string here = where + ":" + std::to_string(++line_number);
+    if (line.empty() && trimmed(text).empty()) break;  // blank end of the file
+    if (path.samples.size() == kMaxPathSamples)
+      return fail("has more than " + std::to_string(kMaxPathSamples) + " samples", here,
+                  "Split the path");
+    auto sample = parse_sample(line, here);
+    if (!sample) return tl::unexpected(sample.error());
+    if (!path.samples.empty() && !(sample->time_s > path.samples.back().time_s))
+      return fail("the time does not rise", here, "Sort the samples and drop repeated ones");
+    path.samples.push_back(*sample);
+  }
+  if (path.samples.empty()) return fail("holds no sample", where, "Write at least one line");
+  return path;
+}
+
+Result<ProbePath> load_path(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  return parse_path(*text, file.string());
+}
+
+Result<void> save_path(const ProbePath& path, const std::filesystem::path& file) {
+  std::string text(kHeader);
+  text += '\n';
+  for (const PathSample& s : path.samples) {
+    const Vec3& p = s.X_WD.p;
+    const Quat& q = s.X_WD.q;
+    for (const double value :
+         {s.time_s, as_mm(p.x()), as_mm(p.y()), as_mm(p.z()), q.w(), q.x(), q.y(), q.z()})
+      text.append(format_number(value)).append(",");
+    text += s.button ? "1\n" : "0\n";
+  }
+  return write_file_atomic(file, text);
+}
+
+}  // namespace osteon

@@ -1,0 +1,16 @@
+#include "osteon/scene/state.h"
+
+#include "osteon/base/check.h"
+
+namespace osteon {
+
+BoneSnapshot rest_snapshot(const Case& the_case) {
+  demand(the_case.bones.size() <= kMaxBones, "a case has more bones than a snapshot holds");
+  BoneSnapshot snapshot;
+  snapshot.count = static_cast<std::uint32_t>(the_case.bones.size());
+  for (std::size_t i = 0; i < the_case.bones.size(); ++i)
+    snapshot.bones[i].X_WB = the_case.bones[i].X_WB;
+  return snapshot;
+}
+
+}  // namespace osteon

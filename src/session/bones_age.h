@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace osteon {
+
+/// How far the bones of a snapshot must be carried forward at a haptic tick; see Session. A
+/// function of which snapshot each tick consumed, so that a replay finds the same.
+class BonesAge {
+ public:
+  /// Longest extrapolation, s: beyond it a velocity says nothing about where a bone is.
+  static constexpr double kMax = 0.020;
+
+  /// Ticks come in order.
+  double at(std::uint64_t tick, std::uint64_t step, double tick_s) {
+    if (step != step_) {
+      step_ = step;
+      first_tick_ = tick;
+    }
+    return std::min(static_cast<double>(tick - first_tick_ + 1) * tick_s, kMax);
+  }
+  std::uint64_t step() const { return step_; }
+  std::uint64_t first_tick() const { return first_tick_; }
+
+ private:
+  std::uint64_t step_ = 0;
+  std::uint64_t first_tick_ = 1;  // of those that saw this step
+};
+
+}  // namespace osteon

@@ -1,0 +1,2 @@
+find_package(nlohmann_json 3.9 REQUIRED)
+target_link_libraries(osteon_session PRIVATE nlohmann_json::nlohmann_json)

@@ -1,0 +1,169 @@
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "osteon/session/session.h"
+
+namespace osteon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A setting that is a number, and where it may lie.
+struct NumberField {
+  const char* group;
+  const char* name;
+  std::function<double&(SessionSettings&)> of;
+  double min, max;
+};
+
+using S = SessionSettings;
+
+const std::vector<NumberField>& number_fields() {
+  static const std::vector<NumberField> fields = {
+      {"haptic", "tick_s", [](S& s) -> double& { return s.haptic.tick_s; }, 1e-4, 1e-2},
+      {"haptic", "stiffness_n_per_m", [](S& s) -> double& { return s.haptic.stiffness_n_per_m; }, 1,
+       1e5},
+      {"haptic", "damping_n_s_per_m", [](S& s) -> double& { return s.haptic.damping_n_s_per_m; }, 0,
+       1e3},
+      {"haptic", "friction_scale", [](S& s) -> double& { return s.haptic.friction_scale; }, 0, 10},
+      {"haptic", "max_force_n", [](S& s) -> double& { return s.haptic.max_force_n; }, 0, 100},
+      {"haptic", "max_slew_n_per_s", [](S& s) -> double& { return s.haptic.max_slew_n_per_s; }, 1,
+       1e6},
+      {"haptic", "max_turn_rad_per_tick",
+       [](S& s) -> double& { return s.haptic.max_turn_rad_per_tick; }, 0, std::numbers::pi},
+      {"physics", "step_s", [](S& s) -> double& { return s.physics.step_s; }, 1e-4, 0.1},
+      {"physics", "spring_n_per_m", [](S& s) -> double& { return s.physics.spring_n_per_m; }, 0,
+       1e7},
+      {"physics", "spring_nm_per_rad", [](S& s) -> double& { return s.physics.spring_nm_per_rad; },
+       0, 1e5},
+      {"physics", "damping_ratio", [](S& s) -> double& { return s.physics.damping_ratio; }, 0, 100},
+      {"", "probe_radius_m", [](S& s) -> double& { return s.probe_radius_m; }, 1e-4, 0.02},
+  };
+  return fields;
+}
+
+// A setting that is on or off.
+struct FlagField {
+  const char* group;
+  const char* name;
+  std::function<bool&(SessionSettings&)> of;
+};
+
+const std::vector<FlagField>& flag_fields() {
+  static const std::vector<FlagField> fields = {
+      {"haptic", "force_on", [](S& s) -> bool& { return s.haptic.force_on; }},
+      {"physics", "hold_bones", [](S& s) -> bool& { return s.physics.hold_bones; }},
+  };
+  return fields;
+}
+
+constexpr const char* kTodo = "Correct the settings, or use those of another recording";
+
+std::string path_of(const char* group, const char* name) {
+  return *group ? std::string(group) + "." + name : std::string(name);
+}
+
+Json& group_of(Json& json, const char* group) { return *group ? json[group] : json; }
+
+// A setting's value in the file, or nothing.
+const Json* find(const Json& json, const char* group, const char* name) {
+  const Json* holder = &json;
+  if (*group) {
+    const auto found = json.find(group);
+    if (found == json.end() || !found->is_object()) return nullptr;
+    holder = &*found;
+  }
+  const auto found = holder->find(name);
+  return found == holder->end() ? nullptr : &*found;
+}
+
+Result<Json> parse_object(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    return fail("the settings are not a JSON object", "settings", kTodo);
+  return json;
+}
+
+// A setting that this version does not know may change what a recording means.
+Result<void> check_keys(const Json& json) {
+  SessionSettings defaults;
+  const Json expected = Json::parse(to_json(defaults));
+  for (const auto& [key, value] : json.items()) {
+    if (!expected.contains(key)) return fail("unknown setting", "settings, '" + key + "'", kTodo);
+    if (!expected[key].is_object() || !value.is_object()) continue;
+    for (const auto& [name, ignored] : value.items())
+      if (!expected[key].contains(name))
+        return fail("unknown setting", "settings, '" + key + "." + name + "'", kTodo);
+  }
+  return {};
+}
+
+Result<void> read_numbers(const Json& json, SessionSettings& settings) {
+  for (const NumberField& field : number_fields()) {
+    const Json* value = find(json, field.group, field.name);
+    if (!value || !value->is_number())
+      return fail("a number is missing", "settings, '" + path_of(field.group, field.name) + "'",
+                  kTodo);
+    field.of(settings) = value->get<double>();
+  }
+  return {};
+}
+
+Result<void> read_flags(const Json& json, SessionSettings& settings) {
+  for (const FlagField& field : flag_fields()) {
+    const Json* value = find(json, field.group, field.name);
+    if (!value || !value->is_boolean())
+      return fail("true or false is missing",
+                  "settings, '" + path_of(field.group, field.name) + "'", kTodo);
+    field.of(settings) = value->get<bool>();
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_settings(const SessionSettings& settings) {
+  SessionSettings copy = settings;
+  for (const NumberField& field : number_fields()) {
+    const double value = field.of(copy);
+    if (!(value >= field.min && value <= field.max))
+      return fail(
+          "the value is out of range", "settings, '" + path_of(field.group, field.name) + "'",
+          "Choose a value from " + Json(field.min).dump() + " to " + Json(field.max).dump());
+  }
+  const double ticks = settings.physics.step_s / settings.haptic.tick_s;
+  if (std::round(ticks) < 1 || std::abs(ticks - std::round(ticks)) > 1e-6)
+    return fail("a physics step is not a whole number of haptic ticks",
+                "settings, 'physics.step_s'", "Choose a multiple of 'haptic.tick_s'");
+  return {};
+}
+
+std::string to_json(const SessionSettings& settings) {
+  SessionSettings copy = settings;
+  Json json = {{"seed", settings.seed}};
+  for (const NumberField& field : number_fields())
+    group_of(json, field.group)[field.name] = field.of(copy);
+  for (const FlagField& field : flag_fields())
+    group_of(json, field.group)[field.name] = field.of(copy);
+  return json.dump(2);
+}
+
+Result<SessionSettings> parse_settings(const std::string& json) {
+  const auto parsed = parse_object(json);
+  if (!parsed) return tl::unexpected(parsed.error());
+  SessionSettings settings;
+  if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());
+  const Json* seed = find(*parsed, "", "seed");
+  if (!seed || !seed->is_number_unsigned())
+    return fail("a whole number is missing", "settings, 'seed'", kTodo);
+  settings.seed = seed->get<std::uint64_t>();
+  if (const auto done = read_numbers(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = read_flags(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = check_settings(settings); !done) return tl::unexpected(done.error());
+  return settings;
+}
+
+}  // namespace osteon

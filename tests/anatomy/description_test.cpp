@@ -1,0 +1,146 @@
+#include "description.h"
+
+#include <gtest/gtest.h>
+
+namespace osteon {
+namespace {
+
+const std::string kHead = "name = \"test\"\nside = \"left\"\n";
+const std::string kBall = "{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = [5, 4, 3] }";
+
+std::string bone(const std::string& name, const std::string& add, const std::string& more = "") {
+  return "[[bone]]\nname = \"" + name + "\"\nfma_id = 7\nposition_mm = [1, 2, 3]\nadd = [" + add +
+         "]\n" + more + "\n";
+}
+
+/// Message of a description that must not be read; it must name the file and hold all the words.
+void expect_refused(const std::string& text, const std::vector<std::string>& words) {
+  const auto r = parse_description(text, "wrist.toml");
+  ASSERT_FALSE(r) << text;
+  const std::string message = r.error().message();
+  EXPECT_NE(message.find("wrist.toml"), std::string::npos) << message;
+  for (const std::string& word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
+}
+
+TEST(Description, EmptyAndBrokenFilesAreRefused) {
+  expect_refused("", {"'name'", "missing"});
+  expect_refused("name = [", {"line 1"});
+  expect_refused("name = \"x\"\nside = \"left\"\nside = \"left\"", {"line 3"});
+  expect_refused(kHead, {"'bone'", "missing"});
+  expect_refused(kHead + "bone = []", {"'bone'"});
+  expect_refused(kHead + "bone = 3", {"'bone'"});
+  expect_refused(kHead + "bone = [1, 2]", {"'bone'"});
+}
+
+TEST(Description, SideIsLeftOrRight) {
+  expect_refused("name = \"x\"\nside = \"up\"\n" + bone("a", kBall), {"'side'"});
+}
+
+TEST(Description, UnknownKeysAreRefusedWhereTheyStand) {
+  expect_refused(kHead + "colour = 1\n" + bone("a", kBall), {"'colour'"});
+  expect_refused(kHead + bone("a", kBall, "weight = 3"), {"bone 'a'", "'weight'"});
+  expect_refused(kHead + bone("a",
+                              "{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = "
+                              "[5, 4, 3], radius_mm = 2 }"),
+                 {"bone 'a'", "add 1", "'radius_mm'"});
+  expect_refused(kHead + bone("a", kBall) +
+                     "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\nbone = \"a\"\n",
+                 {"landmark 'l'", "'bone'"});
+}
+
+TEST(Description, MissingKeysAreNamed) {
+  expect_refused(kHead + "[[bone]]\nname = \"a\"\n", {"bone 'a'", "'fma_id'"});
+  expect_refused(kHead + "[[bone]]\nfma_id = 3\n", {"line 3", "'name'"});
+  expect_refused(kHead + "[[bone]]\nname = \"a\"\nfma_id = 3\nposition_mm = [0, 0, 0]\n",
+                 {"bone 'a'", "'add'"});
+  expect_refused(kHead + bone("a", "{ shape = \"ellipsoid\", center_mm = [0, 0, 0] }"),
+                 {"'radii_mm'"});
+  expect_refused(kHead + bone("a", kBall, "clear = [{ gap_mm = 1 }]"), {"clear 1", "'bone'"});
+}
+
+TEST(Description, NumbersOutOfRangeAreRefused) {
+  for (const char* radii : {"[0, 4, 3]", "[-5, 4, 3]", "[nan, 4, 3]", "[inf, 4, 3]", "[5, 4]",
+                            "[5, 4, 3, 2]", "5", "[\"5\", 4, 3]", "[]", "[[5], [4], [3]]"})
+    expect_refused(kHead + bone("a", "{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = " +
+                                         std::string(radii) + " }"),
+                   {"bone 'a'", "add 1", "'radii_mm'"});
+  expect_refused(kHead + bone("a", kBall, "blend_mm = -1"), {"'blend_mm'"});
+  expect_refused(kHead + bone("a", kBall, "density_kg_per_m3 = 0"), {"'density_kg_per_m3'"});
+  expect_refused(kHead + "[[bone]]\nname = \"a\"\nfma_id = 1.5\n", {"'fma_id'"});
+  expect_refused(kHead + "[[bone]]\nname = \"\"\n", {"'name'"});
+}
+
+TEST(Description, ShapesAreChecked) {
+  expect_refused(kHead + bone("a", "{ shape = \"banana\" }"), {"'shape'", "banana"});
+  expect_refused(kHead + bone("a",
+                              "{ shape = \"half_space\", point_mm = [0, 0, 0], "
+                              "normal = [0, 0, 1] }"),
+                 {"'shape'", "cut"});
+  expect_refused(kHead + bone("a", kBall,
+                              "cut = [{ shape = \"half_space\", point_mm = [0, 0, 0], "
+                              "normal = [0, 0, 0] }]"),
+                 {"cut 1", "'normal'"});
+  expect_refused(kHead + bone("a",
+                              "{ shape = \"box\", center_mm = [0, 0, 0], half_mm = [1, 2, 3], "
+                              "round_mm = 1.5 }"),
+                 {"'round_mm'"});
+}
+
+TEST(Description, TubesAreChecked) {
+  const auto tube = [](const std::string& points, const std::string& radii) {
+    return kHead +
+           bone("a", "{ shape = \"tube\", points_mm = " + points + ", radii_mm = " + radii + " }");
+  };
+  expect_refused(tube("[]", "[]"), {"'points_mm'"});
+  expect_refused(tube("[[0, 0, 0]]", "[1]"), {"'points_mm'"});
+  expect_refused(tube("[[0, 0, 0], [1, 0]]", "[1, 1]"), {"'points_mm'"});
+  expect_refused(tube("[[0, 0, 0], [0, 0, 0]]", "[1, 1]"), {"'points_mm'", "twice"});
+  expect_refused(tube("[[0, 0, 0], [9, 0, 0]]", "[1, 1, 1]"), {"'radii_mm'"});
+  expect_refused(tube("[[0, 0, 0], [9, 0, 0], [18, 0, 0], [27, 0, 0]]", "[50, 0.1, 0.1, 50]"),
+                 {"'radii_mm'", "zero"});
+}
+
+TEST(Description, NamesAreUniqueAndClearancesNameOtherBones) {
+  expect_refused(kHead + bone("a", kBall) + bone("a", kBall), {"'name'", "'a'"});
+  expect_refused(kHead + bone("a", kBall, "clear = [{ bone = \"b\", gap_mm = 1 }]"),
+                 {"bone 'a'", "clear 1", "'b'"});
+  expect_refused(kHead + bone("a", kBall, "clear = [{ bone = \"a\", gap_mm = 1 }]"), {"another"});
+  expect_refused(
+      kHead + bone("a", kBall, "clear = [{ bone = \"b\", gap_mm = -1 }]") + bone("b", kBall),
+      {"'gap_mm'"});
+  const std::string landmark = "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\n";
+  expect_refused(kHead + bone("a", kBall) + landmark + landmark, {"'l'", "two landmarks"});
+}
+
+TEST(Description, ReadsInMetresWithDefaults) {
+  const auto r = parse_description(
+      kHead +
+          bone("a",
+               kBall + ", { shape = \"tube\", points_mm = [[0, 0, 0], [9, 0, 0]], radii_mm = "
+                       "[2, 1], blend_mm = 4 }",
+               "blend_mm = 2\nclear = [{ bone = \"b\", gap_mm = 1.5 }]") +
+          bone("b", kBall, "density_kg_per_m3 = 1200") +
+          "[[landmark]]\nname = \"l\"\nposition_mm = [10, 0, -20]\n",
+      "f");
+  ASSERT_TRUE(r) << r.error().message();
+  EXPECT_EQ(r->side, "left");
+  ASSERT_EQ(r->bones.size(), 2u);
+  const BoneDescription& a = r->bones[0];
+  EXPECT_EQ(a.fma_id, 7);
+  EXPECT_EQ(a.density_kg_per_m3, 1900);
+  EXPECT_EQ(r->bones[1].density_kg_per_m3, 1200);
+  EXPECT_LT((a.p_WB - Vec3(0.001, 0.002, 0.003)).norm(), 1e-12);
+  ASSERT_EQ(a.solid.parts.size(), 2u);
+  EXPECT_DOUBLE_EQ(a.solid.parts[0].blend, 0.002);
+  EXPECT_DOUBLE_EQ(a.solid.parts[1].blend, 0.004);
+  EXPECT_LT((std::get<Ellipsoid>(a.solid.parts[0].primitive).radii - Vec3(5, 4, 3) * 0.001).norm(),
+            1e-12);
+  ASSERT_EQ(a.clearances.size(), 1u);
+  EXPECT_EQ(a.clearances[0].other_bone, 1u);
+  EXPECT_DOUBLE_EQ(a.clearances[0].gap, 0.0015);
+  EXPECT_LT((r->landmarks[0].p_W - Vec3(0.01, 0, -0.02)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,86 @@
+// Fails on an include that docs/architecture.md's table of modules does not allow.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Arrows = std::map<std::string, std::set<std::string>>;
+
+const Arrows& allowed() {
+  static const Arrows table = {
+      {"base", {}},
+      {"image", {"base"}},
+      {"mesh", {"base", "image"}},
+      {"anatomy", {"base", "image", "mesh"}},
+      {"hull", {"base", "mesh"}},
+      {"collide", {"base", "mesh", "hull"}},
+      {"scene", {"base", "image", "mesh", "hull", "collide"}},
+      {"device", {"base"}},
+      {"haptic", {"base", "hull", "collide", "scene"}},
+      {"physics", {"base", "image", "mesh", "hull", "collide", "scene"}},
+      {"render", {"base", "mesh", "scene"}},
+      {"procedure", {"base", "scene"}},
+      {"record", {"base", "scene"}},
+      {"session", {"base", "scene", "haptic", "physics", "procedure", "record"}},
+  };
+  return table;
+}
+
+// Modules that `file` includes by <module>/ path.
+std::set<std::string> included_modules(const fs::path& file) {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*"osteon/([a-z_]+)/)re");
+  std::set<std::string> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern)) found.insert(match[1]);
+  }
+  return found;
+}
+
+bool is_source(const fs::path& p) { return p.extension() == ".h" || p.extension() == ".cpp"; }
+
+TEST(Arrows, EveryIncludeFollowsTheTable) {
+  int files = 0;
+  for (const char* root : {"include/osteon", "src"}) {
+    const fs::path top = fs::path(OSTEON_SOURCE_DIR) / root;
+    for (const auto& entry : fs::recursive_directory_iterator(top)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      const std::string module = fs::relative(entry.path(), top).begin()->string();
+      if (module == "app") continue;
+      ++files;
+      ASSERT_TRUE(allowed().count(module)) << entry.path() << ": module not in the table";
+      for (const std::string& target : included_modules(entry.path())) {
+        if (target == module) continue;
+        EXPECT_TRUE(allowed().at(module).count(target))
+            << entry.path() << " includes " << target << ", which " << module << " may not";
+      }
+    }
+  }
+  EXPECT_GT(files, 20);
+}
+
+TEST(Arrows, ThreadsAppearInAppAndBaseOnly) {
+  static const std::regex pattern(R"(std::j?thread\b|#include <thread>)");
+  for (const char* root : {"include/osteon", "src"}) {
+    const fs::path top = fs::path(OSTEON_SOURCE_DIR) / root;
+    for (const auto& entry : fs::recursive_directory_iterator(top)) {
+      if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+      const std::string module = fs::relative(entry.path(), top).begin()->string();
+      if (module == "app" || module == "base") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);)
+        EXPECT_FALSE(std::regex_search(line, pattern)) << entry.path() << ": " << line;
+    }
+  }
+}
+
+}  // namespace

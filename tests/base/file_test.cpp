@@ -1,0 +1,77 @@
+#include "osteon/base/file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace osteon {
+namespace fs = std::filesystem;
+namespace {
+
+class FileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    dir_ = fs::temp_directory_path() / ("osteon_file_" + std::to_string(::getpid()));
+    fs::create_directories(dir_);
+  }
+  void TearDown() override { fs::remove_all(dir_); }
+  fs::path dir_;
+};
+
+TEST_F(FileTest, AMissingFileSaysWhichAndWhy) {
+  const auto r = read_file(dir_ / "nothing");
+  ASSERT_FALSE(r);
+  EXPECT_NE(r.error().message().find("nothing"), std::string::npos);
+  EXPECT_NE(r.error().message().find("No such file"), std::string::npos);
+}
+
+TEST_F(FileTest, AFolderIsNotAFile) { EXPECT_FALSE(read_file(dir_)); }
+
+TEST_F(FileTest, RefusesAFileOverTheLimit) {
+  ASSERT_TRUE(write_file_atomic(dir_ / "f", std::string(100, 'x')));
+  EXPECT_FALSE(read_file(dir_ / "f", 99));
+  EXPECT_TRUE(read_file(dir_ / "f", 100));
+}
+
+TEST_F(FileTest, WhatIsWrittenIsRead) {
+  const std::string bytes("a\0b\xff\n", 5);
+  ASSERT_TRUE(write_file_atomic(dir_ / "f", bytes));
+  EXPECT_EQ(read_file(dir_ / "f").value(), bytes);
+}
+
+TEST_F(FileTest, AFullDiskLeavesTheOldContent) {
+  ASSERT_TRUE(write_file_atomic(dir_ / "f", "old"));
+  // A file-size limit fails a write as a full disk does.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto r = write_file_atomic(dir_ / "f", std::string(5000, 'n'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_FALSE(r);
+  EXPECT_EQ(read_file(dir_ / "f").value(), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(dir_), {}), 1) << "a temporary file was left";
+}
+
+TEST_F(FileTest, AMissingFolderIsAnError) {
+  EXPECT_FALSE(write_file_atomic(dir_ / "no" / "f", "x"));
+}
+
+TEST_F(FileTest, DataDirFollowsItsVariable) {
+  ::setenv("OSTEON_DATA", dir_.c_str(), 1);
+  EXPECT_FALSE(find_data_dir());
+  fs::create_directories(dir_ / "assets");
+  fs::create_directories(dir_ / "shaders");
+  const auto r = find_data_dir();
+  ::unsetenv("OSTEON_DATA");
+  ASSERT_TRUE(r);
+  EXPECT_EQ(*r, dir_);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,173 @@
+// Convex hulls beside qhull, CGAL and Bullet, on the wrist's fifteen bones (distinct vertices, as
+// meshes hold them, and the triangle soup, as STL does) and on random points.
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+#include <LinearMath/btConvexHullComputer.h>
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "osteon/base/random.h"
+#include "osteon/hull/hull.h"
+#include "osteon/mesh/mesh_io.h"
+
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+namespace {
+
+using osteon::Vec3;
+using Points = std::vector<Vec3>;
+using Sets = std::vector<Points>;
+
+const char* const kBones[] = {"1mc",      "2mc",       "3mc",       "4mc",        "5mc",
+                              "capitate", "hamate",    "lunate",    "pisiform",   "radius",
+                              "scaphoid", "trapezium", "trapezoid", "triquetrum", "ulna"};
+
+std::filesystem::path wrist_folder() {
+  const char* shared = std::getenv("OSTEON_SHARED");
+  return std::filesystem::path(shared ? shared : OSTEON_SOURCE_DIR "/../shared") / "anatomy/wrist";
+}
+
+Points distinct(const Points& soup) {
+  std::set<std::array<double, 3>> seen;
+  Points points;
+  for (const Vec3& p : soup) {
+    if (seen.insert({p.x(), p.y(), p.z()}).second) points.push_back(p);
+  }
+  return points;
+}
+
+/// One set of points a bone; empty when the meshes are not there.
+Sets wrist(bool soup) {
+  Sets sets;
+  for (const char* bone : kBones) {
+    const auto mesh = osteon::load_mesh(wrist_folder() / (std::string(bone) + ".stl"), 1.0);
+    if (!mesh) return {};
+    const Points vertices = distinct(mesh->vertices);
+    if (!soup) {
+      sets.push_back(vertices);
+      continue;
+    }
+    Points corners;
+    for (const osteon::Triangle& t : mesh->triangles) {
+      for (const std::uint32_t v : t) corners.push_back(mesh->vertices[v]);
+    }
+    sets.push_back(corners);
+  }
+  return sets;
+}
+
+Points on_sphere(std::size_t n) {
+  osteon::Random random(1);
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) points.push_back(random.direction());
+  return points;
+}
+
+Points in_ball(std::size_t n) {
+  osteon::Random random(2);
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double radius = std::cbrt(random.uniform());
+    points.push_back(radius * random.direction());
+  }
+  return points;
+}
+
+// Each hull returns how many vertices it found.
+
+std::size_t osteon_hull(const Points& points) {
+  return osteon::build_hull(points).hull->vertices.size();
+}
+
+std::size_t qhull_hull(const Points& points) {
+  qhT context;
+  qhT* qh = &context;
+  qh_zero(qh, stderr);
+  char options[] = "qhull";
+  auto* coordinates = const_cast<double*>(points.data()->data());
+  qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates, False, options, nullptr,
+               stderr);
+  const auto count = static_cast<std::size_t>(qh->num_vertices);
+  qh_freeqhull(qh, !qh_ALL);
+  int kept = 0, total = 0;
+  qh_memfreeshort(qh, &kept, &total);
+  return count;
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CgalPoints = std::vector<Kernel::Point_3>;
+
+std::size_t cgal_hull(const CgalPoints& points) {
+  CGAL::Surface_mesh<Kernel::Point_3> mesh;
+  CGAL::convex_hull_3(points.begin(), points.end(), mesh);
+  return mesh.number_of_vertices();
+}
+
+std::size_t bullet_hull(const Points& points) {
+  btConvexHullComputer computer;
+  computer.compute(points.data()->data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
+  return static_cast<std::size_t>(computer.vertices.size());
+}
+
+template <class Set, class Hull>
+void measure(benchmark::State& state, const std::vector<Set>& sets, const Hull& hull) {
+  if (sets.empty()) {
+    state.SkipWithError("the wrist's meshes are not there (set OSTEON_SHARED)");
+    return;
+  }
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    vertices = 0;
+    for (const Set& points : sets) vertices += hull(points);
+  }
+  state.counters["vertices"] = static_cast<double>(vertices);
+}
+
+std::vector<CgalPoints> for_cgal(const Sets& sets) {
+  std::vector<CgalPoints> result;
+  for (const Points& points : sets) {
+    result.emplace_back();
+    for (const Vec3& p : points) result.back().emplace_back(p.x(), p.y(), p.z());
+  }
+  return result;
+}
+
+void add(const std::string& name, const Sets& sets) {
+  const auto unit = benchmark::kMillisecond;
+  benchmark::RegisterBenchmark((name + "/osteon").c_str(), [sets](benchmark::State& s) {
+    measure(s, sets, osteon_hull);
+  })->Unit(unit);
+  benchmark::RegisterBenchmark((name + "/qhull").c_str(), [sets](benchmark::State& s) {
+    measure(s, sets, qhull_hull);
+  })->Unit(unit);
+  benchmark::RegisterBenchmark((name + "/cgal").c_str(), [sets = for_cgal(sets)](auto& s) {
+    measure(s, sets, cgal_hull);
+  })->Unit(unit);
+  benchmark::RegisterBenchmark((name + "/bullet").c_str(), [sets](benchmark::State& s) {
+    measure(s, sets, bullet_hull);
+  })->Unit(unit);
+}
+
+/// Registered before main reads its arguments.
+[[maybe_unused]] const bool registered = [] {
+  add("wrist", wrist(false));
+  add("wrist_soup", wrist(true));
+  for (const int decade : {4, 5, 6}) {
+    const auto n = static_cast<std::size_t>(std::lround(std::pow(10, decade)));
+    add("ball_1e" + std::to_string(decade), {in_ball(n)});
+    add("sphere_1e" + std::to_string(decade), {on_sphere(n)});
+  }
+  return true;
+}();
+
+}  // namespace

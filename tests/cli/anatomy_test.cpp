@@ -1,0 +1,56 @@
+// Varied anatomy through the command line alone.
+#include "osteon/base/file.h"
+#include "osteon/scene/case_io.h"
+#include "run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+class Anatomy : public CliTest {
+ protected:
+  std::string text_of(const std::string& name) { return read_file(file(name)).value_or(""); }
+};
+
+TEST_F(Anatomy, ListSaysMeanDeviationRangeAndSource) {
+  const Ran ran = run_osteon("anatomy list wrist");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  for (const char* word : {"radial_inclination_deg", "3.8", "32", "400 films", "mean", "sd"})
+    EXPECT_NE(ran.output.find(word), std::string::npos) << word << " in\n" << ran.output;
+}
+
+TEST_F(Anatomy, BadRequestsExitWithTwoAndWriteNothing) {
+  for (const char* bad :
+       {"wrist --set radial_inclination_deg=80", "wrist --set nose_mm=1", "wrist --set nonsense",
+        "wrist --set volar_tilt_deg=", "wrist --set volar_tilt_deg=9x", "wrist --side upper",
+        "wrist --seed x", "elbow"}) {
+    const Ran ran = run_osteon("anatomy make " + std::string(bad) + " --out " + file("never"));
+    EXPECT_EQ(ran.exit_code, 2) << bad << ": " << ran.output;
+    EXPECT_FALSE(fs::exists(file("never"))) << bad;
+  }
+}
+
+TEST_F(Anatomy, TheSameSeedGivesTheSameBytesAndACaseThatChecksSound) {
+  const std::string make = "anatomy make wrist --seed 7 --set radial_inclination_deg=18 --out ";
+  for (const char* name : {"a", "b"}) {
+    const Ran ran = run_osteon(make + file(name));
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(file("a"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(text_of("a/" + name), text_of("b/" + name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(files, 16u) << "fifteen meshes and case.toml";
+  const std::string text = text_of("a/case.toml");
+  EXPECT_NE(text.find("--seed 7 --set radial_inclination_deg=18"), std::string::npos);
+  EXPECT_NE(text.find("# radial_inclination_deg = 18\n"), std::string::npos);
+  const auto def = load_case(file("a"));
+  ASSERT_TRUE(def) << def.error().message();
+  EXPECT_EQ(check_case(*def), std::vector<std::string>{});
+  EXPECT_EQ(def->bones.size(), 15u);
+  EXPECT_EQ(run_osteon(make + file("a")).exit_code, 2) << "a folder that holds files stays";
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli

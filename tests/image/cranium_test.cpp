@@ -1,0 +1,41 @@
+// A real scan: the head of Debian's invesalius-examples, with the bone mask that its makers drew.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "osteon/image/load_volume.h"
+#include "osteon/image/segment.h"
+#include "volume_files.h"
+
+namespace osteon {
+namespace {
+
+std::filesystem::path cranium() {
+  const char* set = std::getenv("OSTEON_CRANIUM");
+  return set ? set : "/usr/share/doc/invesalius-examples/examples/Cranium.inv3";
+}
+
+TEST(Cranium, BoneAgreesWithTheFilesOwnMask) {
+  if (!std::filesystem::exists(cranium()))
+    GTEST_SKIP() << "install invesalius-examples, or set OSTEON_CRANIUM to its Cranium.inv3";
+  const auto volume = load_volume(cranium());
+  ASSERT_TRUE(volume) << volume.error().message();
+  const auto own = read_inv3_mask(cranium());
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_EQ(own->low_hu, 226);
+  SegmentOptions options;
+  options.threshold_hu = own->low_hu;
+  const auto found = segment_bone(*volume, options);
+  ASSERT_TRUE(found) << found.error().message();
+  Mask bone{volume->frame, {}};
+  for (const std::uint16_t label : found->labels.values) bone.values.push_back(label ? 1 : 0);
+  const double agreement = dice(bone, own->mask);
+  RecordProperty("dice", std::to_string(agreement));
+  std::printf("Dice %.4f\n", agreement);
+  EXPECT_GE(agreement, 0.95);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,308 @@
+// Files of every format, made here byte by byte, then spoilt.
+#include "volume_files.h"
+
+#include <zlib.h>
+
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+
+#include "osteon/image/load_volume.h"
+#include "temp_folder.h"
+#include "volumes.h"
+
+namespace osteon {
+namespace {
+
+std::string raw_bytes(const Volume& volume) {
+  return std::string(reinterpret_cast<const char*>(volume.values.data()), volume.values.size() * 2);
+}
+
+std::string swapped(std::string bytes) {
+  for (std::size_t n = 0; n + 1 < bytes.size(); n += 2) std::swap(bytes[n], bytes[n + 1]);
+  return bytes;
+}
+
+std::string gzip(const std::string& bytes) {
+  std::string out(bytes.size() + 1000, '\0');
+  z_stream stream{};
+  deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+void expect_same(const Result<Volume>& got, const Volume& wanted) {
+  ASSERT_TRUE(got) << got.error().message();
+  EXPECT_EQ(got->frame.size, wanted.frame.size);
+  EXPECT_LT((got->frame.spacing_m - wanted.frame.spacing_m).norm(), 1e-9);
+  EXPECT_LT((got->frame.axes_P - wanted.frame.axes_P).norm(), 1e-6);
+  EXPECT_LT((got->frame.origin_P - wanted.frame.origin_P).norm(), 1e-8);
+  EXPECT_EQ(got->values, wanted.values);
+}
+
+class VolumeFiles : public TempFolder {
+ protected:
+  Result<Volume> load(const std::string& name, const std::string& bytes) {
+    write(file(name), bytes);
+    return load_volume(file(name));
+  }
+  void expect_refused(const std::string& name, const std::string& bytes, const std::string& says) {
+    const auto volume = load(name, bytes);
+    ASSERT_FALSE(volume) << says;
+    EXPECT_NE(volume.error().message().find(says), std::string::npos) << volume.error().message();
+    EXPECT_NE(volume.error().message().find(name), std::string::npos) << volume.error().message();
+    EXPECT_FALSE(volume.error().todo.empty());
+  }
+  Volume volume_ = noise_volume(small_frame(), 5);
+};
+
+// The frame of small_frame() in the words of each format.
+std::string nrrd_header(const std::string& encoding, const std::string& more = {}) {
+  return "NRRD0004\n# made by a test\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"
+         "sizes: 9 7 5\nspace directions: (0.4,0,0) (0,0.6,0) (0,0,1.1)\n"
+         "space origin: (-12,34,100)\nendian: little\nencoding: " +
+         encoding + "\nkey:=value\n" + more + "\n";
+}
+
+TEST_F(VolumeFiles, NrrdRawGzipBigEndianAndDetached) {
+  const std::string raw = raw_bytes(volume_);
+  expect_same(load("a.nrrd", nrrd_header("raw") + raw), volume_);
+  expect_same(load("b.nrrd", nrrd_header("gzip") + gzip(raw)), volume_);
+  std::string big = nrrd_header("raw");
+  big.replace(big.find("little"), 6, "big");
+  expect_same(load("c.nrrd", big + swapped(raw)), volume_);
+  write(file("d.raw"), raw);
+  expect_same(load("d.nhdr", nrrd_header("raw", "data file: d.raw\n")), volume_);
+}
+
+TEST_F(VolumeFiles, NrrdInRasIsTurnedIntoLps) {
+  std::string header = nrrd_header("raw");
+  header.replace(header.find("left-posterior"), 14, "right-anterior");
+  const auto volume = load("a.nrrd", header + raw_bytes(volume_));
+  ASSERT_TRUE(volume) << volume.error().message();
+  EXPECT_LT(
+      (volume->frame.point_P(Vec3(1, 2, 3)) - Vec3(0.012 - 0.0004, -0.034 - 0.0012, 0.1033)).norm(),
+      1e-9);
+  EXPECT_EQ(volume->at(1, 2, 3), volume_.at(1, 2, 3));
+}
+
+// A left-handed grid becomes right-handed; every voxel stays where it is in the patient.
+TEST_F(VolumeFiles, LeftHandedAxesKeepEveryVoxelInItsPlace) {
+  std::string header = nrrd_header("raw");
+  header.replace(header.find("(0,0,1.1)"), 9, "(0,0,-1.1)");
+  const auto volume = load("a.nrrd", header + raw_bytes(volume_));
+  ASSERT_TRUE(volume) << volume.error().message();
+  EXPECT_NEAR(volume->frame.axes_P.determinant(), 1, 1e-9);
+  for (const Vec3& ijk : {Vec3(0, 0, 0), Vec3(3, 2, 1), Vec3(8, 6, 4)}) {
+    const Vec3 p_P = Vec3(-0.012, 0.034, 0.1) + Vec3(0.0004, 0.0006, -0.0011).cwiseProduct(ijk);
+    EXPECT_NEAR(
+        sample_linear(*volume, volume->frame.voxel(p_P)),
+        volume_.at(static_cast<int>(ijk.x()), static_cast<int>(ijk.y()), static_cast<int>(ijk.z())),
+        1e-3);
+  }
+}
+
+TEST_F(VolumeFiles, BadNrrdIsNamed) {
+  const std::string raw = raw_bytes(volume_);
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::string good = nrrd_header("raw");
+  expect_refused("a.nrrd", "PNG", "no NRRD");
+  expect_refused("a.nrrd", good + raw.substr(2), "truncated");
+  expect_refused("a.nrrd", nrrd_header("gzip") + gzip(raw).substr(0, 300), "ends early");
+  expect_refused("a.nrrd", nrrd_header("bzip2") + raw, "encoding 'bzip2'");
+  expect_refused("a.nrrd", with(good, "short", "block") + raw, "'block'");
+  expect_refused("a.nrrd", with(good, "dimension: 3", "dimension: 4") + raw, "three-dimensional");
+  expect_refused("a.nrrd", with(good, "9 7 5", "9 -7 5") + raw, "impossible size");
+  expect_refused("a.nrrd", with(good, "9 7 5", "60000 60000 60000") + raw, "1200 million");
+  expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(0,0,0)") + raw, "spacing");
+  expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(400,0,0)") + raw, "spacing outside");
+  expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(0.4,0.3,0)") + raw, "right angles");
+  expect_refused("a.nrrd", nrrd_header("raw", "data file: ../../secret\n") + raw, "beside it");
+  std::string flat = with(good, "9 7 5", "9 7 2");
+  expect_refused("a.nrrd", flat + raw, "9 x 7 x 2");
+}
+
+std::string meta_header(const std::string& more, const std::string& data) {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" +
+         more +
+         "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = -12 34 100\n"
+         "ElementSpacing = 0.4 0.6 1.1\nDimSize = 9 7 5\nElementType = MET_SHORT\n"
+         "ElementDataFile = " +
+         data + "\n";
+}
+
+TEST_F(VolumeFiles, MetaImageLocalDetachedAndPacked) {
+  const std::string raw = raw_bytes(volume_);
+  expect_same(load("a.mha", meta_header("", "LOCAL") + raw), volume_);
+  expect_same(load("b.mha", meta_header("CompressedData = True\n", "LOCAL") + gzip(raw)), volume_);
+  write(file("c.raw"), "head" + raw);
+  expect_same(load("c.mhd", meta_header("HeaderSize = -1\n", "c.raw")), volume_);
+}
+
+TEST_F(VolumeFiles, BadMetaImageIsNamed) {
+  const std::string raw = raw_bytes(volume_);
+  expect_refused("a.mha", "nonsense", "no MetaImage");
+  expect_refused("a.mha", meta_header("", "LOCAL") + raw.substr(1), "truncated");
+  expect_refused("a.mhd", meta_header("", "/etc/passwd"), "beside it");
+  const auto none = load("a.mhd", meta_header("", "none.raw"));
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message().find("none.raw"), std::string::npos);
+  std::string header = meta_header("", "LOCAL");
+  header.replace(header.find("ElementSpacing = 0.4"), 20, "ElementSpacing = 0.0");
+  expect_refused("a.mha", header + raw, "spacing");
+}
+
+template <class T>
+void set(std::string& bytes, std::size_t at, T value, bool big = false) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if (big) std::reverse(raw, raw + sizeof(T));
+  bytes.replace(at, sizeof(T), raw, sizeof(T));
+}
+
+// RAS, with the affine that stands for small_frame() in LPS.
+std::string nifti(const Volume& volume, bool big, bool sform) {
+  std::string h(352, '\0');
+  set<std::int32_t>(h, 0, 348, big);
+  const std::int16_t dim[4] = {3, 9, 7, 5};
+  for (std::size_t n = 0; n < 4; ++n) set(h, 40 + 2 * n, dim[n], big);
+  set<std::int16_t>(h, 70, 4, big);
+  const float pixdim[4] = {1, 0.4f, 0.6f, 1.1f};
+  for (std::size_t n = 0; n < 4; ++n) set(h, 76 + 4 * n, pixdim[n], big);
+  set(h, 108, 352.0f, big);
+  h[123] = 2;
+  if (sform) {
+    set<std::int16_t>(h, 254, 1, big);
+    const float rows[12] = {-0.4f, 0, 0, 12, 0, -0.6f, 0, -34, 0, 0, 1.1f, 100};
+    for (std::size_t n = 0; n < 12; ++n) set(h, 280 + 4 * n, rows[n], big);
+  } else {
+    set<std::int16_t>(h, 252, 1, big);
+    set(h, 264, 1.0f, big);  // half a turn about z
+    const float offset[3] = {12, -34, 100};
+    for (std::size_t n = 0; n < 3; ++n) set(h, 268 + 4 * n, offset[n], big);
+  }
+  h.replace(344, 3, "n+1");
+  const std::string raw = raw_bytes(volume);
+  return h + (big ? swapped(raw) : raw);
+}
+
+TEST_F(VolumeFiles, NiftiEitherEndianEitherFormPackedOrNot) {
+  for (const bool big : {false, true})
+    for (const bool sform : {false, true}) {
+      const auto volume = load("a.nii", nifti(volume_, big, sform));
+      ASSERT_TRUE(volume) << volume.error().message();
+      EXPECT_EQ(volume->values, volume_.values);
+      EXPECT_LT(
+          (volume->frame.point_P(Vec3(2, 3, 4)) - volume_.frame.point_P(Vec3(2, 3, 4))).norm(),
+          1e-7);
+    }
+  const auto packed = load("b.nii.gz", gzip(nifti(volume_, false, true)));
+  ASSERT_TRUE(packed) << packed.error().message();
+  EXPECT_EQ(packed->values, volume_.values);
+}
+
+TEST_F(VolumeFiles, NiftiSlopeApplies) {
+  std::string bytes = nifti(volume_, false, true);
+  set(bytes, 112, 2.0f);
+  set(bytes, 116, -10.0f);
+  const auto volume = load("a.nii", bytes);
+  ASSERT_TRUE(volume);
+  EXPECT_EQ(volume->values[7], 2 * volume_.values[7] - 10);
+}
+
+TEST_F(VolumeFiles, BadNiftiIsNamed) {
+  const std::string good = nifti(volume_, false, true);
+  expect_refused("a.nii", good.substr(0, 200), "truncated");
+  expect_refused("a.nii", good.substr(0, 500), "truncated");
+  expect_refused("a.nii", std::string(400, 'x'), "no NIfTI-1");
+  expect_refused("a.nii.gz", gzip(good).substr(0, 200), "ends early");
+  std::string bad = good;
+  set<std::int16_t>(bad, 70, 128);
+  expect_refused("a.nii", bad, "type 128");
+  bad = good;
+  set<std::int16_t>(bad, 42, -9);
+  expect_refused("a.nii", bad, "impossible size");
+  bad = good;
+  set(bad, 108, 1e9f);
+  expect_refused("a.nii", bad, "after its end");
+}
+
+void add_to_tar(std::string& tar, const std::string& name, const std::string& content) {
+  std::string head(512, '\0');
+  head.replace(0, name.size(), name);
+  char size[13];
+  std::snprintf(size, sizeof size, "%011zo", content.size());
+  head.replace(124, 11, size, 11);
+  head[156] = '0';
+  head.replace(257, 5, "ustar");
+  tar += head + content + std::string((512 - content.size() % 512) % 512, '\0');
+}
+
+std::string plist(const std::string& dtype, const std::string& modality) {
+  return "<dict><key>matrix</key><dict><key>dtype</key><string>" + dtype +
+         "</string><key>filename</key><string>matrix.dat</string><key>shape</key><array>"
+         "<integer>5</integer><integer>7</integer><integer>9</integer></array></dict>"
+         "<key>modality</key><string>" +
+         modality +
+         "</string><key>name</key><string>SECRET</string><key>spacing</key><array>"
+         "<real>0.4</real><real>0.6</real><real>1.1</real></array></dict>";
+}
+
+std::string inv3(const std::string& main, const std::string& matrix) {
+  std::string tar;
+  add_to_tar(tar, "tmp/main.plist", main);
+  add_to_tar(tar, "tmp/matrix.dat", matrix);
+  return gzip(tar + std::string(1024, '\0'));
+}
+
+TEST_F(VolumeFiles, Inv3) {
+  Volume wanted = volume_;
+  wanted.frame.origin_P = Vec3::Zero();
+  expect_same(load("a.inv3", inv3(plist("int16", "CT"), raw_bytes(volume_))), wanted);
+}
+
+TEST_F(VolumeFiles, BadInv3IsNamed) {
+  const std::string raw = raw_bytes(volume_), good = inv3(plist("int16", "CT"), raw);
+  expect_refused("a.inv3", "x", "ends early");
+  expect_refused("a.inv3", good.substr(0, good.size() / 2), "ends early");
+  expect_refused("a.inv3", gzip("no archive, but long enough" + std::string(600, 'x')), "damaged");
+  expect_refused("a.inv3", inv3(plist("int16", "MRI"), raw), "'MRI'");
+  expect_refused("a.inv3", inv3(plist("uint8", "CT"), raw), "16 bits");
+  expect_refused("a.inv3", inv3("<dict></dict>", raw), "16 bits");
+  expect_refused("a.inv3", inv3(plist("int16", "CT"), raw.substr(9)), "truncated");
+}
+
+TEST_F(VolumeFiles, PictureStacksInTheOrderOfTheirNumbers) {
+  for (int k = 0; k < 12; ++k) {
+    cv::Mat picture(4, 6, CV_16U, cv::Scalar(1024 + 100 * k));
+    picture.at<std::uint16_t>(1, 2) = 1000;
+    cv::imwrite(file("s" + std::to_string(k) + (k % 2 ? ".png" : ".tif")).string(), picture);
+  }
+  EXPECT_FALSE(load_volume(dir_));
+  LoadVolumeOptions options;
+  options.spacing_m = Vec3(0.001, 0.001, 0.002);
+  const auto volume = load_volume(dir_, options);
+  ASSERT_TRUE(volume) << volume.error().message();
+  EXPECT_EQ(volume->frame.size, (std::array<int, 3>{6, 4, 12}));
+  for (int k = 0; k < 12; ++k) EXPECT_EQ(volume->at(0, 0, k), 100 * k);
+  EXPECT_EQ(volume->at(2, 1, 5), -24);
+  cv::imwrite(file("s5.png").string(), cv::Mat(4, 6, CV_8U, cv::Scalar(3)));
+  EXPECT_NE(load_volume(dir_, options).error().message().find("16 bits"), std::string::npos);
+  write(file("s5.png"), "broken");
+  EXPECT_NE(load_volume(dir_, options).error().message().find("s5.png"), std::string::npos);
+}
+
+TEST_F(VolumeFiles, UnknownFilesAreRefused) {
+  expect_refused("a.txt", "hello", "no scan that Osteon knows");
+  EXPECT_FALSE(load_volume(file("nothing")));
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <locale>
+#include <nlohmann/json.hpp>
+
+#include "report_fixtures.h"
+
+namespace osteon {
+namespace {
+
+using testing::sample_report;
+
+TEST(ReportJson, HasTheDocumentedKeys) {
+  const auto json = nlohmann::json::parse(to_json(sample_report()));
+  EXPECT_EQ(json["case"], "wrist");
+  EXPECT_EQ(json["case_hash"], "0000000000000123");
+  EXPECT_EQ(json["duration_s"], 60.5);
+  EXPECT_EQ(json["ticks"], 60500);
+  EXPECT_EQ(json["bones"]["radius"]["first_contact_s"], 1.5);
+  EXPECT_EQ(json["bones"]["radius"]["contact_time_s"], 3.25);
+  EXPECT_EQ(json["bones"]["radius"]["peak_force_n"], 2.5);
+  EXPECT_EQ(json["bones"]["radius"]["mean_force_n"], 1.25);
+  EXPECT_EQ(json["bones"]["radius"]["deepest_mm"], 0.75);
+  EXPECT_EQ(json["bones"]["hamate"]["first_contact_s"], -1);
+  EXPECT_EQ(json["path_length_mm"], 812.5);
+  EXPECT_EQ(json["smoothness_sparc"], -7.5);
+  EXPECT_EQ(json["state_hash"], "fedcba9876543210");
+  EXPECT_EQ(json["tick_us"]["p50"], 9.5);
+  EXPECT_EQ(json["tick_us"]["p99"], 20.5);
+  EXPECT_EQ(json["tick_us"]["p999"], 31.5);
+  EXPECT_EQ(json["tick_us"]["max"], 55.5);
+  EXPECT_EQ(json["missed_ticks"], 3);
+  EXPECT_EQ(json["realtime_factor"], 41.5);
+  EXPECT_EQ(json.size(), 11u);
+}
+
+TEST(ReportJson, KeepsTheBonesInTheCasesOrder) {
+  const std::string text = to_json(sample_report());
+  EXPECT_LT(text.find("radius"), text.find("lunate"));
+  EXPECT_LT(text.find("lunate"), text.find("hamate"));
+}
+
+TEST(ReportJson, OfNoBonesIsAnEmptyObject) {
+  EXPECT_TRUE(nlohmann::json::parse(to_json(Report{}))["bones"].is_object());
+}
+
+// A decimal comma and dots between thousands, as in much of Europe.
+struct CommaPunctuation : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(ReportJson, DoesNotDependOnTheLocale) {
+  const std::string plain = to_json(sample_report());
+  const std::string plain_text = to_text(sample_report());
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new CommaPunctuation));
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where the system has it: C functions heed it
+  const std::string there = to_json(sample_report());
+  const std::string there_text = to_text(sample_report());
+  std::locale::global(before);
+  std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(plain, there);
+  EXPECT_EQ(plain_text, there_text);
+}
+
+TEST(ReportJson, SurvivesANameThatIsNotUtf8) {
+  Report report = sample_report();
+  report.case_name = "wri\xff\xfest \"quoted\"\n";
+  const auto json = nlohmann::json::parse(to_json(report), nullptr, false);
+  EXPECT_FALSE(json.is_discarded());
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,1 @@
+target_link_libraries(osteon_procedure_tests PRIVATE nlohmann_json::nlohmann_json)

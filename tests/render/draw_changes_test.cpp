@@ -1,0 +1,156 @@
+// A picture of which only the changed parts were drawn must be the one that is drawn whole.
+#include <cmath>
+#include <cstring>
+
+#include "gl_fixture.h"
+#include "osteon/base/random.h"
+
+namespace osteon {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 320;
+
+class DrawChanges : public GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    if (IsSkipped()) return;
+    glGenFramebuffers(1, &framebuffer_);
+    glGenTextures(1, &texture_);
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kWidth, kHeight, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 nullptr);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
+  }
+  void TearDown() override {
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteTextures(1, &texture_);
+    GlTest::TearDown();
+  }
+
+  static Image drawn(Renderer& renderer, const RenderSnapshot& snapshot, const ViewState& view) {
+    renderer.draw(snapshot, view, {0, 0, kWidth, kHeight});
+    Image image{kWidth, kHeight, {}};
+    image.rgb.resize(3u * kWidth * kHeight);
+    std::vector<std::uint8_t> rows(image.rgb.size());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    for (std::size_t y = 0; y < kHeight; ++y)
+      std::memcpy(&image.rgb[(kHeight - 1 - y) * 3 * kWidth], &rows[y * 3 * kWidth], 3 * kWidth);
+    return image;
+  }
+
+  /// After another look at the scene nothing of it is kept.
+  static Image drawn_whole(Renderer& renderer, const RenderSnapshot& snapshot,
+                           const ViewState& view) {
+    ViewState brighter = view;
+    brighter.light_brightness += 0.5f;
+    drawn(renderer, snapshot, brighter);
+    return drawn(renderer, snapshot, view);
+  }
+
+  GLuint framebuffer_ = 0, texture_ = 0;
+};
+
+Case two_balls() {
+  Case pair;
+  for (const double x : {-0.022, 0.022}) {
+    Bone bone = make_bone(x < 0 ? "left" : "right", sphere_mesh(0.02), Vec3(x, 0, 0));
+    bone.pieces.push_back(cube_hull(0.014));
+    pair.bones.push_back(std::move(bone));
+  }
+  return pair;
+}
+
+/// The tip somewhere about the balls, the shaft towards the viewer's side.
+void place_tool(Random& random, RenderSnapshot& snapshot) {
+  ToolState& tool = snapshot.tool;
+  const double x = random.uniform(-0.05, 0.05), y = random.uniform(-0.04, 0.04);
+  tool.X_WP.p = Vec3(x, y, random.uniform(0, 0.04));
+  const Vec3 tilt = random.direction();
+  tool.X_WP.q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.8 * tilt));
+  tool.X_WD = tool.X_WP;
+  tool.X_WD.p += random.uniform(0, 0.004) * random.direction();
+  tool.force_W = random.uniform(0, 3) * random.direction();
+  tool.contact_count = 1;
+  tool.contacts[0].p_W = tool.X_WP.p;
+}
+
+ViewState any_look(Random& random) {
+  ViewState view;
+  view.camera.distance_m = random.uniform(0.15, 0.4);
+  view.camera.orthographic = random.uniform(0, 1) < 0.3;
+  view.camera.q_WC =
+      Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.5 * random.direction()));
+  view.light_azimuth_rad = random.uniform(-1.5, 1.5);
+  view.show_hulls = random.uniform(0, 1) < 0.3;
+  view.bones.resize(2);
+  view.bones[0].opacity = random.uniform(0, 1) < 0.3 ? 0.4f : 1.0f;
+  view.bones[1].highlighted = random.uniform(0, 1) < 0.3;
+  return view;
+}
+
+TEST_F(DrawChanges, TheResultIsThatOfDrawingAll) {
+  const Case balls = two_balls();
+  const Tool probe = make_wrist_probe();
+  Renderer renderer = make_renderer(balls, probe), other = make_renderer(balls, probe);
+  Random random(41);
+  for (int look = 0; look < 12; ++look) {
+    const ViewState view = any_look(random);
+    RenderSnapshot snapshot = at_rest(balls);
+    for (int step = 0; step < 5; ++step) {
+      place_tool(random, snapshot);
+      const Image kept = drawn(renderer, snapshot, view);
+      const Image whole = drawn_whole(other, snapshot, view);
+      EXPECT_LE(count_different(kept, whole, 24), 3) << "look " << look << ", step " << step;
+    }
+  }
+}
+
+TEST_F(DrawChanges, WhatChangesIsSeenAtOnce) {
+  const Case balls = two_balls();
+  Renderer renderer = make_renderer(balls, make_wrist_probe());
+  Random random(42);
+  ViewState view = front_view();
+  RenderSnapshot snapshot = at_rest(balls);
+  place_tool(random, snapshot);
+  for (int k = 0; k < 3; ++k) drawn(renderer, snapshot, view);
+  const Image before = drawn(renderer, snapshot, view);
+
+  const auto change_and_back = [&](auto change) {
+    const ViewState old_view = view;
+    const RenderSnapshot old_snapshot = snapshot;
+    change();
+    EXPECT_GT(count_different(before, drawn(renderer, snapshot, view), 24), 50);
+    view = old_view;
+    snapshot = old_snapshot;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(count_different(before, drawn(renderer, snapshot, view), 24), 0);
+  };
+  change_and_back([&] { snapshot.tool.X_WP.p.x() += 0.02; });
+  change_and_back([&] { snapshot.bones.bones[0].X_WB.p.y() += 0.004; });
+  change_and_back([&] { view.camera.distance_m *= 0.9; });
+  change_and_back([&] { view.show_proxy = view.show_hand_ghost = false; });
+  change_and_back([&] { view.light_brightness = 0.5f; });
+  change_and_back([&] {
+    view.bones.resize(1);
+    view.bones[0].visible = false;
+  });
+}
+
+TEST_F(DrawChanges, ABoneThatDriftsSlowlyIsFollowed) {
+  const Case balls = two_balls();
+  Renderer renderer = make_renderer(balls);
+  const ViewState view = front_view();
+  RenderSnapshot snapshot = at_rest(balls);
+  for (int k = 0; k < 400; ++k) {
+    snapshot.bones.bones[0].X_WB.p.y() += 1e-5;
+    renderer.draw(snapshot, view, {0, 0, kWidth, kHeight});
+  }
+  const Image kept = drawn(renderer, snapshot, view);
+  EXPECT_LE(count_different(kept, drawn_whole(renderer, snapshot, view), 60), 20);
+}
+
+}  // namespace
+}  // namespace osteon

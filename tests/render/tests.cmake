@@ -1,0 +1,1 @@
+target_link_libraries(osteon_render_tests PRIVATE PkgConfig::OSTEON_EPOXY)

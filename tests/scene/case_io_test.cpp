@@ -1,0 +1,261 @@
+#include "osteon/scene/case_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../mesh/shapes.h"
+#include "osteon/base/file.h"
+#include "osteon/base/random.h"
+#include "osteon/mesh/mesh_io.h"
+
+namespace osteon {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string with_bone(const std::string& lines) {
+  return "format = 1\nname = \"test\"\n[[bones]]\n" + lines;
+}
+
+struct BadCase {
+  std::string text;
+  const char* complaint;
+  const char* where;
+};
+
+TEST(CaseToml, RefusesBadText) {
+  const std::string bone = "name = \"a\"\nmesh = \"a.stl\"\n";
+  const BadCase table[] = {
+      {"", "'format' is missing", "c:"},
+      {"format = 2\nname = \"x\"\n", "'format' must lie", "c:1"},
+      {"format = 1\n", "'name' is missing", "c:"},
+      {"format = 1\nname = \"x\"\n", "1 to 64 bones", "c:"},
+      {"format = 1\nname = 7\n", "'name' must be text", "c:2"},
+      {"format = 1\nname = \"\"\n", "'name' must have", "c:2"},
+      {"format = 1\nname = \"a\\nb\"\n", "control", "c:2"},
+      {"format = 1\nname = \"x\"\ncolour = 1\n", "'colour' is unknown", "c:3"},
+      {"format = 1\nname = \"x\"\nside = \"up\"\n", "'side'", "c:3"},
+      {"format = 1\nname = \"x\"\nmesh_unit = \"inch\"\n", "'mesh_unit'", "c:3"},
+      {"format = 1\nname = \"x\"\nbones = 3\n", "'bones' must be written", "c:3"},
+      {"format = 1\nname = \"x\"\nbones = [1]\n", "tables only", "c:3"},
+      {"format = 1\nname = \n", "not TOML", "c:"},
+      {with_bone("mesh = \"a.stl\"\n"), "'name' is missing", "c:3 (bone 1)"},
+      {with_bone("name = \"a\"\n"), "'mesh' is missing", "c:3 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"../a.stl\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"x/../../a.stl\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"/etc/passwd\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"..\\\\a.stl\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"C:a.stl\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone("name = \"a\"\nmesh = \"\"\n"), "folder", "c:5 (bone 1)"},
+      {with_bone(bone + "density_kg_per_m3 = nan\n"), "'density_kg_per_m3'", "c:6 (bone 1)"},
+      {with_bone(bone + "density_kg_per_m3 = inf\n"), "'density_kg_per_m3'", "c:6 (bone 1)"},
+      {with_bone(bone + "density_kg_per_m3 = 0\n"), "'density_kg_per_m3'", "c:6 (bone 1)"},
+      {with_bone(bone + "density_kg_per_m3 = \"1900\"\n"), "a number", "c:6 (bone 1)"},
+      {with_bone(bone + "fma_id = 1.5\n"), "'fma_id' must be a whole", "c:6 (bone 1)"},
+      {with_bone(bone + "fma_id = -1\n"), "'fma_id'", "c:6 (bone 1)"},
+      {with_bone(bone + "position_m = [1, 2]\n"), "3 numbers", "c:6 (bone 1)"},
+      {with_bone(bone + "position_m = [1, 2, nan]\n"), "'position_m'", "c:6 (bone 1)"},
+      {with_bone(bone + "position_m = [1, 2, 101]\n"), "'position_m'", "c:6 (bone 1)"},
+      {with_bone(bone + "rotation_wxyz = [1, 0, 0]\n"), "4 numbers", "c:6 (bone 1)"},
+      {with_bone(bone + "rotation_wxyz = [0.5, 0, 0, 0]\n"), "length 1", "c:6 (bone 1)"},
+      {with_bone(bone + "material = 3\n"), "must be a table", "c:6 (bone 1)"},
+      {with_bone(bone + "material = { hardness = 1 }\n"), "'hardness' is unknown", "c:6 (bone 1)"},
+      {with_bone(bone + "material = { stiffness_n_per_m = -5 }\n"), "stiffness", "c:6 (bone 1)"},
+      {with_bone(bone + "material = { static_friction = 0.1, dynamic_friction = 0.2 }\n"),
+       "must not exceed", "c:6 (bone 1)"},
+      {with_bone(bone + "[[bones]]\nname = \"b\"\nmesh = \"b.stl\"\nweight = 1\n"),
+       "'weight' is unknown", "c:9 (bone 2)"},
+      {with_bone(bone + "[[landmarks]]\nname = \"l\"\n"), "'position_m' is missing",
+       "c:6 (landmark 1)"},
+  };
+  for (const BadCase& bad : table) {
+    const auto result = parse_case_toml(bad.text, "c");
+    ASSERT_FALSE(result) << bad.text;
+    EXPECT_NE(result.error().what.find(bad.complaint), std::string::npos)
+        << bad.text << "\n-> " << result.error().message();
+    EXPECT_EQ(result.error().where.find(bad.where), 0u)
+        << bad.text << "\n-> " << result.error().where;
+  }
+}
+
+TEST(CaseToml, TheLeastCaseTakesItsDefaults) {
+  const auto result = parse_case_toml(with_bone("name = \"lunate\"\nmesh = \"m/a.stl\"\n"), "c");
+  ASSERT_TRUE(result) << result.error().message();
+  const BoneDef& bone = result->def.bones.at(0);
+  EXPECT_EQ(bone.fma_id, 23712);
+  EXPECT_EQ(bone.density_kg_per_m3, 1900);
+  EXPECT_EQ(bone.X_WB.p, Vec3(0, 0, 0));
+  EXPECT_EQ(result->mesh_files.at(0), "m/a.stl");
+  EXPECT_EQ(result->metres_per_unit, 1);
+  EXPECT_EQ(result->def.side, "");
+}
+
+TEST(CaseToml, RefusesMoreBonesThanASnapshotHolds) {
+  std::string text = "format = 1\nname = \"many\"\n";
+  for (std::size_t i = 0; i <= kMaxBones; ++i)
+    text += "[[bones]]\nname = \"b" + std::to_string(i) + "\"\nmesh = \"b.stl\"\n";
+  EXPECT_FALSE(parse_case_toml(text, "c"));
+}
+
+CaseDef sample_case() {
+  Random random(21);
+  CaseDef def;
+  def.name = "A \"quoted\" case \\ with signs äöü";
+  def.side = "right";
+  for (const char* name : {"Scaphoid (proximal)", "scaphoid (distal)", "lunate"}) {
+    BoneDef bone;
+    bone.name = name;
+    bone.X_WB.p = 0.1 * random.direction();
+    bone.X_WB.q = random.rotation();
+    bone.mesh = test::sphere(random.uniform(0.005, 0.02), 9, 0.01 * random.direction());
+    bone.density_kg_per_m3 = random.uniform(1000, 2000);
+    bone.material = {random.uniform(500, 3000), 0.31, 0.17};
+    def.bones.push_back(bone);
+  }
+  def.landmarks = {{"lister's tubercle", 0.1 * random.direction()}};
+  return def;
+}
+
+void expect_same(const CaseDef& a, const CaseDef& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.side, b.side);
+  ASSERT_EQ(a.bones.size(), b.bones.size());
+  for (std::size_t i = 0; i < a.bones.size(); ++i) {
+    const BoneDef &x = a.bones[i], &y = b.bones[i];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.fma_id, y.fma_id);
+    EXPECT_EQ(x.X_WB.p, y.X_WB.p);
+    EXPECT_EQ(x.X_WB.q.coeffs(), y.X_WB.q.coeffs());
+    EXPECT_TRUE(x.mesh.vertices == y.mesh.vertices) << x.name;
+    EXPECT_TRUE(x.mesh.triangles == y.mesh.triangles) << x.name;
+    EXPECT_EQ(x.density_kg_per_m3, y.density_kg_per_m3);
+    EXPECT_EQ(x.material.stiffness_n_per_m, y.material.stiffness_n_per_m);
+    EXPECT_EQ(x.material.static_friction, y.material.static_friction);
+    EXPECT_EQ(x.material.dynamic_friction, y.material.dynamic_friction);
+  }
+  ASSERT_EQ(a.landmarks.size(), b.landmarks.size());
+  for (std::size_t i = 0; i < a.landmarks.size(); ++i) {
+    EXPECT_EQ(a.landmarks[i].name, b.landmarks[i].name);
+    EXPECT_EQ(a.landmarks[i].p_W, b.landmarks[i].p_W);
+  }
+}
+
+TEST(CaseIo, WhatWasLoadedIsSavedBitByBit) {
+  const fs::path dir = test::fresh_folder("case_round");
+  const CaseDef def = sample_case();
+  ASSERT_TRUE(save_case(def, dir / "a"));
+  const auto once = load_case(dir / "a");
+  ASSERT_TRUE(once) << once.error().message();
+  ASSERT_TRUE(save_case(*once, dir / "b"));
+  const auto twice = load_case(dir / "b");
+  ASSERT_TRUE(twice);
+  expect_same(*once, *twice);
+  for (std::size_t i = 0; i < def.bones.size(); ++i) {
+    EXPECT_EQ(once->bones[i].mesh.vertices.size(), def.bones[i].mesh.vertices.size());
+    EXPECT_EQ(once->bones[i].X_WB.p, def.bones[i].X_WB.p);
+  }
+  EXPECT_TRUE(*read_file(dir / "a/case.toml") == *read_file(dir / "b/case.toml"));
+}
+
+TEST(CaseIo, NeverWritesOverFiles) {
+  const fs::path dir = test::fresh_folder("case_over");
+  ASSERT_TRUE(write_file_atomic(dir / "thesis.txt", "years of work"));
+  const auto saved = save_case(sample_case(), dir);
+  ASSERT_FALSE(saved);
+  EXPECT_NE(saved.error().what.find("already holds files"), std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(dir), fs::directory_iterator()), 1);
+  EXPECT_FALSE(save_case(sample_case(), dir / "thesis.txt"));
+  EXPECT_FALSE(save_case(sample_case(), dir / "thesis.txt" / "case"));
+}
+
+TEST(CaseIo, DoesNotWriteWhatCouldNotBeReadAgain) {
+  const fs::path dir = test::fresh_folder("case_unreadable");
+  CaseDef def = sample_case();
+  def.bones[1].density_kg_per_m3 = std::nan("");
+  EXPECT_FALSE(save_case(def, dir / "a"));
+  EXPECT_FALSE(fs::exists(dir / "a"));
+}
+
+TEST(CaseIo, NamesWhatIsMissing) {
+  const fs::path dir = test::fresh_folder("case_missing");
+  EXPECT_NE(load_case(dir / "no").error().what.find("case folder"), std::string::npos);
+  EXPECT_NE(load_case(dir).error().where.find("case.toml"), std::string::npos);
+  ASSERT_TRUE(save_case(sample_case(), dir / "a"));
+  ASSERT_TRUE(fs::remove(dir / "a/lunate.stl"));
+  const auto result = load_case(dir / "a");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().where.find("lunate.stl"), std::string::npos);
+}
+
+TEST(CaseIo, RefusesALinkOutOfTheFolder) {
+  const fs::path dir = test::fresh_folder("case_link");
+  ASSERT_TRUE(save_case(sample_case(), dir / "a"));
+  fs::rename(dir / "a/lunate.stl", dir / "outside.stl");
+  fs::create_symlink(dir / "outside.stl", dir / "a/lunate.stl");
+  const auto result = load_case(dir / "a");
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().what.find("out of"), std::string::npos);
+}
+
+TEST(CaseIo, RefusesABrokenMesh) {
+  const fs::path dir = test::fresh_folder("case_broken");
+  ASSERT_TRUE(save_case(sample_case(), dir / "a"));
+  const std::string bytes = *read_file(dir / "a/lunate.stl");
+  ASSERT_TRUE(write_file_atomic(dir / "a/lunate.stl", bytes.substr(0, bytes.size() / 2)));
+  EXPECT_FALSE(load_case(dir / "a"));
+}
+
+TEST(CaseIo, ReadsMeshesInTheirUnit) {
+  const fs::path dir = test::fresh_folder("case_unit");
+  ASSERT_TRUE(save_stl(test::cube(0.01), dir / "a.stl", 0.001));
+  ASSERT_TRUE(write_file_atomic(dir / "case.toml",
+                                "format = 1\nname = \"mm\"\nmesh_unit = \"mm\"\n[[bones]]\nname = "
+                                "\"a\"\nmesh = \"a.stl\"\n"));
+  const auto result = load_case(dir);
+  ASSERT_TRUE(result) << result.error().message();
+  EXPECT_NEAR(result->bones[0].mesh.vertices[0].cwiseAbs().maxCoeff(), 0.01, 1e-9);
+}
+
+// Every finding of check_case, each on its own.
+TEST(CheckCase, FindsWhatIsWrong) {
+  ASSERT_TRUE(check_case(sample_case()).empty());
+  const auto finding = [](auto spoil) {
+    CaseDef def = sample_case();
+    spoil(def);
+    const std::vector<std::string> found = check_case(def);
+    return found.size() == 1 ? found[0] : std::to_string(found.size()) + " findings";
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones.clear(), d.landmarks.clear(); }), "no bones"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.side = "up"; }), "side"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones[1].name = d.bones[0].name; }), "twice"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones[0].mesh.triangles.pop_back(); }), "open"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { test::flip(d.bones[0].mesh.triangles[4]); }), "face"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) {
+                    for (Triangle& t : d.bones[2].mesh.triangles) test::flip(t);
+                  }),
+                  "inside out"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) {
+                    for (Vec3& v : d.bones[2].mesh.vertices) v *= 1000;
+                    d.landmarks.clear();
+                  }),
+                  "unit"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) {
+                    for (Vec3& v : d.bones[2].mesh.vertices) v *= 0.001;
+                  }),
+                  "unit"));
+  EXPECT_TRUE(
+      has(finding([](CaseDef& d) { d.bones[0].material.stiffness_n_per_m = 1e5; }), "stiffness"));
+  EXPECT_TRUE(
+      has(finding([](CaseDef& d) { d.bones[0].material.static_friction = 1.5; }), "friction"));
+  EXPECT_TRUE(
+      has(finding([](CaseDef& d) { d.bones[0].material.dynamic_friction = 0.9; }), "dynamic"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones[0].density_kg_per_m3 = 9000; }), "density"));
+  EXPECT_TRUE(has(finding([](CaseDef& d) { d.landmarks[0].p_W = Vec3(5, 0, 0); }), "lies more"));
+}
+
+}  // namespace
+}  // namespace osteon
