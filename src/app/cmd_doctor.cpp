@@ -8,6 +8,7 @@
 #include "checkup/device_findings.h"
 #include "cli_support.h"
 #include "commands.h"
+#include "loops/stop_signal.h"
 #include "osteon/base/file.h"
 #include "osteon/device/udev_rules.h"
 
@@ -69,11 +70,13 @@ void append(Findings& out, Findings more) {
 
 int run_doctor(const DoctorOptions& options) {
   if (options.print_udev) return print_udev_rule();
+  const StopSignals signals;  // so that an interrupted force test leaves the motors at zero
   Findings findings;
   if (options.install_udev) findings.push_back(install_udev_rule(options.udev_folder));
   append(findings, device_findings(drivers()));
   if (!options.install_udev) append(findings, usb_findings());
   append(findings, device_trials(options));
+  if (stop_requested()) return 128 + stop_signal();
   append(findings, realtime_findings(options.seconds));
   findings.push_back(gl_finding());
   std::fputs((options.as_json ? to_json(findings) : to_text(findings)).c_str(), stdout);

@@ -72,6 +72,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
                    "Scale of the interface; the display's when not given")
       ->check(CLI::Range(0.5, 4.0));
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
+  command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
   command->add_option("--screenshot", order->screenshot,
                       "Save a picture of the window (PNG), then end");
   command

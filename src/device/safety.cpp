@@ -14,9 +14,10 @@ constexpr double kLongestSlew_s = 0.005;
 
 }  // namespace
 
-SafetyGate::SafetyGate(const DeviceInfo& info, const SafetyParams& params)
+SafetyGate::SafetyGate(const DeviceInfo& info, const SafetyParams& params, ForceOff cause)
     : info_(info),
       params_(params),
+      cause_(cause == ForceOff::kNone ? ForceOff::kSoftware : cause),
       passivity_(params.passivity),
       slew_(info.max_slew_n_per_s),
       budget_(info.peak_force_n, info.continuous_force_n, params.thermal_s),

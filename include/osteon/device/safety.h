@@ -44,7 +44,9 @@ struct SafetyState {
 /// clock.
 class SafetyGate {
  public:
-  SafetyGate(const DeviceInfo& info, const SafetyParams& params = {});
+  /// Off at first, for the cause given.
+  SafetyGate(const DeviceInfo& info, const SafetyParams& params = {},
+             ForceOff cause = ForceOff::kSoftware);
   /// The user's own action; starts the ramp.
   void enable();
   /// Zero force from the next `filter` on. `kNone` counts as kSoftware; the first cause is kept.

@@ -36,7 +36,7 @@ struct LoopMeasure {
 };
 
 // On a thread of its own: a real-time priority shall not stay with the caller.
-LoopMeasure measure_loop(double seconds) {
+LoopMeasure measure_loop(double seconds, const std::function<bool()>& cancelled) {
   LoopMeasure m;
   std::thread([&] {
     m.priority = request_priority();
@@ -45,7 +45,7 @@ LoopMeasure measure_loop(double seconds) {
     pacer.start(start_ns);
     const auto end_ns = start_ns + static_cast<std::int64_t>(seconds * 1e9);
     std::int64_t now_ns = start_ns;
-    while (now_ns < end_ns) {
+    while (now_ns < end_ns && !(cancelled && cancelled())) {
       const std::int64_t due_ns = pacer.next(now_ns);
       sleep_until_ns(due_ns);
       now_ns = steady_now_ns();
@@ -62,7 +62,7 @@ Finding loop_finding(const LoopMeasure& m) {
   Finding f{FindingLevel::kGood, "Loop", {}, {}};
   f.text =
       text("%.0f ticks a second, late by p50 %.0f us, p99 %.0f us, at most %.1f ms; %llu missed",
-           static_cast<double>(m.ticks) / m.seconds, m.late.quantile_ns(0.5) * 1e-3,
+           static_cast<double>(m.ticks) / std::max(1e-3, m.seconds), m.late.quantile_ns(0.5) * 1e-3,
            m.late.quantile_ns(0.99) * 1e-3, m.late.max_ns() * 1e-6,
            static_cast<unsigned long long>(m.missed));
   // One tick in a hundred that comes late by half a period is felt as roughness.
@@ -86,10 +86,19 @@ Finding limit_finding(bool priority) {
   return f;
 }
 
+// Where the rule is: in `folder`, or where a package would put it; empty: nowhere.
+fs::path installed_rule(const fs::path& folder) {
+  std::error_code ec;
+  for (const fs::path& where :
+       {folder, fs::path("/usr/lib/udev/rules.d"), fs::path("/lib/udev/rules.d")})
+    if (fs::exists(where / kUdevFile, ec)) return where / kUdevFile;
+  return {};
+}
+
 }  // namespace
 
-Findings realtime_findings(double seconds) {
-  const LoopMeasure m = measure_loop(seconds);
+Findings realtime_findings(double seconds, const std::function<bool()>& cancelled) {
+  const LoopMeasure m = measure_loop(seconds, cancelled);
   return {loop_finding(m), limit_finding(m.priority)};
 }
 
@@ -101,8 +110,11 @@ Finding gl_finding() {
     const auto* s = reinterpret_cast<const char*>(glGetString(name));
     return std::string(s ? s : "unknown");
   };
-  const std::string renderer = string(GL_RENDERER);
-  Finding f{FindingLevel::kGood, "OpenGL", string(GL_VERSION) + ", " + renderer, {}};
+  return gl_finding(string(GL_VERSION), string(GL_RENDERER));
+}
+
+Finding gl_finding(const std::string& version, const std::string& renderer) {
+  Finding f{FindingLevel::kGood, "OpenGL", version + ", " + renderer, {}};
   if (renderer.find("llvmpipe") != std::string::npos ||
       renderer.find("softpipe") != std::string::npos) {
     f.level = FindingLevel::kNote;
@@ -115,9 +127,8 @@ Findings usb_findings() {
   std::error_code ec;
   if (!fs::exists("/dev/bus/usb", ec))
     return {{FindingLevel::kNote, "USB", "this computer shows no USB bus (/dev/bus/usb)", ""}};
-  for (const char* folder : {kUdevFolder, "/usr/lib/udev/rules.d", "/lib/udev/rules.d"})
-    if (const fs::path rule = fs::path(folder) / kUdevFile; fs::exists(rule, ec))
-      return {{FindingLevel::kGood, "USB", "the udev rule is installed: " + rule.string(), ""}};
+  if (const fs::path rule = installed_rule(kUdevFolder); !rule.empty())
+    return {{FindingLevel::kGood, "USB", "the udev rule is installed: " + rule.string(), ""}};
   if (::geteuid() == 0)
     return {{FindingLevel::kNote, "USB", "root may open every device, others need the udev rule",
              "osteon doctor --install-udev"}};
@@ -139,6 +150,15 @@ Finding install_udev_rule(const fs::path& folder) {
   else
     f.todo = "udevadm control --reload, then plug the device in again";
   return f;
+}
+
+UdevRule udev_rule(const fs::path& folder) {
+  UdevRule rule;
+  if (const auto data = find_data_dir())
+    rule.text = udev_rules(known_usb_devices(*data / "assets" / "devices"));
+  rule.installed = !installed_rule(folder).empty();
+  rule.may_install = ::access(folder.c_str(), W_OK) == 0;
+  return rule;
 }
 
 }  // namespace osteon

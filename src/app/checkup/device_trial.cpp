@@ -4,6 +4,7 @@
 
 #include "checkup/device_findings.h"
 #include "loops/realtime.h"
+#include "loops/stop_signal.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/device/safety.h"
@@ -21,25 +22,41 @@ std::string text(const char* format, Args... args) {
   return out;
 }
 
-// The device at 1 kHz, behind the gate.
+// The device at 1 kHz, behind the gate. Leaves it at zero force.
 class TrialLoop {
  public:
-  explicit TrialLoop(HapticDevice& device) : device_(device), gate_(device.info()) {
-    next_ns_ = steady_now_ns();
-  }
+  TrialLoop(HapticDevice& device, const DeviceTrial& trial)
+      : device_(device),
+        trial_(trial),
+        gate_(device.info()),
+        next_ns_(steady_now_ns()),
+        last_ns_(next_ns_) {}
+  ~TrialLoop() { device_.write_force(Vec3::Zero()); }
+  TrialLoop(const TrialLoop&) = delete;
+  TrialLoop& operator=(const TrialLoop&) = delete;
+
   DeviceSample tick(const Vec3& force_V) {
     next_ns_ = std::max(next_ns_ + kTick_ns, steady_now_ns() - 5 * kTick_ns);
     sleep_until_ns(next_ns_);
+    const std::int64_t now_ns = steady_now_ns();
     const DeviceSample sample = device_.read();
-    device_.write_force(gate_.filter(force_V, sample, 0, kTick_s));
+    const double dt_s = static_cast<double>(now_ns - last_ns_) * 1e-9;
+    const Vec3 wished_V = ended() ? Vec3::Zero() : force_V;
+    if (ended()) gate_.disable(ForceOff::kSoftware);
+    device_.write_force(gate_.filter(wished_V, sample, 0, dt_s));
+    last_ns_ = now_ns;
     return sample;
   }
+  /// By the user, or with the program.
+  bool ended() const { return stop_requested() || (trial_.cancelled && trial_.cancelled()); }
   SafetyGate& gate() { return gate_; }
 
  private:
   HapticDevice& device_;
+  const DeviceTrial& trial_;
   SafetyGate gate_;
-  std::int64_t next_ns_;
+  std::int64_t next_ns_;  ///< when the last tick was due
+  std::int64_t last_ns_;  ///< when it was
 };
 
 Finding reading_finding(TrialLoop& loop, const DeviceInfo& info, double seconds) {
@@ -48,7 +65,7 @@ Finding reading_finding(TrialLoop& loop, const DeviceInfo& info, double seconds)
   const int ticks = static_cast<int>(seconds / kTick_s);
   int readings = 0;
   bool connected = true;
-  for (int i = 0; i < ticks && connected; ++i) {
+  for (int i = 0; i < ticks && connected && !loop.ended(); ++i) {
     const DeviceSample sample = loop.tick(Vec3::Zero());
     connected = sample.connected;
     if (sample.time_ns == last_ns) continue;
@@ -107,7 +124,7 @@ double answer_to_push(TrialLoop& loop, int axis, const DeviceTrial& trial, doubl
   const Vec3 start_V = loop.tick(Vec3::Zero()).X_VD.p;
   double farthest_m = 0;
   const int ticks = static_cast<int>(trial.push_s / kTick_s);
-  for (int i = 0; i < 2 * ticks; ++i) {
+  for (int i = 0; i < 2 * ticks && !loop.ended(); ++i) {
     const double share = 1 - std::abs(i - ticks) / static_cast<double>(ticks);
     const DeviceSample sample = loop.tick(share * newtons * Vec3::Unit(axis));
     farthest_m = std::max(farthest_m, (sample.X_VD.p - start_V)[axis]);
@@ -118,11 +135,12 @@ double answer_to_push(TrialLoop& loop, int axis, const DeviceTrial& trial, doubl
 Findings push_findings(TrialLoop& loop, const DeviceInfo& info, const DeviceTrial& trial) {
   Findings out;
   loop.gate().enable();
-  for (int i = 0; i < 600; ++i) loop.tick(Vec3::Zero());  // the ramp-in
+  for (int i = 0; i < 600 && !loop.ended(); ++i) loop.tick(Vec3::Zero());  // the ramp-in
   const double newtons = std::min(trial.push_n, 0.5 * info.peak_force_n);
   for (int axis = 0; axis < 3; ++axis) {
     if (!info.force_axes[static_cast<std::size_t>(axis)]) continue;
     const double way_m = answer_to_push(loop, axis, trial, newtons);
+    if (loop.ended()) break;
     Finding f{FindingLevel::kGood,
               "Force",
               text("%c: %.2f N moved the hand by %.2f mm", "XYZ"[axis], newtons, way_m * 1e3),
@@ -141,19 +159,24 @@ Findings push_findings(TrialLoop& loop, const DeviceInfo& info, const DeviceTria
 
 }  // namespace
 
+Findings try_device(HapticDevice& device, const DeviceTrial& trial) {
+  const DeviceInfo& info = device.info();
+  Findings out;
+  TrialLoop loop(device, trial);
+  out.push_back(reading_finding(loop, info, trial.read_s));
+  const DeviceSample sample = loop.tick(Vec3::Zero());
+  out.push_back(calibration_finding(device, sample));
+  for (Finding& f : health_findings(device, sample)) out.push_back(std::move(f));
+  if (trial.push && info.peak_force_n > 0 && worst(out) != FindingLevel::kBad && !loop.ended())
+    for (Finding& f : push_findings(loop, info, trial)) out.push_back(std::move(f));
+  return out;
+}
+
 Findings try_device(const Driver& driver, const DeviceInfo& info, const DeviceTrial& trial) {
   auto device = driver.open(info);
   if (!device)
     return {{FindingLevel::kBad, driver.name, device.error().message(), device.error().todo}};
-  Findings out;
-  TrialLoop loop(**device);
-  out.push_back(reading_finding(loop, info, trial.read_s));
-  const DeviceSample sample = loop.tick(Vec3::Zero());
-  out.push_back(calibration_finding(**device, sample));
-  for (Finding& f : health_findings(**device, sample)) out.push_back(std::move(f));
-  if (trial.push && info.peak_force_n > 0 && worst(out) != FindingLevel::kBad)
-    for (Finding& f : push_findings(loop, info, trial)) out.push_back(std::move(f));
-  (*device)->write_force(Vec3::Zero());
+  Findings out = try_device(**device, trial);
   (*device)->close();
   return out;
 }

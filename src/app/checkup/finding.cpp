@@ -68,7 +68,7 @@ std::string verdict(const Findings& findings, bool force_device) {
     return "Ready for mouse and gamepad. No device that gives force was found or chosen.";
   return level == FindingLevel::kGood
              ? "Ready: the device gives force and this computer keeps its time."
-             : "Ready, with the notes above.";
+             : "Ready. The notes say what could be better.";
 }
 
 }  // namespace osteon

@@ -22,6 +22,8 @@ ToolInput HandMapping::to_world(const DeviceSample& sample, bool clutch_pedal) {
   clutched_ = clutch_pedal || by_button;
   released_ = was && !clutched_;
   p_V_ = sample.X_VD.p;
+  if (!seen_) p_W_ = mapping_.to_world(sample.X_VD).p;
+  seen_ = true;
   if (clutched_) put_tool_at(p_W_);
 
   ToolInput input;

@@ -33,6 +33,7 @@ class HandMapping {
   int clutch_button_;
   Vec3 p_V_ = Vec3::Zero();  ///< of the last reading
   Vec3 p_W_;                 ///< of the tool
+  bool seen_ = false;        ///< a reading
   bool clutched_ = false;
   bool released_ = false;
 };

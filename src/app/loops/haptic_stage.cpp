@@ -29,7 +29,7 @@ HapticStage::HapticStage(Session& session, HapticDevice& device, const HapticSta
       feed_(feed),
       mapping_(options.mapping, options.user),
       assist_(options.user),
-      gate_(device.info(), options.safety) {
+      gate_(device.info(), options.safety, options.off_because) {
   last_good_.X_WD = options.mapping.to_world(Pose{});
 }
 

@@ -19,6 +19,7 @@ struct HapticStageOptions {
   MappingSettings user;   ///< sane
   SafetyParams safety;
   double tick_s = 0.001;
+  ForceOff off_because = ForceOff::kSoftware;  ///< until the window wishes the force on
 };
 
 /// What the haptic loop does once a tick, without thread or clock: read the device, run the

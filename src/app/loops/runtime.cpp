@@ -22,8 +22,9 @@ Runtime::Runtime(const RunPlan& plan, std::unique_ptr<HapticDevice> device,
       physics_period_s_(plan.settings.physics.step_s),
       exchange_(session_.bones()),
       haptic_(session_, *device_,
-              {plan.mapping, sane(plan.mapping_settings), plan.safety, haptic_period_s_}, exchange_,
-              feed_.get()),
+              {plan.mapping, sane(plan.mapping_settings), plan.safety, haptic_period_s_,
+               plan.off_because},
+              exchange_, feed_.get()),
       physics_(session_, exchange_, feed_.get()) {
   if (plan.force_enabled) exchange_.to_gate.push(GateWish::kEnable);
 }

@@ -25,6 +25,8 @@ struct RunPlan {
   MappingSettings mapping_settings;
   SafetyParams safety;
   bool force_enabled = true;
+  /// Why the force is off where it is not enabled: a fault of the run before this one stays named.
+  ForceOff off_because = ForceOff::kSoftware;
 };
 
 /// One run of a session with its loops: haptic (1 kHz) and physics (500 Hz), each on a thread of

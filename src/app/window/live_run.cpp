@@ -51,38 +51,51 @@ Result<void> LiveRun::start(const DeviceChoice& choice, const Pose& X_WD_start,
   return start_run(X_WD_start, nullptr);
 }
 
+// Leaves the run's device in `held_` and keeps what tripped.
+void LiveRun::end_run() {
+  if (!runtime_) return;
+  const ForceOff cause = runtime_->device_status().cause;
+  tripped_ = cause == ForceOff::kSoftware ? ForceOff::kNone : cause;
+  (void)runtime_->stop();
+  held_ = runtime_->take_device();
+  runtime_.reset();
+  mouse_ = nullptr;
+  pad_ = nullptr;
+}
+
 // A real device stays open from run to run: it may have been homed by hand, and no other program
 // shall have it in between.
 Result<std::unique_ptr<HapticDevice>> LiveRun::device_for_next_run() {
-  std::unique_ptr<HapticDevice> held;
-  if (runtime_) {
-    (void)runtime_->stop();
-    held = runtime_->take_device();
-    runtime_.reset();
-  }
-  const bool same = held && is_real(choice_) && device_driver_ == choice_.driver &&
-                    device_serial_ == choice_.info.serial && held->read().connected;
+  end_run();
+  std::unique_ptr<HapticDevice> held = std::move(held_);
+  const bool same = device_driver_ == choice_.driver && device_serial_ == choice_.info.serial;
+  same_device_ = held && same && is_real(choice_) && held->read().connected;
+  if (!same) tripped_ = ForceOff::kNone;
   device_driver_ = choice_.driver;
   device_serial_ = choice_.info.serial;
-  if (same) return held;
+  if (same_device_) return held;
   if (held) held->close();
   return open_choice(choice_, demo_);
 }
 
-DeviceMapping LiveRun::mapping_at(const Pose& X_WD_start) const {
+DeviceMapping LiveRun::mapping_at(const Pose& X_WD_start, HapticDevice& device) const {
   DeviceMapping mapping;
   if (plays_demo(choice_)) return mapping;
   mapping.X_WV = X_WD_start;
   if (!is_real(choice_)) return mapping;
   mapping.X_WV.q = user_.axes == MappingAxes::kPatient ? patient_axes() : q_WC_;
   mapping.scale = user_.scale;
+  if (!same_device_) return mapping;
+  // The hand is somewhere already, and there is where the probe was.
+  const Pose X_VD = device.read().X_VD;
+  if (is_finite(X_VD)) mapping.X_WV.p -= mapping.X_WV.q * (mapping.scale * X_VD.p);
   return mapping;
 }
 
 Result<void> LiveRun::start_run(const Pose& X_WD_start, std::unique_ptr<RecordFeed> feed) {
   auto device = device_for_next_run();
   if (!device) return tl::unexpected(device.error());
-  mapping_ = mapping_at(X_WD_start);
+  mapping_ = mapping_at(X_WD_start, **device);
   // A list may know less than the open device, which has said what it is.
   opened_ = (*device)->info();
   settings_ = settings_for(opened_, feel_, mapping_.scale);
@@ -95,12 +108,31 @@ Result<void> LiveRun::start_run(const Pose& X_WD_start, std::unique_ptr<RecordFe
   plan.settings = settings_;
   plan.mapping = mapping_;
   if (is_real(choice_)) plan.mapping_settings = user_;
-  plan.force_enabled = force_on_;
+  plan.force_enabled = force_on_ && tripped_ == ForceOff::kNone;
+  plan.off_because = tripped_;
   runtime_ = std::make_unique<Runtime>(plan, std::move(*device), std::move(feed));
   force_.clear();
   contacts_.clear();
   runtime_->start();
   return {};
+}
+
+std::unique_ptr<HapticDevice> LiveRun::lend_device() {
+  if (recording_ || !runtime_) return nullptr;
+  end_run();
+  return std::move(held_);
+}
+
+Result<void> LiveRun::take_back(std::unique_ptr<HapticDevice> device) {
+  held_ = std::move(device);
+  return start_run(snapshot_.tool.X_WP, nullptr);
+}
+
+Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_WC) {
+  if (recording_) return fail("stop the recording before changing the mapping");
+  user_ = sane(user);
+  q_WC_ = q_WC;
+  return start_run(snapshot_.tool.X_WP, nullptr);
 }
 
 RecordingHeader LiveRun::header() const {
@@ -117,7 +149,8 @@ RecordingHeader LiveRun::header() const {
 }
 
 Result<void> LiveRun::start_recording(const std::filesystem::path& file) {
-  if (!runtime_ || recording_) return fail("there is a recording already");
+  if (recording_) return fail("there is a recording already");
+  if (!runtime_) return fail("nothing is running that could be recorded");
   std::error_code ec;
   std::filesystem::create_directories(file.parent_path(), ec);
   auto writer = RecordingWriter::create(file, header());

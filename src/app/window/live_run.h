@@ -41,11 +41,19 @@ class LiveRun {
   /// camera's (`q_WC`) or to the patient's.
   Result<void> start(const DeviceChoice& choice, const Pose& X_WD_start,
                      const MappingSettings& user = {}, const Quat& q_WC = Quat::Identity());
+  /// Starts anew with the same device where the probe is, used in another way.
+  Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
   Result<void> start_recording(const std::filesystem::path& file);
   /// Ends the recording; the run starts anew where the probe is.
   Result<void> stop_recording();
   /// Takes in what the loops reported. Once a frame.
   void update();
+
+  /// Ends the run and hands its device out for a check-up, open and at zero force; null where none
+  /// is held. The run stands still until `take_back`. Not while recording.
+  std::unique_ptr<HapticDevice> lend_device();
+  /// Goes on where the probe was. The force is on again only if it was on before.
+  Result<void> take_back(std::unique_ptr<HapticDevice> device);
 
   void set_feel(const Command& command);
   void set_force(bool on);
@@ -81,7 +89,8 @@ class LiveRun {
  private:
   Result<void> start_run(const Pose& X_WD_start, std::unique_ptr<RecordFeed> feed);
   Result<std::unique_ptr<HapticDevice>> device_for_next_run();
-  DeviceMapping mapping_at(const Pose& X_WD_start) const;
+  DeviceMapping mapping_at(const Pose& X_WD_start, HapticDevice& device) const;
+  void end_run();
   RecordingHeader header() const;
 
   std::shared_ptr<const Case> case_;
@@ -97,6 +106,10 @@ class LiveRun {
   std::string device_driver_, device_serial_;  ///< of runtime_'s device
   Pose X_WD_wanted_;
   std::unique_ptr<Runtime> runtime_;
+  std::unique_ptr<HapticDevice> held_;  ///< between two runs
+  bool same_device_ = false;            ///< as in the run before
+  ForceOff tripped_ =
+      ForceOff::kNone;            ///< by a fault in the run before: the user re-arms, no other
   MouseDevice* mouse_ = nullptr;  ///< of runtime_, when it is one
   PadDevice* pad_ = nullptr;
   bool force_on_ = true;

@@ -172,6 +172,22 @@ void draw_mapping(const PanelContext& c) {
   if (changed) c.requests.mapping = mapping.settings;
 }
 
+// Two buttons beside each other; the first opens the pop-up of the mapping.
+void draw_more(const PanelContext& c) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
+  const ImVec2 half{(ImGui::GetContentRegionAvail().x - gap) / 2, 0};
+  ImGui::BeginDisabled(c.model.record.on);
+  if (ImGui::Button("Mapping", half)) ImGui::OpenPopup("mapping");
+  ImGui::EndDisabled();
+  ui::tooltip(c.model.record.on ? "Stop the recording first"
+                                : "How the device moves the probe in this case, and its pedals");
+  ImGui::SameLine(0, gap);
+  if (ui::toggle_button("Check-up", c.model.checkup.open, half)) c.requests.toggle_checkup = true;
+  ui::tooltip(
+      "Checks this computer and the device, and says what to do where something is amiss "
+      "(F2)");
+}
+
 }  // namespace
 
 void draw_device_section(const PanelContext& c) {
@@ -180,12 +196,7 @@ void draw_device_section(const PanelContext& c) {
   draw_heat(c);
   draw_energy(c);
   draw_reports(c);
-  ImGui::BeginDisabled(c.model.record.on);
-  if (ImGui::Button("Mapping and pedals", {ImGui::GetContentRegionAvail().x, 0}))
-    ImGui::OpenPopup("mapping");
-  ImGui::EndDisabled();
-  ui::tooltip(c.model.record.on ? "Stop the recording first"
-                                : "How the device moves the probe in this case, and its pedals");
+  draw_more(c);
   const ImVec2 at{c.layout.right.x - c.px(8), ImGui::GetItemRectMin().y};
   ImGui::SetNextWindowPos(at, ImGuiCond_Appearing, {1, 0.5f});
   ImGui::SetNextWindowSize({c.px(224), 0});

@@ -25,6 +25,8 @@ void draw_device_menu(const PanelContext& c) {
     for (std::size_t i = 0; i < hand.devices.size(); ++i)
       if (ImGui::Selectable(hand.devices[i].c_str(), static_cast<int>(i) == hand.device))
         c.requests.device = static_cast<int>(i);
+    ImGui::Separator();
+    if (ImGui::Selectable("Not here? Check-up (F2)")) c.requests.toggle_checkup = true;
     ImGui::EndCombo();
   }
   ImGui::EndDisabled();

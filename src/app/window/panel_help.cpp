@@ -32,11 +32,12 @@ constexpr std::array<KeyLine, 6> kProbe = {{
     {"Enter", "force on again"},
 }};
 
-constexpr std::array<KeyLine, 9> kRun = {{
+constexpr std::array<KeyLine, 10> kRun = {{
     {"R", "record, stop"},
     {"O", "open a recording"},
     {"P", "play, pause a replay"},
     {",  .", "slower, faster"},
+    {"F2", "check this computer and its devices"},
     {"F11", "full screen"},
     {"F12, Shift + F12", "picture of the window, of the scene alone"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},

@@ -19,6 +19,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   if (!ready) draw_loading(c);
   draw_notices(c);
   if (model.help_open) draw_help(c);
+  if (model.checkup.open && ready) draw_checkup(c);
   return requests;
 }
 

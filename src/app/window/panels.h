@@ -30,6 +30,7 @@ void draw_timeline(const PanelContext& c);
 void draw_notices(const PanelContext& c);  // toasts, hint, probe hint, name tag
 void draw_loading(const PanelContext& c);
 void draw_help(const PanelContext& c);
+void draw_checkup(const PanelContext& c);
 void read_shortcuts(const PanelContext& c);
 
 }  // namespace osteon

@@ -11,7 +11,7 @@ PedalReadings read_pedals(GLFWwindow* window) {
     if (glfwGetKey(window, key) == GLFW_PRESS) out.keys.push_back(key);
   for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
     if (glfwJoystickPresent(id) != GLFW_TRUE) continue;
-    JoystickReading stick;
+    ControllerReading stick;
     if (const char* name = glfwGetJoystickName(id)) stick.name = name;
     int count = 0;
     const float* axes = glfwGetJoystickAxes(id, &count);

@@ -9,13 +9,13 @@ namespace {
 constexpr double kPress = 0.5, kRelease = 0.35;
 constexpr double kMoved = 0.5;  // of an axis' range of 2: a pedal at rest wavers by far less
 
-const JoystickReading* find(const PedalReadings& readings, const std::string& name) {
-  for (const JoystickReading& stick : readings.joysticks)
+const ControllerReading* find(const PedalReadings& readings, const std::string& name) {
+  for (const ControllerReading& stick : readings.joysticks)
     if (name.empty() || stick.name == name) return &stick;
   return nullptr;
 }
 
-double axis_value(const PedalSource& source, const JoystickReading& stick) {
+double axis_value(const PedalSource& source, const ControllerReading& stick) {
   const auto index = static_cast<std::size_t>(source.index);
   if (source.index < 0 || index >= stick.axes.size()) return 0;
   const double way = source.full - source.rest;
@@ -24,7 +24,7 @@ double axis_value(const PedalSource& source, const JoystickReading& stick) {
 }
 
 // The newly pressed button of a stick, or its axis that went farthest.
-std::optional<PedalSource> moved_part(const JoystickReading& rest, const JoystickReading& now) {
+std::optional<PedalSource> moved_part(const ControllerReading& rest, const ControllerReading& now) {
   for (std::size_t i = 0; i < std::min(rest.buttons.size(), now.buttons.size()); ++i)
     if (now.buttons[i] && !rest.buttons[i])
       return PedalSource{PedalKind::kButton, now.name, static_cast<int>(i), 0, 1};
@@ -46,7 +46,7 @@ double pedal_value(const PedalSource& source, const PedalReadings& readings) {
   if (source.kind == PedalKind::kKey)
     return std::count(readings.keys.begin(), readings.keys.end(), source.index) > 0 ? 1 : 0;
   if (source.kind == PedalKind::kNone) return 0;
-  const JoystickReading* stick = find(readings, source.joystick);
+  const ControllerReading* stick = find(readings, source.joystick);
   if (!stick) return 0;
   if (source.kind == PedalKind::kAxis) return axis_value(source, *stick);
   const auto index = static_cast<std::size_t>(source.index);
@@ -57,8 +57,8 @@ std::optional<PedalSource> moved_input(const PedalReadings& rest, const PedalRea
   for (const int key : now.keys)
     if (std::count(rest.keys.begin(), rest.keys.end(), key) == 0)
       return PedalSource{PedalKind::kKey, {}, key, 0, 1};
-  for (const JoystickReading& stick : now.joysticks)
-    if (const JoystickReading* before = find(rest, stick.name))
+  for (const ControllerReading& stick : now.joysticks)
+    if (const ControllerReading* before = find(rest, stick.name))
       if (auto moved = moved_part(*before, stick)) return moved;
   return std::nullopt;
 }

@@ -25,7 +25,8 @@ using PedalMap = std::map<std::string, PedalSource>;
 inline constexpr const char* kDeadManPedal = "dead-man";  ///< must be held for force
 inline constexpr const char* kClutchPedal = "clutch";     ///< while held, the hand moves alone
 
-struct JoystickReading {
+/// A HID joystick or a set of pedals as the system reads it.
+struct ControllerReading {
   std::string name;
   std::vector<double> axes;  ///< -1 to 1
   std::vector<bool> buttons;
@@ -34,7 +35,7 @@ struct JoystickReading {
 /// All that could be a pedal, at one moment.
 struct PedalReadings {
   std::vector<int> keys;  ///< that are down
-  std::vector<JoystickReading> joysticks;
+  std::vector<ControllerReading> joysticks;
 };
 
 /// From 0 (at rest) to 1. A joystick that is not there, an axis that it has not and a value that is

@@ -27,6 +27,7 @@ void read_view_keys(const PanelContext& c) {
 void read_window_keys(const PanelContext& c) {
   const ImGuiIO& io = ImGui::GetIO();
   if (pressed(GLFW_KEY_F1)) c.requests.toggle_help = true;
+  if (pressed(GLFW_KEY_F2)) c.requests.toggle_checkup = true;
   if (pressed(GLFW_KEY_F11)) c.requests.toggle_fullscreen = true;
   if (pressed(GLFW_KEY_F12))
     (io.KeyShift ? c.requests.screenshot_picture : c.requests.screenshot_window) = true;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "checkup/computer_findings.h"
 #include "loops/loop_exchange.h"
 #include "loops/mapping_settings.h"
 #include "osteon/device/haptic_device.h"
@@ -50,6 +51,19 @@ struct HandModel {
     std::string dead_man = "none", clutch = "none";  ///< what drives the pedals, in words
   } mapping;
   std::string learning_pedal;  ///< the pedal that waits for its input; empty: none
+};
+
+/// The check-up of computer and device.
+struct CheckupModel {
+  bool open = false;
+  bool running = false;
+  const char* doing = "";  ///< "Reading the device"
+  double fraction = 0;     ///< 0..1
+  Findings findings;       ///< of the last one
+  std::string verdict;     ///< empty: none was made yet
+  std::string device;      ///< that may be tried with a gentle force; empty: none
+  UdevRule udev;
+  std::string not_now;  ///< why none can be started now; empty: one can
 };
 
 struct ContactRow {
@@ -111,6 +125,7 @@ struct UiModel {
   std::vector<RecordingFile> recordings;  ///< newest first
   std::span<const Toast> toasts;
 
+  CheckupModel checkup;
   bool panels_open = true;
   bool help_open = false;
   bool first_run_hint = false;

@@ -27,6 +27,12 @@ struct UiRequests {
   std::optional<std::string> learn_pedal;  ///< its name; empty: stop waiting
   std::optional<std::string> forget_pedal;
   bool calibrate = false;
+  bool toggle_checkup = false;  ///< opening begins one
+  bool begin_checkup = false;
+  bool begin_push_test = false;  ///< a check-up with the gentle force; the press is the consent
+  bool cancel_checkup = false;
+  bool install_udev = false;
+  std::optional<std::string> copy;  ///< to the clipboard
   bool force_off = false;
   bool force_on = false;
   bool toggle_probe = false;

@@ -69,6 +69,7 @@ Result<void> WindowApp::run() {
     const bool paced = order_.frames == 0 && !software_driver();
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
   }
+  checkup_.reset();
   if (live_ && live_->recording()) return live_->stop_recording();
   return {};
 }
@@ -83,6 +84,7 @@ void WindowApp::frame(double dt_s) {
   ui_->set_scale(static_cast<float>(scale));
   for (const std::string& file : window_->take_dropped_files()) open({case_source_, file, case_});
   poll_loading();
+  poll_checkup();
   toasts_.age(now_s_);
 
   ui_->begin_frame(window_->take_pressed_keys());
@@ -117,7 +119,7 @@ bool WindowApp::measured_run_over() {
   if (!load_failure_.empty()) return true;
   // A replay stands at the ordered moment from the start.
   const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached) {
+  if (!ready() || !reached || checkup_) {
     work_.clear();
     processor_start_s_ = processor_now_s();
     scene_s_ = 0;

@@ -9,6 +9,7 @@
 #include "osteon/render/renderer.h"
 #include "window/app_settings.h"
 #include "window/camera_control.h"
+#include "window/checkup_job.h"
 #include "window/device_choices.h"
 #include "window/frame_stats.h"
 #include "window/gl_window.h"
@@ -33,6 +34,7 @@ struct WindowOrder {
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
   bool demo = false;                 ///< the virtual hand plays the case's path
+  bool checkup = false;              ///< opens the check-up and begins one
   bool fresh = false;                ///< neither reads nor writes the settings file
 };
 
@@ -78,6 +80,14 @@ class WindowApp {
   void toggle_recording();
   void list_recordings();
   void save_screenshot(bool whole_window);
+  // window_checkup.cpp
+  void begin_checkup(bool push);
+  void poll_checkup();
+  void end_checkup();
+  void apply_checkup(const UiRequests& requests);
+  void install_udev();
+  std::string no_checkup_because() const;
+  CheckupModel checkup_model() const;
   // window_scene.cpp: pointer and keys over the picture
   void poll_scene(double dt_s, double wheel);
   HandWishes poll_pedals();
@@ -134,6 +144,10 @@ class WindowApp {
   bool probe_held_ = false;     ///< now
   bool probe_toggled_ = false;  ///< by M, stays
   bool help_open_ = false;
+
+  bool checkup_open_ = false;
+  std::unique_ptr<CheckupJob> checkup_;  ///< while one runs
+  CheckupReport checkup_report_;         ///< of the last one
 };
 
 }  // namespace osteon

@@ -105,6 +105,7 @@ UiModel WindowApp::build_model() const {
     }
     return model;
   }
+  model.checkup = checkup_model();
   model.case_title = title_of(*case_);
   for (const Bone& bone : case_->bones) model.bone_labels.push_back(label_of(bone.name));
   model.view = view_;

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "osteon/base/file.h"
 #include "window/window_app.h"
 
@@ -17,10 +19,11 @@ void WindowApp::poll_loading() {
   if (!job_ || !job_->done()) return;
   Result<Loaded> loaded = job_->take();
   job_.reset();
-  if (loaded)
-    install(std::move(*loaded));
-  else
-    fail_loading(loaded.error().message());
+  if (!loaded) return fail_loading(loaded.error().message());
+  install(std::move(*loaded));
+  if (!std::exchange(order_.checkup, false)) return;
+  checkup_open_ = true;
+  begin_checkup(false);
 }
 
 // With a case on show, a failure to open another thing is a message beside it.
@@ -32,6 +35,7 @@ void WindowApp::fail_loading(const std::string& message) {
 }
 
 void WindowApp::install(Loaded loaded) {
+  end_checkup();
   remember_looks();
   case_source_ = loaded.case_source;
   if (loaded.prepared) {

@@ -23,6 +23,7 @@ void WindowApp::apply(const UiRequests& requests) {
   if (requests.retry_loading) open({"builtin:wrist", {}, nullptr});
   if (requests.list_recordings) list_recordings();
   if (requests.open_file) open({case_source_, *requests.open_file, case_});
+  apply_checkup(requests);
   if (!ready()) return;
   apply_view(requests);
   apply_run(requests);
@@ -58,6 +59,7 @@ void WindowApp::apply_run(const UiRequests& requests) {
   }
   if (requests.force_on) live_->set_force(true);
   if (requests.toggle_probe) probe_toggled_ = !probe_toggled_;
+  if (checkup_) return;  // it may have the device
   if (requests.toggle_record) toggle_recording();
   apply_device(requests);
   if (!requests.device || live_->recording()) return;
@@ -76,7 +78,10 @@ void WindowApp::apply_device(const UiRequests& requests) {
   // Takes effect with a new run, once the slider has come to rest.
   if (mapping_changed_s_ >= 0 && !ImGui::IsAnyMouseDown()) {
     mapping_changed_s_ = -1;
-    start_live(live_->choice().driver);
+    const MappingSettings user =
+        mapping_of(settings_.mappings, mapping_key(live_->choice().info, case_->name));
+    const Result<void> changed = live_->change_mapping(user, view_.camera.q_WC);
+    if (!changed) note(ToastKind::kError, changed.error().message());
   }
   if (requests.learn_pedal) {
     learning_pedal_ = *requests.learn_pedal;

@@ -64,7 +64,7 @@ OpenDevice open_none(const DeviceInfo&) { return fail("no permission", "arm", "I
 std::vector<std::string> no_library() { return {"libHD.so was not found. Install OpenHaptics."}; }
 
 const Driver kArm{"arm", "Arm", one_arm, open_arm, nullptr};
-const DeviceTrial kShort{0.05, false, 0.5, 0.05};
+const DeviceTrial kShort{0.05, false, 0.5, 0.05, {}};
 
 const Finding* find(const Findings& findings, const std::string& topic) {
   for (const Finding& f : findings)

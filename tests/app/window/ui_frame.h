@@ -109,7 +109,8 @@ class UiFrame {
   // A press acts at once for some widgets (sliders, the timeline), a release for the rest.
   static bool acted(const UiRequests& r) {
     return r.view || r.preset || !r.commands.empty() || r.device || r.seek_s || r.speed ||
-           r.calibrate || r.mapping || r.learn_pedal || r.forget_pedal;
+           r.calibrate || r.mapping || r.learn_pedal || r.forget_pedal || r.toggle_checkup ||
+           r.begin_checkup || r.begin_push_test || r.cancel_checkup || r.install_udev || r.copy;
   }
   UiFonts fonts_;
 };
