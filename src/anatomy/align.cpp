@@ -14,25 +14,6 @@ constexpr double kModelShare = 0.85, kDataShare = 0.75;
 constexpr std::size_t kCoarsePoints = 350, kFinePoints = 1500;
 constexpr double kBoneReach_m = 0.004, kBoneMove_m = 0.006;
 
-Vec3 mean(const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
-
-/// Principal axes, longest first, right-handed.
-Mat3 principal_axes(const std::vector<Vec3>& points) {
-  const Vec3 middle = mean(points);
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - middle) * (p - middle).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread);
-  Mat3 axes;
-  axes.col(0) = solver.eigenvectors().col(2);
-  axes.col(1) = solver.eigenvectors().col(1);
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes;
-}
-
 Vec3 mirror(const Vec3& p, bool mirrored) { return Vec3(p.x(), mirrored ? -p.y() : p.y(), p.z()); }
 
 struct Match {
@@ -93,12 +74,12 @@ ModelFit icp(ModelFit fit, const std::vector<Vec3>& model_M, const std::vector<V
 std::vector<ModelFit> first_guesses(const std::vector<Vec3>& model_M,
                                     const std::vector<Vec3>& data_P) {
   std::vector<ModelFit> guesses;
-  const Vec3 data_middle = mean(data_P);
+  const Vec3 data_middle = mean_of(data_P);
   const Mat3 data_axes = principal_axes(data_P);
   for (const bool mirrored : {false, true}) {
     std::vector<Vec3> seen;
     for (const Vec3& p : model_M) seen.push_back(mirror(p, mirrored));
-    const Vec3 middle = mean(seen);
+    const Vec3 middle = mean_of(seen);
     const Mat3 axes = principal_axes(seen);
     for (int turn = 0; turn < 4; ++turn)
       for (const double along : {-0.03, 0.0, 0.03}) {
@@ -116,10 +97,28 @@ std::vector<ModelFit> first_guesses(const std::vector<Vec3>& model_M,
 
 }  // namespace
 
+Vec3 mean_of(const std::vector<Vec3>& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+Mat3 principal_axes(const std::vector<Vec3>& points) {
+  const Vec3 middle = mean_of(points);
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : points) spread += (p - middle) * (p - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread);
+  Mat3 axes;
+  axes.col(0) = solver.eigenvectors().col(2);
+  axes.col(1) = solver.eigenvectors().col(1);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
 ModelFit best_fit(const Pairs& pairs, ScaleRange scales, bool mirrored) {
   std::vector<Vec3> from;
   for (const Vec3& p : pairs.model_M) from.push_back(mirror(p, mirrored));
-  const Vec3 middle = mean(from), data_middle = mean(pairs.data_P);
+  const Vec3 middle = mean_of(from), data_middle = mean_of(pairs.data_P);
   Mat3 covariance = Mat3::Zero();
   double spread = 0;
   for (std::size_t n = 0; n < from.size(); ++n) {
@@ -171,7 +170,7 @@ ModelFit align_bone(const ModelFit& start, const std::vector<Vec3>& bone_M, cons
     if (pairs.model_M.size() < bone_M.size() / 3 || pairs.model_M.size() < 6) return start;
     fit = best_fit(pairs, {start.scale, start.scale}, start.mirrored);
   }
-  const Vec3 middle = mean(bone_M);
+  const Vec3 middle = mean_of(bone_M);
   const bool near = (fit.to_patient(middle) - start.to_patient(middle)).norm() < kBoneMove_m &&
                     fit.X_PM.q.angularDistance(start.X_PM.q) < 0.45;
   fit.residual_m = start.residual_m;

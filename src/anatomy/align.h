@@ -19,6 +19,10 @@ struct ScaleRange {
 };
 ModelFit best_fit(const Pairs& pairs, ScaleRange scales, bool mirrored);
 
+/// Principal axes as columns, longest first, right-handed.
+Mat3 principal_axes(const std::vector<Vec3>& points);
+Vec3 mean_of(const std::vector<Vec3>& points);
+
 /// Rough and then fine alignment of the whole model; both hands and every turn are tried.
 ModelFit align_model(const std::vector<Vec3>& model_M, const std::vector<Vec3>& data_P);
 

@@ -8,7 +8,7 @@ namespace osteon {
 
 struct Overlap {
   std::string bone, other;
-  double depth = 0;  ///< metres: the deepest vertex of `bone` inside `other`
+  double depth = 0;  ///< metres: the deepest vertex of one inside the other
 };
 
 /// The deepest overlap of two bones; depth 0 when none meet.

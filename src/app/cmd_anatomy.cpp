@@ -166,6 +166,7 @@ void add_anatomy_commands(CLI::App& app, int& exit_code) {
   anatomy->require_subcommand(1);
   add_list(*anatomy, exit_code);
   add_make(*anatomy, exit_code);
+  add_anatomy_compare(*anatomy, exit_code);
 }
 
 }  // namespace osteon
