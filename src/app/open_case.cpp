@@ -33,12 +33,14 @@ std::filesystem::path pieces_file(const std::string& spec) {
                                                                                      : beside;
 }
 
-Result<CaseDef> grow_builtin(const std::string& name) {
+Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress) {
   if (name != "wrist")
     return fail("there is no built-in case '" + name + "'", "case", "Use builtin:wrist");
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
-  auto anatomy = generate_anatomy(*data / "assets/anatomy" / (name + ".toml"));
+  GenerateOptions options;
+  options.progress = progress;
+  auto anatomy = generate_anatomy(*data / "assets/anatomy" / (name + ".toml"), options);
   if (!anatomy) return tl::unexpected(anatomy.error());
   return case_from(std::move(*anatomy));
 }
@@ -63,8 +65,9 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
   return def;
 }
 
-Result<CaseDef> open_case_def(const std::string& spec) {
-  if (spec.rfind(kBuiltin, 0) == 0) return grow_builtin(spec.substr(kBuiltin.size()));
+Result<CaseDef> open_case_def(const std::string& spec,
+                              const std::function<void(double)>& progress) {
+  if (spec.rfind(kBuiltin, 0) == 0) return grow_builtin(spec.substr(kBuiltin.size()), progress);
   return load_case(spec);
 }
 
@@ -73,12 +76,12 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
   const auto say = [&](const char* what, double share) {
     if (progress) progress(what, share);
   };
-  say("Opening the bones", 0);
-  auto def = open_case_def(spec);
-  if (!def) return tl::unexpected(def.error());
-  PieceCache cache(pieces_file(spec));
   constexpr double kOpened = 0.2;
   constexpr double kCut = 0.7;
+  say("Opening the bones", 0);
+  auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
+  if (!def) return tl::unexpected(def.error());
+  PieceCache cache(pieces_file(spec));
   find_pieces(*def, cache, [&](double share) {
     say("Cutting the bones into pieces (once)", kOpened + kCut * share);
   });

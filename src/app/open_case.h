@@ -15,8 +15,10 @@ namespace osteon {
 CaseDef case_from(GeneratedAnatomy anatomy);
 
 /// Case by what a user names it: `builtin:wrist` is grown from its description in the assets,
-/// anything else is a case folder.
-Result<CaseDef> open_case_def(const std::string& spec);
+/// anything else is a case folder. `progress` is told the share of the bones grown; it may throw to
+/// stop.
+Result<CaseDef> open_case_def(const std::string& spec,
+                              const std::function<void(double)>& progress = {});
 /// The same, built. The pieces of its bones are kept beside the case (pieces.bin), or in the user's
 /// cache for a built-in case and where the folder cannot be written. `progress` is told what goes
 /// on and the share done; it may throw to stop.
