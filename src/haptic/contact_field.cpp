@@ -72,8 +72,8 @@ bool ContactField::guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& o
   return out.gap > 0;
 }
 
-HalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
-                                   const Quat& q_WT) const {
+FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
+                                       const Quat& q_WT) const {
   const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
   const Vec3 n_T = q_WT.conjugate() * n_W;
   const double tool_support = support(tool_.bodies[pairs_[pair].tool_piece], -n_T);

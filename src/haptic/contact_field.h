@@ -56,8 +56,8 @@ class ContactField {
 
   /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
   /// by kSkin. Any x in it keeps the pair apart, wherever it is.
-  HalfSpace half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
-                       const Quat& q_WT) const;
+  FreeHalfSpace half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
+                           const Quat& q_WT) const;
 
  private:
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;

@@ -23,13 +23,13 @@ struct Projection {
 
 // Nearest point to `wanted` on all planes of the basis at once: x = wanted + N^T w with
 // (N N^T) w = c - N wanted, by Cholesky. Sound when every weight pushes outwards.
-Projection project(std::span<const HalfSpace> planes, const Basis& basis, const Vec3& wanted) {
+Projection project(std::span<const FreeHalfSpace> planes, const Basis& basis, const Vec3& wanted) {
   Projection out;
   std::array<std::array<double, 3>, 3> l{};
   std::array<double, 3> y{};
   const std::size_t m = basis.count;
   for (std::size_t i = 0; i < m; ++i) {
-    const HalfSpace& pi = planes[basis.plane[i]];
+    const FreeHalfSpace& pi = planes[basis.plane[i]];
     double rhs = pi.c - pi.n.dot(wanted);
     for (std::size_t j = 0; j <= i; ++j) {
       double g = pi.n.dot(planes[basis.plane[j]].n);
@@ -56,9 +56,9 @@ Projection project(std::span<const HalfSpace> planes, const Basis& basis, const 
   return out;
 }
 
-double shortfall(const HalfSpace& plane, const Vec3& x) { return plane.c - plane.n.dot(x); }
+double shortfall(const FreeHalfSpace& plane, const Vec3& x) { return plane.c - plane.n.dot(x); }
 
-bool holds(std::span<const HalfSpace> planes, const Basis& set, const Vec3& x) {
+bool holds(std::span<const FreeHalfSpace> planes, const Basis& set, const Vec3& x) {
   for (std::uint32_t i = 0; i < set.count; ++i)
     if (shortfall(planes[set.plane[i]], x) > kPlaneTolerance) return false;
   return true;
@@ -75,8 +75,8 @@ Basis subset(const Basis& from, unsigned mask, std::uint32_t extra) {
 
 // Puts `plane` into the basis: the one subset with it whose projection lies in all of them. The
 // optimum over the old basis and the new plane has at most three active planes, `plane` among them.
-bool enter(std::span<const HalfSpace> planes, std::uint32_t plane, const Vec3& wanted, Basis& basis,
-           Projection& at) {
+bool enter(std::span<const FreeHalfSpace> planes, std::uint32_t plane, const Vec3& wanted,
+           Basis& basis, Projection& at) {
   static constexpr std::array<unsigned, 7> kBySize{0b000, 0b001, 0b010, 0b100, 0b011, 0b101, 0b110};
   for (const unsigned mask : kBySize) {
     if (mask >= (1u << basis.count)) continue;
@@ -92,7 +92,7 @@ bool enter(std::span<const HalfSpace> planes, std::uint32_t plane, const Vec3& w
 
 }  // namespace
 
-NearestPoint nearest_point(std::span<const HalfSpace> planes, const Vec3& wanted) {
+NearestPoint nearest_point(std::span<const FreeHalfSpace> planes, const Vec3& wanted) {
   NearestPoint out;
   Basis basis;
   Projection at;

@@ -9,7 +9,7 @@
 namespace osteon {
 
 /// Where the tool's origin may be: n.x >= c, |n| = 1.
-struct HalfSpace {
+struct FreeHalfSpace {
   Vec3 n = Vec3::UnitZ();
   double c = 0;
 };
@@ -30,6 +30,6 @@ struct NearestPoint {
 /// unknowns, solved by the dual active-set method (Goldfarb and Idnani, Math. Programming 27, 1983;
 /// here with every basis of at most three planes tried outright). Allocates nothing. The result is
 /// checked: it lies in every half-space within kPlaneTolerance.
-NearestPoint nearest_point(std::span<const HalfSpace> planes, const Vec3& wanted);
+NearestPoint nearest_point(std::span<const FreeHalfSpace> planes, const Vec3& wanted);
 
 }  // namespace osteon

@@ -26,8 +26,8 @@ Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const 
   return from + std::clamp(s, 0.0, 1.0) * d;
 }
 
-bool inside_all(std::span<const HalfSpace> planes, const Vec3& x) {
-  for (const HalfSpace& plane : planes)
+bool inside_all(std::span<const FreeHalfSpace> planes, const Vec3& x) {
+  for (const FreeHalfSpace& plane : planes)
     if (plane.n.dot(x) - plane.c < -kPlaneTolerance) return false;
   return true;
 }
@@ -62,7 +62,7 @@ bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
     const PairMemory& memory = memory_[pair];
     if (memory.known) {
       const Pose& bone = X_WB[field_.pairs()[pair].bone];
-      const HalfSpace plane = field_.half_space(pair, memory.plane, bone, X_WT.q);
+      const FreeHalfSpace plane = field_.half_space(pair, memory.plane, bone, X_WT.q);
       const double slack = plane.n.dot(X_WT.p) - plane.c;
       if (slack >= 0) {
         parting_[i] = memory.plane;

@@ -75,13 +75,13 @@ class ProxySolver {
   bool look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
-  std::span<const HalfSpace> planes() const { return {planes_.data(), near_.count}; }
+  std::span<const FreeHalfSpace> planes() const { return {planes_.data(), near_.count}; }
 
   const ContactField& field_;
   std::span<PairMemory> memory_;
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
-  std::array<HalfSpace, kMaxCandidates> planes_{};
+  std::array<FreeHalfSpace, kMaxCandidates> planes_{};
   double reach_m_ = 0;
 };
 

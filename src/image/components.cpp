@@ -55,7 +55,7 @@ void find_runs(const Mask& mask, std::uint8_t value, int j, int k, std::vector<R
   }
 }
 
-void include(Part& part, const Run& run, const GridFrame& frame) {
+void include(RunPart& part, const Run& run, const GridFrame& frame) {
   const std::array<int, 3> lo = {run.begin, run.j, run.k}, hi = {run.end, run.j + 1, run.k + 1};
   if (part.voxels == 0) part.box = {lo, hi};
   for (std::size_t a = 0; a < 3; ++a) {

@@ -40,7 +40,7 @@ void fill_face(Mask& mask, std::size_t axis, int side) {
   const Parts outside = connected_parts(face, 0);
   const int iu = static_cast<int>((axis + 1) % 3), iv = static_cast<int>((axis + 2) % 3);
   for (const Run& run : outside.runs) {
-    const Part& part = outside.parts[run.part];
+    const RunPart& part = outside.parts[run.part];
     // A wide area is a cavity of the body that the grid cuts, such as the skull's: no marrow.
     const double area_m2 =
         static_cast<double>(part.voxels) * mask.frame.spacing_m[iu] * mask.frame.spacing_m[iv];

@@ -13,7 +13,7 @@ struct Run {
   std::uint32_t part;  ///< connected part that it belongs to
 };
 
-struct Part {
+struct RunPart {
   std::size_t voxels = 0;
   VoxelBox box;
   bool touches_rim = false;
@@ -23,7 +23,7 @@ struct Part {
 /// parts are numbered in the order of their first voxels.
 struct Parts {
   std::vector<Run> runs;
-  std::vector<Part> parts;
+  std::vector<RunPart> parts;
 };
 
 Parts connected_parts(const Mask& mask, std::uint8_t value);

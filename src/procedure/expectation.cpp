@@ -26,15 +26,15 @@ std::string text_of(double value) {
   return std::string(digits, end);
 }
 
-std::string text_of(const Range& range) {
-  const Range all;
+std::string text_of(const ExpectedRange& range) {
+  const ExpectedRange all;
   if (range.min == all.min) return "at most " + text_of(range.max);
   if (range.max == all.max) return "at least " + text_of(range.min);
   return text_of(range.min) + " to " + text_of(range.max);
 }
 
 // Not `<` and `>`: a value that is not a number is in no range.
-void check_range(const std::string& what, double value, const Range& range, Lines& lines) {
+void check_range(const std::string& what, double value, const ExpectedRange& range, Lines& lines) {
   if (!(value >= range.min && value <= range.max))
     lines.push_back(what + " is " + text_of(value) + ", expected " + text_of(range));
 }

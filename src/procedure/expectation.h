@@ -11,7 +11,7 @@
 namespace osteon {
 
 /// Closed interval.
-struct Range {
+struct ExpectedRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
@@ -24,9 +24,9 @@ struct Expectation {
   std::vector<std::string> untouched;
   bool all_others_untouched = false;
   std::vector<std::string> order;
-  std::map<std::string, std::map<std::string, Range>> bones;
-  std::map<std::string, Range> whole;    ///< "path_length_mm", "duration_s", ...
-  std::map<std::string, Range> tick_us;  ///< "p50", ...
+  std::map<std::string, std::map<std::string, ExpectedRange>> bones;
+  std::map<std::string, ExpectedRange> whole;    ///< "path_length_mm", "duration_s", ...
+  std::map<std::string, ExpectedRange> tick_us;  ///< "p50", ...
 };
 
 /// Reads the JSON of check_expectation. Errors name the key.

@@ -47,7 +47,7 @@ Result<Json> parse_json(const std::string& text) {
   }
 }
 
-Result<void> parse_tolerance(const Json& json, const std::string& key, Range& range) {
+Result<void> parse_tolerance(const Json& json, const std::string& key, ExpectedRange& range) {
   const bool relative = json.contains("rel");
   if (json.size() != 2 || !json.contains("value") || (!relative && !json.contains("abs")))
     return refuse("a range is {min, max}, {value, abs} or {value, rel}", key);
@@ -59,12 +59,12 @@ Result<void> parse_tolerance(const Json& json, const std::string& key, Range& ra
   return {};
 }
 
-Result<Range> parse_range(const Json& json, const std::string& key) {
+Result<ExpectedRange> parse_range(const Json& json, const std::string& key) {
   if (!json.is_object() || json.empty())
     return refuse("a range is {min, max}, {value, abs} or {value, rel}", key);
   for (const auto& [name, value] : json.items())
     if (!value.is_number()) return refuse("'" + name + "' is not a number", key);
-  Range range;
+  ExpectedRange range;
   const std::size_t bounds = json.count("min") + json.count("max");
   if (bounds == 0) {
     if (const auto done = parse_tolerance(json, key, range); !done)
@@ -80,10 +80,10 @@ Result<Range> parse_range(const Json& json, const std::string& key) {
 }
 
 // An object of ranges whose keys must be among `allowed`.
-Result<std::map<std::string, Range>> parse_ranges(const Json& json, const std::string& key,
-                                                  const std::set<std::string>& allowed) {
+Result<std::map<std::string, ExpectedRange>> parse_ranges(const Json& json, const std::string& key,
+                                                          const std::set<std::string>& allowed) {
   if (!json.is_object() || json.empty()) return refuse("this is not an object of ranges", key);
-  std::map<std::string, Range> ranges;
+  std::map<std::string, ExpectedRange> ranges;
   for (const auto& [name, value] : json.items()) {
     const std::string path = key + "." + name;
     if (!allowed.count(name)) return refuse("unknown key", path);

@@ -10,14 +10,14 @@
 namespace osteon {
 namespace {
 
-double worst_shortfall(const std::vector<HalfSpace>& planes, const Vec3& x) {
+double worst_shortfall(const std::vector<FreeHalfSpace>& planes, const Vec3& x) {
   double worst = -1e300;
-  for (const HalfSpace& p : planes) worst = std::max(worst, p.c - p.n.dot(x));
+  for (const FreeHalfSpace& p : planes) worst = std::max(worst, p.c - p.n.dot(x));
   return worst;
 }
 
 // Nearest feasible point by Hildreth's cyclic dual ascent (1957): slow, simple, independent.
-Vec3 hildreth(const std::vector<HalfSpace>& planes, const Vec3& wanted) {
+Vec3 hildreth(const std::vector<FreeHalfSpace>& planes, const Vec3& wanted) {
   std::vector<double> w(planes.size(), 0);
   Vec3 x = wanted;
   for (int sweep = 0; sweep < 20000; ++sweep) {
@@ -41,7 +41,7 @@ TEST(NearestPoint, WithoutPlanesItIsTheWantedOne) {
 }
 
 TEST(NearestPoint, OnePlane) {
-  const std::vector<HalfSpace> planes{{Vec3::UnitZ(), 0.5}};
+  const std::vector<FreeHalfSpace> planes{{Vec3::UnitZ(), 0.5}};
   const NearestPoint p = nearest_point(planes, Vec3(1, 2, 0.2));
   ASSERT_TRUE(p.found);
   EXPECT_LT((p.x - Vec3(1, 2, 0.5)).norm(), 1e-15);
@@ -52,7 +52,8 @@ TEST(NearestPoint, OnePlane) {
 TEST(NearestPoint, TheSamePlaneTwiceAndAlmostTwice) {
   for (const double tilt : {0.0, 1e-12, 1e-8, 1e-4}) {
     const Vec3 n = Vec3(tilt, 0, 1).normalized();
-    const std::vector<HalfSpace> planes{{Vec3::UnitZ(), 0.005}, {n, 0.005}, {Vec3::UnitZ(), 0.005}};
+    const std::vector<FreeHalfSpace> planes{
+        {Vec3::UnitZ(), 0.005}, {n, 0.005}, {Vec3::UnitZ(), 0.005}};
     const NearestPoint p = nearest_point(planes, Vec3(0.001, 0, 0));
     ASSERT_TRUE(p.found) << tilt;
     EXPECT_NEAR(p.x.z(), 0.005, 1e-6) << tilt;
@@ -61,11 +62,12 @@ TEST(NearestPoint, TheSamePlaneTwiceAndAlmostTwice) {
 }
 
 TEST(NearestPoint, SaysWhenThereIsNoCommonPoint) {
-  EXPECT_FALSE(nearest_point(std::vector<HalfSpace>{{Vec3::UnitX(), 0.001}, {-Vec3::UnitX(), 0}},
-                             Vec3::Zero())
-                   .found);
+  EXPECT_FALSE(
+      nearest_point(std::vector<FreeHalfSpace>{{Vec3::UnitX(), 0.001}, {-Vec3::UnitX(), 0}},
+                    Vec3::Zero())
+          .found);
   // Four faces of a tetrahedron, seen from inside out: empty only all together.
-  std::vector<HalfSpace> planes;
+  std::vector<FreeHalfSpace> planes;
   for (const Vec3& n : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
     planes.push_back({n.normalized(), 0.001});
   EXPECT_FALSE(nearest_point(planes, Vec3(0.0003, 0.0001, 0)).found);
@@ -77,7 +79,7 @@ TEST(NearestPoint, AgreesWithHildrethAndMeetsTheOptimalityConditions) {
   Random random(17);
   int three = 0;
   for (int trial = 0; trial < 3000; ++trial) {
-    std::vector<HalfSpace> planes;
+    std::vector<FreeHalfSpace> planes;
     const int count = 1 + static_cast<int>(random.uniform(0, 12));
     for (int i = 0; i < count; ++i) {
       const Vec3 n = random.direction();
