@@ -1,9 +1,9 @@
 // Counts what a tick of each driver takes from the heap: nothing, in health and in trouble.
 #include <gtest/gtest.h>
 
+#include "count_allocations.h"
 #include "device/falcon/falcon_rig.h"
 #include "device/phantom/stub_library.h"
-#include "drivers/allocations.h"
 
 namespace osteon {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "drivers/allocations.h"
+#include "count_allocations.h"
 #include "emulated/joystick_mechanics.h"
 #include "emulated/virtual_usb.h"
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "drivers/run_loop.h"
 #include "emulated/emulated_pid_joystick.h"
 #include "emulated/virtual_usb.h"
@@ -86,17 +89,39 @@ TEST_P(JoystickRun, WithFrictionTooOnTheWhole) {
   EXPECT_LT(g.rms_n, force_resolution(resolution_of(GetParam())));
 }
 
-// At full speed each axis waits for its turn, up to 3 ms: the force lags, but it is the same force.
-TEST(PidJoystickRun, AtFullSpeedItLagsByUpToThreeTicks) {
+// The most by which an axis at the motors differs from what was wanted in any of the last ticks.
+double gap_within(const std::vector<Vec3>& wanted, const std::vector<Vec3>& felt,
+                  std::size_t ticks) {
+  double worst = 0;
+  for (std::size_t n = ticks; n < std::min(wanted.size(), felt.size()); ++n)
+    for (int axis = 0; axis < 3; ++axis) {
+      double nearest = HUGE_VAL;
+      for (std::size_t d = 0; d <= ticks; ++d)
+        nearest = std::min(nearest, std::abs(felt[n][axis] - wanted[n - d][axis]));
+      worst = std::max(worst, nearest);
+    }
+  return worst;
+}
+
+// At full speed the bus takes one axis a frame, the one that is farthest off: on the whole the
+// force is within the resolution, and each axis is what it should have been three frames ago at
+// most.
+TEST(PidJoystickRun, AtFullSpeedAnAxisLagsByThreeTicksAtMost) {
   const auto dialect = JoystickDialectKind::kPid;
   const ProbePath path = press_and_slide_path();
   const auto wanted = testing::felt_by_the_virtual_hand(path, profile_of(dialect).info, 0);
   const auto felt = felt_through_bytes(dialect, path, 0, UsbSpeed::kFull);
   const ForceGap g = testing::compare(wanted, felt);
-  std::printf("PID at full speed: peak %.3f N, rms gap %.5f N, worst %.5f N\n", g.peak_n, g.rms_n,
-              g.worst_n);
+  const double resolution = force_resolution(resolution_of(dialect));
+  const double beside_the_lag = gap_within(wanted, felt, 3);
+  std::printf(
+      "PID at full speed: peak %.3f N, rms gap %.5f N, worst %.5f N, beside the lag %.5f N; "
+      "resolution %.5f N\n",
+      g.peak_n, g.rms_n, g.worst_n, beside_the_lag, resolution);
   EXPECT_GT(g.peak_n, 1.0);
-  EXPECT_LT(g.rms_n, 0.02 * g.peak_n);
+  EXPECT_LT(g.rms_n, 0.25 * resolution);
+  EXPECT_LT(g.worst_n, 4 * resolution);
+  EXPECT_LT(beside_the_lag, 1.5 * resolution);
 }
 
 INSTANTIATE_TEST_SUITE_P(, JoystickRun,

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <ostream>
 #include <thread>
 
 #include "emulated/emulated_pid_joystick.h"
@@ -22,16 +23,24 @@ struct TestbedUnref {
   void operator()(UMockdevTestbed* testbed) const { g_object_unref(testbed); }
 };
 
-// A joystick of either dialect on the mocked bus.
+struct Kind {
+  const char* name;
+  JoystickDialectKind dialect;
+  UsbSpeed speed = UsbSpeed::kFull;
+  bool out_endpoint = true;
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+
+// A joystick on the mocked bus.
 struct MockJoystick {
-  MockJoystick(UMockdevTestbed* testbed, JoystickDialectKind dialect, int number,
-               const std::string& serial) {
+  MockJoystick(UMockdevTestbed* testbed, const Kind& kind, int number, const std::string& serial) {
     JoystickDescriptors descriptors;
-    if (dialect == JoystickDialectKind::kPid) {
-      auto device = std::make_shared<EmulatedPidJoystick>(serial);
+    if (kind.dialect == JoystickDialectKind::kPid) {
+      auto device = std::make_shared<EmulatedPidJoystick>(serial, kind.speed);
+      if (!kind.out_endpoint) device->leave_out_endpoint_away();
       mechanics = &device->mechanics();
       emulated = device;
-      descriptors = pid_joystick_descriptors();
+      descriptors = pid_joystick_descriptors(kind.out_endpoint);
     } else {
       auto device = std::make_shared<EmulatedVectorJoystick>(serial);
       mechanics = &device->mechanics();
@@ -54,7 +63,7 @@ struct MockJoystick {
   std::unique_ptr<MockUsb> usb;
 };
 
-class JoystickUmockdev : public ::testing::TestWithParam<JoystickDialectKind> {
+class JoystickUmockdev : public ::testing::TestWithParam<Kind> {
  protected:
   void SetUp() override {
     const char* preloaded = std::getenv("LD_PRELOAD");
@@ -199,9 +208,10 @@ TEST_P(JoystickUmockdev, ASilentDeviceGetsTheLastForceAndNoOther) {
   run(*device, 100, newer);
   EXPECT_EQ(joystick->motors(), Vec3(Vec3::Zero()));
   const DeviceHealth during = device->health();
-  EXPECT_LE(during.reports_out, before.reports_out + 1);  // one had been taken but not told
+  EXPECT_LE(during.reports_out, before.reports_out + 3);  // had been taken but not told
   EXPECT_GT(during.replaced, before.replaced + 50);
-  EXPECT_LE(joystick->usb->in_flight(), 3u);  // two readings and one force, never a queue
+  // Two readings and one force (at high speed one of each axis), never a queue.
+  EXPECT_LE(joystick->usb->in_flight(), GetParam().speed == UsbSpeed::kHigh ? 5u : 3u);
   joystick->usb->set_silent(false);
   for (int i = 0; i < 10; ++i) {
     run(*device, 1, Vec3::Zero());
@@ -251,11 +261,27 @@ TEST_P(JoystickUmockdev, TwoOfThemByTheirSerialNumbers) {
   EXPECT_LT((of_right.motors() - force).norm(), 2e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(, JoystickUmockdev,
-                         ::testing::Values(JoystickDialectKind::kPid, JoystickDialectKind::kVector),
-                         [](const auto& instance) {
-                           return instance.param == JoystickDialectKind::kPid ? "Pid" : "Vector";
-                         });
+// The newest force of an axis is on its way a tick after it was written, each axis in its turn.
+TEST_P(JoystickUmockdev, AForceIsThereAfterThreeTicksAtTheLatest) {
+  joystick->usb->plug();
+  auto device = open_first();
+  ASSERT_TRUE(device);
+  EXPECT_TRUE(motors_reach(*device, *joystick, Vec3(1, 1, 1), Vec3(1, 1, 1)));
+  run(*device, 20, Vec3(1, 1, 1));
+  int ticks = 0;
+  const Vec3 newer(2, -3, 4);
+  for (; ticks < 50 && (joystick->motors() - newer).norm() > 2e-3; ++ticks) run(*device, 1, newer);
+  // `run` polls twice; a poll is a frame at least.
+  EXPECT_LE(ticks, GetParam().speed == UsbSpeed::kHigh ? 4 : 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , JoystickUmockdev,
+    ::testing::Values(Kind{"Pid", JoystickDialectKind::kPid},
+                      Kind{"PidHighSpeed", JoystickDialectKind::kPid, UsbSpeed::kHigh},
+                      Kind{"PidByControl", JoystickDialectKind::kPid, UsbSpeed::kFull, false},
+                      Kind{"Vector", JoystickDialectKind::kVector}),
+    [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace osteon

@@ -62,7 +62,8 @@ void MockUsb::plug(bool with_node) {
       "E: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" + number + "\nE: DEVNAME=/dev/" +
       node + "\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=" + n +
       "\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" + n +
-      "\\n\nA: speed=12\\n\nH: descriptors=" + descriptors_hex_ + "\n";
+      "\\n\nA: speed=" + (device_->speed() == UsbSpeed::kHigh ? "480" : "12") +
+      "\\n\nH: descriptors=" + descriptors_hex_ + "\n";
   GError* error = nullptr;
   umockdev_testbed_add_from_string(testbed_, text.c_str(), &error);
   if (error) g_error("umockdev: %s", error->message);

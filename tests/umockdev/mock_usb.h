@@ -23,6 +23,7 @@ class MockUsb {
   /// What makes a frame of 1 ms pass: each poll of the host (so that a busy machine changes
   /// nothing) or the real clock.
   enum class Clock { kByPoll, kReal };
+  /// Its speed is the device's own.
   MockUsb(UMockdevTestbed* testbed, std::shared_ptr<EmulatedUsbDevice> device,
           const JoystickDescriptors& descriptors, int number, Clock clock = Clock::kByPoll);
   ~MockUsb();

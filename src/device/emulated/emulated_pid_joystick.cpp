@@ -31,13 +31,13 @@ bool EmulatedPidJoystick::control(const UsbSetup& setup, std::span<const std::ui
   }
   if (setup.request_type == 0xA1 && setup.request == 0x01)  // GET_REPORT
     return kind == 3 && feature_report(id, in, in_size);
-  JoystickDescriptors descriptors = pid_joystick_descriptors();
+  JoystickDescriptors descriptors = pid_joystick_descriptors(out_endpoint_);
   descriptors.serial = serial_.c_str();
   return answer_descriptor(descriptors, setup, in, in_size);
 }
 
 void EmulatedPidJoystick::take_out(std::uint8_t endpoint, std::span<const std::uint8_t> bytes) {
-  if (endpoint == 0x02) output_report(bytes);
+  if (has_out_endpoint(endpoint)) output_report(bytes);
 }
 
 EmulatedPidJoystick::Effect* EmulatedPidJoystick::effect(std::uint8_t block) {

@@ -18,6 +18,12 @@ class EmulatedPidJoystick : public EmulatedUsbDevice {
 
   UsbEntry entry() const override;
   UsbSpeed speed() const override { return speed_; }
+  bool has_out_endpoint(std::uint8_t address) const override {
+    return out_endpoint_ && address == 0x02;
+  }
+  /// As many simple joysticks: its interface has no OUT endpoint, output reports come by SET_REPORT
+  /// alone.
+  void leave_out_endpoint_away() { out_endpoint_ = false; }
   bool control(const UsbSetup& setup, std::span<const std::uint8_t> out, std::span<std::uint8_t> in,
                std::size_t& in_size) override;
   void take_out(std::uint8_t endpoint, std::span<const std::uint8_t> bytes) override;
@@ -61,6 +67,7 @@ class EmulatedPidJoystick : public EmulatedUsbDevice {
 
   std::string serial_;
   UsbSpeed speed_;
+  bool out_endpoint_ = true;
   JoystickMechanics mechanics_;
   std::array<Effect, kEffects> effects_{};
   std::size_t room_ = kEffects;

@@ -88,6 +88,10 @@ Result<std::unique_ptr<UsbLink>> EmulatedUsbBus::open(const UsbEntry& entry,
   if (port->forbidden)
     return fail("no permission to open the USB device", entry.port, "Install the udev rule");
   if (port->link) return fail("another program holds the USB device", entry.port, "Close it");
+  const bool has_out = port->device->has_out_endpoint(channel.out_endpoint);
+  if (!has_out && !channel.reports_by_control)
+    return fail("the USB device lacks the endpoints that its profile names", entry.port,
+                "Correct the profile in assets/devices");
   return std::make_unique<EmulatedUsbLink>(*this, *port, channel);
 }
 

@@ -16,6 +16,8 @@ class EmulatedUsbDevice {
   virtual ~EmulatedUsbDevice() = default;
   virtual UsbEntry entry() const = 0;
   virtual UsbSpeed speed() const { return UsbSpeed::kFull; }
+  /// Its interface has that OUT endpoint.
+  virtual bool has_out_endpoint(std::uint8_t) const { return true; }
   /// A control transfer: `out` came with it, or `in` (with `in_size` bytes) is the answer, never
   /// more than the set-up asks for. False: STALL.
   virtual bool control(const UsbSetup& setup, std::span<const std::uint8_t> out,
@@ -44,8 +46,8 @@ struct UsbFaults {
 
 /// An emulated bus with a virtual clock: time passes in `advance` and while a caller waits.
 /// Transactions happen in frames (1 ms; 125 us for devices of high speed), one an endpoint and
-/// frame: OUT, then the device itself, then IN. Nothing is allocated once all links are open. Must
-/// outlive its links.
+/// frame: a control transfer, OUT, then the device itself, then IN. Nothing is allocated once all
+/// links are open. Must outlive its links.
 class EmulatedUsbBus : public UsbBus {
  public:
   EmulatedUsbBus();

@@ -9,6 +9,8 @@ EmulatedUsbLink::EmulatedUsbLink(EmulatedUsbBus& bus, EmulatedUsbBus::Port& port
                                  const UsbChannel& channel)
     : bus_(bus), port_(port), channel_(channel) {
   channel_.in_bytes = std::clamp<std::size_t>(channel_.in_bytes, 1, kPacketBytes);
+  out_by_control_ = !port.device->has_out_endpoint(channel.out_endpoint);
+  out_room_ = port.device->speed() == UsbSpeed::kHigh && !out_by_control_ ? kMostInFlight : 1;
   port_.link = this;
 }
 
@@ -16,32 +18,39 @@ EmulatedUsbLink::~EmulatedUsbLink() {
   if (port_.link == this) port_.link = nullptr;
 }
 
-void EmulatedUsbLink::poll() {
-  // As on the real bus: a value that the device has not taken in time gives way to a newer one.
-  const double age_s = static_cast<double>(bus_.now_ns() - out_since_ns_) * 1e-9;
-  if (!out_in_flight_ || !slots_.waits(out_slot_) || age_s < channel_.replace_after_s) return;
-  out_in_flight_ = false;
-  slots_.count_replaced();
-  send_next();
+void EmulatedUsbLink::poll() { drop_old_out(); }
+
+// As on the real bus: a value that the device has not taken in time gives way to a newer one.
+void EmulatedUsbLink::drop_old_out() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < out_count_; ++i) {
+    const double age_s = static_cast<double>(bus_.now_ns() - out_[i].since_ns) * 1e-9;
+    const bool old = slots_.waits(out_[i].slot) && age_s >= channel_.replace_after_s;
+    if (old)
+      slots_.give_back(out_[i].slot);
+    else if (kept++ != i)
+      out_[kept - 1] = out_[i];
+  }
+  out_count_ = kept;
 }
 
-bool EmulatedUsbLink::write(std::size_t slot, std::span<const std::uint8_t> bytes) {
-  if (gone_ || out_error_ != UsbError::kNone || slot >= kSlots) return false;
-  slots_.put(slot, bytes);
-  send_next();
+void EmulatedUsbLink::put(std::size_t slot, std::span<const std::uint8_t> bytes, double level) {
+  if (!gone_ && out_error_ == UsbError::kNone && slot < kSlots) slots_.put(slot, bytes, level);
+}
+
+bool EmulatedUsbLink::send() {
+  if (gone_ || out_error_ != UsbError::kNone) return false;
+  while (out_count_ < out_room_) {
+    const std::size_t slot = slots_.take();
+    if (slot == kSlots) break;
+    Out& out = out_[out_count_++];
+    const auto bytes = slots_.bytes(slot);
+    std::copy(bytes.begin(), bytes.end(), out.bytes.begin());
+    out.size = bytes.size();
+    out.slot = slot;
+    out.since_ns = bus_.now_ns();
+  }
   return true;
-}
-
-void EmulatedUsbLink::send_next() {
-  if (out_in_flight_ || gone_ || out_error_ != UsbError::kNone) return;
-  const std::size_t slot = slots_.take();
-  if (slot == kSlots) return;
-  const auto bytes = slots_.bytes(slot);
-  std::copy(bytes.begin(), bytes.end(), out_bytes_.begin());
-  out_size_ = bytes.size();
-  out_slot_ = slot;
-  out_since_ns_ = bus_.now_ns();
-  out_in_flight_ = true;
 }
 
 bool EmulatedUsbLink::start_control(const UsbSetup& setup, std::span<const std::uint8_t> out,
@@ -68,6 +77,7 @@ UsbControlResult EmulatedUsbLink::control() const {
 void EmulatedUsbLink::wait(double limit_s) {
   const std::uint64_t before = ended_;
   const std::int64_t end_ns = bus_.now_ns() + std::llround(std::max(0.0, limit_s) * 1e9);
+  send();
   while (ended_ == before && bus_.now_ns() < end_ns) {
     bus_.advance(EmulatedUsbBus::kMicroframe_ns);
     poll();
@@ -79,7 +89,7 @@ void EmulatedUsbLink::restart() {
   if (in_error_ != UsbError::kNone) port_.faults.stall_in = false;
   if (out_error_ != UsbError::kNone) port_.faults.stall_out = false;
   in_error_ = out_error_ = UsbError::kNone;
-  out_in_flight_ = false;
+  out_count_ = 0;
   slots_.clear();
 }
 
@@ -92,7 +102,7 @@ UsbCounters EmulatedUsbLink::counters() const {
 
 void EmulatedUsbLink::unplug() {
   gone_ = true;
-  out_in_flight_ = false;
+  out_count_ = 0;
   slots_.clear();
   late_count_ = 0;
   if (control_running_) control_error_ = UsbError::kGone;
@@ -121,23 +131,43 @@ void EmulatedUsbLink::run_control(EmulatedUsbDevice& device, const UsbFaults& fa
 
 void EmulatedUsbLink::frame_out(EmulatedUsbDevice& device, UsbFaults& faults) {
   const bool silent = bus_.now_ns() < faults.silent_until_ns;
+  // There is one control endpoint: what is set up goes first.
+  const bool control_taken = control_running_ && out_by_control_;
   run_control(device, faults, silent);
-  if (!out_in_flight_ || silent) return;
-  out_in_flight_ = false;
+  if (out_count_ > 0 && !silent && !control_taken) run_out(device, faults);
+}
+
+// The oldest packet in flight.
+void EmulatedUsbLink::run_out(EmulatedUsbDevice& device, UsbFaults& faults) {
+  const Out out = out_[0];
+  std::copy(out_.begin() + 1, out_.begin() + static_cast<std::ptrdiff_t>(out_count_), out_.begin());
+  --out_count_;
+  slots_.done(out.slot);
   ++ended_;
-  if (faults.stall_out) {
+  if (faults.stall_out || (faults.stall_control && out_by_control_)) {
     out_error_ = UsbError::kStall;
     return;
   }
-  std::size_t size = out_size_;
+  std::size_t size = out.size;
   if (faults.short_out > 0) {
     --faults.short_out;
     size /= 2;
-    out_error_ = UsbError::kShort;
   }
-  device.take_out(channel_.out_endpoint, {out_bytes_.data(), size});
-  if (size == out_size_) ++counters_.out;
-  send_next();
+  if (!hand_over(device, {out.bytes.data(), size})) out_error_ = UsbError::kStall;
+  if (size != out.size) out_error_ = UsbError::kShort;
+  if (out_error_ == UsbError::kNone) ++counters_.out;
+}
+
+// False: the device answers STALL.
+bool EmulatedUsbLink::hand_over(EmulatedUsbDevice& device, std::span<const std::uint8_t> bytes) {
+  if (!out_by_control_) {
+    device.take_out(channel_.out_endpoint, bytes);
+    return true;
+  }
+  const std::uint8_t id = bytes.empty() ? std::uint8_t{0} : bytes.front();
+  std::size_t none = 0;
+  return device.control(set_output_report(channel_.interface_number, id, bytes.size()), bytes, {},
+                        none);
 }
 
 void EmulatedUsbLink::frame_in(EmulatedUsbDevice& device, EmulatedUsbBus::Port& port) {

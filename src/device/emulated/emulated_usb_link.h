@@ -28,8 +28,9 @@ class EmulatedUsbLink : public UsbLink {
   std::int64_t now_ns() const override { return bus_.now_ns(); }
   void poll() override;
   bool next_in(UsbPacket& packet) override { return ring_.pop(packet); }
-  bool write(std::size_t slot, std::span<const std::uint8_t> bytes) override;
-  bool out_idle() const override { return !out_in_flight_ && !slots_.any(); }
+  void put(std::size_t slot, std::span<const std::uint8_t> bytes, double level) override;
+  bool send() override;
+  bool out_idle() const override { return out_count_ == 0 && !slots_.any(); }
   bool start_control(const UsbSetup& setup, std::span<const std::uint8_t> out,
                      double timeout_s) override;
   UsbControlResult control() const override;
@@ -51,7 +52,16 @@ class EmulatedUsbLink : public UsbLink {
     std::size_t size = 0;
     std::int64_t due_ns = 0;
   };
-  void send_next();
+  // An OUT packet in the host's hands.
+  struct Out {
+    std::array<std::uint8_t, kPacketBytes> bytes{};
+    std::size_t size = 0;
+    std::size_t slot = 0;
+    std::int64_t since_ns = 0;
+  };
+  void drop_old_out();
+  void run_out(EmulatedUsbDevice& device, UsbFaults& faults);
+  bool hand_over(EmulatedUsbDevice& device, std::span<const std::uint8_t> bytes);
   void run_control(EmulatedUsbDevice& device, const UsbFaults& faults, bool silent);
   void receive(std::span<const std::uint8_t> bytes, std::int64_t due_ns);
   void deliver_late();
@@ -61,11 +71,10 @@ class EmulatedUsbLink : public UsbLink {
   UsbChannel channel_;
   PacketRing ring_;
   OutSlots slots_;
-  std::array<std::uint8_t, kPacketBytes> out_bytes_{};
-  std::size_t out_size_ = 0;
-  std::size_t out_slot_ = 0;
-  std::int64_t out_since_ns_ = 0;
-  bool out_in_flight_ = false;
+  std::array<Out, kMostInFlight> out_;  ///< in flight, oldest first
+  std::size_t out_count_ = 0;
+  std::size_t out_room_ = 1;
+  bool out_by_control_ = false;
 
   UsbSetup setup_;
   std::array<std::uint8_t, kControlBytes> control_bytes_{};

@@ -84,49 +84,22 @@ constexpr std::uint8_t kPidReport[] = {
     0xC0,
 };
 
+// clang-format off
 constexpr std::uint8_t kPidConfiguration[] = {
-    0x09,
-    0x02,
-    0x29,
-    0x00,
-    0x01,
-    0x01,
-    0x00,
-    0xC0,
-    0x32,  // 41 bytes, own power, 100 mA
-    0x09,
-    0x04,
-    0x00,
-    0x00,
-    0x02,
-    0x03,
-    0x00,
-    0x00,
-    0x00,  // interface 0: HID
-    0x09,
-    0x21,
-    0x11,
-    0x01,
-    0x00,
-    0x01,
-    0x22,
-    sizeof kPidReport & 0xFF,
-    sizeof kPidReport >> 8,
-    0x07,
-    0x05,
-    0x81,
-    0x03,
-    0x40,
-    0x00,
-    0x01,  // IN 0x81, interrupt, 64 bytes, 1 ms
-    0x07,
-    0x05,
-    0x02,
-    0x03,
-    0x40,
-    0x00,
-    0x01,  // OUT 0x02, likewise
+    0x09, 0x02, 0x29, 0x00, 0x01, 0x01, 0x00, 0xC0, 0x32,  // 41 bytes, own power, 100 mA
+    0x09, 0x04, 0x00, 0x00, 0x02, 0x03, 0x00, 0x00, 0x00,  // interface 0: HID
+    0x09, 0x21, 0x11, 0x01, 0x00, 0x01, 0x22, sizeof kPidReport & 0xFF, sizeof kPidReport >> 8,
+    0x07, 0x05, 0x81, 0x03, 0x40, 0x00, 0x01,              // IN 0x81, interrupt, 64 bytes, 1 ms
+    0x07, 0x05, 0x02, 0x03, 0x40, 0x00, 0x01,              // OUT 0x02, likewise
 };
+// The same without the OUT endpoint.
+constexpr std::uint8_t kPidConfigurationWithoutOut[] = {
+    0x09, 0x02, 0x22, 0x00, 0x01, 0x01, 0x00, 0xC0, 0x32,  // 34 bytes
+    0x09, 0x04, 0x00, 0x00, 0x01, 0x03, 0x00, 0x00, 0x00,
+    0x09, 0x21, 0x11, 0x01, 0x00, 0x01, 0x22, sizeof kPidReport & 0xFF, sizeof kPidReport >> 8,
+    0x07, 0x05, 0x81, 0x03, 0x40, 0x00, 0x01,
+};
+// clang-format on
 
 std::size_t give(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> in) {
   const std::size_t n = std::min(bytes.size(), in.size());
@@ -157,8 +130,11 @@ JoystickDescriptors vector_joystick_descriptors() {
   return {kVectorDevice, kVectorConfiguration, {}, "4-DOF joystick, vector report", "V0001"};
 }
 
-JoystickDescriptors pid_joystick_descriptors() {
-  return {kPidDevice, kPidConfiguration, kPidReport, "4-DOF joystick, HID PID", "P0001"};
+JoystickDescriptors pid_joystick_descriptors(bool out_endpoint) {
+  const std::span<const std::uint8_t> with = kPidConfiguration,
+                                      without = kPidConfigurationWithoutOut;
+  return {kPidDevice, out_endpoint ? with : without, kPidReport, "4-DOF joystick, HID PID",
+          "P0001"};
 }
 
 bool answer_descriptor(const JoystickDescriptors& descriptors, const UsbSetup& setup,

@@ -8,7 +8,7 @@
 
 namespace osteon {
 
-/// What a joystick tells of itself, to the byte (docs/joystick-firmware.md).
+/// What a device tells of itself, to the byte (joysticks: docs/joystick-firmware.md).
 struct JoystickDescriptors {
   std::span<const std::uint8_t> device;
   std::span<const std::uint8_t> configuration;
@@ -18,7 +18,8 @@ struct JoystickDescriptors {
 };
 
 JoystickDescriptors vector_joystick_descriptors();
-JoystickDescriptors pid_joystick_descriptors();
+/// `out_endpoint`: without one the output reports come by SET_REPORT.
+JoystickDescriptors pid_joystick_descriptors(bool out_endpoint = true);
 
 /// Answers GET_DESCRIPTOR (device, configuration, strings, HID report). False: STALL.
 bool answer_descriptor(const JoystickDescriptors& descriptors, const UsbSetup& setup,

@@ -12,7 +12,9 @@ void read_usb(ProfileReader& in, const toml::table& joystick, JoystickProfile& p
   p.product = static_cast<std::uint16_t>(in.integer(usb, "product", 0, 0xFFFF));
   p.channel.interface_number = static_cast<std::uint8_t>(in.integer(usb, "interface", 0, 31));
   p.channel.in_endpoint = static_cast<std::uint8_t>(in.integer(usb, "in_endpoint", 0x81, 0x8F));
-  p.channel.out_endpoint = static_cast<std::uint8_t>(in.integer(usb, "out_endpoint", 0x01, 0x0F));
+  p.channel.reports_by_control = p.dialect == JoystickDialectKind::kPid;
+  const int lowest = p.channel.reports_by_control ? 0x00 : 0x01;
+  p.channel.out_endpoint = static_cast<std::uint8_t>(in.integer(usb, "out_endpoint", lowest, 0x0F));
   p.channel.in_bytes = static_cast<std::size_t>(in.integer(usb, "in_bytes", 1, 512));
 }
 

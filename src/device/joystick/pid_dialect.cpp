@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostLoadTries = 60;
 constexpr double kShutDown_s = 0.02;  // for each step of it
 constexpr std::int64_t kResetPause_ns = 10'000'000;
-constexpr std::uint8_t kGetDescriptor = 0x06, kGetReport = 0x01, kSetReport = 0x09;
+constexpr std::uint8_t kGetDescriptor = 0x06, kGetReport = 0x01;
 
 double scaled(std::span<const std::uint8_t> bytes, const HidField& field, const HidAxis& axis) {
   const double middle = 0.5 * static_cast<double>(field.logical_min + field.logical_max);
@@ -75,11 +75,10 @@ void PidDialect::step(UsbLink& link) {
 }
 
 bool PidDialect::set_report(UsbLink& link, const PidReport& report) {
-  const int kind = report.kind == HidReport::kOutput ? 2 : 3;
-  return link.start_control(
-      {0x21, kSetReport, static_cast<std::uint16_t>(kind << 8 | report.id),
-       profile_.channel.interface_number, static_cast<std::uint16_t>(report.size)},
-      report.view());
+  UsbSetup setup = set_output_report(profile_.channel.interface_number, report.id, report.size);
+  if (report.kind == HidReport::kFeature)
+    setup.value = static_cast<std::uint16_t>(0x0300 | report.id);
+  return link.start_control(setup, report.view());
 }
 
 bool PidDialect::get_report(UsbLink& link, std::uint32_t collection) {
@@ -262,22 +261,22 @@ ReportKind PidDialect::read(const UsbPacket& packet, JoystickReading& reading) {
   return ReportKind::kReading;
 }
 
+// Of the three axes the bus may take one a frame: the one whose force is farthest from what it has.
 bool PidDialect::send(UsbLink& link, const Vec3& force_V) {
   if (step_ != Step::kReady) return false;
   const HidField& magnitude = layout_->magnitude();
   const double largest =
       static_cast<double>(std::min(magnitude.logical_max, -magnitude.logical_min));
-  bool ok = true;
   for (std::size_t i = 0; i < 3; ++i) {
     PidReport report = layout_->make(HidReport::kOutput, pid::kSetConstantForce);
     layout_->set(report, pid::kSetConstantForce, pid::kBlockIndex, blocks_[i]);
     const double share =
         profile_.axes[i].sign * force_V[static_cast<Eigen::Index>(i)] / profile_.full_scale_force_n;
-    layout_->set(report, pid::kSetConstantForce, pid::kMagnitude,
-                 std::llround(std::clamp(share, -1.0, 1.0) * largest));
-    ok = link.write(i, report.view()) && ok;
+    const auto steps = std::llround(std::clamp(share, -1.0, 1.0) * largest);
+    layout_->set(report, pid::kSetConstantForce, pid::kMagnitude, steps);
+    link.put(i, report.view(), static_cast<double>(steps));
   }
-  return ok;
+  return link.send();
 }
 
 void PidDialect::control_and_wait_for(UsbLink& link, std::uint32_t usage) {

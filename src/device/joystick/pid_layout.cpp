@@ -67,6 +67,9 @@ Result<HidField> PidLayout::demand_field(HidReport kind, std::uint32_t collectio
 }
 
 Result<void> PidLayout::find_effects() {
+  if (!reports_.uses_ids)
+    return fail("the joystick does not number its reports", kWhere,
+                "It is not a force-feedback joystick of HID PID class 1.0");
   control_collection_ = reports_.find(HidReport::kOutput, pid::kControl, pid::kReset)
                             ? pid::kControl
                             : pid::kControlReport;

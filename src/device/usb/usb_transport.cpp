@@ -22,6 +22,12 @@ const char* describe(UsbError error) {
   return "unknown";
 }
 
+UsbSetup set_output_report(std::uint8_t interface_number, std::uint8_t id, std::size_t size) {
+  constexpr std::uint8_t kSetReport = 0x09;
+  return {0x21, kSetReport, static_cast<std::uint16_t>(0x0200 | id), interface_number,
+          static_cast<std::uint16_t>(size)};
+}
+
 UsbControlResult control_and_wait(UsbLink& link, const UsbSetup& setup,
                                   std::span<const std::uint8_t> out, double timeout_s) {
   if (!link.start_control(setup, out, timeout_s))

@@ -38,6 +38,9 @@ struct UsbChannel {
   std::uint8_t interface_number = 0;
   std::uint8_t in_endpoint = 0x81;
   std::uint8_t out_endpoint = 0x02;
+  /// OUT packets are HID output reports, each with its id first: where the interface has no such
+  /// OUT endpoint they go by SET_REPORT on the control endpoint (HID 1.11, 4.4 and 7.2.2).
+  bool reports_by_control = false;
   std::size_t in_bytes = 64;       ///< largest packet; at most UsbLink::kPacketBytes
   double replace_after_s = 0.003;  ///< a pending OUT transfer this old gives way to a newer value
 };
@@ -51,6 +54,9 @@ struct UsbSetup {
   std::uint16_t length = 0;
   bool is_in() const { return (request_type & 0x80) != 0; }
 };
+
+/// SET_REPORT of an output report of `size` bytes whose id comes first.
+UsbSetup set_output_report(std::uint8_t interface_number, std::uint8_t id, std::size_t size);
 
 struct UsbControlResult {
   bool running = false;
@@ -72,34 +78,46 @@ struct UsbCounters {
 };
 
 /// An open device. Used by one thread at a time. Everything is allocated when it opens: `poll`,
-/// `next_in`, `write` and `start_control` allocate nothing and never wait. Errors of the endpoints
-/// latch: after one the endpoint is used no more until `restart`.
+/// `next_in`, `put`, `send` and `start_control` allocate nothing and never wait. Errors of the
+/// endpoints latch: after one the endpoint is used no more until `restart`.
 class UsbLink {
  public:
   static constexpr std::size_t kPacketBytes = 512;
   static constexpr std::size_t kSlots = 4;
+  static constexpr std::size_t kMostInFlight = 3;
   static constexpr std::size_t kControlBytes = 4096;
   static constexpr std::size_t kQueuedPackets = 16;
 
   virtual ~UsbLink() = default;
   /// The link's clock: monotonic, or that of the emulation.
   virtual std::int64_t now_ns() const = 0;
-  /// Takes in what has ended and starts what waits. Two IN transfers stay in flight.
+  /// Takes in what has ended. Two IN transfers stay in flight.
   virtual void poll() = 0;
   /// Next packet, in order of arrival; false when there is none. The oldest are dropped when nobody
   /// takes them.
   virtual bool next_in(UsbPacket& packet) = 0;
-  /// Sends `bytes` (up to kPacketBytes) by the OUT endpoint. Last wins: a value of the same slot
-  /// that has not left yet is replaced, never queued. The kSlots slots take turns. False: gone, or
-  /// latched.
-  virtual bool write(std::size_t slot, std::span<const std::uint8_t> bytes) = 0;
+  /// Lays `bytes` (up to kPacketBytes) out for the OUT endpoint; they leave with `send` or `wait`.
+  /// Last wins: a value of the same slot that has not left yet is replaced, never queued. `level`
+  /// is what the value means, in a unit common to the slots (see `send`).
+  virtual void put(std::size_t slot, std::span<const std::uint8_t> bytes, double level = 0) = 0;
+  /// Starts as much of what waits as the bus has room for: one packet at full speed, kMostInFlight
+  /// at high speed. The slot goes first whose level is farthest from what it last sent, and farther
+  /// the longer it was passed over; the others wait for the next call, with newer values by then.
+  /// False: gone, or latched.
+  virtual bool send() = 0;
+  /// Both for a single slot.
+  bool write(std::size_t slot, std::span<const std::uint8_t> bytes) {
+    put(slot, bytes);
+    return send();
+  }
   /// Nothing waits to be sent and nothing is in flight on the OUT endpoint.
   virtual bool out_idle() const = 0;
   /// Starts a control transfer (`out` for host to device); false while one runs, or when gone.
   virtual bool start_control(const UsbSetup& setup, std::span<const std::uint8_t> out,
                              double timeout_s = 0.1) = 0;
   virtual UsbControlResult control() const = 0;
-  /// Waits until something ends, or so long. Never in a tick: for opening, closing and set-up.
+  /// Starts what waits, then waits until something ends, or so long. Never in a tick: for opening,
+  /// closing and set-up.
   virtual void wait(double limit_s) = 0;
   /// Clears halts and latched errors and starts to read again. May wait; never in a tick.
   virtual void restart() = 0;

@@ -69,14 +69,56 @@ TEST(EmulatedUsb, OneTransactionAnEndpointAndFrame) {
   rig.send(1, 2);
   rig.send(2, 3);
   rig.bus.advance(2 * kMs);
-  EXPECT_EQ(rig.device->taken.size(), 2u);
-  EXPECT_EQ(rig.received(), 2);
+  EXPECT_EQ(rig.device->taken.size(), 1u);  // what waits leaves when the host comes by
+  EXPECT_TRUE(rig.link->send());
+  rig.bus.advance(kMs);
+  EXPECT_TRUE(rig.link->send());
+  EXPECT_EQ(rig.received(), 3);
   rig.bus.advance(kMs / 2);
   EXPECT_EQ(rig.received(), 0);
   rig.bus.advance(kMs / 2);
   EXPECT_EQ(rig.device->taken, (std::vector<std::vector<std::uint8_t>>{{0, 1}, {1, 2}, {2, 3}}));
   EXPECT_TRUE(rig.link->out_idle());
   EXPECT_EQ(rig.link->counters().out, 3u);
+}
+
+TEST(EmulatedUsb, TheSlotThatIsFarthestFromWhatItSentGoesFirstAndNoneWaitsForEver) {
+  Rig rig;
+  const auto put = [&](std::size_t slot, std::uint8_t value) {
+    rig.link->put(slot, std::array<std::uint8_t, 2>{static_cast<std::uint8_t>(slot), value}, value);
+  };
+  int to_last = 0, to_still = 0;
+  for (std::uint8_t i = 1; i <= 60; ++i) {
+    put(0, i);
+    put(1, static_cast<std::uint8_t>(4 * i));
+    put(2, 0);
+    EXPECT_TRUE(rig.link->send());
+    rig.bus.advance(kMs);
+    ASSERT_EQ(rig.device->taken.size(), i);
+    const auto& taken = rig.device->taken.back();
+    to_last += taken[0] == 0 ? 1 : 0;
+    to_still += taken[0] == 2 ? 1 : 0;
+    EXPECT_TRUE(taken[0] != 0 || taken[1] == i) << "an old value";
+  }
+  EXPECT_GE(to_last, 10);
+  EXPECT_LE(to_last, 30);
+  EXPECT_GE(to_still, 3);
+  EXPECT_LE(to_still, 6);
+}
+
+TEST(EmulatedUsb, AtHighSpeedThreePacketsLeaveInATick) {
+  class Fast : public EchoDevice {
+    UsbSpeed speed() const override { return UsbSpeed::kHigh; }
+  };
+  EmulatedUsbBus bus;
+  const auto device = std::make_shared<Fast>();
+  bus.attach(device);
+  const auto link = bus.open(bus.list(0x1209, 1).front(), {}).value();
+  for (std::uint8_t slot = 0; slot < 3; ++slot) link->put(slot, std::array{slot}, 1);
+  EXPECT_TRUE(link->send());
+  bus.advance(kMs);
+  EXPECT_EQ(device->taken.size(), 3u);
+  EXPECT_TRUE(link->out_idle());
 }
 
 TEST(EmulatedUsb, LastValueWinsWhenTheDeviceStalls) {
@@ -88,7 +130,11 @@ TEST(EmulatedUsb, LastValueWinsWhenTheDeviceStalls) {
     rig.bus.advance(kMs);
   }
   // The device takes what is in flight at its waking, never older than the time to replace it.
-  rig.bus.advance(10 * kMs);
+  for (int i = 0; i < 10; ++i) {
+    rig.link->send();
+    rig.bus.advance(kMs);
+  }
+  ASSERT_GE(rig.device->taken.size(), 1u);
   ASSERT_LE(rig.device->taken.size(), 2u);
   for (const auto& bytes : rig.device->taken) EXPECT_GE(bytes[1], 95);
   EXPECT_EQ(rig.device->taken.back()[1], 99);

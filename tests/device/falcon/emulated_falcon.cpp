@@ -12,7 +12,24 @@ constexpr std::uint16_t kBaud9600 = 0x4138, kBaudLoad = 0x15, kBaudNormal = 2;
 constexpr std::array<std::uint8_t, 2> kStatus{0x01, 0x60};
 constexpr std::size_t kLargestPacket = 64;
 
+// clang-format off
+constexpr std::uint8_t kDevice[] = {
+    0x12, 0x01, 0x00, 0x02, 0x00, 0x00, 0x00, 0x40,        // USB 2.0, class by interface
+    0x03, 0x04, 0x48, 0xCB, 0x00, 0x06, 0x01, 0x02, 0x03, 0x01,  // 0403:cb48, FT232B
+};
+constexpr std::uint8_t kConfiguration[] = {
+    0x09, 0x02, 0x20, 0x00, 0x01, 0x01, 0x00, 0xC0, 0x32,  // 32 bytes, own power
+    0x09, 0x04, 0x00, 0x00, 0x02, 0xFF, 0xFF, 0xFF, 0x02,  // interface 0: vendor's
+    0x07, 0x05, 0x81, 0x02, 0x40, 0x00, 0x00,              // IN 0x81, bulk, 64 bytes
+    0x07, 0x05, 0x02, 0x02, 0x40, 0x00, 0x00,              // OUT 0x02, likewise
+};
+// clang-format on
+
 }  // namespace
+
+JoystickDescriptors falcon_descriptors() {
+  return {kDevice, kConfiguration, {}, "FALCON HAPTIC", "FN0001"};
+}
 
 std::vector<std::uint8_t> pretended_firmware(std::size_t size) {
   std::vector<std::uint8_t> bytes(size);
@@ -49,8 +66,12 @@ std::array<int, 3> EmulatedFalcon::true_counts() const {
 }
 
 bool EmulatedFalcon::control(const UsbSetup& setup, std::span<const std::uint8_t>,
-                             std::span<std::uint8_t>, std::size_t&) {
-  if (setup.request_type != 0x40) return false;
+                             std::span<std::uint8_t> in, std::size_t& in_size) {
+  if (setup.request_type != 0x40) {
+    JoystickDescriptors descriptors = falcon_descriptors();
+    descriptors.serial = serial.c_str();
+    return answer_descriptor(descriptors, setup, in, in_size);
+  }
   requests_.push_back({setup.request, setup.value});
   switch (setup.request) {
     case 0:

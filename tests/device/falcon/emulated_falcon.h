@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulated/emulated_usb.h"
+#include "emulated/joystick_descriptors.h"
 #include "falcon/falcon_packet.h"
 #include "osteon/device/virtual_hand.h"
 
@@ -86,6 +87,9 @@ class EmulatedFalcon : public EmulatedUsbDevice {
   std::int64_t now_ns_ = 0;
   std::int64_t said_ns_ = 0;
 };
+
+/// What its serial converter tells of itself.
+JoystickDescriptors falcon_descriptors();
 
 /// Bytes that stand for the firmware: nobody may ship the real one.
 std::vector<std::uint8_t> pretended_firmware(std::size_t size = 1000);

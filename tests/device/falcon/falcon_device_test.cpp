@@ -147,7 +147,10 @@ TEST(FalconDevice, LastForceWinsWhenTheDeviceStalls) {
     device->write_force(Vec3(0, 0, 0.1 * i));
     rig.step();
   }
-  rig.step(2);
+  for (int i = 0; i < 2; ++i) {
+    device->write_force(Vec3(0, 0, 0.7));
+    rig.step();
+  }
   // What was waiting is gone: only the newest reached the motors.
   EXPECT_NEAR(rig.falcon->motor_force().z(), 0.7, 0.02);
   EXPECT_GT(device->health().replaced, 3u);

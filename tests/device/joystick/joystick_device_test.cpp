@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "device/joystick/joystick_rig.h"
+#include "emulated/joystick_descriptors.h"
 #include "joystick/joystick_driver.h"
 #include "joystick/vector_report.h"
 #include "osteon/base/file.h"
@@ -19,7 +21,7 @@ using testing::kMs;
 constexpr auto kPid = JoystickDialectKind::kPid;
 constexpr auto kVector = JoystickDialectKind::kVector;
 
-class JoystickDeviceTest : public ::testing::TestWithParam<JoystickDialectKind> {
+class JoystickDeviceTest : public ::testing::TestWithParam<testing::JoystickKind> {
  protected:
   void run(int ticks, const Vec3& force_V = Vec3::Zero()) {
     for (int i = 0; i < ticks; ++i) {
@@ -78,7 +80,7 @@ TEST_P(JoystickDeviceTest, VelocitiesFollowTheHand) {
     turn_worst = std::max(turn_worst, (sample.w_V - Vec3(0, 0, 2)).norm());
   }
   // A step of position in a tick, and the window's lag.
-  EXPECT_LT(worst, GetParam() == kPid ? 0.006 : 0.0006);
+  EXPECT_LT(worst, GetParam().dialect == kPid ? 0.006 : 0.0006);
   EXPECT_LT(turn_worst, 0.2);
 }
 
@@ -118,10 +120,10 @@ TEST_P(JoystickDeviceTest, HealthCountsReports) {
   EXPECT_EQ(health.bad_reports, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, JoystickDeviceTest, ::testing::Values(kPid, kVector),
-                         [](const auto& instance) {
-                           return instance.param == kPid ? "Pid" : "Vector";
-                         });
+INSTANTIATE_TEST_SUITE_P(, JoystickDeviceTest,
+                         ::testing::Values(testing::kPidKind, testing::kPidByControlKind,
+                                           testing::kVectorKind),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(PidJoystick, SlowBlockLoadsAreAskedForAgainUpToSixtyTimes) {
   JoystickRig slow(kPid);
@@ -173,7 +175,7 @@ TEST(PidJoystick, ItsOwnSwitchesCutTheForceAndSayWhy) {
   EXPECT_GT(rig.motors().x(), 0.99);
 }
 
-TEST(PidJoystick, AtFullSpeedEachAxisIsRefreshedEveryThirdFrame) {
+TEST(PidJoystick, AtFullSpeedOneAxisIsRefreshedInAFrame) {
   JoystickRig rig(kPid);
   rig.open();
   const std::uint64_t before = rig.device->health().reports_out;
@@ -183,6 +185,54 @@ TEST(PidJoystick, AtFullSpeedEachAxisIsRefreshedEveryThirdFrame) {
     rig.device->write_force(Vec3(1, 1, 1));
   }
   EXPECT_NEAR(static_cast<double>(rig.device->health().reports_out - before), 300, 2);
+}
+
+// What changes most goes first; what changes less is not forgotten, what stands still is told anew.
+TEST(PidJoystick, AtFullSpeedTheAxisThatIsFarthestOffGoesFirst) {
+  for (const testing::JoystickKind& kind : {testing::kPidKind, testing::kPidByControlKind}) {
+    SCOPED_TRACE(kind.name);
+    JoystickRig rig(kind);
+    rig.open();
+    const auto tick = [&](const Vec3& force_V) {
+      rig.device->read();
+      rig.device->write_force(force_V);
+      rig.pass_ms(1);
+      return rig.motors();
+    };
+    for (int i = 0; i < 20; ++i) tick(Vec3(0.1, 0.1, 0.1));
+    Vec3 wanted(0.1, 0.1, 0.1);
+    for (int i = 1; i <= 30; ++i) {
+      wanted = Vec3(0.1 + 0.001 * i, 0.1 + 0.1 * i, 0.1);
+      const Vec3 motors = tick(wanted);
+      // x waits while its small way adds up; y gives way to it now and then, and once to z.
+      EXPECT_LT(std::abs(motors.y() - wanted.y()), 0.201) << i;
+      EXPECT_LT(std::abs(motors.x() - wanted.x()), 0.02) << i;
+    }
+    for (int i = 0; i < 2; ++i) tick(wanted);
+    EXPECT_LT((tick(wanted) - wanted).norm(), 2e-3);
+  }
+}
+
+TEST(PidJoystick, WithoutAnOutEndpointNothingIsSentToOne) {
+  JoystickRig rig(testing::kPidByControlKind);
+  const auto configuration = pid_joystick_descriptors(false).configuration;
+  EXPECT_EQ(configuration.size(), configuration[2]);  // as long as it says
+  EXPECT_EQ(configuration[13], 1);                    // one endpoint
+  rig.open();
+  rig.pid->take_out(0x02, std::array<std::uint8_t, 4>{5, 1, 0x10, 0x27});
+  rig.pass_ms(1);
+  EXPECT_EQ(rig.motors(), Vec3(Vec3::Zero()));
+  rig.device->read();
+  rig.device->write_force(Vec3(0, 2, 0));
+  rig.pass_ms(1);
+  EXPECT_LT((rig.motors() - Vec3(0, 2, 0)).norm(), 2e-3);
+  // A vector joystick has no reports to send so.
+  UsbChannel plain = rig.profile.channel;
+  plain.reports_by_control = false;
+  UsbEntry entry = rig.emulated->entry();
+  entry.port = rig.port;
+  rig.device.reset();
+  EXPECT_FALSE(rig.bus.open(entry, plain));
 }
 
 TEST(VectorJoystick, StatusBitsBecomeCauses) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <ostream>
 
 #include "device/wall_loop.h"
 #include "emulated/emulated_pid_joystick.h"
@@ -23,6 +24,17 @@ inline JoystickProfile shipped_profile(JoystickDialectKind dialect) {
   return *profile;
 }
 
+/// The joysticks that the tests go through.
+struct JoystickKind {
+  const char* name;
+  JoystickDialectKind dialect;
+  bool out_endpoint = true;  ///< false: reports by SET_REPORT alone
+};
+inline constexpr JoystickKind kPidKind{"Pid", JoystickDialectKind::kPid};
+inline constexpr JoystickKind kPidByControlKind{"PidByControl", JoystickDialectKind::kPid, false};
+inline constexpr JoystickKind kVectorKind{"Vector", JoystickDialectKind::kVector};
+inline void PrintTo(const JoystickKind& kind, std::ostream* out) { *out << kind.name; }
+
 /// An emulated joystick on an emulated bus, opened by the driver that a real one has.
 struct JoystickRig {
   explicit JoystickRig(JoystickDialectKind dialect, UsbSpeed pid_speed = UsbSpeed::kFull)
@@ -37,6 +49,9 @@ struct JoystickRig {
       mechanics = &vector->mechanics();
     }
     port = bus.attach(emulated);
+  }
+  explicit JoystickRig(const JoystickKind& kind) : JoystickRig(kind.dialect) {
+    if (!kind.out_endpoint) pid->leave_out_endpoint_away();
   }
 
   Result<std::unique_ptr<JoystickDevice>> try_open() {

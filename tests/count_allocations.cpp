@@ -1,11 +1,12 @@
-// The counter behind drivers/allocations.h: the one replacement of operator new in this program.
+// The counter behind count_allocations.h: the one replacement of operator new in a program.
+#include "count_allocations.h"
+
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <vector>
-
-#include "drivers/allocations.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
 // g++ sees a library's delete beside the replaced new once either is inlined.
