@@ -58,22 +58,37 @@ int run_import(const ImportOptions& options) {
   return kDone;
 }
 
+std::string felt_text(const Bone& bone) {
+  return bone.felt == Felt::kPieces ? plural(bone.pieces.size(), "piece")
+                                    : std::string(to_text(bone.felt));
+}
+
+// Memory that the bone's distance field takes.
+std::string field_text(const Bone& bone) {
+  return bone.field ? fixed(1e-6 * static_cast<double>(bone.field->bytes()), 1) : "-";
+}
+
 int run_info(const std::string& spec) {
   const auto the_case = open_case(spec);
   if (!the_case) return complain(the_case.error());
   const Case& c = **the_case;
-  TextTable table(
-      {"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm", "hull vertices"});
+  TextTable table({"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm",
+                   "felt as", "hull vertices", "field MB"});
   for (const Bone& bone : c.bones) {
     std::size_t corners = 0;
     for (const Hull& piece : bone.pieces) corners += piece.vertices.size();
     table.add({bone.name, fma_text(bone.fma_id), std::to_string(bone.mesh.triangles.size()),
                yes_no(topology(bone.mesh).closed()), fixed(volume(bone.mesh) * 1e6, 3),
-               fixed(bone.mass_kg * 1e3, 2), size_text_mm(bone.mesh), std::to_string(corners)});
+               fixed(bone.mass_kg * 1e3, 2), size_text_mm(bone.mesh), felt_text(bone),
+               std::to_string(corners), field_text(bone)});
   }
   print(c.name + (c.side.empty() ? "" : " (" + c.side + ")") + ", " +
         plural(c.bones.size(), "bone") + ", " + plural(c.landmarks.size(), "landmark") + "\n\n");
   print(table.text());
+  double field_mb = 0;
+  for (const Bone& bone : c.bones)
+    field_mb += bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
+  if (field_mb > 0) std::printf("\nthe distance fields take %.1f MB", field_mb);
   std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
   return kDone;
 }

@@ -4,9 +4,11 @@
 #include <system_error>
 #include <utility>
 
+#include "felt_choice.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
 #include "osteon/scene/case_io.h"
+#include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
 #include "piece_work.h"
 #include "xdg.h"
@@ -16,21 +18,30 @@ namespace {
 
 constexpr std::string_view kBuiltin = "builtin:";
 
-std::filesystem::path cached_pieces_file(const std::string& spec) {
+// A cache of a case in the user's own folder. `kind`: "pieces" or "fields".
+std::filesystem::path users_cache(const std::string& spec, const std::string& kind) {
+  if (spec.rfind(kBuiltin, 0) == 0)
+    return cache_dir() / (kind + "-" + spec.substr(kBuiltin.size()) + ".bin");
   Hasher hasher;
   hasher.add(std::string_view(std::filesystem::absolute(spec).string()));
-  return cache_dir() / ("pieces-" + std::to_string(hasher.value()) + ".bin");
+  return cache_dir() / (kind + "-" + std::to_string(hasher.value()) + ".bin");
 }
 
-// Beside the case where that is a folder that has them or can be written.
-std::filesystem::path pieces_file(const std::string& spec) {
-  if (spec.rfind(kBuiltin, 0) == 0)
-    return cache_dir() / ("pieces-" + spec.substr(kBuiltin.size()) + ".bin");
-  const std::filesystem::path beside = std::filesystem::path(spec) / "pieces.bin";
-  const std::filesystem::path cached = cached_pieces_file(spec);
+// Beside the case where that is a folder that has one or can be written.
+std::filesystem::path cache_file(const std::string& spec, const std::string& kind) {
+  const std::filesystem::path users = users_cache(spec, kind);
+  if (spec.rfind(kBuiltin, 0) == 0) return users;
+  const std::filesystem::path beside = std::filesystem::path(spec) / (kind + ".bin");
   std::error_code ec;
-  return !std::filesystem::exists(beside, ec) && std::filesystem::exists(cached, ec) ? cached
-                                                                                     : beside;
+  return !std::filesystem::exists(beside, ec) && std::filesystem::exists(users, ec) ? users
+                                                                                    : beside;
+}
+
+// A case in a folder that cannot be written has its caches in the user's own; without that too what
+// they hold is made anew each time.
+template <class Cache>
+void keep(Cache& cache, const std::string& spec, const std::string& kind) {
+  if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
 }
 
 Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress) {
@@ -67,8 +78,14 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
 
 Result<CaseDef> open_case_def(const std::string& spec,
                               const std::function<void(double)>& progress) {
-  if (spec.rfind(kBuiltin, 0) == 0) return grow_builtin(spec.substr(kBuiltin.size()), progress);
-  return load_case(spec);
+  const auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  const std::string& source = choice->source;
+  auto def = source.rfind(kBuiltin, 0) == 0 ? grow_builtin(source.substr(kBuiltin.size()), progress)
+                                            : load_case(source);
+  if (!def) return def;
+  if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
+  return def;
 }
 
 Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
@@ -81,21 +98,23 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
   say("Opening the bones", 0);
   auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
   if (!def) return tl::unexpected(def.error());
-  PieceCache cache(pieces_file(spec));
-  find_pieces(*def, cache, [&](double share) {
+  const std::string source = parse_felt_choice(spec)->source;
+  PieceCache pieces(cache_file(source, "pieces"));
+  FieldCache fields(cache_file(source, "fields"));
+  find_what_is_felt(*def, pieces, fields, [&](double share) {
     say("Cutting the bones into pieces (once)", kOpened + kCut * share);
   });
   BuildOptions options;
-  options.pieces = &cache;
+  options.pieces = &pieces;
+  options.fields = &fields;
   options.progress = [&](std::size_t i, std::size_t count) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
     say("Building the bones", kOpened + kCut + (1 - kOpened - kCut) * share);
   };
   auto built = build_case(std::move(*def), options);
   if (!built) return tl::unexpected(built.error());
-  // A case in a folder that cannot be written has its pieces in the user's cache; without that too
-  // they are made anew each time.
-  if (!cache.save()) (void)cache.save_as(cached_pieces_file(spec));
+  keep(pieces, source, "pieces");
+  keep(fields, source, "fields");
   return std::make_shared<const Case>(std::move(*built));
 }
 

@@ -15,8 +15,8 @@ namespace osteon {
 CaseDef case_from(GeneratedAnatomy anatomy);
 
 /// Case by what a user names it: `builtin:wrist` is grown from its description in the assets,
-/// anything else is a case folder. `progress` is told the share of the bones grown; it may throw to
-/// stop.
+/// anything else is a case folder. A choice of what is felt may follow (felt_choice.h). `progress`
+/// is told the share of the bones grown; it may throw to stop.
 Result<CaseDef> open_case_def(const std::string& spec,
                               const std::function<void(double)>& progress = {});
 /// The same, built. The pieces of its bones are kept beside the case (pieces.bin), or in the user's

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -16,8 +17,19 @@ namespace {
 struct Task {
   std::size_t bone;
   std::uint64_t key;
-  std::optional<PieceCorners> found;
+  bool field = false;
+  std::optional<PieceCorners> pieces;
+  FieldCache::Field made_field;
 };
+
+void work_on(Task& task, const TriMesh& mesh) {
+  if (!task.field) {
+    task.pieces = cut_into_pieces(mesh);
+    return;
+  }
+  auto made = DistanceField::make(mesh);
+  if (made) task.made_field = std::make_shared<const DistanceField>(std::move(*made));
+}
 
 // Workers that take the next task until none is left, or until they are told to stop.
 class Workers {
@@ -41,7 +53,7 @@ class Workers {
     const std::size_t i = next_.fetch_add(1);
     if (i >= tasks_.size()) return false;
     Task& task = tasks_[i];
-    task.found = cut_into_pieces(def_.bones[task.bone].mesh);
+    work_on(task, def_.bones[task.bone].mesh);
     ++done_;
     return true;
   }
@@ -59,12 +71,16 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-std::vector<Task> unknown_pieces(const CaseDef& def, PieceCache& cache) {
+std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fields) {
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
-    if (def.bones[i].felt == Felt::kHull) continue;
-    const std::uint64_t key = piece_key(def.bones[i].mesh);
-    if (!cache.find(key)) tasks.push_back({i, key, std::nullopt});
+    const BoneDef& bone = def.bones[i];
+    const std::uint64_t cut_key = piece_key(bone.mesh);
+    if (bone.felt != Felt::kHull && !pieces.find(cut_key))
+      tasks.push_back({i, cut_key, false, std::nullopt, nullptr});
+    if (bone.felt != Felt::kField) continue;
+    const std::uint64_t key = field_key(bone.mesh);
+    if (!fields.find(key)) tasks.push_back({i, key, true, std::nullopt, nullptr});
   }
   // The largest first, so that no worker is left alone with it at the end.
   std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) {
@@ -75,9 +91,9 @@ std::vector<Task> unknown_pieces(const CaseDef& def, PieceCache& cache) {
 
 }  // namespace
 
-void find_pieces(const CaseDef& def, PieceCache& cache,
-                 const std::function<void(double)>& progress) {
-  std::vector<Task> tasks = unknown_pieces(def, cache);
+void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& fields,
+                       const std::function<void(double)>& progress) {
+  std::vector<Task> tasks = unknown(def, pieces, fields);
   if (tasks.empty()) return;
   {
     Workers workers(def, tasks);
@@ -88,8 +104,10 @@ void find_pieces(const CaseDef& def, PieceCache& cache,
     } while (workers.work_once());
     workers.wait();
   }
-  for (Task& task : tasks)
-    if (task.found) cache.put(task.key, std::move(*task.found));
+  for (Task& task : tasks) {
+    if (task.pieces) pieces.put(task.key, std::move(*task.pieces));
+    if (task.made_field) fields.put(task.key, std::move(task.made_field));
+  }
 }
 
 }  // namespace osteon

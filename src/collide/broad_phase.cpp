@@ -65,6 +65,12 @@ void BroadPhase::add_bone(std::span<const ConvexBody* const> pieces) {
   close_bone();
 }
 
+void BroadPhase::add_bone(const Aabb& box) {
+  const Vec3 half = 0.5 * box.extent();
+  pieces_.push_back({box.center(), half.norm(), box.center(), half});
+  close_bone();
+}
+
 std::size_t BroadPhase::query(std::span<const Pose> X_WB, const SweptSphere& ball, double margin,
                               std::span<PieceRef> out) const {
   assert(X_WB.size() >= bone_count());

@@ -1,20 +1,63 @@
 #include "contact_field.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "osteon/collide/field_contact.h"
 #include "rigid_motion.h"
 
 namespace osteon {
-ContactField::ContactField(const Case& the_case, const Tool& tool) : case_(the_case), tool_(tool) {
+namespace {
+
+// A tool without rods is felt by fields as the balls around its pieces.
+std::vector<Capsule> rods_of(const Tool& tool) {
+  if (!tool.rods.empty()) return tool.rods;
+  std::vector<Capsule> rods;
+  for (const ConvexBody& body : tool.bodies)
+    rods.push_back({body.center, body.center, body.radius});
+  return rods;
+}
+
+Capsule placed(const Pose& X_BT, const Capsule& rod) {
+  return {X_BT * rod.p0, X_BT * rod.p1, rod.radius};
+}
+
+}  // namespace
+
+ContactField::ContactField(const Case& the_case, const Tool& tool)
+    : case_(the_case), tool_(tool), rods_(rods_of(tool)) {
   for (const ConvexBody& body : tool.bodies)
     tool_radius_ = std::max(tool_radius_, body.center.norm() + body.radius);
+  for (const Capsule& rod : rods_)
+    tool_radius_ = std::max({tool_radius_, rod.p0.norm() + rod.radius, rod.p1.norm() + rod.radius});
   for (std::uint32_t b = 0; b < case_.bones.size(); ++b) {
-    const auto& bodies = case_.bones[b].bodies;
-    broad_phase_.add_bone(std::span<const ConvexBody>(bodies));
     first_pair_.push_back(static_cast<std::uint32_t>(pairs_.size()));
-    for (std::uint32_t p = 0; p < bodies.size(); ++p)
-      for (std::uint32_t t = 0; t < tool.bodies.size(); ++t) pairs_.push_back({b, p, t});
+    if (felt_as_field(case_.bones[b]))
+      add_field(b);
+    else
+      add_pieces(b);
   }
+}
+
+void ContactField::add_pieces(std::uint32_t bone) {
+  const auto& bodies = case_.bones[bone].bodies;
+  broad_phase_.add_bone(std::span<const ConvexBody>(bodies));
+  for (std::uint32_t p = 0; p < bodies.size(); ++p)
+    for (std::uint32_t t = 0; t < tool_.bodies.size(); ++t) pairs_.push_back({bone, p, t, false});
+}
+
+void ContactField::add_field(std::uint32_t bone) {
+  broad_phase_.add_bone(case_.bones[bone].field->box());
+  for (std::uint32_t t = 0; t < rods_.size(); ++t) pairs_.push_back({bone, 0, t, true});
+}
+
+// A rod thicker than the field's band would touch where nothing but a bound is known: it feels the
+// pieces.
+bool ContactField::felt_as_field(const Bone& bone) const {
+  if (!bone.field) return false;
+  const double most = bone.field->data().outside_m - bone.field->cell_m();
+  return std::all_of(rods_.begin(), rods_.end(),
+                     [most](const Capsule& rod) { return rod.radius <= most; });
 }
 
 bool ContactField::collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
@@ -25,13 +68,18 @@ bool ContactField::collect(const Vec3& p_W, double reach_m, std::span<const Pose
   std::array<PieceRef, kMaxCandidates> near;
   const SweptSphere ball{p_W, p_W, tool_radius_};
   const std::size_t found = broad_phase_.query(now_WB, ball, reach_m + moved_m, near);
-  const std::size_t tool_pieces = tool_.bodies.size();
   out.count = 0;
-  if (found * tool_pieces > kMaxCandidates) return false;
+  out.field_count = 0;
+  if (found > near.size()) return false;
   for (std::size_t i = 0; i < found; ++i) {
-    const auto first = first_pair_[near[i].bone] + near[i].piece * tool_pieces;
+    const std::uint32_t start = first_pair_[near[i].bone];
+    const bool field = pairs_[start].field;
+    const std::size_t tool_pieces = field ? rods_.size() : tool_.bodies.size();
+    std::uint32_t& count = field ? out.field_count : out.count;
+    if (count + tool_pieces > (field ? kMaxFields : kMaxCandidates)) return false;
+    const std::size_t first = start + near[i].piece * tool_pieces;
     for (std::size_t t = 0; t < tool_pieces; ++t)
-      out.pair[out.count++] = static_cast<std::uint32_t>(first + t);
+      (field ? out.field[count++] : out.pair[count++]) = static_cast<std::uint32_t>(first + t);
   }
   return true;
 }
@@ -39,9 +87,10 @@ bool ContactField::collect(const Vec3& p_W, double reach_m, std::span<const Pose
 bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, LpBasis& basis,
                             PartingPlane& out) const {
   const PiecePair& ids = pairs_[pair];
+  const Pose X_BT = X_WB.inverse() * X_WT;
+  if (ids.field) return separate_field(ids, X_BT, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
   const ConvexBody& tool_body = tool_.bodies[ids.tool_piece];
-  const Pose X_BT = X_WB.inverse() * X_WT;
   LpDepth depth = lp_depth(bone_body, tool_body, X_BT, &basis);
   if (depth.status != LpStatus::kOptimal) {
     basis = {};
@@ -72,11 +121,37 @@ bool ContactField::guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& o
   return out.gap > 0;
 }
 
+bool ContactField::separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const {
+  const CapsuleContact contact =
+      field_contact(*case_.bones[ids.bone].field, placed(X_BT, rods_[ids.tool_piece]));
+  if (contact.status != LpStatus::kOptimal) return false;
+  out.nhat_BT_B = contact.nhat_AB_A;
+  out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
+  out.gap = contact.gap;
+  out.p_B = contact.p_A;
+  return true;
+}
+
+double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT) const {
+  const PiecePair& ids = pairs_[pair];
+  const Pose X_BT = X_WB.inverse() * X_WT;
+  const CapsuleContact contact =
+      field_contact(*case_.bones[ids.bone].field, placed(X_BT, rods_[ids.tool_piece]));
+  return contact.status == LpStatus::kOptimal ? contact.gap
+                                              : std::numeric_limits<double>::quiet_NaN();
+}
+
 FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
                                        const Quat& q_WT) const {
   const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
   const Vec3 n_T = q_WT.conjugate() * n_W;
-  const double tool_support = support(tool_.bodies[pairs_[pair].tool_piece], -n_T);
+  const PiecePair& ids = pairs_[pair];
+  if (ids.field) {
+    const Capsule& rod = rods_[ids.tool_piece];
+    const double rod_support = rod.radius - std::min(n_T.dot(rod.p0), n_T.dot(rod.p1));
+    return {n_W, s.bone_support + n_W.dot(X_WB.p) + rod_support + kFieldSkin};
+  }
+  const double tool_support = support(tool_.bodies[ids.tool_piece], -n_T);
   return {n_W, s.bone_support + n_W.dot(X_WB.p) + tool_support + kSkin};
 }
 

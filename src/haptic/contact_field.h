@@ -17,20 +17,27 @@ namespace osteon {
 /// The proxy keeps this distance to every bone, so that rounding cannot carry it in, m.
 inline constexpr double kSkin = 1e-6;
 
-/// Most pairs of pieces that one tick looks at.
-inline constexpr std::size_t kMaxCandidates = 64;
+/// And this to a bone felt as a field, whose planes hold close by only, m.
+inline constexpr double kFieldSkin = 5e-6;
 
-/// One piece of a bone beside one piece of the tool.
+/// Most pairs of pieces that one tick looks at, and of fields.
+inline constexpr std::size_t kMaxCandidates = 64;
+inline constexpr std::size_t kMaxFields = 8;
+
+/// One piece of a bone beside one piece of the tool; of a bone felt as a field: beside one rod.
 struct PiecePair {
   std::uint32_t bone = 0;
   std::uint32_t piece = 0;
   std::uint32_t tool_piece = 0;
+  bool field = false;
 };
 
 /// Candidates of one tick.
 struct CandidateList {
   std::array<std::uint32_t, kMaxCandidates> pair{};
   std::uint32_t count = 0;
+  std::array<std::uint32_t, kMaxFields> field{};
+  std::uint32_t field_count = 0;
 };
 
 /// All pairs of one case and one tool, and the queries on them. Immutable; allocates in its
@@ -54,16 +61,26 @@ class ContactField {
   bool separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, LpBasis& basis,
                 PartingPlane& out) const;
 
+  /// Gap of a pair of a field, m: what `separate` finds, without a plane. Not a number when
+  /// unknown.
+  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT) const;
+
   /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
-  /// by kSkin. Any x in it keeps the pair apart, wherever it is.
+  /// by its skin. Any x in it keeps a pair of convex pieces apart, wherever it is; of a field only
+  /// near the place where the plane was found.
   FreeHalfSpace half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
                            const Quat& q_WT) const;
 
  private:
+  void add_pieces(std::uint32_t bone);
+  void add_field(std::uint32_t bone);
+  bool felt_as_field(const Bone& bone) const;
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
+  bool separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
 
   const Case& case_;
   const Tool& tool_;
+  std::vector<Capsule> rods_;  ///< the tool to a field, in Tool
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
   std::vector<std::uint32_t> first_pair_;  ///< of each bone

@@ -40,6 +40,7 @@ bool ProxySolver::gather(const ProxyTask& task) {
   for (; reach_m_ >= kShortest; reach_m_ *= 0.5)
     if (field_.collect(task.base_W, reach_m_, task.before_WB, task.now_WB, near_)) return true;
   near_.count = 0;
+  near_.field_count = 0;
   return false;
 }
 
@@ -72,7 +73,8 @@ bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
     }
     if (!part(i, X_WB, X_WT)) return false;
   }
-  return true;
+  walls_.start(near_);
+  return walls_.look(X_WB, X_WT);
 }
 
 void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
@@ -81,15 +83,29 @@ void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
     const Pose& bone = X_WB[field_.pairs()[pair].bone];
     planes_[i] = field_.half_space(pair, parting_[i], bone, q_WT);
   }
+  walls_.raise(X_WB, q_WT, std::span(planes_).subspan(near_.count));
+}
+
+// The free point nearest to the task's start. A field's planes may have to be found again there.
+bool ProxySolver::find_start(const ProxyTask& task, const Quat& q_WP, Vec3& start) {
+  constexpr int kTries = 4;
+  for (int i = 0; i < kTries; ++i) {
+    raise_planes(task.now_WB, q_WP);
+    const NearestPoint found = nearest_point(planes(), task.base_W);
+    if (!found.found || (found.x - task.base_W).norm() > reach_m_) return false;
+    start = found.x;
+    if (near_.field_count == 0 || walls_.clear(task.now_WB, {start, q_WP})) return true;
+    if (!walls_.look(task.now_WB, {start, q_WP})) return false;
+  }
+  return false;
 }
 
 // Puts the start of the path at the free point nearest to the task's start.
 bool ProxySolver::enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move) {
-  raise_planes(task.now_WB, q_WP);
-  const NearestPoint start = nearest_point(planes(), task.base_W);
-  if (!start.found || (start.x - task.base_W).norm() > reach_m_) return false;
+  Vec3 start;
+  if (!find_start(task, q_WP, start)) return false;
   move.q_WP = q_WP;
-  move.path[0] = start.x;
+  move.path[0] = start;
   move.path_count = 1;
   return true;
 }
@@ -97,7 +113,7 @@ bool ProxySolver::enter_free_space(const ProxyTask& task, const Quat& q_WP, Prox
 // Bones pinch the proxy: let it go wherever no overlap grows.
 void ProxySolver::leave_overlap(const ProxyTask& task, ProxyMove& move) {
   raise_planes(task.now_WB, task.X_WP.q);
-  for (std::uint32_t i = 0; i < near_.count; ++i)
+  for (std::uint32_t i = 0; i < plane_count(); ++i)
     planes_[i].c = std::min(planes_[i].c, planes_[i].n.dot(task.base_W));
   move.status |= kTickProxyBlocked;
   move.q_WP = task.X_WP.q;
@@ -107,14 +123,16 @@ void ProxySolver::leave_overlap(const ProxyTask& task, ProxyMove& move) {
   if (step_towards(task, move, target)) note_holding(task, target, move);
 }
 
-bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) const {
+bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) {
   target = nearest_point(planes(), task.hand_W);
   if (!target.found) {
     move.status |= kTickSolverLimit;
     return false;
   }
   const Vec3 from = move.end();
-  move.path[move.path_count++] = clipped_to_ball(task.base_W, reach_m_, from, target.x);
+  const Vec3 to = clipped_to_ball(task.base_W, reach_m_, from, target.x);
+  move.path[move.path_count++] = walls_.way(task.now_WB, move.q_WP, from, to);
+  stopped_ = move.end() != to;
   return true;
 }
 
@@ -123,13 +141,19 @@ bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPo
 // skin, which is granted if there is any.
 bool ProxySolver::look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) {
   for (std::uint32_t k = 0; k < target.active_count; ++k)
-    if (!part(target.active[k], task.now_WB, {move.end(), move.q_WP})) {
+    if (target.active[k] < near_.count &&
+        !part(target.active[k], task.now_WB, {move.end(), move.q_WP})) {
       move.status |= kTickSolverLimit;
       return false;
     }
+  if (!walls_.look(task.now_WB, {move.end(), move.q_WP})) {
+    move.status |= kTickSolverLimit;
+    return false;
+  }
   raise_planes(task.now_WB, move.q_WP);
   move.query_W = move.end();
-  if (inside_all(planes(), move.end())) return true;
+  // A field's skin is wide enough for the next round to take care of it.
+  if (inside_all(planes().first(near_.count), move.end())) return true;
   const NearestPoint lifted = nearest_point(planes(), move.end());
   if (!lifted.found || (lifted.x - move.end()).norm() > 10 * kSkin) return false;
   move.path[move.path_count - 1] = lifted.x;
@@ -141,22 +165,23 @@ void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target
   move.holding_count = 0;
   for (std::uint32_t k = 0; k < target.active_count; ++k) {
     const std::uint32_t i = target.active[k];
-    if (parting_[i].gap > kTouch && !task.held) continue;
-    const std::uint32_t pair = near_.pair[i];
+    if (plane_of(i).gap > kTouch && !task.held) continue;
+    const std::uint32_t pair = pair_of(i);
     const Pose& bone = task.now_WB[field_.pairs()[pair].bone];
     const double depth = planes_[i].c - planes_[i].n.dot(task.hand_W);
     move.holding[move.holding_count++] = {pair, planes_[i].n, target.weight[k], depth,
-                                          bone * parting_[i].p_B};
+                                          bone * plane_of(i).p_B};
   }
 }
 
 bool ProxySolver::touching(const NearestPoint& target) const {
   for (std::uint32_t k = 0; k < target.active_count; ++k)
-    if (parting_[target.active[k]].gap > kTouch) return false;
+    if (plane_of(target.active[k]).gap > kTouch) return false;
   return true;
 }
 
 void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
+  bool looked = false;  // at the field that stops it
   for (move.rounds = 1; move.rounds < ProxyMove::kMaxRounds; ++move.rounds) {
     const Vec3 from = move.end();
     NearestPoint target;
@@ -165,7 +190,9 @@ void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
     move.free = target.active_count == 0 && move.end() == task.hand_W;
     // A plane whose gap was measured before bone or tool moved is looked at again.
     const bool felt = touching(target) || move.rounds > 1;
-    if (move.free || (felt && (move.end() - from).norm() < kStill)) break;
+    const bool still = (move.end() - from).norm() < kStill && (!stopped_ || looked);
+    if (move.free || (felt && still)) break;
+    looked = stopped_;
     if (!look_again(task, target, move)) break;
   }
 }

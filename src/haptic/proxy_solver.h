@@ -5,6 +5,7 @@
 #include <span>
 
 #include "contact_field.h"
+#include "field_walls.h"
 #include "nearest_point.h"
 #include "osteon/base/types.h"
 
@@ -56,11 +57,12 @@ struct ProxyMove {
 /// The planes of the last free pose are valid in the new one with the new supports, so neither a
 /// turn of the tool nor a moving bone lets it slip to a bone's other side. Then the planes are
 /// that hold it are found again at the new place until it stands still (Zilles and Salisbury's
-/// god-object, IROS 1995, with one convex local region a round).
+/// god-object, IROS 1995, with one convex local region a round). Bones felt as distance fields have
+/// planes that hold close by only; there the way is looked at too (FieldWalls).
 class ProxySolver {
  public:
   ProxySolver(const ContactField& field, std::span<PairMemory> memory)
-      : field_(field), memory_(memory) {}
+      : field_(field), memory_(memory), walls_(field) {}
   ProxyMove move(const ProxyTask& task);
 
  private:
@@ -71,18 +73,29 @@ class ProxySolver {
   bool enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move);
   void leave_overlap(const ProxyTask& task, ProxyMove& move);
   void approach(const ProxyTask& task, ProxyMove& move);
-  bool step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) const;
+  bool step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target);
   bool look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
-  std::span<const FreeHalfSpace> planes() const { return {planes_.data(), near_.count}; }
+  bool find_start(const ProxyTask& task, const Quat& q_WP, Vec3& start);
+  /// Planes: those of the pieces, then those of the fields.
+  std::uint32_t plane_count() const { return near_.count + walls_.count(); }
+  std::span<const FreeHalfSpace> planes() const { return {planes_.data(), plane_count()}; }
+  std::uint32_t pair_of(std::uint32_t i) const {
+    return i < near_.count ? near_.pair[i] : walls_.pair(i - near_.count);
+  }
+  const PartingPlane& plane_of(std::uint32_t i) const {
+    return i < near_.count ? parting_[i] : walls_.plane(i - near_.count);
+  }
 
   const ContactField& field_;
   std::span<PairMemory> memory_;
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
-  std::array<FreeHalfSpace, kMaxCandidates> planes_{};
+  FieldWalls walls_;
+  std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes> planes_{};
   double reach_m_ = 0;
+  bool stopped_ = false;  ///< a field stopped the last step on its way
 };
 
 }  // namespace osteon

@@ -1,7 +1,9 @@
 #include "osteon/mesh/distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -99,30 +101,30 @@ struct MeshDistance::Search {
   std::uint32_t triangle = 0;
   TrianglePoint at;
 
-  void leaf(const Node& node) {
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const std::uint32_t t = tree.order_[i];
-      const Triangle& corner = tree.mesh_.triangles[t];
-      const auto& vertices = tree.mesh_.vertices;
-      const TrianglePoint found =
-          closest_on_triangle(p, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]);
-      const double squared = (found.point - p).squaredNorm();
-      if (squared > best || (squared == best && t > triangle)) continue;
-      best = squared;
-      triangle = t;
-      at = found;
-    }
+  void look_at(std::uint32_t t) {
+    const Triangle& corner = tree.mesh_.triangles[t];
+    const auto& vertices = tree.mesh_.vertices;
+    const TrianglePoint found =
+        closest_on_triangle(p, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]);
+    const double squared = (found.point - p).squaredNorm();
+    if (squared > best || (squared == best && t > triangle)) return;
+    best = squared;
+    triangle = t;
+    at = found;
   }
 
   void run() {
-    std::vector<std::pair<double, std::uint32_t>> open{{0.0, 0u}};
-    while (!open.empty()) {
-      const auto [bound, index] = open.back();
-      open.pop_back();
+    // A child waits for each level of a tree that halves at every node.
+    constexpr std::size_t kDeepest = 64;
+    std::array<std::pair<double, std::uint32_t>, kDeepest> open;
+    open[0] = {0.0, 0u};
+    for (std::size_t count = 1; count > 0;) {
+      const auto [bound, index] = open[--count];
       const Node& node = tree.nodes_[index];
       if (bound > best) continue;
       if (node.count > 0) {
-        leaf(node);
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+          look_at(tree.order_[i]);
         continue;
       }
       std::pair<double, std::uint32_t> near{squared_distance(tree.nodes_[node.first].box, p),
@@ -130,8 +132,8 @@ struct MeshDistance::Search {
       std::pair<double, std::uint32_t> far{squared_distance(tree.nodes_[node.first + 1].box, p),
                                            node.first + 1};
       if (far.first < near.first) std::swap(near, far);
-      open.push_back(far);
-      open.push_back(near);
+      open[count++] = far;
+      open[count++] = near;
     }
   }
 
@@ -157,17 +159,28 @@ struct MeshDistance::Search {
   }
 };
 
-ClosestPoint MeshDistance::closest(const Vec3& p) const {
-  ClosestPoint result;
-  if (nodes_.empty()) return result;
-  Search search{*this, p, std::numeric_limits<double>::infinity(), 0, {}};
+ClosestPoint MeshDistance::finish(Search& search) const {
   search.run();
+  ClosestPoint result;
   result.point = search.at.point;
   result.triangle = search.triangle;
   const double distance = std::sqrt(search.best);
-  const bool inside = search.pseudo_normal().dot(p - result.point) < 0;
+  const bool inside = search.pseudo_normal().dot(search.p - result.point) < 0;
   result.signed_distance = inside ? -distance : distance;
   return result;
+}
+
+ClosestPoint MeshDistance::closest(const Vec3& p) const {
+  if (nodes_.empty()) return {};
+  Search search{*this, p, std::numeric_limits<double>::infinity(), 0, {}};
+  return finish(search);
+}
+
+ClosestPoint MeshDistance::closest(const Vec3& p, std::uint32_t guess) const {
+  if (guess >= mesh_.triangles.size()) return closest(p);
+  Search search{*this, p, std::numeric_limits<double>::infinity(), guess, {}};
+  search.look_at(guess);
+  return finish(search);
 }
 
 }  // namespace osteon

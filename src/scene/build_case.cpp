@@ -1,12 +1,14 @@
 #include "osteon/scene/build_case.h"
 
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
 #include "osteon/base/hash.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/bone_pieces.h"
+#include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
 
 namespace osteon {
@@ -78,10 +80,25 @@ Result<std::vector<Hull>> build_pieces(const BoneDef& bone, PieceCache* cache) {
   return pieces;
 }
 
-Result<Bone> build_bone(BoneDef def, PieceCache* cache) {
-  auto pieces = build_pieces(def, cache);
+Result<FieldCache::Field> build_field(const BoneDef& bone, FieldCache* cache) {
+  if (bone.felt != Felt::kField) return FieldCache::Field();
+  const std::uint64_t key = field_key(bone.mesh);
+  if (cache)
+    if (auto known = cache->find(key)) return known;
+  auto made = DistanceField::make(bone.mesh);
+  if (!made) return fail(made.error().what, "bone '" + bone.name + "'", made.error().todo);
+  auto field = std::make_shared<const DistanceField>(std::move(*made));
+  if (cache) cache->put(key, field);
+  return FieldCache::Field(std::move(field));
+}
+
+Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
+  auto field = build_field(def, options.fields);
+  if (!field) return tl::unexpected(field.error());
+  auto pieces = build_pieces(def, options.pieces);
   if (!pieces) return tl::unexpected(pieces.error());
   Bone bone;
+  bone.field = std::move(*field);
   bone.felt = def.felt;
   bone.pieces = std::move(*pieces);
   for (const Hull& piece : bone.pieces) bone.bodies.push_back(make_convex_body(piece));
@@ -124,6 +141,7 @@ void hash_bone(Hasher& hasher, const Bone& bone) {
   hash_triangles(hasher, bone.mesh.triangles);
   hasher.add(static_cast<std::uint64_t>(bone.pieces.size()));
   for (const Hull& piece : bone.pieces) hash_piece(hasher, piece);
+  if (bone.field) hasher.add(bone.field->hash());
   hasher.add(bone.mass_kg);
   hasher.add(bone.material.stiffness_n_per_m);
   hasher.add(bone.material.static_friction);
@@ -169,7 +187,7 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
   Case built;
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     if (options.progress) options.progress(i, def.bones.size());
-    auto bone = build_bone(std::move(def.bones[i]), options.pieces);
+    auto bone = build_bone(std::move(def.bones[i]), options);
     if (!bone) return tl::unexpected(bone.error());
     built.bones.push_back(std::move(*bone));
   }

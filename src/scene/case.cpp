@@ -5,7 +5,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::array<std::string_view, 2> kFeltNames{"pieces", "hull"};
+constexpr std::array<std::string_view, 3> kFeltNames{"pieces", "hull", "field"};
 
 }  // namespace
 

@@ -1,28 +1,21 @@
 #include "osteon/scene/piece_cache.h"
 
-#include <bit>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
+#include "cache_bytes.h"
 #include "osteon/base/file.h"
-#include "osteon/base/hash.h"
 
 namespace osteon {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file is little-endian");
+using cache::checksum;
+using cache::Reader;
+using cache::write;
 
 constexpr std::string_view kMagic = "OSTNPCS1";
 constexpr std::uint64_t kMostBytes = 1ull << 28;
 constexpr std::size_t kCornerBytes = 3 * sizeof(double);
-
-template <class T>
-void write(std::string& out, T value) {
-  char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  out.append(bytes, sizeof value);
-}
 
 void write(std::string& out, const PieceCorners& entry) {
   write(out, entry.concavity_m);
@@ -34,56 +27,19 @@ void write(std::string& out, const PieceCorners& entry) {
   }
 }
 
-std::uint64_t checksum(std::string_view bytes) {
-  Hasher hasher;
-  hasher.bytes(bytes.data(), bytes.size());
-  return hasher.value();
+PieceCorners read_entry(Reader& reader) {
+  PieceCorners out;
+  out.concavity_m = reader.read<double>();
+  out.pieces.resize(reader.count(sizeof(std::uint32_t)));
+  for (auto& corners : out.pieces) {
+    corners.resize(reader.count(kCornerBytes));
+    for (Vec3& p : corners) {
+      for (Eigen::Index k = 0; k < 3; ++k) p[k] = reader.read<double>();
+      if (!is_finite(p)) reader.fail();
+    }
+  }
+  return out;
 }
-
-// Reads values until the bytes end; then it fails and stays failed.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  bool failed() const { return failed_; }
-  bool at_end() const { return bytes_.empty(); }
-
-  template <class T>
-  T read() {
-    T value{};
-    if (bytes_.size() < sizeof value) {
-      failed_ = true;
-      return value;
-    }
-    std::memcpy(&value, bytes_.data(), sizeof value);
-    bytes_.remove_prefix(sizeof value);
-    return value;
-  }
-
-  // A count of things of at least `least` bytes each, so that a wild one cannot ask for memory.
-  std::uint32_t count(std::size_t least) {
-    const auto n = read<std::uint32_t>();
-    if (n > bytes_.size() / least) failed_ = true;
-    return failed_ ? 0 : n;
-  }
-
-  PieceCorners entry() {
-    PieceCorners out;
-    out.concavity_m = read<double>();
-    out.pieces.resize(count(sizeof(std::uint32_t)));
-    for (auto& corners : out.pieces) {
-      corners.resize(count(kCornerBytes));
-      for (Vec3& p : corners) {
-        for (Eigen::Index k = 0; k < 3; ++k) p[k] = read<double>();
-        failed_ |= !is_finite(p);
-      }
-    }
-    return out;
-  }
-
- private:
-  std::string_view bytes_;
-  bool failed_ = false;
-};
 
 }  // namespace
 
@@ -99,17 +55,14 @@ std::string to_bytes(const std::map<std::uint64_t, PieceCorners>& entries) {
 }
 
 Result<std::map<std::uint64_t, PieceCorners>> read_pieces(std::string_view bytes) {
-  constexpr std::size_t kLeast = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
-  if (bytes.size() < kLeast || !bytes.starts_with(kMagic)) return fail("is not a file of pieces");
-  const std::string_view body = bytes.substr(0, bytes.size() - sizeof(std::uint64_t));
-  if (Reader(bytes.substr(body.size())).read<std::uint64_t>() != checksum(body))
-    return fail("its checksum is wrong");
-  Reader reader(body.substr(kMagic.size()));
+  std::string_view body;
+  if (!cache::open(bytes, kMagic, body)) return fail("is not a whole file of pieces");
+  Reader reader(body);
   std::map<std::uint64_t, PieceCorners> out;
   const auto count = reader.count(sizeof(std::uint64_t));
   for (std::uint32_t i = 0; i < count && !reader.failed(); ++i) {
     const auto key = reader.read<std::uint64_t>();
-    out[key] = reader.entry();
+    out[key] = read_entry(reader);
   }
   if (reader.failed() || !reader.at_end()) return fail("it is damaged");
   return out;

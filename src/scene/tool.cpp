@@ -114,6 +114,7 @@ Tool make_wrist_probe(double tip_radius_m) {
   tool.tip_radius_m = tip_radius_m;
   tool.pieces.push_back(ball_hull(tip_radius_m));
   tool.bodies.push_back(make_convex_body(tool.pieces.front()));
+  tool.rods.push_back({Vec3::Zero(), Vec3::Zero(), tip_radius_m});
   tool.mesh = probe_mesh(tip_radius_m);
   return tool;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <new>
 
+#include "mesh/shapes.h"
 #include "osteon/base/random.h"
 #include "test_scene.h"
 
@@ -104,6 +105,7 @@ TEST(Realtime, TheTickTouchesNoHeapLockOrFile) {
         {test::box_hull(Vec3(0.005, 0.004, 0.003)), test::box_hull(Vec3(0.003, 0.004, 0.005))},
         X_WB, {2000, 0.3, 0.2}));
   }
+  bones.push_back(test::field_bone(test::cube(0.004), {}, {2000, 0.3, 0.2}));
   Rig rig(std::move(bones));
   rig.params = HapticParams{};
   heap_calls = lock_calls = write_calls = 0;
@@ -119,7 +121,7 @@ TEST(Realtime, TheTickTouchesNoHeapLockOrFile) {
     input.X_WD = {p, q};
     input.v_W = 0.4 * dir;
     if (i % 500 == 499) input.v_W.x() = std::numeric_limits<double>::quiet_NaN();
-    rig.bones.bones[i % 12].X_WB.p += 1e-5 * dir;
+    rig.bones.bones[i % 13].X_WB.p += 1e-5 * dir;
     watching = true;
     const ToolState& s = rig.loop.tick(input, rig.bones, 0.001, rig.params);
     watching = false;

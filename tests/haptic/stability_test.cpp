@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/shapes.h"
 #include "osteon/device/virtual_hand.h"
 #include "test_scene.h"
 
@@ -54,7 +55,9 @@ Outcome press(Bone bone, const Loop& loop, double seconds) {
   rig.params.stiffness_n_per_m = loop.stiffness_n_per_m;
   constexpr double kGrip = 500;
   VirtualHand hand({loop.mass_kg, kGrip, loop.grip_n_s_per_m});
-  const double reach = support(rig.tool->bodies.front(), -Vec3::UnitZ());
+  const double reach = rig.the_case->bones[0].field
+                           ? rig.tool->tip_radius_m
+                           : support(rig.tool->bodies.front(), -Vec3::UnitZ());
   const double goal = reach - 5 / loop.stiffness_n_per_m - 5 / kGrip;
   Pose wanted;
   wanted.p.z() = 0.005;
@@ -125,6 +128,16 @@ TEST(ClosedLoop, FiveNewtonsOnAFlatBoneSettle) {
 TEST(ClosedLoop, FiveNewtonsWithFrictionOnARoundBoneSettle) {
   for (const Loop& loop : loops())
     expect_settled(press(round_bone({1e5, 0.3, 0.2}), loop, 5), loop);
+}
+
+TEST(ClosedLoop, FiveNewtonsOnADistanceFieldSettle) {
+  const Bone flat = test::field_bone(test::cube(0.004, Vec3(0, 0, -0.004)), {}, {1e5, 0, 0});
+  const Bone round =
+      test::field_bone(test::sphere(0.004, 30, Vec3(0, 0, -0.004)), {}, {1e5, 0.3, 0.2});
+  for (const Loop& loop : loops()) {
+    expect_settled(press(flat, loop, 5), loop);
+    expect_settled(press(round, loop, 5), loop);
+  }
 }
 
 // The bound that the header states is real: beyond it the late force does make the loop swing.

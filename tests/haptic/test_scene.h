@@ -41,6 +41,16 @@ inline Bone bone_of(std::vector<Hull> pieces, const Pose& X_WB = {},
   return bone;
 }
 
+/// A bone felt as the distance field of its mesh.
+inline Bone field_bone(TriMesh mesh, const Pose& X_WB = {},
+                       const Material& material = {1e4, 0, 0}) {
+  Bone bone = bone_of({hull_of(mesh.vertices)}, X_WB, material);
+  bone.felt = Felt::kField;
+  bone.field = std::make_shared<const DistanceField>(std::move(DistanceField::make(mesh).value()));
+  bone.mesh = std::move(mesh);
+  return bone;
+}
+
 inline Tool tool_of(Hull piece) {
   Tool tool;
   tool.name = "test";

@@ -166,9 +166,9 @@ TEST(BuildCase, FeelsPiecesOrTheHullAsTold) {
 }
 
 TEST(BuildCase, FeltHasANameEach) {
-  for (const Felt felt : {Felt::kPieces, Felt::kHull})
+  for (const Felt felt : {Felt::kPieces, Felt::kHull, Felt::kField})
     EXPECT_EQ(felt_from_text(to_text(felt)), felt);
-  EXPECT_FALSE(felt_from_text("field"));
+  EXPECT_FALSE(felt_from_text("grid"));
 }
 
 TEST(State, RestIsWhereTheCasePutsTheBones) {

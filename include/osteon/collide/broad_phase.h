@@ -31,6 +31,8 @@ class BroadPhase {
   /// Adds the next bone with its pieces; bones and pieces count from 0 in the order of the calls.
   void add_bone(std::span<const ConvexBody> pieces);
   void add_bone(std::span<const ConvexBody* const> pieces);
+  /// A bone that is one piece of any form, within `box` of its frame.
+  void add_bone(const Aabb& box);
 
   std::size_t bone_count() const { return first_piece_.size() - 1; }
   std::size_t piece_count() const { return first_piece_.back(); }

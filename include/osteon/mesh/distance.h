@@ -24,6 +24,8 @@ class MeshDistance {
   explicit MeshDistance(TriMesh mesh);
 
   ClosestPoint closest(const Vec3& p) const;
+  /// The same, found sooner when `guess` is the triangle of a point nearby.
+  ClosestPoint closest(const Vec3& p, std::uint32_t guess) const;
   const TriMesh& mesh() const { return mesh_; }
 
  private:
@@ -33,6 +35,7 @@ class MeshDistance {
     std::uint32_t count = 0;  ///< 0: not a leaf
   };
   struct Search;
+  ClosestPoint finish(Search& search) const;
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
              const std::vector<Vec3>& centers);

@@ -28,17 +28,20 @@ struct CaseDef {
   std::vector<Landmark> landmarks;
 };
 
+class FieldCache;
 class PieceCache;
 
 struct BuildOptions {
   PieceCache* pieces = nullptr;  ///< asked first, told what was made; none: all is made anew
+  FieldCache* fields = nullptr;  ///< the same, of the bones felt as distance fields
   /// Called before each bone with its number and the count of bones.
   std::function<void(std::size_t, std::size_t)> progress;
 };
 
 /// Builds pieces, bodies and masses and hashes the lot. Fails with the bone's name when a hull
-/// cannot be made, when names repeat or when there are none or more than kMaxBones. The same case
-/// comes out whether its pieces were in the cache or not.
+/// cannot be made, when the mesh of one felt as a field is not closed, when names repeat or when
+/// there are none or more than kMaxBones. The same case comes out whether its pieces and fields
+/// were in the caches or not.
 Result<Case> build_case(CaseDef def, const BuildOptions& options = {});
 
 /// FMA id of a bone by its name or a usual file name ("1mc", "scaphoid"); 0 when unknown.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/collide/convex_body.h"
+#include "osteon/collide/distance_field.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/tri_mesh.h"
 
@@ -24,9 +26,10 @@ struct Material {
 /// What of a bone is felt.
 enum class Felt : std::uint8_t {
   kPieces,  ///< convex pieces that follow the mesh (osteon/hull/decompose.h)
-  kHull     ///< one convex hull
+  kHull,    ///< one convex hull
+  kField    ///< the mesh itself, as a distance field (osteon/collide/distance_field.h)
 };
-/// "pieces", "hull".
+/// "pieces", "hull", "field".
 std::string_view to_text(Felt felt);
 std::optional<Felt> felt_from_text(std::string_view text);
 
@@ -37,8 +40,11 @@ struct Bone {
   Pose X_WB;         ///< rest pose of the bone in World
   TriMesh mesh;      ///< in Bone
   Felt felt = Felt::kPieces;
-  std::vector<Hull> pieces;        ///< in Bone; their union is what is felt
-  std::vector<ConvexBody> bodies;  ///< one a piece, for contact queries
+  /// In Bone; their union is what is felt, but for a bone felt as a field: there they are what
+  /// physics and pictures know of it.
+  std::vector<Hull> pieces;
+  std::vector<ConvexBody> bodies;              ///< one a piece, for contact queries
+  std::shared_ptr<const DistanceField> field;  ///< in Bone; of a bone felt as a field alone
   double mass_kg = 0.005;
   Material material;
 };

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "osteon/collide/capsule_contact.h"
 #include "osteon/collide/convex_body.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/tri_mesh.h"
@@ -14,12 +15,14 @@ struct Tool {
   std::string name;
   std::vector<Hull> pieces;        ///< what touches, in Tool
   std::vector<ConvexBody> bodies;  ///< one a piece
-  TriMesh mesh;                    ///< what is drawn, in Tool
+  /// What touches a bone that is felt as a distance field, in Tool; none: the ball about each body.
+  std::vector<Capsule> rods;
+  TriMesh mesh;  ///< what is drawn, in Tool
   double tip_radius_m = 0.00075;
 };
 
 /// Arthroscopic hook probe of the wrist: a ball-shaped tip (32 corners) on a shaft. Only the tip is
-/// felt, as in the wrist simulator's paper.
+/// felt, as in the wrist simulator's paper; on a distance field it is a true ball.
 Tool make_wrist_probe(double tip_radius_m = 0.00075);
 
 }  // namespace osteon

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "felt_choice.h"
 #include "osteon/base/file.h"
 #include "osteon/scene/survey.h"
 #include "window/load_job.h"
@@ -15,10 +16,11 @@ constexpr const char* kBuiltin = "builtin:";
 
 // "builtin:wrist" -> assets/paths/wrist_survey.csv, else the first wrist*.csv there.
 fs::path shipped_path(const std::string& case_source) {
-  if (!case_source.starts_with(kBuiltin)) return {};
+  const auto choice = parse_felt_choice(case_source);
+  if (!choice || !choice->source.starts_with(kBuiltin)) return {};
   const auto data = find_data_dir();
   if (!data) return {};
-  const std::string stem = case_source.substr(std::string(kBuiltin).size());
+  const std::string stem = choice->source.substr(std::string(kBuiltin).size());
   const fs::path folder = *data / "assets" / "paths";
   std::error_code ec;
   const fs::path survey = folder / (stem + "_survey.csv");

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "osteon/collide/capsule_contact.h"
+#include "osteon/collide/distance_field.h"
+
+namespace osteon {
+
+/// Contact of a bone felt as a distance field with a capsule, as capsule_contact has it for a hull:
+/// `nhat_AB_A` is the field's gradient at the axis' lowest point, p_A the surface below it. The gap
+/// is continuous in the capsule's place, and where one point of the axis is lowest so is the
+/// normal. Beyond the field's band the gap is a bound (the surface is at least so far). Allocates
+/// nothing. Not finite: kNumerical.
+CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A);
+
+}  // namespace osteon

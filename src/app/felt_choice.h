@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "osteon/base/result.h"
+#include "osteon/scene/build_case.h"
+
+namespace osteon {
+
+/// What of the bones is felt, chosen otherwise than the case says: part of how a user names a case,
+/// so that a recording knows it too. "wrist_folder#lunate=hull,capitate=field", or "#field" for
+/// all.
+struct FeltChoice {
+  std::string source;                   ///< the case without the choice
+  std::map<std::string, Felt> of_bone;  ///< by name; "" stands for all others
+};
+
+/// Splits at the last '#', unless a file of the whole name is there. Fails when what follows it is
+/// no choice.
+Result<FeltChoice> parse_felt_choice(const std::string& spec);
+/// The name of the case with the choice.
+std::string to_text(const FeltChoice& choice);
+/// Puts the choice into the case; fails when it names a bone that is not there.
+Result<void> apply(const FeltChoice& choice, CaseDef& def);
+
+}  // namespace osteon

@@ -1,0 +1,166 @@
+#include "osteon/collide/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "osteon/base/hash.h"
+
+namespace osteon {
+namespace {
+
+// Values and slopes of the four cubic B-splines that reach a place t of a cell, 0 <= t <= 1.
+struct Spline {
+  std::array<double, 4> w, d;
+  explicit Spline(double t) {
+    const double u = 1 - t;
+    const double t2 = t * t;
+    w[0] = u * u * u / 6;
+    w[1] = (4 - 6 * t2 + 3 * t2 * t) / 6;
+    w[3] = t2 * t / 6;
+    w[2] = 1 - w[0] - w[1] - w[3];
+    d[0] = -0.5 * u * u;
+    d[1] = 1.5 * t2 - 2 * t;
+    d[3] = 0.5 * t2;
+    d[2] = -(d[0] + d[1] + d[3]);
+  }
+};
+
+// Value and gradient of a block at a cell of it, in units of height and cells.
+struct Local {
+  double value = 0;
+  Vec3 slope = Vec3::Zero();
+};
+
+Local evaluate(const std::int16_t* first, const Vec3& t) {
+  constexpr std::size_t kRow = FieldData::kSpan;
+  constexpr std::size_t kLayer = kRow * kRow;
+  const Spline x(t.x()), y(t.y()), z(t.z());
+  Local out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    double v = 0, dx = 0, dy = 0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::int16_t* h = first + k * kLayer + j * kRow;
+      const double h0 = h[0], h1 = h[1], h2 = h[2], h3 = h[3];
+      const double row = (x.w[0] * h0 + x.w[1] * h1) + (x.w[2] * h2 + x.w[3] * h3);
+      const double row_dx = (x.d[0] * h0 + x.d[1] * h1) + (x.d[2] * h2 + x.d[3] * h3);
+      v += y.w[j] * row;
+      dx += y.w[j] * row_dx;
+      dy += y.d[j] * row;
+    }
+    out.value += z.w[k] * v;
+    out.slope.x() += z.w[k] * dx;
+    out.slope.y() += z.w[k] * dy;
+    out.slope.z() += z.d[k] * v;
+  }
+  return out;
+}
+
+bool fits(const FieldData& d) {
+  std::size_t blocks = 1;
+  for (const std::int32_t n : d.blocks) {
+    if (n < 1 || n > 4096) return false;
+    blocks *= static_cast<std::size_t>(n);
+  }
+  const bool sized = std::isfinite(d.cell_m) && d.cell_m > 0 && std::isfinite(d.step_m) &&
+                     d.step_m > 0 && std::isfinite(d.outside_m) && d.outside_m > 0 &&
+                     std::isfinite(d.inside_m) && d.inside_m > 0;
+  if (!sized || !is_finite(d.lo) || !is_finite(d.box.lo) || !is_finite(d.box.hi) || d.box.empty())
+    return false;
+  if (d.middle.size() != blocks || d.stored.size() != blocks) return false;
+  if (d.height.size() % FieldData::kBlock != 0) return false;
+  const std::size_t count = d.height.size() / FieldData::kBlock;
+  const bool places = std::all_of(d.stored.begin(), d.stored.end(), [count](std::uint32_t s) {
+    return s == FieldData::kNone || s < count;
+  });
+  return places &&
+         std::all_of(d.middle.begin(), d.middle.end(), [](float m) { return std::isfinite(m); });
+}
+
+std::uint64_t hash_of(const FieldData& d) {
+  Hasher hasher;
+  for (const double x : {d.cell_m, d.step_m, d.outside_m, d.inside_m}) hasher.add(x);
+  hasher.add(d.box.lo);
+  hasher.add(d.box.hi);
+  hasher.add(d.lo);
+  for (const std::int32_t n : d.blocks) hasher.add(n);
+  hasher.bytes(d.middle.data(), d.middle.size() * sizeof(float));
+  hasher.bytes(d.stored.data(), d.stored.size() * sizeof(std::uint32_t));
+  hasher.bytes(d.height.data(), d.height.size() * sizeof(std::int16_t));
+  return hasher.value();
+}
+
+}  // namespace
+
+DistanceField::DistanceField(FieldData data) : data_(std::move(data)), hash_(hash_of(data_)) {}
+
+std::shared_ptr<const DistanceField> DistanceField::from(FieldData data) {
+  if (!fits(data)) return nullptr;
+  return std::shared_ptr<const DistanceField>(new DistanceField(std::move(data)));
+}
+
+std::size_t DistanceField::bytes() const {
+  return data_.middle.size() * sizeof(float) + data_.stored.size() * sizeof(std::uint32_t) +
+         data_.height.size() * sizeof(std::int16_t);
+}
+
+std::size_t DistanceField::index_of(const std::array<int, 3>& block) const {
+  return static_cast<std::size_t>((block[2] * data_.blocks[1] + block[1]) * data_.blocks[0] +
+                                  block[0]);
+}
+
+FieldSample DistanceField::at(const Vec3& p_B) const {
+  if (!is_finite(p_B)) return {std::numeric_limits<double>::quiet_NaN(), Vec3::Zero(), false};
+  const Vec3 u = (p_B - data_.lo) / data_.cell_m;
+  std::array<int, 3> block{};
+  std::array<std::size_t, 3> cell{};
+  Vec3 t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    if (!(u[axis] >= 0 && u[axis] < FieldData::kSide * data_.blocks[k])) return beyond_grid(p_B);
+    const int i = static_cast<int>(u[axis]);
+    t[axis] = u[axis] - i;
+    block[k] = i / FieldData::kSide;
+    cell[k] = static_cast<std::size_t>(i % FieldData::kSide);
+  }
+  const std::uint32_t stored = data_.stored[index_of(block)];
+  if (stored == FieldData::kNone) return in_far_block(block, p_B);
+  constexpr std::size_t kRow = FieldData::kSpan;
+  const std::size_t first = (cell[2] * kRow + cell[1]) * kRow + cell[0];
+  const Local local = evaluate(data_.height.data() + stored * FieldData::kBlock + first, t);
+  const double distance = data_.step_m * local.value;
+  const bool near = distance <= data_.outside_m && distance >= -data_.inside_m;
+  // A stored block reaches out of the band: there its heights are bounds too, being cut off.
+  return {distance, (data_.step_m / data_.cell_m) * local.slope, near};
+}
+
+FieldSample DistanceField::beyond_grid(const Vec3& p) const {
+  const Vec3 away = p - p.cwiseMax(data_.box.lo).cwiseMin(data_.box.hi);
+  const double distance = away.norm();
+  return {distance, distance > 0 ? Vec3(away / distance) : Vec3(Vec3::UnitZ()), false};
+}
+
+// The exact height of the block's middle less the way to there; and no less than the band.
+FieldSample DistanceField::in_far_block(const std::array<int, 3>& block, const Vec3& p) const {
+  const double side = FieldData::kSide * data_.cell_m;
+  const Vec3 middle = data_.lo + side * Vec3(block[0] + 0.5, block[1] + 0.5, block[2] + 0.5);
+  const double height = static_cast<double>(data_.middle[index_of(block)]);
+  const double way = (p - middle).norm();
+  FieldSample out;
+  out.distance = height > 0 ? std::max(data_.outside_m, height - way)
+                            : std::min(-data_.inside_m, height + way);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<int, 3> low = block, high = block;
+    low[k] = std::max(0, block[k] - 1);
+    high[k] = std::min(data_.blocks[k] - 1, block[k] + 1);
+    const double rise = static_cast<double>(data_.middle[index_of(high)]) -
+                        static_cast<double>(data_.middle[index_of(low)]);
+    out.gradient[static_cast<Eigen::Index>(k)] = rise;
+  }
+  const double length = out.gradient.norm();
+  out.gradient = length > 0 ? Vec3(out.gradient / length) : Vec3(Vec3::UnitZ());
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,116 @@
+#include "osteon/collide/field_contact.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace osteon {
+namespace {
+
+constexpr std::size_t kMostSamples = 64;
+constexpr double kEnough = 1e-7;  // m: how well the lowest height is known
+constexpr double kSteepest =
+    1.25;  // of a field: a distance rises by 1, a spline overshoots a little
+
+struct Place {
+  double s = 0;  ///< along the axis, 0 to 1
+  FieldSample field;
+};
+
+// Lowest point of the axis by lower bounds from the steepest slope (Piyavskii 1972).
+class LowestPoint {
+ public:
+  LowestPoint(const DistanceField& field, const Capsule& c)
+      : field_(field), c_(c), length_((c.p1 - c.p0).norm()) {}
+
+  Place find() {
+    add(0);
+    if (!(length_ > 0)) return best_;
+    add(1);
+    while (count_ < kMostSamples) {
+      std::size_t widest = 0;
+      double lowest = best_.field.distance - kEnough;
+      for (std::size_t i = 0; i + 1 < count_; ++i) {
+        const double bound = lower_bound(places_[i], places_[i + 1]);
+        if (!(bound < lowest)) continue;
+        lowest = bound;
+        widest = i + 1;
+      }
+      if (widest == 0) break;
+      add(0.5 * (places_[widest - 1].s + places_[widest].s), widest);
+    }
+    return settled();
+  }
+
+ private:
+  struct Height {
+    double s = 0, distance = 0;
+  };
+  Vec3 at(double s) const { return c_.p0 + s * (c_.p1 - c_.p0); }
+
+  double lower_bound(const Height& a, const Height& b) const {
+    return 0.5 * (a.distance + b.distance - kSteepest * (b.s - a.s) * length_);
+  }
+
+  void add(double s, std::size_t before = kMostSamples) {
+    const Place place{s, field_.at(at(s))};
+    if (before > count_) before = count_;
+    for (std::size_t i = count_; i > before; --i) places_[i] = places_[i - 1];
+    places_[before] = {s, place.field.distance};
+    ++count_;
+    if (place.field.distance < best_.field.distance) best_ = place;
+  }
+
+  // Halves the slope's sign change about the best sample: a flat minimum leaves its place, and so
+  // the normal, badly known.
+  Place settled() const {
+    std::size_t i = 0;
+    while (places_[i].s < best_.s) ++i;
+    const double slope = slope_of(best_);
+    const bool rises = slope > 0;
+    if (slope == 0 || (rises && i == 0) || (!rises && i + 1 == count_)) return best_;
+    double low = rises ? places_[i - 1].s : best_.s;
+    double high = rises ? best_.s : places_[i + 1].s;
+    Place out = best_;
+    constexpr int kHalvings = 16;
+    for (int n = 0; n < kHalvings; ++n) {
+      const double s = 0.5 * (low + high);
+      const Place middle{s, field_.at(at(s))};
+      if (middle.field.distance <= out.field.distance) out = middle;
+      (slope_of(middle) > 0 ? high : low) = s;
+    }
+    return out;
+  }
+  double slope_of(const Place& p) const { return p.field.gradient.dot(c_.p1 - c_.p0); }
+
+  const DistanceField& field_;
+  const Capsule& c_;
+  double length_;
+  std::array<Height, kMostSamples> places_{};
+  std::size_t count_ = 0;
+  Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
+};
+
+bool is_usable(const Capsule& c) {
+  return is_finite(c.p0) && is_finite(c.p1) && std::isfinite(c.radius) && c.radius >= 0;
+}
+
+}  // namespace
+
+CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A) {
+  CapsuleContact out;
+  if (!is_usable(capsule_A)) return out;
+  const bool ball = capsule_A.p0 == capsule_A.p1;
+  const Place lowest =
+      ball ? Place{0, field.at(capsule_A.p0)} : LowestPoint(field, capsule_A).find();
+  const double slope = lowest.field.gradient.norm();
+  if (!(slope > 1e-6) || !std::isfinite(slope)) return out;
+  out.status = LpStatus::kOptimal;
+  out.gap = lowest.field.distance - capsule_A.radius;
+  out.nhat_AB_A = lowest.field.gradient / slope;
+  out.p_axis_A = capsule_A.p0 + lowest.s * (capsule_A.p1 - capsule_A.p0);
+  out.p_A = out.p_axis_A - lowest.field.distance * out.nhat_AB_A;
+  return out;
+}
+
+}  // namespace osteon

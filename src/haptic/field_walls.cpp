@@ -1,0 +1,109 @@
+#include "field_walls.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace osteon {
+namespace {
+
+// A bone farther than this needs no plane: the way to it is looked at.
+constexpr double kNear = 5e-4;
+// A stride along a surface, m, and how many of them a way may have.
+constexpr double kStride = 5e-5;
+constexpr int kMostStrides = 64;
+constexpr int kHalvings = 8;
+// Share of a gap that a stride may take: a spline's slope may exceed 1 a little.
+constexpr double kSafeShare = 0.8;
+
+}  // namespace
+
+void FieldWalls::start(const CandidateList& near) {
+  fields_ = near.field;
+  field_count_ = near.field_count;
+  count_ = 0;
+}
+
+// A plane found elsewhere is right while bone comes up to it or over it. Where the bone has bent
+// away from it, or it says what the new one says, it would only be in the way.
+bool FieldWalls::still_right(const Wall& wall, const PartingPlane& now, const Pose& X_WB,
+                             const Pose& X_WT) const {
+  constexpr double kSlack = 1e-6;
+  constexpr double kSameDirection = 0.9998;
+  if (wall.plane.nhat_BT_B.dot(now.nhat_BT_B) > kSameDirection) return false;
+  const FreeHalfSpace old = field_.half_space(wall.pair, wall.plane, X_WB, X_WT.q);
+  const double foretold = old.n.dot(X_WT.p) - old.c + kFieldSkin;
+  return now.gap <= foretold + kSlack;
+}
+
+bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
+  std::array<Wall, kMostPlanes> next;
+  std::uint32_t count = 0;
+  for (const std::uint32_t pair : fields()) {
+    const Pose& bone = bone_pose(pair, X_WB);
+    PartingPlane now;
+    LpBasis unused;
+    if (!field_.separate(pair, bone, X_WT, unused, now)) return false;
+    std::size_t room = kPlanesEach;
+    if (now.gap < kNear) {
+      next[count++] = {pair, now};
+      --room;
+    }
+    // Newer ones stand first.
+    for (std::uint32_t i = 0; i < count_ && room > 0; ++i) {
+      if (walls_[i].pair != pair || !still_right(walls_[i], now, bone, X_WT)) continue;
+      next[count++] = walls_[i];
+      --room;
+    }
+  }
+  walls_ = next;
+  count_ = count;
+  return true;
+}
+
+double FieldWalls::least_gap(std::span<const Pose> X_WB, const Pose& X_WT) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t pair : fields()) {
+    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT);
+    if (!(gap >= least)) least = gap;  // takes what is not a number as well
+  }
+  return least;
+}
+
+bool FieldWalls::clear(std::span<const Pose> X_WB, const Pose& X_WT) const {
+  return least_gap(X_WB, X_WT) >= kSkin;
+}
+
+Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W,
+                     const Vec3& to_W) const {
+  const double length = (to_W - from_W).norm();
+  if (field_count_ == 0 || !(length > 0)) return to_W;
+  const Vec3 along = (to_W - from_W) / length;
+  double gap = least_gap(X_WB, {from_W, q_WT});
+  const double limit = std::min(kSkin, gap);
+  double free = 0;
+  for (int i = 0; i < kMostStrides; ++i) {
+    const double next = std::min(length, free + std::max(kStride, kSafeShare * gap));
+    gap = least_gap(X_WB, {from_W + next * along, q_WT});
+    if (gap >= limit) {
+      if (next == length) return to_W;
+      free = next;
+      continue;
+    }
+    double blocked = next;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (free + blocked);
+      (least_gap(X_WB, {from_W + middle * along, q_WT}) >= limit ? free : blocked) = middle;
+    }
+    break;
+  }
+  return from_W + free * along;
+}
+
+void FieldWalls::raise(std::span<const Pose> X_WB, const Quat& q_WT,
+                       std::span<FreeHalfSpace> out) const {
+  for (std::uint32_t i = 0; i < count_; ++i)
+    out[i] =
+        field_.half_space(walls_[i].pair, walls_[i].plane, bone_pose(walls_[i].pair, X_WB), q_WT);
+}
+
+}  // namespace osteon

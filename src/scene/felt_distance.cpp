@@ -1,0 +1,155 @@
+#include "osteon/scene/felt_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "osteon/mesh/distance.h"
+#include "union_surface.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kSeam = 0.00015;  // m: how finely crossings of pieces are told apart
+
+/// A point that stands for a part of a surface.
+struct Sample {
+  Vec3 p;
+  double area = 0;
+};
+
+void add_samples(const std::array<Vec3, 3>& t, double spacing2, std::vector<Sample>& out) {
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm())
+      longest = k;
+  const Vec3& a = t[longest];
+  const Vec3& b = t[(longest + 1) % 3];
+  const Vec3& c = t[(longest + 2) % 3];
+  if ((b - a).squaredNorm() <= spacing2) {
+    out.push_back({(a + b + c) / 3, 0.5 * (b - a).cross(c - a).norm()});
+    return;
+  }
+  const Vec3 middle = 0.5 * (a + b);
+  add_samples({a, middle, c}, spacing2, out);
+  add_samples({middle, b, c}, spacing2, out);
+}
+
+std::vector<Sample> samples_of(const TriMesh& mesh, double spacing_m) {
+  std::vector<Sample> out;
+  for (const Triangle& t : mesh.triangles)
+    add_samples({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
+                spacing_m * spacing_m, out);
+  return out;
+}
+
+/// Of distances with their areas.
+SurfaceGap summed_up(std::vector<std::pair<double, double>> gaps) {
+  SurfaceGap out;
+  if (gaps.empty()) return out;
+  std::sort(gaps.begin(), gaps.end());
+  double area = 0;
+  for (const auto& [gap, part] : gaps) {
+    area += part;
+    out.mean += gap * part;
+  }
+  out.max = gaps.back().first;
+  if (!(area > 0)) return out;
+  out.mean /= area;
+  double below = 0;
+  for (const auto& [gap, part] : gaps) {
+    below += part;
+    out.p95 = gap;
+    if (below >= 0.95 * area) break;
+  }
+  return out;
+}
+
+template <class Height>
+SurfaceGap gaps(const std::vector<Sample>& samples, const Height& height) {
+  std::vector<std::pair<double, double>> out;
+  out.reserve(samples.size());
+  for (const Sample& s : samples) out.emplace_back(std::abs(height(s.p)), s.area);
+  return summed_up(std::move(out));
+}
+
+/// The zero of a field below or above p, by Newton's method; none where the band ends.
+std::optional<Vec3> foot(const DistanceField& field, Vec3 p) {
+  constexpr int kSteps = 6;
+  constexpr double kClose = 1e-8;
+  for (int i = 0; i < kSteps; ++i) {
+    const FieldSample s = field.at(p);
+    const double slope2 = s.gradient.squaredNorm();
+    if (!(slope2 > 0.01)) return std::nullopt;
+    p -= s.distance / slope2 * s.gradient;
+    if (std::abs(s.distance) < kClose) return p;
+  }
+  return std::abs(field.at(p).distance) < 10 * kClose ? std::optional<Vec3>(p) : std::nullopt;
+}
+
+/// Points of a field's surface: the feet of the nodes next to it. They lie about a cell apart.
+std::vector<Sample> samples_of(const DistanceField& field) {
+  const FieldData& d = field.data();
+  std::vector<Sample> out;
+  const double cell = d.cell_m;
+  for (int k = 0; k < d.blocks[2] * FieldData::kSide; ++k)
+    for (int j = 0; j < d.blocks[1] * FieldData::kSide; ++j)
+      for (int i = 0; i < d.blocks[0] * FieldData::kSide; ++i) {
+        const Vec3 node = d.lo + cell * Vec3(i, j, k);
+        const FieldSample s = field.at(node);
+        if (!s.near || std::abs(s.distance) > 0.5 * cell) continue;
+        if (const auto p = foot(field, node)) out.push_back({*p, cell * cell});
+      }
+  return out;
+}
+
+FeltDistance of_field(const Bone& bone, const MeshDistance& mesh, double spacing_m) {
+  const DistanceField& field = *bone.field;
+  const auto to_felt = [&](const Vec3& p) {
+    const auto at = foot(field, p);
+    return at ? (*at - p).norm() : std::abs(field.at(p).distance);
+  };
+  const auto to_mesh = [&](const Vec3& p) { return mesh.closest(p).signed_distance; };
+  return {gaps(samples_of(bone.mesh, spacing_m), to_felt), gaps(samples_of(field), to_mesh)};
+}
+
+bool inside(const std::vector<Hull>& pieces, const Vec3& p) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const Hull& piece) {
+    return std::all_of(piece.planes.begin(), piece.planes.end(),
+                       [&](const Plane& plane) { return plane.signed_distance(p) <= 0; });
+  });
+}
+
+}  // namespace
+
+FeltDistance felt_distance(const Bone& bone, double spacing_m) {
+  if (bone.mesh.triangles.empty()) return {};
+  const MeshDistance mesh(bone.mesh);
+  if (bone.field) return of_field(bone, mesh, spacing_m);
+  const MeshDistance felt(union_surface(bone.pieces, kSeam));
+  if (felt.mesh().triangles.empty()) return {};
+  const auto to_felt = [&](const Vec3& p) { return felt.closest(p).signed_distance; };
+  const auto to_mesh = [&](const Vec3& p) { return mesh.closest(p).signed_distance; };
+  return {gaps(samples_of(bone.mesh, spacing_m), to_felt),
+          gaps(samples_of(felt.mesh(), spacing_m), to_mesh)};
+}
+
+std::vector<double> felt_heights(const Bone& bone) {
+  std::vector<double> out;
+  out.reserve(bone.mesh.vertices.size());
+  if (bone.field) {
+    for (const Vec3& v : bone.mesh.vertices) out.push_back(-bone.field->at(v).distance);
+    return out;
+  }
+  const MeshDistance felt(union_surface(bone.pieces, kSeam));
+  for (const Vec3& v : bone.mesh.vertices) {
+    const double gap = felt.mesh().triangles.empty() ? 0 : felt.closest(v).signed_distance;
+    out.push_back(inside(bone.pieces, v) ? std::abs(gap) : -std::abs(gap));
+  }
+  return out;
+}
+
+}  // namespace osteon
