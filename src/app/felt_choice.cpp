@@ -35,6 +35,11 @@ std::string to_text(const FeltChoice& choice) {
   return choice.source + out;
 }
 
+std::string source_without_choice(const std::string& spec) {
+  const auto choice = parse_felt_choice(spec);
+  return choice ? choice->source : spec;
+}
+
 Result<void> apply(const FeltChoice& choice, CaseDef& def) {
   for (const auto& [name, felt] : choice.of_bone) {
     bool there = name.empty();

@@ -21,6 +21,8 @@ struct FeltChoice {
 Result<FeltChoice> parse_felt_choice(const std::string& spec);
 /// The name of the case with the choice.
 std::string to_text(const FeltChoice& choice);
+/// The case alone, whatever follows it.
+std::string source_without_choice(const std::string& spec);
 /// Puts the choice into the case; fails when it names a bone that is not there.
 Result<void> apply(const FeltChoice& choice, CaseDef& def);
 

@@ -98,7 +98,7 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
   say("Opening the bones", 0);
   auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
   if (!def) return tl::unexpected(def.error());
-  const std::string source = parse_felt_choice(spec)->source;
+  const std::string source = source_without_choice(spec);
   PieceCache pieces(cache_file(source, "pieces"));
   FieldCache fields(cache_file(source, "fields"));
   find_what_is_felt(*def, pieces, fields, [&](double share) {

@@ -137,15 +137,16 @@ FeltDistance felt_distance(const Bone& bone, double spacing_m) {
           gaps(samples_of(felt.mesh(), spacing_m), to_mesh)};
 }
 
-std::vector<double> felt_heights(const Bone& bone) {
+std::vector<double> felt_heights(const Bone& bone, std::span<const Vec3> points_B) {
   std::vector<double> out;
-  out.reserve(bone.mesh.vertices.size());
+  out.reserve(points_B.size());
+  if (points_B.empty()) return out;
   if (bone.field) {
-    for (const Vec3& v : bone.mesh.vertices) out.push_back(-bone.field->at(v).distance);
+    for (const Vec3& v : points_B) out.push_back(-bone.field->at(v).distance);
     return out;
   }
   const MeshDistance felt(union_surface(bone.pieces, kSeam));
-  for (const Vec3& v : bone.mesh.vertices) {
+  for (const Vec3& v : points_B) {
     const double gap = felt.mesh().triangles.empty() ? 0 : felt.closest(v).signed_distance;
     out.push_back(inside(bone.pieces, v) ? std::abs(gap) : -std::abs(gap));
   }

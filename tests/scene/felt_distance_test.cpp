@@ -33,7 +33,7 @@ TEST(FeltDistance, WithoutAMeshItIsNothing) {
   const FeltDistance d = felt_distance(Bone{});
   EXPECT_EQ(d.mesh_to_felt.max, 0);
   EXPECT_EQ(d.felt_to_mesh.max, 0);
-  EXPECT_TRUE(felt_heights(Bone{}).empty());
+  EXPECT_TRUE(felt_heights(Bone{}, {}).empty());
 }
 
 TEST(FeltDistance, AConvexBoneIsItsHull) {
@@ -42,7 +42,7 @@ TEST(FeltDistance, AConvexBoneIsItsHull) {
   const FeltDistance d = felt_distance(bone);
   EXPECT_LT(d.mesh_to_felt.max, 1e-12);
   EXPECT_LT(d.felt_to_mesh.max, 1e-12);
-  for (const double h : felt_heights(bone)) EXPECT_NEAR(h, 0, 1e-12);
+  for (const double h : felt_heights(bone, bone.mesh.vertices)) EXPECT_NEAR(h, 0, 1e-12);
 }
 
 // The faces between two halves, and those within crossing pieces, are not felt.
@@ -76,7 +76,8 @@ TEST(FeltDistance, AHullOverAStepIsFarFromItsBottom) {
   const double slope = 0.004 / std::sqrt(2.0);  // of the inner edge to the plane over it
   EXPECT_NEAR(d.mesh_to_felt.max, slope, 0.0003);
   EXPECT_GT(d.felt_to_mesh.max, 0.0015);
-  EXPECT_NEAR(felt_heights(bone)[3], slope, 1e-9);
+  const std::vector<Vec3> middle_of_the_step{Vec3::Zero()};
+  EXPECT_NEAR(felt_heights(bone, middle_of_the_step)[0], slope, 1e-9);
 }
 
 TEST(FeltDistance, AThickerBallStandsOverTheMesh) {
@@ -86,7 +87,7 @@ TEST(FeltDistance, AThickerBallStandsOverTheMesh) {
   EXPECT_NEAR(d.felt_to_mesh.mean, 1e-4, 2e-6);
   EXPECT_GE(d.mesh_to_felt.p95, d.mesh_to_felt.mean);
   EXPECT_GE(d.mesh_to_felt.max, d.mesh_to_felt.p95);
-  for (const double h : felt_heights(bone)) EXPECT_NEAR(h, 1e-4, 5e-6);
+  for (const double h : felt_heights(bone, bone.mesh.vertices)) EXPECT_NEAR(h, 1e-4, 5e-6);
 }
 
 TEST(FeltDistance, AFieldFollowsItsMesh) {

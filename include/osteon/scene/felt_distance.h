@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "osteon/scene/case.h"
@@ -22,8 +23,8 @@ struct FeltDistance {
 /// has distances of zero. Takes about a second for a bone of 10^4 triangles.
 FeltDistance felt_distance(const Bone& bone, double spacing_m = 0.0004);
 
-/// How high what is felt stands over each vertex of the bone's mesh, m; negative where it lies
-/// under it.
-std::vector<double> felt_heights(const Bone& bone);
+/// How high what is felt stands over each of some points of the bone's mesh, m, in Bone; negative
+/// where it lies under it.
+std::vector<double> felt_heights(const Bone& bone, std::span<const Vec3> points_B);
 
 }  // namespace osteon
