@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "device/falcon/falcon_rig.h"
+#include "device/joystick/joystick_rig.h"
 #include "device/phantom/stub_library.h"
 #include "drivers/run_loop.h"
 #include "osteon/record/recording.h"
@@ -60,9 +61,10 @@ class FaultRecording : public ::testing::Test {
   }
   ~FaultRecording() override { std::filesystem::remove(file_); }
 
-  void expect_all_is_kept(const Left& left) {
+  // `bound_ms`: until the motors are at zero.
+  void expect_all_is_kept(const Left& left, int bound_ms = 2) {
     EXPECT_GT(left.force_before_n, 0.5) << "no contact";
-    EXPECT_LE(left.ms_to_zero, 2);
+    EXPECT_LE(left.ms_to_zero, bound_ms);
     EXPECT_EQ(left.cause, ForceOff::kDisconnect) << describe(left.cause);
     ASSERT_TRUE(feed_->finish());
     const auto recording = load_recording(file_);
@@ -72,6 +74,22 @@ class FaultRecording : public ::testing::Test {
     ASSERT_TRUE(replayed) << replayed.error().message();
     EXPECT_TRUE(replayed->identical) << "at tick " << replayed->first_different_tick;
     EXPECT_EQ(replayed->ticks, left.ticks);
+  }
+
+  void unplug(const testing::JoystickKind& kind) {
+    testing::JoystickRig rig(kind);
+    const ProbePath path = testing::press_and_slide_path();
+    const auto lead = [&](double t) {
+      const testing::WantedInV wanted = testing::wanted_in_V(path, t);
+      rig.mechanics->set_target(wanted.X_VD, wanted.v_V, 0);
+      rig.pass_ms(1);
+    };
+    lead(0);
+    rig.open();
+    expect_all_is_kept(run(
+                           *rig.device, *feed_, lead, [&] { rig.bus.detach(rig.port); },
+                           [&] { return rig.motors(); }),
+                       21);
   }
 
   std::filesystem::path file_;
@@ -91,6 +109,13 @@ TEST_F(FaultRecording, OfAPhantomArmThatIsUnplugged) {
   expect_all_is_kept(run(
       *arm, *feed_, lead, [&] { stub.left->plugged = false; },
       [&] { return testing::motor_force(*stub.left); }));
+}
+
+// Its own time-out ends the force: nothing reaches it any more.
+TEST_F(FaultRecording, OfAVectorJoystickThatIsUnplugged) { unplug(testing::kVectorKind); }
+TEST_F(FaultRecording, OfAPidJoystickThatIsUnplugged) { unplug(testing::kPidKind); }
+TEST_F(FaultRecording, OfAPidJoystickWithoutOutEndpointThatIsUnplugged) {
+  unplug(testing::kPidByControlKind);
 }
 
 TEST_F(FaultRecording, OfAFalconThatIsUnplugged) {

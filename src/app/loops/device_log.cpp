@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "osteon/base/file.h"
+#include "osteon/base/log.h"
 
 namespace osteon {
 
-DeviceLog::DeviceLog(std::unique_ptr<HapticDevice> device, double seconds)
+DeviceLog::DeviceLog(std::unique_ptr<HapticDevice> device, double seconds,
+                     std::filesystem::path file)
     : device_(std::move(device)),
+      file_(std::move(file)),
       rows_(std::max<std::size_t>(
-          1, static_cast<std::size_t>(seconds * std::max(1.0, device_->info().rate_hz)))) {}
+          1, static_cast<std::size_t>(seconds * std::max(1.0, device_->info().rate_hz)))) {
+  if (!file_.empty()) (void)save(file_);
+}
 
 DeviceSample DeviceLog::read() {
   const DeviceSample sample = device_->read();
@@ -27,7 +33,10 @@ void DeviceLog::write_force(const Vec3& force_V) {
 
 void DeviceLog::close() {
   device_->close();
+  if (closed_) return;
   closed_ = true;
+  if (file_.empty()) return;
+  if (const auto saved = save(file_); !saved) log(LogLevel::kWarning, saved.error().message());
 }
 
 Result<void> DeviceLog::save(const std::filesystem::path& file) const {

@@ -12,7 +12,10 @@ namespace osteon {
 /// Allocates in its constructor only.
 class DeviceLog : public HapticDevice {
  public:
-  DeviceLog(std::unique_ptr<HapticDevice> device, double seconds = 20);
+  /// `file`, where given, is begun now and written when the device is closed, by whom ever: the
+  /// program may be ending badly.
+  explicit DeviceLog(std::unique_ptr<HapticDevice> device, double seconds = 20,
+                     std::filesystem::path file = {});
   const DeviceInfo& info() const override { return device_->info(); }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
@@ -30,6 +33,7 @@ class DeviceLog : public HapticDevice {
     Vec3 force_V = Vec3::Zero();
   };
   std::unique_ptr<HapticDevice> device_;
+  std::filesystem::path file_;
   std::vector<Row> rows_;
   std::size_t count_ = 0;
   Row now_;

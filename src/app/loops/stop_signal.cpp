@@ -16,19 +16,47 @@ std::atomic<int> g_requested{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
-constexpr int kTerminating = -1;
+constexpr std::array kDeadly = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr int kDying = -1;
 
 extern "C" void request_stop(int number) {
   g_requested.store(number);
   signal(number, SIG_DFL);  // the second one kills
 }
 
-// The loops see the request within a tick; 50 ms are many.
-[[noreturn]] void stop_then_abort() {
-  g_requested.store(kTerminating);
+// The loops see the request within a tick; 50 ms are many. Nothing but what a signal handler may
+// do.
+void let_loops_end() {
+  g_requested.store(kDying);
   const timespec moment{0, 50'000'000};
   nanosleep(&moment, nullptr);
+}
+
+extern "C" void end_loops_and_die(int number) {
+  signal(number, SIG_DFL);
+  let_loops_end();
+  raise(number);
+}
+
+[[noreturn]] void end_loops_and_abort() {
+  signal(SIGABRT, SIG_DFL);
+  let_loops_end();
   std::abort();
+}
+
+// A sanitizer's handler knows better what to tell.
+void catch_deadly(int number) {
+  struct sigaction now {};
+  const bool free = sigaction(number, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+                    now.sa_handler == SIG_DFL;
+  if (free) signal(number, end_loops_and_die);
+}
+
+void release_deadly(int number) {
+  struct sigaction now {};
+  const bool ours = sigaction(number, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+                    now.sa_handler == end_loops_and_die;
+  if (ours) signal(number, SIG_DFL);
 }
 
 }  // namespace
@@ -36,11 +64,13 @@ extern "C" void request_stop(int number) {
 StopSignals::StopSignals() {
   g_requested.store(0);
   for (const int number : kSignals) signal(number, request_stop);
-  std::set_terminate(stop_then_abort);
+  for (const int number : kDeadly) catch_deadly(number);
+  std::set_terminate(end_loops_and_abort);
 }
 
 StopSignals::~StopSignals() {
   for (const int number : kSignals) signal(number, SIG_DFL);
+  for (const int number : kDeadly) release_deadly(number);
   std::set_terminate(std::abort);
 }
 

@@ -4,8 +4,8 @@ namespace osteon {
 
 /// While one exists, SIGINT, SIGTERM and SIGHUP ask the loops to end instead of killing the
 /// program, so that the motors are left at zero and the recording is closed. A second signal kills
-/// as usual. An uncaught exception gives the haptic loop a moment to do the same before the
-/// program aborts.
+/// as usual. An uncaught exception, an abort and a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL) on any
+/// thread but the haptic loop's give that loop a moment to do the same before the program dies.
 class StopSignals {
  public:
   StopSignals();

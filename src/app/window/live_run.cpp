@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "loops/device_log.h"
 #include "osteon/device/mouse_device.h"
 
 namespace osteon {
@@ -12,6 +13,7 @@ constexpr double kShownForceLimit_n = 8.0;  // of a device without motors: a tea
 // In contact the mouse's hand stays this near to the probe: else a long drag into bone would have
 // to be undone all the way before the probe comes off.
 constexpr double kTether_m = 0.015;
+constexpr double kLogged_s = 20;
 
 // A device with motors and a pose of its own, which is not the program's.
 bool is_real(const DeviceChoice& choice) {
@@ -75,7 +77,9 @@ Result<std::unique_ptr<HapticDevice>> LiveRun::device_for_next_run() {
   device_serial_ = choice_.info.serial;
   if (same_device_) return held;
   if (held) held->close();
-  return open_choice(choice_, demo_);
+  auto opened = open_choice(choice_, demo_);
+  if (!opened || force_log_.empty() || choice_.info.peak_force_n <= 0) return opened;
+  return std::make_unique<DeviceLog>(std::move(*opened), kLogged_s, force_log_);
 }
 
 DeviceMapping LiveRun::mapping_at(const Pose& X_WD_start, HapticDevice& device) const {

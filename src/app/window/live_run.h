@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "loops/runtime.h"
@@ -36,6 +37,9 @@ class LiveRun {
   LiveRun(std::shared_ptr<const Case> the_case, std::string case_source, ProbePath demo,
           const FeelSettings& feel);
 
+  /// From the next opening on, the last seconds of a device with motors go to this file when it is
+  /// closed.
+  void keep_force_log(std::filesystem::path file) { force_log_ = std::move(file); }
   /// Starts anew with this device, used as `user` says. `X_WD_start`: where a device without a pose
   /// of its own is; the middle of another's workspace is put there, with its axes tied to the
   /// camera's (`q_WC`) or to the patient's.
@@ -115,6 +119,7 @@ class LiveRun {
   bool force_on_ = true;
   bool recording_ = false;
   std::filesystem::path recording_file_;
+  std::filesystem::path force_log_;
   std::string recording_failure_;
   RenderSnapshot snapshot_;
   DeviceStatus device_status_;

@@ -34,6 +34,10 @@ struct WindowOrder {
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
   bool demo = false;                 ///< the virtual hand plays the case's path
+  std::string device;                ///< driver to begin with; empty: as last time
+  std::filesystem::path path;        ///< what an emulated hand plays; empty: the case's own
+  std::filesystem::path record;      ///< recorded from the start; empty: nothing
+  std::filesystem::path force_log;   ///< of the device's last seconds; empty: none
   bool checkup = false;              ///< opens the check-up and begins one
   bool fresh = false;                ///< neither reads nor writes the settings file
 };
@@ -65,6 +69,7 @@ class WindowApp {
   void open(LoadOrder order);
   void poll_loading();
   void install(Loaded loaded);
+  void begin_live();
   void start_live(const std::string& driver);
   void leave_replay();
   void fail_loading(const std::string& message);

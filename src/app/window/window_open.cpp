@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "osteon/base/file.h"
+#include "osteon/scene/path.h"
 #include "window/window_app.h"
 
 namespace osteon {
@@ -53,7 +54,7 @@ void WindowApp::install(Loaded loaded) {
   live_.reset();
   replay_ = std::move(loaded.replay);
   player_.reset();
-  if (!replay_) return start_live(order_.demo ? "virtual" : settings_.device);
+  if (!replay_) return begin_live();
   player_.emplace(replay_->track.duration_s());
   player_->seek(order_.at_s);
   if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still
@@ -62,12 +63,28 @@ void WindowApp::install(Loaded loaded) {
          "This recording was cut short, by a crash or a power cut; all that was saved is here.");
 }
 
+// The first run after something was opened: what the command line ordered counts once.
+void WindowApp::begin_live() {
+  if (!order_.path.empty()) {
+    const auto path = load_path(order_.path);
+    if (path) demo_ = *path;
+    if (!path) note(ToastKind::kError, path.error().message());
+  }
+  std::string driver = std::exchange(order_.device, {});
+  if (driver.empty()) driver = order_.demo ? "virtual" : settings_.device;
+  start_live(driver);
+  if (!live_ || order_.record.empty()) return;
+  const Result<void> started = live_->start_recording(std::exchange(order_.record, {}));
+  if (!started) note(ToastKind::kError, started.error().message());
+}
+
 void WindowApp::start_live(const std::string& driver) {
   if (choices_.empty() || !case_) return;
   remember_feel();
   const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
                           settings_.bones_held};
   live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel);
+  live_->keep_force_log(order_.force_log);
   const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, driver))];
   pedals_.set_map(settings_.pedals);
   const MappingSettings user =

@@ -46,5 +46,22 @@ TEST(DeviceLog, KeepsTheLastSecondsInOrderAndPassesEverythingOn) {
   EXPECT_TRUE(seen.closed);
 }
 
+TEST(DeviceLog, WithAFileItIsThereAtOnceAndWholeOnceTheDeviceIsClosed) {
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("osteon_own_log_" + std::to_string(::getpid()) + ".csv");
+  test::DeviceLog seen;
+  DeviceLog log(std::make_unique<test::FakeDevice>(test::press_and_slide, seen), 1, path);
+  EXPECT_TRUE(std::filesystem::exists(path));
+  log.read();
+  log.write_force(Vec3(7, 0, 0));
+  log.close();
+  const std::string text = read_file(path).value();
+  EXPECT_NE(text.find("7.00000"), std::string::npos);
+  EXPECT_TRUE(text.ends_with("closed\n"));
+  std::filesystem::remove(path);
+  log.close();
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 }  // namespace
 }  // namespace osteon

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "device/joystick/joystick_rig.h"
+#include "joystick/vector_report.h"
 
 namespace osteon {
 namespace {
@@ -199,6 +202,41 @@ TEST_P(JoystickFault, OverVelocity) {
   EXPECT_LE(ms_to_zero(300), 100);
   EXPECT_EQ(loop->gate.cause(), ForceOff::kVelocity);
   expect_rearm_by_the_user_only();
+}
+
+// Over-temperature, lost calibration, a fault, a failed supply, an open switch: each in contact, as
+// far as the dialect can tell it.
+TEST_P(JoystickFault, WhatTheDeviceSaysOfItselfEndsTheForce) {
+  struct Told {
+    ForceOff cause;
+    std::function<void(bool wrong)> tell;
+  };
+  const auto bit = [&](std::uint8_t which, bool when_wrong) {
+    return [this, which, when_wrong](bool wrong) {
+      rig.vector->set_status_bit(which, wrong == when_wrong);
+    };
+  };
+  std::vector<Told> all;
+  if (rig.vector)
+    all = {{ForceOff::kTemperature, bit(VectorState::kTooWarm, true)},
+           {ForceOff::kCalibration, bit(VectorState::kHomed, false)},
+           {ForceOff::kDeviceFault, bit(VectorState::kFault, true)},
+           {ForceOff::kDeadMan, bit(VectorState::kDeadManOpen, true)}};
+  else
+    all = {{ForceOff::kDeviceFault, [&](bool wrong) { rig.pid->set_switches(true, !wrong); }},
+           {ForceOff::kDeadMan, [&](bool wrong) { rig.pid->set_switches(!wrong, true); }}};
+  for (const Told& told : all) {
+    SCOPED_TRACE(describe(told.cause));
+    told.tell(true);
+    EXPECT_LE(ms_to_zero(200), kZeroByReport_ms);
+    EXPECT_EQ(loop->gate.cause(), told.cause) << describe(loop->gate.cause());
+    loop->gate.enable();  // of no use while it lasts
+    run(50);
+    EXPECT_EQ(rig.motors(), Vec3(Vec3::Zero()));
+    EXPECT_EQ(loop->gate.cause(), told.cause);
+    told.tell(false);
+    expect_rearm_by_the_user_only();
+  }
 }
 
 TEST_P(JoystickFault, AHungHostIsTheFirmwaresToEnd) {

@@ -1,0 +1,131 @@
+// The program dies while an emulated joystick presses onto bone: whatever ends it, the haptic loop
+// has time to leave the motors at zero. Each end is a process of its own.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include "app/loops/fake_device.h"
+#include "loops/device_log.h"
+#include "loops/runtime.h"
+#include "loops/stop_signal.h"
+#include "osteon/base/file.h"
+#include "osteon/scene/path.h"
+#include "window/device_choices.h"
+
+namespace osteon {
+namespace {
+
+// Down onto the block, and on it for ever.
+ProbePath pressing_path() {
+  ProbePath path;
+  for (const auto& [time_s, z_mm] : {std::pair{0.0, 4.0}, {0.2, -2.0}, {600.0, -2.0}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0, 0, 1e-3 * z_mm);
+    path.samples.push_back(sample);
+  }
+  return path;
+}
+
+// Runs until the joystick presses with half a newton, then ends the program so.
+void press_and(const std::function<void()>& end, const std::filesystem::path& log_file) {
+  const StopSignals signals;
+  const auto choices = list_device_choices(nullptr);
+  const auto index = static_cast<std::size_t>(find_choice(choices, "virtual-usb-vector"));
+  auto device = open_choice(choices.at(index), pressing_path());
+  if (!device) std::_Exit(3);
+  RunPlan plan;
+  plan.the_case = test::blocks_case();
+  Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(*device), 20, log_file));
+  runtime.start();
+  while (runtime.device_status().force_at_hand_V.norm() < 0.5) std::this_thread::yield();
+  end();
+  std::_Exit(4);  // it should not have come back
+}
+
+// Force of the last line that holds one, and of the last that was felt; -1: there is none.
+struct LastForces {
+  double last_n = -1, felt_n = -1;
+  bool closed = false;
+};
+
+LastForces read_log(const std::filesystem::path& file) {
+  LastForces forces;
+  std::istringstream in(read_file(file).value_or(""));
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    if (line == "closed") {
+      forces.closed = true;
+      continue;
+    }
+    double v[7] = {};
+    std::istringstream fields(line);
+    std::string field;
+    for (int i = 0; i < 7 && std::getline(fields, field, ','); ++i) v[i] = std::stod(field);
+    forces.last_n = std::hypot(v[4], v[5], v[6]);
+    if (forces.last_n > 0) forces.felt_n = forces.last_n;
+  }
+  return forces;
+}
+
+class ExitPaths : public ::testing::Test {
+ protected:
+  // The child runs the test anew from its start: the name must be the same there.
+  ExitPaths() {
+    ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+    const char* given = std::getenv("OSTEON_EXIT_LOG");
+    file = given ? given
+                 : (std::filesystem::path(::testing::TempDir()) /
+                    ("osteon_exit_" + std::to_string(::getpid()) + ".csv"))
+                       .string();
+    ::setenv("OSTEON_EXIT_LOG", file.c_str(), 1);
+  }
+  ~ExitPaths() override {
+    ::unsetenv("OSTEON_EXIT_LOG");
+    std::filesystem::remove(file);
+  }
+  void expect_zero_at_the_end() {
+    const LastForces forces = read_log(file);
+    EXPECT_GT(forces.felt_n, 0.4) << "never pressed";
+    EXPECT_EQ(forces.last_n, 0);
+    EXPECT_TRUE(forces.closed);
+  }
+
+  std::string file;
+};
+
+TEST_F(ExitPaths, ByTerminate) {
+  EXPECT_EXIT(press_and([] { std::terminate(); }, file), ::testing::KilledBySignal(SIGABRT), "");
+  expect_zero_at_the_end();
+}
+
+TEST_F(ExitPaths, ByAnExceptionThatNobodyCatches) {
+  const auto thrown = [] { std::thread([] { throw std::bad_alloc(); }).join(); };
+  EXPECT_EXIT(press_and(thrown, file), ::testing::KilledBySignal(SIGABRT), "");
+  expect_zero_at_the_end();
+}
+
+TEST_F(ExitPaths, ByAbort) {
+  EXPECT_EXIT(press_and([] { std::abort(); }, file), ::testing::KilledBySignal(SIGABRT), "");
+  expect_zero_at_the_end();
+}
+
+TEST_F(ExitPaths, ByACrashBesideTheHapticLoop) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer takes the signal";
+#endif
+  EXPECT_EXIT(press_and([] { ::raise(SIGSEGV); }, file), ::testing::KilledBySignal(SIGSEGV), "");
+  expect_zero_at_the_end();
+}
+
+}  // namespace
+}  // namespace osteon

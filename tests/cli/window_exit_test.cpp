@@ -1,0 +1,42 @@
+// The window with an emulated joystick in contact, ended by signals and by itself.
+#include <signal.h>
+
+#include "live_fixture.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+class WindowExit : public LiveFixture {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v Xvfb > /dev/null 2>&1") != 0)
+      GTEST_SKIP() << "Xvfb is not installed (Debian: xvfb)";
+    LiveFixture::SetUp();
+  }
+  void TearDown() override {
+    std::ifstream in(file("xvfb.pid"));
+    if (int display = 0; in >> display) ::kill(display, SIGTERM);
+    LiveFixture::TearDown();
+  }
+
+  // A display of its own, and then the window in the shell's place: its process is the window's.
+  pid_t start_window(const std::string& extra = "") {
+    return start_shell(
+        "Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3> " + file("display") +
+        " 2> /dev/null & echo $! > " + file("xvfb.pid") + "; until [ -s " + file("display") +
+        " ]; do sleep 0.05; done; export XDG_CONFIG_HOME=" + dir_.string() + " XDG_DATA_HOME=" +
+        dir_.string() + " DISPLAY=:$(head -1 " + file("display") + "); exec " + OSTEON_EXECUTABLE +
+        " window --device virtual-usb-vector --size 640x480" + run_options() + extra);
+  }
+};
+
+TEST_F(WindowExit, ATerminationInContactLeavesZeroForceAClosedDeviceAndAWholeRecording) {
+  expect_orderly_end(start_window(), SIGTERM);
+}
+
+TEST_F(WindowExit, AHangUpDoesTheSame) { expect_orderly_end(start_window(), SIGHUP); }
+
+TEST_F(WindowExit, SoDoesItsOwnEnd) { expect_orderly_end(start_window(" --at 2 --frames 2"), 0); }
+
+}  // namespace
+}  // namespace osteon::testing_cli
