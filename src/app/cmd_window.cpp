@@ -72,8 +72,10 @@ void add_window_command(CLI::App& app, int& exit_code) {
                    "Scale of the interface; the display's when not given")
       ->check(CLI::Range(0.5, 4.0));
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
-  command->add_option("--device", order->device,
-                      "Driver to begin with (see `osteon devices`); as last time when not given");
+  command->add_option(
+      "--device", order->device,
+      "Driver to begin with, or driver:serial (see `osteon devices`); as last time when not "
+      "given");
   command->add_option("--path", order->path, "What an emulated hand plays (CSV)");
   command->add_option("--record", order->record, "Record from the start to this file (.osr)");
   command->add_option("--force-log", order->force_log,

@@ -66,7 +66,7 @@ std::string bound(const StabilityMap& map) {
       points += format("%.1f,%.1f ", kWide * delay / kLongestDelay_s, y_of(wall));
   }
   return "<polyline points=\"" + points +
-         "\" fill=\"none\" stroke=\"#223\" stroke-dasharray=\"5 3\"/>\n";
+         "\" fill=\"none\" stroke=\"#223\" stroke-dasharray=\"5 3\" shape-rendering=\"auto\"/>\n";
 }
 
 std::string axes(const StabilityMap& map) {
@@ -120,7 +120,8 @@ std::string to_svg(const std::vector<StabilityMap>& maps, std::size_t across) {
   const double width = w * static_cast<double>(across), height = h * static_cast<double>(down);
   std::string out = format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-      "font-family=\"sans-serif\" font-size=\"12\" fill=\"#223\">\n",
+      "font-family=\"sans-serif\" font-size=\"12\" fill=\"#223\" "
+      "shape-rendering=\"crispEdges\">\n",
       width, height + 24);
   out += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   for (std::size_t i = 0; i < maps.size(); ++i) {

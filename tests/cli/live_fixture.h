@@ -93,7 +93,9 @@ class LiveFixture : public CliTest {
   bool wait_until_running() {
     for (int i = 0; i < 600; ++i) {
       const bool told = output().find("Force is on") != std::string::npos;
-      if (told || fs::exists(file("force.csv"))) return true;
+      // The window opens the device, and once more when it begins to record.
+      const bool records = fs::exists(file("force.csv")) && fs::exists(file("run.osr"));
+      if (told || records) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     return false;
@@ -103,7 +105,7 @@ class LiveFixture : public CliTest {
   void expect_orderly_end(pid_t child, int number) {
     ASSERT_TRUE(wait_until_running()) << output();
     if (number != 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+      std::this_thread::sleep_for(std::chrono::milliseconds(2500));
       ::kill(child, number);
     }
     int status = 0;

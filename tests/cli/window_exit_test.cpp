@@ -36,6 +36,12 @@ TEST_F(WindowExit, ATerminationInContactLeavesZeroForceAClosedDeviceAndAWholeRec
 
 TEST_F(WindowExit, AHangUpDoesTheSame) { expect_orderly_end(start_window(), SIGHUP); }
 
+TEST_F(WindowExit, WithoutAnyDeviceLibraryItStartsAllTheSame) {
+  ::setenv("OSTEON_HD_LIBRARY", file("no_such_libHD.so").c_str(), 1);
+  expect_orderly_end(start_window(" --check-up --at 2 --frames 2"), 0);
+  ::unsetenv("OSTEON_HD_LIBRARY");
+}
+
 TEST_F(WindowExit, SoDoesItsOwnEnd) { expect_orderly_end(start_window(" --at 2 --frames 2"), 0); }
 
 }  // namespace

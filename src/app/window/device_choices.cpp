@@ -1,5 +1,7 @@
 #include "window/device_choices.h"
 
+#include <algorithm>
+
 #include "loops/path_hand.h"
 #include "loops/path_player.h"
 #include "osteon/device/drivers.h"
@@ -10,7 +12,8 @@ namespace {
 constexpr const char* kVirtual = "virtual";
 
 std::string label_of(const Driver& driver, const DeviceInfo& info) {
-  return std::string(driver.name) == kVirtual ? "Demonstration (virtual hand)" : info.name;
+  if (std::string(driver.name) == kVirtual) return "Demonstration (virtual hand)";
+  return info.serial.empty() ? info.name : info.name + " (" + info.serial + ")";
 }
 
 }  // namespace
@@ -31,10 +34,19 @@ std::vector<DeviceChoice> list_device_choices(std::vector<std::string>* problems
   return choices;
 }
 
-int find_choice(const std::vector<DeviceChoice>& choices, const std::string& driver) {
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    if (choices[i].driver == driver) return static_cast<int>(i);
-  return 0;
+std::string key_of(const DeviceChoice& choice) {
+  return choice.info.serial.empty() ? choice.driver : choice.driver + ":" + choice.info.serial;
+}
+
+int find_choice(const std::vector<DeviceChoice>& choices, const std::string& key) {
+  const auto first = [&](auto is_it) {
+    const auto it = std::find_if(choices.begin(), choices.end(), is_it);
+    return it == choices.end() ? -1 : static_cast<int>(it - choices.begin());
+  };
+  const int same = first([&](const DeviceChoice& c) { return key_of(c) == key; });
+  if (same >= 0) return same;
+  const std::string driver = key.substr(0, key.find(':'));
+  return std::max(0, first([&](const DeviceChoice& c) { return c.driver == driver; }));
 }
 
 Result<std::unique_ptr<HapticDevice>> open_choice(const DeviceChoice& choice,

@@ -21,8 +21,12 @@ struct DeviceChoice {
 /// reason is added to `problems`.
 std::vector<DeviceChoice> list_device_choices(std::vector<std::string>* problems);
 
-/// Index of the first choice of that driver; 0 when there is none.
-int find_choice(const std::vector<DeviceChoice>& choices, const std::string& driver);
+/// What tells this choice from the others: "mouse", or "phantom:Left Device" where the device has a
+/// serial number.
+std::string key_of(const DeviceChoice& choice);
+
+/// Index of the choice of that key, else of the first of that driver; 0 when there is none.
+int find_choice(const std::vector<DeviceChoice>& choices, const std::string& key);
 
 /// Its user is an emulated one who plays a path, in World.
 bool plays_demo(const DeviceChoice& choice);

@@ -171,6 +171,16 @@ Result<void> LiveRun::stop_recording() {
   return closed ? restarted : closed;
 }
 
+Result<void> LiveRun::end() {
+  if (!runtime_) return {};
+  const Result<void> closed = runtime_->stop();
+  recording_ = false;
+  end_run();
+  if (held_) held_->close();
+  held_.reset();
+  return closed;
+}
+
 void LiveRun::update() {
   if (!runtime_) return;
   const RenderSnapshot& newest = runtime_->snapshot();

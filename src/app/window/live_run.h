@@ -50,6 +50,8 @@ class LiveRun {
   Result<void> start_recording(const std::filesystem::path& file);
   /// Ends the recording; the run starts anew where the probe is.
   Result<void> stop_recording();
+  /// Ends the run for good: zero force, a closed device, the recording whole.
+  Result<void> end();
   /// Takes in what the loops reported. Once a frame.
   void update();
 

@@ -149,7 +149,9 @@ void draw_pedal(const PanelContext& c, const char* name, const char* label, cons
     c.requests.learn_pedal = learning ? std::string() : std::string(name);
   ui::tooltip("Press it, then move the pedal or press the key that shall drive it");
   ImGui::SameLine();
-  if (ImGui::Button("None", {w, 0})) c.requests.forget_pedal = name;
+  ImGui::BeginDisabled(now == "none");
+  if (ImGui::Button("Remove", {w, 0})) c.requests.forget_pedal = name;
+  ImGui::EndDisabled();
   ImGui::PopID();
 }
 

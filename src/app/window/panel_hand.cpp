@@ -21,10 +21,13 @@ void draw_device_menu(const PanelContext& c) {
   if (c.model.replay.on) shown = "The recorded hand";
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::BeginDisabled(c.model.record.on || c.model.replay.on);
-  if (ImGui::BeginCombo("##device", shown)) {
-    for (std::size_t i = 0; i < hand.devices.size(); ++i)
-      if (ImGui::Selectable(hand.devices[i].c_str(), static_cast<int>(i) == hand.device))
-        c.requests.device = static_cast<int>(i);
+  if (ImGui::BeginCombo("##device", shown, ImGuiComboFlags_HeightLarge)) {
+    for (int i = 0; i < static_cast<int>(hand.devices.size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(hand.devices[static_cast<std::size_t>(i)].c_str(), i == hand.device))
+        c.requests.device = i;
+      ImGui::PopID();
+    }
     ImGui::Separator();
     if (ImGui::Selectable("Not here? Check-up (F2)")) c.requests.toggle_checkup = true;
     ImGui::EndCombo();
@@ -39,6 +42,8 @@ void draw_force_off(const PanelContext& c) {
   ImGui::PushTextWrapPos(0);
   const std::string why = std::string(describe(c.model.hand.status.cause)) + ".";
   ui::text(color::kRed, why.c_str());
+  if (c.model.hand.status.cause == ForceOff::kWatchdog)
+    ui::text(color::kTextQuiet, "This computer was too busy. Close other programs, then resume.");
   ImGui::PopTextWrapPos();
   if (ui::accent_button("Resume", {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.force_on = true;
@@ -136,7 +141,7 @@ void draw_warnings(const PanelContext& c) {
     ui::tooltip("Fewer than 950 haptic ticks a second: contact feels soft. Close other programs.");
   }
   if (hand.realtime_warning.empty()) return;
-  ui::text(color::kAmber, "! No real-time priority");
+  ui::text(color::kAmber, "! Real-time rights missing");
   ui::tooltip(hand.realtime_warning.c_str());
 }
 

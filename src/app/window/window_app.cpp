@@ -70,8 +70,7 @@ Result<void> WindowApp::run() {
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
   }
   checkup_.reset();
-  if (live_ && live_->recording()) return live_->stop_recording();
-  return {};
+  return live_ ? live_->end() : Result<void>();
 }
 
 void WindowApp::frame(double dt_s) {

@@ -34,7 +34,7 @@ struct WindowOrder {
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
   bool demo = false;                 ///< the virtual hand plays the case's path
-  std::string device;                ///< driver to begin with; empty: as last time
+  std::string device;                ///< key of the choice to begin with; empty: as last time
   std::filesystem::path path;        ///< what an emulated hand plays; empty: the case's own
   std::filesystem::path record;      ///< recorded from the start; empty: nothing
   std::filesystem::path force_log;   ///< of the device's last seconds; empty: none
@@ -70,7 +70,7 @@ class WindowApp {
   void poll_loading();
   void install(Loaded loaded);
   void begin_live();
-  void start_live(const std::string& driver);
+  void start_live(const std::string& device);  ///< key of a choice
   void leave_replay();
   void fail_loading(const std::string& message);
   // window_model.cpp

@@ -143,7 +143,7 @@ UiModel WindowApp::build_model() const {
   model.hand.picture_hz = frames_.rate_hz();
   model.hand.probe_in_hand = probe_held_;
   for (const DeviceChoice& choice : choices_) model.hand.devices.push_back(choice.label);
-  model.hand.device = live_ ? find_choice(choices_, live_->choice().driver) : 0;
+  model.hand.device = live_ ? find_choice(choices_, key_of(live_->choice())) : 0;
   return model;
 }
 

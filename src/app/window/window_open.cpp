@@ -70,22 +70,22 @@ void WindowApp::begin_live() {
     if (path) demo_ = *path;
     if (!path) note(ToastKind::kError, path.error().message());
   }
-  std::string driver = std::exchange(order_.device, {});
-  if (driver.empty()) driver = order_.demo ? "virtual" : settings_.device;
-  start_live(driver);
+  std::string device = std::exchange(order_.device, {});
+  if (device.empty()) device = order_.demo ? "virtual" : settings_.device;
+  start_live(device);
   if (!live_ || order_.record.empty()) return;
   const Result<void> started = live_->start_recording(std::exchange(order_.record, {}));
   if (!started) note(ToastKind::kError, started.error().message());
 }
 
-void WindowApp::start_live(const std::string& driver) {
+void WindowApp::start_live(const std::string& device) {
   if (choices_.empty() || !case_) return;
   remember_feel();
   const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
                           settings_.bones_held};
   live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel);
   live_->keep_force_log(order_.force_log);
-  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, driver))];
+  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, device))];
   pedals_.set_map(settings_.pedals);
   const MappingSettings user =
       mapping_of(settings_.mappings, mapping_key(choice.info, case_->name));

@@ -65,7 +65,7 @@ void WindowApp::apply_run(const UiRequests& requests) {
   if (!requests.device || live_->recording()) return;
   const auto index = static_cast<std::size_t>(*requests.device);
   if (index >= choices_.size()) return;
-  settings_.device = choices_[index].driver;
+  settings_.device = key_of(choices_[index]);
   start_live(settings_.device);
 }
 

@@ -37,6 +37,7 @@ class VirtualUsbJoystick : public HapticDevice, public EmulatedUser {
 
  private:
   VirtualUsbJoystick() = default;
+  bool placed_ = false;  ///< a target has been given
 
   EmulatedUsbBus bus_;
   std::shared_ptr<EmulatedUsbDevice> device_;

@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "app/loops/fake_device.h"
+#include "osteon/base/file.h"
+#include "osteon/record/recording.h"
 
 namespace osteon {
 namespace {
@@ -42,7 +44,10 @@ class LiveRunTest : public ::testing::Test {
   LiveRunTest() : live(test::blocks_case(), "blocks", leaping_path(), {}) {
     EXPECT_TRUE(live.start(virtual_hand(), Pose{}));
   }
-  ~LiveRunTest() override { std::filesystem::remove(file); }
+  ~LiveRunTest() override {
+    std::filesystem::remove(file);
+    std::filesystem::remove(log);
+  }
 
   void run_until_it_trips() {
     run_until(live, [&] { return live.device_status().cause == ForceOff::kVelocity; });
@@ -56,6 +61,8 @@ class LiveRunTest : public ::testing::Test {
   LiveRun live;
   std::filesystem::path file =
       std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".osr");
+  std::filesystem::path log =
+      std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".csv");
 };
 
 TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
@@ -65,6 +72,24 @@ TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
   live.set_force(true);
   run_until(live, [&] { return live.device_status().cause == ForceOff::kNone; });
   EXPECT_TRUE(live.stop_recording());
+}
+
+TEST_F(LiveRunTest, EndedItKeepsTheRecordingAndRunsNoMore) {
+  live.keep_force_log(log);
+  ASSERT_TRUE(live.start_recording(file));
+  run_until(live, [&] { return live.snapshot().tool.tick > 100; });
+  ASSERT_TRUE(live.end());
+  EXPECT_FALSE(live.recording());
+  const auto recording = load_recording(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_TRUE(recording->complete);
+  EXPECT_GT(recording->ticks.size(), 100u);
+  // The device was closed once, and none was opened after it.
+  const std::string told = read_file(log).value();
+  EXPECT_GT(told.size(), 1000u);
+  EXPECT_TRUE(told.ends_with("closed\n"));
+  EXPECT_TRUE(live.end());
+  live.update();
 }
 
 TEST_F(LiveRunTest, ALentDeviceComesBackToARunThatIsAsItWas) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/window/ui_frame.h"
+#include "window/device_choices.h"
 
 namespace osteon {
 namespace {
@@ -304,6 +305,32 @@ TEST(DevicePanel, CalibrationIsOfferedWhereItIsNeeded) {
   EXPECT_TRUE(ui.click(at).calibrate);
   ui.model.hand.status.health.calibration = Calibration::kRunning;
   EXPECT_LT(ui.find("##hand", {"Calibrate"}).x, 0);
+}
+
+// Two arms of one make have the same name until their serial numbers tell them apart.
+TEST(DevicePanel, OfTwoDevicesOfOneNameTheSecondCanBeChosen) {
+  UiFrame ui;
+  fill(ui, model_with_device());
+  ui.model.hand.devices = {"Arm", "Arm"};
+  ui.click("##hand", {"##device"});
+  ui.draw();
+  const UiRequests r = ui.click("##Combo_00", {1, "Arm"});
+  ASSERT_TRUE(r.device);
+  EXPECT_EQ(*r.device, 1);
+}
+
+TEST(DeviceChoices, AreToldApartBySerialNumber) {
+  DeviceInfo left, right;
+  left.serial = "Left Device";
+  right.serial = "Right Device";
+  const std::vector<DeviceChoice> choices = {
+      {"Mouse", "mouse", {}}, {"Arm", "phantom", left}, {"Arm", "phantom", right}};
+  EXPECT_EQ(key_of(choices[0]), "mouse");
+  EXPECT_EQ(find_choice(choices, key_of(choices[2])), 2);
+  EXPECT_EQ(find_choice(choices, "phantom"), 1);
+  EXPECT_EQ(find_choice(choices, "phantom:unplugged"), 1);
+  EXPECT_EQ(find_choice(choices, "falcon"), 0);
+  EXPECT_EQ(find_choice({}, "falcon"), 0);
 }
 
 TEST(DevicePanel, DrawsEveryStateOfADeviceInsideTheWindow) {
