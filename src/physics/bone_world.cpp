@@ -19,11 +19,15 @@ constexpr double kMaxTurn = 0.5;
 // No hand pushes harder, and no bone is longer: what lies beyond is a fault and is not applied.
 constexpr double kMaxForce = 1000;
 constexpr double kMaxLever = 1.0;
+// Steps after which the tool has surely answered to how a bone gave way.
+constexpr double kAnswerSteps = 4;
 
 // Force on a body and torque about its centre of mass.
 struct Load {
   Vec3 force_W = Vec3::Zero();
   Vec3 torque_W = Vec3::Zero();
+  bool touched = false;
+  double lever2 = 0;  // largest squared lever, m^2
 };
 
 Load load_of(const ToolState& tool, std::size_t bone, const Vec3& p_WI) {
@@ -38,6 +42,8 @@ Load load_of(const ToolState& tool, std::size_t bone, const Vec3& p_WI) {
     if (!(force_W.norm() <= kMaxForce && lever_W.norm() <= kMaxLever)) continue;
     load.force_W += force_W;
     load.torque_W += lever_W.cross(force_W);
+    load.touched = true;
+    load.lever2 = std::max(load.lever2, lever_W.squaredNorm());
   }
   return load;
 }
@@ -149,12 +155,14 @@ void BoneWorld::Impl::push(std::size_t i, const ToolState& tool, BodyMotion& mot
   const Quat q_IW = motion.X_WI.q.conjugate();
   const Vec3 torque_I = q_IW * load.torque_W;
   Vec3 w_I = q_IW * motion.w_W;
+  const double yield = load.touched ? kAnswerSteps * params.step_s * params.contact_n_per_m : 0;
   for (int a = 0; a < 3; ++a) {
     motion.v_W[a] =
-        spring_velocity(body.mass.mass_kg, params.spring_n_per_m, body.damping_n_s_per_m,
+        spring_velocity(body.mass.mass_kg, params.spring_n_per_m, body.damping_n_s_per_m + yield,
                         params.step_s, shift_W[a], motion.v_W[a], load.force_W[a]);
-    w_I[a] = spring_velocity(body.mass.moments[a], params.spring_nm_per_rad, body.damping_nm_s[a],
-                             params.step_s, turn_I[a], w_I[a], torque_I[a]);
+    w_I[a] = spring_velocity(body.mass.moments[a], params.spring_nm_per_rad,
+                             body.damping_nm_s[a] + yield * load.lever2, params.step_s, turn_I[a],
+                             w_I[a], torque_I[a]);
   }
   motion.w_W = motion.X_WI.q * w_I;
 }

@@ -1,5 +1,6 @@
 #include "osteon/session/session.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -38,6 +39,12 @@ struct alignas(kCacheLine) PhysicsHalf {
   StepRecord record;
 };
 
+PhysicsParams physics_of(const SessionSettings& settings) {
+  PhysicsParams params = settings.physics;
+  params.contact_n_per_m = std::max(params.contact_n_per_m, settings.haptic.stiffness_n_per_m);
+  return params;
+}
+
 bool is_hold(const Command& command) {
   return command.kind == CommandKind::kHoldBones && command.value >= 0 && command.value <= 1;
 }
@@ -49,7 +56,7 @@ struct Session::Impl {
       : the_case(c),
         tool(std::make_shared<const Tool>(make_wrist_probe(settings.probe_radius_m))),
         haptic{HapticLoop(c, tool), settings.haptic, {}, {}},
-        physics{BoneWorld(c, settings.physics), {}},
+        physics{BoneWorld(c, physics_of(settings)), {}},
         ticks_per_step(static_cast<std::uint64_t>(
             std::round(settings.physics.step_s / settings.haptic.tick_s))) {}
 

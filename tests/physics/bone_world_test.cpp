@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -282,6 +283,36 @@ TEST(BoneWorld, TheHashSeesEveryPart) {
   const std::uint64_t free_hash = world.state_hash();
   world.restore(rest, true);
   EXPECT_NE(world.state_hash(), free_hash);
+}
+
+// A stiff wall pushes a bone and learns of its place two steps late, as the haptic loop may.
+double farthest_after(double contact_n_per_m, double mass_kg, int steps) {
+  constexpr double kWall = 2000;
+  constexpr double kSpring = 300;
+  constexpr double kBalance = 0.001 * kWall / (kWall + kSpring);
+  PhysicsParams params = springs();
+  params.spring_n_per_m = kSpring;
+  params.contact_n_per_m = contact_n_per_m;
+  const auto the_case = box_case({mass_kg});
+  BoneWorld world(the_case, params);
+  const Vec3 rest_W = center_W(the_case->bones[0].X_WB);
+  const Vec3 n_W = Vec3::UnitZ();
+  std::array<double, 2> late{0, 0};
+  double farthest = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double depth = 0.001 - late[static_cast<std::size_t>(i % 2)];
+    const ToolState tool = depth > 0 ? push(0, rest_W, kWall * depth * n_W) : ToolState{};
+    const double way = (center_W(world.step(tool).bones[0].X_WB) - rest_W).dot(n_W);
+    late[static_cast<std::size_t>(i % 2)] = way;
+    if (i > steps - 100) farthest = std::max(farthest, std::abs(way - kBalance));
+  }
+  return farthest;
+}
+
+TEST(BoneWorld, ALightBoneUnderAStiffLateContactComesToRest) {
+  for (const double mass_kg : {0.0005, 0.002, 0.01, 0.1})
+    EXPECT_LT(farthest_after(2000, mass_kg, 1000), 1e-6) << mass_kg;
+  EXPECT_GT(farthest_after(0, 0.002, 1000), 1e-4) << "what the damper is for";
 }
 
 }  // namespace
