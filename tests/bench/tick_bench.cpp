@@ -1,24 +1,21 @@
-// The whole haptic tick over fifteen bones: in free air, pressing, and sliding. With OSTEON_SHARED
-// set: the wrist's own bones (convex hulls, as a case holds them); else fifteen ellipsoids of 600
-// corners in the same places.
+// The whole haptic tick over fifteen bones: in free air, pressing, sliding, and two tools that
+// slide at once. With OSTEON_SHARED set: the wrist's own bones in pieces, as a case holds them;
+// else fifteen ellipsoids of 600 corners in the same places.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "osteon/base/clock.h"
+#include "haptic/cpu_clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/haptic/haptic.h"
 #include "osteon/mesh/measure.h"
-#include "osteon/mesh/mesh_io.h"
-#include "osteon/mesh/repair.h"
 #include "osteon/scene/build_case.h"
+#include "wrist_case.h"
 
 namespace {
 
@@ -50,58 +47,32 @@ CaseDef ellipsoid_def() {
   return def;
 }
 
-// Empty when the shared folder is not there.
-CaseDef wrist_def() {
-  CaseDef def;
-  def.name = "wrist";
-  const char* shared = std::getenv("OSTEON_SHARED");
-  if (!shared) return def;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(shared) / "anatomy" / "wrist"))
-    if (entry.path().extension() == ".stl") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  constexpr double kMetresPerUnit = 1;
-  for (const auto& file : files) {
-    auto mesh = load_mesh(file, kMetresPerUnit);
-    if (!mesh) throw std::runtime_error(mesh.error().message());
-    repair(*mesh);
-    BoneDef bone;
-    bone.name = canonical_bone_name(file.stem().string());
-    bone.mesh = std::move(*mesh);
-    def.bones.push_back(std::move(bone));
-  }
-  return def;
-}
-
 std::shared_ptr<const Case> bench_case() {
   static const std::shared_ptr<const Case> the_case = [] {
-    CaseDef def = wrist_def();
+    CaseDef def = bench::wrist_def();
     if (def.bones.empty()) def = ellipsoid_def();
-    auto built = build_case(std::move(def));
-    if (!built) throw std::runtime_error(built.error().message());
-    return std::make_shared<const Case>(std::move(*built));
+    return bench::built(std::move(def));
   }();
   return the_case;
 }
 
-// Straight down onto the bone in the middle of the case.
+// Where the tools come down: in the middle of the wrist, or of the ellipsoids.
+constexpr std::array<std::array<const char*, 2>, 2> kTargets{
+    {{"capitate", "bone_7"}, {"scaphoid", "bone_8"}}};
+
+// Straight down onto a bone.
 struct Approach {
   Vec3 above;
   Vec3 surface;  // where the tip touches first
 };
 
-Approach find_approach(HapticLoop& loop, const BoneSnapshot& bones, const HapticParams& params) {
+Approach find_approach(HapticLoop& loop, const BoneSnapshot& bones, const HapticParams& params,
+                       std::size_t tool) {
   const Aabb box = bench_case()->bounds_W();
   Vec3 best = box.center();
-  double nearest = 1e300;
-  for (const Bone& bone : bench_case()->bones) {
-    const Vec3 center = bone.X_WB * bounds(bone.mesh).center();
-    if ((center - box.center()).norm() < nearest) {
-      nearest = (center - box.center()).norm();
-      best = center;
-    }
-  }
+  for (const Bone& bone : bench_case()->bones)
+    for (const char* name : kTargets[tool])
+      if (bone.name == name) best = bone.X_WB * bounds(bone.mesh).center();
   Approach out;
   out.above = Vec3(best.x(), best.y(), box.hi.z() + 0.005);
   for (double z = out.above.z(); z > box.lo.z(); z -= 5e-5) {
@@ -126,42 +97,58 @@ Vec3 hand_at(Motion motion, const Approach& at, std::int64_t i) {
   return pressed + 0.002 * Vec3(std::sin(6 * t), std::sin(8.3 * t), 0);
 }
 
-void run(benchmark::State& state, Motion motion) {
-  HapticLoop loop(bench_case(), std::make_shared<const Tool>(make_wrist_probe()));
-  const BoneSnapshot bones = rest_snapshot(*bench_case());
-  HapticParams params;
-  const Approach at = find_approach(loop, bones, params);
-  if (motion == kFree) {
+// A tool above its place on the bones, or on it.
+struct Hand {
+  HapticLoop loop;
+  Approach at;
+
+  explicit Hand(std::size_t tool)
+      : loop(bench_case(), std::make_shared<const Tool>(make_wrist_probe())),
+        at(find_approach(loop, rest_snapshot(*bench_case()), HapticParams{}, tool)) {}
+
+  void lift(const BoneSnapshot& bones) {
     ToolInput input;
-    for (int i = 0; i < 5; ++i) {
-      input.X_WD.p = at.above;
-      loop.tick(input, bones, 0, params);
-    }
+    input.X_WD.p = at.above;
+    for (int i = 0; i < 5; ++i) loop.tick(input, bones, 0, HapticParams{});
   }
+  bool tick(Motion motion, std::int64_t i, const BoneSnapshot& bones) {
+    ToolInput input;
+    input.X_WD.p = hand_at(motion, at, i);
+    return loop.tick(input, bones, 0, HapticParams{}).contact_count > 0;
+  }
+};
+
+void run(benchmark::State& state, Motion motion, std::size_t tools) {
+  const BoneSnapshot bones = rest_snapshot(*bench_case());
+  std::vector<Hand> hands;
+  for (std::size_t k = 0; k < tools; ++k) hands.emplace_back(k);
+  if (motion == kFree)
+    for (Hand& hand : hands) hand.lift(bones);
   Percentiles times;
   std::int64_t i = 0;
   std::int64_t contacts = 0;
   for (auto _ : state) {
-    ToolInput input;
-    input.X_WD.p = hand_at(motion, at, i++);
-    const std::int64_t start = steady_now_ns();
-    const ToolState& s = loop.tick(input, bones, 0, params);
-    times.add_ns(steady_now_ns() - start);
-    contacts += s.contact_count > 0;
+    const std::int64_t start = test::cpu_now_ns();
+    for (Hand& hand : hands) contacts += hand.tick(motion, i, bones);
+    times.add_ns(test::cpu_now_ns() - start);
+    ++i;
   }
   state.counters["p50_us"] = 1e-3 * times.quantile_ns(0.5);
   state.counters["p99_us"] = 1e-3 * times.quantile_ns(0.99);
   state.counters["p999_us"] = 1e-3 * times.quantile_ns(0.999);
-  state.counters["in_contact"] = static_cast<double>(contacts) / static_cast<double>(i);
+  state.counters["in_contact"] =
+      static_cast<double>(contacts) / (static_cast<double>(i) * static_cast<double>(tools));
   state.SetLabel(bench_case()->name);
 }
 
-void tick_free(benchmark::State& state) { run(state, kFree); }
-void tick_press(benchmark::State& state) { run(state, kPress); }
-void tick_slide(benchmark::State& state) { run(state, kSlide); }
+void tick_free(benchmark::State& state) { run(state, kFree, 1); }
+void tick_press(benchmark::State& state) { run(state, kPress, 1); }
+void tick_slide(benchmark::State& state) { run(state, kSlide, 1); }
+void tick_two_tools(benchmark::State& state) { run(state, kSlide, 2); }
 
 BENCHMARK(tick_free);
 BENCHMARK(tick_press);
 BENCHMARK(tick_slide);
+BENCHMARK(tick_two_tools);
 
 }  // namespace
