@@ -11,6 +11,7 @@ constexpr double kMm = 0.001;
 constexpr Range kPlace_mm{-2000, 2000};
 constexpr Range kRadius_mm{0.1, 1000};
 constexpr Range kBlend_mm{0, 100};
+constexpr Range kCell_mm{0.1, 10};
 constexpr Range kAngle_deg{-360, 360};
 
 /// Turns bone directions into the axes of a part that the description turns by `rotation_deg`.
@@ -78,6 +79,7 @@ Result<Part> read_part(const toml::table& table, Operation operation, double ble
   TomlReader in(table, where);
   Part part;
   part.operation = operation;
+  if (in.has("name")) part.name = in.text("name");
   const std::string shape = in.text("shape");
   const auto* known = std::find_if(std::begin(kShapes), std::end(kShapes),
                                    [&](const ShapeReader& s) { return shape == s.name; });
@@ -117,6 +119,7 @@ Result<BoneDescription> read_bone(const toml::table& table, const std::string& f
   bone.name = in.text("name");
   bone.fma_id = in.integer("fma_id", 1, 999999999);
   bone.density_kg_per_m3 = in.number_or("density_kg_per_m3", {1, 30000}, 1900);
+  bone.cell_m = in.number_or("cell_mm", kCell_mm, bone.cell_m / kMm) * kMm;
   bone.p_WB = in.vec3("position_mm", kPlace_mm) * kMm;
   bone.R_WB = rotation_xyz_deg(in.vec3_or("rotation_deg", kAngle_deg, Vec3::Zero()));
   const double blend = in.number_or("blend_mm", kBlend_mm, 0) * kMm;

@@ -22,6 +22,7 @@ struct BoneDescription {
   std::string name;
   int fma_id = 0;
   double density_kg_per_m3 = 1900;
+  double cell_m = 0.0006;  ///< of the grid on which its surface is found
   Vec3 p_WB = Vec3::Zero();
   Mat3 R_WB = Mat3::Identity();
   Solid solid;  ///< in Bone

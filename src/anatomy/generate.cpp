@@ -64,11 +64,11 @@ Result<GeneratedBone> grow(const AnatomyDescription& anatomy, const BoneDescript
                            const GenerateOptions& options, const std::string& file) {
   const BoneField field(anatomy, bone);
   IsosurfaceOptions surface;
-  surface.cell_m = options.cell_m;
+  surface.cell_m = options.cell_m.value_or(bone.cell_m);
   surface.stretch = field.stretch();
   surface.slack_m = field.slack();
   auto mesh = isosurface([&field](const Vec3& p_B) { return field(p_B); },
-                         bounds(bone.solid).grown(options.cell_m), surface);
+                         bounds(bone.solid).grown(surface.cell_m), surface);
   if (!mesh)
     return fail("its surface cannot be found: " + mesh.error().what,
                 file + ": bone '" + bone.name + "'", mesh.error().todo);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -72,7 +73,8 @@ enum class Operation { kAdd, kCut };
 struct Part {
   Operation operation = Operation::kAdd;
   Primitive primitive;
-  double blend = 0;  ///< radius of the smooth join, metres
+  double blend = 0;       ///< radius of the smooth join, metres
+  std::string name = {};  ///< may be empty; variation tables act on parts by it
 };
 
 /// Parts folded in their order: each is joined to, or cut from, all before it.

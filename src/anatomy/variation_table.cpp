@@ -13,9 +13,10 @@ constexpr Range kPlace_mm{-2000, 2000};
 constexpr Range kValue{-1e4, 1e4};
 
 StepTargets read_targets(TomlReader& in) {
-  StepTargets targets{in.texts("bones"), in.texts("landmarks")};
+  StepTargets targets{in.texts("bones"), in.texts("landmarks"), in.texts("parts")};
   if (targets.bones.empty() && targets.landmarks.empty())
     in.reject("is missing, and so is 'landmarks'", "bones");
+  if (targets.bones.empty() && !targets.parts.empty()) in.reject("must say whose parts", "bones");
   return targets;
 }
 

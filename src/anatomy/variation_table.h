@@ -9,9 +9,10 @@
 
 namespace osteon {
 
-/// What a step acts on. "*" stands for every bone, or every landmark.
+/// What a step acts on. "*" stands for every bone, or every landmark. Where `parts` names any, of
+/// the bones only these parts.
 struct StepTargets {
-  std::vector<std::string> bones, landmarks;
+  std::vector<std::string> bones, landmarks, parts;
 };
 
 /// Bends shafts: what lies at x_W of `full_x` or less turns about the pivot, what lies at `none_x`

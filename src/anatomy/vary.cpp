@@ -1,7 +1,9 @@
 #include "vary.h"
 
 #include <algorithm>
-#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace osteon {
 namespace {
@@ -43,6 +45,17 @@ struct Bend {
   }
 };
 
+struct Shifter {
+  Vec3 by_B;
+  void operator()(Ellipsoid& e) const { e.center += by_B; }
+  void operator()(RoundedBox& b) const { b.center += by_B; }
+  void operator()(HalfSpace& h) const { h.point += by_B; }
+  void operator()(Tube& t) const {
+    for (Vec3& p : t.points) p += by_B;
+  }
+};
+
+/// About the bone's origin.
 struct Scaler {
   double s;
   void operator()(Ellipsoid& e) const {
@@ -61,6 +74,31 @@ struct Scaler {
     find_reach(t);
   }
 };
+
+/// Calls `act` with the bone's parts that the targets name, all where they name none.
+template <class Act>
+void for_parts(BoneDescription& bone, const StepTargets& targets, const Act& act) {
+  for (Part& part : bone.solid.parts)
+    if (targets.parts.empty() ||
+        std::find(targets.parts.begin(), targets.parts.end(), part.name) != targets.parts.end())
+      act(part);
+}
+
+void shift_parts(BoneDescription& bone, const StepTargets& targets, const Vec3& by_W) {
+  const Vec3 by_B = bone.R_WB.transpose() * by_W;
+  for_parts(bone, targets, [&](Part& part) { std::visit(Shifter{by_B}, part.primitive); });
+}
+
+void scale_parts(BoneDescription& bone, const StepTargets& targets, const Vec3& center_W,
+                 double s) {
+  const Vec3 center_B = bone.R_WB.transpose() * (center_W - bone.p_WB);
+  const Vec3 back_B = center_B - s * center_B;
+  for_parts(bone, targets, [&](Part& part) {
+    std::visit(Scaler{s}, part.primitive);
+    std::visit(Shifter{back_B}, part.primitive);
+    part.blend *= s;
+  });
+}
 
 void scale_bone(BoneDescription& bone, const Vec3& center_W, double s) {
   bone.p_WB = center_W + s * (bone.p_WB - center_W);
@@ -90,9 +128,23 @@ Result<void> for_each_named(std::vector<Item>& items, const std::vector<std::str
   return {};
 }
 
+/// The first named part that no named bone has.
+Result<void> find_parts(const AnatomyDescription& anatomy, const StepTargets& targets) {
+  for (const std::string& name : targets.parts) {
+    bool found = false;
+    for (const BoneDescription& bone : anatomy.bones)
+      for (const Part& part : bone.solid.parts)
+        found = found || (part.name == name && std::find(targets.bones.begin(), targets.bones.end(),
+                                                         bone.name) != targets.bones.end());
+    if (!found) return fail("names no part of its bones: '" + name + "'");
+  }
+  return {};
+}
+
 template <class OnBone, class OnLandmark>
 Result<void> for_targets(AnatomyDescription& anatomy, const StepTargets& targets,
                          const OnBone& on_bone, const OnLandmark& on_landmark) {
+  if (auto ok = find_parts(anatomy, targets); !ok) return ok;
   if (auto ok = for_each_named(anatomy.bones, targets.bones, "bone", on_bone); !ok) return ok;
   return for_each_named(anatomy.landmarks, targets.landmarks, "landmark", on_landmark);
 }
@@ -101,7 +153,9 @@ Result<void> apply(AnatomyDescription& anatomy, const TurnStep& step, double uni
   return for_targets(
       anatomy, step.targets,
       [&](BoneDescription& bone) {
-        for (Part& part : bone.solid.parts) std::visit(Bend{step, units, bone}, part.primitive);
+        for_parts(bone, step.targets, [&](Part& part) {
+          std::visit(Bend{step, units, bone}, part.primitive);
+        });
       },
       [&](LandmarkDescription& landmark) {
         const BoneDescription world{};
@@ -112,7 +166,13 @@ Result<void> apply(AnatomyDescription& anatomy, const TurnStep& step, double uni
 Result<void> apply(AnatomyDescription& anatomy, const ShiftStep& step, double units) {
   const Vec3 by_W = step.metres_per_unit * units;
   return for_targets(
-      anatomy, step.targets, [&](BoneDescription& bone) { bone.p_WB += by_W; },
+      anatomy, step.targets,
+      [&](BoneDescription& bone) {
+        if (step.targets.parts.empty())
+          bone.p_WB += by_W;
+        else
+          shift_parts(bone, step.targets, by_W);
+      },
       [&](LandmarkDescription& landmark) { landmark.p_W += by_W; });
 }
 
@@ -121,7 +181,13 @@ Result<void> apply(AnatomyDescription& anatomy, const ScaleStep& step, double un
   if (s < 0.1 || s > 10) return fail("scales by " + std::to_string(s) + ", out of 0.1 to 10");
   const auto scaled = [&](const Vec3& p) { return Vec3(step.center_W + s * (p - step.center_W)); };
   return for_targets(
-      anatomy, step.targets, [&](BoneDescription& bone) { scale_bone(bone, step.center_W, s); },
+      anatomy, step.targets,
+      [&](BoneDescription& bone) {
+        if (step.targets.parts.empty())
+          scale_bone(bone, step.center_W, s);
+        else
+          scale_parts(bone, step.targets, step.center_W, s);
+      },
       [&](LandmarkDescription& landmark) { landmark.p_W = scaled(landmark.p_W); });
 }
 

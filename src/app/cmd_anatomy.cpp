@@ -26,18 +26,6 @@ struct MakeCommand {
   std::vector<std::string> set;
 };
 
-struct AnatomyFiles {
-  std::filesystem::path description, table;
-};
-
-Result<AnatomyFiles> files_of(const std::string& name) {
-  if (name != "wrist") return fail("there is no anatomy '" + name + "'", "anatomy", "Use wrist");
-  const auto data = find_data_dir();
-  if (!data) return tl::unexpected(data.error());
-  const auto folder = *data / "assets/anatomy";
-  return AnatomyFiles{folder / (name + ".toml"), folder / (name + "_variation.toml")};
-}
-
 std::string shown(double v) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", v);
@@ -48,13 +36,13 @@ Result<ParameterValue> read_set(const std::string& text) {
   const auto equals = text.find('=');
   const std::string where = "--set " + text;
   if (equals == std::string::npos || equals == 0)
-    return fail("is not NAME=NUMBER", where, "See osteon anatomy list wrist");
+    return fail("is not NAME=NUMBER", where, "See osteon anatomy list");
   const char* const first = text.data() + equals + 1;
   const char* const last = text.data() + text.size();
   double value = 0;
   const auto read = std::from_chars(first, last, value);
   if (read.ec != std::errc{} || read.ptr != last)
-    return fail("is not NAME=NUMBER", where, "See osteon anatomy list wrist");
+    return fail("is not NAME=NUMBER", where, "See osteon anatomy list");
   return ParameterValue{text.substr(0, equals), value};
 }
 
@@ -94,7 +82,7 @@ Result<void> save_with_note(const CaseDef& def, const std::string& note,
 }
 
 Result<VariedAnatomy> grow(const MakeCommand& command) {
-  const auto files = files_of(command.name);
+  const auto files = builtin_anatomy(command.name);
   if (!files) return tl::unexpected(files.error());
   const auto request = request_of(command);
   if (!request) return tl::unexpected(request.error());
@@ -125,7 +113,7 @@ int run_make(const MakeCommand& command) {
 }
 
 int run_list(const std::string& name) {
-  const auto files = files_of(name);
+  const auto files = builtin_anatomy(name);
   if (!files) return report_error(files.error());
   const auto parameters = list_variation(files->table);
   if (!parameters) return report_error(parameters.error());
@@ -140,14 +128,14 @@ int run_list(const std::string& name) {
 void add_list(CLI::App& anatomy, int& exit_code) {
   CLI::App* list = anatomy.add_subcommand("list", "Say what can be varied, and how far");
   auto name = std::make_shared<std::string>();
-  list->add_option("anatomy", *name, "wrist")->required();
+  list->add_option("anatomy", *name, "wrist or knee")->required();
   list->callback([name, &exit_code] { exit_code = run_list(*name); });
 }
 
 void add_make(CLI::App& anatomy, int& exit_code) {
   CLI::App* make = anatomy.add_subcommand("make", "Make a case of a varied anatomy");
   auto command = std::make_shared<MakeCommand>();
-  make->add_option("anatomy", command->name, "wrist")->required();
+  make->add_option("anatomy", command->name, "wrist or knee")->required();
   make->add_option("--seed", command->seed,
                    "draw every parameter that is not set; none: as built in");
   make->add_option("--set", command->set, "NAME=NUMBER; may be given several times")

@@ -160,7 +160,8 @@ void add_anatomy_compare(CLI::App& anatomy, int& exit_code) {
       "Lay each bone over the one of the same name and say how far their surfaces lie "
       "apart; list joint gaps and overlaps");
   auto command = std::make_shared<CompareCommand>();
-  sub->add_option("case", command->case_spec, "a case folder or builtin:wrist")->required();
+  sub->add_option("case", command->case_spec, "a case folder, builtin:wrist or builtin:knee")
+      ->required();
   sub->add_option("--reference", command->reference, "a case, or a folder of meshes")->required();
   auto unit = std::make_shared<std::string>("m");
   sub->add_option("--unit", *unit, "unit of a reference folder's meshes (default: m)")

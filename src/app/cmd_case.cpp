@@ -133,11 +133,11 @@ void add_case(CLI::App& app, int& exit_code) {
   group->require_subcommand(1);
   auto spec = std::make_shared<std::string>();
   CLI::App* info = group->add_subcommand("info", "List the bones of a case");
-  info->add_option("case", *spec, "a case folder or builtin:wrist")->required();
+  info->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   info->callback([spec, &exit_code] { exit_code = run_info(*spec); });
   CLI::App* check = group->add_subcommand(
       "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
-  check->add_option("case", *spec, "a case folder or builtin:wrist")->required();
+  check->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   check->callback([spec, &exit_code] { exit_code = run_check(*spec); });
 }
 

@@ -190,7 +190,7 @@ void add_live_command(CLI::App& app, int& exit_code) {
                    "driver, or driver:serial; give it twice for two hands, each with a session "
                    "and a thread of its own")
       ->capture_default_str();
-  command->add_option("--case", options->case_spec, "a case folder or builtin:wrist")
+  command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--path", options->path, "what the virtual hand follows (CSV)");
   command->add_option("--seconds", options->seconds, "then end; 0: until Ctrl-C")

@@ -47,7 +47,7 @@ void add_path_commands(CLI::App& app, int& exit_code) {
   auto survey = std::make_shared<SurveyCommand>();
   CLI::App* command = group->add_subcommand(
       "survey", "A path that visits every bone in reach: press along the normal, stroke, retreat");
-  command->add_option("--case", survey->case_spec, "a case folder or builtin:wrist")
+  command->add_option("--case", survey->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--seed", survey->options.seed, "which places are chosen")
       ->capture_default_str();

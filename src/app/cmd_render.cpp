@@ -19,6 +19,7 @@ struct RenderOptions {
   std::string size = "1280x720";
   std::vector<std::string> hidden;
   bool hulls = false;
+  bool joint = false;
   std::string out;
 };
 
@@ -27,6 +28,7 @@ Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, 
   if (!preset) return tl::unexpected(preset.error());
   ViewState view = default_view(the_case);
   view.camera = preset_camera(*preset, the_case, aspect);
+  if (options.joint) view.camera = close_up_camera(view.camera, the_case, BoneId{}, aspect);
   view.quality = RenderQuality::kFine;
   view.show_hulls = options.hulls;
   view.show_proxy = view.show_force = view.show_hand_ghost = false;
@@ -72,9 +74,14 @@ int run(const RenderOptions& options) {
 void add_render_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Draw a picture of a case, without a window");
-  command->add_option("--case", options->case_spec, "Case folder, or builtin:wrist")->required();
-  command->add_option("--view", options->view, "dorsal, palmar, radial, ulnar, ap or lateral")
+  command->add_option("--case", options->case_spec, "Case folder, builtin:wrist or builtin:knee")
+      ->required();
+  command
+      ->add_option(
+          "--view", options->view,
+          "dorsal, palmar, radial, ulnar, ap or lateral; of a knee front, back, outer, inner")
       ->capture_default_str();
+  command->add_flag("--joint", options->joint, "Nearer: the carpal bones, or the knee's joint");
   command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
   command->add_flag("--hulls", options->hulls, "Draw the convex pieces that the probe feels");
   command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');

@@ -73,7 +73,8 @@ void add_scan_command(CLI::App& app, int& exit_code) {
   CLI::App* scan = app.add_subcommand(
       "scan", "Make a CT series (DICOM) of a case with a virtual scanner of known truth");
   auto command = std::make_shared<ScanCommand>();
-  scan->add_option("case", command->spec, "a case folder or builtin:wrist")->required();
+  scan->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
+      ->required();
   scan->add_option("--out", command->out, "the folder to make")->required();
   scan->add_option("--spacing", command->spacing_mm, "mm between pixels")->capture_default_str();
   scan->add_option("--slice", command->slice_mm, "mm between slices")->capture_default_str();

@@ -47,7 +47,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = app.add_subcommand(
       "simulate", "Drive the virtual hand along a path, without a window, as fast as it goes");
-  command->add_option("--case", options->case_spec, "a case folder or builtin:wrist")
+  command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--path", options->path, "probe path, CSV")->required();
   command->add_option("--record", options->record, "write a recording (.osr)");

@@ -45,18 +45,25 @@ void keep(Cache& cache, const std::string& spec, const std::string& kind) {
 }
 
 Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress) {
-  if (name != "wrist")
-    return fail("there is no built-in case '" + name + "'", "case", "Use builtin:wrist");
-  const auto data = find_data_dir();
-  if (!data) return tl::unexpected(data.error());
+  const auto files = builtin_anatomy(name);
+  if (!files) return tl::unexpected(files.error());
   GenerateOptions options;
   options.progress = progress;
-  auto anatomy = generate_anatomy(*data / "assets/anatomy" / (name + ".toml"), options);
+  auto anatomy = generate_anatomy(files->description, options);
   if (!anatomy) return tl::unexpected(anatomy.error());
   return case_from(std::move(*anatomy));
 }
 
 }  // namespace
+
+Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
+  if (name != "wrist" && name != "knee")
+    return fail("there is no built-in anatomy '" + name + "'", "anatomy", "Use wrist or knee");
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  const auto folder = *data / "assets/anatomy";
+  return AnatomyFiles{folder / (name + ".toml"), folder / (name + "_variation.toml")};
+}
 
 CaseDef case_from(GeneratedAnatomy anatomy) {
   CaseDef def;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,12 +12,18 @@
 
 namespace osteon {
 
+/// Description and variation table of a built-in anatomy; fails on a name that there is none of.
+struct AnatomyFiles {
+  std::filesystem::path description, table;
+};
+Result<AnatomyFiles> builtin_anatomy(const std::string& name);
+
 /// The bones and landmarks of a grown anatomy, with default materials.
 CaseDef case_from(GeneratedAnatomy anatomy);
 
-/// Case by what a user names it: `builtin:wrist` is grown from its description in the assets,
-/// anything else is a case folder. A choice of what is felt may follow (felt_choice.h). `progress`
-/// is told the share of the bones grown; it may throw to stop.
+/// Case by what a user names it: `builtin:wrist` and `builtin:knee` are grown from their
+/// descriptions in the assets, anything else is a case folder. A choice of what is felt may follow
+/// (felt_choice.h). `progress` is told the share of the bones grown; it may throw to stop.
 Result<CaseDef> open_case_def(const std::string& spec,
                               const std::function<void(double)>& progress = {});
 /// The same, built. The pieces of its bones are kept beside the case (pieces.bin), or in the user's

@@ -37,11 +37,14 @@ Result<ViewPreset> parse_view_preset(const std::string& text) {
   const std::pair<const char*, ViewPreset> presets[] = {
       {"dorsal", ViewPreset::kDorsal}, {"palmar", ViewPreset::kPalmar},
       {"radial", ViewPreset::kRadial}, {"ulnar", ViewPreset::kUlnar},
-      {"ap", ViewPreset::kAp},         {"lateral", ViewPreset::kLateral}};
+      {"ap", ViewPreset::kAp},         {"lateral", ViewPreset::kLateral},
+      {"front", ViewPreset::kDorsal},  {"back", ViewPreset::kPalmar},
+      {"outer", ViewPreset::kRadial},  {"inner", ViewPreset::kUlnar}};
   for (const auto& [name, preset] : presets)
     if (text == name) return preset;
-  return fail("\"" + text + "\" is not a view", "--view",
-              "choose dorsal, palmar, radial, ulnar, ap or lateral");
+  return fail(
+      "\"" + text + "\" is not a view", "--view",
+      "choose dorsal, palmar, radial, ulnar, ap or lateral; of a knee front, back, outer or inner");
 }
 
 Result<void> hide_bones(const Case& the_case, const std::vector<std::string>& names,

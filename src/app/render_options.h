@@ -15,7 +15,8 @@ struct PictureSize {
 /// "1280x720"; each side 1 to kMaxImageSide.
 Result<PictureSize> parse_picture_size(const std::string& text);
 
-/// "dorsal", "palmar", "radial", "ulnar", "ap" or "lateral".
+/// "dorsal", "palmar", "radial", "ulnar", "ap" or "lateral"; the first four are a knee's "front",
+/// "back", "outer" and "inner".
 Result<ViewPreset> parse_view_preset(const std::string& text);
 
 /// Makes the named bones ("scaphoid,lunate") invisible. Fails with the name that the case lacks.

@@ -50,7 +50,30 @@ std::optional<Vec3> proximal_point_W(const Case& the_case) {
   return mean_of(the_case, {"scaphoid", "lunate", "triquetrum", "pisiform"});
 }
 
-/// From the little finger's side to the thumb's.
+std::optional<Vec3> difference(const std::optional<Vec3>& to, const std::optional<Vec3>& from) {
+  if (!to || !from) return std::nullopt;
+  return Vec3(*to - *from);
+}
+
+/// What is up in every view: from the forearm to the fingers, or from the tibia to the femur.
+std::optional<Vec3> upwards_W(const Case& the_case) {
+  const auto hand =
+      difference(first_of(the_case, {"metacarpal_3", "capitate"}), proximal_point_W(the_case));
+  return hand ? hand : difference(centroid_W(the_case, "femur"), centroid_W(the_case, "tibia"));
+}
+
+/// Across a knee, to the fibula's side. The fibula itself lies outwards and behind.
+std::optional<Vec3> towards_fibula_W(const Case& the_case) {
+  const auto tibia = centroid_W(the_case, "tibia");
+  const auto forwards = difference(centroid_W(the_case, "patella"), tibia);
+  const auto upwards = difference(centroid_W(the_case, "femur"), tibia);
+  const auto fibula = difference(centroid_W(the_case, "fibula"), tibia);
+  if (!forwards || !upwards || !fibula) return std::nullopt;
+  const Vec3 across = forwards->cross(*upwards);
+  return across.dot(*fibula) < 0 ? Vec3(-across) : across;
+}
+
+/// From the little finger's side to the thumb's, or across a knee.
 std::optional<Vec3> towards_thumb_W(const Case& the_case) {
   auto ulnar = centroid_W(the_case, "ulna");
   auto radial = centroid_W(the_case, "radius");
@@ -58,12 +81,15 @@ std::optional<Vec3> towards_thumb_W(const Case& the_case) {
     ulnar = first_of(the_case, {"metacarpal_5", "hamate", "triquetrum"});
     radial = first_of(the_case, {"metacarpal_2", "trapezoid", "scaphoid"});
   }
-  if (!ulnar || !radial) return std::nullopt;
-  return Vec3(*radial - *ulnar);
+  const auto hand = difference(radial, ulnar);
+  return hand ? hand : towards_fibula_W(the_case);
 }
 
-/// +1 or -1: which way along `dorsal_W`, the right hand's, the back of this hand lies.
+/// +1 or -1: which way along `dorsal_W`, the right side's, the back of this hand or the front of
+/// this knee lies.
 double dorsal_sign(const Case& the_case, const Vec3& dorsal_W) {
+  const auto forwards = difference(centroid_W(the_case, "patella"), centroid_W(the_case, "tibia"));
+  if (forwards) return forwards->dot(dorsal_W) < 0 ? -1 : 1;
   const auto pisiform = centroid_W(the_case, "pisiform");
   const auto triquetrum = centroid_W(the_case, "triquetrum");
   if (pisiform && triquetrum) return (*pisiform - *triquetrum).dot(dorsal_W) > 0 ? -1 : 1;
@@ -102,6 +128,17 @@ std::vector<Vec3> carpal_points_W(const Case& the_case) {
   for (const std::string_view name : {"scaphoid", "lunate", "triquetrum", "pisiform", "trapezium",
                                       "trapezoid", "capitate", "hamate"})
     if (const BoneId id = the_case.find(name); id.valid()) add_points_W(the_case.bone(id), points);
+  return points;
+}
+
+/// The knee's joint: all within 9 cm of the middle of the patella.
+std::vector<Vec3> knee_points_W(const Case& the_case) {
+  constexpr double kReach_m = 0.09;
+  const auto middle = centroid_W(the_case, "patella");
+  std::vector<Vec3> points;
+  if (!middle) return points;
+  for (const Vec3& p : all_points_W(the_case))
+    if ((p - *middle).norm() < kReach_m) points.push_back(p);
   return points;
 }
 
@@ -163,12 +200,11 @@ void frame_points(const std::vector<Vec3>& points_W, double aspect, const Covere
 
 AnatomicalFrame anatomical_frame(const Case& the_case) {
   AnatomicalFrame frame;
-  const auto proximal = proximal_point_W(the_case);
-  const auto distal = first_of(the_case, {"metacarpal_3", "capitate"});
+  const auto upwards = upwards_W(the_case);
   const auto thumb = towards_thumb_W(the_case);
-  if (!proximal || !distal || !thumb) return frame;
+  if (!upwards || !thumb) return frame;
   const double smallest_m = 1e-6;
-  const Vec3 along = *distal - *proximal;
+  const Vec3 along = *upwards;
   if (along.norm() < smallest_m) return frame;
   const Vec3 up = along.normalized();
   const Vec3 across = *thumb - up * up.dot(*thumb);
@@ -198,6 +234,7 @@ Camera close_up_camera(const Camera& from, const Case& the_case, BoneId bone, do
   std::vector<Vec3> points;
   if (bone.index < the_case.bones.size()) add_points_W(the_case.bone(bone), points);
   if (points.empty()) points = carpal_points_W(the_case);
+  if (points.empty()) points = knee_points_W(the_case);
   if (points.empty()) points = all_points_W(the_case);
   Camera camera = from;
   if (!points.empty()) frame_points(points, aspect, covered, camera);

@@ -9,6 +9,14 @@
 namespace osteon {
 namespace {
 
+void add_part(Solid& solid, Operation operation, const Primitive& primitive, double blend) {
+  Part part;
+  part.operation = operation;
+  part.primitive = primitive;
+  part.blend = blend;
+  solid.parts.push_back(part);
+}
+
 Vec3 random_point(Random& random, double half) {
   const double x = random.uniform(-half, half);
   const double y = random.uniform(-half, half);
@@ -136,8 +144,8 @@ TEST(Shape, SmoothMinimumIsLowerByAtMostAQuarterOfItsRadius) {
 
 TEST(Shape, CutTakesAway) {
   Solid solid;
-  solid.parts.push_back({Operation::kAdd, Ellipsoid{}, 0});
-  solid.parts.push_back({Operation::kCut, HalfSpace{Vec3::Zero(), Vec3::UnitX()}, 0});
+  add_part(solid, Operation::kAdd, Ellipsoid{}, 0);
+  add_part(solid, Operation::kCut, HalfSpace{Vec3::Zero(), Vec3::UnitX()}, 0);
   EXPECT_GT(distance(solid, Vec3(-0.5, 0, 0)), 0);
   EXPECT_LT(distance(solid, Vec3(0.5, 0, 0)), 0);
   EXPECT_EQ(distance(solid, Vec3(-0.5, 0, 0)), 0.5);

@@ -21,6 +21,8 @@ TEST(RenderOptions, ReadsASize) {
 TEST(RenderOptions, KnowsTheViews) {
   EXPECT_EQ(parse_view_preset("ulnar").value(), ViewPreset::kUlnar);
   EXPECT_EQ(parse_view_preset("ap").value(), ViewPreset::kAp);
+  EXPECT_EQ(parse_view_preset("front").value(), ViewPreset::kDorsal);
+  EXPECT_EQ(parse_view_preset("inner").value(), ViewPreset::kUlnar);
   EXPECT_FALSE(parse_view_preset("Dorsal").has_value());
 }
 

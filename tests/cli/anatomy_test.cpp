@@ -18,6 +18,25 @@ TEST_F(Anatomy, ListSaysMeanDeviationRangeAndSource) {
     EXPECT_NE(ran.output.find(word), std::string::npos) << word << " in\n" << ran.output;
 }
 
+TEST_F(Anatomy, AKneeIsMadeAgainByItsSeedAndChecksSound) {
+  for (const char* name : {"a", "b"}) {
+    const Ran ran =
+        run_osteon("anatomy make knee --seed 7 --set notch_width_mm=18 --out " + file(name));
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(file("a"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(text_of("a/" + name), text_of("b/" + name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(files, 5u) << "four meshes and case.toml";
+  EXPECT_NE(text_of("a/case.toml").find("# notch_width_mm = 18\n"), std::string::npos);
+  const auto def = load_case(file("a"));
+  ASSERT_TRUE(def) << def.error().message();
+  EXPECT_EQ(check_case(*def), std::vector<std::string>{});
+}
+
 TEST_F(Anatomy, BadRequestsExitWithTwoAndWriteNothing) {
   for (const char* bad :
        {"wrist --set radial_inclination_deg=80", "wrist --set nose_mm=1", "wrist --set nonsense",

@@ -62,6 +62,26 @@ TEST(AnatomicalFrame, FoundInAnyPoseOfEitherHand) {
   }
 }
 
+/// Of a knee: proximal up, the front in the place of the back of the hand, lateral for radial.
+TEST(AnatomicalFrame, KneeFoundInAnyPoseOfEitherLeg) {
+  Random random(9);
+  for (int k = 0; k < 20; ++k) {
+    const Axes axes = random_axes(random, k % 2 == 1);
+    const auto at = [&](double up, double front, double lateral) {
+      return Vec3(up * axes.distal + front * axes.dorsal + lateral * axes.radial);
+    };
+    Case knee;
+    const TriMesh ball = sphere_mesh(0.004);
+    knee.bones.push_back(make_bone("femur", ball, at(0.2, 0, 0)));
+    knee.bones.push_back(make_bone("tibia", ball, at(-0.2, 0, 0)));
+    knee.bones.push_back(make_bone("fibula", ball, at(-0.21, -0.03, 0.03)));
+    knee.bones.push_back(make_bone("patella", ball, at(0.04, 0.045, 0)));
+    expect_axes(anatomical_frame(knee), axes, 0.06);
+    const Camera near = close_up_camera(Camera{}, knee, BoneId{}, 1);
+    EXPECT_LT((near.target_W - knee.bones[3].X_WB.p).norm(), 0.01);
+  }
+}
+
 TEST(AnatomicalFrame, SideDecidesWithoutThePisiform) {
   Random random(8);
   for (const bool left : {false, true}) {

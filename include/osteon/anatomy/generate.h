@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct GeneratedAnatomy {
 };
 
 struct GenerateOptions {
-  double cell_m = 0.0006;  ///< of the grid on which surfaces are found
+  /// Of the grid on which surfaces are found; none: what the description says for each bone.
+  std::optional<double> cell_m = {};
   /// Told the share done, 0 to 1, before each bone and at the end; may throw to stop.
   std::function<void(double)> progress = {};
 };

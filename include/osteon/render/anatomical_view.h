@@ -6,7 +6,8 @@
 
 namespace osteon {
 
-/// Directions of a hand in World: unit, at right angles to each other.
+/// Directions of a hand in World: unit, at right angles to each other. Of a knee: proximal, to the
+/// front, and lateral stand in the places of distal, dorsal and radial.
 struct AnatomicalFrame {
   Vec3 distal_W = Vec3::UnitY();   ///< towards the finger tips; upwards in every preset view
   Vec3 dorsal_W = Vec3::UnitZ();   ///< out of the back of the hand
@@ -17,7 +18,8 @@ struct AnatomicalFrame {
 /// Frame of the case's rest pose. Distal runs from the radius (the ulna, else the mean of the
 /// carpal bones) to the third metacarpal's centroid, radial from the ulna (the fifth metacarpal) to
 /// the radius (the second metacarpal); the pisiform, which lies palmar of the triquetrum, tells the
-/// back from the palm, else the case's side does (right when it does not say). World's axes (z
+/// back from the palm, else the case's side does (right when it does not say). A knee is told by
+/// its femur, tibia, fibula and patella. World's axes (z
 /// dorsal, y distal, the right hand's -x radial) when these bones are missing or lie on a line.
 AnatomicalFrame anatomical_frame(const Case& the_case);
 
@@ -36,8 +38,8 @@ struct CoveredEdges {
 Camera preset_camera(ViewPreset preset, const Case& the_case, double aspect,
                      const CoveredEdges& covered = {});
 
-/// The same direction, nearer: frames one bone, or without one the carpal bones, or all of a case
-/// that has none.
+/// The same direction, nearer: frames one bone, or without one the carpal bones, what lies about
+/// the patella, or all of a case that has neither.
 Camera close_up_camera(const Camera& from, const Case& the_case, BoneId bone, double aspect,
                        const CoveredEdges& covered = {});
 
