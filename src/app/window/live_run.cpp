@@ -53,6 +53,11 @@ Result<void> LiveRun::start(const DeviceChoice& choice, const Pose& X_WD_start,
   return start_run(X_WD_start, nullptr);
 }
 
+// Before the first tick has been seen it is where the run began.
+Pose LiveRun::probe_now() const {
+  return snapshot_.tool.tick > 0 ? snapshot_.tool.X_WP : X_WD_wanted_;
+}
+
 // Leaves the run's device in `held_` and keeps what tripped.
 void LiveRun::end_run() {
   if (!runtime_) return;
@@ -129,14 +134,14 @@ std::unique_ptr<HapticDevice> LiveRun::lend_device() {
 
 Result<void> LiveRun::take_back(std::unique_ptr<HapticDevice> device) {
   held_ = std::move(device);
-  return start_run(snapshot_.tool.X_WP, nullptr);
+  return start_run(probe_now(), nullptr);
 }
 
 Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_WC) {
   if (recording_) return fail("stop the recording before changing the mapping");
   user_ = sane(user);
   q_WC_ = q_WC;
-  return start_run(snapshot_.tool.X_WP, nullptr);
+  return start_run(probe_now(), nullptr);
 }
 
 RecordingHeader LiveRun::header() const {
@@ -160,14 +165,14 @@ Result<void> LiveRun::start_recording(const std::filesystem::path& file) {
   auto writer = RecordingWriter::create(file, header());
   if (!writer) return tl::unexpected(writer.error());
   recording_file_ = file;
-  return start_run(snapshot_.tool.X_WP, std::make_unique<RecordFeed>(std::move(*writer)));
+  return start_run(probe_now(), std::make_unique<RecordFeed>(std::move(*writer)));
 }
 
 Result<void> LiveRun::stop_recording() {
   if (!recording_) return {};
   const Result<void> closed = runtime_->stop();
   recording_ = false;
-  const Result<void> restarted = start_run(snapshot_.tool.X_WP, nullptr);
+  const Result<void> restarted = start_run(probe_now(), nullptr);
   return closed ? restarted : closed;
 }
 

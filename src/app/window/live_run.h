@@ -97,6 +97,7 @@ class LiveRun {
   Result<std::unique_ptr<HapticDevice>> device_for_next_run();
   DeviceMapping mapping_at(const Pose& X_WD_start, HapticDevice& device) const;
   void end_run();
+  Pose probe_now() const;
   RecordingHeader header() const;
 
   std::shared_ptr<const Case> case_;

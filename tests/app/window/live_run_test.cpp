@@ -74,6 +74,19 @@ TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
   EXPECT_TRUE(live.stop_recording());
 }
 
+// The mouse's hand is where the run began until it is moved: a run that follows at once is there
+// too.
+TEST_F(LiveRunTest, ARunThatFollowsAtOnceBeginsWhereTheOneBeforeDid) {
+  const auto choices = list_device_choices(nullptr);
+  const Pose start{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  LiveRun mouse(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(
+      mouse.start(choices.at(static_cast<std::size_t>(find_choice(choices, "mouse"))), start));
+  ASSERT_TRUE(mouse.start_recording(file));
+  run_until(mouse, [&] { return mouse.snapshot().tool.tick > 4; });
+  EXPECT_LT((mouse.snapshot().tool.X_WP.p - start.p).norm(), 1e-6);
+}
+
 TEST_F(LiveRunTest, EndedItKeepsTheRecordingAndRunsNoMore) {
   live.keep_force_log(log);
   ASSERT_TRUE(live.start_recording(file));
