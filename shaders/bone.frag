@@ -2,9 +2,13 @@
 // ground through the baked occlusion, and the shade that the probe throws.
 in vec3 v_position;
 in vec3 v_normal;
-in vec3 v_shade;  // openness, cavity, mottle
+in vec4 v_shade;  // openness, cavity, mottle, height of what is felt
 
 uniform vec4 u_color;      // display colour and opacity
+uniform int u_felt;         // 1: coloured by that height
+uniform vec3 u_felt_low;    // display colours of its range
+uniform vec3 u_felt_none;
+uniform vec3 u_felt_high;
 uniform vec4 u_rim_color;  // accent of a highlighted bone, linear; w its strength
 uniform vec4 u_tool_tip;    // view space; w the radius, 0 without a tool
 uniform vec3 u_tool_start;  // axis of the shaft
@@ -52,6 +56,10 @@ void main() {
   vec3 albedo = to_linear(u_color.rgb);
   float mottle = v_shade.z - 0.5;
   albedo *= 1.0 + vec3(0.16, 0.20, 0.30) * mottle;
+  if (u_felt == 1) {
+    float height = clamp((v_shade.w * 255.0 - 128.0) / 127.0, -1.0, 1.0);
+    albedo = to_linear(mix(u_felt_none, height < 0.0 ? u_felt_low : u_felt_high, abs(height)));
+  }
   float cavity = v_shade.y * 2.0 - 1.0;
   albedo *= 1.0 + vec3(0.38, 0.44, 0.52) * clamp(cavity, -1.0, 0.55);
 

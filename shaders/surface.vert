@@ -9,14 +9,14 @@ uniform vec2 u_outline;  // half pixel sizes in clip units times the outline's w
 
 out vec3 v_position;
 out vec3 v_normal;
-out vec3 v_shade;
+out vec4 v_shade;
 
 void main() {
   vec4 position = u_view_from_model * vec4(a_position, 1.0);
   vec3 normal = mat3(u_view_from_model) * a_normal;
   v_position = position.xyz;
   v_normal = normal;
-  v_shade = a_shade.xyz;
+  v_shade = a_shade;
   gl_Position = u_clip_from_view * position;
   gl_Position.xy += u_outline * normalize(normal.xy + vec2(1e-6)) * gl_Position.w;
 }

@@ -20,6 +20,7 @@ struct RenderOptions {
   std::vector<std::string> hidden;
   bool hulls = false;
   bool joint = false;
+  bool felt = false;
   std::string out;
 };
 
@@ -31,6 +32,7 @@ Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, 
   if (options.joint) view.camera = close_up_camera(view.camera, the_case, BoneId{}, aspect);
   view.quality = RenderQuality::kFine;
   view.show_hulls = options.hulls;
+  view.show_felt = options.felt;
   view.show_proxy = view.show_force = view.show_hand_ghost = false;
   if (auto ok = hide_bones(the_case, options.hidden, view); !ok) return tl::unexpected(ok.error());
   return view;
@@ -84,6 +86,10 @@ void add_render_command(CLI::App& app, int& exit_code) {
   command->add_flag("--joint", options->joint, "Nearer: the carpal bones, or the knee's joint");
   command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
   command->add_flag("--hulls", options->hulls, "Draw the convex pieces that the probe feels");
+  command->add_flag(
+      "--felt", options->felt,
+      "Colour the bones by how far what the probe feels is from their surface: orange "
+      "where it stands 0.5 mm over it, blue where it lies 0.5 mm under it");
   command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -71,6 +71,8 @@ void add_window_command(CLI::App& app, int& exit_code) {
       ->add_option("--ui-scale", order->interface_scale,
                    "Scale of the interface; the display's when not given")
       ->check(CLI::Range(0.5, 4.0));
+  command->add_flag("--felt", order->felt,
+                    "Begin with the bones coloured by how far what is felt is from their surface");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
   command->add_option(
       "--device", order->device,

@@ -5,6 +5,8 @@
 
 #include "coarser_levels.h"
 #include "occlusion.h"
+#include "osteon/render/felt_colors.h"
+#include "osteon/scene/felt_distance.h"
 #include "surface.h"
 
 namespace osteon {
@@ -63,7 +65,13 @@ std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::size_t bone) {
+std::uint8_t felt_byte(double height_m) {
+  const double share = std::clamp(height_m / kFeltRange_m, -1.0, 1.0);
+  return static_cast<std::uint8_t>(128 + std::lround(127 * share));
+}
+
+ShadedMesh shaded(const Surface& s, const std::vector<float>& openness,
+                  const std::vector<double>& felt, std::size_t bone) {
   std::vector<float> curvature = mean_curvature(s);
   smooth(s, 2, curvature);
   ShadedMesh out;
@@ -73,8 +81,8 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
     out.positions.push_back(to_floats(s.points[k]));
     out.normals.push_back(to_floats(s.normals[k]));
     const double cavity = 0.5 + 0.5 * curvature[k] / kFullCurvature_per_m;
-    out.shades.push_back(
-        {to_byte(openness[k]), to_byte(cavity), to_byte(mottle(s.points[k], bone)), 0});
+    out.shades.push_back({to_byte(openness[k]), to_byte(cavity), to_byte(mottle(s.points[k], bone)),
+                          felt_byte(felt[k])});
   }
   return out;
 }
@@ -93,7 +101,10 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
                                      [&](double share) { return report(kOcclusionShare * share); });
   PreparedCase out;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    out.bones.push_back(shaded(surfaces[k].surface, openness[k], k));
+    const Surface& surface = surfaces[k].surface;
+    const std::vector<double> felt = stopped ? std::vector<double>(surface.points.size(), 0.0)
+                                             : felt_heights(the_case.bones[k], surface.points);
+    out.bones.push_back(shaded(surface, openness[k], felt, k));
     const double done = static_cast<double>(k + 1) / static_cast<double>(surfaces.size());
     if (!stopped) out.bones.back().coarser = coarser_levels(out.bones.back());
     report(kOcclusionShare + (1 - kOcclusionShare) * done);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/render/felt_colors.h"
 #include "shapes.h"
 
 namespace osteon {
@@ -304,10 +305,18 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   draw_surface(k, snapshot, view, frame);
 }
 
+void ScenePainter::set_felt_colors(const ViewState& view) const {
+  const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
+  for (std::size_t k = 0; k < kFeltColors.size(); ++k)
+    bone_.set(names[k], Eigen::Vector3f(kFeltColors[k][0], kFeltColors[k][1], kFeltColors[k][2]));
+  bone_.set("u_felt", view.show_felt ? 1 : 0);
+}
+
 /// The nearest first: what they hide is never shaded.
 void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
                                       const Frame& frame) const {
   bone_.use();
+  set_felt_colors(view);
   glCullFace(GL_BACK);
   const auto solid = [](const BoneAppearance& look) { return !is_clear(look); };
   for (const std::size_t k : near_to_far(snapshot, view, frame, solid)) {
@@ -353,6 +362,7 @@ void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewS
   std::vector<std::size_t> order = near_to_far(snapshot, view, frame, is_clear);
   std::reverse(order.begin(), order.end());
   bone_.use();
+  set_felt_colors(view);
   for (const std::size_t k : order) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     paint_bone(k, snapshot, view, frame);

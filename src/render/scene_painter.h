@@ -73,6 +73,7 @@ class ScenePainter {
   void set_shared(const Program& program, const ViewState& view, const Frame& frame) const;
   void set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
+  void set_felt_colors(const ViewState& view) const;
   static BoneModel make_bone(const Bone& bone, const ShadedMesh& mesh);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
   const GpuMesh& surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,

@@ -32,6 +32,17 @@ int openness_towards(const ShadedMesh& mesh, const Vec3& direction) {
   return mesh.shades[best].openness;
 }
 
+// A hull that stands 0.25 mm over the mesh is half of the range.
+TEST(PrepareCase, TellsHowHighWhatIsFeltStands) {
+  Case one;
+  one.bones.push_back(make_bone("ball", sphere_mesh(0.005), Vec3::Zero()));
+  const PreparedCase without = prepare_case(one);
+  for (const ShadedMesh::Shade& s : without.bones[0].shades) EXPECT_EQ(s.felt, 128);
+  one.bones[0].pieces = {*build_hull(sphere_mesh(0.00525).vertices).hull};
+  const PreparedCase over = prepare_case(one);
+  for (const ShadedMesh::Shade& s : over.bones[0].shades) EXPECT_NEAR(s.felt, 128 + 64, 2);
+}
+
 TEST(PrepareCase, EmptyCaseAndEmptyMesh) {
   EXPECT_TRUE(prepare_case({}).bones.empty());
   Case one;

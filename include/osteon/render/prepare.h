@@ -17,7 +17,7 @@ struct ShadedMesh {
     std::uint8_t openness;  ///< 255: sees the whole sky; lower: other bone is near (occlusion)
     std::uint8_t cavity;    ///< 128: flat; below: hollow; above: ridge
     std::uint8_t mottle;    ///< 128: the bone's own colour; the rest is its slight variation
-    std::uint8_t unused;
+    std::uint8_t felt;      ///< height of what is felt over it: 128: none, 1 and 255: kFeltRange_m
   };
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;

@@ -36,6 +36,7 @@ struct ViewState {
   Camera camera;
   std::vector<BoneAppearance> bones;  ///< one a bone; bones past its end look as the default
   bool show_hulls = false;
+  bool show_felt = false;  ///< bones by the height of what is felt over them (felt_colors.h)
   bool show_proxy = true;
   bool show_force = true;
   bool show_hand_ghost = true;      ///< the hand's own pose when it differs from the proxy's

@@ -86,6 +86,7 @@ std::string to_json(const AppSettings& s) {
                      {"panels_open", s.panels_open},
                      {"hint_dismissed", s.hint_dismissed},
                      {"show_hulls", s.show_hulls},
+                     {"show_felt", s.show_felt},
                      {"show_force", s.show_force},
                      {"show_hand_ghost", s.show_hand_ghost},
                      {"light_azimuth_rad", s.light_azimuth_rad},
@@ -113,6 +114,7 @@ Result<AppSettings> parse_app_settings(const std::string& text) {
   take(json, "panels_open", s.panels_open);
   take(json, "hint_dismissed", s.hint_dismissed);
   take(json, "show_hulls", s.show_hulls);
+  take(json, "show_felt", s.show_felt);
   take(json, "show_force", s.show_force);
   take(json, "show_hand_ghost", s.show_hand_ghost);
   take(json, "light_azimuth_rad", s.light_azimuth_rad, -3.15, 3.15);

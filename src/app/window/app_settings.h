@@ -27,6 +27,7 @@ struct AppSettings {
   bool panels_open = true;
   bool hint_dismissed = false;
   bool show_hulls = false;
+  bool show_felt = false;
   bool show_force = true;
   bool show_hand_ghost = true;
   double light_azimuth_rad = -0.7;

@@ -1,3 +1,4 @@
+#include <array>
 #include <string>
 
 #include "window/panels.h"
@@ -9,6 +10,36 @@ namespace {
 constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_AlwaysAutoResize;
+
+struct FeltButton {
+  Felt felt;
+  const char* label;
+  const char* explanation;
+};
+
+constexpr std::array<FeltButton, 3> kFeltButtons = {{
+    {Felt::kHull, "Hull", "One convex body around the bone: the quickest, hollows are bridged"},
+    {Felt::kPieces, "Pieces", "Convex pieces that follow the bone within about 0.2 mm"},
+    {Felt::kField, "Field", "The bone's own surface, smoothed over a quarter of a millimetre"},
+}};
+
+// What the probe feels of the bone. A replay and a recording belong to the case as it was opened.
+void draw_felt(const PanelContext& c, std::size_t i) {
+  if (i >= c.model.bone_felt.size()) return;
+  ui::text(color::kTextQuiet, "Felt as");
+  ImGui::BeginDisabled(c.model.replay.on || c.model.record.on);
+  const float gap = c.px(4);
+  const float w = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  for (const FeltButton& button : kFeltButtons) {
+    if (button.felt != kFeltButtons[0].felt) ImGui::SameLine(0, gap);
+    const bool active = c.model.bone_felt[i] == button.felt;
+    if (ui::toggle_button(button.label, active, {w, 0}) && !active)
+      c.requests.felt = FeltWish{BoneId{static_cast<std::uint32_t>(i)}, button.felt};
+    ui::tooltip(button.explanation);
+  }
+  ImGui::EndDisabled();
+  ui::text(color::kTextQuiet, "A change opens the case again");
+}
 
 void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {
   if (!ImGui::BeginPopup("appearance")) return;
@@ -23,6 +54,8 @@ void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view
                                 "How much of what lies behind the bone is hidden, percent");
   look.opacity = static_cast<float>(opacity / 100.0);
   if (recolored || faded) c.requests.view = view;
+  ImGui::Dummy({0, c.px(2)});
+  draw_felt(c, i);
   ImGui::EndPopup();
 }
 
@@ -38,7 +71,7 @@ void draw_swatch(const PanelContext& c, std::size_t i, ViewState& view) {
                          {size, size}))
     ImGui::OpenPopup("appearance");
   ImGui::PopStyleVar();
-  ui::tooltip("Colour and opacity");
+  ui::tooltip("Colour, opacity and how the bone is felt");
   draw_appearance_popup(c, i, view);
   ImGui::SameLine(0, c.px(8));
   ImGui::SetCursorPosY(row);

@@ -37,7 +37,7 @@ void draw_presets(const PanelContext& c) {
 
 bool draw_light(const PanelContext& c, ViewState& view) {
   bool changed =
-      ui::light_pad("light", c.px(52), &view.light_azimuth_rad, &view.light_elevation_rad);
+      ui::light_pad("light", c.px(44), &view.light_azimuth_rad, &view.light_elevation_rad);
   ui::tooltip("Where the main light comes from, as seen from the viewer. Drag to move it.");
   ImGui::SameLine(0, c.px(8));
   ImGui::BeginGroup();
@@ -55,6 +55,9 @@ bool draw_light(const PanelContext& c, ViewState& view) {
 bool draw_switches(ViewState& view) {
   bool changed = ui::switch_row("Contact hulls", &view.show_hulls,
                                 "The convex bodies that the probe feels, over the bones (H)");
+  changed |= ui::switch_row("Felt against seen", &view.show_felt,
+                            "Colours each bone by how far what the probe feels stands over the "
+                            "surface, or lies under it");
   changed |= ui::switch_row("Force arrow", &view.show_force,
                             "The force on the hand as an arrow at the probe's tip");
   changed |= ui::switch_row("Hand's place", &view.show_hand_ghost,

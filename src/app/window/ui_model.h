@@ -10,6 +10,7 @@
 #include "loops/mapping_settings.h"
 #include "osteon/device/haptic_device.h"
 #include "osteon/render/renderer.h"
+#include "osteon/scene/case.h"
 #include "window/contact_timeline.h"
 #include "window/pedals.h"
 #include "window/toasts.h"
@@ -111,6 +112,7 @@ struct UiModel {
   std::string activity;    ///< "Exploring", "Replay", "Demonstration"
   double time_s = 0;       ///< simulated
   std::vector<std::string> bone_labels;
+  std::vector<Felt> bone_felt;  ///< as bone_labels
   ViewState view;
   BoneId hovered;  ///< under the pointer, in the picture
   BoneId picked;

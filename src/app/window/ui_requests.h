@@ -6,9 +6,16 @@
 
 #include "loops/mapping_settings.h"
 #include "osteon/render/renderer.h"
+#include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
 
 namespace osteon {
+
+/// A bone that shall be felt otherwise.
+struct FeltWish {
+  BoneId bone;
+  Felt felt = Felt::kPieces;
+};
 
 /// What the user asked for in one frame. The panels change nothing by themselves.
 struct UiRequests {
@@ -16,6 +23,7 @@ struct UiRequests {
   std::optional<ViewPreset> preset;
   bool close_up = false;  ///< of the picked bone, else of the joint
   std::vector<Command> commands;
+  std::optional<FeltWish> felt;  ///< opens the case again
   std::optional<int> device;
   std::optional<std::string> open_file;
   std::optional<double> seek_s;

@@ -33,6 +33,7 @@ struct WindowOrder {
   double at_s = 0;                   ///< of simulated time, reached before `frames` are counted
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
+  bool felt = false;                 ///< begins with bones coloured by what is felt
   bool demo = false;                 ///< the virtual hand plays the case's path
   std::string device;                ///< key of the choice to begin with; empty: as last time
   std::filesystem::path path;        ///< what an emulated hand plays; empty: the case's own
@@ -72,6 +73,7 @@ class WindowApp {
   void begin_live();
   void start_live(const std::string& device);  ///< key of a choice
   void leave_replay();
+  void choose_felt(const FeltWish& wish);
   void fail_loading(const std::string& message);
   // window_model.cpp
   UiModel build_model() const;

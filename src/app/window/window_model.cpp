@@ -107,7 +107,10 @@ UiModel WindowApp::build_model() const {
   }
   model.checkup = checkup_model();
   model.case_title = title_of(*case_);
-  for (const Bone& bone : case_->bones) model.bone_labels.push_back(label_of(bone.name));
+  for (const Bone& bone : case_->bones) {
+    model.bone_labels.push_back(label_of(bone.name));
+    model.bone_felt.push_back(bone.felt);
+  }
   model.view = view_;
   model.hovered = hovered_;
   model.picked = picked_;

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "felt_choice.h"
 #include "osteon/base/file.h"
 #include "osteon/scene/path.h"
 #include "window/window_app.h"
@@ -38,6 +39,9 @@ void WindowApp::fail_loading(const std::string& message) {
 void WindowApp::install(Loaded loaded) {
   end_checkup();
   remember_looks();
+  // The same case felt otherwise: the user goes on looking at what he looked at.
+  const bool same_case =
+      case_ && source_without_choice(case_source_) == source_without_choice(loaded.case_source);
   case_source_ = loaded.case_source;
   if (loaded.prepared) {
     const auto data = find_data_dir();
@@ -49,7 +53,13 @@ void WindowApp::install(Loaded loaded) {
     renderer_ = std::move(*renderer);
     case_ = loaded.the_case;
     demo_ = loaded.demo;
+    const ViewState before = view_;
+    const BoneId picked = picked_;
     recall_view();
+    if (same_case) {
+      view_ = before;
+      picked_ = picked;
+    }
   }
   live_.reset();
   replay_ = std::move(loaded.replay);
@@ -92,6 +102,15 @@ void WindowApp::start_live(const std::string& device) {
   const Result<void> started =
       live_->start(choice, offered_probe(view_.camera, case_->bounds_W()), user, view_.camera.q_WC);
   if (!started) note(ToastKind::kError, started.error().message());
+}
+
+// The case is opened again: what is felt is part of it, and of what a recording names.
+void WindowApp::choose_felt(const FeltWish& wish) {
+  if (!case_ || wish.bone.index >= case_->bones.size()) return;
+  auto choice = parse_felt_choice(case_source_);
+  if (!choice) return note(ToastKind::kError, choice.error().message());
+  choice->of_bone[case_->bone(wish.bone).name] = wish.felt;
+  open({to_text(*choice), {}, nullptr});
 }
 
 void WindowApp::leave_replay() {

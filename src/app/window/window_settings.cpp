@@ -1,6 +1,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "felt_choice.h"
 #include "osteon/base/log.h"
 #include "window/window_app.h"
 #include "xdg.h"
@@ -12,6 +13,7 @@ void WindowApp::recall_view() {
   view_.camera = preset_camera(ViewPreset::kDorsal, *case_, viewport().aspect(), covered_edges());
   recall_looks();
   view_.show_hulls = settings_.show_hulls;
+  view_.show_felt = settings_.show_felt || order_.felt;
   view_.show_force = settings_.show_force;
   view_.show_hand_ghost = settings_.show_hand_ghost;
   view_.light_azimuth_rad = settings_.light_azimuth_rad;
@@ -24,7 +26,7 @@ void WindowApp::recall_view() {
 }
 
 void WindowApp::recall_looks() {
-  const auto looks = settings_.looks.find(case_source_);
+  const auto looks = settings_.looks.find(source_without_choice(case_source_));
   if (looks == settings_.looks.end()) return;
   for (std::size_t k = 0; k < case_->bones.size(); ++k) {
     const auto look = looks->second.find(case_->bones[k].name);
@@ -46,9 +48,9 @@ void WindowApp::remember_looks() {
     changed[case_->bones[k].name] = {look.color, look.opacity, look.visible};
   }
   if (changed.empty())
-    settings_.looks.erase(case_source_);
+    settings_.looks.erase(source_without_choice(case_source_));
   else
-    settings_.looks[case_source_] = std::move(changed);
+    settings_.looks[source_without_choice(case_source_)] = std::move(changed);
 }
 
 void WindowApp::remember() {
@@ -56,6 +58,7 @@ void WindowApp::remember() {
     glfwGetWindowSize(window_->handle(), &settings_.window_width, &settings_.window_height);
   if (renderer_) {
     settings_.show_hulls = view_.show_hulls;
+    settings_.show_felt = view_.show_felt;
     settings_.show_force = view_.show_force;
     settings_.show_hand_ghost = view_.show_hand_ghost;
     settings_.light_azimuth_rad = view_.light_azimuth_rad;

@@ -32,6 +32,7 @@ AppSettings unusual() {
   s.panels_open = false;
   s.hint_dismissed = true;
   s.show_hulls = true;
+  s.show_felt = true;
   s.show_force = false;
   s.show_hand_ghost = false;
   s.light_azimuth_rad = 0.3;

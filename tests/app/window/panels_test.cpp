@@ -34,6 +34,36 @@ TEST(Panels, NothingIsAskedForWhenNobodyActs) {
   }
 }
 
+TEST(Panels, ABoneIsFeltAsChosenInItsPopup) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.click("##case", {1, "##swatch"});
+  ui.draw();
+  const std::string popup = ui.popup();
+  ASSERT_FALSE(popup.empty());
+  EXPECT_FALSE(ui.click(popup.c_str(), {"Pieces"}).felt) << "it is so already";
+  const UiRequests r = ui.click(popup.c_str(), {"Field"});
+  ASSERT_TRUE(r.felt);
+  EXPECT_EQ(r.felt->bone, BoneId{1});
+  EXPECT_EQ(r.felt->felt, Felt::kField);
+  ui.model.record.on = true;
+  EXPECT_FALSE(ui.click(popup.c_str(), {"Hull"}).felt) << "while a recording runs";
+}
+
+TEST(Panels, TheLegendStandsWhereBonesAreColouredByWhatIsFelt) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.draw();
+  EXPECT_FALSE(ui.shown("##felt_legend"));
+  ui.model.view.show_felt = true;
+  for (int i = 0; i < 3; ++i) ui.draw();
+  ASSERT_TRUE(ui.shown("##felt_legend"));
+  const UiRect legend = ui.rect("##felt_legend"), bar = ui.rect("##timeline");
+  EXPECT_LE(legend.bottom(), bar.y);
+  EXPECT_GT(legend.x, ui.rect("##case").right());
+  EXPECT_LT(legend.right(), ui.rect("##hand").x);
+}
+
 TEST(Panels, DrawsWithNoBonesAndNoDevice) {
   UiFrame ui;
   ui.model.hand.devices.clear();

@@ -102,13 +102,18 @@ class UiFrame {
     if (!found || !found->WasActive) return {};
     return {found->Pos.x, found->Pos.y, found->Size.x, found->Size.y};
   }
+  /// Name of the popup that is open; empty: none.
+  std::string popup() const {
+    const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    return open.empty() || !open.back().Window ? std::string() : open.back().Window->Name;
+  }
   bool shown(const char* window) const { return rect(window).w > 0; }
   const UiFonts& fonts() const { return fonts_; }
 
  private:
   // A press acts at once for some widgets (sliders, the timeline), a release for the rest.
   static bool acted(const UiRequests& r) {
-    return r.view || r.preset || !r.commands.empty() || r.device || r.seek_s || r.speed ||
+    return r.view || r.preset || r.felt || !r.commands.empty() || r.device || r.seek_s || r.speed ||
            r.calibrate || r.mapping || r.learn_pedal || r.forget_pedal || r.toggle_checkup ||
            r.begin_checkup || r.begin_push_test || r.cancel_checkup || r.install_udev || r.copy;
   }
@@ -120,6 +125,7 @@ inline UiModel small_model() {
   UiModel model;
   model.case_title = "Wrist, right";
   model.bone_labels = {"Scaphoid", "Lunate", "Capitate"};
+  model.bone_felt = {Felt::kPieces, Felt::kPieces, Felt::kHull};
   model.view.bones.resize(3);
   model.hand.devices = {"Mouse and keyboard", "Demonstration (virtual hand)"};
   model.hand.status.cause = ForceOff::kNone;
