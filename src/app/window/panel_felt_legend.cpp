@@ -50,7 +50,9 @@ void draw_ticks(const PanelContext& c, ImVec2 at, float width) {
 void draw_felt_legend(const PanelContext& c) {
   if (!c.model.view.show_felt) return;
   const UiRect& r = c.layout.picture;
-  ImGui::SetNextWindowPos({r.x + r.w / 2, r.bottom() - c.px(12)}, ImGuiCond_Always, {0.5f, 1});
+  // Beside the left card, so that the middle of the picture stays free.
+  const float beside = c.model.panels_open ? c.layout.left.right() : r.x;
+  ImGui::SetNextWindowPos({beside + c.px(12), r.bottom() - c.px(12)}, ImGuiCond_Always, {0, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(10)});
   ImGui::Begin("##felt_legend", nullptr, kLegend);
   ImGui::PopStyleVar();
