@@ -1,5 +1,6 @@
 #include "osteon/scene/bone_pieces.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "osteon/base/hash.h"
@@ -11,6 +12,15 @@ namespace {
 // Counts up with every change of the algorithm that changes its pieces.
 constexpr std::uint32_t kVersion = 1;
 constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
+// A long bone is searched on coarser cells: their count grows with the cube of its length.
+constexpr double kLong = 0.25;  // m
+constexpr double kCellsAlong = 300;
+
+DecomposeOptions search_for(double length_m, DecomposeOptions options) {
+  if (length_m > kLong)
+    options.search_cell_m = std::max(options.search_cell_m, length_m / kCellsAlong);
+  return options;
+}
 
 }  // namespace
 
@@ -29,13 +39,14 @@ std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options) {
 }
 
 std::optional<PieceCorners> cut_into_pieces(const TriMesh& mesh, const DecomposeOptions& options) {
-  if (!(bounds(mesh).extent().maxCoeff() > kLeastLength)) {
+  const double length_m = bounds(mesh).extent().maxCoeff();
+  if (!(length_m > kLeastLength)) {
     // Too small for the search's grid to mean anything.
     HullOutcome outcome = build_hull(mesh.vertices);
     if (!outcome.hull) return std::nullopt;
     return PieceCorners{{std::move(outcome.hull->vertices)}, 0};
   }
-  auto found = decompose(mesh, options);
+  auto found = decompose(mesh, search_for(length_m, options));
   if (!found) return std::nullopt;
   PieceCorners corners;
   corners.concavity_m = found->concavity_m;

@@ -16,7 +16,7 @@ constexpr std::array<KeyLine, 9> kLook = {{
     {"Right drag, Shift + drag", "move sideways"},
     {"Wheel", "nearer, farther"},
     {"Arrows,  + and -", "the same by keys"},
-    {"1 to 6", "dorsal, palmar, radial, ulnar, AP, lateral"},
+    {"1 to 6", "the six views, in the panel's order"},
     {"F", "close up on the picked bone, else the joint"},
     {"Click", "choose a bone"},
     {"H", "contact hulls"},

@@ -12,27 +12,40 @@ struct PresetButton {
   const char* explanation;
 };
 
-constexpr std::array<PresetButton, 6> kPresets = {{
+constexpr PresetButton kAp = {"AP", ViewPreset::kAp,
+                              "As a front radiograph is hung, without perspective (5)"};
+constexpr PresetButton kLateral = {"Lateral", ViewPreset::kLateral,
+                                   "As a side radiograph is hung, without perspective (6)"};
+constexpr std::array<PresetButton, 6> kWristPresets = {{
     {"Dorsal", ViewPreset::kDorsal, "From the back of the hand (1)"},
     {"Palmar", ViewPreset::kPalmar, "From the palm (2)"},
     {"Radial", ViewPreset::kRadial, "From the thumb's side (3)"},
     {"Ulnar", ViewPreset::kUlnar, "From the little finger's side (4)"},
-    {"AP", ViewPreset::kAp, "As a front radiograph is hung, without perspective (5)"},
-    {"Lateral", ViewPreset::kLateral, "As a side radiograph is hung, without perspective (6)"},
+    kAp,
+    kLateral,
+}};
+constexpr std::array<PresetButton, 6> kKneePresets = {{
+    {"Front", ViewPreset::kDorsal, "From the patella's side (1)"},
+    {"Back", ViewPreset::kPalmar, "From the hollow of the knee (2)"},
+    {"Outer", ViewPreset::kRadial, "From the fibula's side (3)"},
+    {"Inner", ViewPreset::kUlnar, "From the other knee's side (4)"},
+    kAp,
+    kLateral,
 }};
 
 void draw_presets(const PanelContext& c) {
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
-  for (std::size_t i = 0; i < kPresets.size(); ++i) {
+  const auto& presets = c.model.is_knee ? kKneePresets : kWristPresets;
+  for (std::size_t i = 0; i < presets.size(); ++i) {
     if (i % 2 == 1) ImGui::SameLine(0, gap);
-    if (ImGui::Button(kPresets[i].label, {w, 0})) c.requests.preset = kPresets[i].preset;
-    ui::tooltip(kPresets[i].explanation);
+    if (ImGui::Button(presets[i].label, {w, 0})) c.requests.preset = presets[i].preset;
+    ui::tooltip(presets[i].explanation);
   }
   if (ImGui::Button(c.model.picked.valid() ? "Close up on the bone" : "Close up on the joint",
                     {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.close_up = true;
-  ui::tooltip("Goes near without turning: to the picked bone, else to the carpal bones (F)");
+  ui::tooltip("Goes near without turning: to the picked bone, else to the joint (F)");
 }
 
 bool draw_light(const PanelContext& c, ViewState& view) {

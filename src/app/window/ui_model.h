@@ -109,6 +109,7 @@ struct UiModel {
   LoadingModel loading;
 
   std::string case_title;  ///< "Wrist, right"
+  bool is_knee = false;    ///< the views have a knee's names
   std::string activity;    ///< "Exploring", "Replay", "Demonstration"
   double time_s = 0;       ///< simulated
   std::vector<std::string> bone_labels;

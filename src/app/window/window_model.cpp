@@ -107,6 +107,7 @@ UiModel WindowApp::build_model() const {
   }
   model.checkup = checkup_model();
   model.case_title = title_of(*case_);
+  model.is_knee = case_->find("femur").valid();
   for (const Bone& bone : case_->bones) {
     model.bone_labels.push_back(label_of(bone.name));
     model.bone_felt.push_back(bone.felt);

@@ -160,6 +160,15 @@ TEST(Panels, EveryPresetHasAButtonAndAKey) {
   }
 }
 
+TEST(Panels, AKneesViewsHaveItsOwnNames) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.model.is_knee = true;
+  const UiRequests clicked = ui.click("##case", {"Outer"});
+  ASSERT_TRUE(clicked.preset);
+  EXPECT_EQ(*clicked.preset, ViewPreset::kRadial);
+}
+
 TEST(Panels, TheStiffnessSliderSendsACommandWithinTheDevicesLimit) {
   UiFrame ui;
   fill(ui, small_model());
