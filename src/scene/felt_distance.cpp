@@ -13,7 +13,10 @@
 namespace osteon {
 namespace {
 
-constexpr double kSeam = 0.00015;  // m: how finely crossings of pieces are told apart
+// How finely crossings of pieces are told apart, m: for figures, and for a picture, which is made
+// whenever a case is opened.
+constexpr double kSeam = 0.00015;
+constexpr double kPictureSeam = 0.0006;
 
 /// A point that stands for a part of a surface.
 struct Sample {
@@ -145,7 +148,7 @@ std::vector<double> felt_heights(const Bone& bone, std::span<const Vec3> points_
     for (const Vec3& v : points_B) out.push_back(-bone.field->at(v).distance);
     return out;
   }
-  const MeshDistance felt(union_surface(bone.pieces, kSeam));
+  const MeshDistance felt(union_surface(bone.pieces, kPictureSeam));
   for (const Vec3& v : points_B) {
     const double gap = felt.mesh().triangles.empty() ? 0 : felt.closest(v).signed_distance;
     out.push_back(inside(bone.pieces, v) ? std::abs(gap) : -std::abs(gap));
