@@ -1,7 +1,5 @@
 #include "virtual_usb.h"
 
-#include <utility>
-
 #include "emulated_pid_joystick.h"
 #include "emulated_vector_joystick.h"
 #include "osteon/base/file.h"
@@ -69,14 +67,20 @@ Result<std::unique_ptr<VirtualUsbJoystick>> VirtualUsbJoystick::open(const Joyst
 void VirtualUsbJoystick::set_target(const Pose& wanted_VD, const Vec3& wanted_v_V,
                                     std::uint32_t buttons) {
   mechanics_->set_target(wanted_VD, wanted_v_V, buttons);
-  if (std::exchange(placed_, true)) return;
-  // It is there at once. Readings that leap so would be refused: a pause makes it a new beginning.
+  wanted_.store(true, std::memory_order_release);
+}
+
+// The hand is at its first target at once. Readings that leap so would be refused: a pause makes it
+// a new beginning.
+void VirtualUsbJoystick::place_hand() {
   constexpr std::int64_t kPause_ns = JoystickDevice::kSilence_ns + 2'000'000;
   bus_.faults(port_).silent_until_ns = bus_.now_ns() + kPause_ns;
   bus_.advance(kPause_ns);
+  placed_ = true;
 }
 
 DeviceSample VirtualUsbJoystick::read() {
+  if (!placed_ && wanted_.load(std::memory_order_acquire)) place_hand();
   bus_.advance(to_ns(period_s(info())));
   return joystick_->read();
 }

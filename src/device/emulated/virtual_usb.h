@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "emulated_usb.h"
 #include "joystick/joystick_device.h"
 #include "osteon/device/drivers.h"
@@ -37,7 +39,9 @@ class VirtualUsbJoystick : public HapticDevice, public EmulatedUser {
 
  private:
   VirtualUsbJoystick() = default;
-  bool placed_ = false;  ///< a target has been given
+  void place_hand();
+  std::atomic<bool> wanted_{false};  ///< a target has been given, maybe by another thread
+  bool placed_ = false;
 
   EmulatedUsbBus bus_;
   std::shared_ptr<EmulatedUsbDevice> device_;
