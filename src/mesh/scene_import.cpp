@@ -4,14 +4,18 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <cstdint>
 #include <exception>
+#include <fstream>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace osteon {
 namespace {
 
 constexpr int kDeepestNode = 256;
+constexpr std::size_t kGlbHead = 20;  // bytes: the file's head and that of its first chunk
 constexpr std::size_t kMostVertices = 100'000'000;
 
 // Assimp would also try its fifty other readers on bytes that it does not know: keep one.
@@ -24,6 +28,30 @@ void keep_reader_of(Assimp::Importer& importer, const std::string& extension) {
     importer.UnregisterLoader(reader);
     delete reader;  // unregistered readers belong to the caller
   }
+}
+
+std::uint64_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    word |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  return word;
+}
+
+// Assimp makes room for what the head of a binary glTF promises, be it gigabytes, before it looks
+// how long the file is. `head` is the file's begin (glTF 2.0 specification, section 4.4).
+Result<void> check_glb(std::string_view head, std::uint64_t size, const std::string& where) {
+  const std::string todo = "Copy or export the file again, as binary glTF 2.0";
+  if (head.size() < kGlbHead || head.substr(0, 4) != "glTF")
+    return fail("is no binary glTF file", where, todo);
+  const std::uint64_t version = word_at(head, 4);
+  if (version != 2)
+    return fail("is of glTF version " + std::to_string(version) + ", which is not read", where,
+                todo);
+  const std::uint64_t length = word_at(head, 8), first_chunk = word_at(head, 12);
+  if (length > size || first_chunk > size - kGlbHead)
+    return fail("is cut short: its head promises more than its " + std::to_string(size) + " bytes",
+                where, todo);
+  return {};
 }
 
 // Joins the meshes of a tree of nodes in the root's frame.
@@ -97,12 +125,25 @@ Result<TriMesh> import_with(const std::string& extension, const std::string& whe
 
 Result<TriMesh> import_scene(std::string_view bytes, const std::string& extension,
                              const std::string& where) {
+  if (extension == "glb")
+    if (const auto checked = check_glb(bytes, bytes.size(), where); !checked)
+      return tl::unexpected(checked.error());
   return import_with(extension, where, [&](Assimp::Importer& importer) {
     return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str());
   });
 }
 
 Result<TriMesh> import_scene_file(const std::filesystem::path& path, const std::string& extension) {
+  if (extension == "glb") {
+    std::string head(kGlbHead, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    std::error_code ec;
+    const std::uintmax_t size = std::filesystem::file_size(path, ec);
+    if (const auto checked = check_glb(head, ec ? 0 : size, path.string()); !checked)
+      return tl::unexpected(checked.error());
+  }
   return import_with(extension, path.string(), [&](Assimp::Importer& importer) {
     return importer.ReadFile(path.string(), 0);
   });

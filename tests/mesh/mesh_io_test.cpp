@@ -335,5 +335,26 @@ TEST(MeshIo, NoiseIsRefusedOrHarmless) {
   }
 }
 
+// A head that promises gigabytes must not get room for them.
+TEST(MeshIo, ABinaryGltfOfAnotherVersionOrCutShortIsRefusedByItsHead) {
+  const auto glb = [](char version, char length, std::string tail) {
+    std::string bytes("glTF\0\0\0\0\0\0\0\0\0\0\0\0JSON", 20);
+    bytes[4] = version;
+    bytes[8] = length;
+    bytes.replace(12, tail.size(), tail);
+    return load_mesh_from_memory(bytes, "glb", 1, "bone.glb");
+  };
+  const auto old = glb(1, 20, "\xff\xff\xff\xff");
+  ASSERT_FALSE(old);
+  EXPECT_NE(old.error().what.find("version 1"), std::string::npos) << old.error().what;
+  const auto chunk = glb(2, 20, "\xff\xff\xff\xff");
+  ASSERT_FALSE(chunk);
+  EXPECT_NE(chunk.error().what.find("cut short"), std::string::npos) << chunk.error().what;
+  const auto whole = glb(2, 21, "");
+  ASSERT_FALSE(whole);
+  EXPECT_NE(whole.error().what.find("cut short"), std::string::npos) << whole.error().what;
+  EXPECT_FALSE(load_mesh_from_memory("glTF", "glb", 1, "bone.glb"));
+}
+
 }  // namespace
 }  // namespace osteon
