@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "osteon/mesh/longest_edge.h"
+
 namespace osteon::hull {
 namespace {
 
@@ -14,14 +16,7 @@ class Sampler {
   Sampler(HeightGrid& grid, double spacing) : grid_(grid), spacing2_(spacing * spacing) {}
 
   void add(const Corners& t) {
-    std::size_t longest = 0;
-    double length2 = -1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double edge2 = (t[(k + 1) % 3] - t[k]).squaredNorm();
-      if (edge2 <= length2) continue;
-      length2 = edge2;
-      longest = k;
-    }
+    const auto [longest, length2] = longest_edge(t);
     if (length2 <= spacing2_) return sample(t);
     // Heights change by no more than the way: a triangle deep inside has nothing to say. The grid's
     // own heights are good to a part of a cell.

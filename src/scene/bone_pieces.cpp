@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "osteon/base/hash.h"
+#include "mesh_hash.h"
 #include "osteon/mesh/measure.h"
 
 namespace osteon {
@@ -15,6 +15,8 @@ constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
 // A long bone is searched on coarser cells: their count grows with the cube of its length.
 constexpr double kLong = 0.25;  // m
 constexpr double kCellsAlong = 300;
+
+double length_of(const TriMesh& mesh) { return bounds(mesh).extent().maxCoeff(); }
 
 DecomposeOptions search_for(double length_m, DecomposeOptions options) {
   if (length_m > kLong)
@@ -29,17 +31,13 @@ std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options) {
   hasher.add(kVersion);
   hasher.add(options.concavity_m);
   hasher.add(static_cast<std::uint64_t>(options.max_pieces));
-  hasher.add(options.search_cell_m);
-  hasher.add(static_cast<std::uint64_t>(mesh.vertices.size()));
-  for (const Vec3& p : mesh.vertices) hasher.add(p);
-  hasher.add(static_cast<std::uint64_t>(mesh.triangles.size()));
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) hasher.add(v);
+  hasher.add(search_for(length_of(mesh), options).search_cell_m);
+  add_mesh(hasher, mesh);
   return hasher.value();
 }
 
 std::optional<PieceCorners> cut_into_pieces(const TriMesh& mesh, const DecomposeOptions& options) {
-  const double length_m = bounds(mesh).extent().maxCoeff();
+  const double length_m = length_of(mesh);
   if (!(length_m > kLeastLength)) {
     // Too small for the search's grid to mean anything.
     HullOutcome outcome = build_hull(mesh.vertices);

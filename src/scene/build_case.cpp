@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "osteon/base/hash.h"
+#include "mesh_hash.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/field_cache.h"
@@ -111,20 +111,9 @@ Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
   return bone;
 }
 
-void hash_triangles(Hasher& hasher, const std::vector<Triangle>& triangles) {
-  hasher.add(static_cast<std::uint64_t>(triangles.size()));
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) hasher.add(v);
-}
-
-void hash_points(Hasher& hasher, const std::vector<Vec3>& points) {
-  hasher.add(static_cast<std::uint64_t>(points.size()));
-  for (const Vec3& p : points) hasher.add(p);
-}
-
 void hash_piece(Hasher& hasher, const Hull& piece) {
-  hash_points(hasher, piece.vertices);
-  hash_triangles(hasher, piece.triangles);
+  add_points(hasher, piece.vertices);
+  add_triangles(hasher, piece.triangles);
   hasher.add(static_cast<std::uint64_t>(piece.planes.size()));
   for (const Plane& plane : piece.planes) {
     hasher.add(plane.n);
@@ -137,8 +126,7 @@ void hash_bone(Hasher& hasher, const Bone& bone) {
   hasher.add(bone.fma_id);
   hasher.add(bone.X_WB);
   hasher.add(static_cast<std::uint8_t>(bone.felt));
-  hash_points(hasher, bone.mesh.vertices);
-  hash_triangles(hasher, bone.mesh.triangles);
+  add_mesh(hasher, bone.mesh);
   hasher.add(static_cast<std::uint64_t>(bone.pieces.size()));
   for (const Hull& piece : bone.pieces) hash_piece(hasher, piece);
   if (bone.field) hasher.add(bone.field->hash());

@@ -6,11 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
+#include "osteon/base/file.h"
 #include "osteon/base/hash.h"
+#include "osteon/scene/keyed_entries.h"
 
 namespace osteon::cache {
 
@@ -73,5 +77,17 @@ class Reader {
   std::string_view bytes_;
   bool failed_ = false;
 };
+
+/// Writes the entries in use where any was put since; `bytes_of` makes the file's bytes of them.
+template <class T, class ToBytes>
+Result<void> save_entries(KeyedEntries<T>& entries, const std::filesystem::path& file,
+                          const ToBytes& bytes_of) {
+  if (!entries.changed()) return {};
+  std::error_code ec;
+  std::filesystem::create_directories(file.parent_path(), ec);
+  auto written = write_file_atomic(file, bytes_of(entries.used()));
+  if (written) entries.saved();
+  return written;
+}
 
 }  // namespace osteon::cache

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "osteon/mesh/distance.h"
+#include "osteon/mesh/longest_edge.h"
 #include "union_surface.h"
 
 namespace osteon {
@@ -25,14 +26,11 @@ struct Sample {
 };
 
 void add_samples(const std::array<Vec3, 3>& t, double spacing2, std::vector<Sample>& out) {
-  std::size_t longest = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm())
-      longest = k;
+  const auto [longest, length2] = longest_edge(t);
   const Vec3& a = t[longest];
   const Vec3& b = t[(longest + 1) % 3];
   const Vec3& c = t[(longest + 2) % 3];
-  if ((b - a).squaredNorm() <= spacing2) {
+  if (length2 <= spacing2) {
     out.push_back({(a + b + c) / 3, 0.5 * (b - a).cross(c - a).norm()});
     return;
   }

@@ -1,13 +1,12 @@
 #include "osteon/scene/field_cache.h"
 
 #include <cstddef>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "cache_bytes.h"
+#include "mesh_hash.h"
 #include "osteon/base/file.h"
-#include "osteon/base/hash.h"
 
 namespace osteon {
 namespace {
@@ -74,11 +73,7 @@ std::uint64_t field_key(const TriMesh& mesh) {
   hasher.add(kVersion);
   for (const double x : {options.cell_m, options.outside_m, options.inside_m}) hasher.add(x);
   hasher.add(static_cast<std::uint64_t>(options.most_blocks));
-  hasher.add(static_cast<std::uint64_t>(mesh.vertices.size()));
-  for (const Vec3& p : mesh.vertices) hasher.add(p);
-  hasher.add(static_cast<std::uint64_t>(mesh.triangles.size()));
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) hasher.add(v);
+  add_mesh(hasher, mesh);
   return hasher.value();
 }
 
@@ -118,35 +113,24 @@ void FieldCache::read_file_once() {
   if (!bytes) return;
   auto read = read_fields(*bytes);
   if (!read) return;
-  for (auto& [key, field] : *read) entries_.try_emplace(key, Entry{std::move(field), false});
+  entries_.take(std::move(*read));
 }
 
 FieldCache::Field FieldCache::find(std::uint64_t key) {
   read_file_once();
-  const auto at = entries_.find(key);
-  if (at == entries_.end()) return nullptr;
-  at->second.used = true;
-  return at->second.field;
+  const Field* found = entries_.find(key);
+  return found ? *found : nullptr;
 }
 
 void FieldCache::put(std::uint64_t key, Field field) {
   read_file_once();
-  entries_[key] = {std::move(field), true};
-  changed_ = true;
+  entries_.put(key, std::move(field));
 }
 
 Result<void> FieldCache::save() { return file_.empty() ? Result<void>() : save_as(file_); }
 
 Result<void> FieldCache::save_as(const std::filesystem::path& file) {
-  if (!changed_) return {};
-  std::map<std::uint64_t, Field> kept;
-  for (const auto& [key, entry] : entries_)
-    if (entry.used) kept[key] = entry.field;
-  std::error_code ec;
-  std::filesystem::create_directories(file.parent_path(), ec);
-  auto written = write_file_atomic(file, to_bytes(kept));
-  if (written) changed_ = false;
-  return written;
+  return cache::save_entries(entries_, file, [](const auto& used) { return to_bytes(used); });
 }
 
 }  // namespace osteon

@@ -1,6 +1,5 @@
 #include "osteon/scene/piece_cache.h"
 
-#include <system_error>
 #include <utility>
 
 #include "cache_bytes.h"
@@ -73,33 +72,19 @@ PieceCache::PieceCache(std::filesystem::path file) : file_(std::move(file)) {
   if (!bytes) return;
   auto read = read_pieces(*bytes);
   if (!read) return;
-  for (auto& [key, pieces] : *read) entries_[key] = {std::move(pieces), false};
+  entries_.take(std::move(*read));
 }
 
-const PieceCorners* PieceCache::find(std::uint64_t key) {
-  const auto at = entries_.find(key);
-  if (at == entries_.end()) return nullptr;
-  at->second.used = true;
-  return &at->second.pieces;
-}
+const PieceCorners* PieceCache::find(std::uint64_t key) { return entries_.find(key); }
 
 void PieceCache::put(std::uint64_t key, PieceCorners pieces) {
-  entries_[key] = {std::move(pieces), true};
-  changed_ = true;
+  entries_.put(key, std::move(pieces));
 }
 
 Result<void> PieceCache::save() { return file_.empty() ? Result<void>() : save_as(file_); }
 
 Result<void> PieceCache::save_as(const std::filesystem::path& file) {
-  if (!changed_) return {};
-  std::map<std::uint64_t, PieceCorners> kept;
-  for (const auto& [key, entry] : entries_)
-    if (entry.used) kept[key] = entry.pieces;
-  std::error_code ec;
-  std::filesystem::create_directories(file.parent_path(), ec);
-  auto written = write_file_atomic(file, to_bytes(kept));
-  if (written) changed_ = false;
-  return written;
+  return cache::save_entries(entries_, file, [](const auto& used) { return to_bytes(used); });
 }
 
 }  // namespace osteon

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "osteon/mesh/longest_edge.h"
+
 namespace osteon {
 namespace {
 
@@ -76,14 +78,7 @@ class Peeler {
       if (place == Place::kAcross) across.push_back(i);
     }
     if (across.empty()) return keep(t);
-    std::size_t longest = 0;
-    double length2 = -1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double edge2 = (t[(k + 1) % 3] - t[k]).squaredNorm();
-      if (edge2 <= length2) continue;
-      length2 = edge2;
-      longest = k;
-    }
+    const auto [longest, length2] = longest_edge(t);
     if (length2 <= seam2_) {
       const Vec3 middle = (lifted[0] + lifted[1] + lifted[2]) / 3;
       const bool hidden = std::any_of(across.begin(), across.end(),

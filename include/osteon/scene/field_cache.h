@@ -9,6 +9,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/collide/distance_field.h"
+#include "osteon/scene/keyed_entries.h"
 
 namespace osteon {
 
@@ -34,16 +35,11 @@ class FieldCache {
   Result<void> save_as(const std::filesystem::path& file);
 
  private:
-  struct Entry {
-    Field field;
-    bool used = false;
-  };
   void read_file_once();
 
   std::filesystem::path file_;
   bool read_ = false;
-  std::map<std::uint64_t, Entry> entries_;
-  bool changed_ = false;
+  KeyedEntries<Field> entries_;
 };
 
 /// The bytes of a cache file (docs/file-formats.md), and back. Damaged bytes give an error, never a

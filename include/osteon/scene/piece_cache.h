@@ -10,6 +10,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/base/types.h"
+#include "osteon/scene/keyed_entries.h"
 
 namespace osteon {
 
@@ -35,13 +36,8 @@ class PieceCache {
   Result<void> save_as(const std::filesystem::path& file);
 
  private:
-  struct Entry {
-    PieceCorners pieces;
-    bool used = false;
-  };
   std::filesystem::path file_;
-  std::map<std::uint64_t, Entry> entries_;
-  bool changed_ = false;
+  KeyedEntries<PieceCorners> entries_;
 };
 
 /// The bytes of a cache file (docs/file-formats.md), and back. Damaged bytes give an error, never
