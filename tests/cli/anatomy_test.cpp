@@ -9,6 +9,16 @@ namespace {
 class Anatomy : public CliTest {
  protected:
   std::string text_of(const std::string& name) { return read_file(file(name)).value_or(""); }
+  // Expects the files of one folder in the other, byte by byte; how many there are.
+  std::size_t same_files(const std::string& one, const std::string& other) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(file(one))) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_EQ(text_of(one + "/" + name), text_of(other + "/" + name)) << name;
+      ++files;
+    }
+    return files;
+  }
 };
 
 TEST_F(Anatomy, ListSaysMeanDeviationRangeAndSource) {
@@ -24,12 +34,7 @@ TEST_F(Anatomy, AKneeIsMadeAgainByItsSeedAndChecksSound) {
         run_osteon("anatomy make knee --seed 7 --set notch_width_mm=18 --out " + file(name));
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
-  std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(file("a"))) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(text_of("a/" + name), text_of("b/" + name)) << name;
-    ++files;
-  }
+  const std::size_t files = same_files("a", "b");
   EXPECT_EQ(files, 5u) << "four meshes and case.toml";
   EXPECT_NE(text_of("a/case.toml").find("# notch_width_mm = 18\n"), std::string::npos);
   const auto def = load_case(file("a"));
@@ -54,12 +59,7 @@ TEST_F(Anatomy, TheSameSeedGivesTheSameBytesAndACaseThatChecksSound) {
     const Ran ran = run_osteon(make + file(name));
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
-  std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(file("a"))) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(text_of("a/" + name), text_of("b/" + name)) << name;
-    ++files;
-  }
+  const std::size_t files = same_files("a", "b");
   EXPECT_EQ(files, 16u) << "fifteen meshes and case.toml";
   const std::string text = text_of("a/case.toml");
   EXPECT_NE(text.find("--seed 7 --set radial_inclination_deg=18"), std::string::npos);

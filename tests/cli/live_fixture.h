@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "block_case.h"
 #include "osteon/record/recording.h"
-#include "run_osteon.h"
 
 namespace osteon::testing_cli {
 
@@ -51,19 +51,10 @@ class LiveFixture : public CliTest {
   // A block of 40 mm with its top at z = 20, and a hand that comes down onto it and presses.
   void SetUp() override {
     CliTest::SetUp();
-    fs::create_directories(file("meshes"));
-    std::ofstream block(file("meshes/block.obj"));
-    for (int i = 0; i < 8; ++i)
-      block << "v " << (i & 1 ? 20 : -20) << ' ' << (i & 2 ? 20 : -20) << ' ' << (i & 4 ? 20 : -20)
-            << '\n';
-    block << "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
-             "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
-    block.close();
     std::ofstream(file("press.csv")) << "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button\n"
                                         "0,0,0,24,1,0,0,0,0\n0.2,0,0,18,1,0,0,0,0\n"
                                         "60,0,0,18,1,0,0,0,0\n";
-    const Ran made =
-        run_osteon("import mesh " + file("meshes") + " --unit mm --out " + file("case"));
+    const Ran made = make_block_case(dir_);
     ASSERT_EQ(made.exit_code, 0) << made.output;
   }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <thread>
 
-#include "run_osteon.h"
+#include "block_case.h"
 
 namespace osteon::testing_cli {
 namespace {
@@ -17,16 +17,7 @@ class PhantomLive : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
-    fs::create_directories(file("meshes"));
-    std::ofstream block(file("meshes/block.obj"));
-    for (int i = 0; i < 8; ++i)
-      block << "v " << (i & 1 ? 20 : -20) << ' ' << (i & 2 ? 20 : -20) << ' ' << (i & 4 ? 20 : -20)
-            << '\n';
-    block << "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
-             "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
-    block.close();
-    const Ran made =
-        run_osteon("import mesh " + file("meshes") + " --unit mm --out " + file("case"));
+    const Ran made = make_block_case(dir_);
     ASSERT_EQ(made.exit_code, 0) << made.output;
     // The names that the vendor's set-up program would have left.
     fs::create_directories(file("config"));

@@ -8,6 +8,7 @@
 #include "device/falcon/falcon_rig.h"
 #include "falcon/falcon_kinematics.h"
 #include "osteon/base/clock.h"
+#include "umockdev/answer_until.h"
 #include "umockdev/mock_usb.h"
 #include "usb/libusb_bus.h"
 
@@ -47,12 +48,7 @@ class FalconUmockdev : public ::testing::Test {
   // Looks at the device, with this force, until `done`; false: not within some seconds.
   template <class Done>
   bool run_until(HapticDevice& device, const Vec3& force_V, Done done) {
-    const std::int64_t end_ns = steady_now_ns() + 10'000'000'000;
-    do {
-      sample = device.read();
-      device.write_force(force_V);
-    } while (!done() && steady_now_ns() < end_ns);
-    return done();
+    return testing::answer_until(device, force_V, 10, sample, done);
   }
   bool lead(HapticDevice& device, const Vec3& to_V) {
     const Vec3 from_V = usb->locked([&] { return falcon->position_V(); });

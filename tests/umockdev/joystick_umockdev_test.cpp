@@ -11,6 +11,7 @@
 #include "emulated/emulated_vector_joystick.h"
 #include "joystick/joystick_driver.h"
 #include "osteon/base/clock.h"
+#include "umockdev/answer_until.h"
 #include "umockdev/mock_usb.h"
 #include "usb/libusb_bus.h"
 
@@ -94,12 +95,7 @@ class JoystickUmockdev : public ::testing::TestWithParam<Kind> {
   // Answers readings with this force until `done`; false: not within some seconds.
   template <class Done>
   bool run_until(HapticDevice& device, const Vec3& force_V, Done done) {
-    const std::int64_t end_ns = steady_now_ns() + 5'000'000'000;
-    do {
-      sample = device.read();
-      device.write_force(force_V);
-    } while (!done() && steady_now_ns() < end_ns);
-    return done();
+    return testing::answer_until(device, force_V, 5, sample, done);
   }
   void run(HapticDevice& device, int ticks, const Vec3& force_V) {
     int left = ticks;

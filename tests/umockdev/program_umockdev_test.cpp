@@ -1,37 +1,22 @@
 // The whole program on a computer where a joystick is plugged in that this user may not open.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "cli/run_osteon.h"
 #include "emulated/emulated_vector_joystick.h"
 #include "umockdev/mock_usb.h"
 
 namespace osteon {
 namespace {
 
-struct Ran {
-  int exit_code = -1;
-  std::string output;
-};
+using testing_cli::Ran;
 
 // The child sees the same made-up /sys and /dev: the preloaded library and the test bed's folder
 // are in its environment.
-Ran run(const std::string& arguments) {
-  Ran ran;
-  std::FILE* pipe =
-      ::popen((std::string(OSTEON_EXECUTABLE) + " " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return ran;
-  char block[4096];
-  for (std::size_t got; (got = std::fread(block, 1, sizeof block, pipe)) > 0;)
-    ran.output.append(block, got);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) ran.exit_code = WEXITSTATUS(status);
-  return ran;
-}
+Ran run(const std::string& arguments) { return testing_cli::run_osteon(arguments); }
 
 TEST(ProgramUmockdev, WithoutPermissionItNamesTheDeviceAndWorks) {
   const char* preloaded = std::getenv("LD_PRELOAD");
