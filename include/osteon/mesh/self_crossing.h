@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "osteon/mesh/tri_mesh.h"
+
+namespace osteon {
+
+/// Pairs of triangles of one mesh that pass through each other, each with the lower index first, in
+/// order; at most `most` of them. Triangles that share a corner count when they meet elsewhere too;
+/// two on one edge count when they are folded flat onto each other. Touching is not crossing.
+/// Decided in double precision: a crossing shallower than about 1e-12 of the triangles' size may
+/// be missed.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const TriMesh& mesh,
+                                                                    std::size_t most = 1000);
+
+/// The same, of the pairs of which one at least is marked: what moving those can have made.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const TriMesh& mesh,
+                                                                    const std::vector<bool>& marked,
+                                                                    std::size_t most = 1000);
+
+}  // namespace osteon
