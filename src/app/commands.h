@@ -15,17 +15,19 @@ void add_import_ct_command(CLI::App& app, int& exit_code);    // import ct; afte
 void add_scan_command(CLI::App& app, int& exit_code);         // scan: a virtual CT of a case
 void add_anatomy_commands(CLI::App& app, int& exit_code);     // anatomy list, anatomy make
 void add_anatomy_compare(CLI::App& anatomy, int& exit_code);  // called by the above
-void add_hull_command(CLI::App& app, int& exit_code);         // hull
-void add_collide_command(CLI::App& app, int& exit_code);      // collide
-void add_simulate_command(CLI::App& app, int& exit_code);     // simulate
-void add_path_commands(CLI::App& app, int& exit_code);        // path survey
-void add_replay_command(CLI::App& app, int& exit_code);       // replay
-void add_demo_command(CLI::App& app, int& exit_code);         // demo: the bundled path, no window
-void add_render_command(CLI::App& app, int& exit_code);       // render: a picture of a case
-void add_live_command(CLI::App& app, int& exit_code);         // live: devices, no window
-void add_devices_command(CLI::App& app, int& exit_code);      // devices
-void add_doctor_command(CLI::App& app, int& exit_code);       // doctor
-void add_stability_command(CLI::App& app, int& exit_code);    // stability
-void add_window_command(CLI::App& app, int& exit_code);       // window
+void add_mesh_commands(CLI::App& app, int& exit_code);        // mesh tetrahedra, mesh quality
+void add_mesh_surface_commands(CLI::App& mesh, int& exit_code);  // called by the above
+void add_hull_command(CLI::App& app, int& exit_code);            // hull
+void add_collide_command(CLI::App& app, int& exit_code);         // collide
+void add_simulate_command(CLI::App& app, int& exit_code);        // simulate
+void add_path_commands(CLI::App& app, int& exit_code);           // path survey
+void add_replay_command(CLI::App& app, int& exit_code);          // replay
+void add_demo_command(CLI::App& app, int& exit_code);       // demo: the bundled path, no window
+void add_render_command(CLI::App& app, int& exit_code);     // render: a picture of a case
+void add_live_command(CLI::App& app, int& exit_code);       // live: devices, no window
+void add_devices_command(CLI::App& app, int& exit_code);    // devices
+void add_doctor_command(CLI::App& app, int& exit_code);     // doctor
+void add_stability_command(CLI::App& app, int& exit_code);  // stability
+void add_window_command(CLI::App& app, int& exit_code);     // window
 
 }  // namespace osteon
