@@ -11,6 +11,11 @@ int report_error(const Error& error) {
   return kExitBad;
 }
 
+double metres_per_unit(const std::string& unit) {
+  if (unit == "m") return 1.0;
+  return unit == "cm" ? 0.01 : 0.001;
+}
+
 Result<void> save_report(const Report& report, const std::filesystem::path& file) {
   if (file.empty()) return {};
   return write_file_atomic(file, to_json(report));

@@ -15,6 +15,9 @@ inline constexpr int kExitBad = 2;  ///< the input or the command line is bad
 /// Prints the error for a person and returns kExitBad.
 int report_error(const Error& error);
 
+/// "m", "cm" or "mm", as the parser let it through.
+double metres_per_unit(const std::string& unit);
+
 /// Writes a report's JSON when `file` is not empty.
 Result<void> save_report(const Report& report, const std::filesystem::path& file);
 

@@ -168,7 +168,7 @@ void add_anatomy_compare(CLI::App& anatomy, int& exit_code) {
       ->check(CLI::IsMember({"m", "cm", "mm"}));
   sub->add_flag("--json", command->json, "print JSON");
   sub->callback([command, unit, &exit_code] {
-    command->metres_per_unit = *unit == "m" ? 1.0 : *unit == "cm" ? 0.01 : 0.001;
+    command->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_compare(*command);
   });
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "cli_support.h"
 #include "commands.h"
 #include "import_mesh.h"
 #include "open_case.h"
@@ -12,15 +13,6 @@
 
 namespace osteon {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kNo = 1;
-constexpr int kBadInput = 2;
-
-int complain(const Error& error) {
-  std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
-  return kBadInput;
-}
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
@@ -43,7 +35,7 @@ std::string plural(std::size_t count, const std::string& one) {
 
 int run_import(const ImportOptions& options) {
   const auto result = import_meshes(options);
-  if (!result) return complain(result.error());
+  if (!result) return report_error(result.error());
   TextTable table({"bone", "FMA", "file", "triangles", "closed", "mended"});
   for (std::size_t i = 0; i < result->bones.size(); ++i) {
     const ImportedBone& imported = result->bones[i];
@@ -55,7 +47,7 @@ int run_import(const ImportOptions& options) {
   print(table.text());
   for (const std::string& finding : check_case(result->def)) print("note: " + finding + "\n");
   print(plural(result->bones.size(), "bone") + " -> " + options.out.string() + "\n");
-  return kDone;
+  return kExitDone;
 }
 
 std::string felt_text(const Bone& bone) {
@@ -70,7 +62,7 @@ std::string field_text(const Bone& bone) {
 
 int run_info(const std::string& spec) {
   const auto the_case = open_case(spec);
-  if (!the_case) return complain(the_case.error());
+  if (!the_case) return report_error(the_case.error());
   const Case& c = **the_case;
   TextTable table({"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm",
                    "felt as", "hull vertices", "field MB"});
@@ -90,12 +82,12 @@ int run_info(const std::string& spec) {
     field_mb += bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
   if (field_mb > 0) std::printf("\nthe distance fields take %.1f MB", field_mb);
   std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
-  return kDone;
+  return kExitDone;
 }
 
 int run_check(const std::string& spec) {
   auto def = open_case_def(spec);
-  if (!def) return complain(def.error());
+  if (!def) return report_error(def.error());
   std::vector<std::string> findings = check_case(*def);
   const std::size_t bones = def->bones.size();
   if (const auto built = build_case(std::move(*def)); !built)
@@ -103,7 +95,7 @@ int run_check(const std::string& spec) {
   for (const std::string& finding : findings) print(finding + "\n");
   print(findings.empty() ? plural(bones, "bone") + ", sound\n"
                          : plural(findings.size(), "finding") + "\n");
-  return findings.empty() ? kDone : kNo;
+  return findings.empty() ? kExitDone : kExitNo;
 }
 
 void add_import(CLI::App& app, int& exit_code) {
@@ -123,7 +115,7 @@ void add_import(CLI::App& app, int& exit_code) {
   mesh->add_option("--side", options->side, "left or right")
       ->check(CLI::IsMember({"left", "right"}));
   mesh->callback([options, unit, &exit_code] {
-    options->metres_per_unit = *unit == "m" ? 1.0 : *unit == "cm" ? 0.01 : 0.001;
+    options->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_import(*options);
   });
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli_support.h"
 #include "commands.h"
 #include "open_case.h"
 #include "osteon/scene/felt_distance.h"
@@ -11,9 +12,6 @@
 
 namespace osteon {
 namespace {
-
-constexpr int kDone = 0;
-constexpr int kBadInput = 2;
 
 std::string in_mm(double metres) { return fixed(1000 * metres, 3); }
 
@@ -70,12 +68,11 @@ void add_case_felt_command(CLI::App& app, int& exit_code) {
   felt->callback([spec, json, &exit_code] {
     const auto the_case = open_case(*spec);
     if (!the_case) {
-      std::fprintf(stderr, "osteon: %s\n", the_case.error().message().c_str());
-      exit_code = kBadInput;
+      exit_code = report_error(the_case.error());
       return;
     }
     *json ? print_json(**the_case) : print_table(**the_case);
-    exit_code = kDone;
+    exit_code = kExitDone;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "cli_support.h"
 #include "collide_table.h"
 #include "commands.h"
 #include "osteon/base/file.h"
@@ -21,10 +22,6 @@ struct CollideOptions {
   std::string poses;
   std::string out;
 };
-
-double metres_per_unit(const std::string& unit) {
-  return unit == "m" ? 1.0 : unit == "cm" ? 1e-2 : 1e-3;
-}
 
 Result<ConvexBody> load_body(const std::string& file, const std::string& unit) {
   const auto mesh = load_mesh(file, metres_per_unit(unit));
@@ -53,10 +50,7 @@ Result<CollideTable> collide(const CollideOptions& options) {
 
 int run(const CollideOptions& options) {
   const auto table = collide(options);
-  if (!table) {
-    std::fprintf(stderr, "osteon: %s\n", table.error().message().c_str());
-    return 2;
-  }
+  if (!table) return report_error(table.error());
   std::printf("%zu poses, %zu hits, query median %.0f ns, p99 %.0f ns -> %s\n", table->poses,
               table->hits, table->times.quantile_ns(0.5), table->times.quantile_ns(0.99),
               options.out.c_str());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli_support.h"
 #include "commands.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/mesh_io.h"
@@ -24,11 +25,6 @@ struct MeshHull {
   Hull hull;
   HullStats stats;
 };
-
-double metres_per_unit(const std::string& unit) {
-  if (unit == "m") return 1.0;
-  return unit == "cm" ? 1e-2 : 1e-3;
-}
 
 Result<MeshHull> hull_of(const std::string& file, double unit_m) {
   const Result<TriMesh> mesh = load_mesh(file, unit_m);
@@ -75,24 +71,19 @@ void print(const MeshHull& r) {
               r.stats.exact_tests);
 }
 
-int report(const Error& error) {
-  std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
-  return 2;
-}
-
 int run(const HullOptions& options) {
   if (!options.out.empty() && options.meshes.size() != 1) {
-    return report({"--out takes the hull of one mesh, and " +
-                       std::to_string(options.meshes.size()) + " were given",
-                   options.out, "call the command once for each mesh"});
+    return report_error({"--out takes the hull of one mesh, and " +
+                             std::to_string(options.meshes.size()) + " were given",
+                         options.out, "call the command once for each mesh"});
   }
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& file : options.meshes) {
     const Result<MeshHull> result = hull_of(file, metres_per_unit(options.unit));
-    if (!result) return report(result.error());
+    if (!result) return report_error(result.error());
     if (!options.out.empty()) {
       const Result<void> written = write_hull(*result, options);
-      if (!written) return report(written.error());
+      if (!written) return report_error(written.error());
     }
     if (options.json) {
       all.push_back(to_json(*result));

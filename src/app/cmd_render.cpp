@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli_support.h"
 #include "commands.h"
 #include "open_case.h"
 #include "osteon/base/file.h"
@@ -50,7 +51,9 @@ Result<void> render(const RenderOptions& options) {
   if (!data_dir) return tl::unexpected(data_dir.error());
   const auto context = OffscreenContext::create();
   if (!context) return tl::unexpected(context.error());
-  auto renderer = Renderer::create(the_case, Tool{}, *data_dir);
+  PreparedCase prepared = prepare_case(the_case);
+  if (options.felt) prepare_felt(the_case, prepared);
+  auto renderer = Renderer::create(the_case, Tool{}, *data_dir, prepared);
   if (!renderer) return tl::unexpected(renderer.error());
   RenderSnapshot snapshot;
   snapshot.bones = rest_snapshot(the_case);
@@ -62,10 +65,7 @@ Result<void> render(const RenderOptions& options) {
 }
 
 int run(const RenderOptions& options) {
-  if (const auto done = render(options); !done) {
-    std::fprintf(stderr, "osteon: %s\n", done.error().message().c_str());
-    return 2;
-  }
+  if (const auto done = render(options); !done) return report_error(done.error());
   std::printf("%s view of %s, %s pixels -> %s\n", options.view.c_str(), options.case_spec.c_str(),
               options.size.c_str(), options.out.c_str());
   return 0;

@@ -5,14 +5,13 @@
 #include <regex>
 #include <string>
 
+#include "cli_support.h"
 #include "commands.h"
 #include "loops/stop_signal.h"
 #include "window/window_app.h"
 
 namespace osteon {
 namespace {
-
-constexpr int kBadInput = 2;
 
 // "1280x720"
 bool parse_size(const std::string& text, WindowOrder& order) {
@@ -45,14 +44,10 @@ void print_stats(const WindowApp& app) {
 
 int run_window(const WindowOrder& order) {
   const StopSignals signals;
-  const auto complain = [](const Error& error) {
-    std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
-    return kBadInput;
-  };
   auto app = WindowApp::create(order);
-  if (!app) return complain(app.error());
+  if (!app) return report_error(app.error());
   const Result<void> ended = (*app)->run();
-  if (!ended) return complain(ended.error());
+  if (!ended) return report_error(ended.error());
   if (order.frames > 0) print_stats(**app);
   return stop_signal() ? 128 + stop_signal() : 0;
 }

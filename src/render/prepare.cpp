@@ -70,8 +70,7 @@ std::uint8_t felt_byte(double height_m) {
   return static_cast<std::uint8_t>(128 + std::lround(127 * share));
 }
 
-ShadedMesh shaded(const Surface& s, const std::vector<float>& openness,
-                  const std::vector<double>& felt, std::size_t bone) {
+ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::size_t bone) {
   std::vector<float> curvature = mean_curvature(s);
   smooth(s, 2, curvature);
   ShadedMesh out;
@@ -81,8 +80,8 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness,
     out.positions.push_back(to_floats(s.points[k]));
     out.normals.push_back(to_floats(s.normals[k]));
     const double cavity = 0.5 + 0.5 * curvature[k] / kFullCurvature_per_m;
-    out.shades.push_back({to_byte(openness[k]), to_byte(cavity), to_byte(mottle(s.points[k], bone)),
-                          felt_byte(felt[k])});
+    out.shades.push_back(
+        {to_byte(openness[k]), to_byte(cavity), to_byte(mottle(s.points[k], bone)), felt_byte(0)});
   }
   return out;
 }
@@ -101,15 +100,27 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
                                      [&](double share) { return report(kOcclusionShare * share); });
   PreparedCase out;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const Surface& surface = surfaces[k].surface;
-    const std::vector<double> felt = stopped ? std::vector<double>(surface.points.size(), 0.0)
-                                             : felt_heights(the_case.bones[k], surface.points);
-    out.bones.push_back(shaded(surface, openness[k], felt, k));
+    out.bones.push_back(shaded(surfaces[k].surface, openness[k], k));
     const double done = static_cast<double>(k + 1) / static_cast<double>(surfaces.size());
     if (!stopped) out.bones.back().coarser = coarser_levels(out.bones.back());
     report(kOcclusionShare + (1 - kOcclusionShare) * done);
   }
   return out;
+}
+
+void prepare_felt(const Case& the_case, PreparedCase& prepared, const PrepareProgress& progress) {
+  const std::size_t count = std::min(the_case.bones.size(), prepared.bones.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    ShadedMesh& mesh = prepared.bones[k];
+    std::vector<Vec3> points_B;
+    points_B.reserve(mesh.positions.size());
+    for (const auto& p : mesh.positions)
+      points_B.push_back(Eigen::Vector3f(p[0], p[1], p[2]).cast<double>());
+    const std::vector<double> heights = felt_heights(the_case.bones[k], points_B);
+    for (std::size_t v = 0; v < heights.size(); ++v) mesh.shades[v].felt = felt_byte(heights[v]);
+    const double done = static_cast<double>(k + 1) / static_cast<double>(count);
+    if (progress && !progress(done)) return;
+  }
 }
 
 }  // namespace osteon

@@ -130,6 +130,11 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
+void Renderer::set_surfaces(const PreparedCase& prepared) {
+  impl_->painter.set_surfaces(prepared);
+  impl_->kept.reset();
+}
+
 void Renderer::draw(const RenderSnapshot& snapshot, const ViewState& view,
                     const Viewport& viewport) {
   if (viewport.empty()) return;

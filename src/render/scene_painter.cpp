@@ -112,12 +112,20 @@ bool is_shown(const RenderSnapshot& snapshot, const ViewState& view, std::size_t
          look.opacity >= kSeenThrough && is_finite(snapshot.bones.bones[bone].X_WB);
 }
 
-ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone, const ShadedMesh& mesh) {
+void ScenePainter::set_surfaces(const PreparedCase& prepared) {
+  static const ShadedMesh nothing;
+  for (std::size_t k = 0; k < bones_.size(); ++k) {
+    const ShadedMesh& mesh = k < prepared.bones.size() ? prepared.bones[k] : nothing;
+    bones_[k].closed = mesh.closed;
+    bones_[k].levels.clear();
+    bones_[k].levels.push_back({GpuMesh(mesh), 0});
+    for (const ShadedMesh::Level& level : mesh.coarser)
+      bones_[k].levels.push_back({GpuMesh(mesh, level.triangles), level.error_m});
+  }
+}
+
+ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone) {
   BoneModel model;
-  model.closed = mesh.closed;
-  model.levels.push_back({GpuMesh(mesh), 0});
-  for (const ShadedMesh::Level& level : mesh.coarser)
-    model.levels.push_back({GpuMesh(mesh, level.triangles), level.error_m});
   std::size_t edges = 0;
   for (const Hull& piece : bone.pieces) {
     const auto ends = facet_edges({&piece, 1});
@@ -149,10 +157,8 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     if (!loaded) return tl::unexpected(loaded.error());
     *p.program = std::move(*loaded);
   }
-  static const ShadedMesh nothing;
-  for (std::size_t k = 0; k < the_case.bones.size(); ++k)
-    painter.bones_.push_back(
-        make_bone(the_case.bones[k], k < prepared.bones.size() ? prepared.bones[k] : nothing));
+  for (const Bone& bone : the_case.bones) painter.bones_.push_back(make_bone(bone));
+  painter.set_surfaces(prepared);
   painter.tool_ = GpuMesh(plain_shaded(tool.mesh));
   painter.tool_capsules_ = capsules_along_z(tool.mesh);
   painter.tool_length_m_ = std::max(0.0, finite_bounds(tool.mesh).hi.z());

@@ -17,6 +17,8 @@ class ScenePainter {
                                      const std::filesystem::path& shader_dir,
                                      const PreparedCase& prepared);
 
+  /// Draws the bones with these surfaces from now on; of the case that it was made with.
+  void set_surfaces(const PreparedCase& prepared);
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
   /// Fills the bound framebuffer's current viewport with what is behind everything.
@@ -74,7 +76,7 @@ class ScenePainter {
   void set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
   void set_felt_colors(const ViewState& view) const;
-  static BoneModel make_bone(const Bone& bone, const ShadedMesh& mesh);
+  static BoneModel make_bone(const Bone& bone);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
   const GpuMesh& surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const;

@@ -152,5 +152,19 @@ TEST_F(DrawChanges, ABoneThatDriftsSlowlyIsFollowed) {
   EXPECT_LE(count_different(kept, drawn_whole(renderer, snapshot, view), 60), 20);
 }
 
+// The picture that was kept shows the surfaces that it was drawn with.
+TEST_F(DrawChanges, NewSurfacesAreShownThoughNothingMoved) {
+  const Case pair = two_balls();
+  PreparedCase prepared = prepare_case(pair);
+  Renderer renderer = make_renderer(pair);
+  const RenderSnapshot snapshot = at_rest(pair);
+  ViewState view = front_view();
+  view.show_felt = true;
+  const Image before = drawn(renderer, snapshot, view);
+  prepare_felt(pair, prepared);
+  renderer.set_surfaces(prepared);
+  EXPECT_NE(drawn(renderer, snapshot, view).rgb, before.rgb);
+}
+
 }  // namespace
 }  // namespace osteon

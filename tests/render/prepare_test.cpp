@@ -33,14 +33,31 @@ int openness_towards(const ShadedMesh& mesh, const Vec3& direction) {
 }
 
 // A hull that stands 0.25 mm over the mesh is half of the range.
-TEST(PrepareCase, TellsHowHighWhatIsFeltStands) {
+TEST(PrepareFelt, TellsHowHighWhatIsFeltStands) {
   Case one;
   one.bones.push_back(make_bone("ball", sphere_mesh(0.005), Vec3::Zero()));
-  const PreparedCase without = prepare_case(one);
+  PreparedCase without = prepare_case(one);
+  prepare_felt(one, without);
   for (const ShadedMesh::Shade& s : without.bones[0].shades) EXPECT_EQ(s.felt, 128);
   one.bones[0].pieces = {*build_hull(sphere_mesh(0.00525).vertices).hull};
-  const PreparedCase over = prepare_case(one);
+  PreparedCase over = prepare_case(one);
+  for (const ShadedMesh::Shade& s : over.bones[0].shades) EXPECT_EQ(s.felt, 128) << "not asked for";
+  prepare_felt(one, over);
   for (const ShadedMesh::Shade& s : over.bones[0].shades) EXPECT_NEAR(s.felt, 128 + 64, 2);
+}
+
+TEST(PrepareFelt, NothingAndStopping) {
+  PreparedCase nothing;
+  prepare_felt({}, nothing);
+  Case pair = pair_of_balls(0.001);
+  for (Bone& bone : pair.bones) bone.pieces = {*build_hull(sphere_mesh(0.00525).vertices).hull};
+  PreparedCase prepared = prepare_case(pair);
+  prepare_felt(pair, prepared, [](double share) {
+    EXPECT_DOUBLE_EQ(share, 0.5);
+    return false;
+  });
+  EXPECT_GT(prepared.bones[0].shades[0].felt, 128);
+  EXPECT_EQ(prepared.bones[1].shades[0].felt, 128);
 }
 
 TEST(PrepareCase, EmptyCaseAndEmptyMesh) {

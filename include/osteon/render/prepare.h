@@ -17,7 +17,8 @@ struct ShadedMesh {
     std::uint8_t openness;  ///< 255: sees the whole sky; lower: other bone is near (occlusion)
     std::uint8_t cavity;    ///< 128: flat; below: hollow; above: ridge
     std::uint8_t mottle;    ///< 128: the bone's own colour; the rest is its slight variation
-    std::uint8_t felt;      ///< height of what is felt over it: 128: none, 1 and 255: kFeltRange_m
+    std::uint8_t felt;      ///< height of what is felt over it (prepare_felt): 128: none, or not
+                            ///< worked out; 1 and 255: kFeltRange_m
   };
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 3>> normals;
@@ -46,5 +47,11 @@ using PrepareProgress = std::function<bool(double)>;
 /// vertices that are missing or not finite are left out. The same case gives the same bytes. When
 /// stopped, vertices not reached keep openness 255.
 PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress = {});
+
+/// Works out the height of what is felt over every vertex, for ViewState::show_felt: seconds for a
+/// wrist felt as pieces, so only where it is asked for. `prepared` comes from
+/// prepare_case(the_case). When stopped, bones not reached keep 128.
+void prepare_felt(const Case& the_case, PreparedCase& prepared,
+                  const PrepareProgress& progress = {});
 
 }  // namespace osteon

@@ -36,7 +36,8 @@ struct ViewState {
   Camera camera;
   std::vector<BoneAppearance> bones;  ///< one a bone; bones past its end look as the default
   bool show_hulls = false;
-  bool show_felt = false;  ///< bones by the height of what is felt over them (felt_colors.h)
+  /// Bones by the height of what is felt over them (felt_colors.h), where prepare_felt told it.
+  bool show_felt = false;
   bool show_proxy = true;
   bool show_force = true;
   bool show_hand_ghost = true;      ///< the hand's own pose when it differs from the proxy's
@@ -80,6 +81,9 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
+
+  /// Takes surfaces of the same case that tell more than those before, as prepare_felt makes them.
+  void set_surfaces(const PreparedCase& prepared);
 
   /// Draws into the viewport of the framebuffer that is bound; touches nothing outside it. Leaves
   /// that framebuffer bound, depth test, blending, culling and scissor off. Where a processor

@@ -45,6 +45,18 @@ void draw_ticks(const PanelContext& c, ImVec2 at, float width) {
   }
 }
 
+void draw_scale(const PanelContext& c) {
+  const ImVec2 bar(c.px(300), c.px(10));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  draw_bar(at, bar);
+  draw_ticks(c, {at.x, at.y + bar.y}, bar.x);
+  ImGui::Dummy({bar.x, bar.y + c.px(6) + ImGui::GetTextLineHeight()});
+  const float right = ImGui::CalcTextSize("over it").x;
+  ui::text(color::kTextQuiet, "under it");
+  ImGui::SameLine(c.px(14) + bar.x - right);
+  ui::text(color::kTextQuiet, "over it");
+}
+
 }  // namespace
 
 void draw_felt_legend(const PanelContext& c) {
@@ -56,16 +68,11 @@ void draw_felt_legend(const PanelContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(10)});
   ImGui::Begin("##felt_legend", nullptr, kLegend);
   ImGui::PopStyleVar();
-  const ImVec2 bar(c.px(300), c.px(10));
   ui::text(color::kText, "What is felt, against the surface seen, mm");
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  draw_bar(at, bar);
-  draw_ticks(c, {at.x, at.y + bar.y}, bar.x);
-  ImGui::Dummy({bar.x, bar.y + c.px(6) + ImGui::GetTextLineHeight()});
-  const float right = ImGui::CalcTextSize("over it").x;
-  ui::text(color::kTextQuiet, "under it");
-  ImGui::SameLine(c.px(14) + bar.x - right);
-  ui::text(color::kTextQuiet, "over it");
+  if (c.model.felt_measured < 1)
+    ImGui::ProgressBar(static_cast<float>(c.model.felt_measured), {c.px(300), 0}, "Measuring");
+  else
+    draw_scale(c);
   ImGui::End();
 }
 

@@ -115,7 +115,8 @@ struct UiModel {
   std::vector<std::string> bone_labels;
   std::vector<Felt> bone_felt;  ///< as bone_labels
   ViewState view;
-  BoneId hovered;  ///< under the pointer, in the picture
+  double felt_measured = 1;  ///< share of what is felt whose distance from what is seen is known
+  BoneId hovered;            ///< under the pointer, in the picture
   BoneId picked;
   float pointer_x = 0, pointer_y = 0;
 

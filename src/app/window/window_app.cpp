@@ -83,6 +83,7 @@ void WindowApp::frame(double dt_s) {
   ui_->set_scale(static_cast<float>(scale));
   for (const std::string& file : window_->take_dropped_files()) open({case_source_, file, case_});
   poll_loading();
+  poll_felt();
   poll_checkup();
   toasts_.age(now_s_);
 
@@ -102,7 +103,7 @@ void WindowApp::draw_picture() {
   glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!ready() || width <= 0 || height <= 0) return;
-  ViewState shown = view_;
+  ViewState shown = picture_view();
   for (const BoneId id : {hovered_, hovered_row_, picked_})
     if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
   const double before_s = processor_now_s();
@@ -118,7 +119,7 @@ bool WindowApp::measured_run_over() {
   if (!load_failure_.empty()) return true;
   // A replay stands at the ordered moment from the start.
   const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached || checkup_) {
+  if (!ready() || !reached || checkup_ || felt_job_) {
     work_.clear();
     processor_start_s_ = processor_now_s();
     scene_s_ = 0;

@@ -11,6 +11,7 @@
 #include "window/camera_control.h"
 #include "window/checkup_job.h"
 #include "window/device_choices.h"
+#include "window/felt_job.h"
 #include "window/frame_stats.h"
 #include "window/gl_window.h"
 #include "window/imgui_host.h"
@@ -74,6 +75,8 @@ class WindowApp {
   void start_live(const std::string& device);  ///< key of a choice
   void leave_replay();
   void choose_felt(const FeltWish& wish);
+  void poll_felt();
+  ViewState picture_view() const;  ///< `view_`, as far as it can be drawn yet
   void fail_loading(const std::string& message);
   // window_model.cpp
   UiModel build_model() const;
@@ -130,6 +133,9 @@ class WindowApp {
   std::string case_source_;
   ProbePath demo_;
   std::optional<Renderer> renderer_;
+  std::optional<PreparedCase> prepared_;  ///< of the case, until what is felt was measured over it
+  std::unique_ptr<FeltJob> felt_job_;     ///< while that is under way
+  bool felt_known_ = false;               ///< to the renderer
   std::unique_ptr<LiveRun> live_;
   std::optional<LoadedReplay> replay_;
   std::optional<ReplayPlayer> player_;

@@ -113,6 +113,7 @@ UiModel WindowApp::build_model() const {
     model.bone_felt.push_back(bone.felt);
   }
   model.view = view_;
+  if (felt_job_) model.felt_measured = felt_job_->fraction();
   model.hovered = hovered_;
   model.picked = picked_;
   const double ratio = window_->pixel_ratio();

@@ -51,6 +51,9 @@ void WindowApp::install(Loaded loaded) {
     auto renderer = Renderer::create(*loaded.the_case, make_wrist_probe(), *data, *loaded.prepared);
     if (!renderer) return fail_loading(renderer.error().message());
     renderer_ = std::move(*renderer);
+    felt_job_.reset();
+    felt_known_ = false;
+    prepared_ = std::move(loaded.prepared);
     case_ = loaded.the_case;
     demo_ = loaded.demo;
     const ViewState before = view_;
@@ -111,6 +114,29 @@ void WindowApp::choose_felt(const FeltWish& wish) {
   if (!choice) return note(ToastKind::kError, choice.error().message());
   choice->of_bone[case_->bone(wish.bone).name] = wish.felt;
   open({to_text(*choice), {}, nullptr});
+}
+
+// Measured when it is first shown: it would double the time that opening takes.
+void WindowApp::poll_felt() {
+  if (felt_job_ && felt_job_->done()) {
+    if (felt_job_->failed())
+      note(
+          ToastKind::kWarning,
+          "There was not enough memory to measure what is felt of every bone. Close other programs "
+          "and open the case again.");
+    renderer_->set_surfaces(felt_job_->take());
+    felt_job_.reset();
+    felt_known_ = true;
+  }
+  if (!ready() || !view_.show_felt || !prepared_) return;
+  felt_job_ = std::make_unique<FeltJob>(case_, std::move(*prepared_));
+  prepared_.reset();
+}
+
+ViewState WindowApp::picture_view() const {
+  ViewState view = view_;
+  view.show_felt = view.show_felt && felt_known_;
+  return view;
 }
 
 void WindowApp::leave_replay() {

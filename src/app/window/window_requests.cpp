@@ -147,9 +147,9 @@ void WindowApp::save_screenshot(bool whole_window) {
   int width = 0, height = 0;
   window_->framebuffer_size(width, height);
   const Viewport v = viewport();
-  const Image image = whole_window
-                          ? read_framebuffer(width, height)
-                          : renderer_->draw_image(shown_, view_, 2 * v.width, 2 * v.height);
+  const Image image =
+      whole_window ? read_framebuffer(width, height)
+                   : renderer_->draw_image(shown_, picture_view(), 2 * v.width, 2 * v.height);
   const Result<void> saved = save_png(image, file);
   if (saved)
     note(ToastKind::kInfo, "Saved as " + file.string());

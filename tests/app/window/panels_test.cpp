@@ -62,6 +62,9 @@ TEST(Panels, TheLegendStandsWhereBonesAreColouredByWhatIsFelt) {
   EXPECT_LE(legend.bottom(), bar.y);
   EXPECT_GT(legend.x, ui.rect("##case").right());
   EXPECT_LT(legend.right(), ui.rect("##hand").x);
+  ui.model.felt_measured = 0.5;  // its progress takes the scale's place
+  for (int i = 0; i < 3; ++i) ui.draw();
+  EXPECT_LT(ui.rect("##felt_legend").h, legend.h);
 }
 
 TEST(Panels, DrawsWithNoBonesAndNoDevice) {
