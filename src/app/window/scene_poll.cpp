@@ -59,10 +59,17 @@ ProbeMotion probe_motion(const SceneInput& input) {
   return motion;
 }
 
+// The first one: pedals and other joysticks may stand before it in the list.
+bool read_first_gamepad(GLFWgamepadstate& state) {
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id)
+    if (glfwGetGamepadState(id, &state) == GLFW_TRUE) return true;
+  return false;
+}
+
 PadAxes read_gamepad() {
   PadAxes axes;
   GLFWgamepadstate state;
-  axes.connected = glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_TRUE;
+  axes.connected = read_first_gamepad(state);
   if (!axes.connected) return axes;
   const auto axis = [&state](int i) { return static_cast<double>(state.axes[i]); };
   const auto held = [&state](int i) { return state.buttons[i] == GLFW_PRESS ? 1.0 : 0.0; };
