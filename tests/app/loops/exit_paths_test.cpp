@@ -11,36 +11,25 @@
 #include <functional>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "app/loops/fake_device.h"
 #include "loops/device_log.h"
+#include "loops/path_player.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
 #include "osteon/base/file.h"
-#include "osteon/scene/path.h"
-#include "window/device_choices.h"
+#include "osteon/device/drivers.h"
 
 namespace osteon {
 namespace {
 
-// Down onto the block, and on it for ever.
-ProbePath pressing_path() {
-  ProbePath path;
-  for (const auto& [time_s, z_mm] : {std::pair{0.0, 4.0}, {0.2, -2.0}, {600.0, -2.0}}) {
-    PathSample sample;
-    sample.time_s = time_s;
-    sample.X_WD.p = Vec3(0, 0, 1e-3 * z_mm);
-    path.samples.push_back(sample);
-  }
-  return path;
-}
-
 // Runs until the joystick presses with half a newton, then ends the program so.
 void press_and(const std::function<void()>& end, const std::filesystem::path& log_file) {
   const StopSignals signals;
-  const auto choices = list_device_choices(nullptr);
-  const auto index = static_cast<std::size_t>(find_choice(choices, "virtual-usb-vector"));
-  auto device = open_choice(choices.at(index), pressing_path());
+  auto joystick = open_device("virtual-usb-vector");
+  if (!joystick) std::_Exit(3);
+  auto device = PathPlayer::make(std::move(*joystick), test::pressing_path());
   if (!device) std::_Exit(3);
   RunPlan plan;
   plan.the_case = test::blocks_case();

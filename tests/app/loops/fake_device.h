@@ -7,6 +7,7 @@
 
 #include "osteon/device/haptic_device.h"
 #include "osteon/scene/build_case.h"
+#include "osteon/scene/path.h"
 
 namespace osteon::test {
 
@@ -77,6 +78,18 @@ inline DeviceSample press_and_slide(std::uint64_t tick) {
   sample.X_VD.p.z() = falls ? 0.003 - t * 0.05 : -0.002;
   sample.v_V = Vec3(slides ? 0.01 : 0.0, 0, falls ? -0.05 : 0.0);
   return sample;
+}
+
+/// For an emulated hand: down onto "near", and pressing on it for ever.
+inline ProbePath pressing_path() {
+  ProbePath path;
+  for (const auto& [time_s, z_mm] : {std::pair{0.0, 4.0}, {0.2, -2.0}, {600.0, -2.0}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0, 0, 1e-3 * z_mm);
+    path.samples.push_back(sample);
+  }
+  return path;
 }
 
 }  // namespace osteon::test
