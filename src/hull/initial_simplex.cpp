@@ -1,4 +1,4 @@
-#include "simplex.h"
+#include "initial_simplex.h"
 
 #include <cmath>
 #include <utility>

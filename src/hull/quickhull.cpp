@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "predicates.h"
-#include "simplex.h"
+#include "initial_simplex.h"
 
 namespace osteon::hull {
 
