@@ -27,31 +27,112 @@ class DelayLine {
   std::size_t next_ = 0;
 };
 
-// Ends and means over the last two half seconds.
-class Ending {
+// A swing that stays so small for a second only dies: a hundredth of what counts as a swing at all.
+constexpr double kRest_m = 1e-7;
+
+// Ends and means of half seconds, one after the other.
+class HalfSeconds {
  public:
-  void add(double time_s, double end_s, const Vec3& p, const Vec3& force) {
-    if (time_s < end_s - 1.0) return;
-    const bool last = time_s >= end_s - 0.5;
-    double* range = last ? late_ : early_;
-    range[0] = std::min(range[0], p.x());
-    range[1] = std::max(range[1], p.x());
-    if (!last) return;
-    ++count_;
-    depth_ -= p.x();
-    force_ += force.x();
+  void add(double p_m, double force_n) {
+    now_.low_m = std::min(now_.low_m, p_m);
+    now_.high_m = std::max(now_.high_m, p_m);
+    now_.depth_m -= p_m;
+    now_.force_n += force_n;
+    ++now_.count;
   }
+  void next() {
+    early_ = late_;
+    late_ = now_;
+    now_ = {};
+  }
+  bool at_rest() const { return early_.swing_m() < kRest_m && late_.swing_m() < kRest_m; }
+  // Of the last two whole ones.
   void fill(WallOutcome& out) const {
-    out.swing_m = late_[1] - late_[0];
-    out.earlier_swing_m = early_[1] - early_[0];
-    out.force_n = force_ / std::max(1, count_);
-    out.depth_m = depth_ / std::max(1, count_);
+    out.swing_m = late_.swing_m();
+    out.earlier_swing_m = early_.swing_m();
+    out.force_n = late_.force_n / std::max(1, late_.count);
+    out.depth_m = late_.depth_m / std::max(1, late_.count);
   }
 
  private:
-  double early_[2] = {1e9, -1e9}, late_[2] = {1e9, -1e9};
-  double depth_ = 0, force_ = 0;
-  int count_ = 0;
+  struct Half {
+    double low_m = HUGE_VAL, high_m = -HUGE_VAL;
+    double depth_m = 0, force_n = 0;
+    int count = 0;
+    double swing_m() const { return count > 0 ? high_m - low_m : HUGE_VAL; }
+  };
+  Half early_, late_, now_;
+};
+
+// The hand, its way onto the wall, and the loop around it.
+class WallLoopRun {
+ public:
+  WallLoopRun(const WallTrial& trial, const DeviceInfo& info, const SafetyParams& params)
+      : trial_(trial),
+        tick_s_(period_s(info)),
+        fine_s_(tick_s_ / kFine),
+        goal_m_(-trial.press_n / trial.wall_n_per_m -
+                trial.press_n / trial.hand.grip_stiffness_n_per_m),
+        gate_(info, params),
+        hand_(trial.hand),
+        wanted_(at(kStart_m)),
+        readings_(trial.delay_before ? trial.delay_s : 0, fine_s_, wanted_.p),
+        speeds_(trial.delay_before ? trial.delay_s : 0, fine_s_, Vec3::Zero()),
+        forces_(trial.delay_before ? 0 : trial.delay_s, fine_s_, Vec3::Zero()) {
+    gate_.enable();
+    hand_.reset(wanted_);
+    sample_.X_VD = wanted_;
+  }
+
+  WallOutcome run() {
+    // Half a second at rest lets the ramp-in end.
+    const std::int64_t start = ticks_in(0.5 + (kStart_m - goal_m_) / trial_.approach_m_per_s);
+    for (std::int64_t n = 0; n < start; ++n) tick(nullptr);
+    HalfSeconds halves;
+    const auto count = static_cast<int>(std::lround(trial_.seconds / 0.5));
+    for (int half = 0; half < count && !halves.at_rest(); ++half) {
+      const std::int64_t end = start + ticks_in(0.5 * (half + 1));
+      while (tick_ < end) tick(&halves);
+      halves.next();
+    }
+    WallOutcome out;
+    halves.fill(out);
+    out.passivity = gate_.state().passivity;
+    out.cause = gate_.cause();
+    return out;
+  }
+
+ private:
+  static constexpr double kStart_m = 0.005;
+  static Pose at(double x_m) { return {Vec3(x_m, 0, 0), Quat::Identity()}; }
+  std::int64_t ticks_in(double time_s) const { return std::llround(time_s / tick_s_); }
+
+  void tick(HalfSeconds* halves) {
+    const double t = static_cast<double>(tick_++) * tick_s_;
+    sample_.time_ns = tick_ * to_ns(tick_s_);
+    const Vec3 wall(std::max(0.0, -sample_.X_VD.p.x()) * trial_.wall_n_per_m, 0, 0);
+    const Vec3 command = gate_.filter(wall, sample_, 0, tick_s_);
+    const double way = std::clamp((t - 0.5) * trial_.approach_m_per_s, 0.0, kStart_m - goal_m_);
+    wanted_.p.x() = kStart_m - way;
+    const bool moving = way > 0 && way < kStart_m - goal_m_;
+    const Vec3 wanted_v(moving ? -trial_.approach_m_per_s : 0, 0, 0);
+    for (int i = 0; i < kFine; ++i) {
+      const Vec3 felt = forces_.pass(command);
+      hand_.step(fine_s_, wanted_, wanted_v, felt);
+      sample_.X_VD.p = readings_.pass(hand_.pose().p);
+      sample_.v_V = speeds_.pass(hand_.velocity());
+      if (halves) halves->add(hand_.pose().p.x(), felt.x());
+    }
+  }
+
+  const WallTrial& trial_;
+  double tick_s_, fine_s_, goal_m_;
+  SafetyGate gate_;
+  VirtualHand hand_;
+  Pose wanted_;
+  DelayLine readings_, speeds_, forces_;
+  DeviceSample sample_;
+  std::int64_t tick_ = 0;
 };
 
 }  // namespace
@@ -59,50 +140,7 @@ class Ending {
 WallOutcome press_wall(const WallTrial& trial, const DeviceInfo& info, const SafetyParams& params) {
   SafetyParams used = params;
   used.passivity.on = params.passivity.on && trial.filtered;
-  SafetyGate gate(info, used);
-  gate.enable();
-  const double tick_s = period_s(info), fine_s = tick_s / kFine;
-  constexpr double kStart_m = 0.005;
-  const double goal_m =
-      -trial.press_n / trial.wall_n_per_m - trial.press_n / trial.hand.grip_stiffness_n_per_m;
-  // Half a second at rest lets the ramp-in end.
-  const double travel_s = (kStart_m - goal_m) / trial.approach_m_per_s;
-  const double end_s = 0.5 + travel_s + trial.seconds;
-
-  VirtualHand hand(trial.hand);
-  Pose wanted;
-  wanted.p.x() = kStart_m;
-  hand.reset(wanted);
-  DelayLine readings(trial.delay_before ? trial.delay_s : 0, fine_s, wanted.p);
-  DelayLine speeds(trial.delay_before ? trial.delay_s : 0, fine_s, Vec3::Zero());
-  DelayLine forces(trial.delay_before ? 0 : trial.delay_s, fine_s, Vec3::Zero());
-  DeviceSample sample;
-  sample.X_VD = wanted;
-  Vec3 command = Vec3::Zero();
-  Ending ending;
-  const auto ticks = static_cast<std::int64_t>(end_s / tick_s);
-  for (std::int64_t n = 0; n < ticks; ++n) {
-    const double t = static_cast<double>(n) * tick_s;
-    sample.time_ns = (n + 1) * to_ns(tick_s);
-    const Vec3 wall(std::max(0.0, -sample.X_VD.p.x()) * trial.wall_n_per_m, 0, 0);
-    command = gate.filter(wall, sample, 0, tick_s);
-    const double way = std::clamp((t - 0.5) * trial.approach_m_per_s, 0.0, kStart_m - goal_m);
-    wanted.p.x() = kStart_m - way;
-    const bool moving = way > 0 && way < kStart_m - goal_m;
-    const Vec3 wanted_v(moving ? -trial.approach_m_per_s : 0, 0, 0);
-    for (int i = 0; i < kFine; ++i) {
-      const Vec3 felt = forces.pass(command);
-      hand.step(fine_s, wanted, wanted_v, felt);
-      sample.X_VD.p = readings.pass(hand.pose().p);
-      sample.v_V = speeds.pass(hand.velocity());
-      ending.add(t, end_s, hand.pose().p, felt);
-    }
-  }
-  WallOutcome out;
-  ending.fill(out);
-  out.passivity = gate.state().passivity;
-  out.cause = gate.cause();
-  return out;
+  return WallLoopRun(trial, info, used).run();
 }
 
 }  // namespace osteon

@@ -14,11 +14,12 @@ struct WallTrial {
   bool delay_before = false;  ///< the reading is late; else the force is
   double approach_m_per_s = 0.1;
   double press_n = 3;    ///< the hand aims where wall and grip balance at this force
-  double seconds = 8;    ///< after the aim is reached
+  double seconds = 8;    ///< after the aim is reached, in whole half seconds; fewer once at rest
   bool filtered = true;  ///< false: the force goes to the hand without the passivity stage
 };
 
-/// How a trial ended: its last half second.
+/// How a trial ended: its last half second. One that has been at rest for a second (0.1 um from end
+/// to end) ends there: nothing in the loop can stir it again.
 struct WallOutcome {
   double swing_m = 0;          ///< from end to end
   double earlier_swing_m = 0;  ///< of the half second before
