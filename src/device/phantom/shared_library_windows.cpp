@@ -1,3 +1,6 @@
+// Without its macros min and max.
+#define NOMINMAX
+#define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
 #include "shared_library.h"
