@@ -61,7 +61,7 @@ void add_case_felt_command(CLI::App& app, int& exit_code) {
   auto spec = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   felt->add_option("case", *spec,
-                   "a case folder or builtin:wrist; a # and BONE=pieces, hull or "
+                   "a case folder, builtin:wrist or builtin:knee; a # and BONE=pieces, hull or "
                    "field behind it chooses otherwise than the case")
       ->required();
   felt->add_flag("--json", *json, "print JSON, lengths in millimetres");

@@ -58,7 +58,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("window", "Open the simulator's window");
   const auto order = std::make_shared<WindowOrder>();
   const auto size = std::make_shared<std::string>();
-  command->add_option("--case", order->case_spec, "Case: builtin:wrist or a case's folder")
+  command->add_option("--case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--replay", order->replay, "Recording to open");
   command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
