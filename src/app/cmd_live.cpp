@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <thread>
@@ -82,6 +83,28 @@ Result<std::unique_ptr<RecordFeed>> feed_for(const LiveOptions& options, const R
   return std::make_unique<RecordFeed>(std::move(*writer));
 }
 
+// A device that must be calibrated or homed gives no force before, and a gate that trips for it
+// stays off: the user follows the device's advice first, without force.
+Result<void> wait_for_calibration(HapticDevice& device) {
+  const char* told = "";
+  bool asked = false;
+  for (DeviceSample sample = device.read(); !sample.calibrated && !stop_requested();
+       sample = device.read()) {
+    if (!sample.connected) return fail(describe(ForceOff::kDisconnect), device.info().name);
+    const DeviceHealth health = device.health();
+    if (health.calibration == Calibration::kNeeded && !asked) device.calibrate();
+    asked = asked || health.calibration == Calibration::kNeeded;
+    device.write_force(Vec3::Zero());
+    if (*health.advice != 0 && std::strcmp(health.advice, told) != 0) {
+      std::printf("%s: %s\n", device.info().name.c_str(), health.advice);
+      std::fflush(stdout);
+      told = health.advice;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return {};
+}
+
 Result<Hand> make_hand(const LiveOptions& options, std::shared_ptr<const Case> the_case,
                        const ProbePath& path, std::size_t index) {
   auto choice = choice_named(options.devices[index]);
@@ -92,6 +115,7 @@ Result<Hand> make_hand(const LiveOptions& options, std::shared_ptr<const Case> t
   feel.bones_held = !options.free_bones;
   auto device = open_choice(*choice, path);
   if (!device) return tl::unexpected(device.error());
+  if (auto ready = wait_for_calibration(**device); !ready) return tl::unexpected(ready.error());
   // A list may know less than the open device, which has said what it is.
   plan.settings = settings_for((*device)->info(), feel, options.mapping.scale);
   plan.mapping = mapping_for(*choice, options, *the_case);

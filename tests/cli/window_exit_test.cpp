@@ -14,9 +14,13 @@ class WindowExit : public LiveFixture {
     LiveFixture::SetUp();
   }
   void TearDown() override {
+    stop_display();
+    LiveFixture::TearDown();
+  }
+  void stop_display() {
     std::ifstream in(file("xvfb.pid"));
     if (int display = 0; in >> display) ::kill(display, SIGTERM);
-    LiveFixture::TearDown();
+    for (const char* name : {"xvfb.pid", "display"}) fs::remove(file(name));
   }
 
   // A display of its own, and then the window in the shell's place: its process is the window's.
@@ -34,7 +38,11 @@ TEST_F(WindowExit, ATerminationInContactLeavesZeroForceAClosedDeviceAndAWholeRec
   expect_orderly_end(start_window(), SIGTERM);
 }
 
-TEST_F(WindowExit, AHangUpDoesTheSame) { expect_orderly_end(start_window(), SIGHUP); }
+TEST_F(WindowExit, AHangUpAndAnInterruptDoTheSame) {
+  expect_orderly_end(start_window(), SIGHUP);
+  stop_display();
+  expect_orderly_end(start_window(), SIGINT);
+}
 
 TEST_F(WindowExit, WithoutAnyDeviceLibraryItStartsAllTheSame) {
   ::setenv("OSTEON_HD_LIBRARY", file("no_such_libHD.so").c_str(), 1);
