@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "predicates.h"
 #include "initial_simplex.h"
+#include "predicates.h"
 
 namespace osteon::hull {
 
