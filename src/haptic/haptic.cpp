@@ -6,6 +6,7 @@
 #include "contact_field.h"
 #include "coupling.h"
 #include "friction.h"
+#include "grab_force.h"
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
 #include "osteon/haptic/haptic_state.h"
@@ -71,6 +72,7 @@ struct HapticLoop::Impl {
   void refuse_input();
   void see_bones(const BoneSnapshot& bones, double age_s);
   void place(const Pose& X_WD);
+  void grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
@@ -116,6 +118,24 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   state.tool.status |= move.status;
   state.tool.force_W.setZero();
   list_contacts(move);
+}
+
+// While the hand drags what it has grabbed, the surface that it would touch is the one that moves:
+// nothing is touched, and the hand feels how far it has dragged. Contact begins anew afterwards.
+void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params) {
+  if (!state.grabbing) state.p_WG = X_WD.p;
+  state.grabbing = true;
+  state.armed = false;
+  state.sliding = false;
+  state.carrier = {};
+  state.tool.X_WP = X_WD;
+  state.tool.contact_count = 0;
+  state.tool.status |= kTickGrabbing;
+  const Vec3 force =
+      grab_force(X_WD.p - state.p_WG, input.v_W, params.grab_n_per_m, params.damping_n_s_per_m);
+  const ForceLimits limits{params.max_force_n, params.max_slew_n_per_s * params.tick_s};
+  const Vec3 limited = limited_force(force, state.tool.force_W, limits, state.tool.status);
+  state.tool.force_W = params.force_on ? limited : Vec3(Vec3::Zero());
 }
 
 // The proxy's last place, moved along with the bone that it rests on.
@@ -282,11 +302,14 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
   out.buttons = input.buttons;
   const Pose X_WD{input.X_WD.p, input.X_WD.q.normalized()};
   in.see_bones(bones, bones_age_s);
-  if (in.state.armed) {
+  if (params.grab_n_per_m > 0) {
+    in.grab(input, X_WD, params);
+  } else if (in.state.armed) {
     in.follow(input, X_WD, params);
   } else {
     in.place(X_WD);
   }
+  in.state.grabbing = params.grab_n_per_m > 0;
   out.X_WD = X_WD;
   std::copy_n(in.now_WB.begin(), in.state.bone_count, in.state.X_WB.begin());
   return out;
@@ -311,6 +334,8 @@ std::uint64_t HapticLoop::state_hash() const {
   h.add(s.armed);
   h.add(s.sliding);
   h.add(s.carrier.index);
+  // Only then, so that older recordings keep their hashes.
+  if (s.grabbing) h.add(s.p_WG);
   for (std::uint32_t i = 0; i < s.bone_count; ++i) h.add(s.X_WB[i]);
   for (const PairMemory& pair : s.pairs) {
     h.add(pair.basis.count);

@@ -36,7 +36,7 @@ struct FromWord {
     value = static_cast<std::uint32_t>(*word++);
   }
   void operator()(CommandKind& kind) {
-    ok = ok && *word <= static_cast<std::uint32_t>(CommandKind::kForceOff);
+    ok = ok && *word <= static_cast<std::uint32_t>(kLastCommandKind);
     kind = static_cast<CommandKind>(*word++);
   }
 };

@@ -3,6 +3,8 @@
 namespace osteon {
 namespace {
 
+constexpr double kStiffestGrab = 1000;  // N/m
+
 // False for a NaN too.
 bool within(double value, double min, double max) { return value >= min && value <= max; }
 
@@ -18,6 +20,9 @@ void apply_command(const Command& command, HapticParams& params) {
       break;
     case CommandKind::kForceOff:
       if (within(command.value, 0, 1)) params.force_on = command.value < 0.5;
+      break;
+    case CommandKind::kGrab:
+      if (within(command.value, 0, kStiffestGrab)) params.grab_n_per_m = command.value;
       break;
     case CommandKind::kHoldBones:
     case CommandKind::kNone:

@@ -30,6 +30,8 @@ struct alignas(kCacheLine) HapticHalf {
     hasher.add(params.stiffness_n_per_m);
     hasher.add(params.friction_scale);
     hasher.add(static_cast<std::uint8_t>(params.force_on));
+    // Only then, so that older recordings keep their hashes.
+    if (params.grab_n_per_m > 0) hasher.add(params.grab_n_per_m);
     return hasher.value();
   }
 };

@@ -63,6 +63,10 @@ inline Command command_at(std::uint64_t n) {
       return {CommandKind::kHoldBones, 1};
     case 1003:
       return {CommandKind::kHoldBones, 0};
+    case 1101:
+      return {CommandKind::kGrab, 150};
+    case 1157:
+      return {CommandKind::kGrab, 0};
     case 1300:
       return {CommandKind::kSetFrictionScale, 0.5};
     case 1500:

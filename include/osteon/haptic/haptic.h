@@ -26,6 +26,9 @@ struct HapticParams {
   double max_slew_n_per_s = 4000;
   double max_turn_rad_per_tick = 0.05;  ///< how fast the proxy may turn
   bool force_on = true;
+  /// Above 0 the hand drags what it has grabbed, see grab in docs/meshes.md; set by a command, not
+  /// a setting of a session.
+  double grab_n_per_m = 0;
 };
 
 /// Contact between one tool and the bones of one case at 1 kHz (figure 6 of the wrist simulator's

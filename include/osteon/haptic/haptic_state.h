@@ -28,10 +28,12 @@ struct PairMemory {
 
 /// Everything that one haptic tick leaves to the next. A value: copy it to save, compare or rewind.
 struct HapticState {
-  ToolState tool;        ///< as the last tick returned it
-  bool armed = false;    ///< the hand has been free of bone once since the start
-  bool sliding = false;  ///< dynamic friction acts
-  BoneId carrier;        ///< bone that the proxy rests on and moves with; none when free
+  ToolState tool;            ///< as the last tick returned it
+  bool armed = false;        ///< the hand has been free of bone once since the start
+  bool sliding = false;      ///< dynamic friction acts
+  BoneId carrier;            ///< bone that the proxy rests on and moves with; none when free
+  bool grabbing = false;     ///< the hand drags what it has grabbed
+  Vec3 p_WG = Vec3::Zero();  ///< where the hand was when it did
   std::uint32_t bone_count = 0;
   std::array<Pose, kMaxBones> X_WB{};  ///< bones as the last tick saw them
   std::vector<PairMemory> pairs;       ///< each bone's pieces beside each of the tool's

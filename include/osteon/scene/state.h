@@ -54,7 +54,8 @@ enum TickStatus : std::uint32_t {
   kTickSolverLimit = 1u << 4,     ///< a contact query stopped early; the proxy stayed where it was
   kTickProxyBlocked = 1u << 5,    ///< no free position found; the proxy stayed where it was
   kTickRotationHeld = 1u << 6,    ///< the proxy kept its old orientation to stay out of bone
-  kTickSticking = 1u << 7         ///< static friction holds
+  kTickSticking = 1u << 7,        ///< static friction holds
+  kTickGrabbing = 1u << 8         ///< the hand drags against a spring and touches nothing
 };
 
 /// Haptic -> physics, render, metrics: the tool after haptic tick `tick`.
