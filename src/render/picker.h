@@ -11,7 +11,8 @@ namespace osteon {
 class Picker {
  public:
   explicit Picker(const Case& the_case);
-  BoneId pick(const RenderSnapshot& snapshot, const ViewState& view, const Ray& ray) const;
+  SurfacePoint pick(const RenderSnapshot& snapshot, const ViewState& view, const Ray& ray) const;
+  void set_surface(std::size_t bone, const TriMesh& mesh_B);
 
  private:
   std::vector<RayBvh> bones_;

@@ -181,9 +181,20 @@ Image Renderer::draw_image(const RenderSnapshot& snapshot, const ViewState& view
 
 BoneId Renderer::pick(const RenderSnapshot& snapshot, const ViewState& view,
                       const Viewport& viewport, double x_px, double y_px) const {
+  return pick_point(snapshot, view, viewport, x_px, y_px).bone;
+}
+
+SurfacePoint Renderer::pick_point(const RenderSnapshot& snapshot, const ViewState& view,
+                                  const Viewport& viewport, double x_px, double y_px) const {
   const bool inside = x_px >= 0 && y_px >= 0 && x_px < viewport.width && y_px < viewport.height;
   if (viewport.empty() || !inside) return {};
   return impl_->picker.pick(snapshot, view, ray_through(view.camera, viewport, x_px, y_px));
+}
+
+void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
+  impl_->painter.set_surface(bone.index, mesh_B);
+  impl_->picker.set_surface(bone.index, mesh_B);
+  impl_->kept.reset();
 }
 
 std::string Renderer::device_name() const { return impl_->device; }

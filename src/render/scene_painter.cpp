@@ -133,12 +133,24 @@ ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone) {
     edges += ends.size() / 2;
   }
   model.line_opacity = line_opacity(edges);
-  if (const Aabb box = finite_bounds(bone.mesh); !box.empty()) {
-    model.center_B = box.center();
-    model.radius_m = 0.5 * box.extent().norm();
-    model.around = capsule_around(box);
-  }
+  set_extent(model, bone.mesh);
   return model;
+}
+
+void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
+  const Aabb box = finite_bounds(mesh);
+  if (box.empty()) return;
+  model.center_B = box.center();
+  model.radius_m = 0.5 * box.extent().norm();
+  model.around = capsule_around(box);
+}
+
+void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
+  if (bone >= bones_.size()) return;
+  BoneModel& model = bones_[bone];
+  model.levels.clear();
+  model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
+  set_extent(model, mesh_B);
 }
 
 Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,

@@ -19,6 +19,8 @@ class ScenePainter {
 
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
   void set_surfaces(const PreparedCase& prepared);
+  /// Another surface for a bone from now on, without its coarser levels and its baked light.
+  void set_surface(std::size_t bone, const TriMesh& mesh_B);
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
   /// Fills the bound framebuffer's current viewport with what is behind everything.
@@ -76,6 +78,7 @@ class ScenePainter {
   void set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
   void set_felt_colors(const ViewState& view) const;
+  static void set_extent(BoneModel& model, const TriMesh& mesh);
   static BoneModel make_bone(const Bone& bone);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
   const GpuMesh& surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,

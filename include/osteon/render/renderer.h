@@ -65,6 +65,12 @@ Result<void> save_png(const Image& image, const std::filesystem::path& file);
 /// The largest width or height of draw_image, pixels.
 inline constexpr int kMaxImageSide = 8192;
 
+/// A point of a bone's surface.
+struct SurfacePoint {
+  BoneId bone;  ///< none: the ground
+  Vec3 p_W = Vec3::Zero();
+};
+
 /// Draws a snapshot with OpenGL 3.3. Needs a current context in every call and in the destructor,
 /// the same one. Keeps copies of what it needs of the case and the tool. A bone or tool whose pose
 /// is not finite is not drawn.
@@ -97,6 +103,14 @@ class Renderer {
   /// bones; the force arrow and the probe are looked through. Needs no OpenGL.
   BoneId pick(const RenderSnapshot& snapshot, const ViewState& view, const Viewport& viewport,
               double x_px, double y_px) const;
+
+  /// The same, with the point that is seen there.
+  SurfacePoint pick_point(const RenderSnapshot& snapshot, const ViewState& view,
+                          const Viewport& viewport, double x_px, double y_px) const;
+
+  /// Shows and picks another surface for a bone from now on, in Bone: of one that is being edited.
+  /// It is drawn without the light worked out beforehand between the bones.
+  void set_surface(BoneId bone, const TriMesh& mesh_B);
 
   /// "llvmpipe (LLVM 15.0.6, 256 bits)": OpenGL's own name of what draws.
   std::string device_name() const;
