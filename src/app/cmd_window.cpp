@@ -78,6 +78,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
   command->add_option("--force-log", order->force_log,
                       "Write the last 20 s of the device's positions and forces (CSV) when it is "
                       "closed");
+  command->add_option("--edit", order->edit, "Begin editing the surface of this bone");
   command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
   command->add_option("--screenshot", order->screenshot,
                       "Save a picture of the window (PNG), then end");

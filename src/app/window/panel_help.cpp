@@ -32,6 +32,13 @@ constexpr std::array<KeyLine, 6> kProbe = {{
     {"Enter", "force on again"},
 }};
 
+constexpr std::array<KeyLine, 4> kEdit = {{
+    {"E", "edit the chosen bone's surface, leave"},
+    {"Drag, wheel", "pull the surface; along the view"},
+    {"Probe's button", "the same by hand, against a spring"},
+    {"Ctrl + Z, + Shift", "undo, redo"},
+}};
+
 constexpr std::array<KeyLine, 10> kRun = {{
     {"R", "record, stop"},
     {"O", "open a recording"},
@@ -77,6 +84,7 @@ void draw_help(const PanelContext& c) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
   draw_keys(c, "Look", kLook);
   draw_keys(c, "Probe", kProbe);
+  draw_keys(c, "Edit", kEdit);
   draw_keys(c, "Run", kRun);
   if (ImGui::Button("Close  (F1)")) c.requests.toggle_help = true;
   ImGui::End();

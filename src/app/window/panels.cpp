@@ -17,6 +17,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
     }
   }
   if (ready) draw_felt_legend(c);
+  if (ready) draw_edit(c);
   if (!ready) draw_loading(c);
   draw_notices(c);
   if (model.help_open) draw_help(c);

@@ -32,6 +32,7 @@ void draw_notices(const PanelContext& c);  // toasts, hint, probe hint, name tag
 void draw_loading(const PanelContext& c);
 void draw_help(const PanelContext& c);
 void draw_checkup(const PanelContext& c);
+void draw_edit(const PanelContext& c);  // of a bone's surface
 void read_shortcuts(const PanelContext& c);
 
 }  // namespace osteon

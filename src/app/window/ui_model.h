@@ -12,6 +12,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/case.h"
 #include "window/contact_timeline.h"
+#include "window/edit_model.h"
 #include "window/pedals.h"
 #include "window/toasts.h"
 
@@ -130,6 +131,7 @@ struct UiModel {
   std::span<const Toast> toasts;
 
   CheckupModel checkup;
+  EditModel edit;
   bool panels_open = true;
   bool help_open = false;
   bool first_run_hint = false;

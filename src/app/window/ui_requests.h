@@ -8,6 +8,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
+#include "window/edit_model.h"
 
 namespace osteon {
 
@@ -41,6 +42,7 @@ struct UiRequests {
   bool cancel_checkup = false;
   bool install_udev = false;
   std::optional<std::string> copy;  ///< to the clipboard
+  EditRequests edit;
   bool force_off = false;
   bool force_on = false;
   bool toggle_probe = false;

@@ -85,10 +85,12 @@ void WindowApp::frame(double dt_s) {
   poll_loading();
   poll_felt();
   poll_checkup();
+  poll_edit_save();
   toasts_.age(now_s_);
 
   ui_->begin_frame(window_->take_pressed_keys());
   if (ready()) poll_scene(dt_s, wheel);
+  show_edit();
   const UiRequests requests = draw_ui(build_model(), ui_->fonts());
   draw_picture();
   ui_->end_frame();

@@ -8,9 +8,11 @@
 
 #include "osteon/render/renderer.h"
 #include "window/app_settings.h"
+#include "window/bone_edit.h"
 #include "window/camera_control.h"
 #include "window/checkup_job.h"
 #include "window/device_choices.h"
+#include "window/edit_save.h"
 #include "window/felt_job.h"
 #include "window/frame_stats.h"
 #include "window/gl_window.h"
@@ -40,12 +42,13 @@ struct WindowOrder {
   std::filesystem::path path;        ///< what an emulated hand plays; empty: the case's own
   std::filesystem::path record;      ///< recorded from the start; empty: nothing
   std::filesystem::path force_log;   ///< of the device's last seconds; empty: none
+  std::string edit;                  ///< name of the bone whose editing begins; empty: none
   bool checkup = false;              ///< opens the check-up and begins one
   bool fresh = false;                ///< neither reads nor writes the settings file
 };
 
-/// The window's main loop: draws, and passes between panels, live run and replay. Runs on the main
-/// thread. Its parts are in window_*.cpp.
+/// The window's main loop: draws, and passes between panels, live run and replay. Runs on the
+/// main thread. Its parts are in window_*.cpp.
 class WindowApp {
  public:
   static Result<std::unique_ptr<WindowApp>> create(const WindowOrder& order);
@@ -53,8 +56,8 @@ class WindowApp {
   /// Until the user closes the window. Fails when an ordered screenshot could not be made.
   Result<void> run();
   const FrameStats& frame_stats() const { return work_; }
-  /// Processor time of the whole program for one measured picture, ms, and its share in drawing the
-  /// scene.
+  /// Processor time of the whole program for one measured picture, ms, and its share in drawing
+  /// the scene.
   double processor_ms_per_picture() const;
   double scene_ms_per_picture() const;
   bool software_driver() const { return renderer_ && renderer_->software_driver(); }
@@ -105,6 +108,17 @@ class WindowApp {
   void pick_under_pointer(const SceneInput& input);
   Viewport viewport() const;
   CoveredEdges covered_edges() const;
+  // window_edit.cpp: a bone's surface is edited
+  void begin_edit();
+  void end_edit();
+  bool poll_edit(const SceneInput& input);
+  void drag_edit(const SceneInput& input, const Pose& X_WB);
+  void show_edit();
+  void apply_edit(const EditRequests& requests);
+  void poll_edit_save();
+  EditModel edit_model() const;
+  std::vector<EditDot> edit_dots() const;
+  Pose edited_pose() const;
   // window_settings.cpp
   void recall_view();
   void remember();
@@ -157,6 +171,14 @@ class WindowApp {
   bool probe_held_ = false;     ///< now
   bool probe_toggled_ = false;  ///< by M, stays
   bool help_open_ = false;
+
+  std::unique_ptr<BoneEdit> edit_;
+  std::unique_ptr<EditSave> edit_save_;  ///< while one runs
+  static constexpr std::uint64_t kEditNotDrawn = ~std::uint64_t{0};
+  std::uint64_t edit_drawn_ = 0;      ///< version of the surface that the renderer has
+  std::optional<Vec3> edit_hover_;    ///< under the pointer, in Bone
+  Vec3 edit_moved_C_ = Vec3::Zero();  ///< by the mouse since the grab
+  bool edit_left_was_down_ = false;
 
   bool checkup_open_ = false;
   std::unique_ptr<CheckupJob> checkup_;  ///< while one runs

@@ -106,6 +106,7 @@ UiModel WindowApp::build_model() const {
     return model;
   }
   model.checkup = checkup_model();
+  model.edit = edit_model();
   model.case_title = title_of(*case_);
   model.is_knee = case_->find("femur").valid();
   for (const Bone& bone : case_->bones) {

@@ -38,6 +38,7 @@ void WindowApp::fail_loading(const std::string& message) {
 
 void WindowApp::install(Loaded loaded) {
   end_checkup();
+  end_edit();
   remember_looks();
   // The same case felt otherwise: the user goes on looking at what he looked at.
   const bool same_case =
@@ -86,6 +87,10 @@ void WindowApp::begin_live() {
   std::string device = std::exchange(order_.device, {});
   if (device.empty()) device = order_.demo ? "virtual" : settings_.device;
   start_live(device);
+  if (live_ && !order_.edit.empty()) {
+    picked_ = case_->find(std::exchange(order_.edit, {}));
+    begin_edit();
+  }
   if (!live_ || order_.record.empty()) return;
   const Result<void> started = live_->start_recording(std::exchange(order_.record, {}));
   if (!started) note(ToastKind::kError, started.error().message());
@@ -125,6 +130,7 @@ void WindowApp::poll_felt() {
           "There was not enough memory to measure what is felt of every bone. Close other programs "
           "and open the case again.");
     renderer_->set_surfaces(felt_job_->take());
+    edit_drawn_ = kEditNotDrawn;
     felt_job_.reset();
     felt_known_ = true;
   }

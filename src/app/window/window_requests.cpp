@@ -27,6 +27,7 @@ void WindowApp::apply(const UiRequests& requests) {
   if (!ready()) return;
   apply_view(requests);
   if (requests.felt) choose_felt(*requests.felt);
+  apply_edit(requests.edit);
   apply_run(requests);
   apply_replay(requests);
   if (requests.screenshot_window) save_screenshot(true);
