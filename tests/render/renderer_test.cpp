@@ -368,6 +368,33 @@ TEST_F(RendererTest, PickAgreesWithTheClosedForm) {
   EXPECT_FALSE(renderer.pick(snapshot, view, {0, 0, 0, 0}, 0, 0).valid());
 }
 
+// The point under a pixel lies on the ball; after another surface is set, so does what is drawn.
+TEST_F(RendererTest, AnotherSurfaceIsShownAndPicked) {
+  const Case one = one_ball(0.03);
+  Renderer renderer = make_renderer(one);
+  const RenderSnapshot snapshot = at_rest(one);
+  ViewState view = front_view();
+  view.show_proxy = false;
+  const Viewport viewport{0, 0, 64, 64};
+  const auto edge = project(view.camera, viewport, Vec3(0.02, 0, 0));
+  const auto middle = project(view.camera, viewport, Vec3::Zero());
+  ASSERT_TRUE(edge && middle);
+  const SurfacePoint before =
+      renderer.pick_point(snapshot, view, viewport, middle->x + 2, middle->y + 3);
+  ASSERT_EQ(before.bone.index, 0u);
+  EXPECT_NEAR(before.p_W.norm(), 0.03, 3e-4);
+  EXPECT_TRUE(renderer.pick(snapshot, view, viewport, edge->x, edge->y).valid());
+  const Image large = renderer.draw_image(snapshot, view, 64, 64);
+  renderer.set_surface(BoneId{0}, sphere_mesh(0.01));
+  renderer.set_surface(BoneId{}, sphere_mesh(0.01));  // of no bone: nothing happens
+  EXPECT_FALSE(renderer.pick(snapshot, view, viewport, edge->x, edge->y).valid());
+  EXPECT_NEAR(renderer.pick_point(snapshot, view, viewport, middle->x, middle->y).p_W.norm(), 0.01,
+              1e-4);
+  const Image small = renderer.draw_image(snapshot, view, 64, 64);
+  const int x = static_cast<int>(edge->x), y = static_cast<int>(edge->y);
+  EXPECT_GT(brightness(large, x, y), brightness(small, x, y) + 20);
+}
+
 TEST_F(RendererTest, NamesItsDevice) {
   const Renderer renderer = make_renderer(Case{});
   EXPECT_FALSE(renderer.device_name().empty());

@@ -111,7 +111,9 @@ void draw_editing(const PanelContext& c) {
   ui::text(color::kTextQuiet, "Drag the bone, or hold the probe's button");
   ImGui::Dummy({c.px(280), c.px(2)});
   draw_fall_off(c);
+  ImGui::Dummy({0, c.px(2)});
   draw_state(c);
+  ImGui::Dummy({0, c.px(2)});
   draw_history(c);
   draw_end(c);
 }

@@ -47,8 +47,8 @@ struct WindowOrder {
   bool fresh = false;                ///< neither reads nor writes the settings file
 };
 
-/// The window's main loop: draws, and passes between panels, live run and replay. Runs on the
-/// main thread. Its parts are in window_*.cpp.
+/// The window's main loop: draws, and passes between panels, live run and replay. Runs on the main
+/// thread. Its parts are in window_*.cpp.
 class WindowApp {
  public:
   static Result<std::unique_ptr<WindowApp>> create(const WindowOrder& order);
@@ -56,8 +56,8 @@ class WindowApp {
   /// Until the user closes the window. Fails when an ordered screenshot could not be made.
   Result<void> run();
   const FrameStats& frame_stats() const { return work_; }
-  /// Processor time of the whole program for one measured picture, ms, and its share in drawing
-  /// the scene.
+  /// Processor time of the whole program for one measured picture, ms, and its share in drawing the
+  /// scene.
   double processor_ms_per_picture() const;
   double scene_ms_per_picture() const;
   bool software_driver() const { return renderer_ && renderer_->software_driver(); }

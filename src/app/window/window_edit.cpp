@@ -19,6 +19,8 @@ void WindowApp::begin_edit() {
   if (!begun) return note(ToastKind::kWarning, begun.error().message());
   edit_ = std::make_unique<BoneEdit>(std::move(*begun));
   edit_drawn_ = 0;
+  control_.fly_to(view_.camera, close_up_camera(view_.camera, *case_, picked_, viewport().aspect(),
+                                                covered_edges()));
 }
 
 // What was not saved is put back.
