@@ -46,6 +46,9 @@ void print_result(const ImportCtResult& result, const std::string& out) {
   else
     std::printf("note: not recognised as a wrist, so bones are only numbered\n");
   if (result.parted) std::printf("note: parted %d regions of joined bones\n", result.parted);
+  if (result.gained + result.lost > 0)
+    std::printf("note: contours took in %zu voxels and let go of %zu\n", result.gained,
+                result.lost);
   if (result.left_out) std::printf("note: left out %zu smaller pieces (--most)\n", result.left_out);
   for (const std::string& finding : check_case(result.def))
     std::printf("note: %s\n", finding.c_str());
@@ -69,6 +72,7 @@ std::string json_text(const ImportCtResult& result) {
   json["parted_regions"] = result.parted;
   json["joined_regions"] = result.joined;
   json["left_out"] = result.left_out;
+  json["contours"] = {{"gained_voxels", result.gained}, {"lost_voxels", result.lost}};
   for (const ImportedCtBone& bone : result.bones)
     json["bones"][bone.name] = {{"volume_mm3", bone.volume_m3 * 1e9},
                                 {"triangles", bone.triangles},
@@ -124,6 +128,11 @@ void add_import_ct_command(CLI::App& app, int& exit_code) {
       ->expected(3);
   ct->add_option("--smooth", command->smooth_mm, "mm of blur against noise")
       ->check(CLI::Range(0.0, 5.0));
+  ct->add_option("--contours", command->options.contour_steps,
+                 "steps in which active contours move the bones' outlines onto the edges of the "
+                 "picture, slice by slice; 15 are usual")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   ct->add_option("--most", command->options.most_bones, "keep this many of the largest bones")
       ->check(CLI::Range(std::size_t{1}, kMaxBones))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "osteon/anatomy/generate.h"
 #include "osteon/anatomy/label_bones.h"
 #include "osteon/base/file.h"
+#include "osteon/image/active_contour.h"
 #include "osteon/image/gaussian.h"
 #include "osteon/image/load_volume.h"
 #include "osteon/image/segment.h"
@@ -107,6 +108,28 @@ Result<void> make_surfaces(const Volume& volume, const LabelledBones& labelled, 
   return {};
 }
 
+/// Moves the bones' outlines onto the edges of the picture, where that was asked for.
+Result<void> draw_contours(const Volume& volume, const ImportCtOptions& options,
+                           LabelledBones& labelled, ImportCtResult& result) {
+  if (options.contour_steps == 0) return {};
+  ContourOptions contour;
+  contour.steps = options.contour_steps;
+  contour.edge_hu = 0.2 * (result.threshold_hu - result.soft_hu);
+  const auto change =
+      refine_contours(volume, labelled.labels, contour, part_of(options.progress, 0.65, 0.7));
+  if (!change) return tl::unexpected(change.error());
+  result.gained = change->gained;
+  result.lost = change->lost;
+  const std::vector<Region> regions = measure_regions(labelled.labels);
+  for (LabelledBone& bone : labelled.bones)
+    for (const Region& region : regions)
+      if (region.label == bone.label) {
+        bone.voxels = region.voxels;
+        bone.box = region.box;
+      }
+  return {};
+}
+
 Result<ImportCtResult> convert(const ImportCtOptions& options) {
   auto volume = load(options);
   if (!volume) return tl::unexpected(volume.error());
@@ -123,11 +146,13 @@ Result<ImportCtResult> convert(const ImportCtOptions& options) {
   const auto model = wrist_model();
   if (!model) return tl::unexpected(model.error());
   if (!goes_on(options.progress, "Naming bones", 0.6)) return stopped();
-  const LabelledBones labelled = label_bones(*volume, std::move(*segmentation), *model);
+  LabelledBones labelled = label_bones(*volume, std::move(*segmentation), *model);
   result.recognised = labelled.recognised;
   result.fit_residual_m = labelled.fit.residual_m;
   result.parted = labelled.parted;
   result.joined = labelled.joined;
+  if (auto drawn = draw_contours(*volume, options, labelled, result); !drawn)
+    return tl::unexpected(drawn.error());
   const Pose X_WP =
       labelled.recognised ? labelled.fit.X_PM.inverse() : lying_pose_WP(volume->frame);
   result.X_WP = X_WP;

@@ -18,7 +18,8 @@ struct ImportCtOptions {
   std::optional<double> threshold_hu;  ///< none: suggested from the scan
   std::optional<Vec3> spacing_m;       ///< of a stack of pictures
   double smooth_m = 0;                 ///< blur before segmentation, for noisy scans
-  std::size_t most_bones = 32;         ///< the largest ones are kept
+  int contour_steps = 0;        ///< of the active contours; 0: outlines as the threshold has them
+  std::size_t most_bones = 32;  ///< the largest ones are kept
   Progress progress;
   /// Told size and memory before the voxels are read; false stops.
   std::function<bool(const GridFrame& frame, double bytes)> announce;
@@ -37,10 +38,11 @@ struct ImportCtResult {
   std::vector<ImportedCtBone> bones;  ///< parallel to def.bones
   GridFrame frame;
   double threshold_hu = 0, soft_hu = 0;
-  bool recognised = false;     ///< the bones are those of the built-in wrist
-  double fit_residual_m = 0;   ///< of the built-in wrist; meaningful where recognised
-  int parted = 0, joined = 0;  ///< regions that held several bones; that were pieces of one
-  std::size_t left_out = 0;    ///< small bones beyond most_bones
+  bool recognised = false;           ///< the bones are those of the built-in wrist
+  double fit_residual_m = 0;         ///< of the built-in wrist; meaningful where recognised
+  std::size_t gained = 0, lost = 0;  ///< voxels, by the active contours
+  int parted = 0, joined = 0;        ///< regions that held several bones; that were pieces of one
+  std::size_t left_out = 0;          ///< small bones beyond most_bones
 };
 
 /// Reads a scan and turns it into a case, without writing it. World is that of the built-in wrist

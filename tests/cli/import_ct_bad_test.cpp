@@ -55,6 +55,19 @@ TEST_F(ImportCtBad, SpoiltSeriesAreRefusedAndNothingIsWritten) {
   expect_refused(file("dicom") + " --threshold 9000", "9000 HU");
 }
 
+TEST_F(ImportCtBad, ContoursMoveOutlinesWhereTheyAreAskedFor) {
+  scan();
+  const std::string import = "import ct " + file("dicom") + " --out ";
+  const Ran without = run_osteon(import + file("plain"));
+  const Ran with = run_osteon(import + file("case") + " --contours 15");
+  ASSERT_EQ(with.exit_code, 0) << with.output;
+  EXPECT_EQ(without.output.find("contours"), std::string::npos) << without.output;
+  EXPECT_NE(with.output.find("contours took in"), std::string::npos) << with.output;
+  EXPECT_NE(with.output.find("2 bones"), std::string::npos) << with.output;
+  EXPECT_EQ(run_osteon("case check " + file("case")).exit_code, 0);
+  EXPECT_EQ(run_osteon(import + file("other") + " --contours -1").exit_code, 2);
+}
+
 TEST_F(ImportCtBad, AnExistingCaseIsNeverOverwritten) {
   scan();
   fs::create_directories(file("mine"));

@@ -1,4 +1,5 @@
-// Opens the real window under a virtual display and looks at what it shows.
+// Opens the real window under a virtual display and looks at what it shows; stb (which ImGui needs
+// too) reads the pictures.
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #include <gtest/gtest.h>
@@ -49,7 +50,7 @@ class Window : public testing::Test {
     const std::string file = (folder_ / "window.png").string();
     Picture picture;
     const int exit_code = run(program() + OSTEON_SOURCE_DIR "/tools/with-display " + size +
-                              " " OSTEON_PROGRAM " window --size " + size +
+                              " " OSTEON_EXECUTABLE " window --size " + size +
                               " --frames 2 --screenshot " + file + " " + options);
     EXPECT_EQ(exit_code, 0);
     int channels = 0;
@@ -101,7 +102,7 @@ TEST_F(Window, ShowsTheWristOnALargeDisplay) {
 
 TEST_F(Window, SaysInWordsWhenThereIsNoDisplay) {
   const std::string log = (folder_ / "log").string();
-  EXPECT_EQ(run("env -u DISPLAY -u WAYLAND_DISPLAY " OSTEON_PROGRAM " window 2> " + log), 2);
+  EXPECT_EQ(run("env -u DISPLAY -u WAYLAND_DISPLAY " OSTEON_EXECUTABLE " window 2> " + log), 2);
   EXPECT_EQ(run("grep -q 'no window can be opened' " + log), 0);
 }
 
@@ -109,7 +110,7 @@ TEST_F(Window, SaysInWordsWhenTheCaseIsNotThere) {
   if (no_virtual_display()) GTEST_SKIP() << "Xvfb is not installed (Debian: xvfb)";
   const std::string log = (folder_ / "log").string();
   EXPECT_EQ(run(program() +
-                OSTEON_SOURCE_DIR "/tools/with-display 640x480 " OSTEON_PROGRAM
+                OSTEON_SOURCE_DIR "/tools/with-display 640x480 " OSTEON_EXECUTABLE
                                   " window --frames 2 --case /nowhere/at/all 2> " +
                 log),
             2);
