@@ -127,6 +127,36 @@ void draw_buttons(const PanelContext& c) {
   if (ImGui::Button("Close  (F2)")) c.requests.toggle_checkup = true;
 }
 
+// Height that something took in the picture before; 0 before the first.
+float& last_height(const char* what) {
+  return *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(what));
+}
+
+// As high as it is, or as the panel's greatest height leaves room for: then it scrolls, so that the
+// verdict and the buttons stay in sight.
+void draw_list(const PanelContext& c, float panel_h) {
+  float& needed = last_height("list");
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float below = last_height("footer") + style.ItemSpacing.y + style.WindowPadding.y;
+  const float room = std::max(c.px(48), panel_h - ImGui::GetCursorPosY() - below);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::BeginChild("list", {0, std::clamp(needed, 1.0f, room)});
+  draw_findings(c);
+  needed = ImGui::GetCursorPosY();
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void draw_footer(const PanelContext& c) {
+  ImGui::BeginGroup();
+  if (!c.model.checkup.running) draw_udev_rule(c);
+  draw_buttons(c);
+  ImGui::EndGroup();
+  last_height("footer") = ImGui::GetItemRectSize().y;
+}
+
 }  // namespace
 
 void draw_checkup(const PanelContext& c) {
@@ -141,9 +171,8 @@ void draw_checkup(const PanelContext& c) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
   draw_verdict(c);
   ImGui::Dummy({0, c.px(2)});
-  draw_findings(c);
-  if (!c.model.checkup.running) draw_udev_rule(c);
-  draw_buttons(c);
+  draw_list(c, h);
+  draw_footer(c);
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t kOrderLife_ns = 20'000'000;
 constexpr std::int64_t kSilence_ns = 10'000'000;
+constexpr int kFewestBad = 3;
 constexpr std::int64_t kFaultHold_ns = 50'000'000;
 constexpr std::uint64_t kSlowChecks = 10;  // passes between looks at heat and calibration
 constexpr double kHot = 1.0;               // of the library's scale from 0 to 1
@@ -134,11 +135,13 @@ void ServoArm::take_errors(std::int64_t now) {
 void ServoArm::watch_readings(bool good, std::int64_t now) {
   if (good) {
     last_good_ns_ = now;
+    bad_in_a_row_ = 0;
     ++state_.health.reports_in;
     return;
   }
   ++state_.health.bad_reports;
-  if (now - last_good_ns_ > kSilence_ns)
+  // A single one after a loop that was late is the lateness' matter.
+  if (++bad_in_a_row_ >= kFewestBad && now - last_good_ns_ > kSilence_ns)
     raise(ForceOff::kDeviceFault, "The arm's readings make no sense: switch it off and on", now);
 }
 

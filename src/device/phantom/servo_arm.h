@@ -82,6 +82,7 @@ class ServoArm {
   const char* calibration_words_ = "";
   std::int64_t fault_seen_ns_ = 0;
   std::int64_t last_good_ns_ = 0;
+  int bad_in_a_row_ = 0;
   std::uint64_t last_order_ = 0;
   std::uint64_t passes_ = 0;
 };

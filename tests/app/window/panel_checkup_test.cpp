@@ -21,6 +21,7 @@ class CheckupPanel : public ::testing::Test {
                               {FindingLevel::kBad, "Device", "is silent", "Plug it in again"}};
     model.checkup.verdict = "Not ready: mend what is marked BAD first.";
     ui.model = std::move(model);
+    for (int i = 0; i < 4; ++i) ui.draw();  // until the list has found its height
   }
   UiFrame ui;
   CheckupModel& checkup = ui.model.checkup;
@@ -28,6 +29,7 @@ class CheckupPanel : public ::testing::Test {
 
 TEST_F(CheckupPanel, IsShownOnlyWhenOpenAndWithACase) {
   checkup.open = false;
+  ui.draw();
   ui.draw();
   EXPECT_FALSE(ui.shown("##checkup"));
   checkup.open = true;
@@ -96,7 +98,7 @@ TEST_F(CheckupPanel, TheUdevRuleIsCopiedAndInstalledWhereThatIsAllowed) {
   EXPECT_LT(ui.find("##checkup", {kRule}).x, 0);
 }
 
-TEST_F(CheckupPanel, ALongListStaysInsideTheWindowAndScrolls) {
+TEST_F(CheckupPanel, ALongListStaysInsideTheWindowAndScrollsBetweenVerdictAndButtons) {
   for (int i = 0; i < 60; ++i)
     checkup.findings.push_back({FindingLevel::kNote, "phantom", std::string(300, 'x'), "do it"});
   for (int i = 0; i < 4; ++i) ui.draw();
@@ -105,6 +107,16 @@ TEST_F(CheckupPanel, ALongListStaysInsideTheWindowAndScrolls) {
   EXPECT_GE(r.y, 0);
   EXPECT_LE(r.right(), ui.model.width);
   EXPECT_LE(r.bottom(), ui.model.height);
+  // In reach without a turn of the wheel.
+  EXPECT_TRUE(ui.click("##checkup", {"Close  (F2)"}).toggle_checkup);
+}
+
+TEST_F(CheckupPanel, AShortListIsShownWhole) {
+  for (int i = 0; i < 4; ++i) ui.draw();
+  const float before = ui.rect("##checkup").h;
+  checkup.findings.push_back({FindingLevel::kGood, "OpenGL", "4.6", ""});
+  for (int i = 0; i < 4; ++i) ui.draw();
+  EXPECT_GT(ui.rect("##checkup").h, before);
 }
 
 TEST_F(CheckupPanel, TheDeviceSectionHasItsButton) {

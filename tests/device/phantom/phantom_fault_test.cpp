@@ -170,6 +170,19 @@ TEST_F(PhantomFault, OneBadReadingIsPassedOver) {
   EXPECT_LT(motor_force(*stub.left).x(), -1.0);
 }
 
+TEST_F(PhantomFault, OneBadReadingAfterALateLoopIsPassedOverToo) {
+  for (int i = 0; i < 12; ++i) {
+    stub.stall(1);
+    loop->tick();
+  }
+  stub.left->garbage = 2;
+  run(1);
+  stub.left->garbage = 0;
+  run(700);
+  EXPECT_EQ(loop->gate.cause(), ForceOff::kNone) << describe(loop->gate.cause());
+  EXPECT_LT(motor_force(*stub.left).x(), -1.0);
+}
+
 TEST_F(PhantomFault, NotANumberFromAbove) {
   loop->add_nan = true;
   EXPECT_LE(ms_to_zero(), 2);
