@@ -89,12 +89,13 @@ void draw_state(const PanelContext& c) {
   ImGui::PopTextWrapPos();
 }
 
-// The vertices that follow, brighter the more they do.
+// The vertices that follow, larger and darker the more they do.
 void draw_dots(const PanelContext& c) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   for (const EditDot& dot : c.model.edit.dots) {
-    const ImU32 alpha = static_cast<ImU32>(40 + 215 * dot.weight) << IM_COL32_A_SHIFT;
-    draw->AddCircleFilled({dot.x, dot.y}, c.px(1.6f), (color::kAccent & ~IM_COL32_A_MASK) | alpha);
+    const ImU32 alpha = static_cast<ImU32>(70 + 185 * dot.weight) << IM_COL32_A_SHIFT;
+    const ImU32 shade = (color::kAccentDim & ~IM_COL32_A_MASK) | alpha;
+    draw->AddCircleFilled({dot.x, dot.y}, c.px(1.5f + 1.5f * dot.weight), shade);
   }
 }
 

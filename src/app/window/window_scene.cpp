@@ -83,7 +83,10 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
   input.left = input.left || io.MouseDown[0];
   input.right = input.right || io.MouseDown[1];
   input.over_panels = io.WantCaptureMouse && !probe_held_;
-  if (poll_edit(input)) input.left = false;
+  if (poll_edit(input)) {
+    input.left = false;
+    input.wheel = 0;
+  }
   if (probe_held_ && !input.right) {
     live_->move_hand(probe_motion(input), view_.camera, viewport(), dt_s);
   } else {
