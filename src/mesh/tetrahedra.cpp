@@ -185,13 +185,14 @@ void Maker::warn(TetrahedraReport& report) const {
                               "cell");
 }
 
-/// From the thickness; smaller until nothing is left to warn of, or the next would be too many.
+/// From the thickness; smaller until volume and angles fit, or the next would be too many.
 Result<Tetrahedra> Maker::with_fitting_cell() {
   // Of a solid part the thickness is no guide: there its size is.
   double cell = std::min(kCellOfThickness * thickness_m_, size_m_ / 6);
   Result<Tetrahedra> best = with_cell(cell);
   for (int tried = 1; tried < kMostTries; ++tried) {
-    if (best && best->report.warnings.empty() &&
+    // Where a part thins out to nothing, no cell is fine enough to keep its rim in one piece.
+    if (best && best->report.after.min_dihedral_rad >= 15 * kPi / 180 &&
         std::abs(best->report.volume_error()) <= options_.volume_share)
       break;
     cell *= kFiner;
