@@ -2,110 +2,14 @@
 
 #include <algorithm>
 
+#include "part_reader.h"
+#include "soft_reader.h"
 #include "toml_reader.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kMm = 0.001;
-constexpr Range kPlace_mm{-2000, 2000};
-constexpr Range kRadius_mm{0.1, 1000};
-constexpr Range kBlend_mm{0, 100};
-constexpr Range kCell_mm{0.1, 10};
-constexpr Range kAngle_deg{-360, 360};
-
-/// Turns bone directions into the axes of a part that the description turns by `rotation_deg`.
-Mat3 local_axes(TomlReader& in) {
-  return rotation_xyz_deg(in.vec3_or("rotation_deg", kAngle_deg, Vec3::Zero())).transpose();
-}
-
-Primitive read_ellipsoid(TomlReader& in) {
-  Ellipsoid e;
-  e.center = in.vec3("center_mm", kPlace_mm) * kMm;
-  e.radii = in.vec3("radii_mm", kRadius_mm) * kMm;
-  e.R_local = local_axes(in);
-  return e;
-}
-
-Primitive read_tube(TomlReader& in) {
-  std::vector<Vec3> points = in.points("points_mm", kPlace_mm);
-  std::vector<double> radii = in.numbers("radii_mm", kRadius_mm);
-  if (points.size() != radii.size()) in.reject("must hold one radius a point", "radii_mm");
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if ((points[i] - points[i - 1]).norm() < 1e-3)
-      in.reject("holds the same point twice in a row", "points_mm");
-  if (in.failed()) return {};
-  for (Vec3& p : points) p *= kMm;
-  for (double& r : radii) r *= kMm;
-  Tube tube = tube_through(points, radii);
-  if (*std::min_element(tube.radii.begin(), tube.radii.end()) <= 0)
-    in.reject("swing so hard that the curve through them falls below zero", "radii_mm");
-  return tube;
-}
-
-Primitive read_box(TomlReader& in) {
-  RoundedBox b;
-  b.center = in.vec3("center_mm", kPlace_mm) * kMm;
-  b.half = in.vec3("half_mm", kRadius_mm) * kMm;
-  b.round = in.number("round_mm", kBlend_mm) * kMm;
-  b.R_local = local_axes(in);
-  if (b.round > b.half.minCoeff()) in.reject("must not exceed the smallest of half_mm", "round_mm");
-  return b;
-}
-
-Primitive read_half_space(TomlReader& in) {
-  HalfSpace h;
-  h.point = in.vec3("point_mm", kPlace_mm) * kMm;
-  h.normal = in.vec3("normal", {-1, 1});
-  const double length = h.normal.norm();
-  if (length < 1e-3) in.reject("must not be zero", "normal");
-  h.normal /= std::max(length, 1e-3);
-  return h;
-}
-
-struct ShapeReader {
-  const char* name;
-  Primitive (*read)(TomlReader&);
-  bool has_end;
-};
-
-constexpr ShapeReader kShapes[] = {{"ellipsoid", read_ellipsoid, true},
-                                   {"tube", read_tube, true},
-                                   {"box", read_box, true},
-                                   {"half_space", read_half_space, false}};
-
-Result<Part> read_part(const toml::table& table, Operation operation, double blend,
-                       const std::string& where) {
-  TomlReader in(table, where);
-  Part part;
-  part.operation = operation;
-  if (in.has("name")) part.name = in.text("name");
-  const std::string shape = in.text("shape");
-  const auto* known = std::find_if(std::begin(kShapes), std::end(kShapes),
-                                   [&](const ShapeReader& s) { return shape == s.name; });
-  if (known == std::end(kShapes)) {
-    in.reject("names no shape that is known: '" + shape + "'", "shape");
-  } else if (operation == Operation::kAdd && !known->has_end) {
-    in.reject("can only cut, not add: '" + shape + "'", "shape");
-  } else {
-    part.primitive = known->read(in);
-  }
-  part.blend = in.number_or("blend_mm", kBlend_mm, blend / kMm) * kMm;
-  if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
-  return part;
-}
-
-Result<void> read_parts(TomlReader& in, const std::string& key, Operation operation, double blend,
-                        Solid& solid) {
-  std::size_t n = 0;
-  for (const toml::table* table : in.tables(key, operation == Operation::kAdd)) {
-    auto part =
-        read_part(*table, operation, blend, in.where() + ", " + key + " " + std::to_string(++n));
-    if (!part) return tl::unexpected(part.error());
-    solid.parts.push_back(*part);
-  }
-  return {};
-}
 
 std::string where_of(const std::string& file, const char* kind, const toml::table& table) {
   const auto name = table["name"].value<std::string>();
@@ -173,6 +77,33 @@ Result<void> read_bones(TomlReader& root, const std::string& file, AnatomyDescri
   return {};
 }
 
+Result<void> read_softs(TomlReader& root, const std::string& file, AnatomyDescription& anatomy) {
+  const FindBone find = [&](const std::string& name) { return find_bone(anatomy, name); };
+  for (const toml::table* table : root.tables("soft", false)) {
+    TomlReader in(*table, where_of(file, "soft part", *table));
+    auto soft = read_soft(in, find);
+    if (!soft) return tl::unexpected(soft.error());
+    if (find_bone(anatomy, soft->name)) return fail("key 'name' is that of a bone", in.where());
+    for (const SoftDescription& other : anatomy.softs)
+      if (other.name == soft->name) return fail("key 'name' is used by two soft parts", in.where());
+    anatomy.softs.push_back(std::move(*soft));
+  }
+  return {};
+}
+
+/// What a landmark lies on: a bone, which it then moves with, or a soft part.
+void read_ground(TomlReader& in, const AnatomyDescription& anatomy, LandmarkDescription& landmark) {
+  if (!in.has("on")) return;
+  const std::string on = in.text("on");
+  if (const auto bone = find_bone(anatomy, on)) {
+    landmark.on_bone = *bone;
+    return;
+  }
+  for (std::size_t i = 0; i < anatomy.softs.size(); ++i)
+    if (anatomy.softs[i].name == on) landmark.on_soft = i;
+  if (!landmark.on_soft) in.reject("names no bone and no soft part: '" + on + "'", "on");
+}
+
 Result<void> read_landmarks(TomlReader& root, const std::string& file,
                             AnatomyDescription& anatomy) {
   for (const toml::table* table : root.tables("landmark", false)) {
@@ -180,6 +111,7 @@ Result<void> read_landmarks(TomlReader& root, const std::string& file,
     LandmarkDescription landmark;
     landmark.name = in.text("name");
     landmark.p_W = in.vec3("position_mm", kPlace_mm) * kMm;
+    read_ground(in, anatomy, landmark);
     for (const LandmarkDescription& other : anatomy.landmarks)
       if (other.name == landmark.name) in.reject("is used by two landmarks", "name");
     if (auto ok = in.finish(); !ok) return ok;
@@ -200,6 +132,7 @@ Result<AnatomyDescription> parse_description(std::string_view text, const std::s
   if (anatomy.side != "left" && anatomy.side != "right")
     root.reject("must be \"left\" or \"right\"", "side");
   if (auto ok = read_bones(root, file, anatomy); !ok) return tl::unexpected(ok.error());
+  if (auto ok = read_softs(root, file, anatomy); !ok) return tl::unexpected(ok.error());
   if (auto ok = read_landmarks(root, file, anatomy); !ok) return tl::unexpected(ok.error());
   if (auto ok = root.finish(); !ok) return tl::unexpected(ok.error());
   return anatomy;

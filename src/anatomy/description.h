@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "osteon/base/result.h"
 #include "shape.h"
+#include "soft_description.h"
 
 namespace osteon {
 
@@ -32,12 +34,16 @@ struct BoneDescription {
 struct LandmarkDescription {
   std::string name;
   Vec3 p_W = Vec3::Zero();
+  /// The bone or the soft part on whose surface the finished landmark is laid. One that lies on a
+  /// bone moves with it, and no step of a variation table names it.
+  std::optional<std::size_t> on_bone = {}, on_soft = {};
 };
 
 struct AnatomyDescription {
   std::string name;
   std::string side;
   std::vector<BoneDescription> bones;
+  std::vector<SoftDescription> softs;
   std::vector<LandmarkDescription> landmarks;
 };
 

@@ -5,6 +5,7 @@
 #include "grow.h"
 #include "osteon/base/file.h"
 #include "osteon/mesh/isosurface.h"
+#include "soft_grow.h"
 
 namespace osteon {
 namespace {
@@ -84,22 +85,32 @@ Result<GeneratedBone> grow(const AnatomyDescription& anatomy, const BoneDescript
 
 }  // namespace
 
-Result<GeneratedAnatomy> grow_description(const AnatomyDescription& anatomy,
-                                          const GenerateOptions& options, const std::string& file) {
+void run_tasks(const GenerateOptions& options, std::size_t count,
+               const std::function<void(std::size_t)>& task,
+               const std::function<void(double)>& progress) {
+  if (options.run)
+    return options.run(
+        count, task, progress ? progress : [](double) {});
+  for (std::size_t i = 0; i < count; ++i) {
+    task(i);
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(count));
+  }
+}
+
+Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
+                                    const GenerateOptions& options, const std::string& file) {
   GeneratedAnatomy generated;
   generated.name = anatomy.name;
   generated.side = anatomy.side;
-  const auto say = [&](std::size_t done) {
-    if (options.progress && !anatomy.bones.empty())
-      options.progress(static_cast<double>(done) / static_cast<double>(anatomy.bones.size()));
-  };
-  for (const BoneDescription& bone : anatomy.bones) {
-    say(generated.bones.size());
-    auto grown = grow(anatomy, bone, options, file);
-    if (!grown) return tl::unexpected(grown.error());
-    generated.bones.push_back(std::move(*grown));
+  std::vector<Result<GeneratedBone>> bones(anatomy.bones.size());
+  run_tasks(
+      options, bones.size(),
+      [&](std::size_t i) { bones[i] = grow(anatomy, anatomy.bones[i], options, file); },
+      options.progress);
+  for (Result<GeneratedBone>& bone : bones) {
+    if (!bone) return tl::unexpected(bone.error());
+    generated.bones.push_back(std::move(*bone));
   }
-  say(generated.bones.size());
   for (const LandmarkDescription& landmark : anatomy.landmarks)
     generated.landmarks.push_back({landmark.name, landmark.p_W});
   return generated;
@@ -112,7 +123,11 @@ Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& descripti
   if (!text) return tl::unexpected(text.error());
   const auto anatomy = parse_description(*text, file);
   if (!anatomy) return tl::unexpected(anatomy.error());
-  return grow_description(*anatomy, options, file);
+  auto grown = grow_bones(*anatomy, options, file);
+  if (grown && options.soft_parts)
+    if (auto ok = grow_soft_parts(*anatomy, options, file, *grown); !ok)
+      return tl::unexpected(ok.error());
+  return grown;
 }
 
 }  // namespace osteon

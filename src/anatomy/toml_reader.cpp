@@ -63,6 +63,14 @@ std::vector<std::string> TomlReader::texts(const std::string& key) {
   return found;
 }
 
+bool TomlReader::flag_or(const std::string& key, bool otherwise) {
+  asked_.insert(key);
+  if (!has(key)) return otherwise;
+  const auto v = table_.get(key)->value_exact<bool>();
+  if (!v) reject("must be true or false", key);
+  return v.value_or(otherwise);
+}
+
 int TomlReader::integer(const std::string& key, int lo, int hi) {
   const toml::node* node = find(key);
   if (!node) return lo;

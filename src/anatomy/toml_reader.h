@@ -32,6 +32,7 @@ class TomlReader {
   std::string text(const std::string& key);
   /// None where the key is absent.
   std::vector<std::string> texts(const std::string& key);
+  bool flag_or(const std::string& key, bool otherwise);
   int integer(const std::string& key, int lo, int hi);
   double number(const std::string& key, Range range);
   double number_or(const std::string& key, Range range, double otherwise);

@@ -8,6 +8,7 @@
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "overlap.h"
+#include "soft_grow.h"
 #include "vary.h"
 
 namespace osteon {
@@ -80,11 +81,18 @@ bool any_free(const Drawn& drawn) {
   return std::find(drawn.free.begin(), drawn.free.end(), true) != drawn.free.end();
 }
 
-Result<GeneratedAnatomy> grow_varied(AnatomyDescription anatomy, const VariationTable& table,
-                                     const std::vector<double>& values,
-                                     const GenerateOptions& options, const std::string& file) {
+struct VariedBones {
+  AnatomyDescription description;
+  GeneratedAnatomy grown;
+};
+
+Result<VariedBones> grow_varied(AnatomyDescription anatomy, const VariationTable& table,
+                                const std::vector<double>& values, const GenerateOptions& options,
+                                const std::string& file) {
   if (auto ok = vary(anatomy, table, values); !ok) return tl::unexpected(ok.error());
-  return grow_description(anatomy, options, file);
+  auto grown = grow_bones(anatomy, options, file);
+  if (!grown) return tl::unexpected(grown.error());
+  return VariedBones{std::move(anatomy), std::move(*grown)};
 }
 
 Result<AnatomyDescription> load_description(const std::filesystem::path& file) {
@@ -123,16 +131,22 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
   auto drawn = choose(*rules, request);
   if (!drawn) return tl::unexpected(drawn.error());
   VariedAnatomy varied;
+  Result<VariedBones> bones;
   for (;; ++varied.halvings, halve(*rules, *drawn)) {
-    auto grown = grow_varied(*anatomy, *rules, drawn->values, options, description.string());
-    if (!grown) return tl::unexpected(grown.error());
-    varied.anatomy = std::move(*grown);
-    const Overlap worst = deepest_overlap(varied.anatomy);
+    bones = grow_varied(*anatomy, *rules, drawn->values, options, description.string());
+    if (!bones) return tl::unexpected(bones.error());
+    const Overlap worst = deepest_overlap(bones->grown);
     if (worst.depth <= kMostOverlap) break;
     if (varied.halvings == kMostHalvings || !any_free(*drawn))
       return fail(
           worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
           description.string(), "Choose values nearer to the means");
+  }
+  varied.anatomy = std::move(bones->grown);
+  if (options.soft_parts) {
+    const auto& varied_description = bones->description;
+    auto ok = grow_soft_parts(varied_description, options, description.string(), varied.anatomy);
+    if (!ok) return tl::unexpected(ok.error());
   }
   for (std::size_t i = 0; i < rules->rules.size(); ++i)
     varied.values.emplace_back(rules->rules[i].parameter.name, drawn->values[i]);

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "vary_bound.h"
+
 namespace osteon {
 namespace {
 
@@ -141,15 +143,23 @@ Result<void> find_parts(const AnatomyDescription& anatomy, const StepTargets& ta
   return {};
 }
 
+/// Landmarks that lie on a bone move with it instead, by `move_bound`.
 template <class OnBone, class OnLandmark>
 Result<void> for_targets(AnatomyDescription& anatomy, const StepTargets& targets,
-                         const OnBone& on_bone, const OnLandmark& on_landmark) {
+                         const OnBone& on_bone, const OnLandmark& on_landmark,
+                         const BoundMove& bound) {
   if (auto ok = find_parts(anatomy, targets); !ok) return ok;
   if (auto ok = for_each_named(anatomy.bones, targets.bones, "bone", on_bone); !ok) return ok;
-  return for_each_named(anatomy.landmarks, targets.landmarks, "landmark", on_landmark);
+  if (targets.parts.empty()) move_bound(anatomy, targets.bones, bound);
+  return for_each_named(anatomy.landmarks, targets.landmarks, "landmark",
+                        [&](LandmarkDescription& landmark) {
+                          if (!landmark.on_bone) on_landmark(landmark);
+                        });
 }
 
 Result<void> apply(AnatomyDescription& anatomy, const TurnStep& step, double units) {
+  const BoneDescription world{};
+  const Bend bend{step, units, world};
   return for_targets(
       anatomy, step.targets,
       [&](BoneDescription& bone) {
@@ -157,10 +167,9 @@ Result<void> apply(AnatomyDescription& anatomy, const TurnStep& step, double uni
           std::visit(Bend{step, units, bone}, part.primitive);
         });
       },
-      [&](LandmarkDescription& landmark) {
-        const BoneDescription world{};
-        landmark.p_W = Bend{step, units, world}.moved(landmark.p_W);
-      });
+      [&](LandmarkDescription& landmark) { landmark.p_W = bend.moved(landmark.p_W); },
+      {[&](const Vec3& p_W) { return bend.moved(p_W); },
+       [&](Primitive& part) { std::visit(bend, part); }});
 }
 
 Result<void> apply(AnatomyDescription& anatomy, const ShiftStep& step, double units) {
@@ -173,7 +182,9 @@ Result<void> apply(AnatomyDescription& anatomy, const ShiftStep& step, double un
         else
           shift_parts(bone, step.targets, by_W);
       },
-      [&](LandmarkDescription& landmark) { landmark.p_W += by_W; });
+      [&](LandmarkDescription& landmark) { landmark.p_W += by_W; },
+      {[&](const Vec3& p_W) { return Vec3(p_W + by_W); },
+       [&](Primitive& part) { std::visit(Shifter{by_W}, part); }});
 }
 
 Result<void> apply(AnatomyDescription& anatomy, const ScaleStep& step, double units) {
@@ -188,7 +199,13 @@ Result<void> apply(AnatomyDescription& anatomy, const ScaleStep& step, double un
         else
           scale_parts(bone, step.targets, step.center_W, s);
       },
-      [&](LandmarkDescription& landmark) { landmark.p_W = scaled(landmark.p_W); });
+      [&](LandmarkDescription& landmark) { landmark.p_W = scaled(landmark.p_W); },
+      {scaled,
+       [&](Primitive& part) {
+         std::visit(Scaler{s}, part);
+         std::visit(Shifter{scaled(Vec3::Zero())}, part);
+       },
+       s});
 }
 
 Result<void> apply_rule(AnatomyDescription& anatomy, const VariationRule& rule, double units) {
@@ -234,6 +251,11 @@ void mirror(GeneratedAnatomy& anatomy) {
     bone.X_WB.q.z() = -bone.X_WB.q.z();
     for (Vec3& v : bone.mesh.vertices) flip(v);
     for (Triangle& t : bone.mesh.triangles) std::swap(t[1], t[2]);
+  }
+  for (GeneratedSoft& soft : anatomy.softs) {
+    for (Vec3& v : soft.mesh_W.vertices) flip(v);
+    for (Triangle& t : soft.mesh_W.triangles) std::swap(t[1], t[2]);
+    for (GeneratedAttachment& attachment : soft.attachments) flip(attachment.p_W);
   }
   for (GeneratedLandmark& landmark : anatomy.landmarks) flip(landmark.p_W);
   anatomy.side = anatomy.side == "left" ? "right" : "left";

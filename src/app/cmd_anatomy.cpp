@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "all_cores.h"
 #include "cli_support.h"
 #include "commands.h"
 #include "open_case.h"
@@ -91,6 +92,7 @@ Result<VariedAnatomy> grow(const MakeCommand& command) {
   options.progress = [say = line.callback()](double share) {
     if (!say("Growing the bones", share)) throw std::runtime_error("stopped; nothing was written");
   };
+  options.run = run_on_all_cores;
   return generate_varied(files->description, files->table, *request, options);
 }
 
@@ -108,7 +110,8 @@ int run_make(const MakeCommand& command) {
   if (varied->halvings > 0)
     std::printf("bones met: drawn values were moved half the way to their means %d times\n",
                 varied->halvings);
-  std::printf("%zu bones, %s -> %s\n", def.bones.size(), def.side.c_str(), out.string().c_str());
+  std::printf("%zu bones, %zu soft parts, %s -> %s\n", def.bones.size(), def.softs.size(),
+              def.side.c_str(), out.string().c_str());
   return kExitDone;
 }
 

@@ -60,6 +60,28 @@ std::string field_text(const Bone& bone) {
   return bone.field ? fixed(1e-6 * static_cast<double>(bone.field->bytes()), 1) : "-";
 }
 
+std::string attachments_text(const Case& c, const SoftPart& soft) {
+  std::string text;
+  for (const Attachment& attachment : soft.attachments) {
+    const std::string& bone = c.bone(attachment.bone).name;
+    text += (text.empty() ? "" : ", ") + bone;
+    if (attachment.name != bone) text += " (" + attachment.name + ")";
+  }
+  return text.empty() ? "-" : text;
+}
+
+void print_softs(const Case& c) {
+  if (c.softs.empty()) return;
+  TextTable table({"soft part", "kind", "tissue", "triangles", "closed", "volume cm3",
+                   "thickness mm", "size mm", "attachments"});
+  for (const SoftPart& soft : c.softs)
+    table.add({soft.name, soft.kind, soft.tissue, std::to_string(soft.mesh_W.triangles.size()),
+               yes_no(topology(soft.mesh_W).closed()), fixed(volume(soft.mesh_W) * 1e6, 3),
+               soft.thickness_m > 0 ? fixed(soft.thickness_m * 1e3, 2) : "-",
+               size_text_mm(soft.mesh_W), attachments_text(c, soft)});
+  print("\n" + table.text());
+}
+
 int run_info(const std::string& spec) {
   const auto the_case = open_case(spec);
   if (!the_case) return report_error(the_case.error());
@@ -75,8 +97,10 @@ int run_info(const std::string& spec) {
                std::to_string(corners), field_text(bone)});
   }
   print(c.name + (c.side.empty() ? "" : " (" + c.side + ")") + ", " +
-        plural(c.bones.size(), "bone") + ", " + plural(c.landmarks.size(), "landmark") + "\n\n");
+        plural(c.bones.size(), "bone") + ", " + plural(c.softs.size(), "soft part") + ", " +
+        plural(c.landmarks.size(), "landmark") + "\n\n");
   print(table.text());
+  print_softs(c);
   double field_mb = 0;
   for (const Bone& bone : c.bones)
     field_mb += bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
@@ -89,12 +113,12 @@ int run_check(const std::string& spec) {
   auto def = open_case_def(spec);
   if (!def) return report_error(def.error());
   std::vector<std::string> findings = check_case(*def);
-  const std::size_t bones = def->bones.size();
+  const std::string parts =
+      plural(def->bones.size(), "bone") + ", " + plural(def->softs.size(), "soft part");
   if (const auto built = build_case(std::move(*def)); !built)
     findings.push_back(built.error().message());
   for (const std::string& finding : findings) print(finding + "\n");
-  print(findings.empty() ? plural(bones, "bone") + ", sound\n"
-                         : plural(findings.size(), "finding") + "\n");
+  print(findings.empty() ? parts + ", sound\n" : plural(findings.size(), "finding") + "\n");
   return findings.empty() ? kExitDone : kExitNo;
 }
 

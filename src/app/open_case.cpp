@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "all_cores.h"
 #include "felt_choice.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
@@ -49,6 +50,7 @@ Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(d
   if (!files) return tl::unexpected(files.error());
   GenerateOptions options;
   options.progress = progress;
+  options.run = run_on_all_cores;
   auto anatomy = generate_anatomy(files->description, options);
   if (!anatomy) return tl::unexpected(anatomy.error());
   return case_from(std::move(*anatomy));
@@ -77,6 +79,14 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
     bone.mesh = std::move(grown.mesh);
     bone.density_kg_per_m3 = grown.density_kg_per_m3;
     def.bones.push_back(std::move(bone));
+  }
+  for (GeneratedSoft& grown : anatomy.softs) {
+    SoftDef soft{
+        std::move(grown.name),   grown.fma_id,      std::move(grown.tissue), std::move(grown.kind),
+        std::move(grown.mesh_W), grown.thickness_m, std::move(grown.bones),  {}};
+    for (GeneratedAttachment& a : grown.attachments)
+      soft.attachments.push_back({std::move(a.name), std::move(a.bone), a.p_W});
+    def.softs.push_back(std::move(soft));
   }
   for (GeneratedLandmark& landmark : anatomy.landmarks)
     def.landmarks.push_back({std::move(landmark.name), landmark.p_W});

@@ -1,14 +1,13 @@
 #include "piece_work.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "all_cores.h"
 #include "osteon/scene/bone_pieces.h"
 
 namespace osteon {
@@ -30,46 +29,6 @@ void work_on(Task& task, const TriMesh& mesh) {
   auto made = DistanceField::make(mesh);
   if (made) task.made_field = std::make_shared<const DistanceField>(std::move(*made));
 }
-
-// Workers that take the next task until none is left, or until they are told to stop.
-class Workers {
- public:
-  Workers(const CaseDef& def, std::vector<Task>& tasks) : def_(def), tasks_(tasks) {}
-  ~Workers() {
-    next_ = tasks_.size();
-    for (std::thread& thread : threads_) thread.join();
-  }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
-
-  void start(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      threads_.emplace_back([this] {
-        while (work_once()) {
-        }
-      });
-  }
-  bool work_once() {
-    const std::size_t i = next_.fetch_add(1);
-    if (i >= tasks_.size()) return false;
-    Task& task = tasks_[i];
-    work_on(task, def_.bones[task.bone].mesh);
-    ++done_;
-    return true;
-  }
-  void wait() {
-    for (std::thread& thread : threads_) thread.join();
-    threads_.clear();
-  }
-  std::size_t done() const { return done_; }
-
- private:
-  const CaseDef& def_;
-  std::vector<Task>& tasks_;
-  std::atomic<std::size_t> next_{0};
-  std::atomic<std::size_t> done_{0};
-  std::vector<std::thread> threads_;
-};
 
 std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fields) {
   std::vector<Task> tasks;
@@ -95,15 +54,9 @@ void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& field
                        const std::function<void(double)>& progress) {
   std::vector<Task> tasks = unknown(def, pieces, fields);
   if (tasks.empty()) return;
-  {
-    Workers workers(def, tasks);
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    workers.start(std::min(cores, tasks.size()) - 1);
-    do {
-      progress(static_cast<double>(workers.done()) / static_cast<double>(tasks.size()));
-    } while (workers.work_once());
-    workers.wait();
-  }
+  run_on_all_cores(
+      tasks.size(), [&](std::size_t i) { work_on(tasks[i], def.bones[tasks[i].bone].mesh); },
+      progress);
   for (Task& task : tasks) {
     if (task.pieces) pieces.put(task.key, std::move(*task.pieces));
     if (task.made_field) fields.put(task.key, std::move(task.made_field));

@@ -10,6 +10,7 @@
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
+#include "soft_parts.h"
 
 namespace osteon {
 namespace {
@@ -146,6 +147,7 @@ std::uint64_t hash_of(const Case& the_case) {
     hasher.add(std::string_view(landmark.name));
     hasher.add(landmark.p_W);
   }
+  hash_softs(hasher, the_case.softs);
   return hasher.value();
 }
 
@@ -179,6 +181,9 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
     if (!bone) return tl::unexpected(bone.error());
     built.bones.push_back(std::move(*bone));
   }
+  auto softs = build_softs(std::move(def.softs), built.bones);
+  if (!softs) return tl::unexpected(softs.error());
+  built.softs = std::move(*softs);
   built.name = std::move(def.name);
   built.side = std::move(def.side);
   built.landmarks = std::move(def.landmarks);

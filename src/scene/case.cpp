@@ -7,7 +7,12 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kFeltNames{"pieces", "hull", "field"};
 
+constexpr std::array<std::string_view, 7> kSoftKinds{"cartilage", "ligament", "tendon", "disc",
+                                                     "meniscus",  "fat",      "skin"};
+
 }  // namespace
+
+std::span<const std::string_view> soft_kinds() { return kSoftKinds; }
 
 std::string_view to_text(Felt felt) { return kFeltNames[static_cast<std::size_t>(felt)]; }
 

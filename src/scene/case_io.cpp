@@ -29,7 +29,7 @@ Result<fs::path> resolve_inside(const fs::path& folder, const std::string& file)
   return path;
 }
 
-Result<TriMesh> load_bone_mesh(const fs::path& folder, const std::string& file,
+Result<TriMesh> load_part_mesh(const fs::path& folder, const std::string& file,
                                double metres_per_unit) {
   const auto path = resolve_inside(folder, file);
   if (!path) return tl::unexpected(path.error());
@@ -39,9 +39,9 @@ Result<TriMesh> load_bone_mesh(const fs::path& folder, const std::string& file,
 }
 
 // Letters, digits, - and _ only, and not yet used (some file systems know no upper case).
-std::string mesh_file_name(const std::string& bone_name, std::set<std::string>& used) {
+std::string mesh_file_name(const std::string& part_name, std::set<std::string>& used) {
   std::string stem;
-  for (const char c : bone_name) {
+  for (const char c : part_name) {
     const bool upper = c >= 'A' && c <= 'Z';
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
     stem += upper ? static_cast<char>(c - 'A' + 'a') : (plain ? c : '_');
@@ -91,12 +91,40 @@ std::string bone_text(const BoneDef& bone, const std::string& mesh_file) {
          ", dynamic_friction = " + format_number(m.dynamic_friction) + " }\n";
 }
 
-std::string case_text(const CaseDef& def, const std::vector<std::string>& mesh_files) {
+std::string listed(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + quoted(text);
+  return "[" + out + "]";
+}
+
+std::string soft_text(const SoftDef& soft, const std::string& mesh_file) {
   std::string text =
-      "# Osteon case. Lengths in metres; the meshes are in the frame of their bone.\n";
+      "\n[[soft]]\nname = " + quoted(soft.name) + "\nfma_id = " + std::to_string(soft.fma_id) +
+      "\ntissue = " + quoted(soft.tissue) + "\nkind = " + quoted(soft.kind) +
+      "\nmesh = " + quoted(mesh_file) + "\nthickness_m = " + format_number(soft.thickness_m) +
+      "\nbones = " + listed(soft.bones) + "\n";
+  for (const AttachmentDef& attachment : soft.attachments)
+    text += "[[soft.attachments]]\nname = " + quoted(attachment.name) +
+            "\nbone = " + quoted(attachment.bone) + "\nposition_m = " + bracketed(attachment.p_W) +
+            "\n";
+  return text;
+}
+
+/// Files of the meshes in the order of bones and soft parts.
+struct MeshFiles {
+  std::vector<std::string> bones, softs;
+};
+
+std::string case_text(const CaseDef& def, const MeshFiles& files) {
+  std::string text =
+      "# Osteon case. Lengths in metres; the meshes of bones are in the frame of their "
+      "bone,\n# those of soft parts in World.\n";
   text += "format = 1\nname = " + quoted(def.name) + "\nside = " + quoted(def.side) +
           "\nmesh_unit = \"m\"\n";
-  for (std::size_t i = 0; i < def.bones.size(); ++i) text += bone_text(def.bones[i], mesh_files[i]);
+  for (std::size_t i = 0; i < def.bones.size(); ++i)
+    text += bone_text(def.bones[i], files.bones[i]);
+  for (std::size_t i = 0; i < def.softs.size(); ++i)
+    text += soft_text(def.softs[i], files.softs[i]);
   for (const Landmark& landmark : def.landmarks)
     text += "\n[[landmarks]]\nname = " + quoted(landmark.name) +
             "\nposition_m = " + bracketed(landmark.p_W) + "\n";
@@ -125,24 +153,33 @@ Result<CaseDef> load_case(const fs::path& folder) {
   auto parsed = parse_case_toml(*text, file.string());
   if (!parsed) return tl::unexpected(parsed.error());
   for (std::size_t i = 0; i < parsed->def.bones.size(); ++i) {
-    auto mesh = load_bone_mesh(folder, parsed->mesh_files[i], parsed->metres_per_unit);
+    auto mesh = load_part_mesh(folder, parsed->mesh_files[i], parsed->metres_per_unit);
     if (!mesh) return tl::unexpected(mesh.error());
     parsed->def.bones[i].mesh = std::move(*mesh);
+  }
+  for (std::size_t i = 0; i < parsed->def.softs.size(); ++i) {
+    auto mesh = load_part_mesh(folder, parsed->soft_files[i], parsed->metres_per_unit);
+    if (!mesh) return tl::unexpected(mesh.error());
+    parsed->def.softs[i].mesh_W = std::move(*mesh);
   }
   return std::move(parsed->def);
 }
 
 Result<void> save_case(const CaseDef& def, const fs::path& folder) {
-  std::vector<std::string> mesh_files;
+  MeshFiles files;
   std::set<std::string> used;
-  for (const BoneDef& bone : def.bones) mesh_files.push_back(mesh_file_name(bone.name, used));
-  const std::string text = case_text(def, mesh_files);
+  for (const BoneDef& bone : def.bones) files.bones.push_back(mesh_file_name(bone.name, used));
+  for (const SoftDef& soft : def.softs) files.softs.push_back(mesh_file_name(soft.name, used));
+  const std::string text = case_text(def, files);
   // What could not be read again is not written.
   const auto readable = parse_case_toml(text, "case '" + def.name + "'");
   if (!readable) return tl::unexpected(readable.error());
   if (auto made = make_empty_folder(folder); !made) return made;
   for (std::size_t i = 0; i < def.bones.size(); ++i)
-    if (auto saved = save_stl(def.bones[i].mesh, folder / mesh_files[i], 1); !saved) return saved;
+    if (auto saved = save_stl(def.bones[i].mesh, folder / files.bones[i], 1); !saved) return saved;
+  for (std::size_t i = 0; i < def.softs.size(); ++i)
+    if (auto saved = save_stl(def.softs[i].mesh_W, folder / files.softs[i], 1); !saved)
+      return saved;
   return write_file_atomic(folder / "case.toml", text);
 }
 

@@ -119,6 +119,58 @@ void read_bone(const toml::table& table, const std::string& where, CaseText& out
   file.adopt_error(reader);
 }
 
+std::string read_soft_kind(CaseTomlReader& reader) {
+  std::string kind = reader.text("kind");
+  const auto kinds = soft_kinds();
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+    reader.set_error("'kind' must be cartilage, ligament, tendon, disc, meniscus, fat or skin",
+                     "kind");
+  return kind;
+}
+
+/// The name of a bone that the case has.
+std::string read_bone_name(CaseTomlReader& reader, std::string_view key, std::string name,
+                           const CaseText& out) {
+  const auto& bones = out.def.bones;
+  if (std::none_of(bones.begin(), bones.end(), [&](const BoneDef& b) { return b.name == name; }))
+    reader.set_error("there is no bone '" + name + "'", key);
+  return name;
+}
+
+void read_attachment(const toml::table& table, const std::string& where, const CaseText& out,
+                     const std::string& title, SoftDef& soft, CaseTomlReader& parent) {
+  CaseTomlReader reader(table, where,
+                        title + ", attachment " + std::to_string(soft.attachments.size() + 1));
+  reader.allow_only({"name", "bone", "position_m"});
+  AttachmentDef attachment;
+  attachment.name = read_name(reader);
+  attachment.bone = read_bone_name(reader, "bone", reader.text("bone"), out);
+  attachment.p_W = reader.position("position_m");
+  soft.attachments.push_back(std::move(attachment));
+  parent.adopt_error(reader);
+}
+
+void read_soft(const toml::table& table, const std::string& where, CaseText& out,
+               CaseTomlReader& file) {
+  const std::string title = "soft part " + std::to_string(out.def.softs.size() + 1);
+  CaseTomlReader reader(table, where, title);
+  reader.allow_only(
+      {"name", "fma_id", "tissue", "kind", "mesh", "thickness_m", "bones", "attachments"});
+  SoftDef soft;
+  soft.name = read_name(reader);
+  soft.fma_id = reader.integer_or("fma_id", {0, 10'000'000}, 0);
+  soft.tissue = reader.text("tissue");
+  soft.kind = read_soft_kind(reader);
+  out.soft_files.push_back(read_mesh_file(reader));
+  soft.thickness_m = reader.number_or("thickness_m", {0, 1}, 0);
+  for (std::string& name : reader.texts_or_empty("bones"))
+    soft.bones.push_back(read_bone_name(reader, "bones", std::move(name), out));
+  for (const toml::table* attachment : reader.tables_or_empty("attachments"))
+    read_attachment(*attachment, where, out, title, soft, reader);
+  out.def.softs.push_back(std::move(soft));
+  file.adopt_error(reader);
+}
+
 void read_landmark(const toml::table& table, const std::string& where, CaseText& out,
                    CaseTomlReader& file) {
   CaseTomlReader reader(table, where, "landmark " + std::to_string(out.def.landmarks.size() + 1));
@@ -134,16 +186,20 @@ Result<CaseText> read_case(const toml::table& root, const std::string& where) {
   CaseTomlReader reader(root, where, "");
   CaseText out;
   reader.number("format", {kFormat, kFormat});
-  reader.allow_only({"format", "name", "side", "mesh_unit", "bones", "landmarks"});
+  reader.allow_only({"format", "name", "side", "mesh_unit", "bones", "soft", "landmarks"});
   out.def.name = read_name(reader);
   out.def.side = read_side(reader);
   out.metres_per_unit = read_unit(reader);
   for (const toml::table* bone : reader.tables_or_empty("bones"))
     read_bone(*bone, where, out, reader);
+  for (const toml::table* soft : reader.tables_or_empty("soft"))
+    read_soft(*soft, where, out, reader);
   for (const toml::table* landmark : reader.tables_or_empty("landmarks"))
     read_landmark(*landmark, where, out, reader);
   if (out.def.bones.empty() || out.def.bones.size() > kMaxBones)
     reader.set_error("a case has 1 to " + std::to_string(kMaxBones) + " bones", "bones");
+  if (out.def.softs.size() > kMaxSofts)
+    reader.set_error("a case has at most " + std::to_string(kMaxSofts) + " soft parts", "soft");
   if (reader.error()) return tl::unexpected(*reader.error());
   return out;
 }

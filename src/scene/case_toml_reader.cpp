@@ -110,6 +110,24 @@ Vec3 CaseTomlReader::position(std::string_view key) {
   return {p[0], p[1], p[2]};
 }
 
+std::vector<std::string> CaseTomlReader::texts_or_empty(std::string_view key) {
+  std::vector<std::string> texts;
+  const toml::node* node = table_.get(key);
+  if (!node) return texts;
+  const toml::array* array = node->as_array();
+  if (!array) {
+    set_error(named(key) + " must be texts in square brackets", key);
+    return texts;
+  }
+  for (const toml::node& entry : *array) {
+    if (const auto text = entry.value_exact<std::string>())
+      texts.push_back(*text);
+    else
+      set_error(named(key) + " must be texts in square brackets", key);
+  }
+  return texts;
+}
+
 const toml::table* CaseTomlReader::table_or_null(std::string_view key) {
   const toml::node* node = table_.get(key);
   if (!node) return nullptr;

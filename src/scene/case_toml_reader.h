@@ -38,6 +38,7 @@ class CaseTomlReader {
   std::vector<double> numbers(std::string_view key, std::size_t size, NumberRange range);
   Vec3 position(std::string_view key);
   /// Empty when absent.
+  std::vector<std::string> texts_or_empty(std::string_view key);
   const toml::table* table_or_null(std::string_view key);
   std::vector<const toml::table*> tables_or_empty(std::string_view key);
 

@@ -4,6 +4,7 @@
 
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
+#include "soft_parts.h"
 
 namespace osteon {
 namespace {
@@ -101,7 +102,9 @@ std::vector<std::string> check_case(const CaseDef& def) {
     check_material(bone, found);
   }
   check_landmarks(def, found);
-  return found.take();
+  std::vector<std::string> findings = found.take();
+  for (std::string& finding : check_softs(def)) findings.push_back(std::move(finding));
+  return findings;
 }
 
 }  // namespace osteon

@@ -21,6 +21,26 @@ struct GeneratedBone {
   double density_kg_per_m3 = 1900;
 };
 
+/// A place where a soft part holds on to a bone.
+struct GeneratedAttachment {
+  std::string name;
+  std::string bone;
+  Vec3 p_W = Vec3::Zero();  ///< on the bone's surface
+};
+
+/// A soft part grown over the finished bones.
+struct GeneratedSoft {
+  std::string name;
+  int fma_id = 0;
+  std::string tissue;      ///< name in the tissue table
+  std::string kind;        ///< "cartilage", "ligament", "tendon", "disc", "meniscus", "fat", "skin"
+  TriMesh mesh_W;          ///< in World at rest, metres; closed, manifold, outward
+  double thickness_m = 0;  ///< the greatest, of cartilage and bands; 0: it has none
+  /// Bones that it moves with: cartilage with its own, a band with those of its ends; none: skin.
+  std::vector<std::string> bones;
+  std::vector<GeneratedAttachment> attachments;
+};
+
 struct GeneratedLandmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
@@ -30,19 +50,27 @@ struct GeneratedAnatomy {
   std::string name;
   std::string side;
   std::vector<GeneratedBone> bones;
+  std::vector<GeneratedSoft> softs;
   std::vector<GeneratedLandmark> landmarks;
 };
+
+/// Runs task(0) to task(count - 1), in any order and on several threads if it likes, and returns
+/// when all are done; tells `progress` the share done on the calling thread.
+using RunTasks = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task,
+                                    const std::function<void(double)>& progress)>;
 
 struct GenerateOptions {
   /// Of the grid on which surfaces are found; none: what the description says for each bone.
   std::optional<double> cell_m = {};
-  /// Told the share done, 0 to 1, before each bone and at the end; may throw to stop.
+  /// Told the share of the bones done, 0 to 1; may throw to stop.
   std::function<void(double)> progress = {};
+  RunTasks run = {};       ///< none: one after the other. The bytes are the same either way.
+  bool soft_parts = true;  ///< false: bones alone; landmarks on soft parts stay where they were
 };
 
-/// Grows every bone of a description (assets/anatomy/*.toml; docs/file-formats.md). The same
-/// description and options give the same bytes on every compiler. Errors name the file, the bone
-/// and the key.
+/// Grows every bone and soft part of a description (assets/anatomy/*.toml; docs/file-formats.md).
+/// The same description and options give the same bytes on every compiler. Errors name the file,
+/// the bone and the key.
 Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& description,
                                           const GenerateOptions& options = {});
 

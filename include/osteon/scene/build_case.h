@@ -21,10 +21,30 @@ struct BoneDef {
   Felt felt = Felt::kPieces;
 };
 
+/// A place where a soft part holds on to a bone.
+struct AttachmentDef {
+  std::string name;
+  std::string bone;
+  Vec3 p_W = Vec3::Zero();
+};
+
+/// A soft part, its bones by name.
+struct SoftDef {
+  std::string name;
+  int fma_id = 0;
+  std::string tissue;
+  std::string kind;
+  TriMesh mesh_W;  ///< in World, bones at rest, metres
+  double thickness_m = 0;
+  std::vector<std::string> bones;
+  std::vector<AttachmentDef> attachments;
+};
+
 struct CaseDef {
   std::string name;
   std::string side;
   std::vector<BoneDef> bones;
+  std::vector<SoftDef> softs;
   std::vector<Landmark> landmarks;
 };
 
@@ -39,9 +59,9 @@ struct BuildOptions {
 };
 
 /// Builds pieces, bodies and masses and hashes the lot. Fails with the bone's name when a hull
-/// cannot be made, when the mesh of one felt as a field is not closed, when names repeat or when
-/// there are none or more than kMaxBones. The same case comes out whether its pieces and fields
-/// were in the caches or not.
+/// cannot be made, when the mesh of one felt as a field is not closed, when names repeat, when
+/// a soft part names a bone that there is not, or when there are no bones or more than kMaxBones.
+/// The same case comes out whether its pieces and fields were in the caches or not.
 Result<Case> build_case(CaseDef def, const BuildOptions& options = {});
 
 /// FMA id of a bone by its name or a usual file name ("1mc", "scaphoid"); 0 when unknown.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,30 @@ struct Bone {
   Material material;
 };
 
+/// A place where a soft part holds on to a bone.
+struct Attachment {
+  std::string name;
+  BoneId bone;
+  Vec3 p_W = Vec3::Zero();
+};
+
+/// Cartilage, a ligament, a tendon, a disc, a meniscus, fat or the skin. It is seen and scanned;
+/// nothing of it is felt. Immutable once the case is made.
+struct SoftPart {
+  std::string name;        ///< "scaphoid_fossa"
+  int fma_id = 0;          ///< Foundational Model of Anatomy; 0 when unknown
+  std::string tissue;      ///< name in the tissue table (assets/materials/tissue.toml)
+  std::string kind;        ///< one of soft_kinds()
+  TriMesh mesh_W;          ///< in World, with every bone in its rest pose
+  double thickness_m = 0;  ///< 0: it has none that one could name
+  /// Bones that it moves with: their mean motion away from rest; none: it stays.
+  std::vector<BoneId> bones;
+  std::vector<Attachment> attachments;
+};
+
+/// "cartilage", "ligament", "tendon", "disc", "meniscus", "fat", "skin".
+std::span<const std::string_view> soft_kinds();
+
 /// A named point of the case, in World.
 struct Landmark {
   std::string name;
@@ -60,14 +85,18 @@ struct Case {
   std::string name;
   std::string side;  ///< "left", "right" or empty
   std::vector<Bone> bones;
+  std::vector<SoftPart> softs;
   std::vector<Landmark> landmarks;
   std::uint64_t hash = 0;  ///< over everything that the simulation reads
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
+  /// Of the bones: the skin may reach farther.
   Aabb bounds_W() const;
 };
 
 /// The most bones that a case may have: snapshots have fixed size.
 inline constexpr std::size_t kMaxBones = 64;
+/// The most soft parts of a case.
+inline constexpr std::size_t kMaxSofts = 256;
 
 }  // namespace osteon

@@ -14,6 +14,7 @@ namespace osteon {
 struct CaseText {
   CaseDef def;                          ///< complete but for the meshes
   std::vector<std::string> mesh_files;  ///< of each bone: relative to the folder, never outside it
+  std::vector<std::string> soft_files;  ///< likewise, of each soft part
   double metres_per_unit = 1;           ///< of the mesh files
 };
 
@@ -32,7 +33,8 @@ Result<CaseDef> load_case(const std::filesystem::path& folder);
 Result<void> save_case(const CaseDef& def, const std::filesystem::path& folder);
 
 /// What a careful reader would want to know before using a case: open meshes, inverted triangles,
-/// duplicate names, sizes that hint at a wrong unit, materials out of range. Empty when sound.
+/// duplicate names, sizes that hint at a wrong unit, materials out of range, soft parts that run
+/// through bone or are attached beside it. Empty when sound.
 std::vector<std::string> check_case(const CaseDef& def);
 
 }  // namespace osteon

@@ -1,0 +1,101 @@
+#include "part_reader.h"
+
+#include <algorithm>
+
+namespace osteon {
+namespace {
+
+constexpr double kMm = 0.001;
+
+/// Turns bone directions into the axes of a part that the description turns by `rotation_deg`.
+Mat3 local_axes(TomlReader& in) {
+  return rotation_xyz_deg(in.vec3_or("rotation_deg", kAngle_deg, Vec3::Zero())).transpose();
+}
+
+Primitive read_ellipsoid(TomlReader& in) {
+  Ellipsoid e;
+  e.center = in.vec3("center_mm", kPlace_mm) * kMm;
+  e.radii = in.vec3("radii_mm", kRadius_mm) * kMm;
+  e.R_local = local_axes(in);
+  return e;
+}
+
+Primitive read_tube(TomlReader& in) {
+  std::vector<Vec3> points = in.points("points_mm", kPlace_mm);
+  std::vector<double> radii = in.numbers("radii_mm", kRadius_mm);
+  if (points.size() != radii.size()) in.reject("must hold one radius a point", "radii_mm");
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if ((points[i] - points[i - 1]).norm() < 1e-3)
+      in.reject("holds the same point twice in a row", "points_mm");
+  if (in.failed()) return {};
+  for (Vec3& p : points) p *= kMm;
+  for (double& r : radii) r *= kMm;
+  Tube tube = tube_through(points, radii);
+  if (*std::min_element(tube.radii.begin(), tube.radii.end()) <= 0)
+    in.reject("swing so hard that the curve through them falls below zero", "radii_mm");
+  return tube;
+}
+
+Primitive read_box(TomlReader& in) {
+  RoundedBox b;
+  b.center = in.vec3("center_mm", kPlace_mm) * kMm;
+  b.half = in.vec3("half_mm", kRadius_mm) * kMm;
+  b.round = in.number("round_mm", kBlend_mm) * kMm;
+  b.R_local = local_axes(in);
+  if (b.round > b.half.minCoeff()) in.reject("must not exceed the smallest of half_mm", "round_mm");
+  return b;
+}
+
+Primitive read_half_space(TomlReader& in) {
+  HalfSpace h;
+  h.point = in.vec3("point_mm", kPlace_mm) * kMm;
+  h.normal = in.vec3("normal", {-1, 1});
+  const double length = h.normal.norm();
+  if (length < 1e-3) in.reject("must not be zero", "normal");
+  h.normal /= std::max(length, 1e-3);
+  return h;
+}
+
+struct ShapeReader {
+  const char* name;
+  Primitive (*read)(TomlReader&);
+  bool has_end;
+};
+
+constexpr ShapeReader kShapes[] = {{"ellipsoid", read_ellipsoid, true},
+                                   {"tube", read_tube, true},
+                                   {"box", read_box, true},
+                                   {"half_space", read_half_space, false}};
+
+}  // namespace
+
+Part read_part(TomlReader& in, Operation operation, double blend) {
+  Part part;
+  part.operation = operation;
+  if (in.has("name")) part.name = in.text("name");
+  const std::string shape = in.text("shape");
+  const auto* known = std::find_if(std::begin(kShapes), std::end(kShapes),
+                                   [&](const ShapeReader& s) { return shape == s.name; });
+  if (known == std::end(kShapes)) {
+    in.reject("names no shape that is known: '" + shape + "'", "shape");
+  } else if (operation == Operation::kAdd && !known->has_end) {
+    in.reject("can only cut, not add: '" + shape + "'", "shape");
+  } else {
+    part.primitive = known->read(in);
+  }
+  part.blend = in.number_or("blend_mm", kBlend_mm, blend / kMm) * kMm;
+  return part;
+}
+
+Result<void> read_parts(TomlReader& in, const std::string& key, Operation operation, double blend,
+                        Solid& solid) {
+  std::size_t n = 0;
+  for (const toml::table* table : in.tables(key, operation == Operation::kAdd)) {
+    TomlReader entry(*table, in.where() + ", " + key + " " + std::to_string(++n));
+    solid.parts.push_back(read_part(entry, operation, blend));
+    if (auto ok = entry.finish(); !ok) return ok;
+  }
+  return {};
+}
+
+}  // namespace osteon

@@ -1,0 +1,181 @@
+#include "soft_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+namespace {
+
+constexpr int kStepsPerSpan = 10;
+constexpr int kRounds = 40;
+
+struct Station {
+  Vec3 p = Vec3::Zero();
+  double width = 0, thickness = 0;
+};
+
+/// Through the points, as a tube's curve runs; widths go along.
+std::vector<Station> stations_of(const BandDescription& band, const std::vector<Vec3>& points) {
+  std::vector<Station> stations;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vec3 before = i > 0 ? points[i - 1] : Vec3(2 * points[i] - points[i + 1]);
+    const Vec3 after = i + 2 < points.size() ? points[i + 2] : Vec3(2 * points[i + 1] - points[i]);
+    const int last = i + 2 < points.size() ? kStepsPerSpan - 1 : kStepsPerSpan;
+    for (int k = 0; k <= last; ++k) {
+      const double t = static_cast<double>(k) / kStepsPerSpan, t2 = t * t, t3 = t2 * t;
+      Station s;
+      s.p = 0.5 * ((2 * t2 - t3 - t) * before + (3 * t3 - 5 * t2 + 2) * points[i] +
+                   (4 * t2 - 3 * t3 + t) * points[i + 1] + (t3 - t2) * after);
+      const double ease = t2 * (3 - 2 * t);
+      const BandPoint& a = band.path[i];
+      const BandPoint& b = band.path[i + 1];
+      s.width = a.width + ease * (b.width - a.width);
+      s.thickness = a.thickness + ease * (b.thickness - a.thickness);
+      stations.push_back(s);
+    }
+  }
+  return stations;
+}
+
+double distance_to_box(const Vec3& p, const Aabb& box) {
+  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
+}
+
+/// Out of every bone until the bone is `room` away.
+Vec3 pushed_out(Vec3 p, double room, const GroundView& ground) {
+  for (const SoftGround* bone : ground) {
+    if (distance_to_box(p, bone->box) >= room) continue;
+    const ClosestPoint at = bone->surface.closest(p);
+    if (at.signed_distance >= room) continue;
+    const Vec3 away = p - at.point;
+    const double length = away.norm();
+    if (length < 1e-9) continue;
+    const double sign = at.signed_distance < 0 ? -1 : 1;
+    p = at.point + (sign * room / length) * away;
+  }
+  return p;
+}
+
+/// Share of the wanted room that a station has: none where the band holds on to bone.
+double room_share(std::size_t i, std::size_t count, bool first_held, bool last_held) {
+  const double ramp = 0.2 * static_cast<double>(count - 1);
+  double share = 1;
+  if (first_held) share = std::min(share, static_cast<double>(i) / ramp);
+  if (last_held) share = std::min(share, static_cast<double>(count - 1 - i) / ramp);
+  return share;
+}
+
+/// A string around obstacles: pulled towards the middle of its neighbours where it was pushed,
+/// then pushed out again.
+void pull_over_bone(const BandDescription& band, const GroundView& ground,
+                    std::vector<Station>& stations) {
+  const std::size_t count = stations.size();
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Vec3> next;
+    double most = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double share =
+          room_share(i, count, band.path.front().attached, band.path.back().attached);
+      const bool end = i == 0 || i + 1 == count;
+      const Vec3 out = end || share <= 0
+                           ? stations[i].p
+                           : pushed_out(stations[i].p, share * 0.5 * stations[i].thickness, ground);
+      most = std::max(most, (out - stations[i].p).norm());
+      next.push_back(out);
+    }
+    if (most < 1e-5) return;
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      stations[i].p = 0.5 * next[i] + 0.25 * (next[i - 1] + next[i + 1]);
+  }
+}
+
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+  const double length = v.norm();
+  return length > 1e-12 ? Vec3(v / length) : otherwise;
+}
+
+std::vector<BandSection> sections_of(const std::vector<Station>& stations, const Vec3& flat_W) {
+  std::vector<BandSection> sections;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const Vec3& a = stations[i > 0 ? i - 1 : i].p;
+    const Vec3& b = stations[i + 1 < stations.size() ? i + 1 : i].p;
+    BandSection s;
+    s.center = stations[i].p;
+    s.along = unit_or(b - a, sections.empty() ? Vec3::UnitX() : sections.back().along);
+    const Vec3 before = sections.empty() ? Vec3(s.along.unitOrthogonal()) : sections.back().flat;
+    s.flat = unit_or(flat_W - flat_W.dot(s.along) * s.along, before);
+    s.across = s.flat.cross(s.along);
+    s.half_width = 0.5 * stations[i].width;
+    s.half_thickness = 0.5 * stations[i].thickness;
+    sections.push_back(s);
+  }
+  return sections;
+}
+
+/// The end goes on into the bone, straight down.
+Station rooted(const Station& end, const SoftGround& bone) {
+  Station root = end;
+  const ClosestPoint at = bone.surface.closest(end.p);
+  const Triangle& t = bone.surface.mesh().triangles[at.triangle];
+  const Vec3 normal =
+      unit_or(bone.normals[t[0]] + bone.normals[t[1]] + bone.normals[t[2]], Vec3::UnitZ());
+  root.p -= (0.5 * end.thickness + 3e-4) * normal;
+  return root;
+}
+
+}  // namespace
+
+LaidBand lay_band(const BandDescription& band, const GroundView& ground) {
+  LaidBand laid;
+  std::vector<Vec3> points;
+  for (const BandPoint& point : band.path) {
+    points.push_back(point.at.p_W);
+    if (!point.attached) continue;
+    points.back() = ground[point.at.bone]->surface.closest(point.at.p_W).point;
+    laid.attachments.push_back(points.back());
+  }
+  std::vector<Station> stations = stations_of(band, points);
+  pull_over_bone(band, ground, stations);
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i)
+    laid.length += (stations[i + 1].p - stations[i].p).norm();
+  const BandPoint& first = band.path.front();
+  const BandPoint& last = band.path.back();
+  if (first.attached)
+    stations.insert(stations.begin(), rooted(stations.front(), *ground[first.at.bone]));
+  if (last.attached) stations.push_back(rooted(stations.back(), *ground[last.at.bone]));
+  laid.sections = sections_of(stations, band.flat_W);
+  return laid;
+}
+
+double distance(const LaidBand& band, const Vec3& p) {
+  double nearest = 1e300;
+  for (std::size_t i = 0; i + 1 < band.sections.size(); ++i) {
+    const BandSection& a = band.sections[i];
+    const BandSection& b = band.sections[i + 1];
+    const Vec3 step = b.center - a.center, from_a = p - a.center;
+    const double reach = step.norm() + a.half_width + b.half_width;
+    const double far = nearest + reach;  // beyond it this span cannot be nearer
+    if (far > 0 && from_a.squaredNorm() > far * far) continue;
+    const double share = std::clamp(from_a.dot(step) / step.squaredNorm(), 0.0, 1.0);
+    const Vec3 r = from_a - share * step;
+    const double u = r.dot(a.across) + share * (r.dot(b.across) - r.dot(a.across));
+    const double v = r.dot(a.flat) + share * (r.dot(b.flat) - r.dot(a.flat));
+    const double half_width = a.half_width + share * (b.half_width - a.half_width);
+    const double half = a.half_thickness + share * (b.half_thickness - a.half_thickness);
+    const double beside = std::max(std::abs(u) - (half_width - half), 0.0);
+    const double ahead2 = std::max(r.squaredNorm() - u * u - v * v, 0.0);
+    nearest = std::min(nearest, std::sqrt(beside * beside + v * v + ahead2) - half);
+  }
+  return nearest;
+}
+
+Aabb bounds(const LaidBand& band) {
+  Aabb box;
+  for (const BandSection& s : band.sections) {
+    box.include(s.center - Vec3::Constant(s.half_width));
+    box.include(s.center + Vec3::Constant(s.half_width));
+  }
+  return box;
+}
+
+}  // namespace osteon

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "soft_layer.h"
+
+namespace osteon {
+
+/// One cross-section of a band: a flat bar with round edges.
+struct BandSection {
+  Vec3 center = Vec3::Zero();
+  Vec3 along = Vec3::UnitX(), across = Vec3::UnitY(), flat = Vec3::UnitZ();  ///< unit, World
+  double half_width = 0, half_thickness = 0;
+};
+
+/// A band laid over the bones.
+struct LaidBand {
+  std::vector<BandSection> sections;
+  std::vector<Vec3> attachments;  ///< of the points that are attached, in their order; on bone
+  double length = 0;              ///< from end to end along the middle, outside bone, metres
+};
+
+/// Lays the ends on their bones' surfaces, leads a smooth curve through the points, and pulls it
+/// taut over the bones: where it would run through one it is pushed out until half the band's
+/// thickness lies over the bone. Attached ends go on into the bone by that much.
+LaidBand lay_band(const BandDescription& band, const GroundView& ground);
+
+/// Signed distance to the band, about.
+double distance(const LaidBand& band, const Vec3& p);
+Aabb bounds(const LaidBand& band);
+
+}  // namespace osteon

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "soft_band.h"
+
+namespace osteon {
+
+/// A surface that other soft parts give way to.
+struct Obstacle {
+  const MeshDistance* surface;
+  Aabb box;
+};
+
+/// What a soft part of this shape fills, as a closed surface in World: that of the band or the
+/// parts, less all that lies deeper than `sink` in an obstacle. Only its largest piece is kept.
+Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
+                          const std::vector<Obstacle>& obstacles);
+Result<TriMesh> grow_volume(const VolumeDescription& volume, double cell_m,
+                            const std::vector<Obstacle>& obstacles);
+/// The outline of flesh over the bones.
+Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m, const GroundView& ground);
+
+}  // namespace osteon

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "description.h"
+#include "osteon/anatomy/generate.h"
+
+namespace osteon {
+
+/// Grows every soft part of the description over the bones of `grown`, which are finished, and lays
+/// the landmarks that lie on a surface onto it. Soft parts that meet give way in the order
+/// cartilage, bands, volumes.
+Result<void> grow_soft_parts(const AnatomyDescription& anatomy, const GenerateOptions& options,
+                             const std::string& file, GeneratedAnatomy& grown);
+
+}  // namespace osteon

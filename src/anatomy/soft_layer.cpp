@@ -1,0 +1,133 @@
+#include "soft_layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/mesh/measure.h"
+#include "osteon/mesh/taubin.h"
+#include "soft_patch.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kRim_m = 5e-5;          // height of the layer's edge (D)
+constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
+constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
+constexpr double kLeastFacing = 0.3;     // cosine between the normal and the way to the other bone
+constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
+
+double distance_to_box(const Vec3& p, const Aabb& box) {
+  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
+}
+
+/// How far the nearest of `bones` lies, at most `limit`, and whether the normal points at it.
+struct Facing {
+  double distance = 0;
+  double cosine = 1;
+};
+
+Facing nearest(const Vec3& p, const Vec3& normal, const std::vector<std::size_t>& bones,
+               const GroundView& ground, double limit) {
+  Facing best{limit, 1};
+  for (const std::size_t i : bones) {
+    if (distance_to_box(p, ground[i]->box) >= best.distance) continue;
+    const ClosestPoint at = ground[i]->surface.closest(p);
+    if (at.signed_distance >= best.distance) continue;
+    const Vec3 way = at.point - p;
+    const double length = way.norm();
+    best = {at.signed_distance, length > 1e-9 ? normal.dot(way) / length : 1.0};
+  }
+  return best;
+}
+
+std::vector<std::size_t> all_but(std::size_t self, std::size_t count) {
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < count; ++i)
+    if (i != self) others.push_back(i);
+  return others;
+}
+
+class LayerMaker {
+ public:
+  LayerMaker(const LayerDescription& layer,
+             const std::vector<const LayerDescription*>& on_same_bone, const GroundView& ground)
+      : layer_(layer), ground_(ground), others_(all_but(layer.bone, ground.size())) {
+    for (const LayerDescription* other : on_same_bone)
+      if (other != &layer)
+        rivals_.insert(rivals_.end(), other->facing.begin(), other->facing.end());
+    for (const BoundPart& part : layer.region) region_.parts.push_back(part.part);
+  }
+
+  TriMesh make() const {
+    const SoftGround& bone = *ground_[layer_.bone];
+    Patch whole;
+    whole.triangles = bone.surface.mesh().triangles;
+    for (std::size_t i = 0; i < bone.normals.size(); ++i)
+      whole.vertices.push_back(place(bone.surface.mesh().vertices[i], bone.normals[i]));
+    return raise_patch(cut_patch(whole, kRim_m, kLeastArea_m2));
+  }
+
+ private:
+  /// Metres from the rim, negative outside.
+  double inside(const Vec3& p, const Vec3& normal) const {
+    double inside = 1;
+    if (!region_.parts.empty()) inside = -distance(region_, p);
+    if (inside <= 0 || layer_.facing.empty()) return inside;
+    const double limit = layer_.reach + layer_.taper;
+    const Facing own = nearest(p, normal, layer_.facing, ground_, limit);
+    inside = std::min(inside, layer_.reach - own.distance);
+    inside = std::min(inside, (own.cosine - kLeastFacing) * kFacingReach_m);
+    if (inside <= 0 || rivals_.empty()) return inside;
+    const Facing rival = nearest(p, normal, rivals_, ground_, limit);
+    return std::min(inside, 0.5 * (rival.distance - own.distance) * layer_.taper / kBorder_m);
+  }
+
+  PatchVertex place(const Vec3& p, const Vec3& normal) const {
+    PatchVertex v{p, normal, inside(p, normal), kRim_m};
+    if (v.inside <= 0) return v;
+    const double share = std::min(v.inside / layer_.taper, 1.0);
+    const double wanted = layer_.thickness * share * (2 - share);
+    const double reach = 2 * layer_.thickness + layer_.clearance;
+    const double gap = nearest(p, normal, others_, ground_, reach).distance;
+    const double room = 0.5 * (gap - layer_.clearance);
+    v.height = std::max(std::min(wanted, room), kRim_m);
+    return v;
+  }
+
+  const LayerDescription& layer_;
+  const GroundView& ground_;
+  std::vector<std::size_t> others_, rivals_;
+  Solid region_;
+};
+
+/// Normals of a meshed surface waver from facet to facet; the layer over it should not.
+void even_out(const TriMesh& mesh, std::vector<Vec3>& normals) {
+  const VertexRings rings = vertex_rings(mesh);
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Vec3> evened = normals;
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+      for (std::uint32_t k = rings.first[v]; k < rings.first[v + 1]; ++k)
+        evened[v] += normals[rings.neighbour[k]];
+      const double length = evened[v].norm();
+      evened[v] = length > 1e-9 ? Vec3(evened[v] / length) : normals[v];
+    }
+    normals = std::move(evened);
+  }
+}
+
+}  // namespace
+
+SoftGround make_ground(TriMesh mesh_W) {
+  std::vector<Vec3> normals = vertex_normals(mesh_W);
+  even_out(mesh_W, normals);
+  const Aabb box = bounds(mesh_W);
+  return {MeshDistance(std::move(mesh_W)), std::move(normals), box};
+}
+
+TriMesh grow_layer(const LayerDescription& layer,
+                   const std::vector<const LayerDescription*>& on_same_bone,
+                   const GroundView& ground) {
+  return LayerMaker(layer, on_same_bone, ground).make();
+}
+
+}  // namespace osteon
