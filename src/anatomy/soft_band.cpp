@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kStepsPerSpan = 10;
 constexpr int kRounds = 40;
+constexpr double kThinnest = 0.4;  // of the thickness, at an end that thins out (D)
 
 struct Station {
   Vec3 p = Vec3::Zero();
@@ -63,6 +64,15 @@ double room_share(std::size_t i, std::size_t count, bool first_held, bool last_h
   if (first_held) share = std::min(share, static_cast<double>(i) / ramp);
   if (last_held) share = std::min(share, static_cast<double>(count - 1 - i) / ramp);
   return share;
+}
+
+/// A band gets thinner where it grows into bone, unless its ends' thickness was said.
+void thin_ends(const BandDescription& band, std::vector<Station>& stations) {
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const double share = std::min(1.0, room_share(i, stations.size(), band.path.front().thins_out,
+                                                  band.path.back().thins_out));
+    stations[i].thickness *= kThinnest + (1 - kThinnest) * share;
+  }
 }
 
 /// A string around obstacles: pulled towards the middle of its neighbours where it was pushed,
@@ -135,6 +145,7 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground) {
     laid.attachments.push_back(points.back());
   }
   std::vector<Station> stations = stations_of(band, points);
+  thin_ends(band, stations);
   pull_over_bone(band, ground, stations);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
     laid.length += (stations[i + 1].p - stations[i].p).norm();

@@ -36,6 +36,7 @@ struct BandPoint {
   BoundPoint at;
   double width = 0, thickness = 0;  ///< of the band there, metres
   std::string name;                 ///< of an attachment
+  bool thins_out = false;           ///< towards this attached end, whose thickness was not said
   bool attached = false;            ///< laid on the bone's surface: the first and the last point
 };
 

@@ -28,14 +28,15 @@ std::vector<Obstacle> near_box(const std::vector<Obstacle>& obstacles, const Aab
   return near;
 }
 
-/// Surface of what `shape` holds and the obstacles leave.
+/// Surface of what `shape` holds and the obstacles leave; no point of the shape is deeper in it
+/// than `depth`.
 template <class Shape>
-Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double sink,
+Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, double sink,
                              const std::vector<Obstacle>& all, IsosurfaceOptions options) {
   const std::vector<Obstacle> obstacles = near_box(all, box.grown(options.cell_m));
   // Obstacles count where the shape itself is; elsewhere its own distance is a bound that will do.
   const double beyond = 2 * options.cell_m;
-  const double farthest = 0.5 * box.extent().norm() + beyond;
+  const double farthest = depth + beyond;
   SampledField nearest([&](const Vec3& p) { return nearest_obstacle(obstacles, p, farthest); },
                        box.grown(3 * options.cell_m), options.cell_m);
   const auto field = [&](const Vec3& p) {
@@ -55,6 +56,24 @@ Solid solid_of(const std::vector<BoundPart>& parts) {
   return solid;
 }
 
+/// A bone's parts, whose own distances are near enough for an outline and quick.
+struct FleshBone {
+  const Solid* solid;
+  Aabb box_W;
+  Mat3 R_BW;
+  Vec3 p_BW;
+};
+
+FleshBone place(const BoneDescription& bone) {
+  FleshBone placed{&bone.solid, {}, bone.R_WB.transpose(), {}};
+  placed.p_BW = -(placed.R_BW * bone.p_WB);
+  const Aabb box_B = bounds(bone.solid);
+  const Vec3 center_W = bone.R_WB * box_B.center() + bone.p_WB;
+  const Vec3 half = bone.R_WB.cwiseAbs() * (0.5 * box_B.extent());
+  placed.box_W = {center_W - half, center_W + half};
+  return placed;
+}
+
 IsosurfaceOptions options_for(const Solid& solid, double cell_m) {
   IsosurfaceOptions options;
   options.cell_m = cell_m;
@@ -70,44 +89,46 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
   IsosurfaceOptions options;
   options.cell_m = cell_m;
   // Distances beside a bent or widening band are not exact.
-  for (const BandSection& s : band.sections)
+  double depth = 0;
+  for (const BandSection& s : band.sections) {
     options.slack_m = std::max(options.slack_m, 0.5 * s.half_width);
-  return grow_clipped([&](const Vec3& p) { return distance(band, p); }, bounds(band), sink,
+    depth = std::max(depth, s.half_thickness);
+  }
+  return grow_clipped([&](const Vec3& p) { return distance(band, p); }, bounds(band), depth, sink,
                       obstacles, options);
 }
 
 Result<TriMesh> grow_volume(const VolumeDescription& volume, double cell_m,
                             const std::vector<Obstacle>& obstacles) {
   const Solid solid = solid_of(volume.parts);
-  return grow_clipped([&](const Vec3& p) { return distance(solid, p); }, bounds(solid), volume.sink,
+  const Aabb box = bounds(solid);
+  const double depth = 0.5 * box.extent().minCoeff();
+  return grow_clipped([&](const Vec3& p) { return distance(solid, p); }, box, depth, volume.sink,
                       obstacles, options_for(solid, cell_m));
 }
 
-Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m, const GroundView& ground) {
+Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
+                          const std::vector<BoneDescription>& bones) {
   Solid flesh, cuts;
   for (const BoundPart& part : skin.parts)
     (part.part.operation == Operation::kAdd ? flesh : cuts).parts.push_back(part.part);
   IsosurfaceOptions options = options_for(flesh, cell_m);
-  options.slack_m += 0.25 * skin.blend * static_cast<double>(ground.size());
+  options.slack_m += 0.25 * skin.blend * static_cast<double>(bones.size());
   Aabb box = bounds(flesh);
-  for (const SoftGround* bone : ground) {
-    box.include(bone->box.lo - Vec3::Constant(skin.offset + 0.5 * skin.blend));
-    box.include(bone->box.hi + Vec3::Constant(skin.offset + 0.5 * skin.blend));
+  std::vector<FleshBone> placed;
+  for (const BoneDescription& bone : bones) {
+    placed.push_back(place(bone));
+    options.stretch = std::max(options.stretch, stretch(bone.solid));
+    box.include(placed.back().box_W.lo - Vec3::Constant(skin.offset + 0.5 * skin.blend));
+    box.include(placed.back().box_W.hi + Vec3::Constant(skin.offset + 0.5 * skin.blend));
   }
-  // Bones count where they come near the outline.
-  const double beyond = 3 * cell_m + skin.blend;
-  SampledField over_bone(
-      [&](const Vec3& p) {
-        double d = beyond;
-        for (const SoftGround* bone : ground)
-          if (distance_to_box(p, bone->box) - skin.offset < d + skin.blend)
-            d = smooth_min(d, bone->surface.closest(p).signed_distance - skin.offset, skin.blend);
-        return d;
-      },
-      box.grown(2 * cell_m), cell_m);
   const auto field = [&](const Vec3& p) {
     double d = distance(flesh, p);
-    if (d > -beyond) d = smooth_min(d, over_bone(p), skin.blend);
+    for (const FleshBone& bone : placed) {
+      if (distance_to_box(p, bone.box_W) - skin.offset > d + skin.blend) continue;
+      const Vec3 p_B = bone.R_BW * p + bone.p_BW;
+      d = smooth_min(d, distance(*bone.solid, p_B) - skin.offset, skin.blend);
+    }
     for (const Part& cut : cuts.parts) d = smooth_max(d, -distance(cut.primitive, p), cut.blend);
     return d;
   };

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "description.h"
 #include "osteon/base/result.h"
 #include "soft_band.h"
 
@@ -20,6 +21,7 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
 Result<TriMesh> grow_volume(const VolumeDescription& volume, double cell_m,
                             const std::vector<Obstacle>& obstacles);
 /// The outline of flesh over the bones.
-Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m, const GroundView& ground);
+Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
+                          const std::vector<BoneDescription>& bones);
 
 }  // namespace osteon

@@ -109,7 +109,6 @@ class SoftGrower {
   }
 
   const std::string& bone_name(std::size_t bone) const { return anatomy_.bones[bone].name; }
-  double cell(const SoftDescription& soft) const { return options_.cell_m.value_or(soft.cell); }
 
   Result<TriMesh> mesh_of(const LayerDescription& layer, const SoftDescription&,
                           GeneratedSoft& out) const {
@@ -134,7 +133,7 @@ class SoftGrower {
       if (std::find(out.bones.begin(), out.bones.end(), bone) == out.bones.end())
         out.bones.push_back(bone);
     }
-    return grow_band(laid, band.sink, cell(soft), obstacles_);
+    return grow_band(laid, band.sink, soft.cell, obstacles_);
   }
 
   Result<TriMesh> mesh_of(const VolumeDescription& volume, const SoftDescription& soft,
@@ -149,12 +148,12 @@ class SoftGrower {
     for (const BoundPart& part : volume.parts)
       if (std::find(out.bones.begin(), out.bones.end(), bone_name(part.bone)) == out.bones.end())
         out.bones.push_back(bone_name(part.bone));
-    return grow_volume(volume, cell(soft), obstacles);
+    return grow_volume(volume, soft.cell, obstacles);
   }
 
   Result<TriMesh> mesh_of(const SkinDescription& skin, const SoftDescription& soft,
                           GeneratedSoft&) const {
-    return grow_skin(skin, std::max(cell(soft), soft.cell), all_ground_);
+    return grow_skin(skin, soft.cell, anatomy_.bones);
   }
 
   const AnatomyDescription& anatomy_;

@@ -10,7 +10,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kRim_m = 5e-5;          // height of the layer's edge (D)
+constexpr double kRim_m = 5e-5;  // height of the layer's edge (D)
+constexpr int kRimRounds = 8;
 constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
 constexpr double kLeastFacing = 0.3;     // cosine between the normal and the way to the other bone
@@ -47,6 +48,20 @@ std::vector<std::size_t> all_but(std::size_t self, std::size_t count) {
   return others;
 }
 
+/// Takes the waves out of the rim that the facets of both bones leave in it.
+void smooth_rim(const VertexRings& rings, Patch& patch) {
+  for (int round = 0; round < kRimRounds; ++round) {
+    std::vector<double> evened;
+    for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
+      double sum = patch.vertices[v].inside;
+      for (std::uint32_t k = rings.first[v]; k < rings.first[v + 1]; ++k)
+        sum += patch.vertices[rings.neighbour[k]].inside;
+      evened.push_back(sum / (1.0 + rings.first[v + 1] - rings.first[v]));
+    }
+    for (std::size_t v = 0; v < evened.size(); ++v) patch.vertices[v].inside = evened[v];
+  }
+}
+
 class LayerMaker {
  public:
   LayerMaker(const LayerDescription& layer,
@@ -62,8 +77,14 @@ class LayerMaker {
     const SoftGround& bone = *ground_[layer_.bone];
     Patch whole;
     whole.triangles = bone.surface.mesh().triangles;
-    for (std::size_t i = 0; i < bone.normals.size(); ++i)
-      whole.vertices.push_back(place(bone.surface.mesh().vertices[i], bone.normals[i]));
+    for (std::size_t i = 0; i < bone.normals.size(); ++i) {
+      const Vec3& p = bone.surface.mesh().vertices[i];
+      const double from_rim = std::clamp(inside(p, bone.normals[i]), -layer_.taper, layer_.taper);
+      whole.vertices.push_back({p, bone.normals[i], from_rim, kRim_m});
+    }
+    smooth_rim(vertex_rings(bone.surface.mesh()), whole);
+    for (PatchVertex& v : whole.vertices)
+      if (v.inside > 0) v.height = height(v);
     return raise_patch(cut_patch(whole, kRim_m, kLeastArea_m2));
   }
 
@@ -82,16 +103,13 @@ class LayerMaker {
     return std::min(inside, 0.5 * (rival.distance - own.distance) * layer_.taper / kBorder_m);
   }
 
-  PatchVertex place(const Vec3& p, const Vec3& normal) const {
-    PatchVertex v{p, normal, inside(p, normal), kRim_m};
-    if (v.inside <= 0) return v;
+  double height(const PatchVertex& v) const {
     const double share = std::min(v.inside / layer_.taper, 1.0);
-    const double wanted = layer_.thickness * share * (2 - share);
+    const double wanted = layer_.thickness * share * share * (3 - 2 * share);
     const double reach = 2 * layer_.thickness + layer_.clearance;
-    const double gap = nearest(p, normal, others_, ground_, reach).distance;
+    const double gap = nearest(v.p, v.normal, others_, ground_, reach).distance;
     const double room = 0.5 * (gap - layer_.clearance);
-    v.height = std::max(std::min(wanted, room), kRim_m);
-    return v;
+    return std::max(std::min(wanted, room), kRim_m);
   }
 
   const LayerDescription& layer_;

@@ -103,6 +103,7 @@ Result<BandDescription> read_band(TomlReader& soft, const FindBone& find_bone) {
     point.thickness = in.number_or("thickness_mm", kThickness_mm, thickness) * kMm;
     if (point.thickness > point.width) in.reject("must not exceed the width", "thickness_mm");
     point.attached = (i == 0 || i + 1 == tables.size()) && !in.flag_or("free", false);
+    point.thins_out = point.attached && !in.has("thickness_mm");
     if (point.attached) point.name = in.has("name") ? in.text("name") : bone;
     if (i > 0 && (point.at.p_W - band.path.back().at.p_W).norm() < kShortestStep_m)
       in.reject("lies on the point before it", "at_mm");

@@ -19,6 +19,8 @@ struct RenderOptions {
   std::string view = "dorsal";
   std::string size = "1280x720";
   std::vector<std::string> hidden;
+  std::vector<std::string> softs;
+  double skin_opacity = 0.28;
   bool hulls = false;
   bool joint = false;
   bool felt = false;
@@ -36,6 +38,10 @@ Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, 
   view.show_felt = options.felt;
   view.show_proxy = view.show_force = view.show_hand_ghost = false;
   if (auto ok = hide_bones(the_case, options.hidden, view); !ok) return tl::unexpected(ok.error());
+  if (auto ok = show_softs(the_case, options.softs, view); !ok) return tl::unexpected(ok.error());
+  for (std::size_t i = 0; i < the_case.softs.size(); ++i)
+    if (the_case.softs[i].kind == "skin")
+      view.softs[i].opacity = static_cast<float>(options.skin_opacity);
   return view;
 }
 
@@ -91,6 +97,13 @@ void add_render_command(CLI::App& app, int& exit_code) {
       "Colour the bones by how far what the probe feels is from their surface: orange "
       "where it stands 0.5 mm over it, blue where it lies 0.5 mm under it");
   command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
+  command
+      ->add_option("--soft", options->softs,
+                   "Soft parts to draw: all, none, names, or kinds such as ligament (default none)")
+      ->delimiter(',');
+  command->add_option("--skin-opacity", options->skin_opacity, "0 to 1; of the skin when drawn")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

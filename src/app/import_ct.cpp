@@ -48,6 +48,7 @@ Result<GeneratedAnatomy> wrist_model() {
   if (!data) return tl::unexpected(data.error());
   GenerateOptions coarse;
   coarse.cell_m = 0.0012;
+  coarse.soft_parts = false;
   return generate_anatomy(*data / "assets/anatomy/wrist.toml", coarse);
 }
 

@@ -8,6 +8,7 @@
 #include "felt_choice.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
+#include "osteon/image/tissue.h"
 #include "osteon/scene/case_io.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
@@ -56,6 +57,17 @@ Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(d
   return case_from(std::move(*anatomy));
 }
 
+/// Soft parts look as their tissues do; one that the table lacks keeps its plain colour.
+void colour_softs(CaseDef& def) {
+  if (def.softs.empty()) return;
+  const auto tissues = load_default_tissues();
+  if (!tissues) return;
+  for (SoftDef& soft : def.softs)
+    if (const Tissue* tissue = tissues->find(soft.tissue))
+      for (std::size_t k = 0; k < 3; ++k)
+        soft.color_srgb[k] = static_cast<float>(tissue->colour_srgb[k]);
+}
+
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
@@ -81,9 +93,14 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
     def.bones.push_back(std::move(bone));
   }
   for (GeneratedSoft& grown : anatomy.softs) {
-    SoftDef soft{
-        std::move(grown.name),   grown.fma_id,      std::move(grown.tissue), std::move(grown.kind),
-        std::move(grown.mesh_W), grown.thickness_m, std::move(grown.bones),  {}};
+    SoftDef soft;
+    soft.name = std::move(grown.name);
+    soft.fma_id = grown.fma_id;
+    soft.tissue = std::move(grown.tissue);
+    soft.kind = std::move(grown.kind);
+    soft.mesh_W = std::move(grown.mesh_W);
+    soft.thickness_m = grown.thickness_m;
+    soft.bones = std::move(grown.bones);
     for (GeneratedAttachment& a : grown.attachments)
       soft.attachments.push_back({std::move(a.name), std::move(a.bone), a.p_W});
     def.softs.push_back(std::move(soft));
@@ -101,6 +118,7 @@ Result<CaseDef> open_case_def(const std::string& spec,
   auto def = source.rfind(kBuiltin, 0) == 0 ? grow_builtin(source.substr(kBuiltin.size()), progress)
                                             : load_case(source);
   if (!def) return def;
+  colour_softs(*def);
   if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
   return def;
 }

@@ -60,4 +60,23 @@ Result<void> hide_bones(const Case& the_case, const std::vector<std::string>& na
   return {};
 }
 
+Result<void> show_softs(const Case& the_case, const std::vector<std::string>& names,
+                        ViewState& view) {
+  view.softs.resize(the_case.softs.size());
+  for (BoneAppearance& look : view.softs) look.visible = false;
+  for (const std::string& name : names) {
+    bool found = name == "all" || name == "none";
+    for (std::size_t i = 0; i < the_case.softs.size(); ++i) {
+      const SoftPart& soft = the_case.softs[i];
+      if (name != "all" && name != soft.name && name != soft.kind) continue;
+      view.softs[i].visible = true;
+      found = true;
+    }
+    if (!found)
+      return fail("the case has no soft part and no kind of them named \"" + name + "\"", "--soft",
+                  "osteon case info lists them");
+  }
+  return {};
+}
+
 }  // namespace osteon

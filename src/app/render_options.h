@@ -23,4 +23,9 @@ Result<ViewPreset> parse_view_preset(const std::string& text);
 Result<void> hide_bones(const Case& the_case, const std::vector<std::string>& names,
                         ViewState& view);
 
+/// Shows soft parts: "all", "none", or names of parts or kinds ("ligament,tfcc_disc"). Fails with
+/// the word that the case knows neither as a part nor as a kind.
+Result<void> show_softs(const Case& the_case, const std::vector<std::string>& names,
+                        ViewState& view);
+
 }  // namespace osteon

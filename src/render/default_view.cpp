@@ -15,6 +15,14 @@ ViewState default_view(const Case& the_case) {
     look.color[2] += 0.075f * tone;
     view.bones.push_back(look);
   }
+  constexpr float kSkinOpacity = 0.28f;
+  for (const SoftPart& soft : the_case.softs) {
+    BoneAppearance look;
+    look.color = soft.color_srgb;
+    look.visible = false;
+    if (soft.kind == "skin") look.opacity = kSkinOpacity;
+    view.softs.push_back(look);
+  }
   return view;
 }
 

@@ -10,8 +10,6 @@ namespace osteon {
 namespace {
 
 constexpr int kDirections = 64;
-/// Rays that a whole case may cost; beyond, only some vertices are sampled and the rest filled in.
-constexpr std::size_t kRayBudget = 2'500'000;
 constexpr float kUnknown = -1;
 
 /// Spherical Fibonacci points (Keinert et al. 2015): the same even set for every vertex, so that
@@ -27,15 +25,13 @@ std::vector<Vec3> even_directions() {
   return directions;
 }
 
-RayBvh bvh_of_all(const std::vector<PlacedSurface>& surfaces) {
-  TriMesh all;
+void append(const std::vector<PlacedSurface>& surfaces, TriMesh& all) {
   for (const PlacedSurface& placed : surfaces) {
     const auto base = static_cast<std::uint32_t>(all.vertices.size());
     for (const Vec3& p_B : placed.surface.points) all.vertices.push_back(placed.X_WB * p_B);
     for (const Triangle& t : placed.surface.triangles)
       all.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   }
-  return RayBvh(all.vertices, all.triangles);
 }
 
 float openness(const RayBvh& bvh, const std::vector<Vec3>& directions, const Vec3& p_W,
@@ -78,12 +74,16 @@ void fill_unknown(const Surface& s, std::vector<float>& values) {
 }  // namespace
 
 std::vector<std::vector<float>> sky_openness(const std::vector<PlacedSurface>& surfaces,
-                                             double reach_m,
+                                             const std::vector<PlacedSurface>& others,
+                                             double reach_m, std::size_t rays,
                                              const std::function<bool(double)>& progress) {
   std::size_t total = 0;
   for (const PlacedSurface& placed : surfaces) total += placed.surface.points.size();
-  const std::size_t stride = 1 + total * kDirections / 2 / kRayBudget;
-  const RayBvh bvh = bvh_of_all(surfaces);
+  const std::size_t stride = 1 + total * kDirections / 2 / rays;
+  TriMesh all;
+  append(surfaces, all);
+  append(others, all);
+  const RayBvh bvh(all.vertices, all.triangles);
   const std::vector<Vec3> directions = even_directions();
 
   std::vector<std::vector<float>> out;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kOcclusionReach_m = 0.012;   // of the order of a carpal bone
 constexpr double kFullCurvature_per_m = 700;  // a ridge this sharp is drawn as light as it gets
+constexpr std::size_t kSoftRays = 300'000;    // for all soft parts
 constexpr double kOcclusionShare = 0.7;       // of the time that all takes
 
 /// Value of a lattice point, 0..1 (integer hash after Jarzynski and Olano 2020, "pcg3d").
@@ -86,6 +87,29 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
   return out;
 }
 
+/// The skin hides nothing: it is looked through.
+bool is_skin(const SoftPart& soft) { return soft.kind == "skin"; }
+
+std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<PlacedSurface>& bones,
+                                      bool stopped) {
+  std::vector<PlacedSurface> surfaces;
+  for (const SoftPart& soft : the_case.softs)
+    if (!is_skin(soft)) surfaces.push_back({make_surface(soft.mesh_W), Pose{}});
+  const auto go_on = [stopped](double) { return !stopped; };
+  const auto openness = sky_openness(surfaces, bones, kOcclusionReach_m, kSoftRays, go_on);
+  std::vector<ShadedMesh> out;
+  std::size_t next = 0;
+  for (const SoftPart& soft : the_case.softs) {
+    const bool skin = is_skin(soft);
+    const Surface own = skin ? make_surface(soft.mesh_W) : Surface{};
+    const Surface& surface = skin ? own : surfaces[next].surface;
+    const std::vector<float> open(skin ? surface.points.size() : 0, 1.0f);
+    out.push_back(shaded(surface, skin ? open : openness[next], out.size()));
+    if (!skin) ++next;
+  }
+  return out;
+}
+
 }  // namespace
 
 PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress) {
@@ -96,7 +120,7 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
     stopped = stopped || (progress && !progress(share));
     return !stopped;
   };
-  const auto openness = sky_openness(surfaces, kOcclusionReach_m,
+  const auto openness = sky_openness(surfaces, {}, kOcclusionReach_m, kRayBudget,
                                      [&](double share) { return report(kOcclusionShare * share); });
   PreparedCase out;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
@@ -105,6 +129,7 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
     if (!stopped) out.bones.back().coarser = coarser_levels(out.bones.back());
     report(kOcclusionShare + (1 - kOcclusionShare) * done);
   }
+  out.softs = prepare_softs(the_case, surfaces, stopped);
   return out;
 }
 

@@ -115,7 +115,10 @@ bool is_shown(const RenderSnapshot& snapshot, const ViewState& view, std::size_t
 void ScenePainter::set_surfaces(const PreparedCase& prepared) {
   static const ShadedMesh nothing;
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    const ShadedMesh& mesh = k < prepared.bones.size() ? prepared.bones[k] : nothing;
+    const std::size_t bones = rest_X_WB_.size();
+    const auto& meshes = k < bones ? prepared.bones : prepared.softs;
+    const std::size_t at = k < bones ? k : k - bones;
+    const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
     bones_[k].closed = mesh.closed;
     bones_[k].levels.clear();
     bones_[k].levels.push_back({GpuMesh(mesh), 0});
@@ -153,6 +156,48 @@ void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
   set_extent(model, mesh_B);
 }
 
+ScenePainter::BoneModel ScenePainter::make_soft(const SoftPart& soft) {
+  BoneModel model;
+  model.outermost = soft.kind == "skin";
+  for (const BoneId bone : soft.bones) model.rides_on.push_back(bone.index);
+  set_extent(model, soft.mesh_W);
+  return model;
+}
+
+const BoneAppearance& ScenePainter::look_of(const ViewState& view, std::size_t k) const {
+  static const BoneAppearance hidden{.visible = false};
+  if (k < rest_X_WB_.size()) return appearance(view, k);
+  const std::size_t soft = k - rest_X_WB_.size();
+  return soft < view.softs.size() ? view.softs[soft] : hidden;
+}
+
+bool ScenePainter::shows(const RenderSnapshot& snapshot, const ViewState& view,
+                         std::size_t k) const {
+  if (k < rest_X_WB_.size()) return is_shown(snapshot, view, k);
+  const BoneAppearance& look = look_of(view, k);
+  return look.visible && look.opacity >= kSeenThrough && is_finite(pose(snapshot, k));
+}
+
+/// A soft part follows the mean motion of its bones away from rest.
+Pose ScenePainter::pose(const RenderSnapshot& snapshot, std::size_t k) const {
+  if (k < rest_X_WB_.size()) return snapshot.bones.bones[k].X_WB;
+  const BoneModel& soft = bones_[k];
+  Vec3 center_W = Vec3::Zero();
+  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
+  double count = 0;
+  for (const std::size_t bone : soft.rides_on) {
+    if (bone >= snapshot.bones.count) continue;
+    const Pose moved = snapshot.bones.bones[bone].X_WB * rest_X_WB_[bone].inverse();
+    const Eigen::Vector4d q = moved.q.coeffs();
+    turn += q.dot(turn) < 0 ? Eigen::Vector4d(-q) : q;
+    center_W += moved * soft.center_B;
+    count += 1;
+  }
+  if (count == 0 || turn.norm() < 1e-6) return {};
+  const Quat q(turn / turn.norm());
+  return {center_W / count - q * soft.center_B, q};
+}
+
 Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,
                                           const std::filesystem::path& shader_dir,
                                           const PreparedCase& prepared) {
@@ -169,7 +214,11 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     if (!loaded) return tl::unexpected(loaded.error());
     *p.program = std::move(*loaded);
   }
-  for (const Bone& bone : the_case.bones) painter.bones_.push_back(make_bone(bone));
+  for (const Bone& bone : the_case.bones) {
+    painter.bones_.push_back(make_bone(bone));
+    painter.rest_X_WB_.push_back(bone.X_WB);
+  }
+  for (const SoftPart& soft : the_case.softs) painter.bones_.push_back(make_soft(soft));
   painter.set_surfaces(prepared);
   painter.tool_ = GpuMesh(plain_shaded(tool.mesh));
   painter.tool_capsules_ = capsules_along_z(tool.mesh);
@@ -207,8 +256,8 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
     box.include(p + Vec3::Constant(radius));
   };
   for (std::size_t k = 0; k < bones_.size(); ++k)
-    if (is_shown(snapshot, view, k))
-      include(snapshot.bones.bones[k].X_WB * bones_[k].center_B, bones_[k].radius_m);
+    if (shows(snapshot, view, k))
+      include(pose(snapshot, k) * bones_[k].center_B, bones_[k].radius_m);
   for (const Pose& X : {snapshot.tool.X_WP, snapshot.tool.X_WD}) {
     if (!is_finite(X) || !view.show_proxy) continue;
     include(X.p, 2 * tip_radius_m_);
@@ -279,10 +328,11 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
                                                    Passes passes) const {
   std::vector<std::pair<double, std::size_t>> by_depth;
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!is_shown(snapshot, view, k) || !passes(appearance(view, k))) continue;
-    const Vec3 center_W = snapshot.bones.bones[k].X_WB * bones_[k].center_B;
-    if (in_sight(frame, center_W, bones_[k].radius_m))
-      by_depth.emplace_back(-(frame.X_CW * center_W).z(), k);
+    if (!shows(snapshot, view, k) || !passes(look_of(view, k))) continue;
+    const Vec3 center_W = pose(snapshot, k) * bones_[k].center_B;
+    if (!in_sight(frame, center_W, bones_[k].radius_m)) continue;
+    const double depth = -(frame.X_CW * center_W).z();
+    by_depth.emplace_back(bones_[k].outermost ? -1e300 : depth, k);
   }
   std::sort(by_depth.begin(), by_depth.end());
   std::vector<std::size_t> bones;
@@ -295,7 +345,7 @@ const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapsh
   const BoneModel& bone = bones_[k];
   const double allowed_px =
       view.quality == RenderQuality::kFine ? kLevelErrorFine_px : kLevelError_px;
-  const Vec3 center_W = snapshot.bones.bones[k].X_WB * bone.center_B;
+  const Vec3 center_W = pose(snapshot, k) * bone.center_B;
   const double allowed_m = allowed_px * finest_metres_per_pixel(frame, center_W, bone.radius_m);
   std::size_t level = 0;
   while (level + 1 < bone.levels.size() && bone.levels[level + 1].error_m <= allowed_m) ++level;
@@ -306,7 +356,7 @@ void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
                                 const ViewState& view, const Frame& frame) const {
   const GpuMesh& mesh = surface(k, snapshot, view, frame);
   if (frame.tiles == nullptr) return mesh.draw();
-  const Pose X_CB = frame.X_CW * snapshot.bones.bones[k].X_WB;
+  const Pose X_CB = frame.X_CW * pose(snapshot, k);
   mesh.draw([&](const GpuMesh::Chunk& chunk) {
     return in_tiles(frame, X_CB * chunk.center, chunk.radius);
   });
@@ -314,8 +364,8 @@ void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
 
 void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                               const Frame& frame) const {
-  const BoneAppearance& look = appearance(view, k);
-  bone_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+  const BoneAppearance& look = look_of(view, k);
+  bone_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
   bone_.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
   Color rim = kAccent.cwiseProduct(kAccent);
   rim.w() = look.highlighted ? 1.0f : 0.0f;
@@ -355,8 +405,8 @@ void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewStat
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!is_shown(snapshot, view, k) || !appearance(view, k).highlighted) continue;
-    mark_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+    if (!shows(snapshot, view, k) || !look_of(view, k).highlighted) continue;
+    mark_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     draw_surface(k, snapshot, view, frame);
   }
   glDisable(GL_CULL_FACE);
@@ -398,8 +448,8 @@ void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& 
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!is_shown(snapshot, view, k)) continue;
-    mark_.set("u_view_from_model", to_matrix(frame.X_CW * snapshot.bones.bones[k].X_WB));
+    if (!shows(snapshot, view, k)) continue;
+    mark_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     for (std::size_t piece = 0; piece < bones_[k].pieces.size(); ++piece) {
       const std::size_t tone = k + kPieceStep * piece;
       mark_.set("u_color", hull_color(tone, 0.16f));

@@ -69,7 +69,14 @@ class ScenePainter {
     Capsule around;
     bool closed = false;
     float line_opacity = 0;
+    bool outermost = false;             ///< the skin: drawn over all else that is seen through
+    std::vector<std::size_t> rides_on;  ///< bones; of a soft part
   };
+  /// Models are the bones and after them the soft parts; what follows takes both.
+  Pose pose(const RenderSnapshot& snapshot, std::size_t k) const;
+  const BoneAppearance& look_of(const ViewState& view, std::size_t k) const;
+  bool shows(const RenderSnapshot& snapshot, const ViewState& view, std::size_t k) const;
+  static BoneModel make_soft(const SoftPart& soft);
   /// Bones to draw whose appearance passes, the nearest first.
   template <class Passes>
   std::vector<std::size_t> near_to_far(const RenderSnapshot& snapshot, const ViewState& view,
@@ -99,7 +106,8 @@ class ScenePainter {
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
 
   Program bone_, metal_, mark_, ground_;
-  std::vector<BoneModel> bones_;
+  std::vector<BoneModel> bones_;  ///< and soft parts
+  std::vector<Pose> rest_X_WB_;   ///< of the bones
   GpuMesh tool_, shaft_, head_, ball_;
   std::vector<Capsule> tool_capsules_;
   double tool_length_m_ = 0, tip_radius_m_ = 0;

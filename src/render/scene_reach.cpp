@@ -153,8 +153,8 @@ TileMask ScenePainter::bone_tiles(const RenderSnapshot& snapshot, const ViewStat
   TileMask mask(width, height);
   Marker marker(frame, width, height, mask);
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!is_shown(snapshot, view, k) || bones_[k].radius_m <= 0) continue;
-    const Pose X_CB = frame.X_CW * snapshot.bones.bones[k].X_WB;
+    if (!shows(snapshot, view, k) || bones_[k].radius_m <= 0) continue;
+    const Pose X_CB = frame.X_CW * pose(snapshot, k);
     const Capsule& c = bones_[k].around;
     marker.capsule(X_CB * c.a, X_CB * c.b, c.radius_m);
   }

@@ -57,6 +57,7 @@ Result<SoftPart> build_soft(SoftDef def, const std::vector<Bone>& bones) {
   soft.kind = std::move(def.kind);
   soft.mesh_W = std::move(def.mesh_W);
   soft.thickness_m = def.thickness_m;
+  soft.color_srgb = def.color_srgb;
   return soft;
 }
 

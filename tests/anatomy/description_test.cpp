@@ -142,5 +142,55 @@ TEST(Description, ReadsInMetresWithDefaults) {
   EXPECT_LT((r->landmarks[0].p_W - Vec3(0.01, 0, -0.02)).norm(), 1e-12);
 }
 
+const std::string kTwoBones = kHead + bone("a", kBall) + bone("b", kBall);
+
+std::string soft(const std::string& kind, const std::string& lines) {
+  return kTwoBones + "[[soft]]\nname = \"s\"\ntissue = \"ligament\"\nkind = \"" + kind + "\"\n" +
+         lines;
+}
+
+TEST(Description, SoftPartsAreChecked) {
+  expect_refused(soft("jelly", ""), {"soft part 's'", "'kind'", "jelly"});
+  expect_refused(soft("cartilage", ""), {"soft part 's'", "'bone'"});
+  const std::string layer = "thickness_mm = 1\ntaper_mm = 1\n";
+  expect_refused(soft("cartilage", layer + "bone = \"c\"\n"), {"'bone'", "'c'"});
+  expect_refused(soft("cartilage", layer + "bone = \"a\"\n"), {"'add'", "'facing'"});
+  expect_refused(soft("cartilage", layer + "bone = \"a\"\nfacing = [\"a\"]\nreach_mm = 2\n"),
+                 {"'facing'", "other"});
+  expect_refused(soft("cartilage", layer + "bone = \"a\"\nfacing = [\"b\"]\n"), {"'reach_mm'"});
+  const std::string band = "width_mm = 4\nthickness_mm = 1\nflat = [0, 0, 1]\n";
+  expect_refused(soft("ligament", band), {"'path'"});
+  const std::string from = "{ bone = \"a\", at_mm = [0, 0, 0] }";
+  expect_refused(soft("ligament", band + "path = [" + from + "]"), {"'path'", "two"});
+  expect_refused(soft("ligament", band + "path = [" + from + ", " + from + "]"),
+                 {"path 2", "'at_mm'"});
+  expect_refused(
+      soft("ligament", band + "path = [" + from + ", { bone = \"b\", at_mm = [9, 0, 0], " +
+                           "thickness_mm = 5 }]"),
+      {"path 2", "'thickness_mm'"});
+  expect_refused(soft("disc", ""), {"'add'"});
+  expect_refused(soft("skin", ""), {"'offset_mm'"});
+  expect_refused(soft("disc",
+                      "add = [{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = "
+                      "[5, 4, 3] }]\n"),
+                 {"add 1", "'bone'"});
+}
+
+TEST(Description, SoftPartsNamesAreUnlikeAllOthers) {
+  const std::string disc =
+      "add = [{ bone = \"a\", shape = \"ellipsoid\", center_mm = [0, 0, 0], "
+      "radii_mm = [5, 4, 3] }]\n";
+  ASSERT_TRUE(parse_description(soft("disc", disc), "wrist.toml"));
+  expect_refused(
+      soft("disc", disc) + "[[soft]]\nname = \"a\"\ntissue = \"fat\"\nkind = \"fat\"\n" + disc,
+      {"'name'", "bone"});
+  expect_refused(
+      soft("disc", disc) + "[[soft]]\nname = \"s\"\ntissue = \"fat\"\nkind = \"fat\"\n" + disc,
+      {"'name'", "two soft parts"});
+  expect_refused(
+      soft("disc", disc) + "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\non = \"moon\"\n",
+      {"landmark 'l'", "moon"});
+}
+
 }  // namespace
 }  // namespace osteon

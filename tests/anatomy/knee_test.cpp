@@ -24,6 +24,7 @@ const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) /
 VariedAnatomy varied(const VariationRequest& request, std::optional<double> cell_m = {}) {
   GenerateOptions options;
   options.cell_m = cell_m;
+  options.soft_parts = false;
   auto r =
       generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml", request, options);
   if (!r) throw std::runtime_error(r.error().message());

@@ -37,6 +37,7 @@ const std::vector<ModelBone>& wrist() {
   static const std::vector<ModelBone> bones = [] {
     GenerateOptions coarse;
     coarse.cell_m = 0.0016;
+    coarse.soft_parts = false;
     const auto anatomy =
         generate_anatomy(std::string(OSTEON_SOURCE_DIR) + "/assets/anatomy/wrist.toml", coarse);
     std::vector<ModelBone> out;

@@ -21,6 +21,7 @@ const std::filesystem::path kTable = kAssets / "wrist_variation.toml";
 GenerateOptions cells(double cell_m) {
   GenerateOptions options;
   options.cell_m = cell_m;
+  options.soft_parts = false;
   return options;
 }
 

@@ -18,6 +18,10 @@ std::string with_bone(const std::string& lines) {
   return "format = 1\nname = \"test\"\n[[bones]]\n" + lines;
 }
 
+std::string soft_lines(const std::string& lines) {
+  return "[[soft]]\nname = \"s\"\ntissue = \"fat\"\n" + lines + "mesh = \"s.stl\"\n";
+}
+
 struct BadCase {
   std::string text;
   const char* complaint;
@@ -66,6 +70,17 @@ TEST(CaseToml, RefusesBadText) {
        "must not exceed", "c:6 (bone 1)"},
       {with_bone(bone + "[[bones]]\nname = \"b\"\nmesh = \"b.stl\"\nweight = 1\n"),
        "'weight' is unknown", "c:9 (bone 2)"},
+      {with_bone(bone + soft_lines("kind = \"jelly\"\n")), "'kind' must be", "c:9 (soft part 1)"},
+      {with_bone(bone + soft_lines("kind = \"fat\"\nbones = [\"b\"]\n")), "no bone 'b'",
+       "c:10 (soft part 1)"},
+      {with_bone(bone + soft_lines("kind = \"fat\"\nbones = [1]\n")), "texts",
+       "c:10 (soft part 1)"},
+      {with_bone(bone + soft_lines("kind = \"fat\"\nthickness_m = -1\n")), "'thickness_m'",
+       "c:10 (soft part 1)"},
+      {with_bone(bone + soft_lines("kind = \"fat\"\n[[soft.attachments]]\nname = \"x\"\n")),
+       "'bone' is missing", "c:10 (soft part 1, attachment 1)"},
+      {with_bone(bone + soft_lines("kind = \"fat\"\ncolour = 1\n")), "'colour' is unknown",
+       "c:10 (soft part 1)"},
       {with_bone(bone + "[[landmarks]]\nname = \"l\"\n"), "'position_m' is missing",
        "c:6 (landmark 1)"},
   };
@@ -113,11 +128,40 @@ CaseDef sample_case() {
     bone.material = {random.uniform(500, 3000), 0.31, 0.17};
     def.bones.push_back(bone);
   }
+  SoftDef soft;
+  soft.name = "a \"band\"";
+  soft.tissue = "ligament";
+  soft.kind = "ligament";
+  soft.mesh_W = test::sphere(0.004, 9, 0.02 * random.direction());
+  soft.thickness_m = 0.0013;
+  soft.bones = {"lunate", "Scaphoid (proximal)"};
+  soft.attachments = {{"origin", "lunate", 0.1 * random.direction()}};
+  def.softs.push_back(soft);
   def.landmarks = {{"lister's tubercle", 0.1 * random.direction()}};
   return def;
 }
 
+void expect_same_softs(const CaseDef& a, const CaseDef& b) {
+  ASSERT_EQ(a.softs.size(), b.softs.size());
+  for (std::size_t i = 0; i < a.softs.size(); ++i) {
+    const SoftDef &x = a.softs[i], &y = b.softs[i];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.tissue, y.tissue);
+    EXPECT_EQ(x.kind, y.kind);
+    EXPECT_EQ(x.thickness_m, y.thickness_m);
+    EXPECT_EQ(x.bones, y.bones);
+    EXPECT_EQ(x.mesh_W.triangles.size(), y.mesh_W.triangles.size());
+    ASSERT_EQ(x.attachments.size(), y.attachments.size());
+    for (std::size_t k = 0; k < x.attachments.size(); ++k) {
+      EXPECT_EQ(x.attachments[k].name, y.attachments[k].name);
+      EXPECT_EQ(x.attachments[k].bone, y.attachments[k].bone);
+      EXPECT_EQ(x.attachments[k].p_W, y.attachments[k].p_W);
+    }
+  }
+}
+
 void expect_same(const CaseDef& a, const CaseDef& b) {
+  expect_same_softs(a, b);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.side, b.side);
   ASSERT_EQ(a.bones.size(), b.bones.size());

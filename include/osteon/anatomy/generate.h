@@ -60,7 +60,8 @@ using RunTasks = std::function<void(std::size_t count, const std::function<void(
                                     const std::function<void(double)>& progress)>;
 
 struct GenerateOptions {
-  /// Of the grid on which surfaces are found; none: what the description says for each bone.
+  /// Of the grid on which the surfaces of bones are found; none: what the description says for
+  /// each.
   std::optional<double> cell_m = {};
   /// Told the share of the bones done, 0 to 1; may throw to stop.
   std::function<void(double)> progress = {};

@@ -37,6 +37,7 @@ struct ShadedMesh {
 /// screen can do it on a worker thread.
 struct PreparedCase {
   std::vector<ShadedMesh> bones;
+  std::vector<ShadedMesh> softs;  ///< in World at rest
 };
 
 /// Called with 0..1; returns false to stop.

@@ -35,6 +35,8 @@ enum class RenderQuality {
 struct ViewState {
   Camera camera;
   std::vector<BoneAppearance> bones;  ///< one a bone; bones past its end look as the default
+  /// One a soft part; those past its end are not drawn.
+  std::vector<BoneAppearance> softs;
   bool show_hulls = false;
   /// Bones by the height of what is felt over them (felt_colors.h), where prepare_felt told it.
   bool show_felt = false;
@@ -48,7 +50,8 @@ struct ViewState {
   RenderQuality quality = RenderQuality::kFast;
   bool operator==(const ViewState&) const = default;
 };
-/// Dorsal view, every bone in its own slight tone of ivory.
+/// Dorsal view, every bone in its own slight tone of ivory, soft parts in the colours of their
+/// tissues but hidden: nothing of them is felt. The skin, once shown, is see-through.
 ViewState default_view(const Case& the_case);
 
 /// The force arrow is this long for each newton.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -36,6 +37,7 @@ struct SoftDef {
   std::string kind;
   TriMesh mesh_W;  ///< in World, bones at rest, metres
   double thickness_m = 0;
+  std::array<float, 3> color_srgb{0.86f, 0.82f, 0.74f};  ///< for pictures alone
   std::vector<std::string> bones;
   std::vector<AttachmentDef> attachments;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -66,6 +67,8 @@ struct SoftPart {
   std::string kind;        ///< one of soft_kinds()
   TriMesh mesh_W;          ///< in World, with every bone in its rest pose
   double thickness_m = 0;  ///< 0: it has none that one could name
+  std::array<float, 3> color_srgb{0.86f, 0.82f,
+                                  0.74f};  ///< 0..1, of the tissue; for pictures alone
   /// Bones that it moves with: their mean motion away from rest; none: it stays.
   std::vector<BoneId> bones;
   std::vector<Attachment> attachments;

@@ -115,6 +115,7 @@ void draw_case_card(const PanelContext& c) {
   ImGui::Begin("##case", nullptr, kCard);
   ViewState view = c.model.view;
   if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
+  draw_soft_section(c);
   if (ui::section(c.fonts, "View")) draw_view_section(c);
   ImGui::End();
 }

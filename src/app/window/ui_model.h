@@ -115,6 +115,7 @@ struct UiModel {
   double time_s = 0;       ///< simulated
   std::vector<std::string> bone_labels;
   std::vector<Felt> bone_felt;  ///< as bone_labels
+  std::vector<std::string> soft_labels;
   ViewState view;
   double felt_measured = 1;  ///< share of what is felt whose distance from what is seen is known
   BoneId hovered;            ///< under the pointer, in the picture

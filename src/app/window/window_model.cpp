@@ -113,6 +113,7 @@ UiModel WindowApp::build_model() const {
     model.bone_labels.push_back(label_of(bone.name));
     model.bone_felt.push_back(bone.felt);
   }
+  for (const SoftPart& soft : case_->softs) model.soft_labels.push_back(label_of(soft.name));
   model.view = view_;
   if (felt_job_) model.felt_measured = felt_job_->fraction();
   model.hovered = hovered_;

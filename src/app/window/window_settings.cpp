@@ -1,12 +1,21 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <string>
+
 #include "felt_choice.h"
 #include "osteon/base/log.h"
 #include "window/window_app.h"
 #include "xdg.h"
 
 namespace osteon {
+namespace {
+
+// Before the names of soft parts, which may be those of bones.
+const std::string kSoftLook = "soft:";
+
+}  // namespace
 
 void WindowApp::recall_view() {
   view_ = default_view(*case_);
@@ -28,13 +37,17 @@ void WindowApp::recall_view() {
 void WindowApp::recall_looks() {
   const auto looks = settings_.looks.find(source_without_choice(case_source_));
   if (looks == settings_.looks.end()) return;
-  for (std::size_t k = 0; k < case_->bones.size(); ++k) {
-    const auto look = looks->second.find(case_->bones[k].name);
-    if (look == looks->second.end()) continue;
-    view_.bones[k].color = look->second.color;
-    view_.bones[k].opacity = look->second.opacity;
-    view_.bones[k].visible = look->second.visible;
-  }
+  const auto recall = [&](const std::string& name, BoneAppearance& shown) {
+    const auto look = looks->second.find(name);
+    if (look == looks->second.end()) return;
+    shown.color = look->second.color;
+    shown.opacity = look->second.opacity;
+    shown.visible = look->second.visible;
+  };
+  for (std::size_t k = 0; k < case_->bones.size(); ++k)
+    recall(case_->bones[k].name, view_.bones[k]);
+  for (std::size_t k = 0; k < case_->softs.size(); ++k)
+    recall(kSoftLook + case_->softs[k].name, view_.softs[k]);
 }
 
 // Only what the user changed, so that better defaults reach the rest.
@@ -42,11 +55,14 @@ void WindowApp::remember_looks() {
   if (!case_ || view_.bones.size() != case_->bones.size()) return;
   const ViewState usual = default_view(*case_);
   std::map<std::string, BoneLook> changed;
-  for (std::size_t k = 0; k < case_->bones.size(); ++k) {
-    const BoneAppearance& look = view_.bones[k];
-    if (look == usual.bones[k]) continue;
-    changed[case_->bones[k].name] = {look.color, look.opacity, look.visible};
-  }
+  const auto keep = [&](const std::string& name, const BoneAppearance& look,
+                        const BoneAppearance& plain) {
+    if (!(look == plain)) changed[name] = {look.color, look.opacity, look.visible};
+  };
+  for (std::size_t k = 0; k < case_->bones.size(); ++k)
+    keep(case_->bones[k].name, view_.bones[k], usual.bones[k]);
+  for (std::size_t k = 0; k < std::min(case_->softs.size(), view_.softs.size()); ++k)
+    keep(kSoftLook + case_->softs[k].name, view_.softs[k], usual.softs[k]);
   if (changed.empty())
     settings_.looks.erase(source_without_choice(case_source_));
   else

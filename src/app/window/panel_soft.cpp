@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "window/panels.h"
+#include "window/ui_widgets.h"
+
+namespace osteon {
+namespace {
+
+void draw_soft_appearance(const PanelContext& c, std::size_t i, ViewState& view) {
+  if (!ImGui::BeginPopup("soft_appearance")) return;
+  ui::text(color::kTextQuiet, c.model.soft_labels[i].c_str());
+  BoneAppearance& look = view.softs[i];
+  const bool recolored =
+      ImGui::ColorPicker3("##color", look.color.data(),
+                          ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs |
+                              ImGuiColorEditFlags_PickerHueWheel);
+  double opacity = 100.0 * static_cast<double>(look.opacity);
+  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%",
+                                "How much of what lies behind it is hidden, percent");
+  look.opacity = static_cast<float>(opacity / 100.0);
+  if (recolored || faded) c.requests.view = view;
+  ImGui::EndPopup();
+}
+
+void draw_soft_row(const PanelContext& c, std::size_t i, ViewState& view) {
+  BoneAppearance& look = view.softs[i];
+  ImGui::PushID(static_cast<int>(i));
+  const float eye = c.px(18), row = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(row + c.px(3));
+  if (ImGui::ColorButton("##swatch", ImVec4(look.color[0], look.color[1], look.color[2], 1),
+                         ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                         {c.px(12), c.px(12)}))
+    ImGui::OpenPopup("soft_appearance");
+  ui::tooltip("Colour and opacity");
+  draw_soft_appearance(c, i, view);
+  ImGui::SameLine(0, c.px(8));
+  ImGui::SetCursorPosY(row);
+  const float left = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - eye;
+  ui::text(look.visible ? color::kText : color::kTextQuiet, c.model.soft_labels[i].c_str());
+  ImGui::SameLine();
+  ImGui::SetCursorPos({left, row});
+  if (ui::eye_button("eye", look.visible, eye)) {
+    look.visible = !look.visible;
+    c.requests.view = view;
+  }
+  ui::tooltip(look.visible ? "Hide it" : "Show it");
+  ImGui::PopID();
+}
+
+/// Shows or hides all at once; the skin, which covers the rest, only has its own eye.
+void draw_all(const PanelContext& c, ViewState& view) {
+  const auto inner = [](const BoneAppearance& look) { return look.opacity > 0.5f; };
+  const bool any = std::any_of(view.softs.begin(), view.softs.end(),
+                               [&](const auto& look) { return inner(look) && look.visible; });
+  if (!ui::toggle_button(any ? "Hide all" : "Show all", any, {ImGui::GetContentRegionAvail().x, 0}))
+    return;
+  for (BoneAppearance& look : view.softs)
+    if (any || inner(look)) look.visible = !any;
+  c.requests.view = view;
+}
+
+}  // namespace
+
+void draw_soft_section(const PanelContext& c) {
+  if (c.model.soft_labels.empty() || !ui::section(c.fonts, "Soft parts", false)) return;
+  ViewState view = c.model.view;
+  ui::text(color::kTextQuiet, "Seen, not yet felt");
+  draw_all(c, view);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});
+  for (std::size_t i = 0; i < c.model.soft_labels.size() && i < view.softs.size(); ++i)
+    draw_soft_row(c, i, view);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace osteon
