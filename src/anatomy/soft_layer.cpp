@@ -49,7 +49,7 @@ std::vector<std::size_t> all_but(std::size_t self, std::size_t count) {
 }
 
 /// Takes the waves out of the rim that the facets of both bones leave in it.
-void smooth_rim(const VertexRings& rings, Patch& patch) {
+void smooth_rim(const VertexRings& rings, CoveredPatch& patch) {
   for (int round = 0; round < kRimRounds; ++round) {
     std::vector<double> evened;
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
@@ -75,7 +75,7 @@ class LayerMaker {
 
   TriMesh make() const {
     const SoftGround& bone = *ground_[layer_.bone];
-    Patch whole;
+    CoveredPatch whole;
     whole.triangles = bone.surface.mesh().triangles;
     for (std::size_t i = 0; i < bone.normals.size(); ++i) {
       const Vec3& p = bone.surface.mesh().vertices[i];
@@ -83,7 +83,7 @@ class LayerMaker {
       whole.vertices.push_back({p, bone.normals[i], from_rim, kRim_m});
     }
     smooth_rim(vertex_rings(bone.surface.mesh()), whole);
-    for (PatchVertex& v : whole.vertices)
+    for (CoveredVertex& v : whole.vertices)
       if (v.inside > 0) v.height = height(v);
     return raise_patch(cut_patch(whole, kRim_m, kLeastArea_m2));
   }
@@ -103,7 +103,7 @@ class LayerMaker {
     return std::min(inside, 0.5 * (rival.distance - own.distance) * layer_.taper / kBorder_m);
   }
 
-  double height(const PatchVertex& v) const {
+  double height(const CoveredVertex& v) const {
     const double share = std::min(v.inside / layer_.taper, 1.0);
     const double wanted = layer_.thickness * share * share * (3 - 2 * share);
     const double reach = 2 * layer_.thickness + layer_.clearance;

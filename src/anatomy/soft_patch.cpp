@@ -15,7 +15,7 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge sorted(std::uint32_t a, std::uint32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
 /// Puts vertices that the rim nearly meets onto it, so that no sliver is cut off.
-void snap(Patch& patch) {
+void snap(CoveredPatch& patch) {
   std::vector<bool> near(patch.vertices.size(), false);
   for (const Triangle& t : patch.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -32,15 +32,15 @@ void snap(Patch& patch) {
 
 class RimCutter {
  public:
-  RimCutter(Patch patch, double rim_m) : patch_(std::move(patch)), rim_(rim_m) {
+  RimCutter(CoveredPatch patch, double rim_m) : patch_(std::move(patch)), rim_(rim_m) {
     snap(patch_);
-    for (PatchVertex& v : patch_.vertices)
+    for (CoveredVertex& v : patch_.vertices)
       if (v.inside == 0) v.height = rim_;
     const std::vector<Triangle> all = std::move(patch_.triangles);
     patch_.triangles.clear();
     for (const Triangle& t : all) cut(t);
   }
-  Patch take() { return std::move(patch_); }
+  CoveredPatch take() { return std::move(patch_); }
 
  private:
   double inside(std::uint32_t v) const { return patch_.vertices[v].inside; }
@@ -63,9 +63,9 @@ class RimCutter {
     const Edge edge = sorted(a, b);
     const auto [at, made] = made_.try_emplace(edge, 0);
     if (!made) return at->second;
-    const PatchVertex u = patch_.vertices[edge.first], v = patch_.vertices[edge.second];
+    const CoveredVertex u = patch_.vertices[edge.first], v = patch_.vertices[edge.second];
     const double share = u.inside / (u.inside - v.inside);
-    PatchVertex rim;
+    CoveredVertex rim;
     rim.p = u.p + share * (v.p - u.p);
     rim.normal = (u.normal + share * (v.normal - u.normal)).normalized();
     rim.height = rim_;
@@ -73,7 +73,7 @@ class RimCutter {
     return at->second = static_cast<std::uint32_t>(patch_.vertices.size() - 1);
   }
 
-  Patch patch_;
+  CoveredPatch patch_;
   double rim_;
   std::map<Edge, std::uint32_t> made_;
 };
@@ -97,13 +97,13 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-double area_of(const Patch& patch, const Triangle& t) {
+double area_of(const CoveredPatch& patch, const Triangle& t) {
   const Vec3& a = patch.vertices[t[0]].p;
   return 0.5 * (patch.vertices[t[1]].p - a).cross(patch.vertices[t[2]].p - a).norm();
 }
 
 /// Triangles that share an edge belong together.
-Groups pieces_of(const Patch& patch) {
+Groups pieces_of(const CoveredPatch& patch) {
   Groups pieces(patch.triangles.size());
   std::map<Edge, std::size_t> seen;
   for (std::size_t i = 0; i < patch.triangles.size(); ++i)
@@ -115,7 +115,7 @@ Groups pieces_of(const Patch& patch) {
   return pieces;
 }
 
-void drop_small(Patch& patch, double least_area_m2) {
+void drop_small(CoveredPatch& patch, double least_area_m2) {
   Groups pieces = pieces_of(patch);
   std::vector<double> area(patch.triangles.size(), 0);
   for (std::size_t i = 0; i < patch.triangles.size(); ++i)
@@ -129,7 +129,7 @@ void drop_small(Patch& patch, double least_area_m2) {
 /// The fans of triangles about a vertex: each a list of triangles.
 std::vector<std::vector<std::size_t>> fans_at(std::uint32_t v,
                                               const std::vector<std::size_t>& around,
-                                              const Patch& patch) {
+                                              const CoveredPatch& patch) {
   Groups groups(around.size());
   std::map<std::uint32_t, std::size_t> spoke;  // the other end of an edge at v
   for (std::size_t k = 0; k < around.size(); ++k)
@@ -147,12 +147,12 @@ std::vector<std::vector<std::size_t>> fans_at(std::uint32_t v,
 
 /// One vertex for each fan of triangles; where there are several, each is drawn back a little into
 /// its own fan, so that what reads the places of vertices alone keeps them apart too.
-Patch part_fans(const Patch& patch) {
+CoveredPatch part_fans(const CoveredPatch& patch) {
   constexpr double kDrawnBack = 0.05;  // of the way to the middle of the fan
   std::vector<std::vector<std::size_t>> around(patch.vertices.size());
   for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     for (const std::uint32_t v : patch.triangles[i]) around[v].push_back(i);
-  Patch parted;
+  CoveredPatch parted;
   parted.triangles = patch.triangles;
   for (std::uint32_t v = 0; v < around.size(); ++v) {
     const auto fans = fans_at(v, around[v], patch);
@@ -175,18 +175,18 @@ Patch part_fans(const Patch& patch) {
 
 }  // namespace
 
-Patch cut_patch(const Patch& whole, double rim_m, double least_area_m2) {
-  Patch patch = RimCutter(whole, rim_m).take();
+CoveredPatch cut_patch(const CoveredPatch& whole, double rim_m, double least_area_m2) {
+  CoveredPatch patch = RimCutter(whole, rim_m).take();
   drop_small(patch, least_area_m2);
   return patch;
 }
 
-TriMesh raise_patch(const Patch& patch) {
-  const Patch base = part_fans(patch);
+TriMesh raise_patch(const CoveredPatch& patch) {
+  const CoveredPatch base = part_fans(patch);
   TriMesh shell;
   const auto count = static_cast<std::uint32_t>(base.vertices.size());
-  for (const PatchVertex& v : base.vertices) shell.vertices.push_back(v.p);
-  for (const PatchVertex& v : base.vertices) shell.vertices.push_back(v.p + v.height * v.normal);
+  for (const CoveredVertex& v : base.vertices) shell.vertices.push_back(v.p);
+  for (const CoveredVertex& v : base.vertices) shell.vertices.push_back(v.p + v.height * v.normal);
   std::map<Edge, int> uses;
   for (const Triangle& t : base.triangles) {
     shell.triangles.push_back({t[0], t[2], t[1]});

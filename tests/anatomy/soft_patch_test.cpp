@@ -11,8 +11,8 @@ namespace {
 
 /// Square of n x n cells of 1 mm in the plane z = 0, its `inside` given by a function.
 template <class Inside>
-Patch square(int n, const Inside& inside) {
-  Patch patch;
+CoveredPatch square(int n, const Inside& inside) {
+  CoveredPatch patch;
   for (int y = 0; y <= n; ++y)
     for (int x = 0; x <= n; ++x) {
       const Vec3 p(0.001 * x, 0.001 * y, 0);
@@ -29,7 +29,7 @@ Patch square(int n, const Inside& inside) {
 }
 
 TEST(SoftPatch, NothingInsideGivesNothing) {
-  const Patch cut = cut_patch(square(3, [](const Vec3&) { return -1.0; }), 1e-4, 0);
+  const CoveredPatch cut = cut_patch(square(3, [](const Vec3&) { return -1.0; }), 1e-4, 0);
   EXPECT_TRUE(cut.triangles.empty());
   EXPECT_TRUE(raise_patch(cut).triangles.empty());
 }
@@ -37,7 +37,7 @@ TEST(SoftPatch, NothingInsideGivesNothing) {
 TEST(SoftPatch, ADiscIsCutAtItsRimAndRaisedToItsVolume) {
   const Vec3 center(0.010, 0.010, 0);
   constexpr double kRadius = 0.0073;
-  const Patch cut =
+  const CoveredPatch cut =
       cut_patch(square(20, [&](const Vec3& p) { return kRadius - (p - center).norm(); }), 0.002, 0);
   for (const Triangle& t : cut.triangles)
     for (const std::uint32_t v : t)
@@ -60,7 +60,7 @@ TEST(SoftPatch, SmallIslandsGo) {
 
 /// Two triangles that touch at a corner alone make two bodies.
 TEST(SoftPatch, WhatTouchesAtAPointIsParted) {
-  Patch patch;
+  CoveredPatch patch;
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.001, 0, 0), Vec3(0.001, 0.001, 0), Vec3(-0.001, 0, 0),
                         Vec3(-0.001, -0.001, 0)})
     patch.vertices.push_back({p, Vec3::UnitZ(), 1, 0.0005});
