@@ -149,7 +149,7 @@ void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
 }
 
 void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
-  if (bone >= bones_.size()) return;
+  if (bone >= rest_X_WB_.size()) return;
   BoneModel& model = bones_[bone];
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
