@@ -36,7 +36,8 @@ void draw_soft_row(const PanelContext& c, std::size_t i, ViewState& view) {
   ImGui::SameLine(0, c.px(8));
   ImGui::SetCursorPosY(row);
   const float left = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - eye;
-  ui::text(look.visible ? color::kText : color::kTextQuiet, c.model.soft_labels[i].c_str());
+  ui::text_within(look.visible ? color::kText : color::kTextQuiet, c.model.soft_labels[i],
+                  left - c.px(6) - ImGui::GetCursorPosX());
   ImGui::SameLine();
   ImGui::SetCursorPos({left, row});
   if (ui::eye_button("eye", look.visible, eye)) {
@@ -65,11 +66,13 @@ void draw_soft_section(const PanelContext& c) {
   if (c.model.soft_labels.empty() || !ui::section(c.fonts, "Soft parts", false)) return;
   ViewState view = c.model.view;
   ui::text(color::kTextQuiet, "Seen, not yet felt");
+  ImGui::PushID("soft");  // the bones' rows have numbers too
   draw_all(c, view);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});
   for (std::size_t i = 0; i < c.model.soft_labels.size() && i < view.softs.size(); ++i)
     draw_soft_row(c, i, view);
   ImGui::PopStyleVar();
+  ImGui::PopID();
 }
 
 }  // namespace osteon

@@ -34,6 +34,19 @@ void text(ImU32 color, const char* text) {
   ImGui::PopStyleColor();
 }
 
+std::string shortened(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string out = text;
+  while (!out.empty() && ImGui::CalcTextSize((out + "...").c_str()).x > width) out.pop_back();
+  return out + "...";
+}
+
+void text_within(ImU32 color, const std::string& whole, float width) {
+  const std::string shown = shortened(whole, width);
+  text(color, shown.c_str());
+  if (shown != whole) tooltip(whole.c_str());
+}
+
 bool section(const UiFonts& fonts, const char* title, bool open_at_first) {
   const WithFont strong(fonts.strong);
   ImGui::PushStyleColor(ImGuiCol_Header, IM_COL32(0, 0, 0, 0));

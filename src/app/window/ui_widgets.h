@@ -21,6 +21,10 @@ class WithFont {
 /// Shown when the pointer rests on the item just drawn; wrapped.
 void tooltip(const char* text);
 void text(ImU32 color, const char* text);
+/// As much of it as fits into `width`, ended by dots where some is left out.
+std::string shortened(const std::string& text, float width);
+/// The same, drawn; a tooltip tells the whole where some is left out.
+void text_within(ImU32 color, const std::string& text, float width);
 /// Title of a section that folds; true while open.
 bool section(const UiFonts& fonts, const char* title, bool open_at_first = true);
 /// One line: quiet label on the left, value with its unit on the right, tooltip on both.

@@ -8,6 +8,7 @@
 
 #include "app/window/ui_frame.h"
 #include "window/device_choices.h"
+#include "window/ui_widgets.h"
 
 namespace osteon {
 namespace {
@@ -48,6 +49,42 @@ TEST(Panels, ABoneIsFeltAsChosenInItsPopup) {
   EXPECT_EQ(r.felt->felt, Felt::kField);
   ui.model.record.on = true;
   EXPECT_FALSE(ui.click(popup.c_str(), {"Hull"}).felt) << "while a recording runs";
+}
+
+UiModel model_with_soft_parts() {
+  UiModel model = small_model();
+  model.soft_labels = {"Disc", "Triangular fibrocartilage of the wrist", "Skin"};
+  model.view.softs.resize(3);
+  for (BoneAppearance& look : model.view.softs) look.visible = false;
+  model.view.softs[2].opacity = 0.25f;
+  return model;
+}
+
+TEST(Panels, SoftPartsAreShownOneByOneOrAllButForTheSkin) {
+  UiFrame ui;
+  fill(ui, model_with_soft_parts());
+  EXPECT_LT(ui.find("##case", {"soft", 0, "eye"}).x, 0) << "folded at first";
+  ui.click("##case", {"Soft parts"});
+  const UiRequests one = ui.click("##case", {"soft", 1, "eye"});
+  ASSERT_TRUE(one.view);
+  EXPECT_FALSE(one.view->softs[0].visible);
+  EXPECT_TRUE(one.view->softs[1].visible);
+  EXPECT_TRUE(one.view->bones[1].visible) << "the bone of the same number stays";
+  const UiRequests all = ui.click("##case", {"soft", "Show all"});
+  ASSERT_TRUE(all.view);
+  EXPECT_TRUE(all.view->softs[0].visible);
+  EXPECT_TRUE(all.view->softs[1].visible);
+  EXPECT_FALSE(all.view->softs[2].visible);
+}
+
+TEST(Panels, ALongNameIsCutToItsPlace) {
+  UiFrame ui;
+  ui.draw();
+  EXPECT_EQ(ui::shortened("Disc", 1000), "Disc");
+  EXPECT_EQ(ui::shortened("", 0), "");
+  const std::string cut = ui::shortened("Triangular fibrocartilage", 80);
+  EXPECT_TRUE(cut.ends_with("...")) << cut;
+  EXPECT_LE(ImGui::CalcTextSize(cut.c_str()).x, 80);
 }
 
 TEST(Panels, TheLegendStandsWhereBonesAreColouredByWhatIsFelt) {
