@@ -103,6 +103,7 @@ Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
   generated.name = anatomy.name;
   generated.side = anatomy.side;
   std::vector<Result<GeneratedBone>> bones(anatomy.bones.size());
+  if (options.progress) options.progress(0);
   run_tasks(
       options, bones.size(),
       [&](std::size_t i) { bones[i] = grow(anatomy, anatomy.bones[i], options, file); },

@@ -13,8 +13,8 @@ class ImportCtBad : public CliTest {
  protected:
   /// A scan of a scaphoid and a lunate.
   void scan() {
-    const auto anatomy =
-        generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml", {.soft_parts = false});
+    const auto anatomy = generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml",
+                                          {.soft_parts = false});
     ASSERT_TRUE(anatomy);
     CaseDef def;
     def.name = "two";

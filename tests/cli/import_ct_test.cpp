@@ -20,8 +20,8 @@ Vec3 other_patient(const Vec3& p, bool left) {
 }
 
 CaseDef other_wrist(bool left) {
-  const auto anatomy =
-      generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml", {.soft_parts = false});
+  const auto anatomy = generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml",
+                                        {.soft_parts = false});
   EXPECT_TRUE(anatomy);
   CaseDef def;
   def.name = "other";

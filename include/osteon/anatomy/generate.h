@@ -63,7 +63,7 @@ struct GenerateOptions {
   /// Of the grid on which the surfaces of bones are found; none: what the description says for
   /// each.
   std::optional<double> cell_m = {};
-  /// Told the share of the bones done, 0 to 1; may throw to stop.
+  /// Told the share of the bones done, from 0, before any, to 1; may throw to stop.
   std::function<void(double)> progress = {};
   RunTasks run = {};       ///< none: one after the other. The bytes are the same either way.
   bool soft_parts = true;  ///< false: bones alone; landmarks on soft parts stay where they were
