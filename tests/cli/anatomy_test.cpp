@@ -35,7 +35,7 @@ TEST_F(Anatomy, AKneeIsMadeAgainByItsSeedAndChecksSound) {
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
   const std::size_t files = same_files("a", "b");
-  EXPECT_EQ(files, 5u) << "four meshes and case.toml";
+  EXPECT_EQ(files, 4u + 16u + 1u) << "four bones, sixteen soft parts and case.toml";
   EXPECT_NE(text_of("a/case.toml").find("# notch_width_mm = 18\n"), std::string::npos);
   const auto def = load_case(file("a"));
   ASSERT_TRUE(def) << def.error().message();
@@ -60,7 +60,7 @@ TEST_F(Anatomy, TheSameSeedGivesTheSameBytesAndACaseThatChecksSound) {
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
   const std::size_t files = same_files("a", "b");
-  EXPECT_EQ(files, 16u) << "fifteen meshes and case.toml";
+  EXPECT_EQ(files, 15u + 29u + 1u) << "fifteen bones, 29 soft parts and case.toml";
   const std::string text = text_of("a/case.toml");
   EXPECT_NE(text.find("--seed 7 --set radial_inclination_deg=18"), std::string::npos);
   EXPECT_NE(text.find("# radial_inclination_deg = 18\n"), std::string::npos);
