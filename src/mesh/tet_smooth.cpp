@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace osteon {
 namespace {
@@ -54,42 +55,54 @@ bool VertexMover::move(std::uint32_t v) {
   return work_.on_boundary(v) ? move_along_surface(v) : move_inside(v);
 }
 
-bool VertexMover::move_inside(std::uint32_t v) {
-  static const std::array<Vec3, 14> directions = search_directions();
+template <class Directions, class Land>
+Vec3 VertexMover::climb(std::uint32_t v, double worth, const Directions& directions,
+                        const Land& land) const {
   const double edge = mean_edge(v);
   Vec3 best = work_.place(v);
-  const double before = work_.least_worth_around(v);
-  double worth = before;
   for (double step = kFirstStep * edge; step > kSmallestStep * edge;) {
     bool better = false;
     const Vec3 from = best;
     for (const Vec3& direction : directions) {
-      const Vec3 p = from + step * direction;
-      const double there = work_.least_worth_around(v, p, worth + kBetter);
+      const std::optional<Vec3> p = land(from + step * direction, step, worth);
+      if (!p) continue;
+      const double there = work_.least_worth_around(v, *p, worth + kBetter);
       if (there <= worth + kBetter) continue;
       worth = there;
-      best = p;
+      best = *p;
       better = true;
     }
     if (!better) step *= 0.5;
   }
-  if (worth <= before + kBetter) return false;
+  return best;
+}
+
+template <class F>
+void VertexMover::each_boundary_face(std::uint32_t v, const F& f) const {
+  for (const std::uint32_t t : work_.around(v)) {
+    const Tetrahedron& tet = work_.tet(t);
+    for (std::size_t face = 0; face < 4; ++face) {
+      if (tet[face] == v || work_.across(t, face) != TetWork::kNone) continue;
+      const auto& corners = kTetFaces[face];
+      f(work_.place(tet[corners[0]]), work_.place(tet[corners[1]]), work_.place(tet[corners[2]]));
+    }
+  }
+}
+
+bool VertexMover::move_inside(std::uint32_t v) {
+  static const std::array<Vec3, 14> directions = search_directions();
+  const Vec3 home = work_.place(v);
+  const Vec3 best = climb(v, work_.least_worth_around(v), directions,
+                          [](const Vec3& aim, double, double) { return std::optional(aim); });
+  if (best == home) return false;
   work_.move(v, best);
   return true;
 }
 
 Vec3 VertexMover::boundary_normal(std::uint32_t v) const {
   Vec3 sum = Vec3::Zero();
-  for (const std::uint32_t t : work_.around(v)) {
-    const Tetrahedron& tet = work_.tet(t);
-    for (std::size_t face = 0; face < 4; ++face) {
-      if (tet[face] == v || work_.across(t, face) != TetWork::kNone) continue;
-      const Vec3 &a = work_.place(tet[kTetFaces[face][0]]),
-                 &b = work_.place(tet[kTetFaces[face][1]]),
-                 &c = work_.place(tet[kTetFaces[face][2]]);
-      sum += (b - a).cross(c - a);
-    }
-  }
+  each_boundary_face(
+      v, [&](const Vec3& a, const Vec3& b, const Vec3& c) { sum += (b - a).cross(c - a); });
   const double length = sum.norm();
   return length > 0 ? Vec3(sum / length) : Vec3(Vec3::Zero());
 }
@@ -98,47 +111,25 @@ double VertexMover::distance(const Vec3& p) { return (project_(p, last_hint_) - 
 
 double VertexMover::sag(std::uint32_t v) {
   double worst = 0;
-  for (const std::uint32_t t : work_.around(v)) {
-    const Tetrahedron& tet = work_.tet(t);
-    for (std::size_t face = 0; face < 4; ++face) {
-      if (tet[face] == v || work_.across(t, face) != TetWork::kNone) continue;
-      const Vec3 middle =
-          (work_.place(tet[kTetFaces[face][0]]) + work_.place(tet[kTetFaces[face][1]]) +
-           work_.place(tet[kTetFaces[face][2]])) /
-          3;
-      worst = std::max(worst, distance(middle));
-    }
-  }
+  each_boundary_face(v, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    worst = std::max(worst, distance((a + b + c) / 3));
+  });
   return worst;
 }
 
 bool VertexMover::move_along_surface(std::uint32_t v) {
   const Vec3 nhat = boundary_normal(v);
   if (nhat.isZero()) return false;
-  const std::array<Vec3, 8> directions = directions_across(nhat);
-  const double edge = mean_edge(v);
   const Vec3 home = work_.place(v);
-  Vec3 best = home;
-  const double before = work_.least_worth_around(v);
-  double worth = before;
-  for (double step = kFirstStep * edge; step > kSmallestStep * edge;) {
-    bool better = false;
-    const Vec3 from = best;
-    for (const Vec3& direction : directions) {
-      const Vec3 aim = from + step * direction;
-      // What is no better before it is put onto the surface is hardly better after.
-      if (work_.least_worth_around(v, aim, 0.8 * worth) <= 0.8 * worth) continue;
-      const Vec3 p = project_(aim, hints_[v]);
-      if ((p - aim).norm() > step) continue;
-      const double there = work_.least_worth_around(v, p, worth + kBetter);
-      if (there <= worth + kBetter) continue;
-      worth = there;
-      best = p;
-      better = true;
-    }
-    if (!better) step *= 0.5;
-  }
-  if (worth <= before + kBetter) return false;
+  const auto onto_surface = [&](const Vec3& aim, double step, double worth) -> std::optional<Vec3> {
+    // What is no better before it is put onto the surface is hardly better after.
+    if (work_.least_worth_around(v, aim, 0.8 * worth) <= 0.8 * worth) return std::nullopt;
+    const Vec3 p = project_(aim, hints_[v]);
+    if ((p - aim).norm() > step) return std::nullopt;
+    return p;
+  };
+  const Vec3 best = climb(v, work_.least_worth_around(v), directions_across(nhat), onto_surface);
+  if (best == home) return false;
   const double sag_before = sag(v);
   work_.move(v, best);
   if (sag(v) <= sag_before + slack_m_) return true;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "osteon/mesh/tet_improve.h"
 #include "tet_flips.h"
 #include "tet_work.h"
@@ -16,6 +19,14 @@ class VertexMover {
   double distance(const Vec3& p);
 
  private:
+  /// A better place near home, by steps along `directions` that are halved when none helps; `land`
+  /// takes the aim of a step, its length and the worth to beat, and gives where it leads, if
+  /// anywhere.
+  template <class Directions, class Land>
+  Vec3 climb(std::uint32_t v, double worth, const Directions& directions, const Land& land) const;
+  /// Calls f(a, b, c) with the corners of every face at v that lies on the boundary, outward.
+  template <class F>
+  void each_boundary_face(std::uint32_t v, const F& f) const;
   bool move_inside(std::uint32_t v);
   bool move_along_surface(std::uint32_t v);
   double mean_edge(std::uint32_t v) const;

@@ -58,8 +58,8 @@ struct Attachment {
   Vec3 p_W = Vec3::Zero();
 };
 
-/// Cartilage, a ligament, a tendon, a disc, a meniscus, fat or the skin. It is seen and scanned;
-/// nothing of it is felt. Immutable once the case is made.
+/// Cartilage, a ligament, a tendon, a disc, a meniscus, fat or the skin. It is seen;
+/// nothing of it is felt yet. Immutable once the case is made.
 struct SoftPart {
   std::string name;        ///< "scaphoid_fossa"
   int fma_id = 0;          ///< Foundational Model of Anatomy; 0 when unknown

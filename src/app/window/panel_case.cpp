@@ -1,6 +1,7 @@
 #include <array>
 #include <string>
 
+#include "window/panel_look.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
 
@@ -43,46 +44,21 @@ void draw_felt(const PanelContext& c, std::size_t i) {
 
 void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {
   if (!ImGui::BeginPopup("appearance")) return;
-  ui::text(color::kTextQuiet, c.model.bone_labels[i].c_str());
-  BoneAppearance& look = view.bones[i];
-  const bool recolored =
-      ImGui::ColorPicker3("##color", look.color.data(),
-                          ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs |
-                              ImGuiColorEditFlags_PickerHueWheel);
-  double opacity = 100.0 * static_cast<double>(look.opacity);
-  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%",
-                                "How much of what lies behind the bone is hidden, percent");
-  look.opacity = static_cast<float>(opacity / 100.0);
-  if (recolored || faded) c.requests.view = view;
+  if (edit_look(c.model.bone_labels[i], view.bones[i])) c.requests.view = view;
   ImGui::Dummy({0, c.px(2)});
   draw_felt(c, i);
   ImGui::EndPopup();
-}
-
-void draw_swatch(const PanelContext& c, std::size_t i, ViewState& view) {
-  const BoneAppearance& look = view.bones[i];
-  const ImVec4 shown(look.color[0], look.color[1], look.color[2], 1);
-  const float size = c.px(12);
-  const float row = ImGui::GetCursorPosY();
-  ImGui::SetCursorPosY(row + c.px(3));
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, c.px(3));
-  if (ImGui::ColorButton("##swatch", shown,
-                         ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
-                         {size, size}))
-    ImGui::OpenPopup("appearance");
-  ImGui::PopStyleVar();
-  ui::tooltip("Colour, opacity and how the bone is felt");
-  draw_appearance_popup(c, i, view);
-  ImGui::SameLine(0, c.px(8));
-  ImGui::SetCursorPosY(row);
 }
 
 void draw_bone_row(const PanelContext& c, std::size_t i, ViewState& view) {
   const BoneId id{static_cast<std::uint32_t>(i)};
   BoneAppearance& look = view.bones[i];
   ImGui::PushID(static_cast<int>(i));
-  draw_swatch(c, i, view);
-  const float eye = c.px(18);
+  const float eye = c.px(18), row = ImGui::GetCursorPosY();
+  draw_swatch(c, look, "appearance", "Colour, opacity and how the bone is felt");
+  draw_appearance_popup(c, i, view);
+  ImGui::SameLine(0, c.px(8));
+  ImGui::SetCursorPosY(row);
   const float name_w = ImGui::GetContentRegionAvail().x - eye;
   ImGui::PushStyleColor(ImGuiCol_Text, look.visible ? color::kText : color::kTextQuiet);
   const bool chosen = c.model.picked == id;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "window/panel_look.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
 
@@ -8,17 +9,7 @@ namespace {
 
 void draw_soft_appearance(const PanelContext& c, std::size_t i, ViewState& view) {
   if (!ImGui::BeginPopup("soft_appearance")) return;
-  ui::text(color::kTextQuiet, c.model.soft_labels[i].c_str());
-  BoneAppearance& look = view.softs[i];
-  const bool recolored =
-      ImGui::ColorPicker3("##color", look.color.data(),
-                          ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs |
-                              ImGuiColorEditFlags_PickerHueWheel);
-  double opacity = 100.0 * static_cast<double>(look.opacity);
-  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%",
-                                "How much of what lies behind it is hidden, percent");
-  look.opacity = static_cast<float>(opacity / 100.0);
-  if (recolored || faded) c.requests.view = view;
+  if (edit_look(c.model.soft_labels[i], view.softs[i])) c.requests.view = view;
   ImGui::EndPopup();
 }
 
@@ -26,12 +17,7 @@ void draw_soft_row(const PanelContext& c, std::size_t i, ViewState& view) {
   BoneAppearance& look = view.softs[i];
   ImGui::PushID(static_cast<int>(i));
   const float eye = c.px(18), row = ImGui::GetCursorPosY();
-  ImGui::SetCursorPosY(row + c.px(3));
-  if (ImGui::ColorButton("##swatch", ImVec4(look.color[0], look.color[1], look.color[2], 1),
-                         ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
-                         {c.px(12), c.px(12)}))
-    ImGui::OpenPopup("soft_appearance");
-  ui::tooltip("Colour and opacity");
+  draw_swatch(c, look, "soft_appearance", "Colour and opacity");
   draw_soft_appearance(c, i, view);
   ImGui::SameLine(0, c.px(8));
   ImGui::SetCursorPosY(row);
