@@ -165,8 +165,25 @@ Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
   return {floor, Excess::kNone};
 }
 
+namespace {
+
+// Largest height of a small body's vertices, all of them looked at. What is not a number does not
+// count.
+double highest_of_all(const ConvexBody& body, const ThreeLanes& n) {
+  TwoLanes even = TwoLanes::both(kLeast), odd = even;
+  for (std::size_t i = 0; i < body.vx.size(); i += 4) {
+    even = max(height_of(body, i, n), even);
+    odd = max(height_of(body, i + 2, n), odd);
+  }
+  return max(even, odd).top();
+}
+
+}  // namespace
+
 double support(const ConvexBody& body, const Vec3& n, std::uint32_t* vertex) {
+  constexpr std::size_t kSmall = 3 * kBlock;
   const ThreeLanes lanes(n);
+  if (!vertex && body.vx.size() <= kSmall) return highest_of_all(body, lanes);
   double best = kLeast;
   std::uint32_t index = 0;
   scan_promising(

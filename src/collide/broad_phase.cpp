@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace osteon {
 namespace {
@@ -71,33 +72,108 @@ void BroadPhase::add_bone(const Aabb& box) {
   close_bone();
 }
 
-std::size_t BroadPhase::query(std::span<const Pose> X_WB, const SweptSphere& ball, double margin,
-                              std::span<PieceRef> out) const {
-  assert(X_WB.size() >= bone_count());
-  std::size_t found = 0;
+// A bone out of reach as a whole. Written so that what is not finite is looked at closely.
+bool BroadPhase::out_of_reach(std::uint32_t bone, const Pose& X_WB, const SweptSphere& ball,
+                              double margin) const {
+  const Vec3 center_W = X_WB * bones_[bone].center_B;
+  const double room = ball.radius + margin + bones_[bone].radius +
+                      kRounding * (2 + ball.p_from_W.norm() + center_W.norm());
   const Segment path_W{ball.p_from_W, ball.p_to_W - ball.p_from_W};
+  return distance_squared(path_W, center_W) > room * room;
+}
+
+BroadPhase::BallOfBone BroadPhase::in_bone(const Pose& X_WB, const SweptSphere& ball,
+                                           double margin) {
+  const Pose X_BW = X_WB.inverse();
+  BallOfBone out;
+  out.from_B = X_BW * ball.p_from_W;
+  if (ball.p_to_W != ball.p_from_W) out.along_B = X_BW * ball.p_to_W - out.from_B;
+  out.reach = ball.radius + margin + kRounding * (1 + out.from_B.norm());
+  out.finite = is_finite(out.from_B) && is_finite(out.along_B) && std::isfinite(out.reach);
+  return out;
+}
+
+bool BroadPhase::meets(const Bounds& piece, const BallOfBone& ball) {
+  const Segment path{ball.from_B, ball.along_B};
+  const double apart = ball.reach + piece.radius;
+  return distance_squared(path, piece.center_B) <= apart * apart &&
+         meets_box(path, piece.box_center_B, piece.box_half + Vec3::Constant(ball.reach));
+}
+
+// Whether nothing of the bone was found about a place that holds the ball: settled without a root.
+// Written so that what is not finite is looked at closely.
+bool BroadPhase::still_clear(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
+                             const SweptSphere& ball, double margin) {
+  const NearPieces::Place& place = near.places_[bone];
+  if (place.count > 0) return false;
+  const bool still = X_WB.p == place.X_WB.p && X_WB.q.coeffs() == place.X_WB.q.coeffs();
+  const Vec3 step = still ? Vec3(ball.p_from_W - place.p_W)
+                          : Vec3(X_WB.q.conjugate() * (ball.p_from_W - X_WB.p) - place.p_B);
+  const double length = (ball.p_to_W - ball.p_from_W).lpNorm<1>();
+  const double far = ball.p_from_W.lpNorm<1>() + X_WB.p.lpNorm<1>();
+  const double room = place.reach - (length + ball.radius + margin + kRounding * (3 + far));
+  return room > 0 && step.squaredNorm() < room * room;
+}
+
+// Those that the ball may meet: of the kept ones where it is within their reach. Whatever meets the
+// ball meets a wider one that holds it.
+std::span<const std::uint32_t> BroadPhase::near_of(std::uint32_t bone, const Pose& X_WB,
+                                                   const BallOfBone& ball, NearPieces& near) const {
+  constexpr double kTooWide = 0.003;
+  const NearPieces::Place& place = near.places_[bone];
+  const double size = ball.along_B.norm() + ball.reach + kRounding;
+  const double needed = (ball.from_B - place.p_B).norm() + size;
+  if (!(needed <= place.reach && place.reach <= needed + kTooWide))
+    look_about(bone, X_WB, ball, near);
+  return {near.pieces_.data() + first_piece_[bone], place.count};
+}
+
+// Keeps those that come a little nearer than the ball asks for; of a far bone how far it is.
+void BroadPhase::look_about(std::uint32_t bone, const Pose& X_WB, const BallOfBone& ball,
+                            NearPieces& near) const {
+  constexpr double kAhead = 0.001;
+  NearPieces::Place& place = near.places_[bone];
+  const double size = ball.along_B.norm() + ball.reach + kRounding;
+  const Ball& whole = bones_[bone];
+  const double clear = (ball.from_B - whole.center_B).norm() - whole.radius - kRounding;
+  place.X_WB = X_WB;
+  place.p_W = X_WB * ball.from_B;
+  place.p_B = ball.from_B;
+  place.count = 0;
+  place.reach = clear > size ? clear : size + kAhead;
+  if (clear > size) return;
+  const BallOfBone wide{place.p_B, Vec3::Zero(), place.reach + kRounding, true};
+  for (std::uint32_t i = first_piece_[bone]; i < first_piece_[bone + 1]; ++i)
+    if (meets(pieces_[i], wide))
+      near.pieces_[first_piece_[bone] + place.count++] = i - first_piece_[bone];
+}
+
+std::size_t BroadPhase::query(std::span<const Pose> X_WB, const SweptSphere& ball, double margin,
+                              std::span<PieceRef> out, NearPieces* near) const {
+  assert(X_WB.size() >= bone_count() && (!near || near->places_.size() == bone_count()));
+  std::size_t found = 0;
   for (std::uint32_t bone = 0; bone < bone_count(); ++bone) {
-    // A bone out of reach as a whole. Written so that what is not finite is looked at closely.
-    const Vec3 center_W = X_WB[bone] * bones_[bone].center_B;
-    const double room = ball.radius + margin + bones_[bone].radius +
-                        kRounding * (2 + ball.p_from_W.norm() + center_W.norm());
-    if (distance_squared(path_W, center_W) > room * room) continue;
-    const Pose X_BW = X_WB[bone].inverse();
-    const Vec3 from = X_BW * ball.p_from_W;
-    const Segment path{from, X_BW * ball.p_to_W - from};
-    const double reach = ball.radius + margin + kRounding * (1 + from.norm());
-    const bool finite = is_finite(from) && is_finite(path.along) && std::isfinite(reach);
-    for (std::uint32_t i = first_piece_[bone]; i < first_piece_[bone + 1]; ++i) {
-      const Bounds& b = pieces_[i];
-      const double apart = reach + b.radius;
-      if (finite && (distance_squared(path, b.center_B) > apart * apart ||
-                     !meets_box(path, b.box_center_B, b.box_half + Vec3::Constant(reach))))
-        continue;
-      if (found < out.size()) out[found] = {bone, i - first_piece_[bone]};
+    if (near ? still_clear(*near, bone, X_WB[bone], ball, margin)
+             : out_of_reach(bone, X_WB[bone], ball, margin))
+      continue;
+    const BallOfBone ball_B = in_bone(X_WB[bone], ball, margin);
+    const std::uint32_t first = first_piece_[bone];
+    const bool listed = near && ball_B.finite;
+    const auto list =
+        listed ? near_of(bone, X_WB[bone], ball_B, *near) : std::span<const std::uint32_t>();
+    const auto count =
+        listed ? static_cast<std::uint32_t>(list.size()) : first_piece_[bone + 1] - first;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t piece = listed ? list[k] : k;
+      if (ball_B.finite && !meets(pieces_[first + piece], ball_B)) continue;
+      if (found < out.size()) out[found] = {bone, piece};
       ++found;
     }
   }
   return found;
 }
+
+NearPieces::NearPieces(const BroadPhase& broad_phase)
+    : places_(broad_phase.bone_count()), pieces_(broad_phase.piece_count()) {}
 
 }  // namespace osteon

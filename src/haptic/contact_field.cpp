@@ -61,23 +61,25 @@ bool ContactField::felt_as_field(const Bone& bone) const {
 }
 
 bool ContactField::collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
-                           std::span<const Pose> now_WB, CandidateList& out) const {
+                           std::span<const Pose> now_WB, NearPieces& near,
+                           CandidateList& out) const {
   double moved_m = 0;
   for (std::size_t b = 0; b < now_WB.size(); ++b)
-    moved_m = std::max(moved_m, travel(before_WB[b], now_WB[b], p_W, reach_m));
-  std::array<PieceRef, kMaxCandidates> near;
+    if (!same_pose(before_WB[b], now_WB[b]))
+      moved_m = std::max(moved_m, travel(before_WB[b], now_WB[b], p_W, reach_m));
+  std::array<PieceRef, kMaxCandidates> pieces;
   const SweptSphere ball{p_W, p_W, tool_radius_};
-  const std::size_t found = broad_phase_.query(now_WB, ball, reach_m + moved_m, near);
+  const std::size_t found = broad_phase_.query(now_WB, ball, reach_m + moved_m, pieces, &near);
   out.count = 0;
   out.field_count = 0;
-  if (found > near.size()) return false;
+  if (found > pieces.size()) return false;
   for (std::size_t i = 0; i < found; ++i) {
-    const std::uint32_t start = first_pair_[near[i].bone];
+    const std::uint32_t start = first_pair_[pieces[i].bone];
     const bool field = pairs_[start].field;
     const std::size_t tool_pieces = field ? rods_.size() : tool_.bodies.size();
     std::uint32_t& count = field ? out.field_count : out.count;
     if (count + tool_pieces > (field ? kMaxFields : kMaxCandidates)) return false;
-    const std::size_t first = start + near[i].piece * tool_pieces;
+    const std::size_t first = start + pieces[i].piece * tool_pieces;
     for (std::size_t t = 0; t < tool_pieces; ++t)
       (field ? out.field[count++] : out.pair[count++]) = static_cast<std::uint32_t>(first + t);
   }

@@ -51,10 +51,13 @@ class ContactField {
   double tool_radius() const { return tool_radius_; }
   const Bone& bone(std::uint32_t index) const { return case_.bones[index]; }
 
+  /// For `collect`, to keep from tick to tick.
+  NearPieces near_pieces() const { return NearPieces(broad_phase_); }
+
   /// Pairs that may touch while the tool's origin is within `reach_m` of p_W, with each bone
   /// anywhere between its two poses. False when there are more than the list holds.
   bool collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
-               std::span<const Pose> now_WB, CandidateList& out) const;
+               std::span<const Pose> now_WB, NearPieces& near, CandidateList& out) const;
 
   /// Parts one pair at a pose. False when the contact programme could not be solved and
   /// the line between their middles does not part them either.

@@ -36,6 +36,7 @@ bool FieldWalls::still_right(const Wall& wall, const PartingPlane& now, const Po
 }
 
 bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
+  if (field_count_ == 0) return true;
   std::array<Wall, kMostPlanes> next;
   std::uint32_t count = 0;
   for (const std::uint32_t pair : fields()) {

@@ -16,14 +16,16 @@
 namespace osteon {
 namespace {
 
-// Coordinates beyond this are a broken reading: their squares must stay finite.
-constexpr double kFarthest_m = 1e6;
+// Coordinates beyond the root of this are a broken reading: their squares must stay finite.
+constexpr double kFarthest_m2 = 1e12;
 // A snapshot older than this is not carried forward any further.
 constexpr double kOldestSnapshot_s = 0.05;
 constexpr double kAnyWay = 1e9;
 
+// What is not a number fails every comparison.
 bool usable(const Pose& X) {
-  return is_finite(X) && X.p.norm() < kFarthest_m && std::abs(X.q.norm() - 1) < 0.1;
+  const double size2 = X.q.squaredNorm();
+  return X.p.squaredNorm() < kFarthest_m2 && size2 > 0.81 && size2 < 1.21;
 }
 
 bool usable(const ToolInput& input) {
@@ -56,12 +58,13 @@ struct HapticLoop::Impl {
   std::shared_ptr<const Case> the_case;
   std::shared_ptr<const Tool> tool;
   ContactField field;
+  ProxySolver solver;
   HapticState state;
   std::array<Pose, kMaxBones> now_WB{};
   std::array<BoneMotion, kMaxBones> motion{};
 
   Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t)
-      : the_case(std::move(c)), tool(std::move(t)), field(*the_case, *tool) {
+      : the_case(std::move(c)), tool(std::move(t)), field(*the_case, *tool), solver(field) {
     state.bone_count = static_cast<std::uint32_t>(the_case->bones.size());
     state.pairs.resize(field.pairs().size());
   }
@@ -104,12 +107,11 @@ void HapticLoop::Impl::see_bones(const BoneSnapshot& bones, double age_s) {
 void HapticLoop::Impl::place(const Pose& X_WD) {
   constexpr double kNear = 0.001;
   constexpr double kFar = 0.020;
-  ProxySolver solver(field, state.pairs);
   ProxyTask task{X_WD, X_WD.p, X_WD.p, X_WD.q, kNear, false, now(), now()};
-  ProxyMove move = solver.move(task);
+  ProxyMove move = solver.move(task, state.pairs);
   if (move.status & kTickProxyBlocked) {
     task.reach_m = kFar;
-    move = solver.move(task);
+    move = solver.move(task, state.pairs);
   }
   state.armed = move.free;
   state.sliding = false;
@@ -144,8 +146,7 @@ Vec3 HapticLoop::Impl::carried_base() const {
   if (!state.carrier.valid()) return p_W;
   const Pose& before_WB = state.X_WB[state.carrier.index];
   const Pose& X_WB = now_WB[state.carrier.index];
-  const bool same = before_WB.p == X_WB.p && before_WB.q.coeffs() == X_WB.q.coeffs();
-  return same ? p_W : X_WB * (before_WB.inverse() * p_W);
+  return same_pose(before_WB, X_WB) ? p_W : X_WB * (before_WB.inverse() * p_W);
 }
 
 // How far the proxy may go in this tick: to the hand and around what lies between, but no farther
@@ -157,7 +158,8 @@ double HapticLoop::Impl::reach(const Vec3& base_W, const Vec3& hand_W, double tu
   const double hand_step = (hand_W - state.tool.X_WD.p).norm();
   double pushed = 0;
   for (std::uint32_t i = 0; i < state.bone_count; ++i)
-    pushed = std::max(pushed, travel(state.X_WB[i], now_WB[i], base_W, field.tool_radius()));
+    if (!same_pose(state.X_WB[i], now_WB[i]))
+      pushed = std::max(pushed, travel(state.X_WB[i], now_WB[i], base_W, field.tool_radius()));
   return std::min(2 * way, std::max(kBrisk, 2 * hand_step)) + kRoom + 2 * pushed +
          turn_rad * field.tool_radius();
 }
@@ -230,7 +232,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   const double room = reach(base_W, X_WD.p, params.max_turn_rad_per_tick);
   const bool was_held = state.carrier.valid();
   const ProxyTask task{state.tool.X_WP, base_W, X_WD.p, q, room, was_held, before(), now()};
-  const ProxyMove move = ProxySolver(field, state.pairs).move(task);
+  const ProxyMove move = solver.move(task, state.pairs);
   Load held = load(move, params);
   const bool way_known = !(move.status & kTickSolverLimit);
   if (was_held && way_known && !held.carrier.valid()) held = letting_go(params);

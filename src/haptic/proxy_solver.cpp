@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osteon/scene/state.h"
+#include "rigid_motion.h"
 
 namespace osteon {
 namespace {
@@ -38,50 +39,62 @@ bool inside_all(std::span<const FreeHalfSpace> planes, const Vec3& x) {
 bool ProxySolver::gather(const ProxyTask& task) {
   constexpr double kShortest = 1e-5;
   for (; reach_m_ >= kShortest; reach_m_ *= 0.5)
-    if (field_.collect(task.base_W, reach_m_, task.before_WB, task.now_WB, near_)) return true;
+    if (field_.collect(task.base_W, reach_m_, task.before_WB, task.now_WB, near_pieces_, near_))
+      return true;
   near_.count = 0;
   near_.field_count = 0;
   return false;
 }
 
-// Parts one candidate at a pose, and remembers the plane.
-bool ProxySolver::part(std::uint32_t i, std::span<const Pose> X_WB, const Pose& X_WT) {
+void ProxySolver::raise(std::uint32_t i) {
   const std::uint32_t pair = near_.pair[i];
-  const Pose& bone = X_WB[field_.pairs()[pair].bone];
+  const Pose& bone = raised_WB_[field_.pairs()[pair].bone];
+  planes_[i] = field_.half_space(pair, parting_[i], bone, raised_q_WT_);
+}
+
+// Parts one candidate with the tool at p_W, and remembers the plane.
+bool ProxySolver::part(std::uint32_t i, const Vec3& p_W) {
+  const std::uint32_t pair = near_.pair[i];
+  const Pose& bone = raised_WB_[field_.pairs()[pair].bone];
   PairMemory& memory = memory_[pair];
-  if (!field_.separate(pair, bone, X_WT, memory.basis, parting_[i])) return false;
+  if (!field_.separate(pair, bone, {p_W, raised_q_WT_}, memory.basis, parting_[i])) return false;
   memory.plane = parting_[i];
   memory.known = true;
+  raise(i);
   return true;
 }
 
 // A plane that parted a pair once lies beside the bone for ever. While the tool is beyond it, it
 // will do: only a plane that comes to hold the proxy is worth finding again.
 bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
+  raised_WB_ = X_WB;
+  raised_q_WT_ = X_WT.q;
   for (std::uint32_t i = 0; i < near_.count; ++i) {
-    const std::uint32_t pair = near_.pair[i];
-    const PairMemory& memory = memory_[pair];
+    const PairMemory& memory = memory_[near_.pair[i]];
     if (memory.known) {
-      const Pose& bone = X_WB[field_.pairs()[pair].bone];
-      const FreeHalfSpace plane = field_.half_space(pair, memory.plane, bone, X_WT.q);
-      const double slack = plane.n.dot(X_WT.p) - plane.c;
+      parting_[i] = memory.plane;
+      raise(i);
+      const double slack = planes_[i].n.dot(X_WT.p) - planes_[i].c;
       if (slack >= 0) {
-        parting_[i] = memory.plane;
         parting_[i].gap = slack + kSkin;
         continue;
       }
     }
-    if (!part(i, X_WB, X_WT)) return false;
+    if (!part(i, X_WT.p)) return false;
   }
   walls_.start(near_);
   return walls_.look(X_WB, X_WT);
 }
 
+// Most ticks turn neither the tool nor a bone: then the pieces' planes are right as they are.
 void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
+  const std::span<const Pose> last_WB = raised_WB_;
+  const bool turned = raised_q_WT_.coeffs() != q_WT.coeffs();
+  raised_WB_ = X_WB;
+  raised_q_WT_ = q_WT;
   for (std::uint32_t i = 0; i < near_.count; ++i) {
-    const std::uint32_t pair = near_.pair[i];
-    const Pose& bone = X_WB[field_.pairs()[pair].bone];
-    planes_[i] = field_.half_space(pair, parting_[i], bone, q_WT);
+    const std::uint32_t bone = field_.pairs()[near_.pair[i]].bone;
+    if (turned || !same_pose(last_WB[bone], X_WB[bone])) raise(i);
   }
   walls_.raise(X_WB, q_WT, std::span(planes_).subspan(near_.count));
 }
@@ -141,8 +154,7 @@ bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPo
 // skin, which is granted if there is any.
 bool ProxySolver::look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) {
   for (std::uint32_t k = 0; k < target.active_count; ++k)
-    if (target.active[k] < near_.count &&
-        !part(target.active[k], task.now_WB, {move.end(), move.q_WP})) {
+    if (target.active[k] < near_.count && !part(target.active[k], move.end())) {
       move.status |= kTickSolverLimit;
       return false;
     }
@@ -197,7 +209,9 @@ void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
   }
 }
 
-ProxyMove ProxySolver::move(const ProxyTask& task) {
+ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory) {
+  memory_ = memory;
+  stopped_ = false;
   ProxyMove move;
   move.q_WP = task.X_WP.q;
   move.path[0] = task.base_W;

@@ -61,13 +61,15 @@ struct ProxyMove {
 /// planes that hold close by only; there the way is looked at too (FieldWalls).
 class ProxySolver {
  public:
-  ProxySolver(const ContactField& field, std::span<PairMemory> memory)
-      : field_(field), memory_(memory), walls_(field) {}
-  ProxyMove move(const ProxyTask& task);
+  explicit ProxySolver(const ContactField& field)
+      : field_(field), near_pieces_(field.near_pieces()), walls_(field) {}
+  /// `memory`: one of each of the field's pairs. Nothing else that a move leaves changes the next.
+  ProxyMove move(const ProxyTask& task, std::span<PairMemory> memory);
 
  private:
   bool gather(const ProxyTask& task);
-  bool part(std::uint32_t i, std::span<const Pose> X_WB, const Pose& X_WT);
+  void raise(std::uint32_t i);
+  bool part(std::uint32_t i, const Vec3& p_W);
   bool part_all(std::span<const Pose> X_WB, const Pose& X_WT);
   void raise_planes(std::span<const Pose> X_WB, const Quat& q_WT);
   bool enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move);
@@ -89,11 +91,15 @@ class ProxySolver {
   }
 
   const ContactField& field_;
+  NearPieces near_pieces_;
   std::span<PairMemory> memory_;
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
   FieldWalls walls_;
   std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes> planes_{};
+  /// Poses of the bones and turn of the tool for which `planes_` are right.
+  std::span<const Pose> raised_WB_;
+  Quat raised_q_WT_ = Quat::Identity();
   double reach_m_ = 0;
   bool stopped_ = false;  ///< a field stopped the last step on its way
 };

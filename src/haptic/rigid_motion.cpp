@@ -28,7 +28,7 @@ Vec3 velocity_at(const BoneMotion& motion, const Vec3& p_W) {
 }
 
 double travel(const Pose& before_WB, const Pose& now_WB, const Vec3& p_W, double reach_m) {
-  if (before_WB.p == now_WB.p && before_WB.q.coeffs() == now_WB.q.coeffs()) return 0;
+  if (same_pose(before_WB, now_WB)) return 0;
   const double at_p = (before_WB * (now_WB.inverse() * p_W) - p_W).norm();
   const double turn = 2 * (before_WB.q.conjugate() * now_WB.q).vec().norm();
   return at_p + turn * reach_m;

@@ -15,6 +15,11 @@ Quat turned_towards(const Quat& from, const Quat& to, double limit_rad);
 /// Velocity of the bone's material at p_W.
 Vec3 velocity_at(const BoneMotion& motion, const Vec3& p_W);
 
+/// Whether nothing has moved.
+inline bool same_pose(const Pose& a, const Pose& b) {
+  return a.p == b.p && a.q.coeffs() == b.q.coeffs();
+}
+
 /// How far the material of a moving bone goes at most within `reach_m` of p_W, m.
 double travel(const Pose& before_WB, const Pose& now_WB, const Vec3& p_W, double reach_m);
 

@@ -104,6 +104,34 @@ TEST(BroadPhase, NamesEveryPieceThatIsNearInCreationOrder) {
   EXPECT_LT(named, all / 2) << near;
 }
 
+// A ball that wanders, stops, leaps and grows among bones that move: the kept lists change nothing.
+TEST(BroadPhase, WhatIsKeptNearByChangesNothing) {
+  Random random(19);
+  Scene s = scattered(random, 6, 12);
+  NearPieces near(s.broad);
+  Vec3 p = Vec3::Zero();
+  std::size_t named = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Vec3 step = random.direction();
+    p += (i % 700 == 699 ? 0.03 : 1e-4) * step;
+    if (p.norm() > 0.05) p *= 0.2;
+    const Vec3 shift = random.direction();
+    const Quat turn = random.rotation();
+    Pose& X_WB = s.X_WB[static_cast<std::size_t>(i) % s.X_WB.size()];
+    if (i % 3 == 0) X_WB.p += 2e-5 * shift;
+    if (i % 50 == 0) X_WB.q = Quat::Identity().slerp(0.01, turn) * X_WB.q;
+    const double margin = i % 97 == 0 ? 0.02 : random.uniform(0, 0.003);
+    const Vec3 to = i % 11 == 0 ? Vec3(p + 0.004 * step) : p;
+    std::array<PieceRef, 72> plain, kept;
+    const std::size_t count = s.broad.query(s.X_WB, {p, to, kBall}, margin, plain);
+    ASSERT_EQ(s.broad.query(s.X_WB, {p, to, kBall}, margin, kept, &near), count) << i;
+    const auto end = plain.begin() + static_cast<std::ptrdiff_t>(count);
+    ASSERT_TRUE(std::equal(plain.begin(), end, kept.begin())) << i;
+    named += count;
+  }
+  EXPECT_GT(named, 6000u);
+}
+
 TEST(BroadPhase, ASmallBufferGetsTheFirstAndTheFullCount) {
   BroadPhase broad;
   const std::vector<ConvexBody> pieces(5, shapes::body(shapes::box({0.01, 0.01, 0.01})));
@@ -124,6 +152,9 @@ TEST(BroadPhase, ABrokenPoseHidesNothing) {
                                     Pose{Vec3(5, 5, 5), Quat::Identity()}};
   std::array<PieceRef, 4> out;
   EXPECT_EQ(broad.query(X_WB, {}, 0, out), 1u);
+  EXPECT_EQ(out[0], (PieceRef{0, 0}));
+  NearPieces near(broad);
+  EXPECT_EQ(broad.query(X_WB, {}, 0, out, &near), 1u);
   EXPECT_EQ(out[0], (PieceRef{0, 0}));
 }
 
