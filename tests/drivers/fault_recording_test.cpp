@@ -210,6 +210,7 @@ std::vector<Fault> faults_of(LedJoystick& joystick) {
        {ForceOff::kDisconnect},
        21,
        [&] { rig.faults().silent_until_ns = rig.bus.now_ns() + 100 * kMs; }},
+      {"the program stalls for 100 ms", {ForceOff::kWatchdog}, 2, [&] { rig.pass_ms(100); }},
       {"late",
        {ForceOff::kDisconnect},
        15,

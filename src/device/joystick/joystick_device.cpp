@@ -100,11 +100,17 @@ bool JoystickDevice::dead_man_held() const {
   return pressed && dialect_->status().dead_man_held;
 }
 
+// The program stalled while its force acted. Zero may stay as long as it likes.
+bool JoystickDevice::too_late() const {
+  return force_given_ && link_->now_ns() - ordered_ns_ > kOrderLife_ns;
+}
+
 ForceOff JoystickDevice::judge() const {
   if (link_->gone()) return ForceOff::kDisconnect;
   if (link_->in_error() != UsbError::kNone || link_->out_error() != UsbError::kNone)
     return ForceOff::kDeviceFault;
   if (dialect_->bring_up() == BringUp::kFailed) return ForceOff::kDeviceFault;
+  if (too_late()) return ForceOff::kWatchdog;
   if (link_->now_ns() - sample_.time_ns > kSilence_ns)
     return bad_in_a_row_ > 0 ? ForceOff::kDeviceFault : ForceOff::kDisconnect;
   return dialect_->status().refusal;
@@ -136,6 +142,7 @@ void JoystickDevice::write_force(const Vec3& force_V) {
                     sample_.dead_man_held && sample_.connected;
   if (!safe) f.setZero();
   force_given_ = f != Vec3(Vec3::Zero());
+  ordered_ns_ = link_->now_ns();
   dialect_->send(*link_, f);
 }
 

@@ -9,10 +9,12 @@ namespace osteon {
 
 /// The USB 4-DOF force-feedback joystick over any transport. Force on X, Y, Z; the rotation is read
 /// alone. It gives no force while it is not brought up, has sent nothing sound for 10 ms, or
-/// reports a fault; an unplugged joystick stays disconnected until it is opened anew.
+/// reports a fault; an unplugged joystick stays disconnected until it is opened anew. A force that
+/// was not followed by another within 20 ms has ended in its firmware: the next reading says so.
 class JoystickDevice : public HapticDevice {
  public:
   static constexpr std::int64_t kSilence_ns = 10'000'000;
+  static constexpr std::int64_t kOrderLife_ns = 20'000'000;  ///< of a force, in its firmware
   static constexpr double kImpossible_m_per_s = 10;  ///< a reading that leaps so is a false one
 
   /// Takes an open link and brings the joystick up; waits for that, at most a second.
@@ -38,6 +40,7 @@ class JoystickDevice : public HapticDevice {
   bool leaps(const JoystickReading& reading) const;
   bool dead_man_held() const;
   ForceOff judge() const;
+  bool too_late() const;
 
   JoystickProfile profile_;
   std::unique_ptr<UsbLink> link_;  ///< null once closed
@@ -51,7 +54,8 @@ class JoystickDevice : public HapticDevice {
   int bad_in_a_row_ = 0;
   std::uint64_t bad_reports_ = 0;
   UsbCounters last_counters_;
-  bool force_given_ = false;  ///< the last command was not zero
+  bool force_given_ = false;     ///< the last command was not zero
+  std::int64_t ordered_ns_ = 0;  ///< when it was given
 };
 
 }  // namespace osteon

@@ -113,6 +113,26 @@ TEST_P(JoystickFault, StallsOfTwentyAndAHundredMilliseconds) {
   }
 }
 
+TEST_P(JoystickFault, AProgramThatStallsForFiveMillisecondsIsLivedThrough) {
+  rig.pass_ms(5);
+  run(100);
+  EXPECT_EQ(loop->gate.cause(), ForceOff::kNone) << describe(loop->gate.cause());
+  EXPECT_LT(rig.motors().x(), -1.0);
+}
+
+// Its firmware ends the force on time; that it may not come back by itself is ours to see to.
+TEST_P(JoystickFault, AProgramThatStallsForTwentyFiveOrAHundredMilliseconds) {
+  for (const int stall_ms : {25, 100}) {
+    SCOPED_TRACE(stall_ms);
+    rig.pass_ms(kFirmwareTimeout_ms + 1);
+    EXPECT_EQ(rig.motors(), Vec3(Vec3::Zero()));
+    rig.pass_ms(stall_ms - kFirmwareTimeout_ms - 1);
+    EXPECT_LE(ms_to_zero(300, 150), 1);
+    EXPECT_EQ(loop->gate.cause(), ForceOff::kWatchdog) << describe(loop->gate.cause());
+    expect_rearm_by_the_user_only();
+  }
+}
+
 // The device hears us but we do not hear it: zero must be on its way after 10 ms.
 TEST_P(JoystickFault, LateReports) {
   rig.faults().in_late_ns = 50 * kMs;
