@@ -9,7 +9,7 @@ packages_build=(
   libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )
 packages_test=(
-  libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth clang clang-format libclang-rt-14-dev sqlite3
+  libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev)

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -94,15 +95,22 @@ class LiveFixture : public CliTest {
 
   // `number` 0: it ends by itself.
   void expect_orderly_end(pid_t child, int number) {
-    ASSERT_TRUE(wait_until_running()) << output();
-    if (number != 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+    expect_orderly_end(child, number == 0 ? 0 : 128 + number, [&] {
+      if (number == 0) return;
+      wait_for_contact();
       ::kill(child, number);
-    }
+    });
+  }
+
+  static void wait_for_contact() { std::this_thread::sleep_for(std::chrono::milliseconds(2500)); }
+
+  void expect_orderly_end(pid_t child, int exit_code, const std::function<void()>& end) {
+    ASSERT_TRUE(wait_until_running()) << output();
+    end();
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFEXITED(status)) << "killed by " << WTERMSIG(status);
-    EXPECT_EQ(WEXITSTATUS(status), number == 0 ? 0 : 128 + number) << output();
+    EXPECT_EQ(WEXITSTATUS(status), exit_code) << output();
     expect_zero_after_contact();
     const auto recording = load_recording(file("run.osr"));
     ASSERT_TRUE(recording) << recording.error().message();

@@ -44,6 +44,17 @@ TEST_F(WindowExit, AHangUpAndAnInterruptDoTheSame) {
   expect_orderly_end(start_window(), SIGINT);
 }
 
+TEST_F(WindowExit, SoDoesTheKeyThatEndsIt) {
+  if (std::system("command -v xdotool > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "xdotool is not installed (Debian: xdotool)";
+  const pid_t child = start_window();
+  expect_orderly_end(child, 0, [&] {
+    wait_for_contact();
+    const std::string key = "DISPLAY=:$(head -1 " + file("display") + ") xdotool key ctrl+q";
+    ASSERT_EQ(std::system(key.c_str()), 0);
+  });
+}
+
 TEST_F(WindowExit, WithoutAnyDeviceLibraryItStartsAllTheSame) {
   ::setenv("OSTEON_HD_LIBRARY", file("no_such_libHD.so").c_str(), 1);
   expect_orderly_end(start_window(" --check-up --at 2 --frames 2"), 0);
