@@ -31,9 +31,10 @@ bool RenderTarget::ensure(int width, int height, int samples) {
   framebuffer_ = make_framebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   attach_color();
+  // Not packed with a stencil: software drivers clear a part of packed pixels one by one.
   depth_ = make_renderbuffer();
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.get());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT32F, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.get());
   glBindRenderbuffer(GL_RENDERBUFFER, 0);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;

@@ -29,8 +29,11 @@ class ImGuiHost {
   void end_frame();
 
  private:
+  void choose_atlas_filter();
+
   UiFonts fonts_;
   float scale_ = 0;
+  bool atlas_ready_ = false;     ///< the filter of the font texture is chosen
   std::vector<int> short_keys_;  ///< shown as down in the last frame though they were up
 };
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <string>
 
+#include "window/panel_ground.h"
 #include "window/panel_look.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
@@ -88,7 +89,7 @@ void draw_case_card(const PanelContext& c) {
   const UiRect& r = c.layout.left;
   ImGui::SetNextWindowPos({r.x, r.y});
   ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
-  ImGui::Begin("##case", nullptr, kCard);
+  begin_panel("##case", kCard);
   ViewState view = c.model.view;
   if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
   draw_soft_section(c);

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "window/panel_ground.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
 
@@ -151,7 +152,7 @@ void draw_hand_card(const PanelContext& c) {
   const UiRect& r = c.layout.right;
   ImGui::SetNextWindowPos({r.x, r.y});
   ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
-  ImGui::Begin("##hand", nullptr, kCard);
+  begin_panel("##hand", kCard);
   if (ui::section(c.fonts, "Hand")) {
     draw_device_menu(c);
     draw_force_state(c);

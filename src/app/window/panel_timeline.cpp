@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "window/panel_ground.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
 
@@ -181,7 +182,7 @@ void draw_timeline(const PanelContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::Begin("##timeline", nullptr, kBar);
+  begin_panel("##timeline", kBar);
   ImGui::PopStyleVar(3);
   const float x0 = c.model.replay.on ? draw_transport(c) : draw_live_label(c);
   draw_lane(c, x0, r.right() - c.px(16));

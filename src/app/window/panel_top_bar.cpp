@@ -1,5 +1,6 @@
 #include <string>
 
+#include "window/panel_ground.h"
 #include "window/panels.h"
 #include "window/ui_widgets.h"
 
@@ -100,7 +101,7 @@ void draw_top_bar(const PanelContext& c) {
   ImGui::SetNextWindowSize({r.w, r.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::Begin("##top", nullptr, kBar);
+  begin_panel("##top", kBar);
   ImGui::PopStyleVar(2);
   draw_title(c);
   ImGui::SetCursorPos({r.w - right_part_width(c), 0.5f * (r.h - ImGui::GetFrameHeight())});

@@ -46,7 +46,7 @@ void apply_theme(float scale) {
   style.ScrollbarSize = 8;
   style.GrabMinSize = 8;
   style.WindowMinSize = {16, 16};
-  style.AntiAliasedLinesUseTex = true;
+  style.AntiAliasedLinesUseTex = false;  // they would need mixed texels
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
 }

@@ -103,7 +103,7 @@ void WindowApp::draw_picture() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
   glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClear(GL_COLOR_BUFFER_BIT);
   if (!ready() || width <= 0 || height <= 0) return;
   ViewState shown = picture_view();
   for (const BoneId id : {hovered_, hovered_row_, picked_})
