@@ -29,7 +29,7 @@ FrictionStep apply_friction(std::span<const Vec3> path, const Friction& friction
   const double limit = was_sliding ? dynamic_lag : friction.static_lag_m;
   const double way = length(path);
   if (limit > 0 && way <= limit) return {path.front(), true, false};
-  constexpr double kShare = 0.1;
+  constexpr double kShare = 0.05;
   const double glide = friction.glide_m + kShare * way;
   const double lag = std::max(dynamic_lag, way - glide);
   return {lag > 0 ? behind_end(path, lag) : path.back(), false, friction.static_lag_m > 0};

@@ -18,9 +18,10 @@ struct FrictionStep {
 /// written as a stretch of the same spring, the proxy stays at the first point while the path is
 /// not longer than `static_lag_m` (static friction ratio times load), and else follows at
 /// `dynamic_lag_m` behind the last point. Once sliding, it sticks again when the path is not longer
-/// than the dynamic lag. In one step it goes at most `glide_m` and a tenth of its way, so that the
-/// passage over an edge or from one facet to the next is felt as a slope (of about 10 steps) and
-/// not as a click.
+/// than the dynamic lag. In one step it goes at most `glide_m` and a twentieth of its way, so that
+/// the passage over an edge or from one facet to the next is felt as a slope (of about 20 steps)
+/// and not as a click: a tip drawn 1 mm into bone falls by up to 0.6 mm from facet to facet, and
+/// may change its force by 5 % in a step.
 struct Friction {
   double static_lag_m = 0;
   double dynamic_lag_m = 0;
