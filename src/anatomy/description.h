@@ -29,6 +29,29 @@ struct BoneDescription {
   Mat3 R_WB = Mat3::Identity();
   Solid solid;  ///< in Bone
   std::vector<Clearance> clearances;
+  /// Taken from it last, by findings; in World. Its neighbours clear it as if it were whole.
+  std::vector<BoundPart> defects = {};
+  double coarsest_cell_m = 1;  ///< that shows the defects, whatever cell is asked for
+};
+
+/// Bones that a finding moves rigidly once they and their cartilage have grown, about the pivot and
+/// then by the shift.
+struct Displacement {
+  std::vector<std::size_t> bones;
+  Mat3 R_W = Mat3::Identity();
+  Vec3 shift_W = Vec3::Zero();  ///< metres of the finished anatomy, whatever its size
+  BoundPoint pivot;
+};
+
+/// A bone that a finding parts: what its defects leave becomes bones of their own, each named by
+/// the place that it lies nearest to.
+struct BoneSplit {
+  struct Fragment {
+    std::string name;
+    BoundPoint near;
+  };
+  std::size_t bone = 0;
+  std::vector<Fragment> fragments;
 };
 
 struct LandmarkDescription {
@@ -45,6 +68,8 @@ struct AnatomyDescription {
   std::vector<BoneDescription> bones;
   std::vector<SoftDescription> softs;
   std::vector<LandmarkDescription> landmarks;
+  std::vector<Displacement> displacements = {};
+  std::vector<BoneSplit> splits = {};
 };
 
 /// Reads a description (its grammar: docs/anatomy-description.md). Strict: a key that is missing,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "displace.h"
 #include "grow.h"
 #include "osteon/base/file.h"
 #include "osteon/mesh/isosurface.h"
@@ -21,10 +22,15 @@ struct Neighbour {
 
 class BoneField {
  public:
-  BoneField(const AnatomyDescription& anatomy, const BoneDescription& bone) : solid_(bone.solid) {
+  BoneField(const AnatomyDescription& anatomy, const BoneDescription& bone)
+      : bone_(bone), solid_(bone.solid) {
     stretch_ = osteon::stretch(solid_);
     for (const Part& part : solid_.parts) slack_ += 0.25 * part.blend;
     for (const Clearance& c : bone.clearances) add(anatomy.bones[c.other_bone], bone, c);
+    for (const BoundPart& defect : bone.defects) {
+      stretch_ = std::max(stretch_, osteon::stretch(defect.part.primitive));
+      slack_ += 0.25 * defect.part.blend;
+    }
   }
 
   double operator()(const Vec3& p_B) const {
@@ -34,6 +40,9 @@ class BoneField {
       const Aabb at{p_N, p_N};
       if (n.reach_N.overlaps(at)) d = smooth_max(d, n.gap - distance(*n.solid, p_N), n.blend);
     }
+    if (bone_.defects.empty()) return d;
+    const Vec3 p_W = bone_.R_WB * p_B + bone_.p_WB;
+    for (const BoundPart& defect : bone_.defects) d = less(d, defect.part, p_W);
     return d;
   }
   double stretch() const { return stretch_; }
@@ -55,19 +64,23 @@ class BoneField {
     for (const Part& part : other.solid.parts) slack_ += 0.25 * part.blend;
   }
 
+  const BoneDescription& bone_;
   const Solid& solid_;
   std::vector<Neighbour> neighbours_;
   double stretch_ = 1;
   double slack_ = 0;
 };
 
-Result<GeneratedBone> grow(const AnatomyDescription& anatomy, const BoneDescription& bone,
-                           const GenerateOptions& options, const std::string& file) {
+}  // namespace
+
+Result<GeneratedBone> grow_bone(const AnatomyDescription& anatomy, const BoneDescription& bone,
+                                const GenerateOptions& options, const std::string& file) {
   const BoneField field(anatomy, bone);
   IsosurfaceOptions surface;
-  surface.cell_m = options.cell_m.value_or(bone.cell_m);
+  surface.cell_m = std::min(options.cell_m.value_or(bone.cell_m), bone.coarsest_cell_m);
   surface.stretch = field.stretch();
   surface.slack_m = field.slack();
+  surface.uncrossed = !bone.defects.empty();
   auto mesh = isosurface([&field](const Vec3& p_B) { return field(p_B); },
                          bounds(bone.solid).grown(surface.cell_m), surface);
   if (!mesh)
@@ -76,14 +89,11 @@ Result<GeneratedBone> grow(const AnatomyDescription& anatomy, const BoneDescript
   GeneratedBone grown;
   grown.name = bone.name;
   grown.fma_id = bone.fma_id;
-  grown.X_WB.p = bone.p_WB;
-  grown.X_WB.q = Quat(bone.R_WB);
+  grown.X_WB = rest_pose(bone);
   grown.mesh = std::move(*mesh);
   grown.density_kg_per_m3 = bone.density_kg_per_m3;
   return grown;
 }
-
-}  // namespace
 
 void run_tasks(const GenerateOptions& options, std::size_t count,
                const std::function<void(std::size_t)>& task,
@@ -106,11 +116,12 @@ Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
   if (options.progress) options.progress(0);
   run_tasks(
       options, bones.size(),
-      [&](std::size_t i) { bones[i] = grow(anatomy, anatomy.bones[i], options, file); },
+      [&](std::size_t i) { bones[i] = grow_bone(anatomy, anatomy.bones[i], options, file); },
       options.progress);
-  for (Result<GeneratedBone>& bone : bones) {
-    if (!bone) return tl::unexpected(bone.error());
-    generated.bones.push_back(std::move(*bone));
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    if (!bones[i]) return tl::unexpected(bones[i].error());
+    if (const auto moved = displacement_of(anatomy, i)) bones[i]->X_WB = *moved * bones[i]->X_WB;
+    generated.bones.push_back(std::move(*bones[i]));
   }
   for (const LandmarkDescription& landmark : anatomy.landmarks)
     generated.landmarks.push_back({landmark.name, landmark.p_W});

@@ -9,8 +9,13 @@
 
 namespace osteon {
 
-/// Grows every bone of a description that is in memory, and places its landmarks; `file` names it
-/// in errors. Soft parts are not grown: see soft_grow.h.
+/// Grows one bone, at rest. It need not be one of the description's own: a changed copy will do.
+Result<GeneratedBone> grow_bone(const AnatomyDescription& anatomy, const BoneDescription& bone,
+                                const GenerateOptions& options, const std::string& file);
+
+/// Grows every bone of a description that is in memory, where its findings move it, and places its
+/// landmarks; `file` names it in errors. Bones are not parted yet (split_bones.h), and soft parts
+/// not grown (soft_grow.h).
 Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
                                     const GenerateOptions& options, const std::string& file);
 

@@ -3,5 +3,6 @@ osteon_link_system(osteon_anatomy tomlplusplus::tomlplusplus)
 # Millions of field values a wrist: without optimisation a debug build would take minutes to start.
 # The results are the same bits.
 set_source_files_properties("${CMAKE_SOURCE_DIR}/src/anatomy/shape.cpp"
+  "${CMAKE_SOURCE_DIR}/src/anatomy/crack.cpp"
   "${CMAKE_SOURCE_DIR}/src/anatomy/generate.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)

@@ -46,14 +46,28 @@ Primitive read_box(TomlReader& in) {
   return b;
 }
 
+Vec3 read_normal(TomlReader& in) {
+  const Vec3 normal = in.vec3("normal", {-1, 1});
+  const double length = normal.norm();
+  if (length < 1e-3) in.reject("must not be zero", "normal");
+  return normal / std::max(length, 1e-3);
+}
+
 Primitive read_half_space(TomlReader& in) {
   HalfSpace h;
   h.point = in.vec3("point_mm", kPlace_mm) * kMm;
-  h.normal = in.vec3("normal", {-1, 1});
-  const double length = h.normal.norm();
-  if (length < 1e-3) in.reject("must not be zero", "normal");
-  h.normal /= std::max(length, 1e-3);
+  h.normal = read_normal(in);
   return h;
+}
+
+Primitive read_crack(TomlReader& in) {
+  Crack c;
+  c.point = in.vec3("point_mm", kPlace_mm) * kMm;
+  c.normal = read_normal(in);
+  c.gap = in.number("gap_mm", kRadius_mm) * kMm;
+  c.rough = in.number("rough_mm", kBlend_mm) * kMm;
+  c.grain = in.number("grain_mm", kRadius_mm) * kMm;
+  return c;
 }
 
 struct ShapeReader {
@@ -65,7 +79,8 @@ struct ShapeReader {
 constexpr ShapeReader kShapes[] = {{"ellipsoid", read_ellipsoid, true},
                                    {"tube", read_tube, true},
                                    {"box", read_box, true},
-                                   {"half_space", read_half_space, false}};
+                                   {"half_space", read_half_space, false},
+                                   {"crack", read_crack, false}};
 
 }  // namespace
 

@@ -92,6 +92,7 @@ struct Bounder {
   Aabb operator()(const Ellipsoid& e) const { return turned_box(e.center, e.radii, e.R_local); }
   Aabb operator()(const RoundedBox& b) const { return turned_box(b.center, b.half, b.R_local); }
   Aabb operator()(const HalfSpace&) const { return {}; }
+  Aabb operator()(const Crack&) const { return {}; }
   Aabb operator()(const Tube& t) const {
     Aabb box;
     for (std::size_t i = 0; i < t.points.size(); ++i) {
@@ -177,6 +178,10 @@ double smooth_min(double a, double b, double k) {
 }
 
 double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
+
+double less(double d, const Part& cut, const Vec3& p) {
+  return smooth_max(d, -distance(cut.primitive, p), cut.blend);
+}
 
 double distance(const Solid& solid, const Vec3& p) {
   double d = distance(solid.parts[0].primitive, p);

@@ -49,15 +49,26 @@ struct HalfSpace {
   Vec3 normal = Vec3::UnitZ();
 };
 
-using Primitive = std::variant<Ellipsoid, Tube, RoundedBox, HalfSpace>;
+/// Rough slit: all that lies within half of `gap`, measured along `normal`, of a bumpy sheet about
+/// the plane through `point`. Cuts only. Its value is at most the distance.
+struct Crack {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  double gap = 0;
+  double rough = 0;  ///< the sheet lies at most this far off the plane
+  double grain = 1;  ///< width of a bump
+};
+
+using Primitive = std::variant<Ellipsoid, Tube, RoundedBox, HalfSpace, Crack>;
 
 double distance(const Ellipsoid& e, const Vec3& p);
 double distance(const Tube& t, const Vec3& p);
 double distance(const RoundedBox& b, const Vec3& p);
 double distance(const HalfSpace& h, const Vec3& p);
+double distance(const Crack& c, const Vec3& p);
 double distance(const Primitive& primitive, const Vec3& p);
 
-/// Box that holds the primitive; empty for a half-space, which has no end.
+/// Box that holds the primitive; empty for a half-space and a crack, which have no end.
 Aabb bounds(const Primitive& primitive);
 
 /// Largest ratio of a primitive's value to the true distance (1 where the value is exact).
@@ -83,6 +94,8 @@ struct Solid {
 };
 
 double distance(const Solid& solid, const Vec3& p);
+/// What is left of a body of value `d` at `p` when `cut` is taken from it.
+double less(double d, const Part& cut, const Vec3& p);
 Aabb bounds(const Solid& solid);
 double stretch(const Solid& solid);
 

@@ -68,6 +68,8 @@ struct SoftDescription {
   std::string kind;  ///< "cartilage", "ligament", "tendon", "disc", "meniscus", "fat", "skin"
   double cell = 0.0005;
   std::variant<LayerDescription, BandDescription, VolumeDescription, SkinDescription> shape;
+  std::vector<BoundPart> defects = {};  ///< taken from it last, by findings
+  std::size_t pieces = 1;               ///< so many are kept of what it falls into, the largest
 };
 
 /// The bone that a soft part grows with: the layer's own, else that of its first point or part.

@@ -28,11 +28,17 @@ std::vector<Obstacle> near_box(const std::vector<Obstacle>& obstacles, const Aab
   return near;
 }
 
-/// Surface of what `shape` holds and the obstacles leave; no point of the shape is deeper in it
-/// than `depth`.
+/// Surface of what `shape` holds and the defects and obstacles leave; no point of the shape is
+/// deeper in it than `depth`.
 template <class Shape>
 Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, double sink,
-                             const std::vector<Obstacle>& all, IsosurfaceOptions options) {
+                             const SoftDescription& soft, const std::vector<Obstacle>& all,
+                             IsosurfaceOptions options) {
+  options.uncrossed = true;
+  for (const BoundPart& defect : soft.defects) {
+    options.stretch = std::max(options.stretch, stretch(defect.part.primitive));
+    options.slack_m += 0.25 * defect.part.blend;
+  }
   const std::vector<Obstacle> obstacles = near_box(all, box.grown(options.cell_m));
   // Obstacles count where the shape itself is; elsewhere its own distance is a bound that will do.
   const double beyond = 2 * options.cell_m;
@@ -40,13 +46,14 @@ Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, 
   SampledField nearest([&](const Vec3& p) { return nearest_obstacle(obstacles, p, farthest); },
                        box.grown(3 * options.cell_m), options.cell_m);
   const auto field = [&](const Vec3& p) {
-    const double d = shape(p);
+    double d = shape(p);
+    for (const BoundPart& defect : soft.defects) d = less(d, defect.part, p);
     if (d > beyond) return d;
     return std::max(d, -nearest(p) - sink);
   };
   options.slack_m += beyond + sink;
   auto mesh = isosurface(field, box.grown(options.cell_m), options);
-  if (mesh) keep_largest_piece(*mesh);
+  if (mesh) keep_largest_pieces(*mesh, soft.pieces);
   return mesh;
 }
 
@@ -84,10 +91,10 @@ IsosurfaceOptions options_for(const Solid& solid, double cell_m) {
 
 }  // namespace
 
-Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
+Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescription& soft,
                           const std::vector<Obstacle>& obstacles) {
   IsosurfaceOptions options;
-  options.cell_m = cell_m;
+  options.cell_m = soft.cell;
   // Distances beside a bent or widening band are not exact.
   double depth = 0;
   for (const BandSection& s : band.sections) {
@@ -95,16 +102,16 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
     depth = std::max(depth, s.half_thickness);
   }
   return grow_clipped([&](const Vec3& p) { return distance(band, p); }, bounds(band), depth, sink,
-                      obstacles, options);
+                      soft, obstacles, options);
 }
 
-Result<TriMesh> grow_volume(const VolumeDescription& volume, double cell_m,
+Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
                             const std::vector<Obstacle>& obstacles) {
   const Solid solid = solid_of(volume.parts);
   const Aabb box = bounds(solid);
   const double depth = 0.5 * box.extent().minCoeff();
   return grow_clipped([&](const Vec3& p) { return distance(solid, p); }, box, depth, volume.sink,
-                      obstacles, options_for(solid, cell_m));
+                      soft, obstacles, options_for(solid, soft.cell));
 }
 
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
@@ -133,7 +140,7 @@ Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
     return d;
   };
   auto mesh = isosurface(field, box.grown(cell_m), options);
-  if (mesh) keep_largest_piece(*mesh);
+  if (mesh) keep_largest_pieces(*mesh, 1);
   return mesh;
 }
 

@@ -16,9 +16,10 @@ struct Obstacle {
 
 /// What a soft part of this shape fills, as a closed surface in World: that of the band or the
 /// parts, less all that lies deeper than `sink` in an obstacle. Only its largest piece is kept.
-Result<TriMesh> grow_band(const LaidBand& band, double sink, double cell_m,
+/// A part with defects keeps as many pieces as its description says.
+Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescription& soft,
                           const std::vector<Obstacle>& obstacles);
-Result<TriMesh> grow_volume(const VolumeDescription& volume, double cell_m,
+Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
                             const std::vector<Obstacle>& obstacles);
 /// The outline of flesh over the bones.
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,

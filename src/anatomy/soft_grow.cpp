@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "displace.h"
 #include "grow.h"
 #include "osteon/mesh/measure.h"
 #include "soft_field.h"
@@ -20,10 +21,12 @@ class SoftGrower {
       : anatomy_(anatomy), options_(options), file_(file), grown_(grown) {}
 
   Result<void> run() {
+    if (auto ok = grow_whole_bones(); !ok) return ok;
     make_grounds();
     grown_.softs.resize(anatomy_.softs.size());
     for (const int order : {0, 1, 2}) {
       if (auto ok = grow_in_order(order); !ok) return ok;
+      if (order == 0) displace();
       make_obstacles(order);
     }
     return {};
@@ -47,17 +50,55 @@ class SoftGrower {
     return std::holds_alternative<VolumeDescription>(soft.shape) ? 2 : 1;
   }
 
+  /// A bone with defects as it was before: what lay on it and beside it grew then.
+  Result<void> grow_whole_bones() {
+    whole_.resize(anatomy_.bones.size());
+    fine_.resize(anatomy_.bones.size());
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      BoneDescription bone = anatomy_.bones[i];
+      if (bone.defects.empty()) continue;
+      bone.defects.clear();
+      const auto fine = grow_bone(anatomy_, bone, options_, file_);
+      if (!fine) return tl::unexpected(fine.error());
+      fine_[i] = ground_of(fine->mesh, rest_pose(bone));
+      bone.coarsest_cell_m = 1;
+      auto whole = grow_bone(anatomy_, bone, options_, file_);
+      if (!whole) return tl::unexpected(whole.error());
+      whole_[i] = std::move(whole->mesh);
+    }
+    return {};
+  }
+
   void make_grounds() {
     grounds_.resize(grown_.bones.size());
     run_tasks(options_, grounds_.size(), [&](std::size_t i) {
-      TriMesh mesh_W = grown_.bones[i].mesh;
-      for (Vec3& v : mesh_W.vertices) v = grown_.bones[i].X_WB * v;
-      grounds_[i] = make_ground(std::move(mesh_W));
+      grounds_[i] = ground_of(healthy_mesh(i), rest_pose(anatomy_.bones[i]));
     });
-    for (const auto& ground : grounds_) {
-      all_ground_.push_back(&*ground);
-      obstacles_.push_back({&ground->surface, ground->box});
+    for (const auto& ground : grounds_) all_ground_.push_back(&*ground);
+  }
+
+  const TriMesh& healthy_mesh(std::size_t bone) const {
+    return whole_[bone] ? *whole_[bone] : grown_.bones[bone].mesh;
+  }
+
+  static SoftGround ground_of(TriMesh mesh_W, const Pose& X_WB) {
+    for (Vec3& v : mesh_W.vertices) v = X_WB * v;
+    return make_ground(std::move(mesh_W));
+  }
+
+  /// Cartilage has grown with the bones at rest: it goes with those that findings move, and so
+  /// does what the rest is bound to.
+  void displace() {
+    for (std::size_t i = 0; i < grounds_.size(); ++i) {
+      const auto moved = displacement_of(anatomy_, i);
+      if (!moved) continue;
+      grounds_[i] = ground_of(healthy_mesh(i), grown_.bones[i].X_WB);
+      for (std::size_t k = 0; k < anatomy_.softs.size(); ++k)
+        if (order_of(anatomy_.softs[k]) == 0 && carrier(anatomy_.softs[k]) == i)
+          for (Vec3& v : grown_.softs[k].mesh_W.vertices) v = *moved * v;
     }
+    move_bound_along(anatomy_);
+    for (const auto& ground : grounds_) obstacles_.push_back({&ground->surface, ground->box});
   }
 
   Result<void> grow_in_order(int order) {
@@ -110,7 +151,7 @@ class SoftGrower {
 
   const std::string& bone_name(std::size_t bone) const { return anatomy_.bones[bone].name; }
 
-  Result<TriMesh> mesh_of(const LayerDescription& layer, const SoftDescription&,
+  Result<TriMesh> mesh_of(const LayerDescription& layer, const SoftDescription& soft,
                           GeneratedSoft& out) const {
     std::vector<const LayerDescription*> on_same_bone;
     for (const SoftDescription& other : anatomy_.softs)
@@ -118,7 +159,12 @@ class SoftGrower {
         if (l->bone == layer.bone) on_same_bone.push_back(l);
     out.thickness_m = layer.thickness;
     out.bones = {bone_name(layer.bone)};
-    return grow_layer(layer, on_same_bone, all_ground_);
+    std::vector<BoundPart> defects = soft.defects;
+    const auto& of_bone = anatomy_.bones[layer.bone].defects;
+    defects.insert(defects.end(), of_bone.begin(), of_bone.end());
+    GroundView ground = all_ground_;
+    if (fine_[layer.bone]) ground[layer.bone] = &*fine_[layer.bone];
+    return grow_layer(layer, on_same_bone, ground, defects);
   }
 
   Result<TriMesh> mesh_of(const BandDescription& band, const SoftDescription& soft,
@@ -133,7 +179,7 @@ class SoftGrower {
       if (std::find(out.bones.begin(), out.bones.end(), bone) == out.bones.end())
         out.bones.push_back(bone);
     }
-    return grow_band(laid, band.sink, soft.cell, obstacles_);
+    return grow_band(laid, band.sink, soft, obstacles_);
   }
 
   Result<TriMesh> mesh_of(const VolumeDescription& volume, const SoftDescription& soft,
@@ -148,7 +194,7 @@ class SoftGrower {
     for (const BoundPart& part : volume.parts)
       if (std::find(out.bones.begin(), out.bones.end(), bone_name(part.bone)) == out.bones.end())
         out.bones.push_back(bone_name(part.bone));
-    return grow_volume(volume, soft.cell, obstacles);
+    return grow_volume(volume, soft, obstacles);
   }
 
   Result<TriMesh> mesh_of(const SkinDescription& skin, const SoftDescription& soft,
@@ -156,10 +202,12 @@ class SoftGrower {
     return grow_skin(skin, soft.cell, anatomy_.bones);
   }
 
-  const AnatomyDescription& anatomy_;
+  AnatomyDescription anatomy_;
   const GenerateOptions& options_;
   const std::string& file_;
   GeneratedAnatomy& grown_;
+  std::vector<std::optional<TriMesh>> whole_;    ///< of bones with defects: without, in Bone
+  std::vector<std::optional<SoftGround>> fine_;  ///< of the same, in the detail of the defects
   std::vector<std::optional<SoftGround>> grounds_;
   GroundView all_ground_;
   std::vector<Obstacle> obstacles_;

@@ -15,6 +15,7 @@ constexpr int kRimRounds = 8;
 constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
 constexpr double kLeastFacing = 0.3;     // cosine between the normal and the way to the other bone
+constexpr double kBare_m = 5e-5;         // beside a defect (D)
 constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
 
 double distance_to_box(const Vec3& p, const Aabb& box) {
@@ -65,8 +66,12 @@ void smooth_rim(const VertexRings& rings, CoveredPatch& patch) {
 class LayerMaker {
  public:
   LayerMaker(const LayerDescription& layer,
-             const std::vector<const LayerDescription*>& on_same_bone, const GroundView& ground)
-      : layer_(layer), ground_(ground), others_(all_but(layer.bone, ground.size())) {
+             const std::vector<const LayerDescription*>& on_same_bone, const GroundView& ground,
+             const std::vector<BoundPart>& defects)
+      : layer_(layer),
+        ground_(ground),
+        defects_(defects),
+        others_(all_but(layer.bone, ground.size())) {
     for (const LayerDescription* other : on_same_bone)
       if (other != &layer)
         rivals_.insert(rivals_.end(), other->facing.begin(), other->facing.end());
@@ -85,6 +90,8 @@ class LayerMaker {
     smooth_rim(vertex_rings(bone.surface.mesh()), whole);
     for (CoveredVertex& v : whole.vertices)
       if (v.inside > 0) v.height = height(v);
+    // After the heights, so that a defect has a steep edge where the rim thins out.
+    for (CoveredVertex& v : whole.vertices) v.inside = std::min(v.inside, outside_defects(v.p));
     return raise_patch(cut_patch(whole, kRim_m, kLeastArea_m2));
   }
 
@@ -103,6 +110,13 @@ class LayerMaker {
     return std::min(inside, 0.5 * (rival.distance - own.distance) * layer_.taper / kBorder_m);
   }
 
+  double outside_defects(const Vec3& p) const {
+    double outside = layer_.taper;
+    for (const BoundPart& defect : defects_)
+      outside = std::min(outside, distance(defect.part.primitive, p) - kBare_m);
+    return outside;
+  }
+
   double height(const CoveredVertex& v) const {
     const double share = std::min(v.inside / layer_.taper, 1.0);
     const double wanted = layer_.thickness * share * share * (3 - 2 * share);
@@ -114,6 +128,7 @@ class LayerMaker {
 
   const LayerDescription& layer_;
   const GroundView& ground_;
+  const std::vector<BoundPart>& defects_;
   std::vector<std::size_t> others_, rivals_;
   Solid region_;
 };
@@ -144,8 +159,8 @@ SoftGround make_ground(TriMesh mesh_W) {
 
 TriMesh grow_layer(const LayerDescription& layer,
                    const std::vector<const LayerDescription*>& on_same_bone,
-                   const GroundView& ground) {
-  return LayerMaker(layer, on_same_bone, ground).make();
+                   const GroundView& ground, const std::vector<BoundPart>& defects) {
+  return LayerMaker(layer, on_same_bone, ground, defects).make();
 }
 
 }  // namespace osteon

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apply_findings.h"
 #include "grow.h"
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "overlap.h"
 #include "soft_grow.h"
+#include "split_bones.h"
 #include "vary.h"
 
 namespace osteon {
@@ -101,6 +103,14 @@ Result<AnatomyDescription> load_description(const std::filesystem::path& file) {
   return parse_description(*text, file.string());
 }
 
+Result<std::vector<GeneratedFinding>> add_findings(const VariationRequest& request,
+                                                   AnatomyDescription& anatomy) {
+  if (request.findings.empty()) return std::vector<GeneratedFinding>{};
+  const auto table = load_findings(request.findings_table);
+  if (!table) return tl::unexpected(table.error());
+  return apply_findings(*table, request.findings, anatomy);
+}
+
 Result<Drawn> choose(const VariationTable& table, const VariationRequest& request) {
   if (!request.side.empty() && request.side != "left" && request.side != "right")
     return fail("must be left or right, not '" + request.side + "'", "side");
@@ -126,8 +136,10 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
                                       const GenerateOptions& options) {
   const auto rules = load_variation(table);
   if (!rules) return tl::unexpected(rules.error());
-  const auto anatomy = load_description(description);
+  auto anatomy = load_description(description);
   if (!anatomy) return tl::unexpected(anatomy.error());
+  auto findings = add_findings(request, *anatomy);
+  if (!findings) return tl::unexpected(findings.error());
   auto drawn = choose(*rules, request);
   if (!drawn) return tl::unexpected(drawn.error());
   VariedAnatomy varied;
@@ -143,11 +155,13 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
           description.string(), "Choose values nearer to the means");
   }
   varied.anatomy = std::move(bones->grown);
-  if (options.soft_parts) {
-    const auto& varied_description = bones->description;
-    auto ok = grow_soft_parts(varied_description, options, description.string(), varied.anatomy);
-    if (!ok) return tl::unexpected(ok.error());
-  }
+  const std::string file = description.string();
+  if (options.soft_parts)
+    if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy); !ok)
+      return tl::unexpected(ok.error());
+  if (auto ok = split_bones(bones->description, file, varied.anatomy); !ok)
+    return tl::unexpected(ok.error());
+  varied.anatomy.findings = std::move(*findings);
   for (std::size_t i = 0; i < rules->rules.size(); ++i)
     varied.values.emplace_back(rules->rules[i].parameter.name, drawn->values[i]);
   if (!request.side.empty() && request.side != varied.anatomy.side) mirror(varied.anatomy);

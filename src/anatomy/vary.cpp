@@ -35,6 +35,10 @@ struct Bend {
     h.normal = turn_B(h.point) * h.normal;
     h.point = moved(h.point);
   }
+  void operator()(Crack& c) const {
+    c.normal = turn_B(c.point) * c.normal;
+    c.point = moved(c.point);
+  }
   void operator()(Tube& t) const {
     for (Vec3& p : t.points) p = moved(p);
     find_reach(t);
@@ -52,6 +56,7 @@ struct Shifter {
   void operator()(Ellipsoid& e) const { e.center += by_B; }
   void operator()(RoundedBox& b) const { b.center += by_B; }
   void operator()(HalfSpace& h) const { h.point += by_B; }
+  void operator()(Crack& c) const { c.point += by_B; }
   void operator()(Tube& t) const {
     for (Vec3& p : t.points) p += by_B;
   }
@@ -70,6 +75,12 @@ struct Scaler {
     b.round *= s;
   }
   void operator()(HalfSpace& h) const { h.point *= s; }
+  void operator()(Crack& c) const {
+    c.point *= s;
+    c.gap *= s;
+    c.rough *= s;
+    c.grain *= s;
+  }
   void operator()(Tube& t) const {
     for (Vec3& p : t.points) p *= s;
     for (double& r : t.radii) r *= s;

@@ -69,8 +69,13 @@ void move_bound(AnatomyDescription& anatomy, const std::vector<std::string>& bon
   for (LandmarkDescription& landmark : anatomy.landmarks)
     if (landmark.on_bone && mover.moves(*landmark.on_bone))
       landmark.p_W = move.point_W(landmark.p_W);
+  for (BoneDescription& bone : anatomy.bones) mover.parts(bone.defects);
+  for (Displacement& d : anatomy.displacements) mover.point(d.pivot);
+  for (BoneSplit& split : anatomy.splits)
+    for (BoneSplit::Fragment& fragment : split.fragments) mover.point(fragment.near);
   for (SoftDescription& soft : anatomy.softs) {
     std::visit(PlaceMover{mover}, soft.shape);
+    mover.parts(soft.defects);
     if (mover.moves(carrier(soft))) std::visit(LengthScaler{move.scale}, soft.shape);
   }
 }

@@ -24,7 +24,7 @@ namespace {
 struct MakeCommand {
   std::string name, out, side;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> set;
+  std::vector<std::string> set, findings;
 };
 
 std::string shown(double v) {
@@ -47,8 +47,21 @@ Result<ParameterValue> read_set(const std::string& text) {
   return ParameterValue{text.substr(0, equals), value};
 }
 
-Result<VariationRequest> request_of(const MakeCommand& command) {
+Result<FindingChoice> read_finding(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    return fail("is not NAME=GRADE", "--finding " + text, "See osteon anatomy list");
+  return FindingChoice{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Result<VariationRequest> request_of(const MakeCommand& command, const AnatomyFiles& files) {
   VariationRequest request;
+  request.findings_table = files.findings;
+  for (const std::string& text : command.findings) {
+    auto finding = read_finding(text);
+    if (!finding) return tl::unexpected(finding.error());
+    request.findings.push_back(std::move(*finding));
+  }
   request.seed = command.seed;
   request.side = command.side;
   for (const std::string& text : command.set) {
@@ -64,6 +77,7 @@ std::string provenance(const MakeCommand& command, const VariedAnatomy& varied) 
   std::string text = "# Made by: osteon anatomy make " + command.name;
   if (command.seed) text += " --seed " + std::to_string(*command.seed);
   for (const std::string& set : command.set) text += " --set " + set;
+  for (const std::string& finding : command.findings) text += " --finding " + finding;
   if (!command.side.empty()) text += " --side " + command.side;
   text += "\n";
   if (varied.halvings > 0)
@@ -85,7 +99,7 @@ Result<void> save_with_note(const CaseDef& def, const std::string& note,
 Result<VariedAnatomy> grow(const MakeCommand& command) {
   const auto files = builtin_anatomy(command.name);
   if (!files) return tl::unexpected(files.error());
-  const auto request = request_of(command);
+  const auto request = request_of(command, *files);
   if (!request) return tl::unexpected(request.error());
   ProgressLine line;
   GenerateOptions options;
@@ -110,9 +124,22 @@ int run_make(const MakeCommand& command) {
   if (varied->halvings > 0)
     std::printf("bones met: drawn values were moved half the way to their means %d times\n",
                 varied->halvings);
+  for (const CaseFinding& finding : def.findings)
+    std::printf("finding %s=%s: %s\n", finding.name.c_str(), finding.grade.c_str(),
+                finding.meaning.c_str());
   std::printf("%zu bones, %zu soft parts, %s -> %s\n", def.bones.size(), def.softs.size(),
               def.side.c_str(), out.string().c_str());
   return kExitDone;
+}
+
+void print_findings(const std::vector<AnatomyFinding>& findings) {
+  std::printf("\nfindings, as --finding NAME=GRADE\n");
+  for (const AnatomyFinding& finding : findings) {
+    std::printf("%s: %s  [%s]\n", finding.name.c_str(), finding.meaning.c_str(),
+                finding.source.c_str());
+    for (const FindingGrade& grade : finding.grades)
+      std::printf("  %-14s %s\n", grade.name.c_str(), grade.meaning.c_str());
+  }
 }
 
 int run_list(const std::string& name) {
@@ -125,6 +152,9 @@ int run_list(const std::string& name) {
   for (const VariationParameter& p : *parameters)
     std::printf("%-26s %7g %6g %6g %6g %9g  %s\n  %s\n", p.name.c_str(), p.mean, p.sd, p.min, p.max,
                 p.built_in, p.source.c_str(), p.meaning.c_str());
+  const auto findings = list_findings(files->findings);
+  if (!findings) return report_error(findings.error());
+  print_findings(*findings);
   return kExitDone;
 }
 
@@ -142,6 +172,10 @@ void add_make(CLI::App& anatomy, int& exit_code) {
   make->add_option("--seed", command->seed,
                    "draw every parameter that is not set; none: as built in");
   make->add_option("--set", command->set, "NAME=NUMBER; may be given several times")
+      ->take_all()
+      ->expected(1);
+  make->add_option("--finding", command->findings,
+                   "NAME=GRADE, what is wrong with the patient; may be given several times")
       ->take_all()
       ->expected(1);
   make->add_option("--side", command->side, "left or right (default: right)");

@@ -82,6 +82,13 @@ void print_softs(const Case& c) {
   print("\n" + table.text());
 }
 
+void print_findings(const Case& c) {
+  for (const CaseFinding& finding : c.findings)
+    print("finding " + finding.name + (finding.grade.empty() ? "" : "=" + finding.grade) + ": " +
+          finding.meaning + "\n");
+  if (!c.findings.empty()) print("\n");
+}
+
 int run_info(const std::string& spec) {
   const auto the_case = open_case(spec);
   if (!the_case) return report_error(the_case.error());
@@ -99,6 +106,7 @@ int run_info(const std::string& spec) {
   print(c.name + (c.side.empty() ? "" : " (" + c.side + ")") + ", " +
         plural(c.bones.size(), "bone") + ", " + plural(c.softs.size(), "soft part") + ", " +
         plural(c.landmarks.size(), "landmark") + "\n\n");
+  print_findings(c);
   print(table.text());
   print_softs(c);
   double field_mb = 0;

@@ -46,7 +46,7 @@ void add_tetrahedra(CLI::App& mesh, int& exit_code) {
   auto options = std::make_shared<TetrahedraCommand>();
   command
       ->add_option("SOURCE", options->source,
-                   "a mesh file, or CASE#BONE for a bone of a case, in World")
+                   "a mesh file, or CASE#PART for a bone or soft part of a case, in World")
       ->required();
   command->add_option("--unit", options->unit, "unit of a mesh file; the result has the same")
       ->check(CLI::IsMember({"m", "cm", "mm"}));

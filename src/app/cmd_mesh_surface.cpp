@@ -52,7 +52,9 @@ int finish(const MeshSource& source, const TriMesh& after, const std::string& ou
 }
 
 void add_source(CLI::App& command, SurfaceCommand& options) {
-  command.add_option("SOURCE", options.source, "a mesh file, or CASE#BONE for a bone, in World")
+  command
+      .add_option("SOURCE", options.source,
+                  "a mesh file, or CASE#PART for a bone or soft part, in World")
       ->required();
   command.add_option("--unit", options.unit, "unit of a mesh file; the result has the same")
       ->check(CLI::IsMember({"m", "cm", "mm"}));

@@ -12,18 +12,23 @@ namespace {
 
 constexpr double kMillimetre = 0.001;
 
-Result<MeshSource> from_case(const std::string& spec, const std::string& bone_name) {
+Result<MeshSource> from_case(const std::string& spec, const std::string& part_name) {
   auto def = open_case_def(spec);
   if (!def) return tl::unexpected(def.error());
   std::string names;
   for (BoneDef& bone : def->bones) {
-    if (bone.name == bone_name) {
+    if (bone.name == part_name) {
       for (Vec3& v : bone.mesh.vertices) v = bone.X_WB * v;
       return MeshSource{bone.name, std::move(bone.mesh), kMillimetre, {}};
     }
     names += (names.empty() ? "" : ", ") + bone.name;
   }
-  return fail("has no bone '" + bone_name + "'", spec, "It has " + names);
+  for (SoftDef& soft : def->softs) {
+    if (soft.name == part_name)
+      return MeshSource{soft.name, std::move(soft.mesh_W), kMillimetre, {}};
+    names += ", " + soft.name;
+  }
+  return fail("has no bone and no soft part '" + part_name + "'", spec, "It has " + names);
 }
 
 Result<MeshSource> from_file(const std::string& file, const std::string& unit) {
@@ -50,7 +55,7 @@ Result<MeshSource> load_mesh_source(const std::string& spec, const std::string& 
   std::error_code ec;
   if (mark == std::string::npos || std::filesystem::exists(spec, ec)) {
     if (std::filesystem::is_directory(spec, ec) || spec.starts_with("builtin:"))
-      return fail("is a case", spec, "Name one of its bones: " + spec + "#BONE");
+      return fail("is a case", spec, "Name one of its parts: " + spec + "#PART");
     return from_file(spec, unit);
   }
   return from_case(spec.substr(0, mark), spec.substr(mark + 1));

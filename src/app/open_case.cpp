@@ -76,7 +76,8 @@ Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto folder = *data / "assets/anatomy";
-  return AnatomyFiles{folder / (name + ".toml"), folder / (name + "_variation.toml")};
+  return AnatomyFiles{folder / (name + ".toml"), folder / (name + "_variation.toml"),
+                      folder / (name + "_findings.toml")};
 }
 
 CaseDef case_from(GeneratedAnatomy anatomy) {
@@ -107,6 +108,9 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
   }
   for (GeneratedLandmark& landmark : anatomy.landmarks)
     def.landmarks.push_back({std::move(landmark.name), landmark.p_W});
+  for (GeneratedFinding& finding : anatomy.findings)
+    def.findings.push_back(
+        {std::move(finding.name), std::move(finding.grade), std::move(finding.meaning)});
   return def;
 }
 

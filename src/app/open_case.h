@@ -12,13 +12,14 @@
 
 namespace osteon {
 
-/// Description and variation table of a built-in anatomy; fails on a name that there is none of.
+/// Description, variation table and table of findings of a built-in anatomy; fails on a name that
+/// there is none of.
 struct AnatomyFiles {
-  std::filesystem::path description, table;
+  std::filesystem::path description, table, findings;
 };
 Result<AnatomyFiles> builtin_anatomy(const std::string& name);
 
-/// The bones and landmarks of a grown anatomy, with default materials.
+/// The bones, soft parts, landmarks and findings of a grown anatomy, with default materials.
 CaseDef case_from(GeneratedAnatomy anatomy);
 
 /// Case by what a user names it: `builtin:wrist` and `builtin:knee` are grown from their

@@ -7,6 +7,7 @@
 #include "cube_loops.h"
 #include "isosurface_grid.h"
 #include "surface_relax.h"
+#include "uncross.h"
 
 namespace osteon {
 namespace {
@@ -164,8 +165,10 @@ Result<TriMesh> isosurface(const ScalarField& field, const Aabb& box,
   if (surface.mesh.vertices.empty())
     return fail("no point of the grid is inside the surface", "isosurface",
                 "Choose a smaller cell or another box");
+  const std::vector<Vec3> home = surface.mesh.vertices;
   relax_on_surface(field, surface.quads, options, surface.mesh.vertices);
   cut_quads(surface.quads, surface.mesh);
+  if (options.uncrossed) uncross(surface.mesh, home);
   return std::move(surface.mesh);
 }
 

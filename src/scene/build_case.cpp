@@ -187,6 +187,7 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
   built.name = std::move(def.name);
   built.side = std::move(def.side);
   built.landmarks = std::move(def.landmarks);
+  built.findings = std::move(def.findings);
   built.hash = hash_of(built);
   return built;
 }

@@ -128,6 +128,9 @@ std::string case_text(const CaseDef& def, const MeshFiles& files) {
   for (const Landmark& landmark : def.landmarks)
     text += "\n[[landmarks]]\nname = " + quoted(landmark.name) +
             "\nposition_m = " + bracketed(landmark.p_W) + "\n";
+  for (const CaseFinding& finding : def.findings)
+    text += "\n[[findings]]\nname = " + quoted(finding.name) +
+            "\ngrade = " + quoted(finding.grade) + "\nmeaning = " + quoted(finding.meaning) + "\n";
   return text;
 }
 

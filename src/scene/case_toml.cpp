@@ -182,11 +182,24 @@ void read_landmark(const toml::table& table, const std::string& where, CaseText&
   file.adopt_error(reader);
 }
 
+void read_finding(const toml::table& table, const std::string& where, CaseText& out,
+                  CaseTomlReader& file) {
+  CaseTomlReader reader(table, where, "finding " + std::to_string(out.def.findings.size() + 1));
+  reader.allow_only({"name", "grade", "meaning"});
+  CaseFinding finding;
+  finding.name = read_name(reader);
+  finding.grade = reader.text_or("grade", "");
+  finding.meaning = reader.text_or("meaning", "");
+  out.def.findings.push_back(std::move(finding));
+  file.adopt_error(reader);
+}
+
 Result<CaseText> read_case(const toml::table& root, const std::string& where) {
   CaseTomlReader reader(root, where, "");
   CaseText out;
   reader.number("format", {kFormat, kFormat});
-  reader.allow_only({"format", "name", "side", "mesh_unit", "bones", "soft", "landmarks"});
+  reader.allow_only(
+      {"format", "name", "side", "mesh_unit", "bones", "soft", "landmarks", "findings"});
   out.def.name = read_name(reader);
   out.def.side = read_side(reader);
   out.metres_per_unit = read_unit(reader);
@@ -196,6 +209,8 @@ Result<CaseText> read_case(const toml::table& root, const std::string& where) {
     read_soft(*soft, where, out, reader);
   for (const toml::table* landmark : reader.tables_or_empty("landmarks"))
     read_landmark(*landmark, where, out, reader);
+  for (const toml::table* finding : reader.tables_or_empty("findings"))
+    read_finding(*finding, where, out, reader);
   if (out.def.bones.empty() || out.def.bones.size() > kMaxBones)
     reader.set_error("a case has 1 to " + std::to_string(kMaxBones) + " bones", "bones");
   if (out.def.softs.size() > kMaxSofts)

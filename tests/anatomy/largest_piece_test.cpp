@@ -18,7 +18,7 @@ void add_fan(TriMesh& mesh, std::uint32_t triangles, double x) {
 
 TEST(LargestPiece, OfNothingIsNothing) {
   TriMesh mesh;
-  keep_largest_piece(mesh);
+  keep_largest_pieces(mesh, 1);
   EXPECT_TRUE(mesh.triangles.empty());
 }
 
@@ -28,7 +28,7 @@ TEST(LargestPiece, AWholeMeshKeepsItsOrderAndLosesVerticesThatNothingUses) {
   add_fan(mesh, 4, 1);
   TriMesh expected;
   add_fan(expected, 4, 1);
-  keep_largest_piece(mesh);
+  keep_largest_pieces(mesh, 1);
   EXPECT_EQ(mesh.vertices, expected.vertices);
   EXPECT_EQ(mesh.triangles, expected.triangles);
 }
@@ -39,7 +39,7 @@ TEST(LargestPiece, CrumbsBeforeAndBehindItGo) {
   add_fan(mesh, 5, 1);
   add_fan(mesh, 3, 2);
   add_fan(expected, 5, 1);
-  keep_largest_piece(mesh);
+  keep_largest_pieces(mesh, 1);
   EXPECT_EQ(mesh.vertices, expected.vertices);
   EXPECT_EQ(mesh.triangles, expected.triangles);
 }
@@ -48,7 +48,7 @@ TEST(LargestPiece, OfEqualOnesTheFirstStays) {
   TriMesh mesh;
   add_fan(mesh, 2, 0);
   add_fan(mesh, 2, 1);
-  keep_largest_piece(mesh);
+  keep_largest_pieces(mesh, 1);
   ASSERT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(mesh.vertices[0].x(), 0);
 }
@@ -58,7 +58,7 @@ TEST(LargestPiece, PiecesThatShareOneVertexAreOne) {
   add_fan(mesh, 2, 0);
   add_fan(mesh, 2, 1);
   mesh.triangles.push_back({0, 4, 5});
-  keep_largest_piece(mesh);
+  keep_largest_pieces(mesh, 1);
   EXPECT_EQ(mesh.triangles.size(), 5u);
 }
 

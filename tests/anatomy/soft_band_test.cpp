@@ -53,9 +53,11 @@ TEST_F(Balls, RunsOverTheBoneInItsWay) {
 TEST_F(Balls, TheSurfaceIsWholeAndSunkOnlySlightlyIntoBone) {
   BandDescription band;
   band.path = {point(0, Vec3(0.003, 0, 0.004), true), point(1, Vec3(0.017, 0, 0.004), true)};
+  SoftDescription soft;
+  soft.cell = 0.0004;
   std::vector<Obstacle> obstacles;
   for (const SoftGround& ball : balls_) obstacles.push_back({&ball.surface, ball.box});
-  const auto mesh = grow_band(lay_band(band, ground_), 0.0001, 0.0004, obstacles);
+  const auto mesh = grow_band(lay_band(band, ground_), 0.0001, soft, obstacles);
   ASSERT_TRUE(mesh) << mesh.error().message();
   EXPECT_TRUE(checks::is_closed_manifold(*mesh));
   EXPECT_EQ(checks::euler_number(*mesh), 2);

@@ -42,11 +42,42 @@ TEST_F(Anatomy, AKneeIsMadeAgainByItsSeedAndChecksSound) {
   EXPECT_EQ(check_case(*def), std::vector<std::string>{});
 }
 
+TEST_F(Anatomy, ListSaysFindingsAndTheirGrades) {
+  const Ran ran = run_osteon("anatomy list knee");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  for (const char* word : {"acl_tear", "midsubstance", "meniscal_tear", "cartilage_lesion"})
+    EXPECT_NE(ran.output.find(word), std::string::npos) << word << " in\n" << ran.output;
+}
+
+TEST_F(Anatomy, ACaseWithFindingsSaysSoAndChecksSound) {
+  const Ran made = run_osteon(
+      "anatomy make wrist --finding scaphoid_fracture=nonunion --finding tfcc_tear=1A --out " +
+      file("ill"));
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_NE(text_of("ill/case.toml")
+                .find("make wrist --finding scaphoid_fracture=nonunion --finding tfcc_tear=1A\n"),
+            std::string::npos);
+  const auto def = load_case(file("ill"));
+  ASSERT_TRUE(def) << def.error().message();
+  EXPECT_EQ(check_case(*def), std::vector<std::string>{});
+  EXPECT_EQ(def->bones.size(), 16u);
+  ASSERT_EQ(def->findings.size(), 2u);
+  EXPECT_EQ(def->findings[0].name, "scaphoid_fracture");
+  EXPECT_EQ(def->findings[0].grade, "nonunion");
+  EXPECT_NE(def->findings[1].meaning.find("central"), std::string::npos);
+  const Ran info = run_osteon("case info " + file("ill") + "#hull");
+  EXPECT_EQ(info.exit_code, 0) << info.output;
+  EXPECT_NE(info.output.find("finding scaphoid_fracture=nonunion: "), std::string::npos)
+      << info.output;
+  EXPECT_NE(info.output.find("scaphoid_proximal"), std::string::npos) << info.output;
+}
+
 TEST_F(Anatomy, BadRequestsExitWithTwoAndWriteNothing) {
   for (const char* bad :
        {"wrist --set radial_inclination_deg=80", "wrist --set nose_mm=1", "wrist --set nonsense",
         "wrist --set volar_tilt_deg=", "wrist --set volar_tilt_deg=9x", "wrist --side upper",
-        "wrist --seed x", "elbow"}) {
+        "wrist --seed x", "elbow", "wrist --finding geissler", "wrist --finding geissler=9",
+        "wrist --finding gout=1", "wrist --finding geissler=2 --finding geissler=3"}) {
     const Ran ran = run_osteon("anatomy make " + std::string(bad) + " --out " + file("never"));
     EXPECT_EQ(ran.exit_code, 2) << bad << ": " << ran.output;
     EXPECT_FALSE(fs::exists(file("never"))) << bad;

@@ -25,7 +25,7 @@ TEST_F(Mesh, BadInputExitsWithTwoAndSaysWhat) {
       {"tetrahedra " + file("none.stl") + " --unit mm", "none.stl"},
       {"tetrahedra " + file("meshes/block.obj"), "--unit"},
       {"tetrahedra " + file("open.obj") + " --unit mm", "not closed"},
-      {"tetrahedra " + file("case"), "#BONE"},
+      {"tetrahedra " + file("case"), "#PART"},
       {"tetrahedra " + file("case") + "#femur", "block"},
       {"tetrahedra " + block_ + " --cell-mm 100", "thinner than a cell"},
       {"tetrahedra " + block_ + " --cell-mm 0.01", "larger cell"},

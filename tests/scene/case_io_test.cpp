@@ -83,6 +83,11 @@ TEST(CaseToml, RefusesBadText) {
        "c:10 (soft part 1)"},
       {with_bone(bone + "[[landmarks]]\nname = \"l\"\n"), "'position_m' is missing",
        "c:6 (landmark 1)"},
+      {with_bone(bone + "[[findings]]\ngrade = \"3\"\n"), "'name' is missing", "c:6 (finding 1)"},
+      {with_bone(bone + "[[findings]]\nname = \"f\"\ngrade = 3\n"), "'grade' must be text",
+       "c:8 (finding 1)"},
+      {with_bone(bone + "[[findings]]\nname = \"f\"\ngrades = 3\n"), "'grades' is unknown",
+       "c:8 (finding 1)"},
   };
   for (const BadCase& bad : table) {
     const auto result = parse_case_toml(bad.text, "c");
@@ -138,6 +143,7 @@ CaseDef sample_case() {
   soft.attachments = {{"origin", "lunate", 0.1 * random.direction()}};
   def.softs.push_back(soft);
   def.landmarks = {{"lister's tubercle", 0.1 * random.direction()}};
+  def.findings = {{"geissler", "3", "the \"probe\" passes"}, {"old", "", ""}};
   return def;
 }
 
@@ -182,6 +188,12 @@ void expect_same(const CaseDef& a, const CaseDef& b) {
   for (std::size_t i = 0; i < a.landmarks.size(); ++i) {
     EXPECT_EQ(a.landmarks[i].name, b.landmarks[i].name);
     EXPECT_EQ(a.landmarks[i].p_W, b.landmarks[i].p_W);
+  }
+  ASSERT_EQ(a.findings.size(), b.findings.size());
+  for (std::size_t i = 0; i < a.findings.size(); ++i) {
+    EXPECT_EQ(a.findings[i].name, b.findings[i].name);
+    EXPECT_EQ(a.findings[i].grade, b.findings[i].grade);
+    EXPECT_EQ(a.findings[i].meaning, b.findings[i].meaning);
   }
 }
 

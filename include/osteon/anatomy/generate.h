@@ -46,12 +46,20 @@ struct GeneratedLandmark {
   Vec3 p_W = Vec3::Zero();
 };
 
+/// What is wrong with an anatomy, in words.
+struct GeneratedFinding {
+  std::string name;   ///< "geissler"
+  std::string grade;  ///< "3"
+  std::string meaning;
+};
+
 struct GeneratedAnatomy {
   std::string name;
   std::string side;
   std::vector<GeneratedBone> bones;
   std::vector<GeneratedSoft> softs;
   std::vector<GeneratedLandmark> landmarks;
+  std::vector<GeneratedFinding> findings;
 };
 
 /// Runs task(0) to task(count - 1), in any order and on several threads if it likes, and returns

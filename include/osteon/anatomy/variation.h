@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "osteon/anatomy/findings.h"
 #include "osteon/anatomy/generate.h"
 #include "osteon/base/result.h"
 
@@ -29,6 +30,9 @@ struct VariationRequest {
   std::optional<std::uint64_t> seed;
   std::vector<ParameterValue> set;  ///< goes before what is drawn
   std::string side;                 ///< "left", "right", or empty: the description's own
+  /// What is wrong with the patient, from `findings_table` (assets/anatomy/*_findings.toml).
+  std::vector<FindingChoice> findings = {};
+  std::filesystem::path findings_table = {};
 };
 
 struct VariedAnatomy {
@@ -41,11 +45,13 @@ struct VariedAnatomy {
 /// The parameters of a table (assets/anatomy/*_variation.toml; docs/anatomy-description.md).
 Result<std::vector<VariationParameter>> list_variation(const std::filesystem::path& table);
 
-/// Grows a description as varied by a table. No two bones of the result overlap by more than
-/// kMostOverlap: where they would, drawn values move half the way to their means, a few times over;
-/// where that does not help (or all was set), the error names the bones. The same request gives the
-/// same bytes on every compiler. A name that is not in the table, or a value out of its range, is
-/// an error that lists names and ranges.
+/// Grows a description as varied by a table, with the findings that are asked for: parts that a
+/// finding does not touch have the same bytes as without it. No two bones of the result overlap by
+/// more than kMostOverlap: where they would, drawn values move half the way to their means, a few
+/// times over; where that does not help (or all was set), the error names the bones. The same
+/// request gives the same bytes on every compiler. A name that is not in the table, or a value out
+/// of its range, is an error that lists names and ranges; so is a finding or grade that the table
+/// of findings does not have.
 Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
                                       const std::filesystem::path& table,
                                       const VariationRequest& request,

@@ -17,6 +17,9 @@ struct IsosurfaceOptions {
   double stretch = 1;
   double slack_m = 0;
   int relax_steps = 3;  ///< rounds of tangential smoothing, each followed by projection
+  /// Vertices stay off the surface by up to half a cell where on it triangles would pass through
+  /// each other, at creases and where it turns sharply. Costs a search for crossings.
+  bool uncrossed = false;
 };
 
 /// Zero surface of `field` inside `box`: closed, manifold, counter-clockwise seen from outside.

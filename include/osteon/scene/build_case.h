@@ -48,6 +48,7 @@ struct CaseDef {
   std::vector<BoneDef> bones;
   std::vector<SoftDef> softs;
   std::vector<Landmark> landmarks;
+  std::vector<CaseFinding> findings;
 };
 
 class FieldCache;

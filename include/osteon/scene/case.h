@@ -83,6 +83,14 @@ struct Landmark {
   Vec3 p_W = Vec3::Zero();
 };
 
+/// What is wrong with the patient, in words: for who teaches with the case. The parts of the case
+/// show it; nothing reads it.
+struct CaseFinding {
+  std::string name;   ///< "geissler"
+  std::string grade;  ///< "3"
+  std::string meaning;
+};
+
 /// The immutable half of a simulation: what is there. World: patient lying, z up, metres.
 struct Case {
   std::string name;
@@ -90,6 +98,7 @@ struct Case {
   std::vector<Bone> bones;
   std::vector<SoftPart> softs;
   std::vector<Landmark> landmarks;
+  std::vector<CaseFinding> findings;
   std::uint64_t hash = 0;  ///< over everything that the simulation reads
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
