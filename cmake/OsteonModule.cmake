@@ -44,6 +44,13 @@ function(osteon_share_headers target)
   endif()
 endfunction()
 
+# Compiles a target's sources a few at a time where OSTEON_JOINED asks for it.
+function(osteon_join target)
+  if(OSTEON_JOINED)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+endfunction()
+
 function(osteon_module name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
@@ -61,6 +68,10 @@ function(osteon_module name)
     endif()
   endforeach()
   osteon_share_headers(osteon_${name})
+  # In these two files give different things one name.
+  if(NOT name MATCHES "^(anatomy|collide|hull|session)$")
+    osteon_join(osteon_${name})
+  endif()
   include("${CMAKE_SOURCE_DIR}/src/${name}/module.cmake" OPTIONAL)
 endfunction()
 

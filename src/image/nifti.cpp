@@ -35,7 +35,7 @@ class Header {
   bool swap_;
 };
 
-const std::map<int, ValueType>& types() {
+const std::map<int, ValueType>& nifti_types() {
   static const std::map<int, ValueType> table = {
       {2, ValueType::uint8},    {4, ValueType::int16},    {8, ValueType::int32},
       {16, ValueType::float32}, {64, ValueType::float64}, {256, ValueType::int8},
@@ -101,8 +101,8 @@ Result<Volume> parse_nifti(std::string_view bytes, const std::string& where) {
   const Header header(bytes, !little);
   if (header.whole(0) != 348 || bytes.substr(344, 3) != "n+1")
     return fail("is no NIfTI-1 file in one piece", where, "Export it as .nii or .nii.gz");
-  const auto type = types().find(header.word(70));
-  if (type == types().end())
+  const auto type = nifti_types().find(header.word(70));
+  if (type == nifti_types().end())
     return fail("has voxels of type " + std::to_string(header.word(70)) + ", which is not known",
                 where, "Export it as 16-bit numbers");
   const int dimensions = header.word(40);

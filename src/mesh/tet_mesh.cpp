@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// The two corners of each edge, then the two others.
-constexpr std::array<std::array<std::size_t, 4>, 6> kEdges = {
+constexpr std::array<std::array<std::size_t, 4>, 6> kEdgesAndRest = {
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
 struct FaceUse {
@@ -57,11 +57,11 @@ double signed_volume(const std::array<Vec3, 4>& c) {
 
 std::array<double, 6> dihedral_angles(const std::array<Vec3, 4>& c) {
   std::array<double, 6> angles{};
-  for (std::size_t e = 0; e < kEdges.size(); ++e) {
-    const Vec3& from = c[kEdges[e][0]];
-    const Vec3 along = c[kEdges[e][1]] - from;
-    const Vec3 n = along.cross(c[kEdges[e][2]] - from);
-    const Vec3 m = along.cross(c[kEdges[e][3]] - from);
+  for (std::size_t e = 0; e < kEdgesAndRest.size(); ++e) {
+    const Vec3& from = c[kEdgesAndRest[e][0]];
+    const Vec3 along = c[kEdgesAndRest[e][1]] - from;
+    const Vec3 n = along.cross(c[kEdgesAndRest[e][2]] - from);
+    const Vec3 m = along.cross(c[kEdgesAndRest[e][3]] - from);
     angles[e] = std::atan2(n.cross(m).norm(), n.dot(m));
   }
   return angles;

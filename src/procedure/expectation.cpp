@@ -18,8 +18,6 @@ const BoneReport* find_bone(const Report& report, const std::string& name) {
   return found == report.bones.end() ? nullptr : &*found;
 }
 
-bool touched(const BoneReport& bone) { return bone.first_contact_s >= 0; }
-
 std::string text_of(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
@@ -91,9 +89,9 @@ void check_touched(const Expectation& e, const Report& report, Lines& lines) {
   const std::set<std::string> unwanted(e.untouched.begin(), e.untouched.end());
   for (const BoneReport& bone : report.bones) {
     const bool want = wanted.count(bone.name) > 0;
-    if (want && !touched(bone)) lines.push_back(bone.name + " was never touched");
+    if (want && !bone.touched()) lines.push_back(bone.name + " was never touched");
     const bool forbidden = unwanted.count(bone.name) > 0 || (e.all_others_untouched && !want);
-    if (forbidden && touched(bone))
+    if (forbidden && bone.touched())
       lines.push_back(bone.name + " was touched at " + text_of(bone.first_contact_s) +
                       " s, expected never");
   }
@@ -103,7 +101,7 @@ void check_order(const Expectation& e, const Report& report, Lines& lines) {
   for (std::size_t i = 1; i < e.order.size(); ++i) {
     const BoneReport& before = *find_bone(report, e.order[i - 1]);
     const BoneReport& after = *find_bone(report, e.order[i]);
-    if (touched(before) && touched(after) && after.first_contact_s < before.first_contact_s)
+    if (before.touched() && after.touched() && after.first_contact_s < before.first_contact_s)
       lines.push_back(after.name + " was touched before " + before.name + ", expected after");
   }
 }
@@ -111,7 +109,7 @@ void check_order(const Expectation& e, const Report& report, Lines& lines) {
 void check_bones(const Expectation& e, const Report& report, Lines& lines) {
   for (const auto& [name, ranges] : e.bones) {
     const BoneReport& bone = *find_bone(report, name);
-    if (!touched(bone)) continue;  // said already
+    if (!bone.touched()) continue;  // said already
     for (const auto& [key, range] : ranges)
       check_range(name + " " + key, value_of(bone, key), range, lines);
   }

@@ -23,12 +23,10 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-bool touched(const BoneReport& bone) { return bone.first_contact_s >= 0; }
-
 std::size_t name_width(const Report& report) {
   std::size_t width = 4;
   for (const BoneReport& bone : report.bones)
-    if (touched(bone)) width = std::max(width, bone.name.size());
+    if (bone.touched()) width = std::max(width, bone.name.size());
   return width;
 }
 
@@ -36,7 +34,7 @@ std::string bone_table(const Report& report) {
   const std::size_t width = name_width(report);
   std::string text = padded("bone", width) + "  first s  contact s  peak N  mean N  deepest mm\n";
   for (const BoneReport& bone : report.bones) {
-    if (!touched(bone)) continue;
+    if (!bone.touched()) continue;
     text += padded(bone.name, width) + fixed(bone.first_contact_s, 3, 9) +
             fixed(bone.contact_time_s, 3, 11) + fixed(bone.peak_force_n, 2, 8) +
             fixed(bone.mean_force_n, 2, 8) + fixed(bone.deepest_mm, 3, 12) + "\n";
@@ -47,7 +45,7 @@ std::string bone_table(const Report& report) {
 std::string untouched_line(const Report& report) {
   std::string names;
   for (const BoneReport& bone : report.bones)
-    if (!touched(bone)) names += (names.empty() ? "" : ", ") + bone.name;
+    if (!bone.touched()) names += (names.empty() ? "" : ", ") + bone.name;
   return names.empty() ? "" : "never touched: " + names + "\n";
 }
 
@@ -66,7 +64,8 @@ std::string timing_lines(const Report& report) {
 }  // namespace
 
 std::string to_text(const Report& report) {
-  const bool any = std::any_of(report.bones.begin(), report.bones.end(), touched);
+  const bool any = std::any_of(report.bones.begin(), report.bones.end(),
+                               [](const BoneReport& bone) { return bone.touched(); });
   return "case           " + report.case_name + " (" + hex16(report.case_hash) + ")\n" +
          "duration       " + fixed(report.duration_s, 3) + " s, " + std::to_string(report.ticks) +
          " ticks\n" + "path length    " + fixed(report.path_length_mm, 1) + " mm\n" +

@@ -1,7 +1,7 @@
 #include <cmath>
-#include <cstdio>
 #include <set>
 
+#include "numbers.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
 #include "soft_parts.h"
@@ -13,12 +13,6 @@ namespace {
 constexpr double kSmallestBone_m = 0.003;
 constexpr double kLargestBone_m = 0.7;
 constexpr double kFarthestLandmark_m = 0.5;
-
-std::string in_mm(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", metres * 1000);
-  return text;
-}
 
 class Findings {
  public:

@@ -1,21 +1,15 @@
 // What case check says of soft parts.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
+#include "numbers.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/mesh/measure.h"
 #include "soft_parts.h"
 
 namespace osteon {
 namespace {
-
-std::string in_mm(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f mm", metres * 1000);
-  return text;
-}
 
 /// A bone's surface in World.
 struct PlacedBone {

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace osteon {
 
@@ -11,6 +12,12 @@ std::string format_number(double value) {
   std::string out(text, end);
   if (out.find_first_of(".en") == std::string::npos) out += ".0";
   return out;
+}
+
+std::string in_mm(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", metres * 1000);
+  return text;
 }
 
 std::optional<double> parse_number(std::string_view text) {

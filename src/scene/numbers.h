@@ -12,6 +12,9 @@ namespace osteon {
 /// same in every locale.
 std::string format_number(double value);
 
+/// A length in metres for people: "0.25 mm".
+std::string in_mm(double metres);
+
 /// The whole text as a finite number; a leading plus is fine. The same in every locale.
 std::optional<double> parse_number(std::string_view text);
 

@@ -18,6 +18,8 @@ struct BoneReport {
   double peak_force_n = 0;
   double mean_force_n = 0;  ///< over the time in contact
   double deepest_mm = 0;    ///< hand past the surface, along the normal
+
+  bool touched() const { return first_contact_s >= 0; }
 };
 
 struct Report {

@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <thread>
 
+#include "checkup/printed.h"
 #include "loops/realtime.h"
 #include "loops/tick_pacer.h"
 #include "osteon/base/clock.h"
@@ -20,13 +20,6 @@
 namespace osteon {
 namespace fs = std::filesystem;
 namespace {
-
-template <class... Args>
-std::string text(const char* format, Args... args) {
-  char out[256];
-  std::snprintf(out, sizeof out, format, args...);
-  return out;
-}
 
 struct LoopMeasure {
   bool priority = false;
@@ -61,10 +54,10 @@ LoopMeasure measure_loop(double seconds, const std::function<bool()>& cancelled)
 Finding loop_finding(const LoopMeasure& m) {
   Finding f{FindingLevel::kGood, "Loop", {}, {}};
   f.text =
-      text("%.0f ticks a second, late by p50 %.0f us, p99 %.0f us, at most %.1f ms; %llu missed",
-           static_cast<double>(m.ticks) / std::max(1e-3, m.seconds), m.late.quantile_ns(0.5) * 1e-3,
-           m.late.quantile_ns(0.99) * 1e-3, m.late.max_ns() * 1e-6,
-           static_cast<unsigned long long>(m.missed));
+      printed("%.0f ticks a second, late by p50 %.0f us, p99 %.0f us, at most %.1f ms; %llu missed",
+              static_cast<double>(m.ticks) / std::max(1e-3, m.seconds),
+              m.late.quantile_ns(0.5) * 1e-3, m.late.quantile_ns(0.99) * 1e-3,
+              m.late.max_ns() * 1e-6, static_cast<unsigned long long>(m.missed));
   // One tick in a hundred that comes late by half a period is felt as roughness.
   if (m.late.quantile_ns(0.99) > 500e3 || m.missed > m.ticks / 100) {
     f.level = FindingLevel::kNote;

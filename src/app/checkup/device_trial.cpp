@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "checkup/device_findings.h"
+#include "checkup/printed.h"
 #include "loops/realtime.h"
 #include "loops/stop_signal.h"
 #include "osteon/base/clock.h"
@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::int64_t kTick_ns = 1'000'000;
 constexpr double kTick_s = 1e-3;
-
-template <class... Args>
-std::string text(const char* format, Args... args) {
-  char out[256];
-  std::snprintf(out, sizeof out, format, args...);
-  return out;
-}
 
 // The device at 1 kHz, behind the gate. Leaves it at zero force.
 class TrialLoop {
@@ -75,8 +68,9 @@ Finding reading_finding(TrialLoop& loop, const DeviceInfo& info, double seconds)
   }
   Finding out{FindingLevel::kGood, "Readings", {}, {}};
   const double rate_hz = readings / seconds;
-  out.text = text("%.0f a second (%.0f expected), between two: p50 %.2f ms, p99 %.2f ms", rate_hz,
-                  info.rate_hz, gaps.quantile_ns(0.5) * 1e-6, gaps.quantile_ns(0.99) * 1e-6);
+  out.text =
+      printed("%.0f a second (%.0f expected), between two: p50 %.2f ms, p99 %.2f ms", rate_hz,
+              info.rate_hz, gaps.quantile_ns(0.5) * 1e-6, gaps.quantile_ns(0.99) * 1e-6);
   if (!connected || readings < 2) {
     out.level = FindingLevel::kBad;
     out.todo = "Plug it out and in again, at a port of the computer itself";
@@ -106,13 +100,13 @@ Findings health_findings(const HapticDevice& device, const DeviceSample& sample)
   if (health.motor_heat >= 0)
     out.push_back({health.motor_heat < 0.8 ? FindingLevel::kGood : FindingLevel::kNote,
                    "Motors",
-                   text("at %.0f %% of their heat", 100 * health.motor_heat),
+                   printed("at %.0f %% of their heat", 100 * health.motor_heat),
                    {}});
   if (health.bad_reports > 0)
     out.push_back(
         {FindingLevel::kNote, "Reports",
-         text("%llu of %llu were garbled", static_cast<unsigned long long>(health.bad_reports),
-              static_cast<unsigned long long>(health.reports_in)),
+         printed("%llu of %llu were garbled", static_cast<unsigned long long>(health.bad_reports),
+                 static_cast<unsigned long long>(health.reports_in)),
          "Try another cable or port"});
   if (sample.refusal != ForceOff::kNone)
     out.push_back({FindingLevel::kBad, "Device", describe(sample.refusal), {}});
@@ -143,7 +137,7 @@ Findings push_findings(TrialLoop& loop, const DeviceInfo& info, const DeviceTria
     if (loop.ended()) break;
     Finding f{FindingLevel::kGood,
               "Force",
-              text("%c: %.2f N moved the hand by %.2f mm", "XYZ"[axis], newtons, way_m * 1e3),
+              printed("%c: %.2f N moved the hand by %.2f mm", "XYZ"[axis], newtons, way_m * 1e3),
               {}};
     if (way_m < 1e-4) {
       f.level = FindingLevel::kNote;

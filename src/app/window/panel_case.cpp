@@ -9,10 +9,6 @@
 namespace osteon {
 namespace {
 
-constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize;
-
 struct FeltButton {
   Felt felt;
   const char* label;
@@ -89,7 +85,7 @@ void draw_case_card(const PanelContext& c) {
   const UiRect& r = c.layout.left;
   ImGui::SetNextWindowPos({r.x, r.y});
   ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
-  begin_panel("##case", kCard);
+  begin_panel("##case", kCardPanel);
   ViewState view = c.model.view;
   if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
   draw_soft_section(c);

@@ -7,7 +7,7 @@
 namespace osteon {
 namespace {
 
-constexpr ImGuiWindowFlags kCard =
+constexpr ImGuiWindowFlags kEditCard =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
 
@@ -139,7 +139,7 @@ void draw_edit(const PanelContext& c) {
   const float beside = c.model.panels_open ? c.layout.left.right() : r.x;
   ImGui::SetNextWindowPos({beside + c.px(12), r.y + c.px(8)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
-  ImGui::Begin("##edit", nullptr, kCard);
+  ImGui::Begin("##edit", nullptr, kEditCard);
   ImGui::PopStyleVar();
   c.model.edit.on ? draw_editing(c) : draw_begin(c);
   ImGui::End();

@@ -7,10 +7,6 @@
 namespace osteon {
 namespace {
 
-constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize;
-
 bool has_motors(const HandModel& hand) { return hand.info.peak_force_n > 0; }
 
 bool is_slow(const HandModel& hand) { return hand.haptic.rate_hz > 0 && hand.haptic.rate_hz < 950; }
@@ -152,7 +148,7 @@ void draw_hand_card(const PanelContext& c) {
   const UiRect& r = c.layout.right;
   ImGui::SetNextWindowPos({r.x, r.y});
   ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
-  begin_panel("##hand", kCard);
+  begin_panel("##hand", kCardPanel);
   if (ui::section(c.fonts, "Hand")) {
     draw_device_menu(c);
     draw_force_state(c);

@@ -11,10 +11,6 @@
 namespace osteon {
 namespace {
 
-constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                  ImGuiWindowFlags_NoSavedSettings |
-                                  ImGuiWindowFlags_NoBringToFrontOnFocus;
-
 // A live run shows at least this much, so that the first touches do not jump about.
 constexpr double kLeastShownS = 30;
 
@@ -182,7 +178,7 @@ void draw_timeline(const PanelContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  begin_panel("##timeline", kBar);
+  begin_panel("##timeline", kBarPanel);
   ImGui::PopStyleVar(3);
   const float x0 = c.model.replay.on ? draw_transport(c) : draw_live_label(c);
   draw_lane(c, x0, r.right() - c.px(16));

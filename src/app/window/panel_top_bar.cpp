@@ -7,10 +7,6 @@
 namespace osteon {
 namespace {
 
-constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                  ImGuiWindowFlags_NoSavedSettings |
-                                  ImGuiWindowFlags_NoBringToFrontOnFocus;
-
 void draw_title(const PanelContext& c) {
   const float row = c.px(5);
   ImGui::SetCursorPos({c.px(16), row + c.px(6)});
@@ -101,7 +97,7 @@ void draw_top_bar(const PanelContext& c) {
   ImGui::SetNextWindowSize({r.w, r.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  begin_panel("##top", kBar);
+  begin_panel("##top", kBarPanel);
   ImGui::PopStyleVar(2);
   draw_title(c);
   ImGui::SetCursorPos({r.w - right_part_width(c), 0.5f * (r.h - ImGui::GetFrameHeight())});
