@@ -26,8 +26,11 @@ Capsule placed(const Pose& X_BT, const Capsule& rod) {
 
 ContactField::ContactField(const Case& the_case, const Tool& tool)
     : case_(the_case), tool_(tool), rods_(rods_of(tool)) {
-  for (const ConvexBody& body : tool.bodies)
+  for (const ConvexBody& body : tool.bodies) {
+    // A little more than any support of it, rounding and all.
+    piece_radius_.push_back((body.center.norm() + body.radius) * (1 + 1e-9));
     tool_radius_ = std::max(tool_radius_, body.center.norm() + body.radius);
+  }
   for (const Capsule& rod : rods_)
     tool_radius_ = std::max({tool_radius_, rod.p0.norm() + rod.radius, rod.p1.norm() + rod.radius});
   for (std::uint32_t b = 0; b < case_.bones.size(); ++b) {
@@ -155,6 +158,13 @@ FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s
   }
   const double tool_support = support(tool_.bodies[ids.tool_piece], -n_T);
   return {n_W, s.bone_support + n_W.dot(X_WB.p) + tool_support + kSkin};
+}
+
+// In half_space's order of operations: rounding then keeps c above that one's.
+FreeHalfSpace ContactField::outer_half_space(std::uint32_t pair, const PartingPlane& s,
+                                             const Pose& X_WB) const {
+  const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
+  return {n_W, s.bone_support + n_W.dot(X_WB.p) + piece_radius_[pairs_[pair].tool_piece] + kSkin};
 }
 
 }  // namespace osteon

@@ -74,6 +74,9 @@ class ContactField {
   FreeHalfSpace half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
                            const Quat& q_WT) const;
 
+  /// The same of a pair of pieces for a tool however turned: n is that of `half_space`, c no less.
+  FreeHalfSpace outer_half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB) const;
+
  private:
   void add_pieces(std::uint32_t bone);
   void add_field(std::uint32_t bone);
@@ -83,7 +86,8 @@ class ContactField {
 
   const Case& case_;
   const Tool& tool_;
-  std::vector<Capsule> rods_;  ///< the tool to a field, in Tool
+  std::vector<Capsule> rods_;         ///< the tool to a field, in Tool
+  std::vector<double> piece_radius_;  ///< of the tool's pieces about its origin, m
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
   std::vector<std::uint32_t> first_pair_;  ///< of each bone

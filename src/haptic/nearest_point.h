@@ -32,4 +32,37 @@ struct NearestPoint {
 /// checked: it lies in every half-space within kPlaneTolerance.
 NearestPoint nearest_point(std::span<const FreeHalfSpace> planes, const Vec3& wanted);
 
+/// The same, plane by plane, for a caller that works planes out only where they matter: it lets the
+/// plane that `at` violates most enter until it violates none.
+class NearestSearch {
+ public:
+  static constexpr int kMaxSteps = 64;
+
+  /// `planes` must stay where it is; only planes that have entered are read.
+  NearestSearch(std::span<const FreeHalfSpace> planes, const Vec3& wanted);
+  const Vec3& at() const { return at_.x; }  ///< the result so far
+  /// False: what has entered and this have no common point, or precision ran out.
+  bool enter(std::uint32_t plane);
+  NearestPoint result() const;
+
+ private:
+  struct Basis {
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, 3> plane{};
+  };
+  struct Projection {
+    bool sound = false;
+    Vec3 x = Vec3::Zero();
+    std::array<double, 3> weight{};
+  };
+  Projection project(const Basis& basis) const;
+  bool holds(const Basis& set, const Vec3& x) const;
+  static Basis subset(const Basis& from, unsigned mask, std::uint32_t extra);
+
+  std::span<const FreeHalfSpace> planes_;
+  Vec3 wanted_;
+  Basis basis_;
+  Projection at_;
+};
+
 }  // namespace osteon

@@ -27,12 +27,6 @@ Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const 
   return from + std::clamp(s, 0.0, 1.0) * d;
 }
 
-bool inside_all(std::span<const FreeHalfSpace> planes, const Vec3& x) {
-  for (const FreeHalfSpace& plane : planes)
-    if (plane.n.dot(x) - plane.c < -kPlaneTolerance) return false;
-  return true;
-}
-
 }  // namespace
 
 // A way with more pieces than the list holds is taken in shorter stretches.
@@ -48,8 +42,55 @@ bool ProxySolver::gather(const ProxyTask& task) {
 
 void ProxySolver::raise(std::uint32_t i) {
   const std::uint32_t pair = near_.pair[i];
-  const Pose& bone = raised_WB_[field_.pairs()[pair].bone];
-  planes_[i] = field_.half_space(pair, parting_[i], bone, raised_q_WT_);
+  planes_[i] = field_.outer_half_space(pair, parting_[i], raised_WB_[field_.pairs()[pair].bone]);
+  settled_[i] = false;
+}
+
+// Most planes never come into question: the tool's support is worked out for those that do.
+void ProxySolver::settle(std::uint32_t i) {
+  if (settled_[i]) return;
+  settled_[i] = true;
+  const std::uint32_t pair = near_.pair[i];
+  const std::uint32_t bone = field_.pairs()[pair].bone;
+  planes_[i] = field_.half_space(pair, parting_[i], raised_WB_[bone], raised_q_WT_);
+  if (gap_known_[i]) return;
+  const FreeHalfSpace then = field_.half_space(pair, parting_[i], start_WB_[bone], start_WT_.q);
+  parting_[i].gap = then.n.dot(start_WT_.p) - then.c + kSkin;
+  gap_known_[i] = true;
+}
+
+// Whether x is behind a piece's plane by more than the tolerance.
+bool ProxySolver::beyond(std::uint32_t i, const Vec3& x) {
+  if (!(planes_[i].n.dot(x) - planes_[i].c < -kPlaneTolerance)) return false;
+  settle(i);
+  return planes_[i].n.dot(x) - planes_[i].c < -kPlaneTolerance;
+}
+
+bool ProxySolver::inside_all(const Vec3& x) {
+  for (std::uint32_t i = 0; i < near_.count; ++i)
+    if (beyond(i, x)) return false;
+  return true;
+}
+
+// nearest_point of the settled planes.
+NearestPoint ProxySolver::nearest(const Vec3& wanted) {
+  NearestSearch search(planes(), wanted);
+  for (int step = 0; step < NearestSearch::kMaxSteps; ++step) {
+    const Vec3 x = search.at();
+    std::uint32_t worst = plane_count();
+    double most = kPlaneTolerance;
+    for (std::uint32_t i = 0; i < plane_count(); ++i) {
+      if (!(planes_[i].c - planes_[i].n.dot(x) > most)) continue;
+      if (i < near_.count) settle(i);
+      const double shortfall = planes_[i].c - planes_[i].n.dot(x);
+      if (!(shortfall > most)) continue;
+      most = shortfall;
+      worst = i;
+    }
+    if (worst == plane_count()) return search.result();
+    if (!search.enter(worst)) return {};
+  }
+  return {};
 }
 
 // Parts one candidate with the tool at p_W, and remembers the plane.
@@ -60,6 +101,7 @@ bool ProxySolver::part(std::uint32_t i, const Vec3& p_W) {
   if (!field_.separate(pair, bone, {p_W, raised_q_WT_}, memory.basis, parting_[i])) return false;
   memory.plane = parting_[i];
   memory.known = true;
+  gap_known_[i] = true;
   raise(i);
   return true;
 }
@@ -67,18 +109,18 @@ bool ProxySolver::part(std::uint32_t i, const Vec3& p_W) {
 // A plane that parted a pair once lies beside the bone for ever. While the tool is beyond it, it
 // will do: only a plane that comes to hold the proxy is worth finding again.
 bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
-  raised_WB_ = X_WB;
+  raised_WB_ = start_WB_ = X_WB;
   raised_q_WT_ = X_WT.q;
+  start_WT_ = X_WT;
   for (std::uint32_t i = 0; i < near_.count; ++i) {
     const PairMemory& memory = memory_[near_.pair[i]];
     if (memory.known) {
       parting_[i] = memory.plane;
+      gap_known_[i] = false;
       raise(i);
-      const double slack = planes_[i].n.dot(X_WT.p) - planes_[i].c;
-      if (slack >= 0) {
-        parting_[i].gap = slack + kSkin;
-        continue;
-      }
+      if (planes_[i].n.dot(X_WT.p) - planes_[i].c >= 0) continue;
+      settle(i);
+      if (planes_[i].n.dot(X_WT.p) - planes_[i].c >= 0) continue;
     }
     if (!part(i, X_WT.p)) return false;
   }
@@ -104,7 +146,7 @@ bool ProxySolver::find_start(const ProxyTask& task, const Quat& q_WP, Vec3& star
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {
     raise_planes(task.now_WB, q_WP);
-    const NearestPoint found = nearest_point(planes(), task.base_W);
+    const NearestPoint found = nearest(task.base_W);
     if (!found.found || (found.x - task.base_W).norm() > reach_m_) return false;
     start = found.x;
     if (near_.field_count == 0 || walls_.clear(task.now_WB, {start, q_WP})) return true;
@@ -126,6 +168,7 @@ bool ProxySolver::enter_free_space(const ProxyTask& task, const Quat& q_WP, Prox
 // Bones pinch the proxy: let it go wherever no overlap grows.
 void ProxySolver::leave_overlap(const ProxyTask& task, ProxyMove& move) {
   raise_planes(task.now_WB, task.X_WP.q);
+  for (std::uint32_t i = 0; i < near_.count; ++i) settle(i);
   for (std::uint32_t i = 0; i < plane_count(); ++i)
     planes_[i].c = std::min(planes_[i].c, planes_[i].n.dot(task.base_W));
   move.status |= kTickProxyBlocked;
@@ -137,7 +180,7 @@ void ProxySolver::leave_overlap(const ProxyTask& task, ProxyMove& move) {
 }
 
 bool ProxySolver::step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target) {
-  target = nearest_point(planes(), task.hand_W);
+  target = nearest(task.hand_W);
   if (!target.found) {
     move.status |= kTickSolverLimit;
     return false;
@@ -165,8 +208,8 @@ bool ProxySolver::look_again(const ProxyTask& task, const NearestPoint& target, 
   raise_planes(task.now_WB, move.q_WP);
   move.query_W = move.end();
   // A field's skin is wide enough for the next round to take care of it.
-  if (inside_all(planes().first(near_.count), move.end())) return true;
-  const NearestPoint lifted = nearest_point(planes(), move.end());
+  if (inside_all(move.end())) return true;
+  const NearestPoint lifted = nearest(move.end());
   if (!lifted.found || (lifted.x - move.end()).norm() > 10 * kSkin) return false;
   move.path[move.path_count - 1] = lifted.x;
   return true;

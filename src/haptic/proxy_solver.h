@@ -69,6 +69,10 @@ class ProxySolver {
  private:
   bool gather(const ProxyTask& task);
   void raise(std::uint32_t i);
+  void settle(std::uint32_t i);
+  bool beyond(std::uint32_t i, const Vec3& x);
+  bool inside_all(const Vec3& x);
+  NearestPoint nearest(const Vec3& wanted);
   bool part(std::uint32_t i, const Vec3& p_W);
   bool part_all(std::span<const Pose> X_WB, const Pose& X_WT);
   void raise_planes(std::span<const Pose> X_WB, const Quat& q_WT);
@@ -97,6 +101,12 @@ class ProxySolver {
   std::array<PartingPlane, kMaxCandidates> parting_{};
   FieldWalls walls_;
   std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes> planes_{};
+  /// Of the pieces' planes: false while c may be too large, as outer_half_space has it.
+  std::array<bool, kMaxCandidates> settled_{};
+  std::array<bool, kMaxCandidates> gap_known_{};  ///< `parting_` has the gap at the start
+  /// Poses of the bones and of the tool at the start of the move.
+  std::span<const Pose> start_WB_;
+  Pose start_WT_;
   /// Poses of the bones and turn of the tool for which `planes_` are right.
   std::span<const Pose> raised_WB_;
   Quat raised_q_WT_ = Quat::Identity();
