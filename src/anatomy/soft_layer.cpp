@@ -10,7 +10,11 @@
 namespace osteon {
 namespace {
 
-constexpr double kRim_m = 5e-5;  // height of the layer's edge (D)
+/// Height of the layer's edge, of its thickness (D): what thins out to nothing cannot be filled
+/// with elements of good shape.
+constexpr double kRimShare = 0.4;
+constexpr double kMostRim_m = 3.5e-4;  // and at most that (D)
+constexpr double kLeast_m = 5e-5;      // where bones nearly meet
 constexpr int kRimRounds = 8;
 constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
@@ -85,17 +89,28 @@ class LayerMaker {
     for (std::size_t i = 0; i < bone.normals.size(); ++i) {
       const Vec3& p = bone.surface.mesh().vertices[i];
       const double from_rim = std::clamp(inside(p, bone.normals[i]), -layer_.taper, layer_.taper);
-      whole.vertices.push_back({p, bone.normals[i], from_rim, kRim_m});
+      whole.vertices.push_back({p, bone.normals[i], from_rim, kLeast_m});
     }
     smooth_rim(vertex_rings(bone.surface.mesh()), whole);
-    for (CoveredVertex& v : whole.vertices)
-      if (v.inside > 0) v.height = height(v);
+    raise(whole);
     // After the heights, so that a defect has a steep edge where the rim thins out.
     for (CoveredVertex& v : whole.vertices) v.inside = std::min(v.inside, outside_defects(v.p));
-    return raise_patch(cut_patch(whole, kRim_m, kLeastArea_m2));
+    return raise_patch(cut_patch(whole, kLeastArea_m2));
   }
 
  private:
+  /// Heights of what is covered, and of its neighbours beyond the rim.
+  void raise(CoveredPatch& whole) const {
+    std::vector<bool> wanted(whole.vertices.size(), false);
+    for (const Triangle& t : whole.triangles) {
+      const auto covered = [&](std::uint32_t v) { return whole.vertices[v].inside > 0; };
+      if (std::any_of(t.begin(), t.end(), covered))
+        for (const std::uint32_t v : t) wanted[v] = true;
+    }
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+      if (wanted[v]) whole.vertices[v].height = height(whole.vertices[v]);
+  }
+
   /// Metres from the rim, negative outside.
   double inside(const Vec3& p, const Vec3& normal) const {
     double inside = 1;
@@ -118,12 +133,14 @@ class LayerMaker {
   }
 
   double height(const CoveredVertex& v) const {
-    const double share = std::min(v.inside / layer_.taper, 1.0);
-    const double wanted = layer_.thickness * share * share * (3 - 2 * share);
+    const double share = std::clamp(v.inside / layer_.taper, 0.0, 1.0);
+    const double taper = share * share * (3 - 2 * share);
+    const double rim = std::min(kRimShare * layer_.thickness, kMostRim_m);
+    const double wanted = rim + (layer_.thickness - rim) * taper;
     const double reach = 2 * layer_.thickness + layer_.clearance;
     const double gap = nearest(v.p, v.normal, others_, ground_, reach).distance;
     const double room = 0.5 * (gap - layer_.clearance);
-    return std::max(std::min(wanted, room), kRim_m);
+    return std::max(std::min(wanted, room), kLeast_m);
   }
 
   const LayerDescription& layer_;

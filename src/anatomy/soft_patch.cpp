@@ -32,10 +32,8 @@ void snap(CoveredPatch& patch) {
 
 class RimCutter {
  public:
-  RimCutter(CoveredPatch patch, double rim_m) : patch_(std::move(patch)), rim_(rim_m) {
+  explicit RimCutter(CoveredPatch patch) : patch_(std::move(patch)) {
     snap(patch_);
-    for (CoveredVertex& v : patch_.vertices)
-      if (v.inside == 0) v.height = rim_;
     const std::vector<Triangle> all = std::move(patch_.triangles);
     patch_.triangles.clear();
     for (const Triangle& t : all) cut(t);
@@ -68,13 +66,12 @@ class RimCutter {
     CoveredVertex rim;
     rim.p = u.p + share * (v.p - u.p);
     rim.normal = (u.normal + share * (v.normal - u.normal)).normalized();
-    rim.height = rim_;
+    rim.height = u.height + share * (v.height - u.height);
     patch_.vertices.push_back(rim);
     return at->second = static_cast<std::uint32_t>(patch_.vertices.size() - 1);
   }
 
   CoveredPatch patch_;
-  double rim_;
   std::map<Edge, std::uint32_t> made_;
 };
 
@@ -175,8 +172,8 @@ CoveredPatch part_fans(const CoveredPatch& patch) {
 
 }  // namespace
 
-CoveredPatch cut_patch(const CoveredPatch& whole, double rim_m, double least_area_m2) {
-  CoveredPatch patch = RimCutter(whole, rim_m).take();
+CoveredPatch cut_patch(const CoveredPatch& whole, double least_area_m2) {
+  CoveredPatch patch = RimCutter(whole).take();
   drop_small(patch, least_area_m2);
   return patch;
 }

@@ -19,9 +19,9 @@ struct CoveredPatch {
   std::vector<Triangle> triangles;
 };
 
-/// The part of the patch where `inside` is positive, its triangles cut along the rim, where the
-/// height is `rim_m`. Pieces of less than `least_area_m2` are left out.
-CoveredPatch cut_patch(const CoveredPatch& whole, double rim_m, double least_area_m2);
+/// The part of the patch where `inside` is positive, its triangles cut along the rim. Heights are
+/// needed up to one triangle beyond it. Pieces of less than `least_area_m2` are left out.
+CoveredPatch cut_patch(const CoveredPatch& whole, double least_area_m2);
 
 /// Closed shell between the patch and the same raised along its normals by the heights, which must
 /// be positive. Where the patch touches itself at a point, the shell is parted there.

@@ -29,7 +29,7 @@ CoveredPatch square(int n, const Inside& inside) {
 }
 
 TEST(SoftPatch, NothingInsideGivesNothing) {
-  const CoveredPatch cut = cut_patch(square(3, [](const Vec3&) { return -1.0; }), 1e-4, 0);
+  const CoveredPatch cut = cut_patch(square(3, [](const Vec3&) { return -1.0; }), 0);
   EXPECT_TRUE(cut.triangles.empty());
   EXPECT_TRUE(raise_patch(cut).triangles.empty());
 }
@@ -38,7 +38,7 @@ TEST(SoftPatch, ADiscIsCutAtItsRimAndRaisedToItsVolume) {
   const Vec3 center(0.010, 0.010, 0);
   constexpr double kRadius = 0.0073;
   const CoveredPatch cut =
-      cut_patch(square(20, [&](const Vec3& p) { return kRadius - (p - center).norm(); }), 0.002, 0);
+      cut_patch(square(20, [&](const Vec3& p) { return kRadius - (p - center).norm(); }), 0);
   for (const Triangle& t : cut.triangles)
     for (const std::uint32_t v : t)
       EXPECT_LT((cut.vertices[v].p - center).norm(), kRadius + 0.0003);
@@ -54,7 +54,7 @@ TEST(SoftPatch, SmallIslandsGo) {
     return std::max(0.004 - (p - Vec3(0.005, 0.005, 0)).norm(),
                     0.0012 - (p - Vec3(0.016, 0.016, 0)).norm());
   };
-  const TriMesh shell = raise_patch(cut_patch(square(20, two), 1e-4, 10e-6));
+  const TriMesh shell = raise_patch(cut_patch(square(20, two), 10e-6));
   EXPECT_EQ(checks::euler_number(shell), 2) << "one piece";
 }
 
