@@ -184,7 +184,7 @@ Result<ProbePath> path_of(const LiveOptions& options, const Case& the_case) {
 int run_live(LiveOptions options) {
   const StopSignals signals;
   options.mapping.axes = MappingAxes::kPatient;
-  auto the_case = open_case(options.case_spec);
+  auto the_case = open_felt_case(options.case_spec);
   if (!the_case) return report_error(the_case.error());
   const auto path = path_of(options, **the_case);
   if (!path) return report_error(path.error());

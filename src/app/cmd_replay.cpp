@@ -45,7 +45,7 @@ int replay_recording(const ReplayOptions& options) {
   if (!recording) return report_error(recording.error());
   const std::string spec =
       options.case_spec.empty() ? recording->header.case_source : options.case_spec;
-  auto the_case = open_case(spec);
+  auto the_case = open_felt_case(spec);
   if (!the_case) return report_error(the_case.error());
   std::unique_ptr<FrameWriter> frames;
   if (!options.frames.empty()) {
@@ -76,7 +76,7 @@ int replay_recording(const ReplayOptions& options) {
 int replay_path(const ReplayOptions& options) {
   auto path = load_path(options.file);
   if (!path) return report_error(path.error());
-  auto the_case = open_case(options.case_spec.empty() ? "builtin:wrist" : options.case_spec);
+  auto the_case = open_felt_case(options.case_spec.empty() ? "builtin:wrist" : options.case_spec);
   if (!the_case) return report_error(the_case.error());
   HeadlessRun run;
   run.the_case = *the_case;

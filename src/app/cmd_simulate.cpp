@@ -22,10 +22,10 @@ struct SimulateOptions {
 };
 
 int run_simulate(const SimulateOptions& options) {
-  auto the_case = open_case(options.case_spec);
-  if (!the_case) return report_error(the_case.error());
   auto path = load_path(options.path);
   if (!path) return report_error(path.error());
+  auto the_case = open_felt_case(options.case_spec);
+  if (!the_case) return report_error(the_case.error());
   HeadlessRun run;
   run.the_case = *the_case;
   run.case_source = options.case_spec;

@@ -46,12 +46,14 @@ void keep(Cache& cache, const std::string& spec, const std::string& kind) {
   if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
 }
 
-Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress) {
+Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress,
+                             CaseParts parts) {
   const auto files = builtin_anatomy(name);
   if (!files) return tl::unexpected(files.error());
   GenerateOptions options;
   options.progress = progress;
   options.run = run_on_all_cores;
+  options.soft_parts = parts == CaseParts::kAll;
   auto anatomy = generate_anatomy(files->description, options);
   if (!anatomy) return tl::unexpected(anatomy.error());
   return case_from(std::move(*anatomy));
@@ -114,28 +116,30 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
   return def;
 }
 
-Result<CaseDef> open_case_def(const std::string& spec,
-                              const std::function<void(double)>& progress) {
+Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(double)>& progress,
+                              CaseParts parts) {
   const auto choice = parse_felt_choice(spec);
   if (!choice) return tl::unexpected(choice.error());
   const std::string& source = choice->source;
-  auto def = source.rfind(kBuiltin, 0) == 0 ? grow_builtin(source.substr(kBuiltin.size()), progress)
-                                            : load_case(source);
+  auto def = source.rfind(kBuiltin, 0) == 0
+                 ? grow_builtin(source.substr(kBuiltin.size()), progress, parts)
+                 : load_case(source);
   if (!def) return def;
   colour_softs(*def);
   if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
   return def;
 }
 
-Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
-                                              const OpenProgress& progress) {
+Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const OpenProgress& progress,
+                                              CaseParts parts) {
   const auto say = [&](const char* what, double share) {
     if (progress) progress(what, share);
   };
   constexpr double kOpened = 0.2;
   constexpr double kCut = 0.7;
   say("Opening the bones", 0);
-  auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
+  auto def = open_case_def(
+      spec, [&](double share) { say("Growing the bones", kOpened * share); }, parts);
   if (!def) return tl::unexpected(def.error());
   const std::string source = source_without_choice(spec);
   PieceCache pieces(cache_file(source, "pieces"));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -22,16 +23,27 @@ Result<AnatomyFiles> builtin_anatomy(const std::string& name);
 /// The bones, soft parts, landmarks and findings of a grown anatomy, with default materials.
 CaseDef case_from(GeneratedAnatomy anatomy);
 
+/// How much of a built-in case is grown.
+enum class CaseParts : std::uint8_t {
+  kAll,
+  kFelt,  ///< the bones alone: for runs that nobody looks at
+};
+
 /// Case by what a user names it: `builtin:wrist` and `builtin:knee` are grown from their
 /// descriptions in the assets, anything else is a case folder. A choice of what is felt may follow
 /// (felt_choice.h). `progress` is told the share of the bones grown; it may throw to stop.
 Result<CaseDef> open_case_def(const std::string& spec,
-                              const std::function<void(double)>& progress = {});
+                              const std::function<void(double)>& progress = {},
+                              CaseParts parts = CaseParts::kAll);
 /// The same, built. The pieces of its bones are kept beside the case (pieces.bin), or in the user's
 /// cache for a built-in case and where the folder cannot be written. `progress` is told what goes
 /// on and the share done; it may throw to stop.
 using OpenProgress = std::function<void(const char* what, double share)>;
 Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
-                                              const OpenProgress& progress = {});
+                                              const OpenProgress& progress = {},
+                                              CaseParts parts = CaseParts::kAll);
+inline Result<std::shared_ptr<const Case>> open_felt_case(const std::string& spec) {
+  return open_case(spec, {}, CaseParts::kFelt);
+}
 
 }  // namespace osteon

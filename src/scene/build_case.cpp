@@ -137,17 +137,12 @@ void hash_bone(Hasher& hasher, const Bone& bone) {
   hasher.add(bone.material.dynamic_friction);
 }
 
-// The case's own name and side are left out: a renamed case replays the same.
+// What is felt, and nothing else: a case that was renamed, or has other soft parts to look at,
+// replays the same, and a run without a window need not make what only a picture shows.
 std::uint64_t hash_of(const Case& the_case) {
   Hasher hasher;
   hasher.add(static_cast<std::uint64_t>(the_case.bones.size()));
   for (const Bone& bone : the_case.bones) hash_bone(hasher, bone);
-  hasher.add(static_cast<std::uint64_t>(the_case.landmarks.size()));
-  for (const Landmark& landmark : the_case.landmarks) {
-    hasher.add(std::string_view(landmark.name));
-    hasher.add(landmark.p_W);
-  }
-  hash_softs(hasher, the_case.softs);
   return hasher.value();
 }
 

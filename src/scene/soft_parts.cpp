@@ -5,8 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "mesh_hash.h"
-
 namespace osteon {
 namespace {
 
@@ -77,27 +75,6 @@ Result<std::vector<SoftPart>> build_softs(std::vector<SoftDef> defs,
     softs.push_back(std::move(*soft));
   }
   return softs;
-}
-
-void hash_softs(Hasher& hasher, const std::vector<SoftPart>& softs) {
-  if (softs.empty()) return;
-  hasher.add(static_cast<std::uint64_t>(softs.size()));
-  for (const SoftPart& soft : softs) {
-    hasher.add(std::string_view(soft.name));
-    hasher.add(soft.fma_id);
-    hasher.add(std::string_view(soft.tissue));
-    hasher.add(std::string_view(soft.kind));
-    hasher.add(soft.thickness_m);
-    add_mesh(hasher, soft.mesh_W);
-    hasher.add(static_cast<std::uint64_t>(soft.bones.size()));
-    for (const BoneId bone : soft.bones) hasher.add(static_cast<std::uint64_t>(bone.index));
-    hasher.add(static_cast<std::uint64_t>(soft.attachments.size()));
-    for (const Attachment& attachment : soft.attachments) {
-      hasher.add(std::string_view(attachment.name));
-      hasher.add(static_cast<std::uint64_t>(attachment.bone.index));
-      hasher.add(attachment.p_W);
-    }
-  }
 }
 
 }  // namespace osteon

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "osteon/base/hash.h"
 #include "osteon/scene/build_case.h"
 
 namespace osteon {
@@ -10,9 +9,6 @@ namespace osteon {
 /// or a bone is not there.
 Result<std::vector<SoftPart>> build_softs(std::vector<SoftDef> defs,
                                           const std::vector<Bone>& bones);
-
-/// Nothing when there are none: a case without soft parts hashes as it did before there were any.
-void hash_softs(Hasher& hasher, const std::vector<SoftPart>& softs);
 
 /// The places where `def` should be mended, for check_case: open meshes, unknown bones, parts that
 /// reach into a bone by more than kDeepestSoft_m, attachments off their bones.

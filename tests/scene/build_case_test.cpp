@@ -105,7 +105,7 @@ TEST(BuildCase, FindsBonesAndTheirBounds) {
   EXPECT_NEAR(box.hi.z(), 0.038, 1e-12);
 }
 
-TEST(BuildCase, TheHashSeesEverythingThatTheSimulationReads) {
+TEST(BuildCase, TheHashSeesEverythingThatIsFeltAndNothingElse) {
   const std::uint64_t plain = build_case(two_bones())->hash;
   EXPECT_EQ(build_case(two_bones())->hash, plain);
   const auto changed = [&](auto change) {
@@ -125,7 +125,7 @@ TEST(BuildCase, TheHashSeesEverythingThatTheSimulationReads) {
   EXPECT_TRUE(changed([&](CaseDef& d) { d.bones[0].material.static_friction += 0.01; }));
   EXPECT_TRUE(changed([&](CaseDef& d) { d.bones[0].material.dynamic_friction += 0.01; }));
   EXPECT_TRUE(changed([&](CaseDef& d) { d.bones[0].name = "lunatum"; }));
-  EXPECT_TRUE(changed([&](CaseDef& d) { d.landmarks[0].p_W.z() *= up; }));
+  EXPECT_FALSE(changed([&](CaseDef& d) { d.landmarks[0].p_W.z() *= up; }));
   EXPECT_TRUE(changed([&](CaseDef& d) { std::swap(d.bones[0], d.bones[1]); }));
   EXPECT_FALSE(changed([&](CaseDef& d) { d.name = "renamed"; }));
 }

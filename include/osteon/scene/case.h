@@ -99,7 +99,7 @@ struct Case {
   std::vector<SoftPart> softs;
   std::vector<Landmark> landmarks;
   std::vector<CaseFinding> findings;
-  std::uint64_t hash = 0;  ///< over everything that the simulation reads
+  std::uint64_t hash = 0;  ///< over everything that is felt
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
   /// Of the bones: the skin may reach farther.
