@@ -30,6 +30,7 @@ struct LayerDescription {
   double reach = 0;
   double taper = 0;      ///< from the rim to full thickness
   double clearance = 0;  ///< that stays free between two layers
+  double rim = 0;        ///< thickness of the edge; 0: a share of the thickness
 };
 
 struct BandPoint {

@@ -22,6 +22,11 @@ constexpr double kLeastFacing = 0.3;     // cosine between the normal and the wa
 constexpr double kBare_m = 5e-5;         // beside a defect (D)
 constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
 
+double rim_height(const LayerDescription& layer) {
+  if (layer.rim > 0) return std::min(layer.rim, layer.thickness);
+  return std::min(kRimShare * layer.thickness, kMostRim_m);
+}
+
 double distance_to_box(const Vec3& p, const Aabb& box) {
   return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
 }
@@ -135,7 +140,7 @@ class LayerMaker {
   double height(const CoveredVertex& v) const {
     const double share = std::clamp(v.inside / layer_.taper, 0.0, 1.0);
     const double taper = share * share * (3 - 2 * share);
-    const double rim = std::min(kRimShare * layer_.thickness, kMostRim_m);
+    const double rim = rim_height(layer_);
     const double wanted = rim + (layer_.thickness - rim) * taper;
     const double reach = 2 * layer_.thickness + layer_.clearance;
     const double gap = nearest(v.p, v.normal, others_, ground_, reach).distance;

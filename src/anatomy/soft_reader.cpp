@@ -63,6 +63,7 @@ Result<LayerDescription> read_layer(TomlReader& in, const FindBone& find_bone) {
   }
   layer.thickness = in.number("thickness_mm", kThickness_mm) * kMm;
   layer.taper = in.number("taper_mm", kThickness_mm) * kMm;
+  layer.rim = in.number_or("rim_mm", kThickness_mm, 0) * kMm;
   layer.clearance = in.number_or("clearance_mm", kSink_mm, 0.1) * kMm;
   if (layer.facing.empty()) {
     if (!in.has("add")) in.reject("is missing, and so is 'facing'", "add");

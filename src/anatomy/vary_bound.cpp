@@ -40,7 +40,8 @@ struct PlaceMover {
 struct LengthScaler {
   double s;
   void operator()(LayerDescription& layer) const {
-    for (double* length : {&layer.thickness, &layer.reach, &layer.taper, &layer.clearance})
+    for (double* length :
+         {&layer.thickness, &layer.reach, &layer.taper, &layer.clearance, &layer.rim})
       *length *= s;
   }
   void operator()(BandDescription& band) const {

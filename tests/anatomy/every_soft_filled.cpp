@@ -1,4 +1,4 @@
-// Every soft part of the built-in wrist, as a simulation of soft tissue would take it.
+// Every soft part of the built-in anatomies, as a simulation of soft tissue would take it.
 #include "anatomy/filled_checks.h"
 
 namespace osteon {
@@ -12,6 +12,7 @@ void expect_all_filled(const std::string& name) {
 }
 
 TEST(SoftFilled, EverySoftPartOfTheWrist) { expect_all_filled("wrist"); }
+TEST(SoftFilled, EverySoftPartOfTheKnee) { expect_all_filled("knee"); }
 
 }  // namespace
 }  // namespace osteon

@@ -5,4 +5,4 @@ target_include_directories(osteon_anatomy_long_tests PRIVATE "${CMAKE_CURRENT_SO
 target_compile_definitions(osteon_anatomy_long_tests PRIVATE OSTEON_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 osteon_use_headers(osteon_anatomy_long_tests osteon_test_headers)
 gtest_discover_tests(osteon_anatomy_long_tests TEST_PREFIX "anatomy." DISCOVERY_MODE PRE_TEST
-  PROPERTIES TIMEOUT 900 LABELS long)
+  PROPERTIES TIMEOUT 900 LABELS exhaustive)
