@@ -11,7 +11,7 @@ namespace osteon {
 /// Which squares of a picture have changed. Pixels count from the lower left corner.
 class TileMask {
  public:
-  static constexpr int kTile_px = 32;
+  static constexpr int kTile_px = 16;
 
   TileMask() = default;
   TileMask(int width, int height);
