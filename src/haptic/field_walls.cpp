@@ -7,7 +7,7 @@ namespace osteon {
 namespace {
 
 // A bone farther than this needs no plane: the way to it is looked at.
-constexpr double kNear = 5e-4;
+constexpr double kNearGap_m = 5e-4;
 // A stride along a surface, m, and how many of them a way may have.
 constexpr double kStride = 5e-5;
 constexpr int kMostStrides = 64;
@@ -45,7 +45,7 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
     LpBasis unused;
     if (!field_.separate(pair, bone, X_WT, unused, now)) return false;
     std::size_t room = kPlanesEach;
-    if (now.gap < kNear) {
+    if (now.gap < kNearGap_m) {
       next[count++] = {pair, now};
       --room;
     }
