@@ -54,26 +54,15 @@ SplitStep read_split(TomlReader& in) {
   return step;
 }
 
-template <class Step>
-Result<void> read_all(TomlReader& grade, const std::string& key, Step (*read)(TomlReader&),
-                      std::vector<Step>& steps) {
-  std::size_t n = 0;
-  for (const toml::table* table : grade.tables(key, false)) {
-    TomlReader in(*table, grade.where() + ", " + key + " " + std::to_string(++n));
-    steps.push_back(read(in));
-    if (auto ok = in.finish(); !ok) return ok;
-  }
-  return {};
-}
-
 Result<FindingSteps> read_steps(TomlReader& in) {
   FindingSteps steps;
-  if (auto ok = read_all(in, "cut", read_cut, steps.cuts); !ok) return tl::unexpected(ok.error());
-  if (auto ok = read_all(in, "thin", read_thin, steps.thins); !ok)
+  if (auto ok = read_entries(in, "cut", read_cut, steps.cuts); !ok)
     return tl::unexpected(ok.error());
-  if (auto ok = read_all(in, "move", read_move, steps.moves); !ok)
+  if (auto ok = read_entries(in, "thin", read_thin, steps.thins); !ok)
     return tl::unexpected(ok.error());
-  if (auto ok = read_all(in, "split", read_split, steps.splits); !ok)
+  if (auto ok = read_entries(in, "move", read_move, steps.moves); !ok)
+    return tl::unexpected(ok.error());
+  if (auto ok = read_entries(in, "split", read_split, steps.splits); !ok)
     return tl::unexpected(ok.error());
   if (steps.cuts.empty() && steps.thins.empty() && steps.moves.empty())
     in.reject("is missing, and so are 'thin' and 'move': the grade changes nothing", "cut");

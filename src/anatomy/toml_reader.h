@@ -59,4 +59,17 @@ class TomlReader {
   std::optional<Error> error_;
 };
 
+/// Reads every table of the array `key` of `in`, which may be missing, with `read`; each strictly.
+template <class Entry>
+Result<void> read_entries(TomlReader& in, const std::string& key, Entry (*read)(TomlReader&),
+                          std::vector<Entry>& entries) {
+  std::size_t n = 0;
+  for (const toml::table* table : in.tables(key, false)) {
+    TomlReader entry(*table, in.where() + ", " + key + " " + std::to_string(++n));
+    entries.push_back(read(entry));
+    if (auto ok = entry.finish(); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace osteon

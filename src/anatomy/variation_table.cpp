@@ -47,18 +47,6 @@ ScaleStep read_scale(TomlReader& in) {
   return step;
 }
 
-template <class Step>
-Result<void> read_steps(TomlReader& rule, const std::string& key, Step (*read)(TomlReader&),
-                        std::vector<Step>& steps) {
-  std::size_t n = 0;
-  for (const toml::table* table : rule.tables(key, false)) {
-    TomlReader in(*table, rule.where() + ", " + key + " " + std::to_string(++n));
-    steps.push_back(read(in));
-    if (auto ok = in.finish(); !ok) return ok;
-  }
-  return {};
-}
-
 VariationParameter read_parameter(TomlReader& in) {
   VariationParameter p;
   p.name = in.text("name");
@@ -79,11 +67,11 @@ Result<VariationRule> read_rule(const toml::table& table, const std::string& fil
   TomlReader in(table, file + ": parameter at line " + std::to_string(table.source().begin.line));
   VariationRule rule;
   rule.parameter = read_parameter(in);
-  if (auto ok = read_steps(in, "turn", read_turn, rule.turns); !ok)
+  if (auto ok = read_entries(in, "turn", read_turn, rule.turns); !ok)
     return tl::unexpected(ok.error());
-  if (auto ok = read_steps(in, "shift", read_shift, rule.shifts); !ok)
+  if (auto ok = read_entries(in, "shift", read_shift, rule.shifts); !ok)
     return tl::unexpected(ok.error());
-  if (auto ok = read_steps(in, "scale", read_scale, rule.scales); !ok)
+  if (auto ok = read_entries(in, "scale", read_scale, rule.scales); !ok)
     return tl::unexpected(ok.error());
   if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
   return rule;
