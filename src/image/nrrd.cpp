@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, ValueType>& types() {
+const std::map<std::string, ValueType>& nrrd_types() {
   static const std::map<std::string, ValueType> table = {
       {"signed char", ValueType::int8},    {"int8", ValueType::int8},
       {"int8_t", ValueType::int8},         {"uchar", ValueType::uint8},
@@ -75,7 +75,7 @@ Result<Mat3> space_of(TextHeader& header, const std::string& where) {
               "Export it in left-posterior-superior");
 }
 
-Result<GridFrame> frame_of(TextHeader& header, bool& flip_k, const std::string& where) {
+Result<GridFrame> nrrd_frame(TextHeader& header, bool& flip_k, const std::string& where) {
   GridFrame frame;
   const auto sizes = numbers_in(header["sizes"]);
   if (header["dimension"] != "3" || !sizes || sizes->size() != 3)
@@ -94,8 +94,8 @@ Result<GridFrame> frame_of(TextHeader& header, bool& flip_k, const std::string& 
 }
 
 /// The voxels' bytes, unpacked, from this file or the one beside it that it names.
-Result<std::string> data_of(TextHeader& header, std::string_view attached, const fs::path& folder,
-                            const std::string& where) {
+Result<std::string> nrrd_data(TextHeader& header, std::string_view attached, const fs::path& folder,
+                              const std::string& where) {
   std::string bytes(attached);
   const std::string name = header.count("data file") ? header["data file"] : header["datafile"];
   if (!name.empty()) {
@@ -121,15 +121,15 @@ Result<Volume> parse_nrrd(std::string_view bytes, const fs::path& folder,
   std::string_view attached;
   auto header = read_header(bytes, attached, where);
   if (!header) return tl::unexpected(header.error());
-  const auto type = types().find(lower_case((*header)["type"]));
-  if (type == types().end())
+  const auto type = nrrd_types().find(lower_case((*header)["type"]));
+  if (type == nrrd_types().end())
     return fail("has voxels of type '" + (*header)["type"] + "', which is not known", where,
                 "Export it as 16-bit numbers");
   bool flip_k = false;
-  const auto frame = frame_of(*header, flip_k, where);
+  const auto frame = nrrd_frame(*header, flip_k, where);
   if (!frame) return tl::unexpected(frame.error());
   if (auto sane = check_size(*frame, where); !sane) return tl::unexpected(sane.error());
-  const auto data = data_of(*header, attached, folder, where);
+  const auto data = nrrd_data(*header, attached, folder, where);
   if (!data) return tl::unexpected(data.error());
   RawLayout layout;
   layout.type = type->second;
