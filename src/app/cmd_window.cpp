@@ -2,26 +2,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <regex>
 #include <string>
 
 #include "cli_support.h"
 #include "commands.h"
 #include "loops/stop_signal.h"
 #include "window/window_app.h"
+#include "window_size.h"
 
 namespace osteon {
 namespace {
-
-// "1280x720"
-bool parse_size(const std::string& text, WindowOrder& order) {
-  static const std::regex pattern(R"((\d{3,5})x(\d{3,5}))");
-  std::smatch match;
-  if (!std::regex_match(text, match, pattern)) return false;
-  order.width = std::stoi(match[1]);
-  order.height = std::stoi(match[2]);
-  return order.width >= 640 && order.height >= 400 && order.width <= 8192 && order.height <= 8192;
-}
 
 // A recording keeps its case's source: a folder must be found again from anywhere.
 std::string absolute_spec(const std::string& spec) {
@@ -90,7 +80,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(CLI::NonNegativeNumber);
   command->callback([order, size, &exit_code] {
-    if (!size->empty() && !parse_size(*size, *order))
+    if (!size->empty() && !parse_window_size(*size, order->width, order->height))
       throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.

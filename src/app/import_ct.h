@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "label_case.h"
 #include "osteon/image/progress.h"
 #include "osteon/image/volume.h"
 #include "osteon/scene/build_case.h"
@@ -23,13 +24,6 @@ struct ImportCtOptions {
   Progress progress;
   /// Told size and memory before the voxels are read; false stops.
   std::function<bool(const GridFrame& frame, double bytes)> announce;
-};
-
-struct ImportedCtBone {
-  std::string name;
-  double volume_m3 = 0;
-  std::size_t triangles = 0;
-  bool closed = false;
 };
 
 struct ImportCtResult {

@@ -1,3 +1,5 @@
+#include "osteon/scene/bone_names.h"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -62,6 +64,12 @@ const KnownBone* find_known(std::string_view name) {
 int fma_id_of(const std::string& bone_name) {
   const KnownBone* bone = find_known(bone_name);
   return bone ? bone->fma_id : 0;
+}
+
+std::vector<std::string> known_bone_names() {
+  std::vector<std::string> names;
+  for (const KnownBone& bone : kKnown) names.emplace_back(bone.name);
+  return names;
 }
 
 std::string canonical_bone_name(const std::string& file_stem) {

@@ -121,6 +121,8 @@ std::vector<int> GlWindow::take_pressed_keys() { return std::exchange(state_->pr
 
 void GlWindow::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
+void GlWindow::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+
 std::vector<std::string> GlWindow::take_dropped_files() {
   return std::exchange(state_->dropped, {});
 }

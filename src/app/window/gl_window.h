@@ -36,6 +36,8 @@ class GlWindow {
   double pixel_ratio() const;
   void toggle_fullscreen();
   void close();
+  /// Takes back a wish to close.
+  void stay_open();
   /// Takes in what the user did.
   void poll() const;
   void swap() const;

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "segment/segment_panels.h"
+#include "window/panel_ground.h"
+#include "window/ui_widgets.h"
+
+namespace osteon {
+namespace {
+
+constexpr ImGuiWindowFlags kNote = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+ImU32 color_of(ToastKind kind) {
+  if (kind == ToastKind::kInfo) return color::kAccent;
+  return kind == ToastKind::kWarning ? color::kAmber : color::kRed;
+}
+
+// Returns the next toast's y.
+float draw_note(const SegmentContext& c, const Toast& toast, float y) {
+  const UiRect& m = c.layout.middle;
+  ImGui::SetNextWindowPos({m.x + m.w / 2, y}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::PushStyleColor(ImGuiCol_Border, color_of(toast.kind));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
+  ImGui::Begin(("##toast" + std::to_string(toast.id)).c_str(), nullptr, kNote);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ui::text(color_of(toast.kind), toast.kind == ToastKind::kInfo ? "i" : "!");
+  }
+  ImGui::SameLine(0, c.px(10));
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + c.px(400));
+  ImGui::TextUnformatted(toast.text.c_str());
+  ImGui::PopTextWrapPos();
+  if (toast.kind != ToastKind::kInfo) {
+    ImGui::SameLine(0, c.px(16));
+    if (ImGui::SmallButton("Close")) c.requests.dismiss_toast = toast.id;
+  }
+  const float bottom = y + ImGui::GetWindowHeight();
+  ImGui::End();
+  return bottom + c.px(8);
+}
+
+void draw_bar(const SegmentContext& c, const LoadingModel& work) {
+  ImGui::TextUnformatted(work.what.empty() ? "Starting" : work.what.c_str());
+  const float share = static_cast<float>(std::clamp(work.fraction, 0.0, 1.0));
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float w = c.px(336);
+  ImGui::Dummy({w, c.px(6)});
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(lo, {lo.x + w, lo.y + c.px(4)}, color::kField, c.px(2));
+  draw->AddRectFilled(lo, {lo.x + w * share, lo.y + c.px(4)}, color::kAccent, c.px(2));
+  std::string left = std::to_string(static_cast<int>(100 * share)) + " %";
+  if (work.seconds_left >= 0)
+    left += ", about " + std::to_string(static_cast<int>(work.seconds_left) + 1) + " s left";
+  ui::text(color::kTextQuiet, left.c_str());
+  ImGui::SameLine(c.px(16) + w - c.px(72));
+  if (ImGui::Button("Cancel", {c.px(72), 0})) c.requests.cancel_job = true;
+}
+
+void begin_middle(const SegmentContext& c, const char* name, float up) {
+  const UiRect& m = c.layout.middle;
+  ImGui::SetNextWindowPos({m.x + m.w / 2, m.y + up * m.h}, ImGuiCond_Always, {0.5f, up});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(16)});
+  ImGui::Begin(name, nullptr, kNote);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void draw_segment_notes(const SegmentContext& c) {
+  float y = c.layout.middle.y + c.px(32);
+  for (const Toast& toast : c.model.toasts) y = draw_note(c, toast, y);
+  if (!c.model.job) return;
+  const UiRect& m = c.layout.middle;
+  ImGui::SetNextWindowPos({m.x + m.w / 2, m.bottom() - c.px(24)}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(12)});
+  ImGui::Begin("##job", nullptr, kNote);
+  ImGui::PopStyleVar();
+  draw_bar(c, *c.model.job);
+  ImGui::End();
+}
+
+void draw_segment_loading(const SegmentContext& c) {
+  begin_middle(c, "##loading", 0.5f);
+  if (c.model.phase == UiPhase::kLoading) {
+    draw_bar(c, c.model.loading);
+  } else {
+    {
+      const ui::WithFont strong(c.fonts.strong);
+      ui::text(color::kAmber, "This could not be opened");
+    }
+    ImGui::PushTextWrapPos(c.px(420));
+    ImGui::TextUnformatted(c.model.loading.failure.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Dummy({0, c.px(4)});
+    if (ImGui::Button("Close")) c.requests.quit_without_saving = true;
+  }
+  ImGui::End();
+}
+
+void draw_close_question(const SegmentContext& c) {
+  begin_middle(c, "##close", 0.5f);
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ImGui::TextUnformatted("What you drew is not saved yet.");
+  }
+  ImGui::Dummy({c.px(320), c.px(4)});
+  const float w = c.px(104);
+  if (ui::accent_button("Save", {w, 0})) c.requests.quit_after_saving = true;
+  ImGui::SameLine(0, c.px(4));
+  if (ImGui::Button("Don't save", {w, 0})) c.requests.quit_without_saving = true;
+  ImGui::SameLine(0, c.px(4));
+  if (ImGui::Button("Stay", {w, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    c.requests.stay = true;
+  ImGui::End();
+}
+
+void draw_segment_top(const SegmentContext& c) {
+  const UiRect& r = c.layout.top;
+  ImGui::SetNextWindowPos({r.x, r.y});
+  ImGui::SetNextWindowSize({r.w, r.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  begin_panel("##top", kBarPanel);
+  ImGui::PopStyleVar(2);
+  ImGui::SetCursorPos({c.px(14), 0.5f * (r.h - ImGui::GetTextLineHeight())});
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ImGui::TextUnformatted(c.model.title.c_str());
+  }
+  ImGui::SameLine(0, c.px(16));
+  ui::text(color::kTextQuiet, c.model.shape.c_str());
+  if (c.model.changed) {
+    ImGui::SameLine(0, c.px(16));
+    ui::text(color::kAmber, "not saved");
+  }
+  const float help = ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float whole = ImGui::CalcTextSize("Whole slices").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorPos({r.w - help - whole - c.px(22), 0.5f * (r.h - ImGui::GetFrameHeight())});
+  if (ImGui::Button("Whole slices")) c.requests.fit_panes = true;
+  ui::tooltip("Shows each slice as a whole again (F)");
+  ImGui::SameLine(0, c.px(8));
+  if (ui::toggle_button("Help", c.model.help_open)) c.requests.toggle_help = true;
+  ui::tooltip("All keys (F1)");
+  ImGui::End();
+}
+
+namespace {
+
+struct HelpLine {
+  const char* keys;
+  const char* what;
+};
+
+constexpr std::array<HelpLine, 17> kHelp = {{
+    {"Wheel", "through the slices"},
+    {"Ctrl + wheel", "nearer, farther"},
+    {"Right drag", "brightness and contrast"},
+    {"Middle drag, Shift + right", "move the slice"},
+    {"F", "whole slices"},
+    {"C  G  B  X  S  M", "look, grow, paint, erase, split, merge"},
+    {"[  ]", "thinner, thicker brush"},
+    {"Ctrl + paint", "erase"},
+    {"Shift + grow", "add to the chosen bone"},
+    {"T", "threshold in the slices"},
+    {"N", "new bone"},
+    {"Ctrl + Z, + Shift", "undo, redo"},
+    {"Ctrl + S", "save as a case"},
+    {"Tab", "fold the panels away"},
+    {"F11", "full screen"},
+    {"Ctrl + and Ctrl -", "larger, smaller interface"},
+    {"Ctrl + Q", "end"},
+}};
+
+}  // namespace
+
+void draw_segment_help(const SegmentContext& c) {
+  begin_middle(c, "##help", 0.5f);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, c.px(190));
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, c.px(250));
+    for (const HelpLine& line : kHelp) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ui::text(color::kAccent, line.keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(line.what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::Dummy({0, c.px(4)});
+  if (ImGui::Button("Close  (F1)")) c.requests.toggle_help = true;
+  ImGui::End();
+}
+
+}  // namespace osteon

@@ -1,0 +1,303 @@
+#include "segment/segment_app.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "label_case.h"
+#include "loops/realtime.h"
+#include "loops/stop_signal.h"
+#include "osteon/base/clock.h"
+#include "whole_folder.h"
+#include "window/screenshot.h"
+#include "xdg.h"
+
+namespace osteon {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kShortestFrame_ns = 1'000'000'000 / 60;
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+SegmentApp::SegmentApp(const SegmentOrder& order) : order_(order) {}
+
+Result<std::unique_ptr<SegmentApp>> SegmentApp::create(const SegmentOrder& order) {
+  std::unique_ptr<SegmentApp> app(new SegmentApp(order));
+  if (!order.fresh) app->settings_ = load_app_settings(config_dir() / "settings.json", nullptr);
+  WindowOptions options;
+  options.width = order.width > 0 ? order.width : app->settings_.window_width;
+  options.height = order.height > 0 ? order.height : app->settings_.window_height;
+  options.title = "Osteon: segmentation";
+  options.wait_for_display = order.frames == 0;
+  auto window = GlWindow::create(options);
+  if (!window) return tl::unexpected(window.error());
+  app->window_ = std::move(*window);
+  app->ui_ = std::make_unique<ImGuiHost>(app->window_->handle(), 1.0f);
+  if (app->order_.out.empty()) {
+    const std::string stem = plain_folder(order.scan.source).stem().string();
+    app->order_.out = dated_file(data_home_dir() / "cases", stem.empty() ? "scan" : stem, "");
+  }
+  app->opening_ = std::make_unique<SideJob<OpenedScan>>(
+      [scan = order.scan](const Progress& progress) { return open_scan(scan, progress); });
+  return app;
+}
+
+Result<void> SegmentApp::run() {
+  const std::int64_t start_ns = steady_now_ns();
+  while (!wants_to_end()) {
+    const std::int64_t begin_ns = steady_now_ns();
+    now_s_ = seconds(begin_ns - start_ns);
+    frame();
+    if (measured_run_over()) return finish_measured_run();
+    window_->swap();
+    work_.add(seconds(steady_now_ns() - begin_ns));
+    sleep_until_ns(begin_ns + kShortestFrame_ns);
+  }
+  return {};
+}
+
+// What was drawn is asked about before it is lost; a signal ends at once.
+bool SegmentApp::wants_to_end() {
+  if (ends_ || stop_requested()) return true;
+  if (!window_->should_close()) return false;
+  if (!changed()) return true;
+  window_->stay_open();
+  asks_to_close_ = true;
+  return false;
+}
+
+void SegmentApp::frame() {
+  window_->poll();
+  const double scale = order_.interface_scale > 0
+                           ? order_.interface_scale
+                           : static_cast<double>(window_->content_scale()) /
+                                 window_->pixel_ratio() * settings_.interface_zoom;
+  ui_->set_scale(static_cast<float>(scale));
+  poll_opening();
+  poll_suggestion();
+  poll_saving();
+  toasts_.age(now_s_);
+  ui_->begin_frame(window_->take_pressed_keys());
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const SegmentLayout layout = make_segment_layout(size.x, size.y, ui_->scale(), panels_open_);
+  int width = 0, height = 0;
+  window_->framebuffer_size(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (segmenting_ && width > 0 && height > 0) {
+    place_panes(layout);
+    draw_panes();
+    draw_solid(layout);
+  }
+  const SegmentRequests requests = draw_segment_ui(build_model(), ui_->fonts());
+  ui_->end_frame();
+  apply(requests, layout);
+}
+
+void SegmentApp::poll_opening() {
+  if (!opening_ || !opening_->done()) return;
+  auto opened = opening_->take();
+  opening_.reset();
+  if (!opened) {
+    failure_ = opened.error().message();
+    return;
+  }
+  const auto& values = opened->edit.volume().values;
+  const auto ends = std::minmax_element(values.begin(), values.end());
+  values_ = {*ends.first, std::max<int>(*ends.second, *ends.first + 1)};
+  segmenting_.emplace(std::move(opened->edit), opened->levels);
+  X_WP_ = lying_pose_WP(segmenting_->edit().labels().frame);
+  auto solid = SolidView::create(segmenting_->edit().labels().frame);
+  if (solid)
+    solid_ = std::move(*solid);
+  else
+    note(ToastKind::kWarning, solid.error().message());
+  if (std::exchange(order_.suggest, false)) begin_suggestion();
+}
+
+void SegmentApp::begin_suggestion() {
+  if (!segmenting_ || at_work()) return;
+  suggesting_ = std::make_unique<SideJob<SuggestedLabels>>(
+      [volume = segmenting_->edit().shared_volume(), levels = segmenting_->levels()](
+          const Progress& progress) { return suggest_labels(*volume, levels, progress); });
+}
+
+void SegmentApp::poll_suggestion() {
+  if (!suggesting_ || !suggesting_->done()) return;
+  const bool cancelled = suggesting_->cancelled();
+  auto found = suggesting_->take();
+  suggesting_.reset();
+  if (!found) {
+    if (!cancelled) note(ToastKind::kError, found.error().message());
+    return;
+  }
+  if (auto taken = segmenting_->take_labels(found->labels, found->names); !taken)
+    return note(ToastKind::kError, taken.error().message());
+  X_WP_ = found->X_WP;
+  side_ = found->side;
+  note(ToastKind::kInfo, side_.empty() ? std::to_string(found->names.size()) + " bones found"
+                                       : "Recognised a " + side_ + " wrist");
+  for (const auto& [label, name] : found->names)
+    if (name == order_.choose) {
+      SegmentRequests requests;
+      requests.choose = label;
+      (void)segmenting_->apply(requests);
+    }
+}
+
+void SegmentApp::begin_saving() {
+  if (!segmenting_ || at_work()) return;
+  const LabelEdit& edit = segmenting_->edit();
+  if (edit.in_step()) return;
+  auto order = std::make_shared<SegmentSaveOrder>();
+  order->volume = edit.shared_volume();
+  order->labels = edit.labels();
+  for (const auto& [label, bone] : edit.bones()) order->names[label] = bone.name;
+  order->levels = segmenting_->levels();
+  order->X_WP = X_WP_;
+  order->side = side_;
+  order->out = order_.out;
+  order->replace = saved_before_;
+  saving_version_ = edit.version();
+  saving_ = std::make_unique<SideJob<SavedSegments>>(
+      [order](const Progress& progress) { return save_segments(*order, progress); });
+}
+
+void SegmentApp::poll_saving() {
+  if (!saving_ || !saving_->done()) return;
+  const bool cancelled = saving_->cancelled();
+  const auto saved = saving_->take();
+  saving_.reset();
+  const bool ends = std::exchange(ends_when_saved_, false);
+  if (!saved) {
+    if (!cancelled) note(ToastKind::kError, saved.error().message());
+    return;
+  }
+  saved_before_ = true;
+  // What was drawn while it was being saved is not in it.
+  if (segmenting_->edit().version() == saving_version_) segmenting_->mark_saved();
+  ends_ = ends;
+  std::string text = std::to_string(saved->bones) + " bones saved as " + saved->folder.string();
+  if (saved->without_voxels > 0)
+    text += "; left out, as they have no voxels: " + std::to_string(saved->without_voxels);
+  note(saved->open_surfaces > 0 ? ToastKind::kWarning : ToastKind::kInfo,
+       saved->open_surfaces > 0
+           ? text + "; surfaces with holes: " + std::to_string(saved->open_surfaces)
+           : text);
+}
+
+void SegmentApp::place_panes(const SegmentLayout& layout) {
+  const double ratio = window_->pixel_ratio();
+  for (std::size_t p = 0; p < layout.slices.size(); ++p)
+    segmenting_->resize_pane(
+        p, static_cast<int>(std::lround(static_cast<double>(layout.slices[p].w) * ratio)),
+        static_cast<int>(std::lround(static_cast<double>(layout.slices[p].h) * ratio)));
+}
+
+// A pane is drawn anew only when what it shows has changed.
+void SegmentApp::draw_panes() {
+  const std::uint64_t look = segmenting_->look_version();
+  for (std::size_t p = 0; p < textures_.size(); ++p) {
+    const int slice = segmenting_->slice(p);
+    if (drawn_[p].look == look && drawn_[p].slice == slice) continue;
+    const SliceWindow& window = segmenting_->windows()[p];
+    draw_slice(segmenting_->edit(), segmenting_->planes()[p], window, slice, segmenting_->look(),
+               pixels_);
+    textures_[p].set(window.width, window.height, pixels_);
+    drawn_[p] = {look, slice};
+  }
+}
+
+Viewport SegmentApp::viewport_of(const UiRect& rect) const {
+  const double ratio = window_->pixel_ratio();
+  int width = 0, height = 0;
+  window_->framebuffer_size(width, height);
+  const auto px = [ratio](float v) {
+    return static_cast<int>(std::lround(static_cast<double>(v) * ratio));
+  };
+  return {px(rect.x), height - px(rect.bottom()), px(rect.w), px(rect.h)};
+}
+
+void SegmentApp::draw_solid(const SegmentLayout& layout) {
+  if (!solid_) return;
+  solid_->update(*segmenting_);
+  solid_->draw(viewport_of(layout.solid));
+}
+
+SegmentRequests SegmentApp::in_pane_pixels(SegmentRequests requests) const {
+  const double ratio = window_->pixel_ratio();
+  if (requests.pointer)
+    for (double* v :
+         {&requests.pointer->x, &requests.pointer->y, &requests.pointer->dx, &requests.pointer->dy})
+      *v *= ratio;
+  for (double* v : {&requests.solid.x, &requests.solid.y, &requests.solid.dx, &requests.solid.dy})
+    *v *= ratio;
+  return requests;
+}
+
+void SegmentApp::apply(const SegmentRequests& asked, const SegmentLayout& layout) {
+  const SegmentRequests requests = in_pane_pixels(asked);
+  apply_window(requests);
+  apply_closing(requests);
+  pointer_ = requests.pointer;
+  if (!segmenting_) return;
+  if (auto done = segmenting_->apply(requests); !done)
+    note(ToastKind::kWarning, done.error().message());
+  if (solid_) solid_->steer(requests.solid, viewport_of(layout.solid));
+  if (requests.suggest) begin_suggestion();
+  if (requests.save) begin_saving();
+}
+
+void SegmentApp::apply_window(const SegmentRequests& requests) {
+  if (requests.toggle_help) help_open_ = !help_open_;
+  if (requests.toggle_panels) panels_open_ = !panels_open_;
+  if (requests.toggle_fullscreen) window_->toggle_fullscreen();
+  if (requests.dismiss_toast) toasts_.dismiss(*requests.dismiss_toast);
+  if (requests.zoom_interface)
+    settings_.interface_zoom =
+        std::clamp(settings_.interface_zoom * *requests.zoom_interface, 0.75, 2.5);
+  if (!requests.cancel_job) return;
+  if (opening_) opening_->cancel();
+  if (suggesting_) suggesting_->cancel();
+  if (saving_) saving_->cancel();
+  ends_when_saved_ = false;
+}
+
+void SegmentApp::apply_closing(const SegmentRequests& requests) {
+  if (requests.quit) window_->close();
+  if (requests.stay) asks_to_close_ = false;
+  if (requests.quit_without_saving) ends_ = true;
+  if (!requests.quit_after_saving) return;
+  asks_to_close_ = false;
+  begin_saving();
+  ends_when_saved_ = saving_ != nullptr;
+}
+
+bool SegmentApp::at_work() const { return opening_ || suggesting_ || saving_; }
+
+bool SegmentApp::measured_run_over() {
+  if (order_.frames <= 0) return false;
+  if (!failure_.empty()) return true;
+  if (!segmenting_ || at_work() || (solid_ && solid_->busy())) {
+    work_.clear();
+    return false;
+  }
+  return ++measured_frames_ >= order_.frames;
+}
+
+Result<void> SegmentApp::finish_measured_run() {
+  if (!failure_.empty()) return fail(failure_);
+  if (order_.screenshot.empty()) return {};
+  int width = 0, height = 0;
+  window_->framebuffer_size(width, height);
+  return save_png(read_framebuffer(width, height), order_.screenshot);
+}
+
+}  // namespace osteon
