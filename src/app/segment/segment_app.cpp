@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -32,11 +33,12 @@ Result<std::unique_ptr<SegmentApp>> SegmentApp::create(const SegmentOrder& order
   WindowOptions options;
   options.width = order.width > 0 ? order.width : app->settings_.window_width;
   options.height = order.height > 0 ? order.height : app->settings_.window_height;
-  options.title = "Osteon: segmentation";
+  options.title = "Osteon segmentation";
   options.wait_for_display = order.frames == 0;
   auto window = GlWindow::create(options);
   if (!window) return tl::unexpected(window.error());
   app->window_ = std::move(*window);
+  app->order_.scan.source = plain_folder(order.scan.source);
   app->ui_ = std::make_unique<ImGuiHost>(app->window_->handle(), 1.0f);
   if (app->order_.out.empty()) {
     const std::string stem = plain_folder(order.scan.source).stem().string();
@@ -71,6 +73,11 @@ bool SegmentApp::wants_to_end() {
   return false;
 }
 
+void SegmentApp::note(ToastKind kind, std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  toasts_.add(kind, std::move(text), now_s_);
+}
+
 void SegmentApp::frame() {
   window_->poll();
   const double scale = order_.interface_scale > 0
@@ -99,6 +106,16 @@ void SegmentApp::frame() {
   const SegmentRequests requests = draw_segment_ui(build_model(), ui_->fonts());
   ui_->end_frame();
   apply(requests, layout);
+  tell_title();
+}
+
+// "wrist.nrrd* - Osteon segmentation": the star stands for what is not saved.
+void SegmentApp::tell_title() {
+  if (!segmenting_) return;
+  const std::string title = order_.scan.source.filename().string() + (changed() ? "*" : "") +
+                            (saving_ ? " (saving)" : "") + " - Osteon segmentation";
+  if (title != title_) window_->set_title(title);
+  title_ = title;
 }
 
 void SegmentApp::poll_opening() {

@@ -45,6 +45,7 @@ class SegmentApp {
   explicit SegmentApp(const SegmentOrder& order);
 
   void frame();
+  void tell_title();
   void poll_opening();
   void poll_suggestion();
   void poll_saving();
@@ -69,7 +70,7 @@ class SegmentApp {
   void fill_bones(SegmentModel& model) const;
   std::string under_pointer() const;
 
-  void note(ToastKind kind, const std::string& text) { toasts_.add(kind, text, now_s_); }
+  void note(ToastKind kind, std::string text);
 
   SegmentOrder order_;
   AppSettings settings_;
@@ -79,6 +80,7 @@ class SegmentApp {
   FrameStats work_;
   double now_s_ = 0;
   int measured_frames_ = 0;
+  std::string title_;
   bool help_open_ = false, panels_open_ = true;
   bool asks_to_close_ = false, ends_ = false, ends_when_saved_ = false;
 

@@ -55,9 +55,13 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
     auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
     state.dropped.assign(paths, paths + count);
   });
-  glfwSetKeyCallback(made.window_, [](GLFWwindow* window, int key, int, int action, int) {
+  glfwSetKeyCallback(made.window_, [](GLFWwindow* window, int key, int, int action, int mods) {
     auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-    if (action == GLFW_PRESS && key >= 0) state.pressed.push_back(key);
+    if (action != GLFW_PRESS || key < 0) return;
+    // Ctrl may be up again before the picture in which the key is seen.
+    if (mods & GLFW_MOD_CONTROL) state.pressed.push_back(GLFW_KEY_LEFT_CONTROL);
+    if (mods & GLFW_MOD_SHIFT) state.pressed.push_back(GLFW_KEY_LEFT_SHIFT);
+    state.pressed.push_back(key);
   });
   glfwSetWindowSizeLimits(made.window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(made.window_);
@@ -98,6 +102,8 @@ double GlWindow::pixel_ratio() const {
   glfwGetWindowSize(window_, &window_w, &window_h);
   return window_w > 0 ? static_cast<double>(framebuffer_w) / window_w : 1.0;
 }
+
+void GlWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 void GlWindow::toggle_fullscreen() {
   State& s = *state_;

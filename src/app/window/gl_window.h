@@ -34,6 +34,7 @@ class GlWindow {
   float content_scale() const;
   /// Framebuffer pixels a screen coordinate.
   double pixel_ratio() const;
+  void set_title(const std::string& title);
   void toggle_fullscreen();
   void close();
   /// Takes back a wish to close.
