@@ -3,11 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "osteon/base/types.h"
 
 namespace osteon::hull {
+
+inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
 /// Plane n.q = d in the scaled frame S with a unit normal. A point whose height is beyond +-bound
 /// is on that side for certain; one within is undecided.
@@ -20,25 +21,22 @@ struct FilterPlane {
   }
 };
 
-/// The input beside a copy in the scaled frame S (centred, sides at most 2) on which the filter
-/// runs with bounds that need no look at the magnitudes. Whatever the filter leaves undecided is
-/// settled exactly on the input itself.
+/// Power of two that brings `half_extent` into [0.5, 1), as far as doubles reach.
+double scale_to_one(double half_extent);
+
+/// The input and its scaled frame S (centred, sides at most 2), in which filters run with bounds
+/// that need no look at the magnitudes. Whatever a filter leaves undecided is settled exactly on
+/// the input itself.
 class Cloud {
  public:
-  /// All points finite; they outlive the cloud.
-  explicit Cloud(std::span<const Vec3> points);
-  Cloud(const Cloud&) = delete;
-  Cloud& operator=(const Cloud&) = delete;
-  /// Copies of some points of another cloud, in this order and in the same frame S.
-  Cloud(const Cloud& from, std::span<const std::uint32_t> order);
+  /// All points finite, within the box and filling it; they outlive the cloud.
+  Cloud(std::span<const Vec3> points, const Aabb& box);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(raw_.size()); }
   const Vec3& raw(std::uint32_t i) const { return raw_[i]; }
-  const Vec3& scaled(std::uint32_t i) const { return scaled_[i]; }
-
-  /// A point of the input's frame in S, and lengths there by this factor.
-  Vec3 to_scaled(const Vec3& p) const { return scale_ * p - centre_; }
-  double scale() const { return scale_; }
+  std::span<const Vec3> points() const { return raw_; }
+  const Aabb& box() const { return box_; }
+  Vec3 scaled(std::uint32_t i) const { return scale_ * raw_[i] - centre_; }
 
   FilterPlane plane(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   /// Exact side of point p of the plane a, b, c, for a height that the filter leaves undecided.
@@ -47,15 +45,14 @@ class Cloud {
   std::size_t* exact_counter() const { return &exact_tests_; }
 
  private:
-  std::vector<Vec3> own_;
   std::span<const Vec3> raw_;
-  std::vector<Vec3> scaled_;
+  Aabb box_;
   double scale_ = 1;
   Vec3 centre_ = Vec3::Zero();
   mutable std::size_t exact_tests_ = 0;
 };
 
-/// Plane through three points of frame S.
-FilterPlane filter_plane(const Vec3& a_S, const Vec3& b_S, const Vec3& c_S);
+/// Box of the points; empty when a coordinate is not finite.
+Aabb finite_box(std::span<const Vec3> points);
 
 }  // namespace osteon::hull

@@ -19,8 +19,11 @@ std::array<Vec3, 3> spread(std::span<const Vec3> points, std::span<const std::ui
   return {points[polygon[0]], points[polygon[n / 3]], points[polygon[2 * n / 3]]};
 }
 
-/// Scaled by a power of two first, so that squares stay in range.
+/// Scaled by a power of two first where squares could leave the range; it rounds nothing, so either
+/// way gives the same bits.
 Vec3 unit(const Vec3& v) {
+  const double square = v.squaredNorm();
+  if (square > 1e-200 && square < 1e200) return v / std::sqrt(square);
   int exponent = 0;
   std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
   Vec3 scaled = v;

@@ -15,18 +15,19 @@ int turn_xy(const Cloud& cloud, std::uint32_t a, std::uint32_t b, std::uint32_t 
 
 bool same_xy(const Vec3& p, const Vec3& q) { return p.x() == q.x() && p.y() == q.y(); }
 
-std::uint32_t lexicographic_minimum(const Cloud& cloud) {
-  std::uint32_t lowest = 0;
-  for (std::uint32_t i = 1; i < cloud.size(); ++i) {
+std::uint32_t lexicographic_minimum(const Cloud& cloud, std::span<const std::uint32_t> points) {
+  std::uint32_t lowest = points[0];
+  for (const std::uint32_t i : points) {
     if (lexicographic_less(cloud.raw(i), cloud.raw(lowest))) lowest = i;
   }
   return lowest;
 }
 
 /// Seen along z: a point b that leaves no other on the right of the line from the corner a.
-std::uint32_t rightmost_from(const Cloud& cloud, std::uint32_t a) {
+std::uint32_t rightmost_from(const Cloud& cloud, std::span<const std::uint32_t> points,
+                             std::uint32_t a) {
   std::uint32_t b = a;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  for (const std::uint32_t i : points) {
     if (same_xy(cloud.raw(i), cloud.raw(a))) continue;
     if (b == a || turn_xy(cloud, a, b, i) < 0) b = i;
   }
@@ -36,12 +37,12 @@ std::uint32_t rightmost_from(const Cloud& cloud, std::uint32_t a) {
 }  // namespace
 
 // The upright plane through a and b supports the hull: the points on it make a facet or an edge.
-DirectedEdge first_edge(const Cloud& cloud) {
-  const std::uint32_t a = lexicographic_minimum(cloud);
-  const std::uint32_t b = rightmost_from(cloud, a);
+DirectedEdge first_edge(const Cloud& cloud, std::span<const std::uint32_t> points) {
+  const std::uint32_t a = lexicographic_minimum(cloud, points);
+  const std::uint32_t b = rightmost_from(cloud, points, a);
   std::vector<std::uint32_t> on_plane;
   std::uint32_t last = a, off_line = a;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+  for (const std::uint32_t i : points) {
     if (!same_xy(cloud.raw(i), cloud.raw(a)) && turn_xy(cloud, a, b, i) != 0) continue;
     on_plane.push_back(i);
     if (lexicographic_less(cloud.raw(last), cloud.raw(i))) last = i;

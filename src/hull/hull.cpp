@@ -4,9 +4,9 @@
 
 #include "cloud.h"
 #include "facet_plane.h"
-#include "inner_ball.h"
 #include "osteon/base/clock.h"
 #include "quickhull.h"
+#include "spatial_order.h"
 #include "wrapping.h"
 
 namespace osteon {
@@ -91,32 +91,43 @@ Hull assemble(std::span<const Vec3> points, const WrappedFacets& facets) {
   return result;
 }
 
-std::vector<Vec3> pick(std::span<const Vec3> points, std::span<const std::uint32_t> order) {
-  std::vector<Vec3> picked;
-  picked.reserve(order.size());
-  for (const std::uint32_t i : order) picked.push_back(points[i]);
-  return picked;
+/// Every 8^k-th point first, then the others between them: a polytope that has grown evenly has
+/// facets about as large as the steps of the order, so a new point is found near the last one
+/// (Amenta, Choi, Rote, "Incremental Constructions con BRIO", 2003).
+void insert(hull::Polytope& polytope, std::span<const std::uint32_t> order) {
+  constexpr std::size_t kAhead = 8;
+  const auto add = [&](std::size_t i, std::size_t step) {
+    if (i + kAhead * step < order.size()) polytope.fetch(order[i + kAhead * step]);
+    polytope.add(order[i]);
+  };
+  polytope.reserve(order.size());
+  std::size_t step = 1;
+  while (order.size() / step > 16 * polytope.vertices().size()) step *= 8;
+  for (std::size_t i = 0; i < order.size(); i += step) add(i, step);
+  for (; step > 1; step /= 8) {
+    for (std::size_t i = 0; i < order.size(); i += step / 8) {
+      if (i % step != 0) add(i, step / 8);
+    }
+  }
 }
 
 HullOutcome build(std::span<const Vec3> points, HullStats& stats) {
   if (points.size() < 4) return {std::nullopt, HullFailure::kTooFewPoints};
-  if (!std::all_of(points.begin(), points.end(), [](const Vec3& p) { return is_finite(p); })) {
-    return {std::nullopt, HullFailure::kNotFinite};
-  }
-  const std::vector<std::uint32_t> order = hull::outside_inner_ball(points);
-  const std::vector<Vec3> outer = pick(points, order);
-  const hull::Cloud cloud(outer);
-  const hull::Shell kept = hull::quickhull(cloud);
+  const Aabb box = hull::finite_box(points);
+  if (box.empty()) return {std::nullopt, HullFailure::kNotFinite};
+  const hull::Cloud cloud(points, box);
+  hull::FirstStage first = hull::quickhull(cloud);
   stats.exact_tests = cloud.exact_tests();
-  if (kept.failure) return {std::nullopt, *kept.failure};
-  WrappedFacets facets = hull::wrap(cloud, kept);
-  for (std::uint32_t& corner : facets.corners) corner = order[corner];
-  HullOutcome outcome{assemble(points, facets)};
-  stats.duplicates = kept.duplicates;
-  stats.given_to_wrapping = kept.points.size();
-  stats.discarded_by_quickhull = points.size() - kept.duplicates - kept.points.size();
-  stats.discarded_by_wrapping = kept.points.size() - outcome.hull->vertices.size();
-  stats.exact_tests = cloud.exact_tests() + facets.exact_tests;
+  if (!first.polytope) return {std::nullopt, first.failure};
+  hull::Polytope& polytope = *first.polytope;
+  const hull::SpatialOrder order = hull::spatial_order(cloud, polytope, first.points);
+  insert(polytope, order.points);
+  HullOutcome outcome{assemble(points, hull::wrap(cloud, polytope))};
+  stats.duplicates = order.copies;
+  stats.given_to_wrapping = polytope.vertices().size();
+  stats.discarded_by_quickhull = points.size() - order.copies - stats.given_to_wrapping;
+  stats.discarded_by_wrapping = stats.given_to_wrapping - outcome.hull->vertices.size();
+  stats.exact_tests = cloud.exact_tests();
   return outcome;
 }
 

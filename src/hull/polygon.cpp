@@ -8,15 +8,6 @@
 
 namespace osteon::hull {
 
-namespace {
-
-/// Coordinate axes i, j onto which the plane of a, b, c projects without collapsing, in the order
-/// in which a, b, c turn positively.
-struct Projection {
-  int i = 0;
-  int j = 1;
-};
-
 Projection projection_of(const Cloud& cloud, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const Vec3 e1 = cloud.scaled(b) - cloud.scaled(a);
   const Vec3 e2 = cloud.scaled(c) - cloud.scaled(a);
@@ -33,8 +24,6 @@ Projection projection_of(const Cloud& cloud, std::uint32_t a, std::uint32_t b, s
   assert(false && "the points are collinear");
   return {};
 }
-
-}  // namespace
 
 // Andrew's monotone chains ("Another efficient algorithm for convex hulls in two dimensions",
 // 1979).

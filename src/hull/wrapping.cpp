@@ -1,75 +1,180 @@
 #include "wrapping.h"
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 
 #include "first_edge.h"
-#include "open_edges.h"
-#include "pivot.h"
 #include "polygon.h"
 #include "predicates.h"
 
 namespace osteon::hull {
 
-void WrappedFacets::add(std::span<const std::uint32_t> polygon_corners) {
-  corners.insert(corners.end(), polygon_corners.begin(), polygon_corners.end());
-  starts.push_back(static_cast<std::uint32_t>(corners.size()));
-}
-
 namespace {
+
+using Facet = Polytope::Facet;
+
+constexpr std::uint32_t next_side(std::uint32_t edge) {
+  return (edge & 3) == 2 ? edge - 2 : edge + 1;
+}
 
 class Wrapper {
  public:
-  Wrapper(const Cloud& survivors, const Shell& shell)
-      : cloud_(survivors), pivot_(survivors, shell), open_(survivors.size()) {}
+  Wrapper(const Cloud& cloud, const Polytope& polytope)
+      : cloud_(cloud), facets_(polytope.facets()), polytope_(polytope) {}
 
   WrappedFacets run() {
-    const DirectedEdge first = first_edge(cloud_);
-    add_facet(first.from, first.to, off_line(first));
-    while (const std::optional<OpenEdges::Edge> edge = open_.next()) {
-      add_facet(edge->to, edge->from, edge->beyond);
+    wrapped_.assign(facets_.size(), false);
+    result_.corners.reserve(3 * facets_.size());
+    result_.starts.reserve(facets_.size() + 1);
+    turn_to(first_facet());
+    while (!open_.empty()) {
+      const std::uint32_t beyond = twin(open_.back());
+      open_.pop_back();
+      if (!wrapped_[beyond >> 2]) turn_to(beyond);
     }
-    return std::move(facets_);
+    return std::move(result_);
   }
 
  private:
-  /// The facet in which the edge runs from `from` to `to`.
-  void add_facet(std::uint32_t from, std::uint32_t to, std::uint32_t guess) {
-    const Contact& contact = pivot_.turn(from, to, guess);
-    std::vector<std::uint32_t>& polygon = polygon_;
-    polygon.assign({from, to, contact.point});
-    if (!contact.others.empty()) {
-      polygon.insert(polygon.end(), contact.others.begin(), contact.others.end());
-      polygon = wrap_polygon(cloud_, std::move(polygon), from, to, contact.point);
+  std::uint32_t twin(std::uint32_t edge) const { return facets_[edge >> 2].twin[edge & 3]; }
+  std::uint32_t start(std::uint32_t edge) const { return facets_[edge >> 2].v[edge & 3]; }
+  std::uint32_t source(std::uint32_t vertex) const { return polytope_.vertices()[vertex].source; }
+  const Vec3& raw(std::uint32_t vertex) const { return cloud_.raw(source(vertex)); }
+
+  /// The edge of the polytope with which the first edge of the hull begins.
+  std::uint32_t first_facet() const {
+    const DirectedEdge first = first_edge(cloud_, corners());
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+      if (facets_[f].gone()) continue;
+      for (std::uint32_t edge = 4 * f; edge < 4 * f + 3; ++edge) {
+        if (source(start(edge)) != first.from) continue;
+        const std::uint32_t end = source(start(next_side(edge)));
+        if (end == first.to ||
+            collinear(cloud_.raw(first.from), cloud_.raw(first.to), cloud_.raw(end))) {
+          return edge;
+        }
+      }
     }
-    const std::size_t n = polygon.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      open_.add({polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]});
-    }
-    facets_.add(polygon);
+    return 0;
   }
 
-  std::uint32_t off_line(DirectedEdge edge) const {
-    std::uint32_t i = 0;
-    while (collinear(cloud_.raw(edge.from), cloud_.raw(edge.to), cloud_.raw(i))) ++i;
-    return i;
+  /// Sources of the vertices that facets have, rising.
+  std::vector<std::uint32_t> corners() const {
+    std::vector<bool> used(polytope_.vertices().size(), false);
+    for (const Facet& facet : facets_) {
+      if (facet.gone()) continue;
+      for (const std::uint32_t v : facet.v) used[v] = true;
+    }
+    std::vector<std::uint32_t> sources;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (used[v]) sources.push_back(source(v));
+    }
+    return sources;
+  }
+
+  /// Takes in the facet to which the edge belongs.
+  void turn_to(std::uint32_t edge) {
+    gather(edge >> 2);
+    if (plane_.size() == 1) {
+      outline_.assign({edge, next_side(edge), next_side(next_side(edge))});
+    } else {
+      trace(start(edge));
+    }
+    for (const std::uint32_t e : outline_) {
+      result_.corners.push_back(source(start(e)));
+      if (!wrapped_[twin(e) >> 2]) open_.push_back(e);
+    }
+    result_.starts.push_back(static_cast<std::uint32_t>(result_.corners.size()));
+  }
+
+  /// All triangles of the plane of one: they hang together.
+  void gather(std::uint32_t first) {
+    plane_.assign(1, first);
+    wrapped_[first] = true;
+    for (std::size_t k = 0; k < plane_.size(); ++k) {
+      const Facet& facet = facets_[plane_[k]];
+      for (const std::uint32_t beyond : facet.twin) {
+        const std::uint32_t other = beyond >> 2;
+        if (wrapped_[other]) continue;
+        const std::uint32_t apex = start(next_side(next_side(beyond)));
+        if (!polytope_.on_plane(facet, apex)) continue;
+        wrapped_[other] = true;
+        plane_.push_back(other);
+      }
+    }
+  }
+
+  bool on_outline(std::uint32_t edge) const { return !in_plane_[twin(edge) >> 2]; }
+
+  /// The edges around the triangles gathered, each from a corner on, from the corner on that is the
+  /// lowest in the projection.
+  void trace(std::uint32_t corner) {
+    in_plane_.resize(facets_.size(), false);
+    for (const std::uint32_t f : plane_) in_plane_[f] = true;
+    walk_round();
+    for (const std::uint32_t f : plane_) in_plane_[f] = false;
+    drop_straight_places();
+    const std::size_t n = outline_.size();
+    const auto from =
+        static_cast<std::size_t>(std::find_if(outline_.begin(), outline_.end(),
+                                              [&](std::uint32_t e) { return start(e) == corner; }) -
+                                 outline_.begin());
+    const auto corner_at = [&](std::size_t k) { return source(start(outline_[(from + k) % n])); };
+    const auto [i, j] = projection_of(cloud_, corner_at(0), corner_at(1), corner_at(2));
+    const int axis_i = i, axis_j = j;
+    const auto lower = [&](std::uint32_t a, std::uint32_t b) {
+      const Vec3& p = raw(start(a));
+      const Vec3& q = raw(start(b));
+      return p[axis_i] != q[axis_i] ? p[axis_i] < q[axis_i] : p[axis_j] < q[axis_j];
+    };
+    std::rotate(outline_.begin(), std::min_element(outline_.begin(), outline_.end(), lower),
+                outline_.end());
+  }
+
+  void walk_round() {
+    std::uint32_t first = kNoIndex;
+    for (const std::uint32_t f : plane_) {
+      for (std::uint32_t edge = 4 * f; edge < 4 * f + 3 && first == kNoIndex; ++edge) {
+        if (on_outline(edge)) first = edge;
+      }
+    }
+    outline_.clear();
+    std::uint32_t edge = first;
+    do {
+      outline_.push_back(edge);
+      edge = next_side(edge);
+      while (!on_outline(edge)) edge = next_side(twin(edge));
+    } while (edge != first);
+  }
+
+  void drop_straight_places() {
+    bent_.clear();
+    const std::size_t n = outline_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t before = outline_[(k + n - 1) % n], after = outline_[(k + 1) % n];
+      if (!collinear(raw(start(before)), raw(start(outline_[k])), raw(start(after)),
+                     cloud_.exact_counter())) {
+        bent_.push_back(outline_[k]);
+      }
+    }
+    outline_.swap(bent_);
   }
 
   const Cloud& cloud_;
-  Pivot pivot_;
-  OpenEdges open_;
-  std::vector<std::uint32_t> polygon_;
-  WrappedFacets facets_;
+  std::span<const Facet> facets_;
+  const Polytope& polytope_;
+  std::vector<bool> wrapped_, in_plane_;  ///< of each triangle
+  std::vector<std::uint32_t> open_;       ///< edges with a facet on their left, at least
+  std::vector<std::uint32_t> plane_;      ///< triangles of the facet in hand
+  std::vector<std::uint32_t> outline_;    ///< its edges
+  std::vector<std::uint32_t> bent_;
+  WrappedFacets result_;
 };
 
 }  // namespace
 
-WrappedFacets wrap(const Cloud& cloud, const Shell& shell) {
-  const Cloud survivors(cloud, shell.points);
-  WrappedFacets facets = Wrapper(survivors, shell).run();
-  for (std::uint32_t& corner : facets.corners) corner = shell.points[corner];
-  facets.exact_tests = survivors.exact_tests();
-  return facets;
+WrappedFacets wrap(const Cloud& cloud, const Polytope& polytope) {
+  return Wrapper(cloud, polytope).run();
 }
 
 }  // namespace osteon::hull

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cloud.h"
-#include "shell.h"
+#include "polytope.h"
 
 namespace osteon::hull {
 
@@ -13,18 +13,17 @@ namespace osteon::hull {
 struct WrappedFacets {
   std::vector<std::uint32_t> corners;  ///< indices in the cloud, polygon after polygon
   std::vector<std::uint32_t> starts{0};
-  std::size_t exact_tests = 0;
 
   std::size_t size() const { return starts.size() - 1; }
   std::span<const std::uint32_t> polygon(std::size_t i) const {
     return {corners.data() + starts[i], starts[i + 1] - starts[i]};
   }
-  void add(std::span<const std::uint32_t> polygon_corners);
 };
 
-/// Second stage, gift wrapping (Chand, Kapur, "An Algorithm for Convex Polytopes", 1970): turns a
-/// plane about each open edge until it meets the next point, and takes all points of that plane
-/// into one facet. The points span a volume and hold no copies.
-WrappedFacets wrap(const Cloud& cloud, const Shell& shell);
+/// Wraps the hull, after Chand and Kapur, "An Algorithm for Convex Polytopes" (1970): starts at an
+/// edge of the hull and turns about each open edge to the facet beyond, which takes in all points
+/// of its plane. What comes next about an edge the polytope knows. The result depends on the hull
+/// alone, not on how the polytope grew.
+WrappedFacets wrap(const Cloud& cloud, const Polytope& polytope);
 
 }  // namespace osteon::hull

@@ -1,4 +1,4 @@
-#include "inner_ball.h"
+#include "inner_reach.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,11 @@
 #include <limits>
 #include <set>
 
+#include "cube_map.h"
 #include "osteon/base/random.h"
 #include "osteon/hull/hull.h"
 #include "predicates.h"
+#include "quickhull.h"
 
 namespace osteon::hull {
 namespace {
@@ -24,16 +26,21 @@ std::vector<Vec3> in_ball(std::size_t n, std::uint64_t seed, const Vec3& axes, c
   return points;
 }
 
+/// What the first stage keeps; it drops by reach alone.
+std::vector<std::uint32_t> kept_of(const std::vector<Vec3>& points) {
+  const Cloud cloud(points, finite_box(points));
+  return quickhull(cloud).points;
+}
+
 // Independent of the filter: what it drops must be strictly inside the hull of what it keeps.
 void expect_dropped_lie_inside(const std::vector<Vec3>& points,
                                const std::vector<std::uint32_t>& kept) {
-  const std::set<std::uint32_t> is_kept(kept.begin(), kept.end());
   std::vector<Vec3> rest;
   for (const std::uint32_t i : kept) rest.push_back(points[i]);
   const auto outcome = build_hull(rest);
   ASSERT_TRUE(outcome.hull);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (is_kept.contains(i)) continue;
+    if (std::binary_search(kept.begin(), kept.end(), i)) continue;
     for (const Triangle& t : outcome.hull->triangles) {
       const auto& v = outcome.hull->vertices;
       ASSERT_LT(orient3d(v[t[0]], v[t[1]], v[t[2]], points[i]), 0) << "point " << i;
@@ -41,40 +48,47 @@ void expect_dropped_lie_inside(const std::vector<Vec3>& points,
   }
 }
 
-TEST(InnerBall, SmallCloudsStayWhole) {
-  const auto points = in_ball(100, 1, Vec3::Ones(), Vec3::Zero());
-  EXPECT_EQ(outside_inner_ball(points).size(), 100u);
-  EXPECT_TRUE(outside_inner_ball({}).empty());
+TEST(InnerReach, SmallCloudsStayWhole) {
+  EXPECT_EQ(kept_of(in_ball(100, 1, Vec3::Ones(), Vec3::Zero())).size(), 100u);
 }
 
-TEST(InnerBall, FlatLineAndPointCloudsStayWhole) {
+TEST(InnerReach, FlatCloudsHaveNoPolytope) {
   for (const Vec3& axes : {Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 0)}) {
     const auto points = in_ball(3000, 2, axes, Vec3(1, 2, 3));
-    EXPECT_EQ(outside_inner_ball(points).size(), points.size()) << axes.transpose();
+    const Cloud cloud(points, finite_box(points));
+    EXPECT_FALSE(quickhull(cloud).polytope) << axes.transpose();
   }
 }
 
-TEST(InnerBall, ExtremeScalesNeverLoseACorner) {
+TEST(InnerReach, ACloudThinnerThanRoundingStaysWhole) {
+  const Quat tilt = Quat(0.3, 0.5, -0.2, 0.7).normalized();
+  auto points = in_ball(3000, 2, Vec3(1, 1, 1e-14), Vec3::Zero());
+  for (Vec3& p : points) p = tilt * p;
+  EXPECT_EQ(kept_of(points).size(), points.size());
+}
+
+TEST(InnerReach, ExtremeScalesNeverLoseACorner) {
   for (const double scale : {1e-300, 1e-12, 1e6, 1e200, std::numeric_limits<double>::max() / 4}) {
     auto points = in_ball(3000, 3, Vec3::Ones(), Vec3::Zero());
     const auto plain = build_hull(points);
     for (Vec3& p : points) p *= scale;
-    const auto kept = outside_inner_ball(points);
+    const auto kept = kept_of(points);
+    EXPECT_LT(kept.size(), points.size()) << scale;
     for (const std::uint32_t s : plain.hull->source)
       EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), s)) << scale;
   }
 }
 
-TEST(InnerBall, DropsMostOfABallAndOnlyWhatLiesInside) {
+TEST(InnerReach, DropsMostOfABallAndOnlyWhatLiesInside) {
   const auto points = in_ball(20000, 4, Vec3(0.03, 0.01, 0.002), Vec3(5, -3, 1));
-  const auto kept = outside_inner_ball(points);
+  const auto kept = kept_of(points);
   EXPECT_LT(kept.size(), points.size() / 3);
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
   expect_dropped_lie_inside(points, kept);
 }
 
-TEST(InnerBall, AShellWithADentKeepsItsCorners) {
-  // All on a sphere but for a cap cut off: the ball must not reach over the cut.
+TEST(InnerReach, AShellWithADentKeepsItsCorners) {
+  // All on a sphere but for a cap cut off: what is dropped must not reach over the cut.
   Random random(5);
   std::vector<Vec3> points;
   while (points.size() < 5000) {
@@ -82,9 +96,24 @@ TEST(InnerBall, AShellWithADentKeepsItsCorners) {
     if (p.x() < 0.2) points.push_back(p);
   }
   for (int i = 0; i < 5000; ++i) points.push_back(0.1 * random.direction());
-  const auto kept = outside_inner_ball(points);
-  EXPECT_GE(kept.size(), 5000u);
+  const auto kept = kept_of(points);
+  EXPECT_EQ(kept.size(), 5000u);
   expect_dropped_lie_inside(points, kept);
+}
+
+// A lattice makes ties everywhere: facets of one plane, rays through edges and corners.
+TEST(InnerReach, OfALatticeOnlyTheSurfaceAndWhatIsNearItStays) {
+  std::vector<Vec3> points;
+  for (int x = 0; x < 24; ++x)
+    for (int y = 0; y < 24; ++y)
+      for (int z = 0; z < 24; ++z) points.emplace_back(x, y, z);
+  const auto kept = kept_of(points);
+  EXPECT_LT(kept.size(), points.size() / 2);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    if (p.minCoeff() > 0 && p.maxCoeff() < 23) continue;
+    EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), i)) << p.transpose();
+  }
 }
 
 }  // namespace
