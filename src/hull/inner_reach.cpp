@@ -16,8 +16,8 @@ constexpr double kReachMargin = 1e-9;
 constexpr double kWorstBound = 1e-10;
 
 std::uint32_t cells_of_table(std::size_t points) {
-  const double cells = std::sqrt(static_cast<double>(points)) / 12;
-  return static_cast<std::uint32_t>(std::clamp(cells, 4.0, 32.0));
+  const double cells = std::sqrt(static_cast<double>(points)) / 8;
+  return static_cast<std::uint32_t>(std::clamp(cells, 4.0, 48.0));
 }
 
 /// Of the corners of a face's cells, row by row.

@@ -231,20 +231,26 @@ void Polytope::cut(const Probe& probe, std::uint32_t first) {
 }
 
 void Polytope::raise_cone(std::uint32_t apex) {
-  cone_.clear();
+  std::uint32_t first = kNoIndex, before = kNoIndex;
   for (const RimEdge& edge : rim_) {
     const std::uint32_t place = add_facet(edge.from, edge.to, apex);
     facets_[place].twin[0] = edge.beyond;
     facets_[edge.beyond >> 2].twin[edge.beyond & 3] = 4 * place;
-    cone_.push_back(place);
-  }
-  std::uint32_t before = cone_.back();
-  for (const std::uint32_t place : cone_) {
-    facets_[place].twin[2] = 4 * before + 1;
-    facets_[before].twin[1] = 4 * place + 2;
+    if (before == kNoIndex) {
+      first = place;
+    } else {
+      join(before, place);
+    }
     before = place;
   }
+  join(before, first);
   here_ = before;
+}
+
+/// Neighbours in a cone.
+void Polytope::join(std::uint32_t before, std::uint32_t after) {
+  facets_[before].twin[1] = 4 * after + 2;
+  facets_[after].twin[2] = 4 * before + 1;
 }
 
 }  // namespace osteon::hull

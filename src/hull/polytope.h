@@ -87,6 +87,7 @@ class Polytope {
   void explore(const Vec3& q, double low, const Visit& visit);
   void cut(const Probe& probe, std::uint32_t first);
   void raise_cone(std::uint32_t apex);
+  void join(std::uint32_t before, std::uint32_t after);
 
   const Cloud& cloud_;
   Vec3 scale_, centre_;
@@ -97,7 +98,6 @@ class Polytope {
   std::vector<std::uint32_t> list_;   ///< of a search: facets, or edges to cross
   std::vector<std::uint32_t> spare_;  ///< places of facets that are gone
   std::vector<RimEdge> rim_;          ///< of the facets seen, in order
-  std::vector<std::uint32_t> cone_;
 };
 
 }  // namespace osteon::hull

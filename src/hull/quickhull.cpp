@@ -15,9 +15,14 @@ namespace {
 
 /// A smaller cloud gains nothing by growing towards its far points first.
 constexpr std::size_t kSmallCloud = 256;
-/// Enough points to find far-out ones among, and a good simplex.
-constexpr std::size_t kSample = 8192;
+/// Enough points to find a good simplex among.
+
 constexpr std::size_t kSimplexSample = 512;
+
+/// Enough points to find far-out ones among.
+std::size_t far_sample(std::size_t points) {
+  return std::clamp<std::size_t>(points / 8, 2048, 32768);
+}
 
 /// Every so many-th point.
 std::vector<std::uint32_t> sample(std::size_t points, std::size_t count) {
@@ -45,7 +50,7 @@ Simplex simplex_of(const Cloud& cloud) {
 /// Cells along an edge of each face of the cube of directions; even.
 std::uint32_t cells_for(std::size_t points) {
   const auto cells = static_cast<std::uint32_t>(0.4 * std::sqrt(std::sqrt(double(points))));
-  return std::clamp(2 * cells, 4u, 16u);
+  return std::clamp(2 * cells, 4u, 20u);
 }
 
 struct FarPoint {
@@ -57,7 +62,7 @@ struct FarPoint {
 std::vector<FarPoint> far_points(const Cloud& cloud, const Polytope& polytope,
                                  std::uint32_t cells) {
   std::vector<FarPoint> farthest(6 * cells * cells);
-  for (const std::uint32_t i : sample(cloud.size(), kSample)) {
+  for (const std::uint32_t i : sample(cloud.size(), far_sample(cloud.size()))) {
     const Vec3 q = polytope.to_q(cloud.raw(i));
     const double square = q.squaredNorm();
     if (!(square > 0.01)) continue;

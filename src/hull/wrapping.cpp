@@ -60,7 +60,7 @@ class Wrapper {
 
   /// Sources of the vertices that facets have, rising.
   std::vector<std::uint32_t> corners() const {
-    std::vector<bool> used(polytope_.vertices().size(), false);
+    std::vector<std::uint8_t> used(polytope_.vertices().size(), false);
     for (const Facet& facet : facets_) {
       if (facet.gone()) continue;
       for (const std::uint32_t v : facet.v) used[v] = true;
@@ -74,17 +74,32 @@ class Wrapper {
 
   /// Takes in the facet to which the edge belongs.
   void turn_to(std::uint32_t edge) {
-    gather(edge >> 2);
-    if (plane_.size() == 1) {
-      outline_.assign({edge, next_side(edge), next_side(next_side(edge))});
+    if (stands_alone(edge >> 2)) {
+      wrapped_[edge >> 2] = true;
+      const std::uint32_t second = next_side(edge);
+      for (const std::uint32_t e : {edge, second, next_side(second)}) take(e);
     } else {
+      gather(edge >> 2);
       trace(start(edge));
-    }
-    for (const std::uint32_t e : outline_) {
-      result_.corners.push_back(source(start(e)));
-      if (!wrapped_[twin(e) >> 2]) open_.push_back(e);
+      for (const std::uint32_t e : outline_) take(e);
     }
     result_.starts.push_back(static_cast<std::uint32_t>(result_.corners.size()));
+  }
+
+  void take(std::uint32_t edge) {
+    result_.corners.push_back(source(start(edge)));
+    if (!wrapped_[twin(edge) >> 2]) open_.push_back(edge);
+  }
+
+  /// Whether the triangle beyond an edge lies in the plane of this one.
+  bool is_flat(const Facet& facet, std::uint32_t beyond) const {
+    return !wrapped_[beyond >> 2] && polytope_.on_plane(facet, start(next_side(next_side(beyond))));
+  }
+
+  bool stands_alone(std::uint32_t triangle) const {
+    const Facet& facet = facets_[triangle];
+    return !is_flat(facet, facet.twin[0]) && !is_flat(facet, facet.twin[1]) &&
+           !is_flat(facet, facet.twin[2]);
   }
 
   /// All triangles of the plane of one: they hang together.
@@ -94,12 +109,9 @@ class Wrapper {
     for (std::size_t k = 0; k < plane_.size(); ++k) {
       const Facet& facet = facets_[plane_[k]];
       for (const std::uint32_t beyond : facet.twin) {
-        const std::uint32_t other = beyond >> 2;
-        if (wrapped_[other]) continue;
-        const std::uint32_t apex = start(next_side(next_side(beyond)));
-        if (!polytope_.on_plane(facet, apex)) continue;
-        wrapped_[other] = true;
-        plane_.push_back(other);
+        if (!is_flat(facet, beyond)) continue;
+        wrapped_[beyond >> 2] = true;
+        plane_.push_back(beyond >> 2);
       }
     }
   }
@@ -163,10 +175,10 @@ class Wrapper {
   const Cloud& cloud_;
   std::span<const Facet> facets_;
   const Polytope& polytope_;
-  std::vector<bool> wrapped_, in_plane_;  ///< of each triangle
-  std::vector<std::uint32_t> open_;       ///< edges with a facet on their left, at least
-  std::vector<std::uint32_t> plane_;      ///< triangles of the facet in hand
-  std::vector<std::uint32_t> outline_;    ///< its edges
+  std::vector<std::uint8_t> wrapped_, in_plane_;  ///< of each triangle: bool
+  std::vector<std::uint32_t> open_;               ///< edges with a facet on their left, at least
+  std::vector<std::uint32_t> plane_;              ///< triangles of the facet in hand
+  std::vector<std::uint32_t> outline_;            ///< its edges
   std::vector<std::uint32_t> bent_;
   WrappedFacets result_;
 };
