@@ -118,26 +118,27 @@ class Wrapper {
 
   bool on_outline(std::uint32_t edge) const { return !in_plane_[twin(edge) >> 2]; }
 
-  /// The edges around the triangles gathered, each from a corner on, from the corner on that is the
-  /// lowest in the projection.
+  /// The edges around the triangles gathered, each from a corner on. `corner` is any of these.
   void trace(std::uint32_t corner) {
-    in_plane_.resize(facets_.size(), false);
-    for (const std::uint32_t f : plane_) in_plane_[f] = true;
+    in_plane_.resize(facets_.size(), 0);
+    for (const std::uint32_t f : plane_) in_plane_[f] = 1;
     walk_round();
-    for (const std::uint32_t f : plane_) in_plane_[f] = false;
+    for (const std::uint32_t f : plane_) in_plane_[f] = 0;
     drop_straight_places();
-    const std::size_t n = outline_.size();
-    const auto from =
-        static_cast<std::size_t>(std::find_if(outline_.begin(), outline_.end(),
-                                              [&](std::uint32_t e) { return start(e) == corner; }) -
-                                 outline_.begin());
-    const auto corner_at = [&](std::size_t k) { return source(start(outline_[(from + k) % n])); };
-    const auto [i, j] = projection_of(cloud_, corner_at(0), corner_at(1), corner_at(2));
-    const int axis_i = i, axis_j = j;
+    const auto at = [&](std::uint32_t e) { return start(e) == corner; };
+    std::rotate(outline_.begin(), std::find_if(outline_.begin(), outline_.end(), at),
+                outline_.end());
+    start_at_lowest();
+  }
+
+  /// As wrap_polygon does.
+  void start_at_lowest() {
+    const auto corner = [&](std::size_t k) { return source(start(outline_[k])); };
+    const Projection axes = projection_of(cloud_, corner(0), corner(1), corner(2));
     const auto lower = [&](std::uint32_t a, std::uint32_t b) {
       const Vec3& p = raw(start(a));
       const Vec3& q = raw(start(b));
-      return p[axis_i] != q[axis_i] ? p[axis_i] < q[axis_i] : p[axis_j] < q[axis_j];
+      return p[axes.i] != q[axes.i] ? p[axes.i] < q[axes.i] : p[axes.j] < q[axes.j];
     };
     std::rotate(outline_.begin(), std::min_element(outline_.begin(), outline_.end(), lower),
                 outline_.end());

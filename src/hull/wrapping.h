@@ -22,8 +22,10 @@ struct WrappedFacets {
 
 /// Wraps the hull, after Chand and Kapur, "An Algorithm for Convex Polytopes" (1970): starts at an
 /// edge of the hull and turns about each open edge to the facet beyond, which takes in all points
-/// of its plane. What comes next about an edge the polytope knows. The result depends on the hull
-/// alone, not on how the polytope grew.
+/// of its plane. What comes next about an edge the polytope knows. A facet of one triangle begins
+/// at the edge by which it was reached, one of several at its lowest corner (see wrap_polygon); so
+/// the order is the hull's own, whichever way the polytope grew, but for facets in whose plane it
+/// holds points that are no corners.
 WrappedFacets wrap(const Cloud& cloud, const Polytope& polytope);
 
 }  // namespace osteon::hull
