@@ -1,5 +1,7 @@
 // Convex hulls beside qhull, CGAL and Bullet, on the wrist's fifteen bones (distinct vertices, as
-// meshes hold them, and the triangle soup, as STL does) and on random points.
+// meshes hold them, and the triangle soup, as STL does), on random points in a ball and on a
+// sphere, and on random points of a bone's surface. `ns_point` shows how the time grows: over n, or
+// over n log n, the random sets are ten times larger each.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -7,6 +9,9 @@
 #include <LinearMath/btConvexHullComputer.h>
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -83,6 +88,30 @@ Points in_ball(std::size_t n) {
   return points;
 }
 
+/// Evenly over the triangles of the capitate; empty when the mesh is not there.
+Sets on_bone(std::size_t n) {
+  const auto mesh = osteon::load_mesh(wrist_folder() / "capitate.stl", 1.0);
+  if (!mesh) return {};
+  std::vector<double> areas;
+  double area = 0;
+  for (const osteon::Triangle& t : mesh->triangles) {
+    const Vec3& a = mesh->vertices[t[0]];
+    area += (mesh->vertices[t[1]] - a).cross(mesh->vertices[t[2]] - a).norm();
+    areas.push_back(area);
+  }
+  osteon::Random random(3);
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double place = random.uniform() * area;
+    const double u = std::sqrt(random.uniform()), v = random.uniform();
+    const auto found = std::upper_bound(areas.begin(), areas.end() - 1, place) - areas.begin();
+    const osteon::Triangle& t = mesh->triangles[static_cast<std::size_t>(found)];
+    points.push_back((1 - u) * mesh->vertices[t[0]] + u * (1 - v) * mesh->vertices[t[1]] +
+                     u * v * mesh->vertices[t[2]]);
+  }
+  return {points};
+}
+
 // Each hull returns how many vertices it found.
 
 std::size_t osteon_hull(const Points& points) {
@@ -130,7 +159,12 @@ void measure(benchmark::State& state, const std::vector<Set>& sets, const Hull& 
     vertices = 0;
     for (const Set& points : sets) vertices += hull(points);
   }
+  std::size_t points = 0;
+  for (const Set& set : sets) points += set.size();
   state.counters["vertices"] = static_cast<double>(vertices);
+  state.counters["per_point"] = benchmark::Counter(
+      static_cast<double>(points),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 std::vector<CgalPoints> for_cgal(const Sets& sets) {
@@ -166,6 +200,7 @@ void add(const std::string& name, const Sets& sets) {
     const auto n = static_cast<std::size_t>(std::lround(std::pow(10, decade)));
     add("ball_1e" + std::to_string(decade), {in_ball(n)});
     add("sphere_1e" + std::to_string(decade), {on_sphere(n)});
+    add("bone_1e" + std::to_string(decade), on_bone(n));
   }
   return true;
 }();
