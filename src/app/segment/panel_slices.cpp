@@ -22,7 +22,8 @@ ImVec2 at(const UiRect& r, const PanePoint& p) {
 
 /// Legible over bright bone and dark air alike.
 void outlined(ImDrawList* draw, ImVec2 where, ImU32 ink, const std::string& text) {
-  draw->AddText({where.x + 1, where.y + 1}, kShadow, text.c_str());
+  for (const ImVec2& shift : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)})
+    draw->AddText({where.x + shift.x, where.y + shift.y}, kShadow, text.c_str());
   draw->AddText(where, ink, text.c_str());
 }
 
