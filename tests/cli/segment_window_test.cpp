@@ -1,6 +1,10 @@
 // The real segmentation window on a virtual scan, driven by the pointer and the keyboard.
-#include <algorithm>
+#include <stb/stb_image.h>
+
+#include <array>
 #include <fstream>
+#include <iterator>
+#include <memory>
 
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
@@ -87,6 +91,45 @@ TEST_F(SegmentWindow, WhatIsNotSavedIsAskedAboutAndCanBeLetGo) {
   EXPECT_TRUE(fs::exists(file("asks"))) << "it ended without a question";
   EXPECT_EQ(exit_code, 0) << output();
   EXPECT_FALSE(fs::exists(file("case")));
+}
+
+struct Shot {
+  int width = 0, height = 0;
+  std::unique_ptr<unsigned char, void (*)(void*)> rgb{nullptr, stbi_image_free};
+  std::array<int, 3> at(int x, int y) const {
+    const unsigned char* p = rgb.get() + 3 * (static_cast<std::ptrdiff_t>(y) * width + x);
+    return {p[0], p[1], p[2]};
+  }
+};
+
+// Bone, tinted by the threshold's preview, in the middle of each slice; the scan's rim beyond it;
+// the cards in their own ground.
+TEST_F(SegmentWindow, ShowsTheScanAtTheUsualSizeAndOnALargeDisplay) {
+  for (const int scale : {1, 2}) {
+    const std::string size = std::to_string(1280 * scale) + "x" + std::to_string(720 * scale);
+    const std::string command =
+        std::string(OSTEON_SOURCE_DIR) + "/tools/with-display " + size + " " + OSTEON_EXECUTABLE +
+        " segment " + file("scan") + " --size " + size + " --ui-scale " + std::to_string(scale) +
+        " --frames 2 --screenshot " + file("shot.png") + " > " + file("out.txt") + " 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << output();
+    Shot shot;
+    int channels = 0;
+    shot.rgb.reset(stbi_load(file("shot.png").c_str(), &shot.width, &shot.height, &channels, 3));
+    ASSERT_TRUE(shot.rgb);
+    ASSERT_EQ(shot.width, 1280 * scale);
+    for (const auto& [x, y] : {std::pair{425, 205}, {425, 545}, {850, 545}}) {
+      const auto bone = shot.at(x * scale, y * scale);
+      EXPECT_GT(bone[2], 150) << x << " " << y;
+      EXPECT_GT(bone[2], bone[0] + 20) << "the threshold's tint";
+    }
+    const auto air = shot.at(640 * scale, 700 * scale);
+    EXPECT_LT(air[0] + air[1] + air[2], 60);
+    for (const int x : {3, 1277}) {
+      const auto card = shot.at(x * scale, 400 * scale);
+      EXPECT_NEAR(card[0], 0x1c, 2);
+      EXPECT_NEAR(card[2], 0x25, 2);
+    }
+  }
 }
 
 TEST_F(SegmentWindow, AScanThatCannotBeReadIsSaidInWords) {

@@ -118,8 +118,10 @@ PaneInput read_pane(std::size_t n, const UiRect& r, bool hovered) {
 void draw_caption(const SegmentContext& c, ImDrawList* draw, const UiRect& r,
                   const SlicePane& pane) {
   const ui::WithFont small(c.fonts.small);
-  const std::string caption = std::string(name_of(pane.plane.view)) + "   " +
-                              std::to_string(pane.slice + 1) + " / " + std::to_string(pane.slices);
+  std::string caption = name_of(pane.plane.view);
+  const bool has_room = r.w > c.px(240);  // beside the letter in the middle
+  if (has_room)
+    caption += "   " + std::to_string(pane.slice + 1) + " / " + std::to_string(pane.slices);
   outlined(draw, {r.x + c.px(10), r.y + c.px(7)}, kLetter, caption);
 }
 

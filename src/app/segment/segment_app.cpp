@@ -162,11 +162,13 @@ void SegmentApp::poll_suggestion() {
   note(ToastKind::kInfo, side_.empty() ? std::to_string(found->names.size()) + " bones found"
                                        : "Recognised a " + side_ + " wrist");
   for (const auto& [label, name] : found->names)
-    if (name == order_.choose) {
-      SegmentRequests requests;
-      requests.choose = label;
-      (void)segmenting_->apply(requests);
-    }
+    if (name == order_.choose) choose(label);
+}
+
+void SegmentApp::choose(std::uint16_t label) {
+  SegmentRequests requests;
+  requests.choose = label;
+  (void)segmenting_->apply(requests);
 }
 
 void SegmentApp::begin_saving() {
@@ -267,7 +269,9 @@ void SegmentApp::apply(const SegmentRequests& asked, const SegmentLayout& layout
   if (!segmenting_) return;
   if (auto done = segmenting_->apply(requests); !done)
     note(ToastKind::kWarning, done.error().message());
-  if (solid_) solid_->steer(requests.solid, viewport_of(layout.solid));
+  if (const std::uint16_t label =
+          solid_ ? solid_->steer(requests.solid, viewport_of(layout.solid)) : std::uint16_t{0})
+    choose(label);
   if (requests.suggest) begin_suggestion();
   if (requests.save) begin_saving();
 }

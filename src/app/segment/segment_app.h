@@ -55,6 +55,7 @@ class SegmentApp {
   Viewport viewport_of(const UiRect& rect) const;
   void begin_suggestion();
   void begin_saving();
+  void choose(std::uint16_t label);
   void apply(const SegmentRequests& requests, const SegmentLayout& layout);
   void apply_window(const SegmentRequests& requests);
   void apply_closing(const SegmentRequests& requests);

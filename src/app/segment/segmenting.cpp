@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "osteon/scene/build_case.h"
 #include "segment/label_color.h"
 
 namespace osteon {
@@ -86,7 +87,8 @@ Result<void> Segmenting::apply_bones(const SegmentRequests& requests) {
     if (!hidden_.erase(*requests.toggle_shown)) hidden_.insert(*requests.toggle_shown);
     ++look_version_;
   }
-  if (requests.rename) return edit_.rename(requests.rename->label, requests.rename->name);
+  if (requests.rename)
+    return edit_.rename(requests.rename->label, canonical_bone_name(requests.rename->name));
   if (requests.remove) return edit_.remove(*requests.remove);
   if (requests.merge) return edit_.merge(*requests.merge, chosen_);
   if (requests.find_bodies) return find_bodies();

@@ -138,9 +138,12 @@ void SolidView::look_at_all() {
   if (!all.empty()) view_.camera = camera_on(all, view_.camera);
 }
 
-void SolidView::steer(const SceneInput& input, const Viewport& viewport) {
+std::uint16_t SolidView::steer(const SceneInput& input, const Viewport& viewport) {
   view_.camera = control_.update(view_.camera, input, viewport);
   steered_ = steered_ || control_.dragging() || input.wheel != 0;
+  if (!control_.clicked()) return 0;
+  const BoneId bone = renderer_.pick(snapshot_, view_, viewport, input.x, input.y);
+  return bone.index < slots_.size() ? slots_[bone.index].label : std::uint16_t{0};
 }
 
 void SolidView::draw(const Viewport& viewport) { renderer_.draw(snapshot_, view_, viewport); }

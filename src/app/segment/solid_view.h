@@ -23,7 +23,8 @@ class SolidView {
 
   /// Takes surfaces that are done and begins the next; once a frame.
   void update(const Segmenting& segmenting);
-  void steer(const SceneInput& input, const Viewport& viewport);
+  /// Turns the view; returns the label that was clicked on, 0: none.
+  std::uint16_t steer(const SceneInput& input, const Viewport& viewport);
   void draw(const Viewport& viewport);
   /// A surface is being drawn or waits for it.
   bool busy() const { return busy_; }

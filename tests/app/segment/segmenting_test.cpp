@@ -200,6 +200,9 @@ TEST_F(SegmentingTest, PartsOfTheThresholdBecomeBonesAndCanBeNamed) {
   requests.rename = NewName{segmenting.chosen(), "lunate"};
   ASSERT_TRUE(segmenting.apply(requests));
   EXPECT_EQ(segmenting.edit().bones().at(segmenting.chosen()).name, "lunate");
+  requests.rename->name = "1mc";
+  ASSERT_TRUE(segmenting.apply(requests));
+  EXPECT_EQ(segmenting.edit().bones().at(segmenting.chosen()).name, "metacarpal_1");
   requests.rename->name = "";
   EXPECT_FALSE(segmenting.apply(requests));
 }
