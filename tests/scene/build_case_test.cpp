@@ -9,6 +9,7 @@
 #include "osteon/base/random.h"
 #include "osteon/mesh/isosurface.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/bone_names.h"
 #include "osteon/scene/piece_cache.h"
 #include "osteon/scene/state.h"
 
@@ -180,6 +181,15 @@ TEST(State, RestIsWhereTheCasePutsTheBones) {
   EXPECT_EQ(rest.bones[1].X_WB.p, built->bones[1].X_WB.p);
   EXPECT_EQ(rest.bones[1].v_W, Vec3(0, 0, 0));
   EXPECT_EQ(rest_snapshot(Case{}).count, 0u);
+}
+
+TEST(BoneNames, EveryKnownNameIsItsOwnAndHasANumber) {
+  const std::vector<std::string> names = known_bone_names();
+  EXPECT_GT(names.size(), 15u);
+  for (const std::string& name : names) {
+    EXPECT_EQ(canonical_bone_name(name), name);
+    EXPECT_GT(fma_id_of(name), 0) << name;
+  }
 }
 
 TEST(BoneNames, KnowFilesAndFmaIds) {

@@ -47,6 +47,7 @@ float draw_note(const SegmentContext& c, const Toast& toast, float y) {
 
 void draw_bar(const SegmentContext& c, const LoadingModel& work) {
   ImGui::TextUnformatted(work.what.empty() ? "Starting" : work.what.c_str());
+  if (!work.can_cancel) return;
   const float share = static_cast<float>(std::clamp(work.fraction, 0.0, 1.0));
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float w = c.px(336);

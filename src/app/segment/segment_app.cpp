@@ -20,8 +20,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kShortestFrame_ns = 1'000'000'000 / 60;
+constexpr double kWaitShown_s = 0.3;  // work that is done before is not told
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+/// What may take seconds on a large scan.
+bool is_heavy(const SegmentRequests& requests, SegmentTool tool) {
+  if (requests.find_bodies || requests.split_chosen) return true;
+  if (!requests.pointer) return false;
+  return (tool == SegmentTool::kGrow && requests.pointer->pressed) ||
+         (tool == SegmentTool::kSplit && requests.pointer->released);
+}
 
 }  // namespace
 
@@ -60,13 +69,13 @@ Result<void> SegmentApp::run() {
     work_.add(seconds(steady_now_ns() - begin_ns));
     sleep_until_ns(begin_ns + kShortestFrame_ns);
   }
-  return {};
+  return failure_.empty() ? Result<void>() : fail(failure_);
 }
 
 // What was drawn is asked about before it is lost; a signal ends at once.
 bool SegmentApp::wants_to_end() {
   if (ends_ || stop_requested()) return true;
-  if (!window_->should_close()) return false;
+  if (heavy_ || !window_->should_close()) return false;
   if (!changed()) return true;
   window_->stay_open();
   asks_to_close_ = true;
@@ -85,6 +94,7 @@ void SegmentApp::frame() {
                            : static_cast<double>(window_->content_scale()) /
                                  window_->pixel_ratio() * settings_.interface_zoom;
   ui_->set_scale(static_cast<float>(scale));
+  poll_heavy();
   poll_opening();
   poll_suggestion();
   poll_saving();
@@ -99,11 +109,11 @@ void SegmentApp::frame() {
   glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   if (segmenting_ && width > 0 && height > 0) {
-    place_panes(layout);
-    draw_panes();
+    if (!heavy_) place_panes(layout);
+    if (!heavy_) draw_panes();
     draw_solid(layout);
   }
-  const SegmentRequests requests = draw_segment_ui(build_model(), ui_->fonts());
+  const SegmentRequests requests = draw_segment_ui(shown_model(), ui_->fonts());
   ui_->end_frame();
   apply(requests, layout);
   tell_title();
@@ -111,7 +121,7 @@ void SegmentApp::frame() {
 
 // "wrist.nrrd* - Osteon segmentation": the star stands for what is not saved.
 void SegmentApp::tell_title() {
-  if (!segmenting_) return;
+  if (!segmenting_ || heavy_) return;
   const std::string title = order_.scan.source.filename().string() + (changed() ? "*" : "") +
                             (saving_ ? " (saving)" : "") + " - Osteon segmentation";
   if (title != title_) window_->set_title(title);
@@ -120,8 +130,10 @@ void SegmentApp::tell_title() {
 
 void SegmentApp::poll_opening() {
   if (!opening_ || !opening_->done()) return;
+  ends_ = opening_->cancelled();
   auto opened = opening_->take();
   opening_.reset();
+  if (ends_) return;
   if (!opened) {
     failure_ = opened.error().message();
     return;
@@ -139,6 +151,35 @@ void SegmentApp::poll_opening() {
   if (std::exchange(order_.suggest, false)) begin_suggestion();
 }
 
+void SegmentApp::begin_heavy(const SegmentRequests& requests) {
+  heavy_since_s_ = now_s_;
+  heavy_ = std::make_unique<SideJob<bool>>(
+      [&segmenting = *segmenting_, requests](const Progress&) -> Result<bool> {
+        if (auto done = segmenting.apply(requests); !done) return tl::unexpected(done.error());
+        return true;
+      });
+}
+
+void SegmentApp::poll_heavy() {
+  if (!heavy_ || !heavy_->done()) return;
+  const auto done = heavy_->take();
+  heavy_.reset();
+  if (!done) note(ToastKind::kWarning, done.error().message());
+}
+
+SegmentModel SegmentApp::shown_model() {
+  if (!heavy_) return last_model_ = build_model();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  last_model_.width = size.x;
+  last_model_.height = size.y;
+  last_model_.toasts = toasts_.shown();
+  last_model_.help_open = help_open_;
+  last_model_.panels_open = panels_open_;
+  last_model_.job.reset();
+  if (now_s_ - heavy_since_s_ > kWaitShown_s) last_model_.job.emplace().what = "Working ...";
+  return last_model_;
+}
+
 void SegmentApp::begin_suggestion() {
   if (!segmenting_ || at_work()) return;
   suggesting_ = std::make_unique<SideJob<SuggestedLabels>>(
@@ -147,7 +188,7 @@ void SegmentApp::begin_suggestion() {
 }
 
 void SegmentApp::poll_suggestion() {
-  if (!suggesting_ || !suggesting_->done()) return;
+  if (heavy_ || !suggesting_ || !suggesting_->done()) return;
   const bool cancelled = suggesting_->cancelled();
   auto found = suggesting_->take();
   suggesting_.reset();
@@ -190,7 +231,7 @@ void SegmentApp::begin_saving() {
 }
 
 void SegmentApp::poll_saving() {
-  if (!saving_ || !saving_->done()) return;
+  if (heavy_ || !saving_ || !saving_->done()) return;
   const bool cancelled = saving_->cancelled();
   const auto saved = saving_->take();
   saving_.reset();
@@ -246,7 +287,7 @@ Viewport SegmentApp::viewport_of(const UiRect& rect) const {
 
 void SegmentApp::draw_solid(const SegmentLayout& layout) {
   if (!solid_) return;
-  solid_->update(*segmenting_);
+  if (!heavy_) solid_->update(*segmenting_);
   solid_->draw(viewport_of(layout.solid));
 }
 
@@ -265,8 +306,9 @@ void SegmentApp::apply(const SegmentRequests& asked, const SegmentLayout& layout
   const SegmentRequests requests = in_pane_pixels(asked);
   apply_window(requests);
   apply_closing(requests);
+  if (!segmenting_ || heavy_) return;
   pointer_ = requests.pointer;
-  if (!segmenting_) return;
+  if (is_heavy(requests, segmenting_->tools().tool)) return begin_heavy(requests);
   if (auto done = segmenting_->apply(requests); !done)
     note(ToastKind::kWarning, done.error().message());
   if (const std::uint16_t label =
@@ -295,13 +337,13 @@ void SegmentApp::apply_closing(const SegmentRequests& requests) {
   if (requests.quit) window_->close();
   if (requests.stay) asks_to_close_ = false;
   if (requests.quit_without_saving) ends_ = true;
-  if (!requests.quit_after_saving) return;
+  if (!requests.quit_after_saving || heavy_) return;
   asks_to_close_ = false;
   begin_saving();
   ends_when_saved_ = saving_ != nullptr;
 }
 
-bool SegmentApp::at_work() const { return opening_ || suggesting_ || saving_; }
+bool SegmentApp::at_work() const { return opening_ || suggesting_ || saving_ || heavy_; }
 
 bool SegmentApp::measured_run_over() {
   if (order_.frames <= 0) return false;

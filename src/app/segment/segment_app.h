@@ -49,6 +49,9 @@ class SegmentApp {
   void poll_opening();
   void poll_suggestion();
   void poll_saving();
+  void poll_heavy();
+  void begin_heavy(const SegmentRequests& requests);
+  SegmentModel shown_model();
   void place_panes(const SegmentLayout& layout);
   void draw_panes();
   void draw_solid(const SegmentLayout& layout);
@@ -93,6 +96,11 @@ class SegmentApp {
   std::string side_;  ///< of the case
   std::unique_ptr<SideJob<SuggestedLabels>> suggesting_;
   std::unique_ptr<SideJob<SavedSegments>> saving_;
+  /// A change that may take seconds on a large scan. While it runs, nobody else touches
+  /// `segmenting_`, and the window shows `last_model_`.
+  std::unique_ptr<SideJob<bool>> heavy_;
+  double heavy_since_s_ = 0;
+  SegmentModel last_model_;
   bool saved_before_ = false;  ///< the case at `order_.out` is this window's own
   std::uint64_t saving_version_ = 0;
 

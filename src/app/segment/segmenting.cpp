@@ -66,9 +66,14 @@ Result<void> Segmenting::apply(const SegmentRequests& requests) {
 
 void Segmenting::apply_history(const SegmentRequests& requests) {
   if (!requests.undo && !requests.redo) return;
-  painted_to_.reset();
   split_.reset();
-  requests.undo ? edit_.undo() : edit_.redo();
+  // In the middle of a stroke, that stroke is what is undone.
+  const bool painting = painted_to_.has_value();
+  painted_to_.reset();
+  if (painting)
+    edit_.cancel_step();
+  else
+    requests.undo ? edit_.undo() : edit_.redo();
 }
 
 Result<void> Segmenting::apply_bones(const SegmentRequests& requests) {

@@ -124,7 +124,7 @@ TEST_F(SegmentPanels, WithBonesTheyCanBeSavedRemovedAndUndone) {
   EXPECT_EQ(click("##bones", "Remove").remove, 5);
   EXPECT_TRUE(click("##bones", "Undo").undo);
   EXPECT_FALSE(click("##bones", "Redo").redo);
-  model.job.emplace();
+  model.job.emplace().can_cancel = true;
   EXPECT_FALSE(click("##bones", "Save as a case").save) << "while it is being saved";
   EXPECT_TRUE(shown("##job"));
   EXPECT_TRUE(click("##job", "Cancel").cancel_job);
@@ -186,6 +186,7 @@ TEST_F(SegmentPanels, TheQuestionAtTheEndHasThreeAnswersAndHoldsTheKeys) {
 
 TEST_F(SegmentPanels, WhileOpeningAndAfterAFailureNothingElseIsShown) {
   model.phase = UiPhase::kLoading;
+  model.loading.can_cancel = true;
   EXPECT_TRUE(click("##loading", "Cancel").cancel_job);
   EXPECT_FALSE(shown("##bones"));
   model.phase = UiPhase::kFailed;

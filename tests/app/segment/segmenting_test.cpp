@@ -184,11 +184,50 @@ TEST_F(SegmentingTest, AStrokeIsOneStepAndMakesItsBone) {
   EXPECT_EQ(segmenting.edit().undo_steps(), 2u);
 }
 
-TEST_F(SegmentingTest, GrowOnABoneChoosesItAndShiftAddsToIt) {
+TEST_F(SegmentingTest, UndoInTheMiddleOfAStrokeTakesThatStrokeBackAlone) {
   use(SegmentTool::kGrow);
   ASSERT_TRUE(drag({{6, 10}}));
+  const std::size_t grown = voxels(segmenting.chosen());
+  use(SegmentTool::kErase);
+  SegmentRequests requests;
+  PaneInput& input = requests.pointer.emplace();
+  const PanePoint at = pane_point(segmenting.planes()[0], segmenting.edit().labels().frame,
+                                  segmenting.windows()[0], Vec3(8, 10, 8));
+  input.x = at.x;
+  input.y = at.y;
+  input.pressed = input.held = true;
+  ASSERT_TRUE(segmenting.apply(requests));
+  EXPECT_LT(voxels(segmenting.chosen()), grown);
+  requests = {};
+  requests.undo = true;
+  ASSERT_TRUE(segmenting.apply(requests));
+  EXPECT_EQ(voxels(segmenting.chosen()), grown);
+  EXPECT_EQ(segmenting.edit().undo_steps(), 1u);
+}
+
+TEST_F(SegmentingTest, GrowOnABoneChoosesIt) {
+  use(SegmentTool::kGrow);
+  ASSERT_TRUE(drag({{6, 10}}));
+  SegmentRequests requests;
+  requests.add = true;
+  ASSERT_TRUE(segmenting.apply(requests));
   ASSERT_TRUE(drag({{30, 10}}));
+  EXPECT_EQ(segmenting.edit().bones().size(), 2u);
+  EXPECT_EQ(segmenting.chosen(), 1) << "the bone that was clicked on";
+}
+
+TEST_F(SegmentingTest, GrowAddsToTheChosenBoneWhereThatIsWanted) {
+  SegmentRequests requests;
+  requests.tools = segmenting.tools();
+  requests.tools->tool = SegmentTool::kGrow;
+  requests.tools->fresh = false;
+  requests.tools->reach_m = 0.004;
+  ASSERT_TRUE(segmenting.apply(requests));
+  ASSERT_TRUE(drag({{6, 8}}));
+  const std::size_t first = voxels(segmenting.chosen());
+  ASSERT_TRUE(drag({{30, 12}}));
   EXPECT_EQ(segmenting.edit().bones().size(), 1u);
+  EXPECT_GT(voxels(segmenting.chosen()), first + 100);
 }
 
 TEST_F(SegmentingTest, PartsOfTheThresholdBecomeBonesAndCanBeNamed) {
