@@ -46,28 +46,29 @@ class SegmentApp {
 
   void frame();
   void tell_title();
-  void poll_opening();
-  void poll_suggestion();
-  void poll_saving();
-  void poll_heavy();
-  void begin_heavy(const SegmentRequests& requests);
   SegmentModel shown_model();
   void place_panes(const SegmentLayout& layout);
   void draw_panes();
   void draw_solid(const SegmentLayout& layout);
   Viewport viewport_of(const UiRect& rect) const;
-  void begin_suggestion();
-  void begin_saving();
   void choose(std::uint16_t label);
   void apply(const SegmentRequests& requests, const SegmentLayout& layout);
   void apply_window(const SegmentRequests& requests);
   void apply_closing(const SegmentRequests& requests);
   SegmentRequests in_pane_pixels(SegmentRequests requests) const;
   bool changed() const { return segmenting_ && segmenting_->edit().is_changed(); }
-  bool at_work() const;
   bool wants_to_end();
   bool measured_run_over();
   Result<void> finish_measured_run();
+  // segment_app_work.cpp
+  void poll_opening();
+  void begin_suggestion();
+  void poll_suggestion();
+  void begin_heavy(const SegmentRequests& requests);
+  void poll_heavy();
+  void begin_saving();
+  void poll_saving();
+  bool at_work() const;
   // segment_app_model.cpp
   SegmentModel build_model() const;
   void fill_panes(SegmentModel& model) const;

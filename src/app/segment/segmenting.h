@@ -55,6 +55,7 @@ class Segmenting {
   static std::size_t axis(int a) { return static_cast<std::size_t>(a); }
   Result<void> apply_bones(const SegmentRequests& requests);
   void apply_history(const SegmentRequests& requests);
+  // segmenting_pointer.cpp
   Result<void> point(const PaneInput& input);
   void look_around(const PaneInput& input);
   void wheel(const PaneInput& input);

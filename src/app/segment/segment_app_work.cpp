@@ -1,0 +1,124 @@
+// What the segmentation window does beside the picture: opening, finding, heavy changes, saving.
+#include <algorithm>
+#include <utility>
+
+#include "label_case.h"
+#include "segment/segment_app.h"
+
+namespace osteon {
+
+void SegmentApp::poll_opening() {
+  if (!opening_ || !opening_->done()) return;
+  ends_ = opening_->cancelled();
+  auto opened = opening_->take();
+  opening_.reset();
+  if (ends_) return;
+  if (!opened) {
+    failure_ = opened.error().message();
+    return;
+  }
+  const auto& values = opened->edit.volume().values;
+  const auto ends = std::minmax_element(values.begin(), values.end());
+  values_ = {*ends.first, std::max<int>(*ends.second, *ends.first + 1)};
+  segmenting_.emplace(std::move(opened->edit), opened->levels);
+  X_WP_ = lying_pose_WP(segmenting_->edit().labels().frame);
+  auto solid = SolidView::create(segmenting_->edit().labels().frame);
+  if (solid)
+    solid_ = std::move(*solid);
+  else
+    note(ToastKind::kWarning, solid.error().message());
+  if (std::exchange(order_.suggest, false)) begin_suggestion();
+}
+
+void SegmentApp::begin_heavy(const SegmentRequests& requests) {
+  heavy_since_s_ = now_s_;
+  heavy_ = std::make_unique<SideJob<bool>>(
+      [&segmenting = *segmenting_, requests](const Progress&) -> Result<bool> {
+        if (auto done = segmenting.apply(requests); !done) return tl::unexpected(done.error());
+        return true;
+      });
+}
+
+void SegmentApp::poll_heavy() {
+  if (!heavy_ || !heavy_->done()) return;
+  const auto done = heavy_->take();
+  heavy_.reset();
+  if (!done) note(ToastKind::kWarning, done.error().message());
+}
+
+void SegmentApp::begin_suggestion() {
+  if (!segmenting_ || at_work()) return;
+  suggesting_ = std::make_unique<SideJob<SuggestedLabels>>(
+      [volume = segmenting_->edit().shared_volume(), levels = segmenting_->levels()](
+          const Progress& progress) { return suggest_labels(*volume, levels, progress); });
+}
+
+void SegmentApp::poll_suggestion() {
+  if (heavy_ || !suggesting_ || !suggesting_->done()) return;
+  const bool cancelled = suggesting_->cancelled();
+  auto found = suggesting_->take();
+  suggesting_.reset();
+  if (!found) {
+    if (!cancelled) note(ToastKind::kError, found.error().message());
+    return;
+  }
+  if (auto taken = segmenting_->take_labels(found->labels, found->names); !taken)
+    return note(ToastKind::kError, taken.error().message());
+  X_WP_ = found->X_WP;
+  side_ = found->side;
+  note(ToastKind::kInfo, side_.empty() ? std::to_string(found->names.size()) + " bones found"
+                                       : "Recognised a " + side_ + " wrist");
+  for (const auto& [label, name] : found->names)
+    if (name == order_.choose) choose(label);
+}
+
+void SegmentApp::choose(std::uint16_t label) {
+  SegmentRequests requests;
+  requests.choose = label;
+  (void)segmenting_->apply(requests);
+}
+
+void SegmentApp::begin_saving() {
+  if (!segmenting_ || at_work()) return;
+  const LabelEdit& edit = segmenting_->edit();
+  if (edit.in_step()) return;
+  auto order = std::make_shared<SegmentSaveOrder>();
+  order->volume = edit.shared_volume();
+  order->labels = edit.labels();
+  for (const auto& [label, bone] : edit.bones()) order->names[label] = bone.name;
+  order->levels = segmenting_->levels();
+  order->X_WP = X_WP_;
+  order->side = side_;
+  order->out = order_.out;
+  order->replace = saved_before_;
+  saving_version_ = edit.version();
+  saving_ = std::make_unique<SideJob<SavedSegments>>(
+      [order](const Progress& progress) { return save_segments(*order, progress); });
+}
+
+void SegmentApp::poll_saving() {
+  if (heavy_ || !saving_ || !saving_->done()) return;
+  const bool cancelled = saving_->cancelled();
+  const auto saved = saving_->take();
+  saving_.reset();
+  const bool ends = std::exchange(ends_when_saved_, false);
+  if (!saved) {
+    if (!cancelled) note(ToastKind::kError, saved.error().message());
+    return;
+  }
+  saved_before_ = true;
+  // What was drawn while it was being saved is not in it.
+  if (segmenting_->edit().version() == saving_version_) segmenting_->mark_saved();
+  ends_ = ends;
+  std::string text = std::to_string(saved->bones) + " bones saved as " + saved->folder.string();
+  if (saved->without_voxels > 0)
+    text += "; left out, as they have no voxels: " + std::to_string(saved->without_voxels);
+  note(saved->open_surfaces > 0 ? ToastKind::kWarning : ToastKind::kInfo,
+       saved->open_surfaces > 0
+           ? text + "; surfaces with holes: " + std::to_string(saved->open_surfaces)
+           : text);
+}
+
+bool SegmentApp::at_work() const { return opening_ || suggesting_ || saving_ || heavy_; }
+
+}  // namespace osteon
