@@ -85,6 +85,44 @@ TEST(HullBesideCgal, FlatAndLongBalls) {
   }
 }
 
+/// As thin as rounding: nearly every test is left to exact arithmetic.
+TEST(HullBesideCgal, TiltedDiscs) {
+  Random random(26);
+  const Quat tilt = Quat(0.3, 0.5, -0.2, 0.7).normalized();
+  for (const double thickness : {0.0, 1e-16, 1e-14, 1e-12}) {
+    Points points = test::ball(random, 800);
+    for (Vec3& p : points) {
+      p.z() *= thickness;
+      p = tilt * p;
+    }
+    expect_same(points);
+  }
+}
+
+/// Long thin facets, nearly flat along the curve (t, t^2, t^3).
+TEST(HullBesideCgal, MomentCurve) {
+  Random random(27);
+  Points points;
+  for (int i = 0; i < 2000; ++i) {
+    const double t = random.uniform();
+    points.emplace_back(t, t * t, t * t * t);
+  }
+  expect_same(points);
+}
+
+/// Points strewn over triangles lie in their planes but for rounding.
+TEST(HullBesideCgal, PointsOverFlatFaces) {
+  Random random(28);
+  const Points corners = test::sphere(random, 12);
+  Points points;
+  for (int i = 0; i < 6000; ++i) {
+    const double u = random.uniform(), v = random.uniform();
+    const std::size_t k = random.next() % 10;
+    points.push_back((1 - u) * corners[k] + u * (1 - v) * corners[k + 1] + u * v * corners[k + 2]);
+  }
+  expect_same(points);
+}
+
 std::filesystem::path wrist_folder() {
   const char* shared = std::getenv("OSTEON_SHARED");
   return std::filesystem::path(shared ? shared : OSTEON_SOURCE_DIR "/../shared") / "anatomy/wrist";

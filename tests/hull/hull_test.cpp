@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -207,6 +208,31 @@ TEST(HullDegenerate, PrismOfCocircularCaps) {
   const Hull hull = sound_hull(points);
   EXPECT_EQ(hull.vertices.size(), 72u);
   EXPECT_EQ(hull.planes.size(), 38u);
+}
+
+/// Sides of a cylinder: each a rectangle with points on its upright edges; caps with 500 corners.
+TEST(HullDegenerate, CylinderOfRectangles) {
+  Points points;
+  for (int i = 0; i < 500; ++i) {
+    const double angle = i * 2 * 3.14159265358979 / 500;
+    for (int z = 0; z < 4; ++z) points.emplace_back(std::cos(angle), std::sin(angle), z);
+  }
+  const Hull hull = sound_hull(points);
+  EXPECT_EQ(hull.vertices.size(), 1000u);
+  EXPECT_EQ(hull.planes.size(), 502u);
+}
+
+/// Every point lies exactly on a plane of the hull.
+TEST(HullDegenerate, SquarePyramidFullOfPointsOnItsFaces) {
+  Random random(12);
+  Points points = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {0, 0, 0}};
+  for (int i = 0; i < 3000; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    points.emplace_back(x, y, std::max(std::abs(x), std::abs(y)));
+  }
+  const Hull hull = sound_hull(points);
+  EXPECT_EQ(hull.vertices.size(), 5u);
+  EXPECT_EQ(hull.planes.size(), 5u);
 }
 
 TEST(HullDegenerate, SpheresWithCocircularFacets) {

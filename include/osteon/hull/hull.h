@@ -31,9 +31,9 @@ struct HullStats {
   std::size_t input_points = 0;
   std::size_t duplicates = 0;              ///< exact copies met; those inside count as discarded
   std::size_t discarded_by_quickhull = 0;  ///< found inside the growing polyhedron
-  std::size_t given_to_wrapping = 0;
-  std::size_t discarded_by_wrapping = 0;  ///< not a corner of the result
-  std::size_t exact_tests = 0;            ///< orientation tests that the filter could not decide
+  std::size_t given_to_wrapping = 0;       ///< taken into the polyhedron
+  std::size_t discarded_by_wrapping = 0;   ///< not a corner of the result
+  std::size_t exact_tests = 0;             ///< orientation tests that the filter could not decide
   double seconds = 0;
 };
 
@@ -43,8 +43,9 @@ struct HullOutcome {
 };
 
 /// Convex hull by the hybrid of the wrist simulator's paper (section 5.1): QuickHull on the two
-/// sides of a plane through extreme points discards what lies inside the growing polyhedron, then
-/// gift wrapping closes the facets over the points left. Orientation tests are exact (filtered), so
+/// sides of a plane through extreme points discards what lies inside the growing polyhedron, what
+/// is left is added to it, then gift wrapping closes the facets. Time n log n, for the order in
+/// which points are added (docs/architecture.md). Orientation tests are exact (filtered), so
 /// the vertex set is that of exact arithmetic, for any finite coordinates. Planes, volume and
 /// centroid are rounded: their squares and cubes must fit doubles. A plane's normal is good to
 /// rounding and its d is the largest n.x of its facet, so vertices stay inside within 1e-12 of the
