@@ -33,6 +33,11 @@ std::string plural(std::size_t count, const std::string& one) {
   return count == 1 ? text : text + "s";
 }
 
+std::string mended_text(const ImportedBone& bone) {
+  const std::string mended = bone.repair.summary();
+  return bone.hollows == 0 ? mended : mended + ", walled up " + plural(bone.hollows, "hollow");
+}
+
 int run_import(const ImportOptions& options) {
   const auto result = import_meshes(options);
   if (!result) return report_error(result.error());
@@ -41,8 +46,7 @@ int run_import(const ImportOptions& options) {
     const ImportedBone& imported = result->bones[i];
     const BoneDef& bone = result->def.bones[i];
     table.add({bone.name, fma_text(bone.fma_id), imported.file.filename().string(),
-               std::to_string(imported.triangles), yes_no(imported.closed),
-               imported.repair.summary()});
+               std::to_string(imported.triangles), yes_no(imported.closed), mended_text(imported)});
   }
   print(table.text());
   for (const std::string& finding : check_case(result->def)) print("note: " + finding + "\n");
@@ -146,6 +150,8 @@ void add_import(CLI::App& app, int& exit_code) {
   mesh->add_option("--name", options->name, "name of the case; default: that of the folder");
   mesh->add_option("--side", options->side, "left or right")
       ->check(CLI::IsMember({"left", "right"}));
+  mesh->add_flag("--keep-hollows", options->keep_hollows,
+                 "leave the marrow of a thin shell open where no ball of 2 mm gets in");
   mesh->callback([options, unit, &exit_code] {
     options->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_import(*options);

@@ -29,6 +29,8 @@ nlohmann::ordered_json json_of(const Bone& bone, const FeltDistance& d) {
   }
   out["mesh_to_felt_mm"] = json_of(d.mesh_to_felt);
   out["felt_to_mesh_mm"] = json_of(d.felt_to_mesh);
+  out["mesh_to_felt_at_ends_mm"] = json_of(d.mesh_to_felt_at_ends);
+  out["felt_to_mesh_at_ends_mm"] = json_of(d.felt_to_mesh_at_ends);
   return out;
 }
 
@@ -41,14 +43,14 @@ void print_json(const Case& c) {
 
 void print_table(const Case& c) {
   TextTable table({"bone", "felt as", "pieces", "mesh to felt mm", "p95", "max", "felt to mesh mm",
-                   "p95", "max", "field MB"});
+                   "p95", "max", "max at ends", "field MB"});
   for (const Bone& bone : c.bones) {
     const FeltDistance d = felt_distance(bone);
     const double megabytes = bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
     table.add({bone.name, std::string(to_text(bone.felt)), std::to_string(bone.pieces.size()),
                in_mm(d.mesh_to_felt.mean), in_mm(d.mesh_to_felt.p95), in_mm(d.mesh_to_felt.max),
                in_mm(d.felt_to_mesh.mean), in_mm(d.felt_to_mesh.p95), in_mm(d.felt_to_mesh.max),
-               bone.field ? fixed(megabytes, 1) : "-"});
+               in_mm(d.felt_to_mesh_at_ends.max), bone.field ? fixed(megabytes, 1) : "-"});
   }
   std::fputs(table.text().c_str(), stdout);
 }

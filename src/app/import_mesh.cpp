@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "osteon/mesh/hollows.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/mesh/mesh_io.h"
 #include "osteon/scene/case_io.h"
@@ -41,12 +42,13 @@ BoneDef center_bone(std::string name, TriMesh mesh) {
   return bone;
 }
 
-Result<void> read_bone(const fs::path& file, double metres_per_unit, ImportResult& result) {
-  auto mesh = load_mesh(file, metres_per_unit);
+Result<void> read_bone(const fs::path& file, const ImportOptions& options, ImportResult& result) {
+  auto mesh = load_mesh(file, options.metres_per_unit);
   if (!mesh) return tl::unexpected(mesh.error());
   ImportedBone imported;
   imported.file = file;
   imported.repair = repair(*mesh);
+  if (!options.keep_hollows) imported.hollows = fill_hollows(*mesh);
   if (mesh->triangles.empty())
     return fail("holds no triangle with an area", file.string(), "Check the unit and the file");
   imported.triangles = mesh->triangles.size();
@@ -72,8 +74,7 @@ Result<ImportResult> read_meshes(const ImportOptions& options) {
       options.name.empty() ? plain_folder(options.out).filename().string() : options.name;
   result.def.side = options.side;
   for (const fs::path& file : *files)
-    if (auto read = read_bone(file, options.metres_per_unit, result); !read)
-      return tl::unexpected(read.error());
+    if (auto read = read_bone(file, options, result); !read) return tl::unexpected(read.error());
   return result;
 }
 

@@ -16,6 +16,7 @@ struct ImportOptions {
   std::filesystem::path out;  ///< the case folder to make
   std::string name;           ///< of the case; empty: that of the folder
   std::string side;           ///< "left", "right" or empty
+  bool keep_hollows = false;  ///< else they are walled up (fill_hollows)
 };
 
 /// One mesh file as it came in.
@@ -24,6 +25,7 @@ struct ImportedBone {
   std::size_t triangles = 0;  ///< after repair
   bool closed = false;
   RepairReport repair;
+  std::size_t hollows = 0;  ///< walled up
 };
 
 struct ImportResult {

@@ -10,7 +10,7 @@ namespace osteon {
 namespace {
 
 constexpr std::uint32_t kBlock = ConvexBody::kBlock;
-constexpr std::size_t kChunk = 64;  // runs whose bounds are held at a time
+constexpr std::size_t kChunk = 64;  // groups or runs whose bounds are held at a time
 using Bounds = std::array<double, kChunk>;
 constexpr double kLeast = -std::numeric_limits<double>::infinity();
 
@@ -66,37 +66,54 @@ std::size_t find(const Bounds& bounds, double value) {
   return k;
 }
 
-// Scans the runs whose bound beats the best so far, the most promising of each chunk first.
-template <class Bound, class Value>
-void scan_promising(std::size_t runs, const Bound& bound, const Value& value, double& best,
-                    std::uint32_t& index) {
+// Calls `visit` with each of `count` members from `first` on whose bound beats the best so far, the
+// most promising first. At most kChunk members.
+template <class Bound, class Visit>
+void visit_promising(std::size_t first, std::size_t count, const Bound& bound, const double& best,
+                     const Visit& visit) {
   Bounds bounds;
-  for (std::size_t base = 0; base < runs; base += kChunk) {
-    const std::size_t count = std::min(kChunk, runs - base);
-    TwoLanes top = TwoLanes::both(kLeast);
-    for (std::size_t k = 0; k < count; k += 2) {
-      const TwoLanes pair = bound(base + k);
-      pair.store(&bounds[k]);
-      top = max(top, pair);
-    }
-    if (!(top.top() > best)) continue;
-    const std::size_t first = find(bounds, top.top());
-    scan_run((base + first) * kBlock, value, best, index);
-    bounds[first] = kLeast;
-    for (std::size_t k = 0; k < count; k += 2) {
-      const int open = above(TwoLanes::load(&bounds[k]), TwoLanes::both(best));
-      if (open & 1) scan_run((base + k) * kBlock, value, best, index);
-      if (open & 2 && k + 1 < count) scan_run((base + k + 1) * kBlock, value, best, index);
-    }
+  TwoLanes top = TwoLanes::both(kLeast);
+  for (std::size_t k = 0; k < count; k += 2) {
+    const TwoLanes pair = bound(first + k);
+    pair.store(&bounds[k]);
+    top = max(top, pair);
+  }
+  if (!(top.top() > best)) return;
+  const std::size_t most = find(bounds, top.top());
+  visit(first + most);
+  bounds[most] = kLeast;
+  for (std::size_t k = 0; k < count; k += 2) {
+    const int open = above(TwoLanes::load(&bounds[k]), TwoLanes::both(best));
+    if (open & 1) visit(first + k);
+    if (open & 2 && k + 1 < count) visit(first + k + 1);
   }
 }
 
+// Scans the runs whose bounds, and their groups', beat the best so far. A bound that a pair repeats
+// behind the last member is that member's.
+template <class GroupBound, class RunBound, class Value>
+void scan_promising(std::size_t runs, const GroupBound& group_bound, const RunBound& run_bound,
+                    const Value& value, double& best, std::uint32_t& index) {
+  constexpr std::size_t kFew = 2 * ConvexBody::kGroupRuns;
+  const auto scan = [&](std::size_t run) { scan_run(run * kBlock, value, best, index); };
+  if (runs <= kFew) return visit_promising(0, runs, run_bound, best, scan);
+  const auto open = [&](std::size_t group) {
+    const std::size_t first = group * ConvexBody::kGroupRuns;
+    const std::size_t count = std::min<std::size_t>(ConvexBody::kGroupRuns, runs - first);
+    visit_promising(first, count, run_bound, best, scan);
+  };
+  const std::size_t groups = (runs + ConvexBody::kGroupRuns - 1) / ConvexBody::kGroupRuns;
+  for (std::size_t base = 0; base < groups; base += kChunk)
+    visit_promising(base, std::min(kChunk, groups - base), group_bound, best, open);
+}
+
 template <std::size_t N>
-Vec3 middle_and_half(const std::vector<double>* const (&axes)[N], std::size_t first, Vec3& half) {
+Vec3 middle_and_half(const std::vector<double>* const (&axes)[N], std::size_t first,
+                     std::size_t count, Vec3& half) {
   Vec3 mid;
   for (std::size_t j = 0; j < N; ++j) {
     const auto begin = axes[j]->begin() + static_cast<std::ptrdiff_t>(first);
-    const auto [lo, hi] = std::minmax_element(begin, begin + kBlock);
+    const auto [lo, hi] = std::minmax_element(begin, begin + static_cast<std::ptrdiff_t>(count));
     const auto axis = static_cast<Eigen::Index>(j);
     mid[axis] = 0.5 * (*lo + *hi);
     half[axis] = 0.5 * (*hi - *lo);
@@ -110,20 +127,30 @@ void push(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z
   z.push_back(v.z());
 }
 
-void add_plane_run(ConvexBody& body, std::size_t first, const std::vector<Vec3>& facet_points) {
-  PlaneBlocks& b = body.plane_blocks;
+// Bounds of `count` planes from `first` on.
+void add_plane_bounds(const ConvexBody& body, std::size_t first, std::size_t count,
+                      const std::vector<Vec3>& facet_points, PlaneBlocks& out) {
   Vec3 half;
-  const Vec3 mid = middle_and_half<3>({&body.nx, &body.ny, &body.nz}, first, half);
+  const Vec3 mid = middle_and_half<3>({&body.nx, &body.ny, &body.nz}, first, count, half);
   Vec3 at = Vec3::Zero();
-  for (std::size_t i = first; i < first + kBlock; ++i)
-    at += (facet_points[std::min(i, facet_points.size() - 1)] - body.center) / kBlock;
+  for (std::size_t i = first; i < first + count; ++i)
+    at += (facet_points[std::min(i, facet_points.size() - 1)] - body.center) /
+          static_cast<double>(count);
   double beyond = kLeast;
-  for (std::size_t i = first; i < first + kBlock; ++i)
+  for (std::size_t i = first; i < first + count; ++i)
     beyond = std::max(beyond, body.normal(static_cast<std::uint32_t>(i)).dot(at) - body.offset[i]);
-  push(b.mid_x, b.mid_y, b.mid_z, mid);
-  push(b.half_x, b.half_y, b.half_z, half);
-  push(b.at_x, b.at_y, b.at_z, at);
-  b.top.push_back(beyond - mid.dot(at));
+  push(out.mid_x, out.mid_y, out.mid_z, mid);
+  push(out.half_x, out.half_y, out.half_z, half);
+  push(out.at_x, out.at_y, out.at_z, at);
+  out.top.push_back(beyond - mid.dot(at));
+}
+
+void add_vertex_bounds(const ConvexBody& body, std::size_t first, std::size_t count,
+                       VertexBlocks& out) {
+  Vec3 half;
+  const Vec3 mid = middle_and_half<3>({&body.vx, &body.vy, &body.vz}, first, count, half);
+  push(out.mid_x, out.mid_y, out.mid_z, mid);
+  push(out.half_x, out.half_y, out.half_z, half);
 }
 
 // Repeats the last run so that bounds can be read two at a time.
@@ -139,18 +166,9 @@ Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
   Excess found{floor, Excess::kNone};
   scan_promising(
       body.nx.size() / kBlock,
+      [&](std::size_t i) { return plane_bound(body.plane_groups, i, lanes); },
       [&](std::size_t i) { return plane_bound(body.plane_blocks, i, lanes); },
       [&](std::size_t i) { return excess_of(body, i, lanes); }, found.value, found.plane);
-  return found;
-}
-
-Excess most_exceeded_near(const ConvexBody& body, std::uint32_t plane, const Vec3& u,
-                          double floor) {
-  const ThreeLanes lanes(u);
-  Excess found{floor, Excess::kNone};
-  scan_run(
-      plane / kBlock * kBlock, [&](std::size_t i) { return excess_of(body, i, lanes); },
-      found.value, found.plane);
   return found;
 }
 
@@ -188,6 +206,7 @@ double support(const ConvexBody& body, const Vec3& n, std::uint32_t* vertex) {
   std::uint32_t index = 0;
   scan_promising(
       body.vx.size() / kBlock,
+      [&](std::size_t i) { return vertex_bound(body.vertex_groups, i, lanes); },
       [&](std::size_t i) { return vertex_bound(body.vertex_blocks, i, lanes); },
       [&](std::size_t i) { return height_of(body, i, lanes); }, best, index);
   if (vertex) *vertex = index;
@@ -195,18 +214,23 @@ double support(const ConvexBody& body, const Vec3& n, std::uint32_t* vertex) {
 }
 
 void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points) {
-  for (std::size_t i = 0; i < body.nx.size(); i += kBlock) add_plane_run(body, i, facet_points);
-  PlaneBlocks& p = body.plane_blocks;
-  pad_to_even(p.mid_x, p.mid_y, p.mid_z, p.half_x, p.half_y, p.half_z, p.at_x, p.at_y, p.at_z,
-              p.top);
-  VertexBlocks& v = body.vertex_blocks;
-  for (std::size_t i = 0; i < body.vx.size(); i += kBlock) {
-    Vec3 half;
-    const Vec3 mid = middle_and_half<3>({&body.vx, &body.vy, &body.vz}, i, half);
-    push(v.mid_x, v.mid_y, v.mid_z, mid);
-    push(v.half_x, v.half_y, v.half_z, half);
+  const auto each = [](std::size_t size, std::size_t step, const auto& add) {
+    for (std::size_t i = 0; i < size; i += step) add(i, std::min(step, size - i));
+  };
+  for (PlaneBlocks* b : {&body.plane_blocks, &body.plane_groups}) {
+    const std::size_t step = b == &body.plane_blocks ? kBlock : ConvexBody::kGroup;
+    each(body.nx.size(), step, [&](std::size_t first, std::size_t count) {
+      add_plane_bounds(body, first, count, facet_points, *b);
+    });
+    pad_to_even(b->mid_x, b->mid_y, b->mid_z, b->half_x, b->half_y, b->half_z, b->at_x, b->at_y,
+                b->at_z, b->top);
   }
-  pad_to_even(v.mid_x, v.mid_y, v.mid_z, v.half_x, v.half_y, v.half_z);
+  for (VertexBlocks* b : {&body.vertex_blocks, &body.vertex_groups}) {
+    const std::size_t step = b == &body.vertex_blocks ? kBlock : ConvexBody::kGroup;
+    each(body.vx.size(), step,
+         [&](std::size_t first, std::size_t count) { add_vertex_bounds(body, first, count, *b); });
+    pad_to_even(b->mid_x, b->mid_y, b->mid_z, b->half_x, b->half_y, b->half_z);
+  }
 }
 
 }  // namespace osteon

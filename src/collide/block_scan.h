@@ -14,17 +14,15 @@ struct Excess {
 };
 
 /// Plane that `u` (from the body's centre, in its frame) exceeds most, among those exceeded by more
-/// than `floor`; {floor, kNone} when there is none. Skips runs of planes by their bounds.
+/// than `floor`; {floor, kNone} when there is none. Skips groups and runs of planes by their
+/// bounds.
 Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor);
 
 /// Plane of lowest index that `u` exceeds by more than `floor`.
 Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor);
 
-/// As most_exceeded, within the run of planes that holds `plane`.
-Excess most_exceeded_near(const ConvexBody& body, std::uint32_t plane, const Vec3& u, double floor);
-
-/// Fills the bounds of `body.plane_blocks` and `body.vertex_blocks`. `facet_points`: a point on
-/// each plane's facet, in the hull's frame.
+/// Fills the bounds of the body's runs and groups of planes and vertices. `facet_points`: a point
+/// on each plane's facet, in the hull's frame.
 void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points);
 
 }  // namespace osteon

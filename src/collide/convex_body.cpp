@@ -32,7 +32,8 @@ void bound_by_sphere(ConvexBody& body, const std::vector<Vec3>& points) {
 
 using Key = std::array<double, 6>;
 
-// Splits [first, last) of `order` at a multiple of kBlock across its widest key until runs remain.
+// Splits [first, last) of `order` across its widest key until runs remain: at a multiple of kGroup,
+// then of kBlock.
 void order_into_runs(const std::vector<Key>& keys, std::vector<std::uint32_t>& order,
                      std::size_t first, std::size_t last) {
   if (last - first <= kBlock) return;
@@ -54,7 +55,8 @@ void order_into_runs(const std::vector<Key>& keys, std::vector<std::uint32_t>& o
             [&](std::uint32_t a, std::uint32_t b) {
               return keys[a][axis] != keys[b][axis] ? keys[a][axis] < keys[b][axis] : a < b;
             });
-  const std::size_t half = ((last - first) / 2 + kBlock - 1) / kBlock * kBlock;
+  const std::size_t step = last - first > ConvexBody::kGroup ? ConvexBody::kGroup : kBlock;
+  const std::size_t half = ((last - first) / 2 + step - 1) / step * step;
   order_into_runs(keys, order, first, first + half);
   order_into_runs(keys, order, first + half, last);
 }

@@ -48,12 +48,15 @@ void set_direction(LpDepth& out, const DepthBasis& depth, const PairRows& rows, 
   const double length = push.norm();
   if (both_sides(depth, rows) && length > kLeastBalance) {
     out.nhat_AB_A = push / length;
-    out.gap = gap_along(a, b, X_AB, out.nhat_AB_A);
+    const GapAlong along = gap_along(a, b, X_AB, out.nhat_AB_A);
+    out.gap = along.gap;
+    out.top_A = along.top_A;
     return;
   }
   const Separation best = least_overlap_facet(a, b, X_AB);
   out.nhat_AB_A = best.nhat_AB_A;
   out.gap = best.gap;
+  out.top_A = support(a, best.nhat_AB_A);
 }
 
 }  // namespace

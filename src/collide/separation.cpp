@@ -14,7 +14,7 @@ bool improve(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, double&
   for (std::uint32_t i = 0; i < a.plane_count; ++i) {
     const Vec3 n = a.normal(i);
     if (n.dot(center_A) - a.d[i] <= best) continue;
-    const double gap = gap_along(a, b, X_AB, n);
+    const double gap = gap_along(a, b, X_AB, n).gap;
     if (gap <= best) continue;
     best = gap;
     facet = i;
@@ -25,9 +25,11 @@ bool improve(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, double&
 
 }  // namespace
 
-double gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A) {
+GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB,
+                   const Vec3& nhat_A) {
   const Vec3 n_B = X_AB.q.conjugate() * nhat_A;
-  return -(support(a, nhat_A) + (support(b, -n_B) - nhat_A.dot(X_AB.p)));
+  const double top_A = support(a, nhat_A);
+  return {-(top_A + (support(b, -n_B) - nhat_A.dot(X_AB.p))), top_A};
 }
 
 Separation least_overlap_facet(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB) {

@@ -4,8 +4,12 @@
 
 namespace osteon {
 
-/// Gap of the pair along a unit direction of A's frame, m: smallest height of B less largest of A.
-double gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A);
+/// Of the pair along a unit direction of A's frame.
+struct GapAlong {
+  double gap = 0;    ///< smallest height of B less largest of A, m
+  double top_A = 0;  ///< largest height of A, m
+};
+GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A);
 
 struct Separation {
   Vec3 nhat_AB_A = Vec3::UnitZ();

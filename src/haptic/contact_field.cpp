@@ -105,8 +105,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   out.nhat_BT_B = depth.nhat_AB_A;
   out.gap = depth.gap;
   out.p_B = depth.p_A;
-  const Vec3 nhat_T = X_BT.q.conjugate() * out.nhat_BT_B;
-  out.bone_support = out.nhat_BT_B.dot(X_BT.p) - support(tool_body, -nhat_T) - depth.gap;
+  out.bone_support = depth.top_A;
   return true;
 }
 

@@ -54,7 +54,10 @@ void ProxySolver::settle(std::uint32_t i) {
   const std::uint32_t bone = field_.pairs()[pair].bone;
   planes_[i] = field_.half_space(pair, parting_[i], raised_WB_[bone], raised_q_WT_);
   if (gap_known_[i]) return;
-  const FreeHalfSpace then = field_.half_space(pair, parting_[i], start_WB_[bone], start_WT_.q);
+  const bool moved = raised_q_WT_.coeffs() != start_WT_.q.coeffs() ||
+                     !same_pose(raised_WB_[bone], start_WB_[bone]);
+  const FreeHalfSpace then =
+      moved ? field_.half_space(pair, parting_[i], start_WB_[bone], start_WT_.q) : planes_[i];
   parting_[i].gap = then.n.dot(start_WT_.p) - then.c + kSkin;
   gap_known_[i] = true;
 }

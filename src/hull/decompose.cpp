@@ -10,6 +10,7 @@
 #include "clip.h"
 #include "excess.h"
 #include "height_grid.h"
+#include "osteon/mesh/joint_ends.h"
 #include "osteon/mesh/measure.h"
 #include "outer_surface.h"
 
@@ -111,23 +112,60 @@ std::vector<TriMesh> clip_cells(const std::vector<TriMesh>& cells, const Plane& 
 class Decomposer {
  public:
   Decomposer(const TriMesh& mesh, const DecomposeOptions& options)
-      : options_(options), grid_(mesh, options.search_cell_m) {
+      : options_(options), grid_(mesh, options.search_cell_m), value_{JointEnds(mesh), 1} {
     constexpr double kCoarser = 1.5;
+    // The ends of a long bone come first; the shaft may stand over by four times as much.
+    constexpr double kShaftCounts = 0.25;
+    if (value_.ends.has_shaft()) value_.on_shaft = kShaftCounts;
     const Aabb box = bounds(mesh).grown(options.search_cell_m);
     (void)add({mesh, coarsened(mesh, kCoarser * options.search_cell_m), {box_mesh(box)}});
   }
 
+  /// Cuts more than is allowed and merges back: that finds better pieces than stopping in time.
   Decomposition run() {
     constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds; ++round) {
-      while (parts_.size() < options_.max_pieces && cut_worst()) {
-      }
-      if (!merge_all()) break;
+    cut_all(2 * options_.max_pieces);
+    merge_within(options_.concavity_m);
+    while (parts_.size() > options_.max_pieces && merge_flattest(kAnyNeed)) {
     }
+    for (int round = 0; round < kRounds; ++round) {
+      cut_all(options_.max_pieces);
+      if (!merge_within(exchange_limit())) break;
+    }
+    cut_all(options_.max_pieces);
+    if (value_.on_shaft < 1) refine_shaft();
     return finish();
   }
 
  private:
+  static constexpr double kAnyNeed = 1e300;
+
+  void cut_all(std::size_t most) {
+    while (parts_.size() < most && cut_worst()) {
+    }
+  }
+
+  /// What pieces the ends have left, for the shaft.
+  void refine_shaft() {
+    value_.on_shaft = 1;
+    together_.clear();
+    for (Part& part : parts_) {
+      part.excess = excess_of(part.hull);
+      part.stuck = false;
+    }
+    cut_all(options_.max_pieces);
+    merge_within(options_.concavity_m);
+    cut_all(options_.max_pieces);
+  }
+
+  /// Exact where that may matter: what is to be cut in any case need not be.
+  Excess excess_of(const Hull& hull) {
+    constexpr double kSurely = 4;
+    const Excess quick = hull::excess(hull, grid_, value_, options_.search_cell_m);
+    if (quick.need > kSurely * options_.concavity_m) return quick;
+    return hull::exact_excess(hull, grid_, value_, quick, options_.concavity_m, kAnyNeed);
+  }
+
   /// Hull of the solid in the cells: of its surface there and the cells' corners inside.
   std::optional<Hull> hull_of(const TriMesh& surface, const std::vector<TriMesh>& cells) {
     std::vector<Vec3> points = surface.vertices;
@@ -144,7 +182,7 @@ class Decomposer {
     part.shape = std::move(shape);
     part.hull = std::move(*solid);
     part.id = next_id_++;
-    part.excess = hull::excess(part.hull, grid_, options_.search_cell_m);
+    part.excess = excess_of(part.hull);
     for (const Vec3& v : part.hull.vertices) part.box.include(v);
     part.extremes = extremes_of(part.hull);
     parts_.push_back(std::move(part));
@@ -155,15 +193,15 @@ class Decomposer {
     std::size_t worst = parts_.size();
     for (std::size_t i = 0; i < parts_.size(); ++i)
       if (!parts_[i].stuck &&
-          (worst == parts_.size() || parts_[i].excess.height > parts_[worst].excess.height))
+          (worst == parts_.size() || parts_[i].excess.need > parts_[worst].excess.need))
         worst = i;
     return worst;
   }
 
-  /// Cuts the part that stands highest. False when there is nothing to cut.
+  /// Cuts the part that needs it most. False when there is nothing to cut.
   bool cut_worst() {
     const std::size_t i = worst();
-    if (i == parts_.size() || parts_[i].excess.height <= options_.concavity_m) return false;
+    if (i == parts_.size() || parts_[i].excess.need <= options_.concavity_m) return false;
     const auto plane = best_cut(parts_[i]);
     if (plane && cut(i, *plane)) return true;
     parts_[i].stuck = true;
@@ -226,6 +264,20 @@ class Decomposer {
     return cuts;
   }
 
+  /// Planes along the edges of the facet under the deepest place: of a coarse mesh the notch is one
+  /// of them.
+  void add_creases(const Vec3& deepest, const Vec3& up, std::vector<Plane>& cuts) const {
+    const TriMesh& mesh = grid_.exact().mesh();
+    const Triangle& t = mesh.triangles[grid_.exact().closest(deepest).triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& a = mesh.vertices[t[k]];
+      const Vec3 along = mesh.vertices[t[(k + 1) % 3]] - a;
+      const Vec3 n = along.cross(up);
+      if (along.norm() < 4 * grid_.cell() || !(n.norm() > 0.1 * along.norm())) continue;
+      cuts.push_back({n.normalized(), n.normalized().dot(a)});
+    }
+  }
+
   /// Planes through the deepest place and along its normal, turned about it.
   std::vector<Plane> notches(const Part& part) {
     std::vector<Plane> cuts;
@@ -243,6 +295,7 @@ class Decomposer {
           (f <= 1 ? Vec3(e1 + (2 * f - 1) * e2) : Vec3((3 - 2 * f) * e1 + e2)).normalized();
       cuts.push_back({n, n.dot(deepest)});
     }
+    add_creases(deepest, up, cuts);
     return cuts;
   }
 
@@ -258,17 +311,21 @@ class Decomposer {
   std::optional<double> moment_of(const TriMesh& coarse, const std::vector<TriMesh>& cells) {
     const auto solid = hull_of(coarse, cells);
     if (!solid) return std::nullopt;
-    return hull::excess(*solid, grid_, 2 * options_.search_cell_m).moment;
+    return hull::excess(*solid, grid_, value_, 2 * options_.search_cell_m).moment;
   }
 
-  /// Joins the pairs that need no cut, the flattest first; with all pieces in use also those that
-  /// stand far lower than the worst piece, so that it can be cut further. False without any.
-  bool merge_all() {
+  /// With all pieces in use those may be joined too that then need far less than the worst piece
+  /// does, so that it can be cut further.
+  double exchange_limit() const {
     constexpr double kWorthIt = 0.6;
-    double limit = options_.concavity_m;
     const std::size_t w = worst();
-    if (parts_.size() >= options_.max_pieces && w < parts_.size())
-      limit = std::max(limit, kWorthIt * parts_[w].excess.height);
+    if (parts_.size() < options_.max_pieces || w == parts_.size()) return options_.concavity_m;
+    return std::max(options_.concavity_m, kWorthIt * parts_[w].excess.need);
+  }
+
+  /// Joins the pairs that need no more than the limit together, the flattest first. False without
+  /// any.
+  bool merge_within(double limit) {
     bool merged = false;
     while (merge_flattest(limit)) merged = true;
     return merged;
@@ -279,12 +336,12 @@ class Decomposer {
     double flattest = limit;
     for (std::size_t i = 0; i < parts_.size(); ++i)
       for (std::size_t j = i + 1; j < parts_.size(); ++j) {
-        if (std::max(parts_[i].excess.height, parts_[j].excess.height) > flattest) continue;
+        if (std::max(parts_[i].excess.need, parts_[j].excess.need) > flattest) continue;
         if (!parts_[i].box.overlaps(parts_[j].box)) continue;
         if (rises_above(parts_[i], parts_[j], limit)) continue;
-        const double height = height_together(parts_[i], parts_[j]);
-        if (height > flattest || (height == flattest && b > 0)) continue;
-        flattest = height;
+        const double need = need_together(parts_[i], parts_[j], flattest);
+        if (need > flattest || (need == flattest && b > 0)) continue;
+        flattest = need;
         a = i;
         b = j;
       }
@@ -307,20 +364,27 @@ class Decomposer {
       for (const Vec3& q : b.extremes)
         for (const double share : {0.5, 0.25, 0.75}) {
           const Vec3 x = p + share * (q - p);
-          if (grid_.at(x) > limit) return true;
+          if (grid_.at(x) * value_.at(x) > limit) return true;
         }
     return false;
   }
 
-  double height_together(const Part& a, const Part& b) {
-    const auto [known, fresh] = together_.try_emplace({a.id, b.id}, 1e300);
-    if (!fresh) return known->second;
+  /// Need of the hull of both; where it is above the limit only known to be so.
+  double need_together(const Part& a, const Part& b, double limit) {
+    const auto [at, fresh] = together_.try_emplace({a.id, b.id}, Known{kAnyNeed, false});
+    Known& known = at->second;
+    if (!fresh && (known.exact || known.need > limit)) return known.need;
     std::vector<Vec3> points = a.hull.vertices;
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
     const HullOutcome outcome = build_hull(points);
-    if (outcome.hull)
-      known->second = hull::excess(*outcome.hull, grid_, options_.search_cell_m).height;
-    return known->second;
+    if (!outcome.hull) return known.need;
+    const Excess quick = hull::excess(*outcome.hull, grid_, value_, options_.search_cell_m);
+    known = {quick.need, false};
+    if (quick.need > limit) return known.need;
+    known.need =
+        hull::exact_excess(*outcome.hull, grid_, value_, quick, options_.concavity_m, limit).need;
+    known.exact = known.need <= limit;
+    return known.need;
   }
 
   Decomposition finish() {
@@ -337,8 +401,13 @@ class Decomposer {
 
   DecomposeOptions options_;
   HeightGrid grid_;
+  hull::PlaceValue value_;
   std::vector<Part> parts_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> together_;
+  struct Known {
+    double need;
+    bool exact;  ///< else it is at least about that
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Known> together_;
   std::uint32_t next_id_ = 0;
 };
 

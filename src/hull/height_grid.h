@@ -20,6 +20,7 @@ class HeightGrid {
   /// Direction in which the height rises, unit; zero where it does not.
   Vec3 upwards(const Vec3& p);
   double cell() const { return cell_; }
+  const MeshDistance& exact() const { return exact_; }
 
  private:
   using Node = std::array<int, 3>;

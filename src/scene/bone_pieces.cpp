@@ -10,7 +10,7 @@ namespace osteon {
 namespace {
 
 // Counts up with every change of the algorithm that changes its pieces.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
 // A long bone is searched on coarser cells: their count grows with the cube of its length.
 constexpr double kLong = 0.25;  // m

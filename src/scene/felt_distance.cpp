@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "osteon/mesh/distance.h"
+#include "osteon/mesh/joint_ends.h"
 #include "osteon/mesh/longest_edge.h"
 #include "union_surface.h"
 
@@ -69,12 +70,24 @@ SurfaceGap summed_up(std::vector<std::pair<double, double>> gaps) {
   return out;
 }
 
+/// Of a whole surface and of a bone's ends.
+struct Gaps {
+  SurfaceGap all, at_ends;
+};
+
 template <class Height>
-SurfaceGap gaps(const std::vector<Sample>& samples, const Height& height) {
-  std::vector<std::pair<double, double>> out;
-  out.reserve(samples.size());
-  for (const Sample& s : samples) out.emplace_back(std::abs(height(s.p)), s.area);
-  return summed_up(std::move(out));
+Gaps gaps(const std::vector<Sample>& samples, const JointEnds& ends, const Height& height) {
+  std::vector<std::pair<double, double>> all, at_ends;
+  all.reserve(samples.size());
+  for (const Sample& s : samples) {
+    all.emplace_back(std::abs(height(s.p)), s.area);
+    if (!ends.on_shaft(s.p)) at_ends.push_back(all.back());
+  }
+  return {summed_up(std::move(all)), summed_up(std::move(at_ends))};
+}
+
+FeltDistance both_ways(const Gaps& to_felt, const Gaps& to_mesh) {
+  return {to_felt.all, to_mesh.all, to_felt.at_ends, to_mesh.at_ends};
 }
 
 /// The zero of a field below or above p, by Newton's method; none where the band ends.
@@ -114,7 +127,9 @@ FeltDistance of_field(const Bone& bone, const MeshDistance& mesh, double spacing
     return at ? (*at - p).norm() : std::abs(field.at(p).distance);
   };
   const auto to_mesh = [&](const Vec3& p) { return mesh.closest(p).signed_distance; };
-  return {gaps(samples_of(bone.mesh, spacing_m), to_felt), gaps(samples_of(field), to_mesh)};
+  const JointEnds ends(bone.mesh);
+  return both_ways(gaps(samples_of(bone.mesh, spacing_m), ends, to_felt),
+                   gaps(samples_of(field), ends, to_mesh));
 }
 
 bool inside(const std::vector<Hull>& pieces, const Vec3& p) {
@@ -134,8 +149,9 @@ FeltDistance felt_distance(const Bone& bone, double spacing_m) {
   if (felt.mesh().triangles.empty()) return {};
   const auto to_felt = [&](const Vec3& p) { return felt.closest(p).signed_distance; };
   const auto to_mesh = [&](const Vec3& p) { return mesh.closest(p).signed_distance; };
-  return {gaps(samples_of(bone.mesh, spacing_m), to_felt),
-          gaps(samples_of(felt.mesh(), spacing_m), to_mesh)};
+  const JointEnds ends(bone.mesh);
+  return both_ways(gaps(samples_of(bone.mesh, spacing_m), ends, to_felt),
+                   gaps(samples_of(felt.mesh(), spacing_m), ends, to_mesh));
 }
 
 std::vector<double> felt_heights(const Bone& bone, std::span<const Vec3> points_B) {

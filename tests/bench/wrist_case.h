@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "osteon/mesh/hollows.h"
 #include "osteon/mesh/mesh_io.h"
 #include "osteon/mesh/repair.h"
 #include "osteon/scene/build_case.h"
@@ -33,6 +34,7 @@ inline CaseDef wrist_def() {
     auto mesh = load_mesh(file, kMetresPerUnit);
     if (!mesh) throw std::runtime_error(mesh.error().message());
     repair(*mesh);
+    fill_hollows(*mesh);
     BoneDef bone;
     bone.name = canonical_bone_name(file.stem().string());
     bone.mesh = std::move(*mesh);

@@ -9,6 +9,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Cutting the bones takes minutes: the pieces of one test are kept for the next, which checks by
+// itself that they belong to its meshes.
 class RealWrist : public CliTest {
  protected:
   void SetUp() override {
@@ -17,8 +19,47 @@ class RealWrist : public CliTest {
     const Ran ran = run_osteon("import mesh " + (shared_dir() / "anatomy/wrist").string() +
                                " --unit m --out " + file("wrist"));
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
+    std::error_code none;
+    fs::copy_file(kept(), pieces(), none);
+  }
+  void TearDown() override {
+    std::error_code none;
+    if (fs::copy_file(pieces(), file("kept"), none) && !kept().empty())
+      fs::copy_file(file("kept"), kept(), fs::copy_options::overwrite_existing, none);
+    CliTest::TearDown();
+  }
+  fs::path pieces() const { return file("wrist") + "/pieces.bin"; }
+  static fs::path kept() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    return cache ? fs::path(cache) / "real_wrist_pieces.bin" : fs::path();
   }
 };
+
+// Largest distance between the felt and the mesh, mm, of the carpals and the radius' ends.
+void expect_felt_closely(const std::string& spec) {
+  constexpr double kClose_mm = 0.3;
+  const Ran ran = run_osteon("case felt '" + spec + "' --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const Json bones = Json::parse(ran.output)["bones"];
+  const auto check = [&](const std::string& name, const char* which) {
+    ASSERT_TRUE(bones.contains(name));
+    EXPECT_LE(bones[name]["pieces"].get<int>(), 64) << name;
+    EXPECT_LE(bones[name][which]["max"].get<double>(), kClose_mm) << name << " of " << spec;
+    EXPECT_GT(bones[name][which]["max"].get<double>(), 0.01) << name;
+  };
+  for (const char* name : {"scaphoid", "lunate", "triquetrum", "pisiform", "trapezium", "trapezoid",
+                           "capitate", "hamate"})
+    check(name, "felt_to_mesh_mm");
+  check("radius", "felt_to_mesh_at_ends_mm");
+}
+
+TEST_F(RealWrist, PiecesStandNoHigherThanThreeTenthsOfAMillimetreOverTheCarpalsAndTheRadiusEnds) {
+  expect_felt_closely(file("wrist"));
+}
+
+TEST_F(CliTest, ThePiecesOfTheBuiltInWristStandNoHigherThanThreeTenthsOfAMillimetre) {
+  expect_felt_closely("builtin:wrist");
+}
 
 TEST_F(RealWrist, ImportsFifteenNamedBonesThatCheckSound) {
   const Ran info = run_osteon("case info " + file("wrist"));

@@ -139,8 +139,9 @@ TEST(Click, FacesBetweenPiecesAreNeverFelt) {
       const ClosestPoint at = mesh.closest(s.contacts[k].p_W);
       EXPECT_GT(at.signed_distance, -most) << i;
       const Vec3 outwards = (s.X_WP.p - mesh.closest(s.X_WP.p).point).normalized();
-      // Within what a tip of 0.75 mm touches of a waist.
-      EXPECT_GT(s.contacts[k].nhat_BT_W.dot(outwards), 0.5) << i;
+      // Within what a tip of 0.75 mm touches of a waist made of pieces; a face between them looks
+      // along it.
+      EXPECT_GT(s.contacts[k].nhat_BT_W.dot(outwards), 0.3) << i;
       ++contacts;
     }
   }

@@ -8,7 +8,7 @@
 
 namespace osteon {
 
-/// Bounds of each run of 16 planes, so that a search may skip runs. For u measured from the body's
+/// Bounds of each run of planes, so that a search may skip runs. For u measured from the body's
 /// centre, every plane of a run keeps n.u - offset <= mid.u + top + sum_j half_j |u_j - at_j|.
 struct PlaneBlocks {
   std::vector<double> mid_x, mid_y, mid_z;     ///< middle of the run's normals
@@ -17,7 +17,7 @@ struct PlaneBlocks {
   std::vector<double> top;
 };
 
-/// Boxes of each run of 16 vertices: middle and half extents, in the hull's frame.
+/// Boxes of each run of vertices: middle and half extents, in the hull's frame.
 struct VertexBlocks {
   std::vector<double> mid_x, mid_y, mid_z;
   std::vector<double> half_x, half_y, half_z;
@@ -27,7 +27,9 @@ struct VertexBlocks {
 /// hull's own frame, ordered so that neighbours stand together, and padded to a multiple of
 /// kBlock with copies of the last. Immutable after make_convex_body.
 struct ConvexBody {
-  static constexpr std::uint32_t kBlock = 16;
+  static constexpr std::uint32_t kBlock = 16;  ///< planes or vertices of a run
+  static constexpr std::uint32_t kGroupRuns = 8;  ///< runs of a group
+  static constexpr std::uint32_t kGroup = kGroupRuns * kBlock;  ///< planes or vertices of a group
 
   std::vector<double> nx, ny, nz, d;  ///< planes, n.x <= d inside, |n| = 1
   std::vector<double> offset;         ///< planes from the centre: n.(x - center) <= offset inside
@@ -36,10 +38,12 @@ struct ConvexBody {
   std::uint32_t vertex_count = 0;
   std::vector<std::uint32_t> plane_source;   ///< index in the hull of each plane
   std::vector<std::uint32_t> vertex_source;  ///< index in the hull of each vertex
-  PlaneBlocks plane_blocks;
-  VertexBlocks vertex_blocks;
-  Vec3 center = Vec3::Zero();  ///< of the bounding sphere; lies inside the body
-  double radius = 0;           ///< of the bounding sphere
+  PlaneBlocks plane_blocks;                  ///< of each run
+  PlaneBlocks plane_groups;                  ///< of each group of runs
+  VertexBlocks vertex_blocks;                ///< of each run
+  VertexBlocks vertex_groups;                ///< of each group of runs
+  Vec3 center = Vec3::Zero();                ///< of the bounding sphere; lies inside the body
+  double radius = 0;                         ///< of the bounding sphere
   Aabb box;
   /// Four planes whose normals hold the origin in their convex hull: a first feasible basis of the
   /// depth programme's dual. They touch the largest ball inside the body.

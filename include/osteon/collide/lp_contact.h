@@ -44,6 +44,7 @@ struct LpDepth {
   /// by -gap along nhat parts the bodies). Exact for that direction: from the support of both
   /// bodies.
   double gap = 0;
+  double top_A = 0;                ///< largest nhat_AB_A.x over A, m
   Vec3 nhat_AB_A = Vec3::UnitZ();  ///< unit, from A to B, in A; from the dual weights of A's planes
   Vec3 p_A = Vec3::Zero();         ///< optimal x, in A
   int pivots = 0;

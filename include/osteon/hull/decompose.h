@@ -11,7 +11,7 @@
 namespace osteon {
 
 struct DecomposeOptions {
-  double concavity_m = 0.0002;    ///< wanted: no piece stands higher over the mesh
+  double concavity_m = 0.00025;   ///< wanted: no piece stands higher over the mesh
   std::size_t max_pieces = 64;    ///< at least 1
   double search_cell_m = 0.0005;  ///< detail at which cuts are looked for; pieces are always exact
 };
@@ -19,7 +19,8 @@ struct DecomposeOptions {
 struct Decomposition {
   /// Their union holds the mesh's inside and surface. Each is build_hull of its own vertices.
   std::vector<Hull> pieces;
-  /// How far the pieces stand over the mesh at most, m, measured on a grid of `search_cell_m`.
+  /// How far the pieces stand over the mesh at most, m. Below the wanted concavity only known not
+  /// to be above it; else good to 0.02 mm or a twentieth.
   double concavity_m = 0;
 };
 
@@ -27,11 +28,13 @@ struct Decomposition {
 /// planes through the deepest concave place, the worst piece first, and merging of what needs no
 /// cut. After Lien and Amato, "Approximate convex decomposition of polyhedra" (2007) for the cut at
 /// the deepest notch, and Wei et al., "CoACD" (SIGGRAPH 2022) for concavity measured from the
-/// hull's boundary and for the merge. Pieces are exact hulls of the mesh's surface clipped by the
-/// planes: neighbours share the points of their cut. Deterministic: the same mesh and options give
-/// the same bytes on every compiler. Empty when the mesh has no hull (see build_hull). A mesh that
-/// is not closed gives one piece, its hull, with a concavity of zero, since it has no inside to
-/// measure from.
+/// hull's boundary and for the merge. More is cut than is allowed and merged back. The ends of a
+/// long bone (JointEnds), where its joints are, come first: while pieces are short, its shaft may
+/// stand four times as high over the mesh. Pieces are exact hulls of the mesh's surface clipped by
+/// the planes: neighbours share the points of their cut. Deterministic: the same mesh and options
+/// give the same bytes on every compiler. Empty when the mesh has no hull (see build_hull). A mesh
+/// that is not closed gives one piece, its hull, with a concavity of zero, since it has no inside
+/// to measure from.
 std::optional<Decomposition> decompose(const TriMesh& mesh, const DecomposeOptions& options = {});
 
 }  // namespace osteon

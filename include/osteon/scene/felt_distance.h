@@ -16,6 +16,9 @@ struct SurfaceGap {
 struct FeltDistance {
   SurfaceGap mesh_to_felt;
   SurfaceGap felt_to_mesh;
+  /// The same of the bone's ends alone (JointEnds); of a bone without a shaft those above.
+  SurfaceGap mesh_to_felt_at_ends;
+  SurfaceGap felt_to_mesh_at_ends;
 };
 
 /// Both ways, at points at most `spacing_m` apart. What is felt of pieces or a hull is the outer
