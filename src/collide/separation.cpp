@@ -25,8 +25,7 @@ bool improve(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, double&
 
 }  // namespace
 
-GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB,
-                   const Vec3& nhat_A) {
+GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A) {
   const Vec3 n_B = X_AB.q.conjugate() * nhat_A;
   const double top_A = support(a, nhat_A);
   return {-(top_A + (support(b, -n_B) - nhat_A.dot(X_AB.p))), top_A};

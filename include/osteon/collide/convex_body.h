@@ -27,8 +27,8 @@ struct VertexBlocks {
 /// hull's own frame, ordered so that neighbours stand together, and padded to a multiple of
 /// kBlock with copies of the last. Immutable after make_convex_body.
 struct ConvexBody {
-  static constexpr std::uint32_t kBlock = 16;  ///< planes or vertices of a run
-  static constexpr std::uint32_t kGroupRuns = 8;  ///< runs of a group
+  static constexpr std::uint32_t kBlock = 16;                   ///< planes or vertices of a run
+  static constexpr std::uint32_t kGroupRuns = 8;                ///< runs of a group
   static constexpr std::uint32_t kGroup = kGroupRuns * kBlock;  ///< planes or vertices of a group
 
   std::vector<double> nx, ny, nz, d;  ///< planes, n.x <= d inside, |n| = 1
