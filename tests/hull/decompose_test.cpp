@@ -12,7 +12,6 @@
 #include "osteon/hull/validate.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/mesh/isosurface.h"
-#include "osteon/mesh/joint_ends.h"
 #include "osteon/mesh/measure.h"
 
 namespace osteon {
@@ -51,18 +50,6 @@ double height_over(const Hull& piece, const Vec3& p) {
   double most = -1e300;
   for (const Plane& plane : piece.planes) most = std::max(most, plane.signed_distance(p));
   return most;
-}
-
-// A rod of 160 mm with rings cut into it all along.
-TriMesh grooved_rod() {
-  return grown(
-      [](const Vec3& p) {
-        const double radius = std::hypot(p.x(), p.y());
-        const double along = std::abs(p.z() - 0.02 * std::round(p.z() / 0.02));
-        const double groove = std::hypot(radius - 0.0095, along) - 0.003;
-        return std::max({radius - 0.008, std::abs(p.z()) - 0.078, -groove});
-      },
-      Vec3(0.0095, 0.0095, 0.08), 0.0012);
 }
 
 // How far p is outside the union, at most.
@@ -154,33 +141,6 @@ TEST(Decompose, FollowsARing) {
   DecomposeOptions options;
   options.concavity_m = 0.0004;
   expect_follows(ring(), options);
-}
-
-// Too few pieces for all rings: those at the joints come first.
-TEST(Decompose, TheEndsOfALongBodyComeFirst) {
-  DecomposeOptions options;
-  options.max_pieces = 14;
-  options.search_cell_m = 0.001;
-  const TriMesh mesh = grooved_rod();
-  const auto d = decompose(mesh, options);
-  ASSERT_TRUE(d);
-  EXPECT_LE(d->pieces.size(), 14u);
-  EXPECT_GT(d->concavity_m, options.concavity_m);
-  const MeshDistance distance(mesh);
-  const JointEnds ends(mesh);
-  ASSERT_TRUE(ends.has_shaft());
-  double at_ends = 0, on_shaft = 0;
-  for (const Hull& piece : d->pieces)
-    for (const Triangle& t : piece.triangles)
-      for (int i = 0; i <= 20; ++i)
-        for (int k = 0; i + k <= 20; ++k) {
-          const Vec3 p = (i * piece.vertices[t[0]] + k * piece.vertices[t[1]] +
-                          (20 - i - k) * piece.vertices[t[2]]) /
-                         20;
-          double& most = ends.on_shaft(p) ? on_shaft : at_ends;
-          most = std::max(most, distance.closest(p).signed_distance);
-        }
-  EXPECT_LT(at_ends, 0.6 * on_shaft);
 }
 
 TEST(Decompose, KeepsToTheNumberOfPieces) {
