@@ -12,8 +12,8 @@ namespace osteon::hull {
 namespace {
 
 /// Rounding, of a polytope with no worse bounds than the second, is far below the first.
-constexpr double kReachMargin = 1e-9;
-constexpr double kWorstBound = 1e-10;
+constexpr double kReachMargin = 1e-5;
+constexpr double kWorstBound = 1e-6;
 
 std::uint32_t cells_of_table(std::size_t points) {
   const double cells = std::sqrt(static_cast<double>(points)) / 8;
