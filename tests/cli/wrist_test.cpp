@@ -9,30 +9,26 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Cutting the bones takes minutes: the pieces of one test are kept for the next, which checks by
-// itself that they belong to its meshes.
+/// Imported once, with its pieces, for all of the suite.
 class RealWrist : public CliTest {
  protected:
+  static void SetUpTestSuite() {
+    if (shared_dir().empty()) return;
+    imported_ = fs::temp_directory_path() / ("osteon_real_wrist_" + std::to_string(::getpid()));
+    const Ran ran = run_osteon("import mesh " + (shared_dir() / "anatomy/wrist").string() +
+                               " --unit m --out " + imported_.string());
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  static void TearDownTestSuite() {
+    if (!imported_.empty()) fs::remove_all(imported_);
+  }
   void SetUp() override {
     CliTest::SetUp();
     if (shared_dir().empty()) GTEST_SKIP() << "the reference bones are not here (../shared)";
-    const Ran ran = run_osteon("import mesh " + (shared_dir() / "anatomy/wrist").string() +
-                               " --unit m --out " + file("wrist"));
-    ASSERT_EQ(ran.exit_code, 0) << ran.output;
-    std::error_code none;
-    fs::copy_file(kept(), pieces(), none);
   }
-  void TearDown() override {
-    std::error_code none;
-    if (fs::copy_file(pieces(), file("kept"), none) && !kept().empty())
-      fs::copy_file(file("kept"), kept(), fs::copy_options::overwrite_existing, none);
-    CliTest::TearDown();
-  }
-  fs::path pieces() const { return file("wrist") + "/pieces.bin"; }
-  static fs::path kept() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    return cache ? fs::path(cache) / "real_wrist_pieces.bin" : fs::path();
-  }
+  static std::string wrist() { return imported_.string(); }
+
+  static inline fs::path imported_;
 };
 
 // Largest distance between the felt and the mesh, mm, of the carpals and the radius' ends.
@@ -54,7 +50,7 @@ void expect_felt_closely(const std::string& spec) {
 }
 
 TEST_F(RealWrist, PiecesStandNoHigherThanThreeTenthsOfAMillimetreOverTheCarpalsAndTheRadiusEnds) {
-  expect_felt_closely(file("wrist"));
+  expect_felt_closely(wrist());
 }
 
 TEST_F(CliTest, ThePiecesOfTheBuiltInWristStandNoHigherThanThreeTenthsOfAMillimetre) {
@@ -62,7 +58,7 @@ TEST_F(CliTest, ThePiecesOfTheBuiltInWristStandNoHigherThanThreeTenthsOfAMillime
 }
 
 TEST_F(RealWrist, ImportsFifteenNamedBonesThatCheckSound) {
-  const Ran info = run_osteon("case info " + file("wrist"));
+  const Ran info = run_osteon("case info " + wrist());
   ASSERT_EQ(info.exit_code, 0) << info.output;
   for (const char* name : {"scaphoid", "lunate", "triquetrum", "pisiform", "trapezium", "trapezoid",
                            "capitate", "hamate", "radius", "ulna", "metacarpal_1", "metacarpal_2",
@@ -72,10 +68,10 @@ TEST_F(RealWrist, ImportsFifteenNamedBonesThatCheckSound) {
 
 TEST_F(RealWrist, ASurveyOfAMinuteTouchesTwelveBonesAndReplaysIdentically) {
   const Ran survey =
-      run_osteon("path survey --case " + file("wrist") + " --seed 3 --out " + file("p.csv"));
+      run_osteon("path survey --case " + wrist() + " --seed 3 --out " + file("p.csv"));
   ASSERT_EQ(survey.exit_code, 0) << survey.output;
   const Ran run =
-      run_osteon("simulate --case " + file("wrist") + " --path " + file("p.csv") +
+      run_osteon("simulate --case " + wrist() + " --path " + file("p.csv") +
                  " --free-bones --record " + file("r.osr") + " --report " + file("r.json"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const Json report = Json::parse(read_file(file("r.json")).value());
@@ -94,9 +90,9 @@ TEST_F(RealWrist, ASurveyOfAMinuteTouchesTwelveBonesAndReplaysIdentically) {
 
 TEST_F(RealWrist, ThePressIsTheForceThatWasAskedFor) {
   const Ran survey =
-      run_osteon("path survey --case " + file("wrist") + " --force 2 --out " + file("p.csv"));
+      run_osteon("path survey --case " + wrist() + " --force 2 --out " + file("p.csv"));
   ASSERT_EQ(survey.exit_code, 0) << survey.output;
-  const Ran run = run_osteon("simulate --case " + file("wrist") + " --path " + file("p.csv") +
+  const Ran run = run_osteon("simulate --case " + wrist() + " --path " + file("p.csv") +
                              " --report " + file("r.json"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const Json report = Json::parse(read_file(file("r.json")).value());
