@@ -23,13 +23,9 @@ std::string absolute_spec(const std::string& spec) {
 
 void print_stats(const WindowApp& app) {
   const FrameStats& stats = app.frame_stats();
-  std::printf(
-      "%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms; processor %.2f ms, of it %.2f "
-      "ms for "
-      "the scene%s\n",
-      stats.count(), stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99),
-      app.processor_ms_per_picture(), app.scene_ms_per_picture(),
-      app.software_driver() ? " (no graphics card)" : "");
+  std::printf("%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms; processor %.2f ms%s\n",
+              stats.count(), stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99),
+              app.processor_ms_per_picture(), app.software_driver() ? " (no graphics card)" : "");
 }
 
 int run_window(const WindowOrder& order) {
@@ -70,6 +66,8 @@ void add_window_command(CLI::App& app, int& exit_code) {
                       "closed");
   command->add_option("--edit", order->edit, "Begin editing the surface of this bone");
   command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
+  command->add_flag("--new-patient", order->new_patient,
+                    "Begin with the panel that makes a patient");
   command->add_option("--screenshot", order->screenshot,
                       "Save a picture of the window (PNG), then end");
   command

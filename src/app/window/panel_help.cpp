@@ -39,9 +39,10 @@ constexpr std::array<KeyLine, 4> kEdit = {{
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 
-constexpr std::array<KeyLine, 10> kRun = {{
+constexpr std::array<KeyLine, 11> kRun = {{
     {"R", "record, stop"},
     {"O", "open a recording"},
+    {"N", "make a new patient"},
     {"P", "play, pause a replay"},
     {",  .", "slower, faster"},
     {"F2", "check this computer and its devices"},

@@ -47,6 +47,8 @@ void draw_open_menu(const PanelContext& c) {
   ui::tooltip("Opens a recording to replay it (O). A file dropped on the window opens too.");
   ImGui::SetNextWindowPos(below, ImGuiCond_Appearing, {1, 0});
   if (!ImGui::BeginPopup("recordings")) return;
+  if (ImGui::MenuItem("New patient ...", "N")) c.requests.patient.toggle = true;
+  ImGui::Separator();
   ui::text(color::kTextQuiet, "Recordings");
   if (c.model.recordings.empty())
     ImGui::TextUnformatted("None yet. Press R to make one,\nor drop a file on the window.");

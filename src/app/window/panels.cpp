@@ -22,6 +22,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   draw_notices(c);
   if (model.help_open) draw_help(c);
   if (model.checkup.open && ready) draw_checkup(c);
+  if (model.patient.open && ready) draw_patient(c);
   return requests;
 }
 

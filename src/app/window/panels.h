@@ -33,7 +33,8 @@ void draw_notices(const PanelContext& c);  // toasts, hint, probe hint, name tag
 void draw_loading(const PanelContext& c);
 void draw_help(const PanelContext& c);
 void draw_checkup(const PanelContext& c);
-void draw_edit(const PanelContext& c);  // of a bone's surface
+void draw_edit(const PanelContext& c);     // of a bone's surface
+void draw_patient(const PanelContext& c);  // a new one
 void read_shortcuts(const PanelContext& c);
 
 }  // namespace osteon

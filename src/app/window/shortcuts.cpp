@@ -44,6 +44,7 @@ void read_run_keys(const PanelContext& c) {
   if (pressed(GLFW_KEY_M) && c.model.hand.probe_by_mouse && !replay) c.requests.toggle_probe = true;
   if (pressed(GLFW_KEY_R) && !replay) c.requests.toggle_record = true;
   if (pressed(GLFW_KEY_O)) c.requests.list_recordings = true;
+  if (pressed(GLFW_KEY_N)) c.requests.patient.toggle = true;
   if (pressed(GLFW_KEY_P) && replay) c.requests.toggle_play = true;
   if (pressed(GLFW_KEY_COMMA) && replay) c.requests.speed = std::max(0.1, c.model.replay.speed / 2);
   if (pressed(GLFW_KEY_PERIOD) && replay)

@@ -13,6 +13,7 @@
 #include "osteon/scene/case.h"
 #include "window/contact_timeline.h"
 #include "window/edit_model.h"
+#include "window/patient_model.h"
 #include "window/pedals.h"
 #include "window/toasts.h"
 
@@ -133,6 +134,7 @@ struct UiModel {
 
   CheckupModel checkup;
   EditModel edit;
+  PatientModel patient;
   bool panels_open = true;
   bool help_open = false;
   bool first_run_hint = false;

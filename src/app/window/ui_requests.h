@@ -9,6 +9,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
 #include "window/edit_model.h"
+#include "window/patient_model.h"
 
 namespace osteon {
 
@@ -43,6 +44,7 @@ struct UiRequests {
   bool install_udev = false;
   std::optional<std::string> copy;  ///< to the clipboard
   EditRequests edit;
+  PatientRequests patient;
   bool force_off = false;
   bool force_on = false;
   bool toggle_probe = false;

@@ -40,6 +40,8 @@ Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   if (!window) return tl::unexpected(window.error());
   app->window_ = std::move(*window);
   app->ui_ = std::make_unique<ImGuiHost>(app->window_->handle(), 1.0f);
+  // A measured run gives the same picture wherever the pointer lies.
+  if (order.frames > 0) app->ui_->take_pointer(true);
 
   std::vector<std::string> problems;
   app->choices_ = list_device_choices(&problems);
@@ -65,7 +67,7 @@ Result<void> WindowApp::run() {
     frame(dt_s);
     if (measured_run_over()) return finish_measured_run();
     window_->swap();
-    work_.add(seconds(steady_now_ns() - begin_ns));
+    if (measured_frames_ > 0) work_.add(seconds(steady_now_ns() - begin_ns));
     const bool paced = order_.frames == 0 && !software_driver();
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
   }
@@ -86,13 +88,16 @@ void WindowApp::frame(double dt_s) {
   poll_felt();
   poll_checkup();
   poll_edit_save();
+  poll_patient();
   toasts_.age(now_s_);
 
   ui_->begin_frame(window_->take_pressed_keys());
   if (ready()) poll_scene(dt_s, wheel);
   show_edit();
-  const UiRequests requests = draw_ui(build_model(), ui_->fonts());
   draw_picture();
+  // A processor that draws works on the picture while the panels are laid out.
+  glFlush();
+  const UiRequests requests = draw_ui(build_model(), ui_->fonts());
   ui_->end_frame();
   apply(requests);
 }
@@ -108,11 +113,7 @@ void WindowApp::draw_picture() {
   ViewState shown = picture_view();
   for (const BoneId id : {hovered_, hovered_row_, picked_})
     if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
-  const double before_s = processor_now_s();
   renderer_->draw(shown_, shown, viewport());
-  if (order_.frames == 0) return;
-  glFinish();  // so that the measurement tells the scene from the panels
-  scene_s_ += processor_now_s() - before_s;
 }
 
 // Counts pictures once the simulated time that was ordered is reached.
@@ -121,10 +122,9 @@ bool WindowApp::measured_run_over() {
   if (!load_failure_.empty()) return true;
   // A replay stands at the ordered moment from the start.
   const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached || checkup_ || felt_job_) {
-    work_.clear();
+  if (!ready() || !reached || checkup_ || felt_job_ || first_pictures_ > 0) {
+    if (ready() && first_pictures_ > 0) --first_pictures_;
     processor_start_s_ = processor_now_s();
-    scene_s_ = 0;
     return false;
   }
   return ++measured_frames_ >= order_.frames;
@@ -132,10 +132,6 @@ bool WindowApp::measured_run_over() {
 
 double WindowApp::processor_ms_per_picture() const {
   return 1e3 * (processor_now_s() - processor_start_s_) / std::max(1, measured_frames_);
-}
-
-double WindowApp::scene_ms_per_picture() const {
-  return 1e3 * scene_s_ / std::max(1, measured_frames_);
 }
 
 Result<void> WindowApp::finish_measured_run() {

@@ -20,6 +20,7 @@
 #include "window/live_run.h"
 #include "window/load_job.h"
 #include "window/panels.h"
+#include "window/patient_job.h"
 #include "window/pedals.h"
 #include "window/replay_player.h"
 #include "window/scene_poll.h"
@@ -44,6 +45,7 @@ struct WindowOrder {
   std::filesystem::path force_log;   ///< of the device's last seconds; empty: none
   std::string edit;                  ///< name of the bone whose editing begins; empty: none
   bool checkup = false;              ///< opens the check-up and begins one
+  bool new_patient = false;          ///< opens the panel that makes one
   bool fresh = false;                ///< neither reads nor writes the settings file
 };
 
@@ -59,7 +61,6 @@ class WindowApp {
   /// Processor time of the whole program for one measured picture, ms, and its share in drawing the
   /// scene.
   double processor_ms_per_picture() const;
-  double scene_ms_per_picture() const;
   bool software_driver() const { return renderer_ && renderer_->software_driver(); }
 
  private:
@@ -119,6 +120,11 @@ class WindowApp {
   EditModel edit_model() const;
   std::vector<EditDot> edit_dots() const;
   Pose edited_pose() const;
+  // window_patient.cpp: a patient is made
+  void choose_patient(PatientOrder order);
+  void apply_patient(const PatientRequests& requests);
+  void poll_patient();
+  PatientModel patient_model() const;
   // window_settings.cpp
   void recall_view();
   void remember();
@@ -137,9 +143,9 @@ class WindowApp {
   FrameStats frames_;  ///< from picture to picture
   FrameStats work_;    ///< the work of each picture
   double now_s_ = 0;
+  int first_pictures_ = 3;  ///< that still belong to loading: shaders are compiled for them
   int measured_frames_ = 0;
   double processor_start_s_ = 0;  ///< when the measured pictures began
-  double scene_s_ = 0;            ///< processor time of the scene since then
 
   std::unique_ptr<LoadJob> job_;
   std::string load_failure_;
@@ -179,6 +185,12 @@ class WindowApp {
   std::optional<Vec3> edit_hover_;    ///< under the pointer, in Bone
   Vec3 edit_moved_C_ = Vec3::Zero();  ///< by the mouse since the grab
   bool edit_left_was_down_ = false;
+
+  bool patient_open_ = false;
+  PatientOrder patient_order_;
+  PatientChoices patient_choices_;  ///< of its anatomy; empty until first needed
+  std::string patient_problem_;
+  std::unique_ptr<PatientJob> patient_job_;  ///< while one is made
 
   bool checkup_open_ = false;
   std::unique_ptr<CheckupJob> checkup_;  ///< while one runs

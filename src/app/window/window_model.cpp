@@ -1,19 +1,10 @@
 #include <algorithm>
-#include <cctype>
 
+#include "window/label.h"
 #include "window/window_app.h"
 
 namespace osteon {
 namespace {
-
-// "metacarpal_1" -> "Metacarpal 1"
-std::string label_of(const std::string& name) {
-  std::string label = name;
-  std::replace(label.begin(), label.end(), '_', ' ');
-  if (!label.empty())
-    label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
 
 std::string title_of(const Case& the_case) {
   std::string title = label_of(the_case.name);
@@ -107,6 +98,7 @@ UiModel WindowApp::build_model() const {
   }
   model.checkup = checkup_model();
   model.edit = edit_model();
+  model.patient = patient_model();
   model.case_title = title_of(*case_);
   model.is_knee = case_->find("femur").valid();
   for (const Bone& bone : case_->bones) {

@@ -23,6 +23,7 @@ void WindowApp::poll_loading() {
   job_.reset();
   if (!loaded) return fail_loading(loaded.error().message());
   install(std::move(*loaded));
+  if (std::exchange(order_.new_patient, false)) apply_patient({.toggle = true});
   if (!std::exchange(order_.checkup, false)) return;
   checkup_open_ = true;
   begin_checkup(false);

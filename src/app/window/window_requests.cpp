@@ -24,6 +24,7 @@ void WindowApp::apply(const UiRequests& requests) {
   if (requests.list_recordings) list_recordings();
   if (requests.open_file) open({case_source_, *requests.open_file, case_});
   apply_checkup(requests);
+  apply_patient(requests.patient);
   if (!ready()) return;
   apply_view(requests);
   if (requests.felt) choose_felt(*requests.felt);

@@ -82,8 +82,8 @@ class UiFrame {
       id = std::holds_alternative<int>(part) ? ImHashData(&std::get<int>(part), sizeof(int), id)
                                              : ImHashStr(std::get<const char*>(part), 0, id);
     const ImRect area = found->Rect();
-    for (float y = area.Min.y + 2; y < area.Max.y; y += 4)
-      for (float x = area.Min.x + 2; x < area.Max.x; x += 4) {
+    for (float y = area.Min.y + 2; y < area.Max.y; y += 5)
+      for (float x = area.Min.x + 2; x < area.Max.x; x += 10) {
         ImGui::GetIO().MousePos = {x, y};
         draw();
         if (ImGui::GetCurrentContext()->HoveredId == id) return {x, y};
@@ -115,7 +115,8 @@ class UiFrame {
   static bool acted(const UiRequests& r) {
     return r.view || r.preset || r.felt || !r.commands.empty() || r.device || r.seek_s || r.speed ||
            r.calibrate || r.mapping || r.learn_pedal || r.forget_pedal || r.toggle_checkup ||
-           r.begin_checkup || r.begin_push_test || r.cancel_checkup || r.install_udev || r.copy;
+           r.begin_checkup || r.begin_push_test || r.cancel_checkup || r.install_udev || r.copy ||
+           r.patient.toggle || r.patient.order || r.patient.make || r.patient.stop;
   }
   UiFonts fonts_;
 };
