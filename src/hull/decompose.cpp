@@ -1,7 +1,6 @@
 #include "osteon/hull/decompose.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -13,101 +12,15 @@
 #include "osteon/mesh/joint_ends.h"
 #include "osteon/mesh/measure.h"
 #include "outer_surface.h"
+#include "solid_part.h"
 
 namespace osteon {
 namespace {
 
 using hull::Excess;
 using hull::HeightGrid;
-
-/// A part of the solid: what lies in some convex cells.
-struct Shape {
-  TriMesh surface;             ///< of the whole mesh, clipped
-  TriMesh coarse;              ///< of the mesh in which cuts are looked for, clipped
-  std::vector<TriMesh> cells;  ///< convex, closed
-};
-
-struct Part {
-  std::uint32_t id = 0;  ///< never used twice
-  Shape shape;
-  Hull hull;
-  Excess excess;               ///< of `hull`
-  Aabb box;                    ///< of `hull`
-  std::vector<Vec3> extremes;  ///< corners of `hull` that lie outermost in some directions
-  bool stuck = false;          ///< no cut was found
-};
-
-std::vector<Vec3> extremes_of(const Hull& hull) {
-  std::vector<Vec3> out;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const Vec3 n(x, y, z);
-        const auto farthest =
-            std::max_element(hull.vertices.begin(), hull.vertices.end(),
-                             [&](const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b); });
-        if (n != Vec3::Zero()) out.push_back(*farthest);
-      }
-  return out;
-}
-
-/// One vertex a cell of a grid: the first of the mesh in it. Triangles within a cell vanish.
-TriMesh coarsened(const TriMesh& mesh, double cell) {
-  struct Keyed {
-    std::array<std::int64_t, 3> cell;
-    std::uint32_t vertex;
-  };
-  const Aabb box = bounds(mesh);
-  std::vector<Keyed> keyed;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3 u = (mesh.vertices[v] - box.lo) / cell;
-    keyed.push_back({{static_cast<std::int64_t>(u.x()), static_cast<std::int64_t>(u.y()),
-                      static_cast<std::int64_t>(u.z())},
-                     v});
-  }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.vertex < b.vertex;
-  });
-  TriMesh out;
-  std::vector<std::uint32_t> of_vertex(mesh.vertices.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i == 0 || keyed[i].cell != keyed[i - 1].cell)
-      out.vertices.push_back(mesh.vertices[keyed[i].vertex]);
-    of_vertex[keyed[i].vertex] = static_cast<std::uint32_t>(out.vertices.size() - 1);
-  }
-  for (const Triangle& t : mesh.triangles) {
-    const Triangle s{of_vertex[t[0]], of_vertex[t[1]], of_vertex[t[2]]};
-    if (s[0] != s[1] && s[1] != s[2] && s[2] != s[0]) out.triangles.push_back(s);
-  }
-  return out;
-}
-
-void append(TriMesh& to, const TriMesh& from) {
-  const auto first = static_cast<std::uint32_t>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
-  for (const Triangle& t : from.triangles)
-    to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
-TriMesh box_mesh(const Aabb& box) {
-  std::vector<Vec3> corners;
-  for (const double x : {box.lo.x(), box.hi.x()})
-    for (const double y : {box.lo.y(), box.hi.y()})
-      for (const double z : {box.lo.z(), box.hi.z()}) corners.emplace_back(x, y, z);
-  return to_mesh(*build_hull(corners).hull);
-}
-
-/// What of the cells lies on the plane's side that `pick` takes. A sliver without volume vanishes.
-template <class Pick>
-std::vector<TriMesh> clip_cells(const std::vector<TriMesh>& cells, const Plane& plane,
-                                const Pick& pick) {
-  std::vector<TriMesh> out;
-  for (const TriMesh& cell : cells) {
-    const HullOutcome outcome = build_hull(pick(hull::clip(cell, plane)).vertices);
-    if (outcome.hull) out.push_back(to_mesh(*outcome.hull));
-  }
-  return out;
-}
+using hull::SolidPart;
+using hull::SolidShape;
 
 class Decomposer {
  public:
@@ -118,7 +31,8 @@ class Decomposer {
     constexpr double kShaftCounts = 0.25;
     if (value_.ends.has_shaft()) value_.on_shaft = kShaftCounts;
     const Aabb box = bounds(mesh).grown(options.search_cell_m);
-    (void)add({mesh, coarsened(mesh, kCoarser * options.search_cell_m), {box_mesh(box)}});
+    (void)add(
+        {mesh, hull::coarsened(mesh, kCoarser * options.search_cell_m), {hull::box_mesh(box)}});
   }
 
   /// Cuts more than is allowed and merges back: that finds better pieces than stopping in time.
@@ -149,7 +63,7 @@ class Decomposer {
   void refine_shaft() {
     value_.on_shaft = 1;
     together_.clear();
-    for (Part& part : parts_) {
+    for (SolidPart& part : parts_) {
       part.excess = excess_of(part.hull);
       part.stuck = false;
     }
@@ -175,8 +89,8 @@ class Decomposer {
     return build_hull(points).hull;
   }
 
-  bool add(Shape shape) {
-    Part part;
+  bool add(SolidShape shape) {
+    SolidPart part;
     auto solid = hull_of(shape.surface, shape.cells);
     if (!solid) return false;
     part.shape = std::move(shape);
@@ -184,7 +98,7 @@ class Decomposer {
     part.id = next_id_++;
     part.excess = excess_of(part.hull);
     for (const Vec3& v : part.hull.vertices) part.box.include(v);
-    part.extremes = extremes_of(part.hull);
+    part.extremes = hull::extremes_of(part.hull);
     parts_.push_back(std::move(part));
     return true;
   }
@@ -209,11 +123,13 @@ class Decomposer {
   }
 
   bool cut(std::size_t i, const Plane& plane) {
-    const Shape& whole = parts_[i].shape;
+    const SolidShape& whole = parts_[i].shape;
     auto [fine_below, fine_above] = hull::clip(whole.surface, plane);
     auto [coarse_below, coarse_above] = hull::clip(whole.coarse, plane);
-    Shape below{std::move(fine_below), std::move(coarse_below), cells_below(whole.cells, plane)};
-    Shape above{std::move(fine_above), std::move(coarse_above), cells_above(whole.cells, plane)};
+    SolidShape below{std::move(fine_below), std::move(coarse_below),
+                     hull::cells_below(whole.cells, plane)};
+    SolidShape above{std::move(fine_above), std::move(coarse_above),
+                     hull::cells_above(whole.cells, plane)};
     if (!add(std::move(below))) return false;
     if (!add(std::move(above))) {
       parts_.pop_back();
@@ -223,28 +139,19 @@ class Decomposer {
     return true;
   }
 
-  static std::vector<TriMesh> cells_below(const std::vector<TriMesh>& cells, const Plane& plane) {
-    return clip_cells(cells, plane,
-                      [](const auto& sides) -> const TriMesh& { return sides.first; });
-  }
-  static std::vector<TriMesh> cells_above(const std::vector<TriMesh>& cells, const Plane& plane) {
-    return clip_cells(cells, plane,
-                      [](const auto& sides) -> const TriMesh& { return sides.second; });
-  }
-
-  Part take(std::size_t i) {
-    Part part = std::move(parts_[i]);
+  SolidPart take(std::size_t i) {
+    SolidPart part = std::move(parts_[i]);
     parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
     return part;
   }
 
   /// The cut that leaves least standing over the mesh.
-  std::optional<Plane> best_cut(const Part& part) {
-    const auto cut = best_of(part, notches(part));
-    return cut ? cut : best_of(part, halves(part));
+  std::optional<Plane> best_cut(const SolidPart& part) {
+    const auto cut = best_of(part, hull::notch_cuts(part, grid_));
+    return cut ? cut : best_of(part, hull::halving_cuts(part));
   }
 
-  std::optional<Plane> best_of(const Part& part, const std::vector<Plane>& cuts) {
+  std::optional<Plane> best_of(const SolidPart& part, const std::vector<Plane>& cuts) {
     std::optional<Plane> best;
     double least = 1e300;
     for (const Plane& plane : cuts) {
@@ -256,54 +163,11 @@ class Decomposer {
     return best;
   }
 
-  /// Planes across, for a part whose notch cannot be told (in the middle of a hole).
-  static std::vector<Plane> halves(const Part& part) {
-    std::vector<Plane> cuts;
-    for (const Vec3& through : {part.excess.at, part.box.center()})
-      for (Eigen::Index k = 0; k < 3; ++k) cuts.push_back({Vec3::Unit(k), through[k]});
-    return cuts;
-  }
-
-  /// Planes along the edges of the facet under the deepest place: of a coarse mesh the notch is one
-  /// of them.
-  void add_creases(const Vec3& deepest, const Vec3& up, std::vector<Plane>& cuts) const {
-    const TriMesh& mesh = grid_.exact().mesh();
-    const Triangle& t = mesh.triangles[grid_.exact().closest(deepest).triangle];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& a = mesh.vertices[t[k]];
-      const Vec3 along = mesh.vertices[t[(k + 1) % 3]] - a;
-      const Vec3 n = along.cross(up);
-      if (along.norm() < 4 * grid_.cell() || !(n.norm() > 0.1 * along.norm())) continue;
-      cuts.push_back({n.normalized(), n.normalized().dot(a)});
-    }
-  }
-
-  /// Planes through the deepest place and along its normal, turned about it.
-  std::vector<Plane> notches(const Part& part) {
-    std::vector<Plane> cuts;
-    const Vec3 up = grid_.upwards(part.excess.at);
-    if (up == Vec3::Zero()) return cuts;
-    const Vec3 deepest = part.excess.at - grid_.at(part.excess.at) * up;
-    const Vec3 any = std::abs(up.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
-    const Vec3 e1 = up.cross(any).normalized();
-    const Vec3 e2 = up.cross(e1);
-    constexpr int kDirections = 8;
-    for (int k = 0; k < kDirections; ++k) {
-      // Half a circle without trigonometry: points of a square, then unit length.
-      const double f = 2.0 * k / kDirections;
-      const Vec3 n =
-          (f <= 1 ? Vec3(e1 + (2 * f - 1) * e2) : Vec3((3 - 2 * f) * e1 + e2)).normalized();
-      cuts.push_back({n, n.dot(deepest)});
-    }
-    add_creases(deepest, up, cuts);
-    return cuts;
-  }
-
-  std::optional<double> cost_of(const Part& part, const Plane& plane) {
+  std::optional<double> cost_of(const SolidPart& part, const Plane& plane) {
     const auto [below, above] = hull::clip(part.shape.coarse, plane);
-    const auto a = moment_of(below, cells_below(part.shape.cells, plane));
+    const auto a = moment_of(below, hull::cells_below(part.shape.cells, plane));
     if (!a) return std::nullopt;
-    const auto b = moment_of(above, cells_above(part.shape.cells, plane));
+    const auto b = moment_of(above, hull::cells_above(part.shape.cells, plane));
     if (!b) return std::nullopt;
     return *a + *b;
   }
@@ -346,10 +210,10 @@ class Decomposer {
         b = j;
       }
     if (b == 0) return false;
-    Shape joined = parts_[a].shape;
-    const Shape& other = parts_[b].shape;
-    append(joined.surface, other.surface);
-    append(joined.coarse, other.coarse);
+    SolidShape joined = parts_[a].shape;
+    const SolidShape& other = parts_[b].shape;
+    hull::append(joined.surface, other.surface);
+    hull::append(joined.coarse, other.coarse);
     joined.cells.insert(joined.cells.end(), other.cells.begin(), other.cells.end());
     if (!add(std::move(joined))) return false;
     take(b);
@@ -359,7 +223,7 @@ class Decomposer {
 
   /// True when a straight line between the two stands higher than that: so does their hull then.
   /// Settles most pairs without one.
-  bool rises_above(const Part& a, const Part& b, double limit) {
+  bool rises_above(const SolidPart& a, const SolidPart& b, double limit) {
     for (const Vec3& p : a.extremes)
       for (const Vec3& q : b.extremes)
         for (const double share : {0.5, 0.25, 0.75}) {
@@ -370,7 +234,7 @@ class Decomposer {
   }
 
   /// Need of the hull of both; where it is above the limit only known to be so.
-  double need_together(const Part& a, const Part& b, double limit) {
+  double need_together(const SolidPart& a, const SolidPart& b, double limit) {
     const auto [at, fresh] = together_.try_emplace({a.id, b.id}, Known{kAnyNeed, false});
     Known& known = at->second;
     if (!fresh && (known.exact || known.need > limit)) return known.need;
@@ -389,7 +253,7 @@ class Decomposer {
 
   Decomposition finish() {
     Decomposition out;
-    for (Part& part : parts_) {
+    for (SolidPart& part : parts_) {
       out.concavity_m = std::max(out.concavity_m, part.excess.height);
       // From its corners alone: so it can be built again without the mesh, bit for bit.
       HullOutcome piece = build_hull(part.hull.vertices);
@@ -402,7 +266,7 @@ class Decomposer {
   DecomposeOptions options_;
   HeightGrid grid_;
   hull::PlaceValue value_;
-  std::vector<Part> parts_;
+  std::vector<SolidPart> parts_;
   struct Known {
     double need;
     bool exact;  ///< else it is at least about that
