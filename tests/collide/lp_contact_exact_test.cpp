@@ -161,7 +161,7 @@ void try_pair(const Sample& a, const Sample& b, const Pose& X_AB, Tally& tally) 
 // Of each of the two large tests; tools/test --long asks for a million in all.
 int wanted_pairs() {
   const char* set = std::getenv("OSTEON_ORACLE_PAIRS");
-  return set ? std::atoi(set) : 50000;
+  return set ? std::atoi(set) : 100000;
 }
 
 TEST(LpContactExact, HitOrMissOfRandomPairs) {
