@@ -2,110 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
-#include "two_lanes.h"
+#include "block_search.h"
 
 namespace osteon {
 namespace {
 
-constexpr std::uint32_t kBlock = ConvexBody::kBlock;
-constexpr std::size_t kChunk = 64;  // groups or runs whose bounds are held at a time
-using Bounds = std::array<double, kChunk>;
-constexpr double kLeast = -std::numeric_limits<double>::infinity();
-
-// n.u - offset of two planes, always in this order of operations.
-inline TwoLanes excess_of(const ConvexBody& body, std::size_t i, const ThreeLanes& u) {
-  return TwoLanes::load(&body.nx[i]) * u.x + TwoLanes::load(&body.ny[i]) * u.y +
-         TwoLanes::load(&body.nz[i]) * u.z - TwoLanes::load(&body.offset[i]);
-}
-
-inline TwoLanes height_of(const ConvexBody& body, std::size_t i, const ThreeLanes& n) {
-  return TwoLanes::load(&body.vx[i]) * n.x + TwoLanes::load(&body.vy[i]) * n.y +
-         TwoLanes::load(&body.vz[i]) * n.z;
-}
-
-inline TwoLanes plane_bound(const PlaneBlocks& b, std::size_t i, const ThreeLanes& u) {
-  const TwoLanes middle = TwoLanes::load(&b.mid_x[i]) * u.x + TwoLanes::load(&b.mid_y[i]) * u.y +
-                          TwoLanes::load(&b.mid_z[i]) * u.z + TwoLanes::load(&b.top[i]);
-  return middle + TwoLanes::load(&b.half_x[i]) * abs(u.x - TwoLanes::load(&b.at_x[i])) +
-         TwoLanes::load(&b.half_y[i]) * abs(u.y - TwoLanes::load(&b.at_y[i])) +
-         TwoLanes::load(&b.half_z[i]) * abs(u.z - TwoLanes::load(&b.at_z[i]));
-}
-
-inline TwoLanes vertex_bound(const VertexBlocks& b, std::size_t i, const ThreeLanes& n) {
-  return TwoLanes::load(&b.mid_x[i]) * n.x + TwoLanes::load(&b.mid_y[i]) * n.y +
-         TwoLanes::load(&b.mid_z[i]) * n.z + TwoLanes::load(&b.half_x[i]) * abs(n.x) +
-         TwoLanes::load(&b.half_y[i]) * abs(n.y) + TwoLanes::load(&b.half_z[i]) * abs(n.z);
-}
-
-// Largest value of a run, and the lowest index that has it when it beats `best`.
-template <class Value>
-void scan_run(std::size_t first, const Value& value, double& best, std::uint32_t& index) {
-  TwoLanes even = value(first), odd = value(first + 2);
-  for (std::size_t k = 4; k < kBlock; k += 4) {
-    even = max(even, value(first + k));
-    odd = max(odd, value(first + k + 2));
-  }
-  const double largest = max(even, odd).top();
-  if (!(largest > best)) return;
-  best = largest;
-  for (std::size_t k = first;; k += 2) {
-    std::array<double, 2> pair;
-    value(k).store(pair.data());
-    if (pair[0] != largest && pair[1] != largest) continue;
-    index = static_cast<std::uint32_t>(pair[0] == largest ? k : k + 1);
-    return;
-  }
-}
-
-// Index of the first of `count` bounds that equals `value`.
-std::size_t find(const Bounds& bounds, double value) {
-  std::size_t k = 0;
-  while (bounds[k] != value) ++k;
-  return k;
-}
-
-// Calls `visit` with each of `count` members from `first` on whose bound beats the best so far, the
-// most promising first. At most kChunk members.
-template <class Bound, class Visit>
-void visit_promising(std::size_t first, std::size_t count, const Bound& bound, const double& best,
-                     const Visit& visit) {
-  Bounds bounds;
-  TwoLanes top = TwoLanes::both(kLeast);
-  for (std::size_t k = 0; k < count; k += 2) {
-    const TwoLanes pair = bound(first + k);
-    pair.store(&bounds[k]);
-    top = max(top, pair);
-  }
-  if (!(top.top() > best)) return;
-  const std::size_t most = find(bounds, top.top());
-  visit(first + most);
-  bounds[most] = kLeast;
-  for (std::size_t k = 0; k < count; k += 2) {
-    const int open = above(TwoLanes::load(&bounds[k]), TwoLanes::both(best));
-    if (open & 1) visit(first + k);
-    if (open & 2 && k + 1 < count) visit(first + k + 1);
-  }
-}
-
-// Scans the runs whose bounds, and their groups', beat the best so far. A bound that a pair repeats
-// behind the last member is that member's.
-template <class GroupBound, class RunBound, class Value>
-void scan_promising(std::size_t runs, const GroupBound& group_bound, const RunBound& run_bound,
-                    const Value& value, double& best, std::uint32_t& index) {
-  constexpr std::size_t kFew = 2 * ConvexBody::kGroupRuns;
-  const auto scan = [&](std::size_t run) { scan_run(run * kBlock, value, best, index); };
-  if (runs <= kFew) return visit_promising(0, runs, run_bound, best, scan);
-  const auto open = [&](std::size_t group) {
-    const std::size_t first = group * ConvexBody::kGroupRuns;
-    const std::size_t count = std::min<std::size_t>(ConvexBody::kGroupRuns, runs - first);
-    visit_promising(first, count, run_bound, best, scan);
-  };
-  const std::size_t groups = (runs + ConvexBody::kGroupRuns - 1) / ConvexBody::kGroupRuns;
-  for (std::size_t base = 0; base < groups; base += kChunk)
-    visit_promising(base, std::min(kChunk, groups - base), group_bound, best, open);
-}
+using namespace block_search;
 
 template <std::size_t N>
 Vec3 middle_and_half(const std::vector<double>* const (&axes)[N], std::size_t first,
@@ -163,20 +66,26 @@ void pad_to_even(Arrays&... arrays) {
 
 Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
   const ThreeLanes lanes(u);
+  const PlaneExcess excess{body, lanes};
   Excess found{floor, Excess::kNone};
-  scan_promising(
-      body.nx.size() / kBlock,
-      [&](std::size_t i) { return plane_bound(body.plane_groups, i, lanes); },
-      [&](std::size_t i) { return plane_bound(body.plane_blocks, i, lanes); },
-      [&](std::size_t i) { return excess_of(body, i, lanes); }, found.value, found.plane);
+  visit_plane_runs(body, lanes, found.value,
+                   [&](std::size_t run) { scan_run(run, excess, found.value, found.plane); });
+  return found;
+}
+
+Excess likely_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
+  const ThreeLanes lanes(u);
+  Excess found{floor, Excess::kNone};
+  scan_run(promising_plane_run(body, lanes), PlaneExcess{body, lanes}, found.value, found.plane);
   return found;
 }
 
 Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor) {
   const ThreeLanes lanes(u);
+  const PlaneExcess excess{body, lanes};
   for (std::uint32_t i = 0; i < body.plane_count; i += 2) {
     std::array<double, 2> values;
-    excess_of(body, i, lanes).store(values.data());
+    excess(i).store(values.data());
     if (values[0] > floor) return {values[0], i};
     if (values[1] > floor) return {values[1], i + 1};
   }
@@ -188,10 +97,11 @@ namespace {
 // Largest height of a small body's vertices, all of them looked at. What is not a number does not
 // count.
 double highest_of_all(const ConvexBody& body, const ThreeLanes& n) {
+  const VertexHeight height{body, n};
   TwoLanes even = TwoLanes::both(kLeast), odd = even;
   for (std::size_t i = 0; i < body.vx.size(); i += 4) {
-    even = max(height_of(body, i, n), even);
-    odd = max(height_of(body, i + 2, n), odd);
+    even = max(height(i), even);
+    odd = max(height(i + 2), odd);
   }
   return max(even, odd).top();
 }
@@ -199,16 +109,14 @@ double highest_of_all(const ConvexBody& body, const ThreeLanes& n) {
 }  // namespace
 
 double support(const ConvexBody& body, const Vec3& n, std::uint32_t* vertex) {
-  constexpr std::size_t kSmall = 3 * kBlock;
+  constexpr std::size_t kSmall = 3 * kRun;
   const ThreeLanes lanes(n);
   if (!vertex && body.vx.size() <= kSmall) return highest_of_all(body, lanes);
+  const VertexHeight height{body, lanes};
   double best = kLeast;
   std::uint32_t index = 0;
-  scan_promising(
-      body.vx.size() / kBlock,
-      [&](std::size_t i) { return vertex_bound(body.vertex_groups, i, lanes); },
-      [&](std::size_t i) { return vertex_bound(body.vertex_blocks, i, lanes); },
-      [&](std::size_t i) { return height_of(body, i, lanes); }, best, index);
+  visit_vertex_runs(body, lanes, best,
+                    [&](std::size_t run) { scan_run(run, height, best, index); });
   if (vertex) *vertex = index;
   return best;
 }
@@ -218,7 +126,7 @@ void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points) {
     for (std::size_t i = 0; i < size; i += step) add(i, std::min(step, size - i));
   };
   for (PlaneBlocks* b : {&body.plane_blocks, &body.plane_groups}) {
-    const std::size_t step = b == &body.plane_blocks ? kBlock : ConvexBody::kGroup;
+    const std::size_t step = b == &body.plane_blocks ? kRun : ConvexBody::kGroup;
     each(body.nx.size(), step, [&](std::size_t first, std::size_t count) {
       add_plane_bounds(body, first, count, facet_points, *b);
     });
@@ -226,7 +134,7 @@ void make_blocks(ConvexBody& body, const std::vector<Vec3>& facet_points) {
                 b->at_z, b->top);
   }
   for (VertexBlocks* b : {&body.vertex_blocks, &body.vertex_groups}) {
-    const std::size_t step = b == &body.vertex_blocks ? kBlock : ConvexBody::kGroup;
+    const std::size_t step = b == &body.vertex_blocks ? kRun : ConvexBody::kGroup;
     each(body.vx.size(), step,
          [&](std::size_t first, std::size_t count) { add_vertex_bounds(body, first, count, *b); });
     pad_to_even(b->mid_x, b->mid_y, b->mid_z, b->half_x, b->half_y, b->half_z);

@@ -18,6 +18,10 @@ struct Excess {
 /// bounds.
 Excess most_exceeded(const ConvexBody& body, const Vec3& u, double floor);
 
+/// A plane that `u` exceeds by more than `floor`, likely to be among those exceeded most: a look at
+/// one run. {floor, kNone} says nothing of the others.
+Excess likely_exceeded(const ConvexBody& body, const Vec3& u, double floor);
+
 /// Plane of lowest index that `u` exceeds by more than `floor`.
 Excess first_exceeded(const ConvexBody& body, const Vec3& u, double floor);
 

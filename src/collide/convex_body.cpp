@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "block_scan.h"
+#include "osteon/base/hash.h"
 #include "simplex.h"
 
 namespace osteon {
@@ -170,6 +171,14 @@ std::array<std::uint32_t, Basis::kRows> first_basis(const ConvexBody& body,
   return basis.ids;
 }
 
+std::uint64_t stamp_of(const ConvexBody& body) {
+  Hasher h;
+  for (const auto* numbers :
+       {&body.nx, &body.ny, &body.nz, &body.offset, &body.vx, &body.vy, &body.vz})
+    h.bytes(numbers->data(), numbers->size() * sizeof(double));
+  return h.value() | 1;
+}
+
 }  // namespace
 
 ConvexBody make_convex_body(const Hull& hull) {
@@ -178,6 +187,7 @@ ConvexBody make_convex_body(const Hull& hull) {
   bound_by_sphere(body, hull.vertices);
   add_vertices(body, hull);
   make_blocks(body, add_planes(body, hull));
+  body.stamp = stamp_of(body);
   const double s = std::sqrt(1.0 / 3.0);
   const std::array<Vec3, 4> tetrahedron = {Vec3(s, s, s), Vec3(s, -s, -s), Vec3(-s, s, -s),
                                            Vec3(-s, -s, s)};

@@ -14,17 +14,31 @@ bool known_rows(const LpBasis& basis, const PairRows& rows) {
                                          [&](auto id) { return id < rows.count(); });
 }
 
-// The last basis where it still fits, else A's own, with as much of the last one as applies.
-bool start(DepthBasis& depth, const PairRows& rows, const ConvexBody& a, const LpBasis* last,
-           int& pivots) {
+// The middle of the smaller body is nearer to where they meet.
+std::array<std::uint32_t, 4> own_basis(const ConvexBody& a, const ConvexBody& b) {
+  std::array<std::uint32_t, 4> ids = b.radius < a.radius ? b.basis : a.basis;
+  if (b.radius < a.radius)
+    for (std::uint32_t& id : ids) id += a.plane_count;
+  return ids;
+}
+
+// A search of a body with more planes than this costs more than a pivot.
+constexpr std::uint32_t kManyPlanes = 256;
+
+// The last basis where it still fits, else the smaller body's own, with as much of the last one as
+// applies.
+bool start(DepthBasis& depth, const PairRows& rows, const std::array<std::uint32_t, 4>& own,
+           const LpBasis* last, int& pivots) {
   const bool known = last && known_rows(*last, rows);
   if (known && load_basis(depth, rows, last->rows) && dual_feasible(depth)) {
     depth.solve();
     return true;
   }
-  if (!load_basis(depth, rows, a.basis)) return false;
+  if (!load_basis(depth, rows, own)) return false;
   depth.solve();
-  return !known || crash(depth, rows, last->rows, pivots) == LpStatus::kOptimal;
+  if (known) return crash(depth, rows, last->rows, pivots) == LpStatus::kOptimal;
+  if (rows.count() < kManyPlanes) return true;
+  return approach(depth, rows, pivots) == LpStatus::kOptimal;
 }
 
 // Sum of A's weighted normals: from A to B.
@@ -43,12 +57,13 @@ bool both_sides(const DepthBasis& depth, const PairRows& rows) {
 }
 
 void set_direction(LpDepth& out, const DepthBasis& depth, const PairRows& rows, const ConvexBody& a,
-                   const ConvexBody& b, const Pose& X_AB) {
+                   const ConvexBody& b, const Pose& X_AB, LpNear* near, bool list_anew) {
   const Vec3 push = push_of_a(depth, rows);
   const double length = push.norm();
   if (both_sides(depth, rows) && length > kLeastBalance) {
     out.nhat_AB_A = push / length;
-    const GapAlong along = gap_along(a, b, X_AB, out.nhat_AB_A);
+    const GapAlong along = near ? gap_along(a, b, X_AB, out.nhat_AB_A, *near, list_anew)
+                                : gap_along(a, b, X_AB, out.nhat_AB_A);
     out.gap = along.gap;
     out.top_A = along.top_A;
     return;
@@ -64,12 +79,14 @@ void set_direction(LpDepth& out, const DepthBasis& depth, const PairRows& rows, 
 LpDepth lp_depth(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, LpBasis* basis) {
   LpDepth out;
   if (!is_finite(X_AB)) return out;
-  const PairRows rows(a, b, X_AB);
+  LpNear* const near = basis ? &basis->near : nullptr;
+  const PairRows rows(a, b, X_AB, near);
   DepthBasis depth;
   SimplexEnd end;
   int pivots = 0;
-  if (start(depth, rows, a, basis, pivots)) end = run_simplex(depth, rows, pivots, kPivotLimit);
-  if (end.status != LpStatus::kOptimal && basis && load_basis(depth, rows, a.basis)) {
+  const auto own = own_basis(a, b);
+  if (start(depth, rows, own, basis, pivots)) end = run_simplex(depth, rows, pivots, kPivotLimit);
+  if (end.status != LpStatus::kOptimal && basis && load_basis(depth, rows, own)) {
     depth.solve();
     end = run_simplex(depth, rows, end.pivots, end.pivots + kPivotLimit);
   }
@@ -78,8 +95,14 @@ LpDepth lp_depth(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, LpB
   out.residual = end.residual;
   out.t = depth.t;
   out.p_A = a.center + depth.x;
-  if (end.status == LpStatus::kOptimal) set_direction(out, depth, rows, a, b, X_AB);
-  if (basis) *basis = end.status == LpStatus::kOptimal ? LpBasis{depth.ids, 4} : LpBasis{};
+  // Where the last basis still was the best, the next query will likely look in the same places.
+  const bool calm = basis && end.status == LpStatus::kOptimal && end.pivots == 0;
+  if (end.status == LpStatus::kOptimal) set_direction(out, depth, rows, a, b, X_AB, near, calm);
+  if (calm) rows.list_near(depth.x, depth.t);
+  if (basis) {
+    basis->rows = depth.ids;
+    basis->count = end.status == LpStatus::kOptimal ? 4 : 0;
+  }
   return out;
 }
 

@@ -37,7 +37,7 @@ SimplexEnd from(CornerBasis& corner, const PairRows& rows, int pivots) {
 LpHit lp_test(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, LpBasis* basis) {
   LpHit hit;
   if (!is_finite(X_AB)) return hit;
-  const PairRows rows(a, b, X_AB);
+  const PairRows rows(a, b, X_AB, basis ? &basis->near : nullptr);
   CornerBasis corner;
   SimplexEnd end;
   if (warm(corner, rows, basis)) end = from(corner, rows, 0);
@@ -49,8 +49,12 @@ LpHit lp_test(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, LpBasi
   hit.hit = end.status == LpStatus::kOptimal && !(doubtful && parted(a, b, X_AB));
   hit.p_A = a.center + corner.x;
   hit.pivots = end.pivots;
-  if (basis) *basis = {{corner.ids[0], corner.ids[1], corner.ids[2], 0}, 3};
-  if (basis && end.status != LpStatus::kOptimal && end.status != LpStatus::kUnbounded) *basis = {};
+  if (basis && end.status == LpStatus::kOptimal && end.pivots == 0) rows.list_near(corner.x, 0);
+  if (basis) {
+    const bool known = end.status == LpStatus::kOptimal || end.status == LpStatus::kUnbounded;
+    basis->rows = {corner.ids[0], corner.ids[1], corner.ids[2], 0};
+    basis->count = known ? 3 : 0;
+  }
   return hit;
 }
 

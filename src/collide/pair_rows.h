@@ -1,17 +1,20 @@
 #pragma once
 
-#include "block_scan.h"
+#include "near_search.h"
+#include "osteon/collide/lp_contact.h"
 #include "simplex.h"
 
 namespace osteon {
 
 /// Rows of the contact programme of a pair, measured from A's centre in A's frame. B's planes are
-/// turned when asked for; searches carry the point into B's frame instead.
+/// turned when asked for; searches carry the point into B's frame instead. `near`, which may be
+/// null, is where the searches look first.
 class PairRows {
  public:
-  PairRows(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB)
+  PairRows(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, LpNear* near = nullptr)
       : a_(a),
         b_(b),
+        near_(near),
         R_AB_(X_AB.q.toRotationMatrix()),
         p_centers_(X_AB.p + R_AB_ * b.center - a.center),
         scale_(2 * (a.radius + b.radius)) {}
@@ -29,14 +32,27 @@ class PairRows {
 
   template <std::size_t N>
   Excess most_exceeded(const Vec3& x, double floor, const std::array<std::uint32_t, N>&) const {
-    const Excess of_a = osteon::most_exceeded(a_, x, floor);
-    const Excess of_b = osteon::most_exceeded(b_, in_b(x), of_a.value);
+    const Excess of_a = near_ ? osteon::most_exceeded(a_, x, floor, near_->planes_a)
+                              : osteon::most_exceeded(a_, x, floor);
+    const Excess of_b = near_ ? osteon::most_exceeded(b_, in_b(x), of_a.value, near_->planes_b)
+                              : osteon::most_exceeded(b_, in_b(x), of_a.value);
+    return of_b.plane == Excess::kNone ? of_a : from_b(of_b);
+  }
+  Excess likely_exceeded(const Vec3& x, double floor) const {
+    const Excess of_a = osteon::likely_exceeded(a_, x, floor);
+    const Excess of_b = osteon::likely_exceeded(b_, in_b(x), of_a.value);
     return of_b.plane == Excess::kNone ? of_a : from_b(of_b);
   }
   Excess first_exceeded(const Vec3& x, double floor) const {
     const Excess of_a = osteon::first_exceeded(a_, x, floor);
     if (of_a.plane != Excess::kNone) return of_a;
     return from_b(osteon::first_exceeded(b_, in_b(x), floor));
+  }
+
+  /// Lists the rows near `x`, which none exceeds by more than `level`.
+  void list_near(const Vec3& x, double level) const {
+    list_planes(a_, x, level, near_->planes_a);
+    list_planes(b_, in_b(x), level, near_->planes_b);
   }
 
   const Mat3& R_AB() const { return R_AB_; }
@@ -50,6 +66,7 @@ class PairRows {
 
   const ConvexBody& a_;
   const ConvexBody& b_;
+  LpNear* near_;
   Mat3 R_AB_;
   Vec3 p_centers_;  // from A's centre to B's
   double scale_;

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "near_search.h"
+
 namespace osteon {
 namespace {
 
@@ -29,6 +31,18 @@ GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, c
   const Vec3 n_B = X_AB.q.conjugate() * nhat_A;
   const double top_A = support(a, nhat_A);
   return {-(top_A + (support(b, -n_B) - nhat_A.dot(X_AB.p))), top_A};
+}
+
+GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A,
+                   LpNear& near, bool list_anew) {
+  const Vec3 n_B = X_AB.q.conjugate() * nhat_A;
+  const double top_A = support(a, nhat_A, near.vertices_a);
+  const double top_B = support(b, -n_B, near.vertices_b);
+  if (list_anew) {
+    list_vertices(a, nhat_A, top_A, near.vertices_a);
+    list_vertices(b, -n_B, top_B, near.vertices_b);
+  }
+  return {-(top_A + (top_B - nhat_A.dot(X_AB.p))), top_A};
 }
 
 Separation least_overlap_facet(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "osteon/collide/convex_body.h"
+#include "osteon/collide/lp_contact.h"
 
 namespace osteon {
 
@@ -10,6 +10,10 @@ struct GapAlong {
   double top_A = 0;  ///< largest height of A, m
 };
 GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A);
+
+/// The same, looked for in `near` first; with `list_anew` lists that do not serve are made anew.
+GapAlong gap_along(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB, const Vec3& nhat_A,
+                   LpNear& near, bool list_anew);
 
 struct Separation {
   Vec3 nhat_AB_A = Vec3::UnitZ();

@@ -194,6 +194,24 @@ LpStatus crash(Basis& basis, const Rows& rows, std::span<const std::uint32_t> wa
   return LpStatus::kOptimal;
 }
 
+/// Pivots on rows that are likely to be violated most while such are found by a short look: most of
+/// the way from a cold start.
+template <class Basis, class Rows>
+LpStatus approach(Basis& basis, const Rows& rows, int& pivots) {
+  constexpr int kTries = 40;
+  for (int i = 0; i < kTries && is_finite(basis.x); ++i) {
+    const double level = basis.level();
+    const Excess likely = rows.likely_exceeded(basis.x, level + kFeasibility * rows.scale());
+    if (likely.plane == Excess::kNone ||
+        std::find(basis.ids.begin(), basis.ids.end(), likely.plane) != basis.ids.end())
+      break;
+    ++pivots;
+    const LpStatus status = pivot(basis, rows, likely.plane, false);
+    if (status != LpStatus::kOptimal) return status;
+  }
+  return LpStatus::kOptimal;
+}
+
 /// From a loaded dual-feasible basis to the optimum.
 template <class Basis, class Rows>
 SimplexEnd run_simplex(Basis& basis, const Rows& rows, int pivots, int pivot_limit) {

@@ -42,6 +42,7 @@ struct ConvexBody {
   PlaneBlocks plane_groups;                  ///< of each group of runs
   VertexBlocks vertex_blocks;                ///< of each run
   VertexBlocks vertex_groups;                ///< of each group of runs
+  std::uint64_t stamp = 0;                   ///< of its planes and vertices; never 0 once made
   Vec3 center = Vec3::Zero();                ///< of the bounding sphere; lies inside the body
   double radius = 0;                         ///< of the bounding sphere
   Aabb box;

@@ -5,6 +5,7 @@
 
 #include "osteon/base/types.h"
 #include "osteon/collide/convex_body.h"
+#include "osteon/collide/near_list.h"
 
 namespace osteon {
 
@@ -15,11 +16,17 @@ enum class LpStatus : std::uint8_t {
   kNumerical    ///< lost precision; the result is not to be used
 };
 
+/// Where a query of a pair looks first.
+struct LpNear {
+  NearList planes_a, planes_b, vertices_a, vertices_b;
+};
+
 /// Basis that a query leaves for the next one on the same pair. Rows below a.plane_count are planes
 /// of A, the others planes of B. Default: cold.
 struct LpBasis {
   std::array<std::uint32_t, 4> rows{};
   std::uint8_t count = 0;  ///< 0: cold
+  LpNear near = {};
 };
 
 struct LpHit {
