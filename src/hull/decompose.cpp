@@ -25,11 +25,10 @@ using hull::SolidShape;
 class Decomposer {
  public:
   Decomposer(const TriMesh& mesh, const DecomposeOptions& options)
-      : options_(options), grid_(mesh, options.search_cell_m), value_{JointEnds(mesh), 1} {
+      : options_(options),
+        grid_(mesh, options.search_cell_m),
+        meter_(grid_, ends_first(mesh), options.search_cell_m) {
     constexpr double kCoarser = 1.5;
-    // The ends of a long bone come first; the shaft may stand over by four times as much.
-    constexpr double kShaftCounts = 0.25;
-    if (value_.ends.has_shaft()) value_.on_shaft = kShaftCounts;
     const Aabb box = bounds(mesh).grown(options.search_cell_m);
     (void)add(
         {mesh, hull::coarsened(mesh, kCoarser * options.search_cell_m), {hull::box_mesh(box)}});
@@ -47,12 +46,19 @@ class Decomposer {
       if (!merge_within(exchange_limit())) break;
     }
     cut_all(options_.max_pieces);
-    if (value_.on_shaft < 1) refine_shaft();
+    if (meter_.value().on_shaft < 1) refine_shaft();
     return finish();
   }
 
  private:
   static constexpr double kAnyNeed = 1e300;
+
+  /// The ends of a long bone come first; the shaft may stand over by four times as much.
+  static hull::PlaceValue ends_first(const TriMesh& mesh) {
+    constexpr double kShaftCounts = 0.25;
+    const JointEnds ends(mesh);
+    return {ends, ends.has_shaft() ? kShaftCounts : 1};
+  }
 
   void cut_all(std::size_t most) {
     while (parts_.size() < most && cut_worst()) {
@@ -61,7 +67,7 @@ class Decomposer {
 
   /// What pieces the ends have left, for the shaft.
   void refine_shaft() {
-    value_.on_shaft = 1;
+    meter_.count_all_alike();
     together_.clear();
     for (SolidPart& part : parts_) {
       part.excess = excess_of(part.hull);
@@ -75,9 +81,9 @@ class Decomposer {
   /// Exact where that may matter: what is to be cut in any case need not be.
   Excess excess_of(const Hull& hull) {
     constexpr double kSurely = 4;
-    const Excess quick = hull::excess(hull, grid_, value_, options_.search_cell_m);
-    if (quick.need > kSurely * options_.concavity_m) return quick;
-    return hull::exact_excess(hull, grid_, value_, quick, options_.concavity_m, kAnyNeed);
+    const Excess quick = meter_.sampled(hull);
+    if (quick.peak.need > kSurely * options_.concavity_m) return quick;
+    return meter_.exact(hull, quick, options_.concavity_m, kAnyNeed);
   }
 
   /// Hull of the solid in the cells: of its surface there and the cells' corners inside.
@@ -107,7 +113,7 @@ class Decomposer {
     std::size_t worst = parts_.size();
     for (std::size_t i = 0; i < parts_.size(); ++i)
       if (!parts_[i].stuck &&
-          (worst == parts_.size() || parts_[i].excess.need > parts_[worst].excess.need))
+          (worst == parts_.size() || parts_[i].excess.peak.need > parts_[worst].excess.peak.need))
         worst = i;
     return worst;
   }
@@ -115,7 +121,7 @@ class Decomposer {
   /// Cuts the part that needs it most. False when there is nothing to cut.
   bool cut_worst() {
     const std::size_t i = worst();
-    if (i == parts_.size() || parts_[i].excess.need <= options_.concavity_m) return false;
+    if (i == parts_.size() || parts_[i].excess.peak.need <= options_.concavity_m) return false;
     const auto plane = best_cut(parts_[i]);
     if (plane && cut(i, *plane)) return true;
     parts_[i].stuck = true;
@@ -155,27 +161,29 @@ class Decomposer {
     std::optional<Plane> best;
     double least = 1e300;
     for (const Plane& plane : cuts) {
-      const auto cost = cost_of(part, plane);
-      if (!cost || *cost >= least) continue;
+      const auto cost = cost_below(least, part, plane);
+      if (!cost) continue;
       least = *cost;
       best = plane;
     }
     return best;
   }
 
-  std::optional<double> cost_of(const SolidPart& part, const Plane& plane) {
+  /// None where it is `least` or more.
+  std::optional<double> cost_below(double least, const SolidPart& part, const Plane& plane) {
     const auto [below, above] = hull::clip(part.shape.coarse, plane);
-    const auto a = moment_of(below, hull::cells_below(part.shape.cells, plane));
+    const auto a = moment_of(below, hull::cells_below(part.shape.cells, plane), 0, least);
     if (!a) return std::nullopt;
-    const auto b = moment_of(above, hull::cells_above(part.shape.cells, plane));
+    const auto b = moment_of(above, hull::cells_above(part.shape.cells, plane), *a, least);
     if (!b) return std::nullopt;
     return *a + *b;
   }
 
-  std::optional<double> moment_of(const TriMesh& coarse, const std::vector<TriMesh>& cells) {
+  std::optional<double> moment_of(const TriMesh& coarse, const std::vector<TriMesh>& cells,
+                                  double base, double limit) {
     const auto solid = hull_of(coarse, cells);
     if (!solid) return std::nullopt;
-    return hull::excess(*solid, grid_, value_, 2 * options_.search_cell_m).moment;
+    return meter_.moment_below(*solid, base, limit);
   }
 
   /// With all pieces in use those may be joined too that then need far less than the worst piece
@@ -184,7 +192,7 @@ class Decomposer {
     constexpr double kWorthIt = 0.6;
     const std::size_t w = worst();
     if (parts_.size() < options_.max_pieces || w == parts_.size()) return options_.concavity_m;
-    return std::max(options_.concavity_m, kWorthIt * parts_[w].excess.need);
+    return std::max(options_.concavity_m, kWorthIt * parts_[w].excess.peak.need);
   }
 
   /// Joins the pairs that need no more than the limit together, the flattest first. False without
@@ -200,7 +208,7 @@ class Decomposer {
     double flattest = limit;
     for (std::size_t i = 0; i < parts_.size(); ++i)
       for (std::size_t j = i + 1; j < parts_.size(); ++j) {
-        if (std::max(parts_[i].excess.need, parts_[j].excess.need) > flattest) continue;
+        if (std::max(parts_[i].excess.peak.need, parts_[j].excess.peak.need) > flattest) continue;
         if (!parts_[i].box.overlaps(parts_[j].box)) continue;
         if (rises_above(parts_[i], parts_[j], limit)) continue;
         const double need = need_together(parts_[i], parts_[j], flattest);
@@ -228,7 +236,7 @@ class Decomposer {
       for (const Vec3& q : b.extremes)
         for (const double share : {0.5, 0.25, 0.75}) {
           const Vec3 x = p + share * (q - p);
-          if (grid_.at(x) * value_.at(x) > limit) return true;
+          if (grid_.at(x) * meter_.value().at(x) > limit) return true;
         }
     return false;
   }
@@ -242,11 +250,10 @@ class Decomposer {
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
     const HullOutcome outcome = build_hull(points);
     if (!outcome.hull) return known.need;
-    const Excess quick = hull::excess(*outcome.hull, grid_, value_, options_.search_cell_m);
-    known = {quick.need, false};
-    if (quick.need > limit) return known.need;
-    known.need =
-        hull::exact_excess(*outcome.hull, grid_, value_, quick, options_.concavity_m, limit).need;
+    const Excess quick = meter_.sampled(*outcome.hull);
+    known = {quick.peak.need, false};
+    if (known.need > limit) return known.need;
+    known.need = meter_.exact(*outcome.hull, quick, options_.concavity_m, limit).peak.need;
     known.exact = known.need <= limit;
     return known.need;
   }
@@ -254,7 +261,7 @@ class Decomposer {
   Decomposition finish() {
     Decomposition out;
     for (SolidPart& part : parts_) {
-      out.concavity_m = std::max(out.concavity_m, part.excess.height);
+      out.concavity_m = std::max(out.concavity_m, part.excess.peak.height);
       // From its corners alone: so it can be built again without the mesh, bit for bit.
       HullOutcome piece = build_hull(part.hull.vertices);
       assert(piece.hull);
@@ -265,7 +272,7 @@ class Decomposer {
 
   DecomposeOptions options_;
   HeightGrid grid_;
-  hull::PlaceValue value_;
+  hull::ExcessMeter meter_;
   std::vector<SolidPart> parts_;
   struct Known {
     double need;

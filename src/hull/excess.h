@@ -1,42 +1,49 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <optional>
 
+#include "facet_samples.h"
 #include "height_grid.h"
 #include "osteon/hull/hull.h"
-#include "osteon/mesh/joint_ends.h"
+#include "peak_search.h"
+#include "place_value.h"
 
 namespace osteon::hull {
 
 /// How a hull stands over the surface that it was made from.
 struct Excess {
-  double need = 0;         ///< most of the height times what its place counts, m
-  Vec3 at = Vec3::Zero();  ///< where that is, on the hull
-  double height = 0;       ///< there, m
-  double moment = 0;       ///< integral over the hull of the square of the need, m^4
+  Peak peak;
+  double moment = 0;  ///< integral over the hull of the square of the need, m^4
 };
 
-/// What a place counts when pieces are shared out.
-struct PlaceValue {
-  JointEnds ends;
-  double on_shaft = 1;  ///< elsewhere 1
-  double at(const Vec3& p) const { return on_shaft < 1 && ends.on_shaft(p) ? on_shaft : 1; }
-  /// Most that a place of the triangle counts.
-  double most(const std::array<Vec3, 3>& t) const {
-    return std::max({at(t[0]), at(t[1]), at(t[2])});
-  }
+/// Measures hulls over one mesh. It remembers what it finds of facets, which many hulls share; that
+/// changes what a measurement costs, not what it finds. For one thread.
+class ExcessMeter {
+ public:
+  /// Samples lie `spacing_m` apart, in the search for cuts twice as far.
+  ExcessMeter(HeightGrid& grid, PlaceValue value, double spacing_m);
+  ExcessMeter(const ExcessMeter&) = delete;
+  ExcessMeter& operator=(const ExcessMeter&) = delete;
+
+  const PlaceValue& value() const { return value_; }
+  void count_all_alike();
+
+  /// By samples of the hull's facets, on the grid.
+  Excess sampled(const Hull& hull);
+
+  /// The moment by sparser samples; none when it and `base` come to `limit` or more.
+  std::optional<double> moment_below(const Hull& hull, double base, double limit);
+
+  /// What was sampled, with the largest need found by distances to the mesh itself where it is
+  /// above `floor`, short of it by no more than kPeakError_m or a twentieth; or some need above
+  /// `enough`.
+  Excess exact(const Hull& hull, const Excess& sampled, double floor, double enough);
+
+ private:
+  HeightGrid& grid_;
+  PlaceValue value_;
+  FacetSamples fine_, sparse_;
+  KnownHeights heights_;
 };
-
-/// Up to which the need of exact_excess may fall short, or a twentieth of it, m.
-inline constexpr double kPeakError_m = 2e-5;
-
-/// By samples of the hull's triangles, halved until none is longer than `spacing`, on the grid.
-Excess excess(const Hull& hull, HeightGrid& grid, const PlaceValue& value, double spacing);
-
-/// What was sampled so, with the largest need found by distances to the mesh itself where it is
-/// above `floor`; or some need above `enough`.
-Excess exact_excess(const Hull& hull, HeightGrid& grid, const PlaceValue& value,
-                    const Excess& sampled, double floor, double enough);
 
 }  // namespace osteon::hull

@@ -9,10 +9,14 @@
 namespace osteon::hull {
 namespace {
 
-constexpr int kMargin = 2;  // cells around the mesh
-constexpr int kSide = 8;    // nodes along a block
+constexpr int kMargin = 2;          // cells around the mesh
+constexpr std::uint32_t kSide = 8;  // nodes along a block
 constexpr std::uint32_t kBlockNodes = kSide * kSide * kSide;
 constexpr std::uint32_t kNone = 0xffffffffu;
+
+std::uint32_t within_block(const std::array<std::uint32_t, 3>& node) {
+  return (node[2] % kSide * kSide + node[1] % kSide) * kSide + node[0] % kSide;
+}
 
 }  // namespace
 
@@ -22,25 +26,49 @@ HeightGrid::HeightGrid(const TriMesh& mesh, double cell_m) : exact_(mesh), cell_
   std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     const double cells = box.extent()[static_cast<Eigen::Index>(k)] / cell_;
-    size_[k] = 2 + static_cast<int>(std::floor(cells));
+    size_[k] = 2 + static_cast<std::uint32_t>(std::floor(cells));
     blocks_[k] = (size_[k] + kSide - 1) / kSide;
-    count *= static_cast<std::size_t>(blocks_[k]);
+    count *= blocks_[k];
   }
   first_.assign(count, kNone);
 }
 
+std::size_t HeightGrid::block_of(const Node& node) const {
+  return (std::size_t{node[2] / kSide} * blocks_[1] + node[1] / kSide) * blocks_[0] +
+         node[0] / kSide;
+}
+
 double HeightGrid::value(const Node& node) {
-  const auto block = static_cast<std::size_t>(
-      (node[2] / kSide * blocks_[1] + node[1] / kSide) * blocks_[0] + node[0] / kSide);
+  const std::size_t block = block_of(node);
   if (first_[block] == kNone) {
     first_[block] = static_cast<std::uint32_t>(values_.size());
     values_.resize(values_.size() + kBlockNodes, std::numeric_limits<double>::quiet_NaN());
   }
-  const int within = (node[2] % kSide * kSide + node[1] % kSide) * kSide + node[0] % kSide;
-  double& known = values_[first_[block] + static_cast<std::uint32_t>(within)];
-  if (std::isnan(known))
-    known = exact_.closest(lo_ + cell_ * Vec3(node[0], node[1], node[2])).signed_distance;
+  double& known = values_[first_[block] + within_block(node)];
+  if (std::isnan(known)) {
+    const ClosestPoint found = exact_.closest(lo_ + cell_ * Vec3(node[0], node[1], node[2]), last_);
+    last_ = found.triangle;
+    known = found.signed_distance;
+  }
   return known;
+}
+
+bool HeightGrid::known_corners(const Node& cell, Corners& corners) const {
+  for (const std::uint32_t n : cell)
+    if (n % kSide == kSide - 1) return false;
+  const std::uint32_t first = first_[block_of(cell)];
+  if (first == kNone) return false;
+  const double* const at = &values_[first + within_block(cell)];
+  constexpr std::uint32_t kY = kSide, kZ = kSide * kSide;
+  corners = {at[0], at[1], at[kY], at[kY + 1], at[kZ], at[kZ + 1], at[kZ + kY], at[kZ + kY + 1]};
+  return true;
+}
+
+HeightGrid::Corners HeightGrid::make_corners(const Node& cell) {
+  Corners corners{};
+  for (std::uint32_t k = 0; k < corners.size(); ++k)
+    corners[k] = value({cell[0] + (k & 1), cell[1] + ((k >> 1) & 1), cell[2] + (k >> 2)});
+  return corners;
 }
 
 double HeightGrid::at(const Vec3& p) {
@@ -49,17 +77,21 @@ double HeightGrid::at(const Vec3& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
     const double u = std::clamp((p[axis] - lo_[axis]) / cell_, 0.0, size_[k] - 1.000001);
-    cell[k] = static_cast<int>(u);
+    cell[k] = static_cast<std::uint32_t>(u);
     f[axis] = u - cell[k];
   }
-  const auto along_x = [&](int y, int z) {
-    const double low = value({cell[0], cell[1] + y, cell[2] + z});
-    const double high = value({cell[0] + 1, cell[1] + y, cell[2] + z});
-    return low + f.x() * (high - low);
+  const auto between = [&f](const Corners& h) {
+    const double a = h[0] + f.x() * (h[1] - h[0]), b = h[2] + f.x() * (h[3] - h[2]);
+    const double c = h[4] + f.x() * (h[5] - h[4]), d = h[6] + f.x() * (h[7] - h[6]);
+    const double low = a + f.y() * (b - a), high = c + f.y() * (d - c);
+    return low + f.z() * (high - low);
   };
-  const double a = along_x(0, 0), b = along_x(1, 0), c = along_x(0, 1), d = along_x(1, 1);
-  const double low = a + f.y() * (b - a), high = c + f.y() * (d - c);
-  return low + f.z() * (high - low);
+  Corners corners;
+  if (known_corners(cell, corners)) {
+    const double height = between(corners);
+    if (!std::isnan(height)) return height;
+  }
+  return between(make_corners(cell));
 }
 
 Vec3 HeightGrid::upwards(const Vec3& p) {

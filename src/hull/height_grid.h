@@ -23,8 +23,15 @@ class HeightGrid {
   const MeshDistance& exact() const { return exact_; }
 
  private:
-  using Node = std::array<int, 3>;
+  using Node = std::array<std::uint32_t, 3>;
+  /// Heights of a cell's corners, x fastest, then y, then z.
+  using Corners = std::array<double, 8>;
+  /// Those of a cell within one block, NaN where not known; false when they lie in several or the
+  /// block is not there.
+  bool known_corners(const Node& cell, Corners& corners) const;
+  Corners make_corners(const Node& cell);
   double value(const Node& node);
+  std::size_t block_of(const Node& node) const;
 
   MeshDistance exact_;
   Vec3 lo_;
@@ -33,6 +40,7 @@ class HeightGrid {
   Node blocks_{};                     // blocks of nodes
   std::vector<std::uint32_t> first_;  // of each block in `values_`; kNone where none is known
   std::vector<double> values_;        // NaN where not known
+  std::uint32_t last_ = 0;            // triangle of the mesh near the node last looked up
 };
 
 }  // namespace osteon::hull

@@ -24,9 +24,9 @@ void add_creases(HeightGrid& grid, const Vec3& deepest, const Vec3& up, std::vec
 
 std::vector<Plane> notch_cuts(const SolidPart& part, HeightGrid& grid) {
   std::vector<Plane> cuts;
-  const Vec3 up = grid.upwards(part.excess.at);
+  const Vec3 up = grid.upwards(part.excess.peak.at);
   if (up == Vec3::Zero()) return cuts;
-  const Vec3 deepest = part.excess.at - grid.at(part.excess.at) * up;
+  const Vec3 deepest = part.excess.peak.at - grid.at(part.excess.peak.at) * up;
   const Vec3 any = std::abs(up.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 e1 = up.cross(any).normalized();
   const Vec3 e2 = up.cross(e1);
@@ -44,7 +44,7 @@ std::vector<Plane> notch_cuts(const SolidPart& part, HeightGrid& grid) {
 
 std::vector<Plane> halving_cuts(const SolidPart& part) {
   std::vector<Plane> cuts;
-  for (const Vec3& through : {part.excess.at, part.box.center()})
+  for (const Vec3& through : {part.excess.peak.at, part.box.center()})
     for (Eigen::Index k = 0; k < 3; ++k) cuts.push_back({Vec3::Unit(k), through[k]});
   return cuts;
 }

@@ -12,8 +12,8 @@ using cache::checksum;
 using cache::Reader;
 using cache::write;
 
-constexpr std::string_view kMagic = "OSTNPCS1";
-constexpr std::uint64_t kMostBytes = 1ull << 28;
+constexpr std::string_view kPieceMagic = "OSTNPCS1";
+constexpr std::uint64_t kMostPieceBytes = 1ull << 28;
 constexpr std::size_t kCornerBytes = 3 * sizeof(double);
 
 void write(std::string& out, const PieceCorners& entry) {
@@ -43,7 +43,7 @@ PieceCorners read_entry(Reader& reader) {
 }  // namespace
 
 std::string to_bytes(const std::map<std::uint64_t, PieceCorners>& entries) {
-  std::string out(kMagic);
+  std::string out(kPieceMagic);
   write(out, static_cast<std::uint32_t>(entries.size()));
   for (const auto& [key, entry] : entries) {
     write(out, key);
@@ -55,7 +55,7 @@ std::string to_bytes(const std::map<std::uint64_t, PieceCorners>& entries) {
 
 Result<std::map<std::uint64_t, PieceCorners>> read_pieces(std::string_view bytes) {
   std::string_view body;
-  if (!cache::open(bytes, kMagic, body)) return fail("is not a whole file of pieces");
+  if (!cache::open(bytes, kPieceMagic, body)) return fail("is not a whole file of pieces");
   Reader reader(body);
   std::map<std::uint64_t, PieceCorners> out;
   const auto count = reader.count(sizeof(std::uint64_t));
@@ -68,7 +68,7 @@ Result<std::map<std::uint64_t, PieceCorners>> read_pieces(std::string_view bytes
 }
 
 PieceCache::PieceCache(std::filesystem::path file) : file_(std::move(file)) {
-  const auto bytes = read_file(file_, kMostBytes);
+  const auto bytes = read_file(file_, kMostPieceBytes);
   if (!bytes) return;
   auto read = read_pieces(*bytes);
   if (!read) return;

@@ -82,6 +82,10 @@ TEST(MeshDistance, AgreesWithBruteForceOnAKnobblyShape) {
     const ClosestPoint found = distance.closest(p);
     ASSERT_EQ(std::abs(found.signed_distance), std::sqrt(best));
     ASSERT_EQ(found.triangle, best_triangle);
+    const auto guess = static_cast<std::uint32_t>(random.next() % m.triangles.size());
+    ASSERT_EQ(distance.closest(p, guess).triangle, best_triangle);
+    ASSERT_EQ(distance.distance_to(p, best_triangle), std::sqrt(best));
+    ASSERT_GE(distance.distance_to(p, guess), std::sqrt(best));
     ASSERT_EQ(found.signed_distance<0, winding_number(m, p)> 0.5) << p.transpose();
   }
 }

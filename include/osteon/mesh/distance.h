@@ -26,25 +26,30 @@ class MeshDistance {
   ClosestPoint closest(const Vec3& p) const;
   /// The same, found sooner when `guess` is the triangle of a point nearby.
   ClosestPoint closest(const Vec3& p, std::uint32_t guess) const;
+  /// Distance to one triangle: never less than that to the mesh.
+  double distance_to(const Vec3& p, std::uint32_t triangle) const;
   const TriMesh& mesh() const { return mesh_; }
 
  private:
-  struct Node {
-    Aabb box;
-    std::uint32_t first = 0;  ///< of `order_` in a leaf, else the left child; the right one follows
-    std::uint32_t count = 0;  ///< 0: not a leaf
-  };
+  struct Builder;
   struct Search;
-  ClosestPoint finish(Search& search) const;
 
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
-             const std::vector<Vec3>& centers);
+  /// Four boxes side by side, so that one pass of the vector units looks at all of them.
+  struct Node {
+    std::array<Eigen::Array4d, 3> lo, hi;  ///< by axis, then by child
+    std::array<std::uint32_t, 4> child;    ///< triangles where `leaf`, else nodes
+    std::uint32_t count = 0;               ///< of children
+    bool leaf = false;
+  };
+
+  ClosestPoint finish(Search& search) const;
   void compute_normals();
 
   TriMesh mesh_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
+  double scale_ = 0;         ///< largest coordinate, m
+  std::vector<Node> nodes_;  ///< the first is the root
   std::vector<Vec3> face_normals_;
+  std::vector<Vec3> sure_normals_;  ///< the same, zero where rounding may have turned them
   std::vector<std::array<Vec3, 3>> edge_normals_;  ///< of each triangle: from corner k to the next
   std::vector<Vec3> vertex_normals_;
 };
