@@ -1,63 +1,60 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "osteon/image/volume.h"
-#include "osteon/mesh/distance.h"
+#include "scan_parts.h"
 
 namespace osteon {
-
-/// A bone in Patient.
-struct ScanTarget {
-  MeshDistance distance;
-  Aabb box;
-};
-
-/// CT number by the signed distance to the nearest bone.
-struct ScanProfile {
-  double cortical_m = 0, flesh_m = 0;
-  double cortical_hu = 0, cancellous_hu = 0, flesh_hu = 0, air_hu = 0;
-
-  double at(double distance_m) const;
-  /// Mean over distances within half of `width_m` of `distance_m`.
-  double mean(double distance_m, double width_m) const;
-  /// True when the profile is flat within `reach_m` of `distance_m`.
-  bool flat(double distance_m, double reach_m) const;
-};
 
 struct CellsPerVoxel {
   int in_slice, along;
 };
 
-/// Works out one slice after the other on cells finer than the voxels, which it averages. Blocks of
-/// cells over which the profile is flat take one distance query; at the bone's surface the distance
-/// is queried every half millimetre and continued along its gradient.
+/// Works out one slice after the other on cells finer than the voxels, which it averages. A block
+/// of cells that no border crosses takes one distance query a part; at a border the distance is
+/// queried every half millimetre and continued along its gradient.
 class SlabScanner {
  public:
-  SlabScanner(const std::vector<ScanTarget>& targets, const ScanProfile& profile,
-              const GridFrame& frame, CellsPerVoxel cells);
+  /// `parts`: what is seen first comes first.
+  SlabScanner(const ScanParts& parts, double air_hu, const GridFrame& frame, CellsPerVoxel cells);
   /// Writes the HU of slice k, without noise.
   void scan(int k, std::int16_t* slice);
 
  private:
-  /// Distance to the nearest bone and its gradient.
-  struct Near {
-    double distance;
-    Vec3 gradient;
+  /// Cells i0 <= i < i1 and so on of the slice.
+  struct Block {
+    int i0, i1, j0, j1, k0, k1;
+    bool single() const { return (i1 - i0) * (j1 - j0) * (k1 - k0) == 1; }
   };
-  Near nearest(const Vec3& p_P);
-  void fill(int i0, int i1, int j0, int j1, int k0, int k1);
+  /// A part whose border may cross the block.
+  struct Open {
+    std::size_t part;
+    NearSurface near;
+  };
+
+  void fill(const Block& block, std::size_t first, std::size_t last, double behind_hu);
+  void halve(const Block& block, std::size_t first, std::size_t last, double behind_hu);
+  void paint(const Block& block, std::size_t first, double behind_hu);
+  double cell_mean(const Vec3& from_center, double width_m, bool closer, std::size_t first,
+                   double behind_hu) const;
+  double mean_of_parts(const Vec3& from_center, double width_m, std::size_t first,
+                       double behind_hu) const;
+  double cell_m(std::size_t first) const;
   void add(int i, int j, float hu);
   Vec3 cell_center(double i, double j, double k) const;
 
-  const std::vector<ScanTarget>& targets_;
-  ScanProfile profile_;
+  const ScanParts& parts_;
+  double air_hu_;
   GridFrame frame_;
   CellsPerVoxel cells_;
-  Vec3 cell_m_;
+  Vec3 cell_size_m_;
+  double cell_width_m_;
   int slice_ = 0;
-  std::size_t last_ = 0;     ///< index of the target that was nearest last
+  NearestSurfaces nearest_;
+  std::vector<Open> open_;   ///< a stack: each block's after those of the block that holds it
   std::vector<float> sums_;  ///< of each voxel of the slice
 };
 

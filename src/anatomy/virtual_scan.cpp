@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "osteon/base/random.h"
 #include "osteon/image/gaussian.h"
-#include "osteon/mesh/distance.h"
-#include "osteon/mesh/measure.h"
+#include "scan_body.h"
 #include "scan_slab.h"
 
 namespace osteon {
@@ -16,22 +14,6 @@ namespace {
 constexpr double kMostVoxels = 1e9;
 constexpr double kFinestCell_m = 0.00025;
 
-Result<ScanProfile> profile_of(const TissueTable& tissues, const ScanOptions& options) {
-  ScanProfile profile;
-  profile.cortical_m = options.cortical_m;
-  profile.flesh_m = options.flesh_m;
-  const std::pair<const char*, double*> wanted[] = {{"cortical_bone", &profile.cortical_hu},
-                                                    {"cancellous_bone", &profile.cancellous_hu},
-                                                    {"muscle", &profile.flesh_hu},
-                                                    {"air", &profile.air_hu}};
-  for (const auto& [name, hu] : wanted) {
-    const Tissue* tissue = tissues.find(name);
-    if (!tissue) return fail("has no tissue '" + std::string(name) + "'", "the tissue table");
-    *hu = tissue->hu.value;
-  }
-  return profile;
-}
-
 Result<void> check(const ScanOptions& o) {
   const auto within = [](double v, double lo, double hi) { return v >= lo && v <= hi; };
   if (!within(o.spacing_m, 5e-5, 0.01) || !within(o.slice_m, 5e-5, 0.01))
@@ -39,6 +21,8 @@ Result<void> check(const ScanOptions& o) {
   if (!within(o.noise_hu, 0, 1000) || !within(o.psf_m, 0, 0.01))
     return fail("noise must lie between 0 and 1000 HU, the point spread between 0 and 10 mm",
                 "virtual scanner");
+  for (const double m : {o.cortical_m, o.flesh_m, o.skin_m, o.fat_m})
+    if (!within(m, 0, 0.1)) return fail("layers must be 0 to 100 mm thick", "virtual scanner");
   return {};
 }
 
@@ -74,30 +58,19 @@ Pose scanner_pose_PW() {
   return {Vec3::Zero(), Quat(R_PW)};
 }
 
-Result<Volume> virtual_scan(std::span<const ScannedBone> bones, const TissueTable& tissues,
+Result<Volume> virtual_scan(const ScannedBody& scanned, const TissueTable& tissues,
                             const ScanOptions& options) {
   if (auto good = check(options); !good) return tl::unexpected(good.error());
-  if (bones.empty()) return fail("there is no bone to scan", "virtual scanner");
-  const auto profile = profile_of(tissues, options);
-  if (!profile) return tl::unexpected(profile.error());
-  const Pose X_PW = scanner_pose_PW();
-  std::vector<ScanTarget> targets;
-  Aabb box_P;
-  for (const ScannedBone& bone : bones) {
-    TriMesh mesh_P = *bone.mesh;
-    for (Vec3& v : mesh_P.vertices) v = X_PW * (bone.X_WB * v);
-    targets.push_back({MeshDistance(std::move(mesh_P)), {}});
-    targets.back().box = bounds(targets.back().distance.mesh());
-    box_P.include(targets.back().box.lo);
-    box_P.include(targets.back().box.hi);
-  }
+  if (scanned.bones.empty()) return fail("there is no bone to scan", "virtual scanner");
+  const auto body = make_scan_body(scanned, tissues, options);
+  if (!body) return tl::unexpected(body.error());
   Volume volume;
-  volume.frame = frame_around(box_P, options);
+  volume.frame = frame_around(body->box_P, options);
   if (volume.frame.spacing_m.prod() <= 0 || static_cast<double>(volume.frame.count()) > kMostVoxels)
     return fail("the scan would have more than 1000 million voxels", "virtual scanner",
                 "Choose a larger spacing");
   volume.values.resize(volume.frame.count());
-  SlabScanner scanner(targets, *profile, volume.frame,
+  SlabScanner scanner(body->parts, body->air_hu, volume.frame,
                       {cells_for(options.spacing_m), cells_for(options.slice_m)});
   for (int k = 0; k < volume.frame.size[2]; ++k) {
     if (!goes_on(options.progress, "Scanning", static_cast<double>(k) / volume.frame.size[2]))

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli_support.h"
 #include "commands.h"
@@ -21,6 +23,7 @@ namespace {
 struct ScanCommand {
   std::string spec, out;
   double spacing_mm = 0.5, slice_mm = 0.5, psf_mm = 0.6, cortical_mm = 1.2;
+  bool bones_only = false;
   ScanOptions options;
 };
 
@@ -31,7 +34,11 @@ Result<Volume> scan_case(const ScanCommand& command) {
   if (!tissues) return tl::unexpected(tissues.error());
   std::vector<ScannedBone> bones;
   for (const BoneDef& bone : def->bones) bones.push_back({&bone.mesh, bone.X_WB});
-  return virtual_scan(bones, *tissues, command.options);
+  std::vector<ScannedSoft> softs;
+  if (!command.bones_only)
+    for (const SoftDef& soft : def->softs)
+      softs.push_back({soft.name, soft.kind, soft.tissue, &soft.mesh_W});
+  return virtual_scan({bones, softs}, *tissues, command.options);
 }
 
 Result<void> write_into(const std::filesystem::path& part, const Volume& volume,
@@ -84,6 +91,8 @@ void add_scan_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   scan->add_option("--cortical", command->cortical_mm, "mm of cortical shell")
       ->capture_default_str();
+  scan->add_flag("--bones-only", command->bones_only,
+                 "leave the soft parts out: bones in 8 mm of muscle");
   scan->add_option("--seed", command->options.seed, "of the noise")->capture_default_str();
   scan->callback([command, &exit_code] { exit_code = run_scan(*command); });
 }

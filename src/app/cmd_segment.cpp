@@ -1,34 +1,22 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli_support.h"
 #include "commands.h"
-#include "loops/stop_signal.h"
-#include "segment/segment_app.h"
 #include "whole_folder.h"
 #include "window_size.h"
+#include "windows_in_turn.h"
 
 namespace osteon {
 namespace {
 
 int run_segment(const SegmentOrder& order) {
-  const StopSignals signals;
   if (!order.out.empty())
     if (const auto free = refuse_existing(plain_folder(order.out)); !free)
       return report_error(free.error());
-  auto app = SegmentApp::create(order);
-  if (!app) return report_error(app.error());
-  const Result<void> ended = (*app)->run();
-  if (!ended) return report_error(ended.error());
-  if (order.frames > 0) {
-    const FrameStats& stats = (*app)->frame_stats();
-    std::printf("%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms\n", stats.count(),
-                stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99));
-  }
-  return stop_signal() ? 128 + stop_signal() : kExitDone;
+  return run_windows(order);
 }
 
 }  // namespace
@@ -39,11 +27,10 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   const auto order = std::make_shared<SegmentOrder>();
   const auto size = std::make_shared<std::string>();
   const auto spacing_mm = std::make_shared<std::vector<double>>();
-  command
-      ->add_option("source", order->scan.source,
-                   "a DICOM folder or file, .nrrd, .nii, .nii.gz, .mhd, .mha, .inv3, or a folder "
-                   "of PNG or TIFF slices")
-      ->required();
+  command->add_option(
+      "source", order->scan.source,
+      "a DICOM folder or file, .nrrd, .nii, .nii.gz, .mhd, .mha, .inv3, or a folder "
+      "of PNG or TIFF slices; chosen in the window when not given");
   command->add_option("--out", order->out,
                       "the case folder to make; a new one among your own when not given");
   command->add_option("--series", order->scan.series, "number or UID, where a folder has several");

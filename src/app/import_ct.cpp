@@ -1,5 +1,6 @@
 #include "import_ct.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -20,8 +21,9 @@ Result<Volume> load(const ImportCtOptions& options) {
   load.spacing_m = options.spacing_m;
   load.progress = part_of(options.progress, 0, 0.3);
   if (options.announce)
-    load.announce = [&](const GridFrame& frame) {
-      return options.announce(frame, segmentation_bytes(frame));
+    load.announce = [&](const VolumeHead& head) {
+      return options.announce(head.frame,
+                              std::max(head.reading_bytes, segmentation_bytes(head.frame)));
     };
   auto volume = load_volume(options.source, load);
   if (volume && options.smooth_m > 0) blur_gaussian(*volume, options.smooth_m);

@@ -113,16 +113,20 @@ Result<std::string> read_dicom_bytes(const std::filesystem::path& file) {
 }
 
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& file) {
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
   auto bytes = read_dicom_bytes(file);
   if (!bytes) return tl::unexpected(bytes.error());
+  return parse_dicom_header(std::move(*bytes), file);
+}
+
+Result<DicomHeader> parse_dicom_header(std::string bytes, const std::filesystem::path& file) {
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
   const auto broken = [&] {
     return fail("is damaged: its header cannot be read", file.string(),
                 "Copy or export the series again, or remove the file");
   };
   try {
-    std::istringstream stream(std::move(*bytes));
+    std::istringstream stream(std::move(bytes));
     gdcm::Reader reader;
     reader.SetStream(stream);
     if (!reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x0010))) return broken();

@@ -28,4 +28,7 @@ Result<std::string> read_dicom_bytes(const std::filesystem::path& file);
 /// What a file says. Fails when it is no DICOM file or stops early.
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& file);
 
+/// The same from the bytes of a file of sound structure (dicom_walk.h).
+Result<DicomHeader> parse_dicom_header(std::string bytes, const std::filesystem::path& file);
+
 }  // namespace osteon

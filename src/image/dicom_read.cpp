@@ -1,10 +1,8 @@
-#include <gdcmImageReader.h>
-
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <sstream>
+#include <utility>
 
+#include "dicom_slice.h"
 #include "dicom_stack.h"
 #include "osteon/image/dicom.h"
 
@@ -29,69 +27,10 @@ Result<DicomStack> stack_of(const DicomSeries& series) {
   return stack_slices(std::move(*headers), "series " + std::to_string(series.number));
 }
 
-template <class T>
-void to_hu(const std::vector<char>& bytes, const DicomHeader& slice, std::int16_t* out) {
-  const auto* stored = reinterpret_cast<const T*>(bytes.data());
-  const std::size_t count =
-      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
-  for (std::size_t n = 0; n < count; ++n) {
-    const double hu = stored[n] * slice.slope + slice.intercept;
-    out[n] = static_cast<std::int16_t>(std::lround(std::clamp(hu, -32768.0, 32767.0)));
-  }
-}
-
-Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::int16_t* out) {
-  const std::string file = slice.file.string();
-  const std::size_t count =
-      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
-  const gdcm::PixelFormat& format = image.GetPixelFormat();
-  if (format.GetSamplesPerPixel() != 1)
-    return fail("is a colour picture", file, "Choose the series of the CT slices");
-  const std::size_t length = image.GetBufferLength();
-  std::vector<char> bytes(length);
-  if (length != count * format.GetPixelSize() || !image.GetBuffer(bytes.data()))
-    return fail("holds fewer pixels than it says, or in a compression that cannot be unpacked",
-                file, "Copy or export the series again, best uncompressed");
-  switch (format.GetScalarType()) {
-    case gdcm::PixelFormat::INT16:
-      to_hu<std::int16_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::UINT16:
-      to_hu<std::uint16_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::INT12:
-      to_hu<std::int16_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::UINT12:
-      to_hu<std::uint16_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::INT8:
-      to_hu<std::int8_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::UINT8:
-      to_hu<std::uint8_t>(bytes, slice, out);
-      return {};
-    default:
-      return fail("has pixels of an unusual kind", file, "Export it as 16-bit CT");
-  }
-}
-
 Result<void> read_slice(const DicomHeader& slice, std::int16_t* out) {
-  const auto broken = [&] {
-    return fail("is truncated or damaged: its pixels cannot be read", slice.file.string(),
-                "Copy or export the series again");
-  };
   auto bytes = read_dicom_bytes(slice.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  try {
-    std::istringstream stream(std::move(*bytes));
-    gdcm::ImageReader reader;
-    reader.SetStream(stream);
-    if (!reader.Read()) return broken();
-    return convert(reader.GetImage(), slice, out);
-  } catch (const std::exception&) {
-    return broken();
-  }
+  return decode_dicom_slice(std::move(*bytes), slice, out);
 }
 
 /// Value of a slice between its pixels; air outside.

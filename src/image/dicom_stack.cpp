@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dicom_slice.h"
+#include "raw_values.h"
+
 namespace osteon {
 namespace {
 
@@ -16,28 +19,6 @@ std::string mm(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f mm", metres * 1000);
   return text;
-}
-
-Result<void> check_slice(const DicomHeader& slice) {
-  const std::string file = slice.file.string();
-  if (slice.modality != "CT")
-    return fail("is of modality '" + slice.modality + "', not CT", file,
-                "CT is needed, because bone is found by its Hounsfield units");
-  if (slice.frames != 1)
-    return fail("holds " + std::to_string(slice.frames) + " frames in one file", file,
-                "Export the series as one file a slice");
-  if (slice.rows < 2 || slice.columns < 2)
-    return fail("does not give its size in pixels", file, "Export the series again");
-  if (!slice.position_P || !slice.axes_P)
-    return fail("does not say where its slice lies", file,
-                "Export the series with image position and orientation");
-  const auto sane = [](double s) { return s >= 1e-5 && s <= 0.02; };
-  if (!sane(slice.spacing_i_m) || !sane(slice.spacing_j_m))
-    return fail("has no usable pixel spacing", file, "Export the series with its pixel spacing");
-  if (!slice.has_rescale)
-    return fail("has no rescale slope and intercept", file,
-                "Export the original CT series, not a derived one");
-  return {};
 }
 
 Result<void> check_same(const DicomHeader& first, const DicomHeader& slice) {
@@ -96,6 +77,32 @@ void find_tilt(DicomStack& stack) {
 
 }  // namespace
 
+Result<void> check_slice(const DicomHeader& slice) {
+  const std::string file = slice.file.string();
+  if (slice.modality != "CT")
+    return fail("is of modality '" + slice.modality + "', not CT", file,
+                "CT is needed, because bone is found by its Hounsfield units");
+  if (slice.frames != 1)
+    return fail("holds " + std::to_string(slice.frames) + " frames in one file", file,
+                "Export the series as one file a slice");
+  if (slice.rows < 2 || slice.columns < 2)
+    return fail("does not give its size in pixels", file, "Export the series again");
+  if (slice.rows > kWidestSlice || slice.columns > kWidestSlice)
+    return fail("is " + std::to_string(slice.columns) + " x " + std::to_string(slice.rows) +
+                    " pixels large, more than any scanner makes",
+                file, "Export the series again");
+  if (!slice.position_P || !slice.axes_P)
+    return fail("does not say where its slice lies", file,
+                "Export the series with image position and orientation");
+  const auto sane = [](double s) { return s >= 1e-5 && s <= 0.02; };
+  if (!sane(slice.spacing_i_m) || !sane(slice.spacing_j_m))
+    return fail("has no usable pixel spacing", file, "Export the series with its pixel spacing");
+  if (!slice.has_rescale)
+    return fail("has no rescale slope and intercept", file,
+                "Export the original CT series, not a derived one");
+  return {};
+}
+
 Result<DicomStack> stack_slices(std::vector<DicomHeader> slices, const std::string& where) {
   if (slices.size() < 2)
     return fail("holds a single slice", where, "Name a series of at least two slices");
@@ -116,6 +123,7 @@ Result<DicomStack> stack_slices(std::vector<DicomHeader> slices, const std::stri
   stack.frame.spacing_m = Vec3(first.spacing_i_m, first.spacing_j_m, *distance);
   stack.frame.origin_P = *first.position_P;
   stack.frame.axes_P = R;
+  if (auto sane = check_size(stack.frame, where); !sane) return tl::unexpected(sane.error());
   stack.slices = std::move(slices);
   find_tilt(stack);
   return stack;

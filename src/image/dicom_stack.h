@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "dicom_header.h"
@@ -16,6 +18,9 @@ struct DicomStack {
   std::vector<std::array<double, 2>> shift_m;
   bool tilted = false;
 };
+
+/// Fails, naming the file, unless the slice is CT, has a place, a size and a scale.
+Result<void> check_slice(const DicomHeader& slice);
 
 /// Sorts and checks; `where` names the series in errors.
 Result<DicomStack> stack_slices(std::vector<DicomHeader> slices, const std::string& where);

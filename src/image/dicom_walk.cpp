@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <set>
+#include <utility>
+
+#include "dicom_codestream.h"
 
 namespace osteon {
 namespace {
@@ -9,6 +12,7 @@ namespace {
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
 constexpr std::uint32_t kPixels = 0x7fe00010, kTransferSyntax = 0x00020010;
+constexpr std::uint32_t kRows = 0x00280010, kColumns = 0x00280011, kBits = 0x00280100;
 constexpr int kDeepest = 32;
 
 struct Syntax {
@@ -22,11 +26,14 @@ class Walker {
   explicit Walker(std::string_view bytes) : bytes_(bytes) {}
 
   bool walk_file();
+  bool is_encoded() const { return encoded_; }
+  const EncodedPixels& pixels() const { return pixels_; }
 
  private:
   struct Element {
     std::uint32_t tag = 0, length = 0;
     bool sequence = false, unknown = false;
+    bool may_be_open = true;  ///< of a kind whose length need not be known
   };
 
   bool has(std::size_t count) const { return bytes_.size() - at_ >= count; }
@@ -42,10 +49,12 @@ class Walker {
   bool read_meta(Syntax& syntax);
   bool walk_data(const Syntax& syntax, bool nested, int depth);
   bool walk_items(const Syntax& syntax, bool fragments, int depth);
+  void note(const Element& element, const Syntax& syntax);
 
   std::string_view bytes_;
   std::size_t at_ = 0;
-  bool saw_pixels_ = false;
+  bool saw_pixels_ = false, encoded_ = false;
+  EncodedPixels pixels_;
 };
 
 bool Walker::read_element(const Syntax& syntax, Element& element) {
@@ -65,6 +74,8 @@ bool Walker::read_element(const Syntax& syntax, Element& element) {
     if (c < 'A' || c > 'Z') return false;
   element.sequence = vr == "SQ";
   element.unknown = vr == "UN";
+  element.may_be_open =
+      element.sequence || element.unknown || (element.tag == kPixels && (vr == "OB" || vr == "OW"));
   if (!kLong.count(vr)) {
     element.length = word16(6, big);
     at_ += 8;
@@ -87,6 +98,7 @@ bool Walker::read_meta(Syntax& syntax) {
       syntax.explicit_vr = uid != "1.2.840.10008.1.2";
       syntax.big_endian = uid == "1.2.840.10008.1.2.2";
       if (uid == "1.2.840.10008.1.2.1.99") return false;  // deflated as a whole
+      pixels_.syntax = uid;
       named = true;
     }
     at_ += element.length;
@@ -106,9 +118,19 @@ bool Walker::walk_items(const Syntax& syntax, bool fragments, int depth) {
       if (fragments || !walk_data(syntax, true, depth + 1)) return false;
     } else {
       if (!has(item.length)) return false;
+      if (fragments) pixels_.fragments.push_back(bytes_.substr(at_, item.length));
       at_ += item.length;
     }
   }
+}
+
+/// Keeps what the pixels have to agree with.
+void Walker::note(const Element& element, const Syntax& syntax) {
+  if (element.length != 2) return;
+  const unsigned value = word16(0, syntax.big_endian);
+  if (element.tag == kRows) pixels_.rows = value;
+  if (element.tag == kColumns) pixels_.columns = value;
+  if (element.tag == kBits) pixels_.bits = value;
 }
 
 bool Walker::walk_data(const Syntax& syntax, bool nested, int depth) {
@@ -118,12 +140,15 @@ bool Walker::walk_data(const Syntax& syntax, bool nested, int depth) {
     if (nested && element.tag == kItemEnd) return true;
     if (!nested && element.tag == kPixels) saw_pixels_ = true;
     if (element.length == kUndefined) {
-      const bool fragments = element.tag == kPixels;
+      if (!element.may_be_open) return false;
+      const bool fragments = !nested && element.tag == kPixels;
+      if (fragments && std::exchange(encoded_, true)) return false;
       // Unknown elements of unknown length are written the implicit way.
       const Syntax inner = element.unknown ? Syntax{false, false} : syntax;
       if (!walk_items(inner, fragments, depth + 1)) return false;
     } else {
       if (!has(element.length)) return false;
+      if (!nested) note(element, syntax);
       at_ += element.length;
     }
   }
@@ -140,9 +165,16 @@ bool Walker::walk_file() {
 }  // namespace
 
 Result<void> check_dicom_structure(std::string_view bytes, const std::string& where) {
-  if (Walker(bytes).walk_file()) return {};
-  return fail("is truncated, damaged or no DICOM picture", where,
-              "Copy or export the series again, or remove the file");
+  Walker walker(bytes);
+  if (!walker.walk_file())
+    return fail("is truncated, damaged or no DICOM picture", where,
+                "Copy or export the series again, or remove the file");
+  if (walker.is_encoded() && !fits_header(walker.pixels()))
+    return fail(
+        "has compressed pixels that do not fit its header, or in a compression that is not "
+        "read",
+        where, "Copy or export the series again, best uncompressed");
+  return {};
 }
 
 }  // namespace osteon

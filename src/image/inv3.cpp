@@ -1,7 +1,9 @@
 // InVesalius 3 projects: a gzipped tar of property lists, the voxels (matrix.dat, C order, slices
 // first) and masks, whose first plane, row and column hold flags. Names in it are not read.
 #include <cmath>
+#include <fstream>
 
+#include "file_start.h"
 #include "osteon/base/file.h"
 #include "raw_values.h"
 #include "tar_archive.h"
@@ -100,6 +102,30 @@ Result<Mask> unpack_mask(const GridFrame& frame, std::string_view bytes, const s
   return mask;
 }
 
+/// The project's description, wherever it lies in the archive.
+std::string find_main(UnpackedFile& archive) {
+  for (std::uint64_t passed = 0; passed <= kVolumeLimitBytes;) {
+    const auto entry = read_tar_entry(archive.read(kTarBlock));
+    if (!entry) return {};
+    if (entry->size > kVolumeLimitBytes) return {};
+    passed += kTarBlock + entry->stored();
+    if (entry->is_file && entry->name == "main.plist" && entry->size <= kHeaderLimitBytes)
+      return archive.read(static_cast<std::size_t>(entry->size));
+    if (!archive.skip(entry->stored())) return {};
+  }
+  return {};
+}
+
+/// As the end of a gzip file has it, which counts up to 4 GiB.
+Result<double> unpacked_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return fail("cannot be opened", file.string(), "Check the name and its permissions");
+  unsigned char end[4] = {};
+  in.seekg(-4, std::ios::end);
+  in.read(reinterpret_cast<char*>(end), sizeof end);
+  return end[0] + 256.0 * (end[1] + 256.0 * (end[2] + 256.0 * end[3]));
+}
+
 }  // namespace
 
 Result<Volume> parse_inv3(std::string_view bytes, const std::string& where) {
@@ -117,6 +143,20 @@ Result<Volume> parse_inv3(std::string_view bytes, const std::string& where) {
   const auto data = file_named(*project, plist_text(matrix, "filename"), where);
   if (!data) return tl::unexpected(data.error());
   return unpack_values(*frame, *data, {}, where);
+}
+
+Result<VolumeHead> head_of_inv3(const std::filesystem::path& file) {
+  const auto unpacked = unpacked_bytes(file);
+  if (!unpacked) return tl::unexpected(unpacked.error());
+  UnpackedFile archive(file);
+  const std::string main = find_main(archive);
+  const auto frame = frame_of(main, file.string());
+  if (!frame) {
+    // Reading all of it says what is wrong.
+    const auto volume = read_inv3(file);
+    return tl::unexpected(volume ? frame.error() : volume.error());
+  }
+  return VolumeHead{*frame, reading_bytes(*frame, size_of_file(file), *unpacked)};
 }
 
 Result<Volume> read_inv3(const std::filesystem::path& file) {

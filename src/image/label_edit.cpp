@@ -8,6 +8,12 @@
 #include "osteon/base/check.h"
 
 namespace osteon {
+std::size_t LabelEdit::Step::voxels() const {
+  std::size_t count = 0;
+  for (const VoxelRun& run : runs) count += run.count;
+  return count;
+}
+
 std::size_t LabelEdit::Step::bytes() const {
   std::size_t sum = sizeof(Step) + what.size() + runs.size() * sizeof(VoxelRun);
   for (const NameChange& change : names)

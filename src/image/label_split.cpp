@@ -153,13 +153,16 @@ Voxel within(const Voxel& v, const VoxelBox& box) {
 
 }  // namespace
 
-Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t label) {
+Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t label,
+                                               const Progress& progress) {
   if (!edit.has(label)) return fail("no bone is chosen", {}, "Click on one");
+  if (!goes_on(progress, "Splitting", 0)) return stopped();
   const BoneMask bone = bone_mask(edit, label);
   const Grid<float> depth = distance_map(bone.mask);
   LabelVolume parts;
   std::vector<std::uint16_t> found;
   for (const double widest : kWiderNecks) {
+    if (!goes_on(progress, "Splitting", widest - kWiderNecks.front() + 0.3)) return stopped();
     NeckOptions necks;
     necks.widest_neck = widest;
     const int count = split_at_necks(depth, necks, parts);
@@ -169,6 +172,7 @@ Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t la
   if (found.size() < 2)
     return fail("has no neck to split it at", edit.bones().at(label).name,
                 "Draw from one part to the other with the split tool");
+  if (!goes_on(progress, "Splitting", 0.95)) return stopped();
   edit.begin_step("Split " + edit.bones().at(label).name);
   std::vector<std::uint16_t> label_of(65536, 0), made;
   for (std::size_t p = 1; p < found.size(); ++p) {
@@ -182,12 +186,16 @@ Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t la
   return made;
 }
 
-Result<std::uint16_t> split_label_between(LabelEdit& edit, const Voxel& keep, const Voxel& part) {
+Result<std::uint16_t> split_label_between(LabelEdit& edit, const Voxel& keep, const Voxel& part,
+                                          const Progress& progress) {
   const auto label = bone_of_both(edit, keep, part);
   if (!label) return label;
+  if (!goes_on(progress, "Splitting", 0)) return stopped();
   const BoneMask bone = bone_mask(edit, *label);
   SeededMask seeded = seeded_mask(bone.mask, within(keep, bone.box), within(part, bone.box));
+  if (!goes_on(progress, "Splitting", 0.6)) return stopped();
   grow_seeds(seeded.height, bone.mask, seeded.seeds);
+  if (!goes_on(progress, "Splitting", 0.95)) return stopped();
   edit.begin_step("Split " + edit.bones().at(*label).name);
   const auto fresh = edit.add();
   if (!fresh) {

@@ -13,6 +13,8 @@ namespace {
 
 using Voxel = std::array<int, 3>;
 
+constexpr std::size_t kRowsBetweenLooks = 4096;  // at whether to go on
+
 bool in_scan(const LabelEdit& edit, const Voxel& v) {
   return edit.labels().frame.contains(v[0], v[1], v[2]);
 }
@@ -27,20 +29,29 @@ class RegionGrowth {
     box_ = {seed, {seed[0] + 1, seed[1] + 1, seed[2] + 1}};
   }
 
-  void run() {
+  /// False when told to stop.
+  bool run(const Progress& progress) {
     std::vector<Voxel> open = {seed_};
-    while (!open.empty()) {
+    for (std::size_t rows = 0; !open.empty(); ++rows) {
+      if (rows % kRowsBetweenLooks == 0 && !goes_on(progress, "Growing", share_seen()))
+        return false;
       const Voxel at = open.back();
       open.pop_back();
       if (!is_open(at[0], at[1], at[2])) continue;
       take_row(at, open);
     }
+    return true;
   }
 
   const VoxelBox& box() const { return box_; }
   bool holds(std::size_t n) const { return seen_[n]; }
 
  private:
+  /// Of the whole scan: growing ends sooner than this says.
+  double share_seen() const {
+    return static_cast<double>(taken_) / static_cast<double>(frame_.count());
+  }
+
   bool is_open(int i, int j, int k) const {
     const std::size_t n = frame_.index(i, j, k);
     if (seen_[n] || !options_.range.holds(edit_.volume().values[n])) return false;
@@ -56,6 +67,7 @@ class RegionGrowth {
     while (lo > 0 && is_open(lo - 1, at[1], at[2])) --lo;
     while (hi < frame_.size[0] && is_open(hi, at[1], at[2])) ++hi;
     for (int i = lo; i < hi; ++i) seen_[frame_.index(i, at[1], at[2])] = true;
+    taken_ += static_cast<std::size_t>(hi - lo);
     const Voxel first = {lo, at[1], at[2]}, last = {hi, at[1] + 1, at[2] + 1};
     for (std::size_t a = 0; a < 3; ++a) {
       box_.lo[a] = std::min(box_.lo[a], first[a]);
@@ -83,6 +95,7 @@ class RegionGrowth {
   Voxel seed_;
   const GrowOptions& options_;
   std::vector<bool> seen_;
+  std::size_t taken_ = 0;
   VoxelBox box_;
 };
 
@@ -115,14 +128,15 @@ std::size_t take_mask(LabelEdit& edit, std::uint16_t label, const Mask& mask, co
 
 /// `label` 0: a new bone, made within the same step.
 Result<std::size_t> grow_from(LabelEdit& edit, std::uint16_t label, const Voxel& seed,
-                              const GrowOptions& options) {
+                              const GrowOptions& options, const Progress& progress) {
   if (auto good = check_seed(edit, label, seed, options.range); !good)
     return tl::unexpected(good.error());
   RegionGrowth growth(edit, label, seed, options);
-  growth.run();
+  if (!growth.run(progress)) return stopped();
   const VoxelBox box = grown(growth.box(), 1, edit.labels().frame);
   Mask mask = mask_over(edit.labels(), box, [&](std::size_t n) { return growth.holds(n); });
   if (options.fill) fill_holes(mask);
+  if (!goes_on(progress, "Growing", 0.99)) return stopped();
   edit.begin_step(label == 0 ? "Grow a bone" : "Grow " + edit.bones().at(label).name);
   if (label == 0) {
     const auto fresh = edit.add();
@@ -140,16 +154,19 @@ Result<std::size_t> grow_from(LabelEdit& edit, std::uint16_t label, const Voxel&
 }  // namespace
 
 Result<std::size_t> grow_label(LabelEdit& edit, std::uint16_t label, const Voxel& seed,
-                               const GrowOptions& options) {
+                               const GrowOptions& options, const Progress& progress) {
   if (!edit.has(label)) return fail("no bone is chosen", {}, "Choose or add one first");
-  return grow_from(edit, label, seed, options);
+  return grow_from(edit, label, seed, options, progress);
 }
 
-Result<std::size_t> grow_new_label(LabelEdit& edit, const Voxel& seed, const GrowOptions& options) {
-  return grow_from(edit, 0, seed, options);
+Result<std::size_t> grow_new_label(LabelEdit& edit, const Voxel& seed, const GrowOptions& options,
+                                   const Progress& progress) {
+  return grow_from(edit, 0, seed, options, progress);
 }
 
-Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options) {
+Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options,
+                                                const Progress& progress) {
+  if (!goes_on(progress, "Finding parts", 0)) return stopped();
   const GridFrame& frame = edit.labels().frame;
   const auto smallest = static_cast<std::size_t>(
       std::max(1.0, std::ceil(options.smallest_m3 / frame.voxel_volume_m3())));
@@ -165,6 +182,11 @@ Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptio
   edit.begin_step("Find bodies");
   std::vector<std::uint16_t> labels;
   for (const Component& body : found) {
+    const double share = static_cast<double>(labels.size()) / static_cast<double>(found.size());
+    if (!goes_on(progress, "Finding parts", 0.3 + 0.7 * share)) {
+      edit.cancel_step();
+      return stopped();
+    }
     const auto label = edit.add();
     if (!label) break;
     const VoxelBox box = grown(body.box, 1, frame);

@@ -1,4 +1,5 @@
 // MetaImage files: https://itk.org/Wiki/ITK/MetaIO/Documentation
+#include "file_start.h"
 #include "osteon/base/file.h"
 #include "raw_values.h"
 #include "text_header.h"
@@ -65,9 +66,18 @@ Result<GridFrame> frame_of(TextHeader& header, bool& flip_k, const std::string& 
   return frame;
 }
 
-Result<std::string> data_of(TextHeader& header, std::string_view attached, const fs::path& folder,
-                            const std::string& where) {
-  std::string bytes(attached);
+/// Name of the file beside this one that holds the voxels; empty: they are in this one.
+std::string meta_data_file(TextHeader& header) {
+  const std::string name = header["elementdatafile"];
+  return lower_case(name) == "local" ? std::string() : name;
+}
+
+bool is_meta_packed(TextHeader& header) { return lower_case(header["compresseddata"]) == "true"; }
+
+/// The voxels' bytes, unpacked; `kept` holds them where they are not this file's own.
+Result<std::string_view> data_of(TextHeader& header, std::string_view attached,
+                                 const fs::path& folder, const std::string& where,
+                                 std::string& kept) {
   const std::string name = header["elementdatafile"];
   if (lower_case(name) != "local") {
     if (name.empty() || folder.empty() || fs::path(name).has_parent_path() ||
@@ -75,51 +85,70 @@ Result<std::string> data_of(TextHeader& header, std::string_view attached, const
       return fail("has its data in '" + name + "', which is not one file beside it", where,
                   "Export it as one .mha file");
     auto detached = read_file(folder / name, kVolumeLimitBytes);
-    if (!detached) return detached;
-    bytes = std::move(*detached);
+    if (!detached) return tl::unexpected(detached.error());
+    kept = std::move(*detached);
+    attached = kept;
   }
-  if (lower_case(header["compresseddata"]) == "true")
-    return gunzip(bytes, kVolumeLimitBytes, where);
-  return bytes;
+  if (!is_meta_packed(header)) return attached;
+  auto unpacked = gunzip(attached, kVolumeLimitBytes, where);
+  if (!unpacked) return tl::unexpected(unpacked.error());
+  kept = std::move(*unpacked);
+  return std::string_view(kept);
+}
+
+Result<TextVolumeHead> parse_meta_head(std::string_view bytes, const std::string& where) {
+  TextVolumeHead head;
+  head.header = read_header(bytes, head.attached);
+  if (!head.header.count("elementdatafile"))
+    return fail("is no MetaImage file", where, "Export it again");
+  const auto type = types().find(lower_case(head.header["elementtype"]));
+  if (type == types().end())
+    return fail("has voxels of type '" + head.header["elementtype"] + "', which is not known",
+                where, "Export it as 16-bit numbers");
+  head.type = type->second;
+  const auto frame = frame_of(head.header, head.flip_k, where);
+  if (!frame) return tl::unexpected(frame.error());
+  head.frame = *frame;
+  if (auto sane = check_size(*frame, where); !sane) return tl::unexpected(sane.error());
+  return head;
 }
 
 }  // namespace
 
 Result<Volume> parse_meta(std::string_view bytes, const fs::path& folder,
                           const std::string& where) {
-  std::string_view attached;
-  TextHeader header = read_header(bytes, attached);
-  if (!header.count("elementdatafile"))
-    return fail("is no MetaImage file", where, "Export it again");
-  const auto type = types().find(lower_case(header["elementtype"]));
-  if (type == types().end())
-    return fail("has voxels of type '" + header["elementtype"] + "', which is not known", where,
-                "Export it as 16-bit numbers");
-  bool flip_k = false;
-  const auto frame = frame_of(header, flip_k, where);
-  if (!frame) return tl::unexpected(frame.error());
-  if (auto sane = check_size(*frame, where); !sane) return tl::unexpected(sane.error());
-  auto data = data_of(header, attached, folder, where);
+  auto head = parse_meta_head(bytes, where);
+  if (!head) return tl::unexpected(head.error());
+  TextHeader& header = head->header;
+  std::string kept;
+  const auto data = data_of(header, head->attached, folder, where, kept);
   if (!data) return tl::unexpected(data.error());
   RawLayout layout;
-  layout.type = type->second;
+  layout.type = head->type;
   layout.big_endian = lower_case(header["binarydatabyteordermsb"]) == "true" ||
                       lower_case(header["elementbyteordermsb"]) == "true";
   std::string_view voxels = *data;
   // A header size of -1: the voxels are the end of the file.
-  const std::size_t needed = frame->count() * size_of(layout.type);
+  const std::size_t needed = head->frame.count() * size_of(layout.type);
   if (header["headersize"] == "-1" && voxels.size() > needed)
     voxels = voxels.substr(voxels.size() - needed);
-  auto volume = unpack_values(*frame, voxels, layout, where);
-  if (volume && flip_k) turn_k(*volume);
+  auto volume = unpack_values(head->frame, voxels, layout, where);
+  if (volume && head->flip_k) turn_k(*volume);
   return volume;
+}
+
+Result<VolumeHead> head_of_meta(const fs::path& file) {
+  const auto bytes = read_start(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto head = parse_meta_head(*bytes, file.string());
+  if (!head) return tl::unexpected(head.error());
+  return volume_head(*head, file, meta_data_file(head->header), is_meta_packed(head->header));
 }
 
 Result<Volume> read_meta(const fs::path& file) {
   const auto bytes = read_file(file, kVolumeLimitBytes);
   if (!bytes) return tl::unexpected(bytes.error());
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  return parse_meta(*bytes, folder, file.string());
+  return parse_meta(*bytes, folder_of(file), file.string());
 }
 
 }  // namespace osteon

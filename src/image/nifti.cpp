@@ -3,6 +3,7 @@
 #include <cstring>
 #include <map>
 
+#include "file_start.h"
 #include "osteon/base/file.h"
 #include "raw_values.h"
 #include "volume_files.h"
@@ -85,16 +86,31 @@ Affine affine_of(const Header& h) {
   return a;
 }
 
-}  // namespace
+struct NiftiHead {
+  GridFrame frame;
+  bool flip_k = false;
+  RawLayout layout;
+  double offset = 0;  ///< of the voxels, bytes
+};
 
-Result<Volume> parse_nifti(std::string_view bytes, const std::string& where) {
-  std::string unpacked;
-  if (bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b') {
-    auto out = gunzip(bytes, kVolumeLimitBytes, where);
-    if (!out) return tl::unexpected(out.error());
-    unpacked = std::move(*out);
-    bytes = unpacked;
-  }
+Result<GridFrame> frame_of(const Header& header, std::string_view bytes, bool& flip_k,
+                           const std::string& where) {
+  const int dimensions = header.word(40);
+  if (dimensions < 3 || (dimensions > 3 && header.word(48) > 1))
+    return fail("is not three-dimensional", where, "Export one volume");
+  GridFrame frame;
+  for (std::size_t a = 0; a < 3; ++a) frame.size[a] = header.word(42 + 2 * a);
+  if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
+  const Affine affine = affine_of(header);
+  const Mat3 to_lps = Vec3(-1, -1, 1).asDiagonal();
+  const double unit = unit_of(bytes);
+  if (auto set = set_axes(to_lps * affine.steps * unit, frame, flip_k, where); !set)
+    return tl::unexpected(set.error());
+  frame.origin_P = to_lps * affine.origin * unit;
+  return frame;
+}
+
+Result<NiftiHead> parse_nifti_head(std::string_view bytes, const std::string& where) {
   if (bytes.size() < kHeaderBytes + 4)
     return fail("is truncated: its header is not whole", where, "Copy or export it again");
   const bool little = Header(bytes, false).whole(0) == 348;
@@ -105,33 +121,52 @@ Result<Volume> parse_nifti(std::string_view bytes, const std::string& where) {
   if (type == nifti_types().end())
     return fail("has voxels of type " + std::to_string(header.word(70)) + ", which is not known",
                 where, "Export it as 16-bit numbers");
-  const int dimensions = header.word(40);
-  if (dimensions < 3 || (dimensions > 3 && header.word(48) > 1))
-    return fail("is not three-dimensional", where, "Export one volume");
-  GridFrame frame;
-  for (std::size_t a = 0; a < 3; ++a) frame.size[a] = header.word(42 + 2 * a);
-  if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
-  const Affine affine = affine_of(header);
-  const Mat3 to_lps = Vec3(-1, -1, 1).asDiagonal();
-  bool flip_k = false;
-  const double unit = unit_of(bytes);
-  if (auto set = set_axes(to_lps * affine.steps * unit, frame, flip_k, where); !set)
-    return tl::unexpected(set.error());
-  frame.origin_P = to_lps * affine.origin * unit;
-  const double offset = header.real(108);
-  if (!(offset >= 0) || offset > static_cast<double>(bytes.size()))
-    return fail("is truncated: its voxels begin after its end", where, "Copy or export it again");
-  RawLayout layout;
-  layout.type = type->second;
-  layout.big_endian = header.big_endian();
+  NiftiHead head;
+  const auto frame = frame_of(header, bytes, head.flip_k, where);
+  if (!frame) return tl::unexpected(frame.error());
+  head.frame = *frame;
+  head.offset = header.real(108);
+  head.layout.type = type->second;
+  head.layout.big_endian = header.big_endian();
   const double slope = header.real(112), intercept = header.real(116);
   if (std::isfinite(slope) && std::isfinite(intercept) && slope != 0) {
-    layout.slope = slope;
-    layout.intercept = intercept;
+    head.layout.slope = slope;
+    head.layout.intercept = intercept;
   }
-  auto volume = unpack_values(frame, bytes.substr(static_cast<std::size_t>(offset)), layout, where);
-  if (volume && flip_k) turn_k(*volume);
+  return head;
+}
+
+bool is_gzip(std::string_view bytes) { return bytes.substr(0, 2) == "\x1f\x8b"; }
+
+}  // namespace
+
+Result<Volume> parse_nifti(std::string_view bytes, const std::string& where) {
+  std::string unpacked;
+  if (is_gzip(bytes)) {
+    auto out = gunzip(bytes, kVolumeLimitBytes, where);
+    if (!out) return tl::unexpected(out.error());
+    unpacked = std::move(*out);
+    bytes = unpacked;
+  }
+  const auto head = parse_nifti_head(bytes, where);
+  if (!head) return tl::unexpected(head.error());
+  if (!(head->offset >= 0) || head->offset > static_cast<double>(bytes.size()))
+    return fail("is truncated: its voxels begin after its end", where, "Copy or export it again");
+  const std::string_view voxels = bytes.substr(static_cast<std::size_t>(head->offset));
+  auto volume = unpack_values(head->frame, voxels, head->layout, where);
+  if (volume && head->flip_k) turn_k(*volume);
   return volume;
+}
+
+Result<VolumeHead> head_of_nifti(const std::filesystem::path& file) {
+  const auto start = read_start(file, 2);
+  if (!start) return tl::unexpected(start.error());
+  auto head = parse_nifti_head(UnpackedFile(file).read(kHeaderBytes + 4), file.string());
+  if (!head) return tl::unexpected(head.error());
+  if (head->flip_k) turn_frame_k(head->frame);
+  const auto voxels = static_cast<double>(head->frame.count() * size_of(head->layout.type));
+  return VolumeHead{head->frame, reading_bytes(head->frame, size_of_file(file),
+                                               is_gzip(*start) ? head->offset + voxels : 0)};
 }
 
 Result<Volume> read_nifti(const std::filesystem::path& file) {

@@ -1,4 +1,5 @@
 // NRRD files: https://teem.sourceforge.net/nrrd/format.html
+#include "file_start.h"
 #include "osteon/base/file.h"
 #include "raw_values.h"
 #include "text_header.h"
@@ -93,57 +94,88 @@ Result<GridFrame> nrrd_frame(TextHeader& header, bool& flip_k, const std::string
   return frame;
 }
 
-/// The voxels' bytes, unpacked, from this file or the one beside it that it names.
-Result<std::string> nrrd_data(TextHeader& header, std::string_view attached, const fs::path& folder,
-                              const std::string& where) {
-  std::string bytes(attached);
-  const std::string name = header.count("data file") ? header["data file"] : header["datafile"];
+/// Name of the file beside this one that holds the voxels; empty: they are in this one.
+std::string nrrd_data_file(TextHeader& header) {
+  return header.count("data file") ? header["data file"] : header["datafile"];
+}
+
+bool is_nrrd_packed(TextHeader& header) {
+  const std::string encoding = lower_case(header["encoding"]);
+  return encoding == "gzip" || encoding == "gz";
+}
+
+/// The voxels' bytes, unpacked, from this file or the one beside it that it names; `kept` holds
+/// them where they are not this file's own.
+Result<std::string_view> nrrd_data(TextHeader& header, std::string_view attached,
+                                   const fs::path& folder, const std::string& where,
+                                   std::string& kept) {
+  const std::string name = nrrd_data_file(header);
   if (!name.empty()) {
     if (folder.empty() || fs::path(name).has_parent_path() || name.find('%') != name.npos ||
         name.rfind("LIST", 0) == 0)
       return fail("has its data in '" + name + "', which is not one file beside it", where,
                   "Export it as one .nrrd file");
     auto detached = read_file(folder / name, kVolumeLimitBytes);
-    if (!detached) return detached;
-    bytes = std::move(*detached);
+    if (!detached) return tl::unexpected(detached.error());
+    kept = std::move(*detached);
+    attached = kept;
   }
-  const std::string encoding = lower_case(header["encoding"]);
-  if (encoding == "raw") return bytes;
-  if (encoding == "gzip" || encoding == "gz") return gunzip(bytes, kVolumeLimitBytes, where);
-  return fail("has the encoding '" + encoding + "', which is not known", where,
-              "Export it with raw or gzip encoding");
+  if (lower_case(header["encoding"]) == "raw") return attached;
+  if (!is_nrrd_packed(header))
+    return fail("has the encoding '" + lower_case(header["encoding"]) + "', which is not known",
+                where, "Export it with raw or gzip encoding");
+  auto unpacked = gunzip(attached, kVolumeLimitBytes, where);
+  if (!unpacked) return tl::unexpected(unpacked.error());
+  kept = std::move(*unpacked);
+  return std::string_view(kept);
+}
+
+Result<TextVolumeHead> parse_nrrd_head(std::string_view bytes, const std::string& where) {
+  TextVolumeHead head;
+  auto header = read_header(bytes, head.attached, where);
+  if (!header) return tl::unexpected(header.error());
+  head.header = std::move(*header);
+  const auto type = nrrd_types().find(lower_case(head.header["type"]));
+  if (type == nrrd_types().end())
+    return fail("has voxels of type '" + head.header["type"] + "', which is not known", where,
+                "Export it as 16-bit numbers");
+  head.type = type->second;
+  const auto frame = nrrd_frame(head.header, head.flip_k, where);
+  if (!frame) return tl::unexpected(frame.error());
+  head.frame = *frame;
+  if (auto sane = check_size(*frame, where); !sane) return tl::unexpected(sane.error());
+  return head;
 }
 
 }  // namespace
 
 Result<Volume> parse_nrrd(std::string_view bytes, const fs::path& folder,
                           const std::string& where) {
-  std::string_view attached;
-  auto header = read_header(bytes, attached, where);
-  if (!header) return tl::unexpected(header.error());
-  const auto type = nrrd_types().find(lower_case((*header)["type"]));
-  if (type == nrrd_types().end())
-    return fail("has voxels of type '" + (*header)["type"] + "', which is not known", where,
-                "Export it as 16-bit numbers");
-  bool flip_k = false;
-  const auto frame = nrrd_frame(*header, flip_k, where);
-  if (!frame) return tl::unexpected(frame.error());
-  if (auto sane = check_size(*frame, where); !sane) return tl::unexpected(sane.error());
-  const auto data = nrrd_data(*header, attached, folder, where);
+  auto head = parse_nrrd_head(bytes, where);
+  if (!head) return tl::unexpected(head.error());
+  std::string kept;
+  const auto data = nrrd_data(head->header, head->attached, folder, where, kept);
   if (!data) return tl::unexpected(data.error());
   RawLayout layout;
-  layout.type = type->second;
-  layout.big_endian = lower_case((*header)["endian"]) == "big";
-  auto volume = unpack_values(*frame, *data, layout, where);
-  if (volume && flip_k) turn_k(*volume);
+  layout.type = head->type;
+  layout.big_endian = lower_case(head->header["endian"]) == "big";
+  auto volume = unpack_values(head->frame, *data, layout, where);
+  if (volume && head->flip_k) turn_k(*volume);
   return volume;
+}
+
+Result<VolumeHead> head_of_nrrd(const fs::path& file) {
+  const auto bytes = read_start(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto head = parse_nrrd_head(*bytes, file.string());
+  if (!head) return tl::unexpected(head.error());
+  return volume_head(*head, file, nrrd_data_file(head->header), is_nrrd_packed(head->header));
 }
 
 Result<Volume> read_nrrd(const fs::path& file) {
   const auto bytes = read_file(file, kVolumeLimitBytes);
   if (!bytes) return tl::unexpected(bytes.error());
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  return parse_nrrd(*bytes, folder, file.string());
+  return parse_nrrd(*bytes, folder_of(file), file.string());
 }
 
 }  // namespace osteon

@@ -118,6 +118,11 @@ Result<void> set_axes(const Mat3& steps_P, GridFrame& frame, bool& flip_k,
   return {};
 }
 
+void turn_frame_k(GridFrame& frame) {
+  // The axis already points the new way, so the last slice lies against it.
+  frame.origin_P -= (frame.size[2] - 1) * frame.spacing_m.z() * frame.axes_P.col(2);
+}
+
 void turn_k(Volume& volume) {
   GridFrame& frame = volume.frame;
   const std::size_t slice = frame.index(0, 0, 1);
@@ -126,8 +131,12 @@ void turn_k(Volume& volume) {
         volume.values.begin() + static_cast<std::ptrdiff_t>(frame.index(0, 0, a)),
         volume.values.begin() + static_cast<std::ptrdiff_t>(frame.index(0, 0, a) + slice),
         volume.values.begin() + static_cast<std::ptrdiff_t>(frame.index(0, 0, b)));
-  // The axis already points the new way, so the last slice lies against it.
-  frame.origin_P -= (frame.size[2] - 1) * frame.spacing_m.z() * frame.axes_P.col(2);
+  turn_frame_k(frame);
+}
+
+double reading_bytes(const GridFrame& frame, double file_bytes, double unpacked_bytes) {
+  const double volume = static_cast<double>(frame.count()) * sizeof(std::int16_t);
+  return file_bytes + std::max(3 * unpacked_bytes, 2 * unpacked_bytes + volume);
 }
 
 }  // namespace osteon

@@ -29,11 +29,17 @@ Result<Volume> unpack_values(const GridFrame& frame, std::string_view bytes,
 /// origin and voxels must follow (see turn_k).
 Result<void> set_axes(const Mat3& steps_P, GridFrame& frame, bool& flip_k,
                       const std::string& where);
+/// Moves the origin to the last slice, for an order of slices that is turned round.
+void turn_frame_k(GridFrame& frame);
 /// Turns the order of slices round and moves the origin to the last one.
 void turn_k(Volume& volume);
 
 /// Fails unless the sizes are sane.
 Result<void> check_size(const GridFrame& frame, const std::string& where);
+
+/// What reading takes at its peak: the file, its voxels unpacked where they are packed (0: they are
+/// not), which takes three times as much while the room for them grows, and the volume.
+double reading_bytes(const GridFrame& frame, double file_bytes, double unpacked_bytes = 0);
 
 /// Unpacks gzip (or zlib) data; fails when damaged or larger than `limit` unpacked.
 Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit, const std::string& where);

@@ -2,6 +2,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "osteon/base/file.h"
+#include "picture_header.h"
 #include "raw_values.h"
 #include "text_header.h"
 #include "volume_files.h"
@@ -10,6 +12,8 @@ namespace osteon {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t kPictureLimitBytes = 1ull << 30;
 
 /// "slice9" comes before "slice10".
 bool natural_less(const fs::path& a, const fs::path& b) {
@@ -36,19 +40,26 @@ bool natural_less(const fs::path& a, const fs::path& b) {
   return s.size() - i < t.size() - j;
 }
 
-Result<cv::Mat> read_picture(const fs::path& file) {
+Result<cv::Mat> decode_picture(std::string_view bytes, const std::string& where) {
+  if (auto sane = check_picture_header(bytes, where); !sane) return tl::unexpected(sane.error());
+  const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat picture;
   try {
-    picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+    picture = cv::imdecode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     picture.release();
   }
-  if (picture.empty())
-    return fail("is damaged or no picture", file.string(), "Export the slices again");
+  if (picture.empty()) return fail("is damaged or no picture", where, "Export the slices again");
   if (picture.channels() != 1 || (picture.depth() != CV_16U && picture.depth() != CV_16S))
-    return fail("is not a grey picture of 16 bits", file.string(),
+    return fail("is not a grey picture of 16 bits", where,
                 "Export 16-bit slices: fewer bits cannot hold Hounsfield units");
   return picture;
+}
+
+Result<cv::Mat> read_picture(const fs::path& file) {
+  const auto bytes = read_file(file, kPictureLimitBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_picture(*bytes, file.string());
 }
 
 /// Unsigned pictures hold HU + 1024.
@@ -61,6 +72,32 @@ void append(const cv::Mat& picture, Volume& volume) {
     }
 }
 
+Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ec;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ec))
+    if (is_picture(entry.path())) files.push_back(entry.path());
+  if (files.empty()) return fail("holds no PNG or TIFF picture", folder.string(), "Check the name");
+  std::sort(files.begin(), files.end(), natural_less);
+  return files;
+}
+
+/// By the first picture and the number of pictures.
+Result<GridFrame> frame_of_stack(const std::vector<fs::path>& files,
+                                 const std::optional<Vec3>& spacing_m, const std::string& where) {
+  if (!spacing_m)
+    return fail("holds pictures, which do not say how large their pixels are", where,
+                "Give --spacing X,Y,Z in mm");
+  const auto first = read_picture(files.front());
+  if (!first) return tl::unexpected(first.error());
+  GridFrame frame;
+  frame.spacing_m = *spacing_m;
+  frame.size = {first->cols, first->rows,
+                static_cast<int>(std::min<std::size_t>(files.size(), 1 << 20))};
+  if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
+  return frame;
+}
+
 }  // namespace
 
 bool is_picture(const fs::path& file) {
@@ -68,27 +105,38 @@ bool is_picture(const fs::path& file) {
   return end == ".png" || end == ".tif" || end == ".tiff";
 }
 
-Result<Volume> read_slice_stack(const fs::path& folder, const std::optional<Vec3>& spacing_m) {
-  const std::string where = folder.string();
-  if (!spacing_m)
-    return fail("holds pictures, which do not say how large their pixels are", where,
-                "Give --spacing X,Y,Z in mm");
-  std::vector<fs::path> files;
-  std::error_code ec;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ec))
-    if (is_picture(entry.path())) files.push_back(entry.path());
-  std::sort(files.begin(), files.end(), natural_less);
+Result<Volume> parse_picture(std::string_view bytes, const std::string& where) {
+  const auto picture = decode_picture(bytes, where);
+  if (!picture) return tl::unexpected(picture.error());
   Volume volume;
-  volume.frame.spacing_m = *spacing_m;
-  for (const fs::path& file : files) {
+  volume.frame.size = {picture->cols, picture->rows, 1};
+  append(*picture, volume);
+  return volume;
+}
+
+Result<VolumeHead> head_of_slice_stack(const fs::path& folder,
+                                       const std::optional<Vec3>& spacing_m) {
+  const auto files = pictures_in(folder);
+  if (!files) return tl::unexpected(files.error());
+  const auto frame = frame_of_stack(*files, spacing_m, folder.string());
+  if (!frame) return tl::unexpected(frame.error());
+  // One picture at a time beside the volume.
+  return VolumeHead{*frame, reading_bytes(*frame, 4 * static_cast<double>(frame->index(0, 0, 1)))};
+}
+
+Result<Volume> read_slice_stack(const fs::path& folder, const std::optional<Vec3>& spacing_m) {
+  const auto files = pictures_in(folder);
+  if (!files) return tl::unexpected(files.error());
+  const auto frame = frame_of_stack(*files, spacing_m, folder.string());
+  if (!frame) return tl::unexpected(frame.error());
+  Volume volume{*frame, {}};
+  volume.values.reserve(frame->count());
+  for (const fs::path& file : *files) {
     const auto picture = read_picture(file);
     if (!picture) return tl::unexpected(picture.error());
-    GridFrame& frame = volume.frame;
-    if (frame.size[2] > 0 && (picture->cols != frame.size[0] || picture->rows != frame.size[1]))
-      return fail("has another size than " + files.front().filename().string(), file.string(),
+    if (picture->cols != frame->size[0] || picture->rows != frame->size[1])
+      return fail("has another size than " + files->front().filename().string(), file.string(),
                   "Put the slices of one scan into the folder");
-    frame.size = {picture->cols, picture->rows, frame.size[2] + 1};
-    if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
     append(*picture, volume);
   }
   return volume;

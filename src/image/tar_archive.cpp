@@ -1,11 +1,9 @@
 #include "tar_archive.h"
 
-#include <cstdint>
+#include <algorithm>
 
 namespace osteon {
 namespace {
-
-constexpr std::size_t kBlock = 512;
 
 /// Octal digits up to a blank or zero byte.
 bool read_octal(std::string_view text, std::uint64_t& value) {
@@ -23,22 +21,30 @@ bool read_octal(std::string_view text, std::uint64_t& value) {
 
 }  // namespace
 
+std::optional<TarEntry> read_tar_entry(std::string_view block) {
+  TarEntry entry;
+  if (block.size() < kTarBlock || block.substr(257, 5) != "ustar" ||
+      !read_octal(block.substr(124, 12), entry.size))
+    return std::nullopt;
+  entry.name = block.substr(0, std::min<std::size_t>(100, block.find('\0')));
+  if (const std::size_t slash = entry.name.rfind('/'); slash != entry.name.npos)
+    entry.name.erase(0, slash + 1);
+  entry.is_file = block[156] == '0' || block[156] == '\0';
+  return entry;
+}
+
 Result<std::map<std::string, std::string_view>> read_tar(std::string_view bytes,
                                                          const std::string& where) {
   std::map<std::string, std::string_view> files;
-  for (std::size_t at = 0; at + kBlock <= bytes.size();) {
-    const std::string_view head = bytes.substr(at, kBlock);
+  for (std::size_t at = 0; at + kTarBlock <= bytes.size();) {
+    const std::string_view head = bytes.substr(at, kTarBlock);
     if (head[0] == '\0') break;
-    std::uint64_t size = 0;
-    const bool good = head.substr(257, 5) == "ustar" && read_octal(head.substr(124, 12), size);
-    if (!good || size > bytes.size() - at - kBlock)
+    const auto entry = read_tar_entry(head);
+    if (!entry || entry->size > bytes.size() - at - kTarBlock)
       return fail("is truncated or damaged inside", where, "Copy or save it again");
-    std::string name(head.substr(0, head.substr(0, 100).find('\0')));
-    if (name.size() > 100) name.resize(100);
-    if (const std::size_t slash = name.rfind('/'); slash != name.npos) name.erase(0, slash + 1);
-    if (head[156] == '0' || head[156] == '\0')
-      files[name] = bytes.substr(at + kBlock, static_cast<std::size_t>(size));
-    at += kBlock + (static_cast<std::size_t>(size) + kBlock - 1) / kBlock * kBlock;
+    if (entry->is_file)
+      files[entry->name] = bytes.substr(at + kTarBlock, static_cast<std::size_t>(entry->size));
+    at += kTarBlock + static_cast<std::size_t>(entry->stored());
   }
   return files;
 }

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "file_start.h"
+
 namespace osteon {
 
 std::string trimmed(std::string_view text) {
@@ -36,6 +38,20 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
 std::optional<int> whole_number(double value) {
   if (!(std::abs(value) < 1e9) || value != std::floor(value)) return std::nullopt;
   return static_cast<int>(value);
+}
+
+VolumeHead volume_head(const TextVolumeHead& head, const std::filesystem::path& file,
+                       const std::string& data, bool packed) {
+  GridFrame frame = head.frame;
+  if (head.flip_k) turn_frame_k(frame);
+  double stored = size_of_file(file);
+  if (!data.empty()) stored += size_of_file(folder_of(file) / data);
+  const auto voxels = static_cast<double>(frame.count() * size_of(head.type));
+  return {frame, reading_bytes(frame, stored, packed ? voxels : 0)};
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace osteon

@@ -7,7 +7,8 @@ namespace osteon {
 namespace {
 
 constexpr int kLowest = -1024, kHighest = 3071;
-constexpr int kSoftLow = -150, kSoftHigh = 200;
+constexpr int kFatLow = -150, kMuscleLow = -20, kSoftHigh = 200;
+constexpr double kMuscleShare = 0.1;  // of the fat's peak, by which muscle's counts
 constexpr int kAboveSoft = 120;
 constexpr double kFallbackThreshold = 226;  // the usual preset for bone
 
@@ -22,18 +23,28 @@ Histogram histogram_of(const Volume& volume) {
   return h;
 }
 
-int soft_mode(Histogram& h) {
-  int best = 50;
-  double most = 0;
-  for (int hu = kSoftLow; hu <= kSoftHigh; ++hu) {
+struct Peak {
+  int hu = 50;
+  double count = 0;
+};
+
+Peak peak_within(Histogram& h, int low, int high) {
+  Peak peak;
+  for (int hu = low; hu <= high; ++hu) {
     double sum = 0;
     for (int d = -10; d <= 10; ++d) sum += count_of(h, hu + d);
-    if (sum > most) {
-      most = sum;
-      best = hu;
-    }
+    if (sum > peak.count) peak = {hu, sum};
   }
-  return best;
+  return peak;
+}
+
+/// Where there is more fat than muscle, muscle's is still the peak that bone stands in.
+int soft_mode(Histogram& h) {
+  const Peak any = peak_within(h, kFatLow, kSoftHigh);
+  const Peak muscle = peak_within(h, kMuscleLow, kSoftHigh);
+  // The tail of the fat's peak is highest where the range of muscle begins.
+  const bool is_peak = muscle.hu > kMuscleLow && muscle.count > kMuscleShare * any.count;
+  return is_peak ? muscle.hu : any.hu;
 }
 
 }  // namespace

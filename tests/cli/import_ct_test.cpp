@@ -1,5 +1,6 @@
-// From a case with a known truth through the virtual scanner's DICOM files back to a case. The
-// scanned hands are other hands than the one that names are taken from.
+// From a case with a known truth through the virtual scanner's DICOM files back to a case, with all
+// soft parts in their skin. The scanned hands are other hands than the one that names are taken
+// from.
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -19,9 +20,15 @@ Vec3 other_patient(const Vec3& p, bool left) {
   return Vec3(q.x(), left ? -q.y() : q.y(), q.z());
 }
 
+TriMesh other_mesh(TriMesh mesh, const Pose& X_W, bool left) {
+  for (Vec3& v : mesh.vertices) v = other_patient(X_W * v, left);
+  if (left)
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 CaseDef other_wrist(bool left) {
-  const auto anatomy = generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml",
-                                        {.soft_parts = false});
+  const auto anatomy = generate_anatomy(fs::path(OSTEON_SOURCE_DIR) / "assets/anatomy/wrist.toml");
   EXPECT_TRUE(anatomy);
   CaseDef def;
   def.name = "other";
@@ -29,11 +36,16 @@ CaseDef other_wrist(bool left) {
   for (const GeneratedBone& grown : anatomy->bones) {
     BoneDef bone;
     bone.name = grown.name;
-    bone.mesh = grown.mesh;
-    for (Vec3& v : bone.mesh.vertices) v = other_patient(grown.X_WB * v, left);
-    if (left)
-      for (Triangle& t : bone.mesh.triangles) std::swap(t[1], t[2]);
+    bone.mesh = other_mesh(grown.mesh, grown.X_WB, left);
     def.bones.push_back(std::move(bone));
+  }
+  for (const GeneratedSoft& grown : anatomy->softs) {
+    SoftDef soft;
+    soft.name = grown.name;
+    soft.kind = grown.kind;
+    soft.tissue = grown.tissue;
+    soft.mesh_W = other_mesh(grown.mesh_W, {}, left);
+    def.softs.push_back(std::move(soft));
   }
   return def;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "osteon/image/fill.h"
 #include "osteon/image/segment.h"
@@ -339,6 +341,43 @@ TEST(LabelBodies, AgreeWithTheImport) {
   const auto imported = segment_bone(edit.volume(), options);
   ASSERT_TRUE(imported);
   EXPECT_EQ(edit.labels().values, imported->labels.values);
+}
+
+// Told to stop at any of its questions, a tool leaves labels, names and history as they were.
+TEST(LabelToolsStopped, NothingHasChanged) {
+  LabelEdit edit = scan_where(frame_of(68, 40, 40), two_balls);
+  const std::uint16_t whole = edit.add("whole").value();
+  ASSERT_TRUE(grow_label(edit, whole, {20, 20, 7}, above(900, true)));
+  const LabelVolume before = edit.labels();
+  const std::size_t steps = edit.undo_steps();
+  EXPECT_EQ(edit.undo_voxels(), voxels(edit, whole));
+  using Tool = std::function<bool(const Progress&)>;
+  const std::vector<Tool> tools = {
+      [&](const Progress& p) { return split_label(edit, whole, p).has_value(); },
+      [&](const Progress& p) {
+        return split_label_between(edit, {20, 20, 20}, {47, 20, 20}, p).has_value();
+      },
+      [&](const Progress& p) {
+        return grow_label(edit, whole, {20, 20, 7}, above(-999), p).has_value();
+      },
+      [&](const Progress& p) {
+        return label_bodies(edit, {{-999, 100}, 1e-9, true, 64}, p).has_value();
+      }};
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    int asked = 0, allowed = 0;
+    const auto until = [&](const char*, double) { return asked++ < allowed; };
+    for (; allowed < 50; ++allowed) {
+      asked = 0;
+      if (tools[tool](until)) break;
+      ASSERT_EQ(edit.labels().values, before.values) << "tool " << tool << ", stop " << allowed;
+      ASSERT_EQ(edit.undo_steps(), steps);
+      ASSERT_EQ(edit.bones().size(), 1u);
+    }
+    EXPECT_GT(allowed, 0) << "tool " << tool << " never asks";
+    EXPECT_NE(edit.undo_steps(), steps) << "tool " << tool << " never ends";
+    ASSERT_TRUE(edit.undo());
+    ASSERT_EQ(edit.labels().values, before.values);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "osteon/base/random.h"
 #include "osteon/image/components.h"
 #include "osteon/image/distance_map.h"
 #include "osteon/image/fill.h"
@@ -217,6 +218,22 @@ TEST(Threshold, LiesBetweenSoftTissueAndCorticalBone) {
   EXPECT_GT(levels.threshold_hu, 250);
   EXPECT_LT(levels.threshold_hu, 900);
   EXPECT_GT(levels.bone_hu, 1200);
+}
+
+// A third of muscle in much fat is still what bone stands in; without any, it is the fat.
+TEST(Threshold, FatIsTakenForSoftTissueOnlyWhereThereIsNoMuscle) {
+  for (const double muscle : {0.3, 0.0}) {
+    Volume volume = two_bones();
+    Random random(5);
+    for (std::int16_t& hu : volume.values) {
+      const bool fat = hu < 150 && random.uniform(0, 1) >= muscle;
+      if (fat) hu = static_cast<std::int16_t>(std::lround(random.normal(-100, 30)));
+    }
+    const BoneLevels levels = find_bone_levels(volume);
+    EXPECT_NEAR(levels.soft_hu, muscle > 0 ? 50 : -100, 15);
+    EXPECT_GT(levels.threshold_hu, 250);
+    EXPECT_LT(levels.threshold_hu, 900);
+  }
 }
 
 TEST(Segment, FindsTwoBonesWithTheirMarrow) {

@@ -74,6 +74,9 @@ class LabelEdit {
   bool redo();
   std::size_t undo_steps() const { return undo_.size(); }
   std::size_t redo_steps() const { return redo_.size(); }
+  /// How many voxels undo or redo would change.
+  std::size_t undo_voxels() const { return undo_.empty() ? 0 : undo_.back().voxels(); }
+  std::size_t redo_voxels() const { return redo_.empty() ? 0 : redo_.back().voxels(); }
   /// What undo and redo would take back and repeat; empty: nothing.
   std::string undo_what() const { return undo_.empty() ? std::string() : undo_.back().what; }
   std::string redo_what() const { return redo_.empty() ? std::string() : redo_.back().what; }
@@ -99,6 +102,7 @@ class LabelEdit {
     std::vector<NameChange> names;
     std::uint64_t number = 0;
     std::size_t bytes() const;
+    std::size_t voxels() const;
   };
 
   LabelEdit(std::shared_ptr<const Volume> volume, std::size_t history_bytes);

@@ -8,6 +8,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/image/label_edit.h"
+#include "osteon/image/progress.h"
 
 namespace osteon {
 
@@ -27,13 +28,13 @@ struct GrowOptions {
 /// Grows a bone from a voxel over the voxels of the range that hang together with it by faces.
 /// Takes nothing from another bone and does not pass through one. One step of history; returns how
 /// many voxels the bone gained. Fails where the seed lies outside the scan, outside the range or in
-/// another bone.
+/// another bone, and when told to stop; then, as in the tools below, nothing has changed.
 Result<std::size_t> grow_label(LabelEdit& edit, std::uint16_t label, const std::array<int, 3>& seed,
-                               const GrowOptions& options);
+                               const GrowOptions& options, const Progress& progress = {});
 
 /// The same for a bone that is made for it, within the same step; seeds in any bone are refused.
 Result<std::size_t> grow_new_label(LabelEdit& edit, const std::array<int, 3>& seed,
-                                   const GrowOptions& options);
+                                   const GrowOptions& options, const Progress& progress = {});
 
 struct LabelBrush {
   double radius_m = 0.003;
@@ -55,13 +56,15 @@ std::size_t dab_label(LabelEdit& edit, std::uint16_t label, const Vec3& from_vox
 /// first at necks as the import takes them, then at ever wider ones until it comes apart. The
 /// largest part keeps the label. One step of history; returns the labels of the other parts. Fails
 /// when there is no neck.
-Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t label);
+Result<std::vector<std::uint16_t>> split_label(LabelEdit& edit, std::uint16_t label,
+                                               const Progress& progress = {});
 
 /// Parts a bone between two of its voxels: the border runs through the neck between them; where
 /// there is none, half-way. The part of `keep` keeps the label. One step of history; returns the
 /// other part's label. Fails unless both voxels lie in one bone and are two.
 Result<std::uint16_t> split_label_between(LabelEdit& edit, const std::array<int, 3>& keep,
-                                          const std::array<int, 3>& part);
+                                          const std::array<int, 3>& part,
+                                          const Progress& progress = {});
 
 struct BodyOptions {
   HuRange range;
@@ -72,6 +75,7 @@ struct BodyOptions {
 
 /// Makes a bone of each part of the range that hangs together by faces and belongs to no bone yet,
 /// the largest first. One step of history; returns the new labels. Fails when there is none.
-Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options);
+Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options,
+                                                const Progress& progress = {});
 
 }  // namespace osteon

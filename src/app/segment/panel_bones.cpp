@@ -157,6 +157,11 @@ void draw_finish(const SegmentContext& c) {
   ImGui::EndDisabled();
   ImGui::EndDisabled();
   ui::tooltip(("Draws the surfaces and writes " + c.model.out + "  (Ctrl + S)").c_str());
+  if (c.model.saved) {
+    if (ImGui::Button("Open in the simulator", {width, 0})) c.requests.open_case = true;
+    ui::tooltip("Ends this window and opens the saved case (Ctrl + O)");
+    return;
+  }
   const ui::WithFont small(c.fonts.small);
   ui::text_within(color::kTextQuiet, "to " + c.model.out, width);
 }

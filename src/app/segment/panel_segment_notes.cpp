@@ -99,7 +99,10 @@ void draw_segment_loading(const SegmentContext& c) {
     ImGui::TextUnformatted(c.model.loading.failure.c_str());
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0, c.px(4)});
-    if (ImGui::Button("Close")) c.requests.quit_without_saving = true;
+    if (ui::accent_button("Choose another scan")) c.requests.choose_scan = true;
+    ImGui::SameLine(0, c.px(8));
+    if (ImGui::Button(c.model.returns ? "Back to the simulator" : "Close"))
+      c.requests.quit_without_saving = true;
   }
   ImGui::End();
 }
@@ -158,7 +161,7 @@ struct HelpLine {
   const char* what;
 };
 
-constexpr std::array<HelpLine, 17> kHelp = {{
+constexpr std::array<HelpLine, 18> kHelp = {{
     {"Wheel", "through the slices"},
     {"Ctrl + wheel", "nearer, farther"},
     {"Right drag", "brightness and contrast"},
@@ -172,6 +175,7 @@ constexpr std::array<HelpLine, 17> kHelp = {{
     {"N", "new bone"},
     {"Ctrl + Z, + Shift", "undo, redo"},
     {"Ctrl + S", "save as a case"},
+    {"Ctrl + O", "open the saved case in the simulator"},
     {"Tab", "fold the panels away"},
     {"F11", "full screen"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "loops/realtime.h"
@@ -20,12 +21,19 @@ namespace {
 
 constexpr std::int64_t kShortestFrame_ns = 1'000'000'000 / 60;
 constexpr double kWaitShown_s = 0.3;  // work that is done before is not told
+constexpr std::size_t kManyVoxels = 2'000'000;
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 /// What may take seconds on a large scan.
-bool is_heavy(const SegmentRequests& requests, SegmentTool tool) {
+bool is_heavy(const SegmentRequests& requests, const Segmenting& segmenting) {
   if (requests.find_bodies || requests.split_chosen) return true;
+  const LabelEdit& edit = segmenting.edit();
+  // In the middle of a stroke, that stroke is what is undone.
+  if (!edit.in_step() && ((requests.undo && edit.undo_voxels() > kManyVoxels) ||
+                          (requests.redo && edit.redo_voxels() > kManyVoxels)))
+    return true;
+  const SegmentTool tool = segmenting.tools().tool;
   if (!requests.pointer) return false;
   return (tool == SegmentTool::kGrow && requests.pointer->pressed) ||
          (tool == SegmentTool::kSplit && requests.pointer->released);
@@ -46,14 +54,15 @@ Result<std::unique_ptr<SegmentApp>> SegmentApp::create(const SegmentOrder& order
   auto window = GlWindow::create(options);
   if (!window) return tl::unexpected(window.error());
   app->window_ = std::move(*window);
-  app->order_.scan.source = plain_folder(order.scan.source);
   app->ui_ = std::make_unique<ImGuiHost>(app->window_->handle(), 1.0f);
-  if (app->order_.out.empty()) {
-    const std::string stem = plain_folder(order.scan.source).stem().string();
-    app->order_.out = dated_file(data_home_dir() / "cases", stem.empty() ? "scan" : stem, "");
+  app->out_given_ = !order.out.empty();
+  if (order.scan.source.empty()) {
+    std::error_code ec;
+    app->choose_scan(fs::current_path(ec));
+  } else {
+    app->order_.scan.source = plain_folder(order.scan.source);
+    app->begin_opening();
   }
-  app->opening_ = std::make_unique<SideJob<OpenedScan>>(
-      [scan = order.scan](const Progress& progress) { return open_scan(scan, progress); });
   return app;
 }
 
@@ -136,7 +145,7 @@ SegmentModel SegmentApp::shown_model() {
   last_model_.help_open = help_open_;
   last_model_.panels_open = panels_open_;
   last_model_.job.reset();
-  if (now_s_ - heavy_since_s_ > kWaitShown_s) last_model_.job.emplace().what = "Working ...";
+  if (now_s_ - heavy_since_s_ > kWaitShown_s) last_model_.job = job_model(heavy_->progress());
   return last_model_;
 }
 
@@ -193,9 +202,10 @@ void SegmentApp::apply(const SegmentRequests& asked, const SegmentLayout& layout
   const SegmentRequests requests = in_pane_pixels(asked);
   apply_window(requests);
   apply_closing(requests);
+  apply_chooser(requests);
   if (!segmenting_ || heavy_) return;
   pointer_ = requests.pointer;
-  if (is_heavy(requests, segmenting_->tools().tool)) return begin_heavy(requests);
+  if (is_heavy(requests, *segmenting_)) return begin_heavy(requests);
   if (auto done = segmenting_->apply(requests); !done)
     note(ToastKind::kWarning, done.error().message());
   if (const std::uint16_t label =
@@ -217,6 +227,7 @@ void SegmentApp::apply_window(const SegmentRequests& requests) {
   if (opening_) opening_->cancel();
   if (suggesting_) suggesting_->cancel();
   if (saving_) saving_->cancel();
+  if (heavy_) heavy_->cancel();
   ends_when_saved_ = false;
 }
 
@@ -224,15 +235,24 @@ void SegmentApp::apply_closing(const SegmentRequests& requests) {
   if (requests.quit) window_->close();
   if (requests.stay) asks_to_close_ = false;
   if (requests.quit_without_saving) ends_ = true;
+  if (requests.open_case && holds_saved_case()) {
+    case_to_open_ = order_.out;
+    ends_ = true;
+  }
   if (!requests.quit_after_saving || heavy_) return;
   asks_to_close_ = false;
   begin_saving();
   ends_when_saved_ = saving_ != nullptr;
 }
 
+bool SegmentApp::holds_saved_case() const {
+  return saved_before_ && !heavy_ && !at_work() && !changed();
+}
+
 bool SegmentApp::measured_run_over() {
   if (order_.frames <= 0) return false;
   if (!failure_.empty()) return true;
+  if (chooser_) return ++measured_frames_ >= order_.frames;
   if (!segmenting_ || at_work() || (solid_ && solid_->busy())) {
     work_.clear();
     return false;

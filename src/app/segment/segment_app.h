@@ -22,7 +22,7 @@ namespace osteon {
 
 /// What the command line asks of the segmentation window.
 struct SegmentOrder {
-  ScanOrder scan;
+  ScanOrder scan;                    ///< without a source the user chooses one
   std::filesystem::path out;         ///< the case to save; empty: a new one among the user's
   std::filesystem::path screenshot;  ///< saved after `frames` pictures; then the program ends
   int frames = 0;                    ///< pictures to draw once all is ready; 0: no end
@@ -31,6 +31,7 @@ struct SegmentOrder {
   bool suggest = false;              ///< begins with the bones that the import finds
   std::string choose;                ///< name of the bone to begin with; empty: none
   bool fresh = false;                ///< does not read the settings file
+  bool returns = false;              ///< the simulator's window comes after this one
 };
 
 /// The main loop of the segmentation window. Runs on the main thread.
@@ -40,6 +41,8 @@ class SegmentApp {
   /// Until the user closes the window. Fails when an ordered picture could not be made.
   Result<void> run();
   const FrameStats& frame_stats() const { return work_; }
+  /// The saved case that the user wants to go on with in the simulator; empty: none.
+  const std::filesystem::path& case_to_open() const { return case_to_open_; }
 
  private:
   explicit SegmentApp(const SegmentOrder& order);
@@ -60,7 +63,13 @@ class SegmentApp {
   bool wants_to_end();
   bool measured_run_over();
   Result<void> finish_measured_run();
+  bool holds_saved_case() const;
   // segment_app_work.cpp
+  void choose_scan(const std::filesystem::path& near);
+  void apply_chooser(const SegmentRequests& requests);
+  void open_chosen(const std::filesystem::path& source);
+  void begin_opening();
+  void cancel_opening();
   void poll_opening();
   void begin_suggestion();
   void poll_suggestion();
@@ -70,6 +79,7 @@ class SegmentApp {
   void poll_saving();
   bool at_work() const;
   // segment_app_model.cpp
+  static LoadingModel job_model(const LoadProgress& progress);
   SegmentModel build_model() const;
   void fill_panes(SegmentModel& model) const;
   void fill_bones(SegmentModel& model) const;
@@ -89,6 +99,10 @@ class SegmentApp {
   bool help_open_ = false, panels_open_ = true;
   bool asks_to_close_ = false, ends_ = false, ends_when_saved_ = false;
 
+  std::optional<ScanChooserModel> chooser_;  ///< while a scan is being chosen
+  bool chosen_in_window_ = false;            ///< the scan, not on the command line
+  bool out_given_ = false;
+  std::filesystem::path case_to_open_;
   std::unique_ptr<SideJob<OpenedScan>> opening_;
   std::string failure_;  ///< of opening, in words
   std::optional<Segmenting> segmenting_;

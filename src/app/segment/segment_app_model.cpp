@@ -8,15 +8,6 @@
 namespace osteon {
 namespace {
 
-LoadingModel shown(const LoadProgress& progress) {
-  LoadingModel model;
-  model.what = progress.what;
-  model.fraction = progress.fraction;
-  model.seconds_left = progress.seconds_left;
-  model.can_cancel = true;
-  return model;
-}
-
 std::string shape_text(const GridFrame& frame) {
   const Vec3 mm = frame.spacing_m * 1000;
   char text[96];
@@ -26,6 +17,15 @@ std::string shape_text(const GridFrame& frame) {
 }
 
 }  // namespace
+
+LoadingModel SegmentApp::job_model(const LoadProgress& progress) {
+  LoadingModel model;
+  model.what = progress.what;
+  model.fraction = progress.fraction;
+  model.seconds_left = progress.seconds_left;
+  model.can_cancel = true;
+  return model;
+}
 
 SegmentModel SegmentApp::build_model() const {
   SegmentModel model;
@@ -37,14 +37,16 @@ SegmentModel SegmentApp::build_model() const {
   model.help_open = help_open_;
   model.panels_open = panels_open_;
   model.asks_to_close = asks_to_close_;
+  model.returns = order_.returns;
+  model.chooser = chooser_;
   if (!segmenting_) {
     model.phase = failure_.empty() ? UiPhase::kLoading : UiPhase::kFailed;
     model.loading.failure = failure_;
-    if (opening_) model.loading = shown(opening_->progress());
+    if (opening_) model.loading = job_model(opening_->progress());
     return model;
   }
-  if (suggesting_) model.job = shown(suggesting_->progress());
-  if (saving_) model.job = shown(saving_->progress());
+  if (suggesting_) model.job = job_model(suggesting_->progress());
+  if (saving_) model.job = job_model(saving_->progress());
   const LabelEdit& edit = segmenting_->edit();
   model.title = order_.scan.source.filename().string();
   model.shape = shape_text(edit.labels().frame);
@@ -62,6 +64,7 @@ SegmentModel SegmentApp::build_model() const {
   model.redo_what = edit.redo_what();
   model.changed = edit.is_changed();
   model.out = order_.out.string();
+  model.saved = holds_saved_case();
   fill_panes(model);
   fill_bones(model);
   return model;

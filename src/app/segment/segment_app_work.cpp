@@ -1,18 +1,69 @@
 // What the segmentation window does beside the picture: opening, finding, heavy changes, saving.
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "label_case.h"
 #include "segment/segment_app.h"
+#include "whole_folder.h"
+#include "xdg.h"
 
 namespace osteon {
 
+// Whoever named the scan on the command line wanted this one or none.
+void SegmentApp::cancel_opening() {
+  if (chosen_in_window_)
+    choose_scan(order_.scan.source);
+  else
+    ends_ = true;
+}
+
+void SegmentApp::choose_scan(const std::filesystem::path& near) {
+  std::error_code ec;
+  failure_.clear();
+  if (!chooser_) chooser_.emplace();
+  const bool folder = std::filesystem::is_directory(near, ec);
+  chooser_->folder = list_scan_folder(folder ? near : near.parent_path());
+}
+
+void SegmentApp::apply_chooser(const SegmentRequests& requests) {
+  if (requests.choose_scan) choose_scan(order_.scan.source);
+  if (!chooser_) return;
+  if (requests.series) chooser_->series = *requests.series;
+  if (requests.spacing_mm) chooser_->spacing_mm = *requests.spacing_mm;
+  std::error_code ec;
+  if (requests.browse && std::filesystem::is_regular_file(*requests.browse, ec))
+    return open_chosen(*requests.browse);
+  if (requests.browse) chooser_->folder = list_scan_folder(*requests.browse);
+  if (requests.open_scan) open_chosen(*requests.open_scan);
+}
+
+void SegmentApp::open_chosen(const std::filesystem::path& source) {
+  order_.scan.source = plain_folder(source);
+  order_.scan.series = chooser_->series;
+  order_.scan.spacing_m.reset();
+  if (chooser_->folder.pictures > 0) order_.scan.spacing_m = chooser_->spacing_mm / 1000;
+  if (!out_given_) order_.out.clear();
+  chosen_in_window_ = true;
+  chooser_.reset();
+  begin_opening();
+}
+
+void SegmentApp::begin_opening() {
+  if (order_.out.empty()) {
+    const std::string stem = order_.scan.source.stem().string();
+    order_.out = dated_file(data_home_dir() / "cases", stem.empty() ? "scan" : stem, "");
+  }
+  opening_ = std::make_unique<SideJob<OpenedScan>>(
+      [scan = order_.scan](const Progress& progress) { return open_scan(scan, progress); });
+}
+
 void SegmentApp::poll_opening() {
   if (!opening_ || !opening_->done()) return;
-  ends_ = opening_->cancelled();
+  const bool cancelled = opening_->cancelled();
   auto opened = opening_->take();
   opening_.reset();
-  if (ends_) return;
+  if (cancelled) return cancel_opening();
   if (!opened) {
     failure_ = opened.error().message();
     return;
@@ -33,17 +84,19 @@ void SegmentApp::poll_opening() {
 void SegmentApp::begin_heavy(const SegmentRequests& requests) {
   heavy_since_s_ = now_s_;
   heavy_ = std::make_unique<SideJob<bool>>(
-      [&segmenting = *segmenting_, requests](const Progress&) -> Result<bool> {
-        if (auto done = segmenting.apply(requests); !done) return tl::unexpected(done.error());
+      [&segmenting = *segmenting_, requests](const Progress& progress) -> Result<bool> {
+        if (auto done = segmenting.apply(requests, progress); !done)
+          return tl::unexpected(done.error());
         return true;
       });
 }
 
 void SegmentApp::poll_heavy() {
   if (!heavy_ || !heavy_->done()) return;
+  const bool cancelled = heavy_->cancelled();
   const auto done = heavy_->take();
   heavy_.reset();
-  if (!done) note(ToastKind::kWarning, done.error().message());
+  if (!done && !cancelled) note(ToastKind::kWarning, done.error().message());
 }
 
 void SegmentApp::begin_suggestion() {

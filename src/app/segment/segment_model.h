@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "segment/scan_folder.h"
 #include "segment/segment_requests.h"
 #include "window/toasts.h"
 #include "window/ui_layout.h"
@@ -40,11 +41,20 @@ struct SlicePane {
   double px_per_mm = 1;
 };
 
+/// While a scan is being chosen.
+struct ScanChooserModel {
+  ScanFolder folder;
+  std::string series;
+  Vec3 spacing_mm = Vec3(0.5, 0.5, 0.5);  ///< of pictures
+};
+
 struct SegmentModel {
   float width = 1280, height = 720;
   float scale = 1;
   UiPhase phase = UiPhase::kReady;
-  LoadingModel loading;  ///< of the scan, or why it could not be opened
+  LoadingModel loading;                     ///< of the scan, or why it could not be opened
+  std::optional<ScanChooserModel> chooser;  ///< in place of everything else
+  bool returns = false;                     ///< the simulator's window comes after this one
 
   std::string title;  ///< the scan's file
   std::string shape;  ///< "60 x 60 x 80 voxels of 0.5 x 0.5 x 0.5 mm"
@@ -68,6 +78,7 @@ struct SegmentModel {
   std::string undo_what, redo_what;
   bool changed = false;
   std::string out;                  ///< the case's folder
+  bool saved = false;               ///< it holds a case, as it stands here
   std::optional<LoadingModel> job;  ///< suggesting or saving
   bool asks_to_close = false;       ///< with changes that are not saved
   bool help_open = false;

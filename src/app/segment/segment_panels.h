@@ -34,6 +34,7 @@ void draw_segment_notes(const SegmentContext& c);  // toasts, the job under way
 void draw_close_question(const SegmentContext& c);
 void draw_segment_help(const SegmentContext& c);
 void draw_segment_loading(const SegmentContext& c);
+void draw_scan_chooser(const SegmentContext& c);
 void read_segment_keys(const SegmentContext& c);
 
 }  // namespace osteon

@@ -46,6 +46,7 @@ void read_window_keys(const SegmentContext& c, bool ctrl, bool shift) {
   if (ImGui::IsKeyPressed(GLFW_KEY_Z, true)) (shift ? c.requests.redo : c.requests.undo) = true;
   if (ImGui::IsKeyPressed(GLFW_KEY_Y, true)) c.requests.redo = true;
   if (pressed(GLFW_KEY_S)) c.requests.save = true;
+  if (pressed(GLFW_KEY_O) && c.model.saved) c.requests.open_case = true;
   if (pressed(GLFW_KEY_Q)) c.requests.quit = true;
   if (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD)) c.requests.zoom_interface = 1.125;
   if (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))
@@ -67,6 +68,10 @@ SegmentRequests draw_segment_ui(const SegmentModel& model, const UiFonts& fonts)
       make_segment_layout(model.width, model.height, model.scale, model.panels_open);
   const SegmentContext c{model, fonts, layout, requests};
   read_segment_keys(c);
+  if (model.chooser) {
+    draw_scan_chooser(c);
+    return requests;
+  }
   if (model.phase != UiPhase::kReady) {
     draw_segment_loading(c);
     return requests;

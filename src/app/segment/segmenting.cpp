@@ -35,7 +35,7 @@ void Segmenting::resize_pane(std::size_t pane, int width, int height) {
   ++look_version_;
 }
 
-Result<void> Segmenting::apply(const SegmentRequests& requests) {
+Result<void> Segmenting::apply(const SegmentRequests& requests, const Progress& progress) {
   if (requests.tools && !(*requests.tools == tools_)) {
     tools_ = *requests.tools;
     ++look_version_;
@@ -51,8 +51,8 @@ Result<void> Segmenting::apply(const SegmentRequests& requests) {
       ++look_version_;
     }
   apply_history(requests);
-  Result<void> outcome = apply_bones(requests);
-  if (outcome && requests.pointer) outcome = point(*requests.pointer);
+  Result<void> outcome = apply_bones(requests, progress);
+  if (outcome && requests.pointer) outcome = point(*requests.pointer, progress);
   keep_choice();
   return outcome;
 }
@@ -69,7 +69,7 @@ void Segmenting::apply_history(const SegmentRequests& requests) {
     requests.undo ? edit_.undo() : edit_.redo();
 }
 
-Result<void> Segmenting::apply_bones(const SegmentRequests& requests) {
+Result<void> Segmenting::apply_bones(const SegmentRequests& requests, const Progress& progress) {
   if (requests.choose && edit_.has(*requests.choose)) {
     choose(*requests.choose);
     go_to(*requests.choose);
@@ -89,9 +89,9 @@ Result<void> Segmenting::apply_bones(const SegmentRequests& requests) {
     return edit_.rename(requests.rename->label, canonical_bone_name(requests.rename->name));
   if (requests.remove) return edit_.remove(*requests.remove);
   if (requests.merge) return edit_.merge(*requests.merge, chosen_);
-  if (requests.find_bodies) return find_bodies();
+  if (requests.find_bodies) return find_bodies(progress);
   if (requests.split_chosen) {
-    const auto made = split_label(edit_, chosen_);
+    const auto made = split_label(edit_, chosen_, progress);
     if (!made) return tl::unexpected(made.error());
   }
   if (requests.add) {
@@ -102,11 +102,11 @@ Result<void> Segmenting::apply_bones(const SegmentRequests& requests) {
   return {};
 }
 
-Result<void> Segmenting::find_bodies() {
+Result<void> Segmenting::find_bodies(const Progress& progress) {
   BodyOptions options;
   options.range = tools_.range;
   options.fill = tools_.fill;
-  const auto made = label_bodies(edit_, options);
+  const auto made = label_bodies(edit_, options, progress);
   if (!made) return tl::unexpected(made.error());
   choose(made->front());
   return {};

@@ -45,7 +45,7 @@ class Segmenting {
   /// Size of a pane in pixels; shows its whole slice the first time and keeps its scale after.
   void resize_pane(std::size_t pane, int width, int height);
   /// Changes what was asked for. What could not be done is said in the error; nothing of it is.
-  Result<void> apply(const SegmentRequests& requests);
+  Result<void> apply(const SegmentRequests& requests, const Progress& progress = {});
   /// The labels that the import finds, as one step that can be undone.
   Result<void> take_labels(const LabelVolume& labels,
                            const std::map<std::uint16_t, std::string>& names);
@@ -53,20 +53,20 @@ class Segmenting {
 
  private:
   static std::size_t axis(int a) { return static_cast<std::size_t>(a); }
-  Result<void> apply_bones(const SegmentRequests& requests);
+  Result<void> apply_bones(const SegmentRequests& requests, const Progress& progress);
   void apply_history(const SegmentRequests& requests);
   // segmenting_pointer.cpp
-  Result<void> point(const PaneInput& input);
+  Result<void> point(const PaneInput& input, const Progress& progress);
   void look_around(const PaneInput& input);
   void wheel(const PaneInput& input);
-  Result<void> press(const PaneInput& input, const Vec3& voxel);
+  Result<void> press(const PaneInput& input, const Vec3& voxel, const Progress& progress);
   void drag(const PaneInput& input, const Vec3& voxel);
-  Result<void> release(const Vec3& voxel);
+  Result<void> release(const Progress& progress);
   Result<void> begin_paint(const PaneInput& input, const Vec3& voxel, bool erase);
-  Result<void> grow_at(const Vec3& voxel, bool fresh);
+  Result<void> grow_at(const Vec3& voxel, bool fresh, const Progress& progress);
   Result<void> merge_at(const Vec3& voxel);
-  Result<void> end_split();
-  Result<void> find_bodies();
+  Result<void> end_split(const Progress& progress);
+  Result<void> find_bodies(const Progress& progress);
   LabelBrush brush(const PaneInput& input, bool erase) const;
   std::array<int, 3> voxel_of(const Vec3& voxel) const;
   std::uint16_t label_at(const Vec3& voxel) const;

@@ -14,18 +14,18 @@ constexpr double kWheelZoom = 0.85;
 
 }  // namespace
 
-Result<void> Segmenting::point(const PaneInput& input) {
+Result<void> Segmenting::point(const PaneInput& input, const Progress& progress) {
   if (input.pane >= 3) return {};
   if (input.wheel != 0) wheel(input);
   look_around(input);
   const Vec3 voxel = voxel_at(planes_[input.pane], edit_.labels().frame, windows_[input.pane],
                               input.x, input.y, slice(input.pane));
   if (input.pressed) {
-    if (auto pressed = press(input, voxel); !pressed) return pressed;
+    if (auto pressed = press(input, voxel, progress); !pressed) return pressed;
   } else if (input.held) {
     drag(input, voxel);
   }
-  return input.released ? release(voxel) : Result<void>();
+  return input.released ? release(progress) : Result<void>();
 }
 
 // Right drag: brightness and contrast; middle drag, or with Shift: sideways.
@@ -112,7 +112,8 @@ LabelBrush Segmenting::brush(const PaneInput& input, bool erase) const {
   return brush;
 }
 
-Result<void> Segmenting::press(const PaneInput& input, const Vec3& voxel) {
+Result<void> Segmenting::press(const PaneInput& input, const Vec3& voxel,
+                               const Progress& progress) {
   switch (tools_.tool) {
     case SegmentTool::kCross:
       put_cross(voxel);
@@ -123,7 +124,7 @@ Result<void> Segmenting::press(const PaneInput& input, const Vec3& voxel) {
     case SegmentTool::kErase:
       return begin_paint(input, voxel, true);
     case SegmentTool::kGrow:
-      return grow_at(voxel, tools_.fresh != input.shift);
+      return grow_at(voxel, tools_.fresh != input.shift, progress);
     case SegmentTool::kSplit:
       split_ = Stroke{input.pane, voxel, voxel};
       return {};
@@ -142,12 +143,12 @@ void Segmenting::drag(const PaneInput& input, const Vec3& voxel) {
   if (split_ && split_->pane == input.pane) split_->to_voxel = voxel;
 }
 
-Result<void> Segmenting::release(const Vec3&) {
+Result<void> Segmenting::release(const Progress& progress) {
   if (painted_to_) {
     painted_to_.reset();
     edit_.commit_step();
   }
-  return split_ ? end_split() : Result<void>();
+  return split_ ? end_split(progress) : Result<void>();
 }
 
 Result<void> Segmenting::begin_paint(const PaneInput& input, const Vec3& voxel, bool erase) {
@@ -170,7 +171,7 @@ Result<void> Segmenting::begin_paint(const PaneInput& input, const Vec3& voxel, 
   return {};
 }
 
-Result<void> Segmenting::grow_at(const Vec3& voxel, bool fresh) {
+Result<void> Segmenting::grow_at(const Vec3& voxel, bool fresh, const Progress& progress) {
   const std::uint16_t there = label_at(voxel);
   if (fresh && there != 0) {
     choose(there);
@@ -180,8 +181,9 @@ Result<void> Segmenting::grow_at(const Vec3& voxel, bool fresh) {
   options.range = tools_.range;
   options.reach_m = tools_.reach_m;
   options.fill = tools_.fill;
-  const auto grown = fresh || chosen_ == 0 ? grow_new_label(edit_, voxel_of(voxel), options)
-                                           : grow_label(edit_, chosen_, voxel_of(voxel), options);
+  const auto grown = fresh || chosen_ == 0
+                         ? grow_new_label(edit_, voxel_of(voxel), options, progress)
+                         : grow_label(edit_, chosen_, voxel_of(voxel), options, progress);
   if (!grown) return tl::unexpected(grown.error());
   if (const std::uint16_t label = label_at(voxel)) choose(label);
   return {};
@@ -197,16 +199,16 @@ Result<void> Segmenting::merge_at(const Vec3& voxel) {
   return edit_.merge(there, chosen_);
 }
 
-Result<void> Segmenting::end_split() {
+Result<void> Segmenting::end_split(const Progress& progress) {
   const Stroke stroke = *std::exchange(split_, std::nullopt);
   const auto from = voxel_of(stroke.from_voxel), to = voxel_of(stroke.to_voxel);
   const std::uint16_t label = label_at(stroke.from_voxel);
   if (from == to) {
     if (label == 0) return fail("there is no bone at this place", {}, "Click on a coloured one");
-    const auto made = split_label(edit_, label);
+    const auto made = split_label(edit_, label, progress);
     return made ? Result<void>() : tl::unexpected(made.error());
   }
-  const auto made = split_label_between(edit_, from, to);
+  const auto made = split_label_between(edit_, from, to, progress);
   if (!made) return tl::unexpected(made.error());
   choose(*made);
   return {};

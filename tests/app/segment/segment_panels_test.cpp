@@ -203,5 +203,43 @@ TEST_F(SegmentPanels, TabFoldsTheCardsAway) {
   EXPECT_TRUE(shown("Axial"));
 }
 
+TEST_F(SegmentPanels, AScanIsChosenBeforeAnythingElseIsShown) {
+  model.chooser.emplace();
+  ScanFolder& folder = model.chooser->folder;
+  folder.path = "/scans/hand";
+  folder.entries = {{"left", "/scans/hand/left", true}, {"a.nrrd", "/scans/hand/a.nrrd", false}};
+  EXPECT_FALSE(click("##chooser", "###open").open_scan) << "no slices here";
+  EXPECT_FALSE(shown("##bones"));
+  EXPECT_EQ(click("##chooser", "Up").browse, "/scans");
+  folder.dicom_files = 12;
+  EXPECT_EQ(click("##chooser", "###open").open_scan, "/scans/hand");
+  EXPECT_TRUE(click("##chooser", "Close").quit_without_saving);
+  model.returns = true;
+  EXPECT_TRUE(click("##chooser", "Back to the simulator").quit_without_saving);
+}
+
+TEST_F(SegmentPanels, ASavedCaseCanBeOpenedUntilItChanges) {
+  add_bones();
+  EXPECT_EQ(find("##bones", "Open in the simulator").x, -1);
+  EXPECT_FALSE(press(GLFW_KEY_O, true).open_case);
+  model.saved = true;
+  EXPECT_TRUE(click("##bones", "Open in the simulator").open_case);
+  EXPECT_TRUE(press(GLFW_KEY_O, true).open_case);
+}
+
+TEST_F(SegmentPanels, AfterAFailureAnotherScanCanBeChosen) {
+  model.phase = UiPhase::kFailed;
+  model.loading.failure = "no";
+  EXPECT_TRUE(click("##loading", "Choose another scan").choose_scan);
+}
+
+TEST_F(SegmentPanels, WorkUnderWayCanBeCancelled) {
+  add_bones();
+  model.job.emplace();
+  model.job->what = "Growing";
+  model.job->can_cancel = true;
+  EXPECT_TRUE(click("##job", "Cancel").cancel_job);
+}
+
 }  // namespace
 }  // namespace osteon

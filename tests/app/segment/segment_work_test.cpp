@@ -40,7 +40,7 @@ Volume scan_of_balls() {
                                {&small, {kSmall.centre_W, Quat::Identity()}}};
   ScanOptions options;
   options.flesh_m = 0.004;
-  return virtual_scan(bones, load_default_tissues().value(), options).value();
+  return virtual_scan({bones}, load_default_tissues().value(), options).value();
 }
 
 std::array<int, 3> voxel_of(const GridFrame& frame, const Vec3& p_W) {
