@@ -1,7 +1,9 @@
 #include "description.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "joint_reader.h"
 #include "part_reader.h"
 #include "soft_reader.h"
 #include "toml_reader.h"
@@ -91,12 +93,19 @@ Result<void> read_softs(TomlReader& root, const std::string& file, AnatomyDescri
   return {};
 }
 
-/// What a landmark lies on: a bone, which it then moves with, or a soft part.
+/// What a landmark moves with, and what it lies on: a bone, which it then moves with, or a soft
+/// part.
 void read_ground(TomlReader& in, const AnatomyDescription& anatomy, LandmarkDescription& landmark) {
+  if (in.has("bone")) {
+    const auto bone = find_bone(anatomy, in.text("bone"));
+    if (!bone) in.reject(bone.error().what, "bone");
+    landmark.bone = bone.value_or(0);
+  }
   if (!in.has("on")) return;
   const std::string on = in.text("on");
   if (const auto bone = find_bone(anatomy, on)) {
-    landmark.on_bone = *bone;
+    if (landmark.bone && *landmark.bone != *bone) in.reject("names a bone other than 'bone'", "on");
+    landmark.on_bone = landmark.bone = *bone;
     return;
   }
   for (std::size_t i = 0; i < anatomy.softs.size(); ++i)
@@ -120,6 +129,18 @@ Result<void> read_landmarks(TomlReader& root, const std::string& file,
   return {};
 }
 
+Result<void> read_joints(TomlReader& root, const std::string& file, AnatomyDescription& anatomy) {
+  for (const toml::table* table : root.tables("joint", false)) {
+    TomlReader in(*table, where_of(file, "joint", *table));
+    RollingJoint joint = read_joint(in, anatomy);
+    for (const RollingJoint& other : anatomy.joints)
+      if (other.name == joint.name) in.reject("is used by two joints", "name");
+    if (auto ok = in.finish(); !ok) return ok;
+    anatomy.joints.push_back(std::move(joint));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<AnatomyDescription> parse_description(std::string_view text, const std::string& file) {
@@ -134,6 +155,7 @@ Result<AnatomyDescription> parse_description(std::string_view text, const std::s
   if (auto ok = read_bones(root, file, anatomy); !ok) return tl::unexpected(ok.error());
   if (auto ok = read_softs(root, file, anatomy); !ok) return tl::unexpected(ok.error());
   if (auto ok = read_landmarks(root, file, anatomy); !ok) return tl::unexpected(ok.error());
+  if (auto ok = read_joints(root, file, anatomy); !ok) return tl::unexpected(ok.error());
   if (auto ok = root.finish(); !ok) return tl::unexpected(ok.error());
   return anatomy;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "joint_description.h"
 #include "osteon/base/result.h"
 #include "shape.h"
 #include "soft_description.h"
@@ -34,13 +35,14 @@ struct BoneDescription {
   double coarsest_cell_m = 1;  ///< that shows the defects, whatever cell is asked for
 };
 
-/// Bones that a finding moves rigidly once they and their cartilage have grown, about the pivot and
-/// then by the shift.
+/// Bones that a finding or a bent joint moves rigidly once they and their cartilage have grown,
+/// about the pivot and then by the shift.
 struct Displacement {
   std::vector<std::size_t> bones;
   Mat3 R_W = Mat3::Identity();
   Vec3 shift_W = Vec3::Zero();  ///< metres of the finished anatomy, whatever its size
   BoundPoint pivot;
+  bool by_joint = false;  ///< skin and landmarks follow; after all that findings move
 };
 
 /// A bone that a finding parts: what its defects leave becomes bones of their own, each named by
@@ -57,9 +59,11 @@ struct BoneSplit {
 struct LandmarkDescription {
   std::string name;
   Vec3 p_W = Vec3::Zero();
-  /// The bone or the soft part on whose surface the finished landmark is laid. One that lies on a
-  /// bone moves with it, and no step of a variation table names it.
+  /// The bone or the soft part on whose surface the finished landmark is laid.
   std::optional<std::size_t> on_bone = {}, on_soft = {};
+  /// The bone that it moves with, which one that lies on a bone always has. No step of a variation
+  /// table names it then.
+  std::optional<std::size_t> bone = {};
 };
 
 struct AnatomyDescription {
@@ -70,6 +74,7 @@ struct AnatomyDescription {
   std::vector<LandmarkDescription> landmarks;
   std::vector<Displacement> displacements = {};
   std::vector<BoneSplit> splits = {};
+  std::vector<RollingJoint> joints = {};
 };
 
 /// Reads a description (its grammar: docs/anatomy-description.md). Strict: a key that is missing,

@@ -6,6 +6,7 @@
 #include "grow.h"
 #include "osteon/base/file.h"
 #include "osteon/mesh/isosurface.h"
+#include "roll_glide.h"
 #include "soft_grow.h"
 
 namespace osteon {
@@ -133,10 +134,12 @@ Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& descripti
   const std::string file = description.string();
   const auto text = read_file(description, 1 << 22);
   if (!text) return tl::unexpected(text.error());
-  const auto anatomy = parse_description(*text, file);
+  auto anatomy = parse_description(*text, file);
   if (!anatomy) return tl::unexpected(anatomy.error());
   auto grown = grow_bones(*anatomy, options, file);
-  if (grown && options.soft_parts)
+  if (!grown) return grown;
+  if (auto ok = bend_joints(*anatomy, file, *grown); !ok) return tl::unexpected(ok.error());
+  if (options.soft_parts)
     if (auto ok = grow_soft_parts(*anatomy, options, file, *grown); !ok)
       return tl::unexpected(ok.error());
   return grown;

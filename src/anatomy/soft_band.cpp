@@ -99,13 +99,68 @@ void pull_over_bone(const BandDescription& band, const GroundView& ground,
   }
 }
 
+/// Shares of the way along the curve at which the stations stand.
+std::vector<double> shares_of(const std::vector<Station>& stations) {
+  std::vector<double> shares{0};
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i)
+    shares.push_back(shares.back() + (stations[i + 1].p - stations[i].p).norm());
+  const double length = shares.back();
+  for (double& share : shares) share /= length;
+  return shares;
+}
+
+/// Place at a share of the way along a string of equal links.
+Vec3 at_share(const std::vector<Vec3>& string, double share) {
+  const double place = share * static_cast<double>(string.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(place), string.size() - 2);
+  return string[i] + (place - static_cast<double>(i)) * (string[i + 1] - string[i]);
+}
+
+/// Links of about equal length along the stations.
+std::vector<Vec3> string_along(const std::vector<Station>& stations, std::size_t links) {
+  const std::vector<double> shares = shares_of(stations);
+  std::vector<Vec3> string;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k <= links; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(links);
+    while (i + 2 < stations.size() && shares[i + 1] < share) ++i;
+    const double t = std::clamp((share - shares[i]) / (shares[i + 1] - shares[i]), 0.0, 1.0);
+    string.push_back(stations[i].p + t * (stations[i + 1].p - stations[i].p));
+  }
+  return string;
+}
+
+/// Draws the band by `share` towards the shortest way between its ends that stays over the bones:
+/// each link's end goes to the middle of its neighbours, over-relaxed, and out of bone again.
+void tauten(const BandDescription& band, const GroundView& ground, double share,
+            std::vector<Station>& stations) {
+  constexpr std::size_t kLinks = 24;
+  constexpr int kTautRounds = 120;
+  constexpr double kOver = 1.5;
+  std::vector<Vec3> string = string_along(stations, kLinks);
+  const double half = 0.5 * stations[stations.size() / 2].thickness;
+  for (int round = 0; round < kTautRounds; ++round)
+    for (std::size_t i = 1; i < kLinks; ++i) {
+      const Vec3 middle = 0.5 * (string[i - 1] + string[i + 1]);
+      const Vec3 drawn = string[i] + kOver * (middle - string[i]);
+      const double room =
+          half * room_share(i, kLinks + 1, band.path.front().attached, band.path.back().attached);
+      string[i] = room > 0 ? pushed_out(drawn, room, ground) : drawn;
+    }
+  const std::vector<double> shares = shares_of(stations);
+  for (std::size_t i = 1; i + 1 < stations.size(); ++i)
+    stations[i].p += share * (at_share(string, shares[i]) - stations[i].p);
+}
+
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double length = v.norm();
   return length > 1e-12 ? Vec3(v / length) : otherwise;
 }
 
-std::vector<BandSection> sections_of(const std::vector<Station>& stations, const Vec3& flat_W) {
+std::vector<BandSection> sections_of(const std::vector<Station>& stations, const Vec3& first_W,
+                                     const Vec3& last_W) {
   std::vector<BandSection> sections;
+  const std::vector<double> shares = shares_of(stations);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const Vec3& a = stations[i > 0 ? i - 1 : i].p;
     const Vec3& b = stations[i + 1 < stations.size() ? i + 1 : i].p;
@@ -113,6 +168,7 @@ std::vector<BandSection> sections_of(const std::vector<Station>& stations, const
     s.center = stations[i].p;
     s.along = unit_or(b - a, sections.empty() ? Vec3::UnitX() : sections.back().along);
     const Vec3 before = sections.empty() ? Vec3(s.along.unitOrthogonal()) : sections.back().flat;
+    const Vec3 flat_W = first_W + shares[i] * (last_W - first_W);
     s.flat = unit_or(flat_W - flat_W.dot(s.along) * s.along, before);
     s.across = s.flat.cross(s.along);
     s.half_width = 0.5 * stations[i].width;
@@ -135,7 +191,7 @@ Station rooted(const Station& end, const SoftGround& bone) {
 
 }  // namespace
 
-LaidBand lay_band(const BandDescription& band, const GroundView& ground) {
+LaidBand lay_band(const BandDescription& band, const GroundView& ground, const BandBend& bend) {
   LaidBand laid;
   std::vector<Vec3> points;
   for (const BandPoint& point : band.path) {
@@ -145,6 +201,7 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground) {
     laid.attachments.push_back(points.back());
   }
   std::vector<Station> stations = stations_of(band, points);
+  if (bend.taut > 0) tauten(band, ground, bend.taut, stations);
   thin_ends(band, stations);
   pull_over_bone(band, ground, stations);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
@@ -154,7 +211,7 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground) {
   if (first.attached)
     stations.insert(stations.begin(), rooted(stations.front(), *ground[first.at.bone]));
   if (last.attached) stations.push_back(rooted(stations.back(), *ground[last.at.bone]));
-  laid.sections = sections_of(stations, band.flat_W);
+  laid.sections = sections_of(stations, bend.R_first * band.flat_W, bend.R_last * band.flat_W);
   return laid;
 }
 

@@ -20,10 +20,18 @@ struct LaidBand {
   double length = 0;              ///< from end to end along the middle, outside bone, metres
 };
 
+/// How the bones of a band stand that a joint has bent apart.
+struct BandBend {
+  double taut = 0;  ///< share by which the band is drawn along the shortest way, from 0 to 1
+  Mat3 R_first = Mat3::Identity(), R_last = Mat3::Identity();  ///< turns of the bones of its ends
+};
+
 /// Lays the ends on their bones' surfaces, leads a smooth curve through the points, and pulls it
 /// taut over the bones: where it would run through one it is pushed out until half the band's
 /// thickness lies over the bone. Attached ends go on into the bone by that much.
-LaidBand lay_band(const BandDescription& band, const GroundView& ground);
+/// Over a bent joint it is drawn taut between its ends first, and twists from one end's bone to the
+/// other's.
+LaidBand lay_band(const BandDescription& band, const GroundView& ground, const BandBend& bend = {});
 
 /// Signed distance to the band, about.
 double distance(const LaidBand& band, const Vec3& p);

@@ -18,6 +18,9 @@ struct BoundPoint {
 struct BoundPart {
   std::size_t bone = 0;
   Part part;
+  /// A band whose ends take it along where their bones are displaced, in place of `bone`; may be
+  /// empty.
+  std::string along = {};
 };
 
 /// Cartilage: a layer on a bone's surface. Covered is what lies within `reach` of a bone of

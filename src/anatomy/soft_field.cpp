@@ -71,12 +71,13 @@ struct FleshBone {
   Vec3 p_BW;
 };
 
-FleshBone place(const BoneDescription& bone) {
-  FleshBone placed{&bone.solid, {}, bone.R_WB.transpose(), {}};
-  placed.p_BW = -(placed.R_BW * bone.p_WB);
+FleshBone place(const BoneDescription& bone, const Pose& X_WB) {
+  const Mat3 R_WB = X_WB.q.toRotationMatrix();
+  FleshBone placed{&bone.solid, {}, R_WB.transpose(), {}};
+  placed.p_BW = -(placed.R_BW * X_WB.p);
   const Aabb box_B = bounds(bone.solid);
-  const Vec3 center_W = bone.R_WB * box_B.center() + bone.p_WB;
-  const Vec3 half = bone.R_WB.cwiseAbs() * (0.5 * box_B.extent());
+  const Vec3 center_W = R_WB * box_B.center() + X_WB.p;
+  const Vec3 half = R_WB.cwiseAbs() * (0.5 * box_B.extent());
   placed.box_W = {center_W - half, center_W + half};
   return placed;
 }
@@ -115,7 +116,8 @@ Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescripti
 }
 
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
-                          const std::vector<BoneDescription>& bones) {
+                          const std::vector<BoneDescription>& bones,
+                          const std::vector<Pose>& poses) {
   Solid flesh, cuts;
   for (const BoundPart& part : skin.parts)
     (part.part.operation == Operation::kAdd ? flesh : cuts).parts.push_back(part.part);
@@ -123,9 +125,9 @@ Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
   options.slack_m += 0.25 * skin.blend * static_cast<double>(bones.size());
   Aabb box = bounds(flesh);
   std::vector<FleshBone> placed;
-  for (const BoneDescription& bone : bones) {
-    placed.push_back(place(bone));
-    options.stretch = std::max(options.stretch, stretch(bone.solid));
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    placed.push_back(place(bones[i], poses[i]));
+    options.stretch = std::max(options.stretch, stretch(bones[i].solid));
     box.include(placed.back().box_W.lo - Vec3::Constant(skin.offset + 0.5 * skin.blend));
     box.include(placed.back().box_W.hi + Vec3::Constant(skin.offset + 0.5 * skin.blend));
   }

@@ -21,8 +21,9 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescripti
                           const std::vector<Obstacle>& obstacles);
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
                             const std::vector<Obstacle>& obstacles);
-/// The outline of flesh over the bones.
+/// The outline of flesh over the bones, which stand as `poses` says (X_WB).
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
-                          const std::vector<BoneDescription>& bones);
+                          const std::vector<BoneDescription>& bones,
+                          const std::vector<Pose>& poses);
 
 }  // namespace osteon

@@ -169,7 +169,7 @@ class SoftGrower {
 
   Result<TriMesh> mesh_of(const BandDescription& band, const SoftDescription& soft,
                           GeneratedSoft& out) const {
-    const LaidBand laid = lay_band(band, all_ground_);
+    const LaidBand laid = lay_band(band, all_ground_, bend_of_band(band));
     std::size_t next = 0;
     for (const BandPoint& point : band.path) {
       out.thickness_m = std::max(out.thickness_m, point.thickness);
@@ -182,6 +182,28 @@ class SoftGrower {
     return grow_band(laid, band.sink, soft, obstacles_);
   }
 
+  /// Bands between bones that a joint has bent apart are taut from kTaut_deg on.
+  BandBend bend_of_band(const BandDescription& band) const {
+    constexpr double kTaut_deg = 20;
+    BandBend bend;
+    const Pose first = bend_of(anatomy_, band.path.front().at.bone).value_or(Pose{});
+    const Pose last = bend_of(anatomy_, band.path.back().at.bone).value_or(Pose{});
+    if (first.q.coeffs() == last.q.coeffs()) return bend;
+    bend.R_first = first.q.toRotationMatrix();
+    bend.R_last = last.q.toRotationMatrix();
+    for (const RollingJoint& joint : anatomy_.joints) {
+      const double t = std::min(joint.at_deg / kTaut_deg, 1.0);
+      bend.taut = std::max(bend.taut, t * t * (3 - 2 * t));
+    }
+    return bend;
+  }
+
+  const BandDescription* band_named(const std::string& name) const {
+    for (const SoftDescription& soft : anatomy_.softs)
+      if (soft.name == name) return std::get_if<BandDescription>(&soft.shape);
+    return nullptr;
+  }
+
   Result<TriMesh> mesh_of(const VolumeDescription& volume, const SoftDescription& soft,
                           GeneratedSoft& out) const {
     std::vector<Obstacle> obstacles = obstacles_;
@@ -191,15 +213,27 @@ class SoftGrower {
         return fail("'clear_of' names no cartilage, ligament or tendon: '" + name + "'");
       obstacles.push_back({&found->second, bounds(found->second.mesh())});
     }
-    for (const BoundPart& part : volume.parts)
-      if (std::find(out.bones.begin(), out.bones.end(), bone_name(part.bone)) == out.bones.end())
-        out.bones.push_back(bone_name(part.bone));
+    const auto add = [&](std::size_t bone) {
+      if (std::find(out.bones.begin(), out.bones.end(), bone_name(bone)) == out.bones.end())
+        out.bones.push_back(bone_name(bone));
+    };
+    for (const BoundPart& part : volume.parts) {
+      add(part.bone);
+      if (part.along.empty()) continue;
+      const BandDescription* band = band_named(part.along);
+      if (!band) return fail("'along' names no ligament or tendon: '" + part.along + "'");
+      for (const BandPoint& point : band->path)
+        if (point.attached) add(point.at.bone);
+    }
     return grow_volume(volume, soft, obstacles);
   }
 
   Result<TriMesh> mesh_of(const SkinDescription& skin, const SoftDescription& soft,
                           GeneratedSoft&) const {
-    return grow_skin(skin, soft.cell, anatomy_.bones);
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < anatomy_.bones.size(); ++i)
+      poses.push_back(bend_of(anatomy_, i).value_or(Pose{}) * rest_pose(anatomy_.bones[i]));
+    return grow_skin(skin, soft.cell, anatomy_.bones, poses);
   }
 
   AnatomyDescription anatomy_;

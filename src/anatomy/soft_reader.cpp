@@ -32,6 +32,7 @@ Result<void> read_bound_parts(TomlReader& soft, const std::string& key, Operatio
     TomlReader in(*table, soft.where() + ", " + key + " " + std::to_string(++n));
     BoundPart part;
     part.bone = read_bone_or(in, find_bone, bone);
+    if (in.has("along")) part.along = in.text("along");
     part.part = read_part(in, operation, blend);
     if (auto ok = in.finish(); !ok) return ok;
     parts.push_back(std::move(part));

@@ -9,6 +9,7 @@
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "overlap.h"
+#include "roll_glide.h"
 #include "soft_grow.h"
 #include "split_bones.h"
 #include "vary.h"
@@ -97,6 +98,19 @@ Result<VariedBones> grow_varied(AnatomyDescription anatomy, const VariationTable
   return VariedBones{std::move(anatomy), std::move(*grown)};
 }
 
+/// Bends the joints as far as is set, unless two bones would meet.
+Result<void> bend_unless_bones_meet(AnatomyDescription& anatomy, const std::string& file,
+                                    GeneratedAnatomy& grown) {
+  if (auto ok = bend_joints(anatomy, file, grown); !ok) return ok;
+  const bool bent = std::any_of(grown.joints.begin(), grown.joints.end(),
+                                [](const GeneratedJoint& joint) { return joint.at_deg != 0; });
+  if (!bent) return {};
+  const Overlap worst = deepest_overlap(grown);
+  if (worst.depth <= kMostOverlap) return {};
+  return fail(worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
+              file, "Bend the joint less, or choose values nearer to the means");
+}
+
 Result<AnatomyDescription> load_description(const std::filesystem::path& file) {
   const auto text = read_file(file, 1 << 22);
   if (!text) return tl::unexpected(text.error());
@@ -156,6 +170,8 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
   }
   varied.anatomy = std::move(bones->grown);
   const std::string file = description.string();
+  if (auto ok = bend_unless_bones_meet(bones->description, file, varied.anatomy); !ok)
+    return tl::unexpected(ok.error());
   if (options.soft_parts)
     if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy); !ok)
       return tl::unexpected(ok.error());

@@ -73,6 +73,9 @@ Result<VariationRule> read_rule(const toml::table& table, const std::string& fil
     return tl::unexpected(ok.error());
   if (auto ok = read_entries(in, "scale", read_scale, rule.scales); !ok)
     return tl::unexpected(ok.error());
+  if (in.has("joint")) rule.joint = in.text("joint");
+  if (!rule.joint.empty() && rule.parameter.sd != 0)
+    in.reject("must be 0: how far a joint is bent is never drawn", "sd");
   if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
   return rule;
 }

@@ -41,6 +41,7 @@ struct VariationRule {
   std::vector<TurnStep> turns;
   std::vector<ShiftStep> shifts;
   std::vector<ScaleStep> scales;
+  std::string joint;  ///< the joint that the value bends, in degrees; empty: none
 };
 
 struct VariationTable {

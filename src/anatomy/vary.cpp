@@ -154,7 +154,7 @@ Result<void> find_parts(const AnatomyDescription& anatomy, const StepTargets& ta
   return {};
 }
 
-/// Landmarks that lie on a bone move with it instead, by `move_bound`.
+/// Landmarks that are bound to a bone move with it instead, by `move_bound`.
 template <class OnBone, class OnLandmark>
 Result<void> for_targets(AnatomyDescription& anatomy, const StepTargets& targets,
                          const OnBone& on_bone, const OnLandmark& on_landmark,
@@ -164,7 +164,7 @@ Result<void> for_targets(AnatomyDescription& anatomy, const StepTargets& targets
   if (targets.parts.empty()) move_bound(anatomy, targets.bones, bound);
   return for_each_named(anatomy.landmarks, targets.landmarks, "landmark",
                         [&](LandmarkDescription& landmark) {
-                          if (!landmark.on_bone) on_landmark(landmark);
+                          if (!landmark.bone) on_landmark(landmark);
                         });
 }
 
@@ -219,6 +219,17 @@ Result<void> apply(AnatomyDescription& anatomy, const ScaleStep& step, double un
        s});
 }
 
+Result<void> bend(AnatomyDescription& anatomy, const std::string& name, double degrees) {
+  for (RollingJoint& joint : anatomy.joints) {
+    if (joint.name != name) continue;
+    const double most = joint.step_deg * (static_cast<double>(joint.inward_deg.size()) - 1);
+    if (degrees < 0 || degrees > most) return fail("bends a joint beyond its tables");
+    joint.at_deg = degrees;
+    return {};
+  }
+  return fail("names no joint of the description: '" + name + "'");
+}
+
 Result<void> apply_rule(AnatomyDescription& anatomy, const VariationRule& rule, double units) {
   const auto all = [&](const auto& steps) -> Result<void> {
     for (const auto& step : steps)
@@ -242,9 +253,12 @@ Result<void> vary(AnatomyDescription& anatomy, const VariationTable& table,
     // Millimetres are those of the finished anatomy, which the overall size scales last.
     const bool length = p.name.ends_with("_mm");
     const double units = (length ? values[i] / size_factor : values[i]) - p.built_in;
+    const std::string where = table.file + ": parameter '" + p.name + "'";
+    if (const std::string& joint = table.rules[i].joint; !joint.empty())
+      if (auto ok = bend(anatomy, joint, values[i]); !ok) return fail(ok.error().what, where);
     if (units == 0) return {};
     if (auto ok = apply_rule(anatomy, table.rules[i], units); !ok)
-      return fail(ok.error().what, table.file + ": parameter '" + p.name + "'");
+      return fail(ok.error().what, where);
     return {};
   };
   for (std::size_t i = 0; i < table.rules.size(); ++i)
@@ -255,11 +269,14 @@ Result<void> vary(AnatomyDescription& anatomy, const VariationTable& table,
 
 void mirror(GeneratedAnatomy& anatomy) {
   const auto flip = [](Vec3& p) { p.y() = -p.y(); };
-  for (GeneratedBone& bone : anatomy.bones) {
-    flip(bone.X_WB.p);
+  const auto flip_pose = [&](Pose& X) {
+    flip(X.p);
     // The same turn seen in a mirror at y = 0: S R S with S = diag(1, -1, 1).
-    bone.X_WB.q.x() = -bone.X_WB.q.x();
-    bone.X_WB.q.z() = -bone.X_WB.q.z();
+    X.q.x() = -X.q.x();
+    X.q.z() = -X.q.z();
+  };
+  for (GeneratedBone& bone : anatomy.bones) {
+    flip_pose(bone.X_WB);
     for (Vec3& v : bone.mesh.vertices) flip(v);
     for (Triangle& t : bone.mesh.triangles) std::swap(t[1], t[2]);
   }
@@ -269,6 +286,9 @@ void mirror(GeneratedAnatomy& anatomy) {
     for (GeneratedAttachment& attachment : soft.attachments) flip(attachment.p_W);
   }
   for (GeneratedLandmark& landmark : anatomy.landmarks) flip(landmark.p_W);
+  for (GeneratedJoint& joint : anatomy.joints)
+    for (GeneratedJoint::Moved& moved : joint.bones)
+      for (Pose& X : moved.X_FB.poses) flip_pose(X);
   anatomy.side = anatomy.side == "left" ? "right" : "left";
 }
 

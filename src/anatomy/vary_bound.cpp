@@ -68,12 +68,17 @@ void move_bound(AnatomyDescription& anatomy, const std::vector<std::string>& bon
     }));
   const BoundMover mover(std::move(moved), move);
   for (LandmarkDescription& landmark : anatomy.landmarks)
-    if (landmark.on_bone && mover.moves(*landmark.on_bone))
-      landmark.p_W = move.point_W(landmark.p_W);
+    if (landmark.bone && mover.moves(*landmark.bone)) landmark.p_W = move.point_W(landmark.p_W);
   for (BoneDescription& bone : anatomy.bones) mover.parts(bone.defects);
   for (Displacement& d : anatomy.displacements) mover.point(d.pivot);
   for (BoneSplit& split : anatomy.splits)
     for (BoneSplit::Fragment& fragment : split.fragments) mover.point(fragment.near);
+  for (RollingJoint& joint : anatomy.joints) {
+    mover.point(joint.medial);
+    mover.point(joint.lateral);
+    if (mover.moves(joint.fixed))
+      for (double& back : joint.back) back *= move.scale;
+  }
   for (SoftDescription& soft : anatomy.softs) {
     std::visit(PlaceMover{mover}, soft.shape);
     mover.parts(soft.defects);

@@ -15,8 +15,8 @@ struct BoundMove {
   double scale = 1;  ///< of the lengths of soft parts and of blends
 };
 
-/// Moves the landmarks that lie on the named bones ("*": on any) and the points and parts of soft
-/// parts that are bound to them.
+/// Moves the landmarks that are bound to the named bones ("*": to any), and the points and parts of
+/// soft parts and joints that are.
 void move_bound(AnatomyDescription& anatomy, const std::vector<std::string>& bones,
                 const BoundMove& move);
 

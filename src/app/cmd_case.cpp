@@ -86,6 +86,16 @@ void print_softs(const Case& c) {
   print("\n" + table.text());
 }
 
+void print_joints(const Case& c) {
+  for (const CaseJoint& joint : c.joints) {
+    std::printf("joint %s: bent to %g degrees, of %g to %g; moves", joint.name.c_str(),
+                joint.at_deg, joint.min_deg(), joint.max_deg());
+    for (const CaseJoint::Moved& moved : joint.bones)
+      std::printf(" %s", c.bone(moved.bone).name.c_str());
+    std::printf(" against %s\n\n", c.bone(joint.fixed).name.c_str());
+  }
+}
+
 void print_findings(const Case& c) {
   for (const CaseFinding& finding : c.findings)
     print("finding " + finding.name + (finding.grade.empty() ? "" : "=" + finding.grade) + ": " +
@@ -111,6 +121,7 @@ int run_info(const std::string& spec) {
         plural(c.bones.size(), "bone") + ", " + plural(c.softs.size(), "soft part") + ", " +
         plural(c.landmarks.size(), "landmark") + "\n\n");
   print_findings(c);
+  print_joints(c);
   print(table.text());
   print_softs(c);
   double field_mb = 0;
@@ -169,6 +180,7 @@ void add_case(CLI::App& app, int& exit_code) {
       "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
   check->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   check->callback([spec, &exit_code] { exit_code = run_check(*spec); });
+  add_case_pose(*group, exit_code);
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli_support.h"
 #include "commands.h"
+#include "felt_choice.h"
 #include "open_case.h"
 #include "osteon/base/file.h"
 #include "osteon/render/renderer.h"
@@ -24,6 +26,7 @@ struct RenderOptions {
   bool hulls = false;
   bool joint = false;
   bool felt = false;
+  std::optional<double> flexion_deg;
   std::string out;
 };
 
@@ -48,7 +51,10 @@ Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, 
 Result<void> render(const RenderOptions& options) {
   const auto size = parse_picture_size(options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto opened = open_case(options.case_spec);
+  auto spec = Result<std::string>(options.case_spec);
+  if (options.flexion_deg) spec = bent_spec(*spec, "flexion", *options.flexion_deg);
+  if (!spec) return tl::unexpected(spec.error());
+  const auto opened = open_case(*spec);
   if (!opened) return tl::unexpected(opened.error());
   const Case& the_case = **opened;
   const auto view = make_view(options, the_case, static_cast<double>(size->width) / size->height);
@@ -96,6 +102,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
       "--felt", options->felt,
       "Colour the bones by how far what the probe feels is from their surface: orange "
       "where it stands 0.5 mm over it, blue where it lies 0.5 mm under it");
+  command->add_option("--flexion", options->flexion_deg, "Bends a grown knee by so many degrees");
   command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
   command
       ->add_option("--soft", options->softs,

@@ -1,14 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "cli_support.h"
 #include "commands.h"
-#include "loops/stop_signal.h"
-#include "window/window_app.h"
 #include "window_size.h"
+#include "windows_in_turn.h"
 
 namespace osteon {
 namespace {
@@ -19,23 +16,6 @@ std::string absolute_spec(const std::string& spec) {
   std::error_code ec;
   const std::filesystem::path path = std::filesystem::absolute(spec, ec);
   return ec ? spec : path.lexically_normal().string();
-}
-
-void print_stats(const WindowApp& app) {
-  const FrameStats& stats = app.frame_stats();
-  std::printf("%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms; processor %.2f ms%s\n",
-              stats.count(), stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99),
-              app.processor_ms_per_picture(), app.software_driver() ? " (no graphics card)" : "");
-}
-
-int run_window(const WindowOrder& order) {
-  const StopSignals signals;
-  auto app = WindowApp::create(order);
-  if (!app) return report_error(app.error());
-  const Result<void> ended = (*app)->run();
-  if (!ended) return report_error(ended.error());
-  if (order.frames > 0) print_stats(**app);
-  return stop_signal() ? 128 + stop_signal() : 0;
 }
 
 }  // namespace
@@ -84,7 +64,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;
     order->case_spec = absolute_spec(order->case_spec);
-    exit_code = run_window(*order);
+    exit_code = run_windows(*order);
   });
 }
 

@@ -10,6 +10,7 @@ class App;
 namespace osteon {
 
 void add_case_commands(CLI::App& app, int& exit_code);        // import mesh, case info, case check
+void add_case_pose(CLI::App& group, int& exit_code);          // called by the above
 void add_case_felt_command(CLI::App& app, int& exit_code);    // case felt; after add_case_commands
 void add_import_ct_command(CLI::App& app, int& exit_code);    // import ct; after add_case_commands
 void add_scan_command(CLI::App& app, int& exit_code);         // scan: a virtual CT of a case

@@ -1,11 +1,30 @@
 #include "felt_choice.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
 namespace osteon {
+namespace {
+
+std::optional<double> degrees_from(const std::string& text) {
+  double value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+std::string shortest(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value);
+  return std::string(text, end.ptr);
+}
+
+}  // namespace
 
 Result<FeltChoice> parse_felt_choice(const std::string& spec) {
   const std::size_t mark = spec.rfind('#');
@@ -16,10 +35,15 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t equals = part.find('=');
     const bool all = equals == std::string::npos;
-    const auto felt = felt_from_text(all ? part : part.substr(equals + 1));
+    const std::string value = all ? part : part.substr(equals + 1);
+    if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
+      out.bent[part.substr(0, equals)] = *degrees;
+      continue;
+    }
+    const auto felt = felt_from_text(value);
     if (!felt)
-      return fail("'" + part + "' does not say how a bone is felt", spec,
-                  "Write BONE=pieces, BONE=hull or BONE=field, with commas between");
+      return fail("'" + part + "' does not say how a bone is felt or a joint is bent", spec,
+                  "Write BONE=pieces, BONE=hull, BONE=field or JOINT=DEGREES, with commas between");
     out.of_bone[all ? std::string() : part.substr(0, equals)] = *felt;
   }
   return out;
@@ -32,7 +56,16 @@ std::string to_text(const FeltChoice& choice) {
     if (!bone.empty()) out.append(bone).append("=");
     out += to_text(felt);
   }
+  for (const auto& [joint, degrees] : choice.bent)
+    out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
   return choice.source + out;
+}
+
+Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees) {
+  auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  choice->bent[joint] = degrees;
+  return to_text(*choice);
 }
 
 std::string source_without_choice(const std::string& spec) {

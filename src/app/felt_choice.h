@@ -8,12 +8,13 @@
 
 namespace osteon {
 
-/// What of the bones is felt, chosen otherwise than the case says: part of how a user names a case,
-/// so that a recording knows it too. "wrist_folder#lunate=hull,capitate=field", or "#field" for
-/// all.
+/// What of the bones is felt, and how far joints are bent, chosen otherwise than the case says:
+/// part of how a user names a case, so that a recording knows it too.
+/// "wrist_folder#lunate=hull,capitate=field", or "#field" for all; "knee_folder#flexion=70".
 struct FeltChoice {
-  std::string source;                   ///< the case without the choice
-  std::map<std::string, Felt> of_bone;  ///< by name; "" stands for all others
+  std::string source;                       ///< the case without the choice
+  std::map<std::string, Felt> of_bone;      ///< by name; "" stands for all others
+  std::map<std::string, double> bent = {};  ///< degrees, by the joint's name
 };
 
 /// Splits at the last '#', unless a file of the whole name is there. Fails when what follows it is
@@ -21,9 +22,11 @@ struct FeltChoice {
 Result<FeltChoice> parse_felt_choice(const std::string& spec);
 /// The name of the case with the choice.
 std::string to_text(const FeltChoice& choice);
+/// The same case with a joint bent: "knee_folder" becomes "knee_folder#flexion=70".
+Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees);
 /// The case alone, whatever follows it.
 std::string source_without_choice(const std::string& spec);
-/// Puts the choice into the case; fails when it names a bone that is not there.
+/// Puts what is felt into the case; fails when it names a bone that is not there.
 Result<void> apply(const FeltChoice& choice, CaseDef& def);
 
 }  // namespace osteon

@@ -8,6 +8,7 @@
 #include "open_case.h"
 #include "osteon/base/file.h"
 #include "osteon/scene/case_io.h"
+#include "pose_case.h"
 #include "whole_folder.h"
 
 namespace osteon {
@@ -45,21 +46,6 @@ Result<void> save_with_note(const CaseDef& def, const std::string& note,
   return write_file_atomic(file, note + *text);
 }
 
-Result<VariedAnatomy> grow(const PatientOrder& order, const std::function<void(double)>& progress) {
-  const auto files = builtin_anatomy(order.anatomy);
-  if (!files) return tl::unexpected(files.error());
-  VariationRequest request;
-  request.findings_table = files->findings;
-  request.findings = order.findings;
-  request.seed = order.seed;
-  request.side = order.side;
-  request.set = order.set;
-  GenerateOptions options;
-  options.progress = progress;
-  options.run = run_on_all_cores;
-  return generate_varied(files->description, files->table, request, options);
-}
-
 }  // namespace
 
 Result<PatientChoices> patient_choices(const std::string& anatomy) {
@@ -81,13 +67,31 @@ std::string command_of(const PatientOrder& order) {
   return text;
 }
 
+Result<VariedAnatomy> grow_patient(const PatientOrder& order,
+                                   const std::function<void(double)>& progress, bool soft_parts) {
+  const auto files = builtin_anatomy(order.anatomy);
+  if (!files) return tl::unexpected(files.error());
+  VariationRequest request;
+  request.findings_table = files->findings;
+  request.findings = order.findings;
+  request.seed = order.seed;
+  request.side = order.side;
+  request.set = order.set;
+  GenerateOptions options;
+  options.progress = progress;
+  options.run = run_on_all_cores;
+  options.soft_parts = soft_parts;
+  return generate_varied(files->description, files->table, request, options);
+}
+
 Result<MadePatient> make_patient(const PatientOrder& order, const std::filesystem::path& out,
                                  const std::function<void(double)>& progress) {
   if (const auto free = refuse_existing(out); !free) return tl::unexpected(free.error());
-  auto varied = grow(order, progress);
+  auto varied = grow_patient(order, progress);
   if (!varied) return tl::unexpected(varied.error());
   const std::string note = provenance(order, *varied);
-  const CaseDef def = case_from(std::move(varied->anatomy));
+  CaseDef def = case_from(std::move(varied->anatomy));
+  def.recipe = recipe_of(order);
   const auto saved = write_whole_folder(
       out, [&](const std::filesystem::path& part) { return save_with_note(def, note, part); });
   if (!saved) return tl::unexpected(saved.error());

@@ -41,6 +41,11 @@ Result<PatientChoices> patient_choices(const std::string& anatomy);
 /// The command that makes the patient again, numbers to their last digit.
 std::string command_of(const PatientOrder& order);
 
+/// Grows the patient. `soft_parts` false: the bones alone.
+Result<VariedAnatomy> grow_patient(const PatientOrder& order,
+                                   const std::function<void(double)>& progress = {},
+                                   bool soft_parts = true);
+
 /// Grows the patient and saves it as the case folder `out`, which must not hold anything yet;
 /// case.toml begins with the command that makes it again and every value used. Nothing is left
 /// under that name unless all was written. `progress` is told the share of the bones grown; it may

@@ -13,6 +13,7 @@
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
 #include "piece_work.h"
+#include "pose_case.h"
 #include "xdg.h"
 
 namespace osteon {
@@ -56,7 +57,25 @@ Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(d
   options.soft_parts = parts == CaseParts::kAll;
   auto anatomy = generate_anatomy(files->description, options);
   if (!anatomy) return tl::unexpected(anatomy.error());
-  return case_from(std::move(*anatomy));
+  CaseDef def = case_from(std::move(*anatomy));
+  def.recipe = CaseRecipe{name, {}, {}, {}, {}};
+  return def;
+}
+
+/// The case as saved, or grown, with its joints bent as chosen.
+Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(double)>& progress,
+                          CaseParts parts) {
+  const std::string& source = choice.source;
+  const bool builtin = source.rfind(kBuiltin, 0) == 0;
+  // What is about to be bent need not have its soft parts yet.
+  const CaseParts first = choice.bent.empty() ? parts : CaseParts::kFelt;
+  auto def =
+      builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_case(source);
+  for (const auto& [joint, degrees] : choice.bent) {
+    if (!def) return def;
+    def = bend_case(std::move(*def), joint, degrees, parts == CaseParts::kAll, progress);
+  }
+  return def;
 }
 
 /// Soft parts look as their tissues do; one that the table lacks keeps its plain colour.
@@ -113,6 +132,12 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
   for (GeneratedFinding& finding : anatomy.findings)
     def.findings.push_back(
         {std::move(finding.name), std::move(finding.grade), std::move(finding.meaning)});
+  for (GeneratedJoint& grown : anatomy.joints) {
+    JointDef joint{std::move(grown.name), std::move(grown.fixed), grown.at_deg, {}};
+    for (GeneratedJoint::Moved& moved : grown.bones)
+      joint.bones.push_back({std::move(moved.bone), std::move(moved.X_FB)});
+    def.joints.push_back(std::move(joint));
+  }
   return def;
 }
 
@@ -120,10 +145,7 @@ Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(
                               CaseParts parts) {
   const auto choice = parse_felt_choice(spec);
   if (!choice) return tl::unexpected(choice.error());
-  const std::string& source = choice->source;
-  auto def = source.rfind(kBuiltin, 0) == 0
-                 ? grow_builtin(source.substr(kBuiltin.size()), progress, parts)
-                 : load_case(source);
+  auto def = open_bent(*choice, progress, parts);
   if (!def) return def;
   colour_softs(*def);
   if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());

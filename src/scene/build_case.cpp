@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "build_joints.h"
 #include "mesh_hash.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/bone_pieces.h"
@@ -179,6 +180,9 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
   auto softs = build_softs(std::move(def.softs), built.bones);
   if (!softs) return tl::unexpected(softs.error());
   built.softs = std::move(*softs);
+  auto joints = build_joints(std::move(def.joints), built.bones);
+  if (!joints) return tl::unexpected(joints.error());
+  built.joints = std::move(*joints);
   built.name = std::move(def.name);
   built.side = std::move(def.side);
   built.landmarks = std::move(def.landmarks);

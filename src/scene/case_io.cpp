@@ -110,6 +110,33 @@ std::string soft_text(const SoftDef& soft, const std::string& mesh_file) {
   return text;
 }
 
+std::string joint_text(const JointDef& joint) {
+  std::string text = "\n[[joints]]\nname = " + quoted(joint.name) +
+                     "\nfixed = " + quoted(joint.fixed) +
+                     "\nat_deg = " + format_number(joint.at_deg) + "\n";
+  for (const JointDef::Moved& moved : joint.bones) {
+    text += "[[joints.moved]]\nbone = " + quoted(moved.bone) +
+            "\nfirst_deg = " + format_number(moved.X_FB.first) +
+            "\nstep_deg = " + format_number(moved.X_FB.step) + "\nposes = [\n";
+    for (const Pose& X : moved.X_FB.poses)
+      text +=
+          "  " + bracketed({X.p.x(), X.p.y(), X.p.z(), X.q.w(), X.q.x(), X.q.y(), X.q.z()}) + ",\n";
+    text += "]\n";
+  }
+  return text;
+}
+
+std::string recipe_text(const CaseRecipe& recipe) {
+  std::string text = "\n[recipe]\nanatomy = " + quoted(recipe.anatomy) + "\n";
+  if (recipe.seed) text += "seed = " + quoted(std::to_string(*recipe.seed)) + "\n";
+  text += "side = " + quoted(recipe.side) + "\n";
+  for (const auto& [name, value] : recipe.set)
+    text += "[[recipe.set]]\nname = " + quoted(name) + "\nvalue = " + format_number(value) + "\n";
+  for (const auto& [name, grade] : recipe.findings)
+    text += "[[recipe.findings]]\nname = " + quoted(name) + "\ngrade = " + quoted(grade) + "\n";
+  return text;
+}
+
 /// Files of the meshes in the order of bones and soft parts.
 struct MeshFiles {
   std::vector<std::string> bones, softs;
@@ -131,6 +158,8 @@ std::string case_text(const CaseDef& def, const MeshFiles& files) {
   for (const CaseFinding& finding : def.findings)
     text += "\n[[findings]]\nname = " + quoted(finding.name) +
             "\ngrade = " + quoted(finding.grade) + "\nmeaning = " + quoted(finding.meaning) + "\n";
+  for (const JointDef& joint : def.joints) text += joint_text(joint);
+  if (def.recipe) text += recipe_text(*def.recipe);
   return text;
 }
 

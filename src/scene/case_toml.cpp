@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "case_toml_joints.h"
 #include "case_toml_reader.h"
 #include "numbers.h"
 #include "osteon/scene/case_io.h"
@@ -198,8 +199,8 @@ Result<CaseText> read_case(const toml::table& root, const std::string& where) {
   CaseTomlReader reader(root, where, "");
   CaseText out;
   reader.number("format", {kFormat, kFormat});
-  reader.allow_only(
-      {"format", "name", "side", "mesh_unit", "bones", "soft", "landmarks", "findings"});
+  reader.allow_only({"format", "name", "side", "mesh_unit", "bones", "soft", "landmarks",
+                     "findings", "joints", "recipe"});
   out.def.name = read_name(reader);
   out.def.side = read_side(reader);
   out.metres_per_unit = read_unit(reader);
@@ -211,6 +212,8 @@ Result<CaseText> read_case(const toml::table& root, const std::string& where) {
     read_landmark(*landmark, where, out, reader);
   for (const toml::table* finding : reader.tables_or_empty("findings"))
     read_finding(*finding, where, out, reader);
+  read_joints(reader, where, out);
+  read_recipe(reader, where, out);
   if (out.def.bones.empty() || out.def.bones.size() > kMaxBones)
     reader.set_error("a case has 1 to " + std::to_string(kMaxBones) + " bones", "bones");
   if (out.def.softs.size() > kMaxSofts)

@@ -105,6 +105,29 @@ std::vector<double> CaseTomlReader::numbers(std::string_view key, std::size_t si
   return values;
 }
 
+std::vector<std::vector<double>> CaseTomlReader::rows_or_empty(std::string_view key,
+                                                               std::size_t width,
+                                                               NumberRange range) {
+  std::vector<std::vector<double>> rows;
+  const toml::node* node = table_.get(key);
+  if (!node) return rows;
+  const toml::array* array = node->as_array();
+  const std::string wanted =
+      named(key) + " must hold " + std::to_string(width) + " numbers in square brackets each";
+  if (!array) set_error(wanted, key);
+  for (std::size_t i = 0; array && i < array->size(); ++i) {
+    const toml::array* row = array->get(i)->as_array();
+    if (!row || row->size() != width) {
+      set_error(wanted, key);
+      return rows;
+    }
+    std::vector<double> values;
+    for (const toml::node& entry : *row) values.push_back(as_number(entry, key, range));
+    rows.push_back(std::move(values));
+  }
+  return rows;
+}
+
 Vec3 CaseTomlReader::position(std::string_view key) {
   const std::vector<double> p = numbers(key, 3, {-100, 100});
   return {p[0], p[1], p[2]};

@@ -36,6 +36,9 @@ class CaseTomlReader {
   int integer_or(std::string_view key, NumberRange range, int fallback);
   /// Array of exactly `size` numbers.
   std::vector<double> numbers(std::string_view key, std::size_t size, NumberRange range);
+  /// Array of arrays of exactly `width` numbers; empty when absent.
+  std::vector<std::vector<double>> rows_or_empty(std::string_view key, std::size_t width,
+                                                 NumberRange range);
   Vec3 position(std::string_view key);
   /// Empty when absent.
   std::vector<std::string> texts_or_empty(std::string_view key);

@@ -13,4 +13,12 @@ BoneSnapshot rest_snapshot(const Case& the_case) {
   return snapshot;
 }
 
+BoneSnapshot bent_snapshot(const Case& the_case, const CaseJoint& joint, double degrees) {
+  BoneSnapshot snapshot = rest_snapshot(the_case);
+  const Pose X_WF = the_case.bone(joint.fixed).X_WB;
+  for (const CaseJoint::Moved& moved : joint.bones)
+    snapshot.bones[moved.bone.index].X_WB = X_WF * pose_at(moved.X_FB, degrees);
+  return snapshot;
+}
+
 }  // namespace osteon

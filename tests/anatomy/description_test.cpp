@@ -45,8 +45,43 @@ TEST(Description, UnknownKeysAreRefusedWhereTheyStand) {
                               "[5, 4, 3], radius_mm = 2 }"),
                  {"bone 'a'", "add 1", "'radius_mm'"});
   expect_refused(kHead + bone("a", kBall) +
-                     "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\nbone = \"a\"\n",
-                 {"landmark 'l'", "'bone'"});
+                     "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\nbones = \"a\"\n",
+                 {"landmark 'l'", "'bones'"});
+}
+
+std::string two_bones_and_layer() {
+  const std::string layer =
+      "tissue = \"articular_cartilage\"\nkind = \"cartilage\"\nbone = \"b\"\n"
+      "thickness_mm = 1\ntaper_mm = 1\nadd = [" +
+      kBall + "]\n";
+  return kHead + bone("a", kBall) + bone("b", kBall) + "[[soft]]\nname = \"plateau\"\n" + layer;
+}
+
+std::string joint(const std::string& lines) {
+  return two_bones_and_layer() +
+         "[[joint]]\nname = \"bend\"\nfixed = \"a\"\nmoves = [\"b\"]\nstep_deg = 10\n"
+         "medial_center_mm = [0, 5, 0]\nlateral_center_mm = [0, -5, 0]\n" +
+         lines;
+}
+
+TEST(Description, JointsMustNameWhatIsThereAndHaveOneRowAStep) {
+  const std::string plateaus = "medial_plateau = \"plateau\"\nlateral_plateau = \"plateau\"\n";
+  const std::string rows = "inward_deg = [0, 1, 2]\nmedial_back_mm = [0, 1, 2]\n";
+  const auto good = parse_description(joint(plateaus + rows), "knee.toml");
+  ASSERT_TRUE(good) << good.error().message();
+  EXPECT_EQ(good->joints.at(0).back.at(2), 0.002);
+  expect_refused(joint("medial_plateau = \"b\"\nlateral_plateau = \"plateau\"\n" + rows),
+                 {"joint 'bend'", "'medial_plateau'"});
+  expect_refused(joint(plateaus + "inward_deg = [0, 1]\nmedial_back_mm = [0, 1]\n"),
+                 {"'inward_deg'", "three numbers"});
+  expect_refused(joint(plateaus + "inward_deg = [1, 1, 2]\nmedial_back_mm = [0, 1, 2]\n"),
+                 {"'inward_deg'", "begin with 0"});
+  expect_refused(joint(plateaus + "inward_deg = [0, 1, 2]\nmedial_back_mm = [0, 1, 2, 3]\n"),
+                 {"'medial_back_mm'", "as many"});
+  expect_refused(joint(plateaus + rows + "glides = \"c\"\n"), {"'glides'", "'c'"});
+  expect_refused(
+      joint(plateaus + rows) + joint("").substr(two_bones_and_layer().size()) + plateaus + rows,
+      {"two joints"});
 }
 
 TEST(Description, MissingKeysAreNamed) {

@@ -40,5 +40,17 @@ TEST(FeltChoice, OneBoneAndAllOthers) {
   EXPECT_EQ(to_text(*choice), "a#b#field,lunate=hull");
 }
 
+TEST(FeltChoice, AJointIsBentBesideWhatIsFelt) {
+  const auto choice = parse_felt_choice("knee#hull,flexion=72.5");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->bent.at("flexion"), 72.5);
+  EXPECT_EQ(choice->of_bone.at(""), Felt::kHull);
+  EXPECT_EQ(to_text(*choice), "knee#hull,flexion=72.5");
+  EXPECT_EQ(bent_spec("knee", "flexion", 30).value(), "knee#flexion=30");
+  EXPECT_EQ(bent_spec("knee#hull,flexion=72.5", "flexion", 0).value(), "knee#hull,flexion=0");
+  EXPECT_FALSE(parse_felt_choice("knee#flexion=nan"));
+  EXPECT_FALSE(parse_felt_choice("knee#72"));
+}
+
 }  // namespace
 }  // namespace osteon

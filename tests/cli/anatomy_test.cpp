@@ -42,6 +42,36 @@ TEST_F(Anatomy, AKneeIsMadeAgainByItsSeedAndChecksSound) {
   EXPECT_EQ(check_case(*def), std::vector<std::string>{});
 }
 
+// Bent and stretched again it is the same knee, to the byte; its bones stay what they are.
+TEST_F(Anatomy, ASavedKneeIsBentAndStretchedAgain) {
+  ASSERT_EQ(run_osteon("anatomy make knee --set notch_width_mm=19 --side left --out " + file("a"))
+                .exit_code,
+            0);
+  const Ran bent = run_osteon("case pose " + file("a") + " --flexion 75 --out " + file("bent"));
+  ASSERT_EQ(bent.exit_code, 0) << bent.output;
+  for (const char* bone : {"femur.stl", "tibia.stl", "patella.stl"})
+    EXPECT_EQ(text_of(std::string("a/") + bone), text_of(std::string("bent/") + bone)) << bone;
+  const auto def = load_case(file("bent"));
+  ASSERT_TRUE(def) << def.error().message();
+  EXPECT_EQ(check_case(*def), std::vector<std::string>{});
+  ASSERT_EQ(def->joints.size(), 1u);
+  EXPECT_EQ(def->joints[0].at_deg, 75);
+  EXPECT_NEAR(def->bones[1].X_WB.q.angularDistance(Quat::Identity()), 1.33, 0.05);
+  const Ran back = run_osteon("case pose " + file("bent") + " --flexion 0 --out " + file("back"));
+  ASSERT_EQ(back.exit_code, 0) << back.output;
+  for (const char* part : {"acl.stl", "skin.stl", "medial_meniscus.stl", "tibia.stl"})
+    EXPECT_EQ(text_of(std::string("a/") + part), text_of(std::string("back/") + part)) << part;
+  EXPECT_NE(text_of("a/acl.stl"), text_of("bent/acl.stl"));
+}
+
+TEST_F(Anatomy, WhatCannotBeBentIsRefused) {
+  for (const std::string bad : {"builtin:wrist --flexion 20", "builtin:knee --flexion 190"}) {
+    const Ran ran = run_osteon("case pose " + bad + " --out " + file("never"));
+    EXPECT_EQ(ran.exit_code, 2) << ran.output;
+    EXPECT_FALSE(fs::exists(file("never")));
+  }
+}
+
 TEST_F(Anatomy, ListSaysFindingsAndTheirGrades) {
   const Ran ran = run_osteon("anatomy list knee");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;

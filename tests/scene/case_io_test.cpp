@@ -144,6 +144,15 @@ CaseDef sample_case() {
   def.softs.push_back(soft);
   def.landmarks = {{"lister's tubercle", 0.1 * random.direction()}};
   def.findings = {{"geissler", "3", "the \"probe\" passes"}, {"old", "", ""}};
+  JointDef joint{"a \"joint\"", "lunate", 12.5, {}};
+  joint.bones = {{"scaphoid (distal)", {0, 7.5, {}}}};
+  for (int k = 0; k < 5; ++k) {
+    const Vec3 p = 0.1 * random.direction();
+    joint.bones[0].X_FB.poses.push_back({p, random.rotation()});
+  }
+  def.joints = {joint};
+  def.recipe = CaseRecipe{
+      "knee", 18446744073709551615u, "left", {{"size_percent", 101.25}}, {{"acl_tear", "femoral"}}};
   return def;
 }
 
@@ -166,8 +175,35 @@ void expect_same_softs(const CaseDef& a, const CaseDef& b) {
   }
 }
 
+void expect_same_joints(const CaseDef& a, const CaseDef& b) {
+  ASSERT_EQ(a.joints.size(), b.joints.size());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    EXPECT_EQ(a.joints[i].name, b.joints[i].name);
+    EXPECT_EQ(a.joints[i].fixed, b.joints[i].fixed);
+    EXPECT_EQ(a.joints[i].at_deg, b.joints[i].at_deg);
+    ASSERT_EQ(a.joints[i].bones.size(), b.joints[i].bones.size());
+    for (std::size_t k = 0; k < a.joints[i].bones.size(); ++k) {
+      const PoseTrack &x = a.joints[i].bones[k].X_FB, &y = b.joints[i].bones[k].X_FB;
+      EXPECT_EQ(a.joints[i].bones[k].bone, b.joints[i].bones[k].bone);
+      EXPECT_EQ(x.step, y.step);
+      ASSERT_EQ(x.poses.size(), y.poses.size());
+      for (std::size_t r = 0; r < x.poses.size(); ++r) {
+        EXPECT_EQ(x.poses[r].p, y.poses[r].p);
+        EXPECT_EQ(x.poses[r].q.coeffs(), y.poses[r].q.coeffs());
+      }
+    }
+  }
+  ASSERT_TRUE(a.recipe && b.recipe);
+  EXPECT_EQ(a.recipe->anatomy, b.recipe->anatomy);
+  EXPECT_EQ(a.recipe->seed, b.recipe->seed);
+  EXPECT_EQ(a.recipe->side, b.recipe->side);
+  EXPECT_EQ(a.recipe->set, b.recipe->set);
+  EXPECT_EQ(a.recipe->findings, b.recipe->findings);
+}
+
 void expect_same(const CaseDef& a, const CaseDef& b) {
   expect_same_softs(a, b);
+  expect_same_joints(a, b);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.side, b.side);
   ASSERT_EQ(a.bones.size(), b.bones.size());
@@ -207,6 +243,7 @@ TEST(CaseIo, WhatWasLoadedIsSavedBitByBit) {
   const auto twice = load_case(dir / "b");
   ASSERT_TRUE(twice);
   expect_same(*once, *twice);
+  expect_same_joints(def, *once);
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     EXPECT_EQ(once->bones[i].mesh.vertices.size(), def.bones[i].mesh.vertices.size());
     EXPECT_EQ(once->bones[i].X_WB.p, def.bones[i].X_WB.p);

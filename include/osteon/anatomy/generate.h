@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "osteon/base/pose_track.h"
 #include "osteon/base/result.h"
 #include "osteon/base/types.h"
 #include "osteon/mesh/tri_mesh.h"
@@ -46,6 +47,18 @@ struct GeneratedLandmark {
   Vec3 p_W = Vec3::Zero();
 };
 
+/// How a joint moves bones against one that stays.
+struct GeneratedJoint {
+  struct Moved {
+    std::string bone;
+    PoseTrack X_FB;  ///< pose in the fixed bone, by degrees of bend
+  };
+  std::string name;   ///< "knee"
+  std::string fixed;  ///< the bone that stays
+  double at_deg = 0;  ///< how far it is bent
+  std::vector<Moved> bones;
+};
+
 /// What is wrong with an anatomy, in words.
 struct GeneratedFinding {
   std::string name;   ///< "geissler"
@@ -60,6 +73,7 @@ struct GeneratedAnatomy {
   std::vector<GeneratedSoft> softs;
   std::vector<GeneratedLandmark> landmarks;
   std::vector<GeneratedFinding> findings;
+  std::vector<GeneratedJoint> joints;
 };
 
 /// Runs task(0) to task(count - 1), in any order and on several threads if it likes, and returns

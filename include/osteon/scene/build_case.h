@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct CaseDef {
   std::vector<SoftDef> softs;
   std::vector<Landmark> landmarks;
   std::vector<CaseFinding> findings;
+  std::vector<JointDef> joints;
+  std::optional<CaseRecipe> recipe;  ///< none: the case was not grown
 };
 
 class FieldCache;

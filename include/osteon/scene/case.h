@@ -15,6 +15,7 @@
 #include "osteon/collide/distance_field.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/tri_mesh.h"
+#include "osteon/scene/joint.h"
 
 namespace osteon {
 
@@ -99,9 +100,11 @@ struct Case {
   std::vector<SoftPart> softs;
   std::vector<Landmark> landmarks;
   std::vector<CaseFinding> findings;
+  std::vector<CaseJoint> joints;
   std::uint64_t hash = 0;  ///< over everything that is felt
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
+  const CaseJoint* find_joint(std::string_view name) const;  ///< null: there is none
   /// Of the bones: the skin may reach farther.
   Aabb bounds_W() const;
 };

@@ -81,5 +81,7 @@ static_assert(std::is_trivially_destructible_v<RenderSnapshot>);
 
 /// All bones at rest.
 BoneSnapshot rest_snapshot(const Case& the_case);
+/// All bones at rest but those of the joint, which stand as it puts them when bent to `degrees`.
+BoneSnapshot bent_snapshot(const Case& the_case, const CaseJoint& joint, double degrees);
 
 }  // namespace osteon

@@ -63,6 +63,7 @@ class LiveRun {
 
   void set_feel(const Command& command);
   void set_force(bool on);
+  bool force_wanted() const { return force_on_; }
   void calibrate();
   /// A device that a hand moves, not one that plays or is drawn on the screen.
   bool by_real_device() const;

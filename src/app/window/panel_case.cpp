@@ -88,6 +88,7 @@ void draw_case_card(const PanelContext& c) {
   begin_panel("##case", kCardPanel);
   ViewState view = c.model.view;
   if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
+  draw_joint_section(c);
   draw_soft_section(c);
   if (ui::section(c.fonts, "View")) draw_view_section(c);
   ImGui::End();

@@ -86,10 +86,14 @@ void draw_parameter(const VariationParameter& p, PatientOrder& order, bool& chan
   const auto at = find_set(order, p.name);
   const bool set = at != order.set.end();
   double value = set ? at->second : p.built_in;
-  const std::string shown = set || !order.seed ? with_unit(value, measure.unit) : "drawn";
-  const std::string people = with_unit(p.mean, "") + " \xc2\xb1 " + with_unit(p.sd, measure.unit);
-  const std::string explanation = p.meaning + ". People: " + people + " (" + p.source + "); from " +
-                                  with_unit(p.min, "") + " to " + with_unit(p.max, measure.unit);
+  const bool differs = p.sd > 0;  // else it is a pose, which is never drawn
+  const std::string shown =
+      set || !order.seed || !differs ? with_unit(value, measure.unit) : "drawn";
+  const std::string people =
+      differs ? with_unit(p.mean, "") + " \xc2\xb1 " + with_unit(p.sd, measure.unit) : "a pose";
+  const std::string explanation =
+      p.meaning + ". " + (differs ? "People: " + people + " (" + p.source + "); f" : "F") + "rom " +
+      with_unit(p.min, "") + " to " + with_unit(p.max, measure.unit);
   ImGui::PushID(p.name.c_str());
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -108,7 +112,7 @@ void draw_parameter(const VariationParameter& p, PatientOrder& order, bool& chan
   }
   ImGui::TableNextColumn();
   ui::text(color::kTextQuiet, people.c_str());
-  ui::tooltip("Mean and standard deviation among people");
+  ui::tooltip(differs ? "Mean and standard deviation among people" : "Never drawn at random");
   ImGui::BeginDisabled(!set);
   if (ImGui::SmallButton("Reset")) {
     order.set.erase(at);

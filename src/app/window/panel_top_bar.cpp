@@ -48,6 +48,10 @@ void draw_open_menu(const PanelContext& c) {
   ImGui::SetNextWindowPos(below, ImGuiCond_Appearing, {1, 0});
   if (!ImGui::BeginPopup("recordings")) return;
   if (ImGui::MenuItem("New patient ...", "N")) c.requests.patient.toggle = true;
+  if (ImGui::MenuItem("Segment a scan ...")) c.requests.segment_scan = true;
+  ui::tooltip(
+      "Makes a case of a CT scan by hand, in a window of its own that takes the place of "
+      "this one");
   ImGui::Separator();
   ui::text(color::kTextQuiet, "Recordings");
   if (c.model.recordings.empty())

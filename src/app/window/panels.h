@@ -22,6 +22,7 @@ struct PanelContext {
 
 void draw_top_bar(const PanelContext& c);
 void draw_case_card(const PanelContext& c);
+void draw_joint_section(const PanelContext& c);
 void draw_soft_section(const PanelContext& c);
 void draw_view_section(const PanelContext& c);
 void draw_felt_legend(const PanelContext& c);  // where bones are coloured by what is felt

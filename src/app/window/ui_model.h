@@ -98,6 +98,12 @@ struct TimelineModel {
   std::span<const ContactSpan> spans;
 };
 
+/// A joint of the case, which the user may bend.
+struct JointModel {
+  std::string label;  ///< "Flexion"
+  double degrees = 0, min_deg = 0, max_deg = 0;
+};
+
 struct RecordingFile {
   std::string label;
   std::string path;
@@ -117,6 +123,9 @@ struct UiModel {
   std::vector<std::string> bone_labels;
   std::vector<Felt> bone_felt;  ///< as bone_labels
   std::vector<std::string> soft_labels;
+  std::vector<JointModel> joints;
+  bool can_bend =
+      false;  ///< now: neither a replay, a recording nor an edit needs the case as it is
   ViewState view;
   double felt_measured = 1;  ///< share of what is felt whose distance from what is seen is known
   BoneId hovered;            ///< under the pointer, in the picture

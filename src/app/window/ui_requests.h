@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ struct FeltWish {
   Felt felt = Felt::kPieces;
 };
 
+/// A joint that shall be bent.
+struct BendWish {
+  std::size_t joint = 0;
+  double degrees = 0;
+  bool done = false;  ///< the slider was let go
+};
+
 /// What the user asked for in one frame. The panels change nothing by themselves.
 struct UiRequests {
   std::optional<ViewState> view;
@@ -26,6 +34,7 @@ struct UiRequests {
   bool close_up = false;  ///< of the picked bone, else of the joint
   std::vector<Command> commands;
   std::optional<FeltWish> felt;  ///< opens the case again
+  std::optional<BendWish> bend;  ///< shown at once; once it is done, opens the case again
   std::optional<int> device;
   std::optional<std::string> open_file;
   std::optional<double> seek_s;
@@ -60,6 +69,7 @@ struct UiRequests {
   bool screenshot_window = false;
   bool screenshot_picture = false;
   bool dismiss_hint = false;
+  bool segment_scan = false;  ///< goes on in the segmentation window
   bool quit = false;
   std::optional<std::uint64_t> dismiss_toast;
 };

@@ -62,6 +62,11 @@ class WindowApp {
   /// scene.
   double processor_ms_per_picture() const;
   bool software_driver() const { return renderer_ && renderer_->software_driver(); }
+  /// The window was closed to segment a scan; the case that was open comes back after that.
+  bool wants_segmentation() const { return wants_segmentation_; }
+  const std::string& case_source() const {
+    return case_source_.empty() ? order_.case_spec : case_source_;
+  }
 
  private:
   explicit WindowApp(const WindowOrder& order);
@@ -86,6 +91,7 @@ class WindowApp {
   UiModel build_model() const;
   // window_requests.cpp
   void apply(const UiRequests& requests);
+  void go_to_segmentation();
   void apply_view(const UiRequests& requests);
   void apply_run(const UiRequests& requests);
   void learn_pedal(const PedalReadings& now);
@@ -120,6 +126,13 @@ class WindowApp {
   EditModel edit_model() const;
   std::vector<EditDot> edit_dots() const;
   Pose edited_pose() const;
+  // window_bend.cpp: a joint is bent
+  bool can_bend() const;
+  void apply_bend(const BendWish& wish);
+  void end_bend();
+  void show_bend();
+  void hide_while_bending(ViewState& view) const;
+  std::vector<JointModel> joint_models() const;
   // window_patient.cpp: a patient is made
   void choose_patient(PatientOrder order);
   void apply_patient(const PatientRequests& requests);
@@ -151,6 +164,7 @@ class WindowApp {
   std::string load_failure_;
   std::shared_ptr<const Case> case_;
   std::string case_source_;
+  bool wants_segmentation_ = false;
   ProbePath demo_;
   std::optional<Renderer> renderer_;
   std::optional<PreparedCase> prepared_;  ///< of the case, until what is felt was measured over it
@@ -185,6 +199,9 @@ class WindowApp {
   std::optional<Vec3> edit_hover_;    ///< under the pointer, in Bone
   Vec3 edit_moved_C_ = Vec3::Zero();  ///< by the mouse since the grab
   bool edit_left_was_down_ = false;
+
+  std::optional<BendWish> bend_;  ///< shown, until the case is open in that pose
+  bool bend_had_force_ = true;    ///< before it began
 
   bool patient_open_ = false;
   PatientOrder patient_order_;

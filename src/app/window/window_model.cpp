@@ -106,6 +106,8 @@ UiModel WindowApp::build_model() const {
     model.bone_felt.push_back(bone.felt);
   }
   for (const SoftPart& soft : case_->softs) model.soft_labels.push_back(label_of(soft.name));
+  model.joints = joint_models();
+  model.can_bend = can_bend();
   model.view = view_;
   if (felt_job_) model.felt_measured = felt_job_->fraction();
   model.hovered = hovered_;

@@ -21,8 +21,12 @@ void WindowApp::poll_loading() {
   if (!job_ || !job_->done()) return;
   Result<Loaded> loaded = job_->take();
   job_.reset();
-  if (!loaded) return fail_loading(loaded.error().message());
+  if (!loaded) {
+    end_bend();
+    return fail_loading(loaded.error().message());
+  }
   install(std::move(*loaded));
+  end_bend();
   if (std::exchange(order_.new_patient, false)) apply_patient({.toggle = true});
   if (!std::exchange(order_.checkup, false)) return;
   checkup_open_ = true;
@@ -143,6 +147,7 @@ void WindowApp::poll_felt() {
 ViewState WindowApp::picture_view() const {
   ViewState view = view_;
   view.show_felt = view.show_felt && felt_known_;
+  hide_while_bending(view);
   return view;
 }
 

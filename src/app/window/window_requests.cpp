@@ -23,16 +23,27 @@ void WindowApp::apply(const UiRequests& requests) {
   if (requests.retry_loading) open({"builtin:wrist", {}, nullptr});
   if (requests.list_recordings) list_recordings();
   if (requests.open_file) open({case_source_, *requests.open_file, case_});
+  if (requests.segment_scan) go_to_segmentation();
   apply_checkup(requests);
   apply_patient(requests.patient);
   if (!ready()) return;
   apply_view(requests);
   if (requests.felt) choose_felt(*requests.felt);
+  if (requests.bend) apply_bend(*requests.bend);
   apply_edit(requests.edit);
   apply_run(requests);
   apply_replay(requests);
   if (requests.screenshot_window) save_screenshot(true);
   if (requests.screenshot_picture) save_screenshot(false);
+}
+
+// A scan may need all memory, and a graphics context is current in one window: that one takes this
+// one's place.
+void WindowApp::go_to_segmentation() {
+  if (live_ && live_->recording())
+    return note(ToastKind::kWarning, "Stop the recording before segmenting a scan.");
+  wants_segmentation_ = true;
+  window_->close();
 }
 
 void WindowApp::apply_view(const UiRequests& requests) {
@@ -60,7 +71,7 @@ void WindowApp::apply_run(const UiRequests& requests) {
     help_open_ = false;
     if (live_->choice().info.peak_force_n > 0) live_->set_force(false);
   }
-  if (requests.force_on) live_->set_force(true);
+  if (requests.force_on && !bend_) live_->set_force(true);
   if (requests.toggle_probe) probe_toggled_ = !probe_toggled_;
   if (checkup_) return;  // it may have the device
   if (requests.toggle_record) toggle_recording();

@@ -108,6 +108,7 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
     replay_force_ = replay_->track.force_until(player_->position_s(),
                                                static_cast<std::size_t>(8 * kForceHistoryHz));
   }
+  show_bend();
   pick_under_pointer(input);
 }
 
