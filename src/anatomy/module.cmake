@@ -4,5 +4,6 @@ osteon_link_system(osteon_anatomy tomlplusplus::tomlplusplus)
 # The results are the same bits.
 set_source_files_properties("${CMAKE_SOURCE_DIR}/src/anatomy/shape.cpp"
   "${CMAKE_SOURCE_DIR}/src/anatomy/crack.cpp"
-  "${CMAKE_SOURCE_DIR}/src/anatomy/generate.cpp"
+  "${CMAKE_SOURCE_DIR}/src/anatomy/near_solid.cpp"
+  "${CMAKE_SOURCE_DIR}/src/anatomy/bone_field.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)

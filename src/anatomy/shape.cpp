@@ -136,15 +136,32 @@ double distance(const Ellipsoid& e, const Vec3& p) {
   return k0 * (k0 - 1) / k1;
 }
 
-double distance(const Tube& t, const Vec3& p) {
-  double nearest = std::sqrt(dot(p - t.points[0], p - t.points[0])) - t.radii[0];
-  for (std::size_t i = 0; i < t.reach.size(); ++i) {
+double distance(const Tube& t, const Vec3& p) { return distance(t, p, 0, t.reach.size()); }
+
+double distance(const Tube& t, const Vec3& p, std::size_t first, std::size_t last) {
+  double nearest =
+      first > 0 ? 1e300 : std::sqrt(dot(p - t.points[0], p - t.points[0])) - t.radii[0];
+  for (std::size_t i = first; i < last; ++i) {
     const double limit = nearest + t.reach[i];  // beyond it the cone cannot be nearer
     const Vec3 away = p - t.points[i];
     if (limit > 0 && dot(away, away) > limit * limit) continue;
     nearest =
         std::min(nearest, round_cone(p, t.points[i], t.points[i + 1], t.radii[i], t.radii[i + 1]));
   }
+  return nearest;
+}
+
+double narrow_cones(const Tube& t, const Vec3& p, double more, std::uint32_t& first,
+                    std::uint32_t& last) {
+  double nearest = distance(t, p, first, last);
+  const auto too_far = [&](std::uint32_t i) {
+    const Vec3 away = p - t.points[i];
+    const double limit = nearest + more + t.reach[i];
+    if (limit > 0 && dot(away, away) > limit * limit) return true;
+    return round_cone(p, t.points[i], t.points[i + 1], t.radii[i], t.radii[i + 1]) > nearest + more;
+  };
+  while (first + 1 < last && too_far(first)) ++first;
+  while (first + 1 < last && too_far(last - 1)) --last;
   return nearest;
 }
 

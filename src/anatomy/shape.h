@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -63,6 +64,12 @@ using Primitive = std::variant<Ellipsoid, Tube, RoundedBox, HalfSpace, Crack>;
 
 double distance(const Ellipsoid& e, const Vec3& p);
 double distance(const Tube& t, const Vec3& p);
+/// Of the cones from `first` until before `last`.
+double distance(const Tube& t, const Vec3& p, std::size_t first, std::size_t last);
+/// Narrows the range to one that holds all its cones that are farther from p than the nearest by at
+/// most `more`; returns the distance to that one.
+double narrow_cones(const Tube& t, const Vec3& p, double more, std::uint32_t& first,
+                    std::uint32_t& last);
 double distance(const RoundedBox& b, const Vec3& p);
 double distance(const HalfSpace& h, const Vec3& p);
 double distance(const Crack& c, const Vec3& p);

@@ -155,11 +155,35 @@ void cut_quads(const std::vector<std::array<std::uint32_t, 4>>& quads, TriMesh& 
   }
 }
 
+/// A field of which nothing is known but what its options promise.
+class PlainField : public LocalField {
+ public:
+  PlainField(const ScalarField& field, const IsosurfaceOptions& options)
+      : field_(field), stretch_(options.stretch), slack_(options.slack_m) {}
+  double at(const Vec3& p) const override { return field_(p); }
+  Near near(const Vec3& center, double radius) const override {
+    const double value = field_(center);
+    if (!std::isfinite(value) || std::abs(value) <= stretch_ * radius + slack_) return {};
+    return {value > 0 ? 1 : -1};
+  }
+
+ private:
+  const ScalarField& field_;
+  double stretch_, slack_;
+};
+
 }  // namespace
 
 Result<TriMesh> isosurface(const ScalarField& field, const Aabb& box,
                            const IsosurfaceOptions& options) {
-  auto grid = IsosurfaceGrid::sample(field, box, options);
+  if (!(options.stretch >= 1) || !(options.slack_m >= 0))
+    return fail("stretch must be 1 or more and slack 0 or more", "isosurface");
+  return isosurface(PlainField(field, options), box, options);
+}
+
+Result<TriMesh> isosurface(const LocalField& field, const Aabb& box,
+                           const IsosurfaceOptions& options) {
+  auto grid = IsosurfaceGrid::sample(field, box, options.cell_m);
   if (!grid) return tl::unexpected(grid.error());
   DualSurface surface(*grid);
   if (surface.mesh.vertices.empty())

@@ -6,12 +6,11 @@
 
 namespace osteon {
 
-/// Samples of a field on a cubic grid around a box. Nodes that cannot touch the surface carry the
-/// value at their block's centre: right in sign, not in size.
+/// Samples of a field on a cubic grid around a box. Nodes that cannot touch the surface carry 1 or
+/// -1: right in sign, not in size.
 class IsosurfaceGrid {
  public:
-  static Result<IsosurfaceGrid> sample(const ScalarField& field, const Aabb& box,
-                                       const IsosurfaceOptions& options);
+  static Result<IsosurfaceGrid> sample(const LocalField& field, const Aabb& box, double cell);
 
   int nx() const { return n_[0]; }
   int ny() const { return n_[1]; }
@@ -27,9 +26,9 @@ class IsosurfaceGrid {
   Vec3 point(int x, int y, int z) const { return origin_ + cell_ * Vec3(x, y, z); }
 
  private:
-  void fill(const ScalarField& field, const IsosurfaceOptions& options, const int lo[3],
-            const int hi[3]);
-  void sample_nodes(const ScalarField& field, const int lo[3], const int hi[3]);
+  void fill(const LocalField& field, const int lo[3], const int hi[3]);
+  void fill_with(double value, const int lo[3], const int hi[3]);
+  void sample_nodes(const LocalField& field, const int lo[3], const int hi[3]);
   bool all_finite() const;
   bool rim_is_outside() const;
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "mesh/surface_checks.h"
 #include "osteon/base/random.h"
@@ -147,6 +150,47 @@ TEST(Isosurface, SkippingBlocksChangesNothing) {
   ASSERT_TRUE(fast && slow);
   EXPECT_EQ(checks::hash_of(*fast), checks::hash_of(*slow));
   EXPECT_EQ(checks::euler_number(*fast), 4) << "two pieces";
+}
+
+/// Balls of which only those near a place are asked there.
+class Balls : public LocalField {
+ public:
+  explicit Balls(int& asked) : asked_(asked) {
+    for (int i = 0; i < 5; ++i) centers_.push_back(Vec3(0.011 * i - 0.022, 0.001 * i, 0));
+  }
+  double at(const Vec3& p) const override {
+    double d = 1e300;
+    for (const Vec3& c : centers_) d = std::min(d, sphere(p - c, kRadius));
+    asked_ += static_cast<int>(centers_.size());
+    return d;
+  }
+  Near near(const Vec3& center, double radius) const override {
+    const double nearest = at(center);
+    if (std::abs(nearest) > radius) return {nearest > 0 ? 1 : -1};
+    auto here = std::make_unique<Balls>(asked_);
+    std::erase_if(here->centers_, [&](const Vec3& c) {
+      const bool kept = std::count(centers_.begin(), centers_.end(), c) > 0;
+      return !kept || sphere(center - c, kRadius) > nearest + 2 * radius + 1e-9;
+    });
+    return {0, std::move(here)};
+  }
+
+ private:
+  static constexpr double kRadius = 0.004;
+  std::vector<Vec3> centers_;
+  int& asked_;
+};
+
+TEST(Isosurface, AFieldThatKnowsItselfHasTheSameSurfaceSooner) {
+  int near_asked = 0, plain_asked = 0;
+  const Balls balls(near_asked), asked_plainly(plain_asked);
+  IsosurfaceOptions options = cell(0.0006);
+  const auto near = isosurface(balls, cube(0.03), options);
+  const auto plain =
+      isosurface([&](const Vec3& p) { return asked_plainly.at(p); }, cube(0.03), options);
+  ASSERT_TRUE(near && plain);
+  EXPECT_EQ(checks::hash_of(*near), checks::hash_of(*plain));
+  EXPECT_LT(near_asked, plain_asked / 2);
 }
 
 TEST(Isosurface, TrianglesAreWellShaped) {

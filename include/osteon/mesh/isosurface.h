@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "osteon/base/result.h"
+#include "osteon/mesh/local_field.h"
 #include "osteon/mesh/tri_mesh.h"
 
 namespace osteon {
@@ -28,6 +29,11 @@ struct IsosurfaceOptions {
 /// surface. Fails when the cell or box is unusable, the field is not finite, nothing is inside, or
 /// the inside reaches the rim of the box. The same input gives the same bytes.
 Result<TriMesh> isosurface(const ScalarField& field, const Aabb& box,
+                           const IsosurfaceOptions& options = {});
+
+/// The same surface, bit by bit, of a field that knows itself; `stretch` and `slack_m` are not
+/// asked for.
+Result<TriMesh> isosurface(const LocalField& field, const Aabb& box,
                            const IsosurfaceOptions& options = {});
 
 }  // namespace osteon
