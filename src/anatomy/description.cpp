@@ -5,6 +5,7 @@
 
 #include "joint_reader.h"
 #include "part_reader.h"
+#include "shape_count.h"
 #include "soft_reader.h"
 #include "toml_reader.h"
 
@@ -35,6 +36,7 @@ Result<BoneDescription> read_bone(const toml::table& table, const std::string& f
     return tl::unexpected(ok.error());
   in.tables("clear", false);  // read once every bone is known
   if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
+  bone.shape_numbers = count_shape_numbers(table);
   return bone;
 }
 

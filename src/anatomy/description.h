@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "joint_description.h"
+#include "osteon/anatomy/shape_numbers.h"
 #include "osteon/base/result.h"
 #include "shape.h"
 #include "soft_description.h"
@@ -30,6 +31,7 @@ struct BoneDescription {
   Mat3 R_WB = Mat3::Identity();
   Solid solid;  ///< in Bone
   std::vector<Clearance> clearances;
+  std::vector<ShapeNumbers> shape_numbers = {};  ///< as written, before anything varies it
   /// Taken from it last, by findings; in World. Its neighbours clear it as if it were whole.
   std::vector<BoundPart> defects = {};
   double coarsest_cell_m = 1;  ///< that shows the defects, whatever cell is asked for

@@ -19,7 +19,8 @@ inline constexpr Range kAngle_deg{-360, 360};
 /// parts have; `blend` (metres) holds where the part says none. The caller finishes the reader.
 Part read_part(TomlReader& in, Operation operation, double blend);
 
-/// Reads the list of parts under `key` into a solid; it must be there where parts are added.
+/// Reads the list of parts under `key` into a bone's solid; it must be there where parts are added.
+/// Entries may be `like` others further up, and name a `section`.
 Result<void> read_parts(TomlReader& in, const std::string& key, Operation operation, double blend,
                         Solid& solid);
 

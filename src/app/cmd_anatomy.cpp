@@ -10,6 +10,8 @@
 #include "cli_support.h"
 #include "commands.h"
 #include "make_patient.h"
+#include "open_case.h"
+#include "osteon/anatomy/shape_numbers.h"
 #include "progress_line.h"
 #include "whole_folder.h"
 
@@ -92,15 +94,26 @@ void print_findings(const std::vector<AnatomyFinding>& findings) {
   }
 }
 
+void print_shape_numbers(const std::vector<ShapeNumbers>& counts) {
+  std::printf("\nnumbers that shape each bone, %zu at most\n", kMostShapeNumbers);
+  for (const ShapeNumbers& c : counts)
+    std::printf("%-12s %-9s %3zu\n", c.bone.c_str(), c.section.c_str(), c.numbers);
+}
+
 int run_list(const std::string& name) {
   const auto choices = patient_choices(name);
   if (!choices) return report_error(choices.error());
+  const auto files = builtin_anatomy(name);
+  if (!files) return report_error(files.error());
+  const auto counts = shape_numbers(files->description);
+  if (!counts) return report_error(counts.error());
   std::printf("%-26s %7s %6s %6s %6s %9s  %s\n", "parameter", "mean", "sd", "min", "max",
               "built in", "source");
   for (const VariationParameter& p : choices->parameters)
     std::printf("%-26s %7g %6g %6g %6g %9g  %s\n  %s\n", p.name.c_str(), p.mean, p.sd, p.min, p.max,
                 p.built_in, p.source.c_str(), p.meaning.c_str());
   print_findings(choices->findings);
+  print_shape_numbers(*counts);
   return kExitDone;
 }
 

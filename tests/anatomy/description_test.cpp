@@ -136,6 +136,70 @@ TEST(Description, TubesAreChecked) {
                  {"'radii_mm'", "zero"});
 }
 
+std::string read_twice(const std::string& second, const std::string& cut = "") {
+  return kHead + bone("a", "{ name = \"x\", " + kBall.substr(2) + ", " + second, cut);
+}
+
+TEST(Description, APartMayBeLikeOneFurtherUp) {
+  const auto r = parse_description(
+      kHead +
+          bone("a",
+               "{ name = \"x\", shape = \"box\", center_mm = [1, 2, 3], half_mm = [5, 4, 3], "
+               "round_mm = 1, rotation_deg = [10, 20, 30], blend_mm = 2 }, { name = \"y\", like "
+               "= \"x\", mirror = true, shift_mm = [1, 0.5, 0] }, { like = \"y\", blend_mm = 4 }"),
+      "f");
+  ASSERT_TRUE(r) << r.error().message();
+  const std::vector<Part>& parts = r->bones[0].solid.parts;
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[1].name, "y");
+  EXPECT_DOUBLE_EQ(parts[1].blend, 0.002);
+  EXPECT_DOUBLE_EQ(parts[2].blend, 0.004);
+  const auto& copied = std::get<RoundedBox>(parts[1].primitive);
+  EXPECT_NEAR(copied.R_local.determinant(), 1, 1e-12);
+  const Vec3 p(0.004, 0.007, -0.002), seen(0.003, -0.0065, -0.002);
+  EXPECT_NEAR(distance(parts[1].primitive, p), distance(parts[0].primitive, seen), 1e-15);
+  EXPECT_DOUBLE_EQ(distance(parts[2].primitive, p), distance(parts[1].primitive, p));
+}
+
+TEST(Description, PartsThatAreLikeOthersAreChecked) {
+  expect_refused(read_twice("{ like = \"y\" }"), {"add 2", "'like'", "'y'"});
+  expect_refused(read_twice("{ name = \"y\", like = \"y\" }"), {"add 2", "'like'", "'y'"});
+  expect_refused(read_twice("{ like = \"x\", radii_mm = [1, 2, 3] }"), {"add 2", "'radii_mm'"});
+  expect_refused(read_twice("{ like = \"x\", mirror = 1 }"), {"add 2", "'mirror'"});
+  expect_refused(read_twice(kBall, "cut = [{ like = \"x\" }]"), {"cut 1", "'like'"});
+}
+
+TEST(Description, ATiltIsATurnAboutYAlone) {
+  const auto r = parse_description(
+      kHead + bone("a", kBall.substr(0, kBall.size() - 2) + ", tilt_deg = 25 }, " +
+                            kBall.substr(0, kBall.size() - 2) + ", rotation_deg = [0, 25, 0] }"),
+      "f");
+  ASSERT_TRUE(r) << r.error().message();
+  const std::vector<Part>& parts = r->bones[0].solid.parts;
+  EXPECT_EQ(std::get<Ellipsoid>(parts[0].primitive).R_local,
+            std::get<Ellipsoid>(parts[1].primitive).R_local);
+  expect_refused(kHead + bone("a", kBall.substr(0, kBall.size() - 2) +
+                                       ", tilt_deg = 1, rotation_deg = [0, 1, 0] }"),
+                 {"add 1", "'tilt_deg'"});
+}
+
+TEST(Description, OneRadiusIsThatOfTheWholeTubeAndTwoAreThoseOfItsEnds) {
+  const auto radii = [](const std::string& given) {
+    const auto r = parse_description(
+        kHead + bone("a",
+                     "{ shape = \"tube\", points_mm = [[0, 0, 0], [10, 0, 0], [40, 0, 0]], "
+                     "radii_mm = " +
+                         given + " }"),
+        "f");
+    if (!r) throw std::runtime_error(r.error().message());
+    return std::get<Tube>(r->bones[0].solid.parts[0].primitive).radii;
+  };
+  for (const double r : radii("[3]")) EXPECT_DOUBLE_EQ(r, 0.003);
+  const std::vector<double> two = radii("[3, 7]"), three = radii("[3, 4, 7]");
+  ASSERT_EQ(two.size(), three.size());
+  for (std::size_t i = 0; i < two.size(); ++i) EXPECT_NEAR(two[i], three[i], 1e-15);
+}
+
 TEST(Description, NamesAreUniqueAndClearancesNameOtherBones) {
   expect_refused(kHead + bone("a", kBall) + bone("a", kBall), {"'name'", "'a'"});
   expect_refused(kHead + bone("a", kBall, "clear = [{ bone = \"b\", gap_mm = 1 }]"),

@@ -100,9 +100,11 @@ TEST(Variation, RadialInclinationIsMeasuredAsItWasSet) {
   }
 }
 
+/// On a fine surface: the lips are two of its vertices, and which ones they are moves the reading
+/// by up to 2 degrees where the cells are 0.8 mm.
 TEST(Variation, VolarTiltIsMeasuredAsItWasSet) {
   for (const double want : {5.0, 13.8, 22.0}) {
-    const auto f = checks::distal_radius_figures(with({{"volar_tilt_deg", want}}, 0.0008));
+    const auto f = checks::distal_radius_figures(with({{"volar_tilt_deg", want}}, 0.0005));
     std::printf("tilt %g: %.2f deg\n", want, f.volar_tilt_deg);
     EXPECT_NEAR(f.volar_tilt_deg, want, 1.8);
     EXPECT_NEAR(f.inclination_deg, 25.8, 1.0) << "stays as it was";

@@ -24,7 +24,8 @@ class Anatomy : public CliTest {
 TEST_F(Anatomy, ListSaysMeanDeviationRangeAndSource) {
   const Ran ran = run_osteon("anatomy list wrist");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
-  for (const char* word : {"radial_inclination_deg", "3.8", "32", "400 films", "mean", "sd"})
+  for (const char* word : {"radial_inclination_deg", "3.8", "32", "400 films", "mean", "sd",
+                           "numbers that shape each bone", "scaphoid                59"})
     EXPECT_NE(ran.output.find(word), std::string::npos) << word << " in\n" << ran.output;
 }
 
