@@ -81,12 +81,13 @@ void Polytope::set_plane(Facet& facet) const {
   facet.bound = usable ? error * inverse : kInfinity;
 }
 
-bool Polytope::sees_exactly(const Probe& probe, const Facet& facet) const {
+// Kept out of `sees`, which then is short enough to stand where it is asked.
+[[gnu::noinline]] bool Polytope::sees_exactly(const Probe& probe, const Facet& facet) const {
   return cloud_.exact_side(vertices_[facet.v[0]].source, vertices_[facet.v[1]].source,
                            vertices_[facet.v[2]].source, probe.point) > 0;
 }
 
-bool Polytope::sees(const Probe& probe, const Facet& facet) const {
+inline bool Polytope::sees(const Probe& probe, const Facet& facet) const {
   const double rise = facet.rise(probe.q);
   if (rise > 1 + facet.bound) return true;
   if (rise < 1 - facet.bound) return false;

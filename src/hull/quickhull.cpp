@@ -13,10 +13,10 @@ namespace osteon::hull {
 
 namespace {
 
-/// A smaller cloud gains nothing by growing towards its far points first.
-constexpr std::size_t kSmallCloud = 256;
+/// The points of a smaller cloud are added in less time than it takes to sort some of them out:
+/// in a ball the sorting pays from 3000 points on, in a thin shell from 16 000.
+constexpr std::size_t kSmallCloud = 5000;
 /// Enough points to find a good simplex among.
-
 constexpr std::size_t kSimplexSample = 512;
 
 /// Enough points to find far-out ones among.

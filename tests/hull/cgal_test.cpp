@@ -70,7 +70,7 @@ TEST(HullBesideCgal, SpheresOnAFineGrid) {
 TEST(HullBesideCgal, FarFromTheOriginAndSmall) {
   Random random(24);
   for (const double size : {1e-6, 1e-3, 1.0}) {
-    Points points = test::ball(random, 3000);
+    Points points = test::ball(random, 6000);
     for (Vec3& p : points) p = size * p + Vec3(1e3, -2e5, 3e4);
     expect_same(points);
   }
@@ -79,7 +79,7 @@ TEST(HullBesideCgal, FarFromTheOriginAndSmall) {
 TEST(HullBesideCgal, FlatAndLongBalls) {
   Random random(25);
   for (const double s : {1e-12, 1e-6, 1e6}) {
-    Points points = test::ball(random, 3000);
+    Points points = test::ball(random, 6000);
     for (Vec3& p : points) p.z() *= s;
     expect_same(points);
   }

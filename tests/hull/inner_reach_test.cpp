@@ -54,7 +54,7 @@ TEST(InnerReach, SmallCloudsStayWhole) {
 
 TEST(InnerReach, FlatCloudsHaveNoPolytope) {
   for (const Vec3& axes : {Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 0)}) {
-    const auto points = in_ball(3000, 2, axes, Vec3(1, 2, 3));
+    const auto points = in_ball(6000, 2, axes, Vec3(1, 2, 3));
     const Cloud cloud(points, finite_box(points));
     EXPECT_FALSE(quickhull(cloud).polytope) << axes.transpose();
   }
@@ -62,14 +62,14 @@ TEST(InnerReach, FlatCloudsHaveNoPolytope) {
 
 TEST(InnerReach, ACloudThinnerThanRoundingStaysWhole) {
   const Quat tilt = Quat(0.3, 0.5, -0.2, 0.7).normalized();
-  auto points = in_ball(3000, 2, Vec3(1, 1, 1e-14), Vec3::Zero());
+  auto points = in_ball(6000, 2, Vec3(1, 1, 1e-14), Vec3::Zero());
   for (Vec3& p : points) p = tilt * p;
   EXPECT_EQ(kept_of(points).size(), points.size());
 }
 
 TEST(InnerReach, ExtremeScalesNeverLoseACorner) {
   for (const double scale : {1e-300, 1e-12, 1e6, 1e200, std::numeric_limits<double>::max() / 4}) {
-    auto points = in_ball(3000, 3, Vec3::Ones(), Vec3::Zero());
+    auto points = in_ball(6000, 3, Vec3::Ones(), Vec3::Zero());
     const auto plain = build_hull(points);
     for (Vec3& p : points) p *= scale;
     const auto kept = kept_of(points);
