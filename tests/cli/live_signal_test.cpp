@@ -6,8 +6,11 @@ namespace {
 
 class LiveSignal : public LiveFixture {
  protected:
-  pid_t start(const std::string& extra = "") {
-    return start_shell(std::string("exec ") + OSTEON_EXECUTABLE + " live" + run_options() + extra);
+  Start start(const std::string& extra = "") {
+    return [=, this] {
+      return start_shell(std::string("exec ") + OSTEON_EXECUTABLE + " live" + run_options() +
+                         extra);
+    };
   }
 };
 

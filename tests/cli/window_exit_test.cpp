@@ -24,13 +24,20 @@ class WindowExit : public LiveFixture {
   }
 
   // A display of its own, and then the window in the shell's place: its process is the window's.
-  pid_t start_window(const std::string& extra = "") {
-    return start_shell(
-        "Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3> " + file("display") +
-        " 2> /dev/null & echo $! > " + file("xvfb.pid") + "; until [ -s " + file("display") +
-        " ]; do sleep 0.05; done; export XDG_CONFIG_HOME=" + dir_.string() + " XDG_DATA_HOME=" +
-        dir_.string() + " DISPLAY=:$(head -1 " + file("display") + "); exec " + OSTEON_EXECUTABLE +
-        " window --device virtual-usb-vector --size 640x480" + run_options() + extra);
+  Start start_window(const std::string& extra = "") {
+    return [=, this] {
+      stop_display();
+      return start_shell(window_command(extra));
+    };
+  }
+
+  std::string window_command(const std::string& extra) {
+    return "Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3> " + file("display") +
+           " 2> /dev/null & echo $! > " + file("xvfb.pid") + "; until [ -s " + file("display") +
+           " ]; do sleep 0.05; done; export XDG_CONFIG_HOME=" + dir_.string() +
+           " XDG_DATA_HOME=" + dir_.string() + " DISPLAY=:$(head -1 " + file("display") +
+           "); exec " + OSTEON_EXECUTABLE + " window --device virtual-usb-vector --size 640x480" +
+           run_options() + extra;
   }
 };
 
@@ -40,15 +47,13 @@ TEST_F(WindowExit, ATerminationInContactLeavesZeroForceAClosedDeviceAndAWholeRec
 
 TEST_F(WindowExit, AHangUpAndAnInterruptDoTheSame) {
   expect_orderly_end(start_window(), SIGHUP);
-  stop_display();
   expect_orderly_end(start_window(), SIGINT);
 }
 
 TEST_F(WindowExit, SoDoesTheKeyThatEndsIt) {
   if (std::system("command -v xdotool > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "xdotool is not installed (Debian: xdotool)";
-  const pid_t child = start_window();
-  expect_orderly_end(child, 0, [&] {
+  expect_orderly_end(start_window(), 0, [&](pid_t) {
     wait_for_contact();
     const std::string key = "DISPLAY=:$(head -1 " + file("display") + ") xdotool key ctrl+q";
     ASSERT_EQ(std::system(key.c_str()), 0);

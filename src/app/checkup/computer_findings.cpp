@@ -75,7 +75,7 @@ Finding limit_finding(bool priority) {
   f.level = FindingLevel::kNote;
   f.todo =
       "As root write into /etc/security/limits.d/osteon.conf, then log in again:\n"
-      "@plugdev - rtprio 50\n@plugdev - memlock unlimited";
+      "@plugdev - rtprio 50\n@plugdev - memlock unlimited\n@plugdev - nice -10";
   return f;
 }
 

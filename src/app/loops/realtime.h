@@ -14,6 +14,8 @@ struct RealtimeGrant {
 
 /// Asks for a real-time priority for the calling thread.
 bool request_priority();
+/// Asks that the calling thread, an ordinary one, gets its turn before other ordinary threads.
+bool request_early_turns();
 /// Asks that the program's memory stays in RAM.
 bool lock_memory();
 /// Words for what was refused.

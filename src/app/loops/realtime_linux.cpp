@@ -12,12 +12,18 @@ namespace osteon {
 namespace {
 // Above the kernel's threaded interrupts would starve the device's own driver (they run at 50).
 constexpr int kHapticPriority = 40;
+constexpr int kEarlyTurns = -10;
 }  // namespace
 
 bool request_priority() {
   sched_param param{};
   param.sched_priority = kHapticPriority;
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
+}
+
+bool request_early_turns() {
+  // Who is 0: on Linux the calling thread alone, not its process.
+  return setpriority(PRIO_PROCESS, 0, kEarlyTurns) == 0;
 }
 
 bool lock_memory() {

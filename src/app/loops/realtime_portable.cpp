@@ -7,6 +7,7 @@
 namespace osteon {
 
 bool request_priority() { return false; }
+bool request_early_turns() { return false; }
 bool lock_memory() { return false; }
 RealtimeLimits realtime_limits() { return {}; }
 

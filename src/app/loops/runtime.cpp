@@ -91,6 +91,9 @@ void Runtime::run_haptic() {
 }
 
 void Runtime::run_physics() {
+  // The watchdog ends the force when the bones are old: other programs must not make them so. No
+  // real-time priority: where physics is too slow, it would take the haptic loop's time as well.
+  (void)request_early_turns();
   LoopClock clock(physics_period_s_);
   while (running_.load(std::memory_order_relaxed)) {
     clock.wait();
