@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "nearby_surface.h"
 #include "osteon/base/types.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/mesh/measure.h"
@@ -17,8 +18,11 @@ struct Body {
 /// Least signed distance of the vertices of `from` to `to`; `limit` where none is nearer.
 double least(const Body& from, const Body& to, double limit) {
   const Aabb near = to.box.grown(std::max(limit, 0.0));
-  for (const Vec3& p : from.surface.mesh().vertices)
-    if (near.overlaps({p, p})) limit = std::min(limit, to.surface.closest(p).signed_distance);
+  NearbySurface surface(to.surface, to.box);
+  for (const Vec3& p : from.surface.mesh().vertices) {
+    if (!near.overlaps({p, p})) continue;
+    if (const auto at = surface.nearer_than(limit, p)) limit = std::min(limit, at->signed_distance);
+  }
   return limit;
 }
 

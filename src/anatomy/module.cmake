@@ -5,5 +5,7 @@ osteon_link_system(osteon_anatomy tomlplusplus::tomlplusplus)
 set_source_files_properties("${CMAKE_SOURCE_DIR}/src/anatomy/shape.cpp"
   "${CMAKE_SOURCE_DIR}/src/anatomy/crack.cpp"
   "${CMAKE_SOURCE_DIR}/src/anatomy/near_solid.cpp"
+  "${CMAKE_SOURCE_DIR}/src/anatomy/near_band.cpp"
   "${CMAKE_SOURCE_DIR}/src/anatomy/bone_field.cpp"
+  "${CMAKE_SOURCE_DIR}/src/anatomy/skin_field.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)

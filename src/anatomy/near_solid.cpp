@@ -57,11 +57,17 @@ bool surely_less(const Spread& a, const Spread& b, double k) {
 Spread negated(const Spread& s) { return {-s.most, -s.least}; }
 
 NearSolid::NearSolid(const Solid& solid) {
-  for (const Part& part : solid.parts) {
-    const auto* tube = std::get_if<Tube>(&part.primitive);
-    const auto cones = tube ? static_cast<std::uint32_t>(tube->reach.size()) : 0;
-    parts_.push_back({&part, !parts_.empty() && part.operation == Operation::kCut, 0, cones});
-  }
+  for (const Part& part : solid.parts) add(part);
+}
+
+NearSolid::NearSolid(const std::vector<const Part*>& parts) {
+  for (const Part* part : parts) add(*part);
+}
+
+void NearSolid::add(const Part& part) {
+  const auto* tube = std::get_if<Tube>(&part.primitive);
+  const auto cones = tube ? static_cast<std::uint32_t>(tube->reach.size()) : 0;
+  parts_.push_back({&part, !parts_.empty() && part.operation == Operation::kCut, 0, cones});
 }
 
 double NearSolid::value(const NearPart& near, const Vec3& p) {

@@ -40,6 +40,8 @@ class NearSolid {
  public:
   NearSolid() = default;
   explicit NearSolid(const Solid& solid);
+  /// Of parts in this order, the first of which is added.
+  explicit NearSolid(const std::vector<const Part*>& parts);
 
   /// distance(solid, p), bit by bit.
   double operator()(const Vec3& p) const;
@@ -53,6 +55,7 @@ class NearSolid {
     bool cuts;
     std::uint32_t first, last;  ///< cones, where it is a tube
   };
+  void add(const Part& part);
   static double value(const NearPart& near, const Vec3& p);
   static Spread narrow(NearPart& near, const Vicinity& where);
 

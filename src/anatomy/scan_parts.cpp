@@ -4,14 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "nearby_surface.h"
+
 namespace osteon {
-namespace {
-
-double distance_to_box(const Vec3& p, const Aabb& box) {
-  return (p - p.cwiseMax(box.lo).cwiseMin(box.hi)).norm();
-}
-
-}  // namespace
 
 const ScanLayer* ScanProfile::at(double distance_m) const {
   const ScanLayer* found = nullptr;

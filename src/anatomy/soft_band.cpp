@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nearby_surface.h"
+
 namespace osteon {
 namespace {
 
@@ -36,10 +38,6 @@ std::vector<Station> stations_of(const BandDescription& band, const std::vector<
     }
   }
   return stations;
-}
-
-double distance_to_box(const Vec3& p, const Aabb& box) {
-  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
 }
 
 /// Out of every bone until the bone is `room` away.
@@ -216,8 +214,12 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground, const B
 }
 
 double distance(const LaidBand& band, const Vec3& p) {
+  return distance(band, p, 0, band.sections.empty() ? 0 : band.sections.size() - 1);
+}
+
+double distance(const LaidBand& band, const Vec3& p, std::size_t first, std::size_t last) {
   double nearest = 1e300;
-  for (std::size_t i = 0; i + 1 < band.sections.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const BandSection& a = band.sections[i];
     const BandSection& b = band.sections[i + 1];
     const Vec3 step = b.center - a.center, from_a = p - a.center;

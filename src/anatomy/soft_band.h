@@ -35,6 +35,8 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground, const B
 
 /// Signed distance to the band, about.
 double distance(const LaidBand& band, const Vec3& p);
+/// To the spans from section `first` to section `last`.
+double distance(const LaidBand& band, const Vec3& p, std::size_t first, std::size_t last);
 Aabb bounds(const LaidBand& band);
 
 }  // namespace osteon

@@ -3,56 +3,90 @@
 #include <algorithm>
 
 #include "largest_piece.h"
+#include "near_band.h"
+#include "nearby_surface.h"
 #include "osteon/mesh/isosurface.h"
 #include "sampled_field.h"
+#include "skin_field.h"
 
 namespace osteon {
 namespace {
 
-double distance_to_box(const Vec3& p, const Aabb& box) {
-  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
-}
+/// The obstacles near a shape, as it is asked for point after point.
+class NearestObstacle {
+ public:
+  NearestObstacle(const std::vector<Obstacle>& all, const Aabb& box) {
+    for (const Obstacle& o : all)
+      if (o.box.overlaps(box)) near_.emplace_back(*o.surface, o.box);
+  }
+  /// Least distance to an obstacle, at most `limit`.
+  double operator()(const Vec3& p, double limit) {
+    for (NearbySurface& o : near_) {
+      if (distance_to_box(p, o.box()) >= limit) continue;
+      if (const auto at = o.nearer_than(limit, p)) limit = std::min(limit, at->signed_distance);
+    }
+    return limit;
+  }
 
-/// Least distance to an obstacle, at most `limit`.
-double nearest_obstacle(const std::vector<Obstacle>& obstacles, const Vec3& p, double limit) {
-  for (const Obstacle& o : obstacles)
-    if (distance_to_box(p, o.box) < limit)
-      limit = std::min(limit, o.surface->closest(p).signed_distance);
-  return limit;
-}
+ private:
+  std::vector<NearbySurface> near_;
+};
 
-std::vector<Obstacle> near_box(const std::vector<Obstacle>& obstacles, const Aabb& box) {
-  std::vector<Obstacle> near;
-  for (const Obstacle& o : obstacles)
-    if (o.box.overlaps(box)) near.push_back(o);
-  return near;
-}
+/// What a shape holds and defects and obstacles leave. Obstacles count where the shape itself is;
+/// `beyond` it its own distance is a bound that will do. Shape: NearSolid or NearBand.
+template <class Shape>
+class ClippedField : public LocalField {
+ public:
+  ClippedField(const Shape& shape, const std::vector<BoundPart>& defects, double beyond,
+               double sink, SampledField& nearest)
+      : shape_(shape), beyond_(beyond), sink_(sink), nearest_(nearest) {
+    for (const BoundPart& defect : defects) defects_.push_back(&defect.part);
+  }
+
+  double at(const Vec3& p) const override {
+    double d = shape_(p);
+    for (const Part* defect : defects_) d = less(d, *defect, p);
+    if (d > beyond_) return d;
+    return std::max(d, -nearest_(p) - sink_);
+  }
+
+  Near near(const Vec3& center, double radius) const override {
+    const Vicinity where{center, radius};
+    Spread values;
+    const Shape shape = shape_.within(where, values);
+    auto here =
+        std::make_unique<ClippedField>(shape, std::vector<BoundPart>{}, beyond_, sink_, nearest_);
+    for (const Part* defect : defects_) {
+      const Spread own = spread(defect->primitive, where);
+      if (surely_less(negated(values), own, defect->blend)) continue;
+      values = smooth_max(values, negated(own), defect->blend);
+      here->defects_.push_back(defect);
+    }
+    // Obstacles only raise it.
+    return {values.least > 0 ? 1 : 0, std::move(here)};
+  }
+
+ private:
+  Shape shape_;
+  std::vector<const Part*> defects_;
+  double beyond_, sink_;
+  SampledField& nearest_;
+};
 
 /// Surface of what `shape` holds and the defects and obstacles leave; no point of the shape is
 /// deeper in it than `depth`.
 template <class Shape>
 Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, double sink,
-                             const SoftDescription& soft, const std::vector<Obstacle>& all,
-                             IsosurfaceOptions options) {
+                             const SoftDescription& soft, const std::vector<Obstacle>& obstacles) {
+  IsosurfaceOptions options;
+  options.cell_m = soft.cell;
   options.uncrossed = true;
-  for (const BoundPart& defect : soft.defects) {
-    options.stretch = std::max(options.stretch, stretch(defect.part.primitive));
-    options.slack_m += 0.25 * defect.part.blend;
-  }
-  const std::vector<Obstacle> obstacles = near_box(all, box.grown(options.cell_m));
-  // Obstacles count where the shape itself is; elsewhere its own distance is a bound that will do.
-  const double beyond = 2 * options.cell_m;
-  const double farthest = depth + beyond;
-  SampledField nearest([&](const Vec3& p) { return nearest_obstacle(obstacles, p, farthest); },
-                       box.grown(3 * options.cell_m), options.cell_m);
-  const auto field = [&](const Vec3& p) {
-    double d = shape(p);
-    for (const BoundPart& defect : soft.defects) d = less(d, defect.part, p);
-    if (d > beyond) return d;
-    return std::max(d, -nearest(p) - sink);
-  };
-  options.slack_m += beyond + sink;
-  auto mesh = isosurface(field, box.grown(options.cell_m), options);
+  const double beyond = 2 * soft.cell;
+  NearestObstacle nearest(obstacles, box.grown(soft.cell));
+  SampledField sampled([&](const Vec3& p) { return nearest(p, depth + beyond); },
+                       box.grown(3 * soft.cell), soft.cell);
+  const ClippedField<Shape> field(shape, soft.defects, beyond, sink, sampled);
+  auto mesh = isosurface(field, box.grown(soft.cell), options);
   if (mesh) keep_largest_pieces(*mesh, soft.pieces);
   return mesh;
 }
@@ -63,47 +97,13 @@ Solid solid_of(const std::vector<BoundPart>& parts) {
   return solid;
 }
 
-/// A bone's parts, whose own distances are near enough for an outline and quick.
-struct FleshBone {
-  const Solid* solid;
-  Aabb box_W;
-  Mat3 R_BW;
-  Vec3 p_BW;
-};
-
-FleshBone place(const BoneDescription& bone, const Pose& X_WB) {
-  const Mat3 R_WB = X_WB.q.toRotationMatrix();
-  FleshBone placed{&bone.solid, {}, R_WB.transpose(), {}};
-  placed.p_BW = -(placed.R_BW * X_WB.p);
-  const Aabb box_B = bounds(bone.solid);
-  const Vec3 center_W = R_WB * box_B.center() + X_WB.p;
-  const Vec3 half = R_WB.cwiseAbs() * (0.5 * box_B.extent());
-  placed.box_W = {center_W - half, center_W + half};
-  return placed;
-}
-
-IsosurfaceOptions options_for(const Solid& solid, double cell_m) {
-  IsosurfaceOptions options;
-  options.cell_m = cell_m;
-  options.stretch = stretch(solid);
-  for (const Part& part : solid.parts) options.slack_m += 0.25 * part.blend;
-  return options;
-}
-
 }  // namespace
 
 Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescription& soft,
                           const std::vector<Obstacle>& obstacles) {
-  IsosurfaceOptions options;
-  options.cell_m = soft.cell;
-  // Distances beside a bent or widening band are not exact.
   double depth = 0;
-  for (const BandSection& s : band.sections) {
-    options.slack_m = std::max(options.slack_m, 0.5 * s.half_width);
-    depth = std::max(depth, s.half_thickness);
-  }
-  return grow_clipped([&](const Vec3& p) { return distance(band, p); }, bounds(band), depth, sink,
-                      soft, obstacles, options);
+  for (const BandSection& s : band.sections) depth = std::max(depth, s.half_thickness);
+  return grow_clipped(NearBand(band), bounds(band), depth, sink, soft, obstacles);
 }
 
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
@@ -111,37 +111,16 @@ Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescripti
   const Solid solid = solid_of(volume.parts);
   const Aabb box = bounds(solid);
   const double depth = 0.5 * box.extent().minCoeff();
-  return grow_clipped([&](const Vec3& p) { return distance(solid, p); }, box, depth, volume.sink,
-                      soft, obstacles, options_for(solid, soft.cell));
+  return grow_clipped(NearSolid(solid), box, depth, volume.sink, soft, obstacles);
 }
 
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
                           const std::vector<BoneDescription>& bones,
                           const std::vector<Pose>& poses) {
-  Solid flesh, cuts;
-  for (const BoundPart& part : skin.parts)
-    (part.part.operation == Operation::kAdd ? flesh : cuts).parts.push_back(part.part);
-  IsosurfaceOptions options = options_for(flesh, cell_m);
-  options.slack_m += 0.25 * skin.blend * static_cast<double>(bones.size());
-  Aabb box = bounds(flesh);
-  std::vector<FleshBone> placed;
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    placed.push_back(place(bones[i], poses[i]));
-    options.stretch = std::max(options.stretch, stretch(bones[i].solid));
-    box.include(placed.back().box_W.lo - Vec3::Constant(skin.offset + 0.5 * skin.blend));
-    box.include(placed.back().box_W.hi + Vec3::Constant(skin.offset + 0.5 * skin.blend));
-  }
-  const auto field = [&](const Vec3& p) {
-    double d = distance(flesh, p);
-    for (const FleshBone& bone : placed) {
-      if (distance_to_box(p, bone.box_W) - skin.offset > d + skin.blend) continue;
-      const Vec3 p_B = bone.R_BW * p + bone.p_BW;
-      d = smooth_min(d, distance(*bone.solid, p_B) - skin.offset, skin.blend);
-    }
-    for (const Part& cut : cuts.parts) d = smooth_max(d, -distance(cut.primitive, p), cut.blend);
-    return d;
-  };
-  auto mesh = isosurface(field, box.grown(cell_m), options);
+  const SkinField field(skin, bones, poses);
+  IsosurfaceOptions options;
+  options.cell_m = cell_m;
+  auto mesh = isosurface(field, field.bounds_W().grown(cell_m), options);
   if (mesh) keep_largest_pieces(*mesh, 1);
   return mesh;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nearby_surface.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/mesh/taubin.h"
 #include "soft_patch.h"
@@ -27,10 +28,6 @@ double rim_height(const LayerDescription& layer) {
   return std::min(kRimShare * layer.thickness, kMostRim_m);
 }
 
-double distance_to_box(const Vec3& p, const Aabb& box) {
-  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm();
-}
-
 /// How far the nearest of `bones` lies, at most `limit`, and whether the normal points at it.
 struct Facing {
   double distance = 0;
@@ -38,15 +35,15 @@ struct Facing {
 };
 
 Facing nearest(const Vec3& p, const Vec3& normal, const std::vector<std::size_t>& bones,
-               const GroundView& ground, double limit) {
+               std::vector<NearbySurface>& surfaces, double limit) {
   Facing best{limit, 1};
   for (const std::size_t i : bones) {
-    if (distance_to_box(p, ground[i]->box) >= best.distance) continue;
-    const ClosestPoint at = ground[i]->surface.closest(p);
-    if (at.signed_distance >= best.distance) continue;
-    const Vec3 way = at.point - p;
+    if (distance_to_box(p, surfaces[i].box()) >= best.distance) continue;
+    const auto at = surfaces[i].nearer_than(best.distance, p);
+    if (!at || at->signed_distance >= best.distance) continue;
+    const Vec3 way = at->point - p;
     const double length = way.norm();
-    best = {at.signed_distance, length > 1e-9 ? normal.dot(way) / length : 1.0};
+    best = {at->signed_distance, length > 1e-9 ? normal.dot(way) / length : 1.0};
   }
   return best;
 }
@@ -85,9 +82,10 @@ class LayerMaker {
       if (other != &layer)
         rivals_.insert(rivals_.end(), other->facing.begin(), other->facing.end());
     for (const BoundPart& part : layer.region) region_.parts.push_back(part.part);
+    for (const SoftGround* bone : ground) surfaces_.emplace_back(bone->surface, bone->box);
   }
 
-  TriMesh make() const {
+  TriMesh make() {
     const SoftGround& bone = *ground_[layer_.bone];
     CoveredPatch whole;
     whole.triangles = bone.surface.mesh().triangles;
@@ -105,7 +103,7 @@ class LayerMaker {
 
  private:
   /// Heights of what is covered, and of its neighbours beyond the rim.
-  void raise(CoveredPatch& whole) const {
+  void raise(CoveredPatch& whole) {
     std::vector<bool> wanted(whole.vertices.size(), false);
     for (const Triangle& t : whole.triangles) {
       const auto covered = [&](std::uint32_t v) { return whole.vertices[v].inside > 0; };
@@ -117,16 +115,16 @@ class LayerMaker {
   }
 
   /// Metres from the rim, negative outside.
-  double inside(const Vec3& p, const Vec3& normal) const {
+  double inside(const Vec3& p, const Vec3& normal) {
     double inside = 1;
     if (!region_.parts.empty()) inside = -distance(region_, p);
     if (inside <= 0 || layer_.facing.empty()) return inside;
     const double limit = layer_.reach + layer_.taper;
-    const Facing own = nearest(p, normal, layer_.facing, ground_, limit);
+    const Facing own = nearest(p, normal, layer_.facing, surfaces_, limit);
     inside = std::min(inside, layer_.reach - own.distance);
     inside = std::min(inside, (own.cosine - kLeastFacing) * kFacingReach_m);
     if (inside <= 0 || rivals_.empty()) return inside;
-    const Facing rival = nearest(p, normal, rivals_, ground_, limit);
+    const Facing rival = nearest(p, normal, rivals_, surfaces_, limit);
     return std::min(inside, 0.5 * (rival.distance - own.distance) * layer_.taper / kBorder_m);
   }
 
@@ -137,13 +135,13 @@ class LayerMaker {
     return outside;
   }
 
-  double height(const CoveredVertex& v) const {
+  double height(const CoveredVertex& v) {
     const double share = std::clamp(v.inside / layer_.taper, 0.0, 1.0);
     const double taper = share * share * (3 - 2 * share);
     const double rim = rim_height(layer_);
     const double wanted = rim + (layer_.thickness - rim) * taper;
     const double reach = 2 * layer_.thickness + layer_.clearance;
-    const double gap = nearest(v.p, v.normal, others_, ground_, reach).distance;
+    const double gap = nearest(v.p, v.normal, others_, surfaces_, reach).distance;
     const double room = 0.5 * (gap - layer_.clearance);
     return std::max(std::min(wanted, room), kLeast_m);
   }
@@ -153,6 +151,7 @@ class LayerMaker {
   const std::vector<BoundPart>& defects_;
   std::vector<std::size_t> others_, rivals_;
   Solid region_;
+  std::vector<NearbySurface> surfaces_;  ///< of the bones
 };
 
 /// Normals of a meshed surface waver from facet to facet; the layer over it should not.
