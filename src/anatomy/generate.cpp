@@ -72,9 +72,11 @@ Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& descripti
   if (!anatomy) return tl::unexpected(anatomy.error());
   auto grown = grow_bones(*anatomy, options, file);
   if (!grown) return grown;
-  if (auto ok = bend_joints(*anatomy, file, *grown); !ok) return tl::unexpected(ok.error());
+  PlacedBones placed;
+  if (options.soft_parts || !anatomy->joints.empty()) placed = PlacedBones(*grown, options);
+  if (auto ok = bend_joints(*anatomy, file, placed, *grown); !ok) return tl::unexpected(ok.error());
   if (options.soft_parts)
-    if (auto ok = grow_soft_parts(*anatomy, options, file, *grown); !ok)
+    if (auto ok = grow_soft_parts(*anatomy, options, file, *grown, std::move(placed)); !ok)
       return tl::unexpected(ok.error());
   return grown;
 }

@@ -2,18 +2,16 @@
 
 #include <vector>
 
-#include "osteon/anatomy/bone_gaps.h"
+#include "surface_gaps.h"
 
 namespace osteon {
 
-Overlap deepest_overlap(const GeneratedAnatomy& anatomy) {
-  std::vector<TriMesh> meshes_W;
-  for (const GeneratedBone& bone : anatomy.bones) {
-    meshes_W.push_back(bone.mesh);
-    for (Vec3& v : meshes_W.back().vertices) v = bone.X_WB * v;
-  }
+Overlap deepest_overlap(const GeneratedAnatomy& anatomy, const PlacedBones& placed,
+                        const GenerateOptions& options) {
+  std::vector<const MeshDistance*> surfaces_W;
+  for (std::size_t i = 0; i < placed.size(); ++i) surfaces_W.push_back(&placed.surface_W(i));
   Overlap deepest;
-  for (const BoneGap& gap : bone_gaps(meshes_W, 0))
+  for (const BoneGap& gap : surface_gaps(surfaces_W, 0, options))
     if (-gap.gap_m > deepest.depth)
       deepest = {anatomy.bones[gap.first].name, anatomy.bones[gap.second].name, -gap.gap_m};
   return deepest;

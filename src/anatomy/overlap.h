@@ -3,6 +3,7 @@
 #include <string>
 
 #include "osteon/anatomy/generate.h"
+#include "placed_bones.h"
 
 namespace osteon {
 
@@ -11,7 +12,8 @@ struct Overlap {
   double depth = 0;  ///< metres: the deepest vertex of one inside the other
 };
 
-/// The deepest overlap of two bones; depth 0 when none meet.
-Overlap deepest_overlap(const GeneratedAnatomy& anatomy);
+/// The deepest overlap of two bones, which stand as `placed`; depth 0 when none meet.
+Overlap deepest_overlap(const GeneratedAnatomy& anatomy, const PlacedBones& placed,
+                        const GenerateOptions& options);
 
 }  // namespace osteon

@@ -15,12 +15,6 @@ constexpr double kClose_m = 1e-6;  // that a gap or a tendon's length is met to
 constexpr int kMostRounds = 60;
 constexpr double kReach_m = 0.004;  // farther than the nearest by this, a point is not looked at
 
-TriMesh mesh_in_world(const GeneratedBone& bone) {
-  TriMesh mesh_W = bone.mesh;
-  for (Vec3& v : mesh_W.vertices) v = bone.X_WB * v;
-  return mesh_W;
-}
-
 /// Points of a moved bone that face a fixed surface.
 class Facet {
  public:
@@ -189,19 +183,21 @@ class Glider {
 };
 
 /// The tendon's ends as they are laid on their bones.
-std::pair<Vec3, Vec3> ends_of(const BandDescription& band, const std::vector<MeshDistance>& bones) {
-  const auto on = [&](const BandPoint& p) { return bones[p.at.bone].closest(p.at.p_W).point; };
+std::pair<Vec3, Vec3> ends_of(const BandDescription& band, const PlacedBones& bones) {
+  const auto on = [&](const BandPoint& p) {
+    return bones.surface_W(p.at.bone).closest(p.at.p_W).point;
+  };
   return {on(band.path.front()), on(band.path.back())};
 }
 
 Result<void> add_gliding(const AnatomyDescription& anatomy, const RollingJoint& joint,
-                         const std::vector<MeshDistance>& bones, JointMotion& motion) {
+                         const PlacedBones& bones, JointMotion& motion) {
   const GlidingBone& glides = *joint.glides;
-  const Facet facet(bones[glides.bone].mesh(), anatomy.softs[glides.cartilage]);
+  const Facet facet(bones.surface_W(glides.bone).mesh(), anatomy.softs[glides.cartilage]);
   if (facet.empty()) return fail("its gliding cartilage covers nothing of the bone");
   const auto& band = std::get<BandDescription>(anatomy.softs[glides.tendon].shape);
   const auto [from_W, to_W] = ends_of(band, bones);
-  const Glider glider(glides, bones[joint.fixed], facet, from_W, to_W);
+  const Glider glider(glides, bones.surface_W(joint.fixed), facet, from_W, to_W);
   PoseTrack track{0, joint.step_deg, {}};
   Pose X;
   for (std::size_t k = 0; k < joint.inward_deg.size(); ++k) {
@@ -240,14 +236,12 @@ void bend(const JointMotion& motion, const RollingJoint& joint, AnatomyDescripti
 }  // namespace
 
 Result<JointMotion> roll_and_glide(const AnatomyDescription& anatomy, const RollingJoint& joint,
-                                   const GeneratedAnatomy& at_rest) {
-  std::vector<MeshDistance> bones;
-  for (const GeneratedBone& bone : at_rest.bones) bones.emplace_back(mesh_in_world(bone));
-  const TriMesh& moved = bones[joint.moves[0]].mesh();
+                                   const PlacedBones& at_rest) {
+  const TriMesh& moved = at_rest.surface_W(joint.moves[0]).mesh();
   const Facet medial(moved, anatomy.softs[joint.medial_plateau]);
   const Facet lateral(moved, anatomy.softs[joint.lateral_plateau]);
   if (medial.empty() || lateral.empty()) return fail("a plateau's cartilage covers nothing of it");
-  const Seater seater(joint, bones[joint.fixed], medial, lateral);
+  const Seater seater(joint, at_rest.surface_W(joint.fixed), medial, lateral);
   PoseTrack track{0, joint.step_deg, {}};
   Seat seat;
   for (std::size_t k = 0; k < joint.inward_deg.size(); ++k) {
@@ -258,15 +252,15 @@ Result<JointMotion> roll_and_glide(const AnatomyDescription& anatomy, const Roll
   JointMotion motion;
   for (const std::size_t bone : joint.moves) motion.emplace_back(bone, track);
   if (joint.glides)
-    if (auto ok = add_gliding(anatomy, joint, bones, motion); !ok)
+    if (auto ok = add_gliding(anatomy, joint, at_rest, motion); !ok)
       return tl::unexpected(ok.error());
   return motion;
 }
 
 Result<void> bend_joints(AnatomyDescription& anatomy, const std::string& file,
-                         GeneratedAnatomy& grown) {
+                         const PlacedBones& placed, GeneratedAnatomy& grown) {
   for (const RollingJoint& joint : anatomy.joints) {
-    const auto motion = roll_and_glide(anatomy, joint, grown);
+    const auto motion = roll_and_glide(anatomy, joint, placed);
     if (!motion)
       return fail(motion.error().what, file + ": joint '" + joint.name + "'",
                   "Choose values nearer to the means");

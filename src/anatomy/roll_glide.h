@@ -7,6 +7,7 @@
 #include "description.h"
 #include "osteon/anatomy/generate.h"
 #include "osteon/base/pose_track.h"
+#include "placed_bones.h"
 
 namespace osteon {
 
@@ -20,12 +21,13 @@ using JointMotion = std::vector<std::pair<std::size_t, PoseTrack>>;
 /// gliding bone goes as near to the fixed one as at rest, its tendon's straight length kept. Fails
 /// where no such pose is found.
 Result<JointMotion> roll_and_glide(const AnatomyDescription& anatomy, const RollingJoint& joint,
-                                   const GeneratedAnatomy& at_rest);
+                                   const PlacedBones& at_rest);
 
 /// Works out the motion of every joint over finished bones at rest, keeps it in `grown`, and bends
 /// the joints as far as the description says: the bones and bound landmarks of `grown`, and by
-/// displacements in the description, all that grows on them later. `file` is for messages.
+/// displacements in the description, all that grows on them later. `file` is for messages;
+/// `placed` is not asked for where there are no joints.
 Result<void> bend_joints(AnatomyDescription& anatomy, const std::string& file,
-                         GeneratedAnatomy& grown);
+                         const PlacedBones& placed, GeneratedAnatomy& grown);
 
 }  // namespace osteon

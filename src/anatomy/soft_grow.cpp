@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <utility>
 
 #include "displace.h"
 #include "grow.h"
@@ -17,18 +17,23 @@ namespace {
 class SoftGrower {
  public:
   SoftGrower(const AnatomyDescription& anatomy, const GenerateOptions& options,
-             const std::string& file, GeneratedAnatomy& grown)
-      : anatomy_(anatomy), options_(options), file_(file), grown_(grown) {}
+             const std::string& file, GeneratedAnatomy& grown, PlacedBones placed)
+      : anatomy_(anatomy),
+        options_(options),
+        file_(file),
+        grown_(grown),
+        placed_(std::move(placed)),
+        surfaces_(anatomy.softs.size()) {}
 
   Result<void> run() {
     if (auto ok = grow_whole_bones(); !ok) return ok;
     make_grounds();
     grown_.softs.resize(anatomy_.softs.size());
-    for (const int order : {0, 1, 2}) {
+    if (auto ok = grow_in_order(0); !ok) return ok;
+    displace();
+    make_obstacles();
+    for (const int order : {1, 2})
       if (auto ok = grow_in_order(order); !ok) return ok;
-      if (order == 0) displace();
-      make_obstacles(order);
-    }
     return {};
   }
 
@@ -38,16 +43,16 @@ class SoftGrower {
       const LandmarkDescription& landmark = anatomy_.landmarks[i];
       Vec3& p_W = grown_.landmarks[i].p_W;
       if (landmark.on_bone) p_W = grounds_[*landmark.on_bone]->surface.closest(p_W).point;
-      if (landmark.on_soft)
-        p_W = MeshDistance(grown_.softs[*landmark.on_soft].mesh_W).closest(p_W).point;
+      if (landmark.on_soft) p_W = surfaces_[*landmark.on_soft]->closest(p_W).point;
     }
   }
 
  private:
-  /// Cartilage, then bands and the skin, then what gives way to them.
+  /// Cartilage, then bands, then what gives way to them and the skin, which gives way to nothing
+  /// and keeps a thread at work while there is little else.
   static int order_of(const SoftDescription& soft) {
     if (std::holds_alternative<LayerDescription>(soft.shape)) return 0;
-    return std::holds_alternative<VolumeDescription>(soft.shape) ? 2 : 1;
+    return std::holds_alternative<BandDescription>(soft.shape) ? 1 : 2;
   }
 
   /// A bone with defects as it was before: what lay on it and beside it grew then.
@@ -72,7 +77,10 @@ class SoftGrower {
   void make_grounds() {
     grounds_.resize(grown_.bones.size());
     run_tasks(options_, grounds_.size(), [&](std::size_t i) {
-      grounds_[i] = ground_of(healthy_mesh(i), rest_pose(anatomy_.bones[i]));
+      const Pose X_WB = rest_pose(anatomy_.bones[i]);
+      auto surface_W = whole_[i] ? std::nullopt : placed_.take(i, X_WB);
+      grounds_[i] =
+          surface_W ? make_ground(std::move(*surface_W)) : ground_of(healthy_mesh(i), X_WB);
     });
     for (const auto& ground : grounds_) all_ground_.push_back(&*ground);
   }
@@ -83,20 +91,20 @@ class SoftGrower {
 
   static SoftGround ground_of(TriMesh mesh_W, const Pose& X_WB) {
     for (Vec3& v : mesh_W.vertices) v = X_WB * v;
-    return make_ground(std::move(mesh_W));
+    return make_ground(MeshDistance(std::move(mesh_W)));
   }
 
   /// Cartilage has grown with the bones at rest: it goes with those that findings move, and so
   /// does what the rest is bound to.
   void displace() {
-    for (std::size_t i = 0; i < grounds_.size(); ++i) {
+    run_tasks(options_, grounds_.size(), [&](std::size_t i) {
       const auto moved = displacement_of(anatomy_, i);
-      if (!moved) continue;
+      if (!moved) return;
       grounds_[i] = ground_of(healthy_mesh(i), grown_.bones[i].X_WB);
       for (std::size_t k = 0; k < anatomy_.softs.size(); ++k)
         if (order_of(anatomy_.softs[k]) == 0 && carrier(anatomy_.softs[k]) == i)
           for (Vec3& v : grown_.softs[k].mesh_W.vertices) v = *moved * v;
-    }
+    });
     move_bound_along(anatomy_);
     for (const auto& ground : grounds_) obstacles_.push_back({&ground->surface, ground->box});
   }
@@ -105,7 +113,7 @@ class SoftGrower {
     std::vector<std::size_t> which;
     for (std::size_t i = 0; i < anatomy_.softs.size(); ++i)
       if (order_of(anatomy_.softs[i]) == order) which.push_back(i);
-    // The skin takes longest: whoever takes it should not be the last.
+    // It takes longest: whoever takes it should not be the last.
     std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) {
       return is_skin(anatomy_.softs[a]) && !is_skin(anatomy_.softs[b]);
     });
@@ -122,15 +130,25 @@ class SoftGrower {
     return std::holds_alternative<SkinDescription>(soft.shape);
   }
 
-  /// Cartilage hinders all that follows; bands hinder those volumes that name them.
-  void make_obstacles(int order) {
-    for (std::size_t i = 0; i < anatomy_.softs.size() && order < 2; ++i) {
-      const SoftDescription& soft = anatomy_.softs[i];
-      if (order_of(soft) != order || is_skin(soft)) continue;
-      const TriMesh& mesh = grown_.softs[i].mesh_W;
-      const auto [at, made] = surfaces_.try_emplace(soft.name, mesh);
-      if (made && order == 0) obstacles_.push_back({&at->second, bounds(mesh)});
-    }
+  /// Cartilage hinders all that follows.
+  void make_obstacles() {
+    run_tasks(options_, anatomy_.softs.size(), [&](std::size_t i) {
+      if (order_of(anatomy_.softs[i]) == 0) surfaces_[i].emplace(grown_.softs[i].mesh_W);
+    });
+    for (const auto& surface : surfaces_)
+      if (surface) obstacles_.push_back({&*surface, bounds(surface->mesh())});
+  }
+
+  /// Whether landmarks lie on it or volumes name it, which it then hinders.
+  bool is_asked_for(std::size_t i) const {
+    const auto on_it = [&](const LandmarkDescription& landmark) { return landmark.on_soft == i; };
+    const auto names_it = [&](const SoftDescription& soft) {
+      const auto* volume = std::get_if<VolumeDescription>(&soft.shape);
+      return volume && std::count(volume->clear_of.begin(), volume->clear_of.end(),
+                                  anatomy_.softs[i].name) > 0;
+    };
+    return std::any_of(anatomy_.landmarks.begin(), anatomy_.landmarks.end(), on_it) ||
+           std::any_of(anatomy_.softs.begin(), anatomy_.softs.end(), names_it);
   }
 
   Result<void> grow(std::size_t i) {
@@ -146,6 +164,7 @@ class SoftGrower {
     if (!mesh) return fail("its surface cannot be found: " + mesh.error().what, where);
     if (mesh->triangles.empty()) return fail("nothing of it is left", where);
     out.mesh_W = std::move(*mesh);
+    if (order_of(soft) > 0 && is_asked_for(i)) surfaces_[i].emplace(out.mesh_W);
     return {};
   }
 
@@ -198,6 +217,13 @@ class SoftGrower {
     return bend;
   }
 
+  /// Of cartilage or a band.
+  const MeshDistance* surface_named(const std::string& name) const {
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+      if (anatomy_.softs[i].name == name && order_of(anatomy_.softs[i]) < 2) return &*surfaces_[i];
+    return nullptr;
+  }
+
   const BandDescription* band_named(const std::string& name) const {
     for (const SoftDescription& soft : anatomy_.softs)
       if (soft.name == name) return std::get_if<BandDescription>(&soft.shape);
@@ -208,10 +234,10 @@ class SoftGrower {
                           GeneratedSoft& out) const {
     std::vector<Obstacle> obstacles = obstacles_;
     for (const std::string& name : volume.clear_of) {
-      const auto found = surfaces_.find(name);
-      if (found == surfaces_.end())
+      const MeshDistance* surface = surface_named(name);
+      if (!surface)
         return fail("'clear_of' names no cartilage, ligament or tendon: '" + name + "'");
-      obstacles.push_back({&found->second, bounds(found->second.mesh())});
+      obstacles.push_back({surface, bounds(surface->mesh())});
     }
     const auto add = [&](std::size_t bone) {
       if (std::find(out.bones.begin(), out.bones.end(), bone_name(bone)) == out.bones.end())
@@ -240,19 +266,20 @@ class SoftGrower {
   const GenerateOptions& options_;
   const std::string& file_;
   GeneratedAnatomy& grown_;
+  PlacedBones placed_;
   std::vector<std::optional<TriMesh>> whole_;    ///< of bones with defects: without, in Bone
   std::vector<std::optional<SoftGround>> fine_;  ///< of the same, in the detail of the defects
   std::vector<std::optional<SoftGround>> grounds_;
   GroundView all_ground_;
   std::vector<Obstacle> obstacles_;
-  std::map<std::string, MeshDistance> surfaces_;  ///< of finished soft parts, by name
+  std::vector<std::optional<MeshDistance>> surfaces_;  ///< of finished soft parts, if asked for
 };
 
 }  // namespace
 
 Result<void> grow_soft_parts(const AnatomyDescription& anatomy, const GenerateOptions& options,
-                             const std::string& file, GeneratedAnatomy& grown) {
-  SoftGrower grower(anatomy, options, file, grown);
+                             const std::string& file, GeneratedAnatomy& grown, PlacedBones placed) {
+  SoftGrower grower(anatomy, options, file, grown, std::move(placed));
   if (auto ok = grower.run(); !ok) return ok;
   grower.lay_landmarks();
   return {};

@@ -171,11 +171,12 @@ void even_out(const TriMesh& mesh, std::vector<Vec3>& normals) {
 
 }  // namespace
 
-SoftGround make_ground(TriMesh mesh_W) {
+SoftGround make_ground(MeshDistance surface_W) {
+  const TriMesh& mesh_W = surface_W.mesh();
   std::vector<Vec3> normals = vertex_normals(mesh_W);
   even_out(mesh_W, normals);
   const Aabb box = bounds(mesh_W);
-  return {MeshDistance(std::move(mesh_W)), std::move(normals), box};
+  return {std::move(surface_W), std::move(normals), box};
 }
 
 TriMesh grow_layer(const LayerDescription& layer,

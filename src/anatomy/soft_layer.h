@@ -18,7 +18,7 @@ struct SoftGround {
 /// All bones of an anatomy, in their order.
 using GroundView = std::vector<const SoftGround*>;
 
-SoftGround make_ground(TriMesh mesh_W);
+SoftGround make_ground(MeshDistance surface_W);
 
 /// Grows cartilage on the surface of ground[layer.bone]. No point of it lies nearer to another bone
 /// than to its own by less than the clearance: its height over a vertex is at most half of what the

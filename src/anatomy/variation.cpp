@@ -87,6 +87,7 @@ bool any_free(const Drawn& drawn) {
 struct VariedBones {
   AnatomyDescription description;
   GeneratedAnatomy grown;
+  PlacedBones placed;  ///< before any joint is bent
 };
 
 Result<VariedBones> grow_varied(AnatomyDescription anatomy, const VariationTable& table,
@@ -95,17 +96,19 @@ Result<VariedBones> grow_varied(AnatomyDescription anatomy, const VariationTable
   if (auto ok = vary(anatomy, table, values); !ok) return tl::unexpected(ok.error());
   auto grown = grow_bones(anatomy, options, file);
   if (!grown) return tl::unexpected(grown.error());
-  return VariedBones{std::move(anatomy), std::move(*grown)};
+  PlacedBones placed(*grown, options);
+  return VariedBones{std::move(anatomy), std::move(*grown), std::move(placed)};
 }
 
 /// Bends the joints as far as is set, unless two bones would meet.
-Result<void> bend_unless_bones_meet(AnatomyDescription& anatomy, const std::string& file,
-                                    GeneratedAnatomy& grown) {
-  if (auto ok = bend_joints(anatomy, file, grown); !ok) return ok;
+Result<void> bend_unless_bones_meet(VariedBones& bones, const GenerateOptions& options,
+                                    const std::string& file) {
+  GeneratedAnatomy& grown = bones.grown;
+  if (auto ok = bend_joints(bones.description, file, bones.placed, grown); !ok) return ok;
   const bool bent = std::any_of(grown.joints.begin(), grown.joints.end(),
                                 [](const GeneratedJoint& joint) { return joint.at_deg != 0; });
   if (!bent) return {};
-  const Overlap worst = deepest_overlap(grown);
+  const Overlap worst = deepest_overlap(grown, PlacedBones(grown, options), options);
   if (worst.depth <= kMostOverlap) return {};
   return fail(worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
               file, "Bend the joint less, or choose values nearer to the means");
@@ -161,19 +164,21 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
   for (;; ++varied.halvings, halve(*rules, *drawn)) {
     bones = grow_varied(*anatomy, *rules, drawn->values, options, description.string());
     if (!bones) return tl::unexpected(bones.error());
-    const Overlap worst = deepest_overlap(bones->grown);
+    const Overlap worst = deepest_overlap(bones->grown, bones->placed, options);
     if (worst.depth <= kMostOverlap) break;
     if (varied.halvings == kMostHalvings || !any_free(*drawn))
       return fail(
           worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
           description.string(), "Choose values nearer to the means");
   }
-  varied.anatomy = std::move(bones->grown);
   const std::string file = description.string();
-  if (auto ok = bend_unless_bones_meet(bones->description, file, varied.anatomy); !ok)
+  if (auto ok = bend_unless_bones_meet(*bones, options, file); !ok)
     return tl::unexpected(ok.error());
+  varied.anatomy = std::move(bones->grown);
   if (options.soft_parts)
-    if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy); !ok)
+    if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy,
+                                  std::move(bones->placed));
+        !ok)
       return tl::unexpected(ok.error());
   if (auto ok = split_bones(bones->description, file, varied.anatomy); !ok)
     return tl::unexpected(ok.error());

@@ -23,7 +23,7 @@ class Balls : public testing::Test {
  protected:
   Balls() {
     for (const auto& [radius, x] : {std::pair(0.005, 0.0), {0.005, 0.020}, {0.006, 0.010}})
-      balls_.push_back(make_ground(test::sphere(radius, 24, Vec3(x, 0, 0))));
+      balls_.push_back(make_ground(MeshDistance(test::sphere(radius, 24, Vec3(x, 0, 0)))));
     for (const SoftGround& ball : balls_) ground_.push_back(&ball);
   }
   std::vector<SoftGround> balls_;
