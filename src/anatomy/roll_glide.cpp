@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "displace.h"
+#include "nearby_surface.h"
 #include "osteon/mesh/distance.h"
 
 namespace osteon {
@@ -37,14 +38,15 @@ class Facet {
   Nearest nearest(const MeshDistance& surface, const Pose& X,
                   const std::vector<std::size_t>& among) const {
     Nearest best;
+    NearbySurface nearby(surface, {});
     for (const std::size_t i : among) {
       const Vec3 p_W = X * points_[i];
-      const ClosestPoint at = surface.closest(p_W);
-      if (at.signed_distance >= best.gap) continue;
-      const Vec3 away = p_W - at.point;
+      const auto at = nearby.nearer_than(best.gap, p_W);
+      if (!at || at->signed_distance >= best.gap) continue;
+      const Vec3 away = p_W - at->point;
       const double length = away.norm();
-      const double sign = at.signed_distance < 0 ? -1 : 1;
-      best = {at.signed_distance, length > 1e-12 ? Vec3((sign / length) * away) : best.away_W, i};
+      const double sign = at->signed_distance < 0 ? -1 : 1;
+      best = {at->signed_distance, length > 1e-12 ? Vec3((sign / length) * away) : best.away_W, i};
     }
     return best;
   }
@@ -52,8 +54,10 @@ class Facet {
   std::vector<std::size_t> candidates(const MeshDistance& surface, const Pose& X) const {
     std::vector<double> gaps;
     double least = 1e300;
+    NearbySurface nearby(surface, {});
     for (const Vec3& p : points_) {
-      gaps.push_back(surface.closest(X * p).signed_distance);
+      const auto at = nearby.nearer_than(least + kReach_m, X * p);
+      gaps.push_back(at ? at->signed_distance : 1e300);
       least = std::min(least, gaps.back());
     }
     std::vector<std::size_t> near;

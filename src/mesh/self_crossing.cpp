@@ -1,6 +1,7 @@
 #include "osteon/mesh/self_crossing.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "triangle_cross.h"
@@ -24,19 +25,21 @@ class BoxTree {
 
   template <class Visit>
   void overlapping(const Aabb& box, Visit visit) const {
-    std::vector<std::size_t> open{0};
-    while (!open.empty()) {
-      const Node node = nodes_[open.back()];
-      const std::size_t self = open.back();
-      open.pop_back();
+    // One child waits for each level of a tree that halves at every node.
+    constexpr std::size_t kMostOpen = 64;
+    std::array<std::size_t, kMostOpen> open;
+    open[0] = 0;
+    for (std::size_t waiting = 1; waiting > 0;) {
+      const std::size_t self = open[--waiting];
+      const Node& node = nodes_[self];
       if (!node.box.overlaps(box)) continue;
       if (node.right == 0) {
         for (std::size_t i = node.first; i < node.last; ++i)
           if (boxes_[order_[i]].overlaps(box)) visit(order_[i]);
         continue;
       }
-      open.push_back(node.right);
-      open.push_back(self + 1);
+      open[waiting++] = node.right;
+      open[waiting++] = self + 1;
     }
   }
   const Aabb& box(std::uint32_t triangle) const { return boxes_[triangle]; }

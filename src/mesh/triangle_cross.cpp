@@ -26,6 +26,20 @@ bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 
 bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
+/// True when `b`, but for the corners that it has in common with `a`, surely lies on one side of
+/// the plane of `a`: then the two have no more than these in common.
+bool beside(const std::vector<Vec3>& p, const Triangle& a, const Triangle& b) {
+  bool above = false, below = false;
+  for (const std::uint32_t v : b) {
+    if (has(a, v)) continue;
+    const double side = orient(p[a[0]], p[a[1]], p[a[2]], p[v]);
+    above = above || side >= 0;
+    below = below || side <= 0;
+    if (above && below) return false;
+  }
+  return true;
+}
+
 /// An edge of `a` through `b`, of the edges that share no corner with it.
 bool edge_pierces(const std::vector<Vec3>& p, const Triangle& a, const Triangle& b) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -77,6 +91,7 @@ bool triangles_cross(const std::vector<Vec3>& vertices, const Triangle& a, const
       std::count_if(a.begin(), a.end(), [&b](std::uint32_t v) { return has(b, v); });
   if (shared == 3) return true;
   if (shared == 2) return folded(vertices, a, b);
+  if (beside(vertices, a, b) || beside(vertices, b, a)) return false;
   return edge_pierces(vertices, a, b) || edge_pierces(vertices, b, a) ||
          overlap_in_plane(vertices, a, b);
 }
