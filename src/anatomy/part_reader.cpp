@@ -33,25 +33,12 @@ Primitive read_ellipsoid(TomlReader& in) {
   return e;
 }
 
-/// One radius a point, from what may also be one for all or those of both ends, between which it
-/// then changes evenly along the points.
-std::vector<double> radii_of_points(const std::vector<double>& given,
-                                    const std::vector<Vec3>& points) {
-  if (given.empty() || given.size() > 2 || given.size() == points.size()) return given;
-  std::vector<double> way = {0};
-  for (std::size_t i = 1; i < points.size(); ++i)
-    way.push_back(way.back() + (points[i] - points[i - 1]).norm());
-  std::vector<double> radii;
-  for (const double w : way)
-    radii.push_back(given.front() + (given.back() - given.front()) * w / way.back());
-  return radii;
-}
-
 Primitive read_tube(TomlReader& in) {
   std::vector<Vec3> points = in.points("points_mm", kPlace_mm);
-  std::vector<double> radii = radii_of_points(in.numbers("radii_mm", kRadius_mm), points);
+  std::vector<double> radii = in.numbers("radii_mm", kRadius_mm);
+  if (radii.size() == 1) radii.resize(points.size(), radii[0]);
   if (points.size() != radii.size())
-    in.reject("must hold one radius a point, one for all, or two: of the ends", "radii_mm");
+    in.reject("must hold one radius a point, or one for all", "radii_mm");
   for (std::size_t i = 1; i < points.size(); ++i)
     if ((points[i] - points[i - 1]).norm() < 1e-3)
       in.reject("holds the same point twice in a row", "points_mm");

@@ -183,21 +183,20 @@ TEST(Description, ATiltIsATurnAboutYAlone) {
                  {"add 1", "'tilt_deg'"});
 }
 
-TEST(Description, OneRadiusIsThatOfTheWholeTubeAndTwoAreThoseOfItsEnds) {
-  const auto radii = [](const std::string& given) {
-    const auto r = parse_description(
-        kHead + bone("a",
-                     "{ shape = \"tube\", points_mm = [[0, 0, 0], [10, 0, 0], [40, 0, 0]], "
-                     "radii_mm = " +
-                         given + " }"),
-        "f");
-    if (!r) throw std::runtime_error(r.error().message());
-    return std::get<Tube>(r->bones[0].solid.parts[0].primitive).radii;
-  };
-  for (const double r : radii("[3]")) EXPECT_DOUBLE_EQ(r, 0.003);
-  const std::vector<double> two = radii("[3, 7]"), three = radii("[3, 4, 7]");
-  ASSERT_EQ(two.size(), three.size());
-  for (std::size_t i = 0; i < two.size(); ++i) EXPECT_NEAR(two[i], three[i], 1e-15);
+TEST(Description, OneRadiusIsThatOfABallOrOfAWholeTube) {
+  const auto r = parse_description(
+      kHead +
+          bone("a",
+               "{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = [5] }, "
+               "{ shape = \"tube\", points_mm = [[0, 0, 0], [10, 0, 0], [40, 0, 0]], radii_mm = "
+               "[3] }"),
+      "f");
+  ASSERT_TRUE(r) << r.error().message();
+  const std::vector<Part>& parts = r->bones[0].solid.parts;
+  EXPECT_EQ(std::get<Ellipsoid>(parts[0].primitive).radii, Vec3::Constant(0.005));
+  const Tube& tube = std::get<Tube>(parts[1].primitive);
+  ASSERT_EQ(tube.radii.size(), tube.points.size());
+  for (const double radius : tube.radii) EXPECT_DOUBLE_EQ(radius, 0.003);
 }
 
 TEST(Description, NamesAreUniqueAndClearancesNameOtherBones) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "description.h"
@@ -53,20 +53,24 @@ TEST(ShapeCount, SectionsCountApartAndEachWithWhatIsShared) {
   EXPECT_EQ(counts[1].numbers, 1u + 7u);
 }
 
-/// Those that still have more may not grow.
+/// Femur and tibia are counted by their ends and shafts.
 TEST(ShapeCount, NoBuiltInBoneHasMoreThanSixtyNumbers) {
   const std::filesystem::path assets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-  const std::map<std::string, std::size_t> known_larger = {{"femur", 217}, {"tibia", 168}};
+  std::set<std::pair<std::string, std::string>> sections;
   for (const char* name : {"wrist.toml", "knee.toml"}) {
     const auto counts = shape_numbers(assets / name);
     ASSERT_TRUE(counts) << counts.error().message();
     for (const ShapeNumbers& c : *counts) {
       std::printf("%-12s %-9s %3zu\n", c.bone.c_str(), c.section.c_str(), c.numbers);
-      const auto larger = known_larger.find(c.bone);
-      EXPECT_LE(c.numbers, larger == known_larger.end() ? kMostShapeNumbers : larger->second)
-          << c.bone << " " << c.section;
+      EXPECT_LE(c.numbers, kMostShapeNumbers) << c.bone << " " << c.section;
+      if (!c.section.empty()) sections.insert({c.bone, c.section});
     }
   }
+  EXPECT_EQ(sections, (std::set<std::pair<std::string, std::string>>{{"femur", "distal"},
+                                                                     {"femur", "proximal"},
+                                                                     {"femur", "shaft"},
+                                                                     {"tibia", "proximal"},
+                                                                     {"tibia", "shaft"}}));
 }
 
 }  // namespace
