@@ -1,15 +1,9 @@
 #include "dicom_header.h"
 
-#include <gdcmReader.h>
-#include <gdcmTrace.h>
-
 #include <charconv>
 #include <cmath>
-#include <exception>
-#include <sstream>
 #include <vector>
 
-#include "dicom_walk.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -17,24 +11,14 @@ namespace {
 
 constexpr std::uint64_t kLimitBytes = 256ull << 20;
 
-std::string text_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
-  const gdcm::Tag tag(group, element);
-  if (!data.FindDataElement(tag)) return {};
-  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-  if (!bytes) return {};
-  std::string text(bytes->GetPointer(), bytes->GetLength());
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-  return text;
-}
-
 /// Backslash-separated decimal numbers; empty when one is none.
-std::vector<double> decimals_at(const gdcm::DataSet& data, std::uint16_t group,
+std::vector<double> decimals_at(const DicomElements& data, std::uint16_t group,
                                 std::uint16_t element) {
-  const std::string text = text_at(data, group, element);
+  const std::string_view text = data.text(group, element);
   std::vector<double> out;
   for (std::size_t from = 0; from <= text.size() && !text.empty();) {
     std::size_t to = text.find('\\', from);
-    if (to == std::string::npos) to = text.size();
+    if (to == std::string_view::npos) to = text.size();
     while (from < to && (text[from] == ' ' || text[from] == '+')) ++from;
     double value = 0;
     const auto parsed = std::from_chars(text.data() + from, text.data() + to, value);
@@ -45,22 +29,13 @@ std::vector<double> decimals_at(const gdcm::DataSet& data, std::uint16_t group,
   return out;
 }
 
-int whole_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, int otherwise) {
+int whole_at(const DicomElements& data, std::uint16_t group, std::uint16_t element, int otherwise) {
   const auto numbers = decimals_at(data, group, element);
   return numbers.size() == 1 && std::abs(numbers[0]) < 1e9 ? static_cast<int>(numbers[0])
                                                            : otherwise;
 }
 
-int short_at(const gdcm::DataSet& data, std::uint16_t group, std::uint16_t element) {
-  const gdcm::Tag tag(group, element);
-  if (!data.FindDataElement(tag)) return 0;
-  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-  if (!bytes || bytes->GetLength() < 2) return 0;
-  const auto* b = reinterpret_cast<const unsigned char*>(bytes->GetPointer());
-  return b[0] | b[1] << 8;
-}
-
-void read_geometry(const gdcm::DataSet& data, DicomHeader& header) {
+void read_geometry(const DicomElements& data, DicomHeader& header) {
   const auto position = decimals_at(data, 0x0020, 0x0032);
   if (position.size() == 3) header.position_P = Vec3(position[0], position[1], position[2]) * 0.001;
   const auto axes = decimals_at(data, 0x0020, 0x0037);
@@ -82,17 +57,18 @@ void read_geometry(const gdcm::DataSet& data, DicomHeader& header) {
   }
 }
 
-DicomHeader header_of(const gdcm::DataSet& data) {
+DicomHeader header_of(const DicomElements& data) {
   DicomHeader header;
-  header.series_uid = text_at(data, 0x0020, 0x000e);
-  header.modality = text_at(data, 0x0008, 0x0060);
-  header.image_type = text_at(data, 0x0008, 0x0008);
+  header.series_uid = data.text(0x0020, 0x000e);
+  header.modality = data.text(0x0008, 0x0060);
+  header.image_type = data.text(0x0008, 0x0008);
   header.series_number = whole_at(data, 0x0020, 0x0011, 0);
   header.frames = whole_at(data, 0x0028, 0x0008, 1);
-  header.rows = short_at(data, 0x0028, 0x0010);
-  header.columns = short_at(data, 0x0028, 0x0011);
+  header.rows = static_cast<int>(data.number(0x0028, 0x0010, 0));
+  header.columns = static_cast<int>(data.number(0x0028, 0x0011, 0));
   const auto slope = decimals_at(data, 0x0028, 0x1053);
   const auto intercept = decimals_at(data, 0x0028, 0x1052);
+  header.has_pixels = data.has_pixels;
   header.has_rescale = slope.size() == 1 && intercept.size() == 1;
   if (header.has_rescale) {
     header.slope = slope[0];
@@ -105,38 +81,24 @@ DicomHeader header_of(const gdcm::DataSet& data) {
 }  // namespace
 
 Result<std::string> read_dicom_bytes(const std::filesystem::path& file) {
-  auto bytes = read_file(file, kLimitBytes);
-  if (!bytes) return bytes;
-  if (auto whole = check_dicom_structure(*bytes, file.string()); !whole)
-    return tl::unexpected(whole.error());
-  return bytes;
+  return read_file(file, kLimitBytes);
+}
+
+Result<DicomHeader> dicom_header(const DicomElements& elements, const std::filesystem::path& file) {
+  DicomHeader header = header_of(elements);
+  header.file = file;
+  const bool damaged = header.series_uid.empty() || (header.modality == "CT" && !header.has_pixels);
+  if (!damaged) return header;
+  return fail("is damaged: its header or its pixels are missing", file.string(),
+              "Copy or export the series again, or remove the file");
 }
 
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& file) {
-  auto bytes = read_dicom_bytes(file);
+  const auto bytes = read_dicom_bytes(file);
   if (!bytes) return tl::unexpected(bytes.error());
-  return parse_dicom_header(std::move(*bytes), file);
-}
-
-Result<DicomHeader> parse_dicom_header(std::string bytes, const std::filesystem::path& file) {
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
-  const auto broken = [&] {
-    return fail("is damaged: its header cannot be read", file.string(),
-                "Copy or export the series again, or remove the file");
-  };
-  try {
-    std::istringstream stream(std::move(bytes));
-    gdcm::Reader reader;
-    reader.SetStream(stream);
-    if (!reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x0010))) return broken();
-    DicomHeader header = header_of(reader.GetFile().GetDataSet());
-    header.file = file;
-    if (header.series_uid.empty()) return broken();
-    return header;
-  } catch (const std::exception&) {
-    return broken();
-  }
+  const auto elements = walk_dicom(*bytes, file.string());
+  if (!elements) return tl::unexpected(elements.error());
+  return dicom_header(*elements, file);
 }
 
 }  // namespace osteon

@@ -28,9 +28,11 @@ Result<DicomStack> stack_of(const DicomSeries& series) {
 }
 
 Result<void> read_slice(const DicomHeader& slice, std::int16_t* out) {
-  auto bytes = read_dicom_bytes(slice.file);
+  const auto bytes = read_dicom_bytes(slice.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  return decode_dicom_slice(std::move(*bytes), slice, out);
+  const auto elements = walk_dicom(*bytes, slice.file.string());
+  if (!elements) return tl::unexpected(elements.error());
+  return decode_dicom_slice(*elements, slice, out);
 }
 
 /// Value of a slice between its pixels; air outside.

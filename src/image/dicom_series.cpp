@@ -36,6 +36,8 @@ Result<std::vector<DicomSeries>> group(const std::vector<fs::path>& files) {
     if (!header) return tl::unexpected(header.error());
     // Scouts show where the slices were planned; they are no slices.
     if (header->image_type.find("LOCALIZER") != std::string::npos) continue;
+    // Reports of the dose and their like come along with many scans.
+    if (!header->has_pixels) continue;
     DicomSeries& series = by_uid[header->series_uid];
     series.uid = header->series_uid;
     series.modality = header->modality;

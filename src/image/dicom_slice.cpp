@@ -1,6 +1,7 @@
 #include "dicom_slice.h"
 
 #include <gdcmImageReader.h>
+#include <gdcmTrace.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "dicom_picture.h"
 #include "dicom_stack.h"
-#include "dicom_walk.h"
 
 namespace osteon {
 namespace {
@@ -31,8 +32,6 @@ Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::in
   const std::size_t count =
       static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
   const gdcm::PixelFormat& format = image.GetPixelFormat();
-  if (format.GetSamplesPerPixel() != 1)
-    return fail("is a colour picture", file, "Choose the series of the CT slices");
   const std::size_t length = image.GetBufferLength();
   std::vector<char> bytes(length);
   if (length != count * format.GetPixelSize() || !image.GetBuffer(bytes.data()))
@@ -64,13 +63,18 @@ Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::in
 
 }  // namespace
 
-Result<void> decode_dicom_slice(std::string bytes, const DicomHeader& header, std::int16_t* out) {
+Result<void> decode_dicom_slice(const DicomElements& elements, const DicomHeader& header,
+                                std::int16_t* out) {
+  auto picture = picture_file(elements, header.file.string());
+  if (!picture) return tl::unexpected(picture.error());
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
   const auto broken = [&] {
     return fail("is truncated or damaged: its pixels cannot be read", header.file.string(),
                 "Copy or export the series again");
   };
   try {
-    std::istringstream stream(std::move(bytes));
+    std::istringstream stream(std::move(*picture));
     gdcm::ImageReader reader;
     reader.SetStream(stream);
     if (!reader.Read()) return broken();
@@ -81,9 +85,9 @@ Result<void> decode_dicom_slice(std::string bytes, const DicomHeader& header, st
 }
 
 Result<Volume> parse_dicom_slice(std::string_view bytes, const std::string& where) {
-  if (auto sound = check_dicom_structure(bytes, where); !sound)
-    return tl::unexpected(sound.error());
-  const auto header = parse_dicom_header(std::string(bytes), where);
+  const auto elements = walk_dicom(bytes, where);
+  if (!elements) return tl::unexpected(elements.error());
+  const auto header = dicom_header(*elements, where);
   if (!header) return tl::unexpected(header.error());
   if (auto sound = check_slice(*header); !sound) return tl::unexpected(sound.error());
   Volume volume;
@@ -92,7 +96,7 @@ Result<Volume> parse_dicom_slice(std::string_view bytes, const std::string& wher
   volume.frame.origin_P = *header->position_P;
   volume.frame.axes_P = *header->axes_P;
   volume.values.resize(volume.frame.count());
-  auto decoded = decode_dicom_slice(std::string(bytes), *header, volume.values.data());
+  auto decoded = decode_dicom_slice(*elements, *header, volume.values.data());
   if (!decoded) return tl::unexpected(decoded.error());
   return volume;
 }

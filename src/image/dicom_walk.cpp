@@ -1,10 +1,7 @@
 #include "dicom_walk.h"
 
-#include <cstdint>
 #include <set>
 #include <utility>
-
-#include "dicom_codestream.h"
 
 namespace osteon {
 namespace {
@@ -12,8 +9,13 @@ namespace {
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
 constexpr std::uint32_t kPixels = 0x7fe00010, kTransferSyntax = 0x00020010;
-constexpr std::uint32_t kRows = 0x00280010, kColumns = 0x00280011, kBits = 0x00280100;
+constexpr std::uint32_t kLongestKept = 1024;
 constexpr int kDeepest = 32;
+
+std::string_view without_filling(std::string_view text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.remove_suffix(1);
+  return text;
+}
 
 struct Syntax {
   bool explicit_vr = true;
@@ -26,8 +28,7 @@ class Walker {
   explicit Walker(std::string_view bytes) : bytes_(bytes) {}
 
   bool walk_file();
-  bool is_encoded() const { return encoded_; }
-  const EncodedPixels& pixels() const { return pixels_; }
+  DicomElements take() { return std::move(found_); }
 
  private:
   struct Element {
@@ -49,12 +50,11 @@ class Walker {
   bool read_meta(Syntax& syntax);
   bool walk_data(const Syntax& syntax, bool nested, int depth);
   bool walk_items(const Syntax& syntax, bool fragments, int depth);
-  void note(const Element& element, const Syntax& syntax);
+  void keep(const Element& element);
 
   std::string_view bytes_;
   std::size_t at_ = 0;
-  bool saw_pixels_ = false, encoded_ = false;
-  EncodedPixels pixels_;
+  DicomElements found_;
 };
 
 bool Walker::read_element(const Syntax& syntax, Element& element) {
@@ -93,12 +93,12 @@ bool Walker::read_meta(Syntax& syntax) {
     Element element;
     if (!read_element({}, element) || !has(element.length)) return false;
     if (element.tag == kTransferSyntax) {
-      std::string_view uid = bytes_.substr(at_, element.length);
-      while (!uid.empty() && (uid.back() == '\0' || uid.back() == ' ')) uid.remove_suffix(1);
+      const std::string_view uid = without_filling(bytes_.substr(at_, element.length));
       syntax.explicit_vr = uid != "1.2.840.10008.1.2";
       syntax.big_endian = uid == "1.2.840.10008.1.2.2";
       if (uid == "1.2.840.10008.1.2.1.99") return false;  // deflated as a whole
-      pixels_.syntax = uid;
+      found_.syntax = uid;
+      found_.big_endian = syntax.big_endian;
       named = true;
     }
     at_ += element.length;
@@ -118,19 +118,24 @@ bool Walker::walk_items(const Syntax& syntax, bool fragments, int depth) {
       if (fragments || !walk_data(syntax, true, depth + 1)) return false;
     } else {
       if (!has(item.length)) return false;
-      if (fragments) pixels_.fragments.push_back(bytes_.substr(at_, item.length));
+      if (fragments) found_.pixel_fragments.push_back(bytes_.substr(at_, item.length));
       at_ += item.length;
     }
   }
 }
 
-/// Keeps what the pixels have to agree with.
-void Walker::note(const Element& element, const Syntax& syntax) {
-  if (element.length != 2) return;
-  const unsigned value = word16(0, syntax.big_endian);
-  if (element.tag == kRows) pixels_.rows = value;
-  if (element.tag == kColumns) pixels_.columns = value;
-  if (element.tag == kBits) pixels_.bits = value;
+/// Of an outermost element that has a length.
+void Walker::keep(const Element& element) {
+  const std::string_view value = bytes_.substr(at_, element.length);
+  if (element.tag == kPixels) {
+    found_.has_pixels = true;
+    found_.plain_pixels = value;
+    return;
+  }
+  const std::uint32_t group = element.tag >> 16;
+  if (group != 0x0008 && group != 0x0020 && group != 0x0028) return;
+  if (!element.sequence && element.length <= kLongestKept)
+    found_.values.emplace(element.tag, value);
 }
 
 bool Walker::walk_data(const Syntax& syntax, bool nested, int depth) {
@@ -138,17 +143,17 @@ bool Walker::walk_data(const Syntax& syntax, bool nested, int depth) {
     Element element;
     if (!read_element(syntax, element)) return false;
     if (nested && element.tag == kItemEnd) return true;
-    if (!nested && element.tag == kPixels) saw_pixels_ = true;
+    const bool pixels = !nested && element.tag == kPixels;
+    if (pixels && found_.has_pixels) return false;
     if (element.length == kUndefined) {
       if (!element.may_be_open) return false;
-      const bool fragments = !nested && element.tag == kPixels;
-      if (fragments && std::exchange(encoded_, true)) return false;
+      if (pixels) found_.has_pixels = true;
       // Unknown elements of unknown length are written the implicit way.
       const Syntax inner = element.unknown ? Syntax{false, false} : syntax;
-      if (!walk_items(inner, fragments, depth + 1)) return false;
+      if (!walk_items(inner, pixels, depth + 1)) return false;
     } else {
       if (!has(element.length)) return false;
-      if (!nested) note(element, syntax);
+      if (!nested) keep(element);
       at_ += element.length;
     }
   }
@@ -159,22 +164,30 @@ bool Walker::walk_file() {
   if (bytes_.size() < 132 || bytes_.substr(128, 4) != "DICM") return false;
   at_ = 132;
   Syntax syntax;
-  return read_meta(syntax) && walk_data(syntax, false, 0) && saw_pixels_;
+  return read_meta(syntax) && walk_data(syntax, false, 0);
 }
 
 }  // namespace
 
-Result<void> check_dicom_structure(std::string_view bytes, const std::string& where) {
+std::string_view DicomElements::text(std::uint16_t group, std::uint16_t element) const {
+  const auto found = values.find(dicom_tag(group, element));
+  return found == values.end() ? std::string_view() : without_filling(found->second);
+}
+
+unsigned DicomElements::number(std::uint16_t group, std::uint16_t element,
+                               unsigned otherwise) const {
+  const auto found = values.find(dicom_tag(group, element));
+  if (found == values.end() || found->second.size() < 2) return otherwise;
+  const auto first = static_cast<unsigned char>(found->second[0]);
+  const auto second = static_cast<unsigned char>(found->second[1]);
+  return big_endian ? first << 8u | second : first | second << 8u;
+}
+
+Result<DicomElements> walk_dicom(std::string_view bytes, const std::string& where) {
   Walker walker(bytes);
-  if (!walker.walk_file())
-    return fail("is truncated, damaged or no DICOM picture", where,
-                "Copy or export the series again, or remove the file");
-  if (walker.is_encoded() && !fits_header(walker.pixels()))
-    return fail(
-        "has compressed pixels that do not fit its header, or in a compression that is not "
-        "read",
-        where, "Copy or export the series again, best uncompressed");
-  return {};
+  if (walker.walk_file()) return walker.take();
+  return fail("is truncated, damaged or no DICOM picture", where,
+              "Copy or export the series again, or remove the file");
 }
 
 }  // namespace osteon
