@@ -4,14 +4,17 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
+#include "mesh/surface_checks.h"
 #include "osteon/base/random.h"
+#include "osteon/mesh/isosurface.h"
 
 namespace osteon {
 namespace {
 
-AnatomyDescription built_in_wrist() {
-  const std::string file = OSTEON_SOURCE_DIR "/assets/anatomy/wrist.toml";
+AnatomyDescription built_in(const std::string& name) {
+  const std::string file = OSTEON_SOURCE_DIR "/assets/anatomy/" + name + ".toml";
   std::ifstream in(file);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   return parse_description(text, file).value();
@@ -35,7 +38,7 @@ double plain_value(const AnatomyDescription& anatomy, const BoneDescription& bon
 }
 
 TEST(BoneField, EveryBonesFieldIsTheSameNearBy) {
-  AnatomyDescription anatomy = built_in_wrist();
+  AnatomyDescription anatomy = built_in("wrist");
   BoundPart slit;
   slit.part.operation = Operation::kCut;
   slit.part.primitive = Crack{anatomy.bones[2].p_WB, Vec3(0.6, 0.8, 0), 0.002, 0.0004, 0.003};
@@ -67,6 +70,24 @@ TEST(BoneField, EveryBonesFieldIsTheSameNearBy) {
     }
   }
   EXPECT_GT(known, places / 2) << "the signs of most places should be known";
+}
+
+/// Against the surface of the same field looked at everywhere.
+TEST(BoneField, EverySurfaceIsTheOneOfTheWholeField) {
+  for (const auto& [name, cell_m] : {std::pair("wrist", 0.0012), {"knee", 0.003}}) {
+    const AnatomyDescription anatomy = built_in(name);
+    for (const BoneDescription& bone : anatomy.bones) {
+      const BoneField field(anatomy, bone);
+      IsosurfaceOptions options;
+      options.cell_m = cell_m;
+      const Aabb box = bounds(bone.solid).grown(cell_m);
+      const auto near = isosurface(field, box, options);
+      options.slack_m = 1;
+      const auto plain = isosurface([&](const Vec3& p_B) { return field.at(p_B); }, box, options);
+      ASSERT_TRUE(near && plain) << bone.name;
+      EXPECT_EQ(checks::hash_of(*near), checks::hash_of(*plain)) << bone.name;
+    }
+  }
 }
 
 }  // namespace
