@@ -12,6 +12,12 @@ constexpr std::array<std::uint32_t, 3> kNextSide{1, 2, 0};
 /// Of the simplex's corners in the origin: uneven, so that regular clouds make few ties.
 constexpr std::array<double, 4> kWeights{0.2371, 0.2629, 0.2743, 0.2257};
 
+/// Of the product of three vectors, components up to 2, that say on which side of an edge a ray
+/// goes: rounding is below 1e-13.
+constexpr double kCertainlyInside = 1e-12;
+/// The walk starts close by; one that goes round in circles ends here.
+constexpr int kLongestWalk = 32;
+
 double largest(const Vec3& e) {
   return std::max(std::max(std::abs(e.x()), std::abs(e.y())), std::abs(e.z()));
 }
@@ -160,8 +166,31 @@ void Polytope::explore(const Vec3& q, double low, const Visit& visit) {
   }
 }
 
+/// The facet through whose inside the ray to q goes for certain, or none. Goes on beyond an edge
+/// that has the ray on its other side.
+std::uint32_t Polytope::exit_facet(const Vec3& q) const {
+  std::uint32_t at = here_;
+  for (int step = 0; step < kLongestWalk; ++step) {
+    const Facet& facet = facets_[at];
+    const Vec3& a = vertices_[facet.v[0]].q;
+    const Vec3& b = vertices_[facet.v[1]].q;
+    const Vec3& c = vertices_[facet.v[2]].q;
+    const std::array<double, 3> inside{a.cross(b).dot(q), b.cross(c).dot(q), c.cross(a).dot(q)};
+    std::size_t worst = inside[1] < inside[0] ? 1 : 0;
+    worst = inside[2] < inside[worst] ? 2 : worst;
+    if (inside[worst] > kCertainlyInside) return at;
+    if (inside[worst] > -kCertainlyInside) return kNoIndex;
+    at = facet.twin[worst] >> 2;
+  }
+  return kNoIndex;
+}
+
 /// For a point so close to the surface, or to an edge's direction, that rounding could mislead.
 std::uint32_t Polytope::search_summit(const Probe& probe, double low) {
+  if (const std::uint32_t exit = exit_facet(probe.q); exit != kNoIndex) {
+    here_ = exit;
+    return sees(probe, facets_[exit]) ? exit : kNoIndex;
+  }
   std::uint32_t seen = kNoIndex;
   explore(probe.q, low, [&](std::uint32_t facet) {
     if (!sees(probe, facets_[facet])) return true;

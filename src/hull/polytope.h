@@ -82,6 +82,7 @@ class Polytope {
   bool sees(const Probe& probe, const Facet& facet) const;
   bool sees_exactly(const Probe& probe, const Facet& facet) const;
   std::uint32_t find_seen(const Probe& probe);
+  std::uint32_t exit_facet(const Vec3& q) const;
   std::uint32_t search_summit(const Probe& probe, double low);
   template <class Visit>
   void explore(const Vec3& q, double low, const Visit& visit);
