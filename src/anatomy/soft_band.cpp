@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "band_insertion.h"
 #include "nearby_surface.h"
 
 namespace osteon {
@@ -10,12 +11,9 @@ namespace {
 
 constexpr int kStepsPerSpan = 10;
 constexpr int kRounds = 40;
-constexpr double kThinnest = 0.4;  // of the thickness, at an end that thins out (D)
+constexpr double kThinnest = 0.7;  // of the thickness, at an end that thins out (D)
 
-struct Station {
-  Vec3 p = Vec3::Zero();
-  double width = 0, thickness = 0;
-};
+using Station = BandStation;
 
 /// Through the points, as a tube's curve runs; widths go along.
 std::vector<Station> stations_of(const BandDescription& band, const std::vector<Vec3>& points) {
@@ -155,10 +153,18 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   return length > 1e-12 ? Vec3(v / length) : otherwise;
 }
 
-std::vector<BandSection> sections_of(const std::vector<Station>& stations, const Vec3& first_W,
-                                     const Vec3& last_W) {
+/// The wanted flat directions, from one end's to the other's.
+std::vector<Vec3> flats_between(const std::vector<Station>& stations, const Vec3& first_W,
+                                const Vec3& last_W) {
+  std::vector<Vec3> flats;
+  for (const double share : shares_of(stations))
+    flats.push_back(unit_or(first_W + share * (last_W - first_W), first_W));
+  return flats;
+}
+
+std::vector<BandSection> sections_of(const std::vector<Station>& stations,
+                                     const std::vector<Vec3>& flats) {
   std::vector<BandSection> sections;
-  const std::vector<double> shares = shares_of(stations);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const Vec3& a = stations[i > 0 ? i - 1 : i].p;
     const Vec3& b = stations[i + 1 < stations.size() ? i + 1 : i].p;
@@ -166,8 +172,7 @@ std::vector<BandSection> sections_of(const std::vector<Station>& stations, const
     s.center = stations[i].p;
     s.along = unit_or(b - a, sections.empty() ? Vec3::UnitX() : sections.back().along);
     const Vec3 before = sections.empty() ? Vec3(s.along.unitOrthogonal()) : sections.back().flat;
-    const Vec3 flat_W = first_W + shares[i] * (last_W - first_W);
-    s.flat = unit_or(flat_W - flat_W.dot(s.along) * s.along, before);
+    s.flat = unit_or(flats[i] - flats[i].dot(s.along) * s.along, before);
     s.across = s.flat.cross(s.along);
     s.half_width = 0.5 * stations[i].width;
     s.half_thickness = 0.5 * stations[i].thickness;
@@ -176,15 +181,21 @@ std::vector<BandSection> sections_of(const std::vector<Station>& stations, const
   return sections;
 }
 
-/// The end goes on into the bone, straight down.
-Station rooted(const Station& end, const SoftGround& bone) {
-  Station root = end;
-  const ClosestPoint at = bone.surface.closest(end.p);
-  const Triangle& t = bone.surface.mesh().triangles[at.triangle];
-  const Vec3 normal =
-      unit_or(bone.normals[t[0]] + bone.normals[t[1]] + bone.normals[t[2]], Vec3::UnitZ());
-  root.p -= (0.5 * end.thickness + 3e-4) * normal;
-  return root;
+/// Ends that are attached go on into their bones.
+void insert_ends(const BandDescription& band, const GroundView& ground,
+                 std::vector<Station>& stations) {
+  const auto onward = [&](std::size_t end, std::size_t before) {
+    return unit_or(stations[end].p - stations[before].p, Vec3::Zero());
+  };
+  std::vector<Station> root;
+  if (band.path.front().attached)
+    root = insertion(stations.front(), onward(0, 1), *ground[band.path.front().at.bone]);
+  const std::size_t last = stations.size() - 1;
+  if (band.path.back().attached)
+    for (const Station& s :
+         insertion(stations.back(), onward(last, last - 1), *ground[band.path.back().at.bone]))
+      stations.push_back(s);
+  stations.insert(stations.begin(), root.rbegin(), root.rend());
 }
 
 }  // namespace
@@ -204,12 +215,10 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground, const B
   pull_over_bone(band, ground, stations);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
     laid.length += (stations[i + 1].p - stations[i].p).norm();
-  const BandPoint& first = band.path.front();
-  const BandPoint& last = band.path.back();
-  if (first.attached)
-    stations.insert(stations.begin(), rooted(stations.front(), *ground[first.at.bone]));
-  if (last.attached) stations.push_back(rooted(stations.back(), *ground[last.at.bone]));
-  laid.sections = sections_of(stations, bend.R_first * band.flat_W, bend.R_last * band.flat_W);
+  insert_ends(band, ground, stations);
+  const std::vector<Vec3> flats =
+      flats_between(stations, bend.R_first * band.flat_W, bend.R_last * band.flat_W);
+  laid.sections = sections_of(stations, turned_flat_on_bone(stations, flats, ground));
   return laid;
 }
 

@@ -28,9 +28,9 @@ struct BandBend {
 
 /// Lays the ends on their bones' surfaces, leads a smooth curve through the points, and pulls it
 /// taut over the bones: where it would run through one it is pushed out until half the band's
-/// thickness lies over the bone. Attached ends go on into the bone by that much.
-/// Over a bent joint it is drawn taut between its ends first, and twists from one end's bone to the
-/// other's.
+/// thickness lies over the bone. Where it lies on bone it turns its flat side to it; attached
+/// ends go on over a short footprint (band_insertion.h). Over a bent joint it is drawn taut between
+/// its ends first, and twists from one end's bone to the other's.
 LaidBand lay_band(const BandDescription& band, const GroundView& ground, const BandBend& bend = {});
 
 /// Signed distance to the band, about.

@@ -92,7 +92,7 @@ Result<BandDescription> read_band(TomlReader& soft, const FindBone& find_bone) {
   const double width = soft.number("width_mm", kThickness_mm);
   const double thickness = soft.number("thickness_mm", kThickness_mm);
   band.flat_W = read_direction(soft, "flat");
-  band.sink = soft.number_or("sink_mm", kSink_mm, 0.15) * kMm;
+  band.sink = soft.number_or("sink_mm", kSink_mm, 0.4) * kMm;
   const std::vector<const toml::table*> tables = soft.tables("path", true);
   if (tables.size() < 2) soft.reject("must hold two points or more", "path");
   for (std::size_t i = 0; i < tables.size(); ++i) {

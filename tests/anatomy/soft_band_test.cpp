@@ -66,6 +66,19 @@ TEST_F(Balls, TheSurfaceIsWholeAndSunkOnlySlightlyIntoBone) {
       EXPECT_GT(ball.surface.closest(p).signed_distance, -0.0003);
 }
 
+TEST_F(Balls, LiesFlatOnTheBoneWhereItEndsThoughToldOtherwise) {
+  BandDescription band;
+  band.flat_W = Vec3(0, 0.6, 0.8);
+  band.path = {point(0, Vec3(-0.001, 0, 0.005), true), point(1, Vec3(0.021, 0, 0.005), true)};
+  const LaidBand laid = lay_band(band, ground_);
+  for (const BandSection* end : {&laid.sections.front(), &laid.sections.back()}) {
+    EXPECT_LT(std::abs(end->flat.y()), 0.2);
+    EXPECT_LT(end->half_width, 0.5 * band.path[0].width) << "the tip is rounded";
+  }
+  EXPECT_LT(laid.sections.front().center.x(), laid.attachments[0].x() - 5e-4)
+      << "a footprint goes on past the attachment";
+}
+
 TEST_F(Balls, AFreeEndStaysWhereItWasPut) {
   BandDescription band;
   band.path = {point(0, Vec3(0, 0, 0.005), true), point(0, Vec3(0, 0, 0.03), false)};
