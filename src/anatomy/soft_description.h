@@ -56,6 +56,7 @@ struct VolumeDescription {
   std::vector<BoundPart> parts;
   std::vector<std::string> clear_of;
   double sink = 0;
+  double least = 0;  ///< thickness that is left between two bones, metres
 };
 
 /// Skin: the outline of flesh. All that lies within `offset` of a bone, joined with `parts`.

@@ -15,21 +15,39 @@ namespace {
 /// The obstacles near a shape, as it is asked for point after point.
 class NearestObstacle {
  public:
-  NearestObstacle(const std::vector<Obstacle>& all, const Aabb& box) {
+  /// `least`: thickness that is left between obstacles of two bones.
+  NearestObstacle(const std::vector<Obstacle>& all, const Aabb& box, double least) : least_(least) {
     for (const Obstacle& o : all)
-      if (o.box.overlaps(box)) near_.emplace_back(*o.surface, o.box);
+      if (o.box.overlaps(box)) near_.push_back({NearbySurface(*o.surface, o.box), o.bone});
   }
-  /// Least distance to an obstacle, at most `limit`.
+  /// Least distance to an obstacle, at most `limit`; between two bones that leave too little room,
+  /// more by half of what is missing.
   double operator()(const Vec3& p, double limit) {
-    for (NearbySurface& o : near_) {
-      if (distance_to_box(p, o.box()) >= limit) continue;
-      if (const auto at = o.nearer_than(limit, p)) limit = std::min(limit, at->signed_distance);
+    double first = limit, second = limit;  // of one bone, and of any other
+    std::optional<std::size_t> bone;
+    for (Near& o : near_) {
+      const double nearer = least_ > 0 ? second : first;
+      if (distance_to_box(p, o.surface.box()) >= nearer) continue;
+      const auto at = o.surface.nearer_than(nearer, p);
+      if (!at || at->signed_distance >= nearer) continue;
+      if (at->signed_distance >= first) {
+        if (o.bone != bone) second = at->signed_distance;
+        continue;
+      }
+      if (o.bone != bone) second = first;
+      first = at->signed_distance;
+      bone = o.bone;
     }
-    return limit;
+    return first + std::max(0.0, 0.5 * (least_ - first - second));
   }
 
  private:
-  std::vector<NearbySurface> near_;
+  struct Near {
+    NearbySurface surface;
+    std::optional<std::size_t> bone;
+  };
+  std::vector<Near> near_;
+  double least_;
 };
 
 /// What a shape holds and defects and obstacles leave. Obstacles count where the shape itself is;
@@ -74,15 +92,16 @@ class ClippedField : public LocalField {
 };
 
 /// Surface of what `shape` holds and the defects and obstacles leave; no point of the shape is
-/// deeper in it than `depth`.
+/// deeper in it than `depth`. `least`: thickness that they leave between two bones.
 template <class Shape>
 Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, double sink,
-                             const SoftDescription& soft, const std::vector<Obstacle>& obstacles) {
+                             double least, const SoftDescription& soft,
+                             const std::vector<Obstacle>& obstacles) {
   IsosurfaceOptions options;
   options.cell_m = soft.cell;
   options.uncrossed = true;
   const double beyond = 2 * soft.cell;
-  NearestObstacle nearest(obstacles, box.grown(soft.cell));
+  NearestObstacle nearest(obstacles, box.grown(soft.cell), least);
   SampledField sampled([&](const Vec3& p) { return nearest(p, depth + beyond); },
                        box.grown(3 * soft.cell), soft.cell);
   const ClippedField<Shape> field(shape, soft.defects, beyond, sink, sampled);
@@ -103,7 +122,7 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescripti
                           const std::vector<Obstacle>& obstacles) {
   double depth = 0;
   for (const BandSection& s : band.sections) depth = std::max(depth, s.half_thickness);
-  return grow_clipped(NearBand(band), bounds(band), depth, sink, soft, obstacles);
+  return grow_clipped(NearBand(band), bounds(band), depth, sink, 0, soft, obstacles);
 }
 
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
@@ -111,7 +130,7 @@ Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescripti
   const Solid solid = solid_of(volume.parts);
   const Aabb box = bounds(solid);
   const double depth = 0.5 * box.extent().minCoeff();
-  return grow_clipped(NearSolid(solid), box, depth, volume.sink, soft, obstacles);
+  return grow_clipped(NearSolid(solid), box, depth, volume.sink, volume.least, soft, obstacles);
 }
 
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "description.h"
@@ -12,6 +13,7 @@ namespace osteon {
 struct Obstacle {
   const MeshDistance* surface;
   Aabb box;
+  std::optional<std::size_t> bone = {};  ///< that it is, or lies on
 };
 
 /// What a soft part of this shape fills, as a closed surface in World: that of the band or the
@@ -19,6 +21,8 @@ struct Obstacle {
 /// A part with defects keeps as many pieces as its description says.
 Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescription& soft,
                           const std::vector<Obstacle>& obstacles);
+/// Between the obstacles of two bones a volume is nowhere thinner than its `least`: it sinks into
+/// both by the same.
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
                             const std::vector<Obstacle>& obstacles);
 /// The outline of flesh over the bones, which stand as `poses` says (X_WB).

@@ -106,7 +106,8 @@ class SoftGrower {
           for (Vec3& v : grown_.softs[k].mesh_W.vertices) v = *moved * v;
     });
     move_bound_along(anatomy_);
-    for (const auto& ground : grounds_) obstacles_.push_back({&ground->surface, ground->box});
+    for (std::size_t i = 0; i < grounds_.size(); ++i)
+      obstacles_.push_back({&grounds_[i]->surface, grounds_[i]->box, i});
   }
 
   Result<void> grow_in_order(int order) {
@@ -135,8 +136,9 @@ class SoftGrower {
     run_tasks(options_, anatomy_.softs.size(), [&](std::size_t i) {
       if (order_of(anatomy_.softs[i]) == 0) surfaces_[i].emplace(grown_.softs[i].mesh_W);
     });
-    for (const auto& surface : surfaces_)
-      if (surface) obstacles_.push_back({&*surface, bounds(surface->mesh())});
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+      if (const auto& surface = surfaces_[i])
+        obstacles_.push_back({&*surface, bounds(surface->mesh()), carrier(anatomy_.softs[i])});
   }
 
   /// Whether landmarks lie on it or volumes name it, which it then hinders.

@@ -118,6 +118,7 @@ Result<BandDescription> read_band(TomlReader& soft, const FindBone& find_bone) {
 Result<VolumeDescription> read_volume(TomlReader& in, const FindBone& find_bone) {
   VolumeDescription volume;
   volume.sink = in.number_or("sink_mm", kSink_mm, 0) * kMm;
+  volume.least = in.number_or("least_mm", kSink_mm, 0) * kMm;
   volume.clear_of = in.texts("clear_of");
   auto parts = read_solid(in, find_bone, true);
   if (!parts) return tl::unexpected(parts.error());

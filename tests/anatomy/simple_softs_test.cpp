@@ -28,7 +28,9 @@ void expect_simple(const std::string& name, std::uint64_t seeds,
 }
 
 TEST(SimpleSofts, BandsOfTheWristAreStraps) { expect_simple("wrist", 4, {"ligament"}); }
-TEST(SimpleSofts, BandsOfTheKneeAreStraps) { expect_simple("knee", 12, {"ligament", "tendon"}); }
+TEST(SimpleSofts, BandsAndMenisciOfTheKneeHaveNoHoles) {
+  expect_simple("knee", 12, {"ligament", "tendon", "meniscus"});
+}
 
 }  // namespace
 }  // namespace osteon
