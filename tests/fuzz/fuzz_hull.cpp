@@ -1,7 +1,9 @@
 // Builds the hull of points read from bytes and has it checked by the independent validator. The
 // first byte says how bytes become coordinates: grid cells (flat, equal and collinear points
-// abound), grid cells far from the origin or nudged by one bit, or raw doubles. And whether a crowd
-// of points between them comes first, so many that some are sorted out at first.
+// abound), grid cells far from the origin or nudged by one bit, or raw doubles. Points of a grid
+// may come with a crowd of others between them, so many that some are sorted out at first: the
+// corners must be the same.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +19,6 @@
 namespace {
 
 using osteon::Vec3;
-
-/// With more the validator, which looks at every point from every facet, leaves time for few runs.
-constexpr std::size_t kFewPoints = 12;
 
 std::vector<Vec3> grid_points(const std::uint8_t* data, std::size_t size, int mode) {
   std::vector<Vec3> points;
@@ -43,7 +42,7 @@ std::vector<Vec3> raw_points(const std::uint8_t* data, std::size_t size) {
   return points;
 }
 
-/// Means of two before the points themselves; one may stand out by rounding.
+/// Means of two, which are exact on a grid, before the points themselves.
 std::vector<Vec3> crowd_with(const std::vector<Vec3>& points) {
   constexpr std::size_t kCrowd = 5100;
   std::vector<Vec3> all;
@@ -54,6 +53,13 @@ std::vector<Vec3> crowd_with(const std::vector<Vec3>& points) {
   }
   all.insert(all.end(), points.begin(), points.end());
   return all;
+}
+
+std::vector<Vec3> sorted(std::vector<Vec3> points) {
+  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  return points;
 }
 
 bool has_non_finite(const std::vector<Vec3>& points) {
@@ -90,11 +96,16 @@ void stop(const char* what) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0 || size > 4096) return 0;
   const int mode = data[0];
-  std::vector<Vec3> points =
+  const std::vector<Vec3> points =
       (mode & 3) == 0 ? raw_points(data + 1, size - 1) : grid_points(data + 1, size - 1, mode);
-  if ((mode & 32) && points.size() <= kFewPoints) points = crowd_with(points);
   const osteon::HullOutcome outcome = osteon::build_hull(points);
   if (outcome.hull && has_non_finite(points)) stop("a hull of points that are not finite");
+  if ((mode & 32) && (mode & 3) && !(mode & (8 | 16))) {
+    const osteon::HullOutcome crowded = osteon::build_hull(crowd_with(points));
+    if (crowded.hull.has_value() != outcome.hull.has_value()) stop("a crowd changes the outcome");
+    if (outcome.hull && sorted(crowded.hull->vertices) != sorted(outcome.hull->vertices))
+      stop("a crowd changes the corners");
+  }
   if (!outcome.hull || !measurable(points)) return 0;
   const double tolerance_m = 1e-12 * magnitude(points);
   for (const std::string& problem : osteon::validate_hull(*outcome.hull, points, tolerance_m)) {
