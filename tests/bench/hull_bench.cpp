@@ -176,20 +176,22 @@ std::vector<CgalPoints> for_cgal(const Sets& sets) {
   return result;
 }
 
+/// More than once where that takes no time: then the median is told, and how far the runs differ.
 void add(const std::string& name, const Sets& sets) {
-  const auto unit = benchmark::kMillisecond;
-  benchmark::RegisterBenchmark((name + "/osteon").c_str(), [sets](benchmark::State& s) {
-    measure(s, sets, osteon_hull);
-  })->Unit(unit);
-  benchmark::RegisterBenchmark((name + "/qhull").c_str(), [sets](benchmark::State& s) {
-    measure(s, sets, qhull_hull);
-  })->Unit(unit);
-  benchmark::RegisterBenchmark((name + "/cgal").c_str(), [sets = for_cgal(sets)](auto& s) {
-    measure(s, sets, cgal_hull);
-  })->Unit(unit);
-  benchmark::RegisterBenchmark((name + "/bullet").c_str(), [sets](benchmark::State& s) {
-    measure(s, sets, bullet_hull);
-  })->Unit(unit);
+  std::size_t points = 0;
+  for (const Points& set : sets) points += set.size();
+  const int runs = points < 1'000'000 ? 5 : 1;
+  const auto settle = [runs](benchmark::internal::Benchmark* b) {
+    b->Unit(benchmark::kMillisecond)->Repetitions(runs)->ReportAggregatesOnly(runs > 1);
+  };
+  settle(benchmark::RegisterBenchmark(
+      (name + "/osteon").c_str(), [sets](benchmark::State& s) { measure(s, sets, osteon_hull); }));
+  settle(benchmark::RegisterBenchmark(
+      (name + "/qhull").c_str(), [sets](benchmark::State& s) { measure(s, sets, qhull_hull); }));
+  settle(benchmark::RegisterBenchmark(
+      (name + "/cgal").c_str(), [sets = for_cgal(sets)](auto& s) { measure(s, sets, cgal_hull); }));
+  settle(benchmark::RegisterBenchmark(
+      (name + "/bullet").c_str(), [sets](benchmark::State& s) { measure(s, sets, bullet_hull); }));
 }
 
 /// Registered before main reads its arguments.
