@@ -12,7 +12,8 @@ packages_test=(
   libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples
 )
-packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev)
+packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
+  libglpk-dev coinor-libclp-dev)
 
 # Installs what is missing of the packages named, and says so. Quick when nothing is.
 install_missing() {

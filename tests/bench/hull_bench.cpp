@@ -22,6 +22,7 @@
 #include "osteon/base/random.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/mesh_io.h"
+#include "ratios.h"
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -194,17 +195,21 @@ void add(const std::string& name, const Sets& sets) {
       (name + "/bullet").c_str(), [sets](benchmark::State& s) { measure(s, sets, bullet_hull); }));
 }
 
-/// Registered before main reads its arguments.
-[[maybe_unused]] const bool registered = [] {
-  add("wrist", wrist(false));
-  add("wrist_soup", wrist(true));
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<osteon::bench::Comparison> comparisons;
+  const auto compare = [&](const std::string& name, const Sets& sets) {
+    add(name, sets);
+    comparisons.push_back({name + "/osteon", {name + "/qhull", name + "/cgal", name + "/bullet"}});
+  };
+  compare("wrist", wrist(false));
+  compare("wrist_soup", wrist(true));
   for (const int decade : {4, 5, 6}) {
     const auto n = static_cast<std::size_t>(std::lround(std::pow(10, decade)));
-    add("ball_1e" + std::to_string(decade), {in_ball(n)});
-    add("sphere_1e" + std::to_string(decade), {on_sphere(n)});
-    add("bone_1e" + std::to_string(decade), on_bone(n));
+    compare("ball_1e" + std::to_string(decade), {in_ball(n)});
+    compare("sphere_1e" + std::to_string(decade), {on_sphere(n)});
+    compare("bone_1e" + std::to_string(decade), on_bone(n));
   }
-  return true;
-}();
-
-}  // namespace
+  return osteon::bench::run(argc, argv, comparisons);
+}
