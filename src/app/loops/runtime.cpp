@@ -73,6 +73,7 @@ std::string Runtime::realtime_warning() const {
 }
 
 void Runtime::run_haptic() {
+  const LoopToEnd until_closed;
   const bool memory = lock_memory();
   const bool priority = request_priority();
   grant_.store((priority ? kPriority : 0) | (memory ? kMemory : 0));

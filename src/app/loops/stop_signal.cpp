@@ -11,8 +11,9 @@
 namespace osteon {
 namespace {
 
-// A signal handler has no argument of its own: this is the one thing it may write to.
+// A signal handler has no argument of its own: this is what it may write to and read.
 std::atomic<int> g_requested{0};
+std::atomic<int> g_loops_to_end{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
@@ -24,12 +25,14 @@ extern "C" void request_stop(int number) {
   signal(number, SIG_DFL);  // the second one kills
 }
 
-// The loops see the request within a tick; 50 ms are many. Nothing but what a signal handler may
-// do.
+// The loops see the request within a tick; 50 ms are many, but not on a busy machine. Half a second
+// is for the loop that died itself. Nothing but what a signal handler may do.
 void let_loops_end() {
+  constexpr int kAtLeast = 10, kAtMost = 100;
   g_requested.store(kDying);
-  const timespec moment{0, 50'000'000};
-  nanosleep(&moment, nullptr);
+  const timespec moment{0, 5'000'000};
+  for (int k = 0; k < kAtLeast || (k < kAtMost && g_loops_to_end.load() > 0); ++k)
+    nanosleep(&moment, nullptr);
 }
 
 extern "C" void end_loops_and_die(int number) {
@@ -73,6 +76,9 @@ StopSignals::~StopSignals() {
   for (const int number : kDeadly) release_deadly(number);
   std::set_terminate(std::abort);
 }
+
+LoopToEnd::LoopToEnd() { ++g_loops_to_end; }
+LoopToEnd::~LoopToEnd() { --g_loops_to_end; }
 
 bool stop_requested() { return g_requested.load(std::memory_order_relaxed) != 0; }
 

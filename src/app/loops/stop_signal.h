@@ -14,6 +14,16 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 };
 
+/// A loop that has a device to leave at zero holds one. A dying program waits for it, half a second
+/// at most; for anything else only a moment.
+class LoopToEnd {
+ public:
+  LoopToEnd();
+  ~LoopToEnd();
+  LoopToEnd(const LoopToEnd&) = delete;
+  LoopToEnd& operator=(const LoopToEnd&) = delete;
+};
+
 /// A signal, or the end of the program, has asked every loop to end. Any thread.
 bool stop_requested();
 /// Which signal; 0: none. A program that ends by it returns 128 more.

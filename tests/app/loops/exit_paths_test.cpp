@@ -18,22 +18,44 @@
 #include "loops/path_player.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
+#include "osteon/base/clock.h"
 #include "osteon/base/file.h"
 #include "osteon/device/drivers.h"
 
 namespace osteon {
 namespace {
 
+/// One whose last words take long, as on a busy machine.
+class SlowToClose : public HapticDevice {
+ public:
+  explicit SlowToClose(std::unique_ptr<HapticDevice> device) : device_(std::move(device)) {}
+  const DeviceInfo& info() const override { return device_->info(); }
+  DeviceSample read() override { return device_->read(); }
+  void write_force(const Vec3& force_V) override { device_->write_force(force_V); }
+  void close() override {
+    constexpr std::int64_t kSlow_ns = 200'000'000;
+    for (const std::int64_t begun_ns = steady_now_ns(); steady_now_ns() < begun_ns + kSlow_ns;) {
+    }
+    device_->close();
+  }
+
+ private:
+  std::unique_ptr<HapticDevice> device_;
+};
+
 // Runs until the joystick presses with half a newton, then ends the program so.
-void press_and(const std::function<void()>& end, const std::filesystem::path& log_file) {
+void press_and(const std::function<void()>& end, const std::filesystem::path& log_file,
+               bool slow_to_close = false) {
   const StopSignals signals;
   auto joystick = open_device("virtual-usb-vector");
   if (!joystick) std::_Exit(3);
-  auto device = PathPlayer::make(std::move(*joystick), test::pressing_path());
-  if (!device) std::_Exit(3);
+  auto played = PathPlayer::make(std::move(*joystick), test::pressing_path());
+  if (!played) std::_Exit(3);
+  std::unique_ptr<HapticDevice> device = std::move(*played);
+  if (slow_to_close) device = std::make_unique<SlowToClose>(std::move(device));
   RunPlan plan;
   plan.the_case = test::blocks_case();
-  Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(*device), 20, log_file));
+  Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(device), 20, log_file));
   runtime.start();
   while (runtime.device_status().force_at_hand_V.norm() < 0.5) std::this_thread::yield();
   end();
@@ -105,6 +127,12 @@ TEST_F(ExitPaths, ByAnExceptionThatNobodyCatches) {
 
 TEST_F(ExitPaths, ByAbort) {
   EXPECT_EXIT(press_and([] { std::abort(); }, file), ::testing::KilledBySignal(SIGABRT), "");
+  expect_zero_at_the_end();
+}
+
+TEST_F(ExitPaths, ADeviceThatIsSlowToCloseIsWaitedFor) {
+  const auto abort = [] { std::abort(); };
+  EXPECT_EXIT(press_and(abort, file, true), ::testing::KilledBySignal(SIGABRT), "");
   expect_zero_at_the_end();
 }
 
