@@ -7,6 +7,7 @@
 #include "osteon/mesh/measure.h"
 #include "osteon/mesh/taubin.h"
 #include "soft_patch.h"
+#include "soft_rim.h"
 
 namespace osteon {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kBorder_m = 4e-4;       // half-width of the groove between two
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
 constexpr double kLeastFacing = 0.3;     // cosine between the normal and the way to the other bone
 constexpr double kBare_m = 5e-5;         // beside a defect (D)
+constexpr double kAtDefect_m = 1e-4;     // a rim so near to one is the defect's
 constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
 
 double rim_height(const LayerDescription& layer) {
@@ -95,23 +97,29 @@ class LayerMaker {
       whole.vertices.push_back({p, bone.normals[i], from_rim, kLeast_m});
     }
     smooth_rim(vertex_rings(bone.surface.mesh()), whole);
-    raise(whole);
-    // After the heights, so that a defect has a steep edge where the rim thins out.
-    for (CoveredVertex& v : whole.vertices) v.inside = std::min(v.inside, outside_defects(v.p));
-    return raise_patch(cut_patch(whole, kLeastArea_m2));
+    CoveredPatch patch = cut(whole);
+    // The height is that without defects, so that one has a steep edge where the rim thins out.
+    for (std::size_t v = 0; v < whole.vertices.size(); ++v)
+      patch.vertices[v].inside = whole.vertices[v].inside;
+    const auto at_defect = [&](const Vec3& p) { return outside_defects(p) < kAtDefect_m; };
+    even_rim(bone.surface, whole, at_defect, patch);
+    raise(patch);
+    return raise_patch(patch);
   }
 
  private:
-  /// Heights of what is covered, and of its neighbours beyond the rim.
-  void raise(CoveredPatch& whole) {
-    std::vector<bool> wanted(whole.vertices.size(), false);
-    for (const Triangle& t : whole.triangles) {
-      const auto covered = [&](std::uint32_t v) { return whole.vertices[v].inside > 0; };
-      if (std::any_of(t.begin(), t.end(), covered))
-        for (const std::uint32_t v : t) wanted[v] = true;
-    }
+  /// What is covered and no defect takes.
+  CoveredPatch cut(CoveredPatch whole) const {
+    for (CoveredVertex& v : whole.vertices) v.inside = std::min(v.inside, outside_defects(v.p));
+    return cut_patch(whole, kLeastArea_m2);
+  }
+
+  void raise(CoveredPatch& patch) {
+    std::vector<bool> wanted(patch.vertices.size(), false);
+    for (const Triangle& t : patch.triangles)
+      for (const std::uint32_t v : t) wanted[v] = true;
     for (std::size_t v = 0; v < wanted.size(); ++v)
-      if (wanted[v]) whole.vertices[v].height = height(whole.vertices[v]);
+      if (wanted[v]) patch.vertices[v].height = height(patch.vertices[v]);
   }
 
   /// Metres from the rim, negative outside.

@@ -24,8 +24,9 @@ SoftGround make_ground(MeshDistance surface_W);
 /// than to its own by less than the clearance: its height over a vertex is at most half of what the
 /// gap there has room for, so two layers that face each other never meet. Where several layers
 /// cover one bone (`on_same_bone`, facing others), each keeps to the places that are nearest to its
-/// own facing bones. The bone's triangles are cut along the rim. What lies in a defect stays bare,
-/// up to a steep edge. Empty when nothing is covered.
+/// own facing bones. The bone's triangles are cut along the rim, which is drawn into smooth curves.
+/// What lies in a defect stays bare, up to a steep edge that follows it. Empty when nothing is
+/// covered.
 TriMesh grow_layer(const LayerDescription& layer,
                    const std::vector<const LayerDescription*>& on_same_bone,
                    const GroundView& ground, const std::vector<BoundPart>& defects = {});

@@ -14,20 +14,35 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 Edge sorted(std::uint32_t a, std::uint32_t b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
-/// Puts vertices that the rim nearly meets onto it, so that no sliver is cut off.
+/// The place on the edge from u to v where `inside` is 0.
+CoveredVertex crossing_of(const CoveredVertex& u, const CoveredVertex& v) {
+  const double share = u.inside / (u.inside - v.inside);
+  CoveredVertex rim;
+  rim.p = u.p + share * (v.p - u.p);
+  rim.normal = (u.normal + share * (v.normal - u.normal)).normalized();
+  rim.height = u.height + share * (v.height - u.height);
+  return rim;
+}
+
+/// Moves vertices that the rim nearly meets onto it, along the edge where it is nearest, so that no
+/// sliver is cut off.
 void snap(CoveredPatch& patch) {
-  std::vector<bool> near(patch.vertices.size(), false);
+  std::vector<double> nearest(patch.vertices.size(), kSnap);
+  std::vector<CoveredVertex> snapped = patch.vertices;
+  const auto look = [&](std::uint32_t i, std::uint32_t j) {
+    const CoveredVertex &u = patch.vertices[i], &v = patch.vertices[j];
+    if ((u.inside > 0) == (v.inside > 0) || u.inside == v.inside) return;
+    const double share = u.inside / (u.inside - v.inside);
+    if (share >= nearest[i]) return;
+    nearest[i] = share;
+    snapped[i] = crossing_of(u, v);
+  };
   for (const Triangle& t : patch.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t i = t[k], j = t[(k + 1) % 3];
-      const double a = patch.vertices[i].inside, b = patch.vertices[j].inside;
-      if ((a > 0) == (b > 0) || a == b) continue;
-      const double share = a / (a - b);
-      if (share < kSnap) near[i] = true;
-      if (share > 1 - kSnap) near[j] = true;
+      look(t[k], t[(k + 1) % 3]);
+      look(t[(k + 1) % 3], t[k]);
     }
-  for (std::size_t i = 0; i < near.size(); ++i)
-    if (near[i]) patch.vertices[i].inside = 0;
+  patch.vertices = std::move(snapped);
 }
 
 class RimCutter {
@@ -61,12 +76,8 @@ class RimCutter {
     const Edge edge = sorted(a, b);
     const auto [at, made] = made_.try_emplace(edge, 0);
     if (!made) return at->second;
-    const CoveredVertex u = patch_.vertices[edge.first], v = patch_.vertices[edge.second];
-    const double share = u.inside / (u.inside - v.inside);
-    CoveredVertex rim;
-    rim.p = u.p + share * (v.p - u.p);
-    rim.normal = (u.normal + share * (v.normal - u.normal)).normalized();
-    rim.height = u.height + share * (v.height - u.height);
+    const CoveredVertex rim =
+        crossing_of(patch_.vertices[edge.first], patch_.vertices[edge.second]);
     patch_.vertices.push_back(rim);
     return at->second = static_cast<std::uint32_t>(patch_.vertices.size() - 1);
   }

@@ -19,8 +19,9 @@ struct CoveredPatch {
   std::vector<Triangle> triangles;
 };
 
-/// The part of the patch where `inside` is positive, its triangles cut along the rim. Heights are
-/// needed up to one triangle beyond it. Pieces of less than `least_area_m2` are left out.
+/// The part of the patch where `inside` is positive, its triangles cut along the rim; vertices
+/// close to it are moved onto it. Those of the whole patch come first, in their order. Heights are
+/// needed up to one triangle beyond the rim. Pieces of less than `least_area_m2` are left out.
 CoveredPatch cut_patch(const CoveredPatch& whole, double least_area_m2);
 
 /// Closed shell between the patch and the same raised along its normals by the heights, which must

@@ -74,6 +74,8 @@ TEST(KneeSoft, AnteriorCruciateLigamentHasItsPublishedFigures) {
   EXPECT_NEAR(narrowest * 1e3, 3.9, 0.6);
 }
 
+TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(knee(), 1.5); }
+
 TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {
   for (const char* name : {"femoral_cartilage", "medial_tibial_plateau", "lateral_tibial_plateau",
                            "patellar_cartilage"}) {

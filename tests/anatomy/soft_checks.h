@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "mesh/surface_checks.h"
 #include "osteon/anatomy/generate.h"
 #include "osteon/mesh/distance.h"
+#include "osteon/mesh/self_crossing.h"
 
 // Checks of soft parts that hold for every patient.
 namespace osteon::checks {
@@ -107,6 +111,53 @@ inline double height_of(const GeneratedAnatomy& anatomy, const std::string& name
       for (const Vec3& p : soft.mesh_W.vertices)
         most = std::max(most, bones[i].closest(p).signed_distance);
   return most;
+}
+
+/// How far the rim of a layer turns to and fro along the bone, degrees per mm: all that it turns
+/// from edge to edge, less what is left of that over eight edges. Vertices of a layer lie
+/// on bone, then in the same order on its outer side.
+inline double rim_waver_deg_per_mm(const TriMesh& layer) {
+  const auto half = static_cast<std::uint32_t>(layer.vertices.size() / 2);
+  std::map<std::uint32_t, std::uint32_t> next;
+  for (const Triangle& t : layer.triangles)
+    if (t[0] < half && t[1] < half && t[2] == t[1] + half) next[t[0]] = t[1];
+  const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const std::vector<Vec3>& v = layer.vertices;
+    const Vec3 up = (v[b + half] - v[b]).normalized();
+    const auto along = [&](const Vec3& edge) { return Vec3(edge - edge.dot(up) * up); };
+    const Vec3 in = along(v[b] - v[a]), out = along(v[c] - v[b]);
+    return std::atan2(up.dot(in.cross(out)), in.dot(out));
+  };
+  double waver = 0, length = 0;
+  while (!next.empty()) {
+    std::vector<std::uint32_t> curve = {next.begin()->first};
+    for (auto at = next.begin(); at != next.end(); at = next.find(curve.back())) {
+      curve.push_back(at->second);
+      next.erase(at);
+    }
+    for (std::size_t i = 0; i + 9 < curve.size(); i += 8) {
+      double all = 0, left = 0;
+      for (std::size_t k = i; k < i + 8; ++k) {
+        const double angle = turn(curve[k], curve[k + 1], curve[k + 2]);
+        all += std::abs(angle);
+        left += angle;
+        length += (layer.vertices[curve[k + 1]] - layer.vertices[curve[k]]).norm();
+      }
+      waver += all - std::abs(left);
+    }
+  }
+  return waver / length * (180 / 3.14159265358979) * 1e-3;
+}
+
+/// Prints it of every layer, and expects no more than `most`; no layer crosses itself.
+inline void expect_smooth_rims(const GeneratedAnatomy& anatomy, double most_deg_per_mm) {
+  for (const GeneratedSoft& soft : anatomy.softs) {
+    if (soft.kind != "cartilage") continue;
+    const double waver = rim_waver_deg_per_mm(soft.mesh_W);
+    std::printf("%-24s %.1f deg/mm\n", soft.name.c_str(), waver);
+    EXPECT_LE(waver, most_deg_per_mm) << soft.name;
+    EXPECT_TRUE(self_crossings(soft.mesh_W).empty()) << soft.name;
+  }
 }
 
 inline std::uint64_t hash_of_softs(const GeneratedAnatomy& anatomy) {

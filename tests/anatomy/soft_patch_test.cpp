@@ -41,7 +41,7 @@ TEST(SoftPatch, ADiscIsCutAtItsRimAndRaisedToItsVolume) {
       cut_patch(square(20, [&](const Vec3& p) { return kRadius - (p - center).norm(); }), 0);
   for (const Triangle& t : cut.triangles)
     for (const std::uint32_t v : t)
-      EXPECT_LT((cut.vertices[v].p - center).norm(), kRadius + 0.0003);
+      EXPECT_LT((cut.vertices[v].p - center).norm(), kRadius + 0.00005);
   const TriMesh shell = raise_patch(cut);
   EXPECT_TRUE(checks::is_closed_manifold(shell));
   EXPECT_TRUE(checks::has_single_fans(shell));

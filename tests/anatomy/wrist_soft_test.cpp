@@ -51,6 +51,8 @@ TEST(WristSoft, IsSound) {
   checks::expect_layers_apart(wrist());
 }
 
+TEST(WristSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(wrist(), 7); }
+
 /// 0.8 mm (K) where the joint has room; the radiocarpal joint has.
 TEST(WristSoft, CartilageIsAsThickAsTheJointHasRoomFor) {
   for (const GeneratedSoft& soft : wrist().softs) {
