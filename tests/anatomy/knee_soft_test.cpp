@@ -74,6 +74,27 @@ TEST(KneeSoft, AnteriorCruciateLigamentHasItsPublishedFigures) {
   EXPECT_NEAR(narrowest * 1e3, 3.9, 0.6);
 }
 
+/// The ends of both tendons lie on the front of the patella, their corners too.
+TEST(KneeSoft, TendonsDoNotOverhangThePatella) {
+  const auto bones = checks::bone_surfaces_W(knee());
+  std::size_t patella = 0;
+  while (knee().bones.at(patella).name != "patella") ++patella;
+  for (const char* name : {"patellar_tendon", "quadriceps_tendon"}) {
+    const GeneratedSoft& tendon = checks::soft_named(knee(), name);
+    ASSERT_EQ(tendon.attachments.at(0).bone, "patella");
+    const Vec3 end = tendon.attachments[0].p_W;
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& v : tendon.mesh_W.vertices) middle += v;
+    middle /= static_cast<double>(tendon.mesh_W.vertices.size());
+    const Vec3 along = (middle - end).normalized();
+    double most = 0;
+    for (const Vec3& v : tendon.mesh_W.vertices)
+      if (along.dot(v - end) < 0) most = std::max(most, bones[patella].closest(v).signed_distance);
+    std::printf("%s stands %.1f mm over the patella\n", name, most * 1e3);
+    EXPECT_LT(most, 5e-3) << name;
+  }
+}
+
 TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(knee(), 1.5); }
 
 TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {
