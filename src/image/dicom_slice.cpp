@@ -38,16 +38,12 @@ Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::in
     return fail("holds fewer pixels than it says, or in a compression that cannot be unpacked",
                 file, "Copy or export the series again, best uncompressed");
   switch (format.GetScalarType()) {
+    case gdcm::PixelFormat::INT12:
     case gdcm::PixelFormat::INT16:
       to_hu<std::int16_t>(bytes, slice, out);
       return {};
-    case gdcm::PixelFormat::UINT16:
-      to_hu<std::uint16_t>(bytes, slice, out);
-      return {};
-    case gdcm::PixelFormat::INT12:
-      to_hu<std::int16_t>(bytes, slice, out);
-      return {};
     case gdcm::PixelFormat::UINT12:
+    case gdcm::PixelFormat::UINT16:
       to_hu<std::uint16_t>(bytes, slice, out);
       return {};
     case gdcm::PixelFormat::INT8:
