@@ -55,7 +55,8 @@ endfunction()
 
 function(osteon_module name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp"
+    "${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp")
   if(NOT sources)
     return()
   endif()

@@ -24,11 +24,17 @@ const Arrows& allowed() {
       {"collide", {"base", "mesh", "hull"}},
       {"scene", {"base", "image", "mesh", "hull", "collide"}},
       {"device", {"base"}},
+      {"tissue", {"base", "mesh", "collide"}},
+      {"carve", {"base", "mesh", "collide"}},
+      {"xray", {"base", "image", "mesh", "collide", "scene"}},
+      {"media", {"base"}},
       {"haptic", {"base", "hull", "collide", "scene"}},
-      {"physics", {"base", "image", "mesh", "hull", "collide", "scene"}},
+      {"physics", {"base", "image", "mesh", "hull", "collide", "scene", "tissue", "carve"}},
       {"render", {"base", "mesh", "scene"}},
       {"procedure", {"base", "scene"}},
       {"record", {"base", "scene"}},
+      {"surgeon", {"base", "mesh", "collide", "scene", "procedure"}},
+      {"results", {"base", "scene", "procedure"}},
       {"session", {"base", "scene", "haptic", "physics", "procedure", "record"}},
   };
   return table;

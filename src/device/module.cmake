@@ -1,8 +1,5 @@
 find_package(tomlplusplus REQUIRED)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
-# One folder a family of devices.
-file(GLOB nested CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/device/*/*.cpp")
-target_sources(osteon_device PRIVATE ${nested})
 osteon_link_system(osteon_device tomlplusplus::tomlplusplus PkgConfig::LIBUSB)
 
 # Vendors' libraries are loaded at run time: one of two files knows how.
