@@ -1,0 +1,57 @@
+#include "osteon/scene/event.h"
+
+#include <algorithm>
+
+namespace osteon {
+namespace {
+
+using K = EventKind;
+using S = SubjectKind;
+
+constexpr std::array kRows = {
+    EventKindRow{K::kContactBegin, "contact_begin", "touches", S::kBone, {"force_n", "", ""}},
+    EventKindRow{K::kContactEnd,
+                 "contact_end",
+                 "leaves",
+                 S::kBone,
+                 {"duration_s", "peak_force_n", "deepest_mm"}},
+    EventKindRow{
+        K::kForceOver, "force_over", "presses too hard on", S::kBone, {"force_n", "limit_n", ""}},
+    EventKindRow{K::kForceUnder,
+                 "force_under",
+                 "presses less on",
+                 S::kBone,
+                 {"force_n", "limit_n", "duration_s"}},
+    EventKindRow{K::kStructureSeen, "structure_seen", "sees", S::kBone, {"distance_mm", "", ""}},
+    EventKindRow{K::kStructureEntered, "structure_entered", "enters", S::kSoftPart, {"", "", ""}},
+    EventKindRow{
+        K::kStructureLeft, "structure_left", "is out of", S::kSoftPart, {"duration_s", "", ""}},
+    EventKindRow{
+        K::kInstrumentTaken, "instrument_taken", "takes", S::kInstrument, {"size", "", ""}},
+    EventKindRow{
+        K::kPowered, "powered", "sets the power of", S::kInstrument, {"power", "intensity", ""}},
+    EventKindRow{
+        K::kPortalEntered, "portal_entered", "goes through", S::kPortal, {"depth_mm", "", ""}},
+    EventKindRow{K::kPortalLeft, "portal_left", "is out of", S::kPortal, {"duration_s", "", ""}},
+    EventKindRow{K::kMark, "mark", "restore point", S::kMark, {"", "", ""}},
+    EventKindRow{K::kRestored, "restored", "back to restore point", S::kMark, {"", "", ""}},
+    EventKindRow{K::kFault, "fault", "force taken off", S::kDevice, {"", "", ""}},
+};
+
+}  // namespace
+
+std::span<const EventKindRow> event_table() { return kRows; }
+
+const EventKindRow* find_event_kind(EventKind kind) {
+  const auto found = std::find_if(kRows.begin(), kRows.end(),
+                                  [kind](const EventKindRow& row) { return row.kind == kind; });
+  return found == kRows.end() ? nullptr : &*found;
+}
+
+const EventKindRow* find_event_kind(std::string_view name) {
+  const auto found = std::find_if(kRows.begin(), kRows.end(),
+                                  [name](const EventKindRow& row) { return row.name == name; });
+  return found == kRows.end() ? nullptr : &*found;
+}
+
+}  // namespace osteon
