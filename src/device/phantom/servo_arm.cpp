@@ -19,7 +19,7 @@ constexpr double kCooledDown = 0.8;
 constexpr double kFarthest_m = 2.0;  // no arm of this class reaches so far
 constexpr double kFastest_m_per_s = 20.0;
 constexpr int kErrorsAPass = 16;  // that a broken library cannot hold the loop
-constexpr double kMetre_mm = 1000;
+constexpr double kMmPerMetre = 1000;
 
 hd::Enum preferred_style(hd::Enum styles) {
   for (const hd::Enum style : {hd::kStyleInkwell, hd::kStyleAuto, hd::kStyleEncoderReset})
@@ -108,8 +108,8 @@ ServoArm::Raw ServoArm::read_raw() const {
 bool ServoArm::accept(const Raw& raw, std::int64_t now) {
   const Eigen::Map<const Eigen::Matrix4d> X(raw.transform.data());
   const Mat3 R = X.topLeftCorner<3, 3>();
-  const Vec3 p = X.topRightCorner<3, 1>() / kMetre_mm - setup_.centre_m;
-  const Vec3 v = raw.v_mm_per_s / kMetre_mm;
+  const Vec3 p = X.topRightCorner<3, 1>() / kMmPerMetre - setup_.centre_m;
+  const Vec3 v = raw.v_mm_per_s / kMmPerMetre;
   const bool finite = X.array().isFinite().all() && is_finite(v) && is_finite(raw.w_rad_per_s);
   if (!finite || !is_rotation(R) || p.norm() > kFarthest_m || v.norm() > kFastest_m_per_s)
     return false;
