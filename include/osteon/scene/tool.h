@@ -5,6 +5,7 @@
 
 #include "osteon/collide/capsule_contact.h"
 #include "osteon/collide/convex_body.h"
+#include "osteon/collide/primitive.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/tri_mesh.h"
 
@@ -17,6 +18,11 @@ struct Tool {
   std::vector<ConvexBody> bodies;  ///< one a piece
   /// What touches a bone that is felt as a distance field, in Tool; none: the ball about each body.
   std::vector<Capsule> rods;
+  /// The whole instrument as balls, rods and boxes, in Tool. Where there are any, they are what
+  /// touches everything, and there are no pieces, bodies and rods.
+  std::vector<Primitive> parts;
+  /// What passes through a portal, in Tool; no length: nothing does.
+  Capsule shaft;
   TriMesh mesh;  ///< what is drawn, in Tool
   double tip_radius_m = 0.00075;
 };
