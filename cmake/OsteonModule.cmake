@@ -55,8 +55,10 @@ endfunction()
 
 function(osteon_module name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp"
-    "${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp")
+  # Those of folders come last: joined, each stays with its neighbours.
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
+  file(GLOB nested CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp")
+  list(APPEND sources ${nested})
   if(NOT sources)
     return()
   endif()
