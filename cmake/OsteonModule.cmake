@@ -55,10 +55,10 @@ endfunction()
 
 function(osteon_module name)
   cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
-  # Those of folders come last: joined, each stays with its neighbours.
+  # Rooms after the module's own folder: what is compiled together stays in one room, nearly always.
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
-  file(GLOB nested CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp")
-  list(APPEND sources ${nested})
+  file(GLOB in_rooms CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp")
+  list(APPEND sources ${in_rooms})
   if(NOT sources)
     return()
   endif()

@@ -74,6 +74,57 @@ TEST(Arrows, EveryIncludeFollowsTheTable) {
   EXPECT_GT(files, 20);
 }
 
+// The rooms of app, each with those whose headers it may include. Window and segmentation never
+// meet.
+const Arrows& rooms() {
+  static const Arrows table = {
+      {"loops", {}},
+      {"cases", {}},
+      {"checkup", {"loops"}},
+      {"runs", {"cases", "loops"}},
+      {"ui", {"cases", "loops", "runs"}},
+      {"window", {"cases", "checkup", "loops", "runs", "ui"}},
+      {"segment", {"cases", "loops", "ui"}},
+      {"commands", {"cases", "checkup", "loops", "runs"}},
+  };
+  return table;
+}
+
+// The commands that open a window.
+bool opens_a_window(const fs::path& file) {
+  static const std::set<std::string> names = {"cmd_window", "cmd_segment", "windows_in_turn"};
+  return names.count(file.stem().string()) > 0;
+}
+
+// Room and first folder of each include of app's own.
+std::set<std::string> included_rooms(const fs::path& file) {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*"([a-z]+)/)re");
+  std::set<std::string> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern) && match[1] != "osteon") found.insert(match[1]);
+  }
+  return found;
+}
+
+TEST(Arrows, RoomsOfTheProgramFollowTheirTable) {
+  int files = 0;
+  const fs::path top = fs::path(OSTEON_SOURCE_DIR) / "src/app";
+  for (const auto& entry : fs::recursive_directory_iterator(top)) {
+    if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+    if (entry.path().parent_path() == top) continue;  // main.cpp and the command line wire it up
+    const std::string room = fs::relative(entry.path(), top).begin()->string();
+    ++files;
+    ASSERT_TRUE(rooms().count(room)) << entry.path() << ": room not in the table";
+    if (room == "commands" && opens_a_window(entry.path())) continue;
+    for (const std::string& target : included_rooms(entry.path()))
+      EXPECT_TRUE(target == room || rooms().at(room).count(target))
+          << entry.path() << " includes " << target << ", which " << room << " may not";
+  }
+  EXPECT_GT(files, 150);
+}
+
 TEST(Arrows, ThreadsAppearInAppAndBaseOnly) {
   static const std::regex pattern(R"(std::j?thread\b|#include <thread>)");
   for (const char* root : {"include/osteon", "src"}) {

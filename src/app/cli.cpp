@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "commands.h"
+#include "commands/commands.h"
 
 namespace osteon {
 namespace {

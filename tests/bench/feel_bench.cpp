@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "cases/open_case.h"
 #include "haptic/stroke.h"
-#include "open_case.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/scene/tool.h"
 #include "wrist_case.h"

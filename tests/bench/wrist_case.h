@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "cases/piece_work.h"
 #include "osteon/mesh/hollows.h"
 #include "osteon/mesh/mesh_io.h"
 #include "osteon/mesh/repair.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
-#include "piece_work.h"
 
 namespace osteon::bench {
 

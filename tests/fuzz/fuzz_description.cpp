@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "description.h"
-#include "finding_table.h"
+#include "describe/description.h"
+#include "finding/finding_table.h"
 #include "osteon/base/check.h"
 #include "osteon/image/tissue.h"
-#include "variation_table.h"
+#include "vary/variation_table.h"
 
 namespace {
 

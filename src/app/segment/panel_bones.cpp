@@ -4,8 +4,8 @@
 
 #include "segment/label_color.h"
 #include "segment/segment_panels.h"
-#include "window/panel_ground.h"
-#include "window/ui_widgets.h"
+#include "ui/panel_ground.h"
+#include "ui/ui_widgets.h"
 
 namespace osteon {
 namespace {

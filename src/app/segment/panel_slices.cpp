@@ -3,7 +3,7 @@
 #include <string>
 
 #include "segment/segment_panels.h"
-#include "window/ui_widgets.h"
+#include "ui/ui_widgets.h"
 
 namespace osteon {
 namespace {

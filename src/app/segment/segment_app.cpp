@@ -8,12 +8,12 @@
 #include <system_error>
 #include <utility>
 
+#include "cases/whole_folder.h"
+#include "cases/xdg.h"
 #include "loops/realtime.h"
 #include "loops/stop_signal.h"
 #include "osteon/base/clock.h"
-#include "whole_folder.h"
-#include "window/screenshot.h"
-#include "xdg.h"
+#include "ui/screenshot.h"
 
 namespace osteon {
 namespace fs = std::filesystem;

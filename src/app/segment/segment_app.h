@@ -9,14 +9,14 @@
 #include "segment/segment_panels.h"
 #include "segment/segment_work.h"
 #include "segment/segmenting.h"
-#include "segment/side_job.h"
 #include "segment/slice_texture.h"
 #include "segment/solid_view.h"
-#include "window/app_settings.h"
-#include "window/frame_stats.h"
-#include "window/gl_window.h"
-#include "window/imgui_host.h"
-#include "window/toasts.h"
+#include "ui/app_settings.h"
+#include "ui/frame_stats.h"
+#include "ui/gl_window.h"
+#include "ui/imgui_host.h"
+#include "ui/side_job.h"
+#include "ui/toasts.h"
 
 namespace osteon {
 

@@ -3,10 +3,10 @@
 #include <system_error>
 #include <utility>
 
-#include "label_case.h"
+#include "cases/label_case.h"
+#include "cases/whole_folder.h"
+#include "cases/xdg.h"
 #include "segment/segment_app.h"
-#include "whole_folder.h"
-#include "xdg.h"
 
 namespace osteon {
 

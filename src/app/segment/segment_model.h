@@ -9,9 +9,9 @@
 
 #include "segment/scan_folder.h"
 #include "segment/segment_requests.h"
-#include "window/toasts.h"
-#include "window/ui_layout.h"
-#include "window/ui_model.h"
+#include "ui/loading_model.h"
+#include "ui/toasts.h"
+#include "ui/ui_layout.h"
 
 namespace osteon {
 

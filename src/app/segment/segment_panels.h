@@ -2,8 +2,8 @@
 
 #include "segment/segment_model.h"
 #include "segment/segment_requests.h"
-#include "window/scene_input.h"
-#include "window/ui_theme.h"
+#include "ui/scene_input.h"
+#include "ui/ui_theme.h"
 
 namespace osteon {
 

@@ -7,7 +7,7 @@
 
 #include "osteon/image/label_tools.h"
 #include "segment/slice_picture.h"
-#include "window/scene_input.h"
+#include "ui/scene_input.h"
 
 namespace osteon {
 

@@ -4,12 +4,12 @@
 #include <system_error>
 #include <utility>
 
-#include "label_case.h"
+#include "cases/label_case.h"
+#include "cases/whole_folder.h"
 #include "osteon/image/load_volume.h"
 #include "osteon/image/segment.h"
 #include "osteon/mesh/bone_surface.h"
 #include "osteon/scene/case_io.h"
-#include "whole_folder.h"
 
 namespace osteon {
 namespace fs = std::filesystem;

@@ -9,8 +9,8 @@
 #include "osteon/render/renderer.h"
 #include "segment/segment_work.h"
 #include "segment/segmenting.h"
-#include "segment/side_job.h"
-#include "window/camera_control.h"
+#include "ui/camera_control.h"
+#include "ui/side_job.h"
 
 namespace osteon {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "make_patient.h"
+#include "cases/make_patient.h"
 
 namespace osteon {
 

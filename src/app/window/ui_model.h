@@ -11,24 +11,14 @@
 #include "osteon/device/haptic_device.h"
 #include "osteon/render/renderer.h"
 #include "osteon/scene/case.h"
-#include "window/contact_timeline.h"
+#include "runs/contact_timeline.h"
+#include "runs/pedals.h"
+#include "ui/loading_model.h"
+#include "ui/toasts.h"
 #include "window/edit_model.h"
 #include "window/patient_model.h"
-#include "window/pedals.h"
-#include "window/toasts.h"
 
 namespace osteon {
-
-enum class UiPhase { kLoading, kReady, kFailed };
-
-/// Work that runs beside the picture.
-struct LoadingModel {
-  std::string what;          ///< "Growing the bones"
-  double fraction = 0;       ///< 0..1
-  double seconds_left = -1;  ///< -1: not known yet
-  std::string failure;       ///< in words, with what to do; empty unless it failed
-  bool can_cancel = false;
-};
 
 struct HandModel {
   std::vector<std::string> devices;  ///< for the menu

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <ctime>
 
+#include "cases/xdg.h"
 #include "loops/realtime.h"
 #include "loops/stop_signal.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/file.h"
-#include "window/screenshot.h"
-#include "xdg.h"
+#include "ui/screenshot.h"
 
 namespace osteon {
 namespace {

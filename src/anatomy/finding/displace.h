@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "describe/description.h"
+
+namespace osteon {
+
+/// Pose of a bone as it grows, before any finding moves it.
+Pose rest_pose(const BoneDescription& bone);
+
+/// How findings and bent joints move a bone away from rest, in World; none: it stays.
+std::optional<Pose> displacement_of(const AnatomyDescription& anatomy, std::size_t bone);
+/// The same, of bent joints alone.
+std::optional<Pose> bend_of(const AnatomyDescription& anatomy, std::size_t bone);
+
+/// Moves what is bound to displaced bones along with them: points and parts of soft parts, and
+/// landmarks that are bound. Bones themselves and cartilage stay in the description.
+void move_bound_along(AnatomyDescription& anatomy);
+
+}  // namespace osteon

@@ -1,0 +1,91 @@
+#include "cases/felt_choice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+namespace osteon {
+namespace {
+
+std::optional<double> degrees_from(const std::string& text) {
+  double value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+std::string shortest(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value);
+  return std::string(text, end.ptr);
+}
+
+}  // namespace
+
+Result<FeltChoice> parse_felt_choice(const std::string& spec) {
+  const std::size_t mark = spec.rfind('#');
+  std::error_code ec;
+  if (mark == std::string::npos || std::filesystem::exists(spec, ec)) return FeltChoice{spec, {}};
+  FeltChoice out{spec.substr(0, mark), {}};
+  std::istringstream parts(spec.substr(mark + 1));
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t equals = part.find('=');
+    const bool all = equals == std::string::npos;
+    const std::string value = all ? part : part.substr(equals + 1);
+    if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
+      out.bent[part.substr(0, equals)] = *degrees;
+      continue;
+    }
+    const auto felt = felt_from_text(value);
+    if (!felt)
+      return fail("'" + part + "' does not say how a bone is felt or a joint is bent", spec,
+                  "Write BONE=pieces, BONE=hull, BONE=field or JOINT=DEGREES, with commas between");
+    out.of_bone[all ? std::string() : part.substr(0, equals)] = *felt;
+  }
+  return out;
+}
+
+std::string to_text(const FeltChoice& choice) {
+  std::string out;
+  for (const auto& [bone, felt] : choice.of_bone) {
+    out += out.empty() ? "#" : ",";
+    if (!bone.empty()) out.append(bone).append("=");
+    out += to_text(felt);
+  }
+  for (const auto& [joint, degrees] : choice.bent)
+    out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
+  return choice.source + out;
+}
+
+Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees) {
+  auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  choice->bent[joint] = degrees;
+  return to_text(*choice);
+}
+
+std::string source_without_choice(const std::string& spec) {
+  const auto choice = parse_felt_choice(spec);
+  return choice ? choice->source : spec;
+}
+
+Result<void> apply(const FeltChoice& choice, CaseDef& def) {
+  for (const auto& [name, felt] : choice.of_bone) {
+    bool there = name.empty();
+    for (BoneDef& bone : def.bones) {
+      if (!name.empty() && bone.name != name) continue;
+      bone.felt = felt;
+      there = true;
+    }
+    if (!there)
+      return fail("there is no bone '" + name + "'", "case '" + def.name + "'",
+                  "'osteon case info' lists the bones");
+  }
+  return {};
+}
+
+}  // namespace osteon

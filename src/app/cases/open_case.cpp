@@ -1,0 +1,186 @@
+#include "cases/open_case.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "cases/all_cores.h"
+#include "cases/felt_choice.h"
+#include "cases/piece_work.h"
+#include "cases/pose_case.h"
+#include "cases/xdg.h"
+#include "osteon/base/file.h"
+#include "osteon/base/hash.h"
+#include "osteon/image/tissue.h"
+#include "osteon/scene/case_io.h"
+#include "osteon/scene/field_cache.h"
+#include "osteon/scene/piece_cache.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+// A cache of a case in the user's own folder. `kind`: "pieces" or "fields".
+std::filesystem::path users_cache(const std::string& spec, const std::string& kind) {
+  if (spec.rfind(kBuiltin, 0) == 0)
+    return cache_dir() / (kind + "-" + spec.substr(kBuiltin.size()) + ".bin");
+  Hasher hasher;
+  hasher.add(std::string_view(std::filesystem::absolute(spec).string()));
+  return cache_dir() / (kind + "-" + std::to_string(hasher.value()) + ".bin");
+}
+
+// Beside the case where that is a folder that has one or can be written.
+std::filesystem::path cache_file(const std::string& spec, const std::string& kind) {
+  const std::filesystem::path users = users_cache(spec, kind);
+  if (spec.rfind(kBuiltin, 0) == 0) return users;
+  const std::filesystem::path beside = std::filesystem::path(spec) / (kind + ".bin");
+  std::error_code ec;
+  return !std::filesystem::exists(beside, ec) && std::filesystem::exists(users, ec) ? users
+                                                                                    : beside;
+}
+
+// A case in a folder that cannot be written has its caches in the user's own; without that too what
+// they hold is made anew each time.
+template <class Cache>
+void keep(Cache& cache, const std::string& spec, const std::string& kind) {
+  if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
+}
+
+Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress,
+                             CaseParts parts) {
+  const auto files = builtin_anatomy(name);
+  if (!files) return tl::unexpected(files.error());
+  GenerateOptions options;
+  options.progress = progress;
+  options.run = run_on_all_cores;
+  options.soft_parts = parts == CaseParts::kAll;
+  auto anatomy = generate_anatomy(files->description, options);
+  if (!anatomy) return tl::unexpected(anatomy.error());
+  CaseDef def = case_from(std::move(*anatomy));
+  def.recipe = CaseRecipe{name, {}, {}, {}, {}};
+  return def;
+}
+
+/// The case as saved, or grown, with its joints bent as chosen.
+Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(double)>& progress,
+                          CaseParts parts) {
+  const std::string& source = choice.source;
+  const bool builtin = source.rfind(kBuiltin, 0) == 0;
+  // What is about to be bent need not have its soft parts yet.
+  const CaseParts first = choice.bent.empty() ? parts : CaseParts::kFelt;
+  auto def =
+      builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_case(source);
+  for (const auto& [joint, degrees] : choice.bent) {
+    if (!def) return def;
+    def = bend_case(std::move(*def), joint, degrees, parts == CaseParts::kAll, progress);
+  }
+  return def;
+}
+
+/// Soft parts look as their tissues do; one that the table lacks keeps its plain colour.
+void colour_softs(CaseDef& def) {
+  if (def.softs.empty()) return;
+  const auto tissues = load_default_tissues();
+  if (!tissues) return;
+  for (SoftDef& soft : def.softs)
+    if (const Tissue* tissue = tissues->find(soft.tissue))
+      for (std::size_t k = 0; k < 3; ++k)
+        soft.color_srgb[k] = static_cast<float>(tissue->colour_srgb[k]);
+}
+
+}  // namespace
+
+Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
+  if (name != "wrist" && name != "knee")
+    return fail("there is no built-in anatomy '" + name + "'", "anatomy", "Use wrist or knee");
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  const auto folder = *data / "assets/anatomy";
+  return AnatomyFiles{folder / (name + ".toml"), folder / (name + "_variation.toml"),
+                      folder / (name + "_findings.toml")};
+}
+
+CaseDef case_from(GeneratedAnatomy anatomy) {
+  CaseDef def;
+  def.name = std::move(anatomy.name);
+  def.side = std::move(anatomy.side);
+  for (GeneratedBone& grown : anatomy.bones) {
+    BoneDef bone;
+    bone.name = std::move(grown.name);
+    bone.fma_id = grown.fma_id;
+    bone.X_WB = grown.X_WB;
+    bone.mesh = std::move(grown.mesh);
+    bone.density_kg_per_m3 = grown.density_kg_per_m3;
+    def.bones.push_back(std::move(bone));
+  }
+  for (GeneratedSoft& grown : anatomy.softs) {
+    SoftDef soft;
+    soft.name = std::move(grown.name);
+    soft.fma_id = grown.fma_id;
+    soft.tissue = std::move(grown.tissue);
+    soft.kind = std::move(grown.kind);
+    soft.mesh_W = std::move(grown.mesh_W);
+    soft.thickness_m = grown.thickness_m;
+    soft.bones = std::move(grown.bones);
+    for (GeneratedAttachment& a : grown.attachments)
+      soft.attachments.push_back({std::move(a.name), std::move(a.bone), a.p_W});
+    def.softs.push_back(std::move(soft));
+  }
+  for (GeneratedLandmark& landmark : anatomy.landmarks)
+    def.landmarks.push_back({std::move(landmark.name), landmark.p_W});
+  for (GeneratedFinding& finding : anatomy.findings)
+    def.findings.push_back(
+        {std::move(finding.name), std::move(finding.grade), std::move(finding.meaning)});
+  for (GeneratedJoint& grown : anatomy.joints) {
+    JointDef joint{std::move(grown.name), std::move(grown.fixed), grown.at_deg, {}};
+    for (GeneratedJoint::Moved& moved : grown.bones)
+      joint.bones.push_back({std::move(moved.bone), std::move(moved.X_FB)});
+    def.joints.push_back(std::move(joint));
+  }
+  return def;
+}
+
+Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(double)>& progress,
+                              CaseParts parts) {
+  const auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  auto def = open_bent(*choice, progress, parts);
+  if (!def) return def;
+  colour_softs(*def);
+  if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
+  return def;
+}
+
+Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const OpenProgress& progress,
+                                              CaseParts parts) {
+  const auto say = [&](const char* what, double share) {
+    if (progress) progress(what, share);
+  };
+  constexpr double kOpened = 0.2;
+  constexpr double kCut = 0.7;
+  say("Opening the bones", 0);
+  auto def = open_case_def(
+      spec, [&](double share) { say("Growing the bones", kOpened * share); }, parts);
+  if (!def) return tl::unexpected(def.error());
+  const std::string source = source_without_choice(spec);
+  PieceCache pieces(cache_file(source, "pieces"));
+  FieldCache fields(cache_file(source, "fields"));
+  find_what_is_felt(*def, pieces, fields, [&](double share) {
+    say("Cutting the bones into pieces (once)", kOpened + kCut * share);
+  });
+  BuildOptions options;
+  options.pieces = &pieces;
+  options.fields = &fields;
+  options.progress = [&](std::size_t i, std::size_t count) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    say("Building the bones", kOpened + kCut + (1 - kOpened - kCut) * share);
+  };
+  auto built = build_case(std::move(*def), options);
+  if (!built) return tl::unexpected(built.error());
+  keep(pieces, source, "pieces");
+  keep(fields, source, "fields");
+  return std::make_shared<const Case>(std::move(*built));
+}
+
+}  // namespace osteon

@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands/cli_support.h"
+#include "commands/commands.h"
+#include "commands/stability_map.h"
+#include "osteon/base/file.h"
+
+namespace osteon {
+namespace {
+
+struct StabilityOptions {
+  std::string out = "stability.svg";
+  int cells = 24;
+};
+
+struct NamedHand {
+  const char* name;
+  HandParams hand;
+};
+
+// The loosest hand, a usual one, and the heaviest firm one.
+constexpr NamedHand kHands[] = {
+    {"0.05 kg, 50 N/m, 2 N s/m", {0.05, 50, 2}},
+    {"0.15 kg, 500 N/m, 12 N s/m", {0.15, 500, 12}},
+    {"0.5 kg, 1500 N/m, 5 N s/m", {0.5, 1500, 5}},
+};
+
+struct NamedGuard {
+  const char* name;
+  LoopGuard guard;
+};
+
+constexpr NamedGuard kGuards[] = {{"nothing between", LoopGuard::kNone},
+                                  {"observer and damping", LoopGuard::kObserverAndDamping},
+                                  {"all of the stage", LoopGuard::kAll}};
+
+int run_stability(const StabilityOptions& options) {
+  std::vector<StabilityMap> maps;
+  int swinging_with_all = 0;
+  for (const NamedHand& hand : kHands)
+    for (const NamedGuard& guard : kGuards) {
+      StabilityMap map = map_stability(hand.hand, guard.guard, options.cells, options.cells);
+      map.title = std::string(hand.name) + ": " + guard.name;
+      std::printf("%-50s swings in %4d of %zu\n", map.title.c_str(), map.swinging(),
+                  map.outcomes.size());
+      std::fflush(stdout);
+      if (guard.guard == LoopGuard::kAll) swinging_with_all += map.swinging();
+      maps.push_back(std::move(map));
+    }
+  if (auto ok = write_file_atomic(options.out, to_svg(maps, std::size(kGuards))); !ok)
+    return report_error(ok.error());
+  std::printf("wrote %s\n", options.out.c_str());
+  return swinging_with_all == 0 ? kExitDone : kExitNo;
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<StabilityOptions>();
+  CLI::App* command = app.add_subcommand(
+      "stability",
+      "Press emulated hands onto walls and draw where the loop swings (SVG); 1 when it "
+      "does with all of the passivity stage on");
+  command->add_option("--out", options->out, "the picture")->capture_default_str();
+  command->add_option("--cells", options->cells, "of each map, along both sides")
+      ->check(CLI::Range(2, 200))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = run_stability(*options); });
+}
+
+}  // namespace osteon

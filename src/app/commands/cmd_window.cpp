@@ -1,0 +1,71 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "commands/commands.h"
+#include "commands/window_size.h"
+#include "commands/windows_in_turn.h"
+
+namespace osteon {
+namespace {
+
+// A recording keeps its case's source: a folder must be found again from anywhere.
+std::string absolute_spec(const std::string& spec) {
+  if (spec.starts_with("builtin:")) return spec;
+  std::error_code ec;
+  const std::filesystem::path path = std::filesystem::absolute(spec, ec);
+  return ec ? spec : path.lexically_normal().string();
+}
+
+}  // namespace
+
+void add_window_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("window", "Open the simulator's window");
+  const auto order = std::make_shared<WindowOrder>();
+  const auto size = std::make_shared<std::string>();
+  command->add_option("--case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
+      ->capture_default_str();
+  command->add_option("--replay", order->replay, "Recording to open");
+  command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
+  command
+      ->add_option("--ui-scale", order->interface_scale,
+                   "Scale of the interface; the display's when not given")
+      ->check(CLI::Range(0.5, 4.0));
+  command->add_flag("--felt", order->felt,
+                    "Begin with the bones coloured by how far what is felt is from their surface");
+  command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
+  command->add_option(
+      "--device", order->device,
+      "Driver to begin with, or driver:serial (see `osteon devices`); as last time when not "
+      "given");
+  command->add_option("--path", order->path, "What an emulated hand plays (CSV)");
+  command->add_option("--record", order->record, "Record from the start to this file (.osr)");
+  command->add_option("--force-log", order->force_log,
+                      "Write the last 20 s of the device's positions and forces (CSV) when it is "
+                      "closed");
+  command->add_option("--edit", order->edit, "Begin editing the surface of this bone");
+  command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
+  command->add_flag("--new-patient", order->new_patient,
+                    "Begin with the panel that makes a patient");
+  command->add_option("--screenshot", order->screenshot,
+                      "Save a picture of the window (PNG), then end");
+  command
+      ->add_option("--frames", order->frames,
+                   "Draw this many pictures, print what they cost, then end")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([order, size, &exit_code] {
+    if (!size->empty() && !parse_window_size(*size, order->width, order->height))
+      throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+    if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
+    // A measured run shall give the same picture for everyone.
+    order->fresh = order->frames > 0;
+    order->case_spec = absolute_spec(order->case_spec);
+    exit_code = run_windows(*order);
+  });
+}
+
+}  // namespace osteon

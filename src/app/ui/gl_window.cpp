@@ -1,0 +1,136 @@
+#include "ui/gl_window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <utility>
+
+namespace osteon {
+
+struct GlWindow::State {
+  std::vector<std::string> dropped;
+  std::vector<int> pressed;
+  int x = 0, y = 0, width = 0, height = 0;  // before full screen
+};
+
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+void set_hints() {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  // The scene brings its own depth; a processor would clear this one for each picture.
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+}
+
+}  // namespace
+
+Result<GlWindow> GlWindow::create(const WindowOptions& options) {
+  if (glfwInit() != GLFW_TRUE)
+    return fail("no window can be opened (" + last_glfw_error() + ")", "display",
+                "Run it on a desktop, or use `osteon demo`, which needs no display");
+  set_hints();
+  GlWindow made;
+  made.window_ =
+      glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+  if (!made.window_) {
+    const std::string why = last_glfw_error();
+    glfwTerminate();
+    return fail("the window could not be opened (" + why + ")", "display",
+                "Osteon needs OpenGL 3.3: update the graphics driver");
+  }
+  made.state_ = std::make_unique<State>();
+  glfwSetWindowUserPointer(made.window_, made.state_.get());
+  glfwSetDropCallback(made.window_, [](GLFWwindow* window, int count, const char** paths) {
+    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+    state.dropped.assign(paths, paths + count);
+  });
+  glfwSetKeyCallback(made.window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+    if (action != GLFW_PRESS || key < 0) return;
+    // Ctrl may be up again before the picture in which the key is seen.
+    if (mods & GLFW_MOD_CONTROL) state.pressed.push_back(GLFW_KEY_LEFT_CONTROL);
+    if (mods & GLFW_MOD_SHIFT) state.pressed.push_back(GLFW_KEY_LEFT_SHIFT);
+    state.pressed.push_back(key);
+  });
+  glfwSetWindowSizeLimits(made.window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwMakeContextCurrent(made.window_);
+  glfwSwapInterval(options.wait_for_display ? 1 : 0);
+  return made;
+}
+
+GlWindow::GlWindow(GlWindow&& other) noexcept
+    : window_(std::exchange(other.window_, nullptr)), state_(std::move(other.state_)) {}
+
+GlWindow& GlWindow::operator=(GlWindow&& other) noexcept {
+  std::swap(window_, other.window_);
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+GlWindow::~GlWindow() {
+  if (!window_) return;
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+bool GlWindow::should_close() const { return glfwWindowShouldClose(window_) != 0; }
+
+void GlWindow::framebuffer_size(int& width, int& height) const {
+  glfwGetFramebufferSize(window_, &width, &height);
+}
+
+float GlWindow::content_scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return x > 0 ? x : 1;
+}
+
+double GlWindow::pixel_ratio() const {
+  int framebuffer_w = 0, framebuffer_h = 0, window_w = 0, window_h = 0;
+  glfwGetFramebufferSize(window_, &framebuffer_w, &framebuffer_h);
+  glfwGetWindowSize(window_, &window_w, &window_h);
+  return window_w > 0 ? static_cast<double>(framebuffer_w) / window_w : 1.0;
+}
+
+void GlWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void GlWindow::toggle_fullscreen() {
+  State& s = *state_;
+  if (glfwGetWindowMonitor(window_)) {
+    glfwSetWindowMonitor(window_, nullptr, s.x, s.y, s.width, s.height, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  glfwGetWindowPos(window_, &s.x, &s.y);
+  glfwGetWindowSize(window_, &s.width, &s.height);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void GlWindow::poll() const { glfwPollEvents(); }
+
+void GlWindow::swap() const { glfwSwapBuffers(window_); }
+
+std::vector<int> GlWindow::take_pressed_keys() { return std::exchange(state_->pressed, {}); }
+
+void GlWindow::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
+void GlWindow::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+
+std::vector<std::string> GlWindow::take_dropped_files() {
+  return std::exchange(state_->dropped, {});
+}
+
+}  // namespace osteon

@@ -1,0 +1,34 @@
+#include "ui/ui_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+namespace {
+constexpr float kGrid = 8;
+constexpr float kTop = 5 * kGrid;
+constexpr float kBottom = 6 * kGrid;
+constexpr float kLeft = 19 * kGrid;
+constexpr float kRight = 25 * kGrid;
+constexpr float kMargin = kGrid;
+}  // namespace
+
+UiLayout make_layout(float width, float height, float scale, bool panels_open) {
+  UiLayout layout;
+  if (!panels_open) {
+    layout.picture = {0, 0, width, height};
+    return layout;
+  }
+  const auto px = [scale](float units) { return std::round(units * scale); };
+  layout.top = {0, 0, width, px(kTop)};
+  layout.bottom = {0, height - px(kBottom), width, px(kBottom)};
+  layout.picture = {0, layout.top.h, width,
+                    std::max(1.0f, height - layout.top.h - layout.bottom.h)};
+  const float card_y = layout.picture.y + px(kMargin);
+  const float card_h = std::max(1.0f, layout.picture.h - 2 * px(kMargin));
+  layout.left = {px(kMargin), card_y, px(kLeft), card_h};
+  layout.right = {width - px(kRight) - px(kMargin), card_y, px(kRight), card_h};
+  return layout;
+}
+
+}  // namespace osteon

@@ -1,0 +1,160 @@
+#include <utility>
+
+#include "cases/felt_choice.h"
+#include "osteon/base/file.h"
+#include "osteon/scene/path.h"
+#include "window/window_app.h"
+
+namespace osteon {
+namespace fs = std::filesystem;
+
+void WindowApp::open(LoadOrder order) {
+  if (live_ && live_->recording()) {
+    note(ToastKind::kWarning, "Stop the recording before opening something else.");
+    return;
+  }
+  load_failure_.clear();
+  job_ = std::make_unique<LoadJob>(std::move(order));
+}
+
+void WindowApp::poll_loading() {
+  if (!job_ || !job_->done()) return;
+  Result<Loaded> loaded = job_->take();
+  job_.reset();
+  if (!loaded) {
+    end_bend();
+    return fail_loading(loaded.error().message());
+  }
+  install(std::move(*loaded));
+  end_bend();
+  if (std::exchange(order_.new_patient, false)) apply_patient({.toggle = true});
+  if (!std::exchange(order_.checkup, false)) return;
+  checkup_open_ = true;
+  begin_checkup(false);
+}
+
+// With a case on show, a failure to open another thing is a message beside it.
+void WindowApp::fail_loading(const std::string& message) {
+  if (renderer_)
+    note(ToastKind::kError, message);
+  else
+    load_failure_ = message;
+}
+
+void WindowApp::install(Loaded loaded) {
+  end_checkup();
+  end_edit();
+  remember_looks();
+  // The same case felt otherwise: the user goes on looking at what he looked at.
+  const bool same_case =
+      case_ && source_without_choice(case_source_) == source_without_choice(loaded.case_source);
+  case_source_ = loaded.case_source;
+  if (loaded.prepared) {
+    const auto data = find_data_dir();
+    if (!data) return fail_loading(data.error().message());
+    live_.reset();
+    replay_.reset();
+    auto renderer = Renderer::create(*loaded.the_case, make_wrist_probe(), *data, *loaded.prepared);
+    if (!renderer) return fail_loading(renderer.error().message());
+    renderer_ = std::move(*renderer);
+    felt_job_.reset();
+    felt_known_ = false;
+    prepared_ = std::move(loaded.prepared);
+    case_ = loaded.the_case;
+    demo_ = loaded.demo;
+    const ViewState before = view_;
+    const BoneId picked = picked_;
+    recall_view();
+    if (same_case) {
+      view_ = before;
+      picked_ = picked;
+    }
+  }
+  live_.reset();
+  replay_ = std::move(loaded.replay);
+  player_.reset();
+  if (!replay_) return begin_live();
+  player_.emplace(replay_->track.duration_s());
+  player_->seek(order_.at_s);
+  if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still
+  if (!replay_->complete)
+    note(ToastKind::kWarning,
+         "This recording was cut short, by a crash or a power cut; all that was saved is here.");
+}
+
+// The first run after something was opened: what the command line ordered counts once.
+void WindowApp::begin_live() {
+  if (!order_.path.empty()) {
+    const auto path = load_path(order_.path);
+    if (path) demo_ = *path;
+    if (!path) note(ToastKind::kError, path.error().message());
+  }
+  std::string device = std::exchange(order_.device, {});
+  if (device.empty()) device = order_.demo ? "virtual" : settings_.device;
+  start_live(device);
+  if (live_ && !order_.edit.empty()) {
+    picked_ = case_->find(std::exchange(order_.edit, {}));
+    begin_edit();
+  }
+  if (!live_ || order_.record.empty()) return;
+  const Result<void> started = live_->start_recording(std::exchange(order_.record, {}));
+  if (!started) note(ToastKind::kError, started.error().message());
+}
+
+void WindowApp::start_live(const std::string& device) {
+  if (choices_.empty() || !case_) return;
+  remember_feel();
+  const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
+                          settings_.bones_held};
+  live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel);
+  live_->keep_force_log(order_.force_log);
+  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, device))];
+  pedals_.set_map(settings_.pedals);
+  const MappingSettings user =
+      mapping_of(settings_.mappings, mapping_key(choice.info, case_->name));
+  const Result<void> started =
+      live_->start(choice, offered_probe(view_.camera, case_->bounds_W()), user, view_.camera.q_WC);
+  if (!started) note(ToastKind::kError, started.error().message());
+}
+
+// The case is opened again: what is felt is part of it, and of what a recording names.
+void WindowApp::choose_felt(const FeltWish& wish) {
+  if (!case_ || wish.bone.index >= case_->bones.size()) return;
+  auto choice = parse_felt_choice(case_source_);
+  if (!choice) return note(ToastKind::kError, choice.error().message());
+  choice->of_bone[case_->bone(wish.bone).name] = wish.felt;
+  open({to_text(*choice), {}, nullptr});
+}
+
+// Measured when it is first shown: it would double the time that opening takes.
+void WindowApp::poll_felt() {
+  if (felt_job_ && felt_job_->done()) {
+    if (felt_job_->failed())
+      note(
+          ToastKind::kWarning,
+          "There was not enough memory to measure what is felt of every bone. Close other programs "
+          "and open the case again.");
+    renderer_->set_surfaces(felt_job_->take());
+    edit_drawn_ = kEditNotDrawn;
+    felt_job_.reset();
+    felt_known_ = true;
+  }
+  if (!ready() || !view_.show_felt || !prepared_) return;
+  felt_job_ = std::make_unique<FeltJob>(case_, std::move(*prepared_));
+  prepared_.reset();
+}
+
+ViewState WindowApp::picture_view() const {
+  ViewState view = view_;
+  view.show_felt = view.show_felt && felt_known_;
+  hide_while_bending(view);
+  return view;
+}
+
+void WindowApp::leave_replay() {
+  replay_.reset();
+  player_.reset();
+  start_live(settings_.device);
+}
+
+}  // namespace osteon

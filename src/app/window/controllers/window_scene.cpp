@@ -1,0 +1,115 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "window/controllers/pedal_poll.h"
+#include "window/window_app.h"
+
+namespace osteon {
+
+// The part of the framebuffer that the panels leave to the picture.
+Viewport WindowApp::viewport() const {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const UiRect r = make_layout(size.x, size.y, ui_->scale(), settings_.panels_open).picture;
+  const double ratio = window_->pixel_ratio();
+  const auto px = [ratio](float v) {
+    return static_cast<int>(std::lround(static_cast<double>(v) * ratio));
+  };
+  return {px(r.x), px(size.y - r.bottom()), px(r.w), px(r.h)};
+}
+
+// The cards float over the picture's sides.
+CoveredEdges WindowApp::covered_edges() const {
+  if (!settings_.panels_open) return {};
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const UiLayout layout = make_layout(size.x, size.y, ui_->scale(), true);
+  const double width = std::max(1.0, static_cast<double>(layout.picture.w));
+  const double left = static_cast<double>(layout.left.right()) / width;
+  const double right = static_cast<double>(layout.picture.right() - layout.right.x) / width;
+  return {left, right, 0, 0};
+}
+
+void WindowApp::hold_probe(bool held) {
+  if (held == probe_held_) return;
+  probe_held_ = held;
+  // The pointer must not stop at the window's edge while it moves the probe.
+  glfwSetInputMode(window_->handle(), GLFW_CURSOR,
+                   held ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  ui_->take_pointer(held);
+  poll_.jump();
+}
+
+void WindowApp::pick_under_pointer(const SceneInput& input) {
+  const Viewport v = viewport();
+  pointer_x_ = input.x;
+  pointer_y_ = input.y;
+  hovered_ = {};
+  // A pointer that merely lies there points at nothing.
+  pointer_moved_ = pointer_moved_ || input.dx != 0 || input.dy != 0;
+  if (!pointer_moved_) return;
+  if (input.over_panels || probe_held_ || control_.dragging()) return;
+  int width = 0, height = 0;
+  window_->framebuffer_size(width, height);
+  const double x = input.x - v.x;
+  const double y = input.y - (height - v.y - v.height);
+  if (x < 0 || y < 0 || x >= v.width || y >= v.height) return;
+  hovered_ = renderer_->pick(shown_, view_, v, x, y);
+  if (control_.clicked()) picked_ = hovered_ == picked_ ? BoneId{} : hovered_;
+}
+
+HandWishes WindowApp::poll_pedals() {
+  const PedalReadings readings = read_pedals(window_->handle());
+  learn_pedal(readings);
+  pedals_.update(readings);
+  HandWishes wishes;
+  wishes.has_dead_man = pedals_.has(kDeadManPedal);
+  wishes.dead_man_held = pedals_.held(kDeadManPedal);
+  wishes.clutch = pedals_.held(kClutchPedal);
+  return wishes;
+}
+
+void WindowApp::poll_scene(double dt_s, double wheel) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool by_mouse = live_ && live_->by_mouse();
+  const bool space = glfwGetKey(window_->handle(), GLFW_KEY_SPACE) == GLFW_PRESS;
+  if (!by_mouse) probe_toggled_ = false;
+  hold_probe(by_mouse && (probe_toggled_ || (space && !io.WantTextInput && !io.NavVisible)));
+
+  const bool keys_free = !io.WantTextInput && !io.KeyCtrl && !(io.NavActive && io.NavVisible);
+  SceneInput input = poll_.read(window_->handle(), wheel, keys_free, window_->pixel_ratio(), dt_s);
+  // ImGui remembers a click that was shorter than a picture.
+  input.left = input.left || io.MouseDown[0];
+  input.right = input.right || io.MouseDown[1];
+  input.over_panels = io.WantCaptureMouse && !probe_held_;
+  if (poll_edit(input)) {
+    input.left = false;
+    input.wheel = 0;
+  }
+  if (probe_held_ && !input.right) {
+    live_->move_hand(probe_motion(input), view_.camera, viewport(), dt_s);
+  } else {
+    // With the probe in hand the right button orbits.
+    if (probe_held_) std::swap(input.left, input.right);
+    view_.camera = control_.update(view_.camera, input, viewport());
+  }
+  if (live_) {
+    live_->move_pad(read_gamepad(), view_.camera);
+    live_->tell_hand(poll_pedals(), view_.camera);
+    live_->update();
+    shown_ = live_->snapshot();
+    if (const std::string why = live_->take_recording_failure(); !why.empty())
+      note(ToastKind::kError, why);
+  }
+  if (player_ && replay_) {
+    player_->advance(dt_s);
+    shown_ = replay_->track.at(player_->position_s());
+    replay_force_ = replay_->track.force_until(player_->position_s(),
+                                               static_cast<std::size_t>(8 * kForceHistoryHz));
+  }
+  show_bend();
+  pick_under_pointer(input);
+}
+
+}  // namespace osteon

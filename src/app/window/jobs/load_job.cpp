@@ -1,0 +1,124 @@
+#include "window/jobs/load_job.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cases/open_case.h"
+#include "osteon/base/clock.h"
+#include "runs/demo_path.h"
+
+namespace osteon {
+
+LoadJob::LoadJob(LoadOrder order)
+    : order_(std::move(order)),
+      start_ns_(steady_now_ns()),
+      result_(fail("not loaded yet")),
+      thread_([this] {
+        try {
+          result_ = run();
+        } catch (const Cancelled&) {
+          result_ = fail("the loading was cancelled");
+        } catch (const std::bad_alloc&) {
+          result_ = fail("there is not enough memory", {}, "Close other programs and try again");
+        }
+        done_.store(true, std::memory_order_release);
+      }) {}
+
+LoadJob::~LoadJob() {
+  cancel();
+  thread_.join();
+}
+
+LoadProgress LoadJob::progress() const {
+  const std::scoped_lock lock(mutex_);
+  LoadProgress progress = progress_;
+  const double elapsed_s = static_cast<double>(steady_now_ns() - start_ns_) * 1e-9;
+  progress.seconds_left = seconds_left(elapsed_s, progress.fraction);
+  return progress;
+}
+
+Result<Loaded> LoadJob::take() { return std::move(result_); }
+
+void LoadJob::say(const char* what, double fraction) {
+  if (cancelled_.load(std::memory_order_relaxed)) throw Cancelled{};
+  set_progress(what, fraction);
+}
+
+void LoadJob::set_progress(const char* what, double fraction) {
+  const std::scoped_lock lock(mutex_);
+  progress_ = {what, fraction};
+}
+
+Result<Loaded> LoadJob::run() {
+  Loaded loaded;
+  Recording recording;
+  std::string spec = order_.case_spec;
+  std::uint64_t wanted_hash = order_.open ? order_.open->hash : 0;
+  if (!order_.recording.empty()) {
+    const Result<void> read = load_the_recording(loaded, recording);
+    if (!read) return tl::unexpected(read.error());
+    spec = recording.header.case_source;
+    wanted_hash = recording.header.case_hash;
+  }
+  const Result<void> opened = load_the_case(loaded, spec, wanted_hash);
+  if (!opened) return tl::unexpected(opened.error());
+  if (loaded.replay) {
+    const Result<void> repeated = repeat(loaded, recording);
+    if (!repeated) return tl::unexpected(repeated.error());
+  }
+  say("Ready", 1);
+  return loaded;
+}
+
+Result<void> LoadJob::load_the_recording(Loaded& loaded, Recording& recording) {
+  say("Reading the recording", 0);
+  auto read = load_recording(order_.recording);
+  if (!read) return tl::unexpected(read.error());
+  recording = std::move(*read);
+  loaded.replay.emplace();
+  loaded.replay->file = order_.recording;
+  loaded.replay->header = recording.header;
+  loaded.replay->complete = recording.complete;
+  return {};
+}
+
+Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
+                                    std::uint64_t wanted_hash) {
+  loaded.case_source = spec;
+  if (order_.open && order_.open->hash == wanted_hash && !order_.recording.empty()) {
+    loaded.the_case = order_.open;
+  } else {
+    auto opened =
+        open_case(spec, [this](const char* what, double share) { say(what, 0.05 + 0.35 * share); });
+    if (!opened) return tl::unexpected(opened.error());
+    loaded.the_case = std::move(*opened);
+    say("Working out the light between the bones", 0.4);
+    loaded.prepared = prepare_case(*loaded.the_case, [this](double share) {
+      set_progress("Working out the light between the bones", 0.4 + 0.3 * share);
+      return !cancelled_.load(std::memory_order_relaxed);
+    });
+  }
+  say("Planning the demonstration", 0.7);
+  loaded.demo = demo_path(*loaded.the_case, spec);
+  return {};
+}
+
+Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
+  LoadedReplay& replay_of = *loaded.replay;
+  const double total = static_cast<double>(std::max<std::size_t>(1, recording.ticks.size()));
+  const auto outcome =
+      replay(recording, loaded.the_case, [&](const ToolState& tool, const BoneSnapshot& bones) {
+        replay_of.track.add(tool, bones);
+        if (tool.tick % 500 == 0)
+          say("Repeating the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
+      });
+  if (!outcome) return tl::unexpected(outcome.error());
+  if (replay_of.track.empty())
+    return fail("the recording holds no ticks", order_.recording.string(), "Record a longer run");
+  replay_of.identical = outcome->identical;
+  replay_of.first_different_tick = outcome->first_different_tick;
+  replay_of.ticks = outcome->ticks;
+  return {};
+}
+
+}  // namespace osteon

@@ -1,0 +1,97 @@
+#include <array>
+#include <string>
+
+#include "ui/panel_ground.h"
+#include "ui/ui_widgets.h"
+#include "window/panels/panel_look.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+struct FeltButton {
+  Felt felt;
+  const char* label;
+  const char* explanation;
+};
+
+constexpr std::array<FeltButton, 3> kFeltButtons = {{
+    {Felt::kHull, "Hull", "One convex body around the bone: the quickest, hollows are bridged"},
+    {Felt::kPieces, "Pieces", "Convex pieces that follow the bone within about 0.2 mm"},
+    {Felt::kField, "Field", "The bone's own surface, smoothed over a quarter of a millimetre"},
+}};
+
+// What the probe feels of the bone. A replay and a recording belong to the case as it was opened.
+void draw_felt(const PanelContext& c, std::size_t i) {
+  if (i >= c.model.bone_felt.size()) return;
+  ui::text(color::kTextQuiet, "Felt as");
+  ImGui::BeginDisabled(c.model.replay.on || c.model.record.on);
+  const float gap = c.px(4);
+  const float w = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  for (const FeltButton& button : kFeltButtons) {
+    if (button.felt != kFeltButtons[0].felt) ImGui::SameLine(0, gap);
+    const bool active = c.model.bone_felt[i] == button.felt;
+    if (ui::toggle_button(button.label, active, {w, 0}) && !active)
+      c.requests.felt = FeltWish{BoneId{static_cast<std::uint32_t>(i)}, button.felt};
+    ui::tooltip(button.explanation);
+  }
+  ImGui::EndDisabled();
+  ui::text(color::kTextQuiet, "A change opens the case again");
+}
+
+void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {
+  if (!ImGui::BeginPopup("appearance")) return;
+  if (edit_look(c.model.bone_labels[i], view.bones[i])) c.requests.view = view;
+  ImGui::Dummy({0, c.px(2)});
+  draw_felt(c, i);
+  ImGui::EndPopup();
+}
+
+void draw_bone_row(const PanelContext& c, std::size_t i, ViewState& view) {
+  const BoneId id{static_cast<std::uint32_t>(i)};
+  BoneAppearance& look = view.bones[i];
+  ImGui::PushID(static_cast<int>(i));
+  const float eye = c.px(18), row = ImGui::GetCursorPosY();
+  draw_swatch(c, look, "appearance", "Colour, opacity and how the bone is felt");
+  draw_appearance_popup(c, i, view);
+  ImGui::SameLine(0, c.px(8));
+  ImGui::SetCursorPosY(row);
+  const float name_w = ImGui::GetContentRegionAvail().x - eye;
+  ImGui::PushStyleColor(ImGuiCol_Text, look.visible ? color::kText : color::kTextQuiet);
+  const bool chosen = c.model.picked == id;
+  if (ImGui::Selectable(c.model.bone_labels[i].c_str(), chosen, 0, {name_w, c.px(18)}))
+    c.requests.picked_row = id;
+  ImGui::PopStyleColor();
+  if (ImGui::IsItemHovered()) c.requests.hovered_row = id;
+  ImGui::SameLine(0, 0);
+  if (ui::eye_button("eye", look.visible, eye)) {
+    look.visible = !look.visible;
+    c.requests.view = view;
+  }
+  ui::tooltip(look.visible ? "Hide this bone" : "Show this bone");
+  ImGui::PopID();
+}
+
+void draw_bones(const PanelContext& c, ViewState& view) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});
+  for (std::size_t i = 0; i < c.model.bone_labels.size() && i < view.bones.size(); ++i)
+    draw_bone_row(c, i, view);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void draw_case_card(const PanelContext& c) {
+  const UiRect& r = c.layout.left;
+  ImGui::SetNextWindowPos({r.x, r.y});
+  ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
+  begin_panel("##case", kCardPanel);
+  ViewState view = c.model.view;
+  if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
+  draw_joint_section(c);
+  draw_soft_section(c);
+  if (ui::section(c.fonts, "View")) draw_view_section(c);
+  ImGui::End();
+}
+
+}  // namespace osteon

@@ -1,0 +1,166 @@
+#include <string>
+
+#include "ui/panel_ground.h"
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+bool has_motors(const HandModel& hand) { return hand.info.peak_force_n > 0; }
+
+bool is_slow(const HandModel& hand) { return hand.haptic.rate_hz > 0 && hand.haptic.rate_hz < 950; }
+
+void draw_device_menu(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  const bool known = hand.device >= 0 && hand.device < static_cast<int>(hand.devices.size());
+  const char* shown = known ? hand.devices[static_cast<std::size_t>(hand.device)].c_str() : "None";
+  if (c.model.replay.on) shown = "The recorded hand";
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::BeginDisabled(c.model.record.on || c.model.replay.on);
+  if (ImGui::BeginCombo("##device", shown, ImGuiComboFlags_HeightLarge)) {
+    for (int i = 0; i < static_cast<int>(hand.devices.size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(hand.devices[static_cast<std::size_t>(i)].c_str(), i == hand.device))
+        c.requests.device = i;
+      ImGui::PopID();
+    }
+    ImGui::Separator();
+    if (ImGui::Selectable("Not here? Check-up (F2)")) c.requests.toggle_checkup = true;
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
+  ui::tooltip(c.model.record.on   ? "Stop the recording before choosing another device"
+              : c.model.replay.on ? "Leave the replay to hold the probe yourself"
+                                  : "What the hand holds. A new choice starts the run anew.");
+}
+
+void draw_force_off(const PanelContext& c) {
+  ImGui::PushTextWrapPos(0);
+  const std::string why = std::string(describe(c.model.hand.status.cause)) + ".";
+  ui::text(color::kRed, why.c_str());
+  if (c.model.hand.status.cause == ForceOff::kWatchdog)
+    ui::text(color::kTextQuiet, "This computer was too busy. Close other programs, then resume.");
+  ImGui::PopTextWrapPos();
+  if (ui::accent_button("Resume", {ImGui::GetContentRegionAvail().x, 0}))
+    c.requests.force_on = true;
+  ui::tooltip("Switches the force on again; it rises over half a second (Enter)");
+}
+
+void draw_force_state(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  if (hand.probe_by_mouse && !c.model.replay.on) {
+    if (ui::toggle_button(hand.probe_in_hand ? "Let the probe go  (M)" : "Take the probe  (M)",
+                          hand.probe_in_hand, {ImGui::GetContentRegionAvail().x, 0}))
+      c.requests.toggle_probe = true;
+    ui::tooltip(
+        "While taken, the mouse moves the probe instead of the view. Holding Space takes it "
+        "for as long as the key is down.");
+  }
+  if (c.model.replay.on) return;
+  if (hand.status.cause != ForceOff::kNone) return draw_force_off(c);
+  if (!has_motors(hand)) {
+    ui::text(color::kTextQuiet, "Force is shown, not felt");
+    ui::tooltip(
+        "This device has no motors. The probe is kept out of bone all the same; the hand "
+        "may go on into it.");
+    return;
+  }
+  if (ImGui::Button("Force off  (Esc)", {ImGui::GetContentRegionAvail().x, 0}))
+    c.requests.force_off = true;
+  ui::tooltip("Switches the motors off at once");
+}
+
+void draw_contacts(const PanelContext& c) {
+  if (c.model.contacts.empty()) {
+    ui::text(color::kTextQuiet, "Nothing touched");
+    return;
+  }
+  for (const ContactRow& row : c.model.contacts) {
+    const bool known = row.bone.index < c.model.bone_labels.size();
+    const std::string label = known ? c.model.bone_labels[row.bone.index] : "Bone";
+    ui::stat(label.c_str(), ui::number(row.force_n, 2) + " N",
+             row.sticking ? "Force between probe and this bone, newtons; static friction holds"
+                          : "Force between probe and this bone, newtons; the probe slides");
+  }
+}
+
+void draw_feel(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  ImGui::BeginDisabled(c.model.replay.on);
+  double stiffness = hand.stiffness_n_per_m;
+  if (ui::slider("Stiffness", &stiffness, 200, hand.stiffness_max_n_per_m, "%.0f N/m",
+                 "Spring between hand and probe, newtons a metre. Bounded by each bone's material "
+                 "and by the device's profile."))
+    c.requests.commands.push_back({CommandKind::kSetStiffness, stiffness});
+  double friction = hand.friction_scale;
+  if (ui::slider("Friction", &friction, 0, 2, "%.2f x",
+                 "Factor on the friction of every bone's material; 0 is frictionless, 1 as in the "
+                 "case"))
+    c.requests.commands.push_back({CommandKind::kSetFrictionScale, friction});
+  bool held = hand.bones_held;
+  if (ui::switch_row(
+          "Bones held still", &held,
+          "On: bones do not move. Off: springs hold them, and a push moves them a little"))
+    c.requests.commands.push_back({CommandKind::kHoldBones, held ? 1.0 : 0.0});
+  ImGui::EndDisabled();
+}
+
+void draw_rates(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  const auto hz = [](double v) { return ui::number(v, 0) + " Hz"; };
+  if (!c.model.replay.on) {
+    ui::stat("Haptics", hz(hand.haptic.rate_hz),
+             "Haptic ticks a second, measured over a quarter second; 1000 wanted, for contact "
+             "that feels firm",
+             is_slow(hand) ? color::kAmber : color::kText);
+    ui::stat("Physics", hz(hand.physics.rate_hz),
+             "Steps of the bones' motion a second; 500 wanted");
+  }
+  ui::stat("Picture", hz(hand.picture_hz), "Pictures a second; the display sets its limit");
+  if (c.model.replay.on) return;
+  ui::stat("Tick, 99 %", ui::number(hand.haptic.p99_us, 0) + " \xC2\xB5s",
+           "99 of 100 haptic ticks took no longer than this, microseconds; the limit is the tick's "
+           "period of 1000");
+  ui::stat("Missed ticks", std::to_string(hand.haptic.missed),
+           "Haptic ticks skipped because the computer was busy, since the run began");
+  if (has_motors(hand))
+    ui::stat("Device limit", ui::number(hand.info.peak_force_n, 1) + " N",
+             "The most force that the device may give, newtons; from its profile");
+}
+
+// In sight whatever is folded.
+void draw_warnings(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  if (c.model.replay.on) return;
+  if (is_slow(hand)) {
+    ui::text(color::kAmber, "! The haptic loop is slow");
+    ui::tooltip("Fewer than 950 haptic ticks a second: contact feels soft. Close other programs.");
+  }
+  if (hand.realtime_warning.empty()) return;
+  ui::text(color::kAmber, "! Real-time rights missing");
+  ui::tooltip(hand.realtime_warning.c_str());
+}
+
+}  // namespace
+
+void draw_hand_card(const PanelContext& c) {
+  const UiRect& r = c.layout.right;
+  ImGui::SetNextWindowPos({r.x, r.y});
+  ImGui::SetNextWindowSizeConstraints({r.w, 0}, {r.w, r.h});
+  begin_panel("##hand", kCardPanel);
+  if (ui::section(c.fonts, "Hand")) {
+    draw_device_menu(c);
+    draw_force_state(c);
+    draw_force_section(c);
+    draw_contacts(c);
+  }
+  if (has_motors(c.model.hand) && !c.model.replay.on && ui::section(c.fonts, "Device"))
+    draw_device_section(c);
+  if (ui::section(c.fonts, "Feel")) draw_feel(c);
+  if (ui::section(c.fonts, "Rates", !has_motors(c.model.hand))) draw_rates(c);
+  draw_warnings(c);
+  ImGui::End();
+}
+
+}  // namespace osteon

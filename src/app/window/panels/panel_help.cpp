@@ -1,0 +1,96 @@
+#include <array>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+struct KeyLine {
+  const char* keys;
+  const char* what;
+};
+
+constexpr std::array<KeyLine, 9> kLook = {{
+    {"Drag", "look around"},
+    {"Right drag, Shift + drag", "move sideways"},
+    {"Wheel", "nearer, farther"},
+    {"Arrows,  + and -", "the same by keys"},
+    {"1 to 6", "the six views, in the panel's order"},
+    {"F", "close up on the picked bone, else the joint"},
+    {"Click", "choose a bone"},
+    {"H", "contact hulls"},
+    {"Tab", "fold the panels away"},
+}};
+
+constexpr std::array<KeyLine, 6> kProbe = {{
+    {"M", "take the probe, let it go"},
+    {"Space", "hold it while the key is down"},
+    {"Mouse, wheel", "move it; deeper, nearer"},
+    {"W S, A D, Q E", "tilt, turn, roll"},
+    {"Esc", "force off at once"},
+    {"Enter", "force on again"},
+}};
+
+constexpr std::array<KeyLine, 4> kEdit = {{
+    {"E", "edit the chosen bone's surface, leave"},
+    {"Drag, wheel", "pull the surface; along the view"},
+    {"Probe's button", "the same by hand, against a spring"},
+    {"Ctrl + Z, + Shift", "undo, redo"},
+}};
+
+constexpr std::array<KeyLine, 11> kRun = {{
+    {"R", "record, stop"},
+    {"O", "open a recording"},
+    {"N", "make a new patient"},
+    {"P", "play, pause a replay"},
+    {",  .", "slower, faster"},
+    {"F2", "check this computer and its devices"},
+    {"F11", "full screen"},
+    {"F12, Shift + F12", "picture of the window, of the scene alone"},
+    {"Ctrl + and Ctrl -", "larger, smaller interface"},
+    {"Ctrl + Tab", "reach the panels by keyboard"},
+    {"Ctrl + Q", "end"},
+}};
+
+template <std::size_t N>
+void draw_keys(const PanelContext& c, const char* title, const std::array<KeyLine, N>& lines) {
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ImGui::TextUnformatted(title);
+  }
+  if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, c.px(176));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, c.px(280));
+  for (const KeyLine& line : lines) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ui::text(color::kAccent, line.keys);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(line.what);
+  }
+  ImGui::EndTable();
+  ImGui::Dummy({0, c.px(4)});
+}
+
+}  // namespace
+
+void draw_help(const PanelContext& c) {
+  const UiRect& r = c.layout.picture;
+  ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(24), c.px(16)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0x1c, 0x20, 0x25, 0xff));
+  ImGui::Begin("##help", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  draw_keys(c, "Look", kLook);
+  draw_keys(c, "Probe", kProbe);
+  draw_keys(c, "Edit", kEdit);
+  draw_keys(c, "Run", kRun);
+  if (ImGui::Button("Close  (F1)")) c.requests.toggle_help = true;
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace osteon

@@ -1,0 +1,148 @@
+#include <string>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+constexpr ImGuiWindowFlags kNote = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+ImU32 toast_color(ToastKind kind) {
+  switch (kind) {
+    case ToastKind::kInfo:
+      return color::kAccent;
+    case ToastKind::kWarning:
+      return color::kAmber;
+    case ToastKind::kError:
+      break;
+  }
+  return color::kRed;
+}
+
+const char* toast_sign(ToastKind kind) {
+  return kind == ToastKind::kInfo ? "i" : "!";  // the colour is not alone in telling them apart
+}
+
+float picture_middle(const PanelContext& c) { return c.layout.picture.x + c.layout.picture.w / 2; }
+
+// Returns the next toast's y.
+float draw_toast(const PanelContext& c, const Toast& toast, float y) {
+  const std::string name = "##toast" + std::to_string(toast.id);
+  ImGui::SetNextWindowPos({picture_middle(c), y}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::PushStyleColor(ImGuiCol_Border, toast_color(toast.kind));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
+  ImGui::Begin(name.c_str(), nullptr, kNote);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ui::text(toast_color(toast.kind), toast_sign(toast.kind));
+  }
+  ImGui::SameLine(0, c.px(10));
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + c.px(400));
+  ImGui::TextUnformatted(toast.text.c_str());
+  ImGui::PopTextWrapPos();
+  if (toast.kind != ToastKind::kInfo) {
+    ImGui::SameLine(0, c.px(16));
+    if (ImGui::SmallButton("Close")) c.requests.dismiss_toast = toast.id;
+  }
+  const float bottom = y + ImGui::GetWindowHeight();
+  ImGui::End();
+  return bottom + c.px(8);
+}
+
+void draw_toasts(const PanelContext& c) {
+  float y = c.layout.picture.y + c.px(16);
+  for (const Toast& toast : c.model.toasts) y = draw_toast(c, toast, y);
+}
+
+void begin_bottom_note(const PanelContext& c, const char* name) {
+  ImGui::SetNextWindowPos({picture_middle(c), c.layout.picture.bottom() - c.px(16)},
+                          ImGuiCond_Always, {0.5f, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(8)});
+  ImGui::Begin(name, nullptr, kNote);
+  ImGui::PopStyleVar();
+}
+
+// A key in a small raised box and what it does, as one item of the line.
+void key(const PanelContext& c, const char* name, const char* what) {
+  const ui::WithFont small(c.fonts.small);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 name_size = ImGui::CalcTextSize(name);
+  const ImVec2 pad{c.px(5), c.px(2)};
+  const float box_w = name_size.x + 2 * pad.x;
+  const float box_h = name_size.y + 2 * pad.y;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + box_w, at.y + box_h}, color::kFieldHover, c.px(3));
+  draw->AddText({at.x + pad.x, at.y + pad.y}, color::kText, name);
+  draw->AddText({at.x + box_w + c.px(6), at.y + pad.y}, color::kTextQuiet, what);
+  ImGui::Dummy({box_w + c.px(6) + ImGui::CalcTextSize(what).x, box_h});
+}
+
+void draw_probe_hint(const PanelContext& c) {
+  begin_bottom_note(c, "##probe");
+  const float gap = c.px(16);
+  key(c, "Mouse", "moves the probe");
+  ImGui::SameLine(0, gap);
+  key(c, "Wheel", "deeper, nearer");
+  ImGui::SameLine(0, gap);
+  key(c, "W A S D Q E", "turn");
+  ImGui::SameLine(0, gap);
+  key(c, "M", "let go");
+  ImGui::End();
+}
+
+void draw_first_run_hint(const PanelContext& c) {
+  begin_bottom_note(c, "##hint");
+  const float gap = c.px(16);
+  key(c, "Drag", "look around");
+  ImGui::SameLine(0, gap);
+  key(c, "Wheel", "nearer, farther");
+  ImGui::SameLine(0, gap);
+  key(c, "M", "take the probe");
+  ImGui::SameLine(0, gap);
+  key(c, "F1", "all keys");
+  ImGui::SameLine(0, gap);
+  if (ImGui::SmallButton("Got it")) c.requests.dismiss_hint = true;
+  ImGui::End();
+}
+
+void draw_name_tag(const PanelContext& c, BoneId bone) {
+  if (bone.index >= c.model.bone_labels.size()) return;
+  ImGui::SetNextWindowPos({c.model.pointer_x + c.px(14), c.model.pointer_y + c.px(10)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(8), c.px(4)});
+  ImGui::Begin("##tag", nullptr, kNote | ImGuiWindowFlags_NoInputs);
+  ImGui::PopStyleVar();
+  ImGui::TextUnformatted(c.model.bone_labels[bone.index].c_str());
+  ImGui::End();
+}
+
+void draw_verdict(const PanelContext& c) {
+  begin_bottom_note(c, "##verdict");
+  ui::text(c.model.replay.identical ? color::kTextQuiet : color::kAmber,
+           c.model.replay.verdict.c_str());
+  ui::tooltip(
+      "The recording was simulated again from its inputs; every 100th tick's state is "
+      "compared with the recorded one");
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_notices(const PanelContext& c) {
+  draw_toasts(c);
+  if (c.model.phase != UiPhase::kReady || c.model.help_open) return;
+  if (c.model.hand.probe_in_hand)
+    draw_probe_hint(c);
+  else if (c.model.first_run_hint)
+    draw_first_run_hint(c);
+  else if (c.model.replay.on && c.model.panels_open)
+    draw_verdict(c);
+  if (!c.model.hand.probe_in_hand) draw_name_tag(c, c.model.hovered);
+}
+
+}  // namespace osteon

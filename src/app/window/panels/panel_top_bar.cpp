@@ -1,0 +1,115 @@
+#include <string>
+
+#include "ui/panel_ground.h"
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+void draw_title(const PanelContext& c) {
+  const float row = c.px(5);
+  ImGui::SetCursorPos({c.px(16), row + c.px(6)});
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ImGui::TextUnformatted(c.model.case_title.empty() ? "Osteon" : c.model.case_title.c_str());
+  }
+  if (c.model.activity.empty()) return;
+  ImGui::SameLine(0, c.px(16));
+  ui::text(color::kTextQuiet, c.model.activity.c_str());
+}
+
+void draw_record_button(const PanelContext& c) {
+  const RecordModel& record = c.model.record;
+  ImGui::BeginDisabled(c.model.replay.on || c.model.phase != UiPhase::kReady);
+  const char* label = record.on ? "      Stop###record" : "      Record###record";
+  if (ui::toggle_button(label, record.on)) c.requests.toggle_record = true;
+  const ImVec2 lo = ImGui::GetItemRectMin();
+  const ImVec2 hi = ImGui::GetItemRectMax();
+  ImGui::EndDisabled();
+  ui::tooltip(record.on ? "Ends the recording and keeps the file (R)"
+                        : "Records this run to a file that replays exactly (R). The run starts "
+                          "anew from the present position of the hand.");
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 at{lo.x + c.px(16), 0.5f * (lo.y + hi.y)};
+  const float r = c.px(5);
+  // A square while recording, so that the state does not hang on the colour.
+  if (record.on)
+    draw->AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, color::kRed, 1);
+  else
+    draw->AddCircleFilled(at, r, color::kRed);
+}
+
+void draw_open_menu(const PanelContext& c) {
+  if (ImGui::Button("Open")) c.requests.list_recordings = true;
+  const ImVec2 below{ImGui::GetItemRectMax().x, ImGui::GetItemRectMax().y + c.px(8)};
+  if (c.requests.list_recordings) ImGui::OpenPopup("recordings");
+  ui::tooltip("Opens a recording to replay it (O). A file dropped on the window opens too.");
+  ImGui::SetNextWindowPos(below, ImGuiCond_Appearing, {1, 0});
+  if (!ImGui::BeginPopup("recordings")) return;
+  if (ImGui::MenuItem("New patient ...", "N")) c.requests.patient.toggle = true;
+  if (ImGui::MenuItem("Segment a scan ...")) c.requests.segment_scan = true;
+  ui::tooltip(
+      "Makes a case of a CT scan by hand, in a window of its own that takes the place of "
+      "this one");
+  ImGui::Separator();
+  ui::text(color::kTextQuiet, "Recordings");
+  if (c.model.recordings.empty())
+    ImGui::TextUnformatted("None yet. Press R to make one,\nor drop a file on the window.");
+  for (const RecordingFile& file : c.model.recordings)
+    if (ImGui::MenuItem(file.label.c_str())) c.requests.open_file = file.path;
+  ImGui::EndPopup();
+}
+
+// Width of the buttons and the time, so that they end at the right edge.
+float right_part_width(const PanelContext& c) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const auto button = [&style](const char* label) {
+    return ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x;
+  };
+  float width = ImGui::CalcTextSize("00:00.0").x + c.px(16);
+  width += button(c.model.record.on ? "      Stop" : "      Record") + style.ItemSpacing.x;
+  width += button("Open") + style.ItemSpacing.x + button("Help");
+  if (c.model.replay.on) width += button("Leave replay") + style.ItemSpacing.x;
+  return width + c.px(16);
+}
+
+void draw_actions(const PanelContext& c) {
+  const std::string time =
+      c.model.record.on ? ui::clock_time(c.model.record.seconds) : ui::clock_time(c.model.time_s);
+  ui::text(c.model.record.on ? color::kText : color::kTextQuiet, time.c_str());
+  ui::tooltip(c.model.record.on
+                  ? "Length of the recording so far, minutes and seconds"
+                  : "Simulated time since the start of this run, minutes and seconds");
+  ImGui::SameLine(0, c.px(16));
+  draw_record_button(c);
+  ImGui::SameLine();
+  draw_open_menu(c);
+  if (c.model.replay.on) {
+    ImGui::SameLine();
+    if (ImGui::Button("Leave replay")) c.requests.close_replay = true;
+    ui::tooltip("Back to the live case");
+  }
+  ImGui::SameLine();
+  if (ui::toggle_button("Help", c.model.help_open)) c.requests.toggle_help = true;
+  ui::tooltip("All keys (F1)");
+}
+
+}  // namespace
+
+void draw_top_bar(const PanelContext& c) {
+  const UiRect& r = c.layout.top;
+  ImGui::SetNextWindowPos({r.x, r.y});
+  ImGui::SetNextWindowSize({r.w, r.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  begin_panel("##top", kBarPanel);
+  ImGui::PopStyleVar(2);
+  draw_title(c);
+  ImGui::SetCursorPos({r.w - right_part_width(c), 0.5f * (r.h - ImGui::GetFrameHeight())});
+  ImGui::AlignTextToFramePadding();
+  draw_actions(c);
+  ImGui::End();
+}
+
+}  // namespace osteon

@@ -1,0 +1,97 @@
+#include <array>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+struct PresetButton {
+  const char* label;
+  ViewPreset preset;
+  const char* explanation;
+};
+
+constexpr PresetButton kAp = {"AP", ViewPreset::kAp,
+                              "As a front radiograph is hung, without perspective (5)"};
+constexpr PresetButton kLateral = {"Lateral", ViewPreset::kLateral,
+                                   "As a side radiograph is hung, without perspective (6)"};
+constexpr std::array<PresetButton, 6> kWristPresets = {{
+    {"Dorsal", ViewPreset::kDorsal, "From the back of the hand (1)"},
+    {"Palmar", ViewPreset::kPalmar, "From the palm (2)"},
+    {"Radial", ViewPreset::kRadial, "From the thumb's side (3)"},
+    {"Ulnar", ViewPreset::kUlnar, "From the little finger's side (4)"},
+    kAp,
+    kLateral,
+}};
+constexpr std::array<PresetButton, 6> kKneePresets = {{
+    {"Front", ViewPreset::kDorsal, "From the patella's side (1)"},
+    {"Back", ViewPreset::kPalmar, "From the hollow of the knee (2)"},
+    {"Outer", ViewPreset::kRadial, "From the fibula's side (3)"},
+    {"Inner", ViewPreset::kUlnar, "From the other knee's side (4)"},
+    kAp,
+    kLateral,
+}};
+
+void draw_presets(const PanelContext& c) {
+  const float gap = c.px(4);
+  const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const auto& presets = c.model.is_knee ? kKneePresets : kWristPresets;
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    if (i % 2 == 1) ImGui::SameLine(0, gap);
+    if (ImGui::Button(presets[i].label, {w, 0})) c.requests.preset = presets[i].preset;
+    ui::tooltip(presets[i].explanation);
+  }
+  if (ImGui::Button(c.model.picked.valid() ? "Close up on the bone" : "Close up on the joint",
+                    {ImGui::GetContentRegionAvail().x, 0}))
+    c.requests.close_up = true;
+  ui::tooltip("Goes near without turning: to the picked bone, else to the joint (F)");
+}
+
+bool draw_light(const PanelContext& c, ViewState& view) {
+  bool changed =
+      ui::light_pad("light", c.px(44), &view.light_azimuth_rad, &view.light_elevation_rad);
+  ui::tooltip("Where the main light comes from, as seen from the viewer. Drag to move it.");
+  ImGui::SameLine(0, c.px(8));
+  ImGui::BeginGroup();
+  ImGui::Dummy({0, c.px(4)});
+  double percent = 100.0 * static_cast<double>(view.light_brightness);
+  if (ui::slider("Light", &percent, 20, 200, "%.0f %%",
+                 "Brightness of the main light, percent of the usual; 20 to 200")) {
+    view.light_brightness = static_cast<float>(percent / 100.0);
+    changed = true;
+  }
+  ImGui::EndGroup();
+  return changed;
+}
+
+bool draw_switches(ViewState& view) {
+  bool changed = ui::switch_row("Contact hulls", &view.show_hulls,
+                                "The convex bodies that the probe feels, over the bones (H)");
+  changed |= ui::switch_row("Felt against seen", &view.show_felt,
+                            "Colours each bone by how far what the probe feels stands over the "
+                            "surface, or lies under it");
+  changed |= ui::switch_row("Force arrow", &view.show_force,
+                            "The force on the hand as an arrow at the probe's tip");
+  changed |= ui::switch_row("Hand's place", &view.show_hand_ghost,
+                            "Where the hand is, when bone keeps the probe from following it");
+  bool shaded = view.ambient_occlusion > 0;
+  if (ui::switch_row("Soft shadows", &shaded, "Darkens the gaps between bones")) {
+    view.ambient_occlusion = shaded ? 1.0f : 0.0f;
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace
+
+void draw_view_section(const PanelContext& c) {
+  ViewState view = c.model.view;
+  draw_presets(c);
+  ImGui::Dummy({0, c.px(2)});
+  bool changed = draw_light(c, view);
+  changed |= draw_switches(view);
+  if (changed) c.requests.view = view;
+}
+
+}  // namespace osteon

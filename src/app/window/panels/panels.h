@@ -1,0 +1,41 @@
+#pragma once
+
+#include "ui/ui_layout.h"
+#include "ui/ui_theme.h"
+#include "window/ui_model.h"
+#include "window/ui_requests.h"
+
+namespace osteon {
+
+/// Draws the whole interface of one frame with the current ImGui context (between NewFrame and
+/// Render) and returns what the user asked for. Needs no window.
+UiRequests draw_ui(const UiModel& model, const UiFonts& fonts);
+
+/// What the parts below share.
+struct PanelContext {
+  const UiModel& model;
+  const UiFonts& fonts;
+  const UiLayout& layout;
+  UiRequests& requests;
+  float px(float units) const { return units * model.scale; }
+};
+
+void draw_top_bar(const PanelContext& c);
+void draw_case_card(const PanelContext& c);
+void draw_joint_section(const PanelContext& c);
+void draw_soft_section(const PanelContext& c);
+void draw_view_section(const PanelContext& c);
+void draw_felt_legend(const PanelContext& c);  // where bones are coloured by what is felt
+void draw_hand_card(const PanelContext& c);
+void draw_device_section(const PanelContext& c);
+void draw_force_section(const PanelContext& c);
+void draw_timeline(const PanelContext& c);
+void draw_notices(const PanelContext& c);  // toasts, hint, probe hint, name tag
+void draw_loading(const PanelContext& c);
+void draw_help(const PanelContext& c);
+void draw_checkup(const PanelContext& c);
+void draw_edit(const PanelContext& c);     // of a bone's surface
+void draw_patient(const PanelContext& c);  // a new one
+void read_shortcuts(const PanelContext& c);
+
+}  // namespace osteon

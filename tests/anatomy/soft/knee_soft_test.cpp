@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "anatomy/knee_figures.h"
+#include "anatomy/soft/soft_checks.h"
+#include "osteon/anatomy/variation.h"
+
+namespace osteon {
+namespace {
+
+const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
+
+GeneratedAnatomy patient(const VariationRequest& request) {
+  auto r = generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml", request);
+  if (!r) throw std::runtime_error(r.error().message());
+  return std::move(r->anatomy);
+}
+
+const GeneratedAnatomy& knee() {
+  static const GeneratedAnatomy grown = patient({{}, {}, ""});
+  return grown;
+}
+
+Vec3 extent_mm(const std::string& name) {
+  Aabb box;
+  for (const Vec3& v : checks::soft_named(knee(), name).mesh_W.vertices) box.include(v);
+  return box.extent() * 1e3;
+}
+
+TEST(KneeSoft, IsSound) {
+  checks::expect_sound_softs(knee());
+  checks::expect_layers_apart(knee());
+}
+
+/// Length from front to back, width across.
+TEST(KneeSoft, MenisciHaveTheirPublishedSizes) {
+  const Vec3 medial = extent_mm("medial_meniscus"), lateral = extent_mm("lateral_meniscus");
+  std::printf("medial %.1f x %.1f mm, lateral %.1f x %.1f mm\n", medial.z(), medial.y(),
+              lateral.z(), lateral.y());
+  EXPECT_NEAR(medial.z(), 42.3, 1.5);
+  EXPECT_NEAR(medial.y(), 31.7, 1.5);
+  EXPECT_NEAR(lateral.z(), 32.7, 1.5);
+  EXPECT_NEAR(lateral.y(), 33.2, 1.5);
+}
+
+/// Section of the ligament by the plane in its middle, at right angles to its run.
+TEST(KneeSoft, AnteriorCruciateLigamentHasItsPublishedFigures) {
+  const GeneratedSoft& acl = checks::soft_named(knee(), "acl");
+  ASSERT_EQ(acl.attachments.size(), 2u);
+  const Vec3 from = acl.attachments[0].p_W, to = acl.attachments[1].p_W;
+  const double length_mm = (to - from).norm() * 1e3;
+  const Vec3 along = (to - from).normalized(), middle = 0.5 * (from + to);
+  std::vector<Vec3> section;
+  for (const Vec3& v : acl.mesh_W.vertices)
+    if (std::abs(along.dot(v - middle)) < 0.001) section.push_back(v);
+  double widest = 0, narrowest = 1;
+  const Vec3 u = along.unitOrthogonal(), w = along.cross(u);
+  for (int k = 0; k < 36; ++k) {
+    const double turn = 3.14159265358979 * k / 36;
+    const Vec3 direction = std::cos(turn) * u + std::sin(turn) * w;
+    double lo = 1, hi = -1;
+    for (const Vec3& v : section) {
+      lo = std::min(lo, direction.dot(v));
+      hi = std::max(hi, direction.dot(v));
+    }
+    widest = std::max(widest, hi - lo);
+    narrowest = std::min(narrowest, hi - lo);
+  }
+  std::printf("ACL %.1f mm long, %.1f x %.1f mm in its middle\n", length_mm, widest * 1e3,
+              narrowest * 1e3);
+  EXPECT_NEAR(length_mm, 32, 4);
+  EXPECT_NEAR(widest * 1e3, 9.9, 1.0);
+  EXPECT_NEAR(narrowest * 1e3, 3.9, 0.6);
+}
+
+/// The ends of both tendons lie on the front of the patella, their corners too.
+TEST(KneeSoft, TendonsDoNotOverhangThePatella) {
+  const auto bones = checks::bone_surfaces_W(knee());
+  std::size_t patella = 0;
+  while (knee().bones.at(patella).name != "patella") ++patella;
+  for (const char* name : {"patellar_tendon", "quadriceps_tendon"}) {
+    const GeneratedSoft& tendon = checks::soft_named(knee(), name);
+    ASSERT_EQ(tendon.attachments.at(0).bone, "patella");
+    const Vec3 end = tendon.attachments[0].p_W;
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& v : tendon.mesh_W.vertices) middle += v;
+    middle /= static_cast<double>(tendon.mesh_W.vertices.size());
+    const Vec3 along = (middle - end).normalized();
+    double most = 0;
+    for (const Vec3& v : tendon.mesh_W.vertices)
+      if (along.dot(v - end) < 0) most = std::max(most, bones[patella].closest(v).signed_distance);
+    std::printf("%s stands %.1f mm over the patella\n", name, most * 1e3);
+    EXPECT_LT(most, 5e-3) << name;
+  }
+}
+
+TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(knee(), 1.5); }
+
+TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {
+  for (const char* name : {"femoral_cartilage", "medial_tibial_plateau", "lateral_tibial_plateau",
+                           "patellar_cartilage"}) {
+    const double height_mm = checks::height_of(knee(), name) * 1e3;
+    std::printf("%-24s %.2f mm\n", name, height_mm);
+    EXPECT_GT(height_mm, 1.7) << name;
+    EXPECT_LE(height_mm, 2.101) << name;
+  }
+}
+
+TEST(KneeSoft, PortalsLieOnTheSkinBesideThePatellarTendon) {
+  const MeshDistance skin(checks::soft_named(knee(), "skin").mesh_W);
+  const MeshDistance tendon(checks::soft_named(knee(), "patellar_tendon").mesh_W);
+  for (const char* name : {"portal_al", "portal_am"}) {
+    const Vec3 portal = checks::landmark_of(knee(), name);
+    EXPECT_LT(std::abs(skin.closest(portal).signed_distance), 1e-6) << name;
+    EXPECT_GT(tendon.closest(portal).signed_distance, 0.001) << name;
+  }
+}
+
+TEST(KneeSoft, RandomPatientsAreSound) {
+  const GeneratedAnatomy other = patient({7, {}, "left"});
+  EXPECT_EQ(other.side, "left");
+  checks::expect_sound_softs(other);
+  std::printf("hash of the soft parts of seed 7: %016llx\n",
+              static_cast<unsigned long long>(checks::hash_of_softs(other)));
+}
+
+}  // namespace
+}  // namespace osteon

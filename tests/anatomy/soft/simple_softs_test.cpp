@@ -1,0 +1,36 @@
+#include <gtest/gtest.h>
+
+#include "anatomy/soft/soft_checks.h"
+#include "osteon/anatomy/variation.h"
+
+namespace osteon {
+namespace {
+
+const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
+
+GeneratedAnatomy patient(const std::string& name, std::uint64_t seed) {
+  VariationRequest request;
+  if (seed > 0) request.seed = seed;
+  auto r =
+      generate_varied(kAssets / (name + ".toml"), kAssets / (name + "_variation.toml"), request);
+  if (!r) throw std::runtime_error(r.error().message());
+  return std::move(r->anatomy);
+}
+
+/// One piece each, without holes or handles. Seed 0 is the built-in one.
+void expect_simple(const std::string& name, std::uint64_t seeds,
+                   const std::vector<std::string>& kinds) {
+  for (std::uint64_t seed = 0; seed <= seeds; ++seed)
+    for (const GeneratedSoft& soft : patient(name, seed).softs) {
+      if (std::find(kinds.begin(), kinds.end(), soft.kind) == kinds.end()) continue;
+      EXPECT_EQ(checks::euler_number(soft.mesh_W), 2) << soft.name << " of seed " << seed;
+    }
+}
+
+TEST(SimpleSofts, BandsOfTheWristAreStraps) { expect_simple("wrist", 4, {"ligament"}); }
+TEST(SimpleSofts, BandsAndMenisciOfTheKneeHaveNoHoles) {
+  expect_simple("knee", 12, {"ligament", "tendon", "meniscus"});
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,56 @@
+#include "cases/felt_choice.h"
+
+#include <gtest/gtest.h>
+
+namespace osteon {
+namespace {
+
+CaseDef two_bones() {
+  CaseDef def;
+  def.bones.resize(2);
+  def.bones[0].name = "lunate";
+  def.bones[1].name = "capitate";
+  return def;
+}
+
+TEST(FeltChoice, ACaseWithoutOneIsLeftAlone) {
+  const auto choice = parse_felt_choice("builtin:wrist");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->source, "builtin:wrist");
+  EXPECT_TRUE(choice->of_bone.empty());
+  EXPECT_EQ(to_text(*choice), "builtin:wrist");
+}
+
+TEST(FeltChoice, NonsenseIsAnError) {
+  EXPECT_FALSE(parse_felt_choice("x#soft"));
+  EXPECT_FALSE(parse_felt_choice("x#lunate="));
+  EXPECT_FALSE(parse_felt_choice("x#lunate=hull,,"));
+  CaseDef def = two_bones();
+  EXPECT_FALSE(apply(parse_felt_choice("x#femur=hull").value(), def));
+}
+
+TEST(FeltChoice, OneBoneAndAllOthers) {
+  const auto choice = parse_felt_choice("a#b#field,lunate=hull");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->source, "a#b");
+  CaseDef def = two_bones();
+  ASSERT_TRUE(apply(*choice, def));
+  EXPECT_EQ(def.bones[0].felt, Felt::kHull);
+  EXPECT_EQ(def.bones[1].felt, Felt::kField);
+  EXPECT_EQ(to_text(*choice), "a#b#field,lunate=hull");
+}
+
+TEST(FeltChoice, AJointIsBentBesideWhatIsFelt) {
+  const auto choice = parse_felt_choice("knee#hull,flexion=72.5");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->bent.at("flexion"), 72.5);
+  EXPECT_EQ(choice->of_bone.at(""), Felt::kHull);
+  EXPECT_EQ(to_text(*choice), "knee#hull,flexion=72.5");
+  EXPECT_EQ(bent_spec("knee", "flexion", 30).value(), "knee#flexion=30");
+  EXPECT_EQ(bent_spec("knee#hull,flexion=72.5", "flexion", 0).value(), "knee#hull,flexion=0");
+  EXPECT_FALSE(parse_felt_choice("knee#flexion=nan"));
+  EXPECT_FALSE(parse_felt_choice("knee#72"));
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,124 @@
+#include "runs/live_run.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "app/loops/fake_device.h"
+#include "osteon/base/file.h"
+#include "osteon/record/recording.h"
+
+namespace osteon {
+namespace {
+
+// Far from the blocks; after a second it leaps by 0.2 m, faster than any hand may move.
+ProbePath leaping_path() {
+  ProbePath path;
+  for (const auto& [time_s, x] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.01, 0.2}, {9.0, 0.2}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(x, 0, 0.1);
+    path.samples.push_back(sample);
+  }
+  return path;
+}
+
+DeviceChoice virtual_hand() {
+  const auto choices = list_device_choices(nullptr);
+  return choices.at(static_cast<std::size_t>(find_choice(choices, "virtual")));
+}
+
+// The loops run in real time; how long they take does not matter.
+template <class Until>
+void run_until(LiveRun& live, Until until) {
+  do {
+    std::this_thread::yield();
+    live.update();
+  } while (!until());
+}
+
+class LiveRunTest : public ::testing::Test {
+ protected:
+  LiveRunTest() : live(test::blocks_case(), "blocks", leaping_path(), {}) {
+    EXPECT_TRUE(live.start(virtual_hand(), Pose{}));
+  }
+  ~LiveRunTest() override {
+    std::filesystem::remove(file);
+    std::filesystem::remove(log);
+  }
+
+  void run_until_it_trips() {
+    run_until(live, [&] { return live.device_status().cause == ForceOff::kVelocity; });
+  }
+  // The first that the new run tells.
+  ForceOff cause_of_next_run() {
+    run_until(live, [&] { return live.snapshot().tool.tick < 900; });
+    return live.device_status().cause;
+  }
+
+  LiveRun live;
+  std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".osr");
+  std::filesystem::path log =
+      std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".csv");
+};
+
+TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
+  run_until_it_trips();
+  ASSERT_TRUE(live.start_recording(file));
+  EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
+  live.set_force(true);
+  run_until(live, [&] { return live.device_status().cause == ForceOff::kNone; });
+  EXPECT_TRUE(live.stop_recording());
+}
+
+// The mouse's hand is where the run began until it is moved: a run that follows at once is there
+// too.
+TEST_F(LiveRunTest, ARunThatFollowsAtOnceBeginsWhereTheOneBeforeDid) {
+  const auto choices = list_device_choices(nullptr);
+  const Pose start{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  LiveRun mouse(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(
+      mouse.start(choices.at(static_cast<std::size_t>(find_choice(choices, "mouse"))), start));
+  ASSERT_TRUE(mouse.start_recording(file));
+  run_until(mouse, [&] { return mouse.snapshot().tool.tick > 4; });
+  EXPECT_LT((mouse.snapshot().tool.X_WP.p - start.p).norm(), 1e-6);
+}
+
+TEST_F(LiveRunTest, EndedItKeepsTheRecordingAndRunsNoMore) {
+  live.keep_force_log(log);
+  ASSERT_TRUE(live.start_recording(file));
+  run_until(live, [&] { return live.snapshot().tool.tick > 100; });
+  ASSERT_TRUE(live.end());
+  EXPECT_FALSE(live.recording());
+  const auto recording = load_recording(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_TRUE(recording->complete);
+  EXPECT_GT(recording->ticks.size(), 100u);
+  // The device was closed once, and none was opened after it.
+  const std::string told = read_file(log).value();
+  EXPECT_GT(told.size(), 1000u);
+  EXPECT_TRUE(told.ends_with("closed\n"));
+  EXPECT_TRUE(live.end());
+  live.update();
+}
+
+TEST_F(LiveRunTest, ALentDeviceComesBackToARunThatIsAsItWas) {
+  EXPECT_TRUE(live.lend_device());
+  EXPECT_FALSE(live.lend_device());
+  EXPECT_FALSE(live.start_recording(file));
+  live.update();  // stands still, harmlessly
+  live.set_force(false);
+  ASSERT_TRUE(live.take_back(nullptr));
+  run_until(live, [&] { return live.snapshot().tool.tick > 8; });
+  EXPECT_EQ(live.device_status().cause, ForceOff::kSoftware);
+  live.set_force(true);
+  run_until_it_trips();
+  ASSERT_TRUE(live.take_back(live.lend_device()));
+  EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,132 @@
+#include "window/jobs/checkup_job.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+
+#include "osteon/device/virtual_device.h"
+
+namespace osteon {
+namespace {
+
+using DeviceList = Result<std::vector<DeviceInfo>>;
+using OpenDevice = Result<std::unique_ptr<HapticDevice>>;
+
+DeviceInfo motor_info() {
+  DeviceInfo info;
+  info.name = "Arm";
+  info.driver = "arm";
+  info.peak_force_n = 3.3;
+  info.continuous_force_n = 0.9;
+  return info;
+}
+
+DeviceList no_usb() { return fail("there is no USB on this computer", "usb", "Use another"); }
+OpenDevice open_none(const DeviceInfo&) { return fail("no permission", "arm", "Install the rule"); }
+const std::array<Driver, 1> kTable{{{"usb", "USB", no_usb, open_none, nullptr}}};
+
+// What a device saw; outlives it.
+struct Seen {
+  std::atomic<int> reads{0};
+  std::atomic<bool> pushed{false};
+  std::atomic<bool> closed{false};
+  std::atomic<bool> last_was_zero{true};
+};
+
+class Watched : public VirtualDevice {
+ public:
+  explicit Watched(Seen& seen) : VirtualDevice(motor_info()), seen_(seen) {}
+  DeviceSample read() override {
+    ++seen_.reads;
+    return VirtualDevice::read();
+  }
+  void write_force(const Vec3& force_V) override {
+    const bool zero = force_V.isZero(0);
+    if (!zero) seen_.pushed = true;
+    seen_.last_was_zero = zero;
+    VirtualDevice::write_force(force_V);
+  }
+  void close() override {
+    seen_.closed = true;
+    VirtualDevice::close();
+  }
+
+ private:
+  Seen& seen_;
+};
+
+CheckupOrder short_order() {
+  CheckupOrder order;
+  order.graphics = {FindingLevel::kGood, "OpenGL", "4.6", ""};
+  order.read_s = 0.05;
+  order.loop_s = 0.05;
+  return order;
+}
+
+const Finding* find(const Findings& findings, const std::string& topic) {
+  for (const Finding& f : findings)
+    if (f.topic == topic) return &f;
+  return nullptr;
+}
+
+void wait_for(const CheckupJob& job) {
+  while (!job.done()) std::this_thread::yield();
+}
+
+TEST(CheckupJob, WithoutAnyDeviceItChecksTheComputerAndSaysWhatIsMissing) {
+  CheckupJob job(short_order(), kTable);
+  wait_for(job);
+  const CheckupReport report = job.take_report();
+  EXPECT_EQ(job.take_device(), nullptr);
+  EXPECT_FALSE(report.ended_early);
+  for (const char* topic : {"usb", "USB", "Loop", "Limits", "OpenGL"})
+    EXPECT_NE(find(report.findings, topic), nullptr) << topic;
+  EXPECT_NE(report.verdict.find("Ready for mouse"), std::string::npos) << report.verdict;
+  EXPECT_NE(report.udev.text.find("uaccess"), std::string::npos);
+}
+
+TEST(CheckupJob, ALentDeviceIsReadNotPushedAndComesBackOpenAtZero) {
+  Seen seen;
+  CheckupOrder order = short_order();
+  order.device = std::make_unique<Watched>(seen);
+  CheckupJob job(std::move(order), kTable);
+  wait_for(job);
+  EXPECT_NE(find(job.take_report().findings, "Readings"), nullptr);
+  EXPECT_GT(seen.reads, 10);
+  EXPECT_FALSE(seen.pushed);
+  EXPECT_FALSE(seen.closed);
+  EXPECT_NE(job.take_device(), nullptr);
+}
+
+TEST(CheckupJob, CancelledWhileItPushesTheForceEndsAtZero) {
+  Seen seen;
+  CheckupOrder order = short_order();
+  order.push = true;
+  order.device = std::make_unique<Watched>(seen);
+  CheckupJob job(std::move(order), kTable);
+  while (!seen.pushed && !job.done()) std::this_thread::yield();
+  ASSERT_TRUE(seen.pushed);
+  const int before = seen.reads;
+  job.wait();
+  EXPECT_LT(seen.reads - before, 50) << "went on pushing";
+  EXPECT_TRUE(seen.last_was_zero);
+  const CheckupReport report = job.take_report();
+  EXPECT_TRUE(report.ended_early);
+  EXPECT_NE(report.verdict.find("ended"), std::string::npos);
+}
+
+TEST(CheckupJob, GoingAwayItClosesADeviceThatNobodyTookBack) {
+  Seen seen;
+  {
+    CheckupOrder order = short_order();
+    order.read_s = 1000;
+    order.device = std::make_unique<Watched>(seen);
+    const CheckupJob job(std::move(order), kTable);
+  }
+  EXPECT_TRUE(seen.closed);
+  EXPECT_TRUE(seen.last_was_zero);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,59 @@
+#include "window/jobs/felt_job.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "osteon/hull/hull.h"
+
+namespace osteon {
+namespace {
+
+/// A tetrahedron felt as one that is twice as large, at every place.
+std::shared_ptr<const Case> one_bone() {
+  Bone bone;
+  const std::vector<Vec3> corners{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
+  bone.mesh.vertices = corners;
+  bone.mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  std::vector<Vec3> larger;
+  for (const Vec3& p : corners) larger.push_back(2 * p - Vec3::Constant(0.002));
+  bone.pieces = {*build_hull(larger).hull};
+  auto out = std::make_shared<Case>();
+  out->bones.push_back(std::move(bone));
+  return out;
+}
+
+void wait_for(const FeltJob& job) {
+  while (!job.done()) std::this_thread::yield();
+}
+
+TEST(FeltJob, ACaseWithoutBones) {
+  FeltJob job(std::make_shared<Case>(), {});
+  wait_for(job);
+  EXPECT_FALSE(job.failed());
+  EXPECT_TRUE(job.take().bones.empty());
+}
+
+TEST(FeltJob, GivesWhatPrepareFeltGives) {
+  const auto the_case = one_bone();
+  PreparedCase expected = prepare_case(*the_case);
+  FeltJob job(the_case, expected);
+  wait_for(job);
+  EXPECT_DOUBLE_EQ(job.fraction(), 1);
+  prepare_felt(*the_case, expected);
+  const PreparedCase got = job.take();
+  ASSERT_EQ(got.bones.size(), 1u);
+  ASSERT_FALSE(got.bones[0].shades.empty());
+  for (std::size_t v = 0; v < got.bones[0].shades.size(); ++v) {
+    EXPECT_EQ(got.bones[0].shades[v].felt, expected.bones[0].shades[v].felt);
+    EXPECT_GT(got.bones[0].shades[v].felt, 128);
+  }
+}
+
+TEST(FeltJob, MayBeLeftBeforeItIsDone) {
+  const auto the_case = one_bone();
+  const FeltJob job(the_case, prepare_case(*the_case));
+}
+
+}  // namespace
+}  // namespace osteon
