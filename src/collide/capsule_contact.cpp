@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "block_scan.h"
-#include "nearest_simplex.h"
+#include "distance_search.h"
 
 namespace osteon {
 namespace {
 
 constexpr int kMostSteps = 100;
-constexpr double kRelative = 1e-12;  // of the squared distance: when the search ends
 constexpr double kTouching = 1e-12;  // share of the body's size that counts as no distance
 
 DifferencePoint farthest_against(const ConvexBody& a, const Capsule& c, const Vec3& v) {
@@ -24,29 +22,17 @@ DifferencePoint farthest_against(const ConvexBody& a, const Capsule& c, const Ve
 
 // Distance of the axis from the body; false when they meet.
 bool apart(const ConvexBody& a, const Capsule& c, CapsuleContact& out) {
-  NearestSimplex simplex;
-  Vec3 v = a.center - 0.5 * (c.p0 + c.p1);
-  if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
-  double square = std::numeric_limits<double>::infinity();
-  const double touching = kTouching * a.radius;
-  for (; out.steps < kMostSteps; ++out.steps) {
-    const DifferencePoint w = farthest_against(a, c, v);
-    if (simplex.count > 0 && square - v.dot(w.w) <= kRelative * square) break;
-    NearestSimplex next = simplex;
-    if (add_point(next, w)) return false;
-    const Vec3 nearer = next.nearest();
-    if (!(nearer.squaredNorm() < square)) break;  // rounding: the last one was the nearest
-    simplex = next;
-    v = nearer;
-    square = v.squaredNorm();
-    if (square <= touching * touching) return false;
-  }
-  const double distance = std::sqrt(square);
-  out.status = out.steps < kMostSteps ? LpStatus::kOptimal : LpStatus::kPivotLimit;
-  out.nhat_AB_A = -v / distance;
-  out.gap = distance - c.radius;
-  out.p_A = simplex.on_body();
-  out.p_axis_A = simplex.on_axis();
+  DistanceSearch search;
+  const auto farthest = [&](const Vec3& v) { return farthest_against(a, c, v); };
+  const bool found =
+      search_distance(a.center - 0.5 * (c.p0 + c.p1), kTouching * a.radius, farthest, search);
+  out.steps = search.steps;
+  if (!found) return false;
+  out.status = search.ended ? LpStatus::kOptimal : LpStatus::kPivotLimit;
+  out.nhat_AB_A = -search.v / search.distance;
+  out.gap = search.distance - c.radius;
+  out.p_A = search.simplex.on_body();
+  out.p_axis_A = search.simplex.on_axis();
   return true;
 }
 

@@ -20,8 +20,8 @@ struct Place {
 // Lowest point of the axis by lower bounds from the steepest slope (Piyavskii 1972).
 class LowestPoint {
  public:
-  LowestPoint(const DistanceField& field, const Capsule& c)
-      : field_(field), c_(c), length_((c.p1 - c.p0).norm()) {}
+  LowestPoint(const DistanceField& field, const Capsule& c, double far_m)
+      : field_(field), c_(c), length_((c.p1 - c.p0).norm()), far_(far_m + c.radius) {}
 
   Place find() {
     add(0);
@@ -37,6 +37,7 @@ class LowestPoint {
         widest = i + 1;
       }
       if (widest == 0) break;
+      if (lowest > far_) return at_least(lowest);
       add(0.5 * (places_[widest - 1].s + places_[widest].s), widest);
     }
     return settled();
@@ -47,6 +48,13 @@ class LowestPoint {
     double s = 0, distance = 0;
   };
   Vec3 at(double s) const { return c_.p0 + s * (c_.p1 - c_.p0); }
+
+  // All that is known is how far the whole axis is at least.
+  Place at_least(double distance) const {
+    Place out = best_;
+    out.field.distance = distance;
+    return out;
+  }
 
   double lower_bound(const Height& a, const Height& b) const {
     return 0.5 * (a.distance + b.distance - kSteepest * (b.s - a.s) * length_);
@@ -86,6 +94,7 @@ class LowestPoint {
   const DistanceField& field_;
   const Capsule& c_;
   double length_;
+  double far_;  // from the axis, m: what is farther may be told as a bound
   std::array<Height, kMostSamples> places_{};
   std::size_t count_ = 0;
   Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
@@ -97,12 +106,12 @@ bool is_usable(const Capsule& c) {
 
 }  // namespace
 
-CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A) {
+CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A, double far_m) {
   CapsuleContact out;
   if (!is_usable(capsule_A)) return out;
   const bool ball = capsule_A.p0 == capsule_A.p1;
   const Place lowest =
-      ball ? Place{0, field.at(capsule_A.p0)} : LowestPoint(field, capsule_A).find();
+      ball ? Place{0, field.at(capsule_A.p0)} : LowestPoint(field, capsule_A, far_m).find();
   const double slope = lowest.field.gradient.norm();
   if (!(slope > 1e-6) || !std::isfinite(slope)) return out;
   out.status = LpStatus::kOptimal;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "osteon/collide/capsule_contact.h"
 #include "osteon/collide/distance_field.h"
 
@@ -9,7 +11,9 @@ namespace osteon {
 /// `nhat_AB_A` is the field's gradient at the axis' lowest point, p_A the surface below it. The gap
 /// is continuous in the capsule's place, and where one point of the axis is lowest so is the
 /// normal. Beyond the field's band the gap is a bound (the surface is at least so far). Allocates
-/// nothing. Not finite: kNumerical.
-CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A);
+/// nothing. Not finite: kNumerical. A gap above `far_m` may be told as a bound below it, which is
+/// quicker.
+CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A,
+                             double far_m = std::numeric_limits<double>::infinity());
 
 }  // namespace osteon

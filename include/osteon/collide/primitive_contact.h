@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+
+#include "osteon/collide/distance_field.h"
+#include "osteon/collide/lp_contact.h"
+#include "osteon/collide/primitive.h"
+
+namespace osteon {
+
+/// Contact of a body A with a primitive B, in A.
+struct PrimitiveContact {
+  LpStatus status = LpStatus::kNumerical;  ///< kOptimal: the rest may be used
+  /// Signed gap along `nhat_AB_A`, m. Apart it is the distance of the two (of a box and a convex
+  /// body: at most the distance); overlapping, moving B by -gap along nhat parts them.
+  double gap = 0;
+  Vec3 nhat_AB_A = Vec3::UnitZ();  ///< unit, from A to B, in A
+  Vec3 p_A = Vec3::Zero();         ///< a point of A where the two are nearest
+  double top_A = 0;                ///< largest nhat_AB_A.x over A (of a field: at p_A), m
+};
+
+/// `basis` serves a box alone, see lp_depth. Allocates nothing, as those below.
+PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, const Pose& X_AB,
+                                   LpBasis* basis = nullptr);
+
+/// A gap above `far_m` may be told as a bound below the true one, which is quicker. Beyond the
+/// field's band it is a bound in any case.
+PrimitiveContact primitive_contact(const DistanceField& a, const Primitive& b, const Pose& X_AB,
+                                   double far_m = std::numeric_limits<double>::infinity());
+
+/// Both exact: the distance apart; overlapping, the shortest way that parts them, but for a rod
+/// whose axis lies in a box: there it is that of the box's facets and the axis (capsule_contact).
+PrimitiveContact primitive_contact(const Primitive& a, const Primitive& b, const Pose& X_AB);
+
+}  // namespace osteon

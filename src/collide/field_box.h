@@ -1,0 +1,18 @@
+#pragma once
+
+#include "osteon/collide/distance_field.h"
+
+namespace osteon {
+
+/// Lowest point of a box over a field, in the field's frame.
+struct BoxLowest {
+  Vec3 p = Vec3::Zero();
+  FieldSample field;
+};
+
+/// The box's middle and axes are X_AB, `half` its half sides. Searched to 1e-7 m where the field is
+/// smooth there; a height above `far_m` may be a bound below the true one. Allocates nothing.
+BoxLowest lowest_of_box(const DistanceField& field, const Pose& X_AB, const Vec3& half,
+                        double far_m);
+
+}  // namespace osteon
