@@ -11,6 +11,8 @@
 #include <unistd.h>
 #endif
 
+#include "osteon/base/links.h"
+
 namespace osteon {
 namespace fs = std::filesystem;
 namespace {
@@ -54,21 +56,39 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t limit_bytes) {
   return content;
 }
 
-Result<void> write_file_atomic(const fs::path& path, std::string_view content) {
+namespace {
+
+// Writes all of it and closes. Empty when done, else why not.
+std::string write_and_close(std::FILE* f, std::string_view content, bool to_disk) {
+  bool ok = std::fwrite(content.data(), 1, content.size(), f) == content.size();
+  ok = ok && (to_disk ? flush_to_disk(f) : std::fflush(f) == 0);
+  const std::string why = ok ? "" : reason();
+  return std::fclose(f) != 0 && ok ? reason() : why;
+}
+
+tl::unexpected<Error> cannot_open(const fs::path& path) {
+  return fail("cannot be written (" + reason() + ")", path.string(),
+              "Check that the folder exists and may be written to");
+}
+
+// A device, a pipe or a socket is no file that could be replaced: what reads it waits there.
+Result<void> write_through(const fs::path& path, int descriptor, std::string_view content) {
+  std::FILE* f =
+      descriptor < 0 ? std::fopen(path.string().c_str(), "wb") : ::fdopen(::dup(descriptor), "wb");
+  if (!f) return cannot_open(path);
+  const std::string why = write_and_close(f, content, false);
+  if (why.empty()) return {};
+  return fail("could not be written (" + why + ")", path.string(),
+              "Free some space or choose another file");
+}
+
+Result<void> replace_file(const fs::path& path, std::string_view content) {
   const fs::path temporary = path.string() + ".part";
   std::FILE* f = std::fopen(temporary.string().c_str(), "wb");
-  if (!f)
-    return fail("cannot be written (" + reason() + ")", path.string(),
-                "Check that the folder exists and may be written to");
-  bool ok = std::fwrite(content.data(), 1, content.size(), f) == content.size();
-  ok = ok && flush_to_disk(f);
-  std::string why = ok ? "" : reason();
-  if (std::fclose(f) != 0 && ok) {
-    ok = false;
-    why = reason();
-  }
+  if (!f) return cannot_open(path);
+  std::string why = write_and_close(f, content, true);
   std::error_code ec;
-  if (ok) {
+  if (why.empty()) {
     fs::rename(temporary, path, ec);
     if (!ec) return {};
     why = ec.message();
@@ -76,6 +96,22 @@ Result<void> write_file_atomic(const fs::path& path, std::string_view content) {
   fs::remove(temporary, ec);
   return fail("could not be written (" + why + "); what was there before is unchanged",
               path.string(), "Free some space or choose another folder");
+}
+
+}  // namespace
+
+Result<void> write_file_atomic(const fs::path& path, std::string_view content) {
+  std::error_code ec;
+  const fs::path target = behind_links(path);
+  const int descriptor = open_descriptor(target);
+  const fs::file_status there = fs::status(target, ec);
+  if (fs::is_symlink(fs::symlink_status(target, ec)) && descriptor < 0)
+    return fail("is a link that leads in a circle", path.string(), "Give another file");
+  if (fs::is_directory(there))
+    return fail("is a folder", path.string(), "Give the name of a file in it");
+  if (descriptor >= 0 || (fs::exists(there) && !fs::is_regular_file(there)))
+    return write_through(target, descriptor, content);
+  return replace_file(target, content);
 }
 
 namespace {

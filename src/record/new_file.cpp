@@ -17,7 +17,7 @@ Result<void> name_new_file(const fs::path& file) {
   fs::create_hard_link(part, file, error);
   const bool linked = !error;
   std::error_code ignored;
-  if (!linked && !fs::exists(file, ignored))
+  if (!linked && !fs::exists(fs::symlink_status(file, ignored)))
     fs::rename(part, file, error);  // no links on this disk
   if (linked || error) fs::remove(part, ignored);
   if (error)

@@ -1,7 +1,9 @@
 #include "osteon/base/file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -56,6 +58,70 @@ TEST_F(FileTest, AFullDiskLeavesTheOldContent) {
   EXPECT_FALSE(r);
   EXPECT_EQ(read_file(dir_ / "f").value(), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(dir_), {}), 1) << "a temporary file was left";
+}
+
+TEST_F(FileTest, ALinkStaysAndItsTargetIsReplaced) {
+  ASSERT_TRUE(write_file_atomic(dir_ / "target", "old"));
+  fs::create_symlink("target", dir_ / "link");      // relative
+  fs::create_symlink(dir_ / "link", dir_ / "far");  // a link to a link
+  ASSERT_TRUE(write_file_atomic(dir_ / "far", "new"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "far"));
+  EXPECT_FALSE(fs::is_symlink(dir_ / "target"));
+  EXPECT_EQ(read_file(dir_ / "target").value(), "new");
+}
+
+TEST_F(FileTest, ALinkToNothingGetsItsTarget) {
+  fs::create_symlink("later", dir_ / "link");
+  ASSERT_TRUE(write_file_atomic(dir_ / "link", "x"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
+  EXPECT_EQ(read_file(dir_ / "later").value(), "x");
+}
+
+TEST_F(FileTest, LinksInACircleAreAnError) {
+  fs::create_symlink("a", dir_ / "b");
+  fs::create_symlink("b", dir_ / "a");
+  EXPECT_FALSE(write_file_atomic(dir_ / "a", "x"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "a"));
+}
+
+TEST_F(FileTest, AFullDeviceIsAnErrorAndStaysADevice) {
+  fs::create_symlink("/dev/full", dir_ / "link");
+  const auto r = write_file_atomic(dir_ / "link", "x");
+  ASSERT_FALSE(r);
+  EXPECT_NE(r.error().message().find("No space left"), std::string::npos) << r.error().message();
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link"));
+}
+
+TEST_F(FileTest, APipeIsWrittenThrough) {
+  const std::string pipe = (dir_ / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int end = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(end, 0);
+  ASSERT_TRUE(write_file_atomic(pipe, "through"));
+  char got[16] = {};
+  EXPECT_EQ(::read(end, got, sizeof got), 7);
+  ::close(end);
+  EXPECT_STREQ(got, "through");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(FileTest, AnOpenFileIsWrittenWhereItStands) {
+  const std::string file = (dir_ / "open").string();
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::write(descriptor, "before ", 7), 7);
+  ASSERT_TRUE(write_file_atomic("/dev/fd/" + std::to_string(descriptor), "new "));
+  ASSERT_EQ(::write(descriptor, "after", 5), 5);
+  ::close(descriptor);
+  EXPECT_EQ(read_file(file).value(), "before new after");
+}
+
+TEST_F(FileTest, AFolderIsNoPlaceToWriteTo) {
+  fs::create_directories(dir_ / "folder");
+  const auto r = write_file_atomic(dir_ / "folder", "x");
+  ASSERT_FALSE(r);
+  EXPECT_NE(r.error().message().find("folder"), std::string::npos);
 }
 
 TEST_F(FileTest, AMissingFolderIsAnError) {

@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "osteon/base/links.h"
+
 namespace osteon {
 namespace fs = std::filesystem;
 namespace {
@@ -31,11 +33,12 @@ Result<void> refuse_existing(const fs::path& out) {
 
 Result<void> write_whole_folder(const fs::path& out,
                                 const std::function<Result<void>(const fs::path& part)>& write) {
-  const fs::path part = unused_sibling(out);
+  const fs::path target = behind_links(out);
+  const fs::path part = unused_sibling(target);
   auto written = write(part);
   std::error_code ec;
   if (written) {
-    fs::rename(part, out, ec);
+    fs::rename(part, target, ec);
     if (!ec) return {};
     written =
         fail("could not be made (" + ec.message() + ")", out.string(), "Choose another folder");
