@@ -19,6 +19,7 @@ void add_anatomy_compare(CLI::App& anatomy, int& exit_code);  // called by the a
 void add_mesh_commands(CLI::App& app, int& exit_code);        // mesh tetrahedra, mesh quality
 void add_mesh_surface_commands(CLI::App& mesh, int& exit_code);  // called by the above
 void add_hull_command(CLI::App& app, int& exit_code);            // hull
+void add_tissue_commands(CLI::App& app, int& exit_code);         // tissue solve
 void add_collide_command(CLI::App& app, int& exit_code);         // collide
 void add_simulate_command(CLI::App& app, int& exit_code);        // simulate
 void add_path_commands(CLI::App& app, int& exit_code);           // path survey

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "osteon/base/result.h"
+
+namespace osteon {
+
+/// One term of a Prony series: of the shear modulus at once, the share `share` fades with time
+/// constant `time_s`.
+struct PronyTerm {
+  double share = 0;
+  double time_s = 1;
+};
+
+/// An isotropic elastic solid. Young's modulus is that of a sudden load; with Prony terms the shear
+/// modulus at time t after it is G (1 - sum share (1 - exp(-t / time))).
+struct SolidMaterial {
+  double young_pa = 3000;
+  double poisson = 0.45;  ///< 0 to below 0.5
+  double density_kg_per_m3 = 1000;
+  double damping_per_s = 0;  ///< a force of -damping x mass x velocity on every node
+  std::vector<PronyTerm> prony;
+};
+
+double shear_modulus_pa(const SolidMaterial& material);
+double bulk_modulus_pa(const SolidMaterial& material);
+/// Speed of a pressure wave, sqrt((K + 4/3 G) / density).
+double wave_speed_m_per_s(const SolidMaterial& material);
+
+/// Fails, naming the key, on a modulus or density that is not above zero, a Poisson number outside
+/// [0, 0.5), damping below zero, a value that is not finite, shares of 1 or more in all.
+Result<void> check_material(const SolidMaterial& material);
+
+}  // namespace osteon

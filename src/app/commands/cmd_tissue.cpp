@@ -1,0 +1,65 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands/cli_support.h"
+#include "commands/commands.h"
+#include "commands/tissue_report.h"
+#include "osteon/base/clock.h"
+#include "osteon/base/file.h"
+#include "osteon/tissue/solve.h"
+
+namespace osteon {
+namespace {
+
+struct TissueSolveCommand {
+  std::string scene, out;
+  bool json = false;
+};
+
+int tell_lost(const SolveLost& lost) {
+  std::fprintf(
+      stderr,
+      "osteon: %s near (%.4g, %.4g, %.4g) mm was turned inside out or squeezed flat before "
+      "%.4g s; what is told is the last sound state. Load it less or more slowly, or use "
+      "smaller cells.\n",
+      lost.part.c_str(), 1000 * lost.at_m.x(), 1000 * lost.at_m.y(), 1000 * lost.at_m.z(),
+      lost.time_s);
+  return kExitNo;
+}
+
+int run_tissue_solve(const TissueSolveCommand& command) {
+  const auto scene = load_solve_scene(command.scene);
+  if (!scene) return report_error(scene.error());
+  const std::int64_t start_ns = steady_now_ns();
+  const auto result = solve(*scene);
+  if (!result) return report_error(result.error());
+  const double wall_s = 1e-9 * static_cast<double>(steady_now_ns() - start_ns);
+  if (!command.out.empty())
+    if (const auto saved = write_file_atomic(command.out, solve_vtk(result->shape)); !saved)
+      return report_error(saved.error());
+  const std::string text =
+      command.json ? solve_report_json(*result, wall_s) : solve_report_text(*result, wall_s);
+  std::fputs(text.c_str(), stdout);
+  return result->lost ? tell_lost(*result->lost) : kExitDone;
+}
+
+}  // namespace
+
+void add_tissue_commands(CLI::App& app, int& exit_code) {
+  CLI::App* tissue = app.add_subcommand("tissue", "Soft bodies: solve a scene by itself");
+  tissue->require_subcommand(1);
+  CLI::App* command = tissue->add_subcommand(
+      "solve",
+      "Solve a scene of one soft body from rest and tell how it moved and what holds it; exits 1 "
+      "when a part of it was turned inside out");
+  const auto options = std::make_shared<TissueSolveCommand>();
+  command->add_option("SCENE", options->scene, "a scene (TOML), see docs/tissue.md")->required();
+  command->add_option("--out", options->out,
+                      "write the moved body as a VTK file (legacy, ASCII, mm)");
+  command->add_flag("--json", options->json, "print the result as JSON");
+  command->callback([options, &exit_code] { exit_code = run_tissue_solve(*options); });
+}
+
+}  // namespace osteon
