@@ -104,12 +104,50 @@ bool is_usable(const Capsule& c) {
   return is_finite(c.p0) && is_finite(c.p1) && std::isfinite(c.radius) && c.radius >= 0;
 }
 
+// The part of the axis within `reach` of the field's box along each axis of its frame; false when
+// there is none (the slabs of Kay and Kajiya, 1986).
+bool clip_to_box(const DistanceField& field, double reach, Capsule& c) {
+  const Vec3 along = c.p1 - c.p0;
+  double from = 0, to = 1;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double lo = field.box().lo[k] - reach - c.p0[k];
+    const double hi = field.box().hi[k] + reach - c.p0[k];
+    if (along[k] == 0) {
+      if (lo > 0 || hi < 0) return false;
+      continue;
+    }
+    const double a = lo / along[k], b = hi / along[k];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  if (from > to) return false;
+  const Vec3 p0 = c.p0;
+  if (from > 0) c.p0 = p0 + from * along;
+  if (to < 1) c.p1 = p0 + to * along;
+  return true;
+}
+
+// No nearer than `far_m`, seen from the middle of the bone.
+CapsuleContact beyond(const DistanceField& field, const Capsule& c, double far_m) {
+  CapsuleContact out;
+  out.status = LpStatus::kOptimal;
+  out.gap = far_m;
+  out.p_axis_A = 0.5 * (c.p0 + c.p1);
+  const Vec3 away = out.p_axis_A - field.box().center();
+  if (away.squaredNorm() > 0) out.nhat_AB_A = away.normalized();
+  out.p_A = out.p_axis_A - (far_m + c.radius) * out.nhat_AB_A;
+  return out;
+}
+
 }  // namespace
 
-CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A, double far_m) {
+CapsuleContact field_contact(const DistanceField& field, const Capsule& whole_A, double far_m) {
   CapsuleContact out;
-  if (!is_usable(capsule_A)) return out;
+  if (!is_usable(whole_A)) return out;
+  Capsule capsule_A = whole_A;
   const bool ball = capsule_A.p0 == capsule_A.p1;
+  if (!ball && std::isfinite(far_m) && !clip_to_box(field, far_m + whole_A.radius, capsule_A))
+    return beyond(field, whole_A, far_m);
   const Place lowest =
       ball ? Place{0, field.at(capsule_A.p0)} : LowestPoint(field, capsule_A, far_m).find();
   const double slope = lowest.field.gradient.norm();

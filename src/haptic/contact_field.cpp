@@ -1,90 +1,161 @@
 #include "contact_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "osteon/collide/field_contact.h"
+#include "osteon/base/check.h"
+#include "osteon/scene/wide_field.h"
 #include "rigid_motion.h"
 
 namespace osteon {
 namespace {
 
 // A tool without rods is felt by fields as the balls around its pieces.
-std::vector<Capsule> rods_of(const Tool& tool) {
-  if (!tool.rods.empty()) return tool.rods;
-  std::vector<Capsule> rods;
+std::vector<Primitive> parts_to_field(const Tool& tool) {
+  if (!tool.parts.empty()) return tool.parts;
+  std::vector<Primitive> parts;
+  for (const Capsule& rod : tool.rods) parts.push_back(make_rod(rod.p0, rod.p1, rod.radius));
+  if (!parts.empty()) return parts;
   for (const ConvexBody& body : tool.bodies)
-    rods.push_back({body.center, body.center, body.radius});
-  return rods;
+    parts.push_back(make_rod(body.center, body.center, body.radius));
+  return parts;
 }
 
-Capsule placed(const Pose& X_BT, const Capsule& rod) {
-  return {X_BT * rod.p0, X_BT * rod.p1, rod.radius};
-}
+// Of a gap wider than this only a bound is asked for: no tick goes so far.
+constexpr double kFarGap_m = 0.003;
+
+// How far the field holds a rod off exactly.
+double thickest(const DistanceField& field) { return field.data().outside_m - field.cell_m(); }
 
 }  // namespace
 
 ContactField::ContactField(const Case& the_case, const Tool& tool)
-    : case_(the_case), tool_(tool), rods_(rods_of(tool)) {
-  for (const ConvexBody& body : tool.bodies) {
-    // A little more than any support of it, rounding and all.
-    piece_radius_.push_back((body.center.norm() + body.radius) * (1 + 1e-9));
-    tool_radius_ = std::max(tool_radius_, body.center.norm() + body.radius);
-  }
-  for (const Capsule& rod : rods_)
-    tool_radius_ = std::max({tool_radius_, rod.p0.norm() + rod.radius, rod.p1.norm() + rod.radius});
+    : case_(the_case), tool_(tool), to_field_(parts_to_field(tool)) {
+  measure_tool();
+  cut_into_stretches();
+  wide_.resize(case_.bones.size());
   for (std::uint32_t b = 0; b < case_.bones.size(); ++b) {
     first_pair_.push_back(static_cast<std::uint32_t>(pairs_.size()));
-    if (felt_as_field(case_.bones[b]))
+    if (case_.bones[b].field)
       add_field(b);
     else
       add_pieces(b);
   }
 }
 
+void ContactField::measure_tool() {
+  const auto add = [&](const Vec3& middle, double radius) {
+    // A little more than any support of it, rounding and all.
+    piece_radius_.push_back((middle.norm() + radius) * (1 + 1e-9));
+    tool_radius_ = std::max(tool_radius_, middle.norm() + radius);
+  };
+  if (whole()) {
+    for (const Primitive& part : tool_.parts) add(part.middle, part.radius);
+  } else {
+    for (const ConvexBody& body : tool_.bodies) add(body.center, body.radius);
+    for (const Primitive& part : to_field_)
+      tool_radius_ = std::max(tool_radius_, part.middle.norm() + part.radius);
+  }
+}
+
+// A tip is a ball about its origin. Of a whole instrument each part is looked about by itself, and
+// a long one in stretches: what is near one of them is little.
+void ContactField::cut_into_stretches() {
+  if (!whole()) {
+    stretches_.push_back({Vec3::Zero(), Vec3::Zero(), tool_radius_, kAllParts});
+    return;
+  }
+  constexpr double kLongest = 0.020;
+  for (std::uint32_t i = 0; i < tool_.parts.size(); ++i) {
+    const Primitive& part = tool_.parts[i];
+    const bool rod = part.kind == Primitive::Kind::kRod;
+    const double radius = rod ? part.rod.radius : part.radius;
+    const double length = (part.rod.p1 - part.rod.p0).norm();
+    const double count = std::ceil(length / std::max(kLongest, 4 * radius));
+    const int n = std::max(1, static_cast<int>(count));
+    const Vec3 step = (part.rod.p1 - part.rod.p0) / n;
+    for (int k = 0; k < n; ++k)
+      stretches_.push_back({part.rod.p0 + k * step, part.rod.p0 + (k + 1) * step, radius, i});
+  }
+}
+
 void ContactField::add_pieces(std::uint32_t bone) {
   const auto& bodies = case_.bones[bone].bodies;
+  const auto parts = static_cast<std::uint32_t>(parts_beside(false));
   broad_phase_.add_bone(std::span<const ConvexBody>(bodies));
   for (std::uint32_t p = 0; p < bodies.size(); ++p)
-    for (std::uint32_t t = 0; t < tool_.bodies.size(); ++t) pairs_.push_back({bone, p, t, false});
+    for (std::uint32_t t = 0; t < parts; ++t) pairs_.push_back({bone, p, t, false});
 }
 
 void ContactField::add_field(std::uint32_t bone) {
-  broad_phase_.add_bone(case_.bones[bone].field->box());
-  for (std::uint32_t t = 0; t < rods_.size(); ++t) pairs_.push_back({bone, 0, t, true});
+  const Bone& felt = case_.bones[bone];
+  const bool thick = std::any_of(to_field_.begin(), to_field_.end(), [&](const Primitive& part) {
+    return part.rod.radius > thickest(*felt.field);
+  });
+  if (thick) wide_[bone] = felt.wide ? felt.wide : make_wide_field(felt.mesh);
+  demand(!thick || (wide_[bone] != nullptr && std::all_of(to_field_.begin(), to_field_.end(),
+                                                          [&](const Primitive& part) {
+                                                            return part.rod.radius <=
+                                                                   thickest(*wide_[bone]);
+                                                          })),
+         "a tool is thicker than kThickestFelt_m, and a bone is felt as a field");
+  broad_phase_.add_bone(felt.field->box());
+  for (std::uint32_t t = 0; t < to_field_.size(); ++t) pairs_.push_back({bone, 0, t, true});
 }
 
-// A rod thicker than the field's band would touch where nothing but a bound is known: it feels the
-// pieces.
-bool ContactField::felt_as_field(const Bone& bone) const {
-  if (!bone.field) return false;
-  const double most = bone.field->data().outside_m - bone.field->cell_m();
-  return std::all_of(rods_.begin(), rods_.end(),
-                     [most](const Capsule& rod) { return rod.radius <= most; });
+std::size_t ContactField::parts_beside(bool field) const {
+  if (field) return to_field_.size();
+  return whole() ? tool_.parts.size() : tool_.bodies.size();
 }
 
-bool ContactField::collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
-                           std::span<const Pose> now_WB, NearPieces& near,
+std::vector<NearPieces> ContactField::near_pieces() const {
+  return std::vector<NearPieces>(stretches_.size(), NearPieces(broad_phase_));
+}
+
+// False when the list is full.
+bool ContactField::add_found(const PieceRef& found, std::uint32_t part, CandidateList& out) const {
+  const std::uint32_t start = first_pair_[found.bone];
+  const bool field = pairs_[start].field;
+  const auto parts = static_cast<std::uint32_t>(parts_beside(field));
+  std::uint32_t& count = field ? out.field_count : out.count;
+  const std::span<std::uint32_t> list =
+      field ? std::span<std::uint32_t>(out.field) : std::span<std::uint32_t>(out.pair);
+  const std::uint32_t from = part == kAllParts ? 0 : part;
+  const std::uint32_t to = part == kAllParts ? parts : part + 1;
+  for (std::uint32_t t = from; t < to; ++t) {
+    const std::uint32_t pair = start + found.piece * parts + t;
+    // A tip's pairs come in their order.
+    std::uint32_t at = count;
+    while (at > 0 && list[at - 1] > pair) --at;
+    if (at > 0 && list[at - 1] == pair) continue;
+    if (count == list.size()) return false;
+    for (std::uint32_t i = count; i > at; --i) list[i] = list[i - 1];
+    list[at] = pair;
+    ++count;
+  }
+  return true;
+}
+
+bool ContactField::collect(const ToolReach& reach, std::span<const Pose> before_WB,
+                           std::span<const Pose> now_WB, std::vector<NearPieces>& near,
                            CandidateList& out) const {
-  double moved_m = 0;
-  for (std::size_t b = 0; b < now_WB.size(); ++b)
-    if (!same_pose(before_WB[b], now_WB[b]))
-      moved_m = std::max(moved_m, travel(before_WB[b], now_WB[b], p_W, reach_m));
-  std::array<PieceRef, kMaxCandidates> pieces;
-  const SweptSphere ball{p_W, p_W, tool_radius_};
-  const std::size_t found = broad_phase_.query(now_WB, ball, reach_m + moved_m, pieces, &near);
   out.count = 0;
   out.field_count = 0;
-  if (found > pieces.size()) return false;
-  for (std::size_t i = 0; i < found; ++i) {
-    const std::uint32_t start = first_pair_[pieces[i].bone];
-    const bool field = pairs_[start].field;
-    const std::size_t tool_pieces = field ? rods_.size() : tool_.bodies.size();
-    std::uint32_t& count = field ? out.field_count : out.count;
-    if (count + tool_pieces > (field ? kMaxFields : kMaxCandidates)) return false;
-    const std::size_t first = start + pieces[i].piece * tool_pieces;
-    for (std::size_t t = 0; t < tool_pieces; ++t)
-      (field ? out.field[count++] : out.pair[count++]) = static_cast<std::uint32_t>(first + t);
+  const double about = whole() ? reach.reach_m + tool_radius_ : reach.reach_m;
+  double moved_m = whole() ? reach.turn_rad * tool_radius_ : 0;
+  for (std::size_t b = 0; b < now_WB.size(); ++b)
+    if (!same_pose(before_WB[b], now_WB[b]))
+      moved_m = std::max(moved_m, travel(before_WB[b], now_WB[b], reach.X_WT.p, about));
+  std::array<PieceRef, kMaxCandidates> pieces;
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    const Stretch& stretch = stretches_[s];
+    const SweptSphere ball{reach.X_WT * stretch.from, reach.X_WT * stretch.to, stretch.radius};
+    const std::size_t found =
+        broad_phase_.query(now_WB, ball, reach.reach_m + moved_m, pieces, &near[s]);
+    if (found > pieces.size()) return false;
+    for (std::size_t i = 0; i < found; ++i)
+      if (!add_found(pieces[i], stretch.part, out)) return false;
   }
   return true;
 }
@@ -94,6 +165,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   const PiecePair& ids = pairs_[pair];
   const Pose X_BT = X_WB.inverse() * X_WT;
   if (ids.field) return separate_field(ids, X_BT, out);
+  if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
   const ConvexBody& tool_body = tool_.bodies[ids.tool_piece];
   LpDepth depth = lp_depth(bone_body, tool_body, X_BT, &basis);
@@ -109,25 +181,65 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   return true;
 }
 
+bool ContactField::separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
+                                 PartingPlane& out) const {
+  const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
+  const PrimitiveContact contact =
+      primitive_contact(bone_body, tool_.parts[ids.tool_piece], X_BT, &basis);
+  if (contact.status != LpStatus::kOptimal) return guess(ids, X_BT, out);
+  out.nhat_BT_B = contact.nhat_AB_A;
+  out.gap = contact.gap;
+  out.p_B = contact.p_A;
+  out.bone_support = contact.top_A;
+  return true;
+}
+
 // Any direction in which the supports leave a gap parts the pieces.
 bool ContactField::guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const {
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
-  const ConvexBody& tool_body = tool_.bodies[ids.tool_piece];
-  const Vec3 apart = X_BT * tool_body.center - bone_body.center;
+  const Vec3 apart = X_BT * middle_of(ids) - bone_body.center;
   const double distance = apart.norm();
   if (!(distance > 0)) return false;
   out.nhat_BT_B = apart / distance;
   out.bone_support = support(bone_body, out.nhat_BT_B);
   const Vec3 nhat_T = X_BT.q.conjugate() * out.nhat_BT_B;
-  const double tool_lowest = out.nhat_BT_B.dot(X_BT.p) - support(tool_body, -nhat_T);
+  const double tool_lowest = out.nhat_BT_B.dot(X_BT.p) - support_against(ids, nhat_T);
   out.gap = tool_lowest - out.bone_support;
   out.p_B = bone_body.center + out.nhat_BT_B * bone_body.radius;
   return out.gap > 0;
 }
 
+Vec3 ContactField::middle_of(const PiecePair& ids) const {
+  return whole() ? tool_.parts[ids.tool_piece].middle : tool_.bodies[ids.tool_piece].center;
+}
+
+// How far the tool's part reaches against n_T from the tool's origin.
+double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) const {
+  if (ids.field) return support(to_field_[ids.tool_piece], -n_T);
+  if (whole()) return support(tool_.parts[ids.tool_piece], -n_T);
+  return support(tool_.bodies[ids.tool_piece], -n_T);
+}
+
+// What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
+// the fine one then tells how far the surface is along the normal found there.
+PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT) const {
+  const DistanceField& fine = *case_.bones[ids.bone].field;
+  const Primitive& part = to_field_[ids.tool_piece];
+  const double far = whole() ? kFarGap_m : std::numeric_limits<double>::infinity();
+  if (!(part.rod.radius > thickest(fine))) return primitive_contact(fine, part, X_BT, far);
+  PrimitiveContact out = primitive_contact(*wide_[ids.bone], part, X_BT, far);
+  if (out.status != LpStatus::kOptimal || !(out.gap < kFarGap_m)) return out;
+  for (int i = 0; i < 2; ++i) {
+    const FieldSample at = fine.at(out.p_A);
+    if (!at.near) break;
+    out.gap += at.distance;
+    out.p_A -= at.distance * out.nhat_AB_A;
+  }
+  return out;
+}
+
 bool ContactField::separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const {
-  const CapsuleContact contact =
-      field_contact(*case_.bones[ids.bone].field, placed(X_BT, rods_[ids.tool_piece]));
+  const PrimitiveContact contact = meet_field(ids, X_BT);
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
@@ -137,10 +249,7 @@ bool ContactField::separate_field(const PiecePair& ids, const Pose& X_BT, Partin
 }
 
 double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT) const {
-  const PiecePair& ids = pairs_[pair];
-  const Pose X_BT = X_WB.inverse() * X_WT;
-  const CapsuleContact contact =
-      field_contact(*case_.bones[ids.bone].field, placed(X_BT, rods_[ids.tool_piece]));
+  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT);
   return contact.status == LpStatus::kOptimal ? contact.gap
                                               : std::numeric_limits<double>::quiet_NaN();
 }
@@ -150,13 +259,8 @@ FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s
   const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
   const Vec3 n_T = q_WT.conjugate() * n_W;
   const PiecePair& ids = pairs_[pair];
-  if (ids.field) {
-    const Capsule& rod = rods_[ids.tool_piece];
-    const double rod_support = rod.radius - std::min(n_T.dot(rod.p0), n_T.dot(rod.p1));
-    return {n_W, s.bone_support + n_W.dot(X_WB.p) + rod_support + kFieldSkin};
-  }
-  const double tool_support = support(tool_.bodies[ids.tool_piece], -n_T);
-  return {n_W, s.bone_support + n_W.dot(X_WB.p) + tool_support + kSkin};
+  const double skin = ids.field ? kFieldSkin : kSkin;
+  return {n_W, s.bone_support + n_W.dot(X_WB.p) + support_against(ids, n_T) + skin};
 }
 
 // In half_space's order of operations: rounding then keeps c above that one's.

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "nearest_point.h"
 #include "osteon/collide/broad_phase.h"
 #include "osteon/collide/lp_contact.h"
+#include "osteon/collide/primitive_contact.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/tool.h"
@@ -22,14 +24,21 @@ inline constexpr double kFieldSkin = 5e-6;
 
 /// Most pairs of pieces that one tick looks at, and of fields.
 inline constexpr std::size_t kMaxCandidates = 64;
-inline constexpr std::size_t kMaxFields = 8;
+inline constexpr std::size_t kMaxFields = 32;
 
-/// One piece of a bone beside one piece of the tool; of a bone felt as a field: beside one rod.
+/// One piece of a bone beside one part of the tool; of a bone felt as a field: the whole bone.
 struct PiecePair {
   std::uint32_t bone = 0;
   std::uint32_t piece = 0;
   std::uint32_t tool_piece = 0;
   bool field = false;
+};
+
+/// Where the tool is when its surroundings are looked up, and how far it may go from there.
+struct ToolReach {
+  Pose X_WT;
+  double reach_m = 0;   ///< of its origin
+  double turn_rad = 0;  ///< of its turn
 };
 
 /// Candidates of one tick.
@@ -51,13 +60,17 @@ class ContactField {
   double tool_radius() const { return tool_radius_; }
   const Bone& bone(std::uint32_t index) const { return case_.bones[index]; }
 
-  /// For `collect`, to keep from tick to tick.
-  NearPieces near_pieces() const { return NearPieces(broad_phase_); }
+  /// Whether all of the tool is felt, not its tip alone.
+  bool whole() const { return !tool_.parts.empty(); }
 
-  /// Pairs that may touch while the tool's origin is within `reach_m` of p_W, with each bone
-  /// anywhere between its two poses. False when there are more than the list holds.
-  bool collect(const Vec3& p_W, double reach_m, std::span<const Pose> before_WB,
-               std::span<const Pose> now_WB, NearPieces& near, CandidateList& out) const;
+  /// For `collect`, to keep from tick to tick.
+  std::vector<NearPieces> near_pieces() const;
+
+  /// Pairs that may touch while the tool is within `reach`, with each bone anywhere between its two
+  /// poses, in the order of pairs(). False when there are more than the list holds.
+  bool collect(const ToolReach& reach, std::span<const Pose> before_WB,
+               std::span<const Pose> now_WB, std::vector<NearPieces>& near,
+               CandidateList& out) const;
 
   /// Parts one pair at a pose. False when the contact programme could not be solved and
   /// the line between their middles does not part them either.
@@ -78,16 +91,35 @@ class ContactField {
   FreeHalfSpace outer_half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB) const;
 
  private:
+  /// A stretch of the tool short enough for its surroundings to be few, in Tool.
+  struct Stretch {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    double radius = 0;
+    std::uint32_t part = kAllParts;
+  };
+  static constexpr std::uint32_t kAllParts = 0xffffffffu;
+
+  void measure_tool();
+  void cut_into_stretches();
   void add_pieces(std::uint32_t bone);
   void add_field(std::uint32_t bone);
-  bool felt_as_field(const Bone& bone) const;
+  std::size_t parts_beside(bool field) const;
+  bool add_found(const PieceRef& found, std::uint32_t part, CandidateList& out) const;
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
+  bool separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
+                     PartingPlane& out) const;
   bool separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
+  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT) const;
+  double support_against(const PiecePair& ids, const Vec3& n_T) const;
+  Vec3 middle_of(const PiecePair& ids) const;
 
   const Case& case_;
   const Tool& tool_;
-  std::vector<Capsule> rods_;         ///< the tool to a field, in Tool
+  std::vector<Primitive> to_field_;  ///< the tool to a field, in Tool
+  std::vector<Stretch> stretches_;
   std::vector<double> piece_radius_;  ///< of the tool's pieces about its origin, m
+  /// Of each bone felt as a field: of a wide band, for what is thicker than the fine one's.
+  std::vector<std::shared_ptr<const DistanceField>> wide_;
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
   std::vector<std::uint32_t> first_pair_;  ///< of each bone

@@ -37,7 +37,6 @@ bool FieldWalls::still_right(const Wall& wall, const PartingPlane& now, const Po
 
 bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   if (field_count_ == 0) return true;
-  std::array<Wall, kMostPlanes> next;
   std::uint32_t count = 0;
   for (const std::uint32_t pair : fields()) {
     const Pose& bone = bone_pose(pair, X_WB);
@@ -46,17 +45,18 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
     if (!field_.separate(pair, bone, X_WT, unused, now)) return false;
     std::size_t room = kPlanesEach;
     if (now.gap < kNearGap_m) {
-      next[count++] = {pair, now};
+      if (count == kMostPlanes) return false;
+      next_[count++] = {pair, now};
       --room;
     }
     // Newer ones stand first.
-    for (std::uint32_t i = 0; i < count_ && room > 0; ++i) {
+    for (std::uint32_t i = 0; i < count_ && room > 0 && count < kMostPlanes; ++i) {
       if (walls_[i].pair != pair || !still_right(walls_[i], now, bone, X_WT)) continue;
-      next[count++] = walls_[i];
+      next_[count++] = walls_[i];
       --room;
     }
   }
-  walls_ = next;
+  std::copy_n(next_.begin(), count, walls_.begin());
   count_ = count;
   return true;
 }

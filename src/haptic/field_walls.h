@@ -19,14 +19,14 @@ namespace osteon {
 class FieldWalls {
  public:
   static constexpr std::size_t kPlanesEach = 3;
-  static constexpr std::size_t kMostPlanes = kPlanesEach * kMaxFields;
+  static constexpr std::size_t kMostPlanes = 24;
 
   explicit FieldWalls(const ContactField& field) : field_(field) {}
 
   /// Forgets all planes and takes the fields of `near`.
   void start(const CandidateList& near);
   /// Finds the planes of the fields that come near the tool at a pose. Older ones stay where bone
-  /// reaches over the newer one. False when a field could not be asked.
+  /// reaches over the newer one. False when a field could not be asked, or too many are near.
   bool look(std::span<const Pose> X_WB, const Pose& X_WT);
   /// Whether the tool has its skin's room to every field.
   bool clear(std::span<const Pose> X_WB, const Pose& X_WT) const;
@@ -58,6 +58,7 @@ class FieldWalls {
   std::array<std::uint32_t, kMaxFields> fields_{};
   std::uint32_t field_count_ = 0;
   std::array<Wall, kMostPlanes> walls_{};
+  std::array<Wall, kMostPlanes> next_{};  ///< for look
   std::uint32_t count_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
 #include "osteon/haptic/haptic_state.h"
+#include "portal_pivot.h"
 #include "proxy_solver.h"
 #include "rigid_motion.h"
 
@@ -21,6 +22,8 @@ constexpr double kFarthest_m2 = 1e12;
 // A snapshot older than this is not carried forward any further.
 constexpr double kOldestSnapshot_s = 0.05;
 constexpr double kAnyWay = 1e9;
+// A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
+constexpr double kStepInPortal_m = 0.0005;
 
 // What is not a number fails every comparison.
 bool usable(const Pose& X) {
@@ -59,6 +62,7 @@ struct HapticLoop::Impl {
   std::shared_ptr<const Tool> tool;
   ContactField field;
   ProxySolver solver;
+  std::vector<Portal> portals;
   HapticState state;
   std::array<Pose, kMaxBones> now_WB{};
   std::array<BoneMotion, kMaxBones> motion{};
@@ -66,7 +70,7 @@ struct HapticLoop::Impl {
   Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t)
       : the_case(std::move(c)), tool(std::move(t)), field(*the_case, *tool), solver(field) {
     state.bone_count = static_cast<std::uint32_t>(the_case->bones.size());
-    state.pairs.resize(field.pairs().size());
+    state.pairs.resize(kMaxCandidates);
   }
 
   std::span<const Pose> before() const { return {state.X_WB.data(), state.bone_count}; }
@@ -77,15 +81,18 @@ struct HapticLoop::Impl {
   void place(const Pose& X_WD);
   void grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
+  PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
+  void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
+  void pass_portals(bool start);
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
   double glide(const Vec3& hand_W) const;
   Load load(const ProxyMove& move, const HapticParams& params) const;
   void list_contacts(const ProxyMove& move);
   Load letting_go(const HapticParams& params) const;
-  void feel(const ToolInput& input, const Vec3& hand_W, const Load& held, bool sticking,
-            const HapticParams& params);
-  void share_force(const ProxyMove& move, const Load& load);
+  double feel(const ToolInput& input, const Vec3& hand_W, const Load& held, bool sticking,
+              const Vec3& portal_W, const HapticParams& params);
+  void share_force(const ProxyMove& move, const Load& load, const Vec3& portal_W);
 };
 
 void HapticLoop::Impl::refuse_input() {
@@ -120,6 +127,33 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   state.tool.status |= move.status;
   state.tool.force_W.setZero();
   list_contacts(move);
+  pass_portals(true);
+}
+
+void HapticLoop::Impl::pass_portals(bool start) {
+  if (!portals.empty() && tool->shaft.radius > 0)
+    follow_portals(portals, tool->shaft, state.tool.X_WP, start, state.portal);
+  state.tool.portal = state.portal.portal;
+}
+
+PortalPivot HapticLoop::Impl::pivot(const ToolInput& input, const Pose& X_WD,
+                                    const HapticParams& params) {
+  const PortalHand hand{X_WD, input.v_W, params.stiffness_n_per_m, params.damping_n_s_per_m,
+                        params.friction_scale};
+  return pivot_in(portals, tool->shaft, hand, state.portal);
+}
+
+// A shaft in a portal: its tip follows in short steps, and it is turned so that it passes the
+// portal when the tip is where it will be. Bone lets the tip go where it is already.
+void HapticLoop::Impl::aim_through(const PortalPivot& pivot, const Vec3& base_W,
+                                   Pose& wanted) const {
+  wanted.p = pivot.p_W;
+  const Vec3 step = pivot.p_W - base_W;
+  const double way = step.norm();
+  const bool far = way > kStepInPortal_m;
+  if (far && !state.carrier.valid()) wanted.p = base_W + (kStepInPortal_m / way) * step;
+  const Vec3& tip_W = state.carrier.valid() ? base_W : wanted.p;
+  wanted.q = through_portal(portals[state.portal.portal], tool->shaft, tip_W, pivot.q_W);
 }
 
 // While the hand drags what it has grabbed, the surface that it would touch is the one that moves:
@@ -131,6 +165,8 @@ void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const Hapt
   state.sliding = false;
   state.carrier = {};
   state.tool.X_WP = X_WD;
+  state.portal = {};
+  state.tool.portal = kNoPortal;
   state.tool.contact_count = 0;
   state.tool.status |= kTickGrabbing;
   const Vec3 force =
@@ -212,8 +248,8 @@ void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
 
 // Splits the force on the hand among the contacts: the part along the load's normal as the planes'
 // weights say, the rest (friction) in the same proportion.
-void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load) {
-  const Vec3& force = state.tool.force_W;
+void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, const Vec3& portal_W) {
+  const Vec3 force = state.tool.force_W - portal_W;
   const double size = load.stretch_W.norm();
   if (!(load.sum > 0) || !(size > 0)) return;
   const double normal = std::max(0.0, force.dot(load.nhat_W));
@@ -227,11 +263,23 @@ void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load) {
 
 void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
                               const HapticParams& params) {
+  const PortalPivot portal = pivot(input, X_WD, params);
   const Vec3 base_W = carried_base();
-  const Quat q = turned_towards(state.tool.X_WP.q, X_WD.q, params.max_turn_rad_per_tick);
-  const double room = reach(base_W, X_WD.p, params.max_turn_rad_per_tick);
+  Pose wanted = X_WD;
+  if (portal.in) aim_through(portal, base_W, wanted);
+  const Quat q = turned_towards(state.tool.X_WP.q, wanted.q, params.max_turn_rad_per_tick);
+  // Of a whole instrument the farthest end would go far in the widest turn.
+  const double turn =
+      field.whole() ? turn_between(state.tool.X_WP.q, q) : params.max_turn_rad_per_tick;
+  double room = reach(base_W, wanted.p, turn);
+  if (portal.in) room = std::min(room, kStepInPortal_m);
   const bool was_held = state.carrier.valid();
-  const ProxyTask task{state.tool.X_WP, base_W, X_WD.p, q, room, was_held, before(), now()};
+  ProxyTask task{state.tool.X_WP, base_W, wanted.p, q, room, was_held, before(), now()};
+  PortalRing ring;
+  if (portal.in) {
+    ring = ring_of(portals[state.portal.portal], tool->shaft, state.tool.X_WP);
+    task.ring = &ring;
+  }
   const ProxyMove move = solver.move(task, state.pairs);
   Load held = load(move, params);
   const bool way_known = !(move.status & kTickSolverLimit);
@@ -239,18 +287,19 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
 
   // A proxy that has just landed has no place yet to which friction could hold it.
   const bool rested = was_held && held.carrier.valid();
-  const Friction friction =
-      rested ? Friction{held.static_lag, held.dynamic_lag, glide(X_WD.p)} : Friction{0, 0, kAnyWay};
+  const Friction friction = rested ? Friction{held.static_lag, held.dynamic_lag, glide(wanted.p)}
+                                   : Friction{0, 0, kAnyWay};
   const std::span<const Vec3> path(move.path.data(), move.path_count);
   const FrictionStep step = apply_friction(path, friction, state.sliding);
-  if (move.free && step.p_W == X_WD.p) held.carrier = {};
+  if (move.free && step.p_W == wanted.p) held.carrier = {};
   state.sliding = step.sliding;
   state.carrier = held.carrier;
   state.tool.X_WP = {step.p_W, move.q_WP};
   state.tool.status |= move.status | (step.sticking ? kTickSticking : kTickOk);
   list_contacts(move);
-  feel(input, X_WD.p, held, step.sticking, params);
-  share_force(move, held);
+  const double kept = feel(input, wanted.p, held, step.sticking, portal.force_W, params);
+  share_force(move, held, kept * portal.force_W);
+  pass_portals(false);
 }
 
 // The hand has a free way to go, but the proxy may still be gliding after it, around an edge.
@@ -263,9 +312,10 @@ Load HapticLoop::Impl::letting_go(const HapticParams& params) const {
   return out;
 }
 
-// Sets the force on the hand from the place that the proxy has taken.
-void HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Load& held,
-                            bool sticking, const HapticParams& params) {
+// Sets the force on the hand from the place that the proxy has taken, and the portal's. Returns
+// what share of it the limits have left.
+double HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Load& held,
+                              bool sticking, const Vec3& portal_W, const HapticParams& params) {
   Vec3 force = Vec3::Zero();
   if (held.carrier.valid()) {
     const Vec3 stretch = state.tool.X_WP.p - hand_W;
@@ -276,8 +326,11 @@ void HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Lo
                             sticking});
   }
   const ForceLimits limits{params.max_force_n, params.max_slew_n_per_s * params.tick_s};
+  if (!portal_W.isZero(0)) force += portal_W;
+  const double wanted = force.norm();
   force = limited_force(force, state.tool.force_W, limits, state.tool.status);
   state.tool.force_W = params.force_on ? force : Vec3(Vec3::Zero());
+  return wanted > 0 ? std::min(1.0, state.tool.force_W.norm() / wanted) : 1;
 }
 
 HapticLoop::HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool) {
@@ -320,7 +373,7 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
 void HapticLoop::reset() {
   HapticState fresh;
   fresh.bone_count = impl_->state.bone_count;
-  fresh.pairs.resize(impl_->field.pairs().size());
+  fresh.pairs.resize(kMaxCandidates);
   impl_->state = std::move(fresh);
 }
 
@@ -338,8 +391,18 @@ std::uint64_t HapticLoop::state_hash() const {
   h.add(s.carrier.index);
   // Only then, so that older recordings keep their hashes.
   if (s.grabbing) h.add(s.p_WG);
+  if (s.portal.portal != kNoPortal || s.portal.nearest != kNoPortal) {
+    h.add(s.portal.portal);
+    h.add(s.portal.anchor_m);
+    h.add(s.portal.sliding);
+    h.add(s.portal.grip);
+    h.add(s.portal.tip_depth_m);
+    h.add(s.portal.nearest);
+  }
   for (std::uint32_t i = 0; i < s.bone_count; ++i) h.add(s.X_WB[i]);
   for (const PairMemory& pair : s.pairs) {
+    if (pair.pair == PairMemory::kNone) break;
+    h.add(pair.pair);
     h.add(pair.basis.count);
     for (std::uint8_t i = 0; i < pair.basis.count; ++i) h.add(pair.basis.rows[i]);
     h.add(pair.known);
@@ -350,6 +413,8 @@ std::uint64_t HapticLoop::state_hash() const {
   }
   return h.value();
 }
+
+void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std::move(portals); }
 
 std::unique_ptr<HapticState> HapticLoop::save() const {
   return std::make_unique<HapticState>(impl_->state);

@@ -32,12 +32,40 @@ Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const 
 // A way with more pieces than the list holds is taken in shorter stretches.
 bool ProxySolver::gather(const ProxyTask& task) {
   constexpr double kShortest = 1e-5;
-  for (; reach_m_ >= kShortest; reach_m_ *= 0.5)
-    if (field_.collect(task.base_W, reach_m_, task.before_WB, task.now_WB, near_pieces_, near_))
+  ToolReach about{{task.base_W, task.X_WP.q}, reach_m_, turn_between(task.X_WP.q, task.q_WP)};
+  for (; reach_m_ >= kShortest; reach_m_ *= 0.5) {
+    about.reach_m = reach_m_;
+    if (field_.collect(about, task.before_WB, task.now_WB, near_pieces_, near_)) {
+      recall();
       return true;
+    }
+  }
   near_.count = 0;
   near_.field_count = 0;
   return false;
+}
+
+// Puts what is known of the pairs in the order of the candidates. Both lists grow, so that one pass
+// over both finds what they share; most ticks have the candidates of the last one.
+void ProxySolver::recall() {
+  const auto listed = [&](std::uint32_t i) {
+    return i < near_.count ? near_.pair[i] : PairMemory::kNone;
+  };
+  std::uint32_t same = 0;
+  while (same < memory_.size() && memory_[same].pair == listed(same)) ++same;
+  if (same == memory_.size()) return;
+  for (std::uint32_t i = same; i < memory_.size(); ++i) last_[i] = memory_[i];
+  std::uint32_t from = same;
+  for (std::uint32_t i = same; i < memory_.size(); ++i) {
+    const std::uint32_t pair = listed(i);
+    while (from < memory_.size() && last_[from].pair < pair) ++from;
+    if (pair != PairMemory::kNone && from < memory_.size() && last_[from].pair == pair) {
+      memory_[i] = last_[from];
+    } else if (memory_[i].pair != PairMemory::kNone || pair != PairMemory::kNone) {
+      memory_[i] = {};
+      memory_[i].pair = pair;
+    }
+  }
 }
 
 void ProxySolver::raise(std::uint32_t i) {
@@ -100,7 +128,7 @@ NearestPoint ProxySolver::nearest(const Vec3& wanted) {
 bool ProxySolver::part(std::uint32_t i, const Vec3& p_W) {
   const std::uint32_t pair = near_.pair[i];
   const Pose& bone = raised_WB_[field_.pairs()[pair].bone];
-  PairMemory& memory = memory_[pair];
+  PairMemory& memory = memory_[i];
   if (!field_.separate(pair, bone, {p_W, raised_q_WT_}, memory.basis, parting_[i])) return false;
   memory.plane = parting_[i];
   memory.known = true;
@@ -116,7 +144,7 @@ bool ProxySolver::part_all(std::span<const Pose> X_WB, const Pose& X_WT) {
   raised_q_WT_ = X_WT.q;
   start_WT_ = X_WT;
   for (std::uint32_t i = 0; i < near_.count; ++i) {
-    const PairMemory& memory = memory_[near_.pair[i]];
+    const PairMemory& memory = memory_[i];
     if (memory.known) {
       parting_[i] = memory.plane;
       gap_known_[i] = false;
@@ -142,6 +170,7 @@ void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
     if (turned || !same_pose(last_WB[bone], X_WB[bone])) raise(i);
   }
   walls_.raise(X_WB, q_WT, std::span(planes_).subspan(near_.count));
+  if (ring_) ring_->raise(q_WT, std::span(planes_).subspan(bone_planes()));
 }
 
 // The free point nearest to the task's start. A field's planes may have to be found again there.
@@ -223,6 +252,7 @@ void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target
   move.holding_count = 0;
   for (std::uint32_t k = 0; k < target.active_count; ++k) {
     const std::uint32_t i = target.active[k];
+    if (i >= bone_planes()) continue;  // skin, which has a force of its own
     if (plane_of(i).gap > kTouch && !task.held) continue;
     const std::uint32_t pair = pair_of(i);
     const Pose& bone = task.now_WB[field_.pairs()[pair].bone];
@@ -234,7 +264,7 @@ void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target
 
 bool ProxySolver::touching(const NearestPoint& target) const {
   for (std::uint32_t k = 0; k < target.active_count; ++k)
-    if (plane_of(target.active[k]).gap > kTouch) return false;
+    if (target.active[k] < bone_planes() && plane_of(target.active[k]).gap > kTouch) return false;
   return true;
 }
 
@@ -257,6 +287,7 @@ void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
 
 ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory) {
   memory_ = memory;
+  ring_ = task.ring;
   stopped_ = false;
   ProxyMove move;
   move.q_WP = task.X_WP.q;

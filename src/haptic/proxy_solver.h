@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "contact_field.h"
 #include "field_walls.h"
 #include "nearest_point.h"
 #include "osteon/base/types.h"
+#include "portal_pivot.h"
 
 namespace osteon {
 
@@ -21,6 +23,7 @@ struct ProxyTask {
   bool held = false;           ///< bone held it in the last tick
   std::span<const Pose> before_WB;
   std::span<const Pose> now_WB;
+  const PortalRing* ring = nullptr;  ///< of the portal that the shaft is in; null: none
 };
 
 /// A plane of bone that holds the proxy back.
@@ -63,11 +66,13 @@ class ProxySolver {
  public:
   explicit ProxySolver(const ContactField& field)
       : field_(field), near_pieces_(field.near_pieces()), walls_(field) {}
-  /// `memory`: one of each of the field's pairs. Nothing else that a move leaves changes the next.
+  /// `memory`: of kMaxCandidates pairs, those that were near, in their order. Nothing else that a
+  /// move leaves changes the next.
   ProxyMove move(const ProxyTask& task, std::span<PairMemory> memory);
 
  private:
   bool gather(const ProxyTask& task);
+  void recall();
   void raise(std::uint32_t i);
   void settle(std::uint32_t i);
   bool beyond(std::uint32_t i, const Vec3& x);
@@ -84,8 +89,9 @@ class ProxySolver {
   bool touching(const NearestPoint& target) const;
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
   bool find_start(const ProxyTask& task, const Quat& q_WP, Vec3& start);
-  /// Planes: those of the pieces, then those of the fields.
-  std::uint32_t plane_count() const { return near_.count + walls_.count(); }
+  /// Planes: those of the pieces, then those of the fields, then those of the portal.
+  std::uint32_t bone_planes() const { return near_.count + walls_.count(); }
+  std::uint32_t plane_count() const { return bone_planes() + (ring_ ? PortalRing::kPlanes : 0); }
   std::span<const FreeHalfSpace> planes() const { return {planes_.data(), plane_count()}; }
   std::uint32_t pair_of(std::uint32_t i) const {
     return i < near_.count ? near_.pair[i] : walls_.pair(i - near_.count);
@@ -95,12 +101,15 @@ class ProxySolver {
   }
 
   const ContactField& field_;
-  NearPieces near_pieces_;
+  const PortalRing* ring_ = nullptr;
+  std::vector<NearPieces> near_pieces_;
   std::span<PairMemory> memory_;
+  std::array<PairMemory, kMaxCandidates> last_{};  ///< for recall
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
   FieldWalls walls_;
-  std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes> planes_{};
+  std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes + PortalRing::kPlanes>
+      planes_{};
   /// Of the pieces' planes: false while c may be too large, as outer_half_space has it.
   std::array<bool, kMaxCandidates> settled_{};
   std::array<bool, kMaxCandidates> gap_known_{};  ///< `parting_` has the gap at the start

@@ -9,6 +9,9 @@ namespace osteon {
 /// age is the Cayley map's, which differs from the exact one by (w age)^3 / 12 rad.
 Pose carried_forward(const BoneMotion& motion, double age_s);
 
+/// Angle between two turns, rad; no less than the exact one.
+double turn_between(const Quat& a, const Quat& b);
+
 /// From `from` towards `to` by the shorter way, by at most `limit_rad`. Unit quaternions.
 Quat turned_towards(const Quat& from, const Quat& to, double limit_rad);
 

@@ -11,6 +11,7 @@
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
+#include "osteon/scene/wide_field.h"
 #include "soft_parts.h"
 
 namespace osteon {
@@ -82,12 +83,13 @@ Result<std::vector<Hull>> build_pieces(const BoneDef& bone, PieceCache* cache) {
   return pieces;
 }
 
-Result<FieldCache::Field> build_field(const BoneDef& bone, FieldCache* cache) {
+Result<FieldCache::Field> build_field(const BoneDef& bone, const FieldOptions& options,
+                                      FieldCache* cache) {
   if (bone.felt != Felt::kField) return FieldCache::Field();
-  const std::uint64_t key = field_key(bone.mesh);
+  const std::uint64_t key = field_key(bone.mesh, options);
   if (cache)
     if (auto known = cache->find(key)) return known;
-  auto made = DistanceField::make(bone.mesh);
+  auto made = DistanceField::make(bone.mesh, options);
   if (!made) return fail(made.error().what, "bone '" + bone.name + "'", made.error().todo);
   auto field = std::make_shared<const DistanceField>(std::move(*made));
   if (cache) cache->put(key, field);
@@ -95,12 +97,15 @@ Result<FieldCache::Field> build_field(const BoneDef& bone, FieldCache* cache) {
 }
 
 Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
-  auto field = build_field(def, options.fields);
+  auto field = build_field(def, {}, options.fields);
   if (!field) return tl::unexpected(field.error());
+  auto wide = build_field(def, wide_field_options(), options.fields);
+  if (!wide) return tl::unexpected(wide.error());
   auto pieces = build_pieces(def, options.pieces);
   if (!pieces) return tl::unexpected(pieces.error());
   Bone bone;
   bone.field = std::move(*field);
+  bone.wide = std::move(*wide);
   bone.felt = def.felt;
   bone.pieces = std::move(*pieces);
   for (const Hull& piece : bone.pieces) bone.bodies.push_back(make_convex_body(piece));

@@ -67,8 +67,7 @@ FieldData read_field(Reader& reader) {
 
 }  // namespace
 
-std::uint64_t field_key(const TriMesh& mesh) {
-  const FieldOptions options;
+std::uint64_t field_key(const TriMesh& mesh, const FieldOptions& options) {
   Hasher hasher;
   hasher.add(kVersion);
   for (const double x : {options.cell_m, options.outside_m, options.inside_m}) hasher.add(x);

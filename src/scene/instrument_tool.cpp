@@ -6,6 +6,7 @@
 #include "instrument_reader.h"
 #include "osteon/base/check.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/wide_field.h"
 
 namespace osteon {
 namespace {
@@ -42,7 +43,8 @@ struct SizeCheck {
   double size_m;
 
   bool sound(const Capsule& rod) const {
-    return rod.radius >= kThinnest && rod.p0.norm() < kFarthest && rod.p1.norm() < kFarthest;
+    return rod.radius >= kThinnest && rod.radius <= kThickestFelt_m && rod.p0.norm() < kFarthest &&
+           rod.p1.norm() < kFarthest;
   }
   bool sound(const FeltPart& part) const {
     if (const auto* rod = std::get_if<FeltRod>(&part))
@@ -78,9 +80,10 @@ Result<void> check_instrument(const Instrument& instrument) {
   for (const double size_m : instrument.sizes_m) {
     const std::string wrong = SizeCheck{instrument, size_m}.wrong();
     if (!wrong.empty())
-      return fail("in size " + std::to_string(1e3 * size_m) + " mm " + wrong +
-                      " is too thin, farther than 1 m from the tip, or turned inside out",
-                  instrument.name, "Correct its lengths");
+      return fail(
+          "in size " + std::to_string(1e3 * size_m) + " mm " + wrong +
+              " is too thin, thicker than 36 mm, farther than 1 m from the tip, or inside out",
+          instrument.name, "Correct its lengths");
   }
   return {};
 }

@@ -93,7 +93,7 @@ TEST(Realtime, TheWatchSeesWhatItShould) {
   EXPECT_GE(write_calls, 1);
 }
 
-TEST(Realtime, TheTickTouchesNoHeapLockOrFile) {
+void expect_no_calls(Tool tool) {
   std::vector<Bone> bones;
   Random random(2);
   for (int i = 0; i < 12; ++i) {
@@ -106,7 +106,7 @@ TEST(Realtime, TheTickTouchesNoHeapLockOrFile) {
         X_WB, {2000, 0.3, 0.2}));
   }
   bones.push_back(test::field_bone(test::cube(0.004), {}, {2000, 0.3, 0.2}));
-  Rig rig(std::move(bones));
+  Rig rig(std::move(bones), std::move(tool));
   rig.params = HapticParams{};
   heap_calls = lock_calls = write_calls = 0;
   int contacts = 0;
@@ -134,6 +134,16 @@ TEST(Realtime, TheTickTouchesNoHeapLockOrFile) {
   EXPECT_GT(contacts, 500);
   EXPECT_TRUE(kinds & kTickInputNotFinite);
   EXPECT_TRUE(kinds & kTickSticking);
+}
+
+TEST(Realtime, TheTickTouchesNoHeapLockOrFile) { expect_no_calls(make_wrist_probe()); }
+
+TEST(Realtime, NorDoesThatOfAWholeInstrument) {
+  Tool tool;
+  tool.parts.push_back(make_rod(Vec3::Zero(), Vec3::Zero(), 0.001));
+  tool.parts.push_back(make_rod(Vec3(0, 0, 0.004), Vec3(0, 0, 0.05), 0.002));
+  tool.parts.push_back(make_box({Vec3(0, 0.004, 0.02), Quat::Identity()}, 0.002 * Vec3::Ones()));
+  expect_no_calls(std::move(tool));
 }
 
 }  // namespace

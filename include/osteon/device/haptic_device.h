@@ -52,6 +52,8 @@ struct DeviceSample {
   Vec3 v_V = Vec3::Zero();  ///< m/s
   Vec3 w_V = Vec3::Zero();  ///< rad/s
   std::uint32_t buttons = 0;
+  /// Code (Instrument::code) of the instrument whose handle the device recognises; 0: none.
+  std::uint8_t instrument_code = 0;
   bool connected = true;
   /// Calibrated or homed, so that the pose means something and force may be given.
   bool calibrated = true;

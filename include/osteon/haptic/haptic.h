@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
@@ -52,6 +53,9 @@ class HapticLoop {
   /// then inside bone feels nothing until it has once been free; the proxy is put out of the bone
   /// meanwhile where there is room within 20 mm.
   void reset();
+  /// The holes in the skin that a tool with a shaft may pass through (PortalPivot in
+  /// src/haptic/portal_pivot.h). Before the first tick; a case has none unless told.
+  void set_portals(std::vector<Portal> portals);
   /// Hash over everything that a later tick depends on.
   std::uint64_t state_hash() const;
   /// Saves and restores exactly what state_hash covers.

@@ -6,6 +6,7 @@
 
 #include "osteon/base/id.h"
 #include "osteon/collide/lp_contact.h"
+#include "osteon/scene/portal.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -21,6 +22,8 @@ struct PartingPlane {
 
 /// What is known of one pair of a bone's and a tool's piece.
 struct PairMemory {
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  std::uint32_t pair = kNone;  ///< which one, of the loop's own list
   LpBasis basis;
   PartingPlane plane;
   bool known = false;  ///< `plane` is one
@@ -34,9 +37,10 @@ struct HapticState {
   BoneId carrier;            ///< bone that the proxy rests on and moves with; none when free
   bool grabbing = false;     ///< the hand drags what it has grabbed
   Vec3 p_WG = Vec3::Zero();  ///< where the hand was when it did
+  PortalHold portal;         ///< the hole in the skin that the shaft passes through
   std::uint32_t bone_count = 0;
   std::array<Pose, kMaxBones> X_WB{};  ///< bones as the last tick saw them
-  std::vector<PairMemory> pairs;       ///< each bone's pieces beside each of the tool's
+  std::vector<PairMemory> pairs;       ///< those that were near, in their order; then kNone
 };
 
 }  // namespace osteon

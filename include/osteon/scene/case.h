@@ -48,6 +48,7 @@ struct Bone {
   std::vector<Hull> pieces;
   std::vector<ConvexBody> bodies;              ///< one a piece, for contact queries
   std::shared_ptr<const DistanceField> field;  ///< in Bone; of a bone felt as a field alone
+  std::shared_ptr<const DistanceField> wide;   ///< of such a bone: for thick parts (wide_field.h)
   double mass_kg = 0.005;
   Material material;
 };

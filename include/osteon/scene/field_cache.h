@@ -14,7 +14,7 @@
 namespace osteon {
 
 /// Key of a mesh's distance field; changes with the way of making it.
-std::uint64_t field_key(const TriMesh& mesh);
+std::uint64_t field_key(const TriMesh& mesh, const FieldOptions& options = {});
 
 /// Distance fields that were made before, by field_key. A cache, as PieceCache is: what is missing,
 /// stale or damaged is simply made again.

@@ -58,6 +58,8 @@ enum TickStatus : std::uint32_t {
   kTickGrabbing = 1u << 8         ///< the hand drags against a spring and touches nothing
 };
 
+inline constexpr std::uint32_t kNoPortal = 0xffffffffu;
+
 /// Haptic -> physics, render, metrics: the tool after haptic tick `tick`.
 struct ToolState {
   std::uint64_t tick = 0;
@@ -67,6 +69,7 @@ struct ToolState {
   Vec3 force_W = Vec3::Zero();  ///< on the hand, N
   std::uint32_t buttons = 0;
   std::uint32_t status = kTickOk;
+  std::uint32_t portal = kNoPortal;  ///< that the shaft passes through, as the loop's list has them
   std::uint32_t contact_count = 0;
   std::array<Contact, kMaxContacts> contacts{};
 };

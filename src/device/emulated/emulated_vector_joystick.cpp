@@ -93,7 +93,7 @@ std::size_t EmulatedVectorJoystick::give_in(std::uint8_t endpoint, std::span<std
   put(packet, 22, 2, std::llround(mechanics_.turn_about(Vec3::UnitZ()) * (65536 / kTurn_rad)));
   put(packet, 24, 2, mechanics_.buttons());
   packet[26] = 0xFF;  // its motors have no thermometer
-  packet[27] = 0;
+  packet[27] = instrument_;
   put(packet, 28, 2, crc16(packet.first(28)));
   return 30;
 }

@@ -22,6 +22,8 @@ class EmulatedVectorJoystick : public EmulatedUsbDevice {
   JoystickMechanics& mechanics() { return mechanics_; }
   /// For tests: what the firmware would sense.
   void set_status_bit(std::uint8_t bit, bool on);
+  /// Another handle is put on.
+  void set_instrument(std::uint8_t code) { instrument_ = code; }
   std::uint64_t refused() const { return refused_; }
 
   static constexpr std::int64_t kTimeout_ns = 20'000'000;
@@ -32,6 +34,7 @@ class EmulatedVectorJoystick : public EmulatedUsbDevice {
   std::int64_t now_ns_ = 0;
   std::int64_t last_command_ns_ = 0;
   std::uint8_t sensed_ = 0x04;  ///< status bits beside motors and time-out; homed
+  std::uint8_t instrument_ = 0;
   bool timed_out_ = true;
   bool motors_on_ = false;
   bool fresh_ = false;

@@ -92,6 +92,7 @@ void JoystickDevice::accept(const JoystickReading& reading, std::int64_t arrival
   const Vec3 turn(turn_rad_, 0, 0);
   sample_.w_V = turn_rate_.add(reading.time_ns, turn).x() * profile_.rotation_axis_V;
   sample_.buttons = reading.buttons;
+  sample_.instrument_code = reading.instrument;
 }
 
 bool JoystickDevice::dead_man_held() const {

@@ -13,6 +13,7 @@ struct JoystickReading {
   Vec3 p_V = Vec3::Zero();
   double turn_rad = 0;  ///< about the profile's rotation axis
   std::uint32_t buttons = 0;
+  std::uint8_t instrument = 0;  ///< code of the handle in use; 0: the device does not tell
 };
 
 /// What the device says of itself, from its newest report that tells.

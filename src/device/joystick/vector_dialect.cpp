@@ -15,6 +15,7 @@ ReportKind VectorDialect::read(const UsbPacket& packet, JoystickReading& reading
   reading.p_V = state.p_V;
   reading.turn_rad = state.turn_rad;
   reading.buttons = state.buttons;
+  reading.instrument = state.instrument;
   return ReportKind::kReading;
 }
 

@@ -55,7 +55,7 @@ std::array<std::uint8_t, VectorCommand::kBytes> encode(const VectorCommand& comm
 bool decode(std::span<const std::uint8_t> report, VectorState& state) {
   if (report.size() != VectorState::kBytes || report[0] != VectorState::kId) return false;
   if (get_u16(&report[28]) != crc16_ccitt(report.first(28))) return false;
-  if ((report[1] & VectorState::kReservedStatus) != 0 || report[27] != 0) return false;
+  if ((report[1] & VectorState::kReservedStatus) != 0) return false;
   state.status = report[1];
   state.sequence = get_u16(&report[2]);
   state.applied = get_u16(&report[4]);
@@ -66,6 +66,7 @@ bool decode(std::span<const std::uint8_t> report, VectorState& state) {
   }
   state.turn_rad = static_cast<std::int16_t>(get_u16(&report[22])) * (kTurn_rad / 65536);
   state.buttons = get_u16(&report[24]);
+  state.instrument = report[27];
   state.motor_heat = report[26] == 0xFF ? -1 : report[26] / 100.0;
   return true;
 }

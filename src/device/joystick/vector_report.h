@@ -46,7 +46,8 @@ struct VectorState {
   Vec3 p_V = Vec3::Zero();    ///< m; travels in steps of 0.1 um
   double turn_rad = 0;        ///< about V's z, in (-pi, pi]; travels as 1/65536 turn
   std::uint16_t buttons = 0;
-  double motor_heat = -1;  ///< share of the limit; below 0: not known
+  std::uint8_t instrument = 0;  ///< code of the handle in use; 0: none is recognised
+  double motor_heat = -1;       ///< share of the limit; below 0: not known
 };
 /// False: short, of another kind, its CRC wrong or a reserved bit set; `state` is then untouched.
 bool decode(std::span<const std::uint8_t> report, VectorState& state);

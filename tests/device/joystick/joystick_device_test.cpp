@@ -256,6 +256,19 @@ TEST(VectorJoystick, StatusBitsBecomeCauses) {
   EXPECT_FALSE(rig.device->read().dead_man_held);
 }
 
+TEST(VectorJoystick, TellsWhichHandleIsPutOn) {
+  JoystickRig rig(kVector);
+  rig.open();
+  rig.pass_ms(2);
+  EXPECT_EQ(rig.device->read().instrument_code, 0);
+  rig.vector->set_instrument(38);
+  rig.pass_ms(2);
+  EXPECT_EQ(rig.device->read().instrument_code, 38);
+  rig.vector->set_instrument(0);
+  rig.pass_ms(2);
+  EXPECT_EQ(rig.device->read().instrument_code, 0);
+}
+
 TEST(VectorJoystick, HomesWhenTheUserAsksAndGivesNoForceBefore) {
   JoystickRig rig(kVector);
   rig.vector->set_status_bit(VectorState::kHomed, false);

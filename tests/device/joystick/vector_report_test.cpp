@@ -51,6 +51,7 @@ Bytes sound_state() {
   b[23] = 0xC0;                              // -16384: a quarter turn back
   b[24] = 0x03;                              // two buttons
   b[26] = 50;
+  b[27] = 12;
   const std::uint16_t crc = crc16_ccitt({b.data(), 28});
   b[28] = static_cast<std::uint8_t>(crc);
   b[29] = static_cast<std::uint8_t>(crc >> 8);
@@ -70,6 +71,7 @@ TEST(VectorReport, StateIsReadAsSpecified) {
   EXPECT_NEAR(state.turn_rad, -std::acos(-1.0) / 2, 1e-12);
   EXPECT_EQ(state.buttons, 3);
   EXPECT_EQ(state.motor_heat, 0.5);
+  EXPECT_EQ(state.instrument, 12);
 }
 
 TEST(VectorReport, EveryChangedBitAndEveryOtherLengthIsRefused) {
