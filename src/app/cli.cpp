@@ -31,7 +31,8 @@ int run_cli(int argc, char** argv) {
         add_anatomy_commands,  add_mesh_commands,     add_hull_command,      add_collide_command,
         add_path_commands,     add_simulate_command,  add_replay_command,    add_demo_command,
         add_render_command,    add_live_command,      add_devices_command,   add_doctor_command,
-        add_stability_command, add_tissue_commands,   add_window_command,    add_segment_command})
+        add_stability_command, add_tissue_commands,   add_window_command,    add_segment_command,
+        add_xray_command})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -32,5 +32,6 @@ void add_doctor_command(CLI::App& app, int& exit_code);     // doctor
 void add_stability_command(CLI::App& app, int& exit_code);  // stability
 void add_window_command(CLI::App& app, int& exit_code);     // window
 void add_segment_command(CLI::App& app, int& exit_code);    // segment: a CT by hand
+void add_xray_command(CLI::App& app, int& exit_code);       // xray: a picture of a C-arm
 
 }  // namespace osteon

@@ -1,0 +1,165 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "commands/cli_support.h"
+#include "commands/commands.h"
+#include "commands/render_options.h"
+#include "osteon/image/dicom_xray.h"
+#include "osteon/render/renderer.h"
+#include "runs/xray_shot.h"
+
+namespace osteon {
+namespace {
+
+struct XrayCommand {
+  XraySceneOrder scene;
+  XrayShotOrder shot;
+  std::string view = "ap", arm, size = "512x512", noise = "on", out, raw;
+  std::vector<double> isocenter_mm;
+  double pulse_ms = 10;
+  bool inverted = false, json = false;
+};
+
+Result<void> set_arm(XrayCommand& command, const XrayScene& scene) {
+  const auto size = parse_picture_size(command.size);
+  if (!size) return tl::unexpected(size.error());
+  CArm arm;
+  arm.width_px = size->width;
+  arm.height_px = size->height;
+  arm.isocenter_W = scene.isocenter_W;
+  if (command.isocenter_mm.size() == 3) arm.isocenter_W = 0.001 * Vec3(command.isocenter_mm.data());
+  if (command.view == "lateral") arm.orbit_rad = std::numbers::pi / 2;
+  const auto parsed = parse_c_arm(command.arm, arm);
+  if (!parsed) return tl::unexpected(parsed.error());
+  command.shot.arm = *parsed;
+  return {};
+}
+
+Image picture_of(const XrayShot& shot, bool inverted) {
+  Image image{shot.view.width, shot.view.height, {}};
+  image.rgb.reserve(3 * shot.grey.size());
+  for (const float grey : shot.grey) {
+    const auto byte = static_cast<std::uint8_t>(std::lround(255 * (inverted ? 1 - grey : grey)));
+    image.rgb.insert(image.rgb.end(), 3, byte);
+  }
+  return image;
+}
+
+XrayFilm film_of(const XrayShot& shot, const CArm& arm, bool inverted) {
+  XrayFilm film{shot.view.width, shot.view.height, shot.grey};
+  if (inverted)
+    for (float& grey : film.grey) grey = 1 - grey;
+  film.kv = shot.exposure.kv;
+  film.mas = shot.exposure.mas;
+  film.exposure_s = shot.exposure.pulse_s;
+  film.source_detector_m = arm.source_detector_m;
+  film.source_isocenter_m = arm.source_isocenter_m;
+  film.pixel_m = shot.view.pixel_m;
+  film.orbit_rad = arm.orbit_rad;
+  film.angulation_rad = arm.angulation_rad;
+  film.kerma_area_mgy_cm2 = shot.dose.kerma_area_mgy_cm2;
+  return film;
+}
+
+Result<void> write_out(const XrayCommand& command, const XrayShot& shot) {
+  if (command.out.empty()) return {};
+  if (std::filesystem::path(command.out).extension() == ".png")
+    return save_png(picture_of(shot, command.inverted), command.out);
+  XrayFilmOptions options;
+  options.seed = command.shot.seed;
+  return write_dicom_xray(film_of(shot, command.shot.arm, command.inverted), command.out, options);
+}
+
+Result<void> check_files(const XrayCommand& command) {
+  if (command.out.empty() && command.raw.empty())
+    return fail("there is nothing to write", "osteon xray", "Give --out or --raw");
+  const auto kind = std::filesystem::path(command.out).extension();
+  if (!command.out.empty() && kind != ".png" && kind != ".dcm")
+    return fail("must end in .png or .dcm", command.out);
+  return {};
+}
+
+Result<XrayShot> run(XrayCommand& command) {
+  if (auto ok = check_files(command); !ok) return tl::unexpected(ok.error());
+  const auto scene = open_xray_scene(command.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  if (auto ok = set_arm(command, *scene); !ok) return tl::unexpected(ok.error());
+  command.shot.noise = command.noise == "on";
+  command.shot.pulse_s = command.pulse_ms / 1000;
+  auto shot = take_shot(*scene, command.shot);
+  if (!shot) return shot;
+  if (auto ok = write_out(command, *shot); !ok) return tl::unexpected(ok.error());
+  if (!command.raw.empty())
+    if (auto ok = write_raw_density(*shot, command.raw); !ok) return tl::unexpected(ok.error());
+  return shot;
+}
+
+int run_xray(XrayCommand& command) {
+  const auto shot = run(command);
+  if (!shot) return report_error(shot.error());
+  if (command.json) {
+    std::fputs(to_json(*shot).c_str(), stdout);
+    return kExitDone;
+  }
+  std::printf("%s: %g kV, %.3g mAs, air kerma %.3g mGy at 750 mm, %.3g mGy cm2, %d shots, %g s\n",
+              command.scene.source.c_str(), shot->exposure.kv, shot->exposure.mas,
+              shot->dose.air_kerma_mgy, shot->dose.kerma_area_mgy_cm2, shot->dose.shots,
+              shot->dose.seconds);
+  return kExitDone;
+}
+
+void add_beam_options(CLI::App& xray, XrayCommand& c) {
+  xray.add_option("--kv", c.shot.kv, "kV of the tube, 40 to 120")->capture_default_str();
+  xray.add_option("--mas", c.shot.mas, "mA s of a shot (default: automatic)");
+  xray.add_option("--shots", c.shot.shots, "how many shots or pulses the dose is of")
+      ->capture_default_str();
+  xray.add_option("--pulse", c.pulse_ms, "ms of beam of each")->capture_default_str();
+  xray.add_option("--noise", c.noise, "on or off")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  xray.add_option("--seed", c.shot.seed, "of the noise")->capture_default_str();
+}
+
+void add_place_options(CLI::App& xray, XrayCommand& c) {
+  xray.add_option("--view", c.view, "ap or lateral")
+      ->check(CLI::IsMember({"ap", "lateral"}))
+      ->capture_default_str();
+  xray.add_option("--c-arm", c.arm,
+                  "orbit=DEG,angulation=DEG from the view on; also lift=, distance= (source to "
+                  "detector), source= (source to isocentre), field= (detector's width), mm");
+  xray.add_option("--isocenter", c.isocenter_mm, "x,y,z in World, mm (default: the joint)")
+      ->delimiter(',')
+      ->expected(3);
+  xray.add_option("--size", c.size, "pixels, width x height")->capture_default_str();
+  xray.add_option("--at", c.scene.at_s, "s from a recording's begin (default: its end)");
+  xray.add_option("--flexion", c.scene.flexion_deg, "bends a grown knee by so many degrees");
+}
+
+}  // namespace
+
+void add_xray_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<XrayCommand>();
+  CLI::App* xray =
+      app.add_subcommand("xray", "Take a picture with a C-arm, of a case or out of a recording");
+  xray->add_option("case", command->scene.source,
+                   "a case folder, builtin:wrist, builtin:knee or a recording (.osr)")
+      ->required();
+  add_place_options(*xray, *command);
+  add_beam_options(*xray, *command);
+  xray->add_option("--hu", command->scene.body.bones_hu,
+                   "every bone is one material of so many HU, and nothing else is there");
+  xray->add_flag("--invert", command->inverted, "bone bright, as on a film");
+  xray->add_option("--out", command->out, "picture to write: .png, or .dcm (DICOM XA)");
+  xray->add_option("--raw", command->raw,
+                   "write the mass along each ray, g/cm2: 32-bit floats, and FILE.json");
+  xray->add_flag("--json", command->json, "print geometry, exposure and dose as JSON");
+  xray->callback([command, &exit_code] { exit_code = run_xray(*command); });
+}
+
+}  // namespace osteon

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "cases/felt_choice.h"
+#include "cases/open_case.h"
+#include "osteon/record/recording.h"
+#include "osteon/render/anatomical_view.h"
+#include "osteon/scene/build_case.h"
+#include "osteon/session/session.h"
+#include "runs/xray_shot.h"
+
+namespace osteon {
+namespace {
+
+bool is_recording(const std::string& source) {
+  return std::filesystem::path(source).extension() == ".osr";
+}
+
+/// The case as it is seen: what is felt of it does not matter, and takes longest to make.
+Result<Case> open_seen_case(const std::string& spec) {
+  auto def = open_case_def(spec);
+  if (!def) return tl::unexpected(def.error());
+  for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
+  return build_case(std::move(*def));
+}
+
+Result<XrayScene> scene_of(const Case& the_case, const BoneSnapshot& bones,
+                           const CaseBodyOptions& options) {
+  const auto tissues = load_default_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  const auto body = CaseBody::create(the_case, *tissues, options);
+  if (!body) return tl::unexpected(body.error());
+  const AnatomicalFrame frame = anatomical_frame(the_case);
+  XrayScene scene;
+  scene.body = body->posed(bones);
+  scene.patient = {frame.distal_W, frame.dorsal_W, frame.radial_W};
+  const Camera all = preset_camera(ViewPreset::kAp, the_case, 1);
+  scene.isocenter_W = close_up_camera(all, the_case, BoneId{}, 1).target_W;
+  return scene;
+}
+
+/// The recording up to this many ticks, and the steps of physics that these have seen.
+void cut_after(Recording& recording, std::size_t ticks) {
+  recording.ticks.resize(ticks);
+  std::uint64_t steps = 0;
+  for (const TickRecord& tick : recording.ticks) steps = std::max(steps, tick.bone_step);
+  recording.steps.resize(std::min<std::size_t>(recording.steps.size(), steps));
+}
+
+Result<std::size_t> ticks_until(const Recording& recording, const SessionSettings& settings,
+                                std::optional<double> at_s, const std::string& file) {
+  const double end_s = static_cast<double>(recording.ticks.size()) * settings.haptic.tick_s;
+  if (recording.ticks.empty()) return fail("holds no tick", file);
+  if (!at_s) return recording.ticks.size();
+  if (!(*at_s >= 0 && *at_s <= end_s + 1e-9))
+    return fail("has nothing at " + std::to_string(*at_s) + " s", file,
+                "Choose a time between 0 and " + std::to_string(end_s) + " s");
+  const double ticks = std::round(*at_s / settings.haptic.tick_s);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(ticks), 1, recording.ticks.size());
+}
+
+Result<XrayLayer> steel_tool(const SessionSettings& settings, const Pose& X_WT) {
+  auto mesh = xray_surface(make_wrist_probe(settings.probe_radius_m).mesh, "the instrument");
+  if (!mesh) return tl::unexpected(mesh.error());
+  return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
+}
+
+Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
+  if (order.flexion_deg)
+    return fail("stands as it was recorded and cannot be bent", order.source,
+                "Leave --flexion out, or name a case");
+  auto recording = load_recording(order.source);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto settings = parse_settings(recording->header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto ticks = ticks_until(*recording, *settings, order.at_s, order.source);
+  if (!ticks) return tl::unexpected(ticks.error());
+  cut_after(*recording, *ticks);
+  const auto the_case = open_case(recording->header.case_source);
+  if (!the_case) return tl::unexpected(the_case.error());
+  RenderSnapshot last;
+  const auto replayed =
+      replay(*recording, *the_case, [&](const ToolState& tool, const BoneSnapshot& bones) {
+        last.tool = tool;
+        last.bones = bones;
+      });
+  if (!replayed) return tl::unexpected(replayed.error());
+  auto scene = scene_of(**the_case, last.bones, order.body);
+  if (!scene || order.body.bones_hu) return scene;
+  auto tool = steel_tool(*settings, last.tool.X_WP);
+  if (!tool) return tl::unexpected(tool.error());
+  scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
+  return scene;
+}
+
+Result<XrayScene> scene_of_case(const XraySceneOrder& order) {
+  if (order.at_s)
+    return fail("is a case, which stands still", order.source,
+                "Leave --at out, or name a recording (.osr)");
+  auto spec = Result<std::string>(order.source);
+  if (order.flexion_deg) spec = bent_spec(*spec, "flexion", *order.flexion_deg);
+  if (!spec) return tl::unexpected(spec.error());
+  const auto the_case = open_seen_case(*spec);
+  if (!the_case) return tl::unexpected(the_case.error());
+  return scene_of(*the_case, rest_snapshot(*the_case), order.body);
+}
+
+}  // namespace
+
+Result<XrayScene> open_xray_scene(const XraySceneOrder& order) {
+  return is_recording(order.source) ? scene_of_recording(order) : scene_of_case(order);
+}
+
+}  // namespace osteon
