@@ -58,12 +58,7 @@ class HexSolver final : public Solver {
   std::size_t elements() const override { return solid_.elements; }
   double step_s() const override { return step_s_; }
   void step() override { osteon::step(solid_, supports_, step_s_, state_, scratch_); }
-  double kinetic_j() const override {
-    double sum = 0;
-    for (const auto& v : state_.velocity_m_per_s)
-      for (std::size_t s = 0; s < solid_.slots; ++s) sum += 0.5 * solid_.mass_kg[s] * v[s] * v[s];
-    return sum;
-  }
+  double kinetic_j() const override { return osteon::kinetic_j(state_, solid_.mass_kg); }
   SolidEnergy energy() override {
     return osteon::energy(solid_, supports_, step_s_, state_, scratch_);
   }

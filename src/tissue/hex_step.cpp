@@ -79,8 +79,8 @@ void add_elastic_energy(const HexSolid& solid, const SolidState& state, SolidEne
 
 // Half the mass times the velocities half a step before and after: with these the energy of a
 // linear body stays the same to the last bits.
-double kinetic_j(const HexSolid& solid, const Supports& supports, double dt,
-                 const SolidState& state, const HexScratch& scratch) {
+double centred_kinetic_j(const HexSolid& solid, const Supports& supports, double dt,
+                         const SolidState& state, const HexScratch& scratch) {
   SolidState next = state;
   advance(solid, dt, next, scratch);
   place_held(supports, dt, time_of(state, dt) + dt, next);
@@ -107,7 +107,7 @@ SolidEnergy energy(const HexSolid& solid, const Supports& supports, double step_
   SolidEnergy sum;
   add_elastic_energy(solid, state, sum);
   reckon_forces(solid, supports, time_of(state, step_s), state, scratch);
-  sum.kinetic_j = kinetic_j(solid, supports, step_s, state, scratch);
+  sum.kinetic_j = centred_kinetic_j(solid, supports, step_s, state, scratch);
   return sum;
 }
 

@@ -7,19 +7,6 @@ namespace {
 
 bool above_zero(double x) { return std::isfinite(x) && x > 0; }
 
-Result<void> check_prony(const std::vector<PronyTerm>& terms) {
-  double sum = 0;
-  for (const PronyTerm& term : terms) {
-    if (!(term.share > 0 && term.share < 1))
-      return fail("a share must lie between 0 and 1", "material.prony", "Give the faded share");
-    if (!above_zero(term.time_s))
-      return fail("time_s must be above 0", "material.prony", "Give the time constant in seconds");
-    sum += term.share;
-  }
-  if (sum < 1) return {};
-  return fail("the shares add up to 1 or more", "material.prony", "Leave some stiffness at rest");
-}
-
 }  // namespace
 
 double shear_modulus_pa(const SolidMaterial& m) { return m.young_pa / (2 * (1 + m.poisson)); }
@@ -40,7 +27,7 @@ Result<void> check_material(const SolidMaterial& m) {
     return fail("must be a number above 0", "material.density_kg_per_m3", "Water has 1000");
   if (!(std::isfinite(m.damping_per_s) && m.damping_per_s >= 0))
     return fail("must be 0 or more", "material.damping_per_s", "Use 0 for none");
-  return check_prony(m.prony);
+  return {};
 }
 
 }  // namespace osteon

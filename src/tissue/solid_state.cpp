@@ -37,14 +37,20 @@ std::uint64_t hash_of(const SolidState& state) {
   Hasher hash;
   for (const auto* field : {&state.moved_m, &state.velocity_m_per_s, &state.acceleration_m_per_s2})
     for (const auto& values : *field) add(hash, values);
-  add(hash, state.memory_pa);
   hash.add(state.tick);
   return hash.value();
 }
 
 bool is_finite(const SolidState& state) {
   return all_finite(state.moved_m) && all_finite(state.velocity_m_per_s) &&
-         all_finite(state.acceleration_m_per_s2) && all_finite(state.memory_pa);
+         all_finite(state.acceleration_m_per_s2);
+}
+
+double kinetic_j(const SolidState& state, const std::vector<double>& mass_kg) {
+  double sum = 0;
+  for (const auto& v : state.velocity_m_per_s)
+    for (std::size_t s = 0; s < v.size(); ++s) sum += 0.5 * mass_kg[s] * v[s] * v[s];
+  return sum;
 }
 
 }  // namespace osteon

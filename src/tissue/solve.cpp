@@ -15,8 +15,10 @@ Result<std::unique_ptr<Solver>> make_solver(const SolveScene& scene) {
   if (scene.body.rod || scene.model == TissueModel::kRod)
     return fail("'material.model' is rod: rods are not solved yet", scene.name,
                 "Use a grid or vtk mesh with neo_hookean, linear or corotated");
-  if (scene.body.grid && scene.model == TissueModel::kNeoHookean) return make_hex_solver(scene);
-  return fail("'material.model' does not fit the mesh", scene.name, "Use neo_hookean with a grid");
+  if (scene.model != TissueModel::kNeoHookean) return make_tet_solver(scene);
+  if (scene.body.grid) return make_hex_solver(scene);
+  return fail("'material.model' is neo_hookean, which is solved on a grid only", scene.name,
+              "Use corotated or linear with a vtk mesh");
 }
 
 /// Watches the kinetic energy: at rest when during the last tenth it stayed far below the strain

@@ -62,22 +62,8 @@ TissueModel read_model(SceneReader& in, const Table& material) {
   return TissueModel::kNeoHookean;
 }
 
-std::vector<PronyTerm> read_prony(SceneReader& in, const Table& material) {
-  std::vector<PronyTerm> out;
-  for (const Table& term : in.tables(material, "prony")) {
-    in.only(term, {"share", "time_s"});
-    out.push_back(
-        {in.number(term, "share", {0.001, 0.999}), in.number(term, "time_s", {1e-6, 1e6})});
-  }
-  double sum = 0;
-  for (const PronyTerm& term : out) sum += term.share;
-  if (sum >= 1) in.complain("has shares of 1 or more in all", material, "prony");
-  return out;
-}
-
 SolidMaterial read_material(SceneReader& in, const Table& material) {
-  in.only(material,
-          {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s", "prony"});
+  in.only(material, {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s"});
   SolidMaterial out;
   out.young_pa = 1000 * in.number(material, "young_kpa", {1e-6, 1e9});
   out.poisson = in.number(material, "poisson", {0, 0.5});
@@ -86,7 +72,6 @@ SolidMaterial read_material(SceneReader& in, const Table& material) {
                 "Use 0.49 for what hardly changes its volume");
   out.density_kg_per_m3 = in.number(material, "density_kg_per_m3", {1e-3, 1e6});
   out.damping_per_s = in.number_or(material, "damping_per_s", {0, 1e6}, 0);
-  out.prony = read_prony(in, material);
   return out;
 }
 

@@ -39,6 +39,7 @@ class Solver {
 };
 
 Result<std::unique_ptr<Solver>> make_hex_solver(const SolveScene& scene);
+Result<std::unique_ptr<Solver>> make_tet_solver(const SolveScene& scene);
 
 /// A node of a body at rest.
 struct BodyNode {

@@ -57,7 +57,7 @@ inline SolveScene bar_scene(const Bar& bar, TissueModel model, double time_s) {
   grid.cells = {along, bar.cells_across, bar.cells_across};
   scene.body.grid = grid;
   scene.model = model;
-  scene.material = {bar.young_pa, bar.poisson, bar.density_kg_per_m3, 0, {}};
+  scene.material = {bar.young_pa, bar.poisson, bar.density_kg_per_m3, 0};
   scene.time_s = time_s;
   return scene;
 }

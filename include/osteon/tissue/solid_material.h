@@ -1,26 +1,15 @@
 #pragma once
 
-#include <vector>
-
 #include "osteon/base/result.h"
 
 namespace osteon {
 
-/// One term of a Prony series: of the shear modulus at once, the share `share` fades with time
-/// constant `time_s`.
-struct PronyTerm {
-  double share = 0;
-  double time_s = 1;
-};
-
-/// An isotropic elastic solid. Young's modulus is that of a sudden load; with Prony terms the shear
-/// modulus at time t after it is G (1 - sum share (1 - exp(-t / time))).
+/// An isotropic elastic solid.
 struct SolidMaterial {
   double young_pa = 3000;
   double poisson = 0.45;  ///< 0 to below 0.5
   double density_kg_per_m3 = 1000;
   double damping_per_s = 0;  ///< a force of -damping x mass x velocity on every node
-  std::vector<PronyTerm> prony;
 };
 
 double shear_modulus_pa(const SolidMaterial& material);

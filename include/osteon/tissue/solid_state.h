@@ -15,9 +15,8 @@ struct SolidState {
   Field moved_m;  ///< from the rest place
   /// Explicit solids: half a step before `moved_m` (leapfrog).
   Field velocity_m_per_s;
-  Field acceleration_m_per_s2;    ///< implicit solids only
-  std::vector<double> memory_pa;  ///< faded stress of Prony terms
-  std::uint64_t tick = 0;         ///< steps done
+  Field acceleration_m_per_s2;  ///< implicit solids only
+  std::uint64_t tick = 0;       ///< steps done
 
   Vec3 moved(std::size_t slot) const {
     return {moved_m[0][slot], moved_m[1][slot], moved_m[2][slot]};
@@ -33,6 +32,9 @@ std::uint64_t hash_of(const SolidState& state);
 
 /// False when a number of the state is not finite.
 bool is_finite(const SolidState& state);
+
+/// Energy of the velocities as they are; masses by slot.
+double kinetic_j(const SolidState& state, const std::vector<double>& mass_kg);
 
 struct SolidEnergy {
   double strain_j = 0;     ///< of the material, hourglass energy not counted

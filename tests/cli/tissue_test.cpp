@@ -1,0 +1,83 @@
+// osteon tissue solve, through the command line alone.
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+class TissueSolve : public CliTest {
+ protected:
+  static std::string example() { return OSTEON_SOURCE_DIR "/assets/tissue/cantilever.toml"; }
+
+  // The example with one text in place of another.
+  std::string changed(const std::string& from, const std::string& to) const {
+    std::ostringstream whole;
+    whole << std::ifstream(example()).rdbuf();
+    std::string text = whole.str();
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    std::ofstream(file("scene.toml")) << text.replace(at, from.size(), to);
+    return file("scene.toml");
+  }
+};
+
+TEST_F(TissueSolve, TellsHowTheExampleBends) {
+  const Ran ran = run_osteon("tissue solve " + example() + " --json --out " + file("bent.vtk"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto json = nlohmann::json::parse(ran.output, nullptr, false);
+  // Timoshenko: F L^3 / (3 E I) + F L / (k G A) = 2.206 mm.
+  EXPECT_NEAR(double(json["probes"][0]["moved_mm"][2]), -2.206, 0.03 * 2.206);
+  EXPECT_EQ(json["probes"][0]["at_mm"][0], 120);
+  EXPECT_EQ(json["reactions"][0]["of"], "fixed");
+  EXPECT_EQ(json["reactions"][0]["index"], 0);
+  EXPECT_NEAR(double(json["reactions"][0]["force_n"][2]), 0.005, 1e-5);
+  EXPECT_EQ(json["elements"], 384);
+  EXPECT_GT(double(json["steps"]) * double(json["step_s"]), 1.499);
+  EXPECT_GT(double(json["element_steps_per_s"]), 0);
+  EXPECT_GT(double(json["strain_energy_mj"]), 0);
+  EXPECT_LT(double(json["hourglass_energy_mj"]), 0.05 * double(json["strain_energy_mj"]));
+  EXPECT_GE(double(json["kinetic_energy_mj"]), 0);
+  EXPECT_EQ(json["settled"], true);
+  std::ifstream vtk(file("bent.vtk"));
+  std::string first;
+  std::getline(vtk, first);
+  EXPECT_EQ(first, "# vtk DataFile Version 3.0");
+}
+
+TEST_F(TissueSolve, BadScenesExitWithTwoAndNameTheKey) {
+  const std::pair<std::pair<std::string, std::string>, std::string> bad[] = {
+      {{"cells = [24, 4, 4]", "cells = [0, 4, 4]"}, "mesh.grid.cells"},
+      {{"poisson = 0.3", "poisson = 0.5"}, "material.poisson"},
+      {{"young_kpa = 100", "young_kpa = -1"}, "material.young_kpa"},
+      {{"force_n = [0, 0, -0.005]", "force_n = [0, 0, nan]"}, "load[0].force_n"},
+      {{"[[120, 0, 0]", "[[121, 0, 0]"}, "load[0]"},
+      {{"[[120, 10, 10]]", "[[121, 10, 10]]"}, "run.probe_mm[0]"},
+      {{"grid = {cells = [24, 4, 4], cell_mm = 5, origin_mm = [0, 0, 0]}", "vtk = \"none.vtk\""},
+       "mesh.vtk"}};
+  for (const auto& [change, key] : bad) {
+    std::string scene = changed(change.first, change.second);
+    if (key == "load[0]") {
+      std::ostringstream whole;
+      whole << std::ifstream(scene).rdbuf();
+      std::string text = whole.str();
+      text.replace(text.find("[120, 20, 20]"), 13, "[121, 20, 20]");
+      std::ofstream(scene) << text;
+    }
+    const Ran ran = run_osteon("tissue solve " + scene);
+    EXPECT_EQ(ran.exit_code, 2) << key << ": " << ran.output;
+    EXPECT_NE(ran.output.find(key), std::string::npos) << ran.output;
+  }
+}
+
+TEST_F(TissueSolve, ALostPartIsNamedAndExitsWithOne) {
+  const Ran ran = run_osteon("tissue solve " + changed("-0.005]", "-500]"));
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_NE(ran.output.find("hexahedron"), std::string::npos) << ran.output;
+  EXPECT_EQ(ran.output.find("nan"), std::string::npos) << ran.output;
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli
