@@ -1,5 +1,6 @@
 // Soft bodies: what a step of an element costs, beside Bullet's deformable body on the same box of
-// tissue (5 tetrahedra a cube, neo-Hookean, explicit) in the same run.
+// tissue (six tetrahedra a cube, neo-Hookean, explicit and implicit, without contact) in the same
+// run.
 //   element_steps_per_s   elements times steps a second, one core
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
@@ -108,6 +109,8 @@ struct BulletBox {
     btSoftBodyHelpers::generateBoundaryFaces(body);
     body->m_cfg.collisions = 0;
     body->initializeDmInverse();
+    body->m_tetraScratches.resize(body->m_tetras.size());
+    body->m_tetraScratchesTn.resize(body->m_tetras.size());
     world->addSoftBody(body);
     const double mu = shear_modulus_pa(kFat);
     force = std::make_unique<btDeformableNeoHookeanForce>(mu, bulk_modulus_pa(kFat) - 2.0 / 3 * mu,
