@@ -1,6 +1,7 @@
 // The whole haptic tick over fifteen bones: in free air, pressing, sliding, and two tools that
-// slide at once. With OSTEON_SHARED set: the wrist's own bones in pieces, as a case holds them;
-// else fifteen ellipsoids of 600 corners in the same places.
+// slide at once; the same with tips alone and with whole instruments. With OSTEON_SHARED set: the
+// wrist's own bones in pieces, as a case holds them; else fifteen ellipsoids of 600 corners in the
+// same places.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/build_case.h"
+#include "osteon/scene/instrument.h"
 #include "wrist_case.h"
 
 namespace {
@@ -101,13 +103,25 @@ Vec3 hand_at(Motion motion, const Approach& at, std::int64_t i) {
   return pressed + 0.002 * Vec3(std::sin(6 * t), std::sin(8.3 * t), 0);
 }
 
+// What the hands hold: the tip that is felt alone, or a probe and a scope with all their parts.
+enum Held { kTips, kWhole };
+
+Tool held_tool(Held held, std::size_t hand) {
+  if (held == kTips) return make_wrist_probe();
+  static const std::vector<Instrument> all = load_instruments().value();
+  const Instrument* found =
+      find_instrument(all, hand == 0 ? "wrist_hook_probe" : "wrist_arthroscope_2_7");
+  if (found == nullptr) throw std::runtime_error("the instruments lack a probe or a scope");
+  return make_tool(*found, found->usual_size);
+}
+
 // A tool above its place on the bones, or on it.
 struct Hand {
   HapticLoop loop;
   Approach at;
 
-  explicit Hand(std::size_t tool)
-      : loop(bench_case(), std::make_shared<const Tool>(make_wrist_probe())),
+  Hand(Held held, std::size_t tool)
+      : loop(bench_case(), std::make_shared<const Tool>(held_tool(held, tool))),
         at(find_approach(loop, rest_snapshot(*bench_case()), HapticParams{}, tool)) {}
 
   void lift(const BoneSnapshot& bones) {
@@ -122,9 +136,10 @@ struct Hand {
   }
 };
 
-std::vector<Hand> hands_for(Motion motion, std::size_t tools, const BoneSnapshot& bones) {
+std::vector<Hand> hands_for(Motion motion, Held held, std::size_t tools,
+                            const BoneSnapshot& bones) {
   std::vector<Hand> hands;
-  for (std::size_t k = 0; k < tools; ++k) hands.emplace_back(k);
+  for (std::size_t k = 0; k < tools; ++k) hands.emplace_back(held, k);
   if (motion == kFree)
     for (Hand& hand : hands) hand.lift(bones);
   return hands;
@@ -152,9 +167,9 @@ Percentiles own_cost(Motion motion, std::vector<Hand>& hands, const BoneSnapshot
   return out;
 }
 
-void run(benchmark::State& state, Motion motion, std::size_t tools) {
+void run(benchmark::State& state, Motion motion, std::size_t tools, Held held = kTips) {
   const BoneSnapshot bones = rest_snapshot(*bench_case());
-  std::vector<Hand> hands = hands_for(motion, tools, bones);
+  std::vector<Hand> hands = hands_for(motion, held, tools, bones);
   Percentiles times;
   std::int64_t i = 0;
   std::int64_t contacts = 0;
@@ -164,7 +179,7 @@ void run(benchmark::State& state, Motion motion, std::size_t tools) {
     times.add_ns(test::cpu_now_ns() - start);
     ++i;
   }
-  std::vector<Hand> again = hands_for(motion, tools, bones);
+  std::vector<Hand> again = hands_for(motion, held, tools, bones);
   const Percentiles own = own_cost(motion, again, bones);
   state.counters["p50_us"] = 1e-3 * times.quantile_ns(0.5);
   state.counters["p99_us"] = 1e-3 * times.quantile_ns(0.99);
@@ -193,11 +208,17 @@ void tick_free(benchmark::State& state) { run(state, kFree, 1); }
 void tick_press(benchmark::State& state) { run(state, kPress, 1); }
 void tick_slide(benchmark::State& state) { run(state, kSlide, 1); }
 void tick_two_tools(benchmark::State& state) { run(state, kSlide, 2); }
+void tick_whole_free(benchmark::State& state) { run(state, kFree, 1, kWhole); }
+void tick_whole_slide(benchmark::State& state) { run(state, kSlide, 1, kWhole); }
+void tick_two_whole(benchmark::State& state) { run(state, kSlide, 2, kWhole); }
 
 BENCHMARK(tick_of_nothing);
 BENCHMARK(tick_free);
 BENCHMARK(tick_press);
 BENCHMARK(tick_slide);
 BENCHMARK(tick_two_tools);
+BENCHMARK(tick_whole_free);
+BENCHMARK(tick_whole_slide);
+BENCHMARK(tick_two_whole);
 
 }  // namespace

@@ -24,14 +24,15 @@ void add_collide_command(CLI::App& app, int& exit_code);         // collide
 void add_simulate_command(CLI::App& app, int& exit_code);        // simulate
 void add_path_commands(CLI::App& app, int& exit_code);           // path survey
 void add_replay_command(CLI::App& app, int& exit_code);          // replay
-void add_demo_command(CLI::App& app, int& exit_code);       // demo: the bundled path, no window
-void add_render_command(CLI::App& app, int& exit_code);     // render: a picture of a case
-void add_live_command(CLI::App& app, int& exit_code);       // live: devices, no window
-void add_devices_command(CLI::App& app, int& exit_code);    // devices
-void add_doctor_command(CLI::App& app, int& exit_code);     // doctor
-void add_stability_command(CLI::App& app, int& exit_code);  // stability
-void add_window_command(CLI::App& app, int& exit_code);     // window
-void add_segment_command(CLI::App& app, int& exit_code);    // segment: a CT by hand
-void add_xray_command(CLI::App& app, int& exit_code);       // xray: a picture of a C-arm
+void add_demo_command(CLI::App& app, int& exit_code);         // demo: the bundled path, no window
+void add_render_command(CLI::App& app, int& exit_code);       // render: a picture of a case
+void add_live_command(CLI::App& app, int& exit_code);         // live: devices, no window
+void add_devices_command(CLI::App& app, int& exit_code);      // devices
+void add_doctor_command(CLI::App& app, int& exit_code);       // doctor
+void add_stability_command(CLI::App& app, int& exit_code);    // stability
+void add_instruments_command(CLI::App& app, int& exit_code);  // instruments: list, show, render
+void add_window_command(CLI::App& app, int& exit_code);       // window
+void add_segment_command(CLI::App& app, int& exit_code);      // segment: a CT by hand
+void add_xray_command(CLI::App& app, int& exit_code);         // xray: a picture of a C-arm
 
 }  // namespace osteon
