@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "osteon/carve/block_grid.h"
+#include "osteon/carve/bone_layers.h"
+#include "placed_part.h"
+
+namespace osteon {
+
+/// Rows of a block along x: first and last j and k.
+struct BlockRows {
+  int j0 = 0, j1 = 7, k0 = 0, k1 = 7;
+};
+
+/// Distances of a block's nodes to a part, um, where `rows` says; negative inside. A curved face
+/// lies by so much farther out as lines between nodes cut off of it in the mean, which keeps volumes
+/// right. `lo_B` is the block's first node.
+void part_distances(const PlacedPart& placed, const Vec3& lo_B, double cell_m,
+                    const BlockRows& rows, float* out_um);
+
+/// What a field's lengths are in um.
+struct CutScale {
+  std::int32_t cell = 0;
+  std::int32_t reach = 0;  ///< cuts farther off than this are not written
+  std::array<std::int32_t, kMostBoneLayers> layer{};
+  std::size_t layers = 0;
+};
+
+/// What became of a block.
+struct Lowered {
+  bool any = false;          ///< a node was lowered
+  bool near = false;         ///< one of them by which the surface may change
+  std::uint8_t sides = 0;    ///< of those: bit 2a: within the first two along axis a, 2a + 1: last
+  /// Of cuts and bone by layer and all deeper ones, in cell^2 um^2: see occupied().
+  std::array<std::int64_t, kMostBoneLayers> removed{};
+};
+
+/// cut = min(cut, distance) where the distance is within reach.
+Lowered lower_cuts(const float* distance_um, const CutScale& scale, const BlockRows& rows,
+                   const std::int16_t* height, std::int16_t* cut);
+
+/// Whether a node in those rows would be written.
+bool reaches(const float* distance_um, const CutScale& scale, const BlockRows& rows);
+
+}  // namespace osteon
