@@ -16,8 +16,7 @@ const std::int16_t* BoneField::stored(std::uint32_t block) const {
              : nullptr;
 }
 
-void BoneField::heights(std::uint32_t block,
-                        std::span<std::int16_t, BlockGrid::kNodes> out) const {
+void BoneField::heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::kNodes> out) const {
   if (const std::int16_t* from = stored(block)) {
     std::copy_n(from, BlockGrid::kNodes, out.begin());
   } else if (place(block) == Place::kDeep) {

@@ -39,7 +39,9 @@ Result<void> check(const BoneLayers& layers) {
   const auto& list = layers.layers;
   if (list.empty() || list.size() > kMostBoneLayers || list.front().depth_m != 0)
     return fail("a bone has 1 to 4 layers, the first at depth 0", "layers of bone");
-  const auto lower = [](const BoneLayer& a, const BoneLayer& b) { return !(a.depth_m < b.depth_m); };
+  const auto lower = [](const BoneLayer& a, const BoneLayer& b) {
+    return !(a.depth_m < b.depth_m);
+  };
   if (std::adjacent_find(list.begin(), list.end(), lower) != list.end())
     return fail("layers must lie one under the other", "layers of bone");
   return {};

@@ -88,8 +88,7 @@ bool CarvedField::surface_changed(std::uint32_t block, std::uint64_t since) cons
   return false;
 }
 
-bool CarvedField::apply(std::uint32_t block,
-                        std::span<const std::int16_t, BlockGrid::kNodes> cut,
+bool CarvedField::apply(std::uint32_t block, std::span<const std::int16_t, BlockGrid::kNodes> cut,
                         std::uint64_t step) {
   if (block >= slot_.size() || bone_->place(block) == BoneField::Place::kOutside) return false;
   if (slot_[block] == kNone && used_ == marks_.size()) return false;

@@ -40,8 +40,8 @@ std::int32_t whole_um(double m) { return static_cast<std::int32_t>(std::round(1e
 
 // First and last block that nodes within `reach` of a box may belong to.
 struct BlockBox {
-  std::array<int, 3> lo{}, hi{};          // blocks
-  std::array<int, 3> first{}, last{};     // nodes
+  std::array<int, 3> lo{}, hi{};       // blocks
+  std::array<int, 3> first{}, last{};  // nodes
   bool empty = false;
 };
 
@@ -72,8 +72,8 @@ BlockRows rows_in(const BlockBox& box, const std::array<int, 3>& at) {
 
 }  // namespace
 
-// Two passes over the same places and blocks: the first only marks the blocks that are to be taken, so
-// that a step which does not fit leaves all as it was.
+// Two passes over the same places and blocks: the first only marks the blocks that are to be taken,
+// so that a step which does not fit leaves all as it was.
 struct CarvedField::Pass {
   CarvedField& field;
   CutScale scale;
@@ -113,8 +113,8 @@ struct CarvedField::Pass {
       const Vec3 start = a * part.rods[0].p0, end = b * part.rods[0].p0;
       return visit(PlacedPart{&part, {start - b.rotate(part.rods[0].p0), b.q}, end - start});
     }
-    const int steps = static_cast<int>(
-        std::ceil(longest_way(part, a, b) / (kPlacesApart * field.grid().cell_m)));
+    const int steps =
+        static_cast<int>(std::ceil(longest_way(part, a, b) / (kPlacesApart * field.grid().cell_m)));
     for (int n = 0; n <= steps; ++n)
       visit(PlacedPart{&part, steps == 0 ? b : between(a, b, double(n) / steps), Vec3::Zero()});
   }

@@ -15,8 +15,8 @@ struct BlockRows {
 };
 
 /// Distances of a block's nodes to a part, um, where `rows` says; negative inside. A curved face
-/// lies by so much farther out as lines between nodes cut off of it in the mean, which keeps volumes
-/// right. `lo_B` is the block's first node.
+/// lies by so much farther out as lines between nodes cut off of it in the mean, which keeps
+/// volumes right. `lo_B` is the block's first node.
 void part_distances(const PlacedPart& placed, const Vec3& lo_B, double cell_m,
                     const BlockRows& rows, float* out_um);
 
@@ -30,9 +30,9 @@ struct CutScale {
 
 /// What became of a block.
 struct Lowered {
-  bool any = false;          ///< a node was lowered
-  bool near = false;         ///< one of them by which the surface may change
-  std::uint8_t sides = 0;    ///< of those: bit 2a: within the first two along axis a, 2a + 1: last
+  bool any = false;        ///< a node was lowered
+  bool near = false;       ///< one of them by which the surface may change
+  std::uint8_t sides = 0;  ///< of those: bit 2a: within the first two along axis a, 2a + 1: last
   /// Of cuts and bone by layer and all deeper ones, in cell^2 um^2: see occupied().
   std::array<std::int64_t, kMostBoneLayers> removed{};
 };

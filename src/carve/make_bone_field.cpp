@@ -11,8 +11,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kClear = 3;      // cells between the surface and any block that is not stored
-constexpr double kLeastCells = 4; // along the bone's longest side
+constexpr double kClear = 3;       // cells between the surface and any block that is not stored
+constexpr double kLeastCells = 4;  // along the bone's longest side
 constexpr double kDiagonal = 1.7320508075688772;
 
 Result<void> check_mesh(const TriMesh& mesh) {
@@ -61,9 +61,11 @@ struct BoneField::Maker {
     const double h = options.cell_m;
     // Nodes stay off faces that lie along the axes.
     const double margin = std::max(kClear * h, options.outside_m) + 1.37 * h;
-    const Vec3 count = ((field.box_.extent() + Vec3::Constant(2 * margin)) / (8 * h)).array().ceil();
+    const Vec3 count =
+        ((field.box_.extent() + Vec3::Constant(2 * margin)) / (8 * h)).array().ceil();
     const double bytes = 8 * count.prod();
-    if (bytes > static_cast<double>(options.most_bytes)) return too_large(bytes, options.most_bytes);
+    if (bytes > static_cast<double>(options.most_bytes))
+      return too_large(bytes, options.most_bytes);
     field.grid_.cell_m = h;
     field.grid_.lo = field.box_.lo - Vec3::Constant(margin);
     for (std::size_t k = 0; k < 3; ++k)
@@ -78,7 +80,8 @@ struct BoneField::Maker {
     const Vec3 b = field.grid_.node(8 * hi[0] - 1, 8 * hi[1] - 1, 8 * hi[2] - 1);
     const ClosestPoint found = mesh.closest(0.5 * (a + b), guess);
     const double d = found.signed_distance, reach = 0.5 * (b - a).norm();
-    if (d - reach > std::max(kClear * cell(), options.outside_m)) return all_outside(lo, hi, d, 0.5 * (a + b));
+    if (d - reach > std::max(kClear * cell(), options.outside_m))
+      return all_outside(lo, hi, d, 0.5 * (a + b));
     std::size_t widest = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (hi[k] - lo[k] > hi[widest] - lo[widest]) widest = k;
@@ -112,7 +115,8 @@ struct BoneField::Maker {
 
   // Heights of a cube of 4 nodes a side: exact near the surface; farther off along the gradient.
   void fill_part(const Corner& first, std::uint32_t guess, std::int16_t* out) const {
-    const Vec3 middle = field.grid_.node(first[0], first[1], first[2]) + Vec3::Constant(1.5 * cell());
+    const Vec3 middle =
+        field.grid_.node(first[0], first[1], first[2]) + Vec3::Constant(1.5 * cell());
     const ClosestPoint found = mesh.closest(middle, guess);
     const bool far = std::abs(found.signed_distance) > (1.5 * kDiagonal + 2.5) * cell();
     const Vec3 up = far ? Vec3((middle - found.point) / found.signed_distance) : Vec3::Zero();

@@ -59,8 +59,8 @@ class BoneField {
   static constexpr std::uint32_t kOut = 0xffffffffu, kIn = 0xfffffffeu;
   BlockGrid grid_;
   Aabb box_;
-  std::vector<float> middle_;           ///< of each block
-  std::vector<std::uint32_t> slot_;     ///< of each block: kOut, kIn or its place in heights_
+  std::vector<float> middle_;        ///< of each block
+  std::vector<std::uint32_t> slot_;  ///< of each block: kOut, kIn or its place in heights_
   std::vector<std::int16_t> heights_;
   std::uint64_t hash_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "repair/uncross.h"
-#include "surface/cube_loops.h"
+#include "osteon/mesh/cube_loops.h"
 #include "surface/isosurface_grid.h"
 #include "surface/surface_relax.h"
 

@@ -1,4 +1,4 @@
-#include "surface/cube_loops.h"
+#include "osteon/mesh/cube_loops.h"
 
 #include <gtest/gtest.h>
 
