@@ -27,12 +27,12 @@ int run_cli(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = 0;
   for (const auto add :
-       {add_case_commands,     add_case_felt_command,  add_import_ct_command, add_scan_command,
-        add_anatomy_commands,  add_mesh_commands,      add_hull_command,      add_collide_command,
-        add_path_commands,     add_simulate_command,   add_replay_command,    add_demo_command,
-        add_render_command,    add_live_command,       add_devices_command,   add_doctor_command,
-        add_stability_command, add_tissue_commands,    add_window_command,    add_segment_command,
-        add_xray_command,      add_instruments_command})
+       {add_case_commands,     add_case_felt_command,   add_import_ct_command, add_scan_command,
+        add_anatomy_commands,  add_mesh_commands,       add_hull_command,      add_collide_command,
+        add_path_commands,     add_simulate_command,    add_replay_command,    add_demo_command,
+        add_render_command,    add_live_command,        add_devices_command,   add_doctor_command,
+        add_stability_command, add_tissue_commands,     add_window_command,    add_segment_command,
+        add_xray_command,      add_instruments_command, add_carve_command})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

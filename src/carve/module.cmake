@@ -1,7 +1,7 @@
 # Loops over rows of nodes become vectors only where the compiler need not keep errno and traps;
 # neither changes a bit of a result.
-set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/cut_rows.cpp"
+set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/field/cut_rows.cpp"
   PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno;-fno-trapping-math" SKIP_PRECOMPILE_HEADERS ON)
 # Fields are made and meshed at load; a debug build gets the same bits, only sooner.
-set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/make_bone_field.cpp"
+set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/field/make_bone_field.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)

@@ -7,3 +7,4 @@ set_source_files_properties("${tunnel_oracle}" PROPERTIES
 target_sources(osteon_carve_tests PRIVATE "${tunnel_oracle}")
 osteon_link_system(osteon_carve_tests CGAL::CGAL)
 target_link_libraries(osteon_carve_tests PRIVATE gmp mpfr)
+target_sources(osteon_carve_tests PRIVATE "${CMAKE_SOURCE_DIR}/tests/count_allocations.cpp")

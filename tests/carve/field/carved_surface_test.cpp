@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "carve_fixtures.h"
+#include "carve/carve_fixtures.h"
 #include "osteon/carve/removed.h"
 #include "osteon/mesh/cube_loops.h"
 #include "osteon/mesh/measure.h"

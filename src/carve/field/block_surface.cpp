@@ -1,7 +1,7 @@
-#include "block_surface.h"
+#include "field/block_surface.h"
 
-#include "cell_vertex.h"
-#include "edge_crossing.h"
+#include "field/cell_vertex.h"
+#include "field/edge_crossing.h"
 #include "osteon/mesh/cube_loops.h"
 
 namespace osteon {

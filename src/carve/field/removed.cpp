@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "node_window.h"
+#include "field/node_window.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "edge_crossing.h"
+#include "field/edge_crossing.h"
 
 #include <algorithm>
 

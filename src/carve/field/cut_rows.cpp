@@ -1,6 +1,6 @@
 // The inner loops of a cut: rows of 8 nodes side by side in vector registers. Each lane computes
 // what scalar code would, so the bits do not depend on the registers.
-#include "cut_rows.h"
+#include "field/cut_rows.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node_window.h"
+#include "field/node_window.h"
 #include "osteon/base/types.h"
 
 namespace osteon {

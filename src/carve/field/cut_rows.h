@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 
+#include "field/placed_part.h"
 #include "osteon/carve/block_grid.h"
 #include "osteon/carve/bone_layers.h"
-#include "placed_part.h"
 
 namespace osteon {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "carve_fixtures.h"
+#include "carve/carve_fixtures.h"
 #include "osteon/carve/carved_surface.h"
 #include "osteon/carve/removed.h"
 #include "osteon/mesh/measure.h"

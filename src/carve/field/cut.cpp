@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cut_rows.h"
+#include "field/cut_rows.h"
 #include "osteon/carve/carved_field.h"
 
 namespace osteon {

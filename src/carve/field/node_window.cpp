@@ -1,4 +1,4 @@
-#include "node_window.h"
+#include "field/node_window.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node_window.h"
+#include "field/node_window.h"
 #include "osteon/carve/carved_surface.h"
 
 namespace osteon {

@@ -1,4 +1,4 @@
-#include "cell_vertex.h"
+#include "field/cell_vertex.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "block_surface.h"
+#include "field/block_surface.h"
 
 namespace osteon {
 

@@ -1,0 +1,108 @@
+// Bone removed along a path, through the command line alone.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "block_case.h"
+#include "run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+constexpr const char* kHead = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button\n";
+
+class Carve : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    ASSERT_EQ(make_block_case(dir_).exit_code, 0);
+    std::ofstream(file("down.csv")) << kHead << "0,0,0,25,1,0,0,0,1\n0.5,0,0,10,1,0,0,0,1\n";
+    std::ofstream(file("pose.csv")) << kHead << "0,1,2,3,1,0,0,0,1\n";
+    std::ofstream(file("air.csv")) << kHead << "0,0,0,90,1,0,0,0,1\n1,0,0,80,1,0,0,0,1\n";
+  }
+  std::string arguments(const std::string& tool, const std::string& size, const std::string& path) {
+    return "carve " + file("case") + "#block --tool " + tool + " --size " + size + " --path " +
+           file(path) + " --out " + file("out.stl");
+  }
+};
+
+TEST_F(Carve, BadInputExitsWithTwoAndWritesNothing) {
+  std::ofstream(file("nan.csv")) << kHead << "0,nan,0,0,1,0,0,0,1\n";
+  std::ofstream(file("empty.csv")) << kHead;
+  const std::pair<std::string, std::string> bad[] = {
+      {arguments("spoon", "4", "down.csv"), "burr, drill"},
+      {arguments("burr", "0", "down.csv"), "0.2 to 40 mm"},
+      {arguments("burr", "nan", "down.csv"), "0.2 to 40 mm"},
+      {arguments("burr", "4", "nan.csv"), "nan.csv"},
+      {arguments("burr", "4", "empty.csv"), "empty.csv"},
+      {arguments("burr", "4", "none.csv"), "none.csv"},
+      {arguments("burr", "4", "down.csv") + " --cell 0.02 --memory-mb 16", "16 MB are allowed"},
+      {arguments("burr", "4", "down.csv") + " --cell nan", "0.02 to 2 mm"},
+      {"carve " + file("case") + "#femur --tool burr --size 4 --path " + file("down.csv") +
+           " --out " + file("out.stl"),
+       "It has block"}};
+  for (const auto& [words, why] : bad) {
+    const Ran ran = run_osteon(words);
+    EXPECT_EQ(ran.exit_code, 2) << words << ": " << ran.output;
+    EXPECT_NE(ran.output.find(why), std::string::npos) << words << ": " << ran.output;
+    EXPECT_FALSE(fs::exists(file("out.stl"))) << words;
+  }
+}
+
+TEST_F(Carve, ABurrsWayIsReportedAndWritten) {
+  const Ran ran = run_osteon(arguments("burr", "4", "down.csv") + " --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto report = nlohmann::json::parse(ran.output, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << ran.output;
+  const double wanted = std::numbers::pi * (4 * 10 + 2.0 / 3 * 8);
+  EXPECT_NEAR(report["removed_mm3"].get<double>(), wanted, 0.005 * wanted);
+  const auto& tissues = report["removed_by_tissue_mm3"];
+  double sum = 0;
+  for (const auto& [name, mm3] : tissues.items()) sum += mm3.get<double>();
+  EXPECT_NEAR(sum, report["removed_mm3"].get<double>(), 1e-9);
+  EXPECT_NEAR(tissues["cortical_bone"].get<double>(), std::numbers::pi * 4 * 1.2, 0.2);
+  EXPECT_EQ(report["steps"], 501);
+  EXPECT_GT(report["blocks"], 10);
+  EXPECT_GT(report["surface_us"], 0);
+  EXPECT_LE(report["step_us"]["p50"], report["step_us"]["p99"]);
+  EXPECT_LE(report["step_us"]["p99"], report["step_us"]["p999"]);
+  EXPECT_TRUE(fs::exists(file("out.stl")));
+}
+
+TEST_F(Carve, APathOfOnePoseCutsThere) {
+  const Ran ran = run_osteon(arguments("burr", "4", "pose.csv") + " --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto report = nlohmann::json::parse(ran.output, nullptr, false);
+  const double ball = std::numbers::pi * 32 / 3;
+  EXPECT_EQ(report["steps"], 1);
+  EXPECT_NEAR(report["removed_mm3"].get<double>(), ball, 0.005 * ball);
+}
+
+TEST_F(Carve, APathThroughNothingRemovesNothingAndSaysSo) {
+  const Ran ran = run_osteon(arguments("burr", "4", "air.csv"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_NE(ran.output.find("nothing was removed"), std::string::npos) << ran.output;
+  EXPECT_TRUE(fs::exists(file("out.stl")));
+}
+
+TEST_F(Carve, AToolLargerThanTheBoneIsRefused) {
+  std::ofstream(file("small.obj")) << "";
+  fs::create_directories(dir_ / "small");
+  std::ofstream block(dir_ / "small/chip.obj");
+  for (int i = 0; i < 8; ++i)
+    block << "v " << (i & 1 ? 2 : -2) << ' ' << (i & 2 ? 2 : -2) << ' ' << (i & 4 ? 2 : -2) << '\n';
+  block << "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
+           "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
+  block.close();
+  ASSERT_EQ(
+      run_osteon("import mesh " + file("small") + " --unit mm --out " + file("chip")).exit_code, 0);
+  const Ran ran = run_osteon("carve " + file("chip") + "#chip --tool burr --size 6 --path " +
+                             file("down.csv") + " --out " + file("out.stl"));
+  EXPECT_EQ(ran.exit_code, 2) << ran.output;
+  EXPECT_NE(ran.output.find("larger than the bone"), std::string::npos) << ran.output;
+  EXPECT_FALSE(fs::exists(file("out.stl")));
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli
