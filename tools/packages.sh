@@ -13,7 +13,7 @@ packages_test=(
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples plastimatch
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
-  libglpk-dev coinor-libclp-dev)
+  libglpk-dev coinor-libclp-dev libopenvdb-dev)
 
 # Installs what is missing of the packages named, and says so. Quick when nothing is.
 install_missing() {

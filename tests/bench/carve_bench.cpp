@@ -41,7 +41,7 @@ Pose pose(int step) {
   return X;
 }
 
-const std::shared_ptr<const BoneField>& block() {
+const std::shared_ptr<const UncutField>& block() {
   static const auto field = test::block_field(kHalf_m, kCell_m);
   return field;
 }

@@ -29,10 +29,10 @@ T value(Result<T> result) {
   return std::move(*result);
 }
 
-inline std::shared_ptr<const BoneField> block_field(double half_m, double cell_m = 0.00025) {
-  BoneFieldOptions options;
+inline std::shared_ptr<const UncutField> block_field(double half_m, double cell_m = 0.00025) {
+  UncutFieldOptions options;
   options.cell_m = cell_m;
-  return value(BoneField::make(box_mesh(Vec3::Constant(half_m)), options));
+  return value(UncutField::make(box_mesh(Vec3::Constant(half_m)), options));
 }
 
 inline Cutter cutter(const std::string& name, double size_mm) {

@@ -37,15 +37,15 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-std::shared_ptr<const BoneField> small_block() {
+std::shared_ptr<const UncutField> small_block() {
   TriMesh mesh;
   for (int c = 0; c < 8; ++c)
     mesh.vertices.push_back(0.003 * Vec3(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1));
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  BoneFieldOptions options;
+  UncutFieldOptions options;
   options.cell_m = 0.0004;
-  auto made = BoneField::make(mesh, options);
+  auto made = UncutField::make(mesh, options);
   demand(made.has_value(), "a block has no field");
   return *made;
 }

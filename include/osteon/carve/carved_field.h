@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "osteon/base/result.h"
-#include "osteon/carve/bone_field.h"
 #include "osteon/carve/bone_layers.h"
 #include "osteon/carve/cutter.h"
+#include "osteon/carve/uncut_field.h"
 
 namespace osteon {
 
@@ -47,11 +47,11 @@ struct CarveState {
 /// to cuts fold by the minimum: the order of cuts does not matter, bit by bit.
 class CarvedField {
  public:
-  static constexpr std::int16_t kUncut = BoneField::kFar;
+  static constexpr std::int16_t kUncut = UncutField::kFar;
   static constexpr std::size_t kMostBlocks = 24576;  ///< 2 kB each
 
   /// Fails on layers that do not fit together.
-  static Result<CarvedField> make(std::shared_ptr<const BoneField> bone,
+  static Result<CarvedField> make(std::shared_ptr<const UncutField> bone,
                                   const BoneLayers& layers = {},
                                   std::size_t most_blocks = kMostBlocks);
 
@@ -61,8 +61,8 @@ class CarvedField {
   CarveStep cut(const Cutter& cutter, const Pose& X_BT0, const Pose& X_BT1);
   CarveStep cut(const Cutter& cutter, const Pose& X_BT) { return cut(cutter, X_BT, X_BT); }
 
-  const BoneField& bone() const { return *bone_; }
-  const std::shared_ptr<const BoneField>& shared_bone() const { return bone_; }
+  const UncutField& bone() const { return *bone_; }
+  const std::shared_ptr<const UncutField>& shared_bone() const { return bone_; }
   const BlockGrid& grid() const { return bone_->grid(); }
   const BoneLayers& layers() const { return layers_; }
 
@@ -116,7 +116,7 @@ class CarvedField {
   std::uint32_t take(std::uint32_t block);
 
   static constexpr std::uint32_t kNone = 0xffffffffu, kWanted = 0xfffffffeu;
-  std::shared_ptr<const BoneField> bone_;
+  std::shared_ptr<const UncutField> bone_;
   BoneLayers layers_;
   std::array<std::int32_t, kMostBoneLayers> layer_um_{};
   std::vector<std::uint32_t> slot_;  ///< of each block of the grid

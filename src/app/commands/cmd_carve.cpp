@@ -121,13 +121,13 @@ class Carver {
 Result<CarvedField> make_field(const BoneDef& bone, const CarveCommand& command) {
   const auto layers = bone_layers(command.cortex_mm / 1000, command.marrow_mm / 1000);
   if (!layers) return tl::unexpected(layers.error());
-  BoneFieldOptions options;
+  UncutFieldOptions options;
   options.cell_m = command.cell_mm / 1000;
   options.most_bytes = static_cast<std::size_t>(command.memory_mb) << 20;
   options.run = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     run_on_all_cores(count, task, [](double) {});
   };
-  auto field = BoneField::make(bone.mesh, options);
+  auto field = UncutField::make(bone.mesh, options);
   if (!field) return tl::unexpected(field.error());
   constexpr std::size_t kBytesOfBlock = 2304;
   const std::size_t left = options.most_bytes - std::min((*field)->bytes(), options.most_bytes);

@@ -37,7 +37,7 @@ std::uint64_t block_hash(std::uint32_t block,
 
 }  // namespace
 
-Result<CarvedField> CarvedField::make(std::shared_ptr<const BoneField> bone,
+Result<CarvedField> CarvedField::make(std::shared_ptr<const UncutField> bone,
                                       const BoneLayers& layers, std::size_t most_blocks) {
   if (auto sound = check(layers); !sound) return tl::unexpected(sound.error());
   constexpr std::size_t kMost = 1u << 22;
@@ -90,7 +90,7 @@ bool CarvedField::surface_changed(std::uint32_t block, std::uint64_t since) cons
 
 bool CarvedField::apply(std::uint32_t block, std::span<const std::int16_t, BlockGrid::kNodes> cut,
                         std::uint64_t step) {
-  if (block >= slot_.size() || bone_->place(block) == BoneField::Place::kOutside) return false;
+  if (block >= slot_.size() || bone_->place(block) == UncutField::Place::kOutside) return false;
   if (slot_[block] == kNone && used_ == marks_.size()) return false;
   const std::uint32_t slot = slot_[block] == kNone ? take(block) : slot_[block];
   std::copy(cut.begin(), cut.end(), nodes_[slot].cut.begin());
@@ -124,7 +124,7 @@ Result<void> CarvedField::restore(const CarveState& state) {
   if (state.blocks.size() > marks_.size()) return fail("holds more blocks than there are", kWhere);
   for (std::size_t n = 0; n < state.blocks.size(); ++n) {
     const std::uint32_t block = state.blocks[n].block;
-    if (block >= slot_.size() || bone_->place(block) == BoneField::Place::kOutside ||
+    if (block >= slot_.size() || bone_->place(block) == UncutField::Place::kOutside ||
         (n > 0 && block <= state.blocks[n - 1].block))
       return fail("holds a block that cannot be", kWhere);
   }

@@ -45,7 +45,7 @@ void CarvedSurface::remesh(const CarvedField& field, std::uint32_t block) {
 void CarvedSurface::mesh_all(const CarvedField& field) {
   (void)update(field);
   for (std::uint32_t block = 0; block < slot_.size(); ++block) {
-    const bool deep = field.bone().place(block) == BoneField::Place::kDeep;
+    const bool deep = field.bone().place(block) == UncutField::Place::kDeep;
     // All nodes of a deep block that no cut came near are bone, those beside it too.
     if (deep && !field.cuts(block)) continue;
     if (seen_[block] != call_) remesh(field, block);

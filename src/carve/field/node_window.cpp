@@ -5,7 +5,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::int16_t kFar = BoneField::kFar;
+constexpr std::int16_t kFar = UncutField::kFar;
 
 /// What a neighbour has to give along one axis: its nodes from `first` on, to the window's `to`.
 struct Share {
@@ -47,7 +47,7 @@ void read_window(const CarvedField& field, const std::array<int, 3>& block, Node
       continue;
     }
     const std::uint32_t index = grid.index(at);
-    const bool deep = field.bone().place(index) == BoneField::Place::kDeep;
+    const bool deep = field.bone().place(index) == UncutField::Place::kDeep;
     const std::int16_t* heights = field.heights(index);
     put(heights ? heights : field.bone().stored(index), deep ? -kFar : kFar, share, out.height);
     put(field.cuts(index), kFar, share, out.cut);

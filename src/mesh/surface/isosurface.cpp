@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "repair/uncross.h"
 #include "osteon/mesh/cube_loops.h"
+#include "repair/uncross.h"
 #include "surface/isosurface_grid.h"
 #include "surface/surface_relax.h"
 

@@ -17,7 +17,7 @@ using namespace test;
 
 constexpr double kPi = std::numbers::pi;
 
-const std::shared_ptr<const BoneField>& block() {
+const std::shared_ptr<const UncutField>& block() {
   static const auto field = block_field(0.008);
   return field;
 }

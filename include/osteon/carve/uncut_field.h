@@ -14,7 +14,7 @@
 
 namespace osteon {
 
-struct BoneFieldOptions {
+struct UncutFieldOptions {
   double cell_m = 0.00025;
   /// Exact heights reach at least so far out of the bone; less than 3 cells count as 3.
   double outside_m = 0.001;
@@ -27,7 +27,7 @@ struct BoneFieldOptions {
 /// inside, in whole micrometres. Blocks near the surface hold all their nodes; of a block deep
 /// inside the depth of its middle is known, which is enough for what tissue lies there. Immutable.
 /// The same mesh gives the same bits from every compiler and any number of threads.
-class BoneField {
+class UncutField {
  public:
   /// Where a block lies. Every node of a deep or outer block is at least 3 cells off the surface.
   enum class Place : std::uint8_t { kOutside, kDeep, kStored };
@@ -35,8 +35,8 @@ class BoneField {
 
   /// Fails when the mesh is empty, open, inside out, not finite, no larger than a few cells, or the
   /// field would take more memory than allowed.
-  static Result<std::shared_ptr<const BoneField>> make(const TriMesh& mesh,
-                                                       const BoneFieldOptions& options = {});
+  static Result<std::shared_ptr<const UncutField>> make(const TriMesh& mesh,
+                                                        const UncutFieldOptions& options = {});
 
   const BlockGrid& grid() const { return grid_; }
   const Aabb& box() const { return box_; }  ///< of the mesh
@@ -53,7 +53,7 @@ class BoneField {
 
  private:
   struct Maker;
-  BoneField() = default;
+  UncutField() = default;
   void deep_heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::kNodes> out) const;
 
   static constexpr std::uint32_t kOut = 0xffffffffu, kIn = 0xfffffffeu;

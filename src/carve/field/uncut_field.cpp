@@ -1,22 +1,23 @@
-#include "osteon/carve/bone_field.h"
+#include "osteon/carve/uncut_field.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace osteon {
 
-BoneField::Place BoneField::place(std::uint32_t block) const {
+UncutField::Place UncutField::place(std::uint32_t block) const {
   const std::uint32_t slot = slot_[block];
   return slot == kOut ? Place::kOutside : slot == kIn ? Place::kDeep : Place::kStored;
 }
 
-const std::int16_t* BoneField::stored(std::uint32_t block) const {
+const std::int16_t* UncutField::stored(std::uint32_t block) const {
   return place(block) == Place::kStored
              ? heights_.data() + std::size_t{slot_[block]} * BlockGrid::kNodes
              : nullptr;
 }
 
-void BoneField::heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::kNodes> out) const {
+void UncutField::heights(std::uint32_t block,
+                         std::span<std::int16_t, BlockGrid::kNodes> out) const {
   if (const std::int16_t* from = stored(block)) {
     std::copy_n(from, BlockGrid::kNodes, out.begin());
   } else if (place(block) == Place::kDeep) {
@@ -27,8 +28,8 @@ void BoneField::heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::
 }
 
 // Linear along each axis between the middles of blocks, and no higher than a deep node can be.
-void BoneField::deep_heights(std::uint32_t block,
-                             std::span<std::int16_t, BlockGrid::kNodes> out) const {
+void UncutField::deep_heights(std::uint32_t block,
+                              std::span<std::int16_t, BlockGrid::kNodes> out) const {
   const auto at = grid_.place(block);
   const auto middle = [&](int i, int j, int k) {
     std::array<int, 3> near{at[0] + i, at[1] + j, at[2] + k};
@@ -61,7 +62,7 @@ void BoneField::deep_heights(std::uint32_t block,
   }
 }
 
-std::size_t BoneField::bytes() const {
+std::size_t UncutField::bytes() const {
   return middle_.size() * sizeof(float) + slot_.size() * sizeof(std::uint32_t) +
          heights_.size() * sizeof(std::int16_t);
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "osteon/base/hash.h"
-#include "osteon/carve/bone_field.h"
+#include "osteon/carve/uncut_field.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/mesh/measure.h"
 
@@ -44,12 +44,12 @@ tl::unexpected<Error> too_large(double needed, std::size_t allowed) {
 }  // namespace
 
 // Cubes of blocks are halved until a cube is clear of the surface by its distance, or one block.
-struct BoneField::Maker {
-  Maker(const TriMesh& bone, const BoneFieldOptions& wanted) : options(wanted), mesh(bone) {}
+struct UncutField::Maker {
+  Maker(const TriMesh& bone, const UncutFieldOptions& wanted) : options(wanted), mesh(bone) {}
 
-  const BoneFieldOptions& options;
+  const UncutFieldOptions& options;
   MeshDistance mesh;
-  BoneField field = {};
+  UncutField field = {};
   std::vector<std::uint32_t> near = {};      // stored blocks, in the order of their slots
   std::vector<std::uint32_t> triangle = {};  // of each: nearest to its middle
 
@@ -167,8 +167,8 @@ struct BoneField::Maker {
   }
 };
 
-Result<std::shared_ptr<const BoneField>> BoneField::make(const TriMesh& mesh,
-                                                         const BoneFieldOptions& options) {
+Result<std::shared_ptr<const UncutField>> UncutField::make(const TriMesh& mesh,
+                                                           const UncutFieldOptions& options) {
   if (auto sound = check_mesh(mesh); !sound) return tl::unexpected(sound.error());
   constexpr double kFinest_m = 2e-5, kCoarsest_m = 2e-3;
   if (!(options.cell_m >= kFinest_m && options.cell_m <= kCoarsest_m))
@@ -186,7 +186,7 @@ Result<std::shared_ptr<const BoneField>> BoneField::make(const TriMesh& mesh,
   if (bytes > static_cast<double>(options.most_bytes)) return too_large(bytes, options.most_bytes);
   maker.fill_all();
   maker.finish();
-  return std::make_shared<const BoneField>(std::move(maker.field));
+  return std::make_shared<const UncutField>(std::move(maker.field));
 }
 
 }  // namespace osteon
