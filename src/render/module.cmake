@@ -8,3 +8,6 @@ target_include_directories(osteon_render SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(osteon_render PRIVATE opencv_core opencv_imgcodecs)
 find_package(meshoptimizer REQUIRED)
 osteon_link_system(osteon_render meshoptimizer::meshoptimizer)
+# EGL's header and OpenGL's do not go together in every order.
+set_source_files_properties("${CMAKE_SOURCE_DIR}/src/render/offscreen_context.cpp"
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -34,6 +34,7 @@ void add_instruments_command(CLI::App& app, int& exit_code);  // instruments: li
 void add_window_command(CLI::App& app, int& exit_code);       // window
 void add_segment_command(CLI::App& app, int& exit_code);      // segment: a CT by hand
 void add_xray_command(CLI::App& app, int& exit_code);         // xray: a picture of a C-arm
+void add_view_command(CLI::App& app, int& exit_code);         // view: what an arthroscope shows
 void add_carve_command(CLI::App& app, int& exit_code);        // carve: remove bone along a path
 
 }  // namespace osteon

@@ -1,0 +1,208 @@
+// Wet tissue under an arthroscope: the light comes from the tip, beside the eye, and falls off with
+// distance. Each kind has its own pattern, worked out from the place alone. Writes linear light and
+// the distance from the eye.
+in vec3 v_position;
+in vec3 v_normal;
+in vec3 v_place;
+in vec3 v_place_normal;
+in vec4 v_shade;  // openness, cavity, mottle
+
+uniform int u_kind;       // 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat
+uniform vec3 u_tint;      // the part's own colour, display
+uniform vec3 u_fibre;     // unit, along the fibres, in the part's frame; of a meniscus: its axis
+uniform vec3 u_center;    // of the part, in its frame
+uniform float u_light;    // strength at 10 mm
+
+out vec4 o_light;
+
+float hash(vec3 p) {
+  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yxz + 33.33);
+  return fract((p.x + p.y) * p.z);
+}
+
+// Smooth values 0..1, one change a unit.
+float noise(vec3 p) {
+  vec3 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  float a = mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
+                mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y);
+  float b = mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
+                mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y);
+  return mix(a, b, f.z);
+}
+
+float layers(vec3 p) {
+  return 0.5 * noise(p) + 0.3 * noise(2.13 * p + 7.1) + 0.2 * noise(4.31 * p + 3.7);
+}
+
+// Distances to the nearest and the next of points strewn one a unit.
+vec2 cells(vec3 p) {
+  vec3 i = floor(p), f = fract(p);
+  vec2 near = vec2(9.0);
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        vec3 c = vec3(x, y, z);
+        vec3 at = c + vec3(hash(i + c), hash(i + c + 17.3), hash(i + c + 41.7)) - f;
+        float d = dot(at, at);
+        near = d < near.x ? vec2(d, near.x) : vec2(near.x, min(near.y, d));
+      }
+  return sqrt(near);
+}
+
+// Branching vessels: where two slow noises cross their middle, thick ones and thin ones. 0..1.
+float vessels(vec3 p, float per_m, float width) {
+  vec3 q = p * per_m;
+  q += 0.8 * vec3(noise(0.9 * q), noise(0.9 * q + 11.0), noise(0.9 * q + 23.0));
+  float trunk = abs(noise(0.55 * q + 5.0) - 0.5);
+  float twig = abs(noise(1.9 * q + 31.0) - 0.5);
+  float patch_of = smoothstep(0.35, 0.65, noise(0.35 * q + 51.0));
+  return max(1.0 - smoothstep(0.4 * width, width, trunk),
+             0.6 * patch_of * (1.0 - smoothstep(0.4 * width, width, twig)));
+}
+
+struct Look {
+  vec3 albedo;
+  float bump;      // height, metres
+  float gloss;     // power of the highlight
+  float wet;       // strength of the highlight
+  float deep;      // how far light goes into it: softens the shade
+};
+
+// Streaks along the fibres: u runs along them, slow; the two others fast.
+float fibres(vec3 p, vec3 along, float per_m) {
+  float u = dot(p, along);
+  vec3 across = p - u * along;
+  vec3 q = across * per_m + along * u * per_m * 0.06;
+  return 0.6 * noise(q) + 0.4 * noise(2.7 * q + 9.0);
+}
+
+Look bone_look(vec3 p) {
+  float m = layers(p * 350.0);
+  vec3 c = mix(vec3(0.80, 0.62, 0.47), vec3(0.86, 0.76, 0.62), m);
+  float v = vessels(p, 520.0, 0.022);
+  c = mix(c, vec3(0.62, 0.26, 0.20), 0.40 * v);
+  return Look(c, 1.5e-4 * m, 30.0, 0.30, 0.25);
+}
+
+Look cartilage_look(vec3 p) {
+  float m = layers(p * 120.0);
+  float fine = layers(p * 1400.0);
+  vec3 c = mix(vec3(0.88, 0.87, 0.81), vec3(0.96, 0.94, 0.87), m);
+  return Look(c, 1.2e-5 * fine + 6e-5 * m, 90.0, 0.55, 0.55);
+}
+
+Look meniscus_look(vec3 p) {
+  vec3 from_axis = p - u_center - dot(p - u_center, u_fibre) * u_fibre;
+  vec3 round = normalize(cross(u_fibre, from_axis) + vec3(1e-6));
+  // Rings about the axis: polar coordinates make the streaks follow the rim.
+  float r = length(from_axis), h = dot(p - u_center, u_fibre);
+  float a = atan(dot(round, u_fibre.yzx), dot(round, u_fibre.zxy));
+  float f = noise(vec3(r * 2600.0, h * 2600.0, a * 3.0));
+  float m = layers(p * 260.0);
+  vec3 c = mix(vec3(0.80, 0.72, 0.56), vec3(0.91, 0.86, 0.74), 0.6 * m + 0.4 * f);
+  return Look(c, 2.5e-5 * f + 5e-5 * m, 55.0, 0.40, 0.35);
+}
+
+Look ligament_look(vec3 p) {
+  float f = fibres(p, u_fibre, 2200.0);
+  float bundle = fibres(p, u_fibre, 480.0);
+  vec3 c = mix(vec3(0.70, 0.55, 0.42), vec3(0.93, 0.86, 0.74), 0.55 * f + 0.45 * bundle);
+  float v = vessels(p + 0.3 * u_fibre * dot(p, u_fibre), 420.0, 0.03);
+  c = mix(c, vec3(0.62, 0.16, 0.13), 0.5 * v);
+  return Look(c, 6e-5 * f + 2.2e-4 * bundle, 45.0, 0.40, 0.25);
+}
+
+Look synovium_look(vec3 p) {
+  float m = layers(p * 160.0);
+  vec2 villi = cells(p * 620.0);
+  float tuft = smoothstep(0.5, 0.75, noise(p * 120.0 + 3.0));
+  vec3 c = mix(vec3(0.74, 0.38, 0.30), vec3(0.86, 0.60, 0.50), m);
+  c = mix(c, vec3(0.90, 0.66, 0.54), 0.35 * tuft * (1.0 - villi.x));
+  float v = vessels(p, 240.0, 0.045);
+  c = mix(c, vec3(0.50, 0.07, 0.07), 0.75 * v);
+  return Look(c, 4e-4 * m + 3.5e-4 * tuft * (1.0 - villi.x), 38.0, 0.35, 0.40);
+}
+
+Look fat_look(vec3 p) {
+  vec2 lobule = cells(p * 330.0);
+  float rim = lobule.y - lobule.x;
+  vec3 c = mix(vec3(0.80, 0.50, 0.26), vec3(0.93, 0.77, 0.45), smoothstep(0.0, 0.35, rim));
+  c *= 0.94 + 0.12 * layers(p * 200.0);
+  float v = vessels(p, 300.0, 0.03);
+  c = mix(c, vec3(0.60, 0.12, 0.10), 0.6 * v);
+  return Look(c, 5e-4 * (1.0 - lobule.x * lobule.x), 40.0, 0.45, 0.45);
+}
+
+Look look_at(vec3 p) {
+  if (u_kind == 1) return cartilage_look(p);
+  if (u_kind == 2) return meniscus_look(p);
+  if (u_kind == 3) return ligament_look(p);
+  if (u_kind == 4) return synovium_look(p);
+  if (u_kind == 5) return fat_look(p);
+  return bone_look(p);
+}
+
+// The normal of the surface with its bumps, from how the height changes over neighbouring pixels
+// (Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU, 2010).
+vec3 bumped(vec3 n, float height) {
+  vec3 dx = dFdx(v_position), dy = dFdy(v_position);
+  float hx = dFdx(height), hy = dFdy(height);
+  vec3 rx = cross(dy, n), ry = cross(n, dx);
+  float det = dot(dx, rx);
+  vec3 slope = sign(det) * (hx * rx + hy * ry);
+  float size = abs(det);
+  // What is seen at a glance changes too fast from pixel to pixel to tell a slope.
+  float most = 0.8 * size;
+  float steep = length(slope);
+  slope *= steep > most ? most / steep : 1.0;
+  return normalize(size * n - slope);
+}
+
+void main() {
+  // Fat that the tip lies in gives way to it: it is not seen from inside.
+  if (u_kind == 5 && !gl_FrontFacing) discard;
+  vec3 v = -normalize(v_position);
+  vec3 n = normalize(v_normal);
+  if (dot(n, v) < 0.0) n = -n;
+  Look look = look_at(v_place);
+  vec3 smooth_n = n;
+  n = bumped(n, look.bump);
+
+  float distance_m = length(v_position);
+  // The light's fibres end around the lens, half a millimetre aside of the eye.
+  vec3 to_light = normalize(vec3(0.0, 0.0006, 0.0) - v_position);
+  float fall = 1e-4 / (distance_m * distance_m + 4e-6) * u_light;
+  // Light ends towards the field's rim.
+  fall *= smoothstep(0.45, 0.90, v.z);
+
+  float straight = dot(n, to_light);
+  float soaked = (straight + look.deep) / (1.0 + look.deep);
+  float lit = clamp(mix(max(straight, 0.0), max(soaked, 0.0), 0.8), 0.0, 1.0);
+  float open = mix(0.35, 1.0, v_shade.x);
+  float cavity = v_shade.y * 2.0 - 1.0;
+
+  vec3 albedo = look.albedo;
+  if (u_kind != 4) albedo *= mix(vec3(1.0), to_linear(u_tint) / max(dot(to_linear(u_tint), vec3(0.333)), 0.05), 0.25);
+  albedo = albedo * albedo;
+  albedo *= 1.0 + 0.3 * clamp(cavity, -1.0, 0.5);
+  // Shallow angles let light travel farther inside: red comes back.
+  float edge = 1.0 - clamp(dot(smooth_n, v), 0.0, 1.0);
+  vec3 inside = look.deep * 0.10 * edge * vec3(1.0, 0.55, 0.42) * albedo;
+
+  vec3 h = normalize(to_light + v);
+  float shine = pow(max(dot(n, h), 0.0), look.gloss);
+  float film = pow(max(dot(normalize(mix(smooth_n, n, 0.5)), h), 0.0), 4.0 * look.gloss);
+  float speckle = 0.55 + 0.9 * noise(v_place * 900.0);
+  float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(h, v), 0.0, 1.0), 5.0);
+  float spark = look.wet * speckle * (0.16 * shine + 1.6 * film) * (0.6 + 6.0 * fresnel);
+
+  // Light that other walls send back: dim, warm, everywhere.
+  vec3 around = vec3(0.055, 0.036, 0.030) * u_light * open / (1.0 + 400.0 * distance_m * distance_m * 100.0);
+  vec3 light = (albedo * lit * open + inside) * fall + albedo * around + spark * fall * vec3(1.0, 0.98, 0.95);
+  // Water takes red last of all and scatters a little.
+  float water = exp(-9.0 * distance_m);
+  light = light * vec3(1.0, 0.97, 0.95) * water + vec3(0.010, 0.007, 0.006) * (1.0 - water) * u_light;
+  o_light = vec4(light, distance_m);
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "gpu_mesh.h"
+#include "osteon/base/types.h"
+
+namespace osteon {
+
+/// As tissue.frag knows them.
+enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat };
+
+/// A surface with its pattern.
+struct TissuePart {
+  GpuMesh surface;
+  Pose X_WM;
+  TissuePattern pattern = TissuePattern::kBone;
+  std::array<float, 3> tint{0.89f, 0.84f, 0.73f};
+  Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
+};
+
+}  // namespace osteon
