@@ -32,7 +32,8 @@ int run_cli(int argc, char** argv) {
         add_path_commands,     add_simulate_command,    add_replay_command,    add_demo_command,
         add_render_command,    add_live_command,        add_devices_command,   add_doctor_command,
         add_stability_command, add_tissue_commands,     add_window_command,    add_segment_command,
-        add_xray_command,      add_instruments_command, add_carve_command,     add_view_command})
+        add_xray_command,      add_instruments_command, add_carve_command,     add_view_command,
+        add_metrics_command,   add_scenario_commands,   add_run_command})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -33,7 +33,7 @@ std::string exact_text(double value) {
 }  // namespace
 
 Result<Standard> parse_standard(std::string_view text, const std::string& where) {
-  const auto parsed = parse_toml(text, where);
+  const auto parsed = parse_procedure_toml(text, where);
   if (!parsed) return tl::unexpected(parsed.error());
   std::optional<Error> error;
   TomlTable table(*parsed, where, error);
@@ -42,7 +42,7 @@ Result<Standard> parse_standard(std::string_view text, const std::string& where)
   standard.scenario = table.text("scenario");
   standard.version = static_cast<int>(table.number("version", 1, 1e9));
   standard.source = table.text("source");
-  standard.experts = static_cast<int>(table.number("experts", 2, 1e9));
+  standard.experts = static_cast<int>(table.number("experts", 0, 1e9));
   standard.reliability = table.number("reliability", 0, 1);
   standard.score_sd = table.number("score_sd", 0, 1e6);
   standard.pass_score = table.number("pass_score", -1e6, 1e6);

@@ -119,7 +119,7 @@ void TomlTable::refuse_others() {
                 "Check its spelling or remove it");
 }
 
-Result<toml::table> parse_toml(std::string_view text, const std::string& where) {
+Result<toml::table> parse_procedure_toml(std::string_view text, const std::string& where) {
   try {
     return toml::parse(text, where);
   } catch (const toml::parse_error& e) {

@@ -46,6 +46,6 @@ class TomlTable {
 };
 
 /// The text as a table, or where it is no TOML.
-Result<toml::table> parse_toml(std::string_view text, const std::string& where);
+Result<toml::table> parse_procedure_toml(std::string_view text, const std::string& where);
 
 }  // namespace osteon

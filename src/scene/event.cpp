@@ -36,6 +36,12 @@ constexpr std::array kRows = {
     EventKindRow{K::kMark, "mark", "restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kRestored, "restored", "back to restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kFault, "fault", "force taken off", S::kDevice, {"", "", ""}},
+    EventKindRow{K::kScratch,
+                 "scratch",
+                 "slides under force on",
+                 S::kBone,
+                 {"slide_mm", "force_n", "duration_s"}},
+    EventKindRow{K::kImpact, "impact", "strikes", S::kBone, {"speed_mm_s", "", ""}},
 };
 
 }  // namespace

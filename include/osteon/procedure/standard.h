@@ -26,7 +26,7 @@ struct Standard {
   std::string scenario;
   int version = 1;
   std::string source;
-  int experts = 0;         ///< runs behind mean and sd
+  int experts = 0;         ///< runs behind mean and sd; 0: they are defaults
   double reliability = 0;  ///< of the score, 0 to 1: Cronbach's alpha or G
   double score_sd = 10;    ///< of the group that the reliability was found in
   double pass_score = 80;

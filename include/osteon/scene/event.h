@@ -30,7 +30,9 @@ enum class EventKind : std::uint16_t {
   kPortalLeft = 23,
   kMark = 30,
   kRestored = 31,
-  kFault = 40,  ///< a device's fault took the hand's force off
+  kFault = 40,     ///< a device's fault took the hand's force off
+  kScratch = 400,  ///< the tool has slid over it under force
+  kImpact = 401,   ///< how fast the hand came when the contact began
 };
 
 /// What an event's `subject` is an index of.

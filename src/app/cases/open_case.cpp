@@ -1,11 +1,13 @@
 #include "cases/open_case.h"
 
+#include <charconv>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "cases/all_cores.h"
 #include "cases/felt_choice.h"
+#include "cases/make_patient.h"
 #include "cases/piece_work.h"
 #include "cases/pose_case.h"
 #include "cases/xdg.h"
@@ -47,8 +49,30 @@ void keep(Cache& cache, const std::string& spec, const std::string& kind) {
   if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
 }
 
+/// "wrist:7": the patient that seed 7 draws.
+Result<CaseDef> grow_drawn(const std::string& name, std::size_t colon,
+                           const std::function<void(double)>& progress, CaseParts parts) {
+  PatientOrder order;
+  order.anatomy = name.substr(0, colon);
+  const std::string digits = name.substr(colon + 1);
+  std::uint64_t seed = 0;
+  const char* const last = digits.data() + digits.size();
+  const auto [end, ec] = std::from_chars(digits.data(), last, seed);
+  if (ec != std::errc() || end != last || digits.empty())
+    return fail("'" + digits + "' is not a seed", "builtin:" + name,
+                "Write a whole number, such as builtin:wrist:7");
+  order.seed = seed;
+  auto grown = grow_patient(order, progress, parts == CaseParts::kAll);
+  if (!grown) return tl::unexpected(grown.error());
+  CaseDef def = case_from(std::move(grown->anatomy));
+  def.recipe = CaseRecipe{order.anatomy, seed, {}, {}, {}};
+  return def;
+}
+
 Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(double)>& progress,
                              CaseParts parts) {
+  if (const std::size_t colon = name.find(':'); colon != std::string::npos)
+    return grow_drawn(name, colon, progress, parts);
   const auto files = builtin_anatomy(name);
   if (!files) return tl::unexpected(files.error());
   GenerateOptions options;

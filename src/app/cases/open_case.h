@@ -30,8 +30,9 @@ enum class CaseParts : std::uint8_t {
 };
 
 /// Case by what a user names it: `builtin:wrist` and `builtin:knee` are grown from their
-/// descriptions in the assets, anything else is a case folder. A choice of what is felt may follow
-/// (felt_choice.h). `progress` is told the share of the bones grown; it may throw to stop.
+/// descriptions in the assets, `builtin:wrist:7` is the patient that seed 7 draws, anything else is
+/// a case folder. A choice of what is felt may follow (felt_choice.h). `progress` is told the share
+/// of the bones grown; it may throw to stop.
 Result<CaseDef> open_case_def(const std::string& spec,
                               const std::function<void(double)>& progress = {},
                               CaseParts parts = CaseParts::kAll);

@@ -36,5 +36,8 @@ void add_segment_command(CLI::App& app, int& exit_code);      // segment: a CT b
 void add_xray_command(CLI::App& app, int& exit_code);         // xray: a picture of a C-arm
 void add_view_command(CLI::App& app, int& exit_code);         // view: what an arthroscope shows
 void add_carve_command(CLI::App& app, int& exit_code);        // carve: remove bone along a path
+void add_metrics_command(CLI::App& app, int& exit_code);      // metrics: of a path
+void add_scenario_commands(CLI::App& app, int& exit_code);    // scenario list, info, check
+void add_run_command(CLI::App& app, int& exit_code);          // run: a virtual surgeon
 
 }  // namespace osteon

@@ -38,6 +38,7 @@ void fill_timing(Report& report, const Percentiles& ticks, std::int64_t elapsed_
 }
 
 Result<std::unique_ptr<HandInLoop>> take_hand(const HeadlessRun& run, HapticParams& haptic) {
+  if (run.user) return run.user(haptic.tick_s);
   if (run.device.empty()) return free_hand(run.path, run.hand, haptic.tick_s);
   return hand_on_device(run.device, run.path, haptic);
 }
@@ -54,7 +55,8 @@ Result<Report> simulate(const HeadlessRun& run) {
   ReportBuilder builder(*run.the_case, run.settings.haptic.tick_s);
   Percentiles tick_times;
   const double dt = run.settings.haptic.tick_s;
-  const auto ticks = static_cast<std::uint64_t>(std::ceil(run.path.duration_s() / dt));
+  const auto ticks = static_cast<std::uint64_t>(
+      std::ceil((run.user ? run.longest_s : run.path.duration_s()) / dt));
   const std::int64_t started = steady_now_ns();
   for (std::uint64_t n = 0; n < ticks; ++n) {
     const ToolInput input = (*hand)->move();
@@ -66,6 +68,7 @@ Result<Report> simulate(const HeadlessRun& run) {
     if (*writer)
       if (auto ok = record(**writer, session); !ok) return tl::unexpected(ok.error());
     if (run.on_tick) run.on_tick(tool, session.bones());
+    if (run.user && run.done && run.done()) break;
   }
   if (*writer)
     if (auto ok = (*writer)->finish(); !ok) return tl::unexpected(ok.error());

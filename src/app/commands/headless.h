@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "commands/hand_in_loop.h"
 #include "osteon/base/result.h"
 #include "osteon/device/virtual_hand.h"
 #include "osteon/procedure/report.h"
@@ -25,6 +26,10 @@ struct HeadlessRun {
   /// Plays the path on this device (driver's name), whose user must be an emulated one, with the
   /// safety gate between; empty: the hand without a device.
   std::string device;
+  /// Makes whoever moves the tool instead of a path, for a tick of that length; empty: the path.
+  std::function<std::unique_ptr<HandInLoop>(double tick_s)> user;
+  std::function<bool()> done;  ///< of a run by `user`: asked after each tick whether it is over
+  double longest_s = 0;        ///< of a run by `user`: it ends then at the latest
   std::optional<std::filesystem::path> record_to;
   /// Sees every tick; may be empty.
   std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "osteon/procedure/scenario.h"
+#include "osteon/procedure/tool_events.h"
+#include "osteon/scene/event.h"
+
+namespace osteon {
+
+/// A rule with its bones found in a case.
+struct PlannedRule {
+  Rule rule;
+  std::vector<std::uint32_t> bones;
+};
+/// A scenario on one case: what judging needs, and nothing that changes.
+struct ScenarioPlan {
+  Scenario scenario;
+  std::vector<std::vector<PlannedRule>> goals;  ///< by stage
+  std::vector<PlannedRule> errors;              ///< as scenario.errors
+};
+/// Fails on a bone that the case does not have.
+Result<ScenarioPlan> plan_scenario(const Scenario& scenario, const Case& the_case);
+/// What the tool's events must be measured against so that the plan's rules can be judged.
+ToolEventLimits event_limits(const Scenario& scenario);
+
+/// How far a rule is.
+struct RuleState {
+  std::vector<char> done;  ///< by bone of the rule
+  bool met = false;
+  bool operator==(const RuleState&) const = default;
+};
+struct MadeError {
+  std::uint32_t error = 0;  ///< in scenario.errors
+  double at_s = 0;          ///< when it began
+  std::uint8_t hand = 0;
+  std::uint32_t bone = kNoSubject;
+  bool operator==(const MadeError&) const = default;
+};
+/// How far an attempt is: a value, a function of (plan, events).
+struct ScenarioState {
+  std::uint32_t stage = 0;             ///< the live one; count of the stages once all are done
+  std::vector<RuleState> goals;        ///< of the live stage
+  std::vector<RuleState> error_rules;  ///< as scenario.errors
+  std::vector<double> completed_s;     ///< by stage; -1: not yet
+  std::vector<MadeError> errors;
+  bool over = false;  ///< all stages done, time over, or a critical error
+  bool operator==(const ScenarioState&) const = default;
+};
+
+ScenarioState begin_scenario(const ScenarioPlan& plan);
+/// Takes one event into account. Events come in the order of their ticks.
+void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state);
+/// Ends the attempt at a time: what was left out becomes an error.
+void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state);
+
+}  // namespace osteon

@@ -1,0 +1,80 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands/cli_support.h"
+#include "commands/commands.h"
+#include "commands/scenario_run.h"
+#include "osteon/base/file.h"
+
+namespace osteon {
+namespace {
+
+struct RunCommand {
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard;
+  std::optional<std::uint64_t> seed;
+};
+
+Result<std::optional<Standard>> standard_of(const RunCommand& command, const Scenario& scenario) {
+  if (command.standard.empty()) return shipped_standard(scenario.name);
+  auto standard = load_standard(command.standard);
+  if (!standard) return tl::unexpected(standard.error());
+  return std::optional<Standard>(std::move(*standard));
+}
+
+Result<ScenarioRun> ordered_run(const RunCommand& command) {
+  auto scenario = open_scenario(command.scenario);
+  if (!scenario) return tl::unexpected(scenario.error());
+  auto skill = parse_skill(*scenario, command.surgeon);
+  if (!skill) return tl::unexpected(skill.error());
+  auto standard = standard_of(command, *scenario);
+  if (!standard) return tl::unexpected(standard.error());
+  ScenarioRun run;
+  run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
+  run.scenario = std::move(*scenario);
+  run.standard = std::move(*standard);
+  run.skill = std::move(*skill);
+  if (!command.record.empty()) run.record_to = command.record;
+  return run;
+}
+
+int run_command(const RunCommand& command) {
+  const auto run = ordered_run(command);
+  if (!run) return report_error(run.error());
+  const auto done = run_scenario(*run);
+  if (!done) return report_error(done.error());
+  if (!command.report.empty())
+    if (auto ok = write_file_atomic(command.report, to_json(done->report, done->outcome)); !ok)
+      return report_error(ok.error());
+  std::fputs(to_text(done->outcome).c_str(), stdout);
+  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
+  return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunCommand>();
+  CLI::App* command =
+      app.add_subcommand("run",
+                         "Let a virtual surgeon play a scenario, without a window, and judge it.\n"
+                         "Exit code: 0 passed, 1 not passed or undecided, 2 could not run");
+  command->add_option("scenario", options->scenario, "name (see: scenario list) or file")
+      ->required();
+  auto* case_option = command->add_option(
+      "--case", options->case_spec, "a case folder or builtin:wrist; default: of its anatomy");
+  command->add_option("--seed", options->seed, "the random patient that this seed draws")
+      ->excludes(case_option);
+  command
+      ->add_option("--surgeon", options->surgeon,
+                   "expert, novice, novice:SEED, or bad:NAME, who makes the error of that name")
+      ->capture_default_str();
+  command->add_option("--standard", options->standard,
+                      "what it is judged against, TOML; default: the shipped one");
+  command->add_option("--record", options->record, "write a recording (.osr)");
+  command->add_option("--report", options->report, "write the report as JSON");
+  command->callback([options, &exit_code] { exit_code = run_command(*options); });
+}
+
+}  // namespace osteon

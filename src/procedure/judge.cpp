@@ -1,0 +1,112 @@
+#include "osteon/procedure/judge.h"
+
+#include <algorithm>
+
+#include "rules.h"
+
+namespace osteon {
+namespace {
+
+Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
+  PlannedRule planned{rule, {}};
+  for (const std::string& name : rule.subjects) {
+    const BoneId bone = the_case.find(name);
+    if (!bone.valid())
+      return fail("the case '" + the_case.name + "' has no bone '" + name + "'",
+                  scenario.where + ":" + std::to_string(rule.line),
+                  "Name its bones as `osteon case info` does");
+    planned.bones.push_back(bone.index);
+  }
+  if (rule.subjects.empty())
+    for (std::uint32_t i = 0; i < the_case.bones.size(); ++i) planned.bones.push_back(i);
+  return planned;
+}
+
+RuleState fresh_state(const PlannedRule& rule) {
+  return {std::vector<char>(rule.bones.size(), 0), false};
+}
+
+void enter_stage(const ScenarioPlan& plan, ScenarioState& state) {
+  state.goals.clear();
+  if (state.stage >= plan.goals.size()) {
+    state.over = true;
+    return;
+  }
+  for (const PlannedRule& goal : plan.goals[state.stage]) state.goals.push_back(fresh_state(goal));
+}
+
+void note_error(const ScenarioPlan& plan, std::size_t error, double at_s, const Event& event,
+                ScenarioState& state) {
+  state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, event.subject});
+  if (plan.scenario.errors[error].severity == Severity::kCritical) state.over = true;
+}
+
+}  // namespace
+
+Result<ScenarioPlan> plan_scenario(const Scenario& scenario, const Case& the_case) {
+  ScenarioPlan plan{scenario, {}, {}};
+  for (const ScenarioStage& stage : scenario.stages) {
+    plan.goals.emplace_back();
+    for (const Rule& goal : stage.goals) {
+      auto planned = plan_rule(goal, scenario, the_case);
+      if (!planned) return tl::unexpected(planned.error());
+      plan.goals.back().push_back(std::move(*planned));
+    }
+  }
+  for (const ScenarioError& error : scenario.errors) {
+    auto planned = plan_rule(error.rule, scenario, the_case);
+    if (!planned) return tl::unexpected(planned.error());
+    plan.errors.push_back(std::move(*planned));
+  }
+  return plan;
+}
+
+ToolEventLimits event_limits(const Scenario& scenario) {
+  ToolEventLimits limits;
+  for (const ScenarioError& error : scenario.errors) {
+    if (error.rule.kind == "pressed_over") {
+      const double force_n = error.rule.numbers.at("force_n");
+      if (std::find(limits.force_n.begin(), limits.force_n.end(), force_n) == limits.force_n.end())
+        limits.force_n.push_back(force_n);
+    }
+    if (error.rule.kind == "slid_over") limits.slide_force_n = error.rule.numbers.at("force_n");
+  }
+  return limits;
+}
+
+ScenarioState begin_scenario(const ScenarioPlan& plan) {
+  ScenarioState state;
+  state.completed_s.assign(plan.goals.size(), -1);
+  enter_stage(plan, state);
+  for (const PlannedRule& error : plan.errors) state.error_rules.push_back(fresh_state(error));
+  return state;
+}
+
+void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state) {
+  if (state.over) return;
+  for (std::size_t i = 0; i < plan.errors.size(); ++i)
+    if (const auto hit = step_rule(plan.errors[i], event, tick_s, state.error_rules[i]))
+      note_error(plan, i, hit->at_s, event, state);
+  if (state.over) return;
+  const auto& goals = plan.goals[state.stage];
+  for (std::size_t i = 0; i < goals.size(); ++i) step_rule(goals[i], event, tick_s, state.goals[i]);
+  const bool done = std::all_of(state.goals.begin(), state.goals.end(),
+                                [](const RuleState& goal) { return goal.met; });
+  if (!done) return;
+  state.completed_s[state.stage] = static_cast<double>(event.tick) * tick_s;
+  ++state.stage;
+  enter_stage(plan, state);
+}
+
+void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state) {
+  state.over = true;
+  for (std::size_t i = 0; i < plan.errors.size(); ++i) {
+    if (plan.errors[i].rule.kind != "left_out") continue;
+    for (std::size_t b = 0; b < plan.errors[i].bones.size(); ++b) {
+      if (state.error_rules[i].done[b]) continue;
+      state.errors.push_back({static_cast<std::uint32_t>(i), at_s, 0, plan.errors[i].bones[b]});
+    }
+  }
+}
+
+}  // namespace osteon

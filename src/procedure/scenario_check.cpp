@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <set>
+
+#include "osteon/procedure/attempt.h"
+#include "osteon/procedure/scenario.h"
+
+namespace osteon {
+namespace {
+
+// Gathers what is wrong, each with its place.
+class ScenarioChecker {
+ public:
+  ScenarioChecker(const Scenario& scenario, const Case& the_case)
+      : scenario_(scenario), case_(the_case) {}
+
+  std::vector<std::string> run() {
+    double least_s = 0;
+    for (const ScenarioStage& stage : scenario_.stages) {
+      once(stage.name, "stage", stage.line);
+      for (const Rule& goal : stage.goals) {
+        bones_are_there(goal);
+        press_is_allowed(goal);
+        least_s += static_cast<double>(count_of(goal)) * goal.numbers.at("for_s");
+      }
+    }
+    if (least_s > scenario_.time_limit_s)
+      say(scenario_.stages.front().line, "the goals take " + std::to_string(least_s) +
+                                             " s at least, and time_limit_s is " +
+                                             std::to_string(scenario_.time_limit_s));
+    for (const ScenarioError& error : scenario_.errors) {
+      once(error.name, "error", error.rule.line);
+      bones_are_there(error.rule);
+    }
+    one_slide_force();
+    metrics_are_there();
+    return std::move(lines_);
+  }
+
+ private:
+  void say(int line, const std::string& what) {
+    lines_.push_back(scenario_.where + ":" + std::to_string(line) + ": " + what);
+  }
+
+  void once(const std::string& name, const std::string& what, int line) {
+    if (!names_.insert(what + " " + name).second)
+      say(line, "the " + what + " '" + name + "' comes twice");
+  }
+
+  std::size_t count_of(const Rule& rule) const {
+    return rule.subjects.empty() ? case_.bones.size() : rule.subjects.size();
+  }
+
+  void bones_are_there(const Rule& rule) {
+    std::set<std::string> seen;
+    for (const std::string& name : rule.subjects) {
+      if (!case_.find(name).valid())
+        say(rule.line,
+            "the rule '" + rule.kind + "' can never be met: the case has no bone '" + name + "'");
+      if (!seen.insert(name).second) say(rule.line, "the bone '" + name + "' comes twice");
+    }
+  }
+
+  // A goal that asks for a press which is itself an error that cannot be passed with.
+  void press_is_allowed(const Rule& goal) {
+    for (const ScenarioError& error : scenario_.errors) {
+      if (error.rule.kind != "pressed_over" || error.severity == Severity::kMinor) continue;
+      if (goal.numbers.at("force_n") >= error.rule.numbers.at("force_n"))
+        say(goal.line,
+            "the rule '" + goal.kind + "' can never be met without the error '" + error.name + "'");
+    }
+  }
+
+  void one_slide_force() {
+    std::set<double> forces;
+    for (const ScenarioError& error : scenario_.errors)
+      if (error.rule.kind == "slid_over" &&
+          forces.insert(error.rule.numbers.at("force_n")).second && forces.size() > 1)
+        say(error.rule.line, "slides are measured above one force: give each slid_over the same");
+  }
+
+  void metrics_are_there() {
+    const std::vector<std::string> known = attempt_metric_names();
+    for (const ScenarioMetric& metric : scenario_.metrics)
+      if (std::find(known.begin(), known.end(), metric.name) == known.end())
+        say(1, "no report has the metric '" + metric.name + "'");
+  }
+
+  const Scenario& scenario_;
+  const Case& case_;
+  std::set<std::string> names_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_scenario(const Scenario& scenario, const Case& the_case) {
+  return ScenarioChecker(scenario, the_case).run();
+}
+
+}  // namespace osteon

@@ -1,0 +1,123 @@
+#include <utility>
+
+#include "osteon/base/file.h"
+#include "osteon/procedure/scenario.h"
+#include "toml_table.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kMany = 1e9;
+
+Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
+  Rule rule;
+  rule.line = table.line();
+  rule.kind = table.text(key);
+  rule.subjects = table.texts_or_empty("bones");
+  const RuleKind* kind = find_rule_kind(rule.kind);
+  if (!kind || kind->is_goal != is_goal) {
+    std::string names;
+    for (const RuleKind& known : rule_table())
+      if (known.is_goal == is_goal) names += (names.empty() ? "" : ", ") + std::string(known.name);
+    table.set_error("there is no rule '" + rule.kind + "' for " + (is_goal ? "goals" : "errors"),
+                    key, "Use one of: " + names);
+    return rule;
+  }
+  for (const RuleNumber& n : kind->numbers)
+    rule.numbers[std::string(n.name)] = table.number_or(n.name, n.lo, n.hi, n.usual);
+  return rule;
+}
+
+ScenarioStage read_stage(TomlTable table) {
+  ScenarioStage stage;
+  stage.line = table.line();
+  stage.name = table.text("name");
+  stage.title = table.text("title");
+  stage.instruction = table.text("instruction");
+  stage.cue = table.text_or("cue", "");
+  stage.picture = table.text_or("picture", "");
+  stage.restore_point = table.flag_or("restore_point", false);
+  for (TomlTable& goal : table.tables_or_empty("goals")) {
+    stage.goals.push_back(read_rule(goal, "rule", true));
+    goal.refuse_others();
+  }
+  if (stage.goals.empty()) table.set_error("a stage needs a goal", "name", "Add [[stages.goals]]");
+  table.refuse_others();
+  return stage;
+}
+
+ScenarioError read_error(TomlTable table) {
+  ScenarioError error;
+  error.name = table.text("name");
+  error.title = table.text("title");
+  const std::string severity = table.word("severity", {"minor", "major", "critical"});
+  error.severity = severity == "minor"   ? Severity::kMinor
+                   : severity == "major" ? Severity::kMajor
+                                         : Severity::kCritical;
+  error.consequence = table.text("consequence");
+  error.points = table.number_or("points", 0, 100, 0);
+  error.source = table.text("source");
+  error.rule = read_rule(table, "rule", false);
+  table.refuse_others();
+  return error;
+}
+
+ScenarioMetric read_metric(TomlTable table) {
+  ScenarioMetric metric;
+  metric.name = table.text("name");
+  metric.unit = table.text("unit");
+  metric.weight = table.number("weight", 0, 100);
+  metric.lower_is_better = table.word("better", {"lower", "higher"}) == "lower";
+  metric.threshold = table.number("threshold", -kMany, kMany);
+  metric.source = table.text("source");
+  table.refuse_others();
+  return metric;
+}
+
+Scenario read_scenario(TomlTable& table) {
+  Scenario scenario;
+  table.number("format", 1, 1);
+  scenario.name = table.text("name");
+  scenario.title = table.text("title");
+  scenario.text = table.text("text");
+  scenario.version = static_cast<int>(table.number("version", 1, kMany));
+  scenario.anatomy = table.word("anatomy", {"wrist", "knee"});
+  scenario.felt = table.word("felt", {"pieces", "hull", "field"}, true);
+  scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);
+  for (TomlTable& stage : table.tables_or_empty("stages"))
+    scenario.stages.push_back(read_stage(stage));
+  for (TomlTable& error : table.tables_or_empty("errors"))
+    scenario.errors.push_back(read_error(error));
+  for (TomlTable& metric : table.tables_or_empty("metrics"))
+    scenario.metrics.push_back(read_metric(metric));
+  if (scenario.stages.empty())
+    table.set_error("a scenario needs a stage", "name", "Add [[stages]]");
+  table.refuse_others();
+  return scenario;
+}
+
+}  // namespace
+
+std::string_view to_text(Severity severity) {
+  if (severity == Severity::kMinor) return "minor";
+  return severity == Severity::kMajor ? "major" : "critical";
+}
+
+Result<Scenario> parse_scenario(std::string_view text, const std::string& where) {
+  const auto parsed = parse_procedure_toml(text, where);
+  if (!parsed) return tl::unexpected(parsed.error());
+  std::optional<Error> error;
+  TomlTable table(*parsed, where, error);
+  Scenario scenario = read_scenario(table);
+  scenario.where = where;
+  if (error) return tl::unexpected(*error);
+  return scenario;
+}
+
+Result<Scenario> load_scenario(const std::filesystem::path& file) {
+  const auto text = read_file(file, 4u << 20);
+  if (!text) return tl::unexpected(text.error());
+  return parse_scenario(*text, file.string());
+}
+
+}  // namespace osteon

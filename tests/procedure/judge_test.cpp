@@ -1,0 +1,212 @@
+#include "osteon/procedure/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "report_fixtures.h"
+
+namespace osteon {
+namespace {
+
+const char* const kText = R"(format = 1
+name = "two"
+title = "Two bones"
+text = "Touch them."
+version = 1
+anatomy = "wrist"
+
+[[stages]]
+name = "first"
+title = "A"
+instruction = "Touch radius and lunate."
+[[stages.goals]]
+rule = "touched"
+bones = ["radius", "lunate"]
+for_s = 0.2
+force_n = 0.5
+
+[[stages]]
+name = "second"
+title = "B"
+instruction = "Touch them in order."
+[[stages.goals]]
+rule = "touched_in_order"
+bones = ["lunate", "radius"]
+
+[[errors]]
+name = "too_hard"
+title = "Too hard"
+severity = "major"
+consequence = "It bruises."
+source = "D"
+rule = "pressed_over"
+force_n = 4
+for_s = 0.1
+
+[[errors]]
+name = "stab"
+title = "Stab"
+severity = "critical"
+consequence = "It breaks."
+source = "D"
+rule = "struck"
+speed_mm_s = 100
+
+[[errors]]
+name = "forgot"
+title = "Forgot one"
+severity = "minor"
+consequence = "Something is missed."
+source = "D"
+rule = "left_out"
+)";
+
+Scenario two() {
+  auto scenario = parse_scenario(kText, "two.toml");
+  EXPECT_TRUE(scenario) << scenario.error().message();
+  return std::move(*scenario);
+}
+
+ScenarioPlan plan_two() {
+  auto plan = plan_scenario(two(), testing::named_case({"radius", "lunate"}));
+  EXPECT_TRUE(plan) << plan.error().message();
+  return std::move(*plan);
+}
+
+Event at(double time_s, EventKind kind, std::uint32_t bone, std::array<double, 3> values = {}) {
+  Event event;
+  event.tick = static_cast<std::uint64_t>(time_s * 1000 + 0.5);
+  event.kind = kind;
+  event.hand = 0;
+  event.subject_kind = SubjectKind::kBone;
+  event.subject = bone;
+  event.values = values;
+  return event;
+}
+
+Event touch_end(double time_s, std::uint32_t bone, double for_s = 0.3, double peak_n = 1) {
+  return at(time_s, EventKind::kContactEnd, bone, {for_s, peak_n, 0.1});
+}
+
+ScenarioState judged(const std::vector<Event>& events) {
+  const ScenarioPlan plan = plan_two();
+  ScenarioState state = begin_scenario(plan);
+  for (const Event& event : events) judge(plan, event, 0.001, state);
+  return state;
+}
+
+TEST(Scenario, ErrorsNameTheLine) {
+  const auto broken = [](const std::string& from, const std::string& to) {
+    std::string text = kText;
+    text.replace(text.find(from), from.size(), to);
+    const auto read = parse_scenario(text, "two.toml");
+    return read ? std::string("read") : read.error().where;
+  };
+  EXPECT_EQ(broken("for_s = 0.2", "for_s = -1"), "two.toml:15");
+  EXPECT_EQ(broken("for_s = 0.2", "for_x = 1"), "two.toml:15");
+  EXPECT_EQ(broken("rule = \"struck\"", "rule = \"touched\""), "two.toml:42");
+  EXPECT_EQ(broken("severity = \"minor\"", "severity = \"grave\""), "two.toml:48");
+  EXPECT_EQ(broken("title = \"A\"\n", ""), "two.toml:8");
+  EXPECT_EQ(broken("[[stages.goals]]", "[[stages.goals"), "two.toml:12");
+  EXPECT_FALSE(parse_scenario("", "empty.toml"));
+  EXPECT_FALSE(load_scenario("/nowhere/x.toml"));
+}
+
+TEST(Scenario, CheckFindsRulesThatCanNeverBeMet) {
+  const Case the_case = testing::named_case({"radius", "lunate"});
+  EXPECT_TRUE(check_scenario(two(), the_case).empty());
+  const auto lines = check_scenario(two(), testing::named_case({"radius"}));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("two.toml:12: the rule 'touched' can never be met"), std::string::npos);
+  Scenario hard = two();
+  hard.stages[0].goals[0].numbers["force_n"] = 5;
+  EXPECT_NE(check_scenario(hard, the_case).at(0).find("without the error 'too_hard'"),
+            std::string::npos);
+  Scenario slow = two();
+  slow.stages[0].goals[0].numbers["for_s"] = 59;
+  slow.time_limit_s = 60;
+  EXPECT_EQ(check_scenario(slow, the_case).size(), 1u);
+  Scenario twice = two();
+  twice.stages[1].name = "first";
+  twice.metrics.push_back({"beauty", "", 1, true, 0, "D"});
+  EXPECT_EQ(check_scenario(twice, the_case).size(), 2u);
+}
+
+TEST(Judge, NothingHasHappenedAtTheStart) {
+  const ScenarioState state = judged({});
+  EXPECT_EQ(state.stage, 0u);
+  EXPECT_EQ(state.completed_s, (std::vector<double>{-1, -1}));
+  EXPECT_FALSE(state.over);
+}
+
+TEST(Judge, AStageIsDoneWhenEveryBoneWasTouchedEnough) {
+  EXPECT_EQ(judged({touch_end(1, 0), touch_end(2, 1, 0.1)}).stage, 0u);     // too short
+  EXPECT_EQ(judged({touch_end(1, 0), touch_end(2, 1, 1, 0.4)}).stage, 0u);  // too light
+  const ScenarioState state = judged({touch_end(1, 0), touch_end(2, 1)});
+  EXPECT_EQ(state.stage, 1u);
+  EXPECT_DOUBLE_EQ(state.completed_s[0], 2);
+}
+
+TEST(Judge, InOrderMeansInOrder) {
+  const std::vector<Event> first{touch_end(1, 0), touch_end(2, 1)};
+  auto wrong = first;
+  wrong.push_back(touch_end(3, 0));
+  wrong.push_back(touch_end(4, 1));
+  EXPECT_EQ(judged(wrong).stage, 1u);  // radius came before its turn and does not count
+  wrong.push_back(touch_end(5, 0));
+  const ScenarioState state = judged(wrong);
+  EXPECT_TRUE(state.over);
+  EXPECT_DOUBLE_EQ(state.completed_s[1], 5);
+}
+
+TEST(Judge, ErrorsKeepTheirTimeAndGoOn) {
+  const ScenarioState state = judged({at(1, EventKind::kForceUnder, 0, {5, 4, 0.25}),
+                                      at(2, EventKind::kForceUnder, 0, {5, 4, 0.05}),
+                                      at(3, EventKind::kForceUnder, 0, {5, 3, 0.5})});
+  ASSERT_EQ(state.errors.size(), 1u);
+  EXPECT_DOUBLE_EQ(state.errors[0].at_s, 0.75);
+  EXPECT_EQ(state.errors[0].bone, 0u);
+  EXPECT_FALSE(state.over);
+}
+
+TEST(Judge, ACriticalErrorEndsTheAttempt) {
+  const ScenarioState state =
+      judged({at(1, EventKind::kImpact, 1, {150, 0, 0}), touch_end(2, 0), touch_end(3, 1)});
+  EXPECT_TRUE(state.over);
+  EXPECT_EQ(state.stage, 0u);
+}
+
+TEST(Judge, WhatWasLeftOutIsFoundAtTheEnd) {
+  const ScenarioPlan plan = plan_two();
+  ScenarioState state = begin_scenario(plan);
+  judge(plan, at(1, EventKind::kContactBegin, 1), 0.001, state);
+  finish_scenario(plan, 9, state);
+  ASSERT_EQ(state.errors.size(), 1u);
+  EXPECT_EQ(state.errors[0].bone, 0u);
+  EXPECT_DOUBLE_EQ(state.errors[0].at_s, 9);
+}
+
+TEST(ToolEvents, OfAPressAreTouchForceAndEnd) {
+  ToolEvents maker(2, {{2.0}, 1.0, 0.5});
+  std::vector<Event> events;
+  for (std::uint64_t n = 1; n <= 100; ++n) {
+    ToolState tool = testing::tool_at(n, {0, 0, 0.01 - 1e-4 * double(n)});
+    tool.X_WD = tool.X_WP;
+    const double force_n = n < 50 ? 0 : n < 80 ? 3 : 1.5;
+    if (n >= 50 && n < 90) testing::touch(tool, 1, {0, 0, force_n}, 0.0005);
+    maker.add(tool, events);
+  }
+  std::vector<EventKind> kinds;
+  for (const Event& event : events) kinds.push_back(event.kind);
+  EXPECT_EQ(kinds, (std::vector<EventKind>{EventKind::kContactBegin, EventKind::kImpact,
+                                           EventKind::kForceOver, EventKind::kForceUnder,
+                                           EventKind::kContactEnd}));
+  EXPECT_NEAR(events[1].values[0], 100, 1e-6);  // 0.1 mm a tick
+  EXPECT_NEAR(events[3].values[2], 0.030, 1e-9);
+  EXPECT_NEAR(events[4].values[0], 0.040, 1e-9);
+  EXPECT_DOUBLE_EQ(events[4].values[1], 3);
+  EXPECT_EQ(events[4].subject, 1u);
+  EXPECT_EQ(events[4].tick, 90u);
+}
+
+}  // namespace
+}  // namespace osteon
