@@ -5,3 +5,5 @@ set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/field/cut_rows.cpp"
 # Fields are made and meshed at load; a debug build gets the same bits, only sooner.
 set_source_files_properties("${CMAKE_SOURCE_DIR}/src/carve/field/make_uncut_field.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+find_package(tomlplusplus REQUIRED)
+osteon_link_system(osteon_carve tomlplusplus::tomlplusplus)

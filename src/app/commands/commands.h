@@ -39,5 +39,9 @@ void add_carve_command(CLI::App& app, int& exit_code);        // carve: remove b
 void add_metrics_command(CLI::App& app, int& exit_code);      // metrics: of a path
 void add_scenario_commands(CLI::App& app, int& exit_code);    // scenario list, info, check
 void add_run_command(CLI::App& app, int& exit_code);          // run: a virtual surgeon
+void add_tunnel_command(CLI::App& app, int& exit_code);       // tunnel: drilled into a bone
+void add_drill_commands(CLI::App& app, int& exit_code);       // drill trial, drill resistance
+// case measure; after add_case_commands
+void add_case_measure_command(CLI::App& app, int& exit_code);
 
 }  // namespace osteon

@@ -1,0 +1,128 @@
+#include "osteon/carve/measure_holes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh/shapes.h"
+#include "osteon/carve/tunnel.h"
+#include "osteon/mesh/isosurface.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kMm = 1e-3;
+
+TriMesh drilled(const TriMesh& bone, const Vec3& from_mm, const Vec3& to_mm, double diameter_mm) {
+  const auto plan = plan_tunnel(bone, {from_mm * kMm, to_mm * kMm, diameter_mm * kMm});
+  EXPECT_TRUE(plan);
+  const auto cut = advance(*plan, plan->length_m);
+  EXPECT_TRUE(cut);
+  return drilled_bone(*plan, *cut);
+}
+
+TEST(FindHoles, ThereIsNoneInACubeOrABall) {
+  EXPECT_TRUE(find_holes({}).empty());
+  EXPECT_TRUE(find_holes(test::cube(10 * kMm)).empty());
+  EXPECT_TRUE(find_holes(test::sphere(10 * kMm, 30)).empty());
+}
+
+TEST(FindHoles, NoneInARodWhoseWallFacesOutwards) {
+  TriMesh rod = drilled(test::cube(10 * kMm), {-20, 0, 0}, {20, 0, 0}, 6);
+  ASSERT_EQ(find_holes(rod).size(), 1u);
+  for (Triangle& t : rod.triangles) test::flip(t);  // the drill's core in place of its hole
+  EXPECT_TRUE(find_holes(rod).empty());
+}
+
+TEST(FindHoles, ATunnelHasItsAxisDiameterAndLength) {
+  const TriMesh mesh = drilled(test::cube(10 * kMm), {-20, 1, 2}, {20, 5, 2}, 6);
+  const auto holes = find_holes(mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  const Hole& h = holes[0];
+  EXPECT_NEAR(h.diameter_m, 6 * kMm, 5e-6);
+  const Vec3 along = Vec3(40, 4, 0).normalized();
+  EXPECT_GT(std::abs(h.axis.dot(along)), 1 - 1e-6);
+  EXPECT_NEAR(h.length_m, 20 * kMm / along.x(), 0.05 * kMm);
+  EXPECT_TRUE(h.through);
+  EXPECT_EQ(h.side_openings, 0u);
+  for (const Vec3& end : {h.entry, h.exit}) {
+    EXPECT_NEAR(std::abs(end.x()), 10 * kMm, 0.05 * kMm);
+    EXPECT_NEAR(end.z(), 2 * kMm, 0.02 * kMm);
+  }
+  // The wall towards z = 10 mm is 10 - 2 - 3 thick; towards y it comes nearer as the line climbs.
+  ASSERT_TRUE(h.thinnest_wall_m);
+  EXPECT_LT(*h.thinnest_wall_m, 5 * kMm);
+  EXPECT_GT(*h.thinnest_wall_m, 3 * kMm);
+}
+
+TEST(FindHoles, ABlindHoleIsEnteredAtItsMouth) {
+  const TriMesh mesh = drilled(test::cube(10 * kMm), {-20, 1, 2}, {3, 1, 2}, 6);
+  const auto holes = find_holes(mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_FALSE(holes[0].through);
+  EXPECT_NEAR(holes[0].entry.x(), -10 * kMm, 1e-6);
+  EXPECT_NEAR(holes[0].exit.x(), 3 * kMm, 1e-5);
+  EXPECT_NEAR(holes[0].length_m, 13 * kMm, 1e-5);
+  EXPECT_GT(holes[0].axis.x(), 0.9999);
+}
+
+TEST(FindHoles, TheThinnestWallIsTheOneTowardsTheNearFace) {
+  const TriMesh mesh = drilled(test::cube(10 * kMm), {-20, 5.5, 0}, {20, 5.5, 0}, 6);
+  const auto holes = find_holes(mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  ASSERT_TRUE(holes[0].thinnest_wall_m);
+  EXPECT_NEAR(*holes[0].thinnest_wall_m, 1.5 * kMm, 0.02 * kMm);
+  EXPECT_NEAR(holes[0].thinnest_at.y(), 8.5 * kMm, 0.05 * kMm);
+}
+
+TEST(FindHoles, AWallThatBrokeOutHasAnOpeningOrNoThickness) {
+  // The drill's side leaves the bone along a ball's flank.
+  const TriMesh mesh = drilled(test::sphere(10 * kMm, 60), {-20, 6.8, 0}, {20, 6.8, 0}, 6);
+  const auto holes = find_holes(mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_TRUE(!holes[0].thinnest_wall_m || *holes[0].thinnest_wall_m < 0.3 * kMm);
+}
+
+TEST(FindHoles, TwoHolesAreTwo) {
+  TriMesh mesh = drilled(test::cube(10 * kMm), {-20, 5, 5}, {20, 5, 5}, 4);
+  mesh = drilled(mesh, {-4, -20, -4}, {-4, 20, -5}, 5);
+  const auto holes = find_holes(mesh);
+  ASSERT_EQ(holes.size(), 2u);
+  EXPECT_NEAR(holes[0].diameter_m + holes[1].diameter_m, 9 * kMm, 2e-5);
+}
+
+TEST(FindHoles, AHoleThatCameOfAFieldIsFoundAsWell) {
+  // Not cut by the prism: the surface of a block less a rod, on a grid.
+  const auto field = [](const Vec3& p) {
+    const double block = (p.cwiseAbs() - Vec3::Constant(8 * kMm)).maxCoeff();
+    const double rod = std::hypot(p.x() - 1 * kMm, p.y()) - 3 * kMm;
+    return std::max(block, -rod);
+  };
+  Aabb box;
+  box.include(Vec3::Constant(-9.1 * kMm));
+  box.include(Vec3::Constant(9.1 * kMm));
+  IsosurfaceOptions options;
+  options.cell_m = 0.4 * kMm;
+  const auto mesh = isosurface(field, box, options);
+  ASSERT_TRUE(mesh) << mesh.error().message();
+  const auto holes = find_holes(*mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_NEAR(holes[0].diameter_m, 6 * kMm, 0.05 * kMm);
+  EXPECT_NEAR(holes[0].length_m, 16 * kMm, 0.8 * kMm);  // its rims are rounded
+  EXPECT_TRUE(holes[0].through);
+}
+
+TEST(ShareRemoved, IsThatOfTheBall) {
+  const TriMesh bone = test::cube(10 * kMm);
+  const MeshDistance before(bone), after(drilled(bone, {-20, 0, 0}, {20, 0, 0}, 6));
+  const auto share = share_removed(before, after, Vec3(0, 3, 0) * kMm, 2 * kMm);
+  ASSERT_TRUE(share);
+  // A plane-like wall through the ball's middle, a little hollow.
+  EXPECT_GT(*share, 0.35);
+  EXPECT_LT(*share, 0.5);
+  EXPECT_FALSE(share_removed(before, after, Vec3(50, 0, 0) * kMm, 2 * kMm));
+  EXPECT_EQ(*share_removed(before, before, Vec3::Zero(), 2 * kMm), 0);
+}
+
+}  // namespace
+}  // namespace osteon
