@@ -6,6 +6,8 @@ set_source_files_properties("${CMAKE_SOURCE_DIR}/src/mesh/surface/isosurface.cpp
   "${CMAKE_SOURCE_DIR}/src/mesh/surface/isosurface_grid.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/surface/surface_relax.cpp"
   PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+find_package(ZLIB REQUIRED)
+osteon_link_system(osteon_mesh ZLIB::ZLIB)
 find_package(meshoptimizer REQUIRED)
 osteon_link_system(osteon_mesh meshoptimizer::meshoptimizer)
 # Tetrahedra likewise.

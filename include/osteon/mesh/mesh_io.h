@@ -18,10 +18,11 @@ inline constexpr double kLargestCoordinate_m = 100.0;
 /// True for the extensions that load_mesh reads (.stl, .obj, .ply, .gltf, .glb; any case).
 bool is_mesh_file(const std::filesystem::path& path);
 
-/// Reads STL, OBJ, PLY or glTF as it stands (all its parts joined in one frame, triangles only),
-/// each coordinate times `metres_per_unit`. Fails on a file that cannot be read, is truncated,
-/// holds no triangle, holds a coordinate that is not finite or lies beyond kLargestCoordinate_m.
-/// STL comes as it is stored, three vertices a triangle: see repair.h for welding and mending.
+/// Reads STL, OBJ, PLY, VTK (.vtk, .vtp) or glTF as it stands (all its parts joined in one frame,
+/// triangles only), each coordinate times `metres_per_unit`. Fails on a file that cannot be read,
+/// is truncated, holds no triangle, holds a coordinate that is not finite or lies beyond
+/// kLargestCoordinate_m. STL comes as it is stored, three vertices a triangle: see repair.h for
+/// welding and mending.
 Result<TriMesh> load_mesh(const std::filesystem::path& path, double metres_per_unit);
 
 /// The same from memory. `extension`: "stl", "obj", "ply", "gltf" or "glb"; `where` names the

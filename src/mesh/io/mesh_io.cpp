@@ -7,6 +7,8 @@
 #include "io/ply.h"
 #include "io/scene_import.h"
 #include "io/stl.h"
+#include "io/vtk_surface.h"
+#include "io/vtp.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -24,11 +26,11 @@ std::string extension_of(const fs::path& path) {
 
 bool is_known(const std::string& extension) {
   return extension == "stl" || extension == "obj" || extension == "ply" || extension == "gltf" ||
-         extension == "glb";
+         extension == "glb" || extension == "vtk" || extension == "vtp";
 }
 
 tl::unexpected<Error> unknown_format(const std::string& where) {
-  return fail("is not of a known mesh format", where, "Use STL, OBJ, PLY, glTF or GLB");
+  return fail("is not of a known mesh format", where, "Use STL, OBJ, PLY, VTK, VTP, glTF or GLB");
 }
 
 // Refuses what no bone can be; a wrong unit is the usual cause.
@@ -60,6 +62,8 @@ Result<TriMesh> parse(std::string_view bytes, const std::string& extension,
   if (extension == "stl") return parse_stl(bytes, where);
   if (extension == "obj") return parse_obj(bytes, where);
   if (extension == "ply") return parse_ply(bytes, where);
+  if (extension == "vtk") return parse_vtk_surface(bytes, where);
+  if (extension == "vtp") return parse_vtp(bytes, where);
   return import_scene(bytes, extension, where);
 }
 

@@ -8,15 +8,21 @@
 #include <vector>
 
 #include "repair/edges.h"
+#include "repair/flat_lid.h"
 #include "repair/patches.h"
 #include "repair/triangulate_loop.h"
 
 namespace osteon {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoPlace = std::numeric_limits<std::size_t>::max();
 // A lid of more than this share of its part's area would make a solid of a sheet.
 constexpr double kLargestLid = 0.9;
+// Of a long cylinder cut off square, a lid has radius / (2 length) of the area: of a bone's shaft
+// some hundredths, and a hole in its wall far less.
+constexpr double kEndOfShaft = 0.01;
+// Clipping ears takes the square of this many steps.
+constexpr std::size_t kLongestFlatRim = 5000;
 
 // Side of a hole, run against the triangle on it.
 struct RimEdge {
@@ -49,7 +55,7 @@ std::vector<RimEdge> rim_edges(const std::vector<Triangle>& triangles,
 class RimWalk {
  public:
   RimWalk(std::vector<RimEdge> rim, std::size_t vertex_count)
-      : rim_(std::move(rim)), used_(rim_.size(), 0), place_(vertex_count, kNone) {}
+      : rim_(std::move(rim)), used_(rim_.size(), 0), place_(vertex_count, kNoPlace) {}
 
   void run() {
     for (std::size_t e = 0; e < rim_.size(); ++e)
@@ -66,7 +72,7 @@ class RimWalk {
     for (; at != rim_.end() && at->from == from; ++at)
       if (!used_[static_cast<std::size_t>(at - rim_.begin())])
         return static_cast<std::size_t>(at - rim_.begin());
-    return kNone;
+    return kNoPlace;
   }
 
   void walk_from(std::uint32_t start) {
@@ -74,10 +80,10 @@ class RimWalk {
     place_[start] = 0;
     for (;;) {
       const std::size_t e = next_unused(path.back());
-      if (e == kNone) break;
+      if (e == kNoPlace) break;
       used_[e] = 1;
       const std::uint32_t to = rim_[e].to;
-      if (place_[to] == kNone) {
+      if (place_[to] == kNoPlace) {
         place_[to] = path.size();
         path.push_back(to);
       } else {
@@ -85,14 +91,14 @@ class RimWalk {
       }
     }
     if (path.size() > 1) ++dead_ends;
-    for (const std::uint32_t v : path) place_[v] = kNone;
+    for (const std::uint32_t v : path) place_[v] = kNoPlace;
   }
 
   void close_loop(std::vector<std::uint32_t>& path, std::size_t first, std::uint32_t triangle) {
     Loop loop;
     loop.corners.assign(path.begin() + static_cast<std::ptrdiff_t>(first), path.end());
     loop.triangle = triangle;
-    for (std::size_t i = first + 1; i < path.size(); ++i) place_[path[i]] = kNone;
+    for (std::size_t i = first + 1; i < path.size(); ++i) place_[path[i]] = kNoPlace;
     path.resize(first + 1);
     loops.push_back(std::move(loop));
   }
@@ -130,10 +136,21 @@ std::vector<double> component_areas(const TriMesh& mesh,
   return areas;
 }
 
-bool fill(TriMesh& mesh, const Loop& loop, double part_area, TakenEdges& taken) {
+std::vector<Triangle> lid_on(const TriMesh& mesh, const Loop& loop, std::size_t largest_edges,
+                             const TakenEdges& taken) {
   const auto may_join = [&taken](std::uint32_t a, std::uint32_t b) { return !taken.has(a, b); };
-  const std::vector<Triangle> lid = triangulate_loop(mesh.vertices, loop.corners, may_join);
-  if (lid.empty()) return false;
+  if (loop.corners.size() <= largest_edges)
+    return triangulate_loop(mesh.vertices, loop.corners, may_join);
+  if (loop.corners.size() > kLongestFlatRim) return {};
+  return flat_lid(mesh.vertices, loop.corners, may_join);
+}
+
+enum class Filled : std::uint8_t { kNo, kHole, kEnd };
+
+Filled fill(TriMesh& mesh, const Loop& loop, double part_area, std::size_t largest_edges,
+            TakenEdges& taken) {
+  const std::vector<Triangle> lid = lid_on(mesh, loop, largest_edges, taken);
+  if (lid.empty()) return Filled::kNo;
   const std::size_t before = mesh.triangles.size();
   mesh.triangles.insert(mesh.triangles.end(), lid.begin(), lid.end());
   double lid_area = 0;
@@ -141,10 +158,10 @@ bool fill(TriMesh& mesh, const Loop& loop, double part_area, TakenEdges& taken) 
     lid_area += triangle_area(mesh, static_cast<std::uint32_t>(t));
   if (lid_area > kLargestLid * part_area) {
     mesh.triangles.resize(before);
-    return false;
+    return Filled::kNo;
   }
   for (const Triangle& t : lid) taken.add(t);
-  return true;
+  return lid_area > kEndOfShaft * part_area ? Filled::kEnd : Filled::kHole;
 }
 
 }  // namespace
@@ -160,11 +177,11 @@ HoleCount fill_holes(TriMesh& mesh, std::size_t largest_edges) {
   const std::vector<double> areas = component_areas(mesh, component);
   TakenEdges taken(uses);
   for (const Loop& loop : walk.loops) {
-    const bool small = loop.corners.size() <= largest_edges;
-    if (small && fill(mesh, loop, areas[component[loop.triangle]], taken))
-      ++count.filled;
-    else
-      ++count.open;
+    const double part_area = areas[component[loop.triangle]];
+    const Filled filled = fill(mesh, loop, part_area, largest_edges, taken);
+    count.filled += filled != Filled::kNo;
+    count.ends += filled == Filled::kEnd;
+    count.open += filled == Filled::kNo;
   }
   return count;
 }

@@ -46,7 +46,8 @@ std::string RepairReport::summary() const {
   s.add(duplicate_triangles, "dropped", "duplicate triangle", "duplicate triangles");
   s.add(fin_triangles, "dropped", "triangle of a fin", "triangles of fins");
   s.add(flipped_triangles, "flipped", "triangle", "triangles");
-  s.add(filled_holes, "filled", "hole", "holes");
+  s.add(filled_holes - capped_ends, "filled", "hole", "holes");
+  s.add(capped_ends, "capped", "open end", "open ends");
   s.add(open_holes, "left", "hole open", "holes open");
   s.add(non_manifold_edges, "left", "non-manifold edge", "non-manifold edges");
   s.add(misoriented_edges, "left", "one-sided edge", "one-sided edges");
@@ -64,6 +65,7 @@ RepairReport repair(TriMesh& mesh, const RepairOptions& options) {
   const std::vector<char> alike = orient_alike(mesh);
   const HoleCount holes = fill_holes(mesh, options.largest_hole_edges);
   report.filled_holes = holes.filled;
+  report.capped_ends = holes.ends;
   report.open_holes = holes.open;
   report.flipped_triangles = count_turned(alike, orient_outwards(mesh));
   drop_unused_vertices(mesh);

@@ -9,6 +9,7 @@
 #include "osteon/base/random.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/mesh/mesh_io.h"
+#include "osteon/mesh/self_crossing.h"
 
 namespace osteon {
 namespace {
@@ -180,8 +181,52 @@ TEST(Repair, ClosesBothEndsOfATube) {
   EXPECT_NEAR(volume(m), 4 * 32 * std::sin(2 * M_PI / 64), 1e-9);
 }
 
+// A shaft as a scan cuts it has more edges on its rim than a least area is worth.
+TEST(Repair, CapsTheFlatEndsOfAFineShaft) {
+  constexpr std::uint32_t kAround = 1500;
+  TriMesh m = tube(kAround, 10);
+  const RepairReport report = repair(m);
+  EXPECT_EQ(report.capped_ends, 2u);
+  EXPECT_EQ(report.summary(), "capped 2 open ends");
+  EXPECT_TRUE(topology(m).closed());
+  EXPECT_NEAR(volume(m), 10 * 0.5 * kAround * std::sin(2 * M_PI / kAround), 1e-9);
+}
+
+TEST(Repair, CapsARimThatIsNotConvex) {
+  TriMesh m = tube(1000, 10);
+  for (Vec3& v : m.vertices) {
+    const double r = 1 + 0.4 * std::cos(5 * std::atan2(v.y(), v.x()));
+    v.x() *= r;
+    v.y() *= r;
+  }
+  repair(m);
+  EXPECT_TRUE(topology(m).closed());
+  // Of r = 1 + a cos 5 phi the area is pi (1 + a^2 / 2).
+  EXPECT_NEAR(volume(m), 10 * M_PI * (1 + 0.4 * 0.4 / 2), 0.01);
+  EXPECT_TRUE(self_crossings(m).empty());
+}
+
+// Both walls of a hollow shaft get lids: the marrow is a cavity, and the volume that of the wall.
+TEST(Repair, CapsAHollowShaft) {
+  TriMesh m = tube(400, 10);
+  const auto outer = static_cast<std::uint32_t>(m.vertices.size());
+  const TriMesh inner = tube(400, 10);
+  for (const Vec3& v : inner.vertices)
+    m.vertices.push_back(Vec3(0.6 * v.x(), 0.6 * v.y(), 0.01 + 0.998 * v.z()));
+  for (const Triangle& t : inner.triangles)
+    m.triangles.push_back({t[0] + outer, t[1] + outer, t[2] + outer});
+  EXPECT_EQ(repair(m).capped_ends, 4u);
+  EXPECT_TRUE(topology(m).closed());
+  EXPECT_NEAR(volume(m), (10 - 0.36 * 9.98) * 200 * std::sin(2 * M_PI / 400), 1e-9);
+}
+
+TriMesh wavy(TriMesh m) {
+  for (Vec3& v : m.vertices) v.z() += 0.5 * std::cos(3 * std::atan2(v.y(), v.x()));
+  return m;
+}
+
 TEST(Repair, LeavesHolesThatAreTooLarge) {
-  TriMesh m = tube(201, 4);
+  TriMesh m = wavy(tube(201, 4));
   EXPECT_EQ(repair(m).open_holes, 2u);
   RepairOptions options;
   options.largest_hole_edges = 201;
