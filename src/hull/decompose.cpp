@@ -26,7 +26,7 @@ class Decomposer {
  public:
   Decomposer(const TriMesh& mesh, const DecomposeOptions& options)
       : options_(options),
-        grid_(mesh, options.search_cell_m),
+        grid_(mesh, options.search_cell_m, options.most_work),
         meter_(grid_, ends_first(mesh), options.search_cell_m) {
     constexpr double kCoarser = 1.5;
     const Aabb box = bounds(mesh).grown(options.search_cell_m);
@@ -41,17 +41,18 @@ class Decomposer {
     merge_within(options_.concavity_m);
     while (parts_.size() > options_.max_pieces && merge_flattest(kAnyNeed)) {
     }
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRounds && !done_early(); ++round) {
       cut_all(options_.max_pieces);
       if (!merge_within(exchange_limit())) break;
     }
     cut_all(options_.max_pieces);
-    if (meter_.value().on_shaft < 1) refine_shaft();
+    if (meter_.value().on_shaft < 1 && !done_early()) refine_shaft();
     return finish();
   }
 
  private:
   static constexpr double kAnyNeed = 1e300;
+  static constexpr std::uint64_t kWorkOfPoint = 20;  ///< clipping it and putting it into a hull
 
   /// The ends of a long bone come first; the shaft may stand over by four times as much.
   static hull::PlaceValue ends_first(const TriMesh& mesh) {
@@ -60,8 +61,11 @@ class Decomposer {
     return {ends, ends.has_shaft() ? kShaftCounts : 1};
   }
 
+  /// Why every loop here ends on any mesh: each round asks for heights, which are counted.
+  bool done_early() const { return grid_.worn_out() || (options_.stop && options_.stop()); }
+
   void cut_all(std::size_t most) {
-    while (parts_.size() < most && cut_worst()) {
+    while (parts_.size() < most && !done_early() && cut_worst()) {
     }
   }
 
@@ -89,6 +93,7 @@ class Decomposer {
   /// Hull of the solid in the cells: of its surface there and the cells' corners inside.
   std::optional<Hull> hull_of(const TriMesh& surface, const std::vector<TriMesh>& cells) {
     std::vector<Vec3> points = surface.vertices;
+    grid_.spend(kWorkOfPoint * points.size());
     for (const TriMesh& cell : cells)
       for (const Vec3& corner : cell.vertices)
         if (grid_.at(corner) <= 0) points.push_back(corner);
@@ -199,7 +204,7 @@ class Decomposer {
   /// any.
   bool merge_within(double limit) {
     bool merged = false;
-    while (merge_flattest(limit)) merged = true;
+    while (!done_early() && merge_flattest(limit)) merged = true;
     return merged;
   }
 
@@ -260,6 +265,7 @@ class Decomposer {
 
   Decomposition finish() {
     Decomposition out;
+    out.coarser = grid_.worn_out();
     for (SolidPart& part : parts_) {
       out.concavity_m = std::max(out.concavity_m, part.excess.peak.height);
       // From its corners alone: so it can be built again without the mesh, bit for bit.

@@ -20,7 +20,8 @@ std::uint32_t within_block(const std::array<std::uint32_t, 3>& node) {
 
 }  // namespace
 
-HeightGrid::HeightGrid(const TriMesh& mesh, double cell_m) : exact_(mesh), cell_(cell_m) {
+HeightGrid::HeightGrid(const TriMesh& mesh, double cell_m, std::uint64_t work)
+    : exact_(mesh), work_left_(work), cell_(cell_m) {
   const Aabb box = bounds(mesh).grown(kMargin * cell_m);
   lo_ = box.lo;
   std::size_t count = 1;
@@ -72,6 +73,7 @@ HeightGrid::Corners HeightGrid::make_corners(const Node& cell) {
 }
 
 double HeightGrid::at(const Vec3& p) {
+  if (work_left_ > 0) --work_left_;
   Node cell{};
   Vec3 f;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,8 @@ namespace osteon::hull {
 /// in the mesh when it is first needed: a search asks millions of times about the same few places.
 class HeightGrid {
  public:
-  HeightGrid(const TriMesh& mesh, double cell_m);
+  /// `work` bounds what may be asked of it before it is worn out; it answers all the same.
+  HeightGrid(const TriMesh& mesh, double cell_m, std::uint64_t work = ~std::uint64_t{0});
 
   /// Height of a point over the surface (negative inside), m, trilinear; outside the grid that of
   /// the nearest place inside.
@@ -20,6 +22,10 @@ class HeightGrid {
   /// Direction in which the height rises, unit; zero where it does not.
   Vec3 upwards(const Vec3& p);
   double cell() const { return cell_; }
+  /// Takes from the work that is left: one unit is one question for a height.
+  void spend(std::uint64_t units) { work_left_ -= std::min(work_left_, units); }
+  bool worn_out() const { return work_left_ == 0; }
+  std::uint64_t work_left() const { return work_left_; }
   const MeshDistance& exact() const { return exact_; }
 
  private:
@@ -34,6 +40,7 @@ class HeightGrid {
   std::size_t block_of(const Node& node) const;
 
   MeshDistance exact_;
+  std::uint64_t work_left_;
   Vec3 lo_;
   double cell_;
   Node size_{};                       // nodes

@@ -9,6 +9,7 @@ namespace osteon::hull {
 namespace {
 
 constexpr std::size_t kMostNodes = std::size_t{1} << 21;  // 50 MB
+constexpr std::uint64_t kWorkOfClosest = 20;              // a look into the tree of boxes
 constexpr double kRounding = 1 + 1e-6;                    // also that of a float
 
 }  // namespace
@@ -29,7 +30,7 @@ std::uint32_t KnownHeights::root_of(const Corners& facet) {
 }
 
 void PeakSearch::search(const Corners& t, std::uint32_t at) {
-  if (best_.need > enough_) return;
+  if (best_.need > enough_ || grid_.worn_out()) return;
   const double most = value_.most(t);
   if (most * known_.nodes[at].most <= best_.need) return;
   const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
@@ -41,6 +42,7 @@ void PeakSearch::search(const Corners& t, std::uint32_t at) {
   const bool is_new = std::isnan(height);
   if (is_new) {
     if (stays_below(t, most, at)) return;
+    grid_.spend(kWorkOfClosest);
     const ClosestPoint found = grid_.exact().closest(middle, last_);
     height = found.signed_distance;
     known_.nodes[at].height = height;

@@ -1,6 +1,7 @@
 #include "osteon/scene/bone_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mesh_hash.h"
@@ -16,11 +17,17 @@ constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
 constexpr double kLong = 0.25;  // m
 constexpr double kCellsAlong = 300;
 
+// Bounds the search's memory: a node takes 8 bytes.
+constexpr double kMostCells = 3.2e7;
+
 double length_of(const TriMesh& mesh) { return bounds(mesh).extent().maxCoeff(); }
 
-DecomposeOptions search_for(double length_m, DecomposeOptions options) {
+DecomposeOptions search_for(const TriMesh& mesh, DecomposeOptions options) {
+  const double length_m = length_of(mesh);
   if (length_m > kLong)
     options.search_cell_m = std::max(options.search_cell_m, length_m / kCellsAlong);
+  const double room_m3 = bounds(mesh).extent().prod();
+  options.search_cell_m = std::max(options.search_cell_m, std::cbrt(room_m3 / kMostCells));
   return options;
 }
 
@@ -31,7 +38,7 @@ std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options) {
   hasher.add(kVersion);
   hasher.add(options.concavity_m);
   hasher.add(static_cast<std::uint64_t>(options.max_pieces));
-  hasher.add(search_for(length_of(mesh), options).search_cell_m);
+  hasher.add(search_for(mesh, options).search_cell_m);
   add_mesh(hasher, mesh);
   return hasher.value();
 }
@@ -42,12 +49,13 @@ std::optional<PieceCorners> cut_into_pieces(const TriMesh& mesh, const Decompose
     // Too small for the search's grid to mean anything.
     HullOutcome outcome = build_hull(mesh.vertices);
     if (!outcome.hull) return std::nullopt;
-    return PieceCorners{{std::move(outcome.hull->vertices)}, 0};
+    return PieceCorners{{std::move(outcome.hull->vertices)}, 0, false};
   }
-  auto found = decompose(mesh, search_for(length_m, options));
+  auto found = decompose(mesh, search_for(mesh, options));
   if (!found) return std::nullopt;
   PieceCorners corners;
   corners.concavity_m = found->concavity_m;
+  corners.coarser = found->coarser;
   for (Hull& piece : found->pieces) corners.pieces.push_back(std::move(piece.vertices));
   return corners;
 }

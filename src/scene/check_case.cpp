@@ -1,17 +1,16 @@
 #include <cmath>
 #include <set>
 
+#include "hull_height.h"
 #include "numbers.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/bone_size.h"
 #include "osteon/scene/case_io.h"
 #include "soft_parts.h"
 
 namespace osteon {
 namespace {
 
-// A human bone: a sesamoid is some millimetres long, a femur half a metre.
-constexpr double kSmallestBone_m = 0.003;
-constexpr double kLargestBone_m = 0.7;
 constexpr double kFarthestLandmark_m = 0.5;
 
 class Findings {
@@ -29,8 +28,11 @@ void check_mesh(const BoneDef& bone, Findings& found) {
   const Topology shape = topology(bone.mesh);
   if (bone.mesh.triangles.empty()) return found.add(bone.name, "the mesh has no triangles");
   if (shape.boundary_edges > 0)
-    found.add(bone.name, "the mesh is open: " + std::to_string(shape.boundary_edges) +
-                             " edges have one triangle only");
+    found.add(bone.name,
+              "the mesh is open (" + std::to_string(shape.boundary_edges) +
+                  " edges have one triangle only), so it is felt as its convex hull, up to " +
+                  in_mm(std::round(1e5 * hull_height(bone.mesh)) / 1e5) +
+                  " off. Close it where the scan cut it, and import it again");
   if (shape.non_manifold_edges > 0)
     found.add(bone.name,
               std::to_string(shape.non_manifold_edges) + " edges have more than two triangles");
@@ -43,8 +45,11 @@ void check_mesh(const BoneDef& bone, Findings& found) {
 void check_size(const BoneDef& bone, Findings& found) {
   const Aabb box = bounds(bone.mesh);
   if (box.empty()) return;
-  const double size = box.extent().maxCoeff();
-  if (size < kSmallestBone_m || size > kLargestBone_m)
+  const double size = std::round(1e4 * box.extent().maxCoeff()) / 1e4;
+  const BoneSize any;
+  if (const std::string complaint = size_complaint(bone.name, size); !complaint.empty())
+    found.add(bone.name, complaint);
+  else if (size < any.least_m || size > any.most_m)
     found.add(bone.name, "is " + in_mm(size) + " long; is the unit right?");
 }
 

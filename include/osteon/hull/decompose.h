@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,6 +15,11 @@ struct DecomposeOptions {
   double concavity_m = 0.00025;   ///< wanted: no piece stands higher over the mesh
   std::size_t max_pieces = 64;    ///< at least 1
   double search_cell_m = 0.0005;  ///< detail at which cuts are looked for; pieces are always exact
+  /// Bounds the time for any mesh, in questions for a height (about 50 ns each): when it is spent,
+  /// what has been cut is the result. Bones of a hand take a thirtieth of it.
+  std::uint64_t most_work = 2'000'000'000;
+  /// Asked between cuts; true stops with what has been cut. May be empty.
+  std::function<bool()> stop = {};
 };
 
 struct Decomposition {
@@ -22,6 +28,7 @@ struct Decomposition {
   /// How far the pieces stand over the mesh at most, m. Below the wanted concavity only known not
   /// to be above it; else good to 0.02 mm or a twentieth.
   double concavity_m = 0;
+  bool coarser = false;  ///< the work was spent before the wanted concavity or count was reached
 };
 
 /// Convex pieces whose union follows a closed, outward mesh: approximate convex decomposition by

@@ -12,7 +12,8 @@ namespace osteon {
 std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options = {});
 
 /// Corners of the pieces; none when the mesh has no hull. A bone longer than 250 mm is searched on
-/// cells of a 300th of its length where those are the larger.
+/// cells of a 300th of its length where those are the larger, and no bone on more than 32 million
+/// cells.
 std::optional<PieceCorners> cut_into_pieces(const TriMesh& mesh,
                                             const DecomposeOptions& options = {});
 

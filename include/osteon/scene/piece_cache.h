@@ -18,6 +18,7 @@ namespace osteon {
 struct PieceCorners {
   std::vector<std::vector<Vec3>> pieces;  ///< in Bone, m; each the corners of one hull
   double concavity_m = 0;                 ///< as Decomposition has it
+  bool coarser = false;                   ///< likewise; not kept in a file
 };
 
 /// Pieces that were found before, by a key over the mesh and how it was cut (piece_key). A cache:
