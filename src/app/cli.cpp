@@ -1,22 +1,33 @@
 #include "cli.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
+#include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/number_check.h"
+#include "commands/progress_line.h"
+#include "commands/wrong_word.h"
 
 namespace osteon {
 namespace {
 
-// True when the first word is neither an option nor a command: the parser itself would only say
-// that a command is missing.
-bool names_no_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return false;
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  return std::none_of(commands.begin(), commands.end(),
-                      [&](const CLI::App* c) { return c->get_name() == argv[1]; });
+// --quiet anywhere: what a command prints goes nowhere, errors stay.
+void add_quiet(CLI::App& app) {
+  app.add_flag_callback(
+      "--quiet",
+      [] {
+        ProgressLine::keep_silent();
+        if (!std::freopen("/dev/null", "w", stdout)) throw std::runtime_error("no /dev/null");
+      },
+      "Print errors only; the exit code says the rest. May follow any command");
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    command->fallthrough();
+    for (CLI::App* sub : command->get_subcommands([](const CLI::App*) { return true; }))
+      sub->fallthrough();
+  }
 }
 
 }  // namespace
@@ -27,13 +38,13 @@ int run_cli(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = 0;
   for (const auto add :
-       {add_case_commands,     add_case_felt_command,   add_import_ct_command, add_scan_command,
-        add_anatomy_commands,  add_mesh_commands,       add_hull_command,      add_collide_command,
-        add_path_commands,     add_simulate_command,    add_replay_command,    add_demo_command,
-        add_render_command,    add_live_command,        add_devices_command,   add_doctor_command,
-        add_stability_command, add_tissue_commands,     add_window_command,    add_segment_command,
-        add_xray_command,      add_instruments_command, add_carve_command,     add_view_command,
-        add_metrics_command,   add_scenario_commands,   add_run_command})
+       {add_case_commands,       add_case_felt_command, add_import_ct_command, add_scan_command,
+        add_anatomy_commands,    add_mesh_commands,     add_hull_command,      add_collide_command,
+        add_path_commands,       add_simulate_command,  add_replay_command,    add_demo_command,
+        add_render_command,      add_live_command,      add_devices_command,   add_doctor_command,
+        add_stability_command,   add_tissue_commands,   add_window_commands,   add_xray_command,
+        add_instruments_command, add_carve_command,     add_view_command,      add_metrics_command,
+        add_scenario_commands,   add_run_command})
     add_xray_command, add_instruments_command, add_carve_command, add_tunnel_command,
         add_drill_commands, add_case_measure_command
 })

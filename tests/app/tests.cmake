@@ -1,6 +1,8 @@
 # Panels are tested with an ImGui context of their own, without a window.
-pkg_check_modules(APP_TESTS_IMGUI REQUIRED IMPORTED_TARGET imgui glfw3)
-osteon_link_system(osteon_app_tests PkgConfig::APP_TESTS_IMGUI)
+if(OSTEON_WINDOW)
+  pkg_check_modules(APP_TESTS_IMGUI REQUIRED IMPORTED_TARGET imgui glfw3)
+  osteon_link_system(osteon_app_tests PkgConfig::APP_TESTS_IMGUI)
+endif()
 
 # The loops by themselves, without the window: quick enough to build for the thread sanitizer.
 file(GLOB loops_tests CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/app/loops/*_test.cpp")

@@ -31,6 +31,49 @@ TEST_F(BadInput, NoCommandAndUnknownOptions) {
   expect_refused("fly", "fly");
 }
 
+TEST_F(BadInput, UnknownWordsAreNamedWithTheNearestOne) {
+  expect_refused("simulate --stifness 300", "Did you mean --stiffness?");
+  expect_refused("case chek builtin:wrist", "Did you mean check?");
+}
+
+// No option takes what is no number for one, whatever range it has.
+TEST_F(BadInput, NumbersThatAreNone) {
+  const std::string path =
+      " --path " + std::string(OSTEON_SOURCE_DIR) + "/assets/paths/wrist_tap.csv ";
+  for (const char* option : {"--stiffness", "--hand-mass", "--friction", "--max-force"})
+    for (const char* bad : {" nan", "=-inf", " -1"})
+      expect_refused("simulate" + path + option + bad, option);
+  expect_refused("path survey --out " + file("p.csv") + " --force nan", "--force");
+  expect_refused("import ct " + file("s") + " --out " + file("c") + " --threshold nan",
+                 "--threshold");
+  expect_refused("simulate" + path + "--seed -1", "--seed");
+  expect_refused("anatomy make wrist --out " + file("c") + " --set lunate_tilt=nan", "NUMBER");
+  const Ran ran = run_osteon("window --at -1");
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_LT(ran.output.size(), 200u) << ran.output;
+}
+
+TEST_F(BadInput, AFullDeviceStaysADevice) {
+  expect_refused("stability --cells 2 --out /dev/full", "No space left");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(BadInput, AMissingExpectationIsSaidBeforeTheRun) {
+  const std::string path = std::string(OSTEON_SOURCE_DIR) + "/assets/paths/wrist_tap.csv";
+  const Ran ran =
+      run_osteon("replay " + path + " --case " + file("no_case") + " --expect " + file("no.json"));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_NE(ran.output.find("no.json"), std::string::npos) << ran.output;
+}
+
+TEST_F(BadInput, QuietSaysErrorsAlone) {
+  const std::string out = file("s.svg");
+  EXPECT_EQ(run_osteon("stability --cells 2 --quiet --out " + out).output, "");
+  EXPECT_TRUE(fs::exists(out));
+  EXPECT_NE(run_osteon("--quiet case check " + file("no_case")).output.find("no_case"),
+            std::string::npos);
+}
+
 TEST_F(BadInput, MissingFilesAreNamed) {
   expect_refused("replay " + file("no.osr"), "no.osr");
   expect_refused("replay " + file("no.csv"), "no.csv");

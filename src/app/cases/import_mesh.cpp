@@ -1,13 +1,18 @@
 #include "cases/import_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
 #include "cases/whole_folder.h"
+#include "osteon/hull/hull.h"
 #include "osteon/mesh/hollows.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/mesh/mesh_io.h"
+#include "osteon/mesh/self_crossing.h"
+#include "osteon/scene/bone_size.h"
 #include "osteon/scene/case_io.h"
 
 namespace osteon {
@@ -23,12 +28,30 @@ Result<std::vector<fs::path>> mesh_files(const fs::path& source) {
   for (const fs::directory_entry& entry : entries)
     if (entry.is_regular_file(ec) && is_mesh_file(entry.path())) files.push_back(entry.path());
   if (files.empty())
-    return fail("holds no mesh", source.string(), "Put STL, OBJ, PLY, glTF or GLB files there");
+    return fail("holds no mesh", source.string(),
+                "Put STL, OBJ, PLY, VTK, VTP, glTF or GLB files there");
   if (files.size() > kMaxBones)
     return fail("holds more than " + std::to_string(kMaxBones) + " meshes", source.string(),
                 "Import them in several cases");
   std::sort(files.begin(), files.end());
   return files;
+}
+
+// Number of the connected part of each vertex: the lowest vertex in it.
+std::vector<std::uint32_t> parts_of(const TriMesh& mesh) {
+  std::vector<std::uint32_t> up(mesh.vertices.size());
+  std::iota(up.begin(), up.end(), 0u);
+  const auto root = [&up](std::uint32_t v) {
+    while (up[v] != v) v = up[v] = up[up[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 1; k < 3; ++k) {
+      const std::uint32_t a = root(t[0]), b = root(t[k]);
+      up[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::uint32_t v = 0; v < up.size(); ++v) up[v] = root(v);
+  return up;
 }
 
 // The frame moves into the centre, the bone stays where it is in World.
@@ -42,18 +65,55 @@ BoneDef center_bone(std::string name, TriMesh mesh) {
   return bone;
 }
 
+// A bone has a volume, and about the size that its name says.
+Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const fs::path& file,
+                            const ImportOptions& options) {
+  if (!build_hull(mesh.vertices).hull)
+    return fail("has no volume: its " + std::to_string(mesh.triangles.size()) +
+                    " triangles lie in one plane",
+                file.string(), "Export the bone as a closed surface");
+  const double length_m = std::round(1e4 * bounds(mesh).extent().maxCoeff()) / 1e4;
+  const std::string complaint = size_complaint(name, length_m);
+  if (options.force || complaint.empty()) return {};
+  const std::string unit = likely_unit(name, length_m, options.metres_per_unit);
+  return fail(complaint, file.string(),
+              unit.empty() ? "Check the file, or give --force to take it as it is"
+                           : "Try --unit " + unit + ", or give --force to take it as it is");
+}
+
+// Parts that overlap are not one solid: what is felt and filled with tetrahedra would be wrong.
+Result<void> refuse_overlap(const TriMesh& mesh,
+                            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings,
+                            const fs::path& file, const ImportOptions& options) {
+  if (options.force || crossings.empty()) return {};
+  const std::vector<std::uint32_t> part = parts_of(mesh);
+  for (const auto& [a, b] : crossings)
+    if (part[mesh.triangles[a][0]] != part[mesh.triangles[b][0]])
+      return fail(
+          "has parts that pass through each other (triangles " + std::to_string(a) + " and " +
+              std::to_string(b) + " of the mended mesh)",
+          file.string(),
+          "Join them to one surface where they were made (a Boolean union), or give --force");
+  return {};
+}
+
 Result<void> read_bone(const fs::path& file, const ImportOptions& options, ImportResult& result) {
   auto mesh = load_mesh(file, options.metres_per_unit);
   if (!mesh) return tl::unexpected(mesh.error());
   ImportedBone imported;
   imported.file = file;
   imported.repair = repair(*mesh);
-  if (!options.keep_hollows) imported.hollows = fill_hollows(*mesh);
   if (mesh->triangles.empty())
     return fail("holds no triangle with an area", file.string(), "Check the unit and the file");
+  const std::string name = canonical_bone_name(file.stem().string());
+  if (auto may = refuse_no_bone(name, *mesh, file, options); !may) return may;
+  const auto crossings = self_crossings(*mesh);
+  imported.crossings = crossings.size();
+  if (auto may = refuse_overlap(*mesh, crossings, file, options); !may) return may;
+  // Which side of a surface is inside is not certain where it crosses itself.
+  if (!options.keep_hollows && crossings.empty()) imported.hollows = fill_hollows(*mesh);
   imported.triangles = mesh->triangles.size();
   imported.closed = topology(*mesh).closed();
-  const std::string name = canonical_bone_name(file.stem().string());
   for (std::size_t i = 0; i < result.def.bones.size(); ++i)
     if (result.def.bones[i].name == name)
       return fail("gives the bone '" + name + "', which " +
@@ -73,8 +133,12 @@ Result<ImportResult> read_meshes(const ImportOptions& options) {
   result.def.name =
       options.name.empty() ? plain_folder(options.out).filename().string() : options.name;
   result.def.side = options.side;
-  for (const fs::path& file : *files)
-    if (auto read = read_bone(file, options, result); !read) return tl::unexpected(read.error());
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    if (options.progress)
+      options.progress(static_cast<double>(i) / static_cast<double>(files->size()));
+    if (auto read = read_bone((*files)[i], options, result); !read)
+      return tl::unexpected(read.error());
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct ImportOptions {
   std::string name;           ///< of the case; empty: that of the folder
   std::string side;           ///< "left", "right" or empty
   bool keep_hollows = false;  ///< else they are walled up (fill_hollows)
+  /// Takes bones that are three times as large or small as usual, and parts that overlap.
+  bool force = false;
+  std::function<void(double)> progress = {};  ///< told the share of files read; may throw to stop
 };
 
 /// One mesh file as it came in.
@@ -25,7 +29,8 @@ struct ImportedBone {
   std::size_t triangles = 0;  ///< after repair
   bool closed = false;
   RepairReport repair;
-  std::size_t hollows = 0;  ///< walled up
+  std::size_t hollows = 0;    ///< walled up
+  std::size_t crossings = 0;  ///< pairs of triangles that pass through each other
 };
 
 struct ImportResult {
@@ -33,8 +38,10 @@ struct ImportResult {
   std::vector<ImportedBone> bones;  ///< parallel to def.bones
 };
 
-/// Reads, mends and names every mesh of the source in the order of their file names. World is the
-/// frame of the files; each bone's own frame sits in its centre of volume, axes along World.
+/// Refuses what cannot be a bone: a mesh without a volume, one in the wrong unit, one whose closed
+/// parts overlap. Reads, mends and names every mesh of the source in the order of their file names.
+/// World is the frame of the files; each bone's own frame sits in its centre of volume, axes along
+/// World.
 Result<ImportResult> read_meshes(const ImportOptions& options);
 
 /// Reads the meshes and writes the case: into a folder beside `out` that is renamed at the end, so

@@ -78,7 +78,7 @@ Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(d
   GenerateOptions options;
   options.progress = progress;
   options.run = run_on_all_cores;
-  options.soft_parts = parts == CaseParts::kAll;
+  options.soft_parts = parts != CaseParts::kFelt;
   auto anatomy = generate_anatomy(files->description, options);
   if (!anatomy) return tl::unexpected(anatomy.error());
   CaseDef def = case_from(std::move(*anatomy));
@@ -97,7 +97,7 @@ Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(dou
       builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_case(source);
   for (const auto& [joint, degrees] : choice.bent) {
     if (!def) return def;
-    def = bend_case(std::move(*def), joint, degrees, parts == CaseParts::kAll, progress);
+    def = bend_case(std::move(*def), joint, degrees, parts != CaseParts::kFelt, progress);
   }
   return def;
 }
@@ -187,6 +187,8 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
   auto def = open_case_def(
       spec, [&](double share) { say("Growing the bones", kOpened * share); }, parts);
   if (!def) return tl::unexpected(def.error());
+  if (parts == CaseParts::kSeen)
+    for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   const std::string source = source_without_choice(spec);
   PieceCache pieces(cache_file(source, "pieces"));
   FieldCache fields(cache_file(source, "fields"));

@@ -13,8 +13,8 @@
 
 namespace osteon {
 
-/// Description, variation table and table of findings of a built-in anatomy; fails on a name that
-/// there is none of.
+/// Description, variation table and table of findings of a built-in anatomy; fails on an
+/// unknown name.
 struct AnatomyFiles {
   std::filesystem::path description, table, findings;
 };
@@ -27,6 +27,7 @@ CaseDef case_from(GeneratedAnatomy anatomy);
 enum class CaseParts : std::uint8_t {
   kAll,
   kFelt,  ///< the bones alone: for runs that nobody looks at
+  kSeen,  ///< all, but each bone felt as its hull, which costs nothing: for pictures
 };
 
 /// Case by what a user names it: `builtin:wrist` and `builtin:knee` are grown from their

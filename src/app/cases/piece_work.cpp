@@ -1,13 +1,18 @@
 #include "cases/piece_work.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "cases/all_cores.h"
+#include "osteon/base/log.h"
 #include "osteon/scene/bone_pieces.h"
 
 namespace osteon {
@@ -21,13 +26,61 @@ struct Task {
   FieldCache::Field made_field;
 };
 
-void work_on(Task& task, const TriMesh& mesh) {
+/// Passes a stop from the caller's progress, which throws, on to the tasks of all threads.
+class Stopping {
+ public:
+  explicit Stopping(const std::function<void(double)>& progress) : progress_(progress) {}
+
+  /// On the calling thread.
+  void tell(double share) {
+    share_ = share;
+    try {
+      progress_(share);
+    } catch (...) {
+      stopped_ = true;
+      throw;
+    }
+  }
+  /// On any thread, from within a task. A task on the calling thread may last minutes, so it asks.
+  bool stopped() {
+    if (stopped_ || std::this_thread::get_id() != caller_) return stopped_;
+    try {
+      progress_(share_);
+    } catch (...) {
+      stopped_ = true;
+      why_ = std::current_exception();
+    }
+    return stopped_;
+  }
+  void rethrow() const {
+    if (why_) std::rethrow_exception(why_);
+  }
+
+ private:
+  const std::function<void(double)>& progress_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  double share_ = 0;
+  std::atomic<bool> stopped_{false};
+  std::exception_ptr why_;
+};
+
+void work_on(Task& task, const TriMesh& mesh, Stopping& stopping) {
   if (!task.field) {
-    task.pieces = cut_into_pieces(mesh);
+    DecomposeOptions options;
+    options.stop = [&] { return stopping.stopped(); };
+    task.pieces = cut_into_pieces(mesh, options);
     return;
   }
   auto made = DistanceField::make(mesh);
   if (made) task.made_field = std::make_shared<const DistanceField>(std::move(*made));
+}
+
+void say_coarser(const BoneDef& bone, const PieceCorners& pieces) {
+  char height[32];
+  std::snprintf(height, sizeof height, "%.1f mm", 1000 * pieces.concavity_m);
+  log(LogLevel::kWarning,
+      "bone '" + bone.name + "' is too large or too tangled for fine pieces: they " +
+          "stand up to " + height + " over it. With felt = \"field\" it is felt as it is.");
 }
 
 std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fields) {
@@ -54,10 +107,17 @@ void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& field
                        const std::function<void(double)>& progress) {
   std::vector<Task> tasks = unknown(def, pieces, fields);
   if (tasks.empty()) return;
+  Stopping stopping(progress);
   run_on_all_cores(
-      tasks.size(), [&](std::size_t i) { work_on(tasks[i], def.bones[tasks[i].bone].mesh); },
-      progress);
+      tasks.size(),
+      [&](std::size_t i) { work_on(tasks[i], def.bones[tasks[i].bone].mesh, stopping); },
+      [&](double share) {
+        stopping.rethrow();
+        stopping.tell(share);
+      });
+  stopping.rethrow();
   for (Task& task : tasks) {
+    if (task.pieces && task.pieces->coarser) say_coarser(def.bones[task.bone], *task.pieces);
     if (task.pieces) pieces.put(task.key, std::move(*task.pieces));
     if (task.made_field) fields.put(task.key, std::move(task.made_field));
   }

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "commands/progress_line.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -9,6 +10,12 @@ namespace osteon {
 int report_error(const Error& error) {
   std::fprintf(stderr, "osteon: %s\n", error.message().c_str());
   return kExitBad;
+}
+
+Result<std::shared_ptr<const Case>> open_and_show_progress(const std::string& spec,
+                                                           CaseParts parts) {
+  ProgressLine line;
+  return open_case(spec, line.stopping(), parts);
 }
 
 double metres_per_unit(const std::string& unit) {

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -33,7 +34,7 @@ Result<ParameterValue> read_set(const std::string& text) {
   const char* const last = text.data() + text.size();
   double value = 0;
   const auto read = std::from_chars(first, last, value);
-  if (read.ec != std::errc{} || read.ptr != last)
+  if (read.ec != std::errc{} || read.ptr != last || !std::isfinite(value))
     return fail("is not NAME=NUMBER", where, "See osteon anatomy list");
   return ParameterValue{text.substr(0, equals), value};
 }

@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cases/import_mesh.h"
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/progress_line.h"
 #include "commands/text_table.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
@@ -34,12 +38,19 @@ std::string plural(std::size_t count, const std::string& one) {
 }
 
 std::string mended_text(const ImportedBone& bone) {
-  const std::string mended = bone.repair.summary();
-  return bone.hollows == 0 ? mended : mended + ", walled up " + plural(bone.hollows, "hollow");
+  std::string text = bone.repair.summary();
+  if (bone.hollows > 0) text += ", walled up " + plural(bone.hollows, "hollow");
+  if (bone.crossings > 0) text += ", left " + plural(bone.crossings, "crossing") + " of triangles";
+  return text;
 }
 
 int run_import(const ImportOptions& options) {
-  const auto result = import_meshes(options);
+  const auto result = [&options] {
+    ProgressLine line;
+    ImportOptions shown = options;
+    shown.progress = [say = line.stopping()](double share) { say("Reading the meshes", share); };
+    return import_meshes(shown);
+  }();
   if (!result) return report_error(result.error());
   TextTable table({"bone", "FMA", "file", "triangles", "closed", "mended"});
   for (std::size_t i = 0; i < result->bones.size(); ++i) {
@@ -103,45 +114,100 @@ void print_findings(const Case& c) {
   if (!c.findings.empty()) print("\n");
 }
 
-int run_info(const std::string& spec) {
-  const auto the_case = open_case(spec);
-  if (!the_case) return report_error(the_case.error());
-  const Case& c = **the_case;
-  TextTable table({"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm",
-                   "felt as", "hull vertices", "field MB"});
-  for (const Bone& bone : c.bones) {
-    std::size_t corners = 0;
-    for (const Hull& piece : bone.pieces) corners += piece.vertices.size();
-    table.add({bone.name, fma_text(bone.fma_id), std::to_string(bone.mesh.triangles.size()),
-               yes_no(topology(bone.mesh).closed()), fixed(volume(bone.mesh) * 1e6, 3),
-               fixed(bone.mass_kg * 1e3, 2), size_text_mm(bone.mesh), felt_text(bone),
-               std::to_string(corners), field_text(bone)});
-  }
+// Bones as they are seen: what is felt of them is not cut for it.
+Result<Case> build_uncut(CaseDef def) {
+  for (BoneDef& bone : def.bones) bone.felt = bone.felt == Felt::kPieces ? Felt::kHull : bone.felt;
+  return build_case(std::move(def));
+}
+
+void print_head(const Case& c) {
   print(c.name + (c.side.empty() ? "" : " (" + c.side + ")") + ", " +
         plural(c.bones.size(), "bone") + ", " + plural(c.softs.size(), "soft part") + ", " +
         plural(c.landmarks.size(), "landmark") + "\n\n");
   print_findings(c);
   print_joints(c);
+}
+
+std::vector<std::string> bone_row(const Bone& bone) {
+  return {bone.name,
+          fma_text(bone.fma_id),
+          std::to_string(bone.mesh.triangles.size()),
+          yes_no(topology(bone.mesh).closed()),
+          fixed(volume(bone.mesh) * 1e6, 3),
+          fixed(bone.mass_kg * 1e3, 2),
+          size_text_mm(bone.mesh)};
+}
+
+int info_without_pieces(const std::string& spec) {
+  auto def = open_case_def(spec);
+  if (!def) return report_error(def.error());
+  std::vector<Felt> felt;
+  for (const BoneDef& bone : def->bones) felt.push_back(bone.felt);
+  for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
+  const auto built = build_case(std::move(*def));
+  if (!built) return report_error(built.error());
+  print_head(*built);
+  TextTable table(
+      {"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm", "felt as"});
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    std::vector<std::string> row = bone_row(built->bones[i]);
+    row.emplace_back(to_text(felt[i]));
+    table.add(row);
+  }
+  print(table.text());
+  print_softs(*built);
+  return kExitDone;
+}
+
+int info_with_pieces(const std::string& spec) {
+  const auto the_case = open_and_show_progress(spec, CaseParts::kAll);
+  if (!the_case) return report_error(the_case.error());
+  const Case& c = **the_case;
+  print_head(c);
+  TextTable table({"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm",
+                   "felt as", "hull vertices", "field MB"});
+  double field_mb = 0;
+  for (const Bone& bone : c.bones) {
+    std::size_t corners = 0;
+    for (const Hull& piece : bone.pieces) corners += piece.vertices.size();
+    std::vector<std::string> row = bone_row(bone);
+    row.insert(row.end(), {felt_text(bone), std::to_string(corners), field_text(bone)});
+    table.add(row);
+    field_mb += bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
+  }
   print(table.text());
   print_softs(c);
-  double field_mb = 0;
-  for (const Bone& bone : c.bones)
-    field_mb += bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
   if (field_mb > 0) std::printf("\nthe distance fields take %.1f MB", field_mb);
   std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
   return kExitDone;
 }
 
-int run_check(const std::string& spec) {
+void print_check_json(const std::string& spec, std::size_t bones, std::size_t softs,
+                      const std::vector<std::string>& findings) {
+  nlohmann::ordered_json out;
+  out["case"] = spec;
+  out["bones"] = bones;
+  out["soft_parts"] = softs;
+  out["sound"] = findings.empty();
+  out["findings"] = findings;
+  // Names of files may be any bytes; JSON is UTF-8.
+  std::puts(out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+int run_check(const std::string& spec, bool json) {
   auto def = open_case_def(spec);
   if (!def) return report_error(def.error());
   std::vector<std::string> findings = check_case(*def);
-  const std::string parts =
-      plural(def->bones.size(), "bone") + ", " + plural(def->softs.size(), "soft part");
-  if (const auto built = build_case(std::move(*def)); !built)
+  const std::size_t bones = def->bones.size(), softs = def->softs.size();
+  if (const auto built = build_uncut(std::move(*def)); !built)
     findings.push_back(built.error().message());
-  for (const std::string& finding : findings) print(finding + "\n");
-  print(findings.empty() ? parts + ", sound\n" : plural(findings.size(), "finding") + "\n");
+  if (json) {
+    print_check_json(spec, bones, softs, findings);
+  } else {
+    for (const std::string& finding : findings) print(finding + "\n");
+    print(findings.empty() ? plural(bones, "bone") + ", " + plural(softs, "soft part") + ", sound\n"
+                           : plural(findings.size(), "finding") + "\n");
+  }
   return findings.empty() ? kExitDone : kExitNo;
 }
 
@@ -151,7 +217,8 @@ void add_import(CLI::App& app, int& exit_code) {
   CLI::App* mesh = import->add_subcommand(
       "mesh", "Make a case from meshes in one common frame: mended, named by their files");
   auto options = std::make_shared<ImportOptions>();
-  mesh->add_option("source", options->source, "a folder of STL, OBJ, PLY, glTF files, or one file")
+  mesh->add_option("source", options->source,
+                   "a folder of STL, OBJ, PLY, VTK, VTP, glTF files, or one file")
       ->required();
   auto unit = std::make_shared<std::string>();
   mesh->add_option("--unit", *unit, "unit of the files")
@@ -163,6 +230,8 @@ void add_import(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"left", "right"}));
   mesh->add_flag("--keep-hollows", options->keep_hollows,
                  "leave the marrow of a thin shell open where no ball of 2 mm gets in");
+  mesh->add_flag("--force", options->force,
+                 "take bones three times as large or small as usual, and parts that overlap");
   mesh->callback([options, unit, &exit_code] {
     options->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_import(*options);
@@ -175,11 +244,18 @@ void add_case(CLI::App& app, int& exit_code) {
   auto spec = std::make_shared<std::string>();
   CLI::App* info = group->add_subcommand("info", "List the bones of a case");
   info->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
-  info->callback([spec, &exit_code] { exit_code = run_info(*spec); });
+  auto pieces = std::make_shared<bool>(false);
+  info->add_flag("--pieces", *pieces,
+                 "cut the bones into the pieces that are felt, and list those too");
+  info->callback([spec, pieces, &exit_code] {
+    exit_code = *pieces ? info_with_pieces(*spec) : info_without_pieces(*spec);
+  });
   CLI::App* check = group->add_subcommand(
       "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
   check->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
-  check->callback([spec, &exit_code] { exit_code = run_check(*spec); });
+  auto json = std::make_shared<bool>(false);
+  check->add_flag("--json", *json, "print JSON: case, bones, soft_parts, sound, findings");
+  check->callback([spec, json, &exit_code] { exit_code = run_check(*spec, *json); });
   add_case_pose(*group, exit_code);
 }
 

@@ -68,7 +68,7 @@ void add_case_felt_command(CLI::App& app, int& exit_code) {
       ->required();
   felt->add_flag("--json", *json, "print JSON, lengths in millimetres");
   felt->callback([spec, json, &exit_code] {
-    const auto the_case = open_felt_case(*spec);
+    const auto the_case = open_and_show_progress(*spec, CaseParts::kFelt);
     if (!the_case) {
       exit_code = report_error(the_case.error());
       return;

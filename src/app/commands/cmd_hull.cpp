@@ -104,7 +104,7 @@ void add_hull_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<HullOptions>();
   CLI::App* command =
       app.add_subcommand("hull", "Convex hulls of meshes, by QuickHull and wrapping");
-  command->add_option("MESH", options->meshes, "STL, OBJ, PLY or glTF files")->required();
+  command->add_option("MESH", options->meshes, "STL, OBJ, PLY, VTK, VTP or glTF files")->required();
   command->add_option("--unit", options->unit, "Unit of the meshes: m, cm or mm")
       ->capture_default_str()
       ->check(CLI::IsMember({"m", "cm", "mm"}));

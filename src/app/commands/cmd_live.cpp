@@ -10,6 +10,7 @@
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/number_check.h"
 #include "loops/device_log.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
@@ -42,8 +43,8 @@ Result<DeviceChoice> choice_named(const std::string& name) {
   for (const DeviceChoice& choice : list_device_choices(&problems))
     if (choice.driver == driver && (serial.empty() || choice.info.serial == serial)) return choice;
   std::string why;
-  for (const std::string& problem : problems) why += " " + problem;
-  return fail("there is no such device." + why, name, "See `osteon devices`");
+  for (const std::string& problem : problems) why += "; " + problem;
+  return fail("there is no such device" + why, name, "See `osteon devices`");
 }
 
 // "run.osr" of the second hand is "run-2.osr".
@@ -184,7 +185,7 @@ Result<ProbePath> path_of(const LiveOptions& options, const Case& the_case) {
 int run_live(LiveOptions options) {
   const StopSignals signals;
   options.mapping.axes = MappingAxes::kPatient;
-  auto the_case = open_felt_case(options.case_spec);
+  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   const auto path = path_of(options, **the_case);
   if (!path) return report_error(path.error());
@@ -218,7 +219,7 @@ void add_live_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--path", options->path, "what the virtual hand follows (CSV)");
   command->add_option("--seconds", options->seconds, "then end; 0: until Ctrl-C")
-      ->check(CLI::NonNegativeNumber);
+      ->check(refuse_negative);
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--force-log", options->force_log,
                       "write the last 20 s of the device's positions and forces (CSV)");

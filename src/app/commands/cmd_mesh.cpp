@@ -6,6 +6,7 @@
 #include "cases/mesh_source.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/number_check.h"
 #include "commands/tet_report.h"
 #include "osteon/mesh/tet_io.h"
 #include "osteon/mesh/tetrahedra.h"
@@ -17,7 +18,7 @@ struct TetrahedraCommand {
   std::string source, unit, out;
   double cell_mm = 0;
   TetrahedraOptions options;
-  bool json = false;
+  bool json = false, force = false;
 };
 
 int run_tetrahedra(TetrahedraCommand command) {
@@ -29,6 +30,13 @@ int run_tetrahedra(TetrahedraCommand command) {
     made.error().where = command.source;
     return report_error(made.error());
   }
+  const std::size_t inverted = made->report.after.inverted;
+  if (inverted > 0 && !command.force)
+    return report_error(
+        {std::to_string(inverted) + " tetrahedra are inverted, so nothing is written",
+         command.source,
+         "Mend the surface (osteon import mesh), choose a smaller --cell-mm, or give "
+         "--force"});
   if (!command.out.empty())
     if (const auto saved = save_vtk(made->mesh, command.out, source->metres_per_unit); !saved)
       return report_error(saved.error());
@@ -54,14 +62,16 @@ void add_tetrahedra(CLI::App& mesh, int& exit_code) {
       ->add_option("--cell-mm", options->cell_mm,
                    "edge of the lattice's cubes; default: from the thinnest part, made smaller "
                    "until the volume fits")
-      ->check(CLI::PositiveNumber);
+      ->check(refuse_not_positive);
   command
       ->add_option("--goal-deg", options->options.goal_deg,
                    "improve until no dihedral angle is sharper, where that can be")
+      ->check(CLI::Range(0.0, 90.0))
       ->capture_default_str();
   command->add_option("--most", options->options.most_tets, "refuse to make more tetrahedra")
       ->capture_default_str();
   command->add_option("--out", options->out, "write a VTK file (legacy, ASCII); a bone's in mm");
+  command->add_flag("--force", options->force, "write the result even with inverted tetrahedra");
   command->add_flag("--json", options->json, "print the report as JSON");
   command->callback([options, &exit_code] { exit_code = run_tetrahedra(*options); });
 }

@@ -9,6 +9,7 @@
 #include "cases/mesh_source.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/number_check.h"
 #include "commands/text_table.h"
 #include "osteon/mesh/decimate.h"
 #include "osteon/mesh/distance.h"
@@ -103,7 +104,7 @@ void add_decimate(CLI::App& mesh, int& exit_code) {
   add_source(*decimate, *command);
   decimate->add_option("--error-mm", command->error_mm, "how far the surface may move, about")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(refuse_not_positive);
   decimate->callback([command, &exit_code] { exit_code = run_decimate(*command); });
 }
 
@@ -146,7 +147,7 @@ void add_drag(CLI::App& mesh, int& exit_code) {
       ->expected(3);
   drag->add_option("--radius-mm", command->radius_mm, "of what follows, along the surface")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(refuse_not_positive);
   drag->add_option("--fall-off", command->fall_off, "smooth, cone, dome or spike")
       ->capture_default_str()
       ->check(CLI::IsMember({"smooth", "cone", "dome", "spike"}));

@@ -25,7 +25,7 @@ std::string join(const std::vector<std::string>& names) {
 }
 
 int run_survey(const SurveyCommand& command) {
-  auto the_case = open_felt_case(command.case_spec);
+  auto the_case = open_and_show_progress(command.case_spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   const Survey survey = make_survey(**the_case, make_wrist_probe(), command.options);
   if (survey.path.samples.empty())

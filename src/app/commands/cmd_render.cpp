@@ -54,7 +54,8 @@ Result<void> render(const RenderOptions& options) {
   auto spec = Result<std::string>(options.case_spec);
   if (options.flexion_deg) spec = bent_spec(*spec, "flexion", *options.flexion_deg);
   if (!spec) return tl::unexpected(spec.error());
-  const auto opened = open_case(*spec);
+  const auto opened = open_and_show_progress(
+      *spec, options.hulls || options.felt ? CaseParts::kAll : CaseParts::kSeen);
   if (!opened) return tl::unexpected(opened.error());
   const Case& the_case = **opened;
   const auto view = make_view(options, the_case, static_cast<double>(size->width) / size->height);

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kLargestExpectation = 16 << 20;  // bytes
+
 struct ReplayOptions {
   std::string file;
   std::string case_spec;
@@ -27,7 +29,7 @@ struct ReplayOptions {
 };
 
 int print_deviations(const Report& report, const std::string& expect_file) {
-  const auto expectation = read_file(expect_file, 16 << 20);
+  const auto expectation = read_file(expect_file, kLargestExpectation);
   if (!expectation) return report_error(expectation.error());
   auto deviations = check_expectation(report, *expectation);
   if (!deviations) {
@@ -45,7 +47,7 @@ int replay_recording(const ReplayOptions& options) {
   if (!recording) return report_error(recording.error());
   const std::string spec =
       options.case_spec.empty() ? recording->header.case_source : options.case_spec;
-  auto the_case = open_felt_case(spec);
+  auto the_case = open_and_show_progress(spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   std::unique_ptr<FrameWriter> frames;
   if (!options.frames.empty()) {
@@ -76,7 +78,8 @@ int replay_recording(const ReplayOptions& options) {
 int replay_path(const ReplayOptions& options) {
   auto path = load_path(options.file);
   if (!path) return report_error(path.error());
-  auto the_case = open_felt_case(options.case_spec.empty() ? "builtin:wrist" : options.case_spec);
+  auto the_case = open_and_show_progress(
+      options.case_spec.empty() ? "builtin:wrist" : options.case_spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   HeadlessRun run;
   run.the_case = *the_case;
@@ -101,6 +104,10 @@ int replay_path(const ReplayOptions& options) {
 }
 
 int run_replay(const ReplayOptions& options) {
+  // A file that is missing is said before the run, not after it.
+  if (!options.expect.empty())
+    if (const auto expectation = read_file(options.expect, kLargestExpectation); !expectation)
+      return report_error(expectation.error());
   const bool is_path = fs::path(options.file).extension() == ".csv";
   return is_path ? replay_path(options) : replay_recording(options);
 }

@@ -24,7 +24,7 @@ struct SimulateOptions {
 int run_simulate(const SimulateOptions& options) {
   auto path = load_path(options.path);
   if (!path) return report_error(path.error());
-  auto the_case = open_felt_case(options.case_spec);
+  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   HeadlessRun run;
   run.the_case = *the_case;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "commands/commands.h"
+#include "commands/number_check.h"
 #include "commands/window_size.h"
 #include "commands/windows_in_turn.h"
 
@@ -56,7 +57,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
-      ->check(CLI::NonNegativeNumber);
+      ->check(refuse_negative);
   command->callback([order, size, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
       throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");

@@ -31,16 +31,17 @@ void add_devices_command(CLI::App& app, int& exit_code);      // devices
 void add_doctor_command(CLI::App& app, int& exit_code);       // doctor
 void add_stability_command(CLI::App& app, int& exit_code);    // stability
 void add_instruments_command(CLI::App& app, int& exit_code);  // instruments: list, show, render
-void add_window_command(CLI::App& app, int& exit_code);       // window
-void add_segment_command(CLI::App& app, int& exit_code);      // segment: a CT by hand
-void add_xray_command(CLI::App& app, int& exit_code);         // xray: a picture of a C-arm
-void add_view_command(CLI::App& app, int& exit_code);         // view: what an arthroscope shows
-void add_carve_command(CLI::App& app, int& exit_code);        // carve: remove bone along a path
-void add_metrics_command(CLI::App& app, int& exit_code);      // metrics: of a path
-void add_scenario_commands(CLI::App& app, int& exit_code);    // scenario list, info, check
-void add_run_command(CLI::App& app, int& exit_code);          // run: a virtual surgeon
-void add_tunnel_command(CLI::App& app, int& exit_code);       // tunnel: drilled into a bone
-void add_drill_commands(CLI::App& app, int& exit_code);       // drill trial, drill resistance
+void add_window_commands(CLI::App& app, int& exit_code);    // those below, or none (OSTEON_WINDOW)
+void add_window_command(CLI::App& app, int& exit_code);     // window
+void add_segment_command(CLI::App& app, int& exit_code);    // segment: a CT by hand
+void add_xray_command(CLI::App& app, int& exit_code);       // xray: a picture of a C-arm
+void add_view_command(CLI::App& app, int& exit_code);       // view: what an arthroscope shows
+void add_carve_command(CLI::App& app, int& exit_code);      // carve: remove bone along a path
+void add_metrics_command(CLI::App& app, int& exit_code);    // metrics: of a path
+void add_scenario_commands(CLI::App& app, int& exit_code);  // scenario list, info, check
+void add_run_command(CLI::App& app, int& exit_code);        // run: a virtual surgeon
+void add_tunnel_command(CLI::App& app, int& exit_code);     // tunnel: drilled into a bone
+void add_drill_commands(CLI::App& app, int& exit_code);     // drill trial, drill resistance
 // case measure; after add_case_commands
 void add_case_measure_command(CLI::App& app, int& exit_code);
 

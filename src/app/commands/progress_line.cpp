@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <stdexcept>
 
 namespace osteon {
 namespace {
@@ -13,21 +14,32 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 void on_interrupt(int) { interrupted = 1; }
 
+// One command line is one program: what it said of silence holds to its end.
+bool silent = false;
+
 }  // namespace
 
-ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1) {
+ProgressLine::ProgressLine() : terminal_(!silent && ::isatty(STDERR_FILENO) == 1) {
   interrupted = 0;
-  std::signal(SIGINT, on_interrupt);
+  before_ = std::signal(SIGINT, on_interrupt);
 }
 
 ProgressLine::~ProgressLine() {
-  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGINT, before_ == SIG_ERR ? SIG_DFL : before_);
   if (!shown_.empty()) std::fprintf(stderr, "\r%*s\r", 72, "");
 }
 
 Progress ProgressLine::callback() {
   return [this](const char* what, double share) { return show(what, share); };
 }
+
+std::function<void(const char* what, double share)> ProgressLine::stopping() {
+  return [this](const char* what, double share) {
+    if (!show(what, share)) throw std::runtime_error("stopped; nothing was written");
+  };
+}
+
+void ProgressLine::keep_silent() { silent = true; }
 
 bool ProgressLine::show(const char* what, double share) {
   if (interrupted) return false;

@@ -57,6 +57,69 @@ TEST(ImportMesh, RefusesTwoFilesOfOneBone) {
   EXPECT_NE(complaint(options_for(dir)).find("'lunate'"), std::string::npos);
 }
 
+TEST(ImportMesh, RefusesWhatIsNoBone) {
+  const fs::path dir = test::fresh_folder("import_no_bone");
+  fs::create_directories(dir / "in");
+  ImportOptions options = options_for(dir);
+  TriMesh one;
+  one.vertices = {Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0)};
+  one.triangles = {{0, 1, 2}};
+  ASSERT_TRUE(save_stl(one, dir / "in/lunate.stl", 0.001));
+  options.force = true;
+  EXPECT_NE(complaint(options).find("has no volume"), std::string::npos) << complaint(options);
+}
+
+TEST(ImportMesh, RefusesAWrongUnitAndSuggestsTheRightOne) {
+  const fs::path dir = test::fresh_folder("import_unit");
+  fs::create_directories(dir / "in");
+  ASSERT_TRUE(save_stl(test::sphere(0.012, 8), dir / "in/capitate.stl", 0.001));  // 24 mm
+  ImportOptions options = options_for(dir);
+  options.metres_per_unit = 0.01;
+  EXPECT_NE(complaint(options).find("is 240 mm long"), std::string::npos) << complaint(options);
+  EXPECT_NE(complaint(options).find("--unit mm"), std::string::npos) << complaint(options);
+  options.metres_per_unit = 1;
+  EXPECT_NE(complaint(options).find("24000 mm"), std::string::npos) << complaint(options);
+  EXPECT_FALSE(fs::exists(dir / "wrist"));
+  options.metres_per_unit = 0.01;
+  options.force = true;
+  EXPECT_EQ(complaint(options), "");
+}
+
+TEST(ImportMesh, RefusesPartsThatOverlap) {
+  const fs::path dir = test::fresh_folder("import_overlap");
+  fs::create_directories(dir / "in");
+  TriMesh two = test::cube(0.01);
+  const TriMesh other = test::cube(0.01, Vec3(0.011, 0.007, 0.003));
+  for (const Vec3& v : other.vertices) two.vertices.push_back(v);
+  for (const Triangle& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  ASSERT_TRUE(save_stl(two, dir / "in/block.stl", 0.001));
+  ImportOptions options = options_for(dir);
+  EXPECT_NE(complaint(options).find("pass through each other"), std::string::npos);
+  EXPECT_FALSE(fs::exists(dir / "wrist"));
+  options.force = true;
+  const auto taken = import_meshes(options);
+  ASSERT_TRUE(taken) << taken.error().message();
+  EXPECT_EQ(taken->bones[0].triangles, 24u);
+  EXPECT_GT(taken->bones[0].crossings, 0u);
+}
+
+TEST(ImportMesh, CapsACutShaft) {
+  const fs::path dir = test::fresh_folder("import_shaft");
+  fs::create_directories(dir / "in");
+  TriMesh shaft = test::sphere(0.01, 150);  // 300 around
+  for (Vec3& v : shaft.vertices) v.z() *= 8;
+  std::erase_if(shaft.triangles, [&](const Triangle& t) {
+    return std::max({shaft.vertices[t[0]].z(), shaft.vertices[t[1]].z(),
+                     shaft.vertices[t[2]].z()}) > 0.0001;
+  });
+  ASSERT_TRUE(save_stl(shaft, dir / "in/radius.stl", 0.001));
+  const auto result = import_meshes(options_for(dir));
+  ASSERT_TRUE(result) << result.error().message();
+  EXPECT_EQ(result->bones[0].repair.capped_ends, 1u);
+  EXPECT_TRUE(result->bones[0].closed);
+  EXPECT_NEAR(volume(result->def.bones[0].mesh), 2 * M_PI / 3 * 0.01 * 0.01 * 0.08, 2e-8);
+}
+
 TEST(ImportMesh, NeverTouchesAnExistingFolder) {
   const fs::path dir = folder_of_meshes("import_over");
   fs::create_directories(dir / "wrist");
