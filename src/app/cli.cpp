@@ -45,23 +45,20 @@ int run_cli(int argc, char** argv) {
         add_stability_command,   add_tissue_commands,   add_window_commands,   add_xray_command,
         add_instruments_command, add_carve_command,     add_view_command,      add_metrics_command,
         add_scenario_commands,   add_run_command})
-    add_xray_command, add_instruments_command, add_carve_command, add_tunnel_command,
-        add_drill_commands, add_case_measure_command
-})
     add(app, exit_code);
-try {
-  app.parse(argc, argv);
-} catch (const CLI::ParseError& e) {
-  if (names_no_command(app, argc, argv)) {
-    std::fprintf(stderr, "osteon: there is no command '%s'. See osteon --help.\n", argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (names_no_command(app, argc, argv)) {
+      std::fprintf(stderr, "osteon: there is no command '%s'. See osteon --help.\n", argv[1]);
+      return 2;
+    }
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "osteon: %s\n", e.what());
     return 2;
   }
-  return app.exit(e) == 0 ? 0 : 2;
-} catch (const std::exception& e) {
-  std::fprintf(stderr, "osteon: %s\n", e.what());
-  return 2;
-}
-return exit_code;
+  return exit_code;
 }
 
 }  // namespace osteon
