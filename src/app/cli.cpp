@@ -44,7 +44,8 @@ int run_cli(int argc, char** argv) {
         add_render_command,      add_live_command,      add_devices_command,   add_doctor_command,
         add_stability_command,   add_tissue_commands,   add_window_commands,   add_xray_command,
         add_instruments_command, add_carve_command,     add_view_command,      add_metrics_command,
-        add_scenario_commands,   add_run_command})
+        add_scenario_commands,   add_run_command,       add_tunnel_command,    add_drill_commands,
+        add_case_measure_command})
     add(app, exit_code);
   try {
     app.parse(argc, argv);
