@@ -47,17 +47,21 @@ int run_cli(int argc, char** argv) {
         add_scenario_commands,   add_run_command,       add_tunnel_command,    add_drill_commands,
         add_case_measure_command})
     add(app, exit_code);
+  check_all_numbers(app);
+  add_quiet(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (names_no_command(app, argc, argv)) {
-      std::fprintf(stderr, "osteon: there is no command '%s'. See osteon --help.\n", argv[1]);
-      return 2;
+    if (e.get_exit_code() == 0) return app.exit(e);
+    if (const auto wrong = wrong_word(app, {argv + 1, argv + argc})) {
+      std::fprintf(stderr, "osteon: %s\n", wrong->c_str());
+      return kExitBad;
     }
-    return app.exit(e) == 0 ? 0 : 2;
+    app.exit(e);
+    return kExitBad;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "osteon: %s\n", e.what());
-    return 2;
+    return kExitBad;
   }
   return exit_code;
 }
