@@ -24,6 +24,7 @@ constexpr double kOldestSnapshot_s = 0.05;
 constexpr double kAnyWay = 1e9;
 // A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
 constexpr double kStepInPortal_m = 0.0005;
+constexpr double kFadeTicks = HapticLoop::kFade_s / 0.001;
 
 // What is not a number fails every comparison.
 bool usable(const Pose& X) {
@@ -53,6 +54,9 @@ struct Load {
   double dynamic_lag = 0;
   Vec3 v_bone_W = Vec3::Zero();
   BoneId carrier;
+  bool by_tool = false;  // another hand's tool holds the proxy
+
+  bool holds() const { return carrier.valid() || by_tool; }
 };
 
 }  // namespace
@@ -66,9 +70,16 @@ struct HapticLoop::Impl {
   HapticState state;
   std::array<Pose, kMaxBones> now_WB{};
   std::array<BoneMotion, kMaxBones> motion{};
+  OtherTools others{};           // as this tick sees them
+  Vec3 v_hand_W = Vec3::Zero();  // of this tick's sample
+  bool waiting = false;          // for bones of the tool's own epoch
 
-  Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t)
-      : the_case(std::move(c)), tool(std::move(t)), field(*the_case, *tool), solver(field) {
+  Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t,
+       std::span<const std::shared_ptr<const Tool>> tray)
+      : the_case(std::move(c)),
+        tool(std::move(t)),
+        field(*the_case, *tool),
+        solver(field, *tool, tray) {
     state.bone_count = static_cast<std::uint32_t>(the_case->bones.size());
     state.pairs.resize(kMaxCandidates);
   }
@@ -78,7 +89,11 @@ struct HapticLoop::Impl {
 
   void refuse_input();
   void see_bones(const BoneSnapshot& bones, double age_s);
+  void see_others(const OtherTools& seen);
   void place(const Pose& X_WD);
+  void wait_for_epoch(std::uint32_t bones_epoch);
+  void start_fading() { state.fade_n = state.tool.force_W.norm() / kFadeTicks; }
+  void fade();
   void grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
@@ -87,6 +102,7 @@ struct HapticLoop::Impl {
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
   double glide(const Vec3& hand_W) const;
+  void add_tool(const HoldingPlane& plane, const HapticParams& params, Load& out) const;
   Load load(const ProxyMove& move, const HapticParams& params) const;
   void list_contacts(const ProxyMove& move);
   Load letting_go(const HapticParams& params) const;
@@ -99,6 +115,8 @@ void HapticLoop::Impl::refuse_input() {
   state.tool.status = kTickInputNotFinite;
   state.tool.force_W.setZero();
   state.tool.contact_count = 0;
+  state.tool.tool_contact_count = 0;
+  state.fade_n = 0;
 }
 
 void HapticLoop::Impl::see_bones(const BoneSnapshot& bones, double age_s) {
@@ -109,23 +127,31 @@ void HapticLoop::Impl::see_bones(const BoneSnapshot& bones, double age_s) {
   }
 }
 
+// One that is not finite is not there.
+void HapticLoop::Impl::see_others(const OtherTools& seen) {
+  others = seen;
+  for (OtherTool& other : others)
+    if (!usable(other.X_WP) || !is_finite(other.p_WD) || !is_finite(other.v_W)) other = {};
+}
+
 // Before the hand has been free once, nothing is felt: a start inside bone must not kick. The
 // proxy is put out of the bone where there is room within reach.
 void HapticLoop::Impl::place(const Pose& X_WD) {
   constexpr double kNear = 0.001;
   constexpr double kFar = 0.020;
-  ProxyTask task{X_WD, X_WD.p, X_WD.p, X_WD.q, kNear, false, now(), now()};
+  ProxyTask task{X_WD,  X_WD.p, X_WD.p,  X_WD.q,  kNear,  false,
+                 now(), now(),  &others, &others, nullptr};
   ProxyMove move = solver.move(task, state.pairs);
   if (move.status & kTickProxyBlocked) {
     task.reach_m = kFar;
     move = solver.move(task, state.pairs);
   }
-  state.armed = move.free;
+  fade();
+  state.armed = move.free && state.fade_n == 0 && !waiting;
   state.sliding = false;
   state.carrier = {};
   state.tool.X_WP = {move.end(), move.q_WP};
   state.tool.status |= move.status;
-  state.tool.force_W.setZero();
   list_contacts(move);
   pass_portals(true);
 }
@@ -156,6 +182,28 @@ void HapticLoop::Impl::aim_through(const PortalPivot& pivot, const Vec3& base_W,
   wanted.q = through_portal(portals[state.portal.portal], tool->shaft, tip_W, pivot.q_W);
 }
 
+// Hand and world go back to a restore point in ticks of their own. Until both have, what the hand
+// would feel is not where it will be.
+void HapticLoop::Impl::wait_for_epoch(std::uint32_t bones_epoch) {
+  waiting = bones_epoch != state.tool.epoch;
+  if (!waiting || !state.armed) return;
+  state.armed = false;
+  start_fading();
+}
+
+// What is left of the force of before a change goes to zero in equal steps.
+void HapticLoop::Impl::fade() {
+  Vec3& force_W = state.tool.force_W;
+  const double size = force_W.norm();
+  if (!(state.fade_n > 0) || !(size > state.fade_n)) {
+    force_W.setZero();
+    state.fade_n = 0;
+    return;
+  }
+  force_W *= (size - state.fade_n) / size;
+  state.tool.status |= kTickFading;
+}
+
 // While the hand drags what it has grabbed, the surface that it would touch is the one that moves:
 // nothing is touched, and the hand feels how far it has dragged. Contact begins anew afterwards.
 void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params) {
@@ -168,6 +216,8 @@ void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const Hapt
   state.portal = {};
   state.tool.portal = kNoPortal;
   state.tool.contact_count = 0;
+  state.tool.tool_contact_count = 0;
+  state.fade_n = 0;
   state.tool.status |= kTickGrabbing;
   const Vec3 force =
       grab_force(X_WD.p - state.p_WG, input.v_W, params.grab_n_per_m, params.damping_n_s_per_m);
@@ -207,11 +257,26 @@ double HapticLoop::Impl::glide(const Vec3& hand_W) const {
   return kCreep + 1.5 * (hand_W - state.tool.X_WD.p).norm();
 }
 
+// Steel on steel: without friction, as stiff as the coupling goes, moving as both hands do.
+void HapticLoop::Impl::add_tool(const HoldingPlane& plane, const HapticParams& params,
+                                Load& out) const {
+  const double w = plane.weight;
+  out.sum += w;
+  out.stretch_W += w * plane.nhat_BT_W;
+  out.stiffness += w * params.stiffness_n_per_m;
+  out.v_bone_W += w * 0.5 * (v_hand_W + others[plane.other].v_W);
+  out.by_tool = out.by_tool || w > 0;
+}
+
 Load HapticLoop::Impl::load(const ProxyMove& move, const HapticParams& params) const {
   Load out;
   double largest = 0;
   for (std::uint32_t i = 0; i < move.holding_count; ++i) {
     const HoldingPlane& plane = move.holding[i];
+    if (plane.other < kMaxHands) {
+      add_tool(plane, params, out);
+      continue;
+    }
     const std::uint32_t bone = field.pairs()[plane.pair].bone;
     const Material& material = field.bone(bone).material;
     const double w = plane.weight;
@@ -237,12 +302,18 @@ Load HapticLoop::Impl::load(const ProxyMove& move, const HapticParams& params) c
 void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
   // The points were found with the proxy at query_W; they belong to the tool's surface.
   const Vec3 shift = state.tool.X_WP.p - move.query_W;
-  state.tool.contact_count = move.holding_count;
+  std::uint32_t& bones = state.tool.contact_count = 0;
+  std::uint32_t& tools = state.tool.tool_contact_count = 0;
   for (std::uint32_t i = 0; i < move.holding_count; ++i) {
     const HoldingPlane& plane = move.holding[i];
+    if (plane.other < kMaxHands) {
+      state.tool.tool_contacts[tools++] = {plane.other, plane.p_W + shift, plane.nhat_BT_W,
+                                           Vec3::Zero()};
+      continue;
+    }
     const PiecePair& pair = field.pairs()[plane.pair];
-    state.tool.contacts[i] = {BoneId{pair.bone}, pair.piece,  plane.p_W + shift,
-                              plane.nhat_BT_W,   plane.depth, Vec3::Zero()};
+    state.tool.contacts[bones++] = {BoneId{pair.bone}, pair.piece,  plane.p_W + shift,
+                                    plane.nhat_BT_W,   plane.depth, Vec3::Zero()};
   }
 }
 
@@ -254,10 +325,12 @@ void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, cons
   if (!(load.sum > 0) || !(size > 0)) return;
   const double normal = std::max(0.0, force.dot(load.nhat_W));
   const Vec3 rest = force - normal * load.nhat_W;
+  std::uint32_t bones = 0, tools = 0;
   for (std::uint32_t i = 0; i < move.holding_count; ++i) {
     const HoldingPlane& plane = move.holding[i];
-    state.tool.contacts[i].force_on_tool_W =
-        (normal * plane.weight / size) * plane.nhat_BT_W + (plane.weight / load.sum) * rest;
+    Vec3& share = plane.other < kMaxHands ? state.tool.tool_contacts[tools++].force_on_tool_W
+                                          : state.tool.contacts[bones++].force_on_tool_W;
+    share = (normal * plane.weight / size) * plane.nhat_BT_W + (plane.weight / load.sum) * rest;
   }
 }
 
@@ -274,7 +347,8 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   double room = reach(base_W, wanted.p, turn);
   if (portal.in) room = std::min(room, kStepInPortal_m);
   const bool was_held = state.carrier.valid();
-  ProxyTask task{state.tool.X_WP, base_W, wanted.p, q, room, was_held, before(), now()};
+  ProxyTask task{state.tool.X_WP, base_W, wanted.p,      q,       room,   was_held,
+                 before(),        now(),  &state.others, &others, nullptr};
   PortalRing ring;
   if (portal.in) {
     ring = ring_of(portals[state.portal.portal], tool->shaft, state.tool.X_WP);
@@ -283,7 +357,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   const ProxyMove move = solver.move(task, state.pairs);
   Load held = load(move, params);
   const bool way_known = !(move.status & kTickSolverLimit);
-  if (was_held && way_known && !held.carrier.valid()) held = letting_go(params);
+  if (was_held && way_known && !held.holds()) held = letting_go(params);
 
   // A proxy that has just landed has no place yet to which friction could hold it.
   const bool rested = was_held && held.carrier.valid();
@@ -291,7 +365,10 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
                                    : Friction{0, 0, kAnyWay};
   const std::span<const Vec3> path(move.path.data(), move.path_count);
   const FrictionStep step = apply_friction(path, friction, state.sliding);
-  if (move.free && step.p_W == wanted.p) held.carrier = {};
+  if (move.free && step.p_W == wanted.p) {
+    held.carrier = {};
+    held.by_tool = false;
+  }
   state.sliding = step.sliding;
   state.carrier = held.carrier;
   state.tool.X_WP = {step.p_W, move.q_WP};
@@ -317,7 +394,7 @@ Load HapticLoop::Impl::letting_go(const HapticParams& params) const {
 double HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Load& held,
                               bool sticking, const Vec3& portal_W, const HapticParams& params) {
   Vec3 force = Vec3::Zero();
-  if (held.carrier.valid()) {
+  if (held.holds()) {
     const Vec3 stretch = state.tool.X_WP.p - hand_W;
     const double size = stretch.norm();
     const bool loaded = held.sum > 0 || !(size > 0);
@@ -333,17 +410,19 @@ double HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const 
   return wanted > 0 ? std::min(1.0, state.tool.force_W.norm() / wanted) : 1;
 }
 
-HapticLoop::HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool) {
+HapticLoop::HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool,
+                       std::span<const std::shared_ptr<const Tool>> tray) {
   demand(the_case && tool && the_case->bones.size() <= kMaxBones,
          "the haptic loop needs a tool and a case of at most kMaxBones bones");
-  impl_ = std::make_unique<Impl>(std::move(the_case), std::move(tool));
+  impl_ = std::make_unique<Impl>(std::move(the_case), std::move(tool), tray);
 }
 
 HapticLoop::~HapticLoop() = default;
 HapticLoop::HapticLoop(HapticLoop&&) noexcept = default;
 
 const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bones,
-                                  double bones_age_s, const HapticParams& params) noexcept {
+                                  double bones_age_s, const HapticParams& params,
+                                  const OtherTools& others) noexcept {
   Impl& in = *impl_;
   ToolState& out = in.state.tool;
   ++out.tick;
@@ -357,6 +436,9 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
   out.buttons = input.buttons;
   const Pose X_WD{input.X_WD.p, input.X_WD.q.normalized()};
   in.see_bones(bones, bones_age_s);
+  in.see_others(others);
+  in.wait_for_epoch(bones.epoch);
+  in.v_hand_W = out.v_W = input.v_W;
   if (params.grab_n_per_m > 0) {
     in.grab(input, X_WD, params);
   } else if (in.state.armed) {
@@ -367,6 +449,7 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
   in.state.grabbing = params.grab_n_per_m > 0;
   out.X_WD = X_WD;
   std::copy_n(in.now_WB.begin(), in.state.bone_count, in.state.X_WB.begin());
+  in.state.others = in.others;
   return out;
 }
 
@@ -376,6 +459,33 @@ void HapticLoop::reset() {
   fresh.pairs.resize(kMaxCandidates);
   impl_->state = std::move(fresh);
 }
+
+void HapticLoop::begin_anew(const ToolState& last) noexcept {
+  HapticState& s = impl_->state;
+  s.tool = last;
+  s.tool.contact_count = 0;
+  s.tool.tool_contact_count = 0;
+  s.armed = s.sliding = s.grabbing = false;
+  s.carrier = {};
+  s.portal = {};
+  s.tool.portal = kNoPortal;
+  s.p_WG.setZero();
+  s.others = {};
+  std::fill(s.pairs.begin(), s.pairs.end(), PairMemory{});
+  impl_->start_fading();
+}
+
+void HapticLoop::next_epoch() noexcept { ++impl_->state.tool.epoch; }
+
+void HapticLoop::set_grip(std::uint32_t instrument, double power, double jaw) noexcept {
+  ToolState& tool = impl_->state.tool;
+  tool.instrument = instrument;
+  tool.power = power;
+  tool.jaw = jaw;
+}
+
+const HapticState& HapticLoop::state() const { return impl_->state; }
+const Tool& HapticLoop::tool() const { return *impl_->tool; }
 
 std::uint64_t HapticLoop::state_hash() const {
   const HapticState& s = impl_->state;
@@ -389,8 +499,21 @@ std::uint64_t HapticLoop::state_hash() const {
   h.add(s.armed);
   h.add(s.sliding);
   h.add(s.carrier.index);
-  // Only then, so that older recordings keep their hashes.
-  if (s.grabbing) h.add(s.p_WG);
+  h.add(s.grabbing);
+  h.add(s.p_WG);
+  h.add(s.fade_n);
+  h.add(s.tool.epoch);
+  h.add(s.tool.instrument);
+  h.add(s.tool.power);
+  h.add(s.tool.jaw);
+  for (const OtherTool& other : s.others) {
+    h.add(other.tick);
+    if (other.tick == 0) continue;
+    h.add(other.instrument);
+    h.add(other.p_WD);
+    h.add(other.X_WP);
+    h.add(other.v_W);
+  }
   if (s.portal.portal != kNoPortal || s.portal.nearest != kNoPortal) {
     h.add(s.portal.portal);
     h.add(s.portal.anchor_m);

@@ -170,7 +170,8 @@ void ProxySolver::raise_planes(std::span<const Pose> X_WB, const Quat& q_WT) {
     if (turned || !same_pose(last_WB[bone], X_WB[bone])) raise(i);
   }
   walls_.raise(X_WB, q_WT, std::span(planes_).subspan(near_.count));
-  if (ring_) ring_->raise(q_WT, std::span(planes_).subspan(bone_planes()));
+  tools_.raise(q_WT, std::span(planes_).subspan(bone_planes()));
+  if (ring_) ring_->raise(q_WT, std::span(planes_).subspan(felt_planes()));
 }
 
 // The free point nearest to the task's start. A field's planes may have to be found again there.
@@ -237,6 +238,8 @@ bool ProxySolver::look_again(const ProxyTask& task, const NearestPoint& target, 
     move.status |= kTickSolverLimit;
     return false;
   }
+  if (task.others_now)
+    tools_.look(*task.others_now, {move.end(), move.q_WP}, task.hand_W - move.end());
   raise_planes(task.now_WB, move.q_WP);
   move.query_W = move.end();
   // A field's skin is wide enough for the next round to take care of it.
@@ -252,19 +255,24 @@ void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target
   move.holding_count = 0;
   for (std::uint32_t k = 0; k < target.active_count; ++k) {
     const std::uint32_t i = target.active[k];
-    if (i >= bone_planes()) continue;  // skin, which has a force of its own
-    if (plane_of(i).gap > kTouch && !task.held) continue;
-    const std::uint32_t pair = pair_of(i);
-    const Pose& bone = task.now_WB[field_.pairs()[pair].bone];
+    if (i >= felt_planes()) continue;  // skin, which has a force of its own
+    if (gap_of(i) > kTouch && !task.held) continue;
     const double depth = planes_[i].c - planes_[i].n.dot(task.hand_W);
-    move.holding[move.holding_count++] = {pair, planes_[i].n, target.weight[k], depth,
-                                          bone * plane_of(i).p_B};
+    HoldingPlane& plane = move.holding[move.holding_count++];
+    plane = {0, kMaxHands, planes_[i].n, target.weight[k], depth, Vec3::Zero()};
+    if (i >= bone_planes()) {
+      plane.other = tools_.hand(i - bone_planes());
+      plane.p_W = tools_.point_W(i - bone_planes());
+      continue;
+    }
+    plane.pair = pair_of(i);
+    plane.p_W = task.now_WB[field_.pairs()[plane.pair].bone] * plane_of(i).p_B;
   }
 }
 
 bool ProxySolver::touching(const NearestPoint& target) const {
   for (std::uint32_t k = 0; k < target.active_count; ++k)
-    if (target.active[k] < bone_planes() && plane_of(target.active[k]).gap > kTouch) return false;
+    if (gap_of(target.active[k]) > kTouch) return false;
   return true;
 }
 
@@ -285,6 +293,12 @@ void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
   }
 }
 
+void ProxySolver::meet_tools(const ProxyTask& task) {
+  tools_.clear();
+  if (task.others_now)
+    tools_.start(*task.others_before, *task.others_now, task.X_WP, task.hand_W - task.X_WP.p);
+}
+
 ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory) {
   memory_ = memory;
   ring_ = task.ring;
@@ -299,6 +313,7 @@ ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory)
     move.status = kTickSolverLimit;
     return move;
   }
+  meet_tools(task);
   if (enter_free_space(task, task.q_WP, move)) {
     approach(task, move);
   } else if (enter_free_space(task, task.X_WP.q, move)) {

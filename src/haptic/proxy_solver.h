@@ -10,6 +10,7 @@
 #include "nearest_point.h"
 #include "osteon/base/types.h"
 #include "portal_pivot.h"
+#include "tool_walls.h"
 
 namespace osteon {
 
@@ -23,12 +24,15 @@ struct ProxyTask {
   bool held = false;           ///< bone held it in the last tick
   std::span<const Pose> before_WB;
   std::span<const Pose> now_WB;
+  const OtherTools* others_before = nullptr;  ///< of other hands; null: there are none
+  const OtherTools* others_now = nullptr;
   const PortalRing* ring = nullptr;  ///< of the portal that the shaft is in; null: none
 };
 
-/// A plane of bone that holds the proxy back.
+/// A plane of bone, or of another hand's tool, that holds the proxy back.
 struct HoldingPlane {
-  std::uint32_t pair = 0;
+  std::uint32_t pair = 0;           ///< of bone and tool
+  std::uint32_t other = kMaxHands;  ///< the other hand; kMaxHands: it is bone
   Vec3 nhat_BT_W = Vec3::UnitZ();
   double weight = 0;        ///< m: the planes' weights times normals add up to proxy - hand
   double depth = 0;         ///< of the hand behind this plane, m
@@ -64,8 +68,9 @@ struct ProxyMove {
 /// planes that hold close by only; there the way is looked at too (FieldWalls).
 class ProxySolver {
  public:
-  explicit ProxySolver(const ContactField& field)
-      : field_(field), near_pieces_(field.near_pieces()), walls_(field) {}
+  ProxySolver(const ContactField& field, const Tool& tool,
+              std::span<const std::shared_ptr<const Tool>> tray)
+      : field_(field), near_pieces_(field.near_pieces()), walls_(field), tools_(tool, tray) {}
   /// `memory`: of kMaxCandidates pairs, those that were near, in their order. Nothing else that a
   /// move leaves changes the next.
   ProxyMove move(const ProxyTask& task, std::span<PairMemory> memory);
@@ -88,10 +93,13 @@ class ProxySolver {
   bool look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
+  void meet_tools(const ProxyTask& task);
   bool find_start(const ProxyTask& task, const Quat& q_WP, Vec3& start);
-  /// Planes: those of the pieces, then those of the fields, then those of the portal.
+  /// Planes: those of the pieces, then those of the fields, then those of other hands' tools, then
+  /// those of the portal.
   std::uint32_t bone_planes() const { return near_.count + walls_.count(); }
-  std::uint32_t plane_count() const { return bone_planes() + (ring_ ? PortalRing::kPlanes : 0); }
+  std::uint32_t felt_planes() const { return bone_planes() + tools_.count(); }
+  std::uint32_t plane_count() const { return felt_planes() + (ring_ ? PortalRing::kPlanes : 0); }
   std::span<const FreeHalfSpace> planes() const { return {planes_.data(), plane_count()}; }
   std::uint32_t pair_of(std::uint32_t i) const {
     return i < near_.count ? near_.pair[i] : walls_.pair(i - near_.count);
@@ -99,6 +107,8 @@ class ProxySolver {
   const PartingPlane& plane_of(std::uint32_t i) const {
     return i < near_.count ? parting_[i] : walls_.plane(i - near_.count);
   }
+  /// Of a plane, at the start of the move. A tool's plane holds only where hands push together.
+  double gap_of(std::uint32_t i) const { return i < bone_planes() ? plane_of(i).gap : 0; }
 
   const ContactField& field_;
   const PortalRing* ring_ = nullptr;
@@ -108,7 +118,9 @@ class ProxySolver {
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
   FieldWalls walls_;
-  std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes + PortalRing::kPlanes>
+  ToolWalls tools_;
+  std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes + ToolWalls::kMostPlanes +
+                                PortalRing::kPlanes>
       planes_{};
   /// Of the pieces' planes: false while c may be too large, as outer_half_space has it.
   std::array<bool, kMaxCandidates> settled_{};

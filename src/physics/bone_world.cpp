@@ -30,8 +30,9 @@ struct Load {
   double lever2 = 0;  // largest squared lever, m^2
 };
 
-Load load_of(const ToolState& tool, std::size_t bone, const Vec3& p_WI) {
-  Load load;
+using Tools = std::span<const ToolState* const>;
+
+void add_load(const ToolState& tool, std::size_t bone, const Vec3& p_WI, Load& load) {
   const std::size_t count = std::min<std::size_t>(tool.contact_count, kMaxContacts);
   for (std::size_t i = 0; i < count; ++i) {
     const Contact& contact = tool.contacts[i];
@@ -45,6 +46,12 @@ Load load_of(const ToolState& tool, std::size_t bone, const Vec3& p_WI) {
     load.touched = true;
     load.lever2 = std::max(load.lever2, lever_W.squaredNorm());
   }
+}
+
+Load load_of(Tools tools, std::uint32_t epoch, std::size_t bone, const Vec3& p_WI) {
+  Load load;
+  for (const ToolState* tool : tools)
+    if (tool->epoch == epoch) add_load(*tool, bone, p_WI, load);
   return load;
 }
 
@@ -61,6 +68,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
   Hasher hasher;
   hasher.add(snapshot.step);
   hasher.add(snapshot.time_s);
+  hasher.add(snapshot.epoch);
   hasher.add(snapshot.count);
   for (std::uint32_t i = 0; i < snapshot.count; ++i) {
     hasher.add(snapshot.bones[i].X_WB);
@@ -91,11 +99,11 @@ struct BoneWorld::Impl {
   Impl(std::shared_ptr<const Case> c, const PhysicsParams& p);
   Body make_body(const Bone& bone) const;
   BodyMotion motion_of(std::size_t i) const;
-  void push(std::size_t i, const ToolState& tool, BodyMotion& motion) const;
+  void push(std::size_t i, Tools tools, BodyMotion& motion) const;
   void limit(std::size_t i, BodyMotion& motion) const;
   void store(std::size_t i, const BodyMotion& motion);
   void rest();
-  void move(const ToolState& tool);
+  void move(Tools tools);
 
   std::shared_ptr<const Case> the_case;
   PhysicsParams params;
@@ -147,9 +155,9 @@ BoneWorld::Impl::BodyMotion BoneWorld::Impl::motion_of(std::size_t i) const {
 }
 
 // Velocities at the step's end under springs, dampers and the tool.
-void BoneWorld::Impl::push(std::size_t i, const ToolState& tool, BodyMotion& motion) const {
+void BoneWorld::Impl::push(std::size_t i, Tools tools, BodyMotion& motion) const {
   const Body& body = bodies[i];
-  const Load load = load_of(tool, i, motion.X_WI.p);
+  const Load load = load_of(tools, snapshot.epoch, i, motion.X_WI.p);
   const Vec3 shift_W = motion.X_WI.p - body.X_WI_rest.p;
   const Vec3 turn_I = turn_between(body.X_WI_rest.q, motion.X_WI.q);
   const Quat q_IW = motion.X_WI.q.conjugate();
@@ -194,10 +202,10 @@ void BoneWorld::Impl::store(std::size_t i, const BodyMotion& motion) {
   bone.v_W = motion.v_W + motion.w_W.cross(arm_W);
 }
 
-void BoneWorld::Impl::move(const ToolState& tool) {
+void BoneWorld::Impl::move(Tools tools) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     motions[i] = motion_of(i);
-    push(i, tool, motions[i]);
+    push(i, tools, motions[i]);
     bullet.set(i, motions[i].X_WI, motions[i].v_W, motions[i].w_W);
   }
   bullet.advance(params.step_s);
@@ -214,7 +222,12 @@ BoneWorld::~BoneWorld() = default;
 BoneWorld::BoneWorld(BoneWorld&&) noexcept = default;
 
 const BoneSnapshot& BoneWorld::step(const ToolState& tool) {
-  if (!impl_->hold) impl_->move(tool);
+  const ToolState* const one = &tool;
+  return step(std::span(&one, 1));
+}
+
+const BoneSnapshot& BoneWorld::step(std::span<const ToolState* const> tools) {
+  if (!impl_->hold) impl_->move(tools);
   BoneSnapshot& snapshot = impl_->snapshot;
   ++snapshot.step;
   snapshot.time_s = static_cast<double>(snapshot.step) * impl_->params.step_s;
@@ -240,5 +253,16 @@ void BoneWorld::restore(const BoneSnapshot& snapshot, bool hold) {
   impl_->snapshot = snapshot;
   impl_->hold = hold;
 }
+
+void BoneWorld::go_back(const BoneSnapshot& kept, bool hold) {
+  BoneSnapshot& now = impl_->snapshot;
+  assert(kept.count == now.count);
+  now.bones = kept.bones;
+  ++now.epoch;
+  impl_->hold = hold;
+}
+
+bool BoneWorld::held() const { return impl_->hold; }
+void BoneWorld::ask_to_keep() { impl_->snapshot.saved_step = impl_->snapshot.step; }
 
 }  // namespace osteon

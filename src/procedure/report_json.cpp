@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hex.h"
-#include "osteon/procedure/report.h"
+#include "osteon/procedure/hand_reports.h"
 
 namespace osteon {
 namespace {
@@ -16,28 +16,57 @@ OrderedJson bone_json(const BoneReport& bone) {
           {"deepest_mm", bone.deepest_mm}};
 }
 
+OrderedJson bones_json(const Report& report) {
+  OrderedJson bones = OrderedJson::object();
+  for (const BoneReport& bone : report.bones) bones[bone.name] = bone_json(bone);
+  return bones;
+}
+
+// What belongs to the run, before and after what belongs to a hand.
+OrderedJson head_json(const Report& report) {
+  return {{"case", report.case_name},
+          {"case_hash", hex16(report.case_hash)},
+          {"duration_s", report.duration_s},
+          {"ticks", report.ticks}};
+}
+
+void add_tail(const Report& report, OrderedJson& json) {
+  json["state_hash"] = hex16(report.state_hash);
+  json["tick_us"] = {{"p50", report.tick_p50_us},
+                     {"p99", report.tick_p99_us},
+                     {"p999", report.tick_p999_us},
+                     {"max", report.tick_max_us}};
+  json["missed_ticks"] = report.missed_ticks;
+  json["realtime_factor"] = report.realtime_factor;
+}
+
+void add_hand(const Report& report, OrderedJson& json) {
+  json["bones"] = bones_json(report);
+  json["path_length_mm"] = report.path_length_mm;
+  json["smoothness_sparc"] = report.smoothness_sparc;
+}
+
+// A name from a foreign file may not be UTF-8: show what can be shown.
+std::string json_text(const OrderedJson& json) {
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string to_json(const Report& report) {
-  OrderedJson bones = OrderedJson::object();
-  for (const BoneReport& bone : report.bones) bones[bone.name] = bone_json(bone);
-  const OrderedJson json = {{"case", report.case_name},
-                            {"case_hash", hex16(report.case_hash)},
-                            {"duration_s", report.duration_s},
-                            {"ticks", report.ticks},
-                            {"bones", bones},
-                            {"path_length_mm", report.path_length_mm},
-                            {"smoothness_sparc", report.smoothness_sparc},
-                            {"state_hash", hex16(report.state_hash)},
-                            {"tick_us",
-                             {{"p50", report.tick_p50_us},
-                              {"p99", report.tick_p99_us},
-                              {"p999", report.tick_p999_us},
-                              {"max", report.tick_max_us}}},
-                            {"missed_ticks", report.missed_ticks},
-                            {"realtime_factor", report.realtime_factor}};
-  // A name from a foreign file may not be UTF-8: show what can be shown.
-  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  OrderedJson json = head_json(report);
+  add_hand(report, json);
+  add_tail(report, json);
+  return json_text(json);
+}
+
+std::string to_json(std::span<const Report> reports, std::span<const std::string> names) {
+  OrderedJson json = head_json(reports.front());
+  OrderedJson hands = OrderedJson::object();
+  for (std::size_t h = 0; h < reports.size(); ++h) add_hand(reports[h], hands[names[h]]);
+  json["hands"] = hands;
+  add_tail(reports.front(), json);
+  return json_text(json);
 }
 
 }  // namespace osteon

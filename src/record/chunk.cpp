@@ -22,7 +22,10 @@ struct ToWord {
   void operator()(double value) { *word++ = std::bit_cast<std::uint64_t>(value); }
   void operator()(std::uint64_t value) { *word++ = value; }
   void operator()(std::uint32_t value) { *word++ = value; }
+  void operator()(std::uint8_t value) { *word++ = value; }
   void operator()(CommandKind kind) { *word++ = static_cast<std::uint32_t>(kind); }
+  void operator()(EventKind kind) { *word++ = static_cast<std::uint16_t>(kind); }
+  void operator()(SubjectKind kind) { *word++ = static_cast<std::uint8_t>(kind); }
 };
 
 // Reads a field from a word; `ok` becomes false when it cannot hold the word.
@@ -34,6 +37,19 @@ struct FromWord {
   void operator()(std::uint32_t& value) {
     ok = ok && *word <= std::numeric_limits<std::uint32_t>::max();
     value = static_cast<std::uint32_t>(*word++);
+  }
+  void operator()(std::uint8_t& value) {
+    ok = ok && *word <= 0xff;
+    value = static_cast<std::uint8_t>(*word++);
+  }
+  // A later version may have more kinds.
+  void operator()(EventKind& kind) {
+    ok = ok && *word <= 0xffff;
+    kind = static_cast<EventKind>(*word++);
+  }
+  void operator()(SubjectKind& kind) {
+    ok = ok && *word <= 0xff;
+    kind = static_cast<SubjectKind>(*word++);
   }
   void operator()(CommandKind& kind) {
     ok = ok && *word <= static_cast<std::uint32_t>(kLastCommandKind);
@@ -59,6 +75,7 @@ void visit_tick(Record& r, Visit& visit) {
   visit_vec3(r.input.w_W, visit);
   visit(r.input.buttons);
   visit(r.bone_step);
+  for (auto& tick : r.other_ticks) visit(tick);
   visit(r.command.kind);
   visit(r.command.value);
   visit_vec3(r.force_W, visit);
@@ -69,9 +86,20 @@ void visit_tick(Record& r, Visit& visit) {
 
 template <class Record, class Visit>
 void visit_step(Record& r, Visit& visit) {
-  visit(r.tool_tick);
+  for (auto& tick : r.tool_ticks) visit(tick);
   visit(r.command.kind);
   visit(r.command.value);
+}
+
+template <class Record, class Visit>
+void visit_event(Record& r, Visit& visit) {
+  visit(r.tick);
+  visit(r.kind);
+  visit(r.hand);
+  visit(r.subject_kind);
+  visit(r.subject);
+  visit_vec3(r.p_W, visit);
+  for (auto& value : r.values) visit(value);
 }
 
 // What encode and decode need to know of a kind of record.
@@ -80,7 +108,7 @@ struct Layout;
 
 template <>
 struct Layout<TickRecord> {
-  static constexpr std::size_t kWords = 25;
+  static constexpr std::size_t kWords = 25 + kMaxHands;
   template <class Record, class Visit>
   static void visit(Record& r, Visit& v) {
     visit_tick(r, v);
@@ -90,12 +118,22 @@ struct Layout<TickRecord> {
 
 template <>
 struct Layout<StepRecord> {
-  static constexpr std::size_t kWords = 3;
+  static constexpr std::size_t kWords = 2 + kMaxHands;
   template <class Record, class Visit>
   static void visit(Record& r, Visit& v) {
     visit_step(r, v);
   }
   static void number(StepRecord& r, std::uint64_t n) { r.step = n; }
+};
+
+template <>
+struct Layout<Event> {
+  static constexpr std::size_t kWords = 11;
+  template <class Record, class Visit>
+  static void visit(Record& r, Visit& v) {
+    visit_event(r, v);
+  }
+  static void number(Event&, std::uint64_t) {}
 };
 
 template <class Record>
@@ -186,6 +224,7 @@ Result<void> decode(std::string_view frame, std::uint64_t first, std::size_t cou
 
 std::string encode_chunk(std::span<const TickRecord> ticks) { return encode(ticks); }
 std::string encode_chunk(std::span<const StepRecord> steps) { return encode(steps); }
+std::string encode_chunk(std::span<const Event> events) { return encode(events); }
 
 Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size_t count,
                           std::vector<TickRecord>& ticks) {
@@ -195,6 +234,19 @@ Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size
 Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size_t count,
                           std::vector<StepRecord>& steps) {
   return decode(frame, first, count, steps);
+}
+
+Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size_t count,
+                          std::vector<Event>& events) {
+  return decode(frame, first, count, events);
+}
+
+std::string pack_bytes(const std::string& bytes) { return compress(bytes); }
+
+Result<std::string> unpack_bytes(std::string_view frame, std::size_t most) {
+  const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
+  if (size > most) return fail("a stored state has an impossible size");
+  return decompress(frame, static_cast<std::size_t>(size));
 }
 
 std::uint64_t chunk_checksum(std::string_view frame, std::uint64_t first, std::uint64_t count) {

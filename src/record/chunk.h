@@ -20,6 +20,7 @@ inline constexpr std::size_t kChunkRecords = 250;
 /// those of a NaN too. The records' own numbers are not in it: they follow from the first's.
 std::string encode_chunk(std::span<const TickRecord> ticks);
 std::string encode_chunk(std::span<const StepRecord> steps);
+std::string encode_chunk(std::span<const Event> events);
 
 /// Appends `count` records, numbered from `first`. Refuses a frame whose stated size is not that of
 /// `count` records before it decompresses anything.
@@ -27,6 +28,13 @@ Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size
                           std::vector<TickRecord>& ticks);
 Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size_t count,
                           std::vector<StepRecord>& steps);
+
+Result<void> decode_chunk(std::string_view frame, std::uint64_t first, std::size_t count,
+                          std::vector<Event>& events);
+
+/// Bytes as a zstd frame, and back; refuses more than `most`.
+std::string pack_bytes(const std::string& bytes);
+Result<std::string> unpack_bytes(std::string_view frame, std::size_t most);
 
 /// Over the frame and the numbers that say where it belongs.
 std::uint64_t chunk_checksum(std::string_view frame, std::uint64_t first, std::uint64_t count);

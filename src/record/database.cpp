@@ -80,6 +80,8 @@ Result<void> Statement::run() {
   return {};
 }
 
+void Statement::reset() { sqlite3_reset(stmt_.get()); }
+
 bool Statement::is_integer(int column) const {
   return sqlite3_column_type(stmt_.get(), column) == SQLITE_INTEGER;
 }

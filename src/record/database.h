@@ -26,6 +26,8 @@ class Statement {
   Result<bool> next();
   /// Runs a statement that gives no rows and makes it ready for new values.
   Result<void> run();
+  /// Ready for new values; the row is over.
+  void reset();
 
   bool is_integer(int column) const;
   bool is_text(int column) const;

@@ -12,6 +12,8 @@ std::uint64_t header_checksum(const RecordingHeader& header) {
   hasher.add(header.seed);
   hasher.add(header.settings_json);
   hasher.add(header.osteon_version);
+  hasher.add(header.case_path);
+  hasher.add(header.hands);
   return hasher.value();
 }
 

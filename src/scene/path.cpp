@@ -12,7 +12,9 @@ namespace osteon {
 namespace {
 
 constexpr std::string_view kHeader = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button";
+constexpr std::string_view kMoreColumns = ",instrument,size,power,jaw";
 constexpr std::size_t kColumns = 9;
+constexpr double kLargestSize_mm = 1000;
 constexpr double kFarthest_mm = 1e5;
 constexpr double kLatest_s = 1e7;
 
@@ -66,7 +68,61 @@ Result<PathSample> parse_sample(std::string_view line, const std::string& where)
   const auto q = as_unit(Quat(qw, qx, qy, qz));
   if (!q) return fail("qw, qx, qy, qz are not a unit quaternion", where, "Scale them to length 1");
   if (button != 0 && button != 1) return fail("button must be 0 or 1", where);
-  return PathSample{time, Pose{p_mm / 1000, *q}, button == 1};
+  PathSample sample;
+  sample.time_s = time;
+  sample.X_WD = {p_mm / 1000, *q};
+  sample.button = button == 1;
+  return sample;
+}
+
+bool is_instrument_name(std::string_view name) {
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+// "hook_probe,1.5,0,0": what follows the first nine values.
+Result<void> parse_instrument_columns(std::string_view text, const std::string& where,
+                                      PathSample& sample) {
+  if (std::count(text.begin(), text.end(), ',') != 3)
+    return fail("has not the values instrument,size,power,jaw at its end", where,
+                "Write " + std::string(kHeader) + std::string(kMoreColumns));
+  const std::string_view name = trimmed(take(text, ','));
+  if (!is_instrument_name(name))
+    return fail("instrument must be of a-z, 0-9 and _, or empty", where,
+                "See `osteon instruments`");
+  sample.instrument = std::string(name);
+  struct Column {
+    const char* name;
+    double* value;
+    double most;
+  };
+  for (const Column& column : {Column{"size", &sample.size_mm, kLargestSize_mm},
+                               Column{"power", &sample.power, 1}, Column{"jaw", &sample.jaw, 1}}) {
+    const auto value = parse_number(trimmed(take(text, ',')));
+    if (!value || *value < 0 || *value > column.most)
+      return fail(
+          std::string(column.name) + " must be a number from 0 to " + format_number(column.most),
+          where);
+    *column.value = *value;
+  }
+  return {};
+}
+
+Result<PathSample> parse_line(std::string_view line, bool with_instruments,
+                              const std::string& where) {
+  if (!with_instruments) return parse_sample(line, where);
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < kColumns && end != std::string_view::npos; ++i)
+    end = line.find(',', i == 0 ? 0 : end + 1);
+  if (end == std::string_view::npos)
+    return fail("has too few values", where,
+                "Write " + std::string(kHeader) + std::string(kMoreColumns));
+  auto sample = parse_sample(line.substr(0, end), where);
+  if (!sample) return sample;
+  if (auto done = parse_instrument_columns(line.substr(end + 1), where, *sample); !done)
+    return tl::unexpected(done.error());
+  return sample;
 }
 
 // Millimetres that parse back to the same metres, where there are such.
@@ -101,9 +157,12 @@ PathSample ProbePath::at(double time_s) const {
 
 Result<ProbePath> parse_path(std::string_view text, const std::string& where) {
   std::size_t line_number = 1;
-  if (trimmed(take(text, '\n')) != kHeader)
-    return fail("the first line must be " + std::string(kHeader), where + ":1");
+  const std::string_view header = trimmed(take(text, '\n'));
   ProbePath path;
+  path.with_instruments = header == std::string(kHeader) + std::string(kMoreColumns);
+  if (!path.with_instruments && header != kHeader)
+    return fail("the first line must be " + std::string(kHeader), where + ":1",
+                "It may go on with " + std::string(kMoreColumns));
   while (!text.empty()) {
     const std::string_view line = trimmed(take(text, '\n'));
     const std::string here = where + ":" + std::to_string(++line_number);
@@ -111,7 +170,7 @@ Result<ProbePath> parse_path(std::string_view text, const std::string& where) {
     if (path.samples.size() == kMaxPathSamples)
       return fail("has more than " + std::to_string(kMaxPathSamples) + " samples", here,
                   "Split the path");
-    auto sample = parse_sample(line, here);
+    auto sample = parse_line(line, path.with_instruments, here);
     if (!sample) return tl::unexpected(sample.error());
     if (!path.samples.empty() && !(sample->time_s > path.samples.back().time_s))
       return fail("the time does not rise", here, "Sort the samples and drop repeated ones");
@@ -129,6 +188,7 @@ Result<ProbePath> load_path(const std::filesystem::path& file) {
 
 Result<void> save_path(const ProbePath& path, const std::filesystem::path& file) {
   std::string text(kHeader);
+  if (path.with_instruments) text += kMoreColumns;
   text += '\n';
   for (const PathSample& s : path.samples) {
     const Vec3& p = s.X_WD.p;
@@ -136,7 +196,11 @@ Result<void> save_path(const ProbePath& path, const std::filesystem::path& file)
     for (const double value :
          {s.time_s, as_mm(p.x()), as_mm(p.y()), as_mm(p.z()), q.w(), q.x(), q.y(), q.z()})
       text.append(format_number(value)).append(",");
-    text += s.button ? "1\n" : "0\n";
+    text += s.button ? "1" : "0";
+    if (path.with_instruments)
+      text += "," + s.instrument + "," + format_number(s.size_mm) + "," + format_number(s.power) +
+              "," + format_number(s.jaw);
+    text += '\n';
   }
   return write_file_atomic(file, text);
 }

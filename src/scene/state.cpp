@@ -13,6 +13,10 @@ BoneSnapshot rest_snapshot(const Case& the_case) {
   return snapshot;
 }
 
+OtherTool seen_from_outside(const ToolState& tool) {
+  return {tool.tick, tool.instrument, tool.X_WD.p, tool.X_WP, tool.v_W};
+}
+
 BoneSnapshot bent_snapshot(const Case& the_case, const CaseJoint& joint, double degrees) {
   BoneSnapshot snapshot = rest_snapshot(the_case);
   const Pose X_WF = the_case.bone(joint.fixed).X_WB;

@@ -20,6 +20,10 @@ class BonesAge {
     }
     return std::min(static_cast<double>(tick - first_tick_ + 1) * tick_s, kMax);
   }
+  void restore(std::uint64_t step, std::uint64_t first_tick) {
+    step_ = step;
+    first_tick_ = first_tick;
+  }
   std::uint64_t step() const { return step_; }
   std::uint64_t first_tick() const { return first_tick_; }
 

@@ -24,8 +24,7 @@ void apply_command(const Command& command, HapticParams& params) {
     case CommandKind::kGrab:
       if (within(command.value, 0, kStiffestGrab)) params.grab_n_per_m = command.value;
       break;
-    case CommandKind::kHoldBones:
-    case CommandKind::kNone:
+    default:
       break;
   }
 }

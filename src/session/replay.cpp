@@ -1,12 +1,14 @@
+#include <algorithm>
 #include <bit>
-#include <deque>
 
-#include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/session/session.h"
+#include "replayer.h"
 
 namespace osteon {
 namespace {
+
+constexpr const char* kDamaged = "The file is damaged: use another copy of it";
 
 bool same_bits(const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i)
@@ -19,62 +21,7 @@ bool same_result(const TickRecord& a, const TickRecord& b) {
          a.state_hash == b.state_hash;
 }
 
-// Runs each physics step just before the first tick that consumed it. The tool states that steps
-// still to come will consume are kept until then.
-class Replayer {
- public:
-  Replayer(const Recording& recording, std::shared_ptr<const Case> the_case,
-           const SessionSettings& settings)
-      : recording_(recording), session_(std::move(the_case), settings) {}
-
-  const ToolState& tick(const TickRecord& record) {
-    run_steps_to(record.bone_step);
-    const std::int64_t begin_ns = steady_now_ns();
-    const ToolState& tool = session_.haptic_tick(record.input, session_.bones(), record.command);
-    last_tick_ns_ = steady_now_ns() - begin_ns;
-    elapsed_ns_ += last_tick_ns_;
-    keep(tool);
-    return tool;
-  }
-
-  void run_steps_to(std::uint64_t step) {
-    const std::int64_t begin_ns = steady_now_ns();
-    while (session_.bones().step < step) run_next_step();
-    elapsed_ns_ += steady_now_ns() - begin_ns;
-  }
-
-  // Far more than any pair of threads drifts apart, and little memory.
-  bool runs_apart() const { return kept_.size() > 20000; }
-  const Session& session() const { return session_; }
-  std::int64_t last_tick_ns() const { return last_tick_ns_; }
-  std::int64_t elapsed_ns() const { return elapsed_ns_; }
-
- private:
-  void run_next_step() {
-    const StepRecord& record = recording_.steps[session_.bones().step];
-    while (!kept_.empty() && kept_.front().tick < record.tool_tick) kept_.pop_front();
-    (void)session_.physics_step(record.tool_tick == 0 ? before_first_ : kept_.front(),
-                                record.command);
-  }
-
-  // Steps consume ticks in order, so one look ahead tells whether this one will be wanted.
-  void keep(const ToolState& tool) {
-    const auto& steps = recording_.steps;
-    while (ahead_ < steps.size() && steps[ahead_].tool_tick < tool.tick) ++ahead_;
-    if (ahead_ < steps.size() && steps[ahead_].tool_tick == tool.tick) kept_.push_back(tool);
-  }
-
-  const Recording& recording_;
-  Session session_;
-  const ToolState before_first_{};
-  std::deque<ToolState> kept_;
-  std::size_t ahead_ = 0;
-  std::int64_t last_tick_ns_ = 0;
-  std::int64_t elapsed_ns_ = 0;
-};
-
-Result<SessionSettings> settings_of(const Recording& recording, const Case& the_case) {
-  const RecordingHeader& header = recording.header;
+Result<SessionSettings> settings_of(const RecordingHeader& header, const Case& the_case) {
   if (header.case_hash != the_case.hash)
     return fail("the recording was made with another case ('" + header.case_name + "' from '" +
                     header.case_source + "') than '" + the_case.name +
@@ -82,55 +29,132 @@ Result<SessionSettings> settings_of(const Recording& recording, const Case& the_
                 "recording", "Give the case that it was made with");
   auto settings = parse_settings(header.settings_json);
   if (settings && settings->seed != header.seed)
-    return fail("the header and the settings name different seeds", "recording",
-                "The file is damaged: use another copy of it");
+    return fail("the header and the settings name different seeds", "recording", kDamaged);
+  if (settings && settings->hands.size() != header.hands)
+    return fail("the header and the settings have different hands", "recording", kDamaged);
   return settings;
 }
 
-// The part of the report that the ticks alone do not tell.
-void complete(Report& report, const Replayer& replayer, const Percentiles& durations,
-              std::uint64_t missed_ticks) {
-  set_tick_times(report, durations);
-  report.missed_ticks = missed_ticks;
-  report.state_hash = replayer.session().state_hash();
-  const double elapsed_s = static_cast<double>(replayer.elapsed_ns()) * 1e-9;
-  report.realtime_factor = elapsed_s > 0 ? report.duration_s / elapsed_s : 0;
+// What the ticks of each hand add up to.
+class Tally {
+ public:
+  Tally(const Case& the_case, std::size_t hands, double tick_s) : tick_ns_(tick_s * 1e9) {
+    for (std::size_t h = 0; h < hands; ++h) hands_.push_back({ReportBuilder(the_case, tick_s)});
+  }
+
+  void add(const Replayer& replayer, ReplayOutcome& outcome) {
+    Hand& hand = hands_[replayer.hand()];
+    const TickRecord& record = replayer.record();
+    const Session& session = replayer.session();
+    if (outcome.identical && !same_result(session.last_tick_record(replayer.hand()), record)) {
+      outcome.identical = false;
+      outcome.first_different_hand = replayer.hand();
+      outcome.first_different_tick = record.tick;
+    }
+    hand.report.add(session.tool_state(replayer.hand()));
+    hand.durations.add_ns(replayer.last_tick_ns());
+    if (static_cast<double>(replayer.last_tick_ns()) > tick_ns_) ++hand.missed_ticks;
+    if (++hand.ticks == 1 && replayer.hand() == 0) outcome.first_tick = record.tick;
+  }
+
+  void finish(const Replayer& replayer, ReplayOutcome& outcome) {
+    outcome.state_hash = replayer.session().state_hash();
+    const double elapsed_s = static_cast<double>(replayer.elapsed_ns()) * 1e-9;
+    for (Hand& hand : hands_) {
+      Report report = hand.report.finish();
+      set_tick_times(report, hand.durations);
+      report.missed_ticks = hand.missed_ticks;
+      report.state_hash = outcome.state_hash;
+      report.realtime_factor = elapsed_s > 0 ? report.duration_s / elapsed_s : 0;
+      outcome.ticks = std::max(outcome.ticks, hand.ticks);
+      outcome.reports.push_back(std::move(report));
+    }
+    outcome.report = outcome.reports.front();
+  }
+
+ private:
+  struct Hand {
+    ReportBuilder report;
+    Percentiles durations{};
+    std::uint64_t ticks = 0, missed_ticks = 0;
+  };
+  std::vector<Hand> hands_;
+  double tick_ns_;
+};
+
+// The last stored state from which a replay can begin, or the start.
+Result<void> begin(const RecordSource& source, double from_s, double tick_s,
+                   std::unique_ptr<Replayer>& replayer,
+                   const std::function<std::unique_ptr<Replayer>()>& make) {
+  replayer = make();
+  if (!(from_s > 0)) return {};
+  auto states = source.states();
+  if (!states) return tl::unexpected(states.error());
+  const double last = from_s / tick_s + 1e-6;
+  for (std::size_t i = states->size(); i-- > 0;) {
+    const StoredState& state = (*states)[i];
+    if (static_cast<double>(state.ticks[0]) > last) continue;
+    const auto begun = replayer->begin_at(state);
+    if (!begun) return tl::unexpected(begun.error());
+    if (*begun) return {};
+    replayer = make();
+  }
+  return {};
+}
+
+Result<ReplayOutcome> replay_source(const RecordSource& source,
+                                    const std::shared_ptr<const Case>& the_case,
+                                    const ReplayOptions& options) {
+  const auto settings = settings_of(*source.header, *the_case);
+  if (!settings) return tl::unexpected(settings.error());
+  std::unique_ptr<Replayer> replayer;
+  const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
+    return std::make_unique<Replayer>(source, the_case, *settings, options.tray);
+  });
+  if (!begun) return tl::unexpected(begun.error());
+  Tally tally(*the_case, settings->hands.size(), settings->haptic.tick_s);
+  ReplayOutcome outcome;
+  Replayer::Outcome last;
+  while ((last = replayer->next()) == Replayer::Outcome::kTick) {
+    tally.add(*replayer, outcome);
+    const std::size_t hand = replayer->hand();
+    if (options.on_tick)
+      options.on_tick(hand, replayer->session().tool_state(hand), replayer->bones(),
+                      replayer->session().last_events(hand));
+  }
+  if (last == Replayer::Outcome::kError) return tl::unexpected(replayer->error());
+  if (last == Replayer::Outcome::kStuck && source.complete)
+    return fail("a tick or step consumed what is not in the recording", "recording", kDamaged);
+  tally.finish(*replayer, outcome);
+  outcome.complete = source.complete;
+  return outcome;
 }
 
 }  // namespace
 
+Result<ReplayOutcome> replay(const Recording& recording, std::shared_ptr<const Case> the_case,
+                             const ReplayOptions& options) {
+  const auto settings = settings_of(recording.header, *the_case);
+  if (!settings) return tl::unexpected(settings.error());
+  if (const auto sound = check_consumption(recording); !sound) return tl::unexpected(sound.error());
+  return replay_source(source_of(recording), the_case, options);
+}
+
+Result<ReplayOutcome> replay(RecordingReader& recording, std::shared_ptr<const Case> the_case,
+                             const ReplayOptions& options) {
+  return replay_source(source_of(recording), the_case, options);
+}
+
 Result<ReplayOutcome> replay(
     const Recording& recording, std::shared_ptr<const Case> the_case,
     const std::function<void(const ToolState&, const BoneSnapshot&)>& on_tick) {
-  const auto settings = settings_of(recording, *the_case);
-  if (!settings) return tl::unexpected(settings.error());
-  if (const auto sound = check_consumption(recording); !sound) return tl::unexpected(sound.error());
-
-  Replayer replayer(recording, the_case, *settings);
-  ReportBuilder builder(*the_case, settings->haptic.tick_s);
-  Percentiles durations;
-  ReplayOutcome outcome;
-  std::uint64_t missed_ticks = 0;
-  const double tick_ns = settings->haptic.tick_s * 1e9;
-  for (const TickRecord& record : recording.ticks) {
-    const ToolState& tool = replayer.tick(record);
-    if (outcome.identical && !same_result(replayer.session().last_tick_record(), record)) {
-      outcome.identical = false;
-      outcome.first_different_tick = record.tick;
-    }
-    builder.add(tool);
-    durations.add_ns(replayer.last_tick_ns());
-    if (static_cast<double>(replayer.last_tick_ns()) > tick_ns) ++missed_ticks;
-    if (on_tick) on_tick(tool, replayer.session().bones());
-    if (replayer.runs_apart())
-      return fail("the two clocks of the recording run too far apart", "recording",
-                  "The file is damaged: use another copy of it");
-  }
-  replayer.run_steps_to(recording.steps.size());
-  outcome.ticks = recording.ticks.size();
-  outcome.report = builder.finish();
-  complete(outcome.report, replayer, durations, missed_ticks);
-  return outcome;
+  ReplayOptions options;
+  if (on_tick)
+    options.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                          std::span<const Event>) {
+      if (hand == 0) on_tick(tool, bones);
+    };
+  return replay(recording, std::move(the_case), options);
 }
 
 }  // namespace osteon

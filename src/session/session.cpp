@@ -4,146 +4,168 @@
 #include <cassert>
 #include <cmath>
 
-#include "bones_age.h"
-#include "haptic_command.h"
+#include "hand_half.h"
 #include "osteon/base/hash.h"
+#include "world_half.h"
 
 namespace osteon {
 namespace {
 
-// Everything of one thread stays on cache lines of its own.
-constexpr std::size_t kCacheLine = 64;
-
-struct alignas(kCacheLine) HapticHalf {
-  HapticLoop loop;
-  HapticParams params;
-  BonesAge age;
-  TickRecord record;
-
-  // All that the next tick depends on, but for what it will consume.
-  std::uint64_t hash() const {
-    Hasher hasher;
-    hasher.add(loop.state_hash());
-    hasher.add(record.tick);
-    hasher.add(age.step());
-    hasher.add(age.first_tick());
-    hasher.add(params.stiffness_n_per_m);
-    hasher.add(params.friction_scale);
-    hasher.add(static_cast<std::uint8_t>(params.force_on));
-    // Only then, so that older recordings keep their hashes.
-    if (params.grab_n_per_m > 0) hasher.add(params.grab_n_per_m);
-    return hasher.value();
-  }
-};
-
-struct alignas(kCacheLine) PhysicsHalf {
-  BoneWorld world;
-  StepRecord record;
-};
-
-PhysicsParams physics_of(const SessionSettings& settings) {
-  PhysicsParams params = settings.physics;
-  params.contact_n_per_m = std::max(params.contact_n_per_m, settings.haptic.stiffness_n_per_m);
-  return params;
-}
-
-bool is_hold(const Command& command) {
-  return command.kind == CommandKind::kHoldBones && command.value >= 0 && command.value <= 1;
+Tray filled(Tray tray, const SessionSettings& settings) {
+  if (tray.empty())
+    tray.push_back(std::make_shared<const Tool>(make_wrist_probe(settings.probe_radius_m)));
+  return tray;
 }
 
 }  // namespace
 
 struct Session::Impl {
-  Impl(std::shared_ptr<const Case> c, const SessionSettings& settings)
-      : the_case(c),
-        tool(std::make_shared<const Tool>(make_wrist_probe(settings.probe_radius_m))),
-        haptic{HapticLoop(c, tool), settings.haptic, {}, {}},
-        physics{BoneWorld(c, physics_of(settings)), {}},
+  Impl(std::shared_ptr<const Case> c, const SessionSettings& settings, Tray given)
+      : the_case(std::move(c)),
+        tray(filled(std::move(given), settings)),
+        world(the_case, settings),
         ticks_per_step(static_cast<std::uint64_t>(
-            std::round(settings.physics.step_s / settings.haptic.tick_s))) {}
+            std::round(settings.physics.step_s / settings.haptic.tick_s))) {
+    for (std::size_t i = 0; i < settings.hands.size(); ++i)
+      hands.push_back(std::make_unique<HandHalf>(the_case, tray, settings, i));
+  }
 
   std::shared_ptr<const Case> the_case;
-  std::shared_ptr<const Tool> tool;
-  HapticHalf haptic;
-  PhysicsHalf physics;
+  Tray tray;
+  std::vector<std::unique_ptr<HandHalf>> hands;
+  WorldHalf world;
 
   // For `tick` alone.
   std::uint64_t ticks_per_step;
   Command for_next_step;
   int last_steps = 0;
+
+  void step_if_due(std::uint64_t tick);
 };
 
-Session::Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings) {
+Session::Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray) {
   assert(check_settings(settings));
-  impl_ = std::make_unique<Impl>(std::move(the_case), settings);
+  impl_ = std::make_unique<Impl>(std::move(the_case), settings, std::move(tray));
 }
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 
-const ToolState& Session::tick(const ToolInput& input, const Command& command) {
-  const ToolState& tool = haptic_tick(input, impl_->physics.world.snapshot(), command);
-  // Between two steps the newest command counts.
-  if (command.kind == CommandKind::kHoldBones) impl_->for_next_step = command;
-  impl_->last_steps = tool.tick % impl_->ticks_per_step == 0 ? 1 : 0;
-  if (impl_->last_steps == 1) {
-    (void)physics_step(tool, impl_->for_next_step);
-    impl_->for_next_step = {};
+void Session::Impl::step_if_due(std::uint64_t tick) {
+  last_steps = tick % ticks_per_step == 0 ? 1 : 0;
+  if (last_steps == 0) return;
+  std::array<const ToolState*, kMaxHands> tools{};
+  for (std::size_t i = 0; i < hands.size(); ++i) tools[i] = &hands[i]->tool_state();
+  (void)world.step(std::span(tools).first(hands.size()), for_next_step);
+  for_next_step = {};
+}
+
+const ToolState& Session::tick(std::span<const HandInput> inputs) {
+  Impl& in = *impl_;
+  assert(inputs.size() == in.hands.size());
+  OtherTools others{};
+  for (std::size_t i = 0; i < in.hands.size(); ++i)
+    others[i] = seen_from_outside(in.hands[i]->tool_state());
+  for (std::size_t i = 0; i < in.hands.size(); ++i) {
+    const Command& command = inputs[i].command;
+    (void)in.hands[i]->tick(inputs[i].input, in.world.bones(), others, command);
+    // Between two steps the newest command counts.
+    if (is_for_physics(command.kind)) in.for_next_step = command;
   }
-  return tool;
+  in.step_if_due(in.hands.front()->tool_state().tick);
+  return in.hands.front()->tool_state();
+}
+
+const ToolState& Session::tick(const ToolInput& input, const Command& command) {
+  const HandInput one{input, command};
+  return tick(std::span(&one, 1));
+}
+
+const ToolState& Session::haptic_tick(std::size_t hand, const ToolInput& input,
+                                      const BoneSnapshot& bones, const OtherTools& others,
+                                      const Command& command) {
+  return impl_->hands[hand]->tick(input, bones, others, command);
 }
 
 const ToolState& Session::haptic_tick(const ToolInput& input, const BoneSnapshot& bones,
                                       const Command& command) {
-  HapticHalf& half = impl_->haptic;
-  TickRecord& record = half.record;
-  apply_command(command, half.params);
-  ++record.tick;
-  const double age_s = half.age.at(record.tick, bones.step, half.params.tick_s);
-  const ToolState& tool = half.loop.tick(input, bones, age_s, half.params);
-  assert(tool.tick == record.tick);
-  record.input = input;
-  record.bone_step = bones.step;
-  record.command = command;
-  record.force_W = tool.force_W;
-  record.p_WP = tool.X_WP.p;
-  record.status = tool.status;
-  record.state_hash = 0;
-  if (record.tick % kHashInterval == 0) {
-    Hasher hasher;
-    hasher.add(half.hash());
-    hasher.add(hash_of(bones));
-    record.state_hash = hasher.value();
-  }
-  return tool;
+  return haptic_tick(0, input, bones, {}, command);
+}
+
+const BoneSnapshot& Session::physics_step(std::span<const ToolState* const> tools,
+                                          const Command& command) {
+  return impl_->world.step(tools, command);
 }
 
 const BoneSnapshot& Session::physics_step(const ToolState& tool, const Command& command) {
-  PhysicsHalf& half = impl_->physics;
-  if (is_hold(command)) half.world.set_hold(command.value >= 0.5);
-  const BoneSnapshot& bones = half.world.step(tool);
-  half.record = {bones.step, tool.tick, command};
-  return bones;
+  const ToolState* const one = &tool;
+  return physics_step(std::span(&one, 1), command);
 }
 
-const TickRecord& Session::last_tick_record() const { return impl_->haptic.record; }
-const StepRecord& Session::last_step_record() const { return impl_->physics.record; }
+const TickRecord& Session::last_tick_record(std::size_t hand) const {
+  return impl_->hands[hand]->record();
+}
+const StepRecord& Session::last_step_record() const { return impl_->world.record(); }
+std::span<const Event> Session::last_events(std::size_t hand) const {
+  return impl_->hands[hand]->events();
+}
 int Session::last_steps() const { return impl_->last_steps; }
 const Case& Session::the_case() const { return *impl_->the_case; }
-const Tool& Session::tool() const { return *impl_->tool; }
-const BoneSnapshot& Session::bones() const { return impl_->physics.world.snapshot(); }
+std::size_t Session::hands() const { return impl_->hands.size(); }
+const Tool& Session::tool(std::size_t hand) const { return impl_->hands[hand]->tool(); }
+const ToolState& Session::tool_state(std::size_t hand) const {
+  return impl_->hands[hand]->tool_state();
+}
+const Tray& Session::tray() const { return impl_->tray; }
+const BoneSnapshot& Session::bones() const { return impl_->world.bones(); }
 
 std::uint64_t Session::state_hash() const {
   Hasher hasher;
-  hasher.add(impl_->haptic.hash());
-  hasher.add(impl_->physics.world.state_hash());
+  for (const auto& hand : impl_->hands) hasher.add(hand->hash());
+  hasher.add(impl_->world.hash());
   return hasher.value();
+}
+
+void Session::save_hand(std::size_t hand, HandState& into) const { impl_->hands[hand]->save(into); }
+void Session::save_world(WorldState& into) const { impl_->world.save(into); }
+
+SessionState Session::save() const {
+  SessionState state;
+  state.hands.resize(hands());
+  for (std::size_t i = 0; i < hands(); ++i) save_hand(i, state.hands[i]);
+  save_world(state.world);
+  state.for_next_step = impl_->for_next_step;
+  return state;
+}
+
+Result<void> Session::restore(const SessionState& state) {
+  const SessionState now = save();
+  bool fits =
+      state.hands.size() == now.hands.size() && state.world.bones.count == now.world.bones.count;
+  for (std::size_t i = 0; fits && i < state.hands.size(); ++i)
+    fits = impl_->hands[i]->fits(state.hands[i]);
+  for (const WorldMark& mark : state.world.marks)
+    fits = fits && (!mark.set || mark.bones.count == now.world.bones.count);
+  if (!fits)
+    return fail("the state is not one of this case with these hands and instruments", "state",
+                "Give the case and the settings that it was saved with");
+  for (std::size_t i = 0; i < hands(); ++i) impl_->hands[i]->restore(state.hands[i]);
+  impl_->world.restore(state.world);
+  impl_->for_next_step = state.for_next_step;
+  return {};
 }
 
 RecordingHeader recording_header(const Case& the_case, const SessionSettings& settings,
                                  const std::string& case_source,
                                  const std::string& osteon_version) {
-  return {the_case.name, case_source,       the_case.hash,
-          settings.seed, to_json(settings), osteon_version};
+  RecordingHeader header;
+  header.case_name = the_case.name;
+  header.case_source = case_source;
+  header.case_hash = the_case.hash;
+  header.seed = settings.seed;
+  header.settings_json = to_json(settings);
+  header.osteon_version = osteon_version;
+  header.hands = static_cast<std::uint32_t>(settings.hands.size());
+  return header;
 }
 
 }  // namespace osteon

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -40,6 +41,7 @@ const std::vector<NumberField>& number_fields() {
       {"physics", "spring_nm_per_rad", [](S& s) -> double& { return s.physics.spring_nm_per_rad; },
        0, 1e5},
       {"physics", "damping_ratio", [](S& s) -> double& { return s.physics.damping_ratio; }, 0, 100},
+      {"", "force_limit_n", [](S& s) -> double& { return s.force_limit_n; }, 0.01, 100},
       {"", "probe_radius_m", [](S& s) -> double& { return s.probe_radius_m; }, 1e-4, 0.02},
   };
   return fields;
@@ -101,6 +103,36 @@ Result<void> check_keys(const Json& json) {
   return {};
 }
 
+Result<void> read_hands(const Json& json, SessionSettings& settings) {
+  const auto wrong = [] {
+    return fail("a list of one to four hands with name and instrument is missing",
+                "settings, 'hands'", kTodo);
+  };
+  const Json* hands = find(json, "", "hands");
+  if (!hands || !hands->is_array()) return wrong();
+  settings.hands.clear();
+  for (const Json& hand : *hands) {
+    if (!hand.is_object() || hand.size() != 2 || !hand.contains("name") ||
+        !hand.contains("instrument") || !hand["name"].is_string() ||
+        !hand["instrument"].is_number_unsigned())
+      return wrong();
+    settings.hands.push_back(
+        {hand["name"].get<std::string>(), hand["instrument"].get<std::uint32_t>()});
+  }
+  return {};
+}
+
+Result<void> read_tray(const Json& json, SessionSettings& settings) {
+  const Json* tray = find(json, "", "tray");
+  if (!tray || !tray->is_array())
+    return fail("a list of instruments is missing", "settings, 'tray'", kTodo);
+  for (const Json& name : *tray) {
+    if (!name.is_string()) return fail("an instrument has no name", "settings, 'tray'", kTodo);
+    settings.tray.push_back(name.get<std::string>());
+  }
+  return {};
+}
+
 Result<void> read_numbers(const Json& json, SessionSettings& settings) {
   for (const NumberField& field : number_fields()) {
     const Json* value = find(json, field.group, field.name);
@@ -123,6 +155,22 @@ Result<void> read_flags(const Json& json, SessionSettings& settings) {
   return {};
 }
 
+Result<void> check_hands(const SessionSettings& settings) {
+  if (settings.hands.empty() || settings.hands.size() > kMaxHands)
+    return fail("a session has one to four hands", "settings, 'hands'", "Name as many");
+  std::set<std::string> names;
+  const std::size_t instruments = std::max<std::size_t>(1, settings.tray.size());
+  for (const HandSettings& hand : settings.hands) {
+    if (!names.insert(hand.name).second)
+      return fail("two hands are called '" + hand.name + "'", "settings, 'hands'",
+                  "Give each a name of its own");
+    if (hand.instrument >= instruments)
+      return fail("hand '" + hand.name + "' holds an instrument that is not in the tray",
+                  "settings, 'hands'", "Choose one of the tray's " + std::to_string(instruments));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_settings(const SessionSettings& settings) {
@@ -134,6 +182,7 @@ Result<void> check_settings(const SessionSettings& settings) {
           "the value is out of range", "settings, '" + path_of(field.group, field.name) + "'",
           "Choose a value from " + Json(field.min).dump() + " to " + Json(field.max).dump());
   }
+  if (const auto done = check_hands(settings); !done) return done;
   const double ticks = settings.physics.step_s / settings.haptic.tick_s;
   if (std::round(ticks) < 1 || std::abs(ticks - std::round(ticks)) > 1e-6)
     return fail("a physics step is not a whole number of haptic ticks",
@@ -148,6 +197,10 @@ std::string to_json(const SessionSettings& settings) {
     group_of(json, field.group)[field.name] = field.of(copy);
   for (const FlagField& field : flag_fields())
     group_of(json, field.group)[field.name] = field.of(copy);
+  json["hands"] = Json::array();
+  for (const HandSettings& hand : settings.hands)
+    json["hands"].push_back({{"name", hand.name}, {"instrument", hand.instrument}});
+  json["tray"] = settings.tray;
   return json.dump(2);
 }
 
@@ -162,6 +215,8 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   settings.seed = seed->get<std::uint64_t>();
   if (const auto done = read_numbers(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = read_flags(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = read_hands(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = read_tray(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = check_settings(settings); !done) return tl::unexpected(done.error());
   return settings;
 }

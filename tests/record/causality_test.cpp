@@ -5,7 +5,7 @@
 namespace osteon {
 namespace {
 
-// bone_step of each tick and tool_tick of each step.
+// bone_step of each tick and tool_ticks[0] of each step.
 Recording recording_of(const std::vector<std::uint64_t>& bone_steps,
                        const std::vector<std::uint64_t>& tool_ticks) {
   Recording r;
@@ -17,7 +17,7 @@ Recording recording_of(const std::vector<std::uint64_t>& bone_steps,
   for (const std::uint64_t t : tool_ticks) {
     r.steps.emplace_back();
     r.steps.back().step = r.steps.size();
-    r.steps.back().tool_tick = t;
+    r.steps.back().tool_ticks[0] = t;
   }
   return r;
 }

@@ -12,7 +12,7 @@ using testing::expect_same;
 using testing::step_record;
 using testing::tick_record;
 
-constexpr std::size_t kTickBytes = 25 * 8;
+constexpr std::size_t kTickBytes = (25 + kMaxHands) * 8;
 
 std::vector<TickRecord> some_ticks(std::uint64_t first, std::size_t count) {
   std::vector<TickRecord> ticks;
@@ -84,18 +84,20 @@ TEST(Chunk, StepsComeBackAndAreAppended) {
 TEST(Chunk, TheFileFormatDoesNotDrift) {
   // A byte written today must be read for ever: these are the raw words of two steps, in order.
   std::vector<StepRecord> steps(2);
-  steps[0] = {1, 0x0102, {CommandKind::kHoldBones, 1.0}};
-  steps[1] = {2, 0x0103, {CommandKind::kNone, 0.0}};
+  steps[0] = {1, {0x0102}, {CommandKind::kHoldBones, 1.0}};
+  steps[1] = {2, {0x0103}, {CommandKind::kNone, 0.0}};
   const std::string frame = encode_chunk(steps);
-  std::string raw(48, '\0');
-  ASSERT_EQ(ZSTD_decompress(raw.data(), raw.size(), frame.data(), frame.size()), 48u);
-  std::string expected(48, '\0');
-  expected[0] = 0x02;  // tool_tick: byte 0 of 0x0102, then of 0x0102 ^ 0x0103
+  // Of each field 8 bytes of both steps: four hands' ticks, the command's kind and its value.
+  constexpr std::size_t kBytes = 6 * 16;
+  std::string raw(kBytes, '\0');
+  ASSERT_EQ(ZSTD_decompress(raw.data(), raw.size(), frame.data(), frame.size()), kBytes);
+  std::string expected(kBytes, '\0');
+  expected[0] = 0x02;  // tool_ticks[0]: byte 0 of 0x0102, then of 0x0102 ^ 0x0103
   expected[1] = 0x01;
   expected[2] = 0x01;                              // byte 1 of 0x0102, then 0
-  expected[16] = expected[17] = 3;                 // command's kind, then 3 ^ 0
-  expected[32 + 12] = expected[32 + 13] = '\xf0';  // 1.0 = 0x3ff0000000000000
-  expected[32 + 14] = expected[32 + 15] = 0x3f;
+  expected[64] = expected[65] = 3;                 // command's kind, then 3 ^ 0
+  expected[80 + 12] = expected[80 + 13] = '\xf0';  // 1.0 = 0x3ff0000000000000
+  expected[80 + 14] = expected[80 + 15] = 0x3f;
   EXPECT_EQ(raw, expected);
 }
 

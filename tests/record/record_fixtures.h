@@ -70,14 +70,14 @@ inline TickRecord tick_record(std::uint64_t n) {
 inline StepRecord step_record(std::uint64_t n) {
   StepRecord r;
   r.step = n;
-  r.tool_tick = 2 * n;
+  r.tool_ticks[0] = 2 * n;
   if (n % 31 == 0) r.command = {CommandKind::kHoldBones, double(n % 2)};
   return r;
 }
 
 inline RecordingHeader header() {
-  return {"wrist \xc3\xa9",      "builtin:wrist", 0xfedcba9876543210ull,
-          0xffffffffffffffffull, R"({"a": 1})",   "0.1.0"};
+  return {"wrist \xc3\xa9", "builtin:wrist", 0xfedcba9876543210ull, 0xffffffffffffffffull,
+          R"({"a": 1})",    "0.1.0",         "/cases/wrist",        1};
 }
 
 inline void expect_bits(double a, double b) {
@@ -110,7 +110,7 @@ inline void expect_same(const TickRecord& a, const TickRecord& b) {
 
 inline void expect_same(const StepRecord& a, const StepRecord& b) {
   EXPECT_EQ(a.step, b.step);
-  EXPECT_EQ(a.tool_tick, b.tool_tick);
+  EXPECT_EQ(a.tool_ticks[0], b.tool_ticks[0]);
   expect_same(a.command, b.command);
 }
 

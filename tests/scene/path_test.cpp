@@ -115,6 +115,37 @@ TEST(Path, WhatWasReadIsWrittenBackBitByBit) {
     EXPECT_LT((original.samples[i].X_WD.p - once->samples[i].X_WD.p).norm(), 1e-15);
 }
 
+constexpr const char* kWithInstruments =
+    "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button,instrument,size,power,jaw\n";
+
+TEST(Path, MaySayWhatTheHandTakes) {
+  const std::string text = std::string(kWithInstruments) +
+                           "0,1,2,3,1,0,0,0,0,,0,0,0\n"
+                           "1,1,2,3,1,0,0,0,1,shaver,4.5,0.5,0\n"
+                           "2,1,2,3,1,0,0,0,0,grasper,0,0,1\n";
+  const auto path = parse_path(text, "test");
+  ASSERT_TRUE(path) << path.error().message();
+  EXPECT_TRUE(path->with_instruments);
+  EXPECT_EQ(path->at(0.9).instrument, "");
+  EXPECT_EQ(path->at(1.2).instrument, "shaver");
+  EXPECT_EQ(path->at(1.2).size_mm, 4.5);
+  EXPECT_EQ(path->at(1.2).power, 0.5);
+  EXPECT_TRUE(path->at(1.2).button);
+  EXPECT_EQ(path->at(2.0).jaw, 1);
+}
+
+TEST(Path, RefusesBadInstrumentColumns) {
+  for (const char* line :
+       {"0,1,2,3,1,0,0,0,0,shaver,4.5,0.5", "0,1,2,3,1,0,0,0,0,shaver,4.5,0.5,0,0",
+        "0,1,2,3,1,0,0,0,0,../shaver,4.5,0.5,0", "0,1,2,3,1,0,0,0,0,shaver,-1,0.5,0",
+        "0,1,2,3,1,0,0,0,0,shaver,4.5,1.5,0", "0,1,2,3,1,0,0,0,0,shaver,4.5,0.5,nan",
+        "0,1,2,3,1,0,0,0,0", "0"}) {
+    const auto path = parse_path(std::string(kWithInstruments) + line + "\n", "test");
+    ASSERT_FALSE(path) << line;
+    EXPECT_EQ(path.error().where, "test:2") << line;
+  }
+}
+
 TEST(Path, HoldsBothEndsAndHitsItsSamples) {
   const ProbePath path = random_path(5, 20);
   const PathSample &first = path.samples.front(), &last = path.samples.back();

@@ -216,7 +216,7 @@ TEST(Replay, RefusesClocksThatRunTooFarApart) {
     tick.tick = n;
     tick.input.X_WD.p = {0, 0, 0.1};
     recording.ticks.push_back(tick);
-    recording.steps.push_back({n, n, {}});
+    recording.steps.push_back({n, {n}, {}});
   }
   const auto outcome = replay(recording, the_case);
   ASSERT_FALSE(outcome);

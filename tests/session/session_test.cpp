@@ -38,7 +38,7 @@ TEST(Session, RunsAStepEverySecondTick) {
     EXPECT_EQ(record.input.X_WD.p, hand_at(n).X_WD.p);
     EXPECT_EQ(record.state_hash != 0, n % kHashInterval == 0);
     if (n % 2 == 0) {
-      EXPECT_EQ(session.last_step_record().tool_tick, n);
+      EXPECT_EQ(session.last_step_record().tool_ticks[0], n);
     }
   }
 }

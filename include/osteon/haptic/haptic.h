@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "osteon/haptic/haptic_state.h"
@@ -38,16 +39,22 @@ struct HapticParams {
 /// once.
 class HapticLoop {
  public:
-  HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool);
+  /// `tray`: the tools that other hands may hold, see OtherTool::instrument; none: they are not
+  /// felt.
+  HapticLoop(std::shared_ptr<const Case> the_case, std::shared_ptr<const Tool> tool,
+             std::span<const std::shared_ptr<const Tool>> tray = {});
   ~HapticLoop();
   HapticLoop(HapticLoop&&) noexcept;
 
   /// One tick: `bones` is the newest snapshot that physics has published (poses are carried forward
   /// by their velocities over `bones_age_s`). Returns the tool's state with the force on the hand,
   /// N, World. The reference stays valid until the next call. Ticks count from 1. An input or a
-  /// bone that is not finite gives zero force and leaves the proxy where it was.
+  /// bone that is not finite gives zero force and leaves the proxy where it was. `others`: the
+  /// tools of other hands as they were last published; a tool may push those, and feels half of the
+  /// overlap of what both hands want. While the bones are of another epoch than the tool, nothing
+  /// is felt.
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, double bones_age_s,
-                        const HapticParams& params) noexcept;
+                        const HapticParams& params, const OtherTools& others = {}) noexcept;
 
   /// Puts the proxy at the hand of the next tick with no force, as at the start. A hand that is
   /// then inside bone feels nothing until it has once been free; the proxy is put out of the bone
@@ -56,11 +63,23 @@ class HapticLoop {
   /// The holes in the skin that a tool with a shaft may pass through (PortalPivot in
   /// src/haptic/portal_pivot.h). Before the first tick; a case has none unless told.
   void set_portals(std::vector<Portal> portals);
+  /// The same in the middle of a run, for a loop that goes on where another one was at `last`, or
+  /// itself: ticks go on, the force fades to zero within kFade_s, and rises again once the hand has
+  /// been free. Allocates, locks and logs nothing.
+  void begin_anew(const ToolState& last) noexcept;
+  static constexpr double kFade_s = 0.020;
+  /// The tool goes over to the next epoch: the bones will be those of a restore point.
+  void next_epoch() noexcept;
+  /// What the hand holds and how, for the tool's state; the loop's own tool stays.
+  void set_grip(std::uint32_t instrument, double power, double jaw) noexcept;
   /// Hash over everything that a later tick depends on.
   std::uint64_t state_hash() const;
   /// Saves and restores exactly what state_hash covers.
   std::unique_ptr<HapticState> save() const;
+  const HapticState& state() const;
+  /// Allocates nothing where the state's lists are of the loop's size, as those of `state()` are.
   void restore(const HapticState& state);
+  const Tool& tool() const;
 
  private:
   struct Impl;

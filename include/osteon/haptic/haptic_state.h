@@ -38,6 +38,8 @@ struct HapticState {
   bool grabbing = false;     ///< the hand drags what it has grabbed
   Vec3 p_WG = Vec3::Zero();  ///< where the hand was when it did
   PortalHold portal;         ///< the hole in the skin that the shaft passes through
+  double fade_n = 0;    ///< by so much the force falls in a tick until it is zero; 0: none left
+  OtherTools others{};  ///< of the other hands, as the last tick saw them
   std::uint32_t bone_count = 0;
   std::array<Pose, kMaxBones> X_WB{};  ///< bones as the last tick saw them
   std::vector<PairMemory> pairs;       ///< those that were near, in their order; then kNone

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
@@ -40,6 +41,9 @@ class BoneWorld {
 
   /// One step under the contact forces of `tool`. The reference stays valid until the next call.
   const BoneSnapshot& step(const ToolState& tool);
+  /// The same under several tools, one a hand: their forces add up in their order. A tool of
+  /// another epoch than the world's pushes nothing: it has felt bones that are elsewhere now.
+  const BoneSnapshot& step(std::span<const ToolState* const> tools);
   const BoneSnapshot& snapshot() const;
   /// Held bones are exactly at rest: holding puts them back there.
   void set_hold(bool hold);
@@ -47,6 +51,11 @@ class BoneWorld {
   std::uint64_t state_hash() const;
   /// Puts every bone back to a snapshot of this world; continuing gives the same bits.
   void restore(const BoneSnapshot& snapshot, bool hold);
+  /// The bones as they were in `kept`, in the next epoch: steps go on counting.
+  void go_back(const BoneSnapshot& kept, bool hold);
+  bool held() const;
+  /// Marks the snapshot as one whose state is to be kept.
+  void ask_to_keep();
 
  private:
   struct Impl;

@@ -15,14 +15,38 @@ enum class CommandKind : std::uint32_t {
   /// value: N/m; the hand drags what it holds from where it is now, against a spring of this
   /// stiffness, and touches nothing meanwhile. 0: it lets go
   kGrab = 5,
+  /// value: number of a restore point, 0 to kMaxMarks - 1; the session's state there is kept. Goes
+  /// to every hand and to physics.
+  kMark = 6,
+  kRestore = 7,  ///< value: as kMark's; the session goes back to what was kept there
+  kTake = 8,     ///< value: place in the session's tray of the instrument that the hand takes
+  kPower = 9,    ///< value: 0 (off) to 1
+  kJaw = 10,     ///< value: 0 (closed) to 1 (open)
+  kFault = 11,   ///< value: why the safety gate took the force off (ForceOff); for the events alone
 };
 
 /// The last of them.
-inline constexpr CommandKind kLastCommandKind = CommandKind::kGrab;
+inline constexpr CommandKind kLastCommandKind = CommandKind::kFault;
+
+/// Restore points of a session.
+inline constexpr std::uint32_t kMaxMarks = 16;
 
 struct Command {
   CommandKind kind = CommandKind::kNone;
   double value = 0;
 };
+
+/// Whether it concerns physics: such a command goes to physics, and all but kHoldBones to the hands
+/// as well.
+inline bool is_for_physics(CommandKind kind) {
+  return kind == CommandKind::kHoldBones || kind == CommandKind::kMark ||
+         kind == CommandKind::kRestore;
+}
+/// The number of the restore point that it names; kMaxMarks when it names none.
+inline std::uint32_t mark_of(const Command& command) {
+  const bool named = command.kind == CommandKind::kMark || command.kind == CommandKind::kRestore;
+  const bool sound = named && command.value >= 0 && command.value < kMaxMarks;
+  return sound ? static_cast<std::uint32_t>(command.value) : kMaxMarks;
+}
 
 }  // namespace osteon

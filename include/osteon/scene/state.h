@@ -25,10 +25,15 @@ struct BoneMotion {
   Vec3 w_W = Vec3::Zero();  ///< rad/s
 };
 
+/// The most hands of a session.
+inline constexpr std::size_t kMaxHands = 4;
+
 /// Physics -> haptic, render: all bones after physics step `step`.
 struct BoneSnapshot {
   std::uint64_t step = 0;
   double time_s = 0;
+  std::uint32_t epoch = 0;       ///< how often the world has gone back to a restore point
+  std::uint64_t saved_step = 0;  ///< newest step whose state is to be kept with the hands' own
   std::uint32_t count = 0;
   std::array<BoneMotion, kMaxBones> bones{};
 };
@@ -44,6 +49,15 @@ struct Contact {
 };
 inline constexpr std::size_t kMaxContacts = 8;
 
+/// One place where the tool touches that of another hand.
+struct ToolContact {
+  std::uint32_t hand = 0;  ///< the other
+  Vec3 p_W = Vec3::Zero();
+  Vec3 nhat_W = Vec3::UnitZ();          ///< unit, towards this tool
+  Vec3 force_on_tool_W = Vec3::Zero();  ///< N
+};
+inline constexpr std::size_t kMaxToolContacts = 3;
+
 /// What happened in a haptic tick; bits.
 enum TickStatus : std::uint32_t {
   kTickOk = 0,
@@ -55,7 +69,8 @@ enum TickStatus : std::uint32_t {
   kTickProxyBlocked = 1u << 5,    ///< no free position found; the proxy stayed where it was
   kTickRotationHeld = 1u << 6,    ///< the proxy kept its old orientation to stay out of bone
   kTickSticking = 1u << 7,        ///< static friction holds
-  kTickGrabbing = 1u << 8         ///< the hand drags against a spring and touches nothing
+  kTickGrabbing = 1u << 8,        ///< the hand drags against a spring and touches nothing
+  kTickFading = 1u << 9           ///< after a change of instrument or state the force fades to zero
 };
 
 inline constexpr std::uint32_t kNoPortal = 0xffffffffu;
@@ -66,13 +81,32 @@ struct ToolState {
   double time_s = 0;
   Pose X_WD;                    ///< the hand
   Pose X_WP;                    ///< the proxy: the tool, kept out of bone
+  Vec3 v_W = Vec3::Zero();      ///< of the hand, m/s
   Vec3 force_W = Vec3::Zero();  ///< on the hand, N
   std::uint32_t buttons = 0;
   std::uint32_t status = kTickOk;
   std::uint32_t portal = kNoPortal;  ///< that the shaft passes through, as the loop's list has them
   std::uint32_t contact_count = 0;
   std::array<Contact, kMaxContacts> contacts{};
+  std::uint32_t tool_contact_count = 0;
+  std::array<ToolContact, kMaxToolContacts> tool_contacts{};
+  std::uint32_t epoch = 0;       ///< how often its hand has gone back to a restore point
+  std::uint32_t instrument = 0;  ///< in the session's tray
+  double power = 0;              ///< 0 to 1
+  double jaw = 0;                ///< 0 closed to 1 open
 };
+
+/// What a hand's tick knows of another hand's tool.
+struct OtherTool {
+  std::uint64_t tick = 0;  ///< of the other hand; 0: nothing is known yet, and nothing felt
+  std::uint32_t instrument = 0;
+  Vec3 p_WD = Vec3::Zero();  ///< where that hand wants it
+  Pose X_WP;                 ///< where it is
+  Vec3 v_W = Vec3::Zero();
+};
+/// One for each hand; a hand's own is not looked at.
+using OtherTools = std::array<OtherTool, kMaxHands>;
+OtherTool seen_from_outside(const ToolState& tool);
 
 /// Everything that a picture shows at one moment.
 struct RenderSnapshot {

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "osteon/base/result.h"
 #include "osteon/haptic/haptic.h"
@@ -12,15 +14,29 @@
 #include "osteon/record/recording.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
+#include "osteon/scene/event.h"
 #include "osteon/scene/tool.h"
+#include "osteon/session/session_state.h"
 
 namespace osteon {
+
+/// One hand of a session.
+struct HandSettings {
+  std::string name;              ///< "left", "right"; empty: the only one
+  std::uint32_t instrument = 0;  ///< in the tray, at the start
+};
+
+/// The instruments that hands may take, all made before the session begins.
+using Tray = std::vector<std::shared_ptr<const Tool>>;
 
 struct SessionSettings {
   std::uint64_t seed = 0;
   HapticParams haptic;
-  PhysicsParams physics;  ///< its step is a whole number of haptic ticks
-  double probe_radius_m = 0.00075;
+  PhysicsParams physics;            ///< its step is a whole number of haptic ticks
+  double probe_radius_m = 0.00075;  ///< of the wrist probe, which is held where the tray is empty
+  double force_limit_n = 5;         ///< a force above it is an event
+  std::vector<HandSettings> hands{1};
+  std::vector<std::string> tray;  ///< names of the tray's instruments, for who makes them again
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.
 Result<void> check_settings(const SessionSettings& settings);
@@ -29,49 +45,86 @@ std::string to_json(const SessionSettings& settings);
 /// Fails on an unknown or missing setting, and on what check_settings refuses.
 Result<SessionSettings> parse_settings(const std::string& json);
 
-/// One run of one case: a function of (case, settings, input stream). Owns no thread and no clock.
+/// What a hand does in one tick.
+struct HandInput {
+  ToolInput input;
+  Command command;
+};
+
+/// One run of one case: a function of (case, settings, tray, input streams). Owns no thread and no
+/// clock. Up to four hands meet the same bones, and each other.
 ///
-/// One thread: call `tick`, which runs the physics steps that are due. Two threads: one calls
-/// `haptic_tick`, the other `physics_step`, and they exchange ToolState and BoneSnapshot by
-/// LatestValue; what each consumed is in the records, so that `replay` can repeat the run in one
-/// thread, bit by bit. The haptic half (haptic_tick, last_tick_record) and the physics half
-/// (physics_step, last_step_record, bones) share nothing that changes; everything else is for when
-/// both rest.
+/// One thread: call `tick`, which runs the physics steps that are due; every hand sees the others'
+/// tools as the tick before left them. Several threads: one for each hand calls its `haptic_tick`,
+/// another `physics_step`, and they exchange ToolState and BoneSnapshot by LatestValue; what each
+/// consumed is in the records, so that `replay` can repeat the run in one thread, bit by bit. The
+/// halves (one a hand: haptic_tick, last_tick_record, last_events, save_hand; physics:
+/// physics_step, last_step_record, bones, save_world) share nothing that changes; everything else
+/// is for when all rest.
+///
+/// A thread of a hand reads the other hands' tools before the bones. Then states that hands and
+/// physics save by themselves belong together: physics sets BoneSnapshot::saved_step, and a hand
+/// saves its state before the first tick that consumes a snapshot of that step or later.
 ///
 /// Bones are carried forward by their velocities from the tick that first saw a snapshot: at that
 /// tick by one tick's time, then by one more each tick until the next snapshot, at most 20 ms. With
 /// both clocks in step this is the time since the snapshot; it follows from the records alone, and
 /// does not grow when one clock runs slow against the other.
+///
+/// kMark keeps the state, kRestore goes back to it: bones, instruments, power. Hands stay where
+/// their devices are, their forces fade to zero and rise again once they have been free. Ticks and
+/// steps go on counting; the epoch, which counts the times, tells each half whether the other has
+/// gone back too.
 class Session {
  public:
-  /// `settings` must satisfy check_settings.
-  Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings);
+  /// `settings` must satisfy check_settings. An empty tray holds the wrist probe alone.
+  Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray = {});
   ~Session();
   Session(Session&&) noexcept;
 
   /// A command acts at the begin of this tick; one for the physics at the next step. A command
-  /// whose value is out of range is recorded and does nothing.
+  /// whose value is out of range is recorded and does nothing. Returns the first hand's tool.
+  const ToolState& tick(std::span<const HandInput> hands);
   const ToolState& tick(const ToolInput& input, const Command& command = {});
 
   /// Allocates, locks and logs nothing. kHoldBones is for physics_step and does nothing here.
+  const ToolState& haptic_tick(std::size_t hand, const ToolInput& input, const BoneSnapshot& bones,
+                               const OtherTools& others, const Command& command = {});
   const ToolState& haptic_tick(const ToolInput& input, const BoneSnapshot& bones,
                                const Command& command = {});
-  /// `tool` is a state that haptic_tick has given, or ToolState{} before the first. Only kHoldBones
-  /// acts here.
+  /// `tools`: of each hand a state that its haptic_tick has given, or ToolState{} before the first.
+  /// Only commands that is_for_physics act here. Allocates, locks and logs nothing.
+  const BoneSnapshot& physics_step(std::span<const ToolState* const> tools,
+                                   const Command& command = {});
   const BoneSnapshot& physics_step(const ToolState& tool, const Command& command = {});
 
   /// Record of the last haptic tick or physics step.
-  const TickRecord& last_tick_record() const;
+  const TickRecord& last_tick_record(std::size_t hand = 0) const;
   const StepRecord& last_step_record() const;
+  /// What happened in a hand's last tick.
+  std::span<const Event> last_events(std::size_t hand = 0) const;
   /// Physics steps that the last `tick` ran (0 or 1).
   int last_steps() const;
 
   const Case& the_case() const;
-  const Tool& tool() const;
+  std::size_t hands() const;
+  /// What a hand holds.
+  const Tool& tool(std::size_t hand = 0) const;
+  const ToolState& tool_state(std::size_t hand = 0) const;
+  const Tray& tray() const;
   const BoneSnapshot& bones() const;
-  /// Over both halves. (A tick record's hash is over the haptic half and the bones that the tick
-  /// consumed: what is known at that tick whatever the other thread does.)
+  /// Over all halves. (A tick record's hash is over the hand's half and the bones that the tick
+  /// consumed: what is known at that tick whatever the other threads do.)
   std::uint64_t state_hash() const;
+
+  SessionState save() const;
+  /// A state of a session of the same case, settings and tray. Fails, and changes nothing, when it
+  /// cannot be one.
+  Result<void> restore(const SessionState& state);
+  /// The parts of `save`, each for its own thread. Nothing is allocated where `into` has been
+  /// filled by it before.
+  void save_hand(std::size_t hand, HandState& into) const;
+  void save_world(WorldState& into) const;
 
  private:
   struct Impl;
@@ -84,15 +137,37 @@ RecordingHeader recording_header(const Case& the_case, const SessionSettings& se
 
 struct ReplayOutcome {
   bool identical = true;
-  std::uint64_t first_different_tick = 0;  ///< meaningful when not identical
-  std::uint64_t ticks = 0;
-  Report report;  ///< of what was replayed; its tick times are measured now
+  std::size_t first_different_hand = 0;    ///< meaningful when not identical
+  std::uint64_t first_different_tick = 0;  ///< of that hand
+  std::uint64_t ticks = 0;                 ///< replayed, of the hand with the most
+  std::uint64_t first_tick = 1;            ///< of the first hand; above 1: begun at a stored state
+  /// False: the recording breaks off, or its end consumed what was not saved.
+  bool complete = true;
+  std::uint64_t state_hash = 0;  ///< over the whole final state
+  Report report;                 ///< of the first hand; its tick times are measured now
+  std::vector<Report> reports;   ///< of every hand
+};
+
+struct ReplayOptions {
+  /// Sees each tick's tool state, the bones that it consumed, and what happened in it.
+  std::function<void(std::size_t hand, const ToolState&, const BoneSnapshot&,
+                     std::span<const Event>)>
+      on_tick;
+  /// Begins at the last stored state that is not after this time of the first hand; 0: at the
+  /// start.
+  double from_s = 0;
+  Tray tray;  ///< as the recorded session had it
 };
 
 /// Repeats a recording in one thread. Compares every tick's force, proxy position and status, and
-/// every state hash, bit by bit; goes on to the end after a difference. `on_tick` (may be empty)
-/// sees each tick's tool state and the bones that it consumed. Fails when the case is not the
-/// recording's, when its settings cannot be read, or when check_consumption refuses it.
+/// every state hash, bit by bit; goes on to the end after a difference. Fails when the case is not
+/// the recording's, when its settings cannot be read, or when what was consumed is out of order.
+Result<ReplayOutcome> replay(const Recording& recording, std::shared_ptr<const Case> the_case,
+                             const ReplayOptions& options);
+/// The same piece by piece: memory does not grow with the recording's length.
+Result<ReplayOutcome> replay(RecordingReader& recording, std::shared_ptr<const Case> the_case,
+                             const ReplayOptions& options);
+/// The first hand's ticks alone are told.
 Result<ReplayOutcome> replay(
     const Recording& recording, std::shared_ptr<const Case> the_case,
     const std::function<void(const ToolState&, const BoneSnapshot&)>& on_tick = {});

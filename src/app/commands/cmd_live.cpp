@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +13,7 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/number_check.h"
+#include "commands/tray.h"
 #include "loops/device_log.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
@@ -34,20 +37,48 @@ struct LiveOptions {
   MappingSettings mapping;
 };
 
-// "phantom" or "phantom:serial".
-Result<DeviceChoice> choice_named(const std::string& name) {
-  const auto colon = name.find(':');
-  const std::string driver = name.substr(0, colon);
-  const std::string serial = colon == std::string::npos ? "" : name.substr(colon + 1);
-  std::vector<std::string> problems;
-  for (const DeviceChoice& choice : list_device_choices(&problems))
-    if (choice.driver == driver && (serial.empty() || choice.info.serial == serial)) return choice;
-  std::string why;
-  for (const std::string& problem : problems) why += "; " + problem;
-  return fail("there is no such device" + why, name, "See `osteon devices`");
+// "phantom", "phantom:serial", "phantom:left", and after any of them "=hook_probe".
+struct HandChoice {
+  std::string driver;
+  std::string serial;
+  std::string name;        ///< of the hand; empty: not named
+  std::string instrument;  ///< as a tray names it; empty: the wrist probe
+};
+
+HandChoice hand_of(const std::string& text) {
+  HandChoice hand;
+  const auto equals = text.find('=');
+  if (equals != std::string::npos) hand.instrument = text.substr(equals + 1);
+  const std::string device = text.substr(0, equals);
+  const auto colon = device.find(':');
+  hand.driver = device.substr(0, colon);
+  const std::string which = colon == std::string::npos ? "" : device.substr(colon + 1);
+  const bool is_hand = which == "left" || which == "right" || which == "third" || which == "fourth";
+  (is_hand ? hand.name : hand.serial) = which;
+  return hand;
 }
 
-// "run.osr" of the second hand is "run-2.osr".
+// A device that another hand has is not looked at.
+Result<DeviceChoice> choice_of(const HandChoice& hand, const std::vector<DeviceChoice>& taken) {
+  std::vector<std::string> problems;
+  const auto is_taken = [&](const DeviceChoice& choice) {
+    return std::any_of(taken.begin(), taken.end(), [&](const DeviceChoice& other) {
+      return !choice.info.serial.empty() && other.driver == choice.driver &&
+             other.info.serial == choice.info.serial;
+    });
+  };
+  for (const DeviceChoice& choice : list_device_choices(&problems))
+    if (choice.driver == hand.driver &&
+        (hand.serial.empty() || choice.info.serial == hand.serial) && !is_taken(choice))
+      return choice;
+  std::string why;
+  for (const std::string& problem : problems) why += "; " + problem;
+  return fail("there is no such device, or another hand has it" + why,
+              hand.serial.empty() ? hand.driver : hand.driver + ":" + hand.serial,
+              "See `osteon devices`");
+}
+
+// "force.csv" of the second hand is "force-2.csv".
 fs::path numbered(const std::string& file, std::size_t hand) {
   const fs::path path = file;
   if (hand == 0) return path;
@@ -55,33 +86,40 @@ fs::path numbered(const std::string& file, std::size_t hand) {
          (path.stem().string() + "-" + std::to_string(hand + 1) + path.extension().string());
 }
 
-// One device with its session, its loops and its thread.
-struct Hand {
-  DeviceChoice choice;
-  DeviceLog* log = nullptr;  ///< of the runtime's device
+// The hands of a run: each with its device, all in one world.
+struct LiveHands {
+  std::vector<HandChoice> hands;
+  std::vector<DeviceChoice> choices;
+  std::vector<DeviceLog*> logs;  ///< of the runtime's devices
+  std::vector<HandPlan> plans;
+  RunPlan run;
   std::unique_ptr<Runtime> runtime;
 };
 
+// Hands lie side by side, so that two devices begin apart.
 DeviceMapping mapping_for(const DeviceChoice& choice, const LiveOptions& options,
-                          const Case& the_case) {
+                          const Case& the_case, std::size_t hand) {
+  constexpr double kApart_m = 0.020;
   DeviceMapping mapping;
   if (plays_demo(choice)) return mapping;
   // The middle of the workspace is above the middle of the case.
   const Aabb bounds = the_case.bounds_W();
   mapping.X_WV.p = bounds.center() + Vec3(0, 0, 0.5 * bounds.extent().z());
+  mapping.X_WV.p.x() += kApart_m * (static_cast<double>(hand) -
+                                    0.5 * static_cast<double>(options.devices.size() - 1));
   mapping.X_WV.q = patient_axes();
   mapping.scale = options.mapping.scale;
   return mapping;
 }
 
-Result<std::unique_ptr<RecordFeed>> feed_for(const LiveOptions& options, const RunPlan& plan,
-                                             std::size_t hand) {
+Result<std::unique_ptr<RecordFeed>> feed_for(const LiveOptions& options, const RunPlan& plan) {
   if (options.record.empty()) return std::unique_ptr<RecordFeed>();
-  auto writer = RecordingWriter::create(
-      numbered(options.record, hand),
-      recording_header(*plan.the_case, plan.settings, options.case_spec, OSTEON_VERSION));
+  RecordingHeader header =
+      recording_header(*plan.the_case, plan.settings, options.case_spec, OSTEON_VERSION);
+  header.case_path = absolute_case_path(options.case_spec);
+  auto writer = RecordingWriter::create(options.record, header);
   if (!writer) return tl::unexpected(writer.error());
-  return std::make_unique<RecordFeed>(std::move(*writer));
+  return std::make_unique<RecordFeed>(std::move(*writer), 8.0, plan.settings.hands.size());
 }
 
 // A device that must be calibrated or homed gives no force before, and a gate that trips for it
@@ -106,73 +144,121 @@ Result<void> wait_for_calibration(HapticDevice& device) {
   return {};
 }
 
-Result<Hand> make_hand(const LiveOptions& options, std::shared_ptr<const Case> the_case,
-                       const ProbePath& path, std::size_t index) {
-  auto choice = choice_named(options.devices[index]);
+// Where devices differ, the weakest one's limits hold for all.
+void keep_to_weakest(const HapticParams& of_device, HapticParams& all) {
+  all.stiffness_n_per_m = std::min(all.stiffness_n_per_m, of_device.stiffness_n_per_m);
+  all.max_force_n = std::min(all.max_force_n, of_device.max_force_n);
+  all.max_slew_n_per_s = std::min(all.max_slew_n_per_s, of_device.max_slew_n_per_s);
+}
+
+Result<void> add_hand(const LiveOptions& options, const ProbePath& path, std::size_t index,
+                      LiveHands& live) {
+  live.hands.push_back(hand_of(options.devices[index]));
+  auto choice = choice_of(live.hands.back(), live.choices);
   if (!choice) return tl::unexpected(choice.error());
-  RunPlan plan;
-  plan.the_case = the_case;
-  FeelSettings feel;
-  feel.bones_held = !options.free_bones;
   auto device = open_choice(*choice, path);
   if (!device) return tl::unexpected(device.error());
   if (auto ready = wait_for_calibration(**device); !ready) return tl::unexpected(ready.error());
+  FeelSettings feel;
+  feel.bones_held = !options.free_bones;
   // A list may know less than the open device, which has said what it is.
-  plan.settings = settings_for((*device)->info(), feel, options.mapping.scale);
-  plan.mapping = mapping_for(*choice, options, *the_case);
-  plan.mapping_settings = options.mapping;
-  auto feed = feed_for(options, plan, index);
-  if (!feed) return tl::unexpected(feed.error());
-  Hand hand;
-  hand.choice = std::move(*choice);
+  const SessionSettings settings = settings_for((*device)->info(), feel, options.mapping.scale);
+  if (index == 0) live.run.settings = settings;
+  keep_to_weakest(settings.haptic, live.run.settings.haptic);
   auto log = std::make_unique<DeviceLog>(std::move(*device));
-  hand.log = log.get();
-  hand.runtime = std::make_unique<Runtime>(plan, std::move(log), std::move(*feed));
-  return hand;
+  live.logs.push_back(log.get());
+  HandPlan plan;
+  plan.device = std::move(log);
+  plan.mapping = mapping_for(*choice, options, *live.run.the_case, index);
+  plan.mapping_settings = options.mapping;
+  live.plans.push_back(std::move(plan));
+  live.choices.push_back(std::move(*choice));
+  return {};
+}
+
+// The first two hands are left and right where nobody says otherwise; one alone has no name.
+std::string name_of(const LiveHands& live, std::size_t hand) {
+  if (!live.hands[hand].name.empty() || live.hands.size() == 1) return live.hands[hand].name;
+  constexpr std::array kNames = {"left", "right", "third", "fourth"};
+  return kNames[hand];
+}
+
+Result<Tray> give_instruments(LiveHands& live) {
+  SessionSettings& settings = live.run.settings;
+  settings.hands.clear();
+  for (std::size_t h = 0; h < live.hands.size(); ++h) {
+    const std::string& wanted = live.hands[h].instrument;
+    const std::string name = wanted.empty() ? kWristProbe : wanted;
+    auto place = std::find(settings.tray.begin(), settings.tray.end(), name);
+    if (place == settings.tray.end()) place = settings.tray.insert(place, name);
+    settings.hands.push_back(
+        {name_of(live, h), static_cast<std::uint32_t>(place - settings.tray.begin())});
+  }
+  if (settings.tray == std::vector<std::string>{kWristProbe}) settings.tray.clear();
+  if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
+  return make_tray(settings.tray, settings.probe_radius_m);
+}
+
+Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const Case> the_case,
+                             const ProbePath& path) {
+  LiveHands live;
+  live.run.the_case = std::move(the_case);
+  if (options.devices.size() > kMaxHands)
+    return fail("a session has at most four hands", "--device", "Give fewer");
+  for (std::size_t i = 0; i < options.devices.size(); ++i)
+    if (auto done = add_hand(options, path, i, live); !done) return tl::unexpected(done.error());
+  auto tray = give_instruments(live);
+  if (!tray) return tl::unexpected(tray.error());
+  auto feed = feed_for(options, live.run);
+  if (!feed) return tl::unexpected(feed.error());
+  live.runtime = std::make_unique<Runtime>(live.run, std::move(live.plans), std::move(*feed),
+                                           std::move(*tray));
+  return live;
 }
 
 // Until the time is over or a signal asks for the end; what goes wrong meanwhile is told.
-void watch(std::vector<Hand>& hands, double seconds) {
+void watch(LiveHands& live, double seconds) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<ForceOff> told(hands.size(), ForceOff::kSoftware);
+  Runtime& runtime = *live.runtime;
+  std::vector<ForceOff> told(runtime.hands(), ForceOff::kSoftware);
   while (!stop_requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (seconds > 0 && passed.count() >= seconds) return;
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-      const DeviceStatus& status = hands[i].runtime->device_status();
+    for (std::size_t i = 0; i < runtime.hands(); ++i) {
+      const DeviceStatus& status = runtime.device_status(i);
       Telemetry point;
-      while (hands[i].runtime->pop_telemetry(point)) {
+      while (runtime.pop_telemetry(point, i)) {
       }
       if (status.cause == told[i]) continue;
       told[i] = status.cause;
-      std::printf("%6.2f s  %s: %s\n", passed.count(), hands[i].choice.info.name.c_str(),
+      std::printf("%6.2f s  %s: %s\n", passed.count(), live.choices[i].info.name.c_str(),
                   describe(status.cause));
       std::fflush(stdout);
     }
   }
 }
 
-void print_summary(const Hand& hand) {
-  const LoopStats& stats = hand.runtime->haptic_stats();
-  const DeviceStatus& status = hand.runtime->device_status();
+void print_summary(LiveHands& live, std::size_t hand) {
+  const LoopStats& stats = live.runtime->haptic_stats(hand);
+  const DeviceStatus& status = live.runtime->device_status(hand);
   std::printf(
       "%s: %llu ticks at %.0f Hz, p50 %.0f us, p99 %.0f us, longest %.0f us, missed %llu; "
       "energy %.2f mJ, stiffness share %.2f\n",
-      hand.choice.info.name.c_str(), static_cast<unsigned long long>(stats.ticks), stats.rate_hz,
-      stats.p50_us, stats.p99_us, stats.max_us, static_cast<unsigned long long>(stats.missed),
-      status.safety.passivity.energy_j * 1e3, status.safety.passivity.stiffness_share);
+      live.choices[hand].info.name.c_str(), static_cast<unsigned long long>(stats.ticks),
+      stats.rate_hz, stats.p50_us, stats.p99_us, stats.max_us,
+      static_cast<unsigned long long>(stats.missed), status.safety.passivity.energy_j * 1e3,
+      status.safety.passivity.stiffness_share);
 }
 
 // Stops every hand before any error is told.
-Result<void> stop_all(std::vector<Hand>& hands, const std::string& force_log) {
-  Result<void> outcome;
-  for (std::size_t i = 0; i < hands.size(); ++i) {
-    if (auto stopped = hands[i].runtime->stop(); !stopped) outcome = stopped;
-    print_summary(hands[i]);
-    hands[i].log->close();
+Result<void> stop_all(LiveHands& live, const std::string& force_log) {
+  Result<void> outcome = live.runtime->stop();
+  for (std::size_t i = 0; i < live.logs.size(); ++i) {
+    print_summary(live, i);
+    live.logs[i]->close();
     if (force_log.empty()) continue;
-    if (auto saved = hands[i].log->save(numbered(force_log, i)); !saved) outcome = saved;
+    if (auto saved = live.logs[i]->save(numbered(force_log, i)); !saved) outcome = saved;
   }
   return outcome;
 }
@@ -189,17 +275,13 @@ int run_live(LiveOptions options) {
   if (!the_case) return report_error(the_case.error());
   const auto path = path_of(options, **the_case);
   if (!path) return report_error(path.error());
-  std::vector<Hand> hands;
-  for (std::size_t i = 0; i < options.devices.size(); ++i) {
-    auto hand = make_hand(options, *the_case, *path, i);
-    if (!hand) return report_error(hand.error());
-    hands.push_back(std::move(*hand));
-  }
-  for (Hand& hand : hands) hand.runtime->start();
+  auto live = make_hands(options, *the_case, *path);
+  if (!live) return report_error(live.error());
+  live->runtime->start();
   std::printf("running; Ctrl-C ends it with the force at zero\n");
   std::fflush(stdout);
-  watch(hands, options.seconds);
-  const Result<void> ended = stop_all(hands, options.force_log);
+  watch(*live, options.seconds);
+  const Result<void> ended = stop_all(*live, options.force_log);
   if (!ended) return report_error(ended.error());
   return stop_signal() ? 128 + stop_signal() : kExitDone;
 }
@@ -212,8 +294,8 @@ void add_live_command(CLI::App& app, int& exit_code) {
       "live", "Run devices on a case in real time, without a window, through the safety stages");
   command
       ->add_option("--device", options->devices,
-                   "driver, or driver:serial; give it twice for two hands, each with a session "
-                   "and a thread of its own")
+                   "driver, driver:serial or driver:left (right, third, fourth), then =INSTRUMENT; "
+                   "once for each of up to four hands in one world")
       ->capture_default_str();
   command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();

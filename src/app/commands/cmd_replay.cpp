@@ -19,14 +19,18 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestExpectation = 16 << 20;  // bytes
 
-struct ReplayOptions {
+struct ReplayArguments {
   std::string file;
   std::string case_spec;
   std::string expect;
   std::string report;
   std::string frames;
+  double from_s = 0;
+  bool allow_incomplete = false;
   SessionOptions session;
 };
+
+constexpr int kExitIncomplete = 3;
 
 int print_deviations(const Report& report, const std::string& expect_file) {
   const auto expectation = read_file(expect_file, kLargestExpectation);
@@ -42,40 +46,88 @@ int print_deviations(const Report& report, const std::string& expect_file) {
   return deviations->empty() ? kExitDone : kExitNo;
 }
 
-int replay_recording(const ReplayOptions& options) {
-  auto recording = load_recording(options.file);
-  if (!recording) return report_error(recording.error());
-  const std::string spec =
-      options.case_spec.empty() ? recording->header.case_source : options.case_spec;
-  auto the_case = open_and_show_progress(spec, CaseParts::kFelt);
-  if (!the_case) return report_error(the_case.error());
-  std::unique_ptr<FrameWriter> frames;
-  if (!options.frames.empty()) {
-    auto made = FrameWriter::create(**the_case, options.frames);
-    if (!made) return report_error(made.error());
-    frames = std::make_unique<FrameWriter>(std::move(*made));
-  }
-  const auto outcome =
-      replay(*recording, *the_case, [&](const ToolState& tool, const BoneSnapshot& bones) {
-        if (frames) frames->add(tool, bones);
-      });
-  if (!outcome) return report_error(outcome.error());
-  if (frames && frames->failure()) return report_error(*frames->failure());
-  if (auto ok = save_report(outcome->report, options.report); !ok) return report_error(ok.error());
-  std::fputs(to_text(outcome->report).c_str(), stdout);
-  if (!recording->complete) std::printf("the recording was cut off; replayed what was saved\n");
-  if (!outcome->identical) {
-    std::printf("DIFFERENT from the recording at tick %llu (%.3f s)\n",
-                static_cast<unsigned long long>(outcome->first_different_tick),
-                static_cast<double>(outcome->first_different_tick) * 1e-3);
-    return kExitNo;
-  }
-  std::printf("identical: every state hash of %llu ticks agrees\n",
-              static_cast<unsigned long long>(outcome->ticks));
-  return options.expect.empty() ? kExitDone : print_deviations(outcome->report, options.expect);
+// A recording may have moved with its case, or without it.
+Result<std::string> case_of(const ReplayArguments& options, const RecordingHeader& header) {
+  if (!options.case_spec.empty()) return options.case_spec;
+  const std::string& source = header.case_source;
+  const auto end_of_folder = source.find('#');
+  const fs::path folder = source.substr(0, end_of_folder);
+  const std::string choice =
+      end_of_folder == std::string::npos ? std::string() : source.substr(end_of_folder);
+  std::error_code ignored;
+  if (source.rfind("builtin:", 0) == 0 || fs::exists(folder, ignored)) return source;
+  if (!header.case_path.empty() && fs::exists(header.case_path, ignored))
+    return header.case_path + choice;
+  const fs::path beside = fs::path(options.file).parent_path() / folder.filename();
+  if (fs::exists(beside, ignored)) return beside.string() + choice;
+  return fail("the case of the recording ('" + source + "') is not found, nor is it beside it",
+              options.file, "Name it with --case");
 }
 
-int replay_path(const ReplayOptions& options) {
+Result<std::unique_ptr<FrameWriter>> frames_for(const ReplayArguments& options,
+                                                const Case& the_case) {
+  if (options.frames.empty()) return std::unique_ptr<FrameWriter>();
+  auto made = FrameWriter::create(the_case, options.frames);
+  if (!made) return tl::unexpected(made.error());
+  return std::make_unique<FrameWriter>(std::move(*made));
+}
+
+void print_difference(const ReplayOutcome& outcome) {
+  std::printf("DIFFERENT from the recording at tick %llu (%.3f s)%s\n",
+              static_cast<unsigned long long>(outcome.first_different_tick),
+              static_cast<double>(outcome.first_different_tick) * 1e-3,
+              outcome.reports.size() > 1
+                  ? (" of hand " + std::to_string(outcome.first_different_hand + 1)).c_str()
+                  : "");
+}
+
+// What was repeated agrees; whether that is all that was done is another question.
+int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
+  if (!outcome.identical) {
+    print_difference(outcome);
+    return kExitNo;
+  }
+  if (outcome.ticks == 0) {
+    std::printf("nothing was replayed: %s\n",
+                options.from_s > 0 ? "the recording ends before" : "the recording holds no tick");
+    return outcome.complete ? kExitNo : kExitIncomplete;
+  }
+  std::printf("identical: every state hash of %llu ticks agrees",
+              static_cast<unsigned long long>(outcome.ticks));
+  if (outcome.first_tick > 1)
+    std::printf(" (from %.3f s)", static_cast<double>(outcome.first_tick - 1) * 1e-3);
+  std::printf("\n");
+  if (!outcome.complete) {
+    std::printf("incomplete: the recording breaks off; what was saved was replayed\n");
+    if (!options.allow_incomplete) return kExitIncomplete;
+  }
+  return options.expect.empty() ? kExitDone : print_deviations(outcome.report, options.expect);
+}
+
+int replay_recording(const ReplayArguments& options) {
+  auto recording = RecordingReader::open(options.file);
+  if (!recording) return report_error(recording.error());
+  const auto spec = case_of(options, recording->header());
+  if (!spec) return report_error(spec.error());
+  auto the_case = open_and_show_progress(*spec, CaseParts::kFelt);
+  if (!the_case) return report_error(the_case.error());
+  auto frames = frames_for(options, **the_case);
+  if (!frames) return report_error(frames.error());
+  ReplayOptions how;
+  how.from_s = options.from_s;
+  how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    std::span<const Event>) {
+    if (*frames && hand == 0) (*frames)->add(tool, bones);
+  };
+  const auto outcome = replay(*recording, *the_case, how);
+  if (!outcome) return report_error(outcome.error());
+  if (*frames && (*frames)->failure()) return report_error(*(*frames)->failure());
+  if (auto ok = save_report(outcome->report, options.report); !ok) return report_error(ok.error());
+  std::fputs(to_text(outcome->report).c_str(), stdout);
+  return judge(options, *outcome);
+}
+
+int replay_path(const ReplayArguments& options) {
   auto path = load_path(options.file);
   if (!path) return report_error(path.error());
   auto the_case = open_and_show_progress(
@@ -103,7 +155,7 @@ int replay_path(const ReplayOptions& options) {
   return options.expect.empty() ? kExitDone : print_deviations(*report, options.expect);
 }
 
-int run_replay(const ReplayOptions& options) {
+int run_replay(const ReplayArguments& options) {
   // A file that is missing is said before the run, not after it.
   if (!options.expect.empty())
     if (const auto expectation = read_file(options.expect, kLargestExpectation); !expectation)
@@ -115,11 +167,11 @@ int run_replay(const ReplayOptions& options) {
 }  // namespace
 
 void add_replay_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<ReplayOptions>();
+  auto options = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand(
       "replay",
       "Repeat a recording (.osr) bit by bit, or run a probe path (.csv) and check what it felt.\n"
-      "Exit code: 0 identical and as expected, 1 not, 2 a bad file");
+      "Exit code: 0 identical and as expected, 1 not, 2 a bad file, 3 a recording that breaks off");
   command->add_option("file", options->file, "recording or probe path")->required();
   command->add_option("--case", options->case_spec,
                       "a case folder, builtin:wrist or builtin:knee (default: the recording's own; "
@@ -127,6 +179,12 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command->add_option("--expect", options->expect, "expected contacts and forces, JSON");
   command->add_option("--report", options->report, "write the report as JSON");
   command->add_option("--frames", options->frames, "write a picture every 1/30 s into this folder");
+  command
+      ->add_option("--from", options->from_s,
+                   "begin at the last stored state that is not after this time, s")
+      ->check(CLI::Range(0.0, 4 * 3600.0));
+  command->add_flag("--allow-incomplete", options->allow_incomplete,
+                    "a recording that breaks off is as good as a whole one");
   options->session.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run_replay(*options); });
 }

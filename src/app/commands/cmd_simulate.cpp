@@ -8,6 +8,8 @@
 #include "commands/commands.h"
 #include "commands/headless.h"
 #include "commands/session_options.h"
+#include "osteon/base/file.h"
+#include "osteon/procedure/hand_reports.h"
 
 namespace osteon {
 namespace {
@@ -15,29 +17,72 @@ namespace {
 struct SimulateOptions {
   std::string case_spec = "builtin:wrist";
   std::string path;
+  std::vector<std::string> hands;
   std::string record;
   std::string report;
   std::string device;
   SessionOptions session;
 };
 
-int run_simulate(const SimulateOptions& options) {
-  auto path = load_path(options.path);
-  if (!path) return report_error(path.error());
-  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
-  if (!the_case) return report_error(the_case.error());
+// "left=L.csv".
+Result<HeadlessHand> hand_named(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    return fail("a hand is given as NAME=PATH.csv", text, "For example: --hand left=left.csv");
+  auto path = load_path(text.substr(equals + 1));
+  if (!path) return tl::unexpected(path.error());
+  return HeadlessHand{text.substr(0, equals), std::move(*path)};
+}
+
+Result<HeadlessRun> run_of(const SimulateOptions& options) {
   HeadlessRun run;
-  run.the_case = *the_case;
+  for (const std::string& text : options.hands) {
+    auto hand = hand_named(text);
+    if (!hand) return tl::unexpected(hand.error());
+    run.hands.push_back(std::move(*hand));
+  }
+  if (run.hands.size() > kMaxHands)
+    return fail("a session has at most four hands", "--hand", "Give fewer");
+  if (!run.hands.empty() && !options.device.empty())
+    return fail("--device plays one path, not hands", "--device", "Leave out one of the two");
+  if (run.hands.empty()) {
+    auto path = load_path(options.path);
+    if (!path) return tl::unexpected(path.error());
+    run.path = std::move(*path);
+  }
   run.case_source = options.case_spec;
-  run.path = std::move(*path);
   run.settings = options.session.resolved();
   run.hand = options.session.hand;
   run.device = options.device;
   if (!options.record.empty()) run.record_to = options.record;
-  const auto report = simulate(run);
-  if (!report) return report_error(report.error());
-  if (auto ok = save_report(*report, options.report); !ok) return report_error(ok.error());
-  std::fputs(to_text(*report).c_str(), stdout);
+  return run;
+}
+
+int print_hands(const HeadlessOutcome& outcome, const std::string& report_file) {
+  if (!report_file.empty())
+    if (auto ok = write_file_atomic(report_file, to_json(outcome.reports, outcome.names)); !ok)
+      return report_error(ok.error());
+  for (std::size_t h = 0; h < outcome.reports.size(); ++h)
+    std::printf("hand           %s\n%s\n", outcome.names[h].c_str(),
+                to_text(outcome.reports[h]).c_str());
+  return kExitDone;
+}
+
+int run_simulate(const SimulateOptions& options) {
+  if (options.path.empty() == options.hands.empty())
+    return report_error({"one of --path and --hand is needed, not both", "simulate",
+                         "Give --path PATH.csv, or --hand NAME=PATH.csv for each hand"});
+  auto run = run_of(options);
+  if (!run) return report_error(run.error());
+  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
+  if (!the_case) return report_error(the_case.error());
+  run->the_case = *the_case;
+  const auto outcome = simulate_hands(*run);
+  if (!outcome) return report_error(outcome.error());
+  if (!options.hands.empty()) return print_hands(*outcome, options.report);
+  const Report& report = outcome->reports.front();
+  if (auto ok = save_report(report, options.report); !ok) return report_error(ok.error());
+  std::fputs(to_text(report).c_str(), stdout);
   return kExitDone;
 }
 
@@ -49,7 +94,9 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
       "simulate", "Drive the virtual hand along a path, without a window, as fast as it goes");
   command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
-  command->add_option("--path", options->path, "probe path, CSV")->required();
+  command->add_option("--path", options->path, "probe path, CSV");
+  command->add_option("--hand", options->hands,
+                      "NAME=PATH.csv, once for each of up to four hands in one world");
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--report", options->report, "write the report as JSON");
   command->add_option("--device", options->device,

@@ -24,6 +24,7 @@ void add_collide_command(CLI::App& app, int& exit_code);         // collide
 void add_simulate_command(CLI::App& app, int& exit_code);        // simulate
 void add_path_commands(CLI::App& app, int& exit_code);           // path survey
 void add_replay_command(CLI::App& app, int& exit_code);          // replay
+void add_record_command(CLI::App& app, int& exit_code);          // record info, record export
 void add_demo_command(CLI::App& app, int& exit_code);         // demo: the bundled path, no window
 void add_render_command(CLI::App& app, int& exit_code);       // render: a picture of a case
 void add_live_command(CLI::App& app, int& exit_code);         // live: devices, no window

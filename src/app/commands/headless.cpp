@@ -1,8 +1,11 @@
 #include "commands/headless.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "commands/hand_in_loop.h"
+#include "commands/path_commands.h"
+#include "commands/tray.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/record/recording.h"
@@ -13,22 +16,32 @@ namespace {
 Result<std::optional<RecordingWriter>> open_recording(const HeadlessRun& run,
                                                       const SessionSettings& settings) {
   if (!run.record_to) return std::optional<RecordingWriter>{};
-  RecordingHeader header;
-  header.case_name = run.the_case->name;
-  header.case_source = run.case_source;
-  header.case_hash = run.the_case->hash;
-  header.seed = settings.seed;
-  header.settings_json = to_json(settings);
-  header.osteon_version = OSTEON_VERSION;
+  RecordingHeader header =
+      recording_header(*run.the_case, settings, run.case_source, OSTEON_VERSION);
+  header.case_path = absolute_case_path(run.case_source);
   auto writer = RecordingWriter::create(*run.record_to, header);
   if (!writer) return tl::unexpected(writer.error());
   return std::optional<RecordingWriter>(std::move(*writer));
 }
 
+Result<void> record_state(RecordingWriter& writer, const Session& session) {
+  StoredState state;
+  for (std::size_t h = 0; h < session.hands(); ++h) state.ticks[h] = session.tool_state(h).tick;
+  state.step = session.bones().step;
+  state.bytes = to_bytes(session.save());
+  return writer.add(state);
+}
+
 Result<void> record(RecordingWriter& writer, const Session& session) {
   if (session.last_steps() > 0)
     if (auto ok = writer.add(session.last_step_record()); !ok) return ok;
-  return writer.add(session.last_tick_record());
+  for (std::size_t h = 0; h < session.hands(); ++h) {
+    if (auto ok = writer.add(session.last_tick_record(h), h); !ok) return ok;
+    for (const Event& event : session.last_events(h))
+      if (auto ok = writer.add(event); !ok) return ok;
+  }
+  const bool keep = session.last_steps() > 0 && session.bones().saved_step == session.bones().step;
+  return keep ? record_state(writer, session) : Result<void>{};
 }
 
 void fill_timing(Report& report, const Percentiles& ticks, std::int64_t elapsed_ns) {
@@ -37,48 +50,134 @@ void fill_timing(Report& report, const Percentiles& ticks, std::int64_t elapsed_
     report.realtime_factor = report.duration_s / (static_cast<double>(elapsed_ns) * 1e-9);
 }
 
-Result<std::unique_ptr<HandInLoop>> take_hand(const HeadlessRun& run, HapticParams& haptic) {
+// One hand of the run while it goes on.
+struct RunningHand {
+  std::unique_ptr<HandInLoop> hand;
+  PathCommands commands;
+  ReportBuilder report;
+};
+
+Result<std::unique_ptr<HandInLoop>> take_hand(const HeadlessRun& run, const ProbePath& path,
+                                              HapticParams& haptic) {
   if (run.user) return run.user(haptic.tick_s);
-  if (run.device.empty()) return free_hand(run.path, run.hand, haptic.tick_s);
-  return hand_on_device(run.device, run.path, haptic);
+  if (run.device.empty()) return free_hand(path, run.hand, haptic.tick_s);
+  return hand_on_device(run.device, path, haptic);
+}
+
+std::vector<HeadlessHand> hands_of(const HeadlessRun& run) {
+  if (!run.hands.empty()) return run.hands;
+  return {HeadlessHand{"", run.path}};
+}
+
+// The tray holds what the paths name, and the wrist probe where a path begins with none.
+std::vector<std::string> tray_of(std::span<const HeadlessHand> hands) {
+  std::vector<std::string> names;
+  for (const HeadlessHand& hand : hands)
+    for (const std::string& name : instruments_of(hand.path))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names.size() == 1 && names[0] == kWristProbe ? std::vector<std::string>() : names;
+}
+
+class HeadlessLoop {
+ public:
+  HeadlessLoop(const HeadlessRun& run, const SessionSettings& settings, Tray tray,
+               std::vector<RunningHand> hands)
+      : run_(run), session_(run.the_case, settings, std::move(tray)), hands_(std::move(hands)) {}
+
+  void tick(std::uint64_t n, double dt) {
+    inputs_.clear();
+    for (RunningHand& hand : hands_)
+      inputs_.push_back({hand.hand->move(), hand.commands.at(static_cast<double>(n) * dt)});
+    const std::int64_t before = steady_now_ns();
+    (void)session_.tick(inputs_);
+    tick_times_.add_ns(steady_now_ns() - before);
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      const ToolState& tool = session_.tool_state(h);
+      hands_[h].hand->feel(tool.force_W);
+      hands_[h].report.add(tool);
+    }
+    if (run_.on_tick) run_.on_tick(session_.tool_state(0), session_.bones());
+  }
+  std::string complaint() const {
+    for (const RunningHand& hand : hands_)
+      if (std::string why = hand.hand->complaint(); !why.empty()) return why;
+    return {};
+  }
+  const Session& session() const { return session_; }
+
+  std::vector<Report> reports(std::int64_t elapsed_ns) const {
+    std::vector<Report> reports;
+    for (const RunningHand& hand : hands_) {
+      Report report = hand.report.finish();
+      report.state_hash = session_.state_hash();
+      fill_timing(report, tick_times_, elapsed_ns);
+      reports.push_back(std::move(report));
+    }
+    return reports;
+  }
+
+ private:
+  const HeadlessRun& run_;
+  Session session_;
+  std::vector<RunningHand> hands_;
+  std::vector<HandInput> inputs_;
+  Percentiles tick_times_;
+};
+
+Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
+                               SessionSettings& settings) {
+  settings.tray = tray_of(hands);
+  auto tray = make_tray(settings.tray, settings.probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  settings.hands.clear();
+  std::vector<RunningHand> running;
+  for (const HeadlessHand& hand : hands) {
+    PathCommands commands(hand.path, settings.tray);
+    settings.hands.push_back({hand.name, commands.first_instrument()});
+    auto taken = take_hand(run, hand.path, settings.haptic);
+    if (!taken) return tl::unexpected(taken.error());
+    running.push_back({std::move(*taken), std::move(commands),
+                       ReportBuilder(*run.the_case, settings.haptic.tick_s)});
+  }
+  if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
+  return HeadlessLoop(run, settings, std::move(*tray), std::move(running));
 }
 
 }  // namespace
 
-Result<Report> simulate(const HeadlessRun& run) {
+Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
+  const std::vector<HeadlessHand> hands = hands_of(run);
   SessionSettings settings = run.settings;
-  auto hand = take_hand(run, settings.haptic);
-  if (!hand) return tl::unexpected(hand.error());
+  auto loop = make_loop(run, hands, settings);
+  if (!loop) return tl::unexpected(loop.error());
   auto writer = open_recording(run, settings);
   if (!writer) return tl::unexpected(writer.error());
-  Session session(run.the_case, settings);
-  ReportBuilder builder(*run.the_case, run.settings.haptic.tick_s);
-  Percentiles tick_times;
+  double duration_s = 0;
+  for (const HeadlessHand& hand : hands) duration_s = std::max(duration_s, hand.path.duration_s());
   const double dt = run.settings.haptic.tick_s;
-  const auto ticks = static_cast<std::uint64_t>(
-      std::ceil((run.user ? run.longest_s : run.path.duration_s()) / dt));
+  if (run.user) duration_s = run.longest_s;
+  const auto ticks = static_cast<std::uint64_t>(std::ceil(duration_s / dt));
   const std::int64_t started = steady_now_ns();
   for (std::uint64_t n = 0; n < ticks; ++n) {
-    const ToolInput input = (*hand)->move();
-    const std::int64_t before = steady_now_ns();
-    const ToolState& tool = session.tick(input);
-    tick_times.add_ns(steady_now_ns() - before);
-    (*hand)->feel(tool.force_W);
-    builder.add(tool);
+    loop->tick(n, dt);
     if (*writer)
-      if (auto ok = record(**writer, session); !ok) return tl::unexpected(ok.error());
-    if (run.on_tick) run.on_tick(tool, session.bones());
+      if (auto ok = record(**writer, loop->session()); !ok) return tl::unexpected(ok.error());
     if (run.user && run.done && run.done()) break;
   }
   if (*writer)
     if (auto ok = (*writer)->finish(); !ok) return tl::unexpected(ok.error());
-  if (const std::string why = (*hand)->complaint(); !why.empty())
+  if (const std::string why = loop->complaint(); !why.empty())
     return fail(why, run.device, "The run up to there is in the recording, if you asked for one");
-  const std::int64_t elapsed = steady_now_ns() - started;
-  Report report = builder.finish();
-  report.state_hash = session.state_hash();
-  fill_timing(report, tick_times, elapsed);
-  return report;
+  HeadlessOutcome outcome;
+  for (const HeadlessHand& hand : hands) outcome.names.push_back(hand.name);
+  outcome.reports = loop->reports(steady_now_ns() - started);
+  return outcome;
+}
+
+Result<Report> simulate(const HeadlessRun& run) {
+  auto outcome = simulate_hands(run);
+  if (!outcome) return tl::unexpected(outcome.error());
+  return std::move(outcome->reports.front());
 }
 
 }  // namespace osteon

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands/hand_in_loop.h"
 #include "osteon/base/result.h"
@@ -16,11 +17,19 @@
 
 namespace osteon {
 
+/// One hand of a run, with the path that it follows.
+struct HeadlessHand {
+  std::string name;  ///< "left"; unique
+  ProbePath path;
+};
+
 /// A run of a path on a case with the virtual hand: no window, no threads, no pacing.
 struct HeadlessRun {
   std::shared_ptr<const Case> the_case;
   std::string case_source;  ///< as the user named it; kept in the recording
   ProbePath path;
+  /// Several hands in one world; none: one hand on `path`.
+  std::vector<HeadlessHand> hands;
   SessionSettings settings;
   HandParams hand;
   /// Plays the path on this device (driver's name), whose user must be an emulated one, with the
@@ -35,9 +44,19 @@ struct HeadlessRun {
   std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;
 };
 
-/// Runs it to the path's end, with the settings kept within what the device bears. Tick times are
+/// Reports of all hands, in their order.
+struct HeadlessOutcome {
+  std::vector<std::string> names;
+  std::vector<Report> reports;
+};
+
+/// Runs it to the end of the longest path, with the settings kept within what the device bears.
+/// What a path says of instruments, power and jaws are commands of its hand. Tick times are
 /// measured around the session's tick alone. Fails when the device cannot be opened or its force is
-/// cut, or when the recording cannot be written; what was recorded until then stays.
+/// cut, when an instrument is not known, or when the recording cannot be written; what was recorded
+/// until then stays.
+Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run);
+/// The first hand's report.
 Result<Report> simulate(const HeadlessRun& run);
 
 }  // namespace osteon

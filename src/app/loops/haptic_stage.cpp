@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "loops/record_feed.h"
+#include "loops/state_keeper.h"
 
 namespace osteon {
 namespace {
@@ -21,12 +22,13 @@ bool is_usable(const DeviceSample& sample) {
 }  // namespace
 
 HapticStage::HapticStage(Session& session, HapticDevice& device, const HapticStageOptions& options,
-                         LoopExchange& exchange, RecordFeed* feed)
+                         LoopExchange& exchange, RecordFeed* feed, StateKeeper* keeper)
     : session_(session),
       device_(device),
       options_(options),
       exchange_(exchange),
       feed_(feed),
+      keeper_(keeper),
       mapping_(options.mapping, options.user),
       assist_(options.user),
       gate_(device.info(), options.safety, options.off_because) {
@@ -38,14 +40,16 @@ void HapticStage::step(double dt_s) {
   DeviceSample sample = device_.read();
   obey_hand_wishes(sample, dt_s);
   const ToolInput input = read_input(sample);
+  // The tools before the bones: see Session.
+  const OtherTools others = read_others();
   bool fresh = false;
   const BoneSnapshot& bones = exchange_.bones_to_haptic.read(&fresh);
-  Command command;
-  exchange_.to_haptic.pop(command);
+  if (keeper_) keeper_->keep_hand(session_, options_.hand, bones.saved_step, others);
 
-  const ToolState& tool = session_.haptic_tick(input, bones, command);
+  const ToolState& tool = session_.haptic_tick(options_.hand, input, bones, others, next_command());
   touching_ = tool.contact_count > 0;
   if (mapping_.released()) gate_.ramp_in_again();
+  ramp_after_fade(tool);
   const Vec3 force_V = mapping_.force_to_device(tool.force_W);
   const double age_s = bones_age(fresh, dt_s);
   status_.force_at_hand_V =
@@ -53,8 +57,44 @@ void HapticStage::step(double dt_s) {
   if (over_) status_.force_at_hand_V.setZero();
   device_.write_force(status_.force_at_hand_V);
 
-  if (feed_) feed_->push(session_.last_tick_record());
+  note_fault();
+  if (feed_)
+    feed_->push(options_.hand, session_.last_tick_record(options_.hand),
+                session_.last_events(options_.hand));
   publish(tool, bones);
+}
+
+OtherTools HapticStage::read_others() {
+  OtherTools others{};
+  for (std::size_t h = 0; h < kMaxHands; ++h)
+    if (options_.others[h]) others[h] = options_.others[h]->tool_to_hands[options_.hand].read();
+  return others;
+}
+
+// A fault comes before what the user wishes, which waits for the next tick.
+Command HapticStage::next_command() {
+  Command command;
+  if (fault_to_tell_)
+    command = {CommandKind::kFault, static_cast<double>(told_)};
+  else
+    exchange_.to_haptic.pop(command);
+  fault_to_tell_ = false;
+  return command;
+}
+
+// The force has gone to zero for a change of instrument or state: it comes back as after a fault.
+void HapticStage::ramp_after_fade(const ToolState& tool) {
+  const bool fading = (tool.status & kTickFading) != 0;
+  if (fading_ && !fading) gate_.ramp_in_again();
+  fading_ = fading;
+}
+
+// What the user wishes off is no fault.
+void HapticStage::note_fault() {
+  const ForceOff cause = gate_.cause();
+  if (cause == told_) return;
+  told_ = cause;
+  fault_to_tell_ = cause != ForceOff::kNone && cause != ForceOff::kSoftware;
 }
 
 void HapticStage::force_to_zero() {
@@ -108,6 +148,8 @@ double HapticStage::bones_age(bool fresh, double dt_s) {
 
 void HapticStage::publish(const ToolState& tool, const BoneSnapshot& bones) {
   exchange_.tool_to_physics.publish(tool);
+  for (std::size_t h = 0; h < kMaxHands; ++h)
+    if (options_.others[h]) exchange_.tool_to_hands[h].publish(seen_from_outside(tool));
   telemetry_.peak_force_n =
       std::max(telemetry_.peak_force_n, static_cast<float>(tool.force_W.norm()));
   telemetry_.status |= tool.status;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "loops/assist.h"
@@ -12,6 +13,7 @@
 namespace osteon {
 
 class RecordFeed;
+class StateKeeper;
 
 /// How a stage is set up.
 struct HapticStageOptions {
@@ -20,17 +22,21 @@ struct HapticStageOptions {
   SafetyParams safety;
   double tick_s = 0.001;
   ForceOff off_because = ForceOff::kSoftware;  ///< until the window wishes the force on
+  std::size_t hand = 0;                        ///< of the session
+  /// What the other hands publish, by hand; null: there is no such hand.
+  std::array<LoopExchange*, kMaxHands> others{};
 };
 
 /// What the haptic loop does once a tick, without thread or clock: read the device, run the
 /// session's tick on the newest bones, pass the force through the safety gate, record, publish.
-/// Allocates, locks and logs nothing. Each device has a stage, a session and a thread of its own.
+/// Allocates, locks and logs nothing. Each device has a stage and a thread of its own; all meet one
+/// session.
 class HapticStage {
  public:
-  /// All must outlive the stage; `feed` may be null (no recording). The force is off until the
-  /// window wishes it on.
+  /// All must outlive the stage; `feed` and `keeper` may be null (no recording). The force is off
+  /// until the window wishes it on.
   HapticStage(Session& session, HapticDevice& device, const HapticStageOptions& options,
-              LoopExchange& exchange, RecordFeed* feed);
+              LoopExchange& exchange, RecordFeed* feed, StateKeeper* keeper = nullptr);
   /// `dt_s`: time since the last step as the loop's clock measured it; the session's own time goes
   /// by ticks whatever it is.
   void step(double dt_s);
@@ -43,6 +49,10 @@ class HapticStage {
   void obey_hand_wishes(DeviceSample& sample, double dt_s);
   ToolInput read_input(const DeviceSample& sample);
   double bones_age(bool fresh, double dt_s);
+  OtherTools read_others();
+  Command next_command();
+  void ramp_after_fade(const ToolState& tool);
+  void note_fault();
   void publish(const ToolState& tool, const BoneSnapshot& bones);
 
   Session& session_;
@@ -50,6 +60,7 @@ class HapticStage {
   HapticStageOptions options_;
   LoopExchange& exchange_;
   RecordFeed* feed_;
+  StateKeeper* keeper_;
   HandMapping mapping_;
   Assist assist_;
   SafetyGate gate_;
@@ -59,6 +70,9 @@ class HapticStage {
   HandWishes wishes_;
   double wishes_age_s_ = 0;
   double bones_age_s_ = 0;
+  ForceOff told_ = ForceOff::kNone;  ///< the last cause that was seen
+  bool fault_to_tell_ = false;
+  bool fading_ = false;
   bool touching_ = false;
   bool over_ = false;
 };

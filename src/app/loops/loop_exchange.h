@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "osteon/base/bounded_queue.h"
@@ -51,23 +52,24 @@ struct Telemetry {
 };
 inline constexpr std::uint64_t kTelemetryTicks = 4;
 
-/// All that the three loops pass to each other. Each member has one writer and one reader, which
-/// the comment names.
+/// All that one hand's loop passes to the others and they to it. Each member has one writer and one
+/// reader, which the comment names. Commands for physics and its figures go by the first hand's.
 struct LoopExchange {
   explicit LoopExchange(const BoneSnapshot& bones)
       : bones_to_haptic(bones), to_window(RenderSnapshot{bones, {}}) {}
 
-  LatestValue<ToolState> tool_to_physics;     // haptic -> physics
-  LatestValue<BoneSnapshot> bones_to_haptic;  // physics -> haptic
-  LatestValue<RenderSnapshot> to_window;      // haptic -> window
-  LatestValue<DeviceStatus> device_status;    // haptic -> window
-  LatestValue<HandWishes> hand_wishes;        // window -> haptic
-  LatestValue<LoopStats> haptic_stats;        // haptic -> window
-  LatestValue<LoopStats> physics_stats;       // physics -> window
-  BoundedQueue<Telemetry> telemetry{4096};    // haptic -> window; 16 s, then points are dropped
-  BoundedQueue<Command> to_haptic{64};        // window -> haptic
-  BoundedQueue<Command> to_physics{64};       // window -> physics
-  BoundedQueue<GateWish> to_gate{16};         // window -> haptic
+  LatestValue<ToolState> tool_to_physics;                       // haptic -> physics
+  LatestValue<BoneSnapshot> bones_to_haptic;                    // physics -> haptic
+  std::array<LatestValue<OtherTool>, kMaxHands> tool_to_hands;  // haptic -> haptic of that hand
+  LatestValue<RenderSnapshot> to_window;                        // haptic -> window
+  LatestValue<DeviceStatus> device_status;                      // haptic -> window
+  LatestValue<HandWishes> hand_wishes;                          // window -> haptic
+  LatestValue<LoopStats> haptic_stats;                          // haptic -> window
+  LatestValue<LoopStats> physics_stats;                         // physics -> window
+  BoundedQueue<Telemetry> telemetry{4096};  // haptic -> window; 16 s, then points are dropped
+  BoundedQueue<Command> to_haptic{64};      // window -> haptic
+  BoundedQueue<Command> to_physics{64};     // window -> physics
+  BoundedQueue<GateWish> to_gate{16};       // window -> haptic
 };
 
 }  // namespace osteon

@@ -1,19 +1,29 @@
 #include "loops/physics_stage.h"
 
+#include <array>
+
 #include "loops/record_feed.h"
+#include "loops/state_keeper.h"
 
 namespace osteon {
 
+PhysicsStage::PhysicsStage(Session& session, std::span<LoopExchange* const> hands, RecordFeed* feed,
+                           StateKeeper* keeper)
+    : session_(session), hands_(hands.begin(), hands.end()), feed_(feed), keeper_(keeper) {}
+
 PhysicsStage::PhysicsStage(Session& session, LoopExchange& exchange, RecordFeed* feed)
-    : session_(session), exchange_(exchange), feed_(feed) {}
+    : session_(session), hands_{&exchange}, feed_(feed) {}
 
 void PhysicsStage::step() {
   Command command;
-  exchange_.to_physics.pop(command);
-  const BoneSnapshot& bones = session_.physics_step(exchange_.tool_to_physics.read(), command);
+  hands_.front()->to_physics.pop(command);
+  std::array<const ToolState*, kMaxHands> tools{};
+  for (std::size_t h = 0; h < hands_.size(); ++h) tools[h] = &hands_[h]->tool_to_physics.read();
+  const BoneSnapshot& bones = session_.physics_step(std::span(tools).first(hands_.size()), command);
+  if (keeper_ && bones.saved_step == bones.step) keeper_->keep_world(session_);
   // Recorded before it is published: a tick that consumes it finds its record already there.
   if (feed_) feed_->push(session_.last_step_record());
-  exchange_.bones_to_haptic.publish(bones);
+  for (LoopExchange* hand : hands_) hand->bones_to_haptic.publish(bones);
 }
 
 }  // namespace osteon

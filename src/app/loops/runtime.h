@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "loops/device_mapping.h"
 #include "loops/haptic_stage.h"
@@ -13,6 +14,7 @@
 #include "loops/physics_stage.h"
 #include "loops/realtime.h"
 #include "loops/record_feed.h"
+#include "loops/state_keeper.h"
 #include "osteon/base/percentiles.h"
 
 namespace osteon {
@@ -29,9 +31,19 @@ struct RunPlan {
   ForceOff off_because = ForceOff::kSoftware;
 };
 
-/// One run of a session with its loops: haptic (1 kHz) and physics (500 Hz), each on a thread of
-/// its own, and a third that writes the recording. The window's thread talks to it through the
-/// methods below; none of them waits for a loop but `stop`.
+/// One hand of a run: its device, and how that lies in World.
+struct HandPlan {
+  std::unique_ptr<HapticDevice> device;
+  DeviceMapping mapping;
+  MappingSettings mapping_settings;
+  bool force_enabled = true;
+  ForceOff off_because = ForceOff::kSoftware;
+};
+
+/// One run of a session with its loops: a haptic one for each hand (1 kHz) and physics (500 Hz),
+/// each on a thread of its own, and another that writes the recording. The window's thread talks to
+/// it through the methods below; none of them waits for a loop but `stop`. Where a method has a
+/// hand and the caller names none, it is the first.
 ///
 /// Without `start`, the `..._once` methods do the same work at a pace of the caller's: from one
 /// thread in any order, or from one thread each.
@@ -40,6 +52,10 @@ class Runtime {
   /// `feed` may be null: nothing is recorded.
   Runtime(const RunPlan& plan, std::unique_ptr<HapticDevice> device,
           std::unique_ptr<RecordFeed> feed = nullptr);
+  /// Several hands in one world: as many as the plan's settings name. What the plan itself says of
+  /// a device is not read.
+  Runtime(const RunPlan& plan, std::vector<HandPlan> hands,
+          std::unique_ptr<RecordFeed> feed = nullptr, Tray tray = {});
   ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
@@ -50,26 +66,32 @@ class Runtime {
   Result<void> stop();
   /// After `stop`: the device, still open, for the next run (a new opening may ask for calibration
   /// again). This runtime is over then.
-  std::unique_ptr<HapticDevice> take_device();
-  void step_haptic_once() { haptic_.step(); }
+  std::unique_ptr<HapticDevice> take_device(std::size_t hand = 0);
+  void step_haptic_once(std::size_t hand = 0) { hands_[hand]->stage.step(); }
   void step_physics_once() { physics_.step(); }
-  void drain_records_once() {
-    if (feed_) feed_->drain();
+  void drain_records_once();
+
+  std::size_t hands() const { return hands_.size(); }
+  /// Takes effect at the next edge of the loop that it concerns; false when a queue is full.
+  /// kMark and kRestore go to every hand and to physics.
+  bool send(const Command& command, std::size_t hand = 0);
+  void set_force_enabled(bool enabled);
+  void calibrate_device(std::size_t hand = 0) { exchange(hand).to_gate.push(GateWish::kCalibrate); }
+  /// From the window's thread, at each picture: a dead-man that is not repeated counts as let go.
+  void set_hand_wishes(const HandWishes& wishes, std::size_t hand = 0) {
+    exchange(hand).hand_wishes.publish(wishes);
   }
 
-  /// Takes effect at the next edge of the loop that it concerns; false when the queue is full.
-  bool send(const Command& command);
-  void set_force_enabled(bool enabled);
-  void calibrate_device() { exchange_.to_gate.push(GateWish::kCalibrate); }
-  /// From the window's thread, at each picture: a dead-man that is not repeated counts as let go.
-  void set_hand_wishes(const HandWishes& wishes) { exchange_.hand_wishes.publish(wishes); }
-
-  const RenderSnapshot& snapshot() { return exchange_.to_window.read(); }
-  const DeviceStatus& device_status() { return exchange_.device_status.read(); }
-  const LoopStats& haptic_stats() { return exchange_.haptic_stats.read(); }
-  const LoopStats& physics_stats() { return exchange_.physics_stats.read(); }
+  const RenderSnapshot& snapshot(std::size_t hand = 0) { return exchange(hand).to_window.read(); }
+  const DeviceStatus& device_status(std::size_t hand = 0) {
+    return exchange(hand).device_status.read();
+  }
+  const LoopStats& haptic_stats(std::size_t hand = 0) { return exchange(hand).haptic_stats.read(); }
+  const LoopStats& physics_stats() { return exchange(0).physics_stats.read(); }
   /// Next point of the plot; false when there is none yet.
-  bool pop_telemetry(Telemetry& point) { return exchange_.telemetry.pop(point); }
+  bool pop_telemetry(Telemetry& point, std::size_t hand = 0) {
+    return exchange(hand).telemetry.pop(point);
+  }
 
   bool recording() const { return feed_ && feed_->early_end().empty(); }
   /// Why the recording ended early; empty while all is well.
@@ -79,20 +101,31 @@ class Runtime {
   std::string realtime_warning() const;
 
  private:
-  void run_haptic();
+  // A hand's device, what its loop exchanges, and what the loop does.
+  struct Hand {
+    Hand(Session& session, HandPlan&& plan, LoopExchange& own, const HapticStageOptions& options,
+         RecordFeed* feed, StateKeeper* keeper);
+    std::unique_ptr<HapticDevice> device;
+    LoopExchange& exchange;
+    HapticStage stage;
+    std::atomic<int> grant{-1};  ///< bits of kPriority and kMemory; -1 until the loop has asked
+    std::thread thread;
+  };
+  void make_hands(const RunPlan& plan, std::vector<HandPlan>&& hands);
+  LoopExchange& exchange(std::size_t hand) { return *exchanges_[hand]; }
+  void run_haptic(Hand& hand);
   void run_physics();
   void run_writer();
 
   Session session_;
-  std::unique_ptr<HapticDevice> device_;
   std::unique_ptr<RecordFeed> feed_;
+  std::unique_ptr<StateKeeper> keeper_;  ///< of a run that is recorded
   double haptic_period_s_, physics_period_s_;
-  LoopExchange exchange_;
-  HapticStage haptic_;
+  std::vector<std::unique_ptr<LoopExchange>> exchanges_;
+  std::vector<std::unique_ptr<Hand>> hands_;
   PhysicsStage physics_;
   std::atomic<bool> running_{false};
-  std::atomic<int> grant_{-1};  ///< bits of kPriority and kMemory; -1 until the loop has asked
-  std::thread haptic_thread_, physics_thread_, writer_thread_;
+  std::thread physics_thread_, writer_thread_;
   bool closed_ = false;
 };
 

@@ -1,0 +1,58 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands/cli_support.h"
+#include "commands/commands.h"
+#include "commands/record_export.h"
+#include "commands/record_info.h"
+
+namespace osteon {
+namespace {
+
+struct RecordArguments {
+  std::string file;
+  bool events = false;
+  bool json = false;
+  std::string csv;
+};
+
+int run_info(const RecordArguments& options) {
+  auto recording = RecordingReader::open(options.file);
+  if (!recording) return report_error(recording.error());
+  auto text = options.events ? event_lines(*recording, options.json)
+                             : recording_info(*recording, options.json);
+  if (!text) return report_error(text.error());
+  std::fputs(text->c_str(), stdout);
+  return kExitDone;
+}
+
+int run_export(const RecordArguments& options) {
+  auto recording = RecordingReader::open(options.file);
+  if (!recording) return report_error(recording.error());
+  if (const auto done = export_csv(*recording, options.csv); !done)
+    return report_error(done.error());
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RecordArguments>();
+  CLI::App* command = app.add_subcommand("record", "Look into recordings (.osr), and export them");
+  command->require_subcommand(1);
+  CLI::App* info = command->add_subcommand("info", "What a recording holds");
+  info->add_option("file", options->file, "recording")->required();
+  info->add_flag("--events", options->events, "its events, a line each");
+  info->add_flag("--json", options->json, "as JSON; of events an object a line");
+  info->callback([options, &exit_code] { exit_code = run_info(*options); });
+  CLI::App* exported = command->add_subcommand(
+      "export", "Write ticks, poses, forces and events as tables, for pandas or MATLAB");
+  exported->add_option("file", options->file, "recording")->required();
+  exported->add_option("--csv", options->csv, "a new or empty folder: ticks_<hand>.csv, events.csv")
+      ->required();
+  exported->callback([options, &exit_code] { exit_code = run_export(*options); });
+}
+
+}  // namespace osteon

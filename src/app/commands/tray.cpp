@@ -1,0 +1,55 @@
+#include "commands/tray.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "osteon/scene/instrument.h"
+
+namespace osteon {
+namespace {
+
+constexpr const char* kTodo = "See `osteon instruments`";
+
+Result<Tool> tool_named(std::span<const Instrument> instruments, const std::string& name) {
+  const auto colon = name.find(':');
+  const Instrument* instrument = find_instrument(instruments, name.substr(0, colon));
+  if (!instrument) return fail("there is no such instrument", name, kTodo);
+  if (colon == std::string::npos) return make_tool(*instrument, instrument->usual_size);
+  const std::string digits = name.substr(colon + 1);
+  char* end = nullptr;
+  const double size_mm = std::strtod(digits.c_str(), &end);
+  const auto size = *end == 0 && !digits.empty() ? find_size(*instrument, size_mm) : std::nullopt;
+  if (!size) return fail("the instrument has no such size", name, kTodo);
+  return make_tool(*instrument, *size);
+}
+
+}  // namespace
+
+Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m) {
+  Tray tray;
+  std::vector<Instrument> instruments;
+  for (const std::string& name : names) {
+    if (name == kWristProbe) {
+      tray.push_back(std::make_shared<const Tool>(make_wrist_probe(probe_radius_m)));
+      continue;
+    }
+    if (instruments.empty()) {
+      auto loaded = load_instruments();
+      if (!loaded) return tl::unexpected(loaded.error());
+      instruments = std::move(*loaded);
+    }
+    auto tool = tool_named(instruments, name);
+    if (!tool) return tl::unexpected(tool.error());
+    tray.push_back(std::make_shared<const Tool>(std::move(*tool)));
+  }
+  return tray;
+}
+
+std::string absolute_case_path(const std::string& case_source) {
+  if (case_source.empty() || case_source.rfind("builtin:", 0) == 0) return {};
+  std::error_code error;
+  const auto path = std::filesystem::absolute(case_source.substr(0, case_source.find('#')), error);
+  return error ? std::string() : path.lexically_normal().string();
+}
+
+}  // namespace osteon

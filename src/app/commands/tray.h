@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "osteon/base/result.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+
+/// The plain probe of the wrist, which a hand holds when nothing else is said.
+inline const std::string kWristProbe = "wrist_probe";
+
+/// The instruments of a tray by their names: "hook_probe", "hook_probe:1.5" in that size (mm), or
+/// kWristProbe. No names: an empty tray. Fails on a name or a size that there is not.
+Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m);
+
+/// Where the case of a folder stands, absolute; empty for one that is built in.
+std::string absolute_case_path(const std::string& case_source);
+
+}  // namespace osteon

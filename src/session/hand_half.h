@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bones_age.h"
+#include "event_list.h"
+#include "event_watch.h"
+#include "osteon/record/recording.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+
+/// Everything of one hand lies on cache lines of its own: each hand has a thread.
+class alignas(64) HandHalf {
+ public:
+  /// `tray` must not be empty.
+  HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray, const SessionSettings& settings,
+           std::size_t hand);
+
+  const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
+                        const Command& command);
+  const ToolState& tool_state() const { return loop().state().tool; }
+  const Tool& tool() const { return loop().tool(); }
+  const TickRecord& record() const { return record_; }
+  std::span<const Event> events() const { return events_.all(); }
+  /// All that the next tick depends on, but for what it will consume.
+  std::uint64_t hash() const;
+  void save(HandState& into) const;
+  /// Whether it is a state of this case and tray.
+  bool fits(const HandState& state) const;
+  void restore(const HandState& from);
+  const OtherTools& seen() const { return seen_; }
+
+ private:
+  const HapticLoop& loop() const { return loops_[held_]; }
+  HapticLoop& loop() { return loops_[held_]; }
+  void obey(const Command& command);
+  void take(std::uint32_t instrument, double power, double jaw, bool even_the_same);
+  void go_back(std::uint32_t mark);
+  void tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value = 0);
+  void keep_record(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
+                   const Command& command);
+
+  std::size_t hand_;
+  std::vector<HapticLoop> loops_;  ///< one for each instrument in the tray
+  std::uint32_t held_ = 0;
+  HapticParams params_;
+  BonesAge age_;
+  EventWatch events_of_;
+  WatchState watch_;
+  std::array<HandMark, kMaxMarks> marks_{};
+  ToolState before_;
+  OtherTools seen_{};
+  TickRecord record_;
+  EventList events_;
+};
+
+}  // namespace osteon

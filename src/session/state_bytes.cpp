@@ -1,0 +1,317 @@
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "osteon/session/session_state.h"
+
+namespace osteon {
+namespace {
+
+// The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
+constexpr std::uint64_t kMostPairs = 4'000'000;
+constexpr std::uint64_t kVersion = 1;
+
+// Appends words. One list of fields below serves both directions.
+struct Out {
+  static constexpr bool kReads = false;
+  std::string bytes;
+  bool ok = true;
+  void word(std::uint64_t value) {
+    char raw[8];
+    for (int i = 0; i < 8; ++i) raw[i] = static_cast<char>((value >> (8 * i)) & 0xff);
+    bytes.append(raw, sizeof raw);
+  }
+};
+
+struct In {
+  static constexpr bool kReads = true;
+  std::string_view bytes;
+  std::size_t at = 0;
+  bool ok = true;
+  std::uint64_t word() {
+    if (bytes.size() - at < 8) {
+      ok = false;
+      return 0;
+    }
+    std::uint64_t value = 0;
+    for (int i = 0; i < 8; ++i)
+      value |= std::uint64_t{static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)])}
+               << (8 * i);
+    at += 8;
+    return value;
+  }
+};
+
+template <class A, class T>
+void number(A& a, T& value, std::uint64_t most) {
+  if constexpr (A::kReads) {
+    const std::uint64_t word = a.word();
+    a.ok = a.ok && word <= most;
+    value = a.ok ? static_cast<T>(word) : T{};
+  } else {
+    a.word(static_cast<std::uint64_t>(value));
+  }
+}
+
+template <class A>
+void field(A& a, double& value) {
+  if constexpr (A::kReads)
+    value = std::bit_cast<double>(a.word());
+  else
+    a.word(std::bit_cast<std::uint64_t>(value));
+}
+template <class A>
+void field(A& a, std::uint64_t& value) {
+  number(a, value, ~std::uint64_t{0});
+}
+template <class A>
+void field(A& a, std::uint32_t& value) {
+  number(a, value, 0xffffffffu);
+}
+template <class A>
+void field(A& a, std::uint8_t& value) {
+  number(a, value, 0xff);
+}
+template <class A>
+void field(A& a, bool& value) {
+  number(a, value, 1);
+}
+template <class A>
+void field(A& a, Vec3& v) {
+  for (int i = 0; i < 3; ++i) field(a, v[i]);
+}
+template <class A>
+void field(A& a, Pose& X) {
+  field(a, X.p);
+  for (int i = 0; i < 4; ++i) field(a, X.q.coeffs()[i]);
+}
+template <class A>
+void field(A& a, BoneId& id) {
+  field(a, id.index);
+}
+
+template <class A>
+void field(A& a, Contact& c) {
+  field(a, c.bone);
+  field(a, c.piece);
+  field(a, c.p_W);
+  field(a, c.nhat_BT_W);
+  field(a, c.depth_m);
+  field(a, c.force_on_tool_W);
+}
+
+template <class A>
+void field(A& a, ToolContact& c) {
+  field(a, c.hand);
+  field(a, c.p_W);
+  field(a, c.nhat_W);
+  field(a, c.force_on_tool_W);
+}
+
+template <class A, class T>
+void first_of(A& a, std::uint32_t& count, T& list) {
+  number(a, count, list.size());
+  for (std::uint32_t i = 0; i < count; ++i) field(a, list[i]);
+}
+
+template <class A>
+void field(A& a, ToolState& t) {
+  field(a, t.tick);
+  field(a, t.time_s);
+  field(a, t.X_WD);
+  field(a, t.X_WP);
+  field(a, t.v_W);
+  field(a, t.force_W);
+  field(a, t.buttons);
+  field(a, t.status);
+  first_of(a, t.contact_count, t.contacts);
+  first_of(a, t.tool_contact_count, t.tool_contacts);
+  field(a, t.epoch);
+  field(a, t.instrument);
+  field(a, t.power);
+  field(a, t.jaw);
+  field(a, t.portal);
+}
+
+template <class A>
+void field(A& a, OtherTool& t) {
+  field(a, t.tick);
+  field(a, t.instrument);
+  field(a, t.p_WD);
+  field(a, t.X_WP);
+  field(a, t.v_W);
+}
+
+template <class A>
+void field(A& a, BoneMotion& b) {
+  field(a, b.X_WB);
+  field(a, b.v_W);
+  field(a, b.w_W);
+}
+
+template <class A>
+void field(A& a, BoneSnapshot& s) {
+  field(a, s.step);
+  field(a, s.time_s);
+  field(a, s.epoch);
+  field(a, s.saved_step);
+  first_of(a, s.count, s.bones);
+}
+
+template <class A>
+void field(A& a, PortalHold& p) {
+  field(a, p.portal);
+  field(a, p.anchor_m);
+  field(a, p.sliding);
+  field(a, p.grip);
+  field(a, p.tip_depth_m);
+  field(a, p.nearest);
+}
+
+template <class A>
+void field(A& a, PairMemory& pair) {
+  field(a, pair.pair);
+  number(a, pair.basis.count, pair.basis.rows.size());
+  for (std::uint8_t i = 0; i < pair.basis.count; ++i) field(a, pair.basis.rows[i]);
+  field(a, pair.known);
+  if (!pair.known) return;
+  field(a, pair.plane.nhat_BT_B);
+  field(a, pair.plane.bone_support);
+  field(a, pair.plane.gap);
+  field(a, pair.plane.p_B);
+}
+
+bool is_fresh(const PairMemory& pair) { return pair.pair == PairMemory::kNone; }
+
+// Most places are free: only the others stand in the file, by number.
+template <class A>
+void field(A& a, std::vector<PairMemory>& pairs) {
+  std::uint64_t size = pairs.size();
+  number(a, size, kMostPairs);
+  std::uint64_t used = 0;
+  for (const PairMemory& pair : pairs) used += is_fresh(pair) ? 0 : 1;
+  number(a, used, size);
+  if constexpr (A::kReads) {
+    pairs.assign(a.ok ? size : 0, PairMemory{});
+    for (std::uint64_t i = 0; i < used && a.ok; ++i) {
+      std::uint64_t place = 0;
+      number(a, place, size == 0 ? 0 : size - 1);
+      if (a.ok) field(a, pairs[place]);
+    }
+  } else {
+    for (std::uint64_t i = 0; i < size; ++i) {
+      if (is_fresh(pairs[i])) continue;
+      field(a, i);
+      field(a, pairs[i]);
+    }
+  }
+}
+
+template <class A>
+void field(A& a, HapticState& s) {
+  field(a, s.tool);
+  field(a, s.armed);
+  field(a, s.sliding);
+  field(a, s.carrier);
+  field(a, s.grabbing);
+  field(a, s.p_WG);
+  field(a, s.portal);
+  field(a, s.fade_n);
+  for (OtherTool& other : s.others) field(a, other);
+  first_of(a, s.bone_count, s.X_WB);
+  field(a, s.pairs);
+}
+
+template <class A>
+void field(A& a, HapticParams& p) {
+  for (double* value : {&p.tick_s, &p.stiffness_n_per_m, &p.damping_n_s_per_m, &p.friction_scale,
+                        &p.max_force_n, &p.max_slew_n_per_s, &p.max_turn_rad_per_tick})
+    field(a, *value);
+  field(a, p.force_on);
+  field(a, p.grab_n_per_m);
+}
+
+template <class A>
+void field(A& a, WatchState& w) {
+  field(a, w.touched);
+  for (std::size_t i = 0; i < w.touches.size(); ++i) {
+    if ((w.touched >> i & 1u) == 0) continue;
+    Touch& touch = w.touches[i];
+    field(a, touch.first_tick);
+    field(a, touch.last_tick);
+    field(a, touch.peak_force_n);
+    field(a, touch.deepest_m);
+  }
+  field(a, w.over_since);
+  field(a, w.over_bone);
+}
+
+template <class A>
+void field(A& a, HandMark& m) {
+  field(a, m.set);
+  if (!m.set) return;
+  field(a, m.instrument);
+  field(a, m.power);
+  field(a, m.jaw);
+}
+
+template <class A>
+void field(A& a, HandState& h) {
+  field(a, h.haptic);
+  field(a, h.params);
+  field(a, h.bone_step);
+  field(a, h.first_tick);
+  field(a, h.before);
+  for (OtherTool& other : h.seen) field(a, other);
+  field(a, h.watch);
+  for (HandMark& mark : h.marks) field(a, mark);
+}
+
+template <class A>
+void field(A& a, WorldState& w) {
+  field(a, w.bones);
+  field(a, w.hold);
+  for (WorldMark& mark : w.marks) {
+    field(a, mark.set);
+    if (!mark.set) continue;
+    field(a, mark.hold);
+    field(a, mark.bones);
+  }
+}
+
+template <class A>
+void field(A& a, SessionState& s) {
+  std::uint64_t version = kVersion;
+  field(a, version);
+  if (version != kVersion) a.ok = false;
+  std::uint64_t hands = s.hands.size();
+  number(a, hands, kMaxHands);
+  if constexpr (A::kReads) s.hands.resize(hands);
+  for (HandState& hand : s.hands) field(a, hand);
+  field(a, s.world);
+  auto kind = static_cast<std::uint32_t>(s.for_next_step.kind);
+  number(a, kind, static_cast<std::uint32_t>(kLastCommandKind));
+  s.for_next_step.kind = static_cast<CommandKind>(kind);
+  field(a, s.for_next_step.value);
+}
+
+}  // namespace
+
+std::string to_bytes(const SessionState& state) {
+  SessionState copy = state;
+  Out out;
+  field(out, copy);
+  return std::move(out.bytes);
+}
+
+Result<SessionState> state_from_bytes(std::string_view bytes) {
+  In in{bytes};
+  SessionState state;
+  field(in, state);
+  if (!in.ok || in.at != bytes.size())
+    return fail("a stored state is damaged", "state", "Use another copy of the file");
+  return state;
+}
+
+}  // namespace osteon

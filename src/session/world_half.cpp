@@ -1,0 +1,81 @@
+#include "world_half.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/base/hash.h"
+
+namespace osteon {
+namespace {
+
+// A recording has a state to start from at least so often.
+constexpr double kKeepEvery_s = 5;
+
+PhysicsParams physics_of(const SessionSettings& settings) {
+  PhysicsParams params = settings.physics;
+  params.contact_n_per_m = std::max(params.contact_n_per_m, settings.haptic.stiffness_n_per_m);
+  return params;
+}
+
+}  // namespace
+
+WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings)
+    : world_(std::move(the_case), physics_of(settings)),
+      keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {}
+
+const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
+                                    const Command& command) {
+  obey(command);
+  const BoneSnapshot& bones = world_.step(tools);
+  record_ = {};
+  record_.step = bones.step;
+  for (std::size_t i = 0; i < tools.size(); ++i) record_.tool_ticks[i] = tools[i]->tick;
+  record_.command = command;
+  const bool marked = command.kind == CommandKind::kMark && mark_of(command) < kMaxMarks;
+  if (marked || bones.step % keep_every_ == 0) world_.ask_to_keep();
+  return bones;
+}
+
+void WorldHalf::obey(const Command& command) {
+  const std::uint32_t mark = mark_of(command);
+  if (command.kind == CommandKind::kHoldBones && command.value >= 0 && command.value <= 1)
+    world_.set_hold(command.value >= 0.5);
+  else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
+    keep(mark);
+  else if (command.kind == CommandKind::kRestore && mark < kMaxMarks && marks_[mark].set)
+    world_.go_back(marks_[mark].bones, marks_[mark].hold);
+}
+
+void WorldHalf::keep(std::uint32_t mark) {
+  marks_[mark] = {true, world_.held(), world_.snapshot()};
+  mark_hashes_[mark] = hash_of(marks_[mark].bones);
+}
+
+std::uint64_t WorldHalf::hash() const {
+  Hasher hasher;
+  hasher.add(world_.state_hash());
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    hasher.add(marks_[i].set);
+    if (!marks_[i].set) continue;
+    hasher.add(marks_[i].hold);
+    hasher.add(mark_hashes_[i]);
+  }
+  return hasher.value();
+}
+
+void WorldHalf::save(WorldState& into) const {
+  into.bones = world_.snapshot();
+  into.hold = world_.held();
+  into.marks = marks_;
+}
+
+void WorldHalf::restore(const WorldState& from) {
+  world_.restore(from.bones, from.hold);
+  marks_ = from.marks;
+  for (std::size_t i = 0; i < marks_.size(); ++i)
+    mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;
+  record_ = {};
+  record_.step = from.bones.step;
+}
+
+}  // namespace osteon

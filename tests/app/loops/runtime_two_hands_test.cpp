@@ -1,0 +1,211 @@
+// Two devices in one world: the fault of one is its own, and the recording holds both.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "app/loops/runtime_rig.h"
+
+namespace osteon {
+namespace {
+
+using test::DeviceLog;
+using test::FakeDevice;
+using test::TemporaryFile;
+
+constexpr int kTicks = 1200;
+constexpr int kFaultTick = 900;
+
+RunPlan plan_of_two() {
+  RunPlan plan = test::plan_on(test::blocks_case());
+  plan.settings.hands = {{"left", 0}, {"right", 0}};
+  return plan;
+}
+
+// The second hand presses the other block.
+DeviceSample far_press(std::uint64_t tick) {
+  DeviceSample sample = test::press_and_slide(tick);
+  sample.X_VD.p.x() += 0.03;
+  return sample;
+}
+
+std::vector<HandPlan> two_devices(const FakeDevice::Script& left, const FakeDevice::Script& right,
+                                  DeviceLog& left_log, DeviceLog& right_log) {
+  std::vector<HandPlan> hands(2);
+  hands[0].device = std::make_unique<FakeDevice>(left, left_log);
+  hands[1].device = std::make_unique<FakeDevice>(right, right_log);
+  return hands;
+}
+
+std::unique_ptr<RecordFeed> feed_of_two(const std::filesystem::path& file, const RunPlan& plan) {
+  auto writer = RecordingWriter::create(
+      file, recording_header(*plan.the_case, plan.settings, "test", "test"));
+  EXPECT_TRUE(writer);
+  return std::make_unique<RecordFeed>(std::move(*writer), 8.0, 2);
+}
+
+void run_all(Runtime& runtime, int ticks) {
+  for (int i = 0; i < ticks; ++i) {
+    runtime.step_haptic_once(0);
+    runtime.step_haptic_once(1);
+    if (i % 2 == 1) runtime.step_physics_once();
+    runtime.drain_records_once();
+  }
+}
+
+struct FaultRow {
+  std::string name;
+  std::function<void(DeviceSample&)> fault;
+  ForceOff cause;
+};
+
+std::vector<FaultRow> fault_rows() {
+  return {
+      {"unplugged", [](DeviceSample& s) { s.connected = false; }, ForceOff::kDisconnect},
+      {"not finite", [](DeviceSample& s) { s.X_VD.p.y() = std::nan(""); }, ForceOff::kNotFinite},
+      {"infinite velocity",
+       [](DeviceSample& s) { s.v_V.x() = std::numeric_limits<double>::infinity(); },
+       ForceOff::kNotFinite},
+  };
+}
+
+// Whatever befalls the right device, its force is zero from that tick on, its tool stands still,
+// and the left hand's force has the same bits as if nothing had happened.
+TEST(RuntimeTwoHands, AFaultOfOneLeavesTheOthersForceAsItWas) {
+  DeviceLog left_sound, right_sound;
+  {
+    Runtime runtime(plan_of_two(),
+                    two_devices(test::press_and_slide, far_press, left_sound, right_sound));
+    run_all(runtime, kTicks);
+  }
+  ASSERT_GT(left_sound.forces_V[kTicks - 1].norm(), 0.5);
+  ASSERT_GT(right_sound.forces_V[kTicks - 1].norm(), 0.5);
+  for (const FaultRow& row : fault_rows()) {
+    DeviceLog left, right;
+    const auto faulty = [&row](std::uint64_t tick) {
+      DeviceSample sample = far_press(tick);
+      if (tick >= kFaultTick) row.fault(sample);
+      return sample;
+    };
+    Runtime runtime(plan_of_two(), two_devices(test::press_and_slide, faulty, left, right));
+    run_all(runtime, kFaultTick);
+    const Vec3 place_W = runtime.session().tool_state(1).X_WD.p;
+    EXPECT_GT(right.forces_V.back().norm(), 0.5) << row.name;
+    run_all(runtime, kTicks - kFaultTick);
+    for (int i = 0; i < kTicks; ++i)
+      ASSERT_EQ(left.forces_V[i], left_sound.forces_V[i]) << row.name << " " << i;
+    for (int i = kFaultTick; i < kTicks; ++i)
+      ASSERT_EQ(right.forces_V[i], Vec3::Zero()) << row.name << " " << i;
+    EXPECT_EQ(runtime.device_status(0).cause, ForceOff::kNone) << row.name;
+    EXPECT_EQ(runtime.device_status(1).cause, row.cause) << row.name;
+    EXPECT_LT((runtime.session().tool_state(1).X_WD.p - place_W).norm(), 1e-4) << row.name;
+  }
+}
+
+TEST(RuntimeTwoHands, OneRecordingHoldsBothTheirFaultsAndTheirRestorePoints) {
+  const TemporaryFile file("two.osr");
+  DeviceLog left, right;
+  RunPlan plan = plan_of_two();
+  plan.settings.physics.hold_bones = false;
+  {
+    const auto faulty = [](std::uint64_t tick) {
+      DeviceSample sample = far_press(tick);
+      sample.connected = tick < kFaultTick;
+      return sample;
+    };
+    Runtime runtime(plan, two_devices(test::press_and_slide, faulty, left, right),
+                    feed_of_two(file.path(), plan));
+    run_all(runtime, 300);
+    EXPECT_TRUE(runtime.send({CommandKind::kMark, 2}));
+    run_all(runtime, 300);
+    EXPECT_TRUE(runtime.send({CommandKind::kRestore, 2}));
+    run_all(runtime, kTicks - 600);
+    EXPECT_EQ(runtime.session().tool_state(0).epoch, 1u);
+    EXPECT_EQ(runtime.session().tool_state(1).epoch, 1u);
+    EXPECT_EQ(runtime.session().bones().epoch, 1u);
+    ASSERT_TRUE(runtime.stop());
+  }
+  const auto recording = load_recording(file.path());
+  ASSERT_TRUE(recording) << recording.error().message();
+  ASSERT_EQ(recording->hands(), 2u);
+  ASSERT_FALSE(recording->states.empty());
+  const auto seen = [&](EventKind kind) {
+    return std::count_if(recording->events.begin(), recording->events.end(),
+                         [kind](const Event& event) { return event.kind == kind; });
+  };
+  EXPECT_EQ(seen(EventKind::kMark), 1);
+  EXPECT_EQ(seen(EventKind::kRestored), 1);
+  EXPECT_EQ(seen(EventKind::kFault), 1);
+  EXPECT_GE(seen(EventKind::kContactBegin), 2);
+  std::uint64_t hash = 0;
+  for (const double from_s : {0.0, 0.5}) {
+    ReplayOptions options;
+    options.from_s = from_s;
+    const auto outcome = replay(*recording, plan.the_case, options);
+    ASSERT_TRUE(outcome) << outcome.error().message();
+    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+    if (from_s > 0) {
+      EXPECT_GT(outcome->first_tick, 1u);
+      EXPECT_EQ(outcome->state_hash, hash);
+    }
+    hash = outcome->state_hash;
+  }
+}
+
+// For the thread sanitizer: both hands, physics, writer and the window at once, with restore
+// points.
+TEST(RuntimeTwoHands, OnThreadsExchangeCleanlyAndReplayFromAnyState) {
+  constexpr int kMany = 800;
+  const TemporaryFile file("threads.osr");
+  DeviceLog left, right;
+  RunPlan plan = plan_of_two();
+  plan.settings.physics.hold_bones = false;
+  {
+    Runtime runtime(plan, two_devices(test::press_and_slide, test::press_and_slide, left, right),
+                    feed_of_two(file.path(), plan));
+    std::vector<std::thread> threads;
+    for (std::size_t h = 0; h < 2; ++h)
+      threads.emplace_back([&runtime, h] {
+        for (int i = 0; i < kMany; ++i) runtime.step_haptic_once(h);
+      });
+    threads.emplace_back([&runtime] {
+      for (int i = 0; i < kMany / 2; ++i) runtime.step_physics_once();
+    });
+    threads.emplace_back([&runtime] {
+      for (int i = 0; i < kMany; ++i) runtime.drain_records_once();
+    });
+    for (int i = 0; i < 40; ++i) {
+      const double mark = i % 4;
+      runtime.send({i % 3 == 2 ? CommandKind::kRestore : CommandKind::kMark, mark});
+      runtime.snapshot(0);
+      runtime.snapshot(1);
+      std::this_thread::yield();
+    }
+    for (std::thread& thread : threads) thread.join();
+    ASSERT_TRUE(runtime.stop());
+  }
+  auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader) << reader.error().message();
+  const auto states = reader->states();
+  ASSERT_TRUE(states);
+  std::uint64_t hash = 0;
+  ReplayOptions options;
+  const auto whole = replay(*reader, plan.the_case, options);
+  ASSERT_TRUE(whole) << whole.error().message();
+  EXPECT_TRUE(whole->identical) << whole->first_different_hand << " "
+                                << whole->first_different_tick;
+  hash = whole->state_hash;
+  for (const StoredState& state : *states) {
+    options.from_s = static_cast<double>(state.ticks[0]) * 0.001;
+    const auto outcome = replay(*reader, plan.the_case, options);
+    ASSERT_TRUE(outcome) << outcome.error().message();
+    EXPECT_TRUE(outcome->identical);
+    EXPECT_EQ(outcome->state_hash, hash);
+  }
+}
+
+}  // namespace
+}  // namespace osteon
