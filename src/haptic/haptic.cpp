@@ -343,7 +343,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   const Quat q = turned_towards(state.tool.X_WP.q, wanted.q, params.max_turn_rad_per_tick);
   // Of a whole instrument the farthest end would go far in the widest turn.
   const double turn =
-      field.whole() ? turn_between(state.tool.X_WP.q, q) : params.max_turn_rad_per_tick;
+      field.whole() ? angle_between(state.tool.X_WP.q, q) : params.max_turn_rad_per_tick;
   double room = reach(base_W, wanted.p, turn);
   if (portal.in) room = std::min(room, kStepInPortal_m);
   const bool was_held = state.carrier.valid();

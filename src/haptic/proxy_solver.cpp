@@ -32,7 +32,7 @@ Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const 
 // A way with more pieces than the list holds is taken in shorter stretches.
 bool ProxySolver::gather(const ProxyTask& task) {
   constexpr double kShortest = 1e-5;
-  ToolReach about{{task.base_W, task.X_WP.q}, reach_m_, turn_between(task.X_WP.q, task.q_WP)};
+  ToolReach about{{task.base_W, task.X_WP.q}, reach_m_, angle_between(task.X_WP.q, task.q_WP)};
   for (; reach_m_ >= kShortest; reach_m_ *= 0.5) {
     about.reach_m = reach_m_;
     if (field_.collect(about, task.before_WB, task.now_WB, near_pieces_, near_)) {

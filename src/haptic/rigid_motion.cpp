@@ -24,7 +24,7 @@ Quat turned_towards(const Quat& from, const Quat& to, double limit_rad) {
 }
 
 // The sine of half the angle is at least its share pi / 2 of it, and nearly all of it when small.
-double turn_between(const Quat& a, const Quat& b) {
+double angle_between(const Quat& a, const Quat& b) {
   const double sine = (a.conjugate() * b).vec().norm();
   return sine < 0.1 ? 2.01 * sine : 3.15 * sine;
 }

@@ -10,7 +10,7 @@ namespace osteon {
 Pose carried_forward(const BoneMotion& motion, double age_s);
 
 /// Angle between two turns, rad; no less than the exact one.
-double turn_between(const Quat& a, const Quat& b);
+double angle_between(const Quat& a, const Quat& b);
 
 /// From `from` towards `to` by the shorter way, by at most `limit_rad`. Unit quaternions.
 Quat turned_towards(const Quat& from, const Quat& to, double limit_rad);
