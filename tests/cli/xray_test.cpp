@@ -25,13 +25,15 @@ Raw read_raw(const std::string& file) {
   Raw raw;
   std::ifstream(file + ".json") >> raw.at;
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   raw.g_per_cm2.resize(bytes.size() / 4);
   std::memcpy(raw.g_per_cm2.data(), bytes.data(), 4 * raw.g_per_cm2.size());
   return raw;
 }
 
-Vec3 vec(const Json& json) { return {json[0], json[1], json[2]}; }
+Vec3 vec(const Json& json) {
+  return Vec3(json[0].get<double>(), json[1].get<double>(), json[2].get<double>());
+}
 
 /// From the file's words alone: how far the ray of a pixel goes in the block of 40 mm, cm.
 double block_chord_cm(const Json& at, int column, int row) {
