@@ -36,7 +36,7 @@ TriMesh built_in(const std::string& name) {
 }
 
 TriMesh real(const std::string& name) {
-  auto mesh = load_mesh(test::shared_folder() / "anatomy/knee" / (name + ".stl"), 0.001);
+  auto mesh = load_mesh(test::shared_folder() / "anatomy/knee" / (name + ".stl"), 1.0);
   if (!mesh) return {};
   repair(*mesh);
   return *mesh;
