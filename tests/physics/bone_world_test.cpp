@@ -51,7 +51,7 @@ void expect_at_rest(const Case& the_case, const BoneSnapshot& snapshot) {
 
 TEST(BoneWorld, OfNoBonesSteps) {
   BoneWorld world(box_case({}), springs());
-  EXPECT_EQ(world.step({}).step, 1u);
+  EXPECT_EQ(world.step(ToolState{}).step, 1u);
   EXPECT_EQ(world.snapshot().count, 0u);
 }
 
@@ -60,7 +60,7 @@ TEST(BoneWorld, BeginsAtRestAndCountsItsSteps) {
   BoneWorld world(the_case, springs());
   expect_at_rest(*the_case, world.snapshot());
   EXPECT_EQ(world.snapshot().step, 0u);
-  for (int i = 0; i < 3; ++i) (void)world.step({});
+  for (int i = 0; i < 3; ++i) (void)world.step(ToolState{});
   EXPECT_EQ(world.snapshot().step, 3u);
   EXPECT_DOUBLE_EQ(world.snapshot().time_s, 0.006);
 }
@@ -90,7 +90,7 @@ TEST(BoneWorld, HoldingPutsBonesBack) {
 TEST(BoneWorld, LeftAloneBonesStay) {
   const auto the_case = box_case({0.0005, 0.003, 1});
   BoneWorld world(the_case, springs());
-  for (int i = 0; i < 20000; ++i) (void)world.step({});
+  for (int i = 0; i < 20000; ++i) (void)world.step(ToolState{});
   for (std::size_t i = 0; i < 3; ++i) {
     const BoneMotion& bone = world.snapshot().bones[i];
     EXPECT_LT((bone.X_WB.p - the_case->bones[i].X_WB.p).norm(), 1e-12);
@@ -109,7 +109,7 @@ TEST(BoneWorld, ASteadyPushEndsWhereTheSpringHoldsIt) {
     const BoneMotion& bone = world.snapshot().bones[0];
     EXPECT_LT((center_W(bone.X_WB) - center_W(rest) - force_W / 3000).norm(), 1e-9) << mass;
     EXPECT_LT(bone.v_W.norm(), 1e-9);
-    for (int i = 0; i < 5000; ++i) (void)world.step({});
+    for (int i = 0; i < 5000; ++i) (void)world.step(ToolState{});
     EXPECT_LT((center_W(world.snapshot().bones[0].X_WB) - center_W(rest)).norm(), 1e-9) << mass;
   }
 }
@@ -144,7 +144,7 @@ TEST(BoneWorld, CriticalDampingDoesNotOvershoot) {
       (void)world.step(push(0, center_W(world.snapshot().bones[0].X_WB), {5, 0, 0}));
     double before = (center_W(world.snapshot().bones[0].X_WB) - c0).x();
     for (int i = 0; i < 3000; ++i) {
-      (void)world.step({});
+      (void)world.step(ToolState{});
       const double now = (center_W(world.snapshot().bones[0].X_WB) - c0).x();
       if (i > 2) {
         EXPECT_LE(now, before + 1e-12);
@@ -167,7 +167,7 @@ TEST(BoneWorld, IsStableWithoutDampingAndWithStiffSprings) {
     for (int i = 0; i < 10; ++i) (void)world.step(push(0, corner_W, {20, 5, -9}));
     double largest = 0;
     for (int i = 0; i < 20000; ++i) {
-      const BoneMotion& bone = world.step({}).bones[0];
+      const BoneMotion& bone = world.step(ToolState{}).bones[0];
       if (i >= 10000) largest = std::max(largest, (bone.X_WB.p - the_case->bones[0].X_WB.p).norm());
     }
     EXPECT_LT(largest, 1e-4) << mass;
@@ -218,7 +218,7 @@ TEST(BoneWorld, FaultyContactsAreNotApplied) {
         push(0, c, {1e300, 1e300, 0}), push(0, {1e300, 0, 0}, {1, 0, 0}), push(0, c, {1001, 0, 0}),
         push(5, c, {1, 0, 0}), push(BoneId::kNone, c, {1, 0, 0})}) {
     (void)world.step(tool);
-    (void)untouched.step({});
+    (void)untouched.step(ToolState{});
     EXPECT_EQ(world.state_hash(), untouched.state_hash());
   }
   // A sound contact beside a faulty one still counts.
