@@ -52,13 +52,13 @@ struct DeviceSample {
   Vec3 v_V = Vec3::Zero();  ///< m/s
   Vec3 w_V = Vec3::Zero();  ///< rad/s
   std::uint32_t buttons = 0;
-  /// Code (Instrument::code) of the instrument whose handle the device recognises; 0: none.
-  std::uint8_t instrument_code = 0;
   bool connected = true;
   /// Calibrated or homed, so that the pose means something and force may be given.
   bool calibrated = true;
   bool dead_man_held = true;           ///< true where the device has none
   ForceOff refusal = ForceOff::kNone;  ///< why the device itself gives no force now
+  /// Code (Instrument::code) of the instrument whose handle the device recognises; 0: none.
+  std::uint8_t instrument_code = 0;
 };
 
 enum class Calibration : std::uint8_t { kNotNeeded, kNeeded, kRunning, kDone };
