@@ -16,7 +16,8 @@ std::string format_number(double value) {
 
 std::string in_mm(double metres) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", metres * 1000);
+  const double mm = metres * 1000;
+  std::snprintf(text, sizeof text, std::abs(mm) < 1000 ? "%.3g mm" : "%.0f mm", mm);
   return text;
 }
 
