@@ -142,7 +142,10 @@ TEST_F(BadInput, AFullDiskIsSaidAndKeepsWhatWasRecorded) {
   EXPECT_EQ(WEXITSTATUS(status), 2) << output;
   EXPECT_NE(output.find("full.osr"), std::string::npos) << output;
   const Ran replayed = run_osteon("replay " + file("full.osr"));
-  EXPECT_EQ(replayed.exit_code, 0) << replayed.output;
+  EXPECT_EQ(replayed.exit_code, 3) << replayed.output;
+  EXPECT_NE(replayed.output.find("identical"), std::string::npos) << replayed.output;
+  EXPECT_NE(replayed.output.find("incomplete"), std::string::npos) << replayed.output;
+  EXPECT_EQ(run_osteon("replay --allow-incomplete " + file("full.osr")).exit_code, 0);
 }
 
 TEST_F(BadInput, BrokenMeshesAreNamed) {
