@@ -8,6 +8,7 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/number_check.h"
+#include "commands/parser.h"
 #include "commands/progress_line.h"
 #include "commands/wrong_word.h"
 
@@ -33,7 +34,8 @@ void add_quiet(CLI::App& app) {
 }  // namespace
 
 int run_cli(int argc, char** argv) {
-  CLI::App app("Osteon, an open surgical simulator for orthopaedics", "osteon");
+  cli::App commands("Osteon, an open surgical simulator for orthopaedics", "osteon");
+  CLI::App& app = commands.parser();
   app.set_version_flag("--version", OSTEON_VERSION);
   app.require_subcommand(1);
   int exit_code = 0;
@@ -46,7 +48,7 @@ int run_cli(int argc, char** argv) {
         add_xray_command,     add_instruments_command, add_carve_command,     add_view_command,
         add_metrics_command,  add_scenario_commands,   add_run_command,       add_tunnel_command,
         add_drill_commands,   add_case_measure_command})
-    add(app, exit_code);
+    add(commands, exit_code);
   check_all_numbers(app);
   add_quiet(app);
   try {

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/make_patient.h"
 #include "cases/open_case.h"
@@ -118,15 +118,15 @@ int run_list(const std::string& name) {
   return kExitDone;
 }
 
-void add_list(CLI::App& anatomy, int& exit_code) {
-  CLI::App* list = anatomy.add_subcommand("list", "Say what can be varied, and how far");
+void add_list(cli::App& anatomy, int& exit_code) {
+  cli::App* list = anatomy.add_subcommand("list", "Say what can be varied, and how far");
   auto name = std::make_shared<std::string>();
   list->add_option("anatomy", *name, "wrist or knee")->required();
   list->callback([name, &exit_code] { exit_code = run_list(*name); });
 }
 
-void add_make(CLI::App& anatomy, int& exit_code) {
-  CLI::App* make = anatomy.add_subcommand("make", "Make a case of a varied anatomy");
+void add_make(cli::App& anatomy, int& exit_code) {
+  cli::App* make = anatomy.add_subcommand("make", "Make a case of a varied anatomy");
   auto command = std::make_shared<MakeCommand>();
   make->add_option("anatomy", command->name, "wrist or knee")->required();
   make->add_option("--seed", command->seed,
@@ -145,8 +145,8 @@ void add_make(CLI::App& anatomy, int& exit_code) {
 
 }  // namespace
 
-void add_anatomy_commands(CLI::App& app, int& exit_code) {
-  CLI::App* anatomy =
+void add_anatomy_commands(cli::App& app, int& exit_code) {
+  cli::App* anatomy =
       app.add_subcommand("anatomy", "Built-in anatomy that varies from patient to patient");
   anatomy->require_subcommand(1);
   add_list(*anatomy, exit_code);

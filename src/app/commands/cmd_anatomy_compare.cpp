@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/import_mesh.h"
 #include "cases/open_case.h"
@@ -154,8 +154,8 @@ int run_compare(const CompareCommand& command) {
 
 }  // namespace
 
-void add_anatomy_compare(CLI::App& anatomy, int& exit_code) {
-  CLI::App* sub = anatomy.add_subcommand(
+void add_anatomy_compare(cli::App& anatomy, int& exit_code) {
+  cli::App* sub = anatomy.add_subcommand(
       "compare",
       "Lay each bone over the one of the same name and say how far their surfaces lie "
       "apart; list joint gaps and overlaps");
@@ -165,7 +165,7 @@ void add_anatomy_compare(CLI::App& anatomy, int& exit_code) {
   sub->add_option("--reference", command->reference, "a case, or a folder of meshes")->required();
   auto unit = std::make_shared<std::string>("m");
   sub->add_option("--unit", *unit, "unit of a reference folder's meshes (default: m)")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   sub->add_flag("--json", command->json, "print JSON");
   sub->callback([command, unit, &exit_code] {
     command->metres_per_unit = metres_per_unit(*unit);

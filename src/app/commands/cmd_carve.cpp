@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/all_cores.h"
 #include "cases/case_bone.h"
@@ -212,9 +212,9 @@ std::string tool_help() {
 
 }  // namespace
 
-void add_carve_command(CLI::App& app, int& exit_code) {
+void add_carve_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<CarveCommand>();
-  CLI::App* carve = app.add_subcommand("carve", "Remove bone along a path and write what is left");
+  cli::App* carve = app.add_subcommand("carve", "Remove bone along a path and write what is left");
   carve->add_option("CASE#BONE", command->bone, "one bone of a case, as builtin:knee#femur")
       ->required();
   carve->add_option("--tool", command->tool, tool_help())->required();
@@ -230,7 +230,7 @@ void add_carve_command(CLI::App& app, int& exit_code) {
   carve->add_option("--marrow", command->marrow_mm, "depth at which marrow begins, mm; 0: none")
       ->capture_default_str();
   carve->add_option("--memory-mb", command->memory_mb, "the most that the field may take")
-      ->check(CLI::Range(1, 65536))
+      ->check(cli::Range(1, 65536))
       ->capture_default_str();
   carve->add_flag("--json", command->json, "print JSON");
   carve->callback([command, &exit_code] { exit_code = run_carve(*command); });

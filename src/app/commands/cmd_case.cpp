@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/import_mesh.h"
 #include "cases/open_case.h"
@@ -211,10 +211,10 @@ int run_check(const std::string& spec, bool json) {
   return findings.empty() ? kExitDone : kExitNo;
 }
 
-void add_import(CLI::App& app, int& exit_code) {
-  CLI::App* import = app.add_subcommand("import", "Make a case from other data");
+void add_import(cli::App& app, int& exit_code) {
+  cli::App* import = app.add_subcommand("import", "Make a case from other data");
   import->require_subcommand(1);
-  CLI::App* mesh = import->add_subcommand(
+  cli::App* mesh = import->add_subcommand(
       "mesh", "Make a case from meshes in one common frame: mended, named by their files");
   auto options = std::make_shared<ImportOptions>();
   mesh->add_option("source", options->source,
@@ -223,11 +223,11 @@ void add_import(CLI::App& app, int& exit_code) {
   auto unit = std::make_shared<std::string>();
   mesh->add_option("--unit", *unit, "unit of the files")
       ->required()
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   mesh->add_option("--out", options->out, "the case folder to make")->required();
   mesh->add_option("--name", options->name, "name of the case; default: that of the folder");
   mesh->add_option("--side", options->side, "left or right")
-      ->check(CLI::IsMember({"left", "right"}));
+      ->check(cli::IsMember({"left", "right"}));
   mesh->add_flag("--keep-hollows", options->keep_hollows,
                  "leave the marrow of a thin shell open where no ball of 2 mm gets in");
   mesh->add_flag("--force", options->force,
@@ -238,11 +238,11 @@ void add_import(CLI::App& app, int& exit_code) {
   });
 }
 
-void add_case(CLI::App& app, int& exit_code) {
-  CLI::App* group = app.add_subcommand("case", "Look at a case");
+void add_case(cli::App& app, int& exit_code) {
+  cli::App* group = app.add_subcommand("case", "Look at a case");
   group->require_subcommand(1);
   auto spec = std::make_shared<std::string>();
-  CLI::App* info = group->add_subcommand("info", "List the bones of a case");
+  cli::App* info = group->add_subcommand("info", "List the bones of a case");
   info->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   auto pieces = std::make_shared<bool>(false);
   info->add_flag("--pieces", *pieces,
@@ -250,7 +250,7 @@ void add_case(CLI::App& app, int& exit_code) {
   info->callback([spec, pieces, &exit_code] {
     exit_code = *pieces ? info_with_pieces(*spec) : info_without_pieces(*spec);
   });
-  CLI::App* check = group->add_subcommand(
+  cli::App* check = group->add_subcommand(
       "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
   check->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   auto json = std::make_shared<bool>(false);
@@ -261,7 +261,7 @@ void add_case(CLI::App& app, int& exit_code) {
 
 }  // namespace
 
-void add_case_commands(CLI::App& app, int& exit_code) {
+void add_case_commands(cli::App& app, int& exit_code) {
   add_import(app, exit_code);
   add_case(app, exit_code);
 }

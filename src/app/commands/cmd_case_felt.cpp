@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -57,8 +57,8 @@ void print_table(const Case& c) {
 
 }  // namespace
 
-void add_case_felt_command(CLI::App& app, int& exit_code) {
-  CLI::App* felt = app.get_subcommand("case")->add_subcommand(
+void add_case_felt_command(cli::App& app, int& exit_code) {
+  cli::App* felt = app.get_subcommand("case")->add_subcommand(
       "felt", "How far what the probe feels of each bone is from the bone's mesh");
   auto spec = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);

@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/case_bone.h"
 #include "cases/open_case.h"
@@ -138,9 +138,9 @@ int run_measure(const MeasureCommand& command) {
 
 }  // namespace
 
-void add_case_measure_command(CLI::App& app, int& exit_code) {
+void add_case_measure_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<MeasureCommand>();
-  CLI::App* measure = app.get_subcommand("case")->add_subcommand(
+  cli::App* measure = app.get_subcommand("case")->add_subcommand(
       "measure", "Measure the holes in a case's bones: axis, diameter, length, walls, landmarks");
   measure->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
@@ -39,8 +39,8 @@ int run_pose(const CasePoseCommand& command) {
 
 }  // namespace
 
-void add_case_pose(CLI::App& group, int& exit_code) {
-  CLI::App* pose = group.add_subcommand("pose", "Make a case of another with its joint bent");
+void add_case_pose(cli::App& group, int& exit_code) {
+  cli::App* pose = group.add_subcommand("pose", "Make a case of another with its joint bent");
   auto command = std::make_shared<CasePoseCommand>();
   pose->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
   pose->add_option("--flexion", command->flexion_deg, "degrees from straight")->required();

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/collide_table.h"
@@ -70,16 +70,16 @@ constexpr const char* kFooter =
 
 }  // namespace
 
-void add_collide_command(CLI::App& app, int& exit_code) {
+void add_collide_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<CollideOptions>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "collide", "Test the convex hulls of two meshes for contact, pose by pose");
   command->footer(kFooter);
   command->add_option("A", options->a, "Mesh that stays in place")->required();
   command->add_option("B", options->b, "Mesh that is moved")->required();
   command->add_option("--unit", options->unit, "Unit of both meshes: m, cm or mm")
       ->required()
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command->add_option("--poses", options->poses, "CSV file of poses of B in A")->required();
   command->add_option("--out", options->out, "CSV file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

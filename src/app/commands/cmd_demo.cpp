@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -71,9 +71,9 @@ int run_demo(const fs::path& out) {
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, int& exit_code) {
+void add_demo_command(cli::App& app, int& exit_code) {
   auto out = std::make_shared<std::string>("out");
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "demo", "Play the bundled probe path on the built-in wrist: report and picture, no window");
   command->add_option("--out", *out, "folder for wrist.png and report.json")->capture_default_str();
   command->callback([out, &exit_code] { exit_code = run_demo(*out); });

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include "commands/parser.h"
 
 #include "checkup/device_findings.h"
 #include "commands/cli_support.h"
@@ -56,9 +56,9 @@ int run_devices(bool as_json) {
 
 }  // namespace
 
-void add_devices_command(CLI::App& app, int& exit_code) {
+void add_devices_command(cli::App& app, int& exit_code) {
   const auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "devices", "List what can be held in the hand, and why something cannot be used");
   command->add_flag("--json", *as_json, "for a program");
   command->callback([as_json, &exit_code] { exit_code = run_devices(*as_json); });

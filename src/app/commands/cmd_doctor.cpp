@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "checkup/computer_findings.h"
 #include "checkup/device_findings.h"
@@ -87,9 +87,9 @@ int run_doctor(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor_command(CLI::App& app, int& exit_code) {
+void add_doctor_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<DoctorOptions>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "doctor", "Check devices, permissions, timing and graphics; ends with a verdict (0 or 1)");
   command->add_option("--device", options->device,
                       "driver whose devices are opened: calibration, rate, jitter, health");
@@ -102,7 +102,7 @@ void add_doctor_command(CLI::App& app, int& exit_code) {
   command->add_option("--udev-folder", options->udev_folder, "where the rule goes")
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "how long the 1 kHz loop is measured")
-      ->check(CLI::Range(0.1, 600.0))
+      ->check(cli::Range(0.1, 600.0))
       ->capture_default_str();
   command->add_flag("--json", options->as_json, "for a program");
   command->callback([options, &exit_code] { exit_code = run_doctor(*options); });

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -6,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -162,11 +162,11 @@ int run_resistance(const std::string& out) {
 
 }  // namespace
 
-void add_drill_commands(CLI::App& app, int& exit_code) {
-  CLI::App* group = app.add_subcommand("drill", "How a drill goes through bone");
+void add_drill_commands(cli::App& app, int& exit_code) {
+  cli::App* group = app.add_subcommand("drill", "How a drill goes through bone");
   group->require_subcommand(1);
   auto command = std::make_shared<TrialCommand>();
-  CLI::App* trial = group->add_subcommand(
+  cli::App* trial = group->add_subcommand(
       "trial", "An emulated hand drills through layers; exits 1 when it does not get through");
   trial->add_option("--thrust-n", command->thrust_n, "that the hand holds")->capture_default_str();
   trial->add_option("--drop-n", command->drop_n, "less in the last layer")->capture_default_str();
@@ -182,7 +182,7 @@ void add_drill_commands(CLI::App& app, int& exit_code) {
   trial->add_flag("--json", command->json, "print JSON with samples");
   trial->callback([command, &exit_code] { exit_code = run_trial(*command); });
   auto out = std::make_shared<std::string>();
-  CLI::App* resistance = group->add_subcommand(
+  cli::App* resistance = group->add_subcommand(
       "resistance", "Draw the resistance of a guided tunnel by vKASS's two rules");
   resistance->add_option("--out", *out, "the SVG file to write")->required();
   resistance->callback([out, &exit_code] { exit_code = run_resistance(*out); });

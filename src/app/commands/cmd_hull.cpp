@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -100,14 +100,14 @@ int run(const HullOptions& options) {
 
 }  // namespace
 
-void add_hull_command(CLI::App& app, int& exit_code) {
+void add_hull_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<HullOptions>();
-  CLI::App* command =
+  cli::App* command =
       app.add_subcommand("hull", "Convex hulls of meshes, by QuickHull and wrapping");
   command->add_option("MESH", options->meshes, "STL, OBJ, PLY, VTK, VTP or glTF files")->required();
   command->add_option("--unit", options->unit, "Unit of the meshes: m, cm or mm")
       ->capture_default_str()
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command->add_option("--out", options->out,
                       "Write the hull as STL, in the mesh's unit (one mesh)");
   command->add_flag("--json", options->json, "Print JSON: an array, one object a mesh");

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/import_ct.h"
 #include "commands/cli_support.h"
@@ -108,8 +108,8 @@ int run_import_ct(ImportCtCommand command) {
 
 }  // namespace
 
-void add_import_ct_command(CLI::App& app, int& exit_code) {
-  CLI::App* ct = app.get_subcommand("import")->add_subcommand(
+void add_import_ct_command(cli::App& app, int& exit_code) {
+  cli::App* ct = app.get_subcommand("import")->add_subcommand(
       "ct", "Make a case from a CT scan: finds, parts and names the bones");
   auto command = std::make_shared<ImportCtCommand>();
   ct->add_option("source", command->source,
@@ -119,7 +119,7 @@ void add_import_ct_command(CLI::App& app, int& exit_code) {
   ct->add_option("--out", command->out, "the case folder to make")->required();
   ct->add_option("--name", command->options.name, "name of the case; default: that of the folder");
   ct->add_option("--side", command->options.side, "left or right; default: as recognised")
-      ->check(CLI::IsMember({"left", "right"}));
+      ->check(cli::IsMember({"left", "right"}));
   ct->add_option("--series", command->options.series, "number or UID, where a folder has several");
   auto* threshold = ct->add_option("--threshold", command->threshold_hu,
                                    "HU above which is bone; default: suggested by the scan");
@@ -127,14 +127,14 @@ void add_import_ct_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->expected(3);
   ct->add_option("--smooth", command->smooth_mm, "mm of blur against noise")
-      ->check(CLI::Range(0.0, 5.0));
+      ->check(cli::Range(0.0, 5.0));
   ct->add_option("--contours", command->options.contour_steps,
                  "steps in which active contours move the bones' outlines onto the edges of the "
                  "picture, slice by slice; 15 are usual")
-      ->check(CLI::Range(0, 1000))
+      ->check(cli::Range(0, 1000))
       ->capture_default_str();
   ct->add_option("--most", command->options.most_bones, "keep this many of the largest bones")
-      ->check(CLI::Range(std::size_t{1}, kMaxBones))
+      ->check(cli::Range(std::size_t{1}, kMaxBones))
       ->capture_default_str();
   ct->add_option("--json", command->json, "write what was found to this file");
   ct->callback([command, threshold, &exit_code] {

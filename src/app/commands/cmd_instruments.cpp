@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -76,15 +76,15 @@ Result<void> draw(const InstrumentOptions& options) {
   return {};
 }
 
-void add_show(CLI::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
-  CLI::App* command = group.add_subcommand("show", "All of some instruments in words");
+void add_show(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
+  cli::App* command = group.add_subcommand("show", "All of some instruments in words");
   command->add_option("names", options->names, "Names")->required();
   command->add_flag("--json", options->json, "for a program");
   command->callback([options, &exit_code] { exit_code = show(*options); });
 }
 
-void add_draw(CLI::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
-  CLI::App* command = group.add_subcommand(
+void add_draw(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
+  cli::App* command = group.add_subcommand(
       "render", "Draw instruments side by side: each whole, and its tip enlarged");
   command->add_option("names", options->names, "Names (default all)");
   command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
@@ -97,9 +97,9 @@ void add_draw(CLI::App& group, const std::shared_ptr<InstrumentOptions>& options
 
 }  // namespace
 
-void add_instruments_command(CLI::App& app, int& exit_code) {
+void add_instruments_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<InstrumentOptions>();
-  CLI::App* group = app.add_subcommand(
+  cli::App* group = app.add_subcommand(
       "instruments", "List the instruments: what they do, their sizes, power and sources");
   group->add_flag("--json", options->json, "for a program");
   group->add_option("--folder", options->folder,
@@ -107,7 +107,7 @@ void add_instruments_command(CLI::App& app, int& exit_code) {
   add_show(*group, options, exit_code);
   add_draw(*group, options, exit_code);
   group->callback([options, group, &exit_code] {
-    if (group->get_subcommands().empty()) exit_code = list(*options);
+    if (!group->has_chosen_subcommand()) exit_code = list(*options);
   });
 }
 

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -8,6 +7,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -288,9 +288,9 @@ int run_live(LiveOptions options) {
 
 }  // namespace
 
-void add_live_command(CLI::App& app, int& exit_code) {
+void add_live_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<LiveOptions>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "live", "Run devices on a case in real time, without a window, through the safety stages");
   command
       ->add_option("--device", options->devices,
@@ -306,11 +306,11 @@ void add_live_command(CLI::App& app, int& exit_code) {
   command->add_option("--force-log", options->force_log,
                       "write the last 20 s of the device's positions and forces (CSV)");
   command->add_option("--scale", options->mapping.scale, "way of the tool for a way of the hand")
-      ->check(CLI::Range(kMinScale, kMaxScale));
+      ->check(cli::Range(kMinScale, kMaxScale));
   command
       ->add_option("--clutch-button", options->mapping.clutch_button,
                    "while it is held the device moves without the tool")
-      ->check(CLI::Range(0, 31));
+      ->check(cli::Range(0, 31));
   command->add_flag("--free-bones", options->free_bones, "bones move on springs");
   command->callback([options, &exit_code] { exit_code = run_live(*options); });
 }

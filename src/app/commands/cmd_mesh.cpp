@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/mesh_source.h"
 #include "commands/cli_support.h"
@@ -46,8 +46,8 @@ int run_tetrahedra(TetrahedraCommand command) {
   return made->report.warnings.empty() ? kExitDone : kExitNo;
 }
 
-void add_tetrahedra(CLI::App& mesh, int& exit_code) {
-  CLI::App* command = mesh.add_subcommand(
+void add_tetrahedra(cli::App& mesh, int& exit_code) {
+  cli::App* command = mesh.add_subcommand(
       "tetrahedra",
       "Fill a closed surface with tetrahedra of good shape; exits 1 with a warning when the cell "
       "is too coarse, the volume misses by 1 % or an angle lies below 15 degrees");
@@ -57,7 +57,7 @@ void add_tetrahedra(CLI::App& mesh, int& exit_code) {
                    "a mesh file, or CASE#PART for a bone or soft part of a case, in World")
       ->required();
   command->add_option("--unit", options->unit, "unit of a mesh file; the result has the same")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command
       ->add_option("--cell-mm", options->cell_mm,
                    "edge of the lattice's cubes; default: from the thinnest part, made smaller "
@@ -66,7 +66,7 @@ void add_tetrahedra(CLI::App& mesh, int& exit_code) {
   command
       ->add_option("--goal-deg", options->options.goal_deg,
                    "improve until no dihedral angle is sharper, where that can be")
-      ->check(CLI::Range(0.0, 90.0))
+      ->check(cli::Range(0.0, 90.0))
       ->capture_default_str();
   command->add_option("--most", options->options.most_tets, "refuse to make more tetrahedra")
       ->capture_default_str();
@@ -90,23 +90,23 @@ int run_quality(const QualityCommand& command) {
   return quality(*mesh).inverted == 0 ? kExitDone : kExitNo;
 }
 
-void add_quality(CLI::App& mesh, int& exit_code) {
-  CLI::App* command = mesh.add_subcommand(
+void add_quality(cli::App& mesh, int& exit_code) {
+  cli::App* command = mesh.add_subcommand(
       "quality",
       "Dihedral angles and volume of a file of tetrahedra; exits 1 when any is inverted");
   auto options = std::make_shared<QualityCommand>();
   command->add_option("FILE", options->file, "a VTK file (legacy, ASCII)")->required();
   command->add_option("--unit", options->unit, "unit of the file")
       ->required()
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command->add_flag("--json", options->json, "print JSON");
   command->callback([options, &exit_code] { exit_code = run_quality(*options); });
 }
 
 }  // namespace
 
-void add_mesh_commands(CLI::App& app, int& exit_code) {
-  CLI::App* mesh = app.add_subcommand(
+void add_mesh_commands(cli::App& app, int& exit_code) {
+  cli::App* mesh = app.add_subcommand(
       "mesh", "Make tetrahedra of a surface; smooth, simplify or edit a surface");
   mesh->require_subcommand(1);
   add_tetrahedra(*mesh, exit_code);

@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/mesh_source.h"
 #include "commands/cli_support.h"
@@ -52,13 +52,13 @@ int finish(const MeshSource& source, const TriMesh& after, const std::string& ou
   return kExitNo;
 }
 
-void add_source(CLI::App& command, SurfaceCommand& options) {
+void add_source(cli::App& command, SurfaceCommand& options) {
   command
       .add_option("SOURCE", options.source,
                   "a mesh file, or CASE#PART for a bone or soft part, in World")
       ->required();
   command.add_option("--unit", options.unit, "unit of a mesh file; the result has the same")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command.add_option("--out", options.out, "the STL file to write; a bone's in mm")->required();
 }
 
@@ -74,14 +74,14 @@ int run_smooth(const SmoothCommand& command) {
   return finish(*source, mesh, command.out, {});
 }
 
-void add_smooth(CLI::App& mesh, int& exit_code) {
+void add_smooth(cli::App& mesh, int& exit_code) {
   auto command = std::make_shared<SmoothCommand>();
-  CLI::App* smooth =
+  cli::App* smooth =
       mesh.add_subcommand("smooth", "Smooth a surface without shrinking it (Taubin, lambda | mu)");
   add_source(*smooth, *command);
   smooth->add_option("--rounds", command->options.rounds, "of moving there and back")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(cli::Range(1, 1000));
   smooth->callback([command, &exit_code] { exit_code = run_smooth(*command); });
 }
 
@@ -97,9 +97,9 @@ int run_decimate(const DecimateCommand& command) {
   return finish(*source, mesh, command.out, {});
 }
 
-void add_decimate(CLI::App& mesh, int& exit_code) {
+void add_decimate(cli::App& mesh, int& exit_code) {
   auto command = std::make_shared<DecimateCommand>();
-  CLI::App* decimate =
+  cli::App* decimate =
       mesh.add_subcommand("decimate", "Make a surface of fewer triangles (quadric error)");
   add_source(*decimate, *command);
   decimate->add_option("--error-mm", command->error_mm, "how far the surface may move, about")
@@ -134,9 +134,9 @@ int run_drag(const DragCommand& command) {
   return finish(*source, edit->mesh(), command.out, EditFindings{findings.turned, {}});
 }
 
-void add_drag(CLI::App& mesh, int& exit_code) {
+void add_drag(cli::App& mesh, int& exit_code) {
   auto command = std::make_shared<DragCommand>();
-  CLI::App* drag = mesh.add_subcommand(
+  cli::App* drag = mesh.add_subcommand(
       "drag", "Drag one vertex of a surface; its neighbours along the surface follow");
   add_source(*drag, *command);
   drag->add_option("--at-mm", command->at_mm, "x y z: the vertex nearest to this is grabbed")
@@ -150,13 +150,13 @@ void add_drag(CLI::App& mesh, int& exit_code) {
       ->check(refuse_not_positive);
   drag->add_option("--fall-off", command->fall_off, "smooth, cone, dome or spike")
       ->capture_default_str()
-      ->check(CLI::IsMember({"smooth", "cone", "dome", "spike"}));
+      ->check(cli::IsMember({"smooth", "cone", "dome", "spike"}));
   drag->callback([command, &exit_code] { exit_code = run_drag(*command); });
 }
 
 }  // namespace
 
-void add_mesh_surface_commands(CLI::App& mesh, int& exit_code) {
+void add_mesh_surface_commands(cli::App& mesh, int& exit_code) {
   add_smooth(mesh, exit_code);
   add_decimate(mesh, exit_code);
   add_drag(mesh, exit_code);

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/tissue_mesh.h"
 #include "commands/cli_support.h"
@@ -44,9 +44,9 @@ int run_metrics(const MetricsCommand& command) {
 
 }  // namespace
 
-void add_metrics_command(CLI::App& app, int& exit_code) {
+void add_metrics_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<MetricsCommand>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "metrics",
       "Measure a path: time, way, smoothness, time and damage in a tissue, actions.\n"
       "The tip is the path's position, the shaft runs from it along the pose's +z; damage is the\n"
@@ -57,7 +57,7 @@ void add_metrics_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--unit", options->unit,
                    "unit of the mesh file; default: mm when it is more than 3 units across, else m")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
+      ->check(cli::IsMember({"m", "cm", "mm"}));
   command
       ->add_option("--axis", options->axis,
                    "x,y,z: direction of depth_mm; default: the shaft's own at each moment")

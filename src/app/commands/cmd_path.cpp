@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -41,18 +41,18 @@ int run_survey(const SurveyCommand& command) {
 
 }  // namespace
 
-void add_path_commands(CLI::App& app, int& exit_code) {
-  CLI::App* group = app.add_subcommand("path", "Make probe paths");
+void add_path_commands(cli::App& app, int& exit_code) {
+  cli::App* group = app.add_subcommand("path", "Make probe paths");
   group->require_subcommand(1);
   auto survey = std::make_shared<SurveyCommand>();
-  CLI::App* command = group->add_subcommand(
+  cli::App* command = group->add_subcommand(
       "survey", "A path that visits every bone in reach: press along the normal, stroke, retreat");
   command->add_option("--case", survey->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--seed", survey->options.seed, "which places are chosen")
       ->capture_default_str();
   command->add_option("--force", survey->options.press_n, "wanted force, N")
-      ->check(CLI::Range(0.1, 20.0))
+      ->check(cli::Range(0.1, 20.0))
       ->capture_default_str();
   command->add_option("--out", survey->out, "probe path to write, CSV")->required();
   command->callback([survey, &exit_code] { exit_code = run_survey(*survey); });

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -38,16 +38,16 @@ int run_export(const RecordArguments& options) {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, int& exit_code) {
+void add_record_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RecordArguments>();
-  CLI::App* command = app.add_subcommand("record", "Look into recordings (.osr), and export them");
+  cli::App* command = app.add_subcommand("record", "Look into recordings (.osr), and export them");
   command->require_subcommand(1);
-  CLI::App* info = command->add_subcommand("info", "What a recording holds");
+  cli::App* info = command->add_subcommand("info", "What a recording holds");
   info->add_option("file", options->file, "recording")->required();
   info->add_flag("--events", options->events, "its events, a line each");
   info->add_flag("--json", options->json, "as JSON; of events an object a line");
   info->callback([options, &exit_code] { exit_code = run_info(*options); });
-  CLI::App* exported = command->add_subcommand(
+  cli::App* exported = command->add_subcommand(
       "export", "Write ticks, poses, forces and events as tables, for pandas or MATLAB");
   exported->add_option("file", options->file, "recording")->required();
   exported->add_option("--csv", options->csv, "a new or empty folder: ticks_<hand>.csv, events.csv")

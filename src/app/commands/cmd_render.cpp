@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
@@ -86,9 +86,9 @@ int run(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, int& exit_code) {
+void add_render_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = app.add_subcommand("render", "Draw a picture of a case, without a window");
+  cli::App* command = app.add_subcommand("render", "Draw a picture of a case, without a window");
   command->add_option("--case", options->case_spec, "Case folder, builtin:wrist or builtin:knee")
       ->required();
   command
@@ -110,7 +110,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
                    "Soft parts to draw: all, none, names, or kinds such as ligament (default none)")
       ->delimiter(',');
   command->add_option("--skin-opacity", options->skin_opacity, "0 to 1; of the skin when drawn")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(cli::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -166,9 +166,9 @@ int run_replay(const ReplayArguments& options) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& app, int& exit_code) {
+void add_replay_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayArguments>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "replay",
       "Repeat a recording (.osr) bit by bit, or run a probe path (.csv) and check what it felt.\n"
       "Exit code: 0 identical and as expected, 1 not, 2 a bad file, 3 a recording that breaks off");
@@ -182,7 +182,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--from", options->from_s,
                    "begin at the last stored state that is not after this time, s")
-      ->check(CLI::Range(0.0, 4 * 3600.0));
+      ->check(cli::Range(0.0, 4 * 3600.0));
   command->add_flag("--allow-incomplete", options->allow_incomplete,
                     "a recording that breaks off is as good as a whole one");
   options->session.add_to(*command);

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -54,9 +54,9 @@ int run_command(const RunCommand& command) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code) {
+void add_run_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RunCommand>();
-  CLI::App* command =
+  cli::App* command =
       app.add_subcommand("run",
                          "Let a virtual surgeon play a scenario, without a window, and judge it.\n"
                          "Exit code: 0 passed, 1 not passed or undecided, 2 could not run");

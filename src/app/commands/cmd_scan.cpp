@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -6,6 +5,7 @@
 #include <string>
 #include <system_error>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "cases/whole_folder.h"
@@ -76,8 +76,8 @@ int run_scan(ScanCommand command) {
 
 }  // namespace
 
-void add_scan_command(CLI::App& app, int& exit_code) {
-  CLI::App* scan = app.add_subcommand(
+void add_scan_command(cli::App& app, int& exit_code) {
+  cli::App* scan = app.add_subcommand(
       "scan", "Make a CT series (DICOM) of a case with a virtual scanner of known truth");
   auto command = std::make_shared<ScanCommand>();
   scan->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -125,18 +125,18 @@ int check_one(const ScenarioCommand& command) {
 
 }  // namespace
 
-void add_scenario_commands(CLI::App& app, int& exit_code) {
-  CLI::App* group = app.add_subcommand("scenario", "Exercises: list, explain, check");
+void add_scenario_commands(cli::App& app, int& exit_code) {
+  cli::App* group = app.add_subcommand("scenario", "Exercises: list, explain, check");
   group->require_subcommand(1);
   auto options = std::make_shared<ScenarioCommand>();
-  CLI::App* list = group->add_subcommand("list", "The exercises that Osteon ships");
+  cli::App* list = group->add_subcommand("list", "The exercises that Osteon ships");
   list->add_flag("--json", options->json, "print JSON");
   list->callback([options, &exit_code] { exit_code = list_scenarios(*options); });
-  CLI::App* info = group->add_subcommand("info", "One exercise: stages, errors, metrics");
+  cli::App* info = group->add_subcommand("info", "One exercise: stages, errors, metrics");
   info->add_option("scenario", options->scenario, "name or file")->required();
   info->add_flag("--json", options->json, "print JSON");
   info->callback([options, &exit_code] { exit_code = show_scenario(*options); });
-  CLI::App* check = group->add_subcommand(
+  cli::App* check = group->add_subcommand(
       "check",
       "Read a scenario critically: a rule that can never be met, a name that comes twice.\n"
       "Exit code: 0 sound, 1 not, 2 cannot be read");

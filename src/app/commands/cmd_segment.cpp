@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/whole_folder.h"
 #include "commands/cli_support.h"
@@ -21,8 +21,8 @@ int run_segment(const SegmentOrder& order) {
 
 }  // namespace
 
-void add_segment_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
+void add_segment_command(cli::App& app, int& exit_code) {
+  cli::App* command =
       app.add_subcommand("segment", "Segment a CT scan by hand in a window and save it as a case");
   const auto order = std::make_shared<SegmentOrder>();
   const auto size = std::make_shared<std::string>();
@@ -45,16 +45,16 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--ui-scale", order->interface_scale,
                    "Scale of the interface; the display's when not given")
-      ->check(CLI::Range(0.5, 4.0));
+      ->check(cli::Range(0.5, 4.0));
   command->add_option("--screenshot", order->screenshot,
                       "Save a picture of the window (PNG), then end");
   command
       ->add_option("--frames", order->frames,
                    "Draw this many pictures, print what they cost, then end")
-      ->check(CLI::Range(1, 1000000));
+      ->check(cli::Range(1, 1000000));
   command->callback([order, size, spacing_mm, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
-      throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+      cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     order->fresh = order->frames > 0;
     if (!spacing_mm->empty())

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
@@ -88,9 +88,9 @@ int run_simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, int& exit_code) {
+void add_simulate_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "simulate", "Drive the virtual hand along a path, without a window, as fast as it goes");
   command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();

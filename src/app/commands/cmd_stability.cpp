@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -58,15 +58,15 @@ int run_stability(const StabilityOptions& options) {
 
 }  // namespace
 
-void add_stability_command(CLI::App& app, int& exit_code) {
+void add_stability_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<StabilityOptions>();
-  CLI::App* command = app.add_subcommand(
+  cli::App* command = app.add_subcommand(
       "stability",
       "Press emulated hands onto walls and draw where the loop swings (SVG); 1 when it "
       "does with all of the passivity stage on");
   command->add_option("--out", options->out, "the picture")->capture_default_str();
   command->add_option("--cells", options->cells, "of each map, along both sides")
-      ->check(CLI::Range(2, 200))
+      ->check(cli::Range(2, 200))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run_stability(*options); });
 }

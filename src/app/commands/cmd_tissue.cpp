@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -47,10 +47,10 @@ int run_tissue_solve(const TissueSolveCommand& command) {
 
 }  // namespace
 
-void add_tissue_commands(CLI::App& app, int& exit_code) {
-  CLI::App* tissue = app.add_subcommand("tissue", "Soft bodies: solve a scene by itself");
+void add_tissue_commands(cli::App& app, int& exit_code) {
+  cli::App* tissue = app.add_subcommand("tissue", "Soft bodies: solve a scene by itself");
   tissue->require_subcommand(1);
-  CLI::App* command = tissue->add_subcommand(
+  cli::App* command = tissue->add_subcommand(
       "solve",
       "Solve a scene of one soft body from rest and tell how it moved and what holds it; exits 1 "
       "when a part of it was turned inside out");

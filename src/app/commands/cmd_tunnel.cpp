@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/case_bone.h"
 #include "commands/cli_support.h"
@@ -135,8 +135,8 @@ int run_tunnel(const TunnelCommand& command) {
 
 }  // namespace
 
-void add_tunnel_command(CLI::App& app, int& exit_code) {
-  CLI::App* tunnel = app.add_subcommand(
+void add_tunnel_command(cli::App& app, int& exit_code) {
+  cli::App* tunnel = app.add_subcommand(
       "tunnel", "Drill a straight tunnel into a bone, exactly; exits 1 where the line misses it");
   auto command = std::make_shared<TunnelCommand>();
   tunnel->add_option("bone", command->bone, "CASE#BONE, as builtin:knee#femur")->required();
@@ -144,7 +144,7 @@ void add_tunnel_command(CLI::App& app, int& exit_code) {
       ->required();
   tunnel->add_option("--to", command->to, "x,y,z in mm, World: how far it goes")->required();
   tunnel->add_option("--diameter", command->diameter_mm, "of the drill, mm")->required();
-  CLI::Option* depth = tunnel->add_option(
+  cli::Option* depth = tunnel->add_option(
       "--depth", command->depth_mm,
       "mm from where the axis first enters the bone to the drill's flat end, in place of --to");
   tunnel->add_option("--out", command->out, "the STL file to write, in the case's unit, in Bone")

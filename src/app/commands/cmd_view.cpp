@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -6,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
@@ -86,9 +86,9 @@ int run_view(const ViewCommand& command) {
 
 }  // namespace
 
-void add_view_command(CLI::App& app, int& exit_code) {
+void add_view_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<ViewCommand>();
-  CLI::App* sub = app.add_subcommand("view", "Draw what an arthroscope shows of a case");
+  cli::App* sub = app.add_subcommand("view", "Draw what an arthroscope shows of a case");
   sub->add_option("case", command->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
   sub->add_option("--scope", command->scope, "knee_0, knee_30, knee_70, wrist_30 or wrist_30_small")

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include "commands/parser.h"
 
 #include "commands/commands.h"
 #include "commands/number_check.h"
@@ -21,8 +21,8 @@ std::string absolute_spec(const std::string& spec) {
 
 }  // namespace
 
-void add_window_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("window", "Open the simulator's window");
+void add_window_command(cli::App& app, int& exit_code) {
+  cli::App* command = app.add_subcommand("window", "Open the simulator's window");
   const auto order = std::make_shared<WindowOrder>();
   const auto size = std::make_shared<std::string>();
   command->add_option("--case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
@@ -32,7 +32,7 @@ void add_window_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--ui-scale", order->interface_scale,
                    "Scale of the interface; the display's when not given")
-      ->check(CLI::Range(0.5, 4.0));
+      ->check(cli::Range(0.5, 4.0));
   command->add_flag("--felt", order->felt,
                     "Begin with the bones coloured by how far what is felt is from their surface");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
@@ -54,13 +54,13 @@ void add_window_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--frames", order->frames,
                    "Draw this many pictures, print what they cost, then end")
-      ->check(CLI::Range(1, 1000000));
+      ->check(cli::Range(1, 1000000));
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);
   command->callback([order, size, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
-      throw CLI::ValidationError("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+      cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;

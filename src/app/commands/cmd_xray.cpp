@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -6,6 +5,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include "commands/parser.h"
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
@@ -114,21 +114,21 @@ int run_xray(XrayCommand& command) {
   return kExitDone;
 }
 
-void add_beam_options(CLI::App& xray, XrayCommand& c) {
+void add_beam_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--kv", c.shot.kv, "kV of the tube, 40 to 120")->capture_default_str();
   xray.add_option("--mas", c.shot.mas, "mA s of a shot (default: automatic)");
   xray.add_option("--shots", c.shot.shots, "how many shots or pulses the dose is of")
       ->capture_default_str();
   xray.add_option("--pulse", c.pulse_ms, "ms of beam of each")->capture_default_str();
   xray.add_option("--noise", c.noise, "on or off")
-      ->check(CLI::IsMember({"on", "off"}))
+      ->check(cli::IsMember({"on", "off"}))
       ->capture_default_str();
   xray.add_option("--seed", c.shot.seed, "of the noise")->capture_default_str();
 }
 
-void add_place_options(CLI::App& xray, XrayCommand& c) {
+void add_place_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--view", c.view, "ap or lateral")
-      ->check(CLI::IsMember({"ap", "lateral"}))
+      ->check(cli::IsMember({"ap", "lateral"}))
       ->capture_default_str();
   xray.add_option("--c-arm", c.arm,
                   "orbit=DEG,angulation=DEG from the view on; also lift=, distance= (source to "
@@ -143,9 +143,9 @@ void add_place_options(CLI::App& xray, XrayCommand& c) {
 
 }  // namespace
 
-void add_xray_command(CLI::App& app, int& exit_code) {
+void add_xray_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<XrayCommand>();
-  CLI::App* xray =
+  cli::App* xray =
       app.add_subcommand("xray", "Take a picture with a C-arm, of a case or out of a recording");
   xray->add_option("case", command->scene.source,
                    "a case folder, builtin:wrist, builtin:knee or a recording (.osr)")

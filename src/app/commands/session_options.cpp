@@ -1,27 +1,27 @@
 #include "commands/session_options.h"
 
-#include <CLI/CLI.hpp>
+#include "commands/parser.h"
 
 namespace osteon {
 
-void SessionOptions::add_to(CLI::App& command) {
+void SessionOptions::add_to(cli::App& command) {
   command.add_option("--seed", settings.seed,
                      "recorded; for what is random in a session (nothing is, until now)");
   command.add_option("--stiffness", settings.haptic.stiffness_n_per_m, "virtual coupling, N/m")
-      ->check(CLI::Range(50.0, 5000.0))
+      ->check(cli::Range(50.0, 5000.0))
       ->capture_default_str();
   command.add_option("--friction", settings.haptic.friction_scale, "factor on every friction")
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(cli::Range(0.0, 5.0))
       ->capture_default_str();
   command.add_option("--max-force", settings.haptic.max_force_n, "the device's limit, N")
-      ->check(CLI::Range(0.0, 40.0))
+      ->check(cli::Range(0.0, 40.0))
       ->capture_default_str();
   command.add_flag("--free-bones", free_bones, "bones move on springs instead of being held");
   command.add_option("--hand-mass", hand.mass_kg, "virtual hand, kg")
-      ->check(CLI::Range(0.02, 2.0))
+      ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
   command.add_option("--hand-stiffness", hand.grip_stiffness_n_per_m, "virtual hand's grip, N/m")
-      ->check(CLI::Range(10.0, 5000.0))
+      ->check(cli::Range(10.0, 5000.0))
       ->capture_default_str();
 }
 

@@ -3,7 +3,7 @@
 #include "osteon/device/virtual_hand.h"
 #include "osteon/session/session.h"
 
-namespace CLI {
+namespace osteon::cli {
 class App;
 }
 
@@ -15,7 +15,7 @@ struct SessionOptions {
   HandParams hand;
   bool free_bones = false;
 
-  void add_to(CLI::App& command);
+  void add_to(cli::App& command);
   /// Settings after parsing.
   SessionSettings resolved() const;
 };

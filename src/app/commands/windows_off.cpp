@@ -3,6 +3,6 @@
 
 namespace osteon {
 
-void add_window_commands(CLI::App&, int&) {}
+void add_window_commands(cli::App&, int&) {}
 
 }  // namespace osteon

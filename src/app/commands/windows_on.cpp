@@ -3,7 +3,7 @@
 
 namespace osteon {
 
-void add_window_commands(CLI::App& app, int& exit_code) {
+void add_window_commands(cli::App& app, int& exit_code) {
   add_window_command(app, exit_code);
   add_segment_command(app, exit_code);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/commands.h"
+#include "commands/parser.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/mesh_io.h"
 
@@ -21,7 +22,7 @@ struct Ran {
 };
 
 Ran run_hull(std::vector<std::string> arguments) {
-  CLI::App app;
+  cli::App app("test", "osteon");
   Ran ran;
   add_hull_command(app, ran.exit_code);
   arguments.insert(arguments.begin(), "hull");
@@ -29,7 +30,7 @@ Ran run_hull(std::vector<std::string> arguments) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   try {
-    app.parse(arguments);
+    app.parser().parse(arguments);
   } catch (const CLI::ParseError&) {
     ran.exit_code = 2;
   }
