@@ -10,8 +10,6 @@ namespace {
 /// An edge that comes no nearer than this to the circle says nothing about columns.
 constexpr double kFar_m = 2e-6;
 
-Vec2 flat(const Vec3& p_A) { return {p_A.x(), p_A.y()}; }
-
 /// Where the line from a to b goes through the side in the wanted sense, between its columns.
 std::optional<Crossing> cross_side(const Prism& prism, int side, const Vec2& a, const Vec2& b,
                                    bool entering) {

@@ -14,6 +14,9 @@ inline double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
+/// What a point of the drill's frame looks like along the line.
+inline Vec2 flat(const Vec3& p_A) { return {p_A.x(), p_A.y()}; }
+
 /// The drill's frame A: origin at `from`, z along the line.
 struct Frame {
   Vec3 origin = Vec3::Zero();

@@ -7,8 +7,6 @@
 namespace osteon::tunnel {
 namespace {
 
-Vec2 flat(const Vec3& p_A) { return {p_A.x(), p_A.y()}; }
-
 /// A station on the way round a facet.
 struct Station {
   std::uint32_t point = 0;

@@ -33,12 +33,13 @@ TEST_F(Carve, BadInputExitsWithTwoAndWritesNothing) {
   const std::pair<std::string, std::string> bad[] = {
       {arguments("spoon", "4", "down.csv"), "burr, drill"},
       {arguments("burr", "0", "down.csv"), "0.2 to 40 mm"},
-      {arguments("burr", "nan", "down.csv"), "0.2 to 40 mm"},
+      {arguments("burr", "nan", "down.csv"), "not a finite number"},
       {arguments("burr", "4", "nan.csv"), "nan.csv"},
       {arguments("burr", "4", "empty.csv"), "empty.csv"},
       {arguments("burr", "4", "none.csv"), "none.csv"},
       {arguments("burr", "4", "down.csv") + " --cell 0.02 --memory-mb 16", "16 MB are allowed"},
-      {arguments("burr", "4", "down.csv") + " --cell nan", "0.02 to 2 mm"},
+      {arguments("burr", "4", "down.csv") + " --cell nan", "not a finite number"},
+      {arguments("burr", "4", "down.csv") + " --cell 3", "0.02 to 2 mm"},
       {"carve " + file("case") + "#femur --tool burr --size 4 --path " + file("down.csv") +
            " --out " + file("out.stl"),
        "It has block"}};

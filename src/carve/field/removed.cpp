@@ -63,8 +63,16 @@ class Sum {
     const double z = middle(n / kParts / kParts);
     const double height = bone.value(x, y, z), wide = cell_um_ / kParts;
     const auto under = [&](double h) { return std::clamp(0.5 - h / wide, 0.0, 1.0); };
-    const double share = under(height) * under(cut.value(x, y, z)) / (kParts * kParts * kParts);
-    share_[static_cast<std::size_t>(tissue(height))] += share;
+    const double cut_share = under(cut.value(x, y, z)) / (kParts * kParts * kParts);
+    if (cut_share == 0) return;
+    // Of each layer: what lies under its upper border, but not under that of the next.
+    const auto& layers = field_.layers().layers;
+    double deeper = under(height);
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+      const double from_here = deeper;
+      deeper = l + 1 < layers.size() ? under(height + 1e6 * layers[l + 1].depth_m) : 0;
+      share_[static_cast<std::size_t>(layers[l].tissue)] += cut_share * (from_here - deeper);
+    }
   }
 
   const CarvedField& field_;
