@@ -96,8 +96,8 @@ SolveShape HexSolver::shape() const {
       for (std::size_t x = 0; x < n[0]; ++x) {
         if (!(solid_.fill[solid_.slot(x, y, z)] > 0)) continue;
         for (std::size_t up = 0; up < 2; ++up)
-          for (const auto& step : kAround)
-            out.corners.push_back(point_of[solid_.slot(x + step[0], y + step[1], z + up)]);
+          for (const auto& corner : kAround)
+            out.corners.push_back(point_of[solid_.slot(x + corner[0], y + corner[1], z + up)]);
       }
   return out;
 }

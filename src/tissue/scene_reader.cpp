@@ -91,6 +91,14 @@ int SceneReader::integer(const Table& in, std::string_view key, int lo, int hi) 
   return lo;
 }
 
+bool SceneReader::truth_or(const Table& in, std::string_view key, bool otherwise) {
+  const toml::node* node = in.keys->get(key);
+  if (!node) return otherwise;
+  const auto value = node->value_exact<bool>();
+  if (!value) complain("must be true or false", in, key);
+  return value.value_or(otherwise);
+}
+
 std::string SceneReader::text(const Table& in, std::string_view key) {
   const toml::node* node = in.keys->get(key);
   const auto value = node ? node->value_exact<std::string>() : std::nullopt;

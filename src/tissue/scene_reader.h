@@ -39,6 +39,7 @@ class SceneReader {
   double number(const Table& in, std::string_view key, Within within);
   double number_or(const Table& in, std::string_view key, Within within, double otherwise);
   int integer(const Table& in, std::string_view key, int lo, int hi);
+  bool truth_or(const Table& in, std::string_view key, bool otherwise);
   std::string text(const Table& in, std::string_view key);
   Vec3 vec3(const Table& in, std::string_view key, Within within);
   std::vector<Vec3> points(const Table& in, std::string_view key, Within within);

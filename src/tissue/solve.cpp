@@ -12,9 +12,10 @@ namespace {
 constexpr std::uint64_t kSoundEvery = 32;  // steps between looks for lost parts
 
 Result<std::unique_ptr<Solver>> make_solver(const SolveScene& scene) {
-  if (scene.body.rod || scene.model == TissueModel::kRod)
-    return fail("'material.model' is rod: rods are not solved yet", scene.name,
-                "Use a grid or vtk mesh with neo_hookean, linear or corotated");
+  if (scene.body.rod.has_value() != (scene.model == TissueModel::kRod))
+    return fail("'material.model' does not fit the mesh", scene.name,
+                "Use mesh.rod with model 'rod', a grid or vtk with the others");
+  if (scene.body.rod) return make_rod_solver(scene);
   if (scene.model != TissueModel::kNeoHookean) return make_tet_solver(scene);
   if (scene.body.grid) return make_hex_solver(scene);
   return fail("'material.model' is neo_hookean, which is solved on a grid only", scene.name,
@@ -61,10 +62,11 @@ void run(Solver& solver, std::uint64_t steps, RestWatch& watch, SolveResult& res
 
 void report(const SolveScene& scene, Solver& solver, SolveResult& result) {
   result.energy = solver.energy();
-  const std::vector<Vec3> forces = solver.reactions();
+  const std::vector<Vec3> forces = solver.reactions(), moments = solver.moments();
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const bool moved = i >= scene.fixed.size();
     result.reactions.push_back({moved, moved ? i - scene.fixed.size() : i, forces[i]});
+    if (!moments.empty()) result.reactions.back().moment_n_m = moments[i];
   }
   for (std::size_t i = 0; i < scene.probes_m.size(); ++i)
     result.probes.push_back({scene.probes_m[i], solver.probe_moved(i)});
@@ -85,7 +87,7 @@ void add_points_mm(std::string& out, const std::vector<Vec3>& points_m) {
 }
 
 const char* vtk_cell_type(std::size_t corners) {
-  return corners == 8 ? "12\n" : corners == 4 ? "10\n" : "3\n";
+  return corners == 8 ? "12\n" : corners == 4 ? "10\n" : corners == 3 ? "5\n" : "3\n";
 }
 
 }  // namespace

@@ -32,13 +32,14 @@ HexGrid read_grid(SceneReader& in, const Table& grid) {
 }
 
 RodShape read_rod(SceneReader& in, const Table& rod) {
-  in.only(rod, {"points_mm", "radius_mm", "segments"});
+  in.only(rod, {"points_mm", "radius_mm", "segments", "straight_at_rest"});
   RodShape out;
   out.points_m = in.points(rod, "points_mm", kPlace_mm);
   for (Vec3& p : out.points_m) p *= kMm;
   if (out.points_m.size() < 2) in.complain("must name two points or more", rod, "points_mm");
   out.radius_m = kMm * in.number(rod, "radius_mm", {0.001, 1000});
   out.segments = in.integer(rod, "segments", 1, 10000);
+  out.straight_at_rest = in.truth_or(rod, "straight_at_rest", false);
   return out;
 }
 
@@ -63,7 +64,8 @@ TissueModel read_model(SceneReader& in, const Table& material) {
 }
 
 SolidMaterial read_material(SceneReader& in, const Table& material) {
-  in.only(material, {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s"});
+  in.only(material,
+          {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s", "friction"});
   SolidMaterial out;
   out.young_pa = 1000 * in.number(material, "young_kpa", {1e-6, 1e9});
   out.poisson = in.number(material, "poisson", {0, 0.5});
@@ -98,23 +100,74 @@ HeldAxes read_axes(SceneReader& in, const Table& entry) {
   return out;
 }
 
+std::optional<bool> read_clamp(SceneReader& in, const Table& entry) {
+  if (!SceneReader::has(entry, "clamp")) return std::nullopt;
+  return in.truth_or(entry, "clamp", false);
+}
+
+MovedBox read_moved(SceneReader& in, const Table& entry, double half_s) {
+  constexpr double kDegree = 3.141592653589793 / 180;
+  in.only(entry, {"box_mm", "axes", "by_mm", "over_s", "clamp", "turn_deg"});
+  MovedBox out;
+  out.box_m = read_box(in, entry);
+  out.axes = read_axes(in, entry);
+  const bool turns = SceneReader::has(entry, "turn_deg");
+  if (turns) out.turn_rad = kDegree * in.vec3(entry, "turn_deg", {-1e5, 1e5});
+  if (!turns || SceneReader::has(entry, "by_mm"))
+    out.by_m = kMm * in.vec3(entry, "by_mm", kPlace_mm);
+  out.over_s = in.number_or(entry, "over_s", kTime_s, half_s);
+  out.clamp = read_clamp(in, entry);
+  return out;
+}
+
 void read_supports(SceneReader& in, const Table& root, SolveScene& scene) {
   const double half = 0.5 * scene.time_s;
   for (const Table& entry : in.tables(root, "fixed")) {
-    in.only(entry, {"box_mm", "axes"});
-    scene.fixed.push_back({read_box(in, entry), read_axes(in, entry)});
+    in.only(entry, {"box_mm", "axes", "clamp"});
+    scene.fixed.push_back({read_box(in, entry), read_axes(in, entry), read_clamp(in, entry)});
   }
-  for (const Table& entry : in.tables(root, "moved")) {
-    in.only(entry, {"box_mm", "axes", "by_mm", "over_s"});
-    scene.moved.push_back({read_box(in, entry), read_axes(in, entry),
-                           kMm * in.vec3(entry, "by_mm", kPlace_mm),
-                           in.number_or(entry, "over_s", kTime_s, half)});
-  }
+  for (const Table& entry : in.tables(root, "moved"))
+    scene.moved.push_back(read_moved(in, entry, half));
   for (const Table& entry : in.tables(root, "load")) {
     in.only(entry, {"box_mm", "force_n", "over_s"});
     scene.loads.push_back({read_box(in, entry), in.vec3(entry, "force_n", {-1e9, 1e9}),
                            in.number_or(entry, "over_s", kTime_s, half)});
   }
+}
+
+// A cylinder with round ends, or a ball: [[obstacle]].
+RodObstacle read_obstacle(SceneReader& in, const Table& entry) {
+  in.only(entry, {"cylinder", "sphere", "friction"});
+  RodObstacle out;
+  const bool ball = SceneReader::has(entry, "sphere");
+  if (ball == SceneReader::has(entry, "cylinder"))
+    in.complain("must hold one of cylinder and sphere", entry, "cylinder");
+  const Table shape = in.table(entry, ball ? "sphere" : "cylinder");
+  if (ball) {
+    in.only(shape, {"center_mm", "radius_mm"});
+    out.from_W = out.to_W = kMm * in.vec3(shape, "center_mm", kPlace_mm);
+  } else {
+    in.only(shape, {"from_mm", "to_mm", "radius_mm"});
+    out.from_W = kMm * in.vec3(shape, "from_mm", kPlace_mm);
+    out.to_W = kMm * in.vec3(shape, "to_mm", kPlace_mm);
+  }
+  out.radius_m = kMm * in.number(shape, "radius_mm", {0.001, 1e5});
+  out.friction = in.number_or(entry, "friction", {0, 10}, 0);
+  return out;
+}
+
+// Keys that only rods know.
+void check_rod_keys(SceneReader& in, const Table& root, const SolveScene& scene) {
+  if (scene.model == TissueModel::kRod) return;
+  constexpr const char* kTodo = "Remove it, or solve a rod";
+  if (SceneReader::has(root, "obstacle")) in.complain("is for rods", root, "obstacle", kTodo);
+  const Table material = in.table(root, "material");
+  if (SceneReader::has(material, "friction"))
+    in.complain("is for rods", material, "friction", kTodo);
+  for (const char* list : {"fixed", "moved"})
+    for (const Table& entry : in.tables(root, list))
+      for (const char* key : {"clamp", "turn_deg"})
+        if (SceneReader::has(entry, key)) in.complain("is for rods", entry, key, kTodo);
 }
 
 // Three numbers, or one: down along z.
@@ -133,18 +186,23 @@ void read_run(SceneReader& in, const Table& run, SolveScene& scene) {
 }
 
 SolveScene read_scene(SceneReader& in, const Table& root) {
-  in.only(root, {"mesh", "material", "fixed", "moved", "load", "gravity_m_per_s2", "run"});
+  in.only(root,
+          {"mesh", "material", "fixed", "moved", "load", "obstacle", "gravity_m_per_s2", "run"});
   SolveScene scene;
   scene.body = read_body(in, in.table(root, "mesh"));
   const Table material = in.table(root, "material");
   scene.model = read_model(in, material);
   scene.material = read_material(in, material);
+  scene.friction = in.number_or(material, "friction", {0, 10}, scene.friction);
   const Table run = in.table(root, "run");
   read_run(in, run, scene);
   scene.gravity_m_per_s2 = read_gravity(in, root) + read_gravity(in, run);
   if (SceneReader::has(root, "gravity_m_per_s2") && SceneReader::has(run, "gravity_m_per_s2"))
     in.complain("is given twice", run, "gravity_m_per_s2", "Give it once");
   read_supports(in, root, scene);
+  for (const Table& entry : in.tables(root, "obstacle"))
+    scene.obstacles.push_back(read_obstacle(in, entry));
+  check_rod_keys(in, root, scene);
   const bool rod_model = scene.model == TissueModel::kRod;
   if (scene.body.rod.has_value() != rod_model)
     in.complain(rod_model ? "is 'rod', but the mesh is not a rod" : "does not fit a rod", material,

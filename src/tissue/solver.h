@@ -29,6 +29,8 @@ class Solver {
   virtual SolidEnergy energy() = 0;
   /// By entry: those of scene.fixed, then those of scene.moved.
   virtual std::vector<Vec3> reactions() = 0;
+  /// Moments of the same about the middle of what they hold; none for solids.
+  virtual std::vector<Vec3> moments() { return {}; }
   /// Way of scene.probes_m[i] from its rest place.
   virtual Vec3 probe_moved(std::size_t i) const = 0;
   virtual SolveShape shape() const = 0;
@@ -40,6 +42,7 @@ class Solver {
 
 Result<std::unique_ptr<Solver>> make_hex_solver(const SolveScene& scene);
 Result<std::unique_ptr<Solver>> make_tet_solver(const SolveScene& scene);
+Result<std::unique_ptr<Solver>> make_rod_solver(const SolveScene& scene);
 
 /// A node of a body at rest.
 struct BodyNode {

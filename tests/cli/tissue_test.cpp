@@ -79,5 +79,21 @@ TEST_F(TissueSolve, ALostPartIsNamedAndExitsWithOne) {
   EXPECT_EQ(ran.output.find("nan"), std::string::npos) << ran.output;
 }
 
+TEST_F(TissueSolve, ARopeOverAnEdgePullsByTheCapstan) {
+  const std::string rope = OSTEON_SOURCE_DIR "/assets/tissue/rope.toml";
+  const Ran ran = run_osteon("tissue solve " + rope + " --json --out " + file("rope.vtk"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto json = nlohmann::json::parse(ran.output, nullptr, false);
+  // exp(0.3 pi) times 0.05 N.
+  EXPECT_NEAR(double(json["reactions"][0]["force_n"][2]), -0.1283, 0.05 * 0.1283);
+  EXPECT_EQ(json["reactions"][0]["of"], "moved");
+  EXPECT_EQ(json["reactions"][0]["moment_n_mm"].size(), 3u);
+  EXPECT_EQ(json["elements"], 60);
+  std::ostringstream whole;
+  whole << std::ifstream(file("rope.vtk")).rdbuf();
+  EXPECT_NE(whole.str().find("POINTS 734 double"), std::string::npos);
+  EXPECT_NE(whole.str().find("VECTORS moved_mm double"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace osteon::testing_cli

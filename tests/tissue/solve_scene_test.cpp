@@ -98,6 +98,65 @@ TEST(SolveSceneFile, NamesTheKeyAndTheLine) {
   names("gravity_m_per_s2", "weight", "weight");
 }
 
+const std::string kRod = R"([mesh]
+rod = {points_mm = [[0, 0, 0], [100, 0, 0]], radius_mm = 1, segments = 20, straight_at_rest = true}
+[material]
+model = "rod"
+young_kpa = 3
+poisson = 0.45
+density_kg_per_m3 = 1000
+friction = 0.2
+[[fixed]]
+box_mm = [[-1, -1, -1], [1, 1, 1]]
+clamp = true
+[[moved]]
+box_mm = [[99, -1, -1], [101, 1, 1]]
+turn_deg = [180, 0, 0]
+[[obstacle]]
+cylinder = {from_mm = [50, -20, -10], to_mm = [50, 20, -10], radius_mm = 5}
+friction = 0.4
+[[obstacle]]
+sphere = {center_mm = [20, 0, -10], radius_mm = 4}
+[run]
+time_s = 2
+)";
+
+TEST(SolveSceneFile, SaysWhatARodMeans) {
+  const auto scene = parse_solve_scene(kRod, "rod.toml");
+  ASSERT_TRUE(scene) << scene.error().message();
+  ASSERT_TRUE(scene->body.rod);
+  EXPECT_TRUE(scene->body.rod->straight_at_rest);
+  EXPECT_EQ(scene->body.rod->segments, 20);
+  EXPECT_DOUBLE_EQ(scene->friction, 0.2);
+  EXPECT_EQ(scene->fixed.at(0).clamp, std::optional(true));
+  EXPECT_FALSE(scene->moved.at(0).clamp);
+  EXPECT_NEAR(scene->moved.at(0).turn_rad.x(), 3.14159265, 1e-8);
+  EXPECT_TRUE(scene->moved.at(0).by_m.isZero());
+  ASSERT_EQ(scene->obstacles.size(), 2u);
+  EXPECT_DOUBLE_EQ(scene->obstacles[0].friction, 0.4);
+  EXPECT_DOUBLE_EQ(scene->obstacles[1].radius_m, 0.004);
+  EXPECT_EQ(scene->obstacles[1].from_W, scene->obstacles[1].to_W);
+}
+
+TEST(SolveSceneFile, NamesTheKeyOfARod) {
+  const auto names = [](const std::string& from, const std::string& to, const std::string& key) {
+    std::string text = kRod;
+    text.replace(text.find(from), from.size(), to);
+    EXPECT_NE(complaint(text).find("'" + key + "'"), std::string::npos) << complaint(text);
+  };
+  names("straight_at_rest = true", "straight_at_rest = 1", "mesh.rod.straight_at_rest");
+  names("radius_mm = 1", "radius_mm = 0", "mesh.rod.radius_mm");
+  names("segments = 20", "segments = 0", "mesh.rod.segments");
+  names("friction = 0.2", "friction = -1", "material.friction");
+  names("clamp = true", "clamp = \"yes\"", "fixed[0].clamp");
+  names("turn_deg = [180, 0, 0]", "turn_deg = 180", "moved[0].turn_deg");
+  names("turn_deg = [180, 0, 0]", "over_s = 1", "moved[0].by_mm");
+  names("radius_mm = 5", "radius_mm = nan", "obstacle[0].cylinder.radius_mm");
+  names("sphere = ", "cube = ", "obstacle[1].cube");
+  EXPECT_NE(complaint(with("damping_per_s = 5", "friction = 1")).find("'material.friction'"),
+            std::string::npos);
+}
+
 TEST(SolveSceneFile, RefusesWhatIsMissingOrTwo) {
   EXPECT_NE(complaint("").find("'mesh'"), std::string::npos);
   EXPECT_NE(complaint("[mesh]\nvtk = \"a\"\ngrid = 1\n").find("'mesh."), std::string::npos);

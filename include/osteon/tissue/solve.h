@@ -22,6 +22,8 @@ struct SolveReaction {
   bool of_moved = false;
   std::size_t index = 0;  ///< in the scene's list
   Vec3 force_n = Vec3::Zero();
+  std::optional<Vec3> moment_n_m =
+      std::nullopt;  ///< rods: about the middle of the nodes that it holds
 };
 
 /// Where and when a solver lost its footing; the result is the last sound state before it.
@@ -36,7 +38,7 @@ struct SolveShape {
   std::vector<Vec3> points_m;
   std::vector<Vec3> moved_m;  ///< of each point, from its rest place
   std::vector<std::uint32_t> corners;
-  std::size_t corners_a_cell = 0;  ///< 2 line, 4 tetrahedron, 8 hexahedron (VTK's order)
+  std::size_t corners_a_cell = 0;  ///< 3 triangle, 4 tetrahedron, 8 hexahedron (VTK's order)
 };
 
 struct SolveResult {

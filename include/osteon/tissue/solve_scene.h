@@ -11,6 +11,7 @@
 #include "osteon/base/types.h"
 #include "osteon/mesh/tet_mesh.h"
 #include "osteon/tissue/hex_solid.h"
+#include "osteon/tissue/rod.h"
 #include "osteon/tissue/solid_material.h"
 
 namespace osteon {
@@ -22,6 +23,7 @@ struct RodShape {
   std::vector<Vec3> points_m;
   double radius_m = 0.001;
   int segments = 40;
+  bool straight_at_rest = false;  ///< else at rest as the points say
 };
 
 /// What is solved; one of the three.
@@ -37,12 +39,17 @@ using HeldAxes = std::array<bool, 3>;
 struct FixedBox {
   Aabb box_m;
   HeldAxes axes{true, true, true};
+  /// Rods: hold the direction and twist of every segment that it reaches, or of none. Without: of
+  /// the segments with both ends in the box.
+  std::optional<bool> clamp = std::nullopt;
 };
 struct MovedBox {
   Aabb box_m;
   HeldAxes axes{true, true, true};
   Vec3 by_m = Vec3::Zero();
   double over_s = 0;
+  std::optional<bool> clamp = std::nullopt;  ///< as of FixedBox
+  Vec3 turn_rad = Vec3::Zero();  ///< rods: axis times angle, about the middle of the nodes it holds
 };
 /// A force in all, shared by the masses of the nodes in the box.
 struct LoadBox {
@@ -61,6 +68,8 @@ struct SolveScene {
   std::vector<FixedBox> fixed;
   std::vector<MovedBox> moved;
   std::vector<LoadBox> loads;
+  std::vector<RodObstacle> obstacles;  ///< rods only
+  double friction = 0.3;               ///< of a rod on itself
   Vec3 gravity_m_per_s2 = Vec3::Zero();
   double time_s = 1;
   std::vector<Vec3> probes_m;

@@ -50,6 +50,9 @@ std::string solve_report_json(const SolveResult& result, double wall_s) {
     json["reactions"].push_back({{"of", support_kind(reaction)},
                                  {"index", reaction.index},
                                  {"force_n", three_of(reaction.force_n)}});
+  for (std::size_t i = 0; i < result.reactions.size(); ++i)
+    if (result.reactions[i].moment_n_m)
+      json["reactions"][i]["moment_n_mm"] = three_of(1000 * *result.reactions[i].moment_n_m);
   if (result.lost)
     json["lost"] = {{"part", result.lost->part},
                     {"at_mm", three_of(1000 * result.lost->at_m)},
