@@ -9,7 +9,6 @@ uniform int u_felt;         // 1: coloured by that height
 uniform vec3 u_felt_low;    // display colours of its range
 uniform vec3 u_felt_none;
 uniform vec3 u_felt_high;
-uniform vec4 u_rim_color;  // accent of a highlighted bone, linear; w its strength
 uniform vec4 u_tool_tip;    // view space; w the radius, 0 without a tool
 uniform vec3 u_tool_start;  // axis of the shaft
 uniform vec3 u_tool_end;
@@ -87,7 +86,6 @@ void main() {
   vec3 color = albedo * light;
   color += u_key_strength * 0.085 * shine * shade * open;
   color += vec3(0.26, 0.30, 0.38) * rim * open;
-  color = mix(color, u_rim_color.rgb, u_rim_color.w * (0.08 + 0.6 * edge));
 
   // See-through bone keeps its outline: it is thickest where it turns away.
   float opacity = u_color.a < 1.0 ? mix(u_color.a, 1.0, 0.55 * edge) : 1.0;

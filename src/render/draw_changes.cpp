@@ -20,7 +20,7 @@ bool same(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b
 
 bool looks_the_same(const ToolState& a, const ToolState& b) {
   if (!same(a.X_WP, b.X_WP) || !same(a.X_WD, b.X_WD) || a.force_W != b.force_W) return false;
-  if (a.contact_count != b.contact_count) return false;
+  if (a.contact_count != b.contact_count || a.instrument != b.instrument) return false;
   const std::size_t count = std::min<std::size_t>(a.contact_count, kMaxContacts);
   for (std::size_t k = 0; k < count; ++k)
     if (a.contacts[k].p_W != b.contacts[k].p_W) return false;
@@ -120,6 +120,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
   }
   changed = std::move(tiles);
   composed = snapshot.tool;
+  composed_others.assign(painter.others().begin(), painter.others().end());
   return true;
 }
 
@@ -139,7 +140,10 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
     return draw_all();
   }
   if (!kept_ready && !keep(snapshot, still_view, width, height)) return draw_all();
-  const bool shown = composed && composed_view == view && looks_the_same(*composed, snapshot.tool);
+  const bool shown = composed && composed_view == view &&
+                     looks_the_same(*composed, snapshot.tool) &&
+                     std::equal(composed_others.begin(), composed_others.end(),
+                                painter.others().begin(), painter.others().end(), looks_the_same);
   if (!shown && !compose(snapshot, view, width, height)) return draw_all();
   composed_view = view;
   show(resolved, framebuffer, viewport);

@@ -135,6 +135,13 @@ void Renderer::set_surfaces(const PreparedCase& prepared) {
   impl_->kept.reset();
 }
 
+void Renderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
+  impl_->painter.set_tray(tray);
+  impl_->kept.reset();
+}
+
+void Renderer::set_others(std::span<const ToolState> others) { impl_->painter.set_others(others); }
+
 void Renderer::draw(const RenderSnapshot& snapshot, const ViewState& view,
                     const Viewport& viewport) {
   if (viewport.empty()) return;

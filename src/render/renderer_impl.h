@@ -31,6 +31,7 @@ struct Renderer::Impl {
   bool kept_ready = false;
   TileMask changed{};                   ///< where `resolved` is not `kept_picture`
   std::optional<ToolState> composed{};  ///< the tool that `resolved` shows over `kept_picture`
+  std::vector<ToolState> composed_others{};
   ViewState composed_view{};
 
   /// Draws one tile of the picture into the viewport of `framebuffer`.

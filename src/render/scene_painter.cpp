@@ -220,16 +220,28 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
   }
   for (const SoftPart& soft : the_case.softs) painter.bones_.push_back(make_soft(soft));
   painter.set_surfaces(prepared);
-  painter.tool_ = GpuMesh(plain_shaded(tool.mesh));
-  painter.tool_capsules_ = capsules_along_z(tool.mesh);
-  painter.tool_length_m_ = std::max(0.0, finite_bounds(tool.mesh).hi.z());
-  painter.shaft_T_ = shaft_line(tool.mesh, painter.tool_length_m_);
-  painter.tip_radius_m_ = tool.tip_radius_m;
+  painter.tools_.push_back(make_tool_model(tool));
   painter.shaft_ = GpuMesh(plain_shaded(cylinder(20)));
   painter.head_ = GpuMesh(plain_shaded(cone(24)));
   painter.ball_ = GpuMesh(plain_shaded(ball(12, 20)));
   painter.no_vertices_ = make_vertex_array();
   return painter;
+}
+
+ScenePainter::ToolModel ScenePainter::make_tool_model(const Tool& tool) {
+  ToolModel model;
+  model.mesh = GpuMesh(plain_shaded(tool.mesh));
+  model.capsules = capsules_along_z(tool.mesh);
+  model.length_m = std::max(0.0, finite_bounds(tool.mesh).hi.z());
+  model.shaft_T = shaft_line(tool.mesh, model.length_m);
+  model.tip_radius_m = tool.tip_radius_m;
+  return model;
+}
+
+void ScenePainter::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
+  if (tray.empty()) return;
+  tools_.clear();
+  for (const auto& tool : tray) tools_.push_back(make_tool_model(*tool));
 }
 
 bool ScenePainter::shows_hand(const RenderSnapshot& snapshot, const ViewState& view) {
@@ -258,11 +270,15 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
   for (std::size_t k = 0; k < bones_.size(); ++k)
     if (shows(snapshot, view, k))
       include(pose(snapshot, k) * bones_[k].center_B, bones_[k].radius_m);
-  for (const Pose& X : {snapshot.tool.X_WP, snapshot.tool.X_WD}) {
-    if (!is_finite(X) || !view.show_proxy) continue;
-    include(X.p, 2 * tip_radius_m_);
-    include(X * Vec3(0, 0, tool_length_m_), 0.01);
-  }
+  const auto include_tool = [&](const ToolState& state, const Pose& X) {
+    if (!is_finite(X) || !view.show_proxy) return;
+    const ToolModel& tool = model_of(state);
+    include(X.p, 2 * tool.tip_radius_m);
+    include(X * Vec3(0, 0, tool.length_m), 0.01);
+  };
+  include_tool(snapshot.tool, snapshot.tool.X_WP);
+  include_tool(snapshot.tool, snapshot.tool.X_WD);
+  for (const ToolState& other : others_) include_tool(other, other.X_WP);
   if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
     include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
   if (box.empty()) box.include(view.camera.target_W);
@@ -283,19 +299,21 @@ void ScenePainter::set_shared(const Program& program, const ViewState& view,
 void ScenePainter::set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
                                   const Frame& frame) const {
   const Pose& X_WP = snapshot.tool.X_WP;
-  const bool shades = view.show_proxy && !tool_.empty() && is_finite(X_WP) && tool_length_m_ > 0;
+  const ToolModel& tool = model_of(snapshot.tool);
+  const bool shades = view.show_proxy && !tool.mesh.empty() && is_finite(X_WP) && tool.length_m > 0;
   const Pose X_CP = frame.X_CW * X_WP;
   const Eigen::Vector3f tip = X_CP.p.cast<float>();
-  const auto radius = static_cast<float>(shades ? tip_radius_m_ : 0.0);
+  const auto radius = static_cast<float>(shades ? tool.tip_radius_m : 0.0);
   bone_.set("u_tool_tip", shades ? Color(tip.x(), tip.y(), tip.z(), radius) : Color(0, 0, 0, 0));
   const auto point = [&](double z, const Vec3& fallback) -> Eigen::Vector3f {
-    const Vec3 p = shades ? X_CP * Vec3(shaft_T_.x(), shaft_T_.y(), z) : fallback;
+    const Vec3 p = shades ? X_CP * Vec3(tool.shaft_T.x(), tool.shaft_T.y(), z) : fallback;
     return p.cast<float>();
   };
-  bone_.set("u_tool_start", point(std::min(3 * tip_radius_m_, 0.5 * tool_length_m_), Vec3::Zero()));
-  bone_.set("u_tool_reach", Eigen::Vector2f(static_cast<float>(shade_reach().near_m),
-                                            static_cast<float>(shade_reach().shadow_m)));
-  bone_.set("u_tool_end", point(tool_length_m_, Vec3::UnitZ()));
+  bone_.set("u_tool_start",
+            point(std::min(3 * tool.tip_radius_m, 0.5 * tool.length_m), Vec3::Zero()));
+  bone_.set("u_tool_reach", Eigen::Vector2f(static_cast<float>(shade_reach(tool).near_m),
+                                            static_cast<float>(shade_reach(tool).shadow_m)));
+  bone_.set("u_tool_end", point(tool.length_m, Vec3::UnitZ()));
 }
 
 void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
@@ -308,14 +326,20 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
   paint_opaque_bones(snapshot, view, frame);
-  if (view.show_proxy) paint_tool(snapshot.tool.X_WP, 1, frame);
-  paint_outlines(snapshot, view, frame);
+  if (view.show_proxy) {
+    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WP, 1, frame);
+    for (const ToolState& other : others_) paint_tool(model_of(other), other.X_WP, 1, frame);
+  }
+  paint_outlines(snapshot, view, frame, false);
   glEnable(GL_BLEND);
   // Colour is mixed; alpha stays that of a solid picture.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   paint_clear_bones(snapshot, view, frame);
+  // Now that their depth stands, only the line around them is left of what is pushed outwards.
+  paint_outlines(snapshot, view, frame, true);
   if (view.show_hulls) paint_hulls(snapshot, view, frame);
-  if (shows_hand(snapshot, view)) paint_tool(snapshot.tool.X_WD, 0.30f, frame);
+  if (shows_hand(snapshot, view))
+    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, 0.30f, frame);
   if (view.show_force) paint_marks(snapshot, frame);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -367,9 +391,6 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   const BoneAppearance& look = look_of(view, k);
   bone_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
   bone_.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
-  Color rim = kAccent.cwiseProduct(kAccent);
-  rim.w() = look.highlighted ? 1.0f : 0.0f;
-  bone_.set("u_rim_color", rim);
   draw_surface(k, snapshot, view, frame);
 }
 
@@ -396,7 +417,7 @@ void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const View
 
 /// The bone's back faces, pushed outwards on the screen, show as a line around it.
 void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
-                                  const Frame& frame) const {
+                                  const Frame& frame, bool clear) const {
   mark_.use();
   mark_.set("u_color", kAccent);
   mark_.set("u_form", 0.0f);
@@ -405,7 +426,8 @@ void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewStat
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
   for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!shows(snapshot, view, k) || !look_of(view, k).highlighted) continue;
+    const BoneAppearance& look = look_of(view, k);
+    if (!look.highlighted || is_clear(look) != clear || !shows(snapshot, view, k)) continue;
     mark_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     draw_surface(k, snapshot, view, frame);
   }
@@ -466,16 +488,17 @@ void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& 
   glDepthMask(GL_TRUE);
 }
 
-void ScenePainter::paint_tool(const Pose& X_WT, float opacity, const Frame& frame) const {
-  if (tool_.empty() || !is_finite(X_WT)) return;
+void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity,
+                              const Frame& frame) const {
+  if (tool.mesh.empty() || !is_finite(X_WT)) return;
   metal_.use();
   metal_.set("u_view_from_model", to_matrix(frame.X_CW * X_WT));
   metal_.set("u_color", with_alpha(kSteel, opacity));
-  if (opacity >= 1) return tool_.draw();
+  if (opacity >= 1) return tool.mesh.draw();
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glDepthMask(GL_FALSE);
-  tool_.draw();
+  tool.mesh.draw();
   glDepthMask(GL_TRUE);
   glDisable(GL_CULL_FACE);
 }

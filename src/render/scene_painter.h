@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "frame.h"
@@ -21,6 +23,13 @@ class ScenePainter {
   void set_surfaces(const PreparedCase& prepared);
   /// Another surface for a bone from now on, without its coarser levels and its baked light.
   void set_surface(std::size_t bone, const TriMesh& mesh_B);
+  /// What hands may hold, by ToolState::instrument; not empty.
+  void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
+  /// Tools of the other hands.
+  void set_others(std::span<const ToolState> others) {
+    others_.assign(others.begin(), others.end());
+  }
+  std::span<const ToolState> others() const { return others_; }
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
   /// Fills the bound framebuffer's current viewport with what is behind everything.
@@ -42,16 +51,28 @@ class ScenePainter {
     Vec3 a = Vec3::Zero(), b = Vec3::Zero();
     double radius_m = 0;
   };
+  struct ToolModel {
+    GpuMesh mesh;
+    std::vector<Capsule> capsules;
+    double length_m = 0, tip_radius_m = 0;
+    Vec3 shaft_T = Vec3::Zero();  ///< the shaft runs along z through here, in Tool
+  };
+  static ToolModel make_tool_model(const Tool& tool);
+  const ToolModel& model_of(const ToolState& tool) const {
+    return tools_[tool.instrument < tools_.size() ? tool.instrument : 0];
+  }
   /// How far from the tool its shade falls on bone: by closeness, and as a shadow along the light.
   struct ShadeReach {
     double near_m = 0, shadow_m = 0;
   };
-  ShadeReach shade_reach() const { return {10 * tip_radius_m_, 30 * tip_radius_m_}; }
+  static ShadeReach shade_reach(const ToolModel& tool) {
+    return {10 * tool.tip_radius_m, 30 * tool.tip_radius_m};
+  }
   static std::vector<Capsule> capsules_along_z(const TriMesh& mesh);
   static Capsule capsule_around(const Aabb& box);
   static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
   static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
-  TileMask shade_tiles(const Pose& X_WP, const Frame& frame, int width, int height) const;
+  TileMask shade_tiles(const ToolState& tool, const Frame& frame, int width, int height) const;
   TileMask bone_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
                       int width, int height) const;
   struct Level {
@@ -96,22 +117,22 @@ class ScenePainter {
                   const Frame& frame) const;
   void paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
                           const Frame& frame) const;
-  void paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
-                      const Frame& frame) const;
+  /// Of the solid bones or of those that are seen through.
+  void paint_outlines(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
+                      bool clear) const;
   void paint_clear_bones(const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const;
   void paint_hulls(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
-  void paint_tool(const Pose& X_WT, float opacity, const Frame& frame) const;
+  void paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity, const Frame& frame) const;
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
 
   Program bone_, metal_, mark_, ground_;
   std::vector<BoneModel> bones_;  ///< and soft parts
   std::vector<Pose> rest_X_WB_;   ///< of the bones
-  GpuMesh tool_, shaft_, head_, ball_;
-  std::vector<Capsule> tool_capsules_;
-  double tool_length_m_ = 0, tip_radius_m_ = 0;
-  Vec3 shaft_T_ = Vec3::Zero();  ///< the shaft runs along z through here, in Tool
+  std::vector<ToolModel> tools_;  ///< by ToolState::instrument; not empty
+  std::vector<ToolState> others_;
+  GpuMesh shaft_, head_, ball_;
   GlVertexArray no_vertices_;
 };
 

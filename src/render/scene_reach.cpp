@@ -110,39 +110,43 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
                                     const Frame& frame, int width, int height) const {
   TileMask mask(width, height);
   Marker marker(frame, width, height, mask);
-  const auto mark_tool = [&](const Pose& X_WT) {
+  const auto mark_tool = [&](const ToolState& state, const Pose& X_WT) {
     const Pose X_CT = frame.X_CW * X_WT;
     if (!is_finite(X_CT)) return;
-    for (const Capsule& c : tool_capsules_) marker.capsule(X_CT * c.a, X_CT * c.b, c.radius_m);
+    for (const Capsule& c : model_of(state).capsules)
+      marker.capsule(X_CT * c.a, X_CT * c.b, c.radius_m);
   };
-  if (view.show_proxy) mark_tool(snapshot.tool.X_WP);
-  if (shows_hand(snapshot, view)) mark_tool(snapshot.tool.X_WD);
+  if (view.show_proxy) mark_tool(snapshot.tool, snapshot.tool.X_WP);
+  if (view.show_proxy)
+    for (const ToolState& other : others_) mark_tool(other, other.X_WP);
+  if (shows_hand(snapshot, view)) mark_tool(snapshot.tool, snapshot.tool.X_WD);
   if (view.show_force)
     for (const Capsule& c : mark_capsules(snapshot))
       marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   if (view.show_proxy) {
-    TileMask shade = shade_tiles(snapshot.tool.X_WP, frame, width, height);
+    TileMask shade = shade_tiles(snapshot.tool, frame, width, height);
     shade.keep(bone_tiles(snapshot, view, frame, width, height));
     mask.add(shade);
   }
   return mask;
 }
 
-TileMask ScenePainter::shade_tiles(const Pose& X_WP, const Frame& frame, int width,
+TileMask ScenePainter::shade_tiles(const ToolState& state, const Frame& frame, int width,
                                    int height) const {
   TileMask mask(width, height);
-  const Pose X_CP = frame.X_CW * X_WP;
-  if (!is_finite(X_CP) || tool_length_m_ <= 0) return mask;
+  const ToolModel& tool = model_of(state);
+  const Pose X_CP = frame.X_CW * state.X_WP;
+  if (!is_finite(X_CP) || tool.length_m <= 0) return mask;
   Marker marker(frame, width, height, mask);
-  const ShadeReach reach = shade_reach();
+  const ShadeReach reach = shade_reach(tool);
   const Vec3 tip = X_CP.p;
-  const Vec3 end = X_CP * Vec3(shaft_T_.x(), shaft_T_.y(), tool_length_m_);
+  const Vec3 end = X_CP * Vec3(tool.shaft_T.x(), tool.shaft_T.y(), tool.length_m);
   marker.capsule(tip, end, reach.near_m);
   const double step = reach.shadow_m / kShadowSteps;
   for (int k = 0; k <= kShadowSteps; ++k) {
     const double t = k * step;
     const Vec3 shift = -t * frame.key_dir_C.cast<double>();
-    const double radius = 2 * tip_radius_m_ + 0.25 * (t + 0.5 * step) + 0.5 * step;
+    const double radius = 2 * tool.tip_radius_m + 0.25 * (t + 0.5 * step) + 0.5 * step;
     marker.capsule(tip + shift, end + shift, radius);
   }
   return mask;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct BoneAppearance {
   std::array<float, 3> color{0.89f, 0.84f, 0.73f};  ///< sRGB, 0..1
   float opacity = 1;
   bool visible = true;
-  bool highlighted = false;  ///< an accent outline
+  bool highlighted = false;  ///< an accent outline; its own colour stays
   bool operator==(const BoneAppearance&) const = default;
 };
 
@@ -93,6 +94,11 @@ class Renderer {
 
   /// Takes surfaces of the same case that tell more than those before, as prepare_felt makes them.
   void set_surfaces(const PreparedCase& prepared);
+  /// What hands may hold, by ToolState::instrument; what is not in it is drawn as the first. Until
+  /// then all hold the tool that the renderer was made with.
+  void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
+  /// Tools of the other hands from now on, drawn beside the snapshot's own; without marks.
+  void set_others(std::span<const ToolState> others);
 
   /// Draws into the viewport of the framebuffer that is bound; touches nothing outside it. Leaves
   /// that framebuffer bound, depth test, blending, culling and scissor off. Where a processor
