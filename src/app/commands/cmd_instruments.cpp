@@ -7,9 +7,9 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
-#include "commands/instrument_sheet.h"
 #include "commands/instrument_text.h"
 #include "commands/render_options.h"
+#include "runs/instrument_sheet.h"
 
 namespace osteon {
 namespace {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -13,13 +12,14 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/number_check.h"
-#include "commands/tray.h"
 #include "loops/device_log.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
 #include "runs/demo_path.h"
 #include "runs/device_choices.h"
+#include "runs/hand_order.h"
 #include "runs/live_run.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {
@@ -37,47 +37,6 @@ struct LiveOptions {
   MappingSettings mapping;
 };
 
-// "phantom", "phantom:serial", "phantom:left", and after any of them "=hook_probe".
-struct HandChoice {
-  std::string driver;
-  std::string serial;
-  std::string name;        ///< of the hand; empty: not named
-  std::string instrument;  ///< as a tray names it; empty: the wrist probe
-};
-
-HandChoice hand_of(const std::string& text) {
-  HandChoice hand;
-  const auto equals = text.find('=');
-  if (equals != std::string::npos) hand.instrument = text.substr(equals + 1);
-  const std::string device = text.substr(0, equals);
-  const auto colon = device.find(':');
-  hand.driver = device.substr(0, colon);
-  const std::string which = colon == std::string::npos ? "" : device.substr(colon + 1);
-  const bool is_hand = which == "left" || which == "right" || which == "third" || which == "fourth";
-  (is_hand ? hand.name : hand.serial) = which;
-  return hand;
-}
-
-// A device that another hand has is not looked at.
-Result<DeviceChoice> choice_of(const HandChoice& hand, const std::vector<DeviceChoice>& taken) {
-  std::vector<std::string> problems;
-  const auto is_taken = [&](const DeviceChoice& choice) {
-    return std::any_of(taken.begin(), taken.end(), [&](const DeviceChoice& other) {
-      return !choice.info.serial.empty() && other.driver == choice.driver &&
-             other.info.serial == choice.info.serial;
-    });
-  };
-  for (const DeviceChoice& choice : list_device_choices(&problems))
-    if (choice.driver == hand.driver &&
-        (hand.serial.empty() || choice.info.serial == hand.serial) && !is_taken(choice))
-      return choice;
-  std::string why;
-  for (const std::string& problem : problems) why += "; " + problem;
-  return fail("there is no such device, or another hand has it" + why,
-              hand.serial.empty() ? hand.driver : hand.driver + ":" + hand.serial,
-              "See `osteon devices`");
-}
-
 // "force.csv" of the second hand is "force-2.csv".
 fs::path numbered(const std::string& file, std::size_t hand) {
   const fs::path path = file;
@@ -88,7 +47,7 @@ fs::path numbered(const std::string& file, std::size_t hand) {
 
 // The hands of a run: each with its device, all in one world.
 struct LiveHands {
-  std::vector<HandChoice> hands;
+  std::vector<HandOrder> hands;
   std::vector<DeviceChoice> choices;
   std::vector<DeviceLog*> logs;  ///< of the runtime's devices
   std::vector<HandPlan> plans;
@@ -144,16 +103,9 @@ Result<void> wait_for_calibration(HapticDevice& device) {
   return {};
 }
 
-// Where devices differ, the weakest one's limits hold for all.
-void keep_to_weakest(const HapticParams& of_device, HapticParams& all) {
-  all.stiffness_n_per_m = std::min(all.stiffness_n_per_m, of_device.stiffness_n_per_m);
-  all.max_force_n = std::min(all.max_force_n, of_device.max_force_n);
-  all.max_slew_n_per_s = std::min(all.max_slew_n_per_s, of_device.max_slew_n_per_s);
-}
-
 Result<void> add_hand(const LiveOptions& options, const ProbePath& path, std::size_t index,
                       LiveHands& live) {
-  live.hands.push_back(hand_of(options.devices[index]));
+  live.hands.push_back(parse_hand_order(options.devices[index]));
   auto choice = choice_of(live.hands.back(), live.choices);
   if (!choice) return tl::unexpected(choice.error());
   auto device = open_choice(*choice, path);
@@ -176,13 +128,6 @@ Result<void> add_hand(const LiveOptions& options, const ProbePath& path, std::si
   return {};
 }
 
-// The first two hands are left and right where nobody says otherwise; one alone has no name.
-std::string name_of(const LiveHands& live, std::size_t hand) {
-  if (!live.hands[hand].name.empty() || live.hands.size() == 1) return live.hands[hand].name;
-  constexpr std::array kNames = {"left", "right", "third", "fourth"};
-  return kNames[hand];
-}
-
 Result<Tray> give_instruments(LiveHands& live) {
   SessionSettings& settings = live.run.settings;
   settings.hands.clear();
@@ -191,8 +136,8 @@ Result<Tray> give_instruments(LiveHands& live) {
     const std::string name = wanted.empty() ? kWristProbe : wanted;
     auto place = std::find(settings.tray.begin(), settings.tray.end(), name);
     if (place == settings.tray.end()) place = settings.tray.insert(place, name);
-    settings.hands.push_back(
-        {name_of(live, h), static_cast<std::uint32_t>(place - settings.tray.begin())});
+    settings.hands.push_back({name_of_hand(live.hands[h], h, live.hands.size()),
+                              static_cast<std::uint32_t>(place - settings.tray.begin())});
   }
   if (settings.tray == std::vector<std::string>{kWristProbe}) settings.tray.clear();
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());

@@ -37,9 +37,10 @@ void add_window_command(cli::App& app, int& exit_code) {
                     "Begin with the bones coloured by how far what is felt is from their surface");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
   command->add_option(
-      "--device", order->device,
-      "Driver to begin with, or driver:serial (see `osteon devices`); as last time when not "
-      "given");
+      "--device", order->devices,
+      "For each hand, a driver or driver:serial (see `osteon devices`), or driver:left "
+      "and driver:right; then =INSTRUMENT, e.g. mouse:left=wrist_arthroscope_2_7; as "
+      "last time when not given");
   command->add_option("--path", order->path, "What an emulated hand plays (CSV)");
   command->add_option("--record", order->record, "Record from the start to this file (.osr)");
   command->add_option("--force-log", order->force_log,

@@ -5,10 +5,10 @@
 
 #include "commands/hand_in_loop.h"
 #include "commands/path_commands.h"
-#include "commands/tray.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/record/recording.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {

@@ -40,6 +40,7 @@ class Turns {
     next.width = order.width;
     next.height = order.height;
     next.interface_scale = order.interface_scale;
+    next.scan.source = (*app)->scan_to_segment();
     next.returns = true;
     return std::optional<WindowTurn>(next);
   }

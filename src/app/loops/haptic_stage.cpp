@@ -148,6 +148,7 @@ double HapticStage::bones_age(bool fresh, double dt_s) {
 
 void HapticStage::publish(const ToolState& tool, const BoneSnapshot& bones) {
   exchange_.tool_to_physics.publish(tool);
+  for (const Event& event : session_.last_events(options_.hand)) exchange_.events.push(event);
   for (std::size_t h = 0; h < kMaxHands; ++h)
     if (options_.others[h]) exchange_.tool_to_hands[h].publish(seen_from_outside(tool));
   telemetry_.peak_force_n =

@@ -8,6 +8,7 @@
 #include "osteon/device/haptic_device.h"
 #include "osteon/device/safety.h"
 #include "osteon/scene/command.h"
+#include "osteon/scene/event.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -67,6 +68,7 @@ struct LoopExchange {
   LatestValue<LoopStats> haptic_stats;                          // haptic -> window
   LatestValue<LoopStats> physics_stats;                         // physics -> window
   BoundedQueue<Telemetry> telemetry{4096};  // haptic -> window; 16 s, then points are dropped
+  BoundedQueue<Event> events{1024};         // haptic -> window; full: the newest are dropped
   BoundedQueue<Command> to_haptic{64};      // window -> haptic
   BoundedQueue<Command> to_physics{64};     // window -> physics
   BoundedQueue<GateWish> to_gate{16};       // window -> haptic

@@ -118,8 +118,11 @@ bool Runtime::send(const Command& command, std::size_t hand) {
 }
 
 void Runtime::set_force_enabled(bool enabled) {
-  for (const auto& each : exchanges_)
-    each->to_gate.push(enabled ? GateWish::kEnable : GateWish::kDisable);
+  for (std::size_t h = 0; h < hands(); ++h) set_force_enabled(enabled, h);
+}
+
+void Runtime::set_force_enabled(bool enabled, std::size_t hand) {
+  exchange(hand).to_gate.push(enabled ? GateWish::kEnable : GateWish::kDisable);
 }
 
 void Runtime::drain_records_once() {

@@ -76,6 +76,7 @@ class Runtime {
   /// kMark and kRestore go to every hand and to physics.
   bool send(const Command& command, std::size_t hand = 0);
   void set_force_enabled(bool enabled);
+  void set_force_enabled(bool enabled, std::size_t hand);
   void calibrate_device(std::size_t hand = 0) { exchange(hand).to_gate.push(GateWish::kCalibrate); }
   /// From the window's thread, at each picture: a dead-man that is not repeated counts as let go.
   void set_hand_wishes(const HandWishes& wishes, std::size_t hand = 0) {
@@ -92,6 +93,9 @@ class Runtime {
   bool pop_telemetry(Telemetry& point, std::size_t hand = 0) {
     return exchange(hand).telemetry.pop(point);
   }
+
+  /// Next thing that happened to a hand; false when there is none yet.
+  bool pop_event(Event& event, std::size_t hand = 0) { return exchange(hand).events.pop(event); }
 
   bool recording() const { return feed_ && feed_->early_end().empty(); }
   /// Why the recording ended early; empty while all is well.

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "loops/device_log.h"
-#include "osteon/device/mouse_device.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kShownForceLimit_n = 8.0;  // of a device without motors: a teaching device's
-// In contact the mouse's hand stays this near to the probe: else a long drag into bone would have
-// to be undone all the way before the probe comes off.
-constexpr double kTether_m = 0.015;
-constexpr double kLogged_s = 20;
-
-// A device with motors and a pose of its own, which is not the program's.
-bool is_real(const DeviceChoice& choice) {
-  return choice.info.peak_force_n > 0 && !plays_demo(choice);
-}
 
 }  // namespace
 
@@ -35,144 +25,161 @@ SessionSettings settings_for(const DeviceInfo& info, const FeelSettings& feel, d
   return settings;
 }
 
+void keep_to_weakest(const HapticParams& of_device, HapticParams& all) {
+  all.stiffness_n_per_m = std::min(all.stiffness_n_per_m, of_device.stiffness_n_per_m);
+  all.max_force_n = std::min(all.max_force_n, of_device.max_force_n);
+  all.max_slew_n_per_s = std::min(all.max_slew_n_per_s, of_device.max_slew_n_per_s);
+}
+
 LiveRun::LiveRun(std::shared_ptr<const Case> the_case, std::string case_source, ProbePath demo,
-                 const FeelSettings& feel)
+                 const FeelSettings& feel, RunTray tray)
     : case_(std::move(the_case)),
       case_source_(std::move(case_source)),
       demo_(std::move(demo)),
       feel_(feel),
-      snapshot_{rest_snapshot(*case_), {}} {}
+      tray_(std::move(tray)),
+      hands_(1) {
+  now().snapshot.bones = rest_snapshot(*case_);
+}
 
 Result<void> LiveRun::start(const DeviceChoice& choice, const Pose& X_WD_start,
                             const MappingSettings& user, const Quat& q_WC) {
+  return start({LiveHandOrder{choice, {}, 0, user}}, {X_WD_start}, q_WC);
+}
+
+Result<void> LiveRun::start(const std::vector<LiveHandOrder>& hands,
+                            const std::vector<Pose>& X_WD_start, const Quat& q_WC) {
   if (recording_) return fail("stop the recording before choosing another device");
-  choice_ = choice;
-  user_ = sane(user);
+  if (hands.empty() || hands.size() > kMaxHands || hands.size() != X_WD_start.size())
+    return fail("a session has one to four hands", "hands", "Give fewer");
+  end_run();
+  // A device that no hand has any more is closed with its hand; the others stay open.
+  for (std::size_t i = hands.size(); i < hands_.size(); ++i)
+    if (hands_[i].held) hands_[i].held->close();
+  hands_.resize(hands.size());
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    hands_[i].choice = hands[i].choice;
+    hands_[i].name = hands[i].name;
+    hands_[i].instrument = hands[i].instrument;
+    hands_[i].user = sane(hands[i].user);
+  }
+  active_ = 0;
+  shared_ = false;
   q_WC_ = q_WC;
   force_on_ = true;
   return start_run(X_WD_start, nullptr);
 }
 
-// Before the first tick has been seen it is where the run began.
-Pose LiveRun::probe_now() const {
-  return snapshot_.tool.tick > 0 ? snapshot_.tool.X_WP : X_WD_wanted_;
+std::vector<Pose> LiveRun::poses_now() const {
+  std::vector<Pose> poses;
+  for (const LiveHand& hand : hands_) poses.push_back(hand.probe_now());
+  return poses;
 }
 
-// Leaves the run's device in `held_` and keeps what tripped.
+// Leaves every device in its hand's `held` and keeps what tripped.
 void LiveRun::end_run() {
   if (!runtime_) return;
-  const ForceOff cause = runtime_->device_status().cause;
-  tripped_ = cause == ForceOff::kSoftware ? ForceOff::kNone : cause;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const ForceOff cause = runtime_->device_status(i).cause;
+    hands_[i].tripped = cause == ForceOff::kSoftware ? ForceOff::kNone : cause;
+    if (hands_[i].snapshot.tool.tick > 0) hands_[i].instrument = hands_[i].snapshot.tool.instrument;
+  }
   (void)runtime_->stop();
-  held_ = runtime_->take_device();
+  keep_devices();
   runtime_.reset();
-  mouse_ = nullptr;
-  pad_ = nullptr;
 }
 
-// A real device stays open from run to run: it may have been homed by hand, and no other program
-// shall have it in between.
-Result<std::unique_ptr<HapticDevice>> LiveRun::device_for_next_run() {
+void LiveRun::keep_devices() {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    std::unique_ptr<HapticDevice> device = runtime_->take_device(i);
+    if (!share_) hands_[i].held = std::move(device);
+    hands_[i].mouse = nullptr;
+    hands_[i].pad = nullptr;
+  }
+  if (share_) hands_[0].held = share_->take_device();
+  share_.reset();
+}
+
+SessionSettings LiveRun::settings_now() const {
+  SessionSettings settings = settings_for(hands_[0].opened, feel_, hands_[0].mapping.scale);
+  for (const LiveHand& hand : hands_)
+    keep_to_weakest(settings_for(hand.opened, feel_, hand.mapping.scale).haptic, settings.haptic);
+  settings.hands.clear();
+  for (const LiveHand& hand : hands_) settings.hands.push_back({hand.name, hand.instrument});
+  settings.tray = tray_.names;
+  return settings;
+}
+
+Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
+                                std::unique_ptr<RecordFeed> feed) {
   end_run();
-  std::unique_ptr<HapticDevice> held = std::move(held_);
-  const bool same = device_driver_ == choice_.driver && device_serial_ == choice_.info.serial;
-  same_device_ = held && same && is_real(choice_) && held->read().connected;
-  if (!same) tripped_ = ForceOff::kNone;
-  device_driver_ = choice_.driver;
-  device_serial_ = choice_.info.serial;
-  if (same_device_) return held;
-  if (held) held->close();
-  auto opened = open_choice(choice_, demo_);
-  if (!opened || force_log_.empty() || choice_.info.peak_force_n <= 0) return opened;
-  return std::make_unique<DeviceLog>(std::move(*opened), kLogged_s, force_log_);
-}
-
-DeviceMapping LiveRun::mapping_at(const Pose& X_WD_start, HapticDevice& device) const {
-  DeviceMapping mapping;
-  if (plays_demo(choice_)) return mapping;
-  mapping.X_WV = X_WD_start;
-  if (!is_real(choice_)) return mapping;
-  mapping.X_WV.q = user_.axes == MappingAxes::kPatient ? patient_axes() : q_WC_;
-  mapping.scale = user_.scale;
-  if (!same_device_) return mapping;
-  // The hand is somewhere already, and there is where the probe was.
-  const Pose X_VD = device.read().X_VD;
-  if (is_finite(X_VD)) mapping.X_WV.p -= mapping.X_WV.q * (mapping.scale * X_VD.p);
-  return mapping;
-}
-
-Result<void> LiveRun::start_run(const Pose& X_WD_start, std::unique_ptr<RecordFeed> feed) {
-  auto device = device_for_next_run();
-  if (!device) return tl::unexpected(device.error());
-  mapping_ = mapping_at(X_WD_start, **device);
-  // A list may know less than the open device, which has said what it is.
-  opened_ = (*device)->info();
-  settings_ = settings_for(opened_, feel_, mapping_.scale);
-  X_WD_wanted_ = X_WD_start;
-  mouse_ = dynamic_cast<MouseDevice*>(device->get());
-  pad_ = dynamic_cast<PadDevice*>(device->get());
+  auto plans = shares() ? make_shared_hands(X_WD_start) : make_hands(X_WD_start);
+  if (!plans) return tl::unexpected(plans.error());
+  settings_ = settings_now();
   recording_ = feed != nullptr;
   RunPlan plan;
   plan.the_case = case_;
   plan.settings = settings_;
-  plan.mapping = mapping_;
-  if (is_real(choice_)) plan.mapping_settings = user_;
-  plan.force_enabled = force_on_ && tripped_ == ForceOff::kNone;
-  plan.off_because = tripped_;
-  runtime_ = std::make_unique<Runtime>(plan, std::move(*device), std::move(feed));
-  force_.clear();
-  contacts_.clear();
+  runtime_ = std::make_unique<Runtime>(plan, std::move(*plans), std::move(feed), tray_.tools);
+  for (LiveHand& hand : hands_) {
+    hand.force.clear();
+    hand.contacts.clear();
+    if (hand.snapshot.bones.count == 0) hand.snapshot.bones = rest_snapshot(*case_);
+  }
+  events_.clear();
+  marks_.clear();
+  next_mark_ = 0;
+  undone_at_s_ = -10;
   runtime_->start();
+  mark();  // the begin of a run is a restore point
   return {};
 }
 
 std::unique_ptr<HapticDevice> LiveRun::lend_device() {
   if (recording_ || !runtime_) return nullptr;
+  const std::size_t of = shares() ? 0 : active_;
   end_run();
-  return std::move(held_);
+  return std::move(hands_[of].held);
 }
 
 Result<void> LiveRun::take_back(std::unique_ptr<HapticDevice> device) {
-  held_ = std::move(device);
-  return start_run(probe_now(), nullptr);
+  hands_[shares() ? 0 : active_].held = std::move(device);
+  return start_run(poses_now(), nullptr);
 }
 
 Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_WC) {
   if (recording_) return fail("stop the recording before changing the mapping");
-  user_ = sane(user);
+  for (std::size_t i = 0; i < hands_.size(); ++i)
+    if (shares() || i == active_) hands_[i].user = sane(user);
   q_WC_ = q_WC;
-  return start_run(probe_now(), nullptr);
+  return start_run(poses_now(), nullptr);
 }
 
 RecordingHeader LiveRun::header() const {
-  RecordingHeader header;
-  header.case_name = case_->name;
-  header.case_source = case_source_;
-  header.case_hash = case_->hash;
-  const double scale = is_real(choice_) ? user_.scale : 1;
-  const SessionSettings settings = settings_for(opened_, feel_, scale);
-  header.seed = settings.seed;
-  header.settings_json = to_json(settings);
-  header.osteon_version = OSTEON_VERSION;
+  RecordingHeader header = recording_header(*case_, settings_now(), case_source_, OSTEON_VERSION);
+  header.case_path = absolute_case_path(case_source_);
   return header;
 }
 
 Result<void> LiveRun::start_recording(const std::filesystem::path& file) {
   if (recording_) return fail("there is a recording already");
   if (!runtime_) return fail("nothing is running that could be recorded");
+  for (LiveHand& hand : hands_)
+    if (hand.snapshot.tool.tick > 0) hand.instrument = hand.snapshot.tool.instrument;
   std::error_code ec;
   std::filesystem::create_directories(file.parent_path(), ec);
   auto writer = RecordingWriter::create(file, header());
   if (!writer) return tl::unexpected(writer.error());
   recording_file_ = file;
-  return start_run(probe_now(), std::make_unique<RecordFeed>(std::move(*writer)));
+  return start_run(poses_now(),
+                   std::make_unique<RecordFeed>(std::move(*writer), 8.0, hands_.size()));
 }
 
 Result<void> LiveRun::stop_recording() {
   if (!recording_) return {};
   const Result<void> closed = runtime_->stop();
   recording_ = false;
-  const Result<void> restarted = start_run(probe_now(), nullptr);
+  const Result<void> restarted = start_run(poses_now(), nullptr);
   return closed ? restarted : closed;
 }
 
@@ -181,29 +188,51 @@ Result<void> LiveRun::end() {
   const Result<void> closed = runtime_->stop();
   recording_ = false;
   end_run();
-  if (held_) held_->close();
-  held_.reset();
+  for (LiveHand& hand : hands_)
+    if (hand.held) std::exchange(hand.held, nullptr)->close();
   return closed;
 }
 
 void LiveRun::update() {
   if (!runtime_) return;
-  const RenderSnapshot& newest = runtime_->snapshot();
-  if (newest.tool.tick > 0) snapshot_ = newest;
-  device_status_ = runtime_->device_status();
-  haptic_stats_ = runtime_->haptic_stats();
-  physics_stats_ = runtime_->physics_stats();
-  Telemetry point;
-  while (runtime_->pop_telemetry(point)) {
-    force_.add(point.peak_force_n);
-    contacts_.add(point.time_s, point.bones_mask, point.peak_force_n);
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    LiveHand& hand = hands_[i];
+    const RenderSnapshot& newest = runtime_->snapshot(i);
+    if (newest.tool.tick > 0) hand.snapshot = newest;
+    hand.status = runtime_->device_status(i);
+    hand.haptic = runtime_->haptic_stats(i);
+    Telemetry point;
+    while (runtime_->pop_telemetry(point, i)) {
+      hand.force.add(point.peak_force_n);
+      hand.contacts.add(point.time_s, point.bones_mask, point.peak_force_n);
+    }
+    Event event;
+    while (runtime_->pop_event(event, i)) events_.add(event, settings_.haptic.tick_s);
+    forgive_the_harmless(i);
   }
+  physics_stats_ = runtime_->physics_stats();
   if (!recording_ || runtime_->recording()) return;
   recording_failure_ = runtime_->recording_failure();
   recording_ = false;
 }
 
+// A device without motors cannot hurt a hand: it goes on by itself, and the user is told.
+void LiveRun::forgive_the_harmless(std::size_t i) {
+  const LiveHand& hand = hands_[i];
+  const ForceOff cause = hand.status.cause;
+  const bool a_trip = cause == ForceOff::kVelocity || cause == ForceOff::kWatchdog;
+  if (!a_trip || hand.opened.peak_force_n > 0 || !force_on_) return;
+  runtime_->set_force_enabled(true, i);
+  harmless_trip_ = cause == ForceOff::kVelocity
+                       ? "The hand moved faster than 1 m/s: a device with motors would have "
+                         "switched its force off."
+                       : "This computer was too busy for a moment: a device with motors would have "
+                         "switched its force off.";
+}
+
 std::string LiveRun::take_recording_failure() { return std::exchange(recording_failure_, {}); }
+
+std::string LiveRun::take_harmless_trip() { return std::exchange(harmless_trip_, {}); }
 
 std::string LiveRun::realtime_warning() const {
   return runtime_ ? runtime_->realtime_warning() : std::string();
@@ -213,48 +242,33 @@ void LiveRun::set_feel(const Command& command) {
   if (command.kind == CommandKind::kSetStiffness) feel_.stiffness_n_per_m = command.value;
   if (command.kind == CommandKind::kSetFrictionScale) feel_.friction_scale = command.value;
   if (command.kind == CommandKind::kHoldBones) feel_.bones_held = command.value != 0;
-  if (runtime_) runtime_->send(command);
+  if (!runtime_) return;
+  if (command.kind == CommandKind::kGrab || command.kind == CommandKind::kHoldBones)
+    return (void)runtime_->send(command, active_);
+  for (std::size_t i = 0; i < hands_.size(); ++i) runtime_->send(command, i);
 }
 
 void LiveRun::set_force(bool on) {
   force_on_ = on;
   if (!runtime_) return;
   runtime_->set_force_enabled(on);
-  runtime_->send({CommandKind::kForceOff, on ? 0.0 : 1.0});
-}
-
-void LiveRun::move_hand(const ProbeMotion& motion, const Camera& camera, const Viewport& viewport,
-                        double dt_s) {
-  if (!mouse_) return;
-  X_WD_wanted_ = drag_probe(X_WD_wanted_, motion, camera, viewport, dt_s);
-  const ToolState& tool = snapshot_.tool;
-  const Vec3 away = X_WD_wanted_.p - tool.X_WP.p;
-  if (tool.contact_count > 0 && away.norm() > kTether_m)
-    X_WD_wanted_.p = tool.X_WP.p + away.normalized() * kTether_m;
-  mouse_->set_target(mapping_.to_device(X_WD_wanted_), 0);
+  for (std::size_t i = 0; i < hands_.size(); ++i)
+    runtime_->send({CommandKind::kForceOff, on ? 0.0 : 1.0}, i);
 }
 
 void LiveRun::calibrate() {
-  if (runtime_) runtime_->calibrate_device();
+  if (runtime_) runtime_->calibrate_device(active_);
 }
-
-bool LiveRun::by_real_device() const { return is_real(choice_); }
 
 void LiveRun::tell_hand(HandWishes pedals, const Camera& camera) {
   if (!runtime_) return;
   q_WC_ = camera.q_WC;
-  pedals.turn_axes = is_real(choice_) && user_.axes == MappingAxes::kView;
   pedals.q_WV = q_WC_;
-  runtime_->set_hand_wishes(pedals);
-}
-
-void LiveRun::move_pad(const PadAxes& axes_C, const Camera& camera) {
-  if (!pad_) return;
-  const Quat q_VC = mapping_.X_WV.q.conjugate() * camera.q_WC;
-  PadAxes axes_V = axes_C;
-  axes_V.move_V = q_VC * axes_C.move_V;
-  axes_V.turn_V = q_VC * axes_C.turn_V;
-  pad_->set_axes(axes_V);
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const bool real = hands_[i].choice.info.peak_force_n > 0 && !plays_demo(hands_[i].choice);
+    pedals.turn_axes = real && hands_[i].user.axes == MappingAxes::kView && !shares();
+    runtime_->set_hand_wishes(pedals, i);
+  }
 }
 
 }  // namespace osteon

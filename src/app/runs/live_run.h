@@ -7,16 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "loops/hand_share.h"
 #include "loops/runtime.h"
 #include "osteon/device/pad_device.h"
-#include "runs/contact_timeline.h"
-#include "runs/device_choices.h"
-#include "runs/force_history.h"
+#include "runs/live_hand.h"
 #include "runs/probe_drag.h"
+#include "runs/run_events.h"
 
 namespace osteon {
-
-class MouseDevice;
 
 /// How a run shall feel.
 struct FeelSettings {
@@ -30,12 +28,26 @@ struct FeelSettings {
 /// hand that moves the tool by `scale` times its own way feels a coupling stiffer by as much.
 SessionSettings settings_for(const DeviceInfo& info, const FeelSettings& feel, double scale = 1);
 
-/// A live case in the window: the runtime, what the hand holds, the recording. Every change of
-/// device and every start of a recording is a new run (a recording begins with its session).
+/// Where devices differ, the weakest one's limits hold for all.
+void keep_to_weakest(const HapticParams& of_device, HapticParams& all);
+
+/// The instruments that the hands of a run may take, with their names for the recording.
+struct RunTray {
+  std::vector<std::string> names;
+  Tray tools;
+};
+
+/// A live case in the window: the runtime, what the hands hold, the recording. Every change of
+/// device or number of hands and every start of a recording is a new run (a recording begins with
+/// its session).
+///
+/// One device serves two hands by turns: it moves the active one, and the other rests as if held by
+/// an assistant. Two hands by mouse have a mouse device each, of which one is moved. What has no
+/// hand in its name is of the active one.
 class LiveRun {
  public:
   LiveRun(std::shared_ptr<const Case> the_case, std::string case_source, ProbePath demo,
-          const FeelSettings& feel);
+          const FeelSettings& feel, RunTray tray = {});
 
   /// From the next opening on, the last seconds of a device with motors go to this file when it is
   /// closed.
@@ -45,15 +57,42 @@ class LiveRun {
   /// camera's (`q_WC`) or to the patient's.
   Result<void> start(const DeviceChoice& choice, const Pose& X_WD_start,
                      const MappingSettings& user = {}, const Quat& q_WC = Quat::Identity());
+  /// The same with a device for each of several hands; as many places as hands.
+  Result<void> start(const std::vector<LiveHandOrder>& hands, const std::vector<Pose>& X_WD_start,
+                     const Quat& q_WC = Quat::Identity());
+  /// A second hand, at `X_WD_start`, which the only device or another mouse moves by turns; the
+  /// first goes on where it is. Starts anew; not while recording.
+  Result<void> add_hand(const Pose& X_WD_start, std::uint32_t instrument);
   /// Starts anew with the same device where the probe is, used in another way.
   Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
   Result<void> start_recording(const std::filesystem::path& file);
   /// Ends the recording; the run starts anew where the probe is.
   Result<void> stop_recording();
-  /// Ends the run for good: zero force, a closed device, the recording whole.
+  /// Ends the run for good: zero force, closed devices, the recording whole.
   Result<void> end();
   /// Takes in what the loops reported. Once a frame.
   void update();
+
+  std::size_t hands() const { return hands_.size(); }
+  std::size_t active() const { return active_; }
+  const LiveHand& hand(std::size_t i) const { return hands_[i]; }
+  /// The next hand becomes the active one. False with one hand, and while the force of a device
+  /// that serves both is off for a fault: the user resumes first.
+  bool change_hands();
+  /// Moves a resting hand along its shaft (in is positive), turns it about its shaft, and tilts it
+  /// about its tip as seen by the camera. Nothing while a device moves that hand.
+  void nudge(std::size_t hand, double in_m, double about_rad, double pitch_rad, double yaw_rad,
+             const Quat& q_WC);
+  bool rests(std::size_t hand) const;
+  /// The active hand takes what stands at this place of the tray. Its force goes through zero.
+  void take(std::uint32_t place);
+  /// A hand that the mouse moves goes there.
+  void bring(const Pose& X_WD);
+  /// Keeps the state as a restore point.
+  void mark();
+  /// Back to the newest restore point; twice within two seconds of the run, to the one before it.
+  /// False when there is none.
+  bool undo();
 
   /// Ends the run and hands its device out for a check-up, open and at zero force; null where none
   /// is held. The run stands still until `take_back`. Not while recording.
@@ -67,69 +106,80 @@ class LiveRun {
   void calibrate();
   /// A device that a hand moves, not one that plays or is drawn on the screen.
   bool by_real_device() const;
-  const MappingSettings& mapping_settings() const { return user_; }
-  /// The mouse moves its hand; no effect with another device.
+  const MappingSettings& mapping_settings() const { return now().user; }
+  /// The mouse moves its hand; no effect without one.
+  /// `through`: a hole near by, or null. The wheel then goes along the shaft, and what is inside
+  /// turns about the hole.
   void move_hand(const ProbeMotion& motion, const Camera& camera, const Viewport& viewport,
-                 double dt_s);
+                 double dt_s, const Vec3* through_W = nullptr);
   /// Pedals and the camera, once a frame: a dead-man pedal that is not told again counts as let go.
   void tell_hand(HandWishes pedals, const Camera& camera);
   /// The gamepad's sticks, as seen by the camera.
   void move_pad(const PadAxes& axes_C, const Camera& camera);
 
-  const RenderSnapshot& snapshot() const { return snapshot_; }
-  const DeviceStatus& device_status() const { return device_status_; }
-  const LoopStats& haptic_stats() const { return haptic_stats_; }
+  const RenderSnapshot& snapshot() const { return now().snapshot; }
+  /// Tools of the hands that are not active.
+  std::vector<ToolState> others() const;
+  const DeviceStatus& device_status() const { return now().status; }
+  const LoopStats& haptic_stats() const { return now().haptic; }
   const LoopStats& physics_stats() const { return physics_stats_; }
   const FeelSettings& feel() const { return feel_; }
-  const DeviceChoice& choice() const { return choice_; }
-  const ForceHistory& force() const { return force_; }
-  const ContactTimeline& contacts() const { return contacts_; }
+  const DeviceChoice& choice() const { return now().choice; }
+  const ForceHistory& force() const { return now().force; }
+  const ContactTimeline& contacts() const { return now().contacts; }
+  const RunEvents& events() const { return events_; }
+  const RunTray& tray() const { return tray_; }
   double force_limit_n() const { return settings_.haptic.max_force_n; }
   bool recording() const { return recording_; }
   const std::filesystem::path& recording_file() const { return recording_file_; }
   /// Why the recording ended by itself; empty otherwise. Given once.
   std::string take_recording_failure();
+  /// What tripped on a device that can hurt nobody; the run has gone on. Empty: nothing. Given
+  /// once.
+  std::string take_harmless_trip();
   std::string realtime_warning() const;
-  /// The mouse holds the probe in this run.
-  bool by_mouse() const { return mouse_ != nullptr; }
+  /// The mouse holds the active hand's instrument in this run.
+  bool by_mouse() const { return now().mouse != nullptr; }
 
  private:
-  Result<void> start_run(const Pose& X_WD_start, std::unique_ptr<RecordFeed> feed);
-  Result<std::unique_ptr<HapticDevice>> device_for_next_run();
-  DeviceMapping mapping_at(const Pose& X_WD_start, HapticDevice& device) const;
+  const LiveHand& now() const { return hands_[active_]; }
+  LiveHand& now() { return hands_[active_]; }
+  bool shares() const { return shared_ && hands_.size() > 1; }
+  std::vector<Pose> poses_now() const;
+  Result<void> start_run(const std::vector<Pose>& X_WD_start, std::unique_ptr<RecordFeed> feed);
+  Result<std::unique_ptr<HapticDevice>> open_device(LiveHand& hand);
+  Result<std::vector<HandPlan>> make_hands(const std::vector<Pose>& X_WD_start);
+  Result<std::vector<HandPlan>> make_shared_hands(const std::vector<Pose>& X_WD_start);
+  DeviceMapping mapping_at(const LiveHand& hand, const Pose& X_WD_start,
+                           HapticDevice& device) const;
+  SessionSettings settings_now() const;
+  void forgive_the_harmless(std::size_t hand);
   void end_run();
-  Pose probe_now() const;
+  void keep_devices();
   RecordingHeader header() const;
 
   std::shared_ptr<const Case> case_;
   std::string case_source_;
   ProbePath demo_;
   FeelSettings feel_;
-  DeviceChoice choice_;
-  DeviceInfo opened_;  ///< of the device of the run
+  RunTray tray_;
+  std::vector<LiveHand> hands_;  ///< never empty
+  std::size_t active_ = 0;
+  bool shared_ = false;               ///< one device serves all hands
+  std::shared_ptr<HandShare> share_;  ///< of the run under way
   SessionSettings settings_;
-  DeviceMapping mapping_;
-  MappingSettings user_;
   Quat q_WC_ = Quat::Identity();
-  std::string device_driver_, device_serial_;  ///< of runtime_'s device
-  Pose X_WD_wanted_;
   std::unique_ptr<Runtime> runtime_;
-  std::unique_ptr<HapticDevice> held_;  ///< between two runs
-  bool same_device_ = false;            ///< as in the run before
-  ForceOff tripped_ =
-      ForceOff::kNone;            ///< by a fault in the run before: the user re-arms, no other
-  MouseDevice* mouse_ = nullptr;  ///< of runtime_, when it is one
-  PadDevice* pad_ = nullptr;
   bool force_on_ = true;
   bool recording_ = false;
   std::filesystem::path recording_file_;
   std::filesystem::path force_log_;
-  std::string recording_failure_;
-  RenderSnapshot snapshot_;
-  DeviceStatus device_status_;
-  LoopStats haptic_stats_, physics_stats_;
-  ForceHistory force_;
-  ContactTimeline contacts_;
+  std::string recording_failure_, harmless_trip_;
+  LoopStats physics_stats_;
+  RunEvents events_;
+  std::vector<std::uint32_t> marks_;  ///< numbers of the restore points, oldest first
+  std::uint32_t next_mark_ = 0;
+  double undone_at_s_ = -10;
 };
 
 }  // namespace osteon

@@ -120,5 +120,100 @@ TEST_F(LiveRunTest, ALentDeviceComesBackToARunThatIsAsItWas) {
   EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
 }
 
+DeviceChoice choice_named(const char* driver) {
+  const auto choices = list_device_choices(nullptr);
+  return choices.at(static_cast<std::size_t>(find_choice(choices, driver)));
+}
+
+TEST(LiveHands, ASecondHandByMouseComesInAndTheFirstStaysWhereItWas) {
+  const Pose right{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  const Pose left{Vec3(-0.03, -0.02, 0.2), Quat::Identity()};
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), right));
+  EXPECT_FALSE(live.change_hands());
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  ASSERT_TRUE(live.add_hand(left, 0));
+  ASSERT_EQ(live.hands(), 2u);
+  EXPECT_EQ(live.active(), 1u);
+  run_until(live, [&] { return live.snapshot().tool.tick > 4 && !live.others().empty(); });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - left.p).norm(), 1e-6);
+  EXPECT_LT((live.others()[0].X_WP.p - right.p).norm(), 1e-6);
+  ASSERT_TRUE(live.change_hands());
+  EXPECT_EQ(live.active(), 0u);
+  EXPECT_TRUE(live.rests(1));
+  // One millimetre inwards along its shaft, which points along +z.
+  live.nudge(1, 0.001, 0, 0, 0, Quat::Identity());
+  run_until(live, [&] { return std::abs(live.others()[0].X_WP.p.z() - 0.199) < 1e-6; });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - right.p).norm(), 1e-6);
+}
+
+TEST(LiveHands, OneDeviceServesTwoHandsByTurns) {
+  ProbePath still;
+  for (const double time_s : {0.0, 100.0}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0, 0, 0.1);
+    still.samples.push_back(sample);
+  }
+  LiveRun live(test::blocks_case(), "blocks", still, {});
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  const Pose left{Vec3(-0.03, 0, 0.15), Quat::Identity()};
+  ASSERT_TRUE(live.add_hand(left, 0));
+  run_until(live, [&] { return live.snapshot().tool.tick > 200 && !live.others().empty(); });
+  EXPECT_TRUE(live.rests(0));
+  const Vec3 rested = live.others()[0].X_WP.p;
+  run_until(live, [&] { return live.others()[0].tick > 300; });
+  EXPECT_LT((live.others()[0].X_WP.p - rested).norm(), 1e-9);
+  EXPECT_TRUE(live.change_hands());
+  EXPECT_TRUE(live.rests(1));
+}
+
+TEST(LiveHands, ARestorePointIsKeptAndGoneBackTo) {
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  const auto told = [&](EventKind kind) {
+    for (const RunEvent& e : live.events().events())
+      if (e.event.kind == kind) return true;
+    return false;
+  };
+  run_until(live, [&] { return told(EventKind::kMark); });
+  EXPECT_FALSE(told(EventKind::kRestored));
+  ASSERT_TRUE(live.undo());
+  run_until(live, [&] { return told(EventKind::kRestored); });
+}
+
+TEST(LiveHands, TheMouseGoesOnAfterALeapThatWouldStopAMotor) {
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  const Pose start{Vec3(0, 0, 0.1), Quat::Identity()};
+  ASSERT_TRUE(live.start(choice_named("mouse"), start));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  Pose far = start;
+  far.p.x() += 0.3;
+  live.bring(far);
+  std::string why;
+  run_until(live, [&] { return !(why = live.take_harmless_trip()).empty(); });
+  EXPECT_NE(why.find("1 m/s"), std::string::npos);
+  run_until(live, [&] {
+    return live.device_status().cause == ForceOff::kNone &&
+           (live.snapshot().tool.X_WP.p - far.p).norm() < 1e-3;
+  });
+}
+
+TEST(LiveHands, ARecordingOfACaseInAFolderKnowsWhereThatStood) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "some_case";
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("live_path_" + std::to_string(::getpid()) + ".osr");
+  LiveRun live(test::blocks_case(), folder.string() + "#near=hull", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  ASSERT_TRUE(live.start_recording(file));
+  EXPECT_FALSE(live.add_hand(Pose{}, 0));
+  ASSERT_TRUE(live.end());
+  const auto recording = load_recording(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(recording);
+  EXPECT_EQ(recording->header.case_path, folder.string());
+}
+
 }  // namespace
 }  // namespace osteon

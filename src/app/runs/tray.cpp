@@ -1,4 +1,4 @@
-#include "commands/tray.h"
+#include "runs/tray.h"
 
 #include <cstdlib>
 #include <filesystem>

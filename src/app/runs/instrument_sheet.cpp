@@ -1,4 +1,4 @@
-#include "commands/instrument_sheet.h"
+#include "runs/instrument_sheet.h"
 
 #include <algorithm>
 #include <cmath>
