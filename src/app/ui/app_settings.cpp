@@ -84,6 +84,8 @@ std::string to_json(const AppSettings& s) {
                      {"window_height", s.window_height},
                      {"interface_zoom", s.interface_zoom},
                      {"panels_open", s.panels_open},
+                     {"left_card", s.left_card},
+                     {"recent", s.recent},
                      {"hint_dismissed", s.hint_dismissed},
                      {"show_hulls", s.show_hulls},
                      {"show_felt", s.show_felt},
@@ -112,6 +114,10 @@ Result<AppSettings> parse_app_settings(const std::string& text) {
   take(json, "window_height", s.window_height, 400, 16384);
   take(json, "interface_zoom", s.interface_zoom, 0.75, 2.5);
   take(json, "panels_open", s.panels_open);
+  take(json, "left_card", s.left_card, 136, 360);
+  if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
+    for (const Json& name : *recent)
+      if (name.is_string()) s.recent.push_back(name.get<std::string>());
   take(json, "hint_dismissed", s.hint_dismissed);
   take(json, "show_hulls", s.show_hulls);
   take(json, "show_felt", s.show_felt);

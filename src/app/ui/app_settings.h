@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "osteon/base/result.h"
 #include "runs/hand_settings.h"
@@ -25,6 +26,8 @@ struct AppSettings {
   int window_width = 1280, window_height = 720;
   double interface_zoom = 1;  ///< on top of the display's own scale; 0.75 to 2.5
   bool panels_open = true;
+  double left_card = 152;           ///< width of the left card, units of the interface
+  std::vector<std::string> recent;  ///< cases and recordings opened, the last one first
   bool hint_dismissed = false;
   bool show_hulls = false;
   bool show_felt = false;

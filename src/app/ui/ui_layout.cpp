@@ -7,13 +7,12 @@ namespace osteon {
 namespace {
 constexpr float kGrid = 8;
 constexpr float kTop = 5 * kGrid;
-constexpr float kBottom = 6 * kGrid;
-constexpr float kLeft = 19 * kGrid;
+constexpr float kBottom = 6.5f * kGrid;
 constexpr float kRight = 25 * kGrid;
 constexpr float kMargin = kGrid;
 }  // namespace
 
-UiLayout make_layout(float width, float height, float scale, bool panels_open) {
+UiLayout make_layout(float width, float height, float scale, bool panels_open, float left_card) {
   UiLayout layout;
   if (!panels_open) {
     layout.picture = {0, 0, width, height};
@@ -26,7 +25,8 @@ UiLayout make_layout(float width, float height, float scale, bool panels_open) {
                     std::max(1.0f, height - layout.top.h - layout.bottom.h)};
   const float card_y = layout.picture.y + px(kMargin);
   const float card_h = std::max(1.0f, layout.picture.h - 2 * px(kMargin));
-  layout.left = {px(kMargin), card_y, px(kLeft), card_h};
+  const float left = std::clamp(left_card, kLeastLeftCard, kMostLeftCard);
+  layout.left = {px(kMargin), card_y, std::min(px(left), std::round(width / 3)), card_h};
   layout.right = {width - px(kRight) - px(kMargin), card_y, px(kRight), card_h};
   return layout;
 }

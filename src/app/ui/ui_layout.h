@@ -15,7 +15,12 @@ struct UiLayout {
   UiRect top, left, right, bottom, picture;
 };
 
-/// On an 8-pixel grid times `scale`. Folded: the picture is the whole window.
-UiLayout make_layout(float width, float height, float scale, bool panels_open);
+/// The left card's width in units: usual, least and most.
+inline constexpr float kLeftCard = 152, kLeastLeftCard = 136, kMostLeftCard = 360;
+
+/// On an 8-pixel grid times `scale`. Folded: the picture is the whole window. The left card is
+/// never wider than a third of it.
+UiLayout make_layout(float width, float height, float scale, bool panels_open,
+                     float left_card = kLeftCard);
 
 }  // namespace osteon

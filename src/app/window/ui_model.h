@@ -15,7 +15,9 @@
 #include "runs/pedals.h"
 #include "ui/loading_model.h"
 #include "ui/toasts.h"
+#include "window/browser_model.h"
 #include "window/edit_model.h"
+#include "window/hands_model.h"
 #include "window/patient_model.h"
 
 namespace osteon {
@@ -83,9 +85,17 @@ struct ReplayModel {
   bool identical = true;
 };
 
+/// Something that happened, on the timeline.
+struct TimelineMark {
+  double time_s = 0;
+  std::string text;
+  bool harm = false;  ///< a fault, or a force over its limit
+};
+
 struct TimelineModel {
   double end_s = 0;
   std::span<const ContactSpan> spans;
+  std::span<const TimelineMark> marks;
 };
 
 /// A joint of the case, which the user may bend.
@@ -94,15 +104,11 @@ struct JointModel {
   double degrees = 0, min_deg = 0, max_deg = 0;
 };
 
-struct RecordingFile {
-  std::string label;
-  std::string path;
-};
-
 /// All that the panels show, as values: one a frame.
 struct UiModel {
   float width = 1280, height = 720;  ///< framebuffer, pixels
   float scale = 1;                   ///< of the interface: 1 is 96 dots an inch
+  float left_card = 152;             ///< width, units
   UiPhase phase = UiPhase::kReady;
   LoadingModel loading;
 
@@ -128,10 +134,11 @@ struct UiModel {
   RecordModel record;
   ReplayModel replay;
   TimelineModel timeline;
-  std::vector<RecordingFile> recordings;  ///< newest first
   std::span<const Toast> toasts;
 
   CheckupModel checkup;
+  BrowserModel browser;
+  HandsModel hands;
   EditModel edit;
   PatientModel patient;
   bool panels_open = true;

@@ -9,7 +9,9 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
+#include "window/browser_model.h"
 #include "window/edit_model.h"
+#include "window/hands_model.h"
 #include "window/patient_model.h"
 
 namespace osteon {
@@ -36,9 +38,9 @@ struct UiRequests {
   std::optional<FeltWish> felt;  ///< opens the case again
   std::optional<BendWish> bend;  ///< shown at once; once it is done, opens the case again
   std::optional<int> device;
-  std::optional<std::string> open_file;
   std::optional<double> seek_s;
   std::optional<double> speed;
+  std::optional<double> left_card;       ///< width, units
   std::optional<double> zoom_interface;  ///< factor on the interface's size
   BoneId hovered_row;
   BoneId picked_row;
@@ -53,6 +55,8 @@ struct UiRequests {
   bool install_udev = false;
   std::optional<std::string> copy;  ///< to the clipboard
   EditRequests edit;
+  BrowserRequests browser;
+  HandsRequests hands;
   PatientRequests patient;
   bool force_off = false;
   bool force_on = false;
@@ -62,7 +66,6 @@ struct UiRequests {
   bool toggle_panels = false;
   bool toggle_help = false;
   bool toggle_fullscreen = false;
-  bool list_recordings = false;
   bool close_replay = false;
   bool cancel_loading = false;
   bool retry_loading = false;

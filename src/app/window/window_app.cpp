@@ -83,7 +83,7 @@ void WindowApp::frame(double dt_s) {
                            : static_cast<double>(window_->content_scale()) /
                                  window_->pixel_ratio() * settings_.interface_zoom;
   ui_->set_scale(static_cast<float>(scale));
-  for (const std::string& file : window_->take_dropped_files()) open({case_source_, file, case_});
+  for (const std::string& file : window_->take_dropped_files()) open_any(file);
   poll_loading();
   poll_felt();
   poll_checkup();
@@ -109,10 +109,12 @@ void WindowApp::draw_picture() {
   glViewport(0, 0, width, height);
   glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  if (!ready() || width <= 0 || height <= 0) return;
+  // What was open stays in sight until the next is.
+  if (!renderer_ || !case_ || width <= 0 || height <= 0) return;
   ViewState shown = picture_view();
   for (const BoneId id : {hovered_, hovered_row_, picked_})
     if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
+  show_others();
   renderer_->draw(shown_, shown, viewport());
 }
 

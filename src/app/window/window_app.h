@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cases/xdg.h"
 #include "osteon/render/renderer.h"
+#include "osteon/scene/portal.h"
 #include "runs/device_choices.h"
 #include "runs/live_run.h"
 #include "runs/pedals.h"
@@ -18,7 +20,11 @@
 #include "ui/imgui_host.h"
 #include "ui/toasts.h"
 #include "window/controllers/bone_edit.h"
+#include "window/controllers/case_browser.h"
+#include "window/controllers/instrument_tray.h"
 #include "window/controllers/scene_poll.h"
+#include "window/controllers/tip_gauge.h"
+#include "window/controllers/tray_pictures.h"
 #include "window/jobs/checkup_job.h"
 #include "window/jobs/edit_save.h"
 #include "window/jobs/felt_job.h"
@@ -39,14 +45,16 @@ struct WindowOrder {
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
   bool felt = false;                 ///< begins with bones coloured by what is felt
   bool demo = false;                 ///< the virtual hand plays the case's path
-  std::string device;                ///< key of the choice to begin with; empty: as last time
-  std::filesystem::path path;        ///< what an emulated hand plays; empty: the case's own
-  std::filesystem::path record;      ///< recorded from the start; empty: nothing
-  std::filesystem::path force_log;   ///< of the device's last seconds; empty: none
-  std::string edit;                  ///< name of the bone whose editing begins; empty: none
-  bool checkup = false;              ///< opens the check-up and begins one
-  bool new_patient = false;          ///< opens the panel that makes one
-  bool fresh = false;                ///< neither reads nor writes the settings file
+  /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one
+  /// hand with the device of last time.
+  std::vector<std::string> devices;
+  std::filesystem::path path;       ///< what an emulated hand plays; empty: the case's own
+  std::filesystem::path record;     ///< recorded from the start; empty: nothing
+  std::filesystem::path force_log;  ///< of the device's last seconds; empty: none
+  std::string edit;                 ///< name of the bone whose editing begins; empty: none
+  bool checkup = false;             ///< opens the check-up and begins one
+  bool new_patient = false;         ///< opens the panel that makes one
+  bool fresh = false;               ///< neither reads nor writes the settings file
 };
 
 /// The window's main loop: draws, and passes between panels, live run and replay. Runs on the main
@@ -64,6 +72,7 @@ class WindowApp {
   bool software_driver() const { return renderer_ && renderer_->software_driver(); }
   /// The window was closed to segment a scan; the case that was open comes back after that.
   bool wants_segmentation() const { return wants_segmentation_; }
+  const std::string& scan_to_segment() const { return scan_to_segment_; }
   const std::string& case_source() const {
     return case_source_.empty() ? order_.case_spec : case_source_;
   }
@@ -82,13 +91,16 @@ class WindowApp {
   void install(Loaded loaded);
   void begin_live();
   void start_live(const std::string& device);  ///< key of a choice
+  bool start_hands(const std::vector<std::string>& devices);
+  void make_live();
+  MappingSettings mapping_for(const DeviceChoice& choice) const;
   void leave_replay();
   void choose_felt(const FeltWish& wish);
   void poll_felt();
   ViewState picture_view() const;  ///< `view_`, as far as it can be drawn yet
   void fail_loading(const std::string& message);
   // window_model.cpp
-  UiModel build_model() const;
+  UiModel build_model();
   // window_requests.cpp
   void apply(const UiRequests& requests);
   void go_to_segmentation();
@@ -98,7 +110,6 @@ class WindowApp {
   void apply_device(const UiRequests& requests);
   void apply_replay(const UiRequests& requests);
   void toggle_recording();
-  void list_recordings();
   void save_screenshot(bool whole_window);
   // window_checkup.cpp
   void begin_checkup(bool push);
@@ -138,8 +149,28 @@ class WindowApp {
   void apply_patient(const PatientRequests& requests);
   void poll_patient();
   PatientModel patient_model() const;
+  // window_hands.cpp: two hands, what they hold, the way back
+  void make_tray(std::span<const std::string> wanted);
+  void apply_hands(const HandsRequests& requests);
+  void apply_exchange(const HandsRequests& requests);
+  void change_hands();
+  void bring_to(std::size_t portal);
+  const Vec3* portal_near() const;
+  bool nudge_rested(SceneInput& input);
+  void poll_device_buttons();
+  void show_others();
+  std::optional<Vec3> on_screen(const Vec3& p_W) const;
+  void tell_marks();
+  HandsModel hands_model();
+  std::vector<HandRow> hand_rows() const;
+  TipModel tip_model();
+  std::vector<NameTag> name_tags() const;
+  // window_browser.cpp: what can be opened
+  void apply_browser(const BrowserRequests& requests);
+  void open_any(const std::string& path);
   // window_settings.cpp
   void recall_view();
+  void remember_view();
   void remember();
   void recall_looks();
   void remember_looks();
@@ -176,7 +207,6 @@ class WindowApp {
   std::vector<float> replay_force_;
 
   std::vector<DeviceChoice> choices_;
-  std::vector<RecordingFile> recordings_;
   ViewState view_;
   RenderSnapshot shown_;
   CameraControl control_;
@@ -199,6 +229,21 @@ class WindowApp {
   std::optional<Vec3> edit_hover_;    ///< under the pointer, in Bone
   Vec3 edit_moved_C_ = Vec3::Zero();  ///< by the mouse since the grab
   bool edit_left_was_down_ = false;
+
+  CaseBrowser browser_{data_home_dir()};
+  std::string scan_to_segment_;  ///< that the segmentation's window opens; empty: the user chooses
+
+  InstrumentTray tray_;
+  TrayPictures tray_pictures_;
+  bool tray_open_ = false, names_on_ = false;
+  std::string tray_search_;
+  std::vector<Portal> portals_;       ///< of the case
+  std::optional<std::size_t> aimed_;  ///< portal that a hand was brought to
+  std::uint32_t buttons_before_ = 0;  ///< of the active hand's device
+  TipGauge tip_;
+  std::vector<Vec3> bone_middles_B_;  ///< where their names stand
+  std::vector<TimelineMark> marks_;   ///< of the run or the replay
+  std::size_t marks_told_ = 0;        ///< events that `marks_` has seen
 
   std::optional<BendWish> bend_;  ///< shown, until the case is open in that pose
   bool bend_had_force_ = true;    ///< before it began

@@ -40,6 +40,8 @@ AppSettings unusual() {
   s.light_brightness = 1.4;
   s.ambient_occlusion = 0;
   s.device = "gamepad";
+  s.left_card = 200;
+  s.recent = {"builtin:knee", "/home/a/run.osr"};
   s.stiffness_n_per_m = 900;
   s.friction_scale = 0.5;
   s.bones_held = false;

@@ -74,15 +74,17 @@ ReplayModel replay_of(const LoadedReplay& replay, const ReplayPlayer& player) {
 
 }  // namespace
 
-UiModel WindowApp::build_model() const {
+UiModel WindowApp::build_model() {
   UiModel model;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   model.width = size.x;
   model.height = size.y;
   model.scale = ui_->scale();
+  model.left_card = static_cast<float>(settings_.left_card);
   model.toasts = toasts_.shown();
   model.panels_open = settings_.panels_open;
   model.help_open = help_open_;
+  if (browser_.is_open()) model.browser = browser_.model();
   model.first_run_hint = !settings_.hint_dismissed && !replay_ && order_.frames == 0;
   if (!ready()) {
     model.phase = load_failure_.empty() ? UiPhase::kLoading : UiPhase::kFailed;
@@ -115,7 +117,6 @@ UiModel WindowApp::build_model() const {
   const double ratio = window_->pixel_ratio();
   model.pointer_x = static_cast<float>(pointer_x_ / ratio);
   model.pointer_y = static_cast<float>(pointer_y_ / ratio);
-  model.recordings = recordings_;
   model.time_s = shown_.tool.time_s;
   model.contacts = contact_rows(shown_.tool);
   if (live_) {
@@ -128,7 +129,7 @@ UiModel WindowApp::build_model() const {
     model.hand.mapping.dead_man = driver_of(settings_.pedals, kDeadManPedal);
     model.hand.mapping.clutch = driver_of(settings_.pedals, kClutchPedal);
     model.force_history = live_->force().values();
-    model.timeline = {live_->contacts().end_s(), live_->contacts().spans()};
+    model.timeline = {live_->contacts().end_s(), live_->contacts().spans(), marks_};
     model.record = {live_->recording(), shown_.tool.time_s,
                     live_->recording_file().filename().string()};
     model.activity = live_->choice().driver == "virtual" ? "Demonstration" : "Exploring";
@@ -137,9 +138,10 @@ UiModel WindowApp::build_model() const {
   if (replay_ && player_) {
     model.replay = replay_of(*replay_, *player_);
     model.force_history = replay_force_;
-    model.timeline = {model.replay.duration_s, replay_->track.contacts().spans()};
+    model.timeline = {model.replay.duration_s, replay_->track.contacts().spans(), marks_};
     model.activity = "Replay of " + model.replay.file;
   }
+  model.hands = hands_model();
   model.hand.force_n = shown_.tool.force_W.norm();
   model.hand.picture_hz = frames_.rate_hz();
   model.hand.probe_in_hand = probe_held_;

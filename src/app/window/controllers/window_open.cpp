@@ -8,6 +8,20 @@
 namespace osteon {
 namespace fs = std::filesystem;
 
+namespace {
+
+std::vector<Vec3> bone_middles(const Case& the_case) {
+  std::vector<Vec3> middles;
+  for (const Bone& bone : the_case.bones) {
+    Aabb box;
+    for (const Vec3& p : bone.mesh.vertices) box.include(p);
+    middles.push_back(box.empty() ? Vec3(Vec3::Zero()) : box.center());
+  }
+  return middles;
+}
+
+}  // namespace
+
 void WindowApp::open(LoadOrder order) {
   if (live_ && live_->recording()) {
     note(ToastKind::kWarning, "Stop the recording before opening something else.");
@@ -45,10 +59,10 @@ void WindowApp::install(Loaded loaded) {
   end_checkup();
   end_edit();
   remember_looks();
+  if (case_) remember_view();  // a light that was turned is not turned back
   // The same case felt otherwise: the user goes on looking at what he looked at.
   const bool same_case =
       case_ && source_without_choice(case_source_) == source_without_choice(loaded.case_source);
-  case_source_ = loaded.case_source;
   if (loaded.prepared) {
     const auto data = find_data_dir();
     if (!data) return fail_loading(data.error().message());
@@ -57,10 +71,15 @@ void WindowApp::install(Loaded loaded) {
     auto renderer = Renderer::create(*loaded.the_case, make_wrist_probe(), *data, *loaded.prepared);
     if (!renderer) return fail_loading(renderer.error().message());
     renderer_ = std::move(*renderer);
+    // From here on nothing fails: the case on show and its name change together.
+    case_source_ = loaded.case_source;
     felt_job_.reset();
     felt_known_ = false;
     prepared_ = std::move(loaded.prepared);
     case_ = loaded.the_case;
+    portals_ = find_portals(*case_);
+    tip_.begin(case_);
+    bone_middles_B_ = bone_middles(*case_);
     demo_ = loaded.demo;
     const ViewState before = view_;
     const BoneId picked = picked_;
@@ -70,10 +89,17 @@ void WindowApp::install(Loaded loaded) {
       picked_ = picked;
     }
   }
+  case_source_ = loaded.case_source;
+  settings_.recent =
+      with_recent(settings_.recent, loaded.replay ? loaded.replay->file.string() : case_source_);
   live_.reset();
   replay_ = std::move(loaded.replay);
   player_.reset();
+  aimed_.reset();
+  marks_.clear();
+  marks_told_ = 0;
   if (!replay_) return begin_live();
+  renderer_->set_tray(replay_->tray);
   player_.emplace(replay_->track.duration_s());
   player_->seek(order_.at_s);
   if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still
@@ -89,9 +115,9 @@ void WindowApp::begin_live() {
     if (path) demo_ = *path;
     if (!path) note(ToastKind::kError, path.error().message());
   }
-  std::string device = std::exchange(order_.device, {});
-  if (device.empty()) device = order_.demo ? "virtual" : settings_.device;
-  start_live(device);
+  const std::vector<std::string> devices = std::exchange(order_.devices, {});
+  if (devices.empty() || !start_hands(devices))
+    start_live(order_.demo ? "virtual" : settings_.device);
   if (live_ && !order_.edit.empty()) {
     picked_ = case_->find(std::exchange(order_.edit, {}));
     begin_edit();
@@ -101,19 +127,26 @@ void WindowApp::begin_live() {
   if (!started) note(ToastKind::kError, started.error().message());
 }
 
-void WindowApp::start_live(const std::string& device) {
-  if (choices_.empty() || !case_) return;
+MappingSettings WindowApp::mapping_for(const DeviceChoice& choice) const {
+  return mapping_of(settings_.mappings, mapping_key(choice.info, case_->name));
+}
+
+void WindowApp::make_live() {
   remember_feel();
   const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
                           settings_.bones_held};
-  live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel);
+  live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel, tray_.run());
   live_->keep_force_log(order_.force_log);
-  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, device))];
   pedals_.set_map(settings_.pedals);
-  const MappingSettings user =
-      mapping_of(settings_.mappings, mapping_key(choice.info, case_->name));
-  const Result<void> started =
-      live_->start(choice, offered_probe(view_.camera, case_->bounds_W()), user, view_.camera.q_WC);
+}
+
+void WindowApp::start_live(const std::string& device) {
+  if (choices_.empty() || !case_) return;
+  make_tray({});
+  make_live();
+  const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, device))];
+  const Result<void> started = live_->start(choice, offered_probe(view_.camera, case_->bounds_W()),
+                                            mapping_for(choice), view_.camera.q_WC);
   if (!started) note(ToastKind::kError, started.error().message());
 }
 

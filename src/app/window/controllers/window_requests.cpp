@@ -13,6 +13,11 @@ void WindowApp::apply(const UiRequests& requests) {
   if (requests.toggle_panels) settings_.panels_open = !settings_.panels_open;
   if (requests.toggle_help) help_open_ = !help_open_;
   if (requests.toggle_fullscreen) window_->toggle_fullscreen();
+  if (requests.left_card)
+    settings_.left_card = std::clamp(*requests.left_card, static_cast<double>(kLeastLeftCard),
+                                     static_cast<double>(kMostLeftCard));
+  if (requests.force_off) browser_.close();
+  if (requests.force_off) help_open_ = checkup_open_ = patient_open_ = tray_open_ = false;
   if (requests.quit) window_->close();
   if (requests.dismiss_hint) settings_.hint_dismissed = true;
   if (requests.dismiss_toast) toasts_.dismiss(*requests.dismiss_toast);
@@ -21,8 +26,7 @@ void WindowApp::apply(const UiRequests& requests) {
         std::clamp(settings_.interface_zoom * *requests.zoom_interface, 0.75, 2.5);
   if (requests.cancel_loading && job_) job_->cancel();
   if (requests.retry_loading) open({"builtin:wrist", {}, nullptr});
-  if (requests.list_recordings) list_recordings();
-  if (requests.open_file) open({case_source_, *requests.open_file, case_});
+  apply_browser(requests.browser);
   if (requests.segment_scan) go_to_segmentation();
   apply_checkup(requests);
   apply_patient(requests.patient);
@@ -32,6 +36,7 @@ void WindowApp::apply(const UiRequests& requests) {
   if (requests.bend) apply_bend(*requests.bend);
   apply_edit(requests.edit);
   apply_run(requests);
+  apply_hands(requests.hands);
   apply_replay(requests);
   if (requests.screenshot_window) save_screenshot(true);
   if (requests.screenshot_picture) save_screenshot(false);
@@ -68,7 +73,6 @@ void WindowApp::apply_run(const UiRequests& requests) {
   for (const Command& command : requests.commands) live_->set_feel(command);
   if (requests.force_off) {
     probe_toggled_ = false;
-    help_open_ = false;
     if (live_->choice().info.peak_force_n > 0) live_->set_force(false);
   }
   if (requests.force_on && !bend_) live_->set_force(true);
@@ -137,19 +141,6 @@ void WindowApp::toggle_recording() {
   const Result<void> started =
       live_->start_recording(dated_file(data_home_dir() / "recordings", "wrist", ".osr"));
   if (!started) note(ToastKind::kError, started.error().message());
-}
-
-void WindowApp::list_recordings() {
-  constexpr std::size_t kMostListed = 12;
-  recordings_.clear();
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(data_home_dir() / "recordings", ec))
-    if (entry.path().extension() == ".osr")
-      recordings_.push_back({entry.path().stem().string(), entry.path().string()});
-  // Names carry their date: the newest is the last by name.
-  std::sort(recordings_.begin(), recordings_.end(),
-            [](const RecordingFile& a, const RecordingFile& b) { return a.label > b.label; });
-  if (recordings_.size() > kMostListed) recordings_.resize(kMostListed);
 }
 
 void WindowApp::save_screenshot(bool whole_window) {

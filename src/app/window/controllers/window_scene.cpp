@@ -24,7 +24,8 @@ Viewport WindowApp::viewport() const {
 CoveredEdges WindowApp::covered_edges() const {
   if (!settings_.panels_open) return {};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const UiLayout layout = make_layout(size.x, size.y, ui_->scale(), true);
+  const UiLayout layout =
+      make_layout(size.x, size.y, ui_->scale(), true, static_cast<float>(settings_.left_card));
   const double width = std::max(1.0, static_cast<double>(layout.picture.w));
   const double left = static_cast<double>(layout.left.right()) / width;
   const double right = static_cast<double>(layout.picture.right() - layout.right.x) / width;
@@ -83,12 +84,15 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
   input.left = input.left || io.MouseDown[0];
   input.right = input.right || io.MouseDown[1];
   input.over_panels = io.WantCaptureMouse && !probe_held_;
+  const bool nudged = nudge_rested(input);
   if (poll_edit(input)) {
     input.left = false;
     input.wheel = 0;
   }
-  if (probe_held_ && !input.right) {
-    live_->move_hand(probe_motion(input), view_.camera, viewport(), dt_s);
+  if (nudged) {
+    pick_under_pointer(input);
+  } else if (probe_held_ && !input.right) {
+    live_->move_hand(probe_motion(input), view_.camera, viewport(), dt_s, portal_near());
   } else {
     // With the probe in hand the right button orbits.
     if (probe_held_) std::swap(input.left, input.right);
@@ -101,6 +105,9 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
     shown_ = live_->snapshot();
     if (const std::string why = live_->take_recording_failure(); !why.empty())
       note(ToastKind::kError, why);
+    if (const std::string why = live_->take_harmless_trip(); !why.empty())
+      note(ToastKind::kInfo, why);
+    poll_device_buttons();
   }
   if (player_ && replay_) {
     player_->advance(dt_s);

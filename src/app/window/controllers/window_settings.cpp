@@ -69,19 +69,22 @@ void WindowApp::remember_looks() {
     settings_.looks[source_without_choice(case_source_)] = std::move(changed);
 }
 
+void WindowApp::remember_view() {
+  if (!renderer_) return;
+  settings_.show_hulls = view_.show_hulls;
+  settings_.show_felt = view_.show_felt;
+  settings_.show_force = view_.show_force;
+  settings_.show_hand_ghost = view_.show_hand_ghost;
+  settings_.light_azimuth_rad = view_.light_azimuth_rad;
+  settings_.light_elevation_rad = view_.light_elevation_rad;
+  settings_.light_brightness = static_cast<double>(view_.light_brightness);
+  settings_.ambient_occlusion = static_cast<double>(view_.ambient_occlusion);
+}
+
 void WindowApp::remember() {
   if (!glfwGetWindowMonitor(window_->handle()))
     glfwGetWindowSize(window_->handle(), &settings_.window_width, &settings_.window_height);
-  if (renderer_) {
-    settings_.show_hulls = view_.show_hulls;
-    settings_.show_felt = view_.show_felt;
-    settings_.show_force = view_.show_force;
-    settings_.show_hand_ghost = view_.show_hand_ghost;
-    settings_.light_azimuth_rad = view_.light_azimuth_rad;
-    settings_.light_elevation_rad = view_.light_elevation_rad;
-    settings_.light_brightness = static_cast<double>(view_.light_brightness);
-    settings_.ambient_occlusion = static_cast<double>(view_.ambient_occlusion);
-  }
+  remember_view();
   remember_looks();
   remember_feel();
   const Result<void> saved = save_app_settings(settings_, config_dir() / "settings.json");

@@ -6,6 +6,7 @@
 #include "cases/open_case.h"
 #include "osteon/base/clock.h"
 #include "runs/demo_path.h"
+#include "runs/tray.h"
 
 namespace osteon {
 
@@ -105,13 +106,29 @@ Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
 
 Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
   LoadedReplay& replay_of = *loaded.replay;
+  const auto settings = parse_settings(recording.header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  ReplayOptions options;
+  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  options.tray = *tray;
+  replay_of.tray = std::move(*tray);
+  if (replay_of.tray.empty())
+    replay_of.tray.push_back(
+        std::make_shared<const Tool>(make_wrist_probe(settings->probe_radius_m)));
+  replay_of.instruments = settings->tray;
+  for (const HandSettings& hand : settings->hands) replay_of.hands.push_back(hand.name);
+  replay_of.more.resize(settings->hands.size() - 1);
   const double total = static_cast<double>(std::max<std::size_t>(1, recording.ticks.size()));
-  const auto outcome =
-      replay(recording, loaded.the_case, [&](const ToolState& tool, const BoneSnapshot& bones) {
-        replay_of.track.add(tool, bones);
-        if (tool.tick % 500 == 0)
-          say("Repeating the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
-      });
+  options.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                        std::span<const Event> events) {
+    ReplayTrack& track = hand == 0 ? replay_of.track : replay_of.more[hand - 1];
+    track.add(tool, bones);
+    for (const Event& event : events) replay_of.events.add(event, settings->haptic.tick_s);
+    if (hand == 0 && tool.tick % 500 == 0)
+      say("Repeating the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
+  };
+  const auto outcome = replay(recording, loaded.the_case, options);
   if (!outcome) return tl::unexpected(outcome.error());
   if (replay_of.track.empty())
     return fail("the recording holds no ticks", order_.recording.string(), "Record a longer run");

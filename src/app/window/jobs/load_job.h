@@ -15,6 +15,7 @@
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
 #include "runs/replay_track.h"
+#include "runs/run_events.h"
 #include "ui/load_progress.h"
 
 namespace osteon {
@@ -29,7 +30,12 @@ struct LoadOrder {
 struct LoadedReplay {
   std::filesystem::path file;
   RecordingHeader header;
-  ReplayTrack track;
+  ReplayTrack track;                     ///< of the first hand
+  std::vector<ReplayTrack> more;         ///< of the others
+  std::vector<std::string> hands;        ///< names, where there are several
+  std::vector<std::string> instruments;  ///< names by their place in the tray
+  Tray tray;                             ///< what the hands held
+  RunEvents events;
   bool complete = true;  ///< false: the recording ended with a kill
   bool identical = true;
   std::uint64_t first_different_tick = 0;

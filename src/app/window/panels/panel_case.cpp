@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -59,8 +60,8 @@ void draw_bone_row(const PanelContext& c, std::size_t i, ViewState& view) {
   const float name_w = ImGui::GetContentRegionAvail().x - eye;
   ImGui::PushStyleColor(ImGuiCol_Text, look.visible ? color::kText : color::kTextQuiet);
   const bool chosen = c.model.picked == id;
-  if (ImGui::Selectable(c.model.bone_labels[i].c_str(), chosen, 0, {name_w, c.px(18)}))
-    c.requests.picked_row = id;
+  const std::string name = ui::shortened(c.model.bone_labels[i], name_w - c.px(4));
+  if (ImGui::Selectable(name.c_str(), chosen, 0, {name_w, c.px(18)})) c.requests.picked_row = id;
   ImGui::PopStyleColor();
   if (ImGui::IsItemHovered()) c.requests.hovered_row = id;
   ImGui::SameLine(0, 0);
@@ -79,6 +80,26 @@ void draw_bones(const PanelContext& c, ViewState& view) {
   ImGui::PopStyleVar();
 }
 
+// The card's right edge, which can be dragged.
+void draw_width_handle(const PanelContext& c, float bottom) {
+  const UiRect& r = c.layout.left;
+  ImGui::SetNextWindowPos({r.right() - c.px(2), r.y});
+  ImGui::SetNextWindowSize({c.px(6), std::max(c.px(8), bottom - r.y)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::Begin("##case_width", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar(2);
+  ImGui::InvisibleButton("edge", {c.px(6), std::max(c.px(8), bottom - r.y)});
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActive())
+    c.requests.left_card = static_cast<double>((ImGui::GetIO().MousePos.x - r.x) / c.model.scale);
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_case_card(const PanelContext& c) {
@@ -91,7 +112,9 @@ void draw_case_card(const PanelContext& c) {
   draw_joint_section(c);
   draw_soft_section(c);
   if (ui::section(c.fonts, "View")) draw_view_section(c);
+  const float bottom = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
   ImGui::End();
+  draw_width_handle(c, bottom);
 }
 
 }  // namespace osteon

@@ -58,7 +58,9 @@ void draw_force_state(const PanelContext& c) {
         "for as long as the key is down.");
   }
   if (c.model.replay.on) return;
-  if (hand.status.cause != ForceOff::kNone) return draw_force_off(c);
+  // What has no motors goes on by itself; only a device that is gone must be told.
+  const bool gone = hand.status.cause == ForceOff::kDisconnect;
+  if (hand.status.cause != ForceOff::kNone && (has_motors(hand) || gone)) return draw_force_off(c);
   if (!has_motors(hand)) {
     ui::text(color::kTextQuiet, "Force is shown, not felt");
     ui::tooltip(
@@ -138,7 +140,11 @@ void draw_warnings(const PanelContext& c) {
     ui::tooltip("Fewer than 950 haptic ticks a second: contact feels soft. Close other programs.");
   }
   if (hand.realtime_warning.empty()) return;
-  ui::text(color::kAmber, "! Real-time rights missing");
+  // The first sentence names what is missing; the check-up says the same.
+  const std::string what = hand.realtime_warning.substr(0, hand.realtime_warning.find('.'));
+  ImGui::PushTextWrapPos(0);
+  ui::text(color::kAmber, ("! " + what).c_str());
+  ImGui::PopTextWrapPos();
   ui::tooltip(hand.realtime_warning.c_str());
 }
 
@@ -152,12 +158,13 @@ void draw_hand_card(const PanelContext& c) {
   if (ui::section(c.fonts, "Hand")) {
     draw_device_menu(c);
     draw_force_state(c);
+    draw_hands(c);
     draw_force_section(c);
     draw_contacts(c);
   }
   if (has_motors(c.model.hand) && !c.model.replay.on && ui::section(c.fonts, "Device"))
     draw_device_section(c);
-  if (ui::section(c.fonts, "Feel")) draw_feel(c);
+  if (ui::section(c.fonts, "Feel", !has_motors(c.model.hand))) draw_feel(c);
   if (ui::section(c.fonts, "Rates", !has_motors(c.model.hand))) draw_rates(c);
   draw_warnings(c);
   ImGui::End();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "ui/ui_widgets.h"
@@ -11,7 +12,7 @@ struct KeyLine {
   const char* what;
 };
 
-constexpr std::array<KeyLine, 9> kLook = {{
+constexpr std::array<KeyLine, 10> kLook = {{
     {"Drag", "look around"},
     {"Right drag, Shift + drag", "move sideways"},
     {"Wheel", "nearer, farther"},
@@ -20,14 +21,21 @@ constexpr std::array<KeyLine, 9> kLook = {{
     {"F", "close up on the picked bone, else the joint"},
     {"Click", "choose a bone"},
     {"H", "contact hulls"},
+    {"L", "names on the bones"},
     {"Tab", "fold the panels away"},
 }};
 
-constexpr std::array<KeyLine, 6> kProbe = {{
+constexpr std::array<KeyLine, 12> kProbe = {{
     {"M", "take the probe, let it go"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
     {"W S, A D, Q E", "tilt, turn, roll"},
+    {"X", "the other hand"},
+    {"G", "bring it before the next portal; the wheel goes in"},
+    {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},
+    {"T", "tray of instruments"},
+    {"Page Up, Page Down, End", "instrument before, next; next size"},
+    {"K, U", "mark this moment, go back to it"},
     {"Esc", "force off at once"},
     {"Enter", "force on again"},
 }};
@@ -41,7 +49,7 @@ constexpr std::array<KeyLine, 4> kEdit = {{
 
 constexpr std::array<KeyLine, 11> kRun = {{
     {"R", "record, stop"},
-    {"O", "open a recording"},
+    {"O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
     {"P", "play, pause a replay"},
     {",  .", "slower, faster"},
@@ -61,7 +69,7 @@ void draw_keys(const PanelContext& c, const char* title, const std::array<KeyLin
   }
   if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, c.px(176));
-  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, c.px(280));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, c.px(270));
   for (const KeyLine& line : lines) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -77,19 +85,31 @@ void draw_keys(const PanelContext& c, const char* title, const std::array<KeyLin
 
 void draw_help(const PanelContext& c) {
   const UiRect& r = c.layout.picture;
+  // Two columns where there is room, else one that scrolls; Close stays in sight.
+  const bool wide = r.w > c.px(1000);
+  const float w = std::min(wide ? c.px(980) : c.px(520), r.w - c.px(16));
+  const float h = std::min(wide ? c.px(520) : c.px(680), r.h - c.px(16));
   ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({w, h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(24), c.px(16)});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0x1c, 0x20, 0x25, 0xff));
-  ImGui::Begin("##help", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+  ImGui::Begin(
+      "##help", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::BeginChild("keys", {0, -ImGui::GetFrameHeightWithSpacing() - c.px(4)});
+  if (wide) ImGui::Columns(2, nullptr, false);
   draw_keys(c, "Look", kLook);
-  draw_keys(c, "Probe", kProbe);
   draw_keys(c, "Edit", kEdit);
+  if (wide) ImGui::NextColumn();
+  draw_keys(c, "Probe and hands", kProbe);
+  if (wide) ImGui::NextColumn();
   draw_keys(c, "Run", kRun);
+  if (wide) ImGui::Columns(1);
+  ImGui::EndChild();
   if (ImGui::Button("Close  (F1)")) c.requests.toggle_help = true;
   ImGui::End();
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
   ImGui::PopStyleVar();
 }
 

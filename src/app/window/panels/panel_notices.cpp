@@ -61,8 +61,10 @@ void draw_toasts(const PanelContext& c) {
 }
 
 void begin_bottom_note(const PanelContext& c, const char* name) {
-  ImGui::SetNextWindowPos({picture_middle(c), c.layout.picture.bottom() - c.px(16)},
-                          ImGuiCond_Always, {0.5f, 1});
+  // Over the legend where there is one.
+  const float above = c.model.view.show_felt ? c.px(108) : c.px(16);
+  ImGui::SetNextWindowPos({picture_middle(c), c.layout.picture.bottom() - above}, ImGuiCond_Always,
+                          {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(8)});
   ImGui::Begin(name, nullptr, kNote);
   ImGui::PopStyleVar();
@@ -121,7 +123,7 @@ void draw_name_tag(const PanelContext& c, BoneId bone) {
   ImGui::End();
 }
 
-void draw_verdict(const PanelContext& c) {
+void draw_replay_verdict(const PanelContext& c) {
   begin_bottom_note(c, "##verdict");
   ui::text(c.model.replay.identical ? color::kTextQuiet : color::kAmber,
            c.model.replay.verdict.c_str());
@@ -141,7 +143,7 @@ void draw_notices(const PanelContext& c) {
   else if (c.model.first_run_hint)
     draw_first_run_hint(c);
   else if (c.model.replay.on && c.model.panels_open)
-    draw_verdict(c);
+    draw_replay_verdict(c);
   if (!c.model.hand.probe_in_hand) draw_name_tag(c, c.model.hovered);
 }
 

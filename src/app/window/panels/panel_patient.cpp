@@ -141,7 +141,10 @@ void draw_finding_choice(const AnatomyFinding& finding, PatientOrder& order, boo
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ui::text_within(color::kText, measure_of(finding.name).label, ImGui::GetContentRegionAvail().x);
-  ui::tooltip(finding.meaning.c_str());
+  std::string meaning = finding.meaning;
+  for (const FindingGrade& grade : finding.grades)
+    meaning += "\n" + grade.name + ": " + grade.meaning;
+  ui::tooltip(meaning.c_str());
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##grade", has ? at->grade.c_str() : "none")) {

@@ -39,7 +39,8 @@ void draw_all(const PanelContext& c, ViewState& view) {
   const auto inner = [](const BoneAppearance& look) { return look.opacity > 0.5f; };
   const bool any = std::any_of(view.softs.begin(), view.softs.end(),
                                [&](const auto& look) { return inner(look) && look.visible; });
-  if (!ui::toggle_button(any ? "Hide all" : "Show all", any, {ImGui::GetContentRegionAvail().x, 0}))
+  if (!ui::toggle_button(any ? "Hide all###all" : "Show all but the skin###all", any,
+                         {ImGui::GetContentRegionAvail().x, 0}))
     return;
   for (BoneAppearance& look : view.softs)
     if (any || inner(look)) look.visible = !any;

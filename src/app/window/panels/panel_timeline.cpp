@@ -60,6 +60,46 @@ void explain_span(const PanelContext& c, const ContactSpan& span) {
   ImGui::EndTooltip();
 }
 
+// Beside the first touch of each bone, where its line is high enough to be read.
+void draw_span_names(const PanelContext& c, const Lane& lane, const std::vector<BoneId>& order,
+                     float line_h) {
+  const ui::WithFont small(c.fonts.small);
+  if (line_h < 0.8f * ImGui::GetTextLineHeight()) return;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  for (std::size_t line = 0; line < order.size(); ++line) {
+    if (order[line].index >= c.model.bone_labels.size()) continue;
+    const std::string& name = c.model.bone_labels[order[line].index];
+    const auto first = std::find_if(c.model.timeline.spans.begin(), c.model.timeline.spans.end(),
+                                    [&](const ContactSpan& s) { return s.bone == order[line]; });
+    const float width = ImGui::CalcTextSize(name.c_str()).x;
+    const float x = std::min(lane.x(first->start_s) + c.px(4), lane.hi.x - width);
+    const float y =
+        lane.lo.y + line_h * (static_cast<float>(line) + 0.5f) - 0.5f * ImGui::GetTextLineHeight();
+    draw->AddText({x + 1, y + 1}, IM_COL32(0, 0, 0, 0xc0), name.c_str());
+    draw->AddText({x, y}, color::kText, name.c_str());
+  }
+}
+
+// Small signs along the upper edge; a square stands for what was harmful.
+void draw_marks(const PanelContext& c, const Lane& lane, bool hovered) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const TimelineMark* under = nullptr;
+  const float a = c.px(3);
+  for (const TimelineMark& mark : c.model.timeline.marks) {
+    const float x = lane.x(mark.time_s), y = lane.lo.y + a;
+    if (mark.harm)
+      draw->AddRectFilled({x - a, y - a}, {x + a, y + a}, color::kAmber);
+    else
+      draw->AddCircleFilled({x, y}, a, color::kAccent, 12);
+    if (std::abs(mouse.x - x) <= a + 1 && mouse.y < lane.lo.y + 4 * a) under = &mark;
+  }
+  if (!hovered || !under) return;
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted((ui::clock_time(under->time_s) + "  " + under->text).c_str());
+  ImGui::EndTooltip();
+}
+
 void draw_spans(const PanelContext& c, const Lane& lane, bool hovered) {
   const std::vector<BoneId> order = touched_bones(c.model.timeline.spans);
   if (order.empty()) return;
@@ -78,6 +118,7 @@ void draw_spans(const PanelContext& c, const Lane& lane, bool hovered) {
     if (mouse.x >= x0 - 2 && mouse.x <= x1 + 2 && mouse.y >= y && mouse.y < y + line_h)
       under = &span;
   }
+  draw_span_names(c, lane, order, line_h);
   if (hovered && under) explain_span(c, *under);
 }
 
@@ -107,6 +148,7 @@ void draw_lane(const PanelContext& c, float x0, float x1) {
   ImGui::GetWindowDrawList()->AddRectFilled(lane.lo, lane.hi, color::kGround, 3);
   draw_ruler(c, lane);
   draw_spans(c, lane, hovered);
+  draw_marks(c, lane, hovered);
   draw_cursor(c, lane);
 }
 

@@ -40,25 +40,11 @@ void draw_record_button(const PanelContext& c) {
     draw->AddCircleFilled(at, r, color::kRed);
 }
 
-void draw_open_menu(const PanelContext& c) {
-  if (ImGui::Button("Open")) c.requests.list_recordings = true;
-  const ImVec2 below{ImGui::GetItemRectMax().x, ImGui::GetItemRectMax().y + c.px(8)};
-  if (c.requests.list_recordings) ImGui::OpenPopup("recordings");
-  ui::tooltip("Opens a recording to replay it (O). A file dropped on the window opens too.");
-  ImGui::SetNextWindowPos(below, ImGuiCond_Appearing, {1, 0});
-  if (!ImGui::BeginPopup("recordings")) return;
-  if (ImGui::MenuItem("New patient ...", "N")) c.requests.patient.toggle = true;
-  if (ImGui::MenuItem("Segment a scan ...")) c.requests.segment_scan = true;
+void draw_open_button(const PanelContext& c) {
+  if (ui::toggle_button("Open", c.model.browser.open)) c.requests.browser.toggle = true;
   ui::tooltip(
-      "Makes a case of a CT scan by hand, in a window of its own that takes the place of "
-      "this one");
-  ImGui::Separator();
-  ui::text(color::kTextQuiet, "Recordings");
-  if (c.model.recordings.empty())
-    ImGui::TextUnformatted("None yet. Press R to make one,\nor drop a file on the window.");
-  for (const RecordingFile& file : c.model.recordings)
-    if (ImGui::MenuItem(file.label.c_str())) c.requests.open_file = file.path;
-  ImGui::EndPopup();
+      "Cases, patients, recordings, meshes and scans (O). What is dropped on the window "
+      "opens too.");
 }
 
 // Width of the buttons and the time, so that they end at the right edge.
@@ -84,7 +70,7 @@ void draw_actions(const PanelContext& c) {
   ImGui::SameLine(0, c.px(16));
   draw_record_button(c);
   ImGui::SameLine();
-  draw_open_menu(c);
+  draw_open_button(c);
   if (c.model.replay.on) {
     ImGui::SameLine();
     if (ImGui::Button("Leave replay")) c.requests.close_replay = true;

@@ -12,6 +12,9 @@ struct PresetButton {
   const char* explanation;
 };
 
+// A wrist lies on its palm under the tube: the rays come from behind.
+constexpr PresetButton kPa = {"PA", ViewPreset::kAp,
+                              "As a posteroanterior radiograph is hung, without perspective (5)"};
 constexpr PresetButton kAp = {"AP", ViewPreset::kAp,
                               "As a front radiograph is hung, without perspective (5)"};
 constexpr PresetButton kLateral = {"Lateral", ViewPreset::kLateral,
@@ -21,16 +24,17 @@ constexpr std::array<PresetButton, 6> kWristPresets = {{
     {"Palmar", ViewPreset::kPalmar, "From the palm (2)"},
     {"Radial", ViewPreset::kRadial, "From the thumb's side (3)"},
     {"Ulnar", ViewPreset::kUlnar, "From the little finger's side (4)"},
-    kAp,
+    kPa,
     kLateral,
 }};
 constexpr std::array<PresetButton, 6> kKneePresets = {{
     {"Front", ViewPreset::kDorsal, "From the patella's side (1)"},
     {"Back", ViewPreset::kPalmar, "From the hollow of the knee (2)"},
-    {"Outer", ViewPreset::kRadial, "From the fibula's side (3)"},
-    {"Inner", ViewPreset::kUlnar, "From the other knee's side (4)"},
+    {"Lateral", ViewPreset::kRadial, "From the outer side, where the fibula is (3)"},
+    {"Medial", ViewPreset::kUlnar, "From the inner side, where the other knee is (4)"},
     kAp,
-    kLateral,
+    {"Side, as X-ray", ViewPreset::kLateral,
+     "As a side radiograph is hung, without perspective (6)"},
 }};
 
 void draw_presets(const PanelContext& c) {

@@ -5,7 +5,8 @@ namespace osteon {
 UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   UiRequests requests;
   const bool ready = model.phase == UiPhase::kReady;
-  const UiLayout layout = make_layout(model.width, model.height, model.scale, model.panels_open);
+  const UiLayout layout =
+      make_layout(model.width, model.height, model.scale, model.panels_open, model.left_card);
   const PanelContext c{model, fonts, layout, requests};
   read_shortcuts(c);
   if (model.panels_open) {
@@ -16,6 +17,8 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
       draw_timeline(c);
     }
   }
+  if (ready) draw_tip_line(c);
+  if (ready) draw_bone_names(c);
   if (ready) draw_felt_legend(c);
   if (ready) draw_edit(c);
   if (!ready) draw_loading(c);
@@ -23,6 +26,8 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   if (model.help_open) draw_help(c);
   if (model.checkup.open && ready) draw_checkup(c);
   if (model.patient.open && ready) draw_patient(c);
+  if (model.browser.open) draw_browser(c);
+  if (model.hands.tray.open && ready) draw_tray(c);
   return requests;
 }
 

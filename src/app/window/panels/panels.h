@@ -27,11 +27,17 @@ void draw_soft_section(const PanelContext& c);
 void draw_view_section(const PanelContext& c);
 void draw_felt_legend(const PanelContext& c);  // where bones are coloured by what is felt
 void draw_hand_card(const PanelContext& c);
+void draw_hands(const PanelContext& c);       // who holds what, within the hand card
+void draw_tray(const PanelContext& c);        // of instruments
+void draw_tip_line(const PanelContext& c);    // to the nearest bone, in the picture
+void draw_bone_names(const PanelContext& c);  // in the picture
+void read_hand_keys(const PanelContext& c);
 void draw_device_section(const PanelContext& c);
 void draw_force_section(const PanelContext& c);
 void draw_timeline(const PanelContext& c);
 void draw_notices(const PanelContext& c);  // toasts, hint, probe hint, name tag
 void draw_loading(const PanelContext& c);
+void draw_browser(const PanelContext& c);  // of what can be opened
 void draw_help(const PanelContext& c);
 void draw_checkup(const PanelContext& c);
 void draw_edit(const PanelContext& c);     // of a bone's surface

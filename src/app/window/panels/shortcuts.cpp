@@ -43,7 +43,7 @@ void read_run_keys(const PanelContext& c) {
   const bool replay = c.model.replay.on;
   if (pressed(GLFW_KEY_M) && c.model.hand.probe_by_mouse && !replay) c.requests.toggle_probe = true;
   if (pressed(GLFW_KEY_R) && !replay) c.requests.toggle_record = true;
-  if (pressed(GLFW_KEY_O)) c.requests.list_recordings = true;
+  if (pressed(GLFW_KEY_O)) c.requests.browser.toggle = true;
   if (pressed(GLFW_KEY_N)) c.requests.patient.toggle = true;
   if (pressed(GLFW_KEY_P) && replay) c.requests.toggle_play = true;
   if (pressed(GLFW_KEY_COMMA) && replay) c.requests.speed = std::max(0.1, c.model.replay.speed / 2);
@@ -60,9 +60,14 @@ void read_shortcuts(const PanelContext& c) {
   if (pressed(GLFW_KEY_ESCAPE)) c.requests.force_off = true;
   if (ImGui::GetIO().WantTextInput) return;
   read_window_keys(c);
-  if (c.model.phase != UiPhase::kReady || ImGui::GetIO().KeyCtrl) return;
+  if (c.model.phase != UiPhase::kReady) return;
+  if (ImGui::GetIO().KeyCtrl) {
+    if (pressed(GLFW_KEY_Z) && !c.model.edit.on) c.requests.hands.undo = true;
+    return;
+  }
   if (!c.model.hand.probe_in_hand) read_view_keys(c);
   read_run_keys(c);
+  read_hand_keys(c);
 }
 
 }  // namespace osteon

@@ -51,8 +51,14 @@ TEST(FeltJob, GivesWhatPrepareFeltGives) {
 }
 
 TEST(FeltJob, MayBeLeftBeforeItIsDone) {
-  const auto the_case = one_bone();
-  const FeltJob job(the_case, prepare_case(*the_case));
+  auto the_case = one_bone();
+  const std::weak_ptr<const Case> watched = the_case;
+  {
+    const FeltJob job(the_case, prepare_case(*the_case));
+    the_case.reset();
+    EXPECT_FALSE(watched.expired()) << "the job holds what it works on";
+  }
+  EXPECT_TRUE(watched.expired()) << "its thread has ended and holds nothing any more";
 }
 
 }  // namespace

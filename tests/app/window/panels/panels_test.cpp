@@ -29,7 +29,7 @@ TEST(Panels, NothingIsAskedForWhenNobodyActs) {
   fill(ui, small_model());
   for (int i = 0; i < 3; ++i) {
     const UiRequests r = ui.draw();
-    EXPECT_FALSE(r.view || r.preset || r.device || r.seek_s || r.speed || r.open_file);
+    EXPECT_FALSE(r.view || r.preset || r.device || r.seek_s || r.speed || r.browser.open);
     EXPECT_FALSE(r.force_off || r.force_on || r.toggle_record || r.toggle_panels || r.toggle_help);
     EXPECT_TRUE(r.commands.empty());
   }
@@ -70,7 +70,7 @@ TEST(Panels, SoftPartsAreShownOneByOneOrAllButForTheSkin) {
   EXPECT_FALSE(one.view->softs[0].visible);
   EXPECT_TRUE(one.view->softs[1].visible);
   EXPECT_TRUE(one.view->bones[1].visible) << "the bone of the same number stays";
-  const UiRequests all = ui.click("##case", {"soft", "Show all"});
+  const UiRequests all = ui.click("##case", {"soft", "###all"});
   ASSERT_TRUE(all.view);
   EXPECT_TRUE(all.view->softs[0].visible);
   EXPECT_TRUE(all.view->softs[1].visible);
@@ -187,7 +187,7 @@ TEST(Panels, EveryPresetHasAButtonAndAKey) {
   const std::vector<std::pair<const char*, ViewPreset>> presets = {
       {"Dorsal", ViewPreset::kDorsal}, {"Palmar", ViewPreset::kPalmar},
       {"Radial", ViewPreset::kRadial}, {"Ulnar", ViewPreset::kUlnar},
-      {"AP", ViewPreset::kAp},         {"Lateral", ViewPreset::kLateral}};
+      {"PA", ViewPreset::kAp},         {"Lateral", ViewPreset::kLateral}};
   UiFrame ui;
   fill(ui, small_model());
   for (std::size_t i = 0; i < presets.size(); ++i) {
@@ -204,7 +204,7 @@ TEST(Panels, AKneesViewsHaveItsOwnNames) {
   UiFrame ui;
   fill(ui, small_model());
   ui.model.is_knee = true;
-  const UiRequests clicked = ui.click("##case", {"Outer"});
+  const UiRequests clicked = ui.click("##case", {"Lateral"});
   ASSERT_TRUE(clicked.preset);
   EXPECT_EQ(*clicked.preset, ViewPreset::kRadial);
 }

@@ -1,0 +1,126 @@
+#include "window/controllers/instrument_tray.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "runs/tray.h"
+
+namespace osteon {
+namespace {
+
+constexpr const char* kWristProbeTitle = "Wrist probe";
+// Places of the set come after the wrist probe.
+constexpr std::uint32_t kFirst = 1;
+
+bool is_of(const Instrument& instrument, const std::string& region) {
+  return std::find(instrument.regions.begin(), instrument.regions.end(), region) !=
+         instrument.regions.end();
+}
+
+std::string in_mm(double size_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g mm", 1e3 * size_m);
+  return text;
+}
+
+std::string what_it_does(const Instrument& instrument) {
+  std::string text, declared;
+  for (const InstrumentFunction function : instrument.functions) {
+    std::string& into = has_effect(function) ? text : declared;
+    into += (into.empty() ? "" : ", ") + std::string(to_text(function));
+  }
+  if (declared.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + declared + " (without effect yet)";
+}
+
+}  // namespace
+
+InstrumentTray::InstrumentTray() {
+  run_.names = {kWristProbe};
+  run_.tools = {std::make_shared<const Tool>(make_wrist_probe())};
+}
+
+Result<InstrumentTray> InstrumentTray::make(const std::string& region,
+                                            std::span<const std::string> wanted) {
+  auto all = load_instruments();
+  if (!all) return tl::unexpected(all.error());
+  std::vector<std::string> names;
+  for (const Instrument& instrument : *all)
+    if (is_of(instrument, region)) names.push_back(instrument.name);
+  for (const std::string& name : wanted)
+    if (!name.empty() && name != kWristProbe) names.push_back(name);
+  InstrumentTray tray;
+  if (names.empty()) return tray;
+  auto set = ToolSet::of(*all, names);
+  if (!set) return tl::unexpected(set.error());
+  tray.set_ = std::move(*set);
+  for (const std::string& name : tray.set_.names()) tray.run_.names.push_back(name);
+  for (const auto& tool : tray.set_.tools()) tray.run_.tools.push_back(tool);
+  return tray;
+}
+
+std::optional<std::uint32_t> InstrumentTray::find(const std::string& name) const {
+  if (name.empty() || name == kWristProbe) return 0;
+  const auto wanted = parse_tool_name(name);
+  if (!wanted) return std::nullopt;
+  const auto place = set_.find(wanted->name, wanted->size_mm);
+  if (!place) return std::nullopt;
+  return static_cast<std::uint32_t>(*place) + kFirst;
+}
+
+// The wrist probe stands before the first instrument, round and round.
+std::uint32_t InstrumentTray::next(std::uint32_t place, int steps) const {
+  std::vector<std::uint32_t> usual{0};
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < set_.instruments().size(); ++i) {
+    const auto found = set_.find(set_.instruments()[i].name);
+    if (place >= kFirst && set_.at(place - kFirst).instrument == i) at = usual.size();
+    usual.push_back(static_cast<std::uint32_t>(found.value_or(0)) + kFirst);
+  }
+  const auto n = static_cast<int>(usual.size());
+  const int to = ((static_cast<int>(at) + steps) % n + n) % n;
+  return usual[static_cast<std::size_t>(to)];
+}
+
+std::uint32_t InstrumentTray::next_size(std::uint32_t place) const {
+  if (place < kFirst) return place;
+  return static_cast<std::uint32_t>(set_.next_size(place - kFirst)) + kFirst;
+}
+
+TrayItem InstrumentTray::item(std::uint32_t place) const {
+  if (place < kFirst)
+    return {kWristProbeTitle, {}, "probe: the ball at its tip alone is felt", 0, -1};
+  const PreparedTool& tool = set_.at(place - kFirst);
+  const Instrument& instrument = set_.instruments()[tool.instrument];
+  TrayItem out{
+      instrument.title, {}, what_it_does(instrument), place, static_cast<int>(tool.instrument)};
+  if (instrument.sizes_m.size() > 1) out.size = in_mm(instrument.sizes_m[tool.size]);
+  return out;
+}
+
+std::string InstrumentTray::title(std::uint32_t place) const {
+  if (place >= run_.tools.size()) return "instrument " + std::to_string(place);
+  const TrayItem of = item(place);
+  return of.size.empty() ? of.title : of.title + ", " + of.size;
+}
+
+std::vector<std::string> InstrumentTray::titles() const {
+  std::vector<std::string> out;
+  for (std::uint32_t place = 0; place < run_.tools.size(); ++place) out.push_back(title(place));
+  return out;
+}
+
+void InstrumentTray::took(std::uint32_t place) {
+  std::erase(taken_, place);
+  taken_.insert(taken_.begin(), place);
+}
+
+std::vector<TrayItem> InstrumentTray::items() const {
+  std::vector<TrayItem> out;
+  for (const std::uint32_t place : taken_) out.push_back(item(place));
+  for (std::uint32_t place = 0; place < run_.tools.size(); ++place)
+    if (std::find(taken_.begin(), taken_.end(), place) == taken_.end()) out.push_back(item(place));
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osteon/scene/tool_set.h"
+#include "runs/live_run.h"
+#include "window/hands_model.h"
+
+namespace osteon {
+
+/// What the hands of a window's run may take: the wrist probe at place 0, then the instruments of a
+/// region of the body in all their sizes. Knows neither window nor picture.
+class InstrumentTray {
+ public:
+  /// The wrist probe alone.
+  InstrumentTray();
+  /// `wanted`: names as a command line gives them, which come in whatever the region is. Fails on
+  /// one that there is not.
+  static Result<InstrumentTray> make(const std::string& region,
+                                     std::span<const std::string> wanted);
+
+  const RunTray& run() const { return run_; }
+  /// None: it is not in the tray. Empty is the wrist probe.
+  std::optional<std::uint32_t> find(const std::string& name) const;
+  std::uint32_t next(std::uint32_t place, int steps) const;
+  std::uint32_t next_size(std::uint32_t place) const;
+  /// "Hook probe, 1.5 mm"
+  std::string title(std::uint32_t place) const;
+  std::vector<std::string> titles() const;
+  const std::vector<Instrument>& instruments() const { return set_.instruments(); }
+
+  /// Comes first in the list from now on.
+  void took(std::uint32_t place);
+  std::vector<TrayItem> items() const;
+
+ private:
+  TrayItem item(std::uint32_t place) const;
+
+  ToolSet set_;
+  RunTray run_;
+  std::vector<std::uint32_t> taken_;  ///< the last one first
+};
+
+}  // namespace osteon

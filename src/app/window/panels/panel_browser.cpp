@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+void draw_entry(const PanelContext& c, const OpenEntry& entry, int i) {
+  ImGui::PushID(i);
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float w = ImGui::GetContentRegionAvail().x;
+  if (ImGui::Selectable("###entry", false, 0, {0, c.px(20)})) {
+    if (entry.kind == OpenKind::kFolder)
+      c.requests.browser.look_into = entry.path;
+    else
+      c.requests.browser.open = entry;
+  }
+  ui::tooltip(entry.path.c_str());
+  ImGui::SetCursorPos({at.x, at.y + c.px(2)});
+  const std::string name = entry.kind == OpenKind::kFolder ? entry.label + "/" : entry.label;
+  ImGui::TextUnformatted(ui::shortened(name, 0.58f * w).c_str());
+  ImGui::SetCursorPos({at.x + 0.6f * w, at.y + c.px(2)});
+  ui::text(color::kTextQuiet, ui::shortened(entry.about, 0.4f * w).c_str());
+  ImGui::SetCursorPos({at.x, at.y + c.px(22)});
+  ImGui::PopID();
+}
+
+void draw_known(const PanelContext& c) {
+  ui::text(color::kTextQuiet, "Cases and recordings");
+  ImGui::BeginChild("known", {0, 0}, true);
+  int i = 0;
+  for (const OpenEntry& entry : c.model.browser.known) draw_entry(c, entry, i++);
+  ImGui::EndChild();
+}
+
+void draw_folder(const PanelContext& c) {
+  const BrowserModel& browser = c.model.browser;
+  ui::text(color::kTextQuiet, "On this computer: case folders, recordings, meshes, scans");
+  char text[1024];
+  std::snprintf(text, sizeof text, "%s", browser.folder.c_str());
+  const float up = c.px(48);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - up - c.px(4));
+  if (ImGui::InputText("##path", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const OpenEntry typed{OpenKind::kNothing, text, {}, text};
+    c.requests.browser.open = typed;
+  }
+  ui::tooltip("A folder or file; Enter goes there");
+  ImGui::SameLine(0, c.px(4));
+  if (ImGui::Button("Up", {up, 0}))
+    c.requests.browser.look_into = std::filesystem::path(browser.folder).parent_path().string();
+  ImGui::BeginChild("files", {0, -ImGui::GetFrameHeightWithSpacing()}, true);
+  if (!browser.problem.empty())
+    ui::text(color::kAmber, ("This folder cannot be read: " + browser.problem).c_str());
+  else if (browser.files.empty())
+    ui::text(color::kTextQuiet, "Nothing in here that can be opened");
+  int i = 0;
+  for (const OpenEntry& entry : browser.files) draw_entry(c, entry, i++);
+  ImGui::EndChild();
+  bool mm = browser.in_millimetres;
+  if (ImGui::Checkbox("Meshes are in millimetres", &mm)) c.requests.browser.in_millimetres = mm;
+  ui::tooltip("Off: in metres");
+}
+
+void draw_browser_footer(const PanelContext& c) {
+  const BrowserModel& browser = c.model.browser;
+  if (browser.importing) {
+    ImGui::ProgressBar(static_cast<float>(browser.fraction), {c.px(200), 0}, "Importing");
+    ImGui::SameLine();
+    if (ImGui::Button("Stop")) c.requests.browser.stop_import = true;
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("New patient ...")) c.requests.patient.toggle = true;
+  ui::tooltip("Makes a wrist or knee by its measures (N)");
+  ImGui::SameLine();
+  if (ImGui::Button("Segment a scan ...")) c.requests.segment_scan = true;
+  ui::tooltip("Makes a case of a CT scan by hand, in a window that takes the place of this one");
+  ImGui::SameLine();
+  if (ImGui::Button("Close  (O)")) c.requests.browser.toggle = true;
+}
+
+}  // namespace
+
+void draw_browser(const PanelContext& c) {
+  const UiRect& r = c.layout.picture;
+  const float w = std::min(c.px(860), r.w - c.px(16)), h = std::min(c.px(520), r.h - c.px(16));
+  ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({w, h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(12)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kPanel);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+  ImGui::Begin(
+      "##browser", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  {
+    const ui::WithFont strong(c.fonts.strong);
+    ImGui::TextUnformatted("Open");
+  }
+  const float body = ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing();
+  const float left = 0.46f * (w - c.px(40));
+  ImGui::BeginChild("left", {left, body});
+  draw_known(c);
+  ImGui::EndChild();
+  ImGui::SameLine(0, c.px(8));
+  ImGui::BeginChild("right", {0, body});
+  draw_folder(c);
+  ImGui::EndChild();
+  draw_browser_footer(c);
+  ImGui::End();
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace osteon

@@ -1,0 +1,122 @@
+#include <string>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+void draw_row(const HandRow& row) {
+  const std::string name = row.name.empty() ? "Holds" : row.name;
+  std::string what = row.instrument;
+  if (!row.portal.empty()) what += ", in " + row.portal;
+  ui::stat(name.c_str(), ui::shortened(what, ImGui::GetContentRegionAvail().x * 0.68f),
+           row.rests ? "Rests as if an assistant held it. Alt + wheel moves it along its shaft, "
+                       "Alt + Q, E turns it about its shaft (a scope's light post), Alt + W, A, S, "
+                       "D tilts it."
+                     : "The instrument that this hand holds",
+           row.active ? color::kText : color::kTextQuiet);
+}
+
+void draw_hand_buttons(const PanelContext& c) {
+  const HandsModel& hands = c.model.hands;
+  const float gap = c.px(4);
+  const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const bool two = hands.rows.size() > 1;
+  ImGui::BeginDisabled(!two && !hands.can_add);
+  if (ImGui::Button(two ? "Change  (X)" : "2nd hand  (X)", {w, 0})) c.requests.hands.change = true;
+  ImGui::EndDisabled();
+  ui::tooltip(two ? "The other hand becomes yours; this one rests where it is"
+                  : "Brings in a second hand. The run starts anew.");
+  ImGui::SameLine(0, gap);
+  if (ui::toggle_button("Tray  (T)", hands.tray.open, {w, 0})) c.requests.hands.toggle_tray = true;
+  ui::tooltip(
+      "All instruments, with pictures. Page Up, Page Down: the one before, the next; End: "
+      "the next size.");
+  if (ImGui::Button("Mark  (K)", {w, 0})) c.requests.hands.mark = true;
+  ui::tooltip("Keeps this moment: bones, instruments and power, to go back to");
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(hands.restore_points == 0);
+  if (ImGui::Button("Undo  (U)", {w, 0})) c.requests.hands.undo = true;
+  ImGui::EndDisabled();
+  ui::tooltip(
+      "Back to the newest mark, or to the begin of the run; once more, to the one before. "
+      "Hands stay where they are; the force fades and comes back once they are free.");
+}
+
+void draw_portals(const PanelContext& c) {
+  const HandsModel& hands = c.model.hands;
+  if (!hands.can_bring || hands.portals.empty()) return;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  if (!ImGui::BeginCombo("##portal", "Bring to a portal  (G)")) return;
+  for (std::size_t i = 0; i < hands.portals.size(); ++i)
+    if (ImGui::Selectable(hands.portals[i].c_str())) c.requests.hands.portal = i;
+  ImGui::EndCombo();
+}
+
+void draw_tip(const PanelContext& c) {
+  const TipModel& tip = c.model.hands.tip;
+  if (!tip.known || tip.bone.index >= c.model.bone_labels.size()) return;
+  ui::stat(("Tip to " + c.model.bone_labels[tip.bone.index]).c_str(),
+           ui::number(tip.distance_mm, 1) + " mm",
+           "From the middle of the tip to the nearest surface of bone, millimetres; below zero it "
+           "is inside");
+}
+
+}  // namespace
+
+void draw_hands(const PanelContext& c) {
+  if (!c.model.replay.on) {
+    for (const HandRow& row : c.model.hands.rows) draw_row(row);
+    draw_hand_buttons(c);
+    draw_portals(c);
+  }
+  draw_tip(c);
+}
+
+void draw_tip_line(const PanelContext& c) {
+  const TipModel& tip = c.model.hands.tip;
+  if (!tip.drawn) return;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddLine({tip.x0, tip.y0}, {tip.x1, tip.y1}, IM_COL32(0xff, 0xff, 0xff, 0x90), c.px(1));
+  draw->AddCircle({tip.x1, tip.y1}, c.px(3), IM_COL32(0xff, 0xff, 0xff, 0xb0), 12, c.px(1));
+  const std::string text = ui::number(tip.distance_mm, 1) + " mm";
+  const ImVec2 at{tip.x1 + c.px(8), tip.y1 + c.px(4)};
+  const ui::WithFont small(c.fonts.small);
+  draw->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 0xc0), text.c_str());
+  draw->AddText(at, color::kText, text.c_str());
+}
+
+void draw_bone_names(const PanelContext& c) {
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const ui::WithFont small(c.fonts.small);
+  for (const NameTag& tag : c.model.hands.names) {
+    if (tag.bone.index >= c.model.bone_labels.size()) continue;
+    const std::string& name = c.model.bone_labels[tag.bone.index];
+    const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+    const ImVec2 lo{tag.x - size.x / 2 - c.px(4), tag.y - size.y / 2 - c.px(1)};
+    draw->AddRectFilled(lo, {lo.x + size.x + c.px(8), lo.y + size.y + c.px(2)},
+                        IM_COL32(0x15, 0x18, 0x1c, 0xb0), c.px(3));
+    draw->AddText({lo.x + c.px(4), lo.y + c.px(1)}, color::kText, name.c_str());
+  }
+}
+
+void read_hand_keys(const PanelContext& c) {
+  constexpr int kPageUp = 266, kPageDown = 267, kEnd = 269;  // GLFW's numbers
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+  HandsRequests& requests = c.requests.hands;
+  if (pressed('L')) requests.toggle_names = true;
+  if (c.model.replay.on || io.KeyAlt) return;
+  if (pressed('X')) requests.change = true;
+  if (pressed('T')) requests.toggle_tray = true;
+  if (pressed('G') && c.model.hands.can_bring && !c.model.hands.portals.empty())
+    requests.portal = c.model.hands.next_portal;
+  if (pressed('K')) requests.mark = true;
+  if (pressed('U')) requests.undo = true;
+  if (pressed(kPageUp)) requests.step = -1;
+  if (pressed(kPageDown)) requests.step = 1;
+  if (pressed(kEnd)) requests.next_size = true;
+}
+
+}  // namespace osteon
