@@ -1,7 +1,6 @@
 #include "window/jobs/load_job.h"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include "cases/open_case.h"
@@ -10,26 +9,6 @@
 #include "runs/tray.h"
 
 namespace osteon {
-namespace {
-
-// A recording may have moved with its case, or without it. Where the case is nowhere, its own name
-// is kept, for the error to tell.
-std::string case_of(const RecordingHeader& header, const std::filesystem::path& recording) {
-  namespace fs = std::filesystem;
-  const std::string& source = header.case_source;
-  const auto end_of_folder = source.find('#');
-  const std::string choice =
-      end_of_folder == std::string::npos ? std::string() : source.substr(end_of_folder);
-  const fs::path folder = source.substr(0, end_of_folder);
-  std::error_code ignored;
-  if (source.starts_with("builtin:") || fs::exists(folder, ignored)) return source;
-  const fs::path beside = recording.parent_path() / folder.filename();
-  for (const fs::path& place : {fs::path(header.case_path), beside})
-    if (!place.empty() && fs::exists(place, ignored)) return place.string() + choice;
-  return source;
-}
-
-}  // namespace
 
 LoadJob::LoadJob(LoadOrder order)
     : order_(std::move(order)),
@@ -79,7 +58,7 @@ Result<Loaded> LoadJob::run() {
   if (!order_.recording.empty()) {
     const Result<void> read = load_the_recording(loaded, recording);
     if (!read) return tl::unexpected(read.error());
-    spec = case_of(recording.header, order_.recording);
+    spec = recording.header.case_source;
     wanted_hash = recording.header.case_hash;
   }
   const Result<void> opened = load_the_case(loaded, spec, wanted_hash);

@@ -75,9 +75,7 @@ void draw_span_names(const PanelContext& c, const Lane& lane, const std::vector<
     const float x = std::min(lane.x(first->start_s) + c.px(4), lane.hi.x - width);
     const float y =
         lane.lo.y + line_h * (static_cast<float>(line) + 0.5f) - 0.5f * ImGui::GetTextLineHeight();
-    // Its own ground: a span may be as light as the letters.
-    draw->AddRectFilled({x - c.px(2), y}, {x + width + c.px(2), y + ImGui::GetTextLineHeight()},
-                        IM_COL32(0x15, 0x18, 0x1c, 0xb0), c.px(2));
+    draw->AddText({x + 1, y + 1}, IM_COL32(0, 0, 0, 0xc0), name.c_str());
     draw->AddText({x, y}, color::kText, name.c_str());
   }
 }

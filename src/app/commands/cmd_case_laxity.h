@@ -1,0 +1,12 @@
+#pragma once
+
+namespace osteon {
+
+namespace cli {
+class App;
+}
+
+/// case laxity, case isometry; after add_case_commands.
+void add_case_laxity_commands(cli::App& app, int& exit_code);
+
+}  // namespace osteon
