@@ -16,10 +16,8 @@ Result<std::unique_ptr<Solver>> make_solver(const SolveScene& scene) {
     return fail("'material.model' does not fit the mesh", scene.name,
                 "Use mesh.rod with model 'rod', a grid or vtk with the others");
   if (scene.body.rod) return make_rod_solver(scene);
-  if (scene.model != TissueModel::kNeoHookean) return make_tet_solver(scene);
-  if (scene.body.grid) return make_hex_solver(scene);
-  return fail("'material.model' is neo_hookean, which is solved on a grid only", scene.name,
-              "Use corotated or linear with a vtk mesh");
+  const bool cubes = scene.model == TissueModel::kNeoHookean && scene.body.grid;
+  return cubes ? make_hex_solver(scene) : make_tet_solver(scene);
 }
 
 /// Watches the kinetic energy: at rest when during the last tenth it stayed far below the strain

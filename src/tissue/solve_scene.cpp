@@ -64,8 +64,8 @@ TissueModel read_model(SceneReader& in, const Table& material) {
 }
 
 SolidMaterial read_material(SceneReader& in, const Table& material) {
-  in.only(material,
-          {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s", "friction"});
+  in.only(material, {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s",
+                     "friction", "condensed"});
   SolidMaterial out;
   out.young_pa = 1000 * in.number(material, "young_kpa", {1e-6, 1e9});
   out.poisson = in.number(material, "poisson", {0, 0.5});
@@ -193,6 +193,9 @@ SolveScene read_scene(SceneReader& in, const Table& root) {
   const Table material = in.table(root, "material");
   scene.model = read_model(in, material);
   scene.material = read_material(in, material);
+  scene.condensed = in.truth_or(material, "condensed", false);
+  if (scene.condensed && scene.model != TissueModel::kLinear)
+    in.complain("is for the model linear", material, "condensed", "Leave it out");
   scene.friction = in.number_or(material, "friction", {0, 10}, scene.friction);
   const Table run = in.table(root, "run");
   read_run(in, run, scene);

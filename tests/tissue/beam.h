@@ -93,4 +93,21 @@ inline SolveScene stretched(const Bar& bar, TissueModel model, double strain) {
   return scene;
 }
 
+/// Pull on a neo-Hookean bar whose length grows by a share, its sides free, and its stretch across:
+/// from no stress across by bisection; principal stretches (a, b, b).
+struct UniaxialPull {
+  double force_n = 0, side_stretch = 1;
+};
+inline UniaxialPull uniaxial_neo_hookean(const Bar& bar, double strain) {
+  const double a = 1 + strain, mu = bar.shear_pa(), bulk = bar.bulk_pa();
+  const auto stress = [&](double s, double b) {
+    const double j = a * b * b, i1 = a * a + 2 * b * b;
+    return mu * std::pow(j, -2.0 / 3) * (s - i1 / (3 * s)) + bulk * (j - 1) * j / s;
+  };
+  double lo = 0.5, hi = 1.5;
+  for (int n = 0; n < 100; ++n)
+    (stress(0.5 * (lo + hi), 0.5 * (lo + hi)) > 0 ? hi : lo) = 0.5 * (lo + hi);
+  return {stress(a, lo) * bar.area_m2(), lo};
+}
+
 }  // namespace osteon::test

@@ -24,6 +24,52 @@ TEST(SolveTet, CantileverIsTimoshenkosWithin3Percent) {
   }
 }
 
+// A scene of a grid as one of a mesh of tetrahedra.
+SolveScene as_mesh(SolveScene scene) {
+  scene.body.tets = split_into_tetrahedra(*scene.body.grid);
+  scene.body.grid.reset();
+  scene.body.vtk = "bar.vtk";
+  return scene;
+}
+
+TEST(SolveTet, UniaxialNeoHookeanMeshIsTheClosedForm) {
+  Bar bar;
+  bar.length_m = 0.04;
+  bar.cells_across = 1;
+  for (const double strain : {-0.3, 0.3}) {
+    const auto result = solve(as_mesh(test::stretched(bar, TissueModel::kNeoHookean, strain)));
+    ASSERT_TRUE(result) << result.error().message();
+    EXPECT_TRUE(result->settled) << strain;
+    const auto [force, side] = test::uniaxial_neo_hookean(bar, strain);
+    EXPECT_NEAR(result->reactions[3].force_n.x() / force, 1, 0.01) << strain;
+    EXPECT_NEAR(result->probes[0].moved_m.y(), (side - 1) * bar.side_m, 0.01 * bar.side_m * 0.1);
+    EXPECT_EQ(result->elements, 6u * 2);
+  }
+}
+
+TEST(SolveTet, NeoHookeanMeshBendsAsTimoshenkosBeam) {
+  Bar bar;
+  bar.length_m = 0.08;
+  bar.cells_across = 2;
+  constexpr double kForce = 0.003;
+  const auto result = solve(as_mesh(test::cantilever(bar, TissueModel::kNeoHookean, kForce)));
+  ASSERT_TRUE(result) << result.error().message();
+  EXPECT_TRUE(result->settled);
+  EXPECT_NEAR(-result->probes[0].moved_m.z() / test::timoshenko_m(bar, kForce), 1, 0.03);
+  EXPECT_NEAR(result->reactions[0].force_n.z(), kForce, 1e-4 * kForce);
+}
+
+TEST(SolveTet, ANeoHookeanMeshPulledApartIsLostAndGoesBack) {
+  Bar bar;
+  bar.length_m = 0.04;
+  bar.cells_across = 1;
+  const auto result = solve(as_mesh(test::cantilever(bar, TissueModel::kNeoHookean, 1000)));
+  ASSERT_TRUE(result) << result.error().message();
+  ASSERT_TRUE(result->lost);
+  EXPECT_FALSE(result->settled);
+  for (const Vec3& p : result->shape.points_m) EXPECT_TRUE(is_finite(p));
+}
+
 // A third of the length down: Bisshopp and Drucker's elastica (1945), which for P L^2 / (E I) = 1
 // sinks by 0.3017 L; and the shear of Timoshenko's beam.
 TEST(SolveTet, LargeDeflectionIsTheElasticas) {

@@ -65,6 +65,7 @@ struct SolveScene {
   SolveBody body;
   TissueModel model = TissueModel::kNeoHookean;
   SolidMaterial material;
+  bool condensed = false;  ///< linear: the static answer, by the surface alone
   std::vector<FixedBox> fixed;
   std::vector<MovedBox> moved;
   std::vector<LoadBox> loads;
