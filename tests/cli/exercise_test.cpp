@@ -98,8 +98,8 @@ TEST_F(Exercise, TheExpertTouchesABlockAndEachBadOneMakesItsErrorAlone) {
          "[[stages.goals]]\nrule = \"touched\"\nfor_s = 0.2\nforce_n = 0.3\n" +
          text.substr(errors);
   std::ofstream(file("block.toml")) << text;
-  const std::string run = "run " + file("block.toml") + " --case " + file("case") + " --report " +
-                          file("r.json") + " --surgeon ";
+  const std::string run = "run " + file("block.toml") + " --case " + file("case") +
+                          " --no-store --report " + file("r.json") + " --surgeon ";
   const Ran expert = run_osteon(run + "expert --record " + file("r.osr"));
   ASSERT_NE(expert.exit_code, 2) << expert.output;
   EXPECT_TRUE(read("r.json")["errors"].empty()) << expert.output;

@@ -5,6 +5,7 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/result_files.h"
 #include "commands/scenario_run.h"
 #include "osteon/base/file.h"
 
@@ -13,6 +14,8 @@ namespace {
 
 struct RunCommand {
   std::string scenario, case_spec, surgeon = "expert", record, report, standard;
+  std::string learner = "local";
+  bool no_store = false;
   std::optional<std::uint64_t> seed;
 };
 
@@ -39,14 +42,29 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   return run;
 }
 
+// A store that cannot be written now is no reason to lose an attempt: it waits.
+Result<void> keep_result(const RunCommand& command, const std::string& report) {
+  const auto row = row_from_report(report, command.learner);
+  if (!row) return tl::unexpected(row.error());
+  const auto kept = keep_attempt(*row, results_file(), waiting_folder());
+  if (!kept) return tl::unexpected(kept.error());
+  if (!kept->in_store) std::fprintf(stderr, "osteon: %s\n", kept->why_waiting->message().c_str());
+  return {};
+}
+
 int run_command(const RunCommand& command) {
+  if (!is_learner_id(command.learner))
+    return report_error({"'" + command.learner + "' is no learner's id", "--learner",
+                         "Use 1 to 64 letters, digits, '.', '_' and '-'"});
   const auto run = ordered_run(command);
   if (!run) return report_error(run.error());
   const auto done = run_scenario(*run);
   if (!done) return report_error(done.error());
+  const std::string report = to_json(done->report, done->outcome);
   if (!command.report.empty())
-    if (auto ok = write_file_atomic(command.report, to_json(done->report, done->outcome)); !ok)
-      return report_error(ok.error());
+    if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
+  if (!command.no_store)
+    if (auto ok = keep_result(command, report); !ok) return report_error(ok.error());
   std::fputs(to_text(done->outcome).c_str(), stdout);
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
@@ -72,6 +90,9 @@ void add_run_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--standard", options->standard,
                       "what it is judged against, TOML; default: the shipped one");
+  command->add_option("--learner", options->learner, "local id under which the attempt is kept")
+      ->capture_default_str();
+  command->add_flag("--no-store", options->no_store, "do not keep the attempt");
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--report", options->report, "write the report as JSON");
   command->callback([options, &exit_code] { exit_code = run_command(*options); });

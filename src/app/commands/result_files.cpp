@@ -1,0 +1,19 @@
+#include "commands/result_files.h"
+
+#include "cases/xdg.h"
+
+namespace osteon {
+
+std::filesystem::path results_file() { return data_home_dir() / "results.sqlite"; }
+std::filesystem::path waiting_folder() { return data_home_dir() / "waiting"; }
+std::filesystem::path names_file() { return data_home_dir() / "learners.json"; }
+
+Result<ResultStore> open_results() {
+  auto store = ResultStore::open(results_file());
+  if (!store) return store;
+  if (const auto taken = take_waiting(*store, waiting_folder()); !taken)
+    return tl::unexpected(taken.error());
+  return store;
+}
+
+}  // namespace osteon
