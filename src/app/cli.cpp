@@ -40,17 +40,18 @@ int run_cli(int argc, char** argv) {
   app.set_version_flag("--version", OSTEON_VERSION);
   app.require_subcommand(1);
   int exit_code = 0;
-  for (const auto add : {add_case_commands,       add_case_felt_command, add_import_ct_command,
-                         add_scan_command,        add_anatomy_commands,  add_mesh_commands,
-                         add_hull_command,        add_collide_command,   add_path_commands,
-                         add_simulate_command,    add_replay_command,    add_record_command,
-                         add_demo_command,        add_render_command,    add_live_command,
-                         add_devices_command,     add_doctor_command,    add_stability_command,
-                         add_tissue_commands,     add_window_commands,   add_xray_command,
-                         add_instruments_command, add_carve_command,     add_view_command,
-                         add_metrics_command,     add_scenario_commands, add_run_command,
-                         add_tunnel_command,      add_drill_commands,    add_case_measure_command,
-                         add_case_laxity_commands})
+  for (const auto add : {add_case_commands,        add_case_felt_command, add_import_ct_command,
+                         add_scan_command,         add_anatomy_commands,  add_mesh_commands,
+                         add_hull_command,         add_collide_command,   add_path_commands,
+                         add_simulate_command,     add_replay_command,    add_record_command,
+                         add_demo_command,         add_render_command,    add_live_command,
+                         add_devices_command,      add_doctor_command,    add_stability_command,
+                         add_tissue_commands,      add_window_commands,   add_xray_command,
+                         add_instruments_command,  add_carve_command,     add_view_command,
+                         add_metrics_command,      add_scenario_commands, add_run_command,
+                         add_tunnel_command,       add_drill_commands,    add_case_measure_command,
+                         add_case_laxity_commands, add_results_commands,  add_debrief_command,
+                         add_skill_command})
     add(commands, exit_code);
   check_all_numbers(app);
   add_quiet(app);

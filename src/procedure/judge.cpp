@@ -7,8 +7,29 @@
 namespace osteon {
 namespace {
 
+Result<PlannedRule> plan_marks(PlannedRule planned, const Scenario& scenario,
+                               const Case& the_case) {
+  for (const std::string& name : planned.rule.marks) {
+    const auto mark = find_landmark(the_case, name);
+    if (!mark)
+      return fail("the case '" + the_case.name + "' has no landmark '" + name + "'",
+                  scenario.where + ":" + std::to_string(planned.rule.line),
+                  "Name a landmark of the case's description");
+    planned.bones.push_back(*mark);
+  }
+  return planned;
+}
+
 Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
-  PlannedRule planned{rule, {}};
+  const RuleKind* kind = find_rule_kind(rule.kind);
+  PlannedRule planned{rule, {}, kind ? kind->about : SubjectKind::kBone, kNoHand};
+  for (std::size_t h = 0; h < scenario.hands.size(); ++h)
+    if (scenario.hands[h].name == rule.hand) planned.hand = static_cast<std::uint8_t>(h);
+  if (!rule.hand.empty() && planned.hand == kNoHand)
+    return fail("the scenario has no hand '" + rule.hand + "'",
+                scenario.where + ":" + std::to_string(rule.line), "Name one of its [[hands]]");
+  if (planned.about == SubjectKind::kLandmark) return plan_marks(planned, scenario, the_case);
+  if (planned.about == SubjectKind::kNothing) return planned;
   for (const std::string& name : rule.subjects) {
     const BoneId bone = the_case.find(name);
     if (!bone.valid())
@@ -23,7 +44,8 @@ Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const 
 }
 
 RuleState fresh_state(const PlannedRule& rule) {
-  return {std::vector<char>(rule.bones.size(), 0), false};
+  return {std::vector<char>(rule.bones.size(), 0), false,
+          std::vector<RuleHold>(std::max<std::size_t>(1, rule.bones.size()))};
 }
 
 void enter_stage(const ScenarioPlan& plan, ScenarioState& state) {
@@ -37,11 +59,18 @@ void enter_stage(const ScenarioPlan& plan, ScenarioState& state) {
 
 void note_error(const ScenarioPlan& plan, std::size_t error, double at_s, const Event& event,
                 ScenarioState& state) {
-  state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, event.subject});
+  const std::uint32_t bone = event.subject_kind == SubjectKind::kBone ? event.subject : kNoSubject;
+  state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, bone});
   if (plan.scenario.errors[error].severity == Severity::kCritical) state.over = true;
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> find_landmark(const Case& the_case, std::string_view name) {
+  for (std::uint32_t i = 0; i < the_case.landmarks.size(); ++i)
+    if (the_case.landmarks[i].name == name) return i;
+  return std::nullopt;
+}
 
 Result<ScenarioPlan> plan_scenario(const Scenario& scenario, const Case& the_case) {
   ScenarioPlan plan{scenario, {}, {}};

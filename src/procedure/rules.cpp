@@ -1,6 +1,9 @@
 #include "rules.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "osteon/procedure/scope_watch.h"
 
 namespace osteon {
 namespace {
@@ -61,10 +64,88 @@ std::optional<RuleHit> left_out(const PlannedRule&, const Event& event, std::siz
   return std::nullopt;
 }
 
+// A mark counts once it has been seen in this way for long enough, without a break.
+std::optional<RuleHit> seen(const PlannedRule& rule, const Event& event, std::size_t mark,
+                            double tick_s, RuleState& state) {
+  constexpr double kBreak_s = 0.03;
+  RuleHold& hold = state.holds[mark];
+  const double now_s = time_of(event, tick_s), mm = event.values[1];
+  const bool fits = event.values[0] <= number_of(rule, "central") &&
+                    mm >= number_of(rule, "near_mm") && mm <= number_of(rule, "far_mm") &&
+                    std::abs(event.values[2]) <= number_of(rule, "level_deg");
+  if (!fits || now_s - hold.last_s > kBreak_s) hold.since_s = -1;
+  hold.last_s = now_s;
+  if (!fits) return std::nullopt;
+  if (hold.since_s < 0) hold = {now_s, now_s, mm, mm, false, false};
+  hold.least = std::min(hold.least, mm);
+  hold.most = std::max(hold.most, mm);
+  if (now_s - hold.since_s >= number_of(rule, "for_s") &&
+      hold.most - hold.least >= number_of(rule, "span_mm"))
+    state.done[mark] = 1;
+  return std::nullopt;
+}
+
+std::optional<RuleHit> seen_in_order(const PlannedRule& rule, const Event& event, std::size_t mark,
+                                     double tick_s, RuleState& state) {
+  const bool turn = std::all_of(state.done.begin(), state.done.begin() + static_cast<long>(mark),
+                                [](char done) { return done != 0; });
+  return turn ? seen(rule, event, mark, tick_s, state) : std::nullopt;
+}
+
+// An error once a wrong thing has lasted; another one only after it has been right again.
+std::optional<RuleHit> lasting(bool wrong, const PlannedRule& rule, const Event& event,
+                               double tick_s, RuleHold& hold) {
+  const double now_s = time_of(event, tick_s);
+  if (!wrong) {
+    hold.since_s = -1;
+    hold.told = false;
+    return std::nullopt;
+  }
+  if (hold.since_s < 0) hold.since_s = now_s;
+  if (hold.told || now_s - hold.since_s < number_of(rule, "for_s")) return std::nullopt;
+  hold.told = true;
+  return RuleHit{hold.since_s};
+}
+
+std::optional<RuleHit> tilted(const PlannedRule& rule, const Event& event, std::size_t,
+                              double tick_s, RuleState& state) {
+  if (event.kind != kScopeHeld) return std::nullopt;
+  const bool wrong = std::abs(event.values[0]) > number_of(rule, "level_deg");
+  return lasting(wrong, rule, event, tick_s, state.holds[0]);
+}
+
+// Counts from when a mark has been in the picture for the first time.
+std::optional<RuleHit> nothing_seen(const PlannedRule& rule, const Event& event, std::size_t,
+                                    double tick_s, RuleState& state) {
+  if (event.kind != kScopeHeld) return std::nullopt;
+  RuleHold& hold = state.holds[0];
+  hold.armed = hold.armed || event.values[1] > 0;
+  return lasting(hold.armed && event.values[1] == 0, rule, event, tick_s, hold);
+}
+
+std::optional<RuleHit> off_portal(const PlannedRule& rule, const Event& event, std::size_t,
+                                  double tick_s, RuleState& state) {
+  if (event.kind != kShaftHeld) return std::nullopt;
+  return lasting(event.values[0] > number_of(rule, "off_mm"), rule, event, tick_s, state.holds[0]);
+}
+
+std::optional<RuleHit> tip_unseen(const PlannedRule& rule, const Event& event, std::size_t,
+                                  double tick_s, RuleState& state) {
+  if (event.kind != kTipSeen) return std::nullopt;
+  RuleHold& hold = state.holds[0];
+  hold.armed = hold.armed || event.values[0] > 0;
+  return lasting(hold.armed && event.values[0] == 0, rule, event, tick_s, hold);
+}
+
 struct RuleRow {
   RuleKind kind;
   RuleStep step;
 };
+
+std::vector<RuleNumber> seen_numbers() {
+  return {{"for_s", 0, 60, 1.5},    {"central", 0.01, 1, 0.5},    {"near_mm", 0, 500, 3},
+          {"far_mm", 0.1, 500, 15}, {"level_deg", 0.5, 180, 180}, {"span_mm", 0, 500, 0}};
+}
 
 const std::vector<RuleRow>& rule_rows() {
   static const std::vector<RuleRow> rows = {
@@ -91,6 +172,37 @@ const std::vector<RuleRow>& rule_rows() {
       {{"struck", "a bone is met faster than a limit", false, {{"speed_mm_s", 1, 10000, 60}}},
        struck},
       {{"left_out", "the attempt ends and a bone was never touched", false, {}}, left_out},
+      {{"seen",
+        "every mark is seen near the middle of the picture, from a fitting distance, not hidden",
+        true, seen_numbers(), SubjectKind::kLandmark},
+       seen},
+      {{"seen_in_order", "the same, one after the other as they are listed", true, seen_numbers(),
+        SubjectKind::kLandmark},
+       seen_in_order},
+      {{"tilted",
+        "the picture is turned farther off upright than a limit for a time",
+        false,
+        {{"level_deg", 1, 179, 15}, {"for_s", 0, 60, 2}},
+        SubjectKind::kNothing},
+       tilted},
+      {{"nothing_seen",
+        "no mark is in the picture for a time",
+        false,
+        {{"for_s", 0, 60, 3}},
+        SubjectKind::kNothing},
+       nothing_seen},
+      {{"off_portal",
+        "the shaft leans out of its portal for a time",
+        false,
+        {{"off_mm", 0.5, 100, 4}, {"for_s", 0, 60, 0.3}},
+        SubjectKind::kNothing},
+       off_portal},
+      {{"tip_unseen",
+        "the tip of the other hand is out of the picture, or hidden, for a time",
+        false,
+        {{"for_s", 0, 60, 1}},
+        SubjectKind::kNothing},
+       tip_unseen},
   };
   return rows;
 }
@@ -114,9 +226,10 @@ const RuleKind* find_rule_kind(std::string_view name) {
 
 std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, double tick_s,
                                  RuleState& state) {
-  if (event.subject_kind != SubjectKind::kBone) return std::nullopt;
+  if (event.subject_kind != rule.about) return std::nullopt;
+  if (rule.hand != kNoHand && event.hand != rule.hand) return std::nullopt;
   const auto bone = std::find(rule.bones.begin(), rule.bones.end(), event.subject);
-  if (bone == rule.bones.end()) return std::nullopt;
+  if (rule.about != SubjectKind::kNothing && bone == rule.bones.end()) return std::nullopt;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
     const auto place = static_cast<std::size_t>(bone - rule.bones.begin());

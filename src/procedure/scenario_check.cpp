@@ -2,6 +2,7 @@
 #include <set>
 
 #include "osteon/procedure/attempt.h"
+#include "osteon/procedure/judge.h"
 #include "osteon/procedure/scenario.h"
 
 namespace osteon {
@@ -19,6 +20,7 @@ class ScenarioChecker {
       once(stage.name, "stage", stage.line);
       for (const Rule& goal : stage.goals) {
         bones_are_there(goal);
+        marks_can_be_seen(goal);
         press_is_allowed(goal);
         least_s += static_cast<double>(count_of(goal)) * goal.numbers.at("for_s");
       }
@@ -30,6 +32,11 @@ class ScenarioChecker {
     for (const ScenarioError& error : scenario_.errors) {
       once(error.name, "error", error.rule.line);
       bones_are_there(error.rule);
+    }
+    for (const ScenarioHand& hand : scenario_.hands) {
+      once(hand.name, "hand", hand.line);
+      if (!hand.portal.empty() && !find_landmark(case_, hand.portal))
+        say(hand.line, "the case has no portal '" + hand.portal + "'");
     }
     one_slide_force();
     metrics_are_there();
@@ -47,6 +54,7 @@ class ScenarioChecker {
   }
 
   std::size_t count_of(const Rule& rule) const {
+    if (!rule.marks.empty()) return rule.marks.size();
     return rule.subjects.empty() ? case_.bones.size() : rule.subjects.size();
   }
 
@@ -60,10 +68,25 @@ class ScenarioChecker {
     }
   }
 
+  void marks_can_be_seen(const Rule& rule) {
+    std::set<std::string> names;
+    for (const std::string& name : rule.marks) {
+      if (!find_landmark(case_, name))
+        say(rule.line, "the rule '" + rule.kind + "' can never be met: the case has no landmark '" +
+                           name + "'");
+      if (!names.insert(name).second) say(rule.line, "the mark '" + name + "' comes twice");
+    }
+    if (rule.marks.empty()) return;
+    if (rule.numbers.at("near_mm") + rule.numbers.at("span_mm") >= rule.numbers.at("far_mm"))
+      say(rule.line, "the rule '" + rule.kind +
+                         "' can never be met: far_mm leaves no room beyond near_mm and span_mm");
+  }
+
   // A goal that asks for a press which is itself an error that cannot be passed with.
   void press_is_allowed(const Rule& goal) {
     for (const ScenarioError& error : scenario_.errors) {
       if (error.rule.kind != "pressed_over" || error.severity == Severity::kMinor) continue;
+      if (!goal.numbers.contains("force_n")) continue;
       if (goal.numbers.at("force_n") >= error.rule.numbers.at("force_n"))
         say(goal.line,
             "the rule '" + goal.kind + "' can never be met without the error '" + error.name + "'");

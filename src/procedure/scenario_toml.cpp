@@ -13,7 +13,6 @@ Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
   Rule rule;
   rule.line = table.line();
   rule.kind = table.text(key);
-  rule.subjects = table.texts_or_empty("bones");
   const RuleKind* kind = find_rule_kind(rule.kind);
   if (!kind || kind->is_goal != is_goal) {
     std::string names;
@@ -22,6 +21,12 @@ Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
     table.set_error("there is no rule '" + rule.kind + "' for " + (is_goal ? "goals" : "errors"),
                     key, "Use one of: " + names);
     return rule;
+  }
+  rule.hand = table.text_or("hand", "");
+  if (kind->about == SubjectKind::kBone) rule.subjects = table.texts_or_empty("bones");
+  if (kind->about == SubjectKind::kLandmark) {
+    rule.marks = table.texts_or_empty("marks");
+    if (rule.marks.empty()) table.set_error("the rule needs marks", key, "Add marks = [...]");
   }
   for (const RuleNumber& n : kind->numbers)
     rule.numbers[std::string(n.name)] = table.number_or(n.name, n.lo, n.hi, n.usual);
@@ -74,6 +79,16 @@ ScenarioMetric read_metric(TomlTable table) {
   return metric;
 }
 
+ScenarioHand read_hand(TomlTable table) {
+  ScenarioHand hand;
+  hand.line = table.line();
+  hand.name = table.text("name");
+  hand.instrument = table.text("instrument");
+  hand.portal = table.text_or("portal", "");
+  table.refuse_others();
+  return hand;
+}
+
 Scenario read_scenario(TomlTable& table) {
   Scenario scenario;
   table.number("format", 1, 1);
@@ -81,9 +96,19 @@ Scenario read_scenario(TomlTable& table) {
   scenario.title = table.text("title");
   scenario.text = table.text("text");
   scenario.version = static_cast<int>(table.number("version", 1, kMany));
-  scenario.anatomy = table.word("anatomy", {"wrist", "knee"});
+  scenario.anatomy = table.word("anatomy", {"wrist", "knee", "fast_box"});
   scenario.felt = table.word("felt", {"pieces", "hull", "field"}, true);
   scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);
+  scenario.sides = table.texts_or_empty("sides");
+  for (const std::string& side : scenario.sides)
+    if (side != "left" && side != "right")
+      table.set_error("'" + side + "' is no side", "sides", "Use left and right");
+  scenario.findings = table.texts_or_empty("findings");
+  for (const std::string& finding : scenario.findings)
+    if (finding.find('=') == std::string::npos)
+      table.set_error("'" + finding + "' has no grade", "findings", "Write NAME=GRADE");
+  for (TomlTable& hand : table.tables_or_empty("hands")) scenario.hands.push_back(read_hand(hand));
+  if (scenario.hands.size() > 4) table.set_error("there are four hands at most", "hands");
   for (TomlTable& stage : table.tables_or_empty("stages"))
     scenario.stages.push_back(read_stage(stage));
   for (TomlTable& error : table.tables_or_empty("errors"))
@@ -110,6 +135,7 @@ Result<Scenario> parse_scenario(std::string_view text, const std::string& where)
   TomlTable table(*parsed, where, error);
   Scenario scenario = read_scenario(table);
   scenario.where = where;
+  scenario.source_text = text;
   if (error) return tl::unexpected(*error);
   return scenario;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "osteon/procedure/scenario.h"
@@ -10,10 +12,12 @@
 
 namespace osteon {
 
-/// A rule with its bones found in a case.
+/// A rule with its bones, or its landmarks, found in a case.
 struct PlannedRule {
   Rule rule;
-  std::vector<std::uint32_t> bones;
+  std::vector<std::uint32_t> bones;  ///< or landmarks; none of a rule about the hand itself
+  SubjectKind about = SubjectKind::kBone;
+  std::uint8_t hand = kNoHand;  ///< kNoHand: any
 };
 /// A scenario on one case: what judging needs, and nothing that changes.
 struct ScenarioPlan {
@@ -21,22 +25,33 @@ struct ScenarioPlan {
   std::vector<std::vector<PlannedRule>> goals;  ///< by stage
   std::vector<PlannedRule> errors;              ///< as scenario.errors
 };
-/// Fails on a bone that the case does not have.
+/// Index in Case::landmarks; none: there is none of that name.
+std::optional<std::uint32_t> find_landmark(const Case& the_case, std::string_view name);
+/// Fails on a bone or a landmark that the case does not have.
 Result<ScenarioPlan> plan_scenario(const Scenario& scenario, const Case& the_case);
 /// What the tool's events must be measured against so that the plan's rules can be judged.
 ToolEventLimits event_limits(const Scenario& scenario);
 
+/// Something that must last, or must not.
+struct RuleHold {
+  double since_s = -1;  ///< -1: it does not hold
+  double last_s = -1;   ///< when it was last heard of
+  double least = 0, most = 0;
+  bool armed = false, told = false;
+  bool operator==(const RuleHold&) const = default;
+};
 /// How far a rule is.
 struct RuleState {
   std::vector<char> done;  ///< by bone of the rule
   bool met = false;
+  std::vector<RuleHold> holds = {};  ///< by bone; of a rule about the hand itself one
   bool operator==(const RuleState&) const = default;
 };
 struct MadeError {
   std::uint32_t error = 0;  ///< in scenario.errors
   double at_s = 0;          ///< when it began
   std::uint8_t hand = 0;
-  std::uint32_t bone = kNoSubject;
+  std::uint32_t bone = kNoSubject;  ///< none: an error about the hand itself
   bool operator==(const MadeError&) const = default;
 };
 /// How far an attempt is: a value, a function of (plan, events).

@@ -9,6 +9,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/event.h"
 
 namespace osteon {
 
@@ -24,6 +25,16 @@ struct Rule {
   std::vector<std::string> subjects;      ///< bones by name; empty: every bone of the case
   std::map<std::string, double> numbers;  ///< every number of the kind, those left out by default
   int line = 0;                           ///< in its file
+  std::vector<std::string> marks = {};    ///< landmarks by name; of kinds about landmarks alone
+  std::string hand = {};                  ///< of this hand alone; empty: of any
+};
+
+/// One hand of the exercise. A scenario that names none has one with the wrist probe.
+struct ScenarioHand {
+  std::string name;        ///< "scope"
+  std::string instrument;  ///< as `osteon instruments` names it; one with optics is looked through
+  std::string portal;      ///< landmark through which its shaft passes; empty: none
+  int line = 0;
 };
 
 struct ScenarioStage {
@@ -61,10 +72,14 @@ struct Scenario {
   std::string anatomy;  ///< "wrist" or "knee": what grows its patients
   std::string felt;     ///< "pieces", "hull" or "field": what of the bones is felt
   double time_limit_s = 600;
+  std::vector<std::string> sides;     ///< of the patients that are drawn; empty: as described
+  std::vector<std::string> findings;  ///< "geissler=2": half of the drawn patients have one
+  std::vector<ScenarioHand> hands;
   std::vector<ScenarioStage> stages;
   std::vector<ScenarioError> errors;
   std::vector<ScenarioMetric> metrics;
-  std::string where;  ///< its file, for messages
+  std::string where;        ///< its file, for messages
+  std::string source_text;  ///< what it was read from
 };
 
 /// A number that a rule takes.
@@ -78,6 +93,7 @@ struct RuleKind {
   std::string_view text;
   bool is_goal;  ///< of a stage; else of an error
   std::vector<RuleNumber> numbers;
+  SubjectKind about = SubjectKind::kBone;  ///< bones, landmarks, or nothing (the hand itself)
 };
 const std::vector<RuleKind>& rule_table();
 const RuleKind* find_rule_kind(std::string_view name);

@@ -9,6 +9,7 @@
 #include "osteon/base/types.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/surgeon/approach.h"
+#include "osteon/surgeon/hand_plan.h"
 #include "osteon/surgeon/skill.h"
 
 namespace osteon {
@@ -16,19 +17,15 @@ namespace osteon {
 /// Somebody who plays a scenario on any patient: plans from the case's bones, then moves, feels
 /// and answers. Says where the hand is wanted; the hand itself (mass, grip) is the caller's. A
 /// function of (plan, case, skill, forces).
-class Surgeon {
+class Surgeon : public HandPlan {
  public:
   Surgeon(const ScenarioPlan& plan, const Case& the_case, const Skill& skill, double tip_radius_m);
 
-  /// Where the hand is wanted after another `dt_s`.
-  Pose step(double dt_s);
-  /// The force on the hand in the same tick, N.
-  void feel(const Vec3& force_W);
-  bool done() const { return phase_ == Phase::kDone; }
-  /// Bones that no free straight way leads to.
-  const std::vector<std::string>& unreachable() const { return unreachable_; }
-  /// Where the hand begins.
-  Pose start() const;
+  Pose step(double dt_s) override;
+  void feel(const Vec3& force_W) override;
+  bool done() const override { return phase_ == Phase::kDone; }
+  const std::vector<std::string>& unreachable() const override { return unreachable_; }
+  Pose start() const override;
 
  private:
   enum class Phase { kThink, kTravel, kApproach, kPress, kSlide, kRetreat, kDone };

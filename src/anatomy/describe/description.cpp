@@ -24,7 +24,7 @@ Result<BoneDescription> read_bone(const toml::table& table, const std::string& f
   TomlReader in(table, where_of(file, "bone", table));
   BoneDescription bone;
   bone.name = in.text("name");
-  bone.fma_id = in.integer("fma_id", 1, 999999999);
+  if (in.has("fma_id")) bone.fma_id = in.integer("fma_id", 1, 999999999);
   bone.density_kg_per_m3 = in.number_or("density_kg_per_m3", {1, 30000}, 1900);
   bone.cell_m = in.number_or("cell_mm", kCell_mm, bone.cell_m / kMm) * kMm;
   bone.p_WB = in.vec3("position_mm", kPlace_mm) * kMm;

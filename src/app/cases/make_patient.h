@@ -15,7 +15,7 @@ namespace osteon {
 
 /// A patient of a built-in anatomy, as asked for.
 struct PatientOrder {
-  std::string anatomy = "wrist";           ///< "wrist" or "knee"
+  std::string anatomy = "wrist";           ///< "wrist", "knee" or "fast_box"
   std::optional<std::uint64_t> seed = {};  ///< draws what is not set; none: as built in
   std::vector<ParameterValue> set = {};
   std::vector<FindingChoice> findings = {};

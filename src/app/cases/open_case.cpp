@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -49,12 +50,30 @@ void keep(Cache& cache, const std::string& spec, const std::string& kind) {
   if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
 }
 
-/// "wrist:7": the patient that seed 7 draws.
+/// "left" or "geissler=2" of "wrist:7:left:geissler=2".
+Result<void> read_patient_word(const std::string& word, const std::string& name,
+                               PatientOrder& order) {
+  const std::size_t equals = word.find('=');
+  if (word == "left" || word == "right")
+    order.side = word;
+  else if (equals != std::string::npos)
+    order.findings.push_back({word.substr(0, equals), word.substr(equals + 1)});
+  else
+    return fail("'" + word + "' is neither a side nor a finding", "builtin:" + name,
+                "Write left, right or FINDING=GRADE, such as builtin:wrist:7:left:geissler=2");
+  return {};
+}
+
+/// "wrist:7": the patient that seed 7 draws; "wrist:7:left:geissler=2": with that side and finding.
 Result<CaseDef> grow_drawn(const std::string& name, std::size_t colon,
                            const std::function<void(double)>& progress, CaseParts parts) {
   PatientOrder order;
   order.anatomy = name.substr(0, colon);
-  const std::string digits = name.substr(colon + 1);
+  std::istringstream words(name.substr(colon + 1));
+  std::string digits;
+  std::getline(words, digits, ':');
+  for (std::string word; std::getline(words, word, ':');)
+    if (auto ok = read_patient_word(word, name, order); !ok) return tl::unexpected(ok.error());
   std::uint64_t seed = 0;
   const char* const last = digits.data() + digits.size();
   const auto [end, ec] = std::from_chars(digits.data(), last, seed);
@@ -65,7 +84,7 @@ Result<CaseDef> grow_drawn(const std::string& name, std::size_t colon,
   auto grown = grow_patient(order, progress, parts == CaseParts::kAll);
   if (!grown) return tl::unexpected(grown.error());
   CaseDef def = case_from(std::move(grown->anatomy));
-  def.recipe = CaseRecipe{order.anatomy, seed, {}, {}, {}};
+  def.recipe = recipe_of(order);
   return def;
 }
 
@@ -116,8 +135,9 @@ void colour_softs(CaseDef& def) {
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
-  if (name != "wrist" && name != "knee")
-    return fail("there is no built-in anatomy '" + name + "'", "anatomy", "Use wrist or knee");
+  if (name != "wrist" && name != "knee" && name != "fast_box")
+    return fail("there is no built-in anatomy '" + name + "'", "anatomy",
+                "Use wrist, knee or fast_box");
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto folder = *data / "assets/anatomy";

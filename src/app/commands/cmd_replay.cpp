@@ -9,7 +9,9 @@
 #include "commands/commands.h"
 #include "commands/frames.h"
 #include "commands/headless.h"
+#include "commands/recorded_case.h"
 #include "commands/session_options.h"
+#include "commands/tray.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -44,24 +46,6 @@ int print_deviations(const Report& report, const std::string& expect_file) {
   for (const std::string& line : *deviations) std::printf("not as expected: %s\n", line.c_str());
   if (deviations->empty()) std::printf("as expected\n");
   return deviations->empty() ? kExitDone : kExitNo;
-}
-
-// A recording may have moved with its case, or without it.
-Result<std::string> case_of(const ReplayArguments& options, const RecordingHeader& header) {
-  if (!options.case_spec.empty()) return options.case_spec;
-  const std::string& source = header.case_source;
-  const auto end_of_folder = source.find('#');
-  const fs::path folder = source.substr(0, end_of_folder);
-  const std::string choice =
-      end_of_folder == std::string::npos ? std::string() : source.substr(end_of_folder);
-  std::error_code ignored;
-  if (source.rfind("builtin:", 0) == 0 || fs::exists(folder, ignored)) return source;
-  if (!header.case_path.empty() && fs::exists(header.case_path, ignored))
-    return header.case_path + choice;
-  const fs::path beside = fs::path(options.file).parent_path() / folder.filename();
-  if (fs::exists(beside, ignored)) return beside.string() + choice;
-  return fail("the case of the recording ('" + source + "') is not found, nor is it beside it",
-              options.file, "Name it with --case");
 }
 
 Result<std::unique_ptr<FrameWriter>> frames_for(const ReplayArguments& options,
@@ -107,14 +91,19 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
 int replay_recording(const ReplayArguments& options) {
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
-  const auto spec = case_of(options, recording->header());
+  const auto spec = recorded_case_spec(options.file, options.case_spec, recording->header());
   if (!spec) return report_error(spec.error());
   auto the_case = open_and_show_progress(*spec, CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   auto frames = frames_for(options, **the_case);
   if (!frames) return report_error(frames.error());
+  const auto settings = parse_settings(recording->header().settings_json);
+  if (!settings) return report_error(settings.error());
+  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  if (!tray) return report_error(tray.error());
   ReplayOptions how;
   how.from_s = options.from_s;
+  how.tray = std::move(*tray);
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     if (*frames && hand == 0) (*frames)->add(tool, bones);

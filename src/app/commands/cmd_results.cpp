@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -7,6 +6,7 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/parser.h"
 #include "commands/result_files.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/lc_cusum.h"
@@ -151,52 +151,52 @@ int export_results(const ResultsCommand& command) {
   return kExitDone;
 }
 
-void add_filter(CLI::App& command, ResultsCommand& options) {
+void add_filter(cli::App& command, ResultsCommand& options) {
   command.add_option("--learner", options.learner, "of this learner alone");
   command.add_option("--scenario", options.scenario, "of this scenario alone");
 }
 
 }  // namespace
 
-void add_results_commands(CLI::App& app, int& exit_code) {
+void add_results_commands(cli::App& app, int& exit_code) {
   auto options = std::make_shared<ResultsCommand>();
-  CLI::App* group = app.add_subcommand("results", "Attempts that were kept: list, curves, exports");
+  cli::App* group = app.add_subcommand("results", "Attempts that were kept: list, curves, exports");
   group->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, int (*run)(const ResultsCommand&)) {
-    CLI::App* command = group->add_subcommand(name, text);
+    cli::App* command = group->add_subcommand(name, text);
     command->callback([options, run, &exit_code] { exit_code = run(*options); });
     return command;
   };
-  CLI::App* list = add("list", "All attempts, the oldest first", list_results);
+  cli::App* list = add("list", "All attempts, the oldest first", list_results);
   add_filter(*list, *options);
   list->add_flag("--json", options->json, "print JSON");
   add("show", "One attempt with its report, JSON", show_result)
       ->add_option("id", options->id, "its id, as `results list` prints it")
       ->required();
-  CLI::App* curve =
+  cli::App* curve =
       add("curve", "Learning curves (LC-CUSUM) with warnings of relapse", show_curves);
   add_filter(*curve, *options);
   curve->add_flag("--json", options->json, "print JSON");
   curve->add_option("--p0", options->cusum.p0, "failures that a competent person may have")
-      ->check(CLI::Range(0.001, 0.5))
+      ->check(cli::Range(0.001, 0.5))
       ->capture_default_str();
   curve->add_option("--d", options->cusum.d, "how many more are unacceptable")
-      ->check(CLI::Range(0.001, 0.49))
+      ->check(cli::Range(0.001, 0.49))
       ->capture_default_str();
   curve->add_option("--limit", options->cusum.h, "S from which on a learner is competent")
-      ->check(CLI::PositiveNumber)
+      ->check(cli::Range(0.01, 1000.0))
       ->capture_default_str();
   add("forget", "Erase all attempts and the name of a learner", forget_learner)
       ->add_option("--learner", options->learner, "the learner's id")
       ->required();
-  CLI::App* name = add("name", "Keep whose id it is, on this computer alone", name_learner);
+  cli::App* name = add("name", "Keep whose id it is, on this computer alone", name_learner);
   name->add_option("--learner", options->learner, "the learner's id")->required();
   name->add_option("--name", options->name, "the name")->required();
-  CLI::App* write = add("export", "Write attempts to a file", export_results);
+  cli::App* write = add("export", "Write attempts to a file", export_results);
   add_filter(*write, *options);
   write->add_option("--format", options->format, "csv, xapi or pdf")
       ->required()
-      ->check(CLI::IsMember({"csv", "xapi", "pdf"}));
+      ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
 }
 

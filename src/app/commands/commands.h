@@ -45,5 +45,8 @@ void add_tunnel_command(cli::App& app, int& exit_code);     // tunnel: drilled i
 void add_drill_commands(cli::App& app, int& exit_code);     // drill trial, drill resistance
 // case measure; after add_case_commands
 void add_case_measure_command(cli::App& app, int& exit_code);
+void add_results_commands(cli::App& app, int& exit_code);  // results: list, show, curve, ...
+void add_debrief_command(cli::App& app, int& exit_code);   // debrief: pages of a recorded attempt
+void add_skill_command(cli::App& app, int& exit_code);     // skill: do scores tell it apart
 
 }  // namespace osteon

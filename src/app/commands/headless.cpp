@@ -57,8 +57,10 @@ struct RunningHand {
   ReportBuilder report;
 };
 
-Result<std::unique_ptr<HandInLoop>> take_hand(const HeadlessRun& run, const ProbePath& path,
+Result<std::unique_ptr<HandInLoop>> take_hand(const HeadlessRun& run, const HeadlessHand& hand,
                                               HapticParams& haptic) {
+  const ProbePath& path = hand.path;
+  if (hand.user) return hand.user(haptic.tick_s);
   if (run.user) return run.user(haptic.tick_s);
   if (run.device.empty()) return free_hand(path, run.hand, haptic.tick_s);
   return hand_on_device(run.device, path, haptic);
@@ -96,6 +98,11 @@ class HeadlessLoop {
       hands_[h].hand->feel(tool.force_W);
       hands_[h].report.add(tool);
     }
+    if (run_.on_hands) {
+      tools_.clear();
+      for (std::size_t h = 0; h < hands_.size(); ++h) tools_.push_back(&session_.tool_state(h));
+      run_.on_hands(tools_, session_.bones());
+    }
     if (run_.on_tick) run_.on_tick(session_.tool_state(0), session_.bones());
   }
   std::string complaint() const {
@@ -121,6 +128,7 @@ class HeadlessLoop {
   Session session_;
   std::vector<RunningHand> hands_;
   std::vector<HandInput> inputs_;
+  std::vector<const ToolState*> tools_;
   Percentiles tick_times_;
 };
 
@@ -134,7 +142,7 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
   for (const HeadlessHand& hand : hands) {
     PathCommands commands(hand.path, settings.tray);
     settings.hands.push_back({hand.name, commands.first_instrument()});
-    auto taken = take_hand(run, hand.path, settings.haptic);
+    auto taken = take_hand(run, hand, settings.haptic);
     if (!taken) return tl::unexpected(taken.error());
     running.push_back({std::move(*taken), std::move(commands),
                        ReportBuilder(*run.the_case, settings.haptic.tick_s)});
@@ -155,14 +163,15 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   double duration_s = 0;
   for (const HeadlessHand& hand : hands) duration_s = std::max(duration_s, hand.path.duration_s());
   const double dt = run.settings.haptic.tick_s;
-  if (run.user) duration_s = run.longest_s;
+  const bool by_users = run.user || (!run.hands.empty() && run.hands.front().user);
+  if (by_users) duration_s = run.longest_s;
   const auto ticks = static_cast<std::uint64_t>(std::ceil(duration_s / dt));
   const std::int64_t started = steady_now_ns();
   for (std::uint64_t n = 0; n < ticks; ++n) {
     loop->tick(n, dt);
     if (*writer)
       if (auto ok = record(**writer, loop->session()); !ok) return tl::unexpected(ok.error());
-    if (run.user && run.done && run.done()) break;
+    if (by_users && run.done && run.done()) break;
   }
   if (*writer)
     if (auto ok = (*writer)->finish(); !ok) return tl::unexpected(ok.error());

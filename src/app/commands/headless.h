@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ namespace osteon {
 struct HeadlessHand {
   std::string name;  ///< "left"; unique
   ProbePath path;
+  /// Makes whoever moves the tool instead of the path; empty: the path, or the run's `user`.
+  std::function<std::unique_ptr<HandInLoop>(double tick_s)> user = {};
 };
 
 /// A run of a path on a case with the virtual hand: no window, no threads, no pacing.
@@ -37,9 +40,11 @@ struct HeadlessRun {
   std::string device;
   /// Makes whoever moves the tool instead of a path, for a tick of that length; empty: the path.
   std::function<std::unique_ptr<HandInLoop>(double tick_s)> user;
-  std::function<bool()> done;  ///< of a run by `user`: asked after each tick whether it is over
-  double longest_s = 0;        ///< of a run by `user`: it ends then at the latest
+  std::function<bool()> done;  ///< of a run by users: asked after each tick whether it is over
+  double longest_s = 0;        ///< of a run by users: it ends then at the latest
   std::optional<std::filesystem::path> record_to;
+  /// Sees all hands' tools after every tick; may be empty.
+  std::function<void(std::span<const ToolState* const>, const BoneSnapshot&)> on_hands;
   /// Sees every tick; may be empty.
   std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;
 };

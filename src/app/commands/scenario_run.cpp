@@ -5,8 +5,14 @@
 #include <utility>
 
 #include "cases/open_case.h"
+#include "commands/attempt_watch.h"
 #include "commands/headless.h"
+#include "commands/tray.h"
 #include "osteon/base/file.h"
+#include "osteon/base/random.h"
+#include "osteon/record/recording_note.h"
+#include "osteon/surgeon/probe_surgeon.h"
+#include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
 
 namespace osteon {
@@ -17,7 +23,7 @@ namespace fs = std::filesystem;
 // The surgeon's will moves an emulated hand with a mass and a grip, which yields to the force.
 class SurgeonHand : public HandInLoop {
  public:
-  SurgeonHand(Surgeon& surgeon, const HandParams& hand, double tick_s)
+  SurgeonHand(HandPlan& surgeon, const HandParams& hand, double tick_s)
       : surgeon_(surgeon), hand_(hand), wanted_(surgeon.start()), tick_s_(tick_s) {
     hand_.reset(wanted_);
   }
@@ -34,53 +40,11 @@ class SurgeonHand : public HandInLoop {
   }
 
  private:
-  Surgeon& surgeon_;
+  HandPlan& surgeon_;
   VirtualHand hand_;
   Pose wanted_;
   double tick_s_;
   Vec3 force_W_ = Vec3::Zero();
-};
-
-// Judges tick by tick.
-class AttemptWatch {
- public:
-  AttemptWatch(const ScenarioPlan& plan, std::size_t bones, double tick_s)
-      : plan_(plan),
-        tick_s_(tick_s),
-        events_(bones, event_limits(plan.scenario), 0, tick_s),
-        meter_(tick_s),
-        state_(begin_scenario(plan)) {}
-
-  void add(const ToolState& tool) {
-    now_s_ = static_cast<double>(tool.tick) * tick_s_;
-    fresh_.clear();
-    events_.add(tool, fresh_);
-    judge_fresh();
-    meter_.add(tool);
-  }
-  bool over() const { return state_.over; }
-  Result<Outcome> finish(const Case& the_case, const Standard* standard) {
-    fresh_.clear();
-    events_.finish(fresh_);
-    judge_fresh();
-    finish_scenario(plan_, now_s_, state_);
-    auto metrics = meter_.finish();
-    if (!metrics) return tl::unexpected(metrics.error());
-    return outcome_of(plan_, the_case, state_, std::move(*metrics), standard);
-  }
-
- private:
-  void judge_fresh() {
-    for (const Event& event : fresh_) judge(plan_, event, tick_s_, state_);
-  }
-
-  const ScenarioPlan& plan_;
-  double tick_s_;
-  ToolEvents events_;
-  AttemptMeter meter_;
-  ScenarioState state_;
-  std::vector<Event> fresh_;
-  double now_s_ = 0;
 };
 
 Result<fs::path> asset_folder(const char* name) {
@@ -134,41 +98,119 @@ Result<std::optional<Standard>> shipped_standard(const std::string& scenario) {
   return std::optional<Standard>(std::move(*standard));
 }
 
+// Side and finding of a drawn patient: a function of the seed and of nothing else.
+std::string drawn_words(const Scenario& scenario, std::uint64_t seed) {
+  Random random(seed * 6364136223846793005u + 1442695040888963407u);
+  const double side = random.uniform(), ill = random.uniform(), which = random.uniform();
+  const auto pick = [](const std::vector<std::string>& from, double share) {
+    return from[std::min(from.size() - 1,
+                         static_cast<std::size_t>(share * static_cast<double>(from.size())))];
+  };
+  std::string words;
+  if (!scenario.sides.empty()) words += ":" + pick(scenario.sides, side);
+  if (!scenario.findings.empty() && ill < 0.5) words += ":" + pick(scenario.findings, which);
+  return words;
+}
+
 std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
                          std::optional<std::uint64_t> seed) {
   std::string spec = case_spec;
   if (spec.empty()) spec = "builtin:" + scenario.anatomy;
-  if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed);
+  if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed) + drawn_words(scenario, *seed);
   if (spec.find('#') == std::string::npos && scenario.felt != "pieces") spec += "#" + scenario.felt;
   return spec;
 }
+
+namespace {
+
+// Who plays each hand: one that looks through its instrument looks for marks, or after the probe
+// where the exercise has no marks; a probe with a portal works through it; any other touches.
+std::vector<std::unique_ptr<HandPlan>> players_of(std::span<const PlannedHand> hands,
+                                                  const ScenarioPlan& plan, const Case& the_case,
+                                                  const Skill& skill, double tip_radius_m) {
+  std::vector<std::unique_ptr<HandPlan>> players;
+  const ProbeSurgeon* probe = nullptr;
+  for (const PlannedHand& hand : hands) {
+    const Vec3 portal_W = hand.portal_W.value_or(Vec3(0, 0, 0.1));
+    if (hand.optics && probe)
+      players.push_back(
+          std::make_unique<FollowingScope>(*probe, plan, skill, *hand.optics, portal_W));
+    else if (hand.optics)
+      players.push_back(std::make_unique<ScopeSurgeon>(
+          plan, the_case, skill, ScopeSurgeon::Scope{*hand.optics, portal_W, hand.shaft_radius_m}));
+    else if (hand.portal_W) {
+      auto made = std::make_unique<ProbeSurgeon>(plan, the_case, skill, portal_W, tip_radius_m);
+      probe = made.get();
+      players.push_back(std::move(made));
+    } else
+      players.push_back(std::make_unique<Surgeon>(plan, the_case, skill, tip_radius_m));
+  }
+  return players;
+}
+
+ProbePath holding(const std::string& instrument) {
+  ProbePath path;
+  if (instrument == kWristProbe) return path;
+  path.samples.emplace_back(0.0, Pose{}, false);
+  path.samples.back().instrument = instrument;
+  return path;
+}
+
+// What a recording must know so that the attempt can be judged again.
+Result<void> note_attempt(const ScenarioRun& run, const ScenarioOutcome& outcome) {
+  if (!run.record_to) return {};
+  const fs::path& file = *run.record_to;
+  if (!run.scenario.source_text.empty())
+    if (auto ok = write_note(file, "scenario", run.scenario.source_text); !ok) return ok;
+  if (run.standard)
+    if (auto ok = write_note(file, "standard", to_toml(*run.standard)); !ok) return ok;
+  if (auto ok = write_note(file, "surgeon", run.skill.name); !ok) return ok;
+  return write_note(file, "report", to_json(outcome.report, outcome.outcome));
+}
+
+}  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const auto the_case = open_felt_case(run.case_spec);
   if (!the_case) return tl::unexpected(the_case.error());
   const auto plan = plan_scenario(run.scenario, **the_case);
   if (!plan) return tl::unexpected(plan.error());
+  const auto hands = plan_hands(run.scenario, **the_case);
+  if (!hands) return tl::unexpected(hands.error());
   HeadlessRun headless;
-  Surgeon surgeon(*plan, **the_case, run.skill, headless.settings.probe_radius_m);
-  if (surgeon.done())
-    return fail("no bone of the scenario can be reached in a straight line", run.case_spec,
+  const auto players =
+      players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
+  const auto all_done = [&] {
+    return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
+  };
+  if (all_done())
+    return fail("nothing of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
-  AttemptWatch watch(*plan, (*the_case)->bones.size(), headless.settings.haptic.tick_s);
+  AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
-  headless.user = [&](double tick_s) {
-    return std::make_unique<SurgeonHand>(surgeon, headless.hand, tick_s);
+  for (std::size_t h = 0; h < hands->size(); ++h)
+    headless.hands.push_back({(*hands)[h].name, holding((*hands)[h].instrument),
+                              [&headless, &player = *players[h]](double tick_s) {
+                                return std::make_unique<SurgeonHand>(player, headless.hand, tick_s);
+                              }});
+  headless.done = [&] { return watch.over() || all_done(); };
+  headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+    watch.add(tools, bones);
   };
-  headless.done = [&] { return watch.over() || surgeon.done(); };
-  headless.on_tick = [&](const ToolState& tool, const BoneSnapshot&) { watch.add(tool); };
-  auto report = simulate(headless);
-  if (!report) return tl::unexpected(report.error());
-  auto outcome = watch.finish(**the_case, run.standard ? &*run.standard : nullptr);
+  auto reports = simulate_hands(headless);
+  if (!reports) return tl::unexpected(reports.error());
+  auto outcome = watch.finish(run.standard ? &*run.standard : nullptr);
   if (!outcome) return tl::unexpected(outcome.error());
-  return ScenarioOutcome{std::move(*report), std::move(*outcome), surgeon.unreachable()};
+  ScenarioOutcome done{std::move(reports->reports.front()), std::move(*outcome), {}};
+  for (const auto& player : players)
+    done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
+                            player->unreachable().end());
+  if (auto noted = note_attempt(run, done); !noted) return tl::unexpected(noted.error());
+  return done;
 }
 
 }  // namespace osteon

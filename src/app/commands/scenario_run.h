@@ -20,8 +20,8 @@ Result<Scenario> open_scenario(const std::string& spec);
 /// The standard that is shipped for a scenario; none: there is none.
 Result<std::optional<Standard>> shipped_standard(const std::string& scenario);
 /// The case that a scenario is checked and run on: `case_spec` if given, else the patient that
-/// `seed` draws, else the built-in one of its anatomy; felt as the scenario says unless the name
-/// says so itself.
+/// `seed` draws (with a side and a finding of those that the scenario names), else the built-in one
+/// of its anatomy; felt as the scenario says unless the name says so itself.
 std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
                          std::optional<std::uint64_t> seed);
 

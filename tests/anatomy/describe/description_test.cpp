@@ -85,7 +85,7 @@ TEST(Description, JointsMustNameWhatIsThereAndHaveOneRowAStep) {
 }
 
 TEST(Description, MissingKeysAreNamed) {
-  expect_refused(kHead + "[[bone]]\nname = \"a\"\n", {"bone 'a'", "'fma_id'"});
+  expect_refused(kHead + "[[bone]]\nname = \"a\"\n", {"bone 'a'", "'position_mm'"});
   expect_refused(kHead + "[[bone]]\nfma_id = 3\n", {"line 3", "'name'"});
   expect_refused(kHead + "[[bone]]\nname = \"a\"\nfma_id = 3\nposition_mm = [0, 0, 0]\n",
                  {"bone 'a'", "'add'"});

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "osteon/base/types.h"
+
+namespace osteon {
+
+/// Somebody who plays a part of a scenario with one hand: says where the hand is wanted; the hand
+/// itself (mass, grip) is the caller's.
+class HandPlan {
+ public:
+  virtual ~HandPlan() = default;
+  /// Where the hand begins.
+  virtual Pose start() const = 0;
+  /// Where the hand is wanted after another `dt_s`.
+  virtual Pose step(double dt_s) = 0;
+  /// The force on the hand in the same tick, N.
+  virtual void feel(const Vec3& force_W) = 0;
+  virtual bool done() const = 0;
+  /// Bones or marks that no free way leads to.
+  virtual const std::vector<std::string>& unreachable() const = 0;
+};
+
+}  // namespace osteon

@@ -1,0 +1,110 @@
+#include "commands/attempt_watch.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "commands/tray.h"
+
+namespace osteon {
+namespace {
+
+std::vector<std::uint32_t> marks_of(const ScenarioPlan& plan) {
+  std::vector<std::uint32_t> marks;
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.about == SubjectKind::kLandmark)
+        marks.insert(marks.end(), goal.bones.begin(), goal.bones.end());
+  std::sort(marks.begin(), marks.end());
+  marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+  return marks;
+}
+
+Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
+                              std::span<const Instrument> instruments, const std::string& where) {
+  PlannedHand planned;
+  planned.name = hand.name;
+  planned.instrument = hand.instrument;
+  const Instrument* instrument =
+      hand.instrument == kWristProbe ? nullptr : find_instrument(instruments, hand.instrument);
+  if (!instrument && hand.instrument != kWristProbe)
+    return fail("there is no instrument '" + hand.instrument + "'",
+                where + ":" + std::to_string(hand.line), "See: osteon instruments");
+  if (instrument && instrument->optics)
+    planned.optics = ScopeOptics{instrument->optics->angle_deg * std::numbers::pi / 180,
+                                 instrument->optics->field_deg * std::numbers::pi / 360};
+  if (instrument) planned.shaft_radius_m = 0.5 * instrument->sizes_m[instrument->usual_size];
+  if (hand.portal.empty()) return planned;
+  const auto portal = find_landmark(the_case, hand.portal);
+  if (!portal)
+    return fail("the case '" + the_case.name + "' has no portal '" + hand.portal + "'",
+                where + ":" + std::to_string(hand.line));
+  planned.portal_W = the_case.landmarks[*portal].p_W;
+  return planned;
+}
+
+}  // namespace
+
+Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case) {
+  std::vector<PlannedHand> hands;
+  if (scenario.hands.empty()) {
+    PlannedHand probe;
+    probe.instrument = kWristProbe;
+    return std::vector<PlannedHand>{probe};
+  }
+  const auto instruments = load_instruments();
+  if (!instruments) return tl::unexpected(instruments.error());
+  for (const ScenarioHand& hand : scenario.hands) {
+    auto planned = plan_hand(hand, the_case, *instruments, scenario.where);
+    if (!planned) return tl::unexpected(planned.error());
+    hands.push_back(std::move(*planned));
+  }
+  return hands;
+}
+
+AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
+                           std::span<const PlannedHand> hands, double tick_s)
+    : plan_(&plan),
+      case_(&the_case),
+      tick_s_(tick_s),
+      meter_(tick_s),
+      state_(begin_scenario(plan)) {
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    const auto hand = static_cast<std::uint8_t>(h);
+    events_.emplace_back(the_case.bones.size(), event_limits(plan.scenario), hand, tick_s);
+    ScopeWatch::Settings settings;
+    settings.optics = hands[h].optics;
+    settings.portal_W = hands[h].portal_W;
+    settings.hand = hand;
+    settings.tick_s = tick_s;
+    settings.marks = marks_of(plan);
+    scopes_.emplace_back(the_case, std::move(settings));
+  }
+}
+
+void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+  fresh_.clear();
+  for (std::size_t h = 0; h < std::min(tools.size(), events_.size()); ++h) {
+    now_s_ = static_cast<double>(tools[h]->tick) * tick_s_;
+    events_[h].add(*tools[h], fresh_);
+    const ToolState* other = tools.size() == 2 ? tools[1 - h] : nullptr;
+    scopes_[h].add(*tools[h], other, bones, fresh_);
+  }
+  judge_fresh();
+  if (!tools.empty()) meter_.add(*tools[0]);
+}
+
+Result<Outcome> AttemptWatch::finish(const Standard* standard) {
+  fresh_.clear();
+  for (ToolEvents& events : events_) events.finish(fresh_);
+  judge_fresh();
+  finish_scenario(*plan_, now_s_, state_);
+  auto metrics = meter_.finish();
+  if (!metrics) return tl::unexpected(metrics.error());
+  return outcome_of(*plan_, *case_, state_, std::move(*metrics), standard);
+}
+
+void AttemptWatch::judge_fresh() {
+  for (const Event& event : fresh_) judge(*plan_, event, tick_s_, state_);
+}
+
+}  // namespace osteon

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/procedure/attempt.h"
+#include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/tool_events.h"
+#include "osteon/scene/instrument.h"
+
+namespace osteon {
+
+/// What a scenario's hand holds; of a scenario without hands the wrist probe.
+struct PlannedHand {
+  std::string name;
+  std::string instrument;  ///< as a tray names it
+  std::optional<ScopeOptics> optics;
+  std::optional<Vec3> portal_W;
+  double shaft_radius_m = 0.00075;
+};
+/// Fails on an instrument that there is none of, and on a portal that the case lacks.
+Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case);
+
+/// Judges an attempt tick by tick. A function of what the hands' tools did. The plan, the case and
+/// the hands must outlive it.
+class AttemptWatch {
+ public:
+  AttemptWatch(const ScenarioPlan& plan, const Case& the_case, std::span<const PlannedHand> hands,
+               double tick_s);
+  void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  bool over() const { return state_.over; }
+  const ScenarioState& state() const { return state_; }
+  Result<Outcome> finish(const Standard* standard);
+
+ private:
+  void judge_fresh();
+
+  const ScenarioPlan* plan_;
+  const Case* case_;
+  double tick_s_;
+  std::vector<ToolEvents> events_;
+  std::vector<ScopeWatch> scopes_;
+  AttemptMeter meter_;  // of the first hand
+  ScenarioState state_;
+  std::vector<Event> fresh_;
+  double now_s_ = 0;
+};
+
+}  // namespace osteon

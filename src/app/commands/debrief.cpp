@@ -1,0 +1,158 @@
+#include "commands/debrief.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "cases/open_case.h"
+#include "commands/attempt_watch.h"
+#include "commands/recorded_case.h"
+#include "commands/scenario_run.h"
+#include "commands/tray.h"
+#include "osteon/record/recording.h"
+#include "osteon/record/recording_note.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kTraceHz = 20;
+
+Result<std::optional<Scenario>> scenario_of(const DebriefOrder& order) {
+  if (!order.scenario.empty()) {
+    auto scenario = open_scenario(order.scenario);
+    if (!scenario) return tl::unexpected(scenario.error());
+    return std::optional<Scenario>(std::move(*scenario));
+  }
+  const auto note = read_note(order.recording, "scenario");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return std::optional<Scenario>{};
+  auto scenario = parse_scenario(**note, order.recording.string() + " (its exercise)");
+  if (!scenario) return tl::unexpected(scenario.error());
+  return std::optional<Scenario>(std::move(*scenario));
+}
+
+Result<std::optional<Standard>> standard_for(const DebriefOrder& order, const Scenario& scenario) {
+  if (!order.standard.empty()) {
+    auto standard = load_standard(order.standard);
+    if (!standard) return tl::unexpected(standard.error());
+    return std::optional<Standard>(std::move(*standard));
+  }
+  const auto note = read_note(order.recording, "standard");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return shipped_standard(scenario.name);
+  auto standard = parse_standard(**note, order.recording.string() + " (its standard)");
+  if (!standard) return tl::unexpected(standard.error());
+  return std::optional<Standard>(std::move(*standard));
+}
+
+// Gathers one hand's values.
+class TraceMaker {
+ public:
+  explicit TraceMaker(double tick_s)
+      : stride_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(1 / (kTraceHz * tick_s)))) {}
+  void add(const ToolState& tool) {
+    peak_n_ = std::max(peak_n_, is_finite(tool.force_W) ? tool.force_W.norm() : 0.0);
+    if (tool.tick % stride_ != 0 || !is_finite(tool.X_WP)) return;
+    trace_.time_s.push_back(tool.time_s);
+    trace_.force_n.push_back(peak_n_);
+    trace_.tip_W.push_back(tool.X_WP.p);
+    peak_n_ = 0;
+  }
+  HandTrace finish(const std::string& name, const Report& report) {
+    trace_.name = name;
+    for (const BoneReport& bone : report.bones)
+      if (bone.touched()) trace_.touched.push_back(bone);
+    std::stable_sort(trace_.touched.begin(), trace_.touched.end(),
+                     [](const auto& a, const auto& b) { return a.peak_force_n > b.peak_force_n; });
+    return std::move(trace_);
+  }
+
+ private:
+  std::uint64_t stride_;
+  double peak_n_ = 0;
+  HandTrace trace_;
+};
+
+// Judges again what is repeated: hands come one after the other, the last of a tick completes it.
+struct JudgedAgain {
+  std::unique_ptr<ScenarioPlan> plan;
+  std::vector<PlannedHand> hands;
+  std::unique_ptr<AttemptWatch> watch;
+  std::vector<ToolState> tools;
+
+  Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
+                     std::size_t recorded_hands) {
+    auto planned = plan_scenario(scenario, the_case);
+    if (!planned) return tl::unexpected(planned.error());
+    auto held = plan_hands(scenario, the_case);
+    if (!held) return tl::unexpected(held.error());
+    if (held->size() != recorded_hands)
+      return fail("the exercise is for " + std::to_string(held->size()) +
+                      " hands, the recording has " + std::to_string(recorded_hands),
+                  scenario.name, "Name the exercise that was played with --scenario");
+    plan = std::make_unique<ScenarioPlan>(std::move(*planned));
+    hands = std::move(*held);
+    watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
+    tools.resize(hands.size());
+    return {};
+  }
+  void add(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
+    if (!watch || hand >= tools.size()) return;
+    tools[hand] = tool;
+    if (hand + 1 < tools.size()) return;
+    std::vector<const ToolState*> all;
+    for (const ToolState& each : tools) all.push_back(&each);
+    watch->add(all, bones);
+  }
+};
+
+}  // namespace
+
+Result<Debrief> make_debrief(const DebriefOrder& order) {
+  auto recording = RecordingReader::open(order.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto spec = recorded_case_spec(order.recording, order.case_spec, recording->header());
+  if (!spec) return tl::unexpected(spec.error());
+  const auto the_case = open_felt_case(*spec);
+  if (!the_case) return tl::unexpected(the_case.error());
+  const auto settings = parse_settings(recording->header().settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  auto scenario = scenario_of(order);
+  if (!scenario) return tl::unexpected(scenario.error());
+  const std::size_t hands = recording->header().hands;
+  const double tick_s = settings->haptic.tick_s;
+  JudgedAgain again;
+  if (*scenario)
+    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands); !begun)
+      return tl::unexpected(begun.error());
+  std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
+  ReplayOptions how;
+  how.tray = std::move(*tray);
+  how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    std::span<const Event>) {
+    traces[hand].add(tool);
+    again.add(hand, tool, bones);
+  };
+  const auto replayed = replay(*recording, *the_case, how);
+  if (!replayed) return tl::unexpected(replayed.error());
+  Debrief debrief;
+  debrief.case_name = (*the_case)->name;
+  debrief.duration_s = replayed->report.duration_s;
+  debrief.identical = replayed->identical;
+  const auto surgeon = read_note(order.recording, "surgeon");
+  if (surgeon && *surgeon) debrief.surgeon = **surgeon;
+  for (std::size_t h = 0; h < hands; ++h)
+    debrief.hands.push_back(traces[h].finish(settings->hands[h].name, replayed->reports[h]));
+  if (!*scenario) return debrief;
+  const auto standard = standard_for(order, **scenario);
+  if (!standard) return tl::unexpected(standard.error());
+  auto outcome = again.watch->finish(*standard ? &**standard : nullptr);
+  if (!outcome) return tl::unexpected(outcome.error());
+  debrief.outcome = std::move(*outcome);
+  debrief.scenario = std::move(**scenario);
+  return debrief;
+}
+
+}  // namespace osteon

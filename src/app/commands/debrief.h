@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/procedure/attempt.h"
+#include "osteon/procedure/report.h"
+#include "osteon/procedure/scenario.h"
+
+namespace osteon {
+
+/// One hand over a repeated attempt, 20 values a second.
+struct HandTrace {
+  std::string name;
+  std::vector<double> time_s;
+  std::vector<double> force_n;      ///< the greatest since the value before
+  std::vector<Vec3> tip_W;          ///< m
+  std::vector<BoneReport> touched;  ///< bones that it touched, the hardest pressed first
+};
+
+/// What a recording shows once it has been repeated and judged again.
+struct Debrief {
+  std::string case_name, surgeon;
+  double duration_s = 0;
+  bool identical = true;             ///< repeated bit by bit
+  std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
+  std::optional<Outcome> outcome;
+  std::vector<HandTrace> hands;
+};
+
+struct DebriefOrder {
+  std::filesystem::path recording;
+  std::string case_spec, scenario, standard;  ///< empty: the recording's own
+};
+Result<Debrief> make_debrief(const DebriefOrder& order);
+
+/// Pages to print: verdict and score with its interval, stages and errors on the line of time with
+/// the force, forces by structure, metrics, and each hand's way seen from above and from the side.
+Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file);
+
+}  // namespace osteon

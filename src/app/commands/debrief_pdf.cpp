@@ -1,0 +1,131 @@
+#include <charconv>
+
+#include "commands/debrief.h"
+#include "osteon/results/pdf.h"
+
+namespace osteon {
+namespace {
+
+std::string decimals(double value, int digits) {
+  char text[64];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr;
+  return std::string(text, end);
+}
+
+void print_verdict(const Debrief& debrief, PdfPages& pages) {
+  const Outcome& outcome = *debrief.outcome;
+  std::string score = "no score: there is no standard";
+  if (outcome.score)
+    score = "score " + decimals(outcome.score->value, 1) + ", 95 % interval " +
+            decimals(outcome.score->lo, 1) + " to " + decimals(outcome.score->hi, 1) +
+            " (100: the experts' mean; 10 points: one standard deviation), standard " +
+            std::to_string(outcome.standard_version);
+  pages.line("Verdict: " + std::string(to_text(outcome.verdict)));
+  pages.line(score);
+}
+
+void print_timeline(const Debrief& debrief, PdfPages& pages) {
+  pages.heading("Stages and errors");
+  pages.row({"what", "", "at, s", "hand", "where"}, true);
+  for (const Outcome::Stage& stage : debrief.outcome->stages)
+    pages.row({"stage", stage.name,
+               stage.completed_s ? decimals(*stage.completed_s, 1) : "not completed", "", ""});
+  for (const Outcome::Error& error : debrief.outcome->errors)
+    pages.row({std::string(to_text(error.severity)) + " error", error.name, decimals(error.at_s, 1),
+               std::to_string(error.hand), error.subject});
+  if (debrief.outcome->errors.empty()) pages.line("No errors.");
+  for (const ScenarioError& known : debrief.scenario->errors)
+    for (const Outcome::Error& error : debrief.outcome->errors)
+      if (error.name == known.name) {
+        pages.line(known.title + ": " + known.consequence);
+        break;
+      }
+}
+
+std::vector<double> moments(const Debrief& debrief) {
+  std::vector<double> marks;
+  if (!debrief.outcome) return marks;
+  for (const Outcome::Stage& stage : debrief.outcome->stages)
+    if (stage.completed_s) marks.push_back(*stage.completed_s);
+  for (const Outcome::Error& error : debrief.outcome->errors) marks.push_back(error.at_s);
+  return marks;
+}
+
+void print_force(const Debrief& debrief, const HandTrace& hand, PdfPages& pages) {
+  if (hand.time_s.empty()) return;
+  PdfPages::Curve force;
+  force.title = "Force over time" + (hand.name.empty() ? "" : ", hand " + hand.name) +
+                "; lines: stages done and errors";
+  force.x_unit = "s";
+  force.y_unit = "N";
+  force.x = hand.time_s;
+  force.y = hand.force_n;
+  force.marks = moments(debrief);
+  pages.curve(force, 45);
+}
+
+void print_way(const HandTrace& hand, Eigen::Index down, const char* seen, PdfPages& pages) {
+  if (hand.tip_W.empty()) return;
+  PdfPages::Curve way;
+  way.title = std::string("Way of the tip seen from ") + seen +
+              (hand.name.empty() ? "" : ", hand " + hand.name);
+  way.x_unit = way.y_unit = "mm";
+  way.from_zero = false;
+  way.equal_scales = true;
+  for (const Vec3& p_W : hand.tip_W) {
+    way.x.push_back(p_W.x() * 1000);
+    way.y.push_back(p_W[down] * 1000);
+  }
+  pages.curve(way, 70);
+}
+
+void print_structures(const HandTrace& hand, PdfPages& pages) {
+  pages.heading("Forces by structure" + (hand.name.empty() ? "" : ", hand " + hand.name));
+  if (hand.touched.empty()) return pages.line("Nothing was touched.");
+  pages.row({"structure", "peak, N", "mean, N", "time, s", "deepest, mm"}, true);
+  for (const BoneReport& bone : hand.touched)
+    pages.row({bone.name, decimals(bone.peak_force_n, 2), decimals(bone.mean_force_n, 2),
+               decimals(bone.contact_time_s, 1), decimals(bone.deepest_mm, 2)});
+}
+
+void print_metrics(const Debrief& debrief, PdfPages& pages) {
+  pages.heading("Metrics");
+  pages.row({"metric", "value", "aim", "source"}, true);
+  for (const auto& [name, value] : debrief.outcome->metrics) {
+    std::string aim, source;
+    for (const ScenarioMetric& metric : debrief.scenario->metrics)
+      if (metric.name == name) {
+        aim = decimals(metric.threshold, 1) + " " + metric.unit;
+        source = metric.source;
+      }
+    pages.row({name, decimals(value, 2), aim, source});
+  }
+}
+
+}  // namespace
+
+Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file) {
+  PdfPages pages;
+  pages.heading("Debrief: " + (debrief.scenario ? debrief.scenario->title : debrief.case_name));
+  pages.line("Case " + debrief.case_name + ", " + decimals(debrief.duration_s, 1) + " s" +
+             (debrief.surgeon.empty() ? "" : ", played by " + debrief.surgeon));
+  if (!debrief.identical)
+    pages.line("This computer repeats the recording otherwise than it was: judge with care.");
+  if (debrief.outcome) {
+    print_verdict(debrief, pages);
+    print_timeline(debrief, pages);
+  } else {
+    pages.line("The recording is of no exercise: nothing is judged.");
+  }
+  for (const HandTrace& hand : debrief.hands) print_force(debrief, hand, pages);
+  for (const HandTrace& hand : debrief.hands) print_structures(hand, pages);
+  if (debrief.outcome) print_metrics(debrief, pages);
+  for (const HandTrace& hand : debrief.hands) {
+    print_way(hand, 1, "above", pages);
+    print_way(hand, 2, "the side", pages);
+  }
+  return pages.save(file);
+}
+
+}  // namespace osteon

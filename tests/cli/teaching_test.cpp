@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+using TeachJson = nlohmann::json;
+
+class Teaching : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    ::setenv("XDG_DATA_HOME", file("data").c_str(), 1);
+  }
+  void TearDown() override {
+    ::unsetenv("XDG_DATA_HOME");
+    CliTest::TearDown();
+  }
+  TeachJson read(const std::string& name) const {
+    std::ifstream in(file(name));
+    return TeachJson::parse(in, nullptr, false);
+  }
+  TeachJson json_of(const std::string& arguments) const {
+    return TeachJson::parse(run_osteon(arguments).output, nullptr, false);
+  }
+  std::vector<std::string> errors_of(const std::string& severity = "") const {
+    std::vector<std::string> names;
+    for (const TeachJson& e : read("r.json")["errors"])
+      if (severity.empty() || e["severity"] == severity) names.push_back(e["name"]);
+    return names;
+  }
+  Ran play(const std::string& scenario, const std::string& surgeon, int seed,
+           const std::string& more = "--no-store") const {
+    fs::remove(file("r.json"));
+    return run_osteon("run " + scenario + " --seed " + std::to_string(seed) + " --surgeon " +
+                      surgeon + " --report " + file("r.json") + " " + more);
+  }
+  void expect_expert_passes(const std::string& scenario, int seed) const {
+    const Ran ran = play(scenario, "expert", seed);
+    EXPECT_EQ(ran.exit_code, 0) << scenario << " on patient " << seed << "\n" << ran.output;
+  }
+};
+
+// Every exercise that is listed: the expert passes, and each bad one fails with its own error and
+// with no other of its severity.
+TEST_F(Teaching, EachNamedErrorIsMadeAloneAndTheExpertPasses) {
+  for (const TeachJson& scenario : json_of("scenario list --json")) {
+    const std::string name = scenario["name"];
+    expect_expert_passes(name, 1);
+    for (const std::string error : scenario["errors"]) {
+      const Ran bad = play(name, "bad:" + error, 1);
+      EXPECT_EQ(bad.exit_code, 1) << name << " " << error << "\n" << bad.output;
+      const std::vector<std::string> made = errors_of();
+      const std::set<std::string> distinct(made.begin(), made.end());
+      EXPECT_EQ(distinct, std::set<std::string>{error}) << name << "\n" << bad.output;
+    }
+  }
+}
+
+TEST_F(Teaching, ScenariosThatAreShippedAreSound) {
+  for (const TeachJson& scenario : json_of("scenario list --json")) {
+    const Ran check = run_osteon("scenario check " + std::string(scenario["name"]));
+    EXPECT_EQ(check.exit_code, 0) << check.output;
+  }
+}
+
+TEST_F(Teaching, FiftyPatientsOfEachExerciseArePassedByTheExpert) {
+  if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for all fifty patients";
+  for (const TeachJson& scenario : json_of("scenario list --json"))
+    for (int seed = 1; seed <= 50; ++seed) expect_expert_passes(scenario["name"], seed);
+}
+
+TEST_F(Teaching, AnAttemptIsRecordedRepeatedAndDebriefed) {
+  const std::string osr = file("r.osr"), pdf = file("r.pdf");
+  ASSERT_EQ(play("fast_centring", "bad:lost_view", 2, "--no-store --record " + osr).exit_code, 1);
+  EXPECT_EQ(run_osteon("replay " + osr).exit_code, 0);
+  const Ran debrief = run_osteon("debrief " + osr + " --out " + pdf);
+  EXPECT_EQ(debrief.exit_code, 0) << debrief.output;
+  EXPECT_NE(debrief.output.find("lost_view"), std::string::npos) << debrief.output;
+  EXPECT_NE(debrief.output.find("not_passed"), std::string::npos) << debrief.output;
+  std::ifstream in(pdf, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(bytes.substr(0, 5), "%PDF-");
+  EXPECT_NE(bytes.find("%%EOF"), std::string::npos);
+  EXPECT_EQ(run_osteon("debrief " + osr + " --out /nowhere/r.pdf").exit_code, 2);
+  EXPECT_EQ(run_osteon("debrief " + file("none.osr") + " --out " + pdf).exit_code, 2);
+  // A stricter standard may be laid on what was done.
+  EXPECT_EQ(run_osteon("debrief " + osr + " --scenario touch_bones --out " + pdf).exit_code, 2);
+}
+
+TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
+  ASSERT_EQ(play("fast_centring", "expert", 1, "--learner ada").exit_code, 0);
+  ASSERT_EQ(play("fast_centring", "bad:bumped", 1, "--learner ada").exit_code, 1);
+  ASSERT_EQ(play("fast_centring", "expert", 1, "").exit_code, 0);
+  const TeachJson all = json_of("results list --json");
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0]["learner"], "ada");
+  EXPECT_EQ(all[1]["verdict"], "not_passed");
+  EXPECT_EQ(all[2]["learner"], "local");
+  EXPECT_EQ(json_of("results list --learner ada --json").size(), 2u);
+  const TeachJson one = json_of("results show " + std::string(all[0]["id"]));
+  EXPECT_EQ(one["report"]["scenario"], "fast_centring");
+  const TeachJson curve = json_of("results curve --learner ada --json");
+  ASSERT_EQ(curve.size(), 1u);
+  EXPECT_EQ(curve[0]["attempts"], 2);
+  EXPECT_NEAR(curve[0]["lc_cusum"][0].get<double>(), 0.1823, 5e-5);
+  EXPECT_EQ(curve[0]["lc_cusum"][1], 0);
+  for (const std::string format : {"csv", "xapi", "pdf"}) {
+    const Ran ran =
+        run_osteon("results export --format " + format + " --out " + file("x." + format));
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    EXPECT_GT(fs::file_size(file("x." + format)), 100u);
+  }
+  EXPECT_EQ(run_osteon("results export --format xml --out " + file("x")).exit_code, 2);
+  EXPECT_EQ(run_osteon("results name --learner ada --name 'Ada Lovelace'").exit_code, 0);
+  EXPECT_NE(run_osteon("results list").output.find("Ada Lovelace"), std::string::npos);
+  EXPECT_EQ(run_osteon("results forget --learner ada").exit_code, 0);
+  EXPECT_EQ(json_of("results list --json").size(), 1u);
+  EXPECT_EQ(run_osteon("results list").output.find("Ada"), std::string::npos);
+  EXPECT_EQ(play("fast_centring", "expert", 1, "--learner 'Ada Lovelace'").exit_code, 2);
+}
+
+TEST_F(Teaching, AStoreThatCannotBeWrittenLosesNoAttempt) {
+  fs::create_directories(file("data/osteon"));
+  std::ofstream(file("data/osteon/results.sqlite")) << "my diary, which is no database at all";
+  const Ran ran = play("fast_horizon", "expert", 1, "");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_NE(ran.output.find("waits in"), std::string::npos) << ran.output;
+  EXPECT_EQ(run_osteon("results list").exit_code, 2);
+  fs::remove(file("data/osteon/results.sqlite"));
+  EXPECT_EQ(json_of("results list --json").size(), 1u);
+}
+
+TEST_F(Teaching, PatientsOfASeedHaveASideAndAFinding) {
+  const Ran odd = run_osteon("run touch_bones --case builtin:wrist:3:up --no-store");
+  EXPECT_EQ(odd.exit_code, 2);
+  EXPECT_NE(odd.output.find("neither a side nor a finding"), std::string::npos) << odd.output;
+  EXPECT_EQ(run_osteon("run touch_bones --case builtin:wrist:3:geissler=9 --no-store").exit_code,
+            2);
+  const Ran info = run_osteon("case info builtin:wrist:3:left:geissler=3#hull");
+  EXPECT_EQ(info.exit_code, 0) << info.output;
+  EXPECT_NE(info.output.find("left"), std::string::npos) << info.output;
+}
+
+TEST_F(Teaching, SkillIsStudiedOnSimulatedPeople) {
+  const TeachJson study = json_of("skill fast_horizon --experts 4 --novices 4 --json");
+  ASSERT_EQ(study.size(), 1u) << study;
+  EXPECT_GE(study[0]["auc"].get<double>(), 0.5);
+  EXPECT_LE(study[0]["auc"].get<double>(), 1);
+  EXPECT_EQ(study[0]["expert_scores"].size(), 4u);
+  EXPECT_EQ(run_osteon("skill nothing").exit_code, 2);
+  EXPECT_EQ(run_osteon("skill fast_horizon --experts 2").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli
