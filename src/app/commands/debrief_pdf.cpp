@@ -6,7 +6,7 @@
 namespace osteon {
 namespace {
 
-std::string decimals(double value, int digits) {
+std::string page_number_text(double value, int digits) {
   char text[64];
   const auto end =
       std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr;
@@ -17,8 +17,9 @@ void print_verdict(const Debrief& debrief, PdfPages& pages) {
   const Outcome& outcome = *debrief.outcome;
   std::string score = "no score: there is no standard";
   if (outcome.score)
-    score = "score " + decimals(outcome.score->value, 1) + ", 95 % interval " +
-            decimals(outcome.score->lo, 1) + " to " + decimals(outcome.score->hi, 1) +
+    score = "score " + page_number_text(outcome.score->value, 1) + ", 95 % interval " +
+            page_number_text(outcome.score->lo, 1) + " to " +
+            page_number_text(outcome.score->hi, 1) +
             " (100: the experts' mean; 10 points: one standard deviation), standard " +
             std::to_string(outcome.standard_version);
   pages.line("Verdict: " + std::string(to_text(outcome.verdict)));
@@ -30,10 +31,11 @@ void print_timeline(const Debrief& debrief, PdfPages& pages) {
   pages.row({"what", "", "at, s", "hand", "where"}, true);
   for (const Outcome::Stage& stage : debrief.outcome->stages)
     pages.row({"stage", stage.name,
-               stage.completed_s ? decimals(*stage.completed_s, 1) : "not completed", "", ""});
+               stage.completed_s ? page_number_text(*stage.completed_s, 1) : "not completed", "",
+               ""});
   for (const Outcome::Error& error : debrief.outcome->errors)
-    pages.row({std::string(to_text(error.severity)) + " error", error.name, decimals(error.at_s, 1),
-               std::to_string(error.hand), error.subject});
+    pages.row({std::string(to_text(error.severity)) + " error", error.name,
+               page_number_text(error.at_s, 1), std::to_string(error.hand), error.subject});
   if (debrief.outcome->errors.empty()) pages.line("No errors.");
   for (const ScenarioError& known : debrief.scenario->errors)
     for (const Outcome::Error& error : debrief.outcome->errors)
@@ -85,8 +87,9 @@ void print_structures(const HandTrace& hand, PdfPages& pages) {
   if (hand.touched.empty()) return pages.line("Nothing was touched.");
   pages.row({"structure", "peak, N", "mean, N", "time, s", "deepest, mm"}, true);
   for (const BoneReport& bone : hand.touched)
-    pages.row({bone.name, decimals(bone.peak_force_n, 2), decimals(bone.mean_force_n, 2),
-               decimals(bone.contact_time_s, 1), decimals(bone.deepest_mm, 2)});
+    pages.row({bone.name, page_number_text(bone.peak_force_n, 2),
+               page_number_text(bone.mean_force_n, 2), page_number_text(bone.contact_time_s, 1),
+               page_number_text(bone.deepest_mm, 2)});
 }
 
 void print_metrics(const Debrief& debrief, PdfPages& pages) {
@@ -96,10 +99,10 @@ void print_metrics(const Debrief& debrief, PdfPages& pages) {
     std::string aim, source;
     for (const ScenarioMetric& metric : debrief.scenario->metrics)
       if (metric.name == name) {
-        aim = decimals(metric.threshold, 1) + " " + metric.unit;
+        aim = page_number_text(metric.threshold, 1) + " " + metric.unit;
         source = metric.source;
       }
-    pages.row({name, decimals(value, 2), aim, source});
+    pages.row({name, page_number_text(value, 2), aim, source});
   }
 }
 
@@ -108,7 +111,7 @@ void print_metrics(const Debrief& debrief, PdfPages& pages) {
 Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file) {
   PdfPages pages;
   pages.heading("Debrief: " + (debrief.scenario ? debrief.scenario->title : debrief.case_name));
-  pages.line("Case " + debrief.case_name + ", " + decimals(debrief.duration_s, 1) + " s" +
+  pages.line("Case " + debrief.case_name + ", " + page_number_text(debrief.duration_s, 1) + " s" +
              (debrief.surgeon.empty() ? "" : ", played by " + debrief.surgeon));
   if (!debrief.identical)
     pages.line("This computer repeats the recording otherwise than it was: judge with care.");
