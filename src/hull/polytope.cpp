@@ -145,9 +145,9 @@ std::uint32_t Polytope::find_seen(const Probe& probe) {
   }
 }
 
-/// Calls visit(facet) for the facets that hang together with the one in hand by rises that may be
+/// Calls visit(facet) for the facets connected to the one in hand by rises that may be
 /// `low` or more, until it returns false. With `low` below the true rise of that one, what rises
-/// highest is among them: on a convex polyhedron facets that rise to some height hang together.
+/// highest is among them: on a convex polyhedron facets that rise to some height are connected.
 template <class Visit>
 void Polytope::explore(const Vec3& q, double low, const Visit& visit) {
   if (!(low > 0)) low = -kInfinity;  // bounds hold for rises down to -1

@@ -102,7 +102,7 @@ class Wrapper {
            !is_flat(facet, facet.twin[2]);
   }
 
-  /// All triangles of the plane of one: they hang together.
+  /// All triangles of the plane of one: they are connected.
   void gather(std::uint32_t first) {
     plane_.assign(1, first);
     wrapped_[first] = true;

@@ -69,7 +69,7 @@ std::vector<std::uint16_t> real_parts(const std::vector<std::size_t>& sizes) {
   return parts;
 }
 
-/// The deepest voxel that hangs together with `at` by voxels of `share` of the depth of `at`.
+/// The deepest voxel connected to `at` by voxels of `share` of the depth of `at`.
 Voxel deepest_around(const Grid<float>& depth, const Voxel& at, double share) {
   const double least = share * static_cast<double>(depth.at(at[0], at[1], at[2]));
   std::vector<bool> seen(depth.values.size(), false);

@@ -19,7 +19,7 @@ bool in_scan(const LabelEdit& edit, const Voxel& v) {
   return edit.labels().frame.contains(v[0], v[1], v[2]);
 }
 
-/// Rows of voxels that hang together with a seed, found one run after the other.
+/// Rows of voxels connected to a seed, found one run after the other.
 class RegionGrowth {
  public:
   RegionGrowth(const LabelEdit& edit, std::uint16_t label, const Voxel& seed,

@@ -12,7 +12,7 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// Which vertices hang together (disjoint sets, with halved paths).
+/// Which vertices are connected (disjoint sets, with halved paths).
 class Parts {
  public:
   explicit Parts(std::size_t n) : parent_(n) {
@@ -42,7 +42,7 @@ Result<void> check_parts(const TetMesh& mesh) {
     if (used[v] && parts.root(v) == v) ++roots;
   }
   if (roots > 1)
-    return fail("has " + std::to_string(roots) + " parts that do not hang together", "mesh",
+    return fail("has " + std::to_string(roots) + " parts that are not connected", "mesh",
                 "Keep one of them, or join them");
   if (idle > 0)
     return fail("has " + std::to_string(idle) + " points that no tetrahedron uses", "mesh",

@@ -28,7 +28,7 @@ struct VariationRequest {
   /// Draws every parameter from its normal distribution, clipped to its range and rounded to
   /// 0.01; none: a parameter that is not set keeps what the description has.
   std::optional<std::uint64_t> seed;
-  std::vector<ParameterValue> set;  ///< goes before what is drawn
+  std::vector<ParameterValue> set;  ///< overrides what is drawn
   std::string side;                 ///< "left", "right", or empty: the description's own
   /// What is wrong with the patient, from `findings_table` (assets/anatomy/*_findings.toml).
   std::vector<FindingChoice> findings = {};

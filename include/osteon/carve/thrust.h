@@ -35,7 +35,7 @@ struct DrillTable {
   Irrigation water;
   double reamer_teeth = 0, chatter_depth_m = 0, chatter_gain = 0, chatter_most_m = 0;
 
-  /// Null when there is none of this name.
+  /// Null when no material has this name.
   const DrillMaterial* find(std::string_view name) const;
 };
 /// Strict: an unknown or missing key, a number without a mark or out of range is an error.

@@ -16,7 +16,7 @@ struct Component {
   VoxelBox box;
 };
 
-/// Labels the parts of a mask that hang together by faces, the largest first as 1, 2, ...; those
+/// Labels the parts of a mask connected by faces, the largest first as 1, 2, ...; those
 /// below `smallest_voxels` get no label.
 std::vector<Component> label_components(const Mask& mask, std::size_t smallest_voxels,
                                         LabelVolume& labels);

@@ -59,7 +59,7 @@ class LabelEdit {
   /// A new bone without voxels, within the step under way or as a step of its own; an empty name
   /// stands for an unused one. Fails on a name that is taken and when labels have run out.
   Result<std::uint16_t> add(const std::string& name = {});
-  /// Steps of their own. Fail on a label that there is none of, `rename` also on a name that is
+  /// Steps of their own. Fail on a label that does not exist, `rename` also on a name that is
   /// empty or taken, `merge` also when both are one.
   Result<void> rename(std::uint16_t label, const std::string& name);
   Result<void> remove(std::uint16_t label);

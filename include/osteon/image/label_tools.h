@@ -21,11 +21,11 @@ struct HuRange {
 
 struct GrowOptions {
   HuRange range;
-  double reach_m = 0;  ///< no farther from the seed than this; 0: as far as it hangs together
+  double reach_m = 0;  ///< no farther from the seed than this; 0: as far as it is connected
   bool fill = true;    ///< takes what the grown part encloses too: the marrow
 };
 
-/// Grows a bone from a voxel over the voxels of the range that hang together with it by faces.
+/// Grows a bone from a voxel over the voxels of the range connected to it by faces.
 /// Takes nothing from another bone and does not pass through one. One step of history; returns how
 /// many voxels the bone gained. Fails where the seed lies outside the scan, outside the range or in
 /// another bone, and when told to stop; then, as in the tools below, nothing has changed.
@@ -73,7 +73,7 @@ struct BodyOptions {
   std::size_t most = 64;      ///< the largest ones
 };
 
-/// Makes a bone of each part of the range that hangs together by faces and belongs to no bone yet,
+/// Makes a bone of each part of the range connected by faces and belongs to no bone yet,
 /// the largest first. One step of history; returns the new labels. Fails when there is none.
 Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options,
                                                 const Progress& progress = {});

@@ -30,7 +30,7 @@ struct Tissue {
 
 struct TissueTable {
   std::vector<Tissue> tissues;
-  /// Null when there is none of this name.
+  /// Null when no tissue has this name.
   const Tissue* find(std::string_view name) const;
 };
 

@@ -16,7 +16,7 @@ Vec3 centroid(const TriMesh& mesh);
 /// +z at a vertex of no triangle.
 std::vector<Vec3> vertex_normals(const TriMesh& mesh);
 
-/// How the triangles hang together by their vertex indices: weld first, see repair.h.
+/// How the triangles are connected by their vertex indices: weld first, see repair.h.
 struct Topology {
   std::size_t boundary_edges = 0;      ///< edges with one triangle
   std::size_t non_manifold_edges = 0;  ///< edges with three triangles or more

@@ -41,7 +41,7 @@ class MeshEdit {
   const TriMesh& mesh() const { return mesh_; }
   std::uint32_t nearest_vertex(const Vec3& p) const;
 
-  /// Starts a drag. Fails on a vertex that there is none of and on a radius that is not positive;
+  /// Starts a drag. Fails on a vertex that does not exist and on a radius that is not positive;
   /// a drag under way is committed first.
   Result<void> grab(std::uint32_t vertex, const SoftSelection& selection);
   bool is_grabbed() const { return grabbed_; }

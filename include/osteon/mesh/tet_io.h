@@ -12,7 +12,7 @@ namespace osteon {
 /// Reads the tetrahedra of a legacy VTK file (ASCII, unstructured grid, file versions 1 to 5), each
 /// coordinate times `metres_per_unit`. Points, lines and faces among the cells are passed over, and
 /// so are the data that hang on points and cells. Fails, with the line, on a binary file, another
-/// data set, another solid cell, a cell that names a vertex twice or one that there is none of, a
+/// data set, another solid cell, a cell that names a vertex twice or one that does not exist, a
 /// coordinate that is not finite or lies beyond kLargestCoordinate_m (mesh_io.h), a file that
 /// breaks off, and one without tetrahedra. Inverted elements come as they are: see quality().
 Result<TetMesh> load_vtk(const std::filesystem::path& path, double metres_per_unit);

@@ -38,7 +38,7 @@ std::vector<Portal> find_portals(const Case& the_case, const PortalSkin& skin = 
 /// From the tissue table's skin.
 PortalSkin portal_skin(const Tissue& skin);
 
-/// Null: there is none of that name or title.
+/// Null: no portal has that name or title.
 const Portal* find_portal(const std::vector<Portal>& portals, std::string_view name);
 
 /// Over all that a tick depends on.

@@ -49,7 +49,7 @@ Result<std::vector<BoundPart>> read_solid(TomlReader& soft, const FindBone& find
   if (required && !soft.has("add")) soft.reject("is missing", "add");
   if (auto ok = read_bound_parts(soft, "add", Operation::kAdd, blend, bone, find_bone, parts); !ok)
     return tl::unexpected(ok.error());
-  if (parts.empty() && soft.has("cut")) soft.reject("takes from nothing: 'add' is missing", "cut");
+  if (parts.empty() && soft.has("cut")) soft.reject("cuts something, but 'add' is missing", "cut");
   if (auto ok = read_bound_parts(soft, "cut", Operation::kCut, blend, bone, find_bone, parts); !ok)
     return tl::unexpected(ok.error());
   return parts;

@@ -22,7 +22,7 @@ class HandMapping {
   /// Force on the hand; none while the clutch is held: the tool's force is not the hand's then.
   Vec3 force_to_device(const Vec3& force_W) const;
   bool clutched() const { return clutched_; }
-  /// The clutch was let go in the last reading: the force comes back from nothing.
+  /// The clutch was let go in the last reading: the force comes back from zero.
   bool released() const { return released_; }
   const DeviceMapping& now() const { return mapping_; }
 

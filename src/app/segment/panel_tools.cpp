@@ -20,8 +20,8 @@ struct ToolButton {
 constexpr std::array<ToolButton, 6> kTools = {{
     {SegmentTool::kCross, "Look", "Moves the cross-hair and chooses bones (C)",
      "Click or drag: the other views follow."},
-    {SegmentTool::kGrow, "Grow", "Takes all bone that hangs together with a click (G)",
-     "Click on bone. Tinted voxels that hang together become one bone."},
+    {SegmentTool::kGrow, "Grow", "Takes all bone connected to a click (G)",
+     "Click on bone. Connected tinted voxels become one bone."},
     {SegmentTool::kPaint, "Paint", "Adds voxels to the chosen bone (B)",
      "Drag to add to the chosen bone; with Ctrl to erase."},
     {SegmentTool::kErase, "Erase", "Takes voxels from the chosen bone (X)",
@@ -114,7 +114,7 @@ void draw_threshold(const SegmentContext& c, ToolSettings& tools) {
                  "Tints what is within the threshold and belongs to no bone yet (T)");
   if (ImGui::Button("Make a bone of each part", {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.find_bodies = true;
-  ui::tooltip("Every tinted part that hangs together becomes a bone; specks are left out");
+  ui::tooltip("Every connected tinted part becomes a bone; specks are left out");
 }
 
 void draw_grey(const SegmentContext& c) {

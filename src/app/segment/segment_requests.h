@@ -23,7 +23,7 @@ struct ToolSettings {
   bool over_others = false;  ///< the brush takes from other bones
   bool fill = true;          ///< growing takes the marrow with it
   bool fresh = true;         ///< each click of growing makes a bone of its own
-  double reach_m = 0;        ///< of growing; 0: all that hangs together
+  double reach_m = 0;        ///< of growing; 0: all that is connected
   bool operator==(const ToolSettings&) const = default;
 };
 

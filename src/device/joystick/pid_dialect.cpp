@@ -228,7 +228,7 @@ bool PidDialect::read_axes(std::span<const std::uint8_t> bytes, JoystickReading&
   return true;
 }
 
-// A switch that the report does not have counts as well set.
+// A switch that the report does not have counts as set.
 void PidDialect::read_state(std::span<const std::uint8_t> bytes) {
   const auto flag = [&](std::uint32_t usage, int fallback) {
     return layout_->get(bytes, HidReport::kInput, pid::kState, usage, fallback) != 0;

@@ -116,7 +116,7 @@ Result<void> VtkReader::read_counted_cells(std::size_t cells, std::size_t number
     if (!read_count(corners) || corners > numbers) return broken("a cell has no count");
     for (std::size_t k = 0; k < corners; ++k) {
       std::uint32_t corner = 0;
-      if (!read_corner(corner)) return broken("a cell names a point that there is none of");
+      if (!read_corner(corner)) return broken("a cell names a point that does not exist");
       cells_.corner.push_back(corner);
     }
     cells_.start.push_back(cells_.corner.size());
@@ -142,7 +142,7 @@ Result<void> VtkReader::read_offset_cells(std::size_t offsets, std::size_t corne
   words_.next();
   cells_.corner.resize(corners);
   for (std::uint32_t& corner : cells_.corner)
-    if (!read_corner(corner)) return broken("a cell names a point that there is none of");
+    if (!read_corner(corner)) return broken("a cell names a point that does not exist");
   cells_.line.assign(cells_.count(), words_.line());
   return {};
 }

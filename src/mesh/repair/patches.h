@@ -7,7 +7,7 @@
 
 namespace osteon {
 
-/// Triangles that hang together by edges of exactly two triangles.
+/// Triangles that are connected by edges of exactly two triangles.
 struct Patch {
   std::vector<std::uint32_t> triangles;  ///< in the order of a walk from the lowest
   std::vector<char> against;             ///< of each: faces against the first, by that walk

@@ -9,7 +9,7 @@
 namespace osteon {
 
 /// Where the middle of a ball may be beside a closed, outward mesh: nodes of a lattice at least its
-/// radius over the surface, those that hang together along the lattice under one number.
+/// radius over the surface, those connected along the lattice under one number.
 class BallRooms {
  public:
   static constexpr std::uint8_t kNone = 0;     ///< no room for the ball

@@ -44,8 +44,8 @@ Result<void> check_numbers(const TriMesh& surface) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     for (const std::uint32_t v : surface.triangles[t])
       if (v >= surface.vertices.size())
-        return fail("triangle " + std::to_string(t) + " names a vertex that there is none of",
-                    kWhere, "Export the surface again");
+        return fail("triangle " + std::to_string(t) + " names a vertex that does not exist", kWhere,
+                    "Export the surface again");
   return {};
 }
 
