@@ -17,3 +17,7 @@ else()
   set_source_files_properties("${CMAKE_CURRENT_SOURCE_DIR}/loops/realtime_linux.cpp"
     PROPERTIES HEADER_FILE_ONLY ON)
 endif()
+
+# Recordings as HDF5 files: the serial library's C interface.
+pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
+osteon_link_system(osteon_app PkgConfig::HDF5)

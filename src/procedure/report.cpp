@@ -27,16 +27,19 @@ std::vector<double> speeds(const std::vector<Vec3>& points, double rate_hz) {
 
 }  // namespace
 
-ReportBuilder::ReportBuilder(const Case& the_case, double tick_s)
+ReportBuilder::ReportBuilder(const Case& the_case, double tick_s, std::span<const Portal> portals)
     : case_(&the_case),
       tick_s_(tick_s),
       stride_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (kPathRateHz * tick_s))))),
       tallies_(the_case.bones.size()) {
+  for (const Portal& portal : portals) portals_.push_back({portal.name, 0, 0});
+  portal_ticks_.resize(portals_.size());
   path_100hz_.reserve(static_cast<std::size_t>(kReservedSeconds * kPathRateHz));
 }
 
 void ReportBuilder::add(const ToolState& tool) {
   add_contacts(tool);
+  add_portal(tool.portal);
   add_position(tool.X_WP.p);
   ++ticks_;
 }
@@ -66,6 +69,14 @@ void ReportBuilder::add_contacts(const ToolState& tool) {
   }
 }
 
+void ReportBuilder::add_portal(std::uint32_t portal) {
+  const bool entered = portal != portal_;
+  portal_ = portal;
+  if (portal >= portals_.size()) return;
+  portals_[portal].time_s = static_cast<double>(++portal_ticks_[portal]) * tick_s_;
+  portals_[portal].times_entered += entered ? 1 : 0;
+}
+
 void ReportBuilder::add_position(const Vec3& p_WP) {
   if (is_finite(p_WP)) last_p_WP_ = p_WP;
   if (ticks_ % stride_ == 0) path_100hz_.push_back(last_p_WP_);
@@ -84,6 +95,7 @@ Report ReportBuilder::finish() const {
                             tally.peak_n, contact_ticks > 0 ? tally.sum_n / contact_ticks : 0,
                             tally.deepest_m * 1000});
   }
+  report.portals = portals_;
   const double rate_hz = 1 / (static_cast<double>(stride_) * tick_s_);
   report.path_length_mm = length(path_100hz_) * 1000;
   // The ticks after the last whole sample belong to the way, but not to an even sampling.

@@ -22,6 +22,13 @@ OrderedJson bones_json(const Report& report) {
   return bones;
 }
 
+OrderedJson portals_json(const Report& report) {
+  OrderedJson portals = OrderedJson::object();
+  for (const PortalReport& portal : report.portals)
+    portals[portal.name] = {{"time_s", portal.time_s}, {"times_entered", portal.times_entered}};
+  return portals;
+}
+
 // What belongs to the run, before and after what belongs to a hand.
 OrderedJson head_json(const Report& report) {
   return {{"case", report.case_name},
@@ -42,6 +49,7 @@ void add_tail(const Report& report, OrderedJson& json) {
 
 void add_hand(const Report& report, OrderedJson& json) {
   json["bones"] = bones_json(report);
+  if (!report.portals.empty()) json["portals"] = portals_json(report);
   json["path_length_mm"] = report.path_length_mm;
   json["smoothness_sparc"] = report.smoothness_sparc;
 }

@@ -49,6 +49,18 @@ std::string untouched_line(const Report& report) {
   return names.empty() ? "" : "never touched: " + names + "\n";
 }
 
+// Those that were used alone.
+std::string portal_line(const Report& report) {
+  std::string text;
+  for (const PortalReport& portal : report.portals) {
+    if (portal.times_entered == 0) continue;
+    text += (text.empty() ? "portals        " : ", ") + portal.name + " " +
+            fixed(portal.time_s, 3) + " s";
+    if (portal.times_entered > 1) text += " in " + std::to_string(portal.times_entered) + " times";
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string timing_lines(const Report& report) {
   std::string text;
   if (report.tick_max_us > 0)
@@ -70,8 +82,8 @@ std::string to_text(const Report& report) {
          "duration       " + fixed(report.duration_s, 3) + " s, " + std::to_string(report.ticks) +
          " ticks\n" + "path length    " + fixed(report.path_length_mm, 1) + " mm\n" +
          "smoothness     " + fixed(report.smoothness_sparc, 2) +
-         " (spectral arc length; nearer 0 is smoother)\n" + timing_lines(report) +
-         "state hash     " + hex16(report.state_hash) + "\n\n" +
+         " (spectral arc length; nearer 0 is smoother)\n" + portal_line(report) +
+         timing_lines(report) + "state hash     " + hex16(report.state_hash) + "\n\n" +
          (any ? bone_table(report) : std::string("no bone was touched\n")) + untouched_line(report);
 }
 

@@ -14,6 +14,9 @@ std::uint64_t header_checksum(const RecordingHeader& header) {
   hasher.add(header.osteon_version);
   hasher.add(header.case_path);
   hasher.add(header.hands);
+  hasher.add(header.tray_hash);
+  hasher.add(header.portals_hash);
+  hasher.add(header.names_json);
   return hasher.value();
 }
 

@@ -111,6 +111,9 @@ Result<RecordingHeader> header_of(const RecordingMeta& meta, const std::string& 
   take(meta_text(meta, meta_key::kVersion, name), header.osteon_version, done);
   take(meta_text(meta, meta_key::kCasePath, name), header.case_path, done);
   take(hands_of(meta, name), header.hands, done);
+  take(meta_number(meta, meta_key::kTrayHash, 16, name), header.tray_hash, done);
+  take(meta_number(meta, meta_key::kPortalsHash, 16, name), header.portals_hash, done);
+  take(meta_text(meta, meta_key::kNames, name), header.names_json, done);
   std::uint64_t checksum = 0;
   take(meta_number(meta, meta_key::kChecksum, 16, name), checksum, done);
   if (!done) return tl::unexpected(done.error());

@@ -36,6 +36,9 @@ Result<void> put_header(Database& database, const RecordingHeader& header) {
       {meta_key::kVersion, header.osteon_version},
       {meta_key::kCasePath, header.case_path},
       {meta_key::kHands, std::to_string(header.hands)},
+      {meta_key::kTrayHash, hex(header.tray_hash)},
+      {meta_key::kPortalsHash, hex(header.portals_hash)},
+      {meta_key::kNames, header.names_json},
       {meta_key::kChecksum, hex(header_checksum(header))}};
   for (const auto& [key, value] : rows)
     if (const auto done = put_meta(database, key, value); !done) return done;

@@ -32,7 +32,7 @@ constexpr std::array kRows = {
         K::kPowered, "powered", "sets the power of", S::kInstrument, {"power", "intensity", ""}},
     EventKindRow{
         K::kPortalEntered, "portal_entered", "goes through", S::kPortal, {"depth_mm", "", ""}},
-    EventKindRow{K::kPortalLeft, "portal_left", "is out of", S::kPortal, {"duration_s", "", ""}},
+    EventKindRow{K::kPortalLeft, "portal_left", "is out of", S::kPortal, {"", "", ""}},
     EventKindRow{K::kMark, "mark", "restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kRestored, "restored", "back to restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kFault, "fault", "force taken off", S::kDevice, {"", "", ""}},

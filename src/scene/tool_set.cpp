@@ -7,18 +7,10 @@
 
 #include "numbers.h"
 #include "osteon/base/hash.h"
+#include "osteon/scene/tool_hash.h"
 
 namespace osteon {
 namespace {
-
-void hash_part(Hasher& hasher, const Primitive& part) {
-  hasher.add(static_cast<std::uint8_t>(part.kind));
-  hasher.add(part.rod.p0);
-  hasher.add(part.rod.p1);
-  hasher.add(part.rod.radius);
-  hasher.add(part.X_TB);
-  hasher.add(part.half);
-}
 
 // Sizes of one instrument that are wanted; none: all of them.
 struct Wanted {
@@ -156,12 +148,8 @@ std::vector<std::string> ToolSet::names() const {
 std::uint64_t ToolSet::hash() const {
   Hasher hasher;
   for (const PreparedTool& one : tools_) {
-    hasher.add(std::string_view(one.tool->name));
     hasher.add(static_cast<std::uint64_t>(one.size));
-    for (const Primitive& part : one.tool->parts) hash_part(hasher, part);
-    hasher.add(one.tool->shaft.p0);
-    hasher.add(one.tool->shaft.p1);
-    hasher.add(one.tool->shaft.radius);
+    hasher.add(felt_hash(*one.tool));
   }
   return hasher.value();
 }

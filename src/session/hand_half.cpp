@@ -38,11 +38,12 @@ void add_to(Hasher& hasher, std::span<const HandMark> marks) {
 }  // namespace
 
 HandHalf::HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
-                   const SessionSettings& settings, std::size_t hand)
+                   const std::vector<Portal>& portals, const SessionSettings& settings,
+                   std::size_t hand)
     : hand_(hand),
+      portal_count_(static_cast<std::uint32_t>(portals.size())),
       params_(settings.haptic),
       events_of_(static_cast<std::uint8_t>(hand), settings.haptic.tick_s, settings.force_limit_n) {
-  const std::vector<Portal> portals = find_portals(*the_case);
   for (const auto& tool : tray) {
     loops_.emplace_back(the_case, tool, tray);
     loops_.back().set_portals(portals);
@@ -64,12 +65,7 @@ const ToolState& HandHalf::tick(const ToolInput& input, const BoneSnapshot& bone
   around[hand_] = {};
   const ToolState& tool = loop().tick(input, bones, age_s, params_, around);
   events_of_.see(tool, watch_, events_);
-  if (tool.portal != before_.portal) {
-    if (before_.portal != kNoPortal)
-      tell(EventKind::kPortalLeft, SubjectKind::kPortal, before_.portal);
-    if (tool.portal != kNoPortal)
-      tell(EventKind::kPortalEntered, SubjectKind::kPortal, tool.portal);
-  }
+  tell_portals(before_.portal, tool.portal);
   keep_record(input, bones, around, command);
   return tool;
 }
@@ -90,6 +86,14 @@ void HandHalf::keep_record(const ToolInput& input, const BoneSnapshot& bones,
   hasher.add(hash());
   hasher.add(hash_of(bones));
   record_.state_hash = hasher.value();
+}
+
+void HandHalf::tell_portals(std::uint32_t before, std::uint32_t now) {
+  if (before == now) return;
+  if (before != kNoPortal) tell(EventKind::kPortalLeft, SubjectKind::kPortal, before);
+  if (now != kNoPortal)
+    tell(EventKind::kPortalEntered, SubjectKind::kPortal, now,
+         loop().state().portal.tip_depth_m * 1e3);
 }
 
 void HandHalf::tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value) {
@@ -176,6 +180,9 @@ bool HandHalf::fits(const HandState& state) const {
   if (instrument >= loops_.size()) return false;
   for (const HandMark& mark : state.marks)
     if (mark.set && mark.instrument >= loops_.size()) return false;
+  for (const std::uint32_t portal :
+       {state.haptic.portal.portal, state.haptic.portal.nearest, state.haptic.tool.portal})
+    if (portal != kNoPortal && portal >= portal_count_) return false;
   const HapticState& like = loops_[instrument].state();
   return state.haptic.bone_count == like.bone_count &&
          state.haptic.pairs.size() == like.pairs.size();

@@ -16,8 +16,8 @@ namespace osteon {
 class alignas(64) HandHalf {
  public:
   /// `tray` must not be empty.
-  HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray, const SessionSettings& settings,
-           std::size_t hand);
+  HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
+           const std::vector<Portal>& portals, const SessionSettings& settings, std::size_t hand);
 
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                         const Command& command);
@@ -39,6 +39,7 @@ class alignas(64) HandHalf {
   void obey(const Command& command);
   void take(std::uint32_t instrument, double power, double jaw, bool even_the_same);
   void go_back(std::uint32_t mark);
+  void tell_portals(std::uint32_t before, std::uint32_t now);
   void tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value = 0);
   void keep_record(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                    const Command& command);
@@ -46,6 +47,7 @@ class alignas(64) HandHalf {
   std::size_t hand_;
   std::vector<HapticLoop> loops_;  ///< one for each instrument in the tray
   std::uint32_t held_ = 0;
+  std::uint32_t portal_count_;
   HapticParams params_;
   BonesAge age_;
   EventWatch events_of_;

@@ -2,8 +2,10 @@
 #include <bit>
 
 #include "osteon/base/percentiles.h"
+#include "osteon/scene/tool_hash.h"
 #include "osteon/session/session.h"
 #include "replayer.h"
+#include "whole_tray.h"
 
 namespace osteon {
 namespace {
@@ -21,7 +23,27 @@ bool same_result(const TickRecord& a, const TickRecord& b) {
          a.state_hash == b.state_hash;
 }
 
-Result<SessionSettings> settings_of(const RecordingHeader& header, const Case& the_case) {
+// An instrument or a portal that is not what it was would be felt in another way.
+Result<void> check_world(const RecordingHeader& header, const Case& the_case,
+                         const SessionSettings& settings, const Tray& tray) {
+  const std::size_t instruments = std::max<std::size_t>(1, settings.tray.size());
+  if (!settings.tray.empty() && tray.size() != instruments)
+    return fail("the recording's hands hold " + std::to_string(instruments) + " instruments, but " +
+                    std::to_string(tray.size()) + " were given",
+                "recording", "Give the tray that its settings name");
+  if (header.tray_hash != 0 && header.tray_hash != felt_hash(whole_tray(tray, settings)))
+    return fail("the instruments of the recording have changed since it was made", "recording",
+                "Replay it with the version of Osteon that made it: " + header.osteon_version);
+  const auto portals = open_portals(the_case, settings);
+  if (!portals) return tl::unexpected(portals.error());
+  if (header.portals_hash != 0 && header.portals_hash != hash_of(*portals))
+    return fail("the portals of the case or their skin have changed since the recording was made",
+                "recording", "Give the case that it was made with");
+  return {};
+}
+
+Result<SessionSettings> settings_of(const RecordingHeader& header, const Case& the_case,
+                                    const Tray& tray) {
   if (header.case_hash != the_case.hash)
     return fail("the recording was made with another case ('" + header.case_name + "' from '" +
                     header.case_source + "') than '" + the_case.name +
@@ -32,14 +54,18 @@ Result<SessionSettings> settings_of(const RecordingHeader& header, const Case& t
     return fail("the header and the settings name different seeds", "recording", kDamaged);
   if (settings && settings->hands.size() != header.hands)
     return fail("the header and the settings have different hands", "recording", kDamaged);
+  if (settings)
+    if (auto same = check_world(header, the_case, *settings, tray); !same)
+      return tl::unexpected(same.error());
   return settings;
 }
 
 // What the ticks of each hand add up to.
 class Tally {
  public:
-  Tally(const Case& the_case, std::size_t hands, double tick_s) : tick_ns_(tick_s * 1e9) {
-    for (std::size_t h = 0; h < hands; ++h) hands_.push_back({ReportBuilder(the_case, tick_s)});
+  Tally(const Session& session, double tick_s) : tick_ns_(tick_s * 1e9) {
+    for (std::size_t h = 0; h < session.hands(); ++h)
+      hands_.push_back({ReportBuilder(session.the_case(), tick_s, session.portals())});
   }
 
   void add(const Replayer& replayer, ReplayOutcome& outcome) {
@@ -105,14 +131,14 @@ Result<void> begin(const RecordSource& source, double from_s, double tick_s,
 Result<ReplayOutcome> replay_source(const RecordSource& source,
                                     const std::shared_ptr<const Case>& the_case,
                                     const ReplayOptions& options) {
-  const auto settings = settings_of(*source.header, *the_case);
+  const auto settings = settings_of(*source.header, *the_case, options.tray);
   if (!settings) return tl::unexpected(settings.error());
   std::unique_ptr<Replayer> replayer;
   const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
     return std::make_unique<Replayer>(source, the_case, *settings, options.tray);
   });
   if (!begun) return tl::unexpected(begun.error());
-  Tally tally(*the_case, settings->hands.size(), settings->haptic.tick_s);
+  Tally tally(replayer->session(), settings->haptic.tick_s);
   ReplayOutcome outcome;
   Replayer::Outcome last;
   while ((last = replayer->next()) == Replayer::Outcome::kTick) {
@@ -134,7 +160,7 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
 
 Result<ReplayOutcome> replay(const Recording& recording, std::shared_ptr<const Case> the_case,
                              const ReplayOptions& options) {
-  const auto settings = settings_of(recording.header, *the_case);
+  const auto settings = settings_of(recording.header, *the_case, options.tray);
   if (!settings) return tl::unexpected(settings.error());
   if (const auto sound = check_consumption(recording); !sound) return tl::unexpected(sound.error());
   return replay_source(source_of(recording), the_case, options);

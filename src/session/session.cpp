@@ -5,16 +5,18 @@
 #include <cmath>
 
 #include "hand_half.h"
+#include "osteon/base/check.h"
 #include "osteon/base/hash.h"
+#include "whole_tray.h"
 #include "world_half.h"
 
 namespace osteon {
 namespace {
 
-Tray filled(Tray tray, const SessionSettings& settings) {
-  if (tray.empty())
-    tray.push_back(std::make_shared<const Tool>(make_wrist_probe(settings.probe_radius_m)));
-  return tray;
+std::vector<Portal> portals_of(const Case& the_case, const SessionSettings& settings) {
+  auto portals = open_portals(the_case, settings);
+  demand(portals.has_value(), "a session's settings name a portal that its case does not have");
+  return std::move(*portals);
 }
 
 }  // namespace
@@ -22,16 +24,18 @@ Tray filled(Tray tray, const SessionSettings& settings) {
 struct Session::Impl {
   Impl(std::shared_ptr<const Case> c, const SessionSettings& settings, Tray given)
       : the_case(std::move(c)),
-        tray(filled(std::move(given), settings)),
+        tray(whole_tray(std::move(given), settings)),
+        portals(portals_of(*the_case, settings)),
         world(the_case, settings),
         ticks_per_step(static_cast<std::uint64_t>(
             std::round(settings.physics.step_s / settings.haptic.tick_s))) {
     for (std::size_t i = 0; i < settings.hands.size(); ++i)
-      hands.push_back(std::make_unique<HandHalf>(the_case, tray, settings, i));
+      hands.push_back(std::make_unique<HandHalf>(the_case, tray, portals, settings, i));
   }
 
   std::shared_ptr<const Case> the_case;
   Tray tray;
+  std::vector<Portal> portals;
   std::vector<std::unique_ptr<HandHalf>> hands;
   WorldHalf world;
 
@@ -116,6 +120,7 @@ const ToolState& Session::tool_state(std::size_t hand) const {
   return impl_->hands[hand]->tool_state();
 }
 const Tray& Session::tray() const { return impl_->tray; }
+std::span<const Portal> Session::portals() const { return impl_->portals; }
 const BoneSnapshot& Session::bones() const { return impl_->world.bones(); }
 
 std::uint64_t Session::state_hash() const {
@@ -152,20 +157,6 @@ Result<void> Session::restore(const SessionState& state) {
   impl_->world.restore(state.world);
   impl_->for_next_step = state.for_next_step;
   return {};
-}
-
-RecordingHeader recording_header(const Case& the_case, const SessionSettings& settings,
-                                 const std::string& case_source,
-                                 const std::string& osteon_version) {
-  RecordingHeader header;
-  header.case_name = the_case.name;
-  header.case_source = case_source;
-  header.case_hash = the_case.hash;
-  header.seed = settings.seed;
-  header.settings_json = to_json(settings);
-  header.osteon_version = osteon_version;
-  header.hands = static_cast<std::uint32_t>(settings.hands.size());
-  return header;
 }
 
 }  // namespace osteon

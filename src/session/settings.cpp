@@ -41,6 +41,13 @@ const std::vector<NumberField>& number_fields() {
       {"physics", "spring_nm_per_rad", [](S& s) -> double& { return s.physics.spring_nm_per_rad; },
        0, 1e5},
       {"physics", "damping_ratio", [](S& s) -> double& { return s.physics.damping_ratio; }, 0, 100},
+      {"portal_skin", "stiffness_n_per_m",
+       [](S& s) -> double& { return s.portal_skin.stiffness_n_per_m; }, 1, 1e5},
+      {"portal_skin", "static_friction",
+       [](S& s) -> double& { return s.portal_skin.static_friction; }, 0, 10},
+      {"portal_skin", "dynamic_friction",
+       [](S& s) -> double& { return s.portal_skin.dynamic_friction; }, 0, 10},
+      {"portal_skin", "squeeze_n", [](S& s) -> double& { return s.portal_skin.squeeze_n; }, 0, 100},
       {"", "force_limit_n", [](S& s) -> double& { return s.force_limit_n; }, 0.01, 100},
       {"", "probe_radius_m", [](S& s) -> double& { return s.probe_radius_m; }, 1e-4, 0.02},
   };
@@ -122,13 +129,14 @@ Result<void> read_hands(const Json& json, SessionSettings& settings) {
   return {};
 }
 
-Result<void> read_tray(const Json& json, SessionSettings& settings) {
-  const Json* tray = find(json, "", "tray");
-  if (!tray || !tray->is_array())
-    return fail("a list of instruments is missing", "settings, 'tray'", kTodo);
-  for (const Json& name : *tray) {
-    if (!name.is_string()) return fail("an instrument has no name", "settings, 'tray'", kTodo);
-    settings.tray.push_back(name.get<std::string>());
+Result<void> read_names(const Json& json, const char* key, std::vector<std::string>& into) {
+  const std::string where = std::string("settings, '") + key + "'";
+  const Json* names = find(json, "", key);
+  if (!names || !names->is_array()) return fail("a list of names is missing", where, kTodo);
+  into.clear();
+  for (const Json& name : *names) {
+    if (!name.is_string()) return fail("an entry is no name", where, kTodo);
+    into.push_back(name.get<std::string>());
   }
   return {};
 }
@@ -201,6 +209,7 @@ std::string to_json(const SessionSettings& settings) {
   for (const HandSettings& hand : settings.hands)
     json["hands"].push_back({{"name", hand.name}, {"instrument", hand.instrument}});
   json["tray"] = settings.tray;
+  json["portals"] = settings.portals;
   return json.dump(2);
 }
 
@@ -216,7 +225,10 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   if (const auto done = read_numbers(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = read_flags(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = read_hands(*parsed, settings); !done) return tl::unexpected(done.error());
-  if (const auto done = read_tray(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = read_names(*parsed, "tray", settings.tray); !done)
+    return tl::unexpected(done.error());
+  if (const auto done = read_names(*parsed, "portals", settings.portals); !done)
+    return tl::unexpected(done.error());
   if (const auto done = check_settings(settings); !done) return tl::unexpected(done.error());
   return settings;
 }

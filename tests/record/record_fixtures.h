@@ -76,8 +76,17 @@ inline StepRecord step_record(std::uint64_t n) {
 }
 
 inline RecordingHeader header() {
-  return {"wrist \xc3\xa9", "builtin:wrist", 0xfedcba9876543210ull, 0xffffffffffffffffull,
-          R"({"a": 1})",    "0.1.0",         "/cases/wrist",        1};
+  return {"wrist \xc3\xa9",
+          "builtin:wrist",
+          0xfedcba9876543210ull,
+          0xffffffffffffffffull,
+          R"({"a": 1})",
+          "0.1.0",
+          "/cases/wrist",
+          1,
+          0x8000000000000001ull,
+          7,
+          R"({"bones": ["lunate"]})"};
 }
 
 inline void expect_bits(double a, double b) {

@@ -62,6 +62,9 @@ TEST(RecordingWriter, EverythingComesBack) {
     EXPECT_EQ(loaded->header.seed, header().seed);
     EXPECT_EQ(loaded->header.settings_json, header().settings_json);
     EXPECT_EQ(loaded->header.osteon_version, header().osteon_version);
+    EXPECT_EQ(loaded->header.tray_hash, header().tray_hash);
+    EXPECT_EQ(loaded->header.portals_hash, header().portals_hash);
+    EXPECT_EQ(loaded->header.names_json, header().names_json);
   }
 }
 

@@ -52,7 +52,8 @@ Result<void> add_both(RecordingWriter& writer, const Session& session, std::uint
 [[noreturn]] void record_two_until_killed(const std::shared_ptr<const Case>& the_case,
                                           const fs::path& file, int pipe_end) {
   const SessionSettings settings = testing::with_three_probes();
-  auto writer = RecordingWriter::create(file, recording_header(*the_case, settings, "test", "0"));
+  auto writer = RecordingWriter::create(
+      file, recording_header(*the_case, settings, "test", "0", testing::three_probes()));
   if (!writer) _exit(2);
   Session session(the_case, settings, testing::three_probes());
   testing::HandsAtRandom hands(4);
@@ -159,7 +160,8 @@ TEST(Recording, OfTwoHandsTakesAtMost60KilobytesASecondAndHand) {
   fs::remove(file);
   const SessionSettings settings = testing::with_three_probes();
   {
-    auto writer = RecordingWriter::create(file, recording_header(*the_case, settings, "test", "0"));
+    auto writer = RecordingWriter::create(
+        file, recording_header(*the_case, settings, "test", "0", testing::three_probes()));
     ASSERT_TRUE(writer) << writer.error().message();
     Session session(the_case, settings, testing::three_probes());
     testing::HandsAtRandom hands(9);

@@ -28,6 +28,8 @@ SessionSettings odd_settings() {
   s.physics.spring_nm_per_rad = 0.51;
   s.physics.damping_ratio = 0.9;
   s.probe_radius_m = 0.00076;
+  s.portals = {"3-4", "portal_mcr"};
+  s.portal_skin = {401, 0.41, 0.31, 1.51};
   return s;
 }
 
@@ -64,6 +66,8 @@ TEST(Settings, ComeBackToTheBit) {
     EXPECT_EQ(back->physics.spring_nm_per_rad, s.physics.spring_nm_per_rad);
     EXPECT_EQ(back->physics.damping_ratio, s.physics.damping_ratio);
     EXPECT_EQ(back->probe_radius_m, s.probe_radius_m);
+    EXPECT_EQ(back->portals, s.portals);
+    EXPECT_EQ(back->portal_skin.squeeze_n, s.portal_skin.squeeze_n);
     EXPECT_EQ(to_json(*back), to_json(s));
   }
 }

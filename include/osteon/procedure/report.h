@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "osteon/base/percentiles.h"
 #include "osteon/base/result.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/portal.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -22,13 +24,21 @@ struct BoneReport {
   bool touched() const { return first_contact_s >= 0; }
 };
 
+/// A hole in the skin that a hand's instrument may pass through.
+struct PortalReport {
+  std::string name;
+  double time_s = 0;  ///< with a shaft in it
+  std::uint64_t times_entered = 0;
+};
+
 struct Report {
   std::string case_name;
   std::uint64_t case_hash = 0;
   double duration_s = 0;
-  std::vector<BoneReport> bones;  ///< all bones of the case, in its order
-  double path_length_mm = 0;      ///< of the proxy, resampled at 100 Hz
-  double smoothness_sparc = 0;    ///< spectral arc length; 0 smoothest
+  std::vector<BoneReport> bones;      ///< all bones of the case, in its order
+  std::vector<PortalReport> portals;  ///< all that were open, in their order
+  double path_length_mm = 0;          ///< of the proxy, resampled at 100 Hz
+  double smoothness_sparc = 0;        ///< spectral arc length; 0 smoothest
   double tick_p50_us = 0, tick_p99_us = 0, tick_p999_us = 0, tick_max_us = 0;
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;
@@ -44,7 +54,9 @@ struct Report {
 /// `finish` leaves the timing, `state_hash` and `realtime_factor` to whoever ran the ticks.
 class ReportBuilder {
  public:
-  explicit ReportBuilder(const Case& the_case, double tick_s = 0.001);
+  /// `portals`: of the session, by ToolState::portal.
+  explicit ReportBuilder(const Case& the_case, double tick_s = 0.001,
+                         std::span<const Portal> portals = {});
   void add(const ToolState& tool);
   Report finish() const;
 
@@ -54,6 +66,7 @@ class ReportBuilder {
     std::uint64_t contact_ticks = 0;
   };
   void add_contacts(const ToolState& tool);
+  void add_portal(std::uint32_t portal);
   void add_position(const Vec3& p_WP);
 
   const Case* case_;
@@ -61,6 +74,9 @@ class ReportBuilder {
   std::uint64_t stride_;  // ticks from one sample of the path to the next
   std::uint64_t ticks_ = 0;
   std::vector<BoneTally> tallies_;
+  std::vector<PortalReport> portals_;
+  std::vector<std::uint64_t> portal_ticks_;
+  std::uint32_t portal_ = kNoPortal;
   std::vector<Vec3> path_100hz_;
   Vec3 last_p_WP_ = Vec3::Zero();
 };
@@ -74,6 +90,7 @@ void set_tick_times(Report& report, const Percentiles& durations);
 ///   "bones": { "<name>": { "first_contact_s": 1.2,   (-1: never touched)
 ///                          "contact_time_s": 3.4, "peak_force_n": 2.1, "mean_force_n": 1.0,
 ///                          "deepest_mm": 0.8 }, ... all bones of the case ... },
+///   "portals": { "<name>": { "time_s": 12.5, "times_entered": 2 }, ... },   (where any is open)
 ///   "path_length_mm": 812.5, "smoothness_sparc": -7.1, "state_hash": "<16 hex digits>",
 ///   "tick_us": { "p50": 9.1, "p99": 20.3, "p999": 31.0, "max": 55.7 }, "missed_ticks": 0,
 ///   "realtime_factor": 41.0 }

@@ -48,8 +48,11 @@ struct RecordingHeader {
   std::uint64_t seed = 0;
   std::string settings_json;  ///< session settings, as the session wrote them
   std::string osteon_version;
-  std::string case_path;    ///< where a case in a folder stood, absolute; empty: built in
-  std::uint32_t hands = 1;  ///< at most kMaxHands
+  std::string case_path;           ///< where a case in a folder stood, absolute; empty: built in
+  std::uint32_t hands = 1;         ///< at most kMaxHands
+  std::uint64_t tray_hash = 0;     ///< over the instruments as they are felt; 0: not known
+  std::uint64_t portals_hash = 0;  ///< over the open portals and their skin; 0: not known
+  std::string names_json = "{}";   ///< what events speak of, by kind, as the session wrote it
 };
 
 /// A session's state in a recording: a replay may begin after it.

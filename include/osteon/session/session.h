@@ -15,6 +15,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
+#include "osteon/scene/portal.h"
 #include "osteon/scene/tool.h"
 #include "osteon/session/session_state.h"
 
@@ -37,6 +38,9 @@ struct SessionSettings {
   double force_limit_n = 5;         ///< a force above it is an event
   std::vector<HandSettings> hands{1};
   std::vector<std::string> tray;  ///< names of the tray's instruments, for who makes them again
+  /// Names or titles of the portals that are open; "all": every one of the case.
+  std::vector<std::string> portals = {"all"};
+  PortalSkin portal_skin;
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.
 Result<void> check_settings(const SessionSettings& settings);
@@ -44,6 +48,10 @@ Result<void> check_settings(const SessionSettings& settings);
 std::string to_json(const SessionSettings& settings);
 /// Fails on an unknown or missing setting, and on what check_settings refuses.
 Result<SessionSettings> parse_settings(const std::string& json);
+
+/// The holes in the skin of a session, by ToolState::portal, in the case's order. Fails on a name
+/// that the case does not have.
+Result<std::vector<Portal>> open_portals(const Case& the_case, const SessionSettings& settings);
 
 /// What a hand does in one tick.
 struct HandInput {
@@ -77,7 +85,8 @@ struct HandInput {
 /// gone back too.
 class Session {
  public:
-  /// `settings` must satisfy check_settings. An empty tray holds the wrist probe alone.
+  /// `settings` must satisfy check_settings and open_portals. An empty tray holds the wrist probe
+  /// alone.
   Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray = {});
   ~Session();
   Session(Session&&) noexcept;
@@ -112,6 +121,8 @@ class Session {
   const Tool& tool(std::size_t hand = 0) const;
   const ToolState& tool_state(std::size_t hand = 0) const;
   const Tray& tray() const;
+  /// By ToolState::portal.
+  std::span<const Portal> portals() const;
   const BoneSnapshot& bones() const;
   /// Over all halves. (A tick record's hash is over the hand's half and the bones that the tick
   /// consumed: what is known at that tick whatever the other threads do.)
@@ -131,9 +142,11 @@ class Session {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Header of a recording of a session with these settings.
+/// Header of a recording of a session with these settings and this tray, which a replay must be
+/// given again. Without a tray whose names the settings hold, its hash is not known.
 RecordingHeader recording_header(const Case& the_case, const SessionSettings& settings,
-                                 const std::string& case_source, const std::string& osteon_version);
+                                 const std::string& case_source, const std::string& osteon_version,
+                                 const Tray& tray = {});
 
 struct ReplayOutcome {
   bool identical = true;
@@ -160,8 +173,9 @@ struct ReplayOptions {
 };
 
 /// Repeats a recording in one thread. Compares every tick's force, proxy position and status, and
-/// every state hash, bit by bit; goes on to the end after a difference. Fails when the case is not
-/// the recording's, when its settings cannot be read, or when what was consumed is out of order.
+/// every state hash, bit by bit; goes on to the end after a difference. Fails when the case, the
+/// tray or the portals are not the recording's, when its settings cannot be read, or when what was
+/// consumed is out of order.
 Result<ReplayOutcome> replay(const Recording& recording, std::shared_ptr<const Case> the_case,
                              const ReplayOptions& options);
 /// The same piece by piece: memory does not grow with the recording's length.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "commands/tray.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {

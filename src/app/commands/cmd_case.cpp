@@ -14,6 +14,7 @@
 #include "commands/text_table.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
+#include "osteon/scene/portal.h"
 
 namespace osteon {
 namespace {
@@ -97,6 +98,18 @@ void print_softs(const Case& c) {
   print("\n" + table.text());
 }
 
+void print_portals(const Case& c) {
+  const std::vector<Portal> portals = find_portals(c);
+  if (portals.empty()) return;
+  TextTable table({"portal", "name", "at mm"});
+  for (const Portal& portal : portals) {
+    const Vec3 at_mm = portal.p_W * 1000;
+    table.add({portal.title, portal.name,
+               fixed(at_mm.x(), 1) + " " + fixed(at_mm.y(), 1) + " " + fixed(at_mm.z(), 1)});
+  }
+  print("\n" + table.text());
+}
+
 void print_joints(const Case& c) {
   for (const CaseJoint& joint : c.joints) {
     std::printf("joint %s: bent to %g degrees, of %g to %g; moves", joint.name.c_str(),
@@ -156,6 +169,7 @@ int info_without_pieces(const std::string& spec) {
   }
   print(table.text());
   print_softs(*built);
+  print_portals(*built);
   return kExitDone;
 }
 
@@ -177,6 +191,7 @@ int info_with_pieces(const std::string& spec) {
   }
   print(table.text());
   print_softs(c);
+  print_portals(c);
   if (field_mb > 0) std::printf("\nthe distance fields take %.1f MB", field_mb);
   std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
   return kExitDone;

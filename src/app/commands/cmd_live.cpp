@@ -12,6 +12,7 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/number_check.h"
+#include "commands/session_options.h"
 #include "loops/device_log.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
@@ -34,6 +35,7 @@ struct LiveOptions {
   std::string force_log;
   double seconds = 0;
   bool free_bones = false;
+  std::string portals = "all";
   MappingSettings mapping;
 };
 
@@ -71,10 +73,11 @@ DeviceMapping mapping_for(const DeviceChoice& choice, const LiveOptions& options
   return mapping;
 }
 
-Result<std::unique_ptr<RecordFeed>> feed_for(const LiveOptions& options, const RunPlan& plan) {
+Result<std::unique_ptr<RecordFeed>> feed_for(const LiveOptions& options, const RunPlan& plan,
+                                             const Tray& tray) {
   if (options.record.empty()) return std::unique_ptr<RecordFeed>();
   RecordingHeader header =
-      recording_header(*plan.the_case, plan.settings, options.case_spec, OSTEON_VERSION);
+      recording_header(*plan.the_case, plan.settings, options.case_spec, OSTEON_VERSION, tray);
   header.case_path = absolute_case_path(options.case_spec);
   auto writer = RecordingWriter::create(options.record, header);
   if (!writer) return tl::unexpected(writer.error());
@@ -154,7 +157,11 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
     if (auto done = add_hand(options, path, i, live); !done) return tl::unexpected(done.error());
   auto tray = give_instruments(live);
   if (!tray) return tl::unexpected(tray.error());
-  auto feed = feed_for(options, live.run);
+  if (auto open = open_in_skin(options.portals, live.run.settings); !open)
+    return tl::unexpected(open.error());
+  if (auto portals = open_portals(*live.run.the_case, live.run.settings); !portals)
+    return tl::unexpected(portals.error());
+  auto feed = feed_for(options, live.run, *tray);
   if (!feed) return tl::unexpected(feed.error());
   live.runtime = std::make_unique<Runtime>(live.run, std::move(live.plans), std::move(*feed),
                                            std::move(*tray));
@@ -256,6 +263,7 @@ void add_live_command(cli::App& app, int& exit_code) {
       ->add_option("--clutch-button", options->mapping.clutch_button,
                    "while it is held the device moves without the tool")
       ->check(cli::Range(0, 31));
+  add_portals_option(*command, options->portals);
   command->add_flag("--free-bones", options->free_bones, "bones move on springs");
   command->callback([options, &exit_code] { exit_code = run_live(*options); });
 }

@@ -16,23 +16,36 @@ struct RecordArguments {
   bool events = false;
   bool json = false;
   std::string csv;
+  std::string hdf5;
 };
 
 int run_info(const RecordArguments& options) {
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
-  auto text = options.events ? event_lines(*recording, options.json)
-                             : recording_info(*recording, options.json);
+  if (options.events) {
+    const auto told = tell_events(*recording, options.json, [](const std::string& line) {
+      std::fputs(line.c_str(), stdout);
+    });
+    return told ? kExitDone : report_error(told.error());
+  }
+  const auto text = recording_info(*recording, options.json);
   if (!text) return report_error(text.error());
   std::fputs(text->c_str(), stdout);
   return kExitDone;
 }
 
 int run_export(const RecordArguments& options) {
+  if (options.csv.empty() && options.hdf5.empty())
+    return report_error({"nothing says where the tables go", "record export",
+                         "Give --csv FOLDER or --hdf5 FILE, or both"});
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
-  if (const auto done = export_csv(*recording, options.csv); !done)
-    return report_error(done.error());
+  if (!options.csv.empty())
+    if (const auto done = export_csv(*recording, options.csv); !done)
+      return report_error(done.error());
+  if (!options.hdf5.empty())
+    if (const auto done = export_hdf5(*recording, options.hdf5); !done)
+      return report_error(done.error());
   return kExitDone;
 }
 
@@ -50,8 +63,10 @@ void add_record_command(cli::App& app, int& exit_code) {
   cli::App* exported = command->add_subcommand(
       "export", "Write ticks, poses, forces and events as tables, for pandas or MATLAB");
   exported->add_option("file", options->file, "recording")->required();
-  exported->add_option("--csv", options->csv, "a new or empty folder: ticks_<hand>.csv, events.csv")
-      ->required();
+  exported->add_option("--csv", options->csv,
+                       "a new or empty folder: ticks_<hand>.csv, events.csv");
+  exported->add_option("--hdf5", options->hdf5,
+                       "a file: a group for each hand and one for the events, with units");
   exported->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 

@@ -9,10 +9,12 @@
 #include "commands/commands.h"
 #include "commands/frames.h"
 #include "commands/headless.h"
+#include "commands/record_names.h"
 #include "commands/recorded_case.h"
 #include "commands/session_options.h"
-#include "commands/tray.h"
 #include "osteon/base/file.h"
+#include "osteon/procedure/hand_reports.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {
@@ -88,6 +90,22 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
   return options.expect.empty() ? kExitDone : print_deviations(outcome.report, options.expect);
 }
 
+// A run of one hand has the report that it always had.
+Result<void> save_reports(const ReplayOutcome& outcome, const RecordingHeader& header,
+                          const std::string& file) {
+  if (outcome.reports.size() == 1) return save_report(outcome.report, file);
+  if (file.empty()) return {};
+  return write_file_atomic(file, to_json(outcome.reports, hand_names(header)));
+}
+
+void print_reports(const ReplayOutcome& outcome, const RecordingHeader& header) {
+  const std::vector<std::string> names = hand_names(header);
+  for (std::size_t h = 0; h < outcome.reports.size(); ++h) {
+    if (outcome.reports.size() > 1) std::printf("hand           %s\n", names[h].c_str());
+    std::fputs(to_text(outcome.reports[h]).c_str(), stdout);
+  }
+}
+
 int replay_recording(const ReplayArguments& options) {
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
@@ -97,13 +115,11 @@ int replay_recording(const ReplayArguments& options) {
   if (!the_case) return report_error(the_case.error());
   auto frames = frames_for(options, **the_case);
   if (!frames) return report_error(frames.error());
-  const auto settings = parse_settings(recording->header().settings_json);
-  if (!settings) return report_error(settings.error());
-  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  auto tray = tray_of(recording->header());
   if (!tray) return report_error(tray.error());
   ReplayOptions how;
-  how.from_s = options.from_s;
   how.tray = std::move(*tray);
+  how.from_s = options.from_s;
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     if (*frames && hand == 0) (*frames)->add(tool, bones);
@@ -111,8 +127,9 @@ int replay_recording(const ReplayArguments& options) {
   const auto outcome = replay(*recording, *the_case, how);
   if (!outcome) return report_error(outcome.error());
   if (*frames && (*frames)->failure()) return report_error(*(*frames)->failure());
-  if (auto ok = save_report(outcome->report, options.report); !ok) return report_error(ok.error());
-  std::fputs(to_text(outcome->report).c_str(), stdout);
+  if (auto ok = save_reports(*outcome, recording->header(), options.report); !ok)
+    return report_error(ok.error());
+  print_reports(*outcome, recording->header());
   return judge(options, *outcome);
 }
 
@@ -125,7 +142,9 @@ int replay_path(const ReplayArguments& options) {
   HeadlessRun run;
   run.the_case = *the_case;
   run.path = std::move(*path);
-  run.settings = options.session.resolved();
+  auto settings = options.session.resolved();
+  if (!settings) return report_error(settings.error());
+  run.settings = std::move(*settings);
   run.hand = options.session.hand;
   std::unique_ptr<FrameWriter> frames;
   if (!options.frames.empty()) {

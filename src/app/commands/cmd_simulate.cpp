@@ -51,7 +51,9 @@ Result<HeadlessRun> run_of(const SimulateOptions& options) {
     run.path = std::move(*path);
   }
   run.case_source = options.case_spec;
-  run.settings = options.session.resolved();
+  auto settings = options.session.resolved();
+  if (!settings) return tl::unexpected(settings.error());
+  run.settings = std::move(*settings);
   run.hand = options.session.hand;
   run.device = options.device;
   if (!options.record.empty()) run.record_to = options.record;

@@ -7,10 +7,10 @@
 #include "commands/attempt_watch.h"
 #include "commands/recorded_case.h"
 #include "commands/scenario_run.h"
-#include "commands/tray.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {

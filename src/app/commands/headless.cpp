@@ -14,10 +14,11 @@ namespace osteon {
 namespace {
 
 Result<std::optional<RecordingWriter>> open_recording(const HeadlessRun& run,
-                                                      const SessionSettings& settings) {
+                                                      const SessionSettings& settings,
+                                                      const Session& session) {
   if (!run.record_to) return std::optional<RecordingWriter>{};
   RecordingHeader header =
-      recording_header(*run.the_case, settings, run.case_source, OSTEON_VERSION);
+      recording_header(*run.the_case, settings, run.case_source, OSTEON_VERSION, session.tray());
   header.case_path = absolute_case_path(run.case_source);
   auto writer = RecordingWriter::create(*run.record_to, header);
   if (!writer) return tl::unexpected(writer.error());
@@ -137,6 +138,8 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
   settings.tray = tray_of(hands);
   auto tray = make_tray(settings.tray, settings.probe_radius_m);
   if (!tray) return tl::unexpected(tray.error());
+  const auto portals = open_portals(*run.the_case, settings);
+  if (!portals) return tl::unexpected(portals.error());
   settings.hands.clear();
   std::vector<RunningHand> running;
   for (const HeadlessHand& hand : hands) {
@@ -145,7 +148,7 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
     auto taken = take_hand(run, hand, settings.haptic);
     if (!taken) return tl::unexpected(taken.error());
     running.push_back({std::move(*taken), std::move(commands),
-                       ReportBuilder(*run.the_case, settings.haptic.tick_s)});
+                       ReportBuilder(*run.the_case, settings.haptic.tick_s, *portals)});
   }
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
   return HeadlessLoop(run, settings, std::move(*tray), std::move(running));
@@ -158,7 +161,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   SessionSettings settings = run.settings;
   auto loop = make_loop(run, hands, settings);
   if (!loop) return tl::unexpected(loop.error());
-  auto writer = open_recording(run, settings);
+  auto writer = open_recording(run, settings, loop->session());
   if (!writer) return tl::unexpected(writer.error());
   double duration_s = 0;
   for (const HeadlessHand& hand : hands) duration_s = std::max(duration_s, hand.path.duration_s());

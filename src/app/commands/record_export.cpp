@@ -5,7 +5,7 @@
 #include <fstream>
 #include <initializer_list>
 
-#include "commands/record_info.h"
+#include "commands/record_names.h"
 
 namespace osteon {
 namespace {
@@ -13,11 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTickColumns =
-    "tick,hand_x_m,hand_y_m,hand_z_m,hand_qw,hand_qx,hand_qy,hand_qz,hand_vx_m_per_s,"
+    "tick,time_s,hand_x_m,hand_y_m,hand_z_m,hand_qw,hand_qx,hand_qy,hand_qz,hand_vx_m_per_s,"
     "hand_vy_m_per_s,hand_vz_m_per_s,buttons,proxy_x_m,proxy_y_m,proxy_z_m,force_x_n,force_y_n,"
     "force_z_n,status,command,command_value,bone_step\n";
 constexpr const char* kEventColumns =
-    "tick,hand,kind,subject_kind,subject,x_m,y_m,z_m,value_1,value_2,value_3,value_1_is,"
+    "tick,time_s,hand,kind,subject_kind,subject,subject_index,x_m,y_m,z_m,value_1,value_2,value_3,"
+    "value_1_is,"
     "value_2_is,value_3_is\n";
 
 // Shortest text that reads back as the same number, in every locale.
@@ -33,8 +34,17 @@ void add(std::string& text, std::initializer_list<double> values) {
   }
 }
 
-std::string row_of(const TickRecord& r) {
+// A name may hold anything.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string row_of(const TickRecord& r, double tick_s) {
   std::string text = std::to_string(r.tick);
+  add(text, {static_cast<double>(r.tick) * tick_s});
   const Pose& X = r.input.X_WD;
   add(text, {X.p.x(), X.p.y(), X.p.z(), X.q.w(), X.q.x(), X.q.y(), X.q.z()});
   add(text, {r.input.v_W.x(), r.input.v_W.y(), r.input.v_W.z()});
@@ -46,12 +56,14 @@ std::string row_of(const TickRecord& r) {
   return text + ',' + std::to_string(r.bone_step) + '\n';
 }
 
-std::string row_of(const Event& e, const RecordingHeader& header) {
+std::string row_of(const Event& e, const RecordNames& names, double tick_s) {
   const EventKindRow* kind = find_event_kind(e.kind);
-  std::string text = std::to_string(e.tick) + ',' + hand_name(header, e.hand) + ',' +
-                     (kind ? std::string(kind->name) : std::to_string(static_cast<int>(e.kind))) +
-                     ',' + std::to_string(static_cast<int>(e.subject_kind)) + ',' +
-                     (e.subject == kNoSubject ? std::string() : std::to_string(e.subject));
+  std::string text = std::to_string(e.tick);
+  add(text, {static_cast<double>(e.tick) * tick_s});
+  text += ',' + quoted(names.hand(e.hand)) + ',' +
+          (kind ? std::string(kind->name) : std::to_string(static_cast<int>(e.kind))) + ',' +
+          RecordNames::subject_kind(e) + ',' + quoted(names.subject(e)) + ',' +
+          (e.subject == kNoSubject ? std::string() : std::to_string(e.subject));
   add(text, {e.p_W.x(), e.p_W.y(), e.p_W.z(), e.values[0], e.values[1], e.values[2]});
   for (std::size_t i = 0; i < e.values.size(); ++i)
     text += ',' + (kind ? std::string(kind->value_names[i]) : std::string());
@@ -89,17 +101,19 @@ std::string file_name(const std::string& hand) {
 
 Result<void> write_all(RecordingReader& recording, const fs::path& folder) {
   const RecordingHeader& header = recording.header();
+  const RecordNames names(header);
+  const double dt = recorded_tick_s(header);
   for (std::size_t h = 0; h < header.hands; ++h) {
     const auto done = write_table<TickRecord>(
-        folder / file_name(hand_name(header, h)), kTickColumns,
+        folder / file_name(names.hand(h)), kTickColumns,
         [&](std::uint64_t first) { return recording.read_ticks(h, first); },
-        [](const TickRecord& r) { return row_of(r); });
+        [&](const TickRecord& r) { return row_of(r, dt); });
     if (!done) return done;
   }
   return write_table<Event>(
       folder / "events.csv", kEventColumns,
       [&](std::uint64_t first) { return recording.read_events(first); },
-      [&](const Event& e) { return row_of(e, header); });
+      [&](const Event& e) { return row_of(e, names, dt); });
 }
 
 }  // namespace

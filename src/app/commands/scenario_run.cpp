@@ -7,13 +7,13 @@
 #include "cases/open_case.h"
 #include "commands/attempt_watch.h"
 #include "commands/headless.h"
-#include "commands/tray.h"
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {

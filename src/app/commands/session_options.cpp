@@ -1,6 +1,9 @@
 #include "commands/session_options.h"
 
+#include <sstream>
+
 #include "commands/parser.h"
+#include "osteon/image/tissue.h"
 
 namespace osteon {
 
@@ -17,6 +20,7 @@ void SessionOptions::add_to(cli::App& command) {
       ->check(cli::Range(0.0, 40.0))
       ->capture_default_str();
   command.add_flag("--free-bones", free_bones, "bones move on springs instead of being held");
+  add_portals_option(command, portals);
   command.add_option("--hand-mass", hand.mass_kg, "virtual hand, kg")
       ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
@@ -25,10 +29,35 @@ void SessionOptions::add_to(cli::App& command) {
       ->capture_default_str();
 }
 
-SessionSettings SessionOptions::resolved() const {
+Result<SessionSettings> SessionOptions::resolved() const {
   SessionSettings out = settings;
   out.physics.hold_bones = !free_bones;
+  if (auto done = open_in_skin(portals, out); !done) return tl::unexpected(done.error());
   return out;
+}
+
+void add_portals_option(cli::App& command, std::string& portals) {
+  command
+      .add_option("--portals", portals,
+                  "holes in the skin that shafts pass through: all, none, or some of those that "
+                  "`osteon case info` lists: 3-4,4-5")
+      ->capture_default_str();
+}
+
+std::vector<std::string> portals_named(const std::string& text) {
+  std::vector<std::string> names;
+  if (text == "none") return names;
+  std::istringstream parts(text);
+  for (std::string name; std::getline(parts, name, ',');) names.push_back(name);
+  return names;
+}
+
+Result<void> open_in_skin(const std::string& portals, SessionSettings& settings) {
+  settings.portals = portals_named(portals);
+  const auto tissues = load_default_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  if (const Tissue* skin = tissues->find("skin")) settings.portal_skin = portal_skin(*skin);
+  return {};
 }
 
 }  // namespace osteon

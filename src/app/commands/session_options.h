@@ -14,10 +14,18 @@ struct SessionOptions {
   SessionSettings settings;
   HandParams hand;
   bool free_bones = false;
+  std::string portals = "all";
 
   void add_to(cli::App& command);
-  /// Settings after parsing.
-  SessionSettings resolved() const;
+  /// Settings after parsing, with the tissue table's skin. Fails when that cannot be read.
+  Result<SessionSettings> resolved() const;
 };
+
+/// "--portals": which holes in the skin are open, as `portals_named` reads it.
+void add_portals_option(cli::App& command, std::string& portals);
+/// "all", "none", or names or titles with commas between: "3-4,4-5".
+std::vector<std::string> portals_named(const std::string& text);
+/// Opens these portals, in the tissue table's skin.
+Result<void> open_in_skin(const std::string& portals, SessionSettings& settings);
 
 }  // namespace osteon

@@ -156,7 +156,8 @@ Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_
 }
 
 RecordingHeader LiveRun::header() const {
-  RecordingHeader header = recording_header(*case_, settings_now(), case_source_, OSTEON_VERSION);
+  RecordingHeader header =
+      recording_header(*case_, settings_now(), case_source_, OSTEON_VERSION, tray_.tools);
   header.case_path = absolute_case_path(case_source_);
   return header;
 }

@@ -45,6 +45,12 @@ Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m
   return tray;
 }
 
+Result<Tray> tray_of(const RecordingHeader& header) {
+  const auto settings = parse_settings(header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  return make_tray(settings->tray, settings->probe_radius_m);
+}
+
 std::string absolute_case_path(const std::string& case_source) {
   if (case_source.empty() || case_source.rfind("builtin:", 0) == 0) return {};
   std::error_code error;

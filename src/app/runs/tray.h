@@ -15,6 +15,9 @@ inline const std::string kWristProbe = "wrist_probe";
 /// kWristProbe. No names: an empty tray. Fails on a name or a size that there is not.
 Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m);
 
+/// The instruments that the hands of a recording held; empty: the wrist probe alone.
+Result<Tray> tray_of(const RecordingHeader& header);
+
 /// Where the case of a folder stands, absolute; empty for one that is built in.
 std::string absolute_case_path(const std::string& case_source);
 

@@ -10,6 +10,7 @@
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/session/session.h"
+#include "runs/tray.h"
 #include "runs/xray_shot.h"
 
 namespace osteon {
@@ -42,14 +43,6 @@ Result<XrayScene> scene_of(const Case& the_case, const BoneSnapshot& bones,
   return scene;
 }
 
-/// The recording up to this many ticks, and the steps of physics that these have seen.
-void cut_after(Recording& recording, std::size_t ticks) {
-  recording.ticks.resize(ticks);
-  std::uint64_t steps = 0;
-  for (const TickRecord& tick : recording.ticks) steps = std::max(steps, tick.bone_step);
-  recording.steps.resize(std::min<std::size_t>(recording.steps.size(), steps));
-}
-
 Result<std::size_t> ticks_until(const Recording& recording, const SessionSettings& settings,
                                 std::optional<double> at_s, const std::string& file) {
   const double end_s = static_cast<double>(recording.ticks.size()) * settings.haptic.tick_s;
@@ -62,8 +55,11 @@ Result<std::size_t> ticks_until(const Recording& recording, const SessionSetting
   return std::clamp<std::size_t>(static_cast<std::size_t>(ticks), 1, recording.ticks.size());
 }
 
-Result<XrayLayer> steel_tool(const SessionSettings& settings, const Pose& X_WT) {
-  auto mesh = xray_surface(make_wrist_probe(settings.probe_radius_m).mesh, "the instrument");
+Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
+                             std::uint32_t instrument, const Pose& X_WT) {
+  const Tool held =
+      instrument < tray.size() ? *tray[instrument] : make_wrist_probe(settings.probe_radius_m);
+  auto mesh = xray_surface(held.mesh, "the instrument");
   if (!mesh) return tl::unexpected(mesh.error());
   return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
 }
@@ -78,19 +74,24 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (!settings) return tl::unexpected(settings.error());
   const auto ticks = ticks_until(*recording, *settings, order.at_s, order.source);
   if (!ticks) return tl::unexpected(ticks.error());
-  cut_after(*recording, *ticks);
   const auto the_case = open_case(recording->header.case_source);
   if (!the_case) return tl::unexpected(the_case.error());
+  const auto tray = tray_of(recording->header);
+  if (!tray) return tl::unexpected(tray.error());
   RenderSnapshot last;
-  const auto replayed =
-      replay(*recording, *the_case, [&](const ToolState& tool, const BoneSnapshot& bones) {
-        last.tool = tool;
-        last.bones = bones;
-      });
+  ReplayOptions how;
+  how.tray = *tray;
+  how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    std::span<const Event>) {
+    if (hand != 0 || tool.tick > *ticks) return;
+    last.tool = tool;
+    last.bones = bones;
+  };
+  const auto replayed = replay(*recording, *the_case, how);
   if (!replayed) return tl::unexpected(replayed.error());
   auto scene = scene_of(**the_case, last.bones, order.body);
   if (!scene || order.body.bones_hu) return scene;
-  auto tool = steel_tool(*settings, last.tool.X_WP);
+  auto tool = steel_tool(*settings, *tray, last.tool.instrument, last.tool.X_WP);
   if (!tool) return tl::unexpected(tool.error());
   scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
   return scene;
