@@ -35,7 +35,7 @@ void add(std::string& text, std::initializer_list<double> values) {
 }
 
 // A name may hold anything.
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -60,9 +60,9 @@ std::string row_of(const Event& e, const RecordNames& names, double tick_s) {
   const EventKindRow* kind = find_event_kind(e.kind);
   std::string text = std::to_string(e.tick);
   add(text, {static_cast<double>(e.tick) * tick_s});
-  text += ',' + quoted(names.hand(e.hand)) + ',' +
+  text += ',' + csv_field(names.hand(e.hand)) + ',' +
           (kind ? std::string(kind->name) : std::to_string(static_cast<int>(e.kind))) + ',' +
-          RecordNames::subject_kind(e) + ',' + quoted(names.subject(e)) + ',' +
+          RecordNames::subject_kind(e) + ',' + csv_field(names.subject(e)) + ',' +
           (e.subject == kNoSubject ? std::string() : std::to_string(e.subject));
   add(text, {e.p_W.x(), e.p_W.y(), e.p_W.z(), e.values[0], e.values[1], e.values[2]});
   for (std::size_t i = 0; i < e.values.size(); ++i)

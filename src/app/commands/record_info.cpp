@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/record_names.h"
+#include "commands/text_table.h"
 
 namespace osteon {
 namespace {
@@ -22,12 +23,6 @@ std::string line(const char* name, const std::string& value) {
   std::string text = name;
   text.resize(std::max<std::size_t>(text.size() + 1, 16), ' ');
   return text + value + "\n";
-}
-
-std::string fixed(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
 }
 
 Json event_json(const RecordNames& names, const Event& event, double dt) {
