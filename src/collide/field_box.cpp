@@ -23,7 +23,7 @@ struct Cell {
 
 class BoxSearch {
  public:
-  BoxSearch(const DistanceField& field, const Pose& X_AB, const Vec3& half, double far_m)
+  BoxSearch(const FieldView& field, const Pose& X_AB, const Vec3& half, double far_m)
       : field_(field), X_AB_(X_AB), half_(half), far_(far_m) {}
 
   // Branch and bound (Land and Doig, 1960): a field rises by no more than kSteepestRise a metre, so
@@ -93,7 +93,7 @@ class BoxSearch {
     return out;
   }
 
-  const DistanceField& field_;
+  const FieldView& field_;
   const Pose& X_AB_;
   Vec3 half_;
   double far_;
@@ -106,8 +106,7 @@ class BoxSearch {
 
 }  // namespace
 
-BoxLowest lowest_of_box(const DistanceField& field, const Pose& X_AB, const Vec3& half,
-                        double far_m) {
+BoxLowest lowest_of_box(const FieldView& field, const Pose& X_AB, const Vec3& half, double far_m) {
   return BoxSearch(field, X_AB, half, far_m).find();
 }
 

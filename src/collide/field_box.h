@@ -1,6 +1,6 @@
 #pragma once
 
-#include "osteon/collide/distance_field.h"
+#include "osteon/collide/field_view.h"
 
 namespace osteon {
 
@@ -12,7 +12,6 @@ struct BoxLowest {
 
 /// The box's middle and axes are X_AB, `half` its half sides. Searched to 1e-7 m where the field is
 /// smooth there; a height above `far_m` may be a bound below the true one. Allocates nothing.
-BoxLowest lowest_of_box(const DistanceField& field, const Pose& X_AB, const Vec3& half,
-                        double far_m);
+BoxLowest lowest_of_box(const FieldView& field, const Pose& X_AB, const Vec3& half, double far_m);
 
 }  // namespace osteon

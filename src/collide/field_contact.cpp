@@ -20,7 +20,7 @@ struct Place {
 // Lowest point of the axis by lower bounds from the steepest slope (Piyavskii 1972).
 class LowestPoint {
  public:
-  LowestPoint(const DistanceField& field, const Capsule& c, double far_m)
+  LowestPoint(const FieldView& field, const Capsule& c, double far_m)
       : field_(field), c_(c), length_((c.p1 - c.p0).norm()), far_(far_m + c.radius) {}
 
   Place find() {
@@ -91,7 +91,7 @@ class LowestPoint {
   }
   double slope_of(const Place& p) const { return p.field.gradient.dot(c_.p1 - c_.p0); }
 
-  const DistanceField& field_;
+  const FieldView& field_;
   const Capsule& c_;
   double length_;
   double far_;  // from the axis, m: what is farther may be told as a bound
@@ -106,7 +106,7 @@ bool is_usable(const Capsule& c) {
 
 // The part of the axis within `reach` of the field's box along each axis of its frame; false when
 // there is none (the slabs of Kay and Kajiya, 1986).
-bool clip_to_box(const DistanceField& field, double reach, Capsule& c) {
+bool clip_to_box(const FieldView& field, double reach, Capsule& c) {
   const Vec3 along = c.p1 - c.p0;
   double from = 0, to = 1;
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -128,7 +128,7 @@ bool clip_to_box(const DistanceField& field, double reach, Capsule& c) {
 }
 
 // No nearer than `far_m`, seen from the middle of the bone.
-CapsuleContact beyond(const DistanceField& field, const Capsule& c, double far_m) {
+CapsuleContact beyond(const FieldView& field, const Capsule& c, double far_m) {
   CapsuleContact out;
   out.status = LpStatus::kOptimal;
   out.gap = far_m;
@@ -141,7 +141,7 @@ CapsuleContact beyond(const DistanceField& field, const Capsule& c, double far_m
 
 }  // namespace
 
-CapsuleContact field_contact(const DistanceField& field, const Capsule& whole_A, double far_m) {
+CapsuleContact field_contact(const FieldView& field, const Capsule& whole_A, double far_m) {
   CapsuleContact out;
   if (!is_usable(whole_A)) return out;
   Capsule capsule_A = whole_A;

@@ -142,7 +142,7 @@ PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, cons
   return from_depth(lp_depth(a, b.body, X_AB, basis));
 }
 
-PrimitiveContact primitive_contact(const DistanceField& a, const Primitive& b, const Pose& X_AB,
+PrimitiveContact primitive_contact(const FieldView& a, const Primitive& b, const Pose& X_AB,
                                    double far_m) {
   if (is_rod(b)) {
     const Capsule rod_A = moved(X_AB, b.rod);

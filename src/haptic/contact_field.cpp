@@ -35,6 +35,7 @@ ContactField::ContactField(const Case& the_case, const Tool& tool)
   measure_tool();
   cut_into_stretches();
   wide_.resize(case_.bones.size());
+  cuts_.resize(case_.bones.size());
   for (std::uint32_t b = 0; b < case_.bones.size(); ++b) {
     first_pair_.push_back(static_cast<std::uint32_t>(pairs_.size()));
     if (case_.bones[b].field)
@@ -42,6 +43,14 @@ ContactField::ContactField(const Case& the_case, const Tool& tool)
     else
       add_pieces(b);
   }
+}
+
+bool ContactField::can_be_cut() const {
+  return std::any_of(cuts_.begin(), cuts_.end(), [](const CutField* cuts) { return cuts; });
+}
+
+void ContactField::set_cuts(std::span<const CutField* const> by_bone) {
+  std::copy_n(by_bone.begin(), std::min(by_bone.size(), cuts_.size()), cuts_.begin());
 }
 
 void ContactField::measure_tool() {
@@ -221,13 +230,19 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
 }
 
 // What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
-// the fine one then tells how far the surface is along the normal found there.
+// the fine one then tells how far the surface is along the normal found there. In the middle of a
+// hole the splines over its nodes say too little as well: there the same look at the wall mends it.
 PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT) const {
-  const DistanceField& fine = *case_.bones[ids.bone].field;
+  const DistanceField& uncut = *case_.bones[ids.bone].field;
+  const CutField* cuts = cuts_[ids.bone];
+  const FieldView fine(uncut, cuts);
   const Primitive& part = to_field_[ids.tool_piece];
   const double far = whole() ? kFarGap_m : std::numeric_limits<double>::infinity();
-  if (!(part.rod.radius > thickest(fine))) return primitive_contact(fine, part, X_BT, far);
-  PrimitiveContact out = primitive_contact(*wide_[ids.bone], part, X_BT, far);
+  const bool thin = !(part.rod.radius > thickest(uncut));
+  if (thin && (!cuts || cuts->empty())) return primitive_contact(fine, part, X_BT, far);
+  PrimitiveContact out =
+      thin ? primitive_contact(fine, part, X_BT, far)
+           : primitive_contact(FieldView(*wide_[ids.bone], cuts), part, X_BT, far);
   if (out.status != LpStatus::kOptimal || !(out.gap < kFarGap_m)) return out;
   for (int i = 0; i < 2; ++i) {
     const FieldSample at = fine.at(out.p_A);

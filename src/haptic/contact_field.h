@@ -55,6 +55,11 @@ class ContactField {
  public:
   ContactField(const Case& the_case, const Tool& tool);
 
+  /// What was cut out of each bone, by its number; null: nothing, ever. Asked in each query, and
+  /// must outlive this. Of bones felt as fields alone.
+  void set_cuts(std::span<const CutField* const> by_bone);
+  bool can_be_cut() const;
+
   std::span<const PiecePair> pairs() const { return pairs_; }
   /// Of the tool about its origin, m.
   double tool_radius() const { return tool_radius_; }
@@ -120,6 +125,7 @@ class ContactField {
   std::vector<double> piece_radius_;  ///< of the tool's pieces about its origin, m
   /// Of each bone felt as a field: of a wide band, for what is thicker than the fine one's.
   std::vector<std::shared_ptr<const DistanceField>> wide_;
+  std::vector<const CutField*> cuts_;  ///< of each bone
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
   std::vector<std::uint32_t> first_pair_;  ///< of each bone

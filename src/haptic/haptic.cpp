@@ -360,7 +360,9 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   if (was_held && way_known && !held.holds()) held = letting_go(params);
 
   // A proxy that has just landed has no place yet to which friction could hold it.
-  const bool rested = was_held && held.carrier.valid();
+  // What turns under power slips already: bone that goes from before it must not have to pull it.
+  const bool turns = state.tool.power > 0 && field.can_be_cut();
+  const bool rested = was_held && held.carrier.valid() && !turns;
   const Friction friction = rested ? Friction{held.static_lag, held.dynamic_lag, glide(wanted.p)}
                                    : Friction{0, 0, kAnyWay};
   const std::span<const Vec3> path(move.path.data(), move.path_count);
@@ -538,6 +540,10 @@ std::uint64_t HapticLoop::state_hash() const {
 }
 
 void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std::move(portals); }
+
+void HapticLoop::set_cuts(std::span<const CutField* const> by_bone) {
+  impl_->field.set_cuts(by_bone);
+}
 
 std::unique_ptr<HapticState> HapticLoop::save() const {
   return std::make_unique<HapticState>(impl_->state);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "osteon/scene/carve_events.h"
+
 namespace osteon {
 namespace {
 
@@ -36,6 +38,28 @@ constexpr std::array kRows = {
     EventKindRow{K::kMark, "mark", "restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kRestored, "restored", "back to restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kFault, "fault", "force taken off", S::kDevice, {"", "", ""}},
+    EventKindRow{
+        kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
+    EventKindRow{kCutEnd,
+                 "cut_end",
+                 "stops cutting",
+                 S::kBone,
+                 {"depth_mm", "duration_s", "most_torque_nmm"}},
+    EventKindRow{kCortexEntered,
+                 "cortex_entered",
+                 "drills into the cortex of",
+                 S::kBone,
+                 {"depth_mm", "thrust_n", ""}},
+    EventKindRow{kCancellousEntered,
+                 "cancellous_entered",
+                 "drills into the cancellous bone of",
+                 S::kBone,
+                 {"depth_mm", "thrust_n", ""}},
+    EventKindRow{kBreached, "breached", "comes out of", S::kBone, {"depth_mm", "thrust_n", ""}},
+    EventKindRow{kPlunge, "plunge", "plunges beyond", S::kBone, {"plunge_mm", "", ""}},
+    EventKindRow{kSkives, "skives", "slides off", S::kBone, {"angle_deg", "thrust_n", ""}},
+    EventKindRow{kPieceOff, "piece_off", "cuts a piece off", S::kBone, {"volume_mm3", "", ""}},
+    EventKindRow{kCarvingFull, "carving_full", "can cut no more of", S::kBone, {"", "", ""}},
     EventKindRow{K::kScratch,
                  "scratch",
                  "slides under force on",

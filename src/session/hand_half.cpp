@@ -54,11 +54,18 @@ HandHalf::HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
   loop().set_grip(held_, 0, 0);
 }
 
+FeltCuts& HandHalf::set_carving(const CarvingSetup& setup) {
+  cuts_ = std::make_unique<FeltCuts>(setup);
+  for (HapticLoop& loop : loops_) loop.set_cuts(cuts_->by_bone());
+  return *cuts_;
+}
+
 const ToolState& HandHalf::tick(const ToolInput& input, const BoneSnapshot& bones,
                                 const OtherTools& others, const Command& command) {
   events_.clear();
   before_ = tool_state();
   ++record_.tick;
+  if (cuts_) cuts_->take_until(bones.step, record_.tick, events_);
   obey(command);
   const double age_s = age_.at(record_.tick, bones.step, params_.tick_s);
   OtherTools around = others;

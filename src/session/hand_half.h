@@ -7,6 +7,7 @@
 #include "bones_age.h"
 #include "event_list.h"
 #include "event_watch.h"
+#include "felt_cuts.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
 
@@ -18,6 +19,10 @@ class alignas(64) HandHalf {
   /// `tray` must not be empty.
   HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
            const std::vector<Portal>& portals, const SessionSettings& settings, std::size_t hand);
+
+  /// Bones can be carved: what this hand feels of that, for the physics to tell. Once, before the
+  /// first tick.
+  FeltCuts& set_carving(const CarvingSetup& setup);
 
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                         const Command& command);
@@ -45,7 +50,8 @@ class alignas(64) HandHalf {
                    const Command& command);
 
   std::size_t hand_;
-  std::vector<HapticLoop> loops_;  ///< one for each instrument in the tray
+  std::unique_ptr<FeltCuts> cuts_;  ///< null: no bone is carved
+  std::vector<HapticLoop> loops_;   ///< one for each instrument in the tray
   std::uint32_t held_ = 0;
   std::uint32_t portal_count_;
   HapticParams params_;

@@ -133,21 +133,30 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
                                     const ReplayOptions& options) {
   const auto settings = settings_of(*source.header, *the_case, options.tray);
   if (!settings) return tl::unexpected(settings.error());
+  if (settings->carve.on && !options.carving)
+    return fail("in the recording bone is removed, which a replay of this kind cannot do",
+                "recording", "Use 'osteon replay' or 'osteon case save'");
   std::unique_ptr<Replayer> replayer;
   const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
-    return std::make_unique<Replayer>(source, the_case, *settings, options.tray);
+    return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving);
   });
   if (!begun) return tl::unexpected(begun.error());
   Tally tally(replayer->session(), settings->haptic.tick_s);
   ReplayOutcome outcome;
-  Replayer::Outcome last;
-  while ((last = replayer->next()) == Replayer::Outcome::kTick) {
+  Replayer::Outcome last = Replayer::Outcome::kEnd;
+  const double to_tick = options.to_s / settings->haptic.tick_s + 1e-6;
+  const auto wanted = [&] {
+    const std::uint64_t done = replayer->session().tool_state().tick;
+    return !(options.to_s > 0) || static_cast<double>(done) + 1 <= to_tick;
+  };
+  while (wanted() && (last = replayer->next()) == Replayer::Outcome::kTick) {
     tally.add(*replayer, outcome);
     const std::size_t hand = replayer->hand();
     if (options.on_tick)
       options.on_tick(hand, replayer->session().tool_state(hand), replayer->bones(),
                       replayer->session().last_events(hand));
   }
+  if (options.at_end) options.at_end(replayer->session());
   if (last == Replayer::Outcome::kError) return tl::unexpected(replayer->error());
   if (last == Replayer::Outcome::kStuck && source.complete)
     return fail("a tick or step consumed what is not in the recording", "recording", kDamaged);

@@ -22,7 +22,8 @@ std::vector<Portal> portals_of(const Case& the_case, const SessionSettings& sett
 }  // namespace
 
 struct Session::Impl {
-  Impl(std::shared_ptr<const Case> c, const SessionSettings& settings, Tray given)
+  Impl(std::shared_ptr<const Case> c, const SessionSettings& settings, Tray given,
+       const std::shared_ptr<const CarvingSetup>& carving)
       : the_case(std::move(c)),
         tray(whole_tray(std::move(given), settings)),
         portals(portals_of(*the_case, settings)),
@@ -31,6 +32,10 @@ struct Session::Impl {
             std::round(settings.physics.step_s / settings.haptic.tick_s))) {
     for (std::size_t i = 0; i < settings.hands.size(); ++i)
       hands.push_back(std::make_unique<HandHalf>(the_case, tray, portals, settings, i));
+    if (!carving) return;
+    std::vector<FeltCuts*> felt;
+    for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));
+    world.set_carving(carving, std::move(felt));
   }
 
   std::shared_ptr<const Case> the_case;
@@ -47,9 +52,10 @@ struct Session::Impl {
   void step_if_due(std::uint64_t tick);
 };
 
-Session::Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray) {
+Session::Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray,
+                 std::shared_ptr<const CarvingSetup> carving) {
   assert(check_settings(settings));
-  impl_ = std::make_unique<Impl>(std::move(the_case), settings, std::move(tray));
+  impl_ = std::make_unique<Impl>(std::move(the_case), settings, std::move(tray), carving);
 }
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
@@ -121,6 +127,7 @@ const ToolState& Session::tool_state(std::size_t hand) const {
 }
 const Tray& Session::tray() const { return impl_->tray; }
 std::span<const Portal> Session::portals() const { return impl_->portals; }
+const Carving* Session::carving() const { return impl_->world.carving(); }
 const BoneSnapshot& Session::bones() const { return impl_->world.bones(); }
 
 std::uint64_t Session::state_hash() const {
@@ -150,6 +157,7 @@ Result<void> Session::restore(const SessionState& state) {
     fits = impl_->hands[i]->fits(state.hands[i]);
   for (const WorldMark& mark : state.world.marks)
     fits = fits && (!mark.set || mark.bones.count == now.world.bones.count);
+  fits = fits && impl_->world.fits(state.world);
   if (!fits)
     return fail("the state is not one of this case with these hands and instruments", "state",
                 "Give the case and the settings that it was saved with");

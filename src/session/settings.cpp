@@ -163,6 +163,44 @@ Result<void> read_flags(const Json& json, SessionSettings& settings) {
   return {};
 }
 
+// Stands in the settings of a session that carves alone.
+Json carve_json(const CarveSettings& carve) {
+  return {{"cell_m", carve.cell_m},
+          {"cortex_m", carve.cortex_m},
+          {"marrow_m", carve.marrow_m},
+          {"thrust_scale", carve.thrust_scale}};
+}
+
+Result<void> check(const CarveSettings& carve) {
+  const auto within = [](double x, double lo, double hi) { return x >= lo && x <= hi; };
+  if (within(carve.cell_m, 5e-5, 2e-3) && within(carve.cortex_m, 0, 0.03) &&
+      within(carve.marrow_m, 0, 0.03) && within(carve.thrust_scale, 0.1, 200))
+    return {};
+  return fail("a value is out of range", "settings, 'carve'",
+              "Cells are 0.05 to 2 mm, layers 0 to 30 mm, the scale of thrust 0.1 to 200");
+}
+
+Result<void> take_carve(Json& json, SessionSettings& settings) {
+  const auto found = json.find("carve");
+  if (found == json.end()) return {};
+  const Json carve = *found;
+  json.erase(found);
+  settings.carve.on = true;
+  const std::pair<const char*, double*> numbers[] = {
+      {"cell_m", &settings.carve.cell_m},
+      {"cortex_m", &settings.carve.cortex_m},
+      {"marrow_m", &settings.carve.marrow_m},
+      {"thrust_scale", &settings.carve.thrust_scale}};
+  if (!carve.is_object() || carve.size() != std::size(numbers))
+    return fail("four numbers are expected", "settings, 'carve'", kTodo);
+  for (const auto& [name, value] : numbers) {
+    if (!carve.contains(name) || !carve[name].is_number())
+      return fail("a number is missing", std::string("settings, 'carve.") + name + "'", kTodo);
+    *value = carve[name].get<double>();
+  }
+  return {};
+}
+
 Result<void> check_hands(const SessionSettings& settings) {
   if (settings.hands.empty() || settings.hands.size() > kMaxHands)
     return fail("a session has one to four hands", "settings, 'hands'", "Name as many");
@@ -191,6 +229,7 @@ Result<void> check_settings(const SessionSettings& settings) {
           "Choose a value from " + Json(field.min).dump() + " to " + Json(field.max).dump());
   }
   if (const auto done = check_hands(settings); !done) return done;
+  if (const auto done = check(settings.carve); !done) return done;
   const double ticks = settings.physics.step_s / settings.haptic.tick_s;
   if (std::round(ticks) < 1 || std::abs(ticks - std::round(ticks)) > 1e-6)
     return fail("a physics step is not a whole number of haptic ticks",
@@ -210,13 +249,15 @@ std::string to_json(const SessionSettings& settings) {
     json["hands"].push_back({{"name", hand.name}, {"instrument", hand.instrument}});
   json["tray"] = settings.tray;
   json["portals"] = settings.portals;
+  if (settings.carve.on) json["carve"] = carve_json(settings.carve);
   return json.dump(2);
 }
 
 Result<SessionSettings> parse_settings(const std::string& json) {
-  const auto parsed = parse_object(json);
+  auto parsed = parse_object(json);
   if (!parsed) return tl::unexpected(parsed.error());
   SessionSettings settings;
+  if (const auto done = take_carve(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());
   const Json* seed = find(*parsed, "", "seed");
   if (!seed || !seed->is_number_unsigned())

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "osteon/physics/carving.h"
 #include "osteon/session/session_state.h"
 
 namespace osteon {
@@ -10,7 +11,8 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
 struct Out {
@@ -29,6 +31,7 @@ struct In {
   std::string_view bytes;
   std::size_t at = 0;
   bool ok = true;
+  std::uint64_t version = kVersion;
   std::uint64_t word() {
     if (bytes.size() - at < 8) {
       ok = false;
@@ -268,15 +271,83 @@ void field(A& a, HandState& h) {
   for (HandMark& mark : h.marks) field(a, mark);
 }
 
+// Most words of a block are alike: each stands with how often it comes.
+template <class A>
+void field(A& a, CarveState::Block& b) {
+  field(a, b.block);
+  constexpr std::size_t kWords = BlockGrid::kNodes / 4;
+  std::array<std::uint64_t, kWords> words{};
+  if constexpr (!A::kReads) std::memcpy(words.data(), b.cut.data(), sizeof words);
+  for (std::size_t n = 0; n < kWords && a.ok;) {
+    std::uint64_t count = 1;
+    if constexpr (!A::kReads)
+      while (n + count < kWords && words[n + count] == words[n]) ++count;
+    number(a, count, kWords - n);
+    if (count == 0) a.ok = false;
+    field(a, words[n]);
+    for (std::size_t i = 1; i < count; ++i) words[n + i] = words[n];
+    n += count;
+  }
+  if constexpr (A::kReads) std::memcpy(b.cut.data(), words.data(), sizeof words);
+}
+
+template <class A>
+void field(A& a, CarveState& s) {
+  field(a, s.bone);
+  field(a, s.step);
+  std::uint64_t blocks = s.blocks.size();
+  number(a, blocks, kMostCarvedBlocks);
+  for (std::uint64_t n = 0; n < blocks && a.ok; ++n) {
+    if constexpr (A::kReads) s.blocks.emplace_back();
+    field(a, s.blocks[n]);
+  }
+}
+
+template <class A>
+void field(A& a, CarvingHand& h) {
+  field(a, h.bone);
+  field(a, h.X_BC);
+  field(a, h.drill.depth_m);
+  field(a, h.drill.turned_rev);
+  field(a, h.drill.was_cutting);
+  for (double* x : {&h.due_m, &h.angle_rad, &h.most_torque_nm, &h.plunge_m}) field(a, *x);
+  field(a, h.idle);
+  field(a, h.since);
+  field(a, h.tissue);
+  for (bool* x : {&h.was_in, &h.skives, &h.jaw_open}) field(a, *x);
+  field(a, h.out);
+  field(a, h.p_out);
+}
+
+template <class A>
+void field(A& a, std::shared_ptr<const CarvingState>& carved) {
+  if constexpr (A::kReads)
+    if (a.version < 2) return;  // bones could not be carved then
+  bool there = carved != nullptr;
+  field(a, there);
+  if (!there) return;
+  CarvingState state = carved ? *carved : CarvingState{};
+  std::uint64_t bones = state.bones.size();
+  number(a, bones, kMostCarvedBones);
+  if constexpr (A::kReads) state.bones.resize(bones);
+  for (CarveState& bone : state.bones) field(a, bone);
+  for (CarvingHand& hand : state.hands) field(a, hand);
+  field(a, state.steps);
+  field(a, state.full);
+  if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
+}
+
 template <class A>
 void field(A& a, WorldState& w) {
   field(a, w.bones);
   field(a, w.hold);
+  field(a, w.carved);
   for (WorldMark& mark : w.marks) {
     field(a, mark.set);
     if (!mark.set) continue;
     field(a, mark.hold);
     field(a, mark.bones);
+    field(a, mark.carved);
   }
 }
 
@@ -284,7 +355,8 @@ template <class A>
 void field(A& a, SessionState& s) {
   std::uint64_t version = kVersion;
   field(a, version);
-  if (version != kVersion) a.ok = false;
+  if (version < 1 || version > kVersion) a.ok = false;
+  if constexpr (A::kReads) a.version = version;
   std::uint64_t hands = s.hands.size();
   number(a, hands, kMaxHands);
   if constexpr (A::kReads) s.hands.resize(hands);

@@ -21,12 +21,26 @@ PhysicsParams physics_of(const SessionSettings& settings) {
 
 WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings)
     : world_(std::move(the_case), physics_of(settings)),
+      step_s_(settings.physics.step_s),
       keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {}
+
+void WorldHalf::set_carving(std::shared_ptr<const CarvingSetup> setup,
+                            std::vector<FeltCuts*> hands) {
+  carving_ = std::make_unique<Carving>(std::move(setup), hands.size());
+  felt_ = std::move(hands);
+}
+
+std::shared_ptr<const CarvingState> WorldHalf::carved() const {
+  return carving_ ? std::make_shared<const CarvingState>(carving_->save()) : nullptr;
+}
 
 const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
                                     const Command& command) {
   obey(command);
+  if (carving_ && heard_) carving_->step(tools, world_.snapshot(), step_s_);
   const BoneSnapshot& bones = world_.step(tools);
+  if (carving_ && heard_) heard_ = publish(*carving_, bones.step, all_changed_, felt_);
+  all_changed_ = false;
   record_ = {};
   record_.step = bones.step;
   for (std::size_t i = 0; i < tools.size(); ++i) record_.tool_ticks[i] = tools[i]->tick;
@@ -43,17 +57,25 @@ void WorldHalf::obey(const Command& command) {
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
     keep(mark);
   else if (command.kind == CommandKind::kRestore && mark < kMaxMarks && marks_[mark].set)
-    world_.go_back(marks_[mark].bones, marks_[mark].hold);
+    go_back(marks_[mark]);
+}
+
+void WorldHalf::go_back(const WorldMark& mark) {
+  world_.go_back(mark.bones, mark.hold);
+  if (!carving_ || !mark.carved) return;
+  carving_->restore(*mark.carved);
+  all_changed_ = true;
 }
 
 void WorldHalf::keep(std::uint32_t mark) {
-  marks_[mark] = {true, world_.held(), world_.snapshot()};
+  marks_[mark] = {true, world_.held(), world_.snapshot(), carved()};
   mark_hashes_[mark] = hash_of(marks_[mark].bones);
 }
 
 std::uint64_t WorldHalf::hash() const {
   Hasher hasher;
   hasher.add(world_.state_hash());
+  if (carving_) hasher.add(carving_->hash());
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     hasher.add(marks_[i].set);
     if (!marks_[i].set) continue;
@@ -66,11 +88,26 @@ std::uint64_t WorldHalf::hash() const {
 void WorldHalf::save(WorldState& into) const {
   into.bones = world_.snapshot();
   into.hold = world_.held();
+  into.carved = carved();
   into.marks = marks_;
+}
+
+bool WorldHalf::fits(const WorldState& state) const {
+  const auto good = [&](const std::shared_ptr<const CarvingState>& carved) {
+    return carving_ ? carved && carving_->fits(*carved) : !carved;
+  };
+  for (const WorldMark& mark : state.marks)
+    if (mark.set && !good(mark.carved)) return false;
+  return good(state.carved);
 }
 
 void WorldHalf::restore(const WorldState& from) {
   world_.restore(from.bones, from.hold);
+  if (carving_ && from.carved) {
+    carving_->restore(*from.carved);
+    for (FeltCuts* hand : felt_) hand->copy(*carving_);
+  }
+  heard_ = true;
   marks_ = from.marks;
   for (std::size_t i = 0; i < marks_.size(); ++i)
     mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;

@@ -2,8 +2,11 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "felt_cuts.h"
 #include "osteon/physics/bone_world.h"
+#include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
 
@@ -14,18 +17,30 @@ class alignas(64) WorldHalf {
  public:
   WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings);
 
+  /// `hands`: who feels what is carved, one after the other. Before the first step.
+  void set_carving(std::shared_ptr<const CarvingSetup> setup, std::vector<FeltCuts*> hands);
+  const Carving* carving() const { return carving_.get(); }
+
   const BoneSnapshot& step(std::span<const ToolState* const> tools, const Command& command);
   const BoneSnapshot& bones() const { return world_.snapshot(); }
   const StepRecord& record() const { return record_; }
   std::uint64_t hash() const;
   void save(WorldState& into) const;
+  bool fits(const WorldState& state) const;
   void restore(const WorldState& from);
 
  private:
   void obey(const Command& command);
   void keep(std::uint32_t mark);
+  void go_back(const WorldMark& mark);
+  std::shared_ptr<const CarvingState> carved() const;
 
   BoneWorld world_;
+  std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
+  std::vector<FeltCuts*> felt_;       ///< of the hands
+  bool all_changed_ = false;          ///< bones came back from a restore point in this step
+  bool heard_ = true;                 ///< no hand has missed a change: else nothing is cut any more
+  double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};
   std::array<std::uint64_t, kMaxMarks> mark_hashes_{};

@@ -50,10 +50,11 @@ class CarvedField {
   static constexpr std::int16_t kUncut = UncutField::kFar;
   static constexpr std::size_t kMostBlocks = 24576;  ///< 2 kB each
 
-  /// Fails on layers that do not fit together.
+  /// Cuts are kept as far as `air_m` outside of the bone as well, for who asks there how far a
+  /// hole's wall is. Fails on layers that do not fit together.
   static Result<CarvedField> make(std::shared_ptr<const UncutField> bone,
                                   const BoneLayers& layers = {},
-                                  std::size_t most_blocks = kMostBlocks);
+                                  std::size_t most_blocks = kMostBlocks, double air_m = 0);
 
   /// Removes what `cutter` passes from one pose to the next, both in Bone: straight in place, the
   /// shorter way round in turn. A ball's way is exact; other shapes take places that lie at most
@@ -113,6 +114,7 @@ class CarvedField {
 
   CarvedField() = default;
   void clear();
+  bool may_hold_cuts(std::uint32_t block) const;
   std::uint32_t take(std::uint32_t block);
 
   static constexpr std::uint32_t kNone = 0xffffffffu, kWanted = 0xfffffffeu;
@@ -123,6 +125,7 @@ class CarvedField {
   std::vector<Mark> marks_;
   std::vector<Nodes> nodes_;
   std::size_t used_ = 0;
+  double air_m_ = 0;
   std::uint64_t step_ = 0, epoch_ = 0;
 };
 

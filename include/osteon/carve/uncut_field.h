@@ -18,6 +18,7 @@ struct UncutFieldOptions {
   double cell_m = 0.00025;
   /// Exact heights reach at least so far out of the bone; less than 3 cells count as 3.
   double outside_m = 0.001;
+  double room_m = 0;  ///< the grid reaches at least so far out of the bone
   std::size_t most_bytes = std::size_t{512} << 20;
   /// Runs tasks 0 .. count - 1 in any order, on any threads; none: one after the other.
   std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)> run;

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "osteon/collide/capsule_contact.h"
-#include "osteon/collide/distance_field.h"
+#include "osteon/collide/field_view.h"
 
 namespace osteon {
 
@@ -13,7 +13,7 @@ namespace osteon {
 /// normal. Beyond the field's band the gap is a bound (the surface is at least so far). Allocates
 /// nothing. Not finite: kNumerical. A gap above `far_m` may be told as a bound below it, which is
 /// quicker.
-CapsuleContact field_contact(const DistanceField& field, const Capsule& capsule_A,
+CapsuleContact field_contact(const FieldView& field, const Capsule& capsule_A,
                              double far_m = std::numeric_limits<double>::infinity());
 
 }  // namespace osteon

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "osteon/collide/distance_field.h"
+#include "osteon/collide/field_view.h"
 #include "osteon/collide/lp_contact.h"
 #include "osteon/collide/primitive.h"
 
@@ -25,7 +25,7 @@ PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, cons
 
 /// A gap above `far_m` may be told as a bound below the true one, which is quicker. Beyond the
 /// field's band it is a bound in any case.
-PrimitiveContact primitive_contact(const DistanceField& a, const Primitive& b, const Pose& X_AB,
+PrimitiveContact primitive_contact(const FieldView& a, const Primitive& b, const Pose& X_AB,
                                    double far_m = std::numeric_limits<double>::infinity());
 
 /// Both exact: the distance apart; overlapping, the shortest way that parts them, but for a rod

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "osteon/collide/cut_field.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
@@ -63,7 +64,11 @@ class HapticLoop {
   /// The holes in the skin that a tool with a shaft may pass through (PortalPivot in
   /// src/haptic/portal_pivot.h). Before the first tick; a case has none unless told.
   void set_portals(std::vector<Portal> portals);
-  /// The same in the middle of a run, for a loop that goes on where another one was at `last`, or
+  /// What was cut out of each bone, by its number; null: nothing, ever. Looked at in each tick, and
+  /// must outlive the loop; who changes it does so between two ticks. Bones felt as pieces or hulls
+  /// are felt whole.
+  void set_cuts(std::span<const CutField* const> by_bone);
+  /// `reset` in the middle of a run, for a loop that goes on where another one was at `last`, or
   /// itself: ticks go on, the force fades to zero within kFade_s, and rises again once the hand has
   /// been free. Allocates, locks and logs nothing.
   void begin_anew(const ToolState& last) noexcept;

@@ -10,6 +10,7 @@
 #include "osteon/base/result.h"
 #include "osteon/haptic/haptic.h"
 #include "osteon/physics/bone_world.h"
+#include "osteon/physics/carving_setup.h"
 #include "osteon/procedure/report.h"
 #include "osteon/record/recording.h"
 #include "osteon/scene/case.h"
@@ -20,6 +21,8 @@
 #include "osteon/session/session_state.h"
 
 namespace osteon {
+
+class Carving;
 
 /// One hand of a session.
 struct HandSettings {
@@ -37,6 +40,7 @@ struct SessionSettings {
   double probe_radius_m = 0.00075;  ///< of the wrist probe, which is held where the tray is empty
   double force_limit_n = 5;         ///< a force above it is an event
   std::vector<HandSettings> hands{1};
+  CarveSettings carve;            ///< of bones that instruments remove
   std::vector<std::string> tray;  ///< names of the tray's instruments, for who makes them again
   /// Names or titles of the portals that are open; "all": every one of the case.
   std::vector<std::string> portals = {"all"};
@@ -86,8 +90,10 @@ struct HandInput {
 class Session {
  public:
   /// `settings` must satisfy check_settings and open_portals. An empty tray holds the wrist probe
-  /// alone.
-  Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray = {});
+  /// alone. `carving`: what make_carving made for the case, the tray and `settings.carve`; null: no
+  /// bone is removed.
+  Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray = {},
+          std::shared_ptr<const CarvingSetup> carving = nullptr);
   ~Session();
   Session(Session&&) noexcept;
 
@@ -123,6 +129,8 @@ class Session {
   const Tray& tray() const;
   /// By ToolState::portal.
   std::span<const Portal> portals() const;
+  /// The carved bones, as physics has them; null: none is carved. For when all rest.
+  const Carving* carving() const;
   const BoneSnapshot& bones() const;
   /// Over all halves. (A tick record's hash is over the hand's half and the bones that the tick
   /// consumed: what is known at that tick whatever the other threads do.)
@@ -169,7 +177,10 @@ struct ReplayOptions {
   /// Begins at the last stored state that is not after this time of the first hand; 0: at the
   /// start.
   double from_s = 0;
-  Tray tray;  ///< as the recorded session had it
+  Tray tray;                                    ///< as the recorded session had it
+  std::shared_ptr<const CarvingSetup> carving;  ///< likewise
+  double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
+  std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
 };
 
 /// Repeats a recording in one thread. Compares every tick's force, proxy position and status, and

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "osteon/scene/state.h"
 
 namespace osteon {
+
+struct CarvingState;
 
 /// What a hand keeps at a restore point: where the device is stays the hand's own business.
 struct HandMark {
@@ -56,12 +59,14 @@ struct WorldMark {
   bool set = false;
   bool hold = false;
   BoneSnapshot bones;
+  std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
 };
 
 /// All that one physics step leaves to the next.
 struct WorldState {
   BoneSnapshot bones;
   bool hold = true;
+  std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
   std::array<WorldMark, kMaxMarks> marks{};
 };
 

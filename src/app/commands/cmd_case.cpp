@@ -272,6 +272,7 @@ void add_case(cli::App& app, int& exit_code) {
   check->add_flag("--json", *json, "print JSON: case, bones, soft_parts, sound, findings");
   check->callback([spec, json, &exit_code] { exit_code = run_check(*spec, *json); });
   add_case_pose(*group, exit_code);
+  add_case_save(*group, exit_code);
 }
 
 }  // namespace

@@ -115,11 +115,10 @@ int replay_recording(const ReplayArguments& options) {
   if (!the_case) return report_error(the_case.error());
   auto frames = frames_for(options, **the_case);
   if (!frames) return report_error(frames.error());
-  auto tray = tray_of(recording->header());
-  if (!tray) return report_error(tray.error());
   ReplayOptions how;
-  how.tray = std::move(*tray);
   how.from_s = options.from_s;
+  if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
+    return report_error(ready.error());
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     if (*frames && hand == 0) (*frames)->add(tool, bones);

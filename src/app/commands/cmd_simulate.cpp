@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include "commands/parser.h"
 
@@ -70,6 +71,15 @@ int print_hands(const HeadlessOutcome& outcome, const std::string& report_file) 
   return kExitDone;
 }
 
+// What was carved is one more part of the report.
+Result<void> save_with_carving(const Report& report, const HeadlessOutcome& outcome,
+                               const std::string& file) {
+  if (file.empty() || !outcome.carving) return save_report(report, file);
+  auto json = nlohmann::ordered_json::parse(to_json(report));
+  json["carving"] = to_json(*outcome.carving);
+  return write_file_atomic(file, json.dump(2) + "\n");
+}
+
 int run_simulate(const SimulateOptions& options) {
   if (options.path.empty() == options.hands.empty())
     return report_error({"one of --path and --hand is needed, not both", "simulate",
@@ -83,8 +93,10 @@ int run_simulate(const SimulateOptions& options) {
   if (!outcome) return report_error(outcome.error());
   if (!options.hands.empty()) return print_hands(*outcome, options.report);
   const Report& report = outcome->reports.front();
-  if (auto ok = save_report(report, options.report); !ok) return report_error(ok.error());
+  if (auto ok = save_with_carving(report, *outcome, options.report); !ok)
+    return report_error(ok.error());
   std::fputs(to_text(report).c_str(), stdout);
+  if (outcome->carving) std::fputs(to_text(*outcome->carving).c_str(), stdout);
   return kExitDone;
 }
 

@@ -11,6 +11,7 @@ namespace osteon {
 
 void add_case_commands(cli::App& app, int& exit_code);        // import mesh, case info, case check
 void add_case_pose(cli::App& group, int& exit_code);          // called by the above
+void add_case_save(cli::App& group, int& exit_code);          // called by add_case_commands
 void add_case_felt_command(cli::App& app, int& exit_code);    // case felt; after add_case_commands
 void add_import_ct_command(cli::App& app, int& exit_code);    // import ct; after add_case_commands
 void add_scan_command(cli::App& app, int& exit_code);         // scan: a virtual CT of a case

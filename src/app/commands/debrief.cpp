@@ -117,8 +117,6 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (!the_case) return tl::unexpected(the_case.error());
   const auto settings = parse_settings(recording->header().settings_json);
   if (!settings) return tl::unexpected(settings.error());
-  auto tray = make_tray(settings->tray, settings->probe_radius_m);
-  if (!tray) return tl::unexpected(tray.error());
   auto scenario = scenario_of(order);
   if (!scenario) return tl::unexpected(scenario.error());
   const std::size_t hands = recording->header().hands;
@@ -129,7 +127,8 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
       return tl::unexpected(begun.error());
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
   ReplayOptions how;
-  how.tray = std::move(*tray);
+  if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
+    return tl::unexpected(ready.error());
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     traces[hand].add(tool);

@@ -84,8 +84,10 @@ std::vector<std::string> tray_of(std::span<const HeadlessHand> hands) {
 class HeadlessLoop {
  public:
   HeadlessLoop(const HeadlessRun& run, const SessionSettings& settings, Tray tray,
-               std::vector<RunningHand> hands)
-      : run_(run), session_(run.the_case, settings, std::move(tray)), hands_(std::move(hands)) {}
+               std::shared_ptr<const CarvingSetup> carving, std::vector<RunningHand> hands)
+      : run_(run),
+        session_(run.the_case, settings, std::move(tray), std::move(carving)),
+        hands_(std::move(hands)) {}
 
   void tick(std::uint64_t n, double dt) {
     inputs_.clear();
@@ -104,6 +106,7 @@ class HeadlessLoop {
       for (std::size_t h = 0; h < hands_.size(); ++h) tools_.push_back(&session_.tool_state(h));
       run_.on_hands(tools_, session_.bones());
     }
+    carving_.see(session_);
     if (run_.on_tick) run_.on_tick(session_.tool_state(0), session_.bones());
   }
   std::string complaint() const {
@@ -112,6 +115,7 @@ class HeadlessLoop {
     return {};
   }
   const Session& session() const { return session_; }
+  std::optional<CarvingReport> carving() const { return carving_.finish(session_); }
 
   std::vector<Report> reports(std::int64_t elapsed_ns) const {
     std::vector<Report> reports;
@@ -131,6 +135,7 @@ class HeadlessLoop {
   std::vector<HandInput> inputs_;
   std::vector<const ToolState*> tools_;
   Percentiles tick_times_;
+  CarvingWatch carving_;
 };
 
 Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
@@ -150,8 +155,11 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
     running.push_back({std::move(*taken), std::move(commands),
                        ReportBuilder(*run.the_case, settings.haptic.tick_s, *portals)});
   }
+  settings.carve.on = can_carve(*run.the_case, settings.tray);
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
-  return HeadlessLoop(run, settings, std::move(*tray), std::move(running));
+  auto carving = carving_for(*run.the_case, settings);
+  if (!carving) return tl::unexpected(carving.error());
+  return HeadlessLoop(run, settings, std::move(*tray), std::move(*carving), std::move(running));
 }
 
 }  // namespace
@@ -183,6 +191,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   HeadlessOutcome outcome;
   for (const HeadlessHand& hand : hands) outcome.names.push_back(hand.name);
   outcome.reports = loop->reports(steady_now_ns() - started);
+  outcome.carving = loop->carving();
   return outcome;
 }
 

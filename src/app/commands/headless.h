@@ -15,6 +15,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
+#include "runs/carving_report.h"
 
 namespace osteon {
 
@@ -53,6 +54,7 @@ struct HeadlessRun {
 struct HeadlessOutcome {
   std::vector<std::string> names;
   std::vector<Report> reports;
+  std::optional<CarvingReport> carving;  ///< none: no bone could be carved
 };
 
 /// Runs it to the end of the longest path, with the settings kept within what the device bears.

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "cases/all_cores.h"
 #include "osteon/scene/instrument.h"
 
 namespace osteon {
@@ -49,6 +50,27 @@ Result<Tray> tray_of(const RecordingHeader& header) {
   const auto settings = parse_settings(header.settings_json);
   if (!settings) return tl::unexpected(settings.error());
   return make_tray(settings->tray, settings->probe_radius_m);
+}
+
+Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
+                                                        const SessionSettings& settings) {
+  const RunFieldTasks run = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    run_on_all_cores(count, task, [](double) {});
+  };
+  return make_carving(the_case, settings.tray, settings.carve, run);
+}
+
+Result<void> take_instruments(const RecordingHeader& header, const Case& the_case,
+                              ReplayOptions& options) {
+  const auto settings = parse_settings(header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  auto carving = carving_for(the_case, *settings);
+  if (!carving) return tl::unexpected(carving.error());
+  options.tray = std::move(*tray);
+  options.carving = std::move(*carving);
+  return {};
 }
 
 std::string absolute_case_path(const std::string& case_source) {

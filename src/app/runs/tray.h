@@ -18,6 +18,14 @@ Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m
 /// The instruments that the hands of a recording held; empty: the wrist probe alone.
 Result<Tray> tray_of(const RecordingHeader& header);
 
+/// What removes bone in a session with these settings; null: nothing.
+Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
+                                                        const SessionSettings& settings);
+
+/// Gives a replay the instruments of the recorded session, and what they remove.
+Result<void> take_instruments(const RecordingHeader& header, const Case& the_case,
+                              ReplayOptions& options);
+
 /// Where the case of a folder stands, absolute; empty for one that is built in.
 std::string absolute_case_path(const std::string& case_source);
 

@@ -81,6 +81,9 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   RenderSnapshot last;
   ReplayOptions how;
   how.tray = *tray;
+  auto carving = carving_for(**the_case, *settings);
+  if (!carving) return tl::unexpected(carving.error());
+  how.carving = std::move(*carving);
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     if (hand != 0 || tool.tick > *ticks) return;

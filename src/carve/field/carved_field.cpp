@@ -38,12 +38,16 @@ std::uint64_t block_hash(std::uint32_t block,
 }  // namespace
 
 Result<CarvedField> CarvedField::make(std::shared_ptr<const UncutField> bone,
-                                      const BoneLayers& layers, std::size_t most_blocks) {
+                                      const BoneLayers& layers, std::size_t most_blocks,
+                                      double air_m) {
   if (auto sound = check(layers); !sound) return tl::unexpected(sound.error());
   constexpr std::size_t kMost = 1u << 22;
   if (most_blocks < 1 || most_blocks > kMost)
     return fail("the number of blocks must be 1 to 4 million", "carving");
+  if (!(air_m >= 0 && air_m <= 0.05))
+    return fail("cuts must be kept 0 to 50 mm outside of the bone", "carving");
   CarvedField made;
+  made.air_m_ = air_m;
   made.layers_ = layers;
   for (std::size_t l = 0; l < layers.layers.size(); ++l)
     made.layer_um_[l] = static_cast<std::int32_t>(std::round(1e6 * layers.layers[l].depth_m));
@@ -52,6 +56,11 @@ Result<CarvedField> CarvedField::make(std::shared_ptr<const UncutField> bone,
   made.nodes_.resize(most_blocks);
   made.bone_ = std::move(bone);
   return made;
+}
+
+bool CarvedField::may_hold_cuts(std::uint32_t block) const {
+  return bone_->place(block) != UncutField::Place::kOutside ||
+         bone_->middle_m(block) - grid().reach_m() < air_m_;
 }
 
 std::uint32_t CarvedField::take(std::uint32_t block) {
@@ -90,7 +99,7 @@ bool CarvedField::surface_changed(std::uint32_t block, std::uint64_t since) cons
 
 bool CarvedField::apply(std::uint32_t block, std::span<const std::int16_t, BlockGrid::kNodes> cut,
                         std::uint64_t step) {
-  if (block >= slot_.size() || bone_->place(block) == UncutField::Place::kOutside) return false;
+  if (block >= slot_.size() || !may_hold_cuts(block)) return false;
   if (slot_[block] == kNone && used_ == marks_.size()) return false;
   const std::uint32_t slot = slot_[block] == kNone ? take(block) : slot_[block];
   std::copy(cut.begin(), cut.end(), nodes_[slot].cut.begin());
@@ -124,7 +133,7 @@ Result<void> CarvedField::restore(const CarveState& state) {
   if (state.blocks.size() > marks_.size()) return fail("holds more blocks than there are", kWhere);
   for (std::size_t n = 0; n < state.blocks.size(); ++n) {
     const std::uint32_t block = state.blocks[n].block;
-    if (block >= slot_.size() || bone_->place(block) == UncutField::Place::kOutside ||
+    if (block >= slot_.size() || !may_hold_cuts(block) ||
         (n > 0 && block <= state.blocks[n - 1].block))
       return fail("holds a block that cannot be", kWhere);
   }

@@ -100,7 +100,7 @@ struct CarvedField::Pass {
         for (int i = box.lo[0]; i <= box.hi[0]; ++i) {
           const std::array<int, 3> at{i, j, k};
           const std::uint32_t block = grid.index(at);
-          if (field.bone_->place(block) == UncutField::Place::kOutside) continue;
+          if (!field.may_hold_cuts(block)) continue;
           if (placed.at_least(grid.middle(at)) > reach_m + grid.reach_m()) continue;
           visit(block, at, rows_in(box, at));
         }

@@ -60,7 +60,7 @@ struct UncutField::Maker {
     field.box_ = bounds(mesh.mesh());
     const double h = options.cell_m;
     // Nodes stay off faces that lie along the axes.
-    const double margin = std::max(kClear * h, options.outside_m) + 1.37 * h;
+    const double margin = std::max({kClear * h, options.outside_m, options.room_m}) + 1.37 * h;
     const Vec3 count =
         ((field.box_.extent() + Vec3::Constant(2 * margin)) / (8 * h)).array().ceil();
     const double bytes = 8 * count.prod();
@@ -176,6 +176,8 @@ Result<std::shared_ptr<const UncutField>> UncutField::make(const TriMesh& mesh,
   constexpr double kFarthest_m = 0.03;
   if (!(options.outside_m >= 0 && options.outside_m <= kFarthest_m))
     return fail("heights must reach 0 to 30 mm out of the bone", "carving");
+  if (!(options.room_m >= 0 && options.room_m <= kFarthest_m))
+    return fail("the grid must reach 0 to 30 mm out of the bone", "carving");
   if (!(bounds(mesh).extent().maxCoeff() >= kLeastCells * options.cell_m))
     return fail("the bone is smaller than 4 cells", "carving", "Choose a smaller cell");
   Maker maker(mesh, options);

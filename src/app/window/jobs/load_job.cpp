@@ -112,6 +112,9 @@ Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
   auto tray = make_tray(settings->tray, settings->probe_radius_m);
   if (!tray) return tl::unexpected(tray.error());
   options.tray = *tray;
+  auto carving = carving_for(*loaded.the_case, *settings);
+  if (!carving) return tl::unexpected(carving.error());
+  options.carving = std::move(*carving);
   replay_of.tray = std::move(*tray);
   if (replay_of.tray.empty())
     replay_of.tray.push_back(

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/carve/carved_field.h"
+#include "osteon/carve/cutter.h"
+#include "osteon/carve/thrust.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/event.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// What an instrument of the tray takes away, and how.
+struct CarvingTool {
+  enum class Way : std::uint8_t {
+    kDrill,  ///< goes forward along its axis, by as much as its thrust removes
+    kBurr,   ///< a ball that removes where it is pressed
+    kBite    ///< a punch: removes once, when its jaw shuts
+  };
+  Way way = Way::kDrill;
+  Cutter cutter;
+  double most_rev_per_s = 0;  ///< at full power
+  double pilot_m = 0;         ///< of the cannula, which cuts nothing
+};
+
+/// All that is made before a session carves. Immutable.
+struct CarvingSetup {
+  std::vector<std::optional<CarvingTool>> tray;          ///< none: it removes nothing
+  std::vector<std::shared_ptr<const UncutField>> bones;  ///< of the case; null: it is not carved
+  BoneLayers layers;
+  DrillTable table;
+  /// A desktop device gives a few newtons, a surgeon's arm a hundred: so many newtons on the drill
+  /// stand for one in the hand.
+  double thrust_scale = 20;
+  std::size_t most_blocks = 4096;  ///< of each bone
+  double air_m = 0;                ///< cuts are known so far outside of a bone
+  /// Walls are felt so far behind where they were cut.
+  static constexpr double kSlack_m = 15e-6;
+  /// Bone goes in bites of this: what is removed in a step is far less than a cell.
+  static constexpr double kBite_m = 10e-6;
+};
+
+/// What one hand's instrument does to bone: a value.
+struct CarvingHand {
+  static constexpr std::uint32_t kNoBone = 0xffffffffu;
+  std::uint32_t bone = kNoBone;  ///< that it cuts
+  Pose X_BC;                     ///< of the cutter, where bone was last removed
+  DrillState drill;
+  double due_m = 0;           ///< removed by the model, not yet from the field
+  double angle_rad = 0;       ///< between the drill and the surface where it began
+  std::uint32_t idle = 0;     ///< steps since it cut
+  std::uint64_t since = 0;    ///< step in which it began
+  double most_torque_nm = 0;  ///< since then
+  std::uint8_t tissue = 0;    ///< before the tip: 1 + BoneTissue; 0: none
+  bool was_in = false;        ///< the tip has been in bone
+  bool skives = false;
+  std::uint32_t out = 0;      ///< steps since it came out; 0: it has not
+  Vec3 p_out = Vec3::Zero();  ///< where, in Bone
+  double plunge_m = 0;
+  bool jaw_open = false;
+  friend bool operator==(const CarvingHand&, const CarvingHand&);
+};
+
+/// Everything that carving changes: a value.
+struct CarvingState {
+  std::vector<CarveState> bones;  ///< as CarvingSetup::bones; of a bone that is not carved: empty
+  std::array<CarvingHand, kMaxHands> hands{};
+  std::uint64_t steps = 0;
+  bool full = false;
+};
+
+/// What a hand's instrument did in one step, for heat and sound.
+struct CarvingReadout {
+  std::uint32_t bone = CarvingHand::kNoBone;
+  Vec3 tip_B = Vec3::Zero(), axis_B = Vec3::UnitZ();  ///< the axis points back, along the shaft
+  double radius_m = 0;
+  double advance_m = 0;
+  double thrust_n = 0, torque_nm = 0;
+  double cutting_w = 0, rubbing_w = 0;
+};
+
+/// Bone that the instruments of a session remove, one step after the other: a function of its
+/// state and of the tools given to it, bit by bit the same from every compiler.
+///
+/// A drill cuts along its own axis: once its tip is in, the hole keeps its line, whatever the hand
+/// pulls sideways, and the felt wall tells so. It goes forward by what step_drill lets it remove of
+/// the bone before its tip, which is looked at in points over its front; what is felt of the bone
+/// ends there, so a hand cannot push it on. When nothing is left before the tip it has come out.
+/// A burr removes where it is pressed: P = c F v at its rim, over the specific energy of what lies
+/// there, is a volume in time, and that over half its cross-section is how fast it goes in.
+class Carving {
+ public:
+  Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
+
+  /// `bones`: where they are while the tools touch them.
+  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones, double step_s);
+
+  struct Changed {
+    std::uint32_t bone = 0, block = 0;
+  };
+  /// Of the last step.
+  std::span<const Changed> changed() const { return changed_; }
+  std::span<const Event> events() const { return events_; }
+  const CarvingReadout& readout(std::size_t hand) const { return readouts_[hand]; }
+
+  const CarvingSetup& setup() const { return *setup_; }
+  /// Null: that bone is not carved.
+  const CarvedField* field(std::size_t bone) const;
+  std::uint64_t hash();
+  CarvingState save() const;
+  bool fits(const CarvingState& state) const;
+  /// `state` must fit. Every block of every bone may have changed then.
+  void restore(const CarvingState& state);
+
+ private:
+  struct Bone {
+    std::optional<CarvedField> field;
+  };
+  struct Push;
+
+  void step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
+  void drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
+  void burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
+  void bite(std::size_t hand, const CarvingTool& with, const ToolState& tool, const Pose& X_BT,
+            std::uint32_t bone);
+  void rest(std::size_t hand, const Push& push);
+  void begin(std::size_t hand, const CarvingTool& with, const Push& push);
+  void follow_out(std::size_t hand, const Push& push);
+  void note_tissue(std::size_t hand, const Push& push, std::optional<BoneTissue> tissue);
+  bool remove(std::size_t hand, const Cutter& cutter, const Pose& from_B, const Pose& to_B);
+  void tell(std::size_t hand, const Push& push, EventKind kind, std::array<double, 3> values);
+
+  std::shared_ptr<const CarvingSetup> setup_;
+  std::vector<Bone> bones_;
+  std::size_t count_;  ///< of hands
+  std::array<CarvingHand, kMaxHands> hands_{};
+  std::array<CarvingReadout, kMaxHands> readouts_{};
+  std::vector<Changed> changed_;
+  std::vector<Event> events_;
+  std::uint64_t steps_ = 0;
+  bool full_ = false;
+};
+
+}  // namespace osteon

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "osteon/scene/event.h"
+
+namespace osteon {
+
+/// Kinds of events of carving: the codes 200 to 299 of EventKind.
+inline constexpr EventKind kCutBegin{200};           ///< a powered instrument begins to remove bone
+inline constexpr EventKind kCutEnd{201};             ///< and has stopped
+inline constexpr EventKind kCortexEntered{202};      ///< what cuts is in hard bone
+inline constexpr EventKind kCancellousEntered{203};  ///< and in the soft bone behind it
+inline constexpr EventKind kBreached{204};           ///< a drill's tip has come out of the bone
+inline constexpr EventKind kPlunge{205};             ///< how far it went on then
+inline constexpr EventKind kSkives{206};       ///< a drill's tip slides off: it stands too slanted
+inline constexpr EventKind kPieceOff{207};     ///< a piece of bone hangs on nothing and is gone
+inline constexpr EventKind kCarvingFull{208};  ///< no room is left for cuts: no more is removed
+
+}  // namespace osteon

@@ -1,0 +1,116 @@
+#include "osteon/collide/cut_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+namespace {
+
+// Distances to cuts are written so far out, see src/carve/field/cut.cpp.
+constexpr double kKnownCells = 2.5;
+
+// Values and slopes of the four cubic B-splines at a place t of a cell, 0 <= t <= 1.
+struct Weights {
+  std::array<double, 4> w, d;
+  explicit Weights(double t) {
+    const double u = 1 - t, t2 = t * t;
+    w[0] = u * u * u / 6;
+    w[1] = (4 - 6 * t2 + 3 * t2 * t) / 6;
+    w[3] = t2 * t / 6;
+    w[2] = 1 - w[0] - w[1] - w[3];
+    d[0] = -0.5 * u * u;
+    d[1] = 1.5 * t2 - 2 * t;
+    d[3] = 0.5 * t2;
+    d[2] = -(d[0] + d[1] + d[3]);
+  }
+};
+
+// The four nodes along an axis that decide a value: in which of two blocks, and where there.
+struct Nodes4 {
+  std::array<int, 2> block{};
+  std::array<std::uint8_t, 4> side{};  // of `block`
+  std::array<std::uint16_t, 4> node{};
+  double t = 0;
+  bool inside = false;
+
+  Nodes4(double at, int blocks) {
+    const double low = std::floor(at);
+    t = at - low;
+    inside = low >= 1 && low + 2 < CutField::kSide * blocks;
+    if (!inside) return;
+    const int first = static_cast<int>(low) - 1;
+    block = {first / CutField::kSide, (first + 3) / CutField::kSide};
+    for (int i = 0; i < 4; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      side[n] = (first + i) / CutField::kSide == block[0] ? 0 : 1;
+      node[n] = static_cast<std::uint16_t>((first + i) % CutField::kSide);
+    }
+  }
+};
+
+}  // namespace
+
+CutField::CutField(const CutGrid& grid, std::size_t most_blocks, double slack_m)
+    : grid_(grid),
+      slack_m_(slack_m),
+      farthest_um_(1e6 * kKnownCells * grid.cell_m),
+      slot_(grid.count(), kNone),
+      block_of_(most_blocks, kNone),
+      nodes_(most_blocks) {}
+
+bool CutField::set(std::uint32_t block, Block cut) {
+  if (block >= slot_.size() || (slot_[block] == kNone && used_ == nodes_.size())) return false;
+  if (slot_[block] == kNone) {
+    slot_[block] = static_cast<std::uint32_t>(used_);
+    block_of_[used_++] = block;
+  }
+  std::copy(cut.begin(), cut.end(), nodes_[slot_[block]].begin());
+  return true;
+}
+
+void CutField::clear() {
+  for (std::size_t n = 0; n < used_; ++n) slot_[block_of_[n]] = kNone;
+  used_ = 0;
+}
+
+bool CutField::height(const Vec3& p_B, FieldSample& out) const {
+  const Vec3 u = (p_B - grid_.lo) / grid_.cell_m;
+  if (!is_finite(u)) return false;
+  const Nodes4 x(u.x(), grid_.blocks[0]), y(u.y(), grid_.blocks[1]), z(u.z(), grid_.blocks[2]);
+  if (!x.inside || !y.inside || !z.inside) return false;
+  std::array<const std::int16_t*, 8> corner{};
+  bool any = false;
+  for (std::size_t c = 0; c < corner.size(); ++c) {
+    const int at = (z.block[c >> 2] * grid_.blocks[1] + y.block[c >> 1 & 1]) * grid_.blocks[0] +
+                   x.block[c & 1];
+    const std::uint32_t slot = slot_[static_cast<std::size_t>(at)];
+    if (slot == kNone) continue;
+    corner[c] = nodes_[slot].data();
+    any = true;
+  }
+  if (!any) return false;
+  const Weights wx(x.t), wy(y.t), wz(z.t);
+  double value = 0;
+  Vec3 slope = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j) {
+      double row = 0, row_d = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j] + x.side[i]];
+        const std::size_t node = 64u * z.node[k] + 8u * y.node[j] + x.node[i];
+        const double um = from ? std::min<double>(from[node], farthest_um_) : farthest_um_;
+        row += wx.w[i] * um;
+        row_d += wx.d[i] * um;
+      }
+      value += wz.w[k] * wy.w[j] * row;
+      slope.x() += wz.w[k] * wy.w[j] * row_d;
+      slope.y() += wz.w[k] * wy.d[j] * row;
+      slope.z() += wz.d[k] * wy.w[j] * row;
+    }
+  out.distance = slack_m_ - 1e-6 * value;
+  out.gradient = -1e-6 / grid_.cell_m * slope;
+  out.near = value < farthest_um_;
+  return true;
+}
+
+}  // namespace osteon

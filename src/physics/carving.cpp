@@ -1,0 +1,357 @@
+#include "osteon/physics/carving.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cutter_front.h"
+#include "osteon/base/check.h"
+#include "osteon/base/hash.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+
+/// How a tool stands on a bone in one step.
+struct Carving::Push {
+  const ToolState* tool = nullptr;
+  std::uint32_t bone = CarvingHand::kNoBone;  ///< that it presses most; kNoBone: it touches none
+  Pose X_WB, X_BT;
+  Vec3 force_B = Vec3::Zero();  ///< on the tool
+  std::uint64_t tick = 0;       ///< of the first hand
+};
+
+namespace {
+
+constexpr double kSkin_m = 5e-6;          // that a proxy keeps from a field
+constexpr double kBehind_m = 0.0003;      // pulled back so far, the drill is not at the hole's end
+constexpr double kBeyond_m = 0.001;       // gone on so far through nothing, it begins anew
+constexpr std::uint32_t kRestSteps = 50;  // without a cut: it has stopped
+constexpr std::uint32_t kPlungeSteps = 250;
+constexpr double kDeepEnough_m = 0.001;  // a shallower hole has no far side
+constexpr double kBurrFriction = 0.3;    // of a burr's rim: cutting force by pressing force
+constexpr double kBurrFastest_m_per_s = 0.02;
+constexpr double kBurrLead_m = 1e-4;
+
+Pose moved_along(const Pose& X, const Vec3& way) { return {X.p + way, X.q}; }
+Vec3 back_of(const Pose& X) { return X.q * Vec3::UnitZ(); }
+
+void add_to(Hasher& hasher, const CarvingHand& hand) {
+  hasher.add(hand.bone);
+  hasher.add(hand.X_BC);
+  hasher.add(hand.drill.depth_m);
+  hasher.add(hand.drill.turned_rev);
+  hasher.add(hand.drill.was_cutting);
+  for (const double x : {hand.due_m, hand.angle_rad, hand.most_torque_nm, hand.plunge_m})
+    hasher.add(x);
+  hasher.add(hand.idle);
+  hasher.add(hand.since);
+  hasher.add(hand.tissue);
+  for (const bool x : {hand.was_in, hand.skives, hand.jaw_open}) hasher.add(x);
+  hasher.add(hand.out);
+  hasher.add(hand.p_out);
+}
+
+}  // namespace
+
+bool operator==(const CarvingHand& a, const CarvingHand& b) {
+  Hasher x, y;
+  add_to(x, a);
+  add_to(y, b);
+  return x.value() == y.value();
+}
+
+Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
+    : setup_(std::move(setup)), count_(std::min(hands, kMaxHands)) {
+  for (const auto& bone : setup_->bones) {
+    bones_.emplace_back();
+    if (!bone) continue;
+    auto field = CarvedField::make(bone, setup_->layers, setup_->most_blocks, setup_->air_m);
+    demand(field.has_value(), "a setup for carving has layers that do not fit together");
+    bones_.back().field = std::move(*field);
+  }
+  changed_.reserve(setup_->most_blocks);
+  events_.reserve(16);
+}
+
+const CarvedField* Carving::field(std::size_t bone) const {
+  return bone < bones_.size() && bones_[bone].field ? &*bones_[bone].field : nullptr;
+}
+
+void Carving::tell(std::size_t hand, const Push& push, EventKind kind,
+                   std::array<double, 3> values) {
+  const CarvingHand& h = hands_[hand];
+  const std::uint32_t bone = push.bone == CarvingHand::kNoBone ? h.bone : push.bone;
+  events_.push_back({push.tool->tick, kind, static_cast<std::uint8_t>(hand), SubjectKind::kBone,
+                     bone, push.tool->X_WP.p, values});
+}
+
+void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                   double step_s) {
+  changed_.clear();
+  events_.clear();
+  readouts_ = {};
+  ++steps_;
+  for (std::size_t h = 0; h < std::min(tools.size(), count_); ++h)
+    step_hand(h, *tools[h], bones, step_s);
+}
+
+void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                        double step_s) {
+  if (tool.tick == 0 || tool.epoch != bones.epoch || tool.instrument >= setup_->tray.size()) return;
+  const auto& with = setup_->tray[tool.instrument];
+  CarvingHand& h = hands_[hand];
+  if (!with) {
+    h = {};
+    return;
+  }
+  Push push;
+  push.tool = &tool;
+  // The bone that is pressed most; of equals the first.
+  double most = 0;
+  for (std::uint32_t b = 0; b < bones_.size() && b < bones.count; ++b) {
+    if (!bones_[b].field) continue;
+    Vec3 force_W = Vec3::Zero();
+    for (std::uint32_t i = 0; i < tool.contact_count; ++i)
+      if (tool.contacts[i].bone.index == b) force_W += tool.contacts[i].force_on_tool_W;
+    if (!(force_W.norm() > most)) continue;
+    most = force_W.norm();
+    push.bone = b;
+    push.force_B = bones.bones[b].X_WB.q.conjugate() * force_W;
+  }
+  const std::uint32_t at = push.bone == CarvingHand::kNoBone ? h.bone : push.bone;
+  if (at < bones.count) {
+    push.X_WB = bones.bones[at].X_WB;
+    push.X_BT = push.X_WB.inverse() * tool.X_WP;
+  }
+  if (with->way == CarvingTool::Way::kBite) {
+    for (std::uint32_t b = 0; b < bones_.size() && b < bones.count; ++b)
+      if (bones_[b].field) bite(hand, *with, tool, bones.bones[b].X_WB.inverse() * tool.X_WP, b);
+    h.jaw_open = tool.jaw > 0.5 || (h.jaw_open && tool.jaw > 0.1);
+    return;
+  }
+  if (!(tool.power > 0) || push.bone == CarvingHand::kNoBone) return rest(hand, push);
+  if (with->way == CarvingTool::Way::kBurr)
+    burr(hand, *with, push, step_s);
+  else
+    drill(hand, *with, push, step_s);
+}
+
+void Carving::begin(std::size_t hand, const CarvingTool& with, const Push& push) {
+  CarvingHand& h = hands_[hand];
+  h = {};
+  h.bone = push.bone;
+  const Vec3 back = back_of(push.X_BT);
+  h.X_BC = moved_along(push.X_BT, (CarvingSetup::kSlack_m - kSkin_m) * back);
+  h.since = steps_;
+  const double size = push.force_B.norm();
+  if (size > 0) h.angle_rad = std::acos(std::clamp(push.force_B.dot(back) / size, -1.0, 1.0));
+  // A tip that stands in a hole is held by it.
+  const CarvedField& field = *bones_[push.bone].field;
+  const Vec3 behind = push.X_BT.p + 0.5 * with.cutter.size_m * back;
+  if (!was_outside(field, behind) && !tissue_at(field, behind))
+    h.drill.depth_m = setup_->table.start_depth_m;
+}
+
+bool Carving::remove(std::size_t hand, const Cutter& cutter, const Pose& from_B, const Pose& to_B) {
+  const std::uint32_t bone = hands_[hand].bone;
+  CarvedField& field = *bones_[bone].field;
+  const std::uint64_t before = field.step();
+  const CarveStep did = field.cut(cutter, from_B, to_B);
+  full_ = full_ || (did.status & CarveStep::kBlocksFull) != 0;
+  if ((did.status & (CarveStep::kBlocksFull | CarveStep::kNotFinite | CarveStep::kTooLong)) != 0)
+    return false;
+  for (std::size_t n = 0; n < field.block_count(); ++n)
+    if (field.changed_at(n) > before) changed_.push_back({bone, field.block_at(n)});
+  return true;
+}
+
+void Carving::note_tissue(std::size_t hand, const Push& push, std::optional<BoneTissue> tissue) {
+  CarvingHand& h = hands_[hand];
+  const auto now = static_cast<std::uint8_t>(tissue ? 1 + static_cast<int>(*tissue) : 0);
+  if (now == h.tissue) return;
+  h.tissue = now;
+  const double thrust = setup_->thrust_scale * push.force_B.norm();
+  const double depth_mm = 1000 * h.drill.depth_m;
+  if (tissue == BoneTissue::kCortical) tell(hand, push, kCortexEntered, {depth_mm, thrust, 0});
+  if (tissue == BoneTissue::kCancellous)
+    tell(hand, push, kCancellousEntered, {depth_mm, thrust, 0});
+}
+
+// Of a drill alone: whether its tip has come out of the bone, and how far it went on.
+void Carving::follow_out(std::size_t hand, const Push& push) {
+  CarvingHand& h = hands_[hand];
+  const Vec3 way = -back_of(h.X_BC);
+  if (h.out > 0) {
+    h.plunge_m = std::max(h.plunge_m, way.dot(push.X_BT.p - h.p_out));
+    if (++h.out <= kPlungeSteps) return;
+    tell(hand, push, kPlunge, {1000 * h.plunge_m, 0, 0});
+    h.out = 0;
+    h.was_in = false;
+    return;
+  }
+  if (!h.was_in || h.drill.depth_m < kDeepEnough_m) return;
+  const CarvedField& field = *bones_[h.bone].field;
+  if (!was_outside(field, push.X_BT.p) || way.dot(push.X_BT.p - h.X_BC.p) < -kBehind_m) return;
+  h.out = 1;
+  h.p_out = h.X_BC.p;
+  tell(hand, push, kBreached,
+       {1000 * h.drill.depth_m, setup_->thrust_scale * push.force_B.norm(), 0});
+}
+
+void Carving::rest(std::size_t hand, const Push& push) {
+  CarvingHand& h = hands_[hand];
+  if (h.bone == CarvingHand::kNoBone) return;
+  h.drill.was_cutting = false;
+  const auto& with = setup_->tray[push.tool->instrument];
+  if (with && with->way == CarvingTool::Way::kDrill) follow_out(hand, push);
+  if (++h.idle < kRestSteps || h.out > 0) return;
+  const double seconds = 0.002 * static_cast<double>(steps_ - h.since);
+  if (h.was_in || h.most_torque_nm > 0)
+    tell(hand, push, kCutEnd, {1000 * h.drill.depth_m, seconds, 1000 * h.most_torque_nm});
+  h = {};
+}
+
+void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+  CarvingHand& h = hands_[hand];
+  const double ahead = back_of(h.X_BC).dot(h.X_BC.p - push.X_BT.p);
+  if (h.bone != push.bone || ahead > kBeyond_m) {
+    const CarvingHand before = h;
+    begin(hand, with, push);
+    if (before.bone == push.bone) {
+      h.was_in = before.was_in;
+      h.out = before.out;
+      h.p_out = before.p_out;
+      h.plunge_m = before.plunge_m;
+      h.since = before.since;
+      h.drill.depth_m += before.drill.depth_m;
+    }
+  } else if (ahead < -kBehind_m) {
+    return rest(hand, push);
+  }
+  const Vec3 back = back_of(h.X_BC);
+  const CarvedField& field = *bones_[h.bone].field;
+  follow_out(hand, push);
+  const FrontShare front = look_before(field, with.cutter, with.pilot_m, h.X_BC);
+  note_tissue(hand, push, front.most());
+  const DrillMaterial material = mixed(setup_->table, front);
+  const DrillTool tool{with.cutter.size_m, push.tool->power * with.most_rev_per_s, 0, with.pilot_m};
+  const double thrust = setup_->thrust_scale * std::max(0.0, push.force_B.dot(back));
+  const bool first = h.most_torque_nm == 0;
+  const DrillStep did =
+      step_drill(h.drill, setup_->table, tool, {&material, h.angle_rad}, thrust, step_s);
+  if (did.skives && !h.skives)
+    tell(hand, push, kSkives, {h.angle_rad * 180 / std::numbers::pi, thrust, 0});
+  h.skives = did.skives;
+  readouts_[hand] = {h.bone,        h.X_BC.p, back,          0.5 * with.cutter.size_m,
+                     did.advance_m, thrust,   did.torque_nm, did.cutting_w,
+                     did.rubbing_w};
+  if (!(did.advance_m > 0)) return;
+  h.idle = 0;
+  h.was_in = h.was_in || front.left() > 0;
+  if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
+  h.most_torque_nm = std::max(h.most_torque_nm, did.torque_nm);
+  h.due_m += did.advance_m;
+  if (h.due_m < CarvingSetup::kBite_m) return;
+  const Pose next = moved_along(h.X_BC, -h.due_m * back);
+  if (remove(hand, with.cutter, h.X_BC, next))
+    h.X_BC = next;
+  else
+    tell(hand, push, kCarvingFull, {});
+  h.due_m = 0;
+}
+
+void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+  CarvingHand& h = hands_[hand];
+  if (h.bone != push.bone) begin(hand, with, push);
+  const CarvedField& field = *bones_[h.bone].field;
+  const double press = push.force_B.norm(), radius = 0.5 * with.cutter.size_m;
+  const Vec3 nhat = push.force_B / press;
+  const FrontShare front = look_under_ball(field, radius, push.X_BT.p, nhat);
+  note_tissue(hand, push, front.most());
+  const DrillMaterial material = mixed(setup_->table, front);
+  const double rim_m_per_s =
+      std::numbers::pi * with.cutter.size_m * push.tool->power * with.most_rev_per_s;
+  const double watts = kBurrFriction * press * rim_m_per_s;
+  const double area = 0.5 * std::numbers::pi * radius * radius;
+  // Over the whole half ball the energy is that of its shares; the rest of it cuts air.
+  const double rate = watts / material.specific_energy_j_per_m3 / area;
+  const double advance = std::min(rate, kBurrFastest_m_per_s) * step_s;
+  const bool first = h.most_torque_nm == 0;
+  const double torque = kBurrFriction * press * radius;
+  readouts_[hand] = {
+      h.bone,  push.X_BT.p, nhat,   radius,
+      advance, press,       torque, advance * area * material.specific_energy_j_per_m3 / step_s,
+      0};
+  if (!(advance > 0)) return;
+  h.idle = 0;
+  h.was_in = true;
+  h.most_torque_nm = std::max(h.most_torque_nm, torque);
+  if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, press, 0});
+  // So far the cut lies ahead of the ball: a shallow one is smoothed away until it is deep enough
+  // for the ball to follow.
+  const Vec3 moved = first ? Vec3(Vec3::Zero()) : Vec3(push.X_BT.p - h.p_out);
+  h.p_out = push.X_BT.p;
+  h.due_m = std::clamp(h.due_m + advance - moved.norm(), 0.0, kBurrLead_m);
+  h.plunge_m += advance;
+  if (h.plunge_m < CarvingSetup::kBite_m) return;
+  const Pose from = moved_along(push.X_BT, (CarvingSetup::kSlack_m - kSkin_m) * nhat);
+  h.X_BC = moved_along(from, -std::max(h.due_m, h.plunge_m) * nhat);
+  h.drill.depth_m += h.plunge_m;
+  if (!remove(hand, with.cutter, from, h.X_BC)) tell(hand, push, kCarvingFull, {});
+  h.plunge_m = 0;
+}
+
+void Carving::bite(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                   const Pose& X_BT, std::uint32_t bone) {
+  CarvingHand& h = hands_[hand];
+  if (!h.jaw_open || tool.jaw > 0.1) return;
+  h.bone = bone;
+  const std::size_t before = changed_.size();
+  Push push;
+  push.tool = &tool;
+  push.bone = bone;
+  if (!remove(hand, with.cutter, X_BT, X_BT)) tell(hand, push, kCarvingFull, {});
+  if (changed_.size() > before) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, 0, 0});
+}
+
+std::uint64_t Carving::hash() {
+  Hasher hasher;
+  for (Bone& bone : bones_)
+    if (bone.field) hasher.add(bone.field->hash());
+  for (const CarvingHand& hand : hands_) add_to(hasher, hand);
+  hasher.add(steps_);
+  hasher.add(full_);
+  return hasher.value();
+}
+
+CarvingState Carving::save() const {
+  CarvingState state;
+  for (const Bone& bone : bones_)
+    state.bones.push_back(bone.field ? bone.field->save() : CarveState{});
+  state.hands = hands_;
+  state.steps = steps_;
+  state.full = full_;
+  return state;
+}
+
+bool Carving::fits(const CarvingState& state) const {
+  if (state.bones.size() != bones_.size()) return false;
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    if (!bones_[b].field) continue;
+    CarvedField copy = *bones_[b].field;
+    if (!copy.restore(state.bones[b])) return false;
+  }
+  return true;
+}
+
+void Carving::restore(const CarvingState& state) {
+  for (std::size_t b = 0; b < bones_.size(); ++b)
+    if (bones_[b].field) (void)bones_[b].field->restore(state.bones[b]);
+  hands_ = state.hands;
+  steps_ = state.steps;
+  full_ = state.full;
+  changed_.clear();
+  events_.clear();
+}
+
+}  // namespace osteon

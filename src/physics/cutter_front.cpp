@@ -1,0 +1,139 @@
+#include "cutter_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace osteon {
+namespace {
+
+constexpr std::size_t kRings = 3, kAround = 8;
+constexpr double kAheadCells = 0.6;  // how far before the front one looks
+
+// A sliver that no point meets still holds a little.
+constexpr double kLeastShare = 0.02;
+
+struct Node {
+  std::uint32_t block = 0;
+  std::size_t node = 0;
+};
+
+std::optional<Node> nearest_node(const BlockGrid& grid, const Vec3& p_B) {
+  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
+  std::array<int, 3> at{}, in{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = std::floor(u[static_cast<Eigen::Index>(k)] + 0.5);
+    if (!(x >= 0 && x < BlockGrid::kSide * grid.blocks[k])) return std::nullopt;
+    at[k] = static_cast<int>(x) / BlockGrid::kSide;
+    in[k] = static_cast<int>(x) % BlockGrid::kSide;
+  }
+  return Node{grid.index(at), static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0])};
+}
+
+double height_m(const CarvedField& field, const Node& n) {
+  const std::int16_t* heights = field.heights(n.block);
+  if (!heights) heights = field.bone().stored(n.block);
+  return heights ? 1e-6 * heights[n.node] : field.bone().middle_m(n.block);
+}
+
+// Height of the cutter's front over its origin at a distance from the axis.
+double front_z(const Cutter& cutter, double rho) {
+  double z = -1e300;
+  for (const TurnedFace& face : cutter.parts.front().faces)
+    if (face.n_z < 0) z = std::max(z, (face.n_rho * rho - face.offset) / -face.n_z);
+  return z;
+}
+
+void look_at(const CarvedField& field, const Vec3& p_B, FrontShare& share) {
+  ++share.looked;
+  if (const auto tissue = tissue_at(field, p_B)) ++share.found[static_cast<std::size_t>(*tissue)];
+}
+
+const DrillMaterial* material_of(const DrillTable& table, std::size_t tissue) {
+  const bool hard = static_cast<BoneTissue>(tissue) == BoneTissue::kCortical;
+  return table.find(to_text(hard ? BoneTissue::kCortical : BoneTissue::kCancellous));
+}
+
+}  // namespace
+
+std::size_t FrontShare::left() const {
+  std::size_t sum = 0;
+  for (const std::size_t n : found) sum += n;
+  return sum;
+}
+
+std::optional<BoneTissue> FrontShare::most() const {
+  const auto largest = std::max_element(found.begin(), found.end());
+  if (*largest == 0) return std::nullopt;
+  return static_cast<BoneTissue>(largest - found.begin());
+}
+
+std::optional<BoneTissue> tissue_at(const CarvedField& field, const Vec3& p_B) {
+  const auto node = nearest_node(field.grid(), p_B);
+  if (!node) return std::nullopt;
+  const std::int16_t* cuts = field.cuts(node->block);
+  const double height = height_m(field, *node);
+  if ((cuts && cuts[node->node] < 0) || height >= 0) return std::nullopt;
+  return field.layers().at(-height);
+}
+
+bool was_outside(const CarvedField& field, const Vec3& p_B) {
+  const auto node = nearest_node(field.grid(), p_B);
+  return !node || height_m(field, *node) >= 0;
+}
+
+FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
+                       const Pose& X_BC) {
+  const double inner2 = 0.25 * pilot_m * pilot_m, outer2 = 0.25 * cutter.size_m * cutter.size_m;
+  FrontShare share;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    const double part = (static_cast<double>(ring) + 0.5) / kRings;
+    const double rho = std::sqrt(inner2 + part * (outer2 - inner2));
+    const double z = front_z(cutter, rho) - kAheadCells * field.grid().cell_m;
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
+      look_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z), share);
+    }
+  }
+  return share;
+}
+
+FrontShare look_under_ball(const CarvedField& field, double radius_m, const Vec3& p_B,
+                           const Vec3& nhat_B) {
+  const double reach = radius_m + kAheadCells * field.grid().cell_m;
+  const Vec3 x = nhat_B.unitOrthogonal(), y = nhat_B.cross(x);
+  FrontShare share;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    // Of equal area on the half ball.
+    const double down = 1 - (static_cast<double>(ring) + 0.5) / kRings;
+    const double side = std::sqrt(1 - down * down);
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
+      const Vec3 way = -down * nhat_B + side * (std::cos(a) * x + std::sin(a) * y);
+      look_at(field, p_B + reach * way, share);
+    }
+  }
+  return share;
+}
+
+DrillMaterial mixed(const DrillTable& table, const FrontShare& share) {
+  DrillMaterial out;
+  double edge = 0;
+  const auto add = [&](std::size_t tissue, double part) {
+    const DrillMaterial* material = material_of(table, tissue);
+    if (!material) return;
+    out.thrust_n += part * material->thrust_n;
+    out.specific_energy_j_per_m3 += part * material->specific_energy_j_per_m3;
+    edge += part * material->edge_share * material->thrust_n;
+  };
+  constexpr auto kMarrow = static_cast<std::size_t>(BoneTissue::kMarrow);
+  for (std::size_t t = 0; t < kBoneTissues; ++t)
+    if (t != kMarrow && share.found[t] > 0)
+      add(t, static_cast<double>(share.found[t]) / static_cast<double>(share.looked));
+  if (!(out.thrust_n > 0)) add(static_cast<std::size_t>(BoneTissue::kCancellous), kLeastShare);
+  out.name = "mixed";
+  out.edge_share = out.thrust_n > 0 ? edge / out.thrust_n : 0;
+  return out;
+}
+
+}  // namespace osteon

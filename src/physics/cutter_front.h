@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "osteon/carve/carved_field.h"
+#include "osteon/carve/cutter.h"
+#include "osteon/carve/thrust.h"
+
+namespace osteon {
+
+/// What stands before a cutter's front, in points of equal area over it.
+struct FrontShare {
+  std::size_t looked = 0;
+  std::array<std::size_t, kBoneTissues> found{};
+  std::size_t left() const;  ///< points with bone
+  /// The tissue that most points are in; none: no bone.
+  std::optional<BoneTissue> most() const;
+};
+
+/// What is left of a bone at a point; none: nothing.
+std::optional<BoneTissue> tissue_at(const CarvedField& field, const Vec3& p_B);
+/// Whether a point lies outside of the bone as it was before any cut.
+bool was_outside(const CarvedField& field, const Vec3& p_B);
+
+/// Before a cutter that is turned about its axis, a drill or a reamer, beyond its pilot's radius.
+FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
+                       const Pose& X_BC);
+/// Before a ball about X_BC's origin that is pressed against -nhat_B.
+FrontShare look_under_ball(const CarvedField& field, double radius_m, const Vec3& p_B,
+                           const Vec3& nhat_B);
+
+/// One material for all that is before the front, by its shares of the front's area.
+DrillMaterial mixed(const DrillTable& table, const FrontShare& share);
+
+}  // namespace osteon
