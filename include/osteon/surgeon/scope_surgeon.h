@@ -44,6 +44,7 @@ class ScopeSurgeon : public HandPlan {
   void add_target(const Case& the_case, const PlannedRule& goal, std::uint32_t mark);
   bool find_gaze(const Case& the_case, Target& target) const;
   bool is_clear(const Case& the_case, const Gaze& gaze) const;
+  bool is_in_sight(const Case& the_case, const Vec3& eye_W, const Vec3& at_W) const;
   void enter(Phase phase);
   void begin_travel();
   void travel();
