@@ -30,7 +30,8 @@ class Teaching : public CliTest {
   }
   std::vector<std::string> errors_of(const std::string& severity = "") const {
     std::vector<std::string> names;
-    for (const TeachJson& e : read("r.json")["errors"])
+    const TeachJson report = read("r.json");
+    for (const TeachJson& e : report["errors"])
       if (severity.empty() || e["severity"] == severity) names.push_back(e["name"]);
     return names;
   }

@@ -8,7 +8,7 @@
 
 #include "osteon/base/random.h"
 #include "osteon/procedure/judge.h"
-#include "osteon/surgeon/hand_plan.h"
+#include "osteon/surgeon/hand_player.h"
 #include "osteon/surgeon/scope_reach.h"
 #include "osteon/surgeon/skill.h"
 
@@ -16,7 +16,7 @@ namespace osteon {
 
 /// Somebody who touches the tops of bones with a probe that passes a portal, from above, one after
 /// the other as a scenario lists them. A function of (plan, case, skill, forces).
-class ProbeSurgeon : public HandPlan {
+class ProbeSurgeon : public HandPlayer {
  public:
   ProbeSurgeon(const ScenarioPlan& plan, const Case& the_case, const Skill& skill,
                const Vec3& portal_W, double tip_radius_m);
@@ -65,7 +65,7 @@ class ProbeSurgeon : public HandPlan {
 
 /// The hand with the scope while the other probes: keeps the probe's tip in the middle of the
 /// picture, a little late.
-class FollowingScope : public HandPlan {
+class FollowingScope : public HandPlayer {
  public:
   /// `probe` must outlive it.
   FollowingScope(const ProbeSurgeon& probe, const ScenarioPlan& plan, const Skill& skill,

@@ -9,7 +9,7 @@
 
 #include "osteon/base/random.h"
 #include "osteon/procedure/judge.h"
-#include "osteon/surgeon/hand_plan.h"
+#include "osteon/surgeon/hand_player.h"
 #include "osteon/surgeon/scope_reach.h"
 #include "osteon/surgeon/skill.h"
 
@@ -19,7 +19,7 @@ namespace osteon {
 /// distance and a turn of the scope from which nothing hides it, goes from one to the next over the
 /// portal, and holds each until the picture has been right for long enough. A function of
 /// (plan, case, skill, forces).
-class ScopeSurgeon : public HandPlan {
+class ScopeSurgeon : public HandPlayer {
  public:
   struct Scope {
     ScopeOptics optics;

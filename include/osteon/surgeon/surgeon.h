@@ -9,7 +9,7 @@
 #include "osteon/base/types.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/surgeon/approach.h"
-#include "osteon/surgeon/hand_plan.h"
+#include "osteon/surgeon/hand_player.h"
 #include "osteon/surgeon/skill.h"
 
 namespace osteon {
@@ -17,7 +17,7 @@ namespace osteon {
 /// Somebody who plays a scenario on any patient: plans from the case's bones, then moves, feels
 /// and answers. Says where the hand is wanted; the hand itself (mass, grip) is the caller's. A
 /// function of (plan, case, skill, forces).
-class Surgeon : public HandPlan {
+class Surgeon : public HandPlayer {
  public:
   Surgeon(const ScenarioPlan& plan, const Case& the_case, const Skill& skill, double tip_radius_m);
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // The surgeon's will moves an emulated hand with a mass and a grip, which yields to the force.
 class SurgeonHand : public HandInLoop {
  public:
-  SurgeonHand(HandPlan& surgeon, const HandParams& hand, double tick_s)
+  SurgeonHand(HandPlayer& surgeon, const HandParams& hand, double tick_s)
       : surgeon_(surgeon), hand_(hand), wanted_(surgeon.start()), tick_s_(tick_s) {
     hand_.reset(wanted_);
   }
@@ -40,7 +40,7 @@ class SurgeonHand : public HandInLoop {
   }
 
  private:
-  HandPlan& surgeon_;
+  HandPlayer& surgeon_;
   VirtualHand hand_;
   Pose wanted_;
   double tick_s_;
@@ -125,10 +125,10 @@ namespace {
 
 // Who plays each hand: one that looks through its instrument looks for marks, or after the probe
 // where the exercise has no marks; a probe with a portal works through it; any other touches.
-std::vector<std::unique_ptr<HandPlan>> players_of(std::span<const PlannedHand> hands,
-                                                  const ScenarioPlan& plan, const Case& the_case,
-                                                  const Skill& skill, double tip_radius_m) {
-  std::vector<std::unique_ptr<HandPlan>> players;
+std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand> hands,
+                                                    const ScenarioPlan& plan, const Case& the_case,
+                                                    const Skill& skill, double tip_radius_m) {
+  std::vector<std::unique_ptr<HandPlayer>> players;
   const ProbeSurgeon* probe = nullptr;
   for (const PlannedHand& hand : hands) {
     const Vec3 portal_W = hand.portal_W.value_or(Vec3(0, 0, 0.1));

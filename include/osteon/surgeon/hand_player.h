@@ -9,9 +9,9 @@ namespace osteon {
 
 /// Somebody who plays a part of a scenario with one hand: says where the hand is wanted; the hand
 /// itself (mass, grip) is the caller's.
-class HandPlan {
+class HandPlayer {
  public:
-  virtual ~HandPlan() = default;
+  virtual ~HandPlayer() = default;
   /// Where the hand begins.
   virtual Pose start() const = 0;
   /// Where the hand is wanted after another `dt_s`.
