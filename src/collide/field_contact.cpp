@@ -157,6 +157,9 @@ CapsuleContact field_contact(const FieldView& field, const Capsule& whole_A, dou
   out.nhat_AB_A = lowest.field.gradient / slope;
   out.p_axis_A = capsule_A.p0 + lowest.s * (capsule_A.p1 - capsule_A.p0);
   out.p_A = out.p_axis_A - lowest.field.distance * out.nhat_AB_A;
+  // What was cut off is beyond far_m, but may be nearer than the rest.
+  const bool is_cut = capsule_A.p0 != whole_A.p0 || capsule_A.p1 != whole_A.p1;
+  if (is_cut && out.gap > far_m) out.gap = far_m;
   return out;
 }
 
