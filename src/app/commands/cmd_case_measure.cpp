@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 struct MeasureCommand {
   std::string spec, before;
   std::vector<std::string> regions;
+  double roundness_mm = 0.05;
   bool json = false;
 };
 
@@ -121,9 +122,12 @@ int run_measure(const MeasureCommand& command) {
   if (!def) return report_error(def.error());
   const auto regions = regions_json(command, *def);
   if (!regions) return report_error(regions.error());
+  HoleOptions how;
+  how.roundness_m = command.roundness_mm / 1000;
   Json holes = Json::array();
   for (const BoneDef& bone : def->bones)
-    for (const Hole& hole : find_holes(bone.mesh)) holes.push_back(hole_json(hole, bone, *def));
+    for (const Hole& hole : find_holes(bone.mesh, how))
+      holes.push_back(hole_json(hole, bone, *def));
   if (!command.json) {
     print_table(holes, *regions);
     return kExitDone;
@@ -147,6 +151,11 @@ void add_case_measure_command(cli::App& app, int& exit_code) {
   measure->add_option("--before", command->before, "the case as it was, for --region");
   measure->add_option("--region", command->regions,
                       "name=x,y,z,r in mm, World: of this ball, which share is gone; may repeat");
+  measure
+      ->add_option("--roundness", command->roundness_mm,
+                   "how far a wall may lie from its cylinder, mm; a hand that trembles needs more")
+      ->check(cli::Range(0.001, 1.0))
+      ->capture_default_str();
   measure->add_flag("--json", command->json, "print JSON, lengths in mm, World");
   measure->callback([command, &exit_code] { exit_code = run_measure(*command); });
 }
