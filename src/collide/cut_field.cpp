@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cubic_spline.h"
+
 namespace osteon {
 namespace {
 
 // Distances to cuts are written so far out, see src/carve/field/cut.cpp.
 constexpr double kKnownCells = 2.5;
-
-// Values and slopes of the four cubic B-splines at a place t of a cell, 0 <= t <= 1.
-struct Weights {
-  std::array<double, 4> w, d;
-  explicit Weights(double t) {
-    const double u = 1 - t, t2 = t * t;
-    w[0] = u * u * u / 6;
-    w[1] = (4 - 6 * t2 + 3 * t2 * t) / 6;
-    w[3] = t2 * t / 6;
-    w[2] = 1 - w[0] - w[1] - w[3];
-    d[0] = -0.5 * u * u;
-    d[1] = 1.5 * t2 - 2 * t;
-    d[3] = 0.5 * t2;
-    d[2] = -(d[0] + d[1] + d[3]);
-  }
-};
 
 // The four nodes along an axis that decide a value: in which of two blocks, and where there.
 struct Nodes4 {
@@ -89,7 +75,7 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
     any = true;
   }
   if (!any) return false;
-  const Weights wx(x.t), wy(y.t), wz(z.t);
+  const CubicSpline wx(x.t), wy(y.t), wz(z.t);
   double value = 0;
   Vec3 slope = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k)

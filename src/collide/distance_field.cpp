@@ -5,27 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "cubic_spline.h"
 #include "osteon/base/hash.h"
 
 namespace osteon {
 namespace {
-
-// Values and slopes of the four cubic B-splines that reach a place t of a cell, 0 <= t <= 1.
-struct Spline {
-  std::array<double, 4> w, d;
-  explicit Spline(double t) {
-    const double u = 1 - t;
-    const double t2 = t * t;
-    w[0] = u * u * u / 6;
-    w[1] = (4 - 6 * t2 + 3 * t2 * t) / 6;
-    w[3] = t2 * t / 6;
-    w[2] = 1 - w[0] - w[1] - w[3];
-    d[0] = -0.5 * u * u;
-    d[1] = 1.5 * t2 - 2 * t;
-    d[3] = 0.5 * t2;
-    d[2] = -(d[0] + d[1] + d[3]);
-  }
-};
 
 // Value and gradient of a block at a cell of it, in units of height and cells.
 struct Local {
@@ -36,7 +20,7 @@ struct Local {
 Local evaluate(const std::int16_t* first, const Vec3& t) {
   constexpr std::size_t kRow = FieldData::kSpan;
   constexpr std::size_t kLayer = kRow * kRow;
-  const Spline x(t.x()), y(t.y()), z(t.z());
+  const CubicSpline x(t.x()), y(t.y()), z(t.z());
   Local out;
   for (std::size_t k = 0; k < 4; ++k) {
     double v = 0, dx = 0, dy = 0;
