@@ -64,6 +64,31 @@ bool jpeg_fits(const Stream& s, const EncodedPixels& pixels) {
   return false;
 }
 
+bool stands_alone(unsigned marker) {
+  return (marker >= 0xff30 && marker <= 0xff3f) || marker == 0xff4f || marker == 0xff92;
+}
+
+/// Walks the marker segments from the start of the stream to the start of the pixels (SOD). True
+/// when each lies within the stream and a whole COD segment is among them: a decoder that trusts
+/// their lengths then stays inside. Ends because each turn goes on by two bytes or more.
+bool jpeg2000_segments_lie_within(const Stream& s) {
+  constexpr unsigned kCod = 0xff52, kSod = 0xff93, kFirstMarker = 0xff30;
+  constexpr std::size_t kLeastCod = 12;  // T.800, table A.13, with its own length
+  bool coding_style = false;
+  for (std::size_t at = 0; at + 2 <= s.size();) {
+    const unsigned marker = s.word(at);
+    if (marker == kSod) return coding_style;
+    if (marker < kFirstMarker) return false;
+    at += 2;
+    if (stands_alone(marker)) continue;
+    const std::size_t length = s.word(at);
+    if (length < (marker == kCod ? kLeastCod : 2) || length > s.size() - at) return false;
+    coding_style = coding_style || marker == kCod;
+    at += length;
+  }
+  return false;
+}
+
 bool jpeg2000_fits(const Stream& s, const EncodedPixels& pixels) {
   if (s.whole(0) != 0xff4fff51 || s.word(40) != 1) return false;
   const std::size_t right = s.whole(8), bottom = s.whole(12), left = s.whole(16), top = s.whole(20);
@@ -71,7 +96,8 @@ bool jpeg2000_fits(const Stream& s, const EncodedPixels& pixels) {
   const bool one_sample_a_pixel = s.byte(43) == 1 && s.byte(44) == 1;
   return right >= left && bottom >= top && right - left == pixels.columns &&
          bottom - top == pixels.rows && precision <= kMostBits && precision <= pixels.bits &&
-         one_sample_a_pixel && s.whole(24) > 0 && s.whole(28) > 0;
+         one_sample_a_pixel && s.whole(24) > 0 && s.whole(28) > 0 &&
+         jpeg2000_segments_lie_within(s);
 }
 
 /// One segment a byte of a pixel, each within the fragment.

@@ -222,6 +222,10 @@ TEST_F(Dicom, CompressedPixelsThatDoNotFitTheHeaderAreRefused) {
       {"0001.dcm", "\xff\xc3", 9, '\x03'},                               // three colours
       {"0002.dcm", "\xff\x4f\xff\x51", 15, '\x31'},                      // 49 rows
       {"0002.dcm", "\xff\x4f\xff\x51", 41, '\x02'},                      // two components
+      {"0002.dcm", "\xff\x52", 2, '\x7f'},                               // a segment beyond the end
+      {"0002.dcm", "\xff\x52", 3, '\x0b'},                               // half a coding style
+      {"0002.dcm", "\xff\x5c", 2, '\x7f'},                               // another beyond the end
+      {"0002.dcm", "\xff\x52", 1, '\x64'},                               // no coding style
       {"0003.dcm", std::string("\x02\0\0\0\x40\0\0\0", 8), 4, '\x3f'},   // within the table
       {"0003.dcm", std::string("\x02\0\0\0\x40\0\0\0", 8), 11, '\x7f'},  // beyond the end
       {"0004.dcm", "\xff\xf7", 6, '\x2f'},                               // 47 rows
