@@ -12,6 +12,7 @@
 #include "device/joystick/joystick_rig.h"
 #include "device/phantom/stub_library.h"
 #include "drivers/run_loop.h"
+#include "drivers/two_loops.h"
 #include "joystick/vector_report.h"
 #include "osteon/record/recording.h"
 
@@ -172,6 +173,56 @@ std::vector<Fault> faults_of(LedArm& arm) {
   };
 }
 
+// The hand beside the one with the fault leans on the other block.
+std::vector<Vec3> felt_beside(const Held& held, const Fault* fault) {
+  VirtualDevice hand(held.device.info());
+  testing::Recorder other(hand);
+  testing::TwoLoops loops(test::blocks_case(), RunLoop::settings(), held.device, other);
+  ProbePath beside = leaning_path();
+  for (PathSample& sample : beside.samples) sample.X_WD.p.x() += 0.03;
+  bool on = false;
+  int ms_to_zero = 0;
+  for (int tick = 0; tick < kEndTick; ++tick) {
+    if (fault && tick == kFaultTick) {
+      on = held.motors().norm() > 0.5;
+      fault->come();
+    }
+    if (fault && tick == kHealedTick) fault->heal();
+    held.lead(testing::wanted_in_V(leaning_path(), 1e-3 * tick));
+    const testing::WantedInV wanted = testing::wanted_in_V(beside, 1e-3 * tick);
+    hand.set_target(wanted.X_VD, wanted.v_V, 0);
+    loops.tick();
+    if (fault && tick >= kFaultTick && !held.motors().isZero(0)) ms_to_zero = tick - kFaultTick + 1;
+  }
+  if (fault) {
+    EXPECT_TRUE(on) << fault->name << ": no contact before";
+    EXPECT_LE(ms_to_zero, fault->bound_ms) << fault->name;
+    EXPECT_NE(std::find(fault->causes.begin(), fault->causes.end(), loops.cause(0)),
+              fault->causes.end())
+        << fault->name << ": " << describe(loops.cause(0));
+    EXPECT_EQ(loops.cause(1), ForceOff::kNone) << fault->name;
+  }
+  return other.forces_V;
+}
+
+// To the bit: the fault of one hand is its own.
+template <class Led, class Faults, class Make>
+void expect_other_untouched(const Make& make, const Faults& faults) {
+  const std::vector<Vec3> sound = felt_beside(make()->held(), nullptr);
+  ASSERT_GT(sound.back().norm(), 0.5);
+  const std::size_t count = faults(*make()).size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::unique_ptr<Led> led = make();
+    const Fault fault = faults(*led)[i];
+    EXPECT_EQ(felt_beside(led->held(), &fault), sound) << fault.name;
+  }
+}
+
+TEST(FaultOfOneHand, APhantomArmsLeavesTheOtherHandsForceAsItWas) {
+  expect_other_untouched<LedArm>([] { return std::make_unique<LedArm>(); },
+                                 [](LedArm& arm) { return faults_of(arm); });
+}
+
 TEST_F(FaultRecording, OfAPhantomArm) {
   const std::size_t count = faults_of(*std::make_unique<LedArm>()).size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -258,6 +309,17 @@ std::vector<Fault> told_by(JoystickRig& rig) {
            5,
            [&] { rig.pid->set_switches(true, false); },
            [&] { rig.pid->set_switches(true, true); }}};
+}
+
+TEST(FaultOfOneHand, AJoysticksLeavesTheOtherHandsForceAsItWas) {
+  for (const testing::JoystickKind& kind : {testing::kVectorKind, testing::kPidKind})
+    expect_other_untouched<LedJoystick>([&] { return std::make_unique<LedJoystick>(kind); },
+                                        [](LedJoystick& joystick) {
+                                          std::vector<Fault> all = faults_of(joystick);
+                                          for (Fault& fault : told_by(joystick.rig))
+                                            all.push_back(std::move(fault));
+                                          return all;
+                                        });
 }
 
 void FaultRecording::try_joystick(const testing::JoystickKind& kind) {

@@ -11,6 +11,7 @@
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
+#include "commands/force_order.h"
 #include "commands/number_check.h"
 #include "commands/session_options.h"
 #include "loops/device_log.h"
@@ -126,6 +127,7 @@ Result<void> add_hand(const LiveOptions& options, const ProbePath& path, std::si
   plan.device = std::move(log);
   plan.mapping = mapping_for(*choice, options, *live.run.the_case, index);
   plan.mapping_settings = options.mapping;
+  plan.freezes = !plays_demo(*choice);
   live.plans.push_back(std::move(plan));
   live.choices.push_back(std::move(*choice));
   return {};
@@ -168,15 +170,44 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
   return live;
 }
 
+std::vector<std::string> names_of(const LiveHands& live) {
+  std::vector<std::string> names;
+  for (const HandSettings& hand : live.run.settings.hands) names.push_back(hand.name);
+  return names;
+}
+
+// What the user types. A fault latches: a hand's force comes back by the user's word alone.
+void obey_line(LiveHands& live, const std::string& line) {
+  if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+  const auto order = parse_force_order(line, names_of(live));
+  if (!order) {
+    std::printf("%s\n", order.error().message().c_str());
+  } else if (order->hand) {
+    live.runtime->set_force_enabled(order->on, *order->hand);
+  } else {
+    live.runtime->set_force_enabled(order->on);
+  }
+  std::fflush(stdout);
+}
+
+// "left (PHANToM Omni)"; a hand alone has its device's name.
+std::string told_name(const LiveHands& live, std::size_t hand) {
+  const std::string& device = live.choices[hand].info.name;
+  const std::string& name = live.run.settings.hands[hand].name;
+  return name.empty() ? device : name + " (" + device + ")";
+}
+
 // Until the time is over or a signal asks for the end; what goes wrong meanwhile is told.
 void watch(LiveHands& live, double seconds) {
   const auto start = std::chrono::steady_clock::now();
   Runtime& runtime = *live.runtime;
   std::vector<ForceOff> told(runtime.hands(), ForceOff::kSoftware);
+  InputLines lines;
   while (!stop_requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (seconds > 0 && passed.count() >= seconds) return;
+    if (const auto line = lines.next()) obey_line(live, *line);
     for (std::size_t i = 0; i < runtime.hands(); ++i) {
       const DeviceStatus& status = runtime.device_status(i);
       Telemetry point;
@@ -184,7 +215,7 @@ void watch(LiveHands& live, double seconds) {
       }
       if (status.cause == told[i]) continue;
       told[i] = status.cause;
-      std::printf("%6.2f s  %s: %s\n", passed.count(), live.choices[i].info.name.c_str(),
+      std::printf("%6.2f s  %s: %s\n", passed.count(), told_name(live, i).c_str(),
                   describe(status.cause));
       std::fflush(stdout);
     }
@@ -231,6 +262,8 @@ int run_live(LiveOptions options) {
   if (!live) return report_error(live.error());
   live->runtime->start();
   std::printf("running; Ctrl-C ends it with the force at zero\n");
+  std::printf("A force that went off comes back by `on` and Enter%s\n",
+              live->runtime->hands() > 1 ? ", of one hand by `on left`, `on right`" : "");
   std::fflush(stdout);
   watch(*live, options.seconds);
   const Result<void> ended = stop_all(*live, options.force_log);

@@ -31,7 +31,8 @@ HapticStage::HapticStage(Session& session, HapticDevice& device, const HapticSta
       keeper_(keeper),
       mapping_(options.mapping, options.user),
       assist_(options.user),
-      gate_(device.info(), options.safety, options.off_because) {
+      gate_(device.info(), options.safety, options.off_because),
+      freeze_(std::max(options.safety.ramp_in_s, options.tick_s)) {
   last_good_.X_WD = options.mapping.to_world(Pose{});
 }
 
@@ -39,7 +40,9 @@ void HapticStage::step(double dt_s) {
   obey_gate_wishes();
   DeviceSample sample = device_.read();
   obey_hand_wishes(sample, dt_s);
-  const ToolInput input = read_input(sample);
+  const ToolInput device_input = read_input(sample);
+  const ToolInput input =
+      freeze_.input(device_input, options_.freezes && has_fault(), options_.tick_s);
   // The tools before the bones: see Session.
   const OtherTools others = read_others();
   bool fresh = false;
@@ -90,11 +93,15 @@ void HapticStage::ramp_after_fade(const ToolState& tool) {
 }
 
 // What the user wishes off is no fault.
+bool HapticStage::has_fault() const {
+  return gate_.cause() != ForceOff::kNone && gate_.cause() != ForceOff::kSoftware;
+}
+
 void HapticStage::note_fault() {
   const ForceOff cause = gate_.cause();
   if (cause == told_) return;
   told_ = cause;
-  fault_to_tell_ = cause != ForceOff::kNone && cause != ForceOff::kSoftware;
+  fault_to_tell_ = has_fault();
 }
 
 void HapticStage::force_to_zero() {

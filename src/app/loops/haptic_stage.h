@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "loops/assist.h"
+#include "loops/fault_freeze.h"
 #include "loops/hand_mapping.h"
 #include "loops/loop_exchange.h"
 #include "osteon/device/haptic_device.h"
@@ -22,7 +23,9 @@ struct HapticStageOptions {
   SafetyParams safety;
   double tick_s = 0.001;
   ForceOff off_because = ForceOff::kSoftware;  ///< until the window wishes the force on
-  std::size_t hand = 0;                        ///< of the session
+  /// A fault leaves the instrument where it is; false: a demonstration, which goes on moving.
+  bool freezes = true;
+  std::size_t hand = 0;  ///< of the session
   /// What the other hands publish, by hand; null: there is no such hand.
   std::array<LoopExchange*, kMaxHands> others{};
 };
@@ -48,6 +51,7 @@ class HapticStage {
   void obey_gate_wishes();
   void obey_hand_wishes(DeviceSample& sample, double dt_s);
   ToolInput read_input(const DeviceSample& sample);
+  bool has_fault() const;
   double bones_age(bool fresh, double dt_s);
   OtherTools read_others();
   Command next_command();
@@ -64,6 +68,7 @@ class HapticStage {
   HandMapping mapping_;
   Assist assist_;
   SafetyGate gate_;
+  FaultFreeze freeze_;
   ToolInput last_good_;
   DeviceStatus status_;
   Telemetry telemetry_;

@@ -17,7 +17,7 @@ constexpr auto kDrainPause = std::chrono::milliseconds(20);
 std::vector<HandPlan> one_hand(const RunPlan& plan, std::unique_ptr<HapticDevice> device) {
   std::vector<HandPlan> hands;
   hands.push_back({std::move(device), plan.mapping, plan.mapping_settings, plan.force_enabled,
-                   plan.off_because});
+                   plan.off_because, true});
   return hands;
 }
 
@@ -69,6 +69,7 @@ void Runtime::make_hands(const RunPlan& plan, std::vector<HandPlan>&& hands) {
     options.safety = plan.safety;
     options.tick_s = haptic_period_s_;
     options.off_because = hands[h].off_because;
+    options.freezes = hands[h].freezes;
     options.hand = h;
     for (std::size_t other = 0; other < hands.size(); ++other)
       if (other != h) options.others[other] = exchanges_[other].get();

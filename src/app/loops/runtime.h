@@ -38,6 +38,7 @@ struct HandPlan {
   MappingSettings mapping_settings;
   bool force_enabled = true;
   ForceOff off_because = ForceOff::kSoftware;
+  bool freezes = true;  ///< by a fault; see HapticStageOptions
 };
 
 /// One run of a session with its loops: a haptic one for each hand (1 kHz) and physics (500 Hz),

@@ -72,6 +72,7 @@ Result<std::vector<HandPlan>> LiveRun::make_hands(const std::vector<Pose>& X_WD_
     if (is_real_device(hand.choice)) plan.mapping_settings = hand.user;
     plan.force_enabled = force_on_ && hand.tripped == ForceOff::kNone;
     plan.off_because = hand.tripped;
+    plan.freezes = !plays_demo(hand.choice);
     plan.device = std::move(*device);
     plans.push_back(std::move(plan));
   }
@@ -99,6 +100,7 @@ Result<std::vector<HandPlan>> LiveRun::make_shared_hands(const std::vector<Pose>
     if (is_real_device(hand.choice)) plan.mapping_settings = hand.user;
     plan.force_enabled = force_on_ && first.tripped == ForceOff::kNone;
     plan.off_because = first.tripped;
+    plan.freezes = !plays_demo(first.choice);
     plan.device = std::make_unique<SharedHand>(share_, i, mapping.to_device(X_WD_start[i]));
     plans.push_back(std::move(plan));
   }

@@ -257,6 +257,15 @@ void LiveRun::set_force(bool on) {
     runtime_->send({CommandKind::kForceOff, on ? 0.0 : 1.0}, i);
 }
 
+void LiveRun::resume() {
+  const ForceOff cause = now().status.cause;
+  const bool fault = cause != ForceOff::kNone && cause != ForceOff::kSoftware;
+  if (runtime_ && force_on_ && fault)
+    runtime_->set_force_enabled(true, active_);
+  else
+    set_force(true);
+}
+
 void LiveRun::calibrate() {
   if (runtime_) runtime_->calibrate_device(active_);
 }

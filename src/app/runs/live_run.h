@@ -102,6 +102,9 @@ class LiveRun {
 
   void set_feel(const Command& command);
   void set_force(bool on);
+  /// The user's wish for the force: of the active hand alone where that one has a fault, else of
+  /// all hands.
+  void resume();
   bool force_wanted() const { return force_on_; }
   void calibrate();
   /// A device that a hand moves, not one that plays or is drawn on the screen.

@@ -69,11 +69,22 @@ std::vector<FaultRow> fault_rows() {
       {"infinite velocity",
        [](DeviceSample& s) { s.v_V.x() = std::numeric_limits<double>::infinity(); },
        ForceOff::kNotFinite},
+      {"too fast", [](DeviceSample& s) { s.v_V.z() = 1.1; }, ForceOff::kVelocity},
+      {"too warm", [](DeviceSample& s) { s.refusal = ForceOff::kTemperature; },
+       ForceOff::kTemperature},
+      {"its own watchdog", [](DeviceSample& s) { s.refusal = ForceOff::kWatchdog; },
+       ForceOff::kWatchdog},
+      {"its own fault", [](DeviceSample& s) { s.refusal = ForceOff::kDeviceFault; },
+       ForceOff::kDeviceFault},
+      {"no longer calibrated", [](DeviceSample& s) { s.calibrated = false; },
+       ForceOff::kCalibration},
+      {"let go", [](DeviceSample& s) { s.dead_man_held = false; }, ForceOff::kDeadMan},
   };
 }
 
-// Whatever befalls the right device, its force is zero from that tick on, its tool stands still,
-// and the left hand's force has the same bits as if nothing had happened.
+// Whatever befalls the right device, its force is zero from that tick on, its tool stands still
+// though the hand goes away, and the left hand's force has the same bits as if nothing had
+// happened.
 TEST(RuntimeTwoHands, AFaultOfOneLeavesTheOthersForceAsItWas) {
   DeviceLog left_sound, right_sound;
   {
@@ -87,7 +98,10 @@ TEST(RuntimeTwoHands, AFaultOfOneLeavesTheOthersForceAsItWas) {
     DeviceLog left, right;
     const auto faulty = [&row](std::uint64_t tick) {
       DeviceSample sample = far_press(tick);
-      if (tick >= kFaultTick) row.fault(sample);
+      if (tick >= kFaultTick) {
+        sample.X_VD.p.z() += 1e-4 * static_cast<double>(tick - kFaultTick);
+        row.fault(sample);
+      }
       return sample;
     };
     Runtime runtime(plan_of_two(), two_devices(test::press_and_slide, faulty, left, right));
@@ -103,6 +117,74 @@ TEST(RuntimeTwoHands, AFaultOfOneLeavesTheOthersForceAsItWas) {
     EXPECT_EQ(runtime.device_status(1).cause, row.cause) << row.name;
     EXPECT_LT((runtime.session().tool_state(1).X_WD.p - place_W).norm(), 1e-4) << row.name;
   }
+}
+
+// Both have a fault; the user takes up one.
+TEST(RuntimeTwoHands, AForceThatIsResumedIsThatHandsAlone) {
+  DeviceLog left, right;
+  const auto unplugged = [](const FakeDevice::Script& script) {
+    return [script](std::uint64_t tick) {
+      DeviceSample sample = script(tick);
+      sample.connected = tick < 700 || tick >= 720;
+      return sample;
+    };
+  };
+  Runtime runtime(plan_of_two(),
+                  two_devices(unplugged(test::press_and_slide), unplugged(far_press), left, right));
+  run_all(runtime, 800);
+  ASSERT_EQ(left.forces_V.back(), Vec3::Zero());
+  ASSERT_EQ(right.forces_V.back(), Vec3::Zero());
+  runtime.set_force_enabled(true, 1);
+  run_all(runtime, 900);
+  EXPECT_GT(right.forces_V.back().norm(), 0.5);
+  EXPECT_EQ(runtime.device_status(1).cause, ForceOff::kNone);
+  for (std::size_t i = 800; i < left.forces_V.size(); ++i)
+    ASSERT_EQ(left.forces_V[i], Vec3::Zero()) << i;
+  EXPECT_EQ(runtime.device_status(0).cause, ForceOff::kDisconnect);
+}
+
+// The hand went 20 mm up while the force was off. Resumed, the tool goes there within the ramp and
+// without a jump.
+TEST(RuntimeTwoHands, AFrozenToolComesBackToItsHandWithoutAJump) {
+  DeviceLog left, right;
+  const auto too_fast = [](std::uint64_t tick) {
+    DeviceSample sample = far_press(tick);
+    if (tick >= kFaultTick) sample.X_VD.p.z() += std::min(0.02, 1e-4 * double(tick - kFaultTick));
+    if (tick == kFaultTick) sample.v_V.z() = 1.1;
+    return sample;
+  };
+  Runtime runtime(plan_of_two(), two_devices(test::press_and_slide, too_fast, left, right));
+  run_all(runtime, kTicks);
+  const Session& session = runtime.session();
+  const double frozen_z = session.tool_state(1).X_WD.p.z();
+  EXPECT_NEAR(frozen_z, -0.002, 1e-4);
+  EXPECT_EQ(session.tool_state(1).v_W, Vec3::Zero());
+  runtime.set_force_enabled(true, 1);
+  double last_z = frozen_z;
+  for (int i = 0; i < 250; ++i) {
+    run_all(runtime, 2);
+    const double z = session.tool_state(1).X_WD.p.z();
+    ASSERT_LE(std::abs(z - last_z), 1e-4) << i;
+    last_z = z;
+  }
+  EXPECT_NEAR(last_z - frozen_z, 0.02, 1e-6);
+}
+
+// A demonstration plays on: see HapticStageOptions.
+TEST(RuntimeTwoHands, AHandThatIsAskedNotToFreezeMovesOnWithoutForce) {
+  DeviceLog left, right;
+  const auto let_go = [](std::uint64_t tick) {
+    DeviceSample sample = far_press(tick);
+    sample.dead_man_held = tick < kFaultTick;
+    if (tick >= kFaultTick) sample.X_VD.p.z() += 1e-4 * static_cast<double>(tick - kFaultTick);
+    return sample;
+  };
+  std::vector<HandPlan> hands = two_devices(test::press_and_slide, let_go, left, right);
+  hands[1].freezes = false;
+  Runtime runtime(plan_of_two(), std::move(hands));
+  run_all(runtime, kTicks);
+  EXPECT_GT(runtime.session().tool_state(1).X_WD.p.z(), 0.02);
+  EXPECT_EQ(right.forces_V.back(), Vec3::Zero());
 }
 
 TEST(RuntimeTwoHands, OneRecordingHoldsBothTheirFaultsAndTheirRestorePoints) {

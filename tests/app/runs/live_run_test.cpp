@@ -74,6 +74,20 @@ TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
   EXPECT_TRUE(live.stop_recording());
 }
 
+TEST_F(LiveRunTest, AFaultIsResumedForTheActiveHandAlone) {
+  const std::vector<LiveHandOrder> both = {{virtual_hand(), "left"}, {virtual_hand(), "right"}};
+  ASSERT_TRUE(live.start(both, {Pose{}, Pose{}}));
+  const auto cause = [&](std::size_t hand) { return live.hand(hand).status.cause; };
+  run_until(live,
+            [&] { return cause(0) == ForceOff::kVelocity && cause(1) == ForceOff::kVelocity; });
+  live.resume();
+  run_until(live, [&] { return cause(0) == ForceOff::kNone; });
+  EXPECT_EQ(cause(1), ForceOff::kVelocity);
+  live.set_force(false);
+  live.resume();
+  run_until(live, [&] { return cause(1) == ForceOff::kNone; });
+}
+
 // The mouse's hand is where the run began until it is moved: a run that follows at once is there
 // too.
 TEST_F(LiveRunTest, ARunThatFollowsAtOnceBeginsWhereTheOneBeforeDid) {

@@ -75,7 +75,7 @@ void WindowApp::apply_run(const UiRequests& requests) {
     probe_toggled_ = false;
     if (live_->choice().info.peak_force_n > 0) live_->set_force(false);
   }
-  if (requests.force_on && !bend_) live_->set_force(true);
+  if (requests.force_on && !bend_) live_->resume();
   if (requests.toggle_probe) probe_toggled_ = !probe_toggled_;
   if (checkup_) return;  // it may have the device
   if (requests.toggle_record) toggle_recording();
