@@ -205,6 +205,7 @@ void add_case_laxity_commands(cli::App& app, int& exit_code) {
   isometry->add_option("--to", command->to, "x,y,z in mm, World, on the tibia")->required();
   isometry->add_flag("--json", command->json, "print JSON");
   isometry->callback([command, &exit_code] { exit_code = run_isometry(*command); });
+  add_case_acl_command(app, exit_code);
 }
 
 }  // namespace osteon

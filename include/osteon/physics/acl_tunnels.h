@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/physics/knee_laxity.h"
+#include "osteon/scene/build_case.h"
+#include "osteon/tissue/ligament_table.h"
+
+namespace osteon {
+
+/// What a drill did to a bone of the knee: its axis ran from one place to the other and took
+/// everything within a radius. Either end may stand in the bone (a socket) or outside of it.
+struct DrilledLine {
+  Vec3 from_W = Vec3::Zero(), to_W = Vec3::Zero();
+  double diameter_m = 0;
+};
+struct AclDrilling {
+  std::optional<DrilledLine> femur, tibia;
+};
+
+/// A socket or tunnel in the femur for a graft.
+struct FemoralTunnel {
+  Vec3 aperture_W = Vec3::Zero();  ///< on the axis, where it leaves the notch's wall
+  /// Quadrant method (Bernard and Hertel 1997), 0 to 1, on the lateral condyle seen from the side:
+  /// along Blumensaat's line from the hind border, and away from the line.
+  double depth_share = 0, height_share = 0;
+  double off_target_m = 0;   ///< in that picture, from the footprint's middle (24.8 / 28.5 %)
+  double from_roof_rad = 0;  ///< about the notch's middle: 0 at twelve o'clock, a sixth pi an hour
+  double channel_m = 0;      ///< of the axis in bone, to the far cortex
+  double drilled_m = 0;      ///< of it, what is drilled
+  double diameter_m = 0;
+  /// Least bone behind the tunnel: at the mouth up to the condyle's hind border, deeper from the
+  /// wall straight away from the axis; below 0: it is open there.
+  double back_wall_m = 0;
+  bool blow_out = false;
+  bool through = false;  ///< the drill came out on the far side
+};
+
+/// A tunnel in the tibia.
+struct TibialTunnel {
+  Vec3 aperture_W = Vec3::Zero();  ///< on the axis, on the plateau
+  /// Amis and Jakob 1998, 0 to 1: along a line parallel to the medial plateau from its front; and
+  /// from the medial border.
+  double front_share = 0, medial_share = 0;
+  double length_m = 0;
+  double diameter_m = 0;
+  double to_plateau_rad = 0;  ///< between axis and plateau, seen from the side
+  bool through = false;
+  /// How far the tunnel's front edge lies behind the roof of the notch, led on to the plateau, in
+  /// the knee stretched out (Howell and Taylor 1993).
+  double behind_roof_m = 0;
+};
+
+/// What a knee does with a graft between both mouths.
+struct GraftOutcome {
+  std::vector<LineLength> lengths;  ///< of a straight line between the mouths
+  double excursion_m = 0;           ///< longest less shortest
+  /// Room between the graft and the roof of the notch, seen from the side, in the knee stretched
+  /// out, farther than 8 mm from the femoral mouth; below 0: the roof presses on the graft.
+  double roof_gap_m = 0;
+  KneeLaxity lachman, pivot;
+  double lachman_whole_m = 0, pivot_whole_m = 0;  ///< of the same knee before it was torn
+};
+
+struct AclTunnels {
+  std::optional<FemoralTunnel> femur;
+  std::optional<TibialTunnel> tibia;
+};
+
+/// Places of the tunnels in a grown knee at any bend, left or right; the bones' meshes are those
+/// before drilling. Fails where a line misses its bone, where numbers are not finite or a diameter
+/// is not within 1 to 20 mm, and where the case lacks what a knee needs (femur, tibia, its
+/// cartilage, its bending, landmarks of Blumensaat's line).
+Result<AclTunnels> measure_tunnels(const CaseDef& def, const AclDrilling& drilling);
+
+/// A graft as thick as the thinner tunnel, between the mouths of both, in the case's knee.
+Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& table,
+                                   const AclTunnels& tunnels);
+
+}  // namespace osteon

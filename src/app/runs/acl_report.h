@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "osteon/physics/acl_tunnels.h"
+
+namespace osteon {
+
+/// What is known of a reconstructed ligament.
+struct AclReport {
+  AclTunnels tunnels;
+  std::optional<GraftOutcome> graft;  ///< none: a tunnel is missing
+};
+
+/// assets/tissue/knee_ligaments.toml.
+Result<LigamentTable> shipped_ligaments();
+
+/// Places of the tunnels, and with both of them what the knee does with a graft between.
+Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drilling);
+
+/// docs/acl.md names the keys; lengths in mm, shares in percent.
+nlohmann::ordered_json to_json(const AclReport& report);
+std::string to_text(const AclReport& report);
+
+}  // namespace osteon
