@@ -1,5 +1,8 @@
-# `ninja && cpack` in a build folder makes osteon_<version>_<machine>.deb.
+# `ninja && cpack` in a build folder makes osteon_<version>_<machine>.deb;
+# tools/package-test tries it in a minimal Debian.
 include(GNUInstallDirs)
+# The program alone is packaged: cpack does not build the tests for it.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(package "${CMAKE_SOURCE_DIR}/packaging")
 install(TARGETS osteon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/assets" "${CMAKE_SOURCE_DIR}/shaders"
@@ -32,5 +35,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # OpenGL in software is enough for pictures; fonts for the panels.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, fonts-inter")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, fonts-inter")
 include(CPack)

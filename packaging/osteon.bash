@@ -8,12 +8,14 @@ _osteon() {
     commands+=("${COMP_WORDS[i]}")
   done
   help=$(osteon "${commands[@]}" --help 2>/dev/null)
+  local found
   if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "--quiet $(grep -o -- '--[a-z][a-z-]*' <<<"$help")" -- "$word")
-    return
+    found=$(compgen -W "--quiet $(grep -o -- '--[a-z][a-z-]*' <<<"$help")" -- "$word")
+  else
+    found=$(compgen -W "$(sed -n '/^Subcommands:/,$p' <<<"$help" | grep -o '^  [a-z][a-z-]*')" -- "$word"
+            compgen -f -- "$word")
   fi
-  mapfile -t COMPREPLY < <(
-    compgen -W "$(sed -n '/^Subcommands:/,$p' <<<"$help" | grep -o '^  [a-z][a-z-]*')" -- "$word"
-    compgen -f -- "$word")
+  COMPREPLY=()
+  [[ -z $found ]] || mapfile -t COMPREPLY <<<"$found"
 }
 complete -o filenames -F _osteon osteon

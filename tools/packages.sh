@@ -14,6 +14,7 @@ packages_test=(
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
   libglpk-dev coinor-libclp-dev libopenvdb-dev)
+packages_package=(debootstrap dpkg-dev)
 
 # Installs what is missing of the packages named, and says so. Quick when nothing is.
 install_missing() {

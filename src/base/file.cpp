@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
@@ -125,6 +127,16 @@ fs::path executable_dir() {
   return {};
 }
 
+// Where packages put data, from the desktop's variable: a system need not say where the program is.
+std::vector<fs::path> installed_data_dirs() {
+  const char* set = std::getenv("XDG_DATA_DIRS");
+  std::istringstream list(set && *set ? set : "/usr/local/share:/usr/share");
+  std::vector<fs::path> dirs;
+  for (std::string dir; std::getline(list, dir, ':');)
+    if (fs::path(dir).is_absolute()) dirs.push_back(fs::path(dir) / "osteon");
+  return dirs;
+}
+
 }  // namespace
 
 Result<fs::path> find_data_dir() {
@@ -145,6 +157,8 @@ Result<fs::path> find_data_dir() {
       if (holds_assets(dir)) return dir;
   }
   if (holds_assets(OSTEON_SOURCE_DIR)) return fs::path(OSTEON_SOURCE_DIR);
+  for (const fs::path& dir : installed_data_dirs())
+    if (holds_assets(dir)) return dir;
   return fail("the folders assets and shaders were not found (looked in " + tried + ")", "Osteon",
               "Set OSTEON_DATA to the folder that holds them");
 }
