@@ -130,7 +130,7 @@ void add_make(cli::App& anatomy, int& exit_code) {
   auto command = std::make_shared<MakeCommand>();
   make->add_option("anatomy", command->name, "wrist or knee")->required();
   make->add_option("--seed", command->seed,
-                   "draw every parameter that is not set; none: as built in");
+                   "draw every parameter that is not set; without it they stay as built in");
   make->add_option("--set", command->set, "NAME=NUMBER; may be given several times")
       ->take_all()
       ->expected(1);

@@ -149,8 +149,9 @@ void add_case_measure_command(cli::App& app, int& exit_code) {
   measure->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
   measure->add_option("--before", command->before, "the case as it was, for --region");
-  measure->add_option("--region", command->regions,
-                      "name=x,y,z,r in mm, World: of this ball, which share is gone; may repeat");
+  measure->add_option(
+      "--region", command->regions,
+      "name=x,y,z,r in mm, World: a ball; prints the share of its bone that is gone; may repeat");
   measure
       ->add_option("--roundness", command->roundness_mm,
                    "how far a wall may lie from its cylinder, mm; a hand that trembles needs more")

@@ -40,7 +40,8 @@ int run_pose(const CasePoseCommand& command) {
 }  // namespace
 
 void add_case_pose(cli::App& group, int& exit_code) {
-  cli::App* pose = group.add_subcommand("pose", "Make a case of another with its joint bent");
+  cli::App* pose =
+      group.add_subcommand("pose", "Bend the joint of a case and save that as a new case");
   auto command = std::make_shared<CasePoseCommand>();
   pose->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
   pose->add_option("--flexion", command->flexion_deg, "degrees from straight")->required();

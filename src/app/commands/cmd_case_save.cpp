@@ -96,8 +96,8 @@ int run_save(const CaseSaveCommand& command) {
 }  // namespace
 
 void add_case_save(cli::App& group, int& exit_code) {
-  cli::App* save =
-      group.add_subcommand("save", "Make a case of a recording: its bones as they were at a time");
+  cli::App* save = group.add_subcommand(
+      "save", "Save the bones of a recording, as they were at a time, as a new case");
   auto command = std::make_shared<CaseSaveCommand>();
   save->add_option("recording", command->recording, "a recording (.osr)")->required();
   save->add_option("--at", command->at_s, "seconds from the recording's start")

@@ -86,10 +86,11 @@ int run_skill(const SkillCommand& command) {
 void add_debrief_command(cli::App& app, int& exit_code) {
   auto order = std::make_shared<DebriefOrder>();
   auto out = std::make_shared<std::string>();
-  cli::App* command = app.add_subcommand(
-      "debrief",
-      "Repeat a recorded attempt, judge it again and write pages to print.\n"
-      "Exit code: 0 written, 1 written but repeated otherwise than recorded, 2 could not be made");
+  cli::App* command =
+      app.add_subcommand("debrief",
+                         "Repeat a recorded attempt, judge it again and write pages to print.\n"
+                         "Exit code: 0 written, 1 written, but the recording did not repeat "
+                         "exactly, 2 could not be made");
   command->add_option("recording", order->recording, "recording (.osr)")->required();
   command->add_option("--out", *out, "PDF file to write")->required();
   command->add_option("--case", order->case_spec, "a case; default: the recording's own");
@@ -105,7 +106,7 @@ void add_skill_command(cli::App& app, int& exit_code) {
   cli::App* command = app.add_subcommand(
       "skill",
       "How well scores tell simulated experts from simulated novices, each judged by a standard "
-      "set\nwithout them. Says nothing of people");
+      "set\nwithout them. Says nothing about people");
   command->add_option("scenario", options->scenarios, "names or files; default: all");
   command->add_option("--experts", options->experts, "how many")
       ->check(cli::Range(3, 1000))

@@ -60,7 +60,7 @@ void add_devices_command(cli::App& app, int& exit_code) {
   const auto as_json = std::make_shared<bool>(false);
   cli::App* command = app.add_subcommand(
       "devices", "List what can be held in the hand, and why something cannot be used");
-  command->add_flag("--json", *as_json, "for a program");
+  command->add_flag("--json", *as_json, "print JSON, for a program");
   command->callback([as_json, &exit_code] { exit_code = run_devices(*as_json); });
 }
 

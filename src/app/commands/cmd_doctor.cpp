@@ -104,7 +104,7 @@ void add_doctor_command(cli::App& app, int& exit_code) {
   command->add_option("--seconds", options->seconds, "how long the 1 kHz loop is measured")
       ->check(cli::Range(0.1, 600.0))
       ->capture_default_str();
-  command->add_flag("--json", options->as_json, "for a program");
+  command->add_flag("--json", options->as_json, "print JSON, for a program");
   command->callback([options, &exit_code] { exit_code = run_doctor(*options); });
 }
 

@@ -168,14 +168,17 @@ void add_drill_commands(cli::App& app, int& exit_code) {
   auto command = std::make_shared<TrialCommand>();
   cli::App* trial = group->add_subcommand(
       "trial", "An emulated hand drills through layers; exits 1 when it does not get through");
-  trial->add_option("--thrust-n", command->thrust_n, "that the hand holds")->capture_default_str();
-  trial->add_option("--drop-n", command->drop_n, "less in the last layer")->capture_default_str();
+  trial->add_option("--thrust-n", command->thrust_n, "thrust of the hand, N")
+      ->capture_default_str();
+  trial->add_option("--drop-n", command->drop_n, "how much less thrust in the last layer, N")
+      ->capture_default_str();
   trial->add_option("--diameter", command->diameter_mm, "mm")->capture_default_str();
   trial->add_option("--speed-rpm", command->speed_rpm, "below zero: backwards")
       ->capture_default_str();
-  trial->add_option("--pilot", command->pilot_mm, "diameter of a hole that is there, mm")
+  trial->add_option("--pilot", command->pilot_mm, "diameter of a hole drilled before, mm")
       ->capture_default_str();
-  trial->add_option("--bluntness", command->bluntness, "0 new to 1")->capture_default_str();
+  trial->add_option("--bluntness", command->bluntness, "from 0, a new drill, to 1")
+      ->capture_default_str();
   trial->add_option("--layer", command->layers, "material=mm, from the surface on")
       ->capture_default_str();
   trial->add_flag("--water", command->water, "the hole is flushed");

@@ -77,9 +77,9 @@ Result<void> draw(const InstrumentOptions& options) {
 }
 
 void add_show(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
-  cli::App* command = group.add_subcommand("show", "All of some instruments in words");
+  cli::App* command = group.add_subcommand("show", "Everything about some instruments, in words");
   command->add_option("names", options->names, "Names")->required();
-  command->add_flag("--json", options->json, "for a program");
+  command->add_flag("--json", options->json, "print JSON, for a program");
   command->callback([options, &exit_code] { exit_code = show(*options); });
 }
 
@@ -101,7 +101,7 @@ void add_instruments_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<InstrumentOptions>();
   cli::App* group = app.add_subcommand(
       "instruments", "List the instruments: what they do, their sizes, power and sources");
-  group->add_flag("--json", options->json, "for a program");
+  group->add_flag("--json", options->json, "print JSON, for a program");
   group->add_option("--folder", options->folder,
                     "Folder of instrument files (default: those that Osteon ships)");
   add_show(*group, options, exit_code);

@@ -290,7 +290,9 @@ void add_live_command(cli::App& app, int& exit_code) {
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--force-log", options->force_log,
                       "write the last 20 s of the device's positions and forces (CSV)");
-  command->add_option("--scale", options->mapping.scale, "way of the tool for a way of the hand")
+  command
+      ->add_option("--scale", options->mapping.scale,
+                   "how far the tool moves when the hand moves by 1")
       ->check(cli::Range(kMinScale, kMaxScale));
   command
       ->add_option("--clutch-button", options->mapping.clutch_button,

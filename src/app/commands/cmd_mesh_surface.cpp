@@ -79,7 +79,9 @@ void add_smooth(cli::App& mesh, int& exit_code) {
   cli::App* smooth =
       mesh.add_subcommand("smooth", "Smooth a surface without shrinking it (Taubin, lambda | mu)");
   add_source(*smooth, *command);
-  smooth->add_option("--rounds", command->options.rounds, "of moving there and back")
+  smooth
+      ->add_option("--rounds", command->options.rounds,
+                   "how often the vertices move there and back")
       ->capture_default_str()
       ->check(cli::Range(1, 1000));
   smooth->callback([command, &exit_code] { exit_code = run_smooth(*command); });
@@ -145,7 +147,8 @@ void add_drag(cli::App& mesh, int& exit_code) {
   drag->add_option("--by-mm", command->by_mm, "x y z: how far it is dragged")
       ->required()
       ->expected(3);
-  drag->add_option("--radius-mm", command->radius_mm, "of what follows, along the surface")
+  drag->add_option("--radius-mm", command->radius_mm,
+                   "how far along the surface the neighbours follow")
       ->capture_default_str()
       ->check(refuse_not_positive);
   drag->add_option("--fall-off", command->fall_off, "smooth, cone, dome or spike")

@@ -190,8 +190,9 @@ void add_replay_command(cli::App& app, int& exit_code) {
       ->add_option("--from", options->from_s,
                    "begin at the last stored state that is not after this time, s")
       ->check(cli::Range(0.0, 4 * 3600.0));
-  command->add_flag("--allow-incomplete", options->allow_incomplete,
-                    "a recording that breaks off is as good as a whole one");
+  command->add_flag(
+      "--allow-incomplete", options->allow_incomplete,
+      "exit with 0 for a recording that breaks off too, when what there is of it is identical");
   options->session.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run_replay(*options); });
 }

@@ -152,8 +152,8 @@ int export_results(const ResultsCommand& command) {
 }
 
 void add_filter(cli::App& command, ResultsCommand& options) {
-  command.add_option("--learner", options.learner, "of this learner alone");
-  command.add_option("--scenario", options.scenario, "of this scenario alone");
+  command.add_option("--learner", options.learner, "only those of this learner");
+  command.add_option("--scenario", options.scenario, "only those of this scenario");
 }
 
 }  // namespace
@@ -189,7 +189,8 @@ void add_results_commands(cli::App& app, int& exit_code) {
   add("forget", "Erase all attempts and the name of a learner", forget_learner)
       ->add_option("--learner", options->learner, "the learner's id")
       ->required();
-  cli::App* name = add("name", "Keep whose id it is, on this computer alone", name_learner);
+  cli::App* name =
+      add("name", "Give a learner's id a name, kept on this computer alone", name_learner);
   name->add_option("--learner", options->learner, "the learner's id")->required();
   name->add_option("--name", options->name, "the name")->required();
   cli::App* write = add("export", "Write attempts to a file", export_results);

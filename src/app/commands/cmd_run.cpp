@@ -81,7 +81,8 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option("scenario", options->scenario, "name (see: scenario list) or file")
       ->required();
   auto* case_option = command->add_option(
-      "--case", options->case_spec, "a case folder or builtin:wrist; default: of its anatomy");
+      "--case", options->case_spec,
+      "a case folder or builtin:wrist; default: the built-in case of its anatomy");
   command->add_option("--seed", options->seed, "the random patient that this seed draws")
       ->excludes(case_option);
   command

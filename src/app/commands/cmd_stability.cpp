@@ -62,10 +62,10 @@ void add_stability_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<StabilityOptions>();
   cli::App* command = app.add_subcommand(
       "stability",
-      "Press emulated hands onto walls and draw where the loop swings (SVG); 1 when it "
-      "does with all of the passivity stage on");
+      "Press emulated hands onto walls and draw where the loop swings (SVG); exits 1 when it "
+      "swings with the whole passivity stage on");
   command->add_option("--out", options->out, "the picture")->capture_default_str();
-  command->add_option("--cells", options->cells, "of each map, along both sides")
+  command->add_option("--cells", options->cells, "cells along each side of a map")
       ->check(cli::Range(2, 200))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run_stability(*options); });

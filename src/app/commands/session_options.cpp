@@ -9,7 +9,7 @@ namespace osteon {
 
 void SessionOptions::add_to(cli::App& command) {
   command.add_option("--seed", settings.seed,
-                     "recorded; for what is random in a session (nothing is, until now)");
+                     "kept in the recording; nothing in a session is random yet");
   command.add_option("--stiffness", settings.haptic.stiffness_n_per_m, "virtual coupling, N/m")
       ->check(cli::Range(50.0, 5000.0))
       ->capture_default_str();
