@@ -10,6 +10,7 @@
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
 #include "osteon/haptic/haptic_state.h"
+#include "osteon/haptic/snapshot_age.h"
 #include "portal_pivot.h"
 #include "proxy_solver.h"
 #include "rigid_motion.h"
@@ -19,8 +20,6 @@ namespace {
 
 // Coordinates beyond the root of this are a broken reading: their squares must stay finite.
 constexpr double kFarthest_m2 = 1e12;
-// A snapshot older than this is not carried forward any further.
-constexpr double kOldestSnapshot_s = 0.05;
 constexpr double kAnyWay = 1e9;
 // A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
 constexpr double kStepInPortal_m = 0.0005;

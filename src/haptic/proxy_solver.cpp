@@ -299,6 +299,12 @@ void ProxySolver::meet_tools(const ProxyTask& task) {
     tools_.start(*task.others_before, *task.others_now, task.X_WP, task.hand_W - task.X_WP.p);
 }
 
+// Symbols: x is where the tool's origin may be, n_i.x >= c_i the half-space of plane i, hand_W what
+// x is drawn to. Invariant: `path` lies in every half-space that it was found with, and each of
+// these holds the whole tool clear of its piece; half-spaces are convex, so the straight ways
+// between the path's points are free too. Source: Zilles and Salisbury, IROS 1995, with planes that
+// come with a proof. Ends: a move is at most kMaxRounds - 1 rounds, a round one search for the
+// nearest point, of NearestSearch::kMaxSteps steps at most.
 ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory) {
   memory_ = memory;
   ring_ = task.ring;

@@ -62,7 +62,7 @@ struct ProxyMove {
 /// of both pieces in its direction). Any place beyond all planes is free, and so is the straight
 /// way to it, since half-spaces are convex: the proxy cannot tunnel, however far the hand jumps.
 /// The planes of the last free pose are valid in the new one with the new supports, so neither a
-/// turn of the tool nor a moving bone lets it slip to a bone's other side. Then the planes are
+/// turn of the tool nor a moving bone lets it slip to a bone's other side. Then the planes
 /// that hold it are found again at the new place until it stands still (Zilles and Salisbury's
 /// god-object, IROS 1995, with one convex local region a round). Bones felt as distance fields have
 /// planes that hold close by only; there the way is looked at too (FieldWalls).

@@ -4,18 +4,13 @@
 #include <cstring>
 #include <string>
 
+#include "osteon/render/software_gl.h"
 #include "renderer_impl.h"
 
 namespace osteon {
 namespace {
 
 constexpr int kTile_px = 1024;  // of a still; keeps the memory of a supersampled picture small
-
-bool is_software(const std::string& device) {
-  return device.find("llvmpipe") != std::string::npos ||
-         device.find("softpipe") != std::string::npos ||
-         device.find("swrast") != std::string::npos || device.find("SWR") != std::string::npos;
-}
 
 std::string gl_text(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
@@ -116,7 +111,7 @@ Result<Renderer> Renderer::create(const Case& the_case, const Tool& tool,
                                              .smoother = std::move(*smoother),
                                              .picker = Picker(the_case),
                                              .device = device,
-                                             .software = is_software(device)});
+                                             .software = is_software_gl(device)});
   return Renderer(std::move(impl));
 }
 

@@ -5,6 +5,7 @@
 
 #include "osteon/base/random.h"
 #include "osteon/haptic/haptic.h"
+#include "osteon/haptic/snapshot_age.h"
 #include "test_scene.h"
 
 namespace osteon {
@@ -53,6 +54,21 @@ TEST(HapticLoop, BonesAreCarriedForwardByTheirAge) {
   input.X_WD.p = Vec3(0, 0, z + 0.0001);
   const ToolState& s = rig.loop.tick(input, rig.bones, 0.002, rig.params);
   EXPECT_NEAR(s.force_W.z(), 2000 * 0.0001, 0.01);  // 0.2 mm up, less the 0.1 mm of room
+}
+
+// The floor rises by 0.1 m/s under a tip 0.1 mm above it: by 2 mm in the longest time counted.
+TEST(HapticLoop, BonesAreCarriedForwardNoFartherThanTheOldestSnapshot) {
+  const auto force_n = [](double age_s) {
+    Rig rig({floor_bone()});
+    ToolInput input;
+    input.X_WD.p = Vec3(0, 0, tip_reach(rig) + 0.0001);
+    rig.at(input.X_WD.p);
+    rig.bones.bones[0].v_W = Vec3(0, 0, 0.1);
+    return rig.loop.tick(input, rig.bones, age_s, rig.params).force_W.z();
+  };
+  EXPECT_NEAR(force_n(kOldestSnapshot_s), 2000 * (0.1 * kOldestSnapshot_s - 0.0001), 0.01);
+  EXPECT_LT(force_n(0.5 * kOldestSnapshot_s), force_n(kOldestSnapshot_s) - 1);
+  for (const double age_s : {0.05, 10.0}) EXPECT_EQ(force_n(age_s), force_n(kOldestSnapshot_s));
 }
 
 TEST(HapticLoop, AStuckProxyRidesOnItsBone) {

@@ -16,6 +16,7 @@
 #include "osteon/base/percentiles.h"
 #include "osteon/device/udev_rules.h"
 #include "osteon/render/renderer.h"
+#include "osteon/render/software_gl.h"
 
 namespace osteon {
 namespace fs = std::filesystem;
@@ -111,8 +112,7 @@ Finding gl_finding() {
 
 Finding gl_finding(const std::string& version, const std::string& renderer) {
   Finding f{FindingLevel::kGood, "OpenGL", version + ", " + renderer, {}};
-  if (renderer.find("llvmpipe") != std::string::npos ||
-      renderer.find("softpipe") != std::string::npos) {
+  if (is_software_gl(renderer)) {
     f.level = FindingLevel::kNote;
     f.todo = "Pictures are drawn by the processor; a graphics card leaves more of it to the loops";
   }
