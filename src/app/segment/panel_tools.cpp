@@ -54,7 +54,7 @@ void draw_tool_buttons(const SegmentContext& c, ToolSettings& tools) {
 
 void draw_brush_options(ToolSettings& tools) {
   double radius_mm = 1000 * tools.radius_m;
-  if (ui::slider("Radius", &radius_mm, 0.3, 20, "%.1f mm", "Of the brush; [ and ] change it"))
+  if (ui::slider("Brush", &radius_mm, 0.3, 20, "%.1f mm", "Radius of the brush; [ and ] change it"))
     tools.radius_m = radius_mm / 1000;
   ui::switch_row("Ball", &tools.ball, "The brush reaches into neighbouring slices too");
   ui::switch_row("Within threshold", &tools.within,

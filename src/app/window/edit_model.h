@@ -24,7 +24,8 @@ struct EditModel {
   double displacement_mm = 0;
   double volume_cm3 = 0;
   std::size_t undo_steps = 0, redo_steps = 0;
-  bool changed = false;  ///< since it was last saved
+  std::size_t forgotten_steps = 0;  ///< too old to be undone
+  bool changed = false;             ///< since it was last saved
   bool saving = false;
   bool sound = true;
   std::string findings;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "image/dice.h"
 #include "osteon/anatomy/virtual_scan.h"
 #include "osteon/image/label_tools.h"
 #include "osteon/image/segment.h"
@@ -125,7 +126,7 @@ TEST_F(SegmentWork, GrownSplitAndSavedBonesAreThoseThatWereScanned) {
   ASSERT_TRUE(grow_new_label(edit, voxel_of(volume->frame, cortex_W(kLarge, -1)), grow));
   ASSERT_EQ(edit.labels().at(0, 0, 0), 0);
   const auto in_small = voxel_of(volume->frame, kSmall.centre_W);
-  ASSERT_EQ(edit.labels().at(in_small[0], in_small[1], in_small[2]), 1) << "they hang together";
+  ASSERT_EQ(edit.labels().at(in_small[0], in_small[1], in_small[2]), 1) << "they are connected";
   const auto part =
       split_label_between(edit, voxel_of(volume->frame, cortex_W(kLarge, -1)), in_small);
   ASSERT_TRUE(part) << part.error().message();

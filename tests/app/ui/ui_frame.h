@@ -116,7 +116,8 @@ class UiFrame {
     return r.view || r.preset || r.felt || !r.commands.empty() || r.device || r.seek_s || r.speed ||
            r.calibrate || r.mapping || r.learn_pedal || r.forget_pedal || r.toggle_checkup ||
            r.begin_checkup || r.begin_push_test || r.cancel_checkup || r.install_udev || r.copy ||
-           r.patient.toggle || r.patient.order || r.patient.make || r.patient.stop;
+           r.patient.toggle || r.patient.order || r.patient.make || r.patient.stop ||
+           r.dismiss_hint;
   }
   UiFonts fonts_;
 };

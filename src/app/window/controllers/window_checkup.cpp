@@ -52,7 +52,7 @@ void WindowApp::poll_checkup() {
 // Cancels one that runs. A lent device goes back to its run.
 void WindowApp::end_checkup() {
   if (!checkup_) return;
-  checkup_->wait();
+  checkup_->end();
   checkup_report_ = checkup_->take_report();
   std::unique_ptr<HapticDevice> device = checkup_->take_device();
   checkup_.reset();

@@ -115,6 +115,7 @@ EditModel WindowApp::edit_model() const {
   model.volume_cm3 = 1e6 * volume(edit.mesh());
   model.undo_steps = edit.undo_steps();
   model.redo_steps = edit.redo_steps();
+  model.forgotten_steps = edit.forgotten_steps();
   model.changed = edit.is_changed();
   model.saving = edit_save_ != nullptr;
   EditFindings findings = edit_->findings();

@@ -8,11 +8,11 @@ CheckupJob::CheckupJob(CheckupOrder order, std::span<const Driver> table)
     : order_(std::move(order)), table_(table), thread_([this] { run(); }) {}
 
 CheckupJob::~CheckupJob() {
-  wait();
+  end();
   if (order_.device) order_.device->close();
 }
 
-void CheckupJob::wait() {
+void CheckupJob::end() {
   cancel();
   if (thread_.joinable()) thread_.join();
 }
@@ -30,6 +30,7 @@ void CheckupJob::run() {
   const auto cancelled = [this] { return cancelled_.load(std::memory_order_relaxed); };
   report_ = run_checkup(order_, table_, tell, cancelled);
   done_.store(true, std::memory_order_release);
+  done_.notify_all();
 }
 
 }  // namespace osteon

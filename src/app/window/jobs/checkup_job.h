@@ -28,8 +28,10 @@ class CheckupJob {
   bool done() const { return done_.load(std::memory_order_acquire); }
   /// Ends it within some ticks, with the device at zero force: for the panic key too.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  /// Returns when it is done.
+  void wait() const { done_.wait(false, std::memory_order_acquire); }
   /// Cancels and returns when it is done.
-  void wait();
+  void end();
   /// Once, after `done`.
   CheckupReport take_report() { return std::move(report_); }
   /// The device that was lent, still open; after `done`. Null when none was.

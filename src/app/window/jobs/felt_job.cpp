@@ -23,6 +23,7 @@ void FeltJob::run() {
     failed_ = true;
   }
   done_.store(true, std::memory_order_release);
+  done_.notify_all();
 }
 
 }  // namespace osteon

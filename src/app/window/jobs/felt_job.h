@@ -22,6 +22,8 @@ class FeltJob {
 
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   bool done() const { return done_.load(std::memory_order_acquire); }
+  /// Returns when it is done.
+  void wait() const { done_.wait(false, std::memory_order_acquire); }
   /// True when memory ran out: what was taken has heights for some bones alone.
   bool failed() const { return failed_; }
   /// Once, after `done`.

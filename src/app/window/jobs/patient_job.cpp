@@ -11,6 +11,7 @@ PatientJob::PatientJob(PatientOrder order, std::filesystem::path out)
       thread_([this, wanted = std::move(order)] {
         run(wanted);
         done_.store(true, std::memory_order_release);
+        done_.notify_all();
       }) {}
 
 PatientJob::~PatientJob() {

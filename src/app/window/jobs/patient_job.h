@@ -19,6 +19,8 @@ class PatientJob {
 
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   bool done() const { return done_.load(std::memory_order_acquire); }
+  /// Returns when it is done.
+  void wait() const { done_.wait(false, std::memory_order_acquire); }
   /// Leaves nothing of what was not whole yet.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   /// After `done`: whether it was stopped before it was whole.

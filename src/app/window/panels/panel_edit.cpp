@@ -28,9 +28,9 @@ void draw_fall_off(const PanelContext& c) {
   const EditModel& edit = c.model.edit;
   SoftSelection wanted = edit.selection;
   double radius_mm = 1000 * wanted.radius_m;
-  bool changed = ui::slider("Radius", &radius_mm, 0.5, 30, "%.1f mm",
-                            "How far along the surface the neighbours follow; the other side of a "
-                            "thin part is far, since its way leads around the rim");
+  bool changed = ui::slider("Reach", &radius_mm, 0.5, 30, "%.1f mm",
+                            "How far along the surface the bone follows your pull. The way to the "
+                            "other side of a thin part leads around its rim, so that side stays");
   wanted.radius_m = radius_mm / 1000;
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
@@ -53,7 +53,11 @@ void draw_history(const PanelContext& c) {
   const std::string undo = "Undo  " + std::to_string(edit.undo_steps) + "###undo";
   if (ImGui::Button(undo.c_str(), {w, 0})) c.requests.edit.undo = true;
   ImGui::EndDisabled();
-  ui::tooltip("Ctrl + Z");
+  ui::tooltip(edit.forgotten_steps == 0
+                  ? "Ctrl + Z"
+                  : ("Ctrl + Z. The first " + std::to_string(edit.forgotten_steps) +
+                     " can no longer be undone: there was no room to keep them")
+                        .c_str());
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(edit.redo_steps == 0);
   const std::string redo = "Redo  " + std::to_string(edit.redo_steps) + "###redo";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "ui/ui_widgets.h"
@@ -27,12 +28,22 @@ const char* toast_sign(ToastKind kind) {
   return kind == ToastKind::kInfo ? "i" : "!";  // the colour is not alone in telling them apart
 }
 
-float picture_middle(const PanelContext& c) { return c.layout.picture.x + c.layout.picture.w / 2; }
+/// Of the picture, what no card covers.
+struct Span {
+  float from = 0, to = 0;
+  float middle() const { return 0.5f * (from + to); }
+};
+
+Span between_cards(const PanelContext& c) {
+  const UiRect& picture = c.layout.picture;
+  if (!c.model.panels_open) return {picture.x, picture.right()};
+  return {c.layout.left.right(), c.layout.right.x};
+}
 
 // Returns the next toast's y.
 float draw_toast(const PanelContext& c, const Toast& toast, float y) {
   const std::string name = "##toast" + std::to_string(toast.id);
-  ImGui::SetNextWindowPos({picture_middle(c), y}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowPos({between_cards(c).middle(), y}, ImGuiCond_Always, {0.5f, 0});
   ImGui::PushStyleColor(ImGuiCol_Border, toast_color(toast.kind));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
   ImGui::Begin(name.c_str(), nullptr, kNote);
@@ -43,7 +54,9 @@ float draw_toast(const PanelContext& c, const Toast& toast, float y) {
     ui::text(toast_color(toast.kind), toast_sign(toast.kind));
   }
   ImGui::SameLine(0, c.px(10));
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + c.px(400));
+  const Span free = between_cards(c);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() +
+                         std::min(c.px(400), free.to - free.from - c.px(100)));
   ImGui::TextUnformatted(toast.text.c_str());
   ImGui::PopTextWrapPos();
   if (toast.kind != ToastKind::kInfo) {
@@ -63,53 +76,71 @@ void draw_toasts(const PanelContext& c) {
 void begin_bottom_note(const PanelContext& c, const char* name) {
   // Over the legend where there is one.
   const float above = c.model.view.show_felt ? c.px(108) : c.px(16);
-  ImGui::SetNextWindowPos({picture_middle(c), c.layout.picture.bottom() - above}, ImGuiCond_Always,
-                          {0.5f, 1});
+  ImGui::SetNextWindowPos({between_cards(c).middle(), c.layout.picture.bottom() - above},
+                          ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(8)});
   ImGui::Begin(name, nullptr, kNote);
   ImGui::PopStyleVar();
 }
 
-// A key in a small raised box and what it does, as one item of the line.
-void key(const PanelContext& c, const char* name, const char* what) {
-  const ui::WithFont small(c.fonts.small);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 name_size = ImGui::CalcTextSize(name);
-  const ImVec2 pad{c.px(5), c.px(2)};
-  const float box_w = name_size.x + 2 * pad.x;
-  const float box_h = name_size.y + 2 * pad.y;
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(at, {at.x + box_w, at.y + box_h}, color::kFieldHover, c.px(3));
-  draw->AddText({at.x + pad.x, at.y + pad.y}, color::kText, name);
-  draw->AddText({at.x + box_w + c.px(6), at.y + pad.y}, color::kTextQuiet, what);
-  ImGui::Dummy({box_w + c.px(6) + ImGui::CalcTextSize(what).x, box_h});
-}
+/// Items side by side, on a new line where the space between the cards ends.
+class NoteRow {
+ public:
+  explicit NoteRow(const PanelContext& c) : c_(c) {
+    const Span span = between_cards(c);
+    most_ = span.to - span.from - 2 * c.px(16 + 8);  // padding of the note, and room beside it
+  }
+
+  /// Before an item of that width.
+  void place(float width) {
+    const float gap = c_.px(16);
+    const bool fits = used_ > 0 && used_ + gap + width <= most_;
+    if (fits) ImGui::SameLine(0, gap);
+    used_ = fits ? used_ + gap + width : width;
+  }
+
+  /// A key in a small raised box and what it does, as one item.
+  void key(const char* name, const char* what) {
+    const ui::WithFont small(c_.fonts.small);
+    const ImVec2 name_size = ImGui::CalcTextSize(name);
+    const ImVec2 pad{c_.px(5), c_.px(2)};
+    const float box_w = name_size.x + 2 * pad.x;
+    const float box_h = name_size.y + 2 * pad.y;
+    const ImVec2 size{box_w + c_.px(6) + ImGui::CalcTextSize(what).x, box_h};
+    place(size.x);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(at, {at.x + box_w, at.y + box_h}, color::kFieldHover, c_.px(3));
+    draw->AddText({at.x + pad.x, at.y + pad.y}, color::kText, name);
+    draw->AddText({at.x + box_w + c_.px(6), at.y + pad.y}, color::kTextQuiet, what);
+    ImGui::Dummy(size);
+  }
+
+ private:
+  const PanelContext& c_;
+  float most_ = 0, used_ = 0;
+};
 
 void draw_probe_hint(const PanelContext& c) {
   begin_bottom_note(c, "##probe");
-  const float gap = c.px(16);
-  key(c, "Mouse", "moves the probe");
-  ImGui::SameLine(0, gap);
-  key(c, "Wheel", "deeper, nearer");
-  ImGui::SameLine(0, gap);
-  key(c, "W A S D Q E", "turn");
-  ImGui::SameLine(0, gap);
-  key(c, "M", "let go");
+  NoteRow row(c);
+  row.key("Mouse", "moves the probe");
+  row.key("Wheel", "deeper, nearer");
+  row.key("W A S D Q E", "turn");
+  row.key("M", "let go");
   ImGui::End();
 }
 
 void draw_first_run_hint(const PanelContext& c) {
   begin_bottom_note(c, "##hint");
-  const float gap = c.px(16);
-  key(c, "Drag", "look around");
-  ImGui::SameLine(0, gap);
-  key(c, "Wheel", "nearer, farther");
-  ImGui::SameLine(0, gap);
-  key(c, "M", "take the probe");
-  ImGui::SameLine(0, gap);
-  key(c, "F1", "all keys");
-  ImGui::SameLine(0, gap);
-  if (ImGui::SmallButton("Got it")) c.requests.dismiss_hint = true;
+  NoteRow row(c);
+  row.key("Drag", "look around");
+  row.key("Wheel", "nearer, farther");
+  row.key("M", "take the probe");
+  row.key("F1", "all keys");
+  constexpr const char* kGotIt = "Got it";
+  row.place(ImGui::CalcTextSize(kGotIt).x + 2 * ImGui::GetStyle().FramePadding.x);
+  if (ImGui::SmallButton(kGotIt)) c.requests.dismiss_hint = true;
   ImGui::End();
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "osteon/mesh/measure.h"
 #include "osteon/scene/case_io.h"
 
 namespace osteon {
@@ -156,6 +157,8 @@ TEST(BoneEdit, SavesANewCase) {
   EXPECT_EQ(back->bones[1].density_kg_per_m3, 1234);
   EXPECT_NEAR(back->bones[0].mesh.vertices[5].norm(), 0.01, 1e-8);
   EXPECT_NEAR(back->bones[1].mesh.vertices[5].norm(), 0.02, 1e-8);
+  // What the card shows while editing is what the saved case has.
+  EXPECT_NEAR(volume(back->bones[1].mesh) / volume(edited), 1, 1e-6);
   EXPECT_FALSE(save_edited_case(spec, "second", edited, folder / "out"));  // is there already
 }
 

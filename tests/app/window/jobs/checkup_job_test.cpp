@@ -4,6 +4,8 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <future>
 
 #include "osteon/device/virtual_device.h"
 
@@ -30,8 +32,13 @@ const std::array<Driver, 1> kTable{{{"usb", "USB", no_usb, open_none, nullptr}}}
 struct Seen {
   std::atomic<int> reads{0};
   std::atomic<bool> pushed{false};
+  std::promise<void> first_push;
   std::atomic<bool> closed{false};
   std::atomic<bool> last_was_zero{true};
+
+  void push() {
+    if (!pushed.exchange(true)) first_push.set_value();
+  }
 };
 
 class Watched : public VirtualDevice {
@@ -43,7 +50,7 @@ class Watched : public VirtualDevice {
   }
   void write_force(const Vec3& force_V) override {
     const bool zero = force_V.isZero(0);
-    if (!zero) seen_.pushed = true;
+    if (!zero) seen_.push();
     seen_.last_was_zero = zero;
     VirtualDevice::write_force(force_V);
   }
@@ -70,13 +77,9 @@ const Finding* find(const Findings& findings, const std::string& topic) {
   return nullptr;
 }
 
-void wait_for(const CheckupJob& job) {
-  while (!job.done()) std::this_thread::yield();
-}
-
 TEST(CheckupJob, WithoutAnyDeviceItChecksTheComputerAndSaysWhatIsMissing) {
   CheckupJob job(short_order(), kTable);
-  wait_for(job);
+  job.wait();
   const CheckupReport report = job.take_report();
   EXPECT_EQ(job.take_device(), nullptr);
   EXPECT_FALSE(report.ended_early);
@@ -91,7 +94,7 @@ TEST(CheckupJob, ALentDeviceIsReadNotPushedAndComesBackOpenAtZero) {
   CheckupOrder order = short_order();
   order.device = std::make_unique<Watched>(seen);
   CheckupJob job(std::move(order), kTable);
-  wait_for(job);
+  job.wait();
   EXPECT_NE(find(job.take_report().findings, "Readings"), nullptr);
   EXPECT_GT(seen.reads, 10);
   EXPECT_FALSE(seen.pushed);
@@ -105,10 +108,10 @@ TEST(CheckupJob, CancelledWhileItPushesTheForceEndsAtZero) {
   order.push = true;
   order.device = std::make_unique<Watched>(seen);
   CheckupJob job(std::move(order), kTable);
-  while (!seen.pushed && !job.done()) std::this_thread::yield();
-  ASSERT_TRUE(seen.pushed);
+  const auto pushes = seen.first_push.get_future().wait_for(std::chrono::minutes(1));
+  ASSERT_EQ(pushes, std::future_status::ready);
   const int before = seen.reads;
-  job.wait();
+  job.end();
   EXPECT_LT(seen.reads - before, 50) << "went on pushing";
   EXPECT_TRUE(seen.last_was_zero);
   const CheckupReport report = job.take_report();

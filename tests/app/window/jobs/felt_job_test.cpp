@@ -23,13 +23,9 @@ std::shared_ptr<const Case> one_bone() {
   return out;
 }
 
-void wait_for(const FeltJob& job) {
-  while (!job.done()) std::this_thread::yield();
-}
-
 TEST(FeltJob, ACaseWithoutBones) {
   FeltJob job(std::make_shared<Case>(), {});
-  wait_for(job);
+  job.wait();
   EXPECT_FALSE(job.failed());
   EXPECT_TRUE(job.take().bones.empty());
 }
@@ -38,7 +34,7 @@ TEST(FeltJob, GivesWhatPrepareFeltGives) {
   const auto the_case = one_bone();
   PreparedCase expected = prepare_case(*the_case);
   FeltJob job(the_case, expected);
-  wait_for(job);
+  job.wait();
   EXPECT_DOUBLE_EQ(job.fraction(), 1);
   prepare_felt(*the_case, expected);
   const PreparedCase got = job.take();

@@ -14,15 +14,12 @@ namespace fs = std::filesystem;
 class PatientJobTest : public ::testing::Test {
  protected:
   ~PatientJobTest() override { fs::remove_all(folder); }
-  void finish(const PatientJob& job) {
-    while (!job.done()) std::this_thread::yield();
-  }
   fs::path folder = fs::temp_directory_path() / ("osteon_patient_" + std::to_string(::getpid()));
 };
 
 TEST_F(PatientJobTest, WhatThereIsNotIsSaidAndNothingIsLeft) {
   PatientJob job({.anatomy = "hip"}, folder / "hip");
-  finish(job);
+  job.wait();
   ASSERT_FALSE(job.result());
   EXPECT_NE(job.result().error().message().find("hip"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "hip"));
@@ -32,7 +29,7 @@ TEST_F(PatientJobTest, AFolderThatHoldsSomethingIsKept) {
   fs::create_directories(folder);
   ASSERT_TRUE(write_file_atomic(folder / "notes", "mine"));
   PatientJob job({}, folder);
-  finish(job);
+  job.wait();
   EXPECT_FALSE(job.result());
   EXPECT_EQ(read_file(folder / "notes", 100).value_or(""), "mine");
 }
@@ -40,7 +37,7 @@ TEST_F(PatientJobTest, AFolderThatHoldsSomethingIsKept) {
 TEST_F(PatientJobTest, OneThatIsStoppedLeavesNothing) {
   PatientJob job({.seed = 7}, folder / "wrist");
   job.stop();
-  finish(job);
+  job.wait();
   EXPECT_TRUE(job.was_stopped());
   EXPECT_FALSE(fs::exists(folder / "wrist"));
 }
@@ -51,7 +48,7 @@ TEST_F(PatientJobTest, ThePatientIsAsOrderedAndItsFolderSaysHowToMakeItAgain) {
                            .findings = {{"geissler", "3"}},
                            .side = "left"};
   PatientJob job(order, folder / "wrist");
-  finish(job);
+  job.wait();
   ASSERT_TRUE(job.result()) << job.result().error().message();
   const auto def = load_case(folder / "wrist");
   ASSERT_TRUE(def) << def.error().message();

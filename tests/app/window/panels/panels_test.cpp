@@ -155,6 +155,29 @@ TEST(Panels, CardsStayInsideTheWindowAndApart) {
   }
 }
 
+TEST(Panels, HintsStayBetweenTheCardsHoweverNarrowTheWindow) {
+  for (const float width : {800.0f, 1280.0f}) {
+    UiFrame ui(width, width == 800 ? 600 : 720);
+    const float height = ui.model.height;
+    ui.model = test::small_model();
+    ui.model.width = width;
+    ui.model.height = height;
+    ui.model.first_run_hint = true;
+    for (const char* note : {"##hint", "##probe"}) {
+      ui.model.hand.probe_in_hand = note == std::string("##probe");
+      for (int i = 0; i < 3; ++i) ui.draw();
+      const UiRect hint = ui.rect(note);
+      const UiLayout layout = make_layout(width, height, 1, true);
+      ASSERT_GT(hint.w, 0) << note;
+      EXPECT_GE(hint.x, layout.left.right()) << note << " " << width;
+      EXPECT_LE(hint.right(), layout.right.x) << note << " " << width;
+      EXPECT_LE(hint.bottom(), layout.picture.bottom()) << note << " " << width;
+    }
+    ui.model.hand.probe_in_hand = false;
+    EXPECT_TRUE(ui.click("##hint", {"Got it"}).dismiss_hint) << width;
+  }
+}
+
 TEST(Panels, TabAsksToFoldAndFoldedShowsThePictureAlone) {
   UiFrame ui;
   fill(ui, small_model());
