@@ -29,7 +29,7 @@ const Arrows& allowed() {
       {"xray", {"base", "image", "mesh", "collide", "scene"}},
       {"media", {"base"}},
       {"haptic", {"base", "hull", "collide", "scene"}},
-      {"physics", {"base", "image", "mesh", "hull", "collide", "scene", "tissue", "carve"}},
+      {"physics", {"base", "mesh", "hull", "collide", "scene", "tissue", "carve"}},
       {"render", {"base", "mesh", "scene"}},
       {"procedure", {"base", "scene"}},
       {"record", {"base", "scene"}},

@@ -26,6 +26,10 @@ Eigen::Vector4d towards(const Quat& q, const Eigen::Vector4d& other) {
 
 }  // namespace
 
+// Symbols: i is the span that holds x, t the share of it, w the weights of the four poses about it.
+// Invariant: the weights add up to 1, and at t = 0 and 1 are those of one pose alone, so the curve
+// goes through all; one value and one slope stand on both sides of a pose. Source: Catmull and Rom
+// 1974.
 Pose pose_at(const PoseTrack& track, double x) {
   const std::vector<Pose>& at = track.poses;
   const double most = static_cast<double>(at.size()) - 1;

@@ -17,7 +17,10 @@ struct Place {
   FieldSample field;
 };
 
-// Lowest point of the axis by lower bounds from the steepest slope (Piyavskii 1972).
+// Lowest point of the axis by lower bounds from the steepest slope (Piyavskii 1972). Symbols: s is
+// the share of the axis, d(s) the field there. Invariant: between two neighbouring samples d is
+// nowhere below their lower_bound. Ends: when no bound is lower than the best sample by kEnough, or
+// after kMostSamples samples.
 class LowestPoint {
  public:
   LowestPoint(const FieldView& field, const Capsule& c, double far_m)

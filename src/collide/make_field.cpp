@@ -143,6 +143,11 @@ Result<void> check(const TriMesh& mesh) {
 
 }  // namespace
 
+// Symbols: f is the signed distance at a node, c = f - (second differences of f) / 6 the
+// coefficient of the cubic B-spline there, which is f to fourth order (quasi-interpolation, de Boor
+// 1978). Invariant: a block is stored wherever the band may reach into it, since a distance rises
+// by no more than the way. Ends: each round doubles the cell, until the box takes few enough
+// blocks.
 Result<DistanceField> DistanceField::make(const TriMesh& mesh, const FieldOptions& options) {
   if (auto sound = check(mesh); !sound) return tl::unexpected(sound.error());
   const MeshDistance exact(mesh);

@@ -213,6 +213,13 @@ LpStatus approach(Basis& basis, const Rows& rows, int& pivots) {
 }
 
 /// From a loaded dual-feasible basis to the optimum.
+///
+/// Symbols: x is where the basis' rows hold with equality, y their weights, `violation` how much x
+/// breaks the worst row. Invariant: y >= 0 to kWeightSlack, so the objective at x bounds that of
+/// every feasible point, and no pivot makes it worse; x is the optimum once it breaks no row.
+/// Source: the dual simplex method (Lemke 1954), ratio test after Harris (1973). Ends: a basis can
+/// return only while the objective stands still; after kStallLimit such pivots Bland's rule (1977)
+/// lets none return, and there are finitely many; against rounding, after `pivot_limit`.
 template <class Basis, class Rows>
 SimplexEnd run_simplex(Basis& basis, const Rows& rows, int pivots, int pivot_limit) {
   double best = std::numeric_limits<double>::infinity();

@@ -92,6 +92,10 @@ void grow(Polytope& polytope, std::vector<FarPoint>& farthest, std::uint32_t cel
 
 }  // namespace
 
+// Symbols: Q is the polar frame about a point inside, in which the polytope's planes are w.q = 1.
+// Invariant: the polytope is the convex hull of its vertices, which are points of the cloud; what
+// is discarded lies inside it, so no corner of the cloud's hull is lost. Source: Barber, Dobkin and
+// Huhdanpaa 1996. Ends: every far point is added once, and every other point is looked at once.
 FirstStage quickhull(const Cloud& cloud) {
   FirstStage result;
   const Simplex simplex = simplex_of(cloud);

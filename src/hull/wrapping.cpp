@@ -22,6 +22,10 @@ class Wrapper {
   Wrapper(const Cloud& cloud, const Polytope& polytope)
       : cloud_(cloud), facets_(polytope.facets()), polytope_(polytope) {}
 
+  // Symbols: edge 4 f + k is side k of triangle f, its twin the same side seen from the other
+  // facet. Invariant: what is wrapped is connected, and each edge of its rim is open. Source: Chand
+  // and Kapur 1970. Ends: a facet is wrapped once, and only then opens edges; when none is open the
+  // surface has no rim, so it is the whole hull.
   WrappedFacets run() {
     wrapped_.assign(facets_.size(), false);
     result_.corners.reserve(3 * facets_.size());

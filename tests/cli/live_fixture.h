@@ -2,19 +2,20 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "block_case.h"
@@ -51,6 +52,30 @@ inline ForceLog read_log(const std::string& file) {
   return log;
 }
 
+/// Waits while files of a folder change.
+class FolderWatch {
+ public:
+  explicit FolderWatch(const fs::path& folder) : fd_(::inotify_init1(IN_CLOEXEC)) {
+    ::inotify_add_watch(fd_, folder.c_str(), IN_CREATE | IN_MODIFY | IN_MOVED_TO);
+  }
+  ~FolderWatch() { ::close(fd_); }
+  FolderWatch(const FolderWatch&) = delete;
+  FolderWatch& operator=(const FolderWatch&) = delete;
+
+  /// Asks again at every change; false after 10 000 changes, or half a minute without one.
+  bool until(const std::function<bool()>& is_so) {
+    for (int i = 0; i < 10000 && !is_so(); ++i) {
+      pollfd change{fd_, POLLIN, 0};
+      std::array<char, 4096> names;
+      if (::poll(&change, 1, 30000) != 1 || ::read(fd_, names.data(), names.size()) <= 0) break;
+    }
+    return is_so();
+  }
+
+ private:
+  int fd_;
+};
+
 /// The real program with an emulated hand that presses a block, to be ended somehow.
 class LiveFixture : public CliTest {
  protected:
@@ -86,16 +111,13 @@ class LiveFixture : public CliTest {
     return text.str();
   }
 
-  // Real time is what this is about: waits for the device to be open and the loops to be on.
+  // Until the device is open and the loops are on.
   bool wait_until_running() {
-    for (int i = 0; i < 600; ++i) {
+    return FolderWatch(dir_).until([this] {
       const bool told = output().find("Force is on") != std::string::npos;
       // The window opens the device, and once more when it begins to record.
-      const bool records = fs::exists(file("force.csv")) && fs::exists(file("run.osr"));
-      if (told || records) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return false;
+      return told || (fs::exists(file("force.csv")) && fs::exists(file("run.osr")));
+    });
   }
 
   // Begins a run and gives its process.
@@ -103,14 +125,21 @@ class LiveFixture : public CliTest {
 
   // `number` 0: it ends by itself.
   void expect_orderly_end(const Start& start, int number) {
-    expect_orderly_end(start, number == 0 ? 0 : 128 + number, [number](pid_t child) {
+    expect_orderly_end(start, number == 0 ? 0 : 128 + number, [this, number](pid_t child) {
       if (number == 0) return;
       wait_for_contact();
       ::kill(child, number);
     });
   }
 
-  static void wait_for_contact() { std::this_thread::sleep_for(std::chrono::milliseconds(2500)); }
+  // Until the recording has so many ticks that the hand has long come down onto the block.
+  void wait_for_contact() {
+    const bool recorded = FolderWatch(dir_).until([this] {
+      const auto so_far = load_recording(file("run.osr"));
+      return so_far && so_far->ticks.size() > 2000;
+    });
+    EXPECT_TRUE(recorded) << output();
+  }
 
   // Every run must end in order, and one of them out of a press that lasted until the end: on a
   // busy machine the watchdog may have ended the force before.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "image/dice.h"
 #include "osteon/image/segment.h"
 #include "volumes.h"
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "image/dice.h"
 #include "osteon/image/load_volume.h"
 #include "osteon/image/segment.h"
 #include "volume_files.h"

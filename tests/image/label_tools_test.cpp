@@ -149,7 +149,7 @@ TEST(DabLabel, BeyondTheScanAndWithoutABoneNothingIsDrawn) {
   EXPECT_EQ(dab_label(edit, label, Vec3(1e9, 4, 4), Vec3(1e9, 4, 4), {}), 0u);
   EXPECT_EQ(dab_label(edit, label, Vec3(-40, 4, 4), Vec3(-40, 4, 4), {.radius_m = 0.001}), 0u);
   EXPECT_EQ(dab_label(edit, label, Vec3(4, 4, 9), Vec3(4, 4, 9), {.slice_axis = 2}), 0u)
-      << "a slice that there is none of";
+      << "a slice that does not exist";
 }
 
 TEST(DabLabel, TheSmallestBrushDrawsAVoxel) {
@@ -212,7 +212,7 @@ TEST(DabLabel, KeepsOffOtherBonesAndOtherValues) {
 std::uint16_t joined_balls(LabelEdit& edit) {
   const std::uint16_t label = edit.add("two").value();
   EXPECT_TRUE(grow_label(edit, label, {20, 20, 7}, above(600, true)));
-  EXPECT_EQ(edit.labels().at(47, 20, 20), label) << "they hang together";
+  EXPECT_EQ(edit.labels().at(47, 20, 20), label) << "they are connected";
   return label;
 }
 

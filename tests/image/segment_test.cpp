@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "image/dice.h"
 #include "osteon/base/random.h"
 #include "osteon/image/components.h"
 #include "osteon/image/distance_map.h"

@@ -47,7 +47,4 @@ std::vector<Region> measure_regions(const LabelVolume& labels);
 std::vector<Vec3> boundary_points_P(const Segmentation& segmentation, const Region& region,
                                     std::size_t most);
 
-/// Share of agreement 2 |A and B| / (|A| + |B|) (Dice 1945); masks of one size.
-double dice(const Mask& a, const Mask& b);
-
 }  // namespace osteon

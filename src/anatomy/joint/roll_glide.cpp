@@ -109,7 +109,10 @@ class Seater {
         lateral_gap_(lateral.gap_at_rest(fixed)),
         apart_((joint.medial.p_W - joint.lateral.p_W).norm()) {}
 
-  /// Goes on from the seat of the row before.
+  /// Goes on from the seat of the row before. Unknowns: `down` and `tilt_deg`, of which each
+  /// plateau's gap changes by 1 and by half of `apart_` a radian: Newton's method with that fixed
+  /// slope. Invariant: the condyles' centres stand where row k puts them, whatever the seat. Ends:
+  /// with both gaps right to kClose_m, or with an error after kMostRounds.
   Result<Pose> seat_row(std::size_t k, Seat& seat) const {
     if (k == 0) return Pose{};
     constexpr double kDegrees = 180 / 3.14159265358979323846;
@@ -154,6 +157,9 @@ class Glider {
         length_((to - from).norm()) {}
 
   /// `X` holds the pose of the row before and gets that of row k; `moved`: of the tendon's far end.
+  /// Unknowns: x and z of the bone's place; n is the direction of the gap, u that of the tendon.
+  /// Newton's method on gap and tendon's length, no step longer than 6 mm. Ends: with both right to
+  /// kClose_m, or with an error after kMostRounds or where n and u are nearly parallel.
   Result<void> glide_row(std::size_t k, const Pose& moved, Pose& X) const {
     if (k == 0) return {};
     const Quat before = X.q;

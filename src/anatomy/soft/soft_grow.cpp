@@ -29,11 +29,11 @@ class SoftGrower {
     if (auto ok = grow_whole_bones(); !ok) return ok;
     make_grounds();
     grown_.softs.resize(anatomy_.softs.size());
-    if (auto ok = grow_in_order(0); !ok) return ok;
+    if (auto ok = grow_round(Round::kCartilage); !ok) return ok;
     displace();
     make_obstacles();
-    for (const int order : {1, 2})
-      if (auto ok = grow_in_order(order); !ok) return ok;
+    for (const Round round : {Round::kBands, Round::kFillings})
+      if (auto ok = grow_round(round); !ok) return ok;
     return {};
   }
 
@@ -48,11 +48,13 @@ class SoftGrower {
   }
 
  private:
-  /// Cartilage, then bands, then what gives way to them and the skin, which gives way to nothing
-  /// and keeps a thread at work while there is little else.
-  static int order_of(const SoftDescription& soft) {
-    if (std::holds_alternative<LayerDescription>(soft.shape)) return 0;
-    return std::holds_alternative<BandDescription>(soft.shape) ? 1 : 2;
+  /// What grows together, in this order. The skin gives way to nothing: it grows with the fillings
+  /// to keep a thread at work while there is little else.
+  enum class Round { kCartilage, kBands, kFillings };
+
+  static Round round_of(const SoftDescription& soft) {
+    if (std::holds_alternative<LayerDescription>(soft.shape)) return Round::kCartilage;
+    return std::holds_alternative<BandDescription>(soft.shape) ? Round::kBands : Round::kFillings;
   }
 
   /// A bone with defects as it was before: what lay on it and beside it grew then.
@@ -102,7 +104,7 @@ class SoftGrower {
       if (!moved) return;
       grounds_[i] = ground_of(healthy_mesh(i), grown_.bones[i].X_WB);
       for (std::size_t k = 0; k < anatomy_.softs.size(); ++k)
-        if (order_of(anatomy_.softs[k]) == 0 && carrier(anatomy_.softs[k]) == i)
+        if (round_of(anatomy_.softs[k]) == Round::kCartilage && carrier(anatomy_.softs[k]) == i)
           for (Vec3& v : grown_.softs[k].mesh_W.vertices) v = *moved * v;
     });
     move_bound_along(anatomy_);
@@ -110,10 +112,10 @@ class SoftGrower {
       obstacles_.push_back({&grounds_[i]->surface, grounds_[i]->box, i});
   }
 
-  Result<void> grow_in_order(int order) {
+  Result<void> grow_round(Round round) {
     std::vector<std::size_t> which;
     for (std::size_t i = 0; i < anatomy_.softs.size(); ++i)
-      if (order_of(anatomy_.softs[i]) == order) which.push_back(i);
+      if (round_of(anatomy_.softs[i]) == round) which.push_back(i);
     // It takes longest: whoever takes it should not be the last.
     std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) {
       return is_skin(anatomy_.softs[a]) && !is_skin(anatomy_.softs[b]);
@@ -134,7 +136,8 @@ class SoftGrower {
   /// Cartilage hinders all that follows.
   void make_obstacles() {
     run_tasks(options_, anatomy_.softs.size(), [&](std::size_t i) {
-      if (order_of(anatomy_.softs[i]) == 0) surfaces_[i].emplace(grown_.softs[i].mesh_W);
+      if (round_of(anatomy_.softs[i]) == Round::kCartilage)
+        surfaces_[i].emplace(grown_.softs[i].mesh_W);
     });
     for (std::size_t i = 0; i < surfaces_.size(); ++i)
       if (const auto& surface = surfaces_[i])
@@ -166,7 +169,7 @@ class SoftGrower {
     if (!mesh) return fail("its surface cannot be found: " + mesh.error().what, where);
     if (mesh->triangles.empty()) return fail("nothing of it is left", where);
     out.mesh_W = std::move(*mesh);
-    if (order_of(soft) > 0 && is_asked_for(i)) surfaces_[i].emplace(out.mesh_W);
+    if (round_of(soft) != Round::kCartilage && is_asked_for(i)) surfaces_[i].emplace(out.mesh_W);
     return {};
   }
 
@@ -222,7 +225,8 @@ class SoftGrower {
   /// Of cartilage or a band.
   const MeshDistance* surface_named(const std::string& name) const {
     for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      if (anatomy_.softs[i].name == name && order_of(anatomy_.softs[i]) < 2) return &*surfaces_[i];
+      if (anatomy_.softs[i].name == name && round_of(anatomy_.softs[i]) != Round::kFillings)
+        return &*surfaces_[i];
     return nullptr;
   }
 
