@@ -67,6 +67,7 @@ std::optional<RuleHit> left_out(const PlannedRule&, const Event& event, std::siz
 // A mark counts once it has been seen in this way for long enough, without a break.
 std::optional<RuleHit> seen(const PlannedRule& rule, const Event& event, std::size_t mark,
                             double tick_s, RuleState& state) {
+  if (event.kind != kMarkSeen) return std::nullopt;
   constexpr double kBreak_s = 0.03;
   RuleHold& hold = state.holds[mark];
   const double now_s = time_of(event, tick_s), mm = event.values[1];
@@ -90,6 +91,19 @@ std::optional<RuleHit> seen_in_order(const PlannedRule& rule, const Event& event
   const bool turn = std::all_of(state.done.begin(), state.done.begin() + static_cast<long>(mark),
                                 [](char done) { return done != 0; });
   return turn ? seen(rule, event, mark, tick_s, state) : std::nullopt;
+}
+
+// A portal counts once the shaft has been in it for long enough, without a break.
+std::optional<RuleHit> through(const PlannedRule& rule, const Event& event, std::size_t portal,
+                               double tick_s, RuleState& state) {
+  constexpr double kBreak_s = 0.03;
+  if (event.kind != kThroughPortal) return std::nullopt;
+  RuleHold& hold = state.holds[portal];
+  const double now_s = time_of(event, tick_s);
+  if (hold.since_s < 0 || now_s - hold.last_s > kBreak_s) hold.since_s = now_s;
+  hold.last_s = now_s;
+  if (now_s - hold.since_s >= number_of(rule, "for_s")) state.done[portal] = 1;
+  return std::nullopt;
 }
 
 // An error once a wrong thing has lasted; another one only after it has been right again.
@@ -179,6 +193,12 @@ const std::vector<RuleRow>& rule_rows() {
       {{"seen_in_order", "the same, one after the other as they are listed", true, seen_numbers(),
         SubjectKind::kLandmark},
        seen_in_order},
+      {{"through",
+        "the shaft passes through every one of these portals for a time",
+        true,
+        {{"for_s", 0, 60, 0.5}},
+        SubjectKind::kLandmark},
+       through},
       {{"tilted",
         "the picture is turned farther off upright than a limit for a time",
         false,

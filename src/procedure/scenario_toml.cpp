@@ -104,9 +104,12 @@ Scenario read_scenario(TomlTable& table) {
     if (side != "left" && side != "right")
       table.set_error("'" + side + "' is no side", "sides", "Use left and right");
   scenario.findings = table.texts_or_empty("findings");
-  for (const std::string& finding : scenario.findings)
-    if (finding.find('=') == std::string::npos)
-      table.set_error("'" + finding + "' has no grade", "findings", "Write NAME=GRADE");
+  scenario.always = table.texts_or_empty("always");
+  for (const auto* list : {&scenario.findings, &scenario.always})
+    for (const std::string& finding : *list)
+      if (finding.find('=') == std::string::npos)
+        table.set_error("'" + finding + "' has no grade",
+                        list == &scenario.always ? "always" : "findings", "Write NAME=GRADE");
   for (TomlTable& hand : table.tables_or_empty("hands")) scenario.hands.push_back(read_hand(hand));
   if (scenario.hands.size() > 4) table.set_error("there are four hands at most", "hands");
   for (TomlTable& stage : table.tables_or_empty("stages"))

@@ -111,6 +111,11 @@ void ScopeWatch::add(const ToolState& tool, const ToolState* other, const BoneSn
     const double off_m = depth > 0 ? (past - depth * in_W).norm() : 0;
     out.push_back(event(tool, kShaftHeld, {off_m * 1000, 0, 0}));
   }
+  if (tool.portal < settings_.portal_marks.size()) {
+    out.push_back(event(tool, kThroughPortal, {0, 0, 0}));
+    out.back().subject_kind = SubjectKind::kLandmark;
+    out.back().subject = settings_.portal_marks[tool.portal];
+  }
   if (settings_.optics) look(tool, other, bones, out);
 }
 

@@ -33,6 +33,7 @@ Result<Skill> bad_skill(const Scenario& scenario, const std::string& error_name)
     Skill skill = expert_skill();
     skill.name = "bad:" + error_name;
     skill.fault = error.rule.kind;
+    skill.fault_hand = error.rule.hand;
     return skill;
   }
   return fail("the scenario '" + scenario.name + "' has no error '" + error_name + "'", "surgeon",

@@ -211,6 +211,38 @@ TEST(HandRules, TiltAndLossLastBeforeTheyCountAndCountOnce) {
   EXPECT_EQ(looker.state.errors.size(), 2u);
 }
 
+TEST(ScopeWatch, NamesThePortalThatTheShaftPasses) {
+  const Case c = plate();
+  ScopeWatch::Settings settings;
+  settings.portal_marks = {1, 0};
+  ScopeWatch watch(c, settings);
+  ToolState tool = held_over(0);
+  std::vector<Event> out;
+  watch.add(tool, nullptr, rest_snapshot(c), out);  // it passes none
+  EXPECT_TRUE(out.empty());
+  tool.portal = 1;
+  watch.add(tool, nullptr, rest_snapshot(c), out);
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(out[0].kind, kThroughPortal);
+  EXPECT_EQ(out[0].subject_kind, SubjectKind::kLandmark);
+  EXPECT_EQ(out[0].subject, 0u);
+}
+
+TEST(ThroughRule, WantsTheTimeWithoutABreakAndNoSight) {
+  const char* const goal = "rule = \"through\"\nmarks = [\"over\"]\nfor_s = 0.5";
+  Looker looks(goal);
+  looks.see(0, 3, 0.1, 20, 0);
+  EXPECT_LT(looks.state.completed_s[0], 0);
+  Looker broken(goal);
+  for (int i = 0; i < 100; ++i)
+    if (i % 45 >= 5) broken.send(0.01 * i, kThroughPortal, SubjectKind::kLandmark, {0, 0, 0});
+  EXPECT_LT(broken.state.completed_s[0], 0);
+  Looker whole(goal);
+  for (int i = 0; i < 60; ++i)
+    whole.send(0.01 * i, kThroughPortal, SubjectKind::kLandmark, {0, 0, 0});
+  EXPECT_NEAR(whole.state.completed_s[0], 0.5, 0.011);
+}
+
 TEST(SeenRule, NeedsMarksThatAreThere) {
   EXPECT_FALSE(parse_scenario("format = 1\n", "x"));
   Scenario scenario = look("rule = \"seen\"\nmarks = [\"nowhere\"]");

@@ -74,6 +74,7 @@ struct Scenario {
   double time_limit_s = 600;
   std::vector<std::string> sides;     ///< of the patients that are drawn; empty: as described
   std::vector<std::string> findings;  ///< "geissler=2": half of the drawn patients have one
+  std::vector<std::string> always;    ///< the same, of every drawn patient: "traction=10kg"
   std::vector<ScenarioHand> hands;
   std::vector<ScenarioStage> stages;
   std::vector<ScenarioError> errors;

@@ -20,6 +20,8 @@ inline constexpr EventKind kScopeHeld{403};
 inline constexpr EventKind kShaftHeld{404};
 /// {1: the other hand's tip is in the picture, 0: it is not; 0; 0}, of the hand that looks.
 inline constexpr EventKind kTipSeen{405};
+/// The shaft passes through a portal, which is the subject, as a landmark: {0; 0; 0}.
+inline constexpr EventKind kThroughPortal{406};
 
 /// How an instrument looks: the middle of its view leans from the shaft towards +y of Tool, where
 /// its window looks; upwards in the picture is the same way. The camera turns with the shaft.
@@ -55,6 +57,8 @@ class ScopeWatch {
     std::optional<Vec3> portal_W;
     std::uint8_t hand = 0;
     double tick_s = 0.001;
+    /// Of each portal of the session the landmark; ToolState::portal counts in it.
+    std::vector<std::uint32_t> portal_marks = {};
   };
   ScopeWatch(const Case& the_case, Settings settings);
   /// Adds the tick's events to `out`. `other`: a tool that should stay in the picture; may be null.

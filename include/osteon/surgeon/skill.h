@@ -26,6 +26,7 @@ struct Skill {
   double skip_share = 0;            ///< of the bones, left out
   /// The one thing that is done wrong on purpose, on one bone; empty: nothing.
   std::string fault;
+  std::string fault_hand;  ///< of a fault that belongs to one hand: its name in the scenario
 };
 
 Skill expert_skill();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "osteon/scene/portal.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -12,7 +13,7 @@ std::vector<std::uint32_t> marks_of(const ScenarioPlan& plan) {
   std::vector<std::uint32_t> marks;
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals)
-      if (goal.about == SubjectKind::kLandmark)
+      if (goal.about == SubjectKind::kLandmark && goal.rule.kind != "through")
         marks.insert(marks.end(), goal.bones.begin(), goal.bones.end());
   std::sort(marks.begin(), marks.end());
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
@@ -32,7 +33,12 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
   if (instrument && instrument->optics)
     planned.optics = ScopeOptics{instrument->optics->angle_deg * std::numbers::pi / 180,
                                  instrument->optics->field_deg * std::numbers::pi / 360};
-  if (instrument) planned.shaft_radius_m = 0.5 * instrument->sizes_m[instrument->usual_size];
+  if (instrument) {
+    const Tool tool = make_tool(*instrument, instrument->usual_size);
+    planned.shaft_radius_m = 0.5 * instrument->sizes_m[instrument->usual_size];
+    planned.tip_radius_m = tool.tip_radius_m;
+    planned.shaft_offset_T = {tool.shaft.p0.x(), tool.shaft.p0.y(), 0};
+  }
   if (hand.portal.empty()) return planned;
   const auto portal = find_landmark(the_case, hand.portal);
   if (!portal)
@@ -77,6 +83,8 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
     settings.hand = hand;
     settings.tick_s = tick_s;
     settings.marks = marks_of(plan);
+    for (const Portal& portal : find_portals(the_case))
+      settings.portal_marks.push_back(portal.landmark);
     scopes_.emplace_back(the_case, std::move(settings));
   }
 }

@@ -19,6 +19,8 @@ struct PlannedHand {
   std::optional<ScopeOptics> optics;
   std::optional<Vec3> portal_W;
   double shaft_radius_m = 0.00075;
+  double tip_radius_m = 0.00075;
+  Vec3 shaft_offset_T = Vec3::Zero();  ///< the shaft's axis runs along z of Tool through this point
 };
 /// Fails on an instrument that there is none of, and on a portal that the case lacks.
 Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case);

@@ -13,6 +13,7 @@
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
+#include "osteon/surgeon/tour_surgeon.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -109,6 +110,7 @@ std::string drawn_words(const Scenario& scenario, std::uint64_t seed) {
   std::string words;
   if (!scenario.sides.empty()) words += ":" + pick(scenario.sides, side);
   if (!scenario.findings.empty() && ill < 0.5) words += ":" + pick(scenario.findings, which);
+  for (const std::string& word : scenario.always) words += ":" + word;
   return words;
 }
 
@@ -116,6 +118,8 @@ std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
                          std::optional<std::uint64_t> seed) {
   std::string spec = case_spec;
   if (spec.empty()) spec = "builtin:" + scenario.anatomy;
+  // What every patient of the exercise has stands behind a seed alone.
+  if (!scenario.always.empty() && !seed) seed = 0;
   if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed) + drawn_words(scenario, *seed);
   if (spec.find('#') == std::string::npos && scenario.felt != "pieces") spec += "#" + scenario.felt;
   return spec;
@@ -123,11 +127,36 @@ std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
 
 namespace {
 
+// An exercise that names portals on its way is a tour: its hands take turns.
+bool is_tour(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == "through") return true;
+  return false;
+}
+
+std::vector<std::unique_ptr<HandPlayer>> tour_players(std::span<const PlannedHand> hands,
+                                                      const ScenarioPlan& plan,
+                                                      const Case& the_case, const Skill& skill) {
+  std::vector<TourTool> tools;
+  for (const PlannedHand& hand : hands)
+    tools.push_back({hand.name, hand.optics, hand.shaft_offset_T, hand.shaft_radius_m,
+                     hand.tip_radius_m, hand.portal_W.value_or(Vec3(0, 0, 0.1))});
+  const auto tour =
+      std::make_shared<const TourPlan>(plan_tour(plan, the_case, skill, std::move(tools)));
+  const auto progress = std::make_shared<TourProgress>();
+  std::vector<std::unique_ptr<HandPlayer>> players;
+  for (std::size_t h = 0; h < hands.size(); ++h)
+    players.push_back(std::make_unique<TourHand>(tour, progress, h, skill));
+  return players;
+}
+
 // Who plays each hand: one that looks through its instrument looks for marks, or after the probe
 // where the exercise has no marks; a probe with a portal works through it; any other touches.
 std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand> hands,
                                                     const ScenarioPlan& plan, const Case& the_case,
                                                     const Skill& skill, double tip_radius_m) {
+  if (is_tour(plan)) return tour_players(hands, plan, the_case, skill);
   std::vector<std::unique_ptr<HandPlayer>> players;
   const ProbeSurgeon* probe = nullptr;
   for (const PlannedHand& hand : hands) {

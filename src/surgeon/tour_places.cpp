@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "osteon/base/random.h"
+#include "osteon/scene/portal.h"
+#include "osteon/surgeon/approach.h"
+#include "osteon/surgeon/tour_surgeon.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kTourRoomWanted_m = 0.0008;  // about a shaft; with more a place is no better
+constexpr double kTourRoomNeeded_m = 0.00025;
+constexpr double kTourStrayed_m = 0.0008;  // how far friction of the skin holds a tip back
+constexpr double kTourOutside_m = 0.060;   // so far beyond the portal the shaft is looked after
+constexpr double kLeastRise = 0.3;  // of the shaft's direction outwards: handles stay over skin
+constexpr double kLeastInwards = 0.25;
+constexpr double kSquare = 0.75;  // least cosine between push and normal
+constexpr double kHandle_m = 0.074;
+constexpr double kHandlesApart_m = 0.019, kShaftsApart_m = 0.004;
+
+// Gaps to the bones at rest; one that lies farther off than another is not looked at.
+class TourAround {
+ public:
+  explicit TourAround(const Case& the_case) : case_(the_case) {
+    for (const Bone& bone : the_case.bones) {
+      Aabb box;
+      for (const Hull& piece : bone.pieces)
+        for (const Vec3& v : piece.vertices) box.include(bone.X_WB * v);
+      balls_.push_back({box.center(), 0.5 * box.extent().norm()});
+    }
+  }
+  /// No more than `most_m`.
+  double gap(const Vec3& p_W, double most_m) const {
+    for (std::size_t i = 0; i < balls_.size(); ++i)
+      if ((p_W - balls_[i].center_W).norm() - balls_[i].radius_m < most_m)
+        most_m = std::min(most_m, gap_to(case_.bones[i], p_W));
+    return most_m;
+  }
+
+ private:
+  const Case& case_;
+  std::vector<Surroundings> balls_;
+};
+
+Vec3 inwards_at(const Case& the_case, const Vec3& portal_W) {
+  for (const Portal& portal : find_portals(the_case))
+    if ((portal.p_W - portal_W).norm() < 1e-9) return portal.nhat_W;
+  return -Vec3::UnitZ();
+}
+
+bool leans_well(const Quat& q, const Vec3& inwards_W) {
+  const Vec3 back = q * Vec3(Vec3::UnitZ());
+  return back.z() > kLeastRise && back.dot(inwards_W) < -kLeastInwards;
+}
+
+// Room about the shaft from the tip to well outside.
+double room_about(const TourAround& around, const TourPlace& place, const TourTool& tool,
+                  double from_m) {
+  constexpr double kMost_m = 0.005;  // more room is no better
+  const Vec3 back = place.q * Vec3(Vec3::UnitZ());
+  const Vec3 axis_W = place.portal_W - place.depth_m * back;
+  double room = kMost_m;
+  for (double along = from_m; along < place.depth_m + kTourOutside_m; along += 0.0015) {
+    const Vec3 p_W = axis_W + along * back;
+    room = std::min(room, around.gap(p_W, room + tool.shaft_radius_m) - tool.shaft_radius_m);
+    if (room < kTourRoomNeeded_m) break;
+  }
+  return room;
+}
+
+bool sees(const Case& the_case, const ScopeOptics& optics, const Pose& pose, const TourGaze& gaze) {
+  const BoneSnapshot rest;  // of no bones: where each is at rest
+  const ScopeView view = view_through(optics, pose);
+  for (int k = 0; k < 7; ++k) {
+    Vec3 eye_W = pose.p;
+    if (k > 0) eye_W[(k - 1) / 2] += k % 2 ? kTourStrayed_m : -kTourStrayed_m;
+    const Vec3 way = gaze.at_W - eye_W;
+    const double off = std::acos(std::clamp(way.normalized().dot(view.along_W), -1.0, 1.0));
+    if (off > 0.42 * optics.half_field_rad || way.norm() < gaze.near_m || way.norm() > gaze.far_m ||
+        is_hidden(the_case, rest, eye_W, gaze.at_W))
+      return false;
+  }
+  return true;
+}
+
+struct Spot {
+  Vec3 p_W, n_W;
+};
+// A place on one of the bone's pieces that lies on the outside of them all.
+std::optional<Spot> spot_on(const Bone& bone, Random& random) {
+  const Hull& piece = bone.pieces[random.next() % bone.pieces.size()];
+  const std::size_t facet = random.next() % piece.triangles.size();
+  const Triangle& t = piece.triangles[facet];
+  double a = random.uniform(), b = random.uniform();
+  if (a + b > 1) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  const Vec3& v0 = piece.vertices[t[0]];
+  const Vec3 p_B = v0 + a * (piece.vertices[t[1]] - v0) + b * (piece.vertices[t[2]] - v0);
+  const Spot spot{bone.X_WB * p_B, bone.X_WB.rotate(piece.planes[piece.plane_of[facet]].n)};
+  if (gap_to(bone, spot.p_W + 0.001 * spot.n_W) < 0.0008) return std::nullopt;
+  return spot;
+}
+
+// Shaft through the portal with the tip at p_W: both ends of a right-angled triangle are known.
+std::optional<TourPlace> place_for_tip(const TourTool& tool, const Vec3& portal_W, const Vec3& p_W,
+                                       double turn_rad) {
+  const Vec3 to = portal_W - p_W;
+  const double far = to.norm(), aside = tool.offset_T.norm();
+  if (far <= aside + 0.002) return std::nullopt;
+  const double depth = std::sqrt(far * far - aside * aside);
+  const Vec3 own = (tool.offset_T + depth * Vec3::UnitZ()) / far;
+  const Eigen::AngleAxisd turned(turn_rad, to / far);
+  const Eigen::Quaterniond least = Eigen::Quaterniond::FromTwoVectors(own, Vec3(to / far));
+  return TourPlace{portal_W, Quat(Eigen::Quaterniond(turned) * least).normalized(), depth};
+}
+
+// Whether the tip comes in along the shaft without meeting anything, and what reaches from it to
+// the shaft neither.
+bool way_in_is_free(const TourAround& around, const TourTool& tool, const TourPlace& place) {
+  const Pose pose = pose_at(place, tool);
+  const Vec3 back = pose.rotate(Vec3::UnitZ());
+  for (double along = 0; along < place.depth_m - kTourRest_m + 0.004; along += 0.001)
+    for (const double beside : {0.0, 0.5, 1.0}) {
+      if (along == 0 && beside == 0) continue;
+      const Vec3 p = pose.p + along * back + pose.rotate(beside * tool.offset_T);
+      const double least_m = tool.tip_radius_m + (along > 0.0025 ? 0.0003 : -0.0001);
+      if (around.gap(p, least_m) < least_m) return false;
+    }
+  return true;
+}
+
+// Two shafts side by side: apart below, and farther where their handles are.
+bool clear_of(const TourPlace& a, const TourPlace& b) {
+  const Vec3 ua = a.q * Vec3(Vec3::UnitZ()), ub = b.q * Vec3(Vec3::UnitZ());
+  const Vec3 pa = a.portal_W - a.depth_m * ua, pb = b.portal_W - b.depth_m * ub;
+  for (double s = 0; s < 0.14; s += 0.007)
+    for (double t = 0; t < 0.14; t += 0.007) {
+      const double apart = std::max(s, t) > kHandle_m ? kHandlesApart_m : kShaftsApart_m;
+      if ((pa + s * ua - pb - t * ub).norm() < apart) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Pose pose_at(const TourPlace& place, const TourTool& tool) {
+  Pose pose{place.portal_W, place.q};
+  pose.p -= pose.rotate(tool.offset_T + place.depth_m * Vec3::UnitZ());
+  return pose;
+}
+
+std::optional<TourPlace> find_look(const Case& the_case, const TourTool& tool, const Vec3& portal_W,
+                                   const TourGaze& gaze) {
+  const Vec3 inwards_W = inwards_at(the_case, portal_W);
+  const TourAround around(the_case);
+  std::optional<TourPlace> best;
+  double best_room = 0;
+  for (double d = gaze.near_m + 0.0015; d < gaze.far_m - 0.001; d += 0.001)
+    for (int turn = 0; turn < 24; ++turn) {
+      const double angle = (turn % 2 ? 1 : -1) * ((turn + 1) / 2) * std::numbers::pi / 12;
+      const auto pose = pose_for({gaze.at_W, d, angle}, portal_W, *tool.optics);
+      if (!pose || !leans_well(pose->q, inwards_W)) continue;
+      const TourPlace place{portal_W, pose->q, (portal_W - pose->p).norm()};
+      if (place.depth_m < kTourRest_m || !sees(the_case, *tool.optics, *pose, gaze)) continue;
+      const double room = room_about(around, place, tool, tool.shaft_radius_m);
+      if (room <= std::max(best_room, kTourRoomNeeded_m)) continue;
+      best = place;
+      best_room = room;
+      if (room > kTourRoomWanted_m) return best;
+    }
+  return best;
+}
+
+std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
+                                    const Vec3& portal_W, std::uint32_t bone,
+                                    const TourPlace* other, std::uint64_t seed) {
+  constexpr int kSpots = 1500, kTurns = 8;
+  const Vec3 inwards_W = inwards_at(the_case, portal_W);
+  const TourAround around(the_case);
+  Random random(seed * 1000003 + bone);
+  std::optional<TourPlace> best;
+  double squarest = kSquare;
+  for (int k = 0; k < kSpots; ++k) {
+    const auto spot = spot_on(the_case.bones[bone], random);
+    if (!spot || (spot->p_W - portal_W).norm() > 0.03) continue;
+    const Vec3 tip_W = spot->p_W + spot->n_W * tool.tip_radius_m;
+    if ((portal_W - tip_W).normalized().dot(spot->n_W) < kSquare - 0.15) continue;
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const auto place = place_for_tip(tool, portal_W, tip_W, 2 * std::numbers::pi * turn / kTurns);
+      if (!place || place->depth_m < kTourRest_m || !leans_well(place->q, inwards_W)) continue;
+      const double square = (place->q * Vec3(Vec3::UnitZ())).dot(spot->n_W);
+      if (square <= squarest || (other && !clear_of(*place, *other))) continue;
+      if (!way_in_is_free(around, tool, *place)) continue;
+      if (room_about(around, *place, tool, 0.0018 + tool.shaft_radius_m) < kTourRoomNeeded_m)
+        continue;
+      best = place;
+      squarest = square;
+    }
+    if (squarest > 0.92) break;
+  }
+  return best;
+}
+
+}  // namespace osteon
