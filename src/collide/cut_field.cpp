@@ -34,12 +34,65 @@ struct Nodes4 {
   }
 };
 
+// Cuts at 4 x 4 x 4 nodes, um, x fastest, as numbers that splines weigh.
+using Nodes64 = std::array<double, 64>;
+
+// Four nodes in a row of one block.
+void take_row(const std::int16_t* from, std::int16_t farthest, double* row) {
+  for (std::size_t i = 0; i < 4; ++i) row[i] = from[i] < farthest ? from[i] : farthest;
+}
+
+void gather(const std::array<const std::int16_t*, 8>& corner, const Nodes4& x, const Nodes4& y,
+            const Nodes4& z, std::int16_t farthest, Nodes64& out) {
+  out.fill(farthest);
+  const bool one_block = x.side[3] == 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j) {
+      double* row = out.data() + 16 * k + 4 * j;
+      const std::size_t first = 64u * z.node[k] + 8u * y.node[j];
+      const std::size_t blocks = 4u * z.side[k] + 2u * y.side[j];
+      if (one_block) {
+        if (corner[blocks]) take_row(corner[blocks] + first + x.node[0], farthest, row);
+        continue;
+      }
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::int16_t* from = corner[blocks + x.side[i]];
+        if (from && from[first + x.node[i]] < farthest) row[i] = from[first + x.node[i]];
+      }
+    }
+}
+
+struct Splines {
+  double value = 0;  // um
+  Vec3 slope = Vec3::Zero();
+};
+
+Splines weigh(const Nodes64& um, const CubicSpline& x, const CubicSpline& y, const CubicSpline& z) {
+  Splines out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    double v = 0, dx = 0, dy = 0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double* h = um.data() + 16 * k + 4 * j;
+      const double row = (x.w[0] * h[0] + x.w[1] * h[1]) + (x.w[2] * h[2] + x.w[3] * h[3]);
+      const double row_dx = (x.d[0] * h[0] + x.d[1] * h[1]) + (x.d[2] * h[2] + x.d[3] * h[3]);
+      v += y.w[j] * row;
+      dx += y.w[j] * row_dx;
+      dy += y.d[j] * row;
+    }
+    out.value += z.w[k] * v;
+    out.slope.x() += z.w[k] * dx;
+    out.slope.y() += z.w[k] * dy;
+    out.slope.z() += z.d[k] * v;
+  }
+  return out;
+}
+
 }  // namespace
 
 CutField::CutField(const CutGrid& grid, std::size_t most_blocks, double slack_m)
     : grid_(grid),
       slack_m_(slack_m),
-      farthest_um_(1e6 * kKnownCells * grid.cell_m),
+      farthest_um_(std::min(std::round(1e6 * kKnownCells * grid.cell_m), double{kUncut})),
       slot_(grid.count(), kNone),
       block_of_(most_blocks, kNone),
       nodes_(most_blocks) {}
@@ -75,27 +128,12 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
     any = true;
   }
   if (!any) return false;
-  const CubicSpline wx(x.t), wy(y.t), wz(z.t);
-  double value = 0;
-  Vec3 slope = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t j = 0; j < 4; ++j) {
-      double row = 0, row_d = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j] + x.side[i]];
-        const std::size_t node = 64u * z.node[k] + 8u * y.node[j] + x.node[i];
-        const double um = from ? std::min<double>(from[node], farthest_um_) : farthest_um_;
-        row += wx.w[i] * um;
-        row_d += wx.d[i] * um;
-      }
-      value += wz.w[k] * wy.w[j] * row;
-      slope.x() += wz.w[k] * wy.w[j] * row_d;
-      slope.y() += wz.w[k] * wy.d[j] * row;
-      slope.z() += wz.d[k] * wy.w[j] * row;
-    }
-  out.distance = slack_m_ - 1e-6 * value;
-  out.gradient = -1e-6 / grid_.cell_m * slope;
-  out.near = value < farthest_um_;
+  Nodes64 um;
+  gather(corner, x, y, z, static_cast<std::int16_t>(farthest_um_), um);
+  const Splines found = weigh(um, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+  out.distance = slack_m_ - 1e-6 * found.value;
+  out.gradient = -1e-6 / grid_.cell_m * found.slope;
+  out.near = found.value < farthest_um_;
   return true;
 }
 

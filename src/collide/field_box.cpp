@@ -9,6 +9,7 @@ namespace osteon {
 namespace {
 
 constexpr std::size_t kMostCells = 160;
+constexpr std::size_t kMostCellsInHole = 64;  // of a carved bone, see field_contact
 constexpr double kCoarse = 5e-6;        // m: how well the search over cells knows the lowest height
 constexpr double kSteepestRise = 1.25;  // of a field, see field_contact
 constexpr int kPolishSteps = 40;
@@ -24,16 +25,21 @@ struct Cell {
 class BoxSearch {
  public:
   BoxSearch(const FieldView& field, const Pose& X_AB, const Vec3& half, double far_m)
-      : field_(field), X_AB_(X_AB), half_(half), far_(far_m) {}
+      : field_(field),
+        X_AB_(X_AB),
+        half_(half),
+        far_(far_m),
+        most_(field.is_carved() ? kMostCellsInHole : kMostCells),
+        steps_(field.is_carved() ? kPolishSteps / 2 : kPolishSteps) {}
 
   // Branch and bound (Land and Doig, 1960): a field rises by no more than kSteepestRise a metre, so
   // that the height of a cell's middle bounds the whole cell. The cell of the lowest bound is
   // halved across its longest side until no bound lies below the lowest height by more than
-  // kCoarse, or kMostCells are looked at: then flat lies on flat, and every place is as low as its
+  // kCoarse, or `most_` are looked at: then flat lies on flat, and every place is as low as its
   // neighbour.
   BoxLowest find() {
     add(Vec3::Zero(), half_);
-    while (looked_ + 2 <= kMostCells) {
+    while (looked_ + 2 <= most_) {
       const Cell cell = cells_[0];
       if (!(cell.bound < best_.field.distance - kCoarse)) break;
       if (cell.bound > far_) return at_least(cell.bound);
@@ -79,7 +85,7 @@ class BoxSearch {
   BoxLowest polished() const {
     BoxLowest out = best_;
     double step = std::max(size_, kPolished);
-    for (int i = 0; i < kPolishSteps && step > kPolished; ++i) {
+    for (int i = 0; i < steps_ && step > kPolished; ++i) {
       const Vec3 down_B = -(X_AB_.q.conjugate() * out.field.gradient);
       const Vec3 p = (out.p + step * down_B).cwiseMax(-half_).cwiseMin(half_);
       const FieldSample sample = at(p);
@@ -97,6 +103,8 @@ class BoxSearch {
   const Pose& X_AB_;
   Vec3 half_;
   double far_;
+  std::size_t most_;                    // cells
+  int steps_;                           // of the descent
   std::array<Cell, kMostCells> cells_;  // a heap, the lowest bound first
   std::ptrdiff_t count_ = 0;
   std::size_t looked_ = 0;

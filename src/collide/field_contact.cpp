@@ -8,6 +8,9 @@ namespace osteon {
 namespace {
 
 constexpr std::size_t kMostSamples = 64;
+// In a hole that a rod fills every place of its axis is nearly the lowest. A wall bends by less
+// than the proxy's skin between so many.
+constexpr std::size_t kMostInHole = 20;
 constexpr double kEnough = 1e-7;  // m: how well the lowest height is known
 constexpr double kSteepest =
     1.25;  // of a field: a distance rises by 1, a spline overshoots a little
@@ -24,13 +27,17 @@ struct Place {
 class LowestPoint {
  public:
   LowestPoint(const FieldView& field, const Capsule& c, double far_m)
-      : field_(field), c_(c), length_((c.p1 - c.p0).norm()), far_(far_m + c.radius) {}
+      : field_(field),
+        c_(c),
+        length_((c.p1 - c.p0).norm()),
+        far_(far_m + c.radius),
+        most_(field.is_carved() ? kMostInHole : kMostSamples) {}
 
   Place find() {
     add(0);
     if (!(length_ > 0)) return best_;
     add(1);
-    while (count_ < kMostSamples) {
+    while (count_ < most_) {
       std::size_t widest = 0;
       double lowest = best_.field.distance - kEnough;
       for (std::size_t i = 0; i + 1 < count_; ++i) {
@@ -83,8 +90,8 @@ class LowestPoint {
     double low = rises ? places_[i - 1].s : best_.s;
     double high = rises ? best_.s : places_[i + 1].s;
     Place out = best_;
-    constexpr int kHalvings = 16;
-    for (int n = 0; n < kHalvings; ++n) {
+    const int halvings = field_.is_carved() ? 8 : 16;
+    for (int n = 0; n < halvings; ++n) {
       const double s = 0.5 * (low + high);
       const Place middle{s, field_.at(at(s))};
       if (middle.field.distance <= out.field.distance) out = middle;
@@ -97,7 +104,8 @@ class LowestPoint {
   const FieldView& field_;
   const Capsule& c_;
   double length_;
-  double far_;  // from the axis, m: what is farther may be told as a bound
+  double far_;        // from the axis, m: what is farther may be told as a bound
+  std::size_t most_;  // samples
   std::array<Height, kMostSamples> places_{};
   std::size_t count_ = 0;
   Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};

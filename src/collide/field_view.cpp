@@ -14,6 +14,7 @@ constexpr double kAlike = 1e-4;
 // foot on each plane is outside of the other: a > b c and b > a c. Its distance d follows from
 // x = s m + t n with m.x = a, n.x = b, and d^2 = |x|^2 = (a^2 + b^2 - 2 a b c) / (1 - c^2).
 FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
+  if (asked_) ++*asked_;
   FieldSample cut;
   if (!cuts_->height(p_B, cut)) return bone;
   const FieldSample& higher = cut.distance > bone.distance ? cut : bone;

@@ -173,7 +173,10 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
                             PartingPlane& out) const {
   const PiecePair& ids = pairs_[pair];
   const Pose X_BT = X_WB.inverse() * X_WT;
-  if (ids.field) return separate_field(ids, X_BT, out);
+  if (ids.field) {
+    Looks uncounted;
+    return part_field(ids, X_BT, uncounted, out);
+  }
   if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
   const ConvexBody& tool_body = tool_.bodies[ids.tool_piece];
@@ -188,6 +191,11 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   out.p_B = depth.p_A;
   out.bone_support = depth.top_A;
   return true;
+}
+
+bool ContactField::separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
+                                  Looks& looks, PartingPlane& out) const {
+  return part_field(pairs_[pair], X_WB.inverse() * X_WT, looks, out);
 }
 
 bool ContactField::separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
@@ -232,17 +240,18 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
 // What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
 // the fine one then tells how far the surface is along the normal found there. In the middle of a
 // hole the splines over its nodes say too little as well: there the same look at the wall mends it.
-PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT) const {
+PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT,
+                                          Looks& looks) const {
   const DistanceField& uncut = *case_.bones[ids.bone].field;
   const CutField* cuts = cuts_[ids.bone];
-  const FieldView fine(uncut, cuts);
+  const FieldView fine(uncut, cuts, &looks.asked);
   const Primitive& part = to_field_[ids.tool_piece];
   const double far = whole() ? kFarGap_m : std::numeric_limits<double>::infinity();
   const bool thin = !(part.rod.radius > thickest(uncut));
   if (thin && (!cuts || cuts->empty())) return primitive_contact(fine, part, X_BT, far);
   PrimitiveContact out =
       thin ? primitive_contact(fine, part, X_BT, far)
-           : primitive_contact(FieldView(*wide_[ids.bone], cuts), part, X_BT, far);
+           : primitive_contact(FieldView(*wide_[ids.bone], cuts, &looks.asked), part, X_BT, far);
   if (out.status != LpStatus::kOptimal || !(out.gap < kFarGap_m)) return out;
   for (int i = 0; i < 2; ++i) {
     const FieldSample at = fine.at(out.p_A);
@@ -253,8 +262,9 @@ PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT
   return out;
 }
 
-bool ContactField::separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const {
-  const PrimitiveContact contact = meet_field(ids, X_BT);
+bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+                              PartingPlane& out) const {
+  const PrimitiveContact contact = meet_field(ids, X_BT, looks);
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
@@ -263,8 +273,9 @@ bool ContactField::separate_field(const PiecePair& ids, const Pose& X_BT, Partin
   return true;
 }
 
-double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT) const {
-  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT);
+double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
+                         Looks& looks) const {
+  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT, looks);
   return contact.status == LpStatus::kOptimal ? contact.gap
                                               : std::numeric_limits<double>::quiet_NaN();
 }

@@ -77,14 +77,22 @@ class ContactField {
                std::span<const Pose> now_WB, std::vector<NearPieces>& near,
                CandidateList& out) const;
 
+  /// Counts looks at carved bones: each costs so much that a tick has only so many.
+  struct Looks {
+    std::uint32_t asked = 0;
+  };
+
   /// Parts one pair at a pose. False when the contact programme could not be solved and
   /// the line between their middles does not part them either.
   bool separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, LpBasis& basis,
                 PartingPlane& out) const;
+  /// The same of a pair of a field, whose looks are counted.
+  bool separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
+                      PartingPlane& out) const;
 
   /// Gap of a pair of a field, m: what `separate` finds, without a plane. Not a number when
   /// unknown.
-  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT) const;
+  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks) const;
 
   /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
   /// by its skin. Any x in it keeps a pair of convex pieces apart, wherever it is; of a field only
@@ -113,8 +121,8 @@ class ContactField {
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
   bool separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
                      PartingPlane& out) const;
-  bool separate_field(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
-  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT) const;
+  bool part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, PartingPlane& out) const;
+  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks) const;
   double support_against(const PiecePair& ids, const Vec3& n_T) const;
   Vec3 middle_of(const PiecePair& ids) const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "rigid_motion.h"
+
 namespace osteon {
 namespace {
 
@@ -21,6 +23,8 @@ void FieldWalls::start(const CandidateList& near) {
   fields_ = near.field;
   field_count_ = near.field_count;
   count_ = 0;
+  looks_ = {};
+  known_.set = false;
 }
 
 // A plane found elsewhere is right while bone comes up to it or over it. Where the bone has bent
@@ -38,11 +42,12 @@ bool FieldWalls::still_right(const Wall& wall, const PartingPlane& now, const Po
 bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   if (field_count_ == 0) return true;
   std::uint32_t count = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t pair : fields()) {
     const Pose& bone = bone_pose(pair, X_WB);
     PartingPlane now;
-    LpBasis unused;
-    if (!field_.separate(pair, bone, X_WT, unused, now)) return false;
+    if (!field_.separate_field(pair, bone, X_WT, looks_, now)) return false;
+    least = std::min(least, now.gap);
     std::size_t room = kPlanesEach;
     if (now.gap < kNearGap_m) {
       if (count == kMostPlanes) return false;
@@ -58,31 +63,48 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   }
   std::copy_n(next_.begin(), count, walls_.begin());
   count_ = count;
+  keep(X_WB, X_WT, least);
   return true;
 }
 
-double FieldWalls::least_gap(std::span<const Pose> X_WB, const Pose& X_WT) const {
+bool FieldWalls::knows(std::span<const Pose> X_WB, const Pose& X_WT) const {
+  if (!known_.set || !same_pose(known_.X_WT, X_WT)) return false;
+  for (std::uint32_t i = 0; i < field_count_; ++i)
+    if (!same_pose(known_.X_WB[i], bone_pose(fields_[i], X_WB))) return false;
+  return true;
+}
+
+void FieldWalls::keep(std::span<const Pose> X_WB, const Pose& X_WT, double gap) {
+  known_.set = true;
+  known_.X_WT = X_WT;
+  known_.gap = gap;
+  for (std::uint32_t i = 0; i < field_count_; ++i) known_.X_WB[i] = bone_pose(fields_[i], X_WB);
+}
+
+double FieldWalls::least_gap(std::span<const Pose> X_WB, const Pose& X_WT) {
+  if (knows(X_WB, X_WT)) return known_.gap;
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t pair : fields()) {
-    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT);
+    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT, looks_);
     if (!(gap >= least)) least = gap;  // takes what is not a number as well
   }
+  keep(X_WB, X_WT, least);
   return least;
 }
 
-bool FieldWalls::clear(std::span<const Pose> X_WB, const Pose& X_WT) const {
+bool FieldWalls::clear(std::span<const Pose> X_WB, const Pose& X_WT) {
   return least_gap(X_WB, X_WT) >= kSkin;
 }
 
 Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W,
-                     const Vec3& to_W) const {
+                     const Vec3& to_W) {
   const double length = (to_W - from_W).norm();
   if (field_count_ == 0 || !(length > 0)) return to_W;
   const Vec3 along = (to_W - from_W) / length;
   double gap = least_gap(X_WB, {from_W, q_WT});
   const double limit = std::min(kSkin, gap);
   double free = 0;
-  for (int i = 0; i < kMostStrides; ++i) {
+  for (int i = 0; i < kMostStrides && (i == 0 || !spent()); ++i) {
     const double next = std::min(length, free + std::max(kStride, kSafeShare * gap));
     gap = least_gap(X_WB, {from_W + next * along, q_WT});
     if (gap >= limit) {
@@ -91,7 +113,8 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
       continue;
     }
     double blocked = next;
-    for (int k = 0; k < kHalvings; ++k) {
+    const int halvings = is_carved() ? kHalvings / 2 : kHalvings;
+    for (int k = 0; k < halvings && !spent(); ++k) {
       const double middle = 0.5 * (free + blocked);
       (least_gap(X_WB, {from_W + middle * along, q_WT}) >= limit ? free : blocked) = middle;
     }

@@ -20,6 +20,9 @@ class FieldWalls {
  public:
   static constexpr std::size_t kPlanesEach = 3;
   static constexpr std::size_t kMostPlanes = 24;
+  /// Looks at carved bones after which a tick ends its search: the proxy stays where it has come
+  /// to, and goes on in the next. The way to there was looked at, so this costs time alone.
+  static constexpr std::uint32_t kMostLooks = 160;
 
   explicit FieldWalls(const ContactField& field) : field_(field) {}
 
@@ -29,12 +32,14 @@ class FieldWalls {
   /// reaches over the newer one. False when a field could not be asked, or too many are near.
   bool look(std::span<const Pose> X_WB, const Pose& X_WT);
   /// Whether the tool has its skin's room to every field.
-  bool clear(std::span<const Pose> X_WB, const Pose& X_WT) const;
+  bool clear(std::span<const Pose> X_WB, const Pose& X_WT);
+  /// Whether this tick has looked as often as it may.
+  bool spent() const { return looks_.asked >= kMostLooks; }
   /// The last free place on the straight way: `to` unless bone is in between. What was overlapped
   /// before may stay so, but no deeper. Looked at every 50 um and closer: a bone bends by less than
-  /// 3 um into such a stretch at the sharpest edge that a field's cells can hold.
-  Vec3 way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W,
-           const Vec3& to_W) const;
+  /// 3 um into such a stretch at the sharpest edge that a field's cells can hold. Where the tick
+  /// has looked as often as it may, a place before that.
+  Vec3 way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W, const Vec3& to_W);
 
   std::uint32_t count() const { return count_; }
   std::uint32_t pair(std::uint32_t i) const { return walls_[i].pair; }
@@ -50,7 +55,18 @@ class FieldWalls {
     return X_WB[field_.pairs()[pair].bone];
   }
   std::span<const std::uint32_t> fields() const { return {fields_.data(), field_count_}; }
-  double least_gap(std::span<const Pose> X_WB, const Pose& X_WT) const;
+  /// Where the least gap was found last: the same place is often asked for again.
+  struct Known {
+    bool set = false;
+    Pose X_WT;
+    std::array<Pose, kMaxFields> X_WB;  ///< of each field
+    double gap = 0;
+  };
+
+  double least_gap(std::span<const Pose> X_WB, const Pose& X_WT);
+  bool knows(std::span<const Pose> X_WB, const Pose& X_WT) const;
+  void keep(std::span<const Pose> X_WB, const Pose& X_WT, double gap);
+  bool is_carved() const { return looks_.asked > 0; }
   bool still_right(const Wall& wall, const PartingPlane& now, const Pose& X_WB,
                    const Pose& X_WT) const;
 
@@ -60,6 +76,8 @@ class FieldWalls {
   std::array<Wall, kMostPlanes> walls_{};
   std::array<Wall, kMostPlanes> next_{};  ///< for look
   std::uint32_t count_ = 0;
+  ContactField::Looks looks_;  ///< of this tick
+  Known known_;
 };
 
 }  // namespace osteon

@@ -183,6 +183,7 @@ bool ProxySolver::find_start(const ProxyTask& task, const Quat& q_WP, Vec3& star
     if (!found.found || (found.x - task.base_W).norm() > reach_m_) return false;
     start = found.x;
     if (near_.field_count == 0 || walls_.clear(task.now_WB, {start, q_WP})) return true;
+    if (walls_.spent()) return false;
     if (!walls_.look(task.now_WB, {start, q_WP})) return false;
   }
   return false;
@@ -289,7 +290,7 @@ void ProxySolver::approach(const ProxyTask& task, ProxyMove& move) {
     const bool still = (move.end() - from).norm() < kStill && (!stopped_ || looked);
     if (move.free || (felt && still)) break;
     looked = stopped_;
-    if (!look_again(task, target, move)) break;
+    if (walls_.spent() || !look_again(task, target, move)) break;
   }
 }
 

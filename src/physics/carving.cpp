@@ -31,6 +31,7 @@ constexpr double kDeepEnough_m = 0.001;  // a shallower hole has no far side
 constexpr double kBurrFriction = 0.3;    // of a burr's rim: cutting force by pressing force
 constexpr double kBurrFastest_m_per_s = 0.02;
 constexpr double kBurrLead_m = 1e-4;
+constexpr std::size_t kMostEvents = 32;  // of a step; no step has so many
 
 Pose moved_along(const Pose& X, const Vec3& way) { return {X.p + way, X.q}; }
 Vec3 back_of(const Pose& X) { return X.q * Vec3::UnitZ(); }
@@ -69,8 +70,8 @@ Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
     demand(field.has_value(), "a setup for carving has layers that do not fit together");
     bones_.back().field = std::move(*field);
   }
-  changed_.reserve(setup_->most_blocks);
-  events_.reserve(16);
+  changed_.reserve(kMaxHands * setup_->most_blocks);
+  events_.reserve(kMostEvents);
 }
 
 const CarvedField* Carving::field(std::size_t bone) const {
@@ -81,6 +82,7 @@ void Carving::tell(std::size_t hand, const Push& push, EventKind kind,
                    std::array<double, 3> values) {
   const CarvingHand& h = hands_[hand];
   const std::uint32_t bone = push.bone == CarvingHand::kNoBone ? h.bone : push.bone;
+  if (events_.size() == kMostEvents) return;
   events_.push_back({push.tool->tick, kind, static_cast<std::uint8_t>(hand), SubjectKind::kBone,
                      bone, push.tool->X_WP.p, values});
 }
@@ -217,6 +219,8 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   if (h.bone != push.bone || ahead > kBeyond_m) {
     const CarvingHand before = h;
     begin(hand, with, push);
+    const bool was_full = full_;
+    if (!remove(hand, with.cutter, h.X_BC, h.X_BC) && !was_full) tell(hand, push, kCarvingFull, {});
     if (before.bone == push.bone) {
       h.was_in = before.was_in;
       h.out = before.out;
@@ -253,10 +257,13 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   h.due_m += did.advance_m;
   if (h.due_m < CarvingSetup::kBite_m) return;
   const Pose next = moved_along(h.X_BC, -h.due_m * back);
-  if (remove(hand, with.cutter, h.X_BC, next))
+  // Where the cutter stood it has cut: within half a cell only the new place is left.
+  const bool near = h.due_m <= 0.5 * field.grid().cell_m;
+  const bool full_before = full_;
+  if (remove(hand, with.cutter, near ? next : h.X_BC, next))
     h.X_BC = next;
-  else
-    tell(hand, push, kCarvingFull, {});
+  else if (!full_before)
+    tell(hand, push, kCarvingFull, {});  // once: it stays so until the bone is put back
   h.due_m = 0;
 }
 
@@ -297,7 +304,8 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   const Pose from = moved_along(push.X_BT, (CarvingSetup::kSlack_m - kSkin_m) * nhat);
   h.X_BC = moved_along(from, -std::max(h.due_m, h.plunge_m) * nhat);
   h.drill.depth_m += h.plunge_m;
-  if (!remove(hand, with.cutter, from, h.X_BC)) tell(hand, push, kCarvingFull, {});
+  const bool was_full = full_;
+  if (!remove(hand, with.cutter, from, h.X_BC) && !was_full) tell(hand, push, kCarvingFull, {});
   h.plunge_m = 0;
 }
 
@@ -310,7 +318,8 @@ void Carving::bite(std::size_t hand, const CarvingTool& with, const ToolState& t
   Push push;
   push.tool = &tool;
   push.bone = bone;
-  if (!remove(hand, with.cutter, X_BT, X_BT)) tell(hand, push, kCarvingFull, {});
+  const bool was_full = full_;
+  if (!remove(hand, with.cutter, X_BT, X_BT) && !was_full) tell(hand, push, kCarvingFull, {});
   if (changed_.size() > before) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, 0, 0});
 }
 

@@ -35,10 +35,12 @@ const Kind* kind_of(std::string_view tray_name) {
   return found == kKinds.end() ? nullptr : &*found;
 }
 
-// Long enough that all of the instrument in the hole knows how far the wall is, and no longer.
+// Long enough that every place of the hole has once been as deep in the cutter as the wall is far,
+// and no longer: a front no higher than 0.6 diameters, and a diameter of full width behind it.
 void shorten(Cutter& cutter) {
   CutterPart& part = cutter.parts.front();
-  const double length = 1.5 * cutter.size_m + 0.002 + cutter.size_m;
+  constexpr double kMore_m = 0.0005;
+  const double length = 0.6 * cutter.size_m + cutter.size_m + kMore_m;
   for (TurnedFace& face : part.faces)
     if (face.n_rho == 0 && face.n_z > 0) face.offset = length;
   part.box.hi.z() = length;

@@ -13,31 +13,34 @@ void fill(CarvePatch& patch, const CarvedField& field, std::uint32_t block) {
   std::copy_n(field.cuts(block), CutField::kNodes, patch.cut.begin());
 }
 
-bool push_to_all(const CarvePatch& patch, std::vector<FeltCuts*>& hands) {
-  bool all = true;
-  for (FeltCuts* hand : hands) all = hand->channel().push(patch) && all;
-  return all;
+void tell_all(const CarvePatch& patch, std::vector<FeltCuts*>& hands) {
+  for (FeltCuts* hand : hands) hand->tell(patch);
 }
 
-bool push_whole(const Carving& carving, CarvePatch& patch, std::vector<FeltCuts*>& hands) {
-  bool done = true;
+void tell_whole(const Carving& carving, CarvePatch& patch, std::vector<FeltCuts*>& hands) {
   for (std::uint32_t b = 0; b < carving.setup().bones.size(); ++b) {
     const CarvedField* field = carving.field(b);
     if (!field) continue;
     patch.bone = b;
     patch.kind = CarvePatch::Kind::kClear;
-    done = push_to_all(patch, hands) && done;
+    tell_all(patch, hands);
     for (std::size_t n = 0; n < field->block_count(); ++n) {
       fill(patch, *field, field->block_at(n));
-      done = push_to_all(patch, hands) && done;
+      tell_all(patch, hands);
     }
   }
-  return done;
 }
 
 }  // namespace
 
-FeltCuts::FeltCuts(const CarvingSetup& setup) {
+std::size_t channel_places(const CarvingSetup& setup) {
+  constexpr std::size_t kSecondOfDrilling = 4096;
+  std::size_t carved = 0;
+  for (const auto& bone : setup.bones) carved += bone ? 1 : 0;
+  return kSecondOfDrilling + carved * setup.most_blocks;
+}
+
+FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places) : channel_(places) {
   for (const auto& bone : setup.bones) {
     bones_.emplace_back();
     if (bone)
@@ -64,15 +67,42 @@ void FeltCuts::apply(const CarvePatch& patch, std::uint64_t tick, EventList& eve
   }
 }
 
+bool FeltCuts::next() {
+  if (early_.empty()) return channel_.pop(next_);
+  next_ = early_.front();
+  early_.pop_front();
+  return true;
+}
+
 void FeltCuts::take_until(std::uint64_t step, std::uint64_t tick, EventList& events) {
-  while (waiting_ || channel_.pop(next_)) {
+  while (waiting_ || next()) {
     waiting_ = next_.step > step;
     if (waiting_) return;
     apply(next_, tick, events);
   }
 }
 
+// What waits goes first.
+void FeltCuts::tell(const CarvePatch& patch) {
+  if (behind() || !channel_.push(patch)) late_.push_back(patch);
+}
+
+void FeltCuts::send_late() {
+  while (behind() && channel_.push(late_.front())) late_.pop_front();
+}
+
+// Each round sends as much as the channel holds.
+void FeltCuts::catch_up() {
+  CarvePatch patch;
+  while (behind()) {
+    while (channel_.pop(patch)) early_.push_back(patch);
+    send_late();
+  }
+}
+
 void FeltCuts::copy(const Carving& carving) {
+  late_.clear();
+  early_.clear();
   while (channel_.pop(next_)) {
   }
   waiting_ = false;
@@ -88,23 +118,23 @@ void FeltCuts::copy(const Carving& carving) {
   }
 }
 
-bool publish(const Carving& carving, std::uint64_t step, bool all, std::vector<FeltCuts*>& hands) {
+void publish(const Carving& carving, std::uint64_t step, bool all, std::vector<FeltCuts*>& hands) {
   CarvePatch patch;
   patch.step = step;
-  bool done = !all || push_whole(carving, patch, hands);
+  for (FeltCuts* hand : hands) hand->send_late();
+  if (all) tell_whole(carving, patch, hands);
   if (!all)
     for (const Carving::Changed& changed : carving.changed()) {
       patch.bone = changed.bone;
       fill(patch, *carving.field(changed.bone), changed.block);
-      done = push_to_all(patch, hands) && done;
+      tell_all(patch, hands);
     }
   patch.kind = CarvePatch::Kind::kEvent;
   for (const Event& event : carving.events()) {
     if (event.hand >= hands.size()) continue;
     patch.event = event;
-    done = hands[event.hand]->channel().push(patch) && done;
+    hands[event.hand]->tell(patch);
   }
-  return done;
 }
 
 }  // namespace osteon

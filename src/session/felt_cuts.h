@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -22,34 +23,50 @@ struct CarvePatch {
   Event event;
 };
 using CarveChannel = BoundedQueue<CarvePatch>;
-/// Room for a whole bone that comes back, and a second of drilling besides.
-inline constexpr std::size_t kCarveChannelPlaces = 8192;
+/// Room for all blocks of a bone that comes back, for each bone, and a second of drilling besides.
+std::size_t channel_places(const CarvingSetup& setup);
 
 /// One hand's own copy of the cuts, as they were after the step that its tick consumes: a function
-/// of which step each tick consumed, so that a replay feels the same.
+/// of which step each tick consumed, so that a replay feels the same. Nothing that physics
+/// tells is lost: what has no room in the channel, because the hand has not ticked for long, waits
+/// with physics and is felt later.
 class FeltCuts {
  public:
-  explicit FeltCuts(const CarvingSetup& setup);
+  explicit FeltCuts(const CarvingSetup& setup) : FeltCuts(setup, channel_places(setup)) {}
+  FeltCuts(const CarvingSetup& setup, std::size_t places);
 
-  CarveChannel& channel() { return channel_; }
+  // Of the hand.
   /// Of each bone; null: it is not carved.
   std::vector<const CutField*> by_bone() const;
   /// Takes over all changes up to that step. Allocates, locks and logs nothing.
   void take_until(std::uint64_t step, std::uint64_t tick, EventList& events);
-  /// Throws away what is on its way and copies all cuts. While all threads rest.
+
+  // Of physics.
+  /// Allocates where there is no room.
+  void tell(const CarvePatch& patch);
+  /// Sends what waits, as far as there is room.
+  void send_late();
+  bool behind() const { return !late_.empty(); }
+
+  // Of one thread that runs both, or while all rest.
+  /// Makes room until nothing waits.
+  void catch_up();
+  /// Throws away what is on its way and copies all cuts.
   void copy(const Carving& carving);
 
  private:
+  bool next();
   void apply(const CarvePatch& patch, std::uint64_t tick, EventList& events);
 
   std::vector<std::unique_ptr<CutField>> bones_;
-  CarveChannel channel_{kCarveChannelPlaces};
+  std::deque<CarvePatch> early_;  ///< out of the channel before their time, see catch_up
   CarvePatch next_;
   bool waiting_ = false;  ///< `next_` belongs to a later step
+  CarveChannel channel_;
+  std::deque<CarvePatch> late_;  ///< physics' own
 };
 
-/// Tells every hand what the last step has changed; `all`: every block. False: a hand has not
-/// listened for so long that there is no room.
-bool publish(const Carving& carving, std::uint64_t step, bool all, std::vector<FeltCuts*>& hands);
+/// Tells every hand what the last step has changed; `all`: every block.
+void publish(const Carving& carving, std::uint64_t step, bool all, std::vector<FeltCuts*>& hands);
 
 }  // namespace osteon

@@ -67,6 +67,7 @@ void Session::Impl::step_if_due(std::uint64_t tick) {
   for (std::size_t i = 0; i < hands.size(); ++i) tools[i] = &hands[i]->tool_state();
   (void)world.step(std::span(tools).first(hands.size()), for_next_step);
   for_next_step = {};
+  world.catch_up();
 }
 
 const ToolState& Session::tick(std::span<const HandInput> inputs) {

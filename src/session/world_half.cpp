@@ -37,9 +37,9 @@ std::shared_ptr<const CarvingState> WorldHalf::carved() const {
 const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
                                     const Command& command) {
   obey(command);
-  if (carving_ && heard_) carving_->step(tools, world_.snapshot(), step_s_);
+  if (carving_) carving_->step(tools, world_.snapshot(), step_s_);
   const BoneSnapshot& bones = world_.step(tools);
-  if (carving_ && heard_) heard_ = publish(*carving_, bones.step, all_changed_, felt_);
+  if (carving_) publish(*carving_, bones.step, all_changed_, felt_);
   all_changed_ = false;
   record_ = {};
   record_.step = bones.step;
@@ -48,6 +48,10 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   const bool marked = command.kind == CommandKind::kMark && mark_of(command) < kMaxMarks;
   if (marked || bones.step % keep_every_ == 0) world_.ask_to_keep();
   return bones;
+}
+
+void WorldHalf::catch_up() {
+  for (FeltCuts* hand : felt_) hand->catch_up();
 }
 
 void WorldHalf::obey(const Command& command) {
@@ -107,7 +111,6 @@ void WorldHalf::restore(const WorldState& from) {
     carving_->restore(*from.carved);
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
   }
-  heard_ = true;
   marks_ = from.marks;
   for (std::size_t i = 0; i < marks_.size(); ++i)
     mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;

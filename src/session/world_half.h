@@ -20,6 +20,8 @@ class alignas(64) WorldHalf {
   /// `hands`: who feels what is carved, one after the other. Before the first step.
   void set_carving(std::shared_ptr<const CarvingSetup> setup, std::vector<FeltCuts*> hands);
   const Carving* carving() const { return carving_.get(); }
+  /// For one thread that runs both halves: no cut waits for room on its way to a hand.
+  void catch_up();
 
   const BoneSnapshot& step(std::span<const ToolState* const> tools, const Command& command);
   const BoneSnapshot& bones() const { return world_.snapshot(); }
@@ -39,7 +41,6 @@ class alignas(64) WorldHalf {
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
   std::vector<FeltCuts*> felt_;       ///< of the hands
   bool all_changed_ = false;          ///< bones came back from a restore point in this step
-  bool heard_ = true;                 ///< no hand has missed a change: else nothing is cut any more
   double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};

@@ -5,67 +5,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "drilling.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/carving_setup.h"
 #include "osteon/scene/carve_events.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
-#include "osteon/session/session.h"
-#include "session_fixtures.h"
 
 namespace osteon {
 namespace {
 
-using testing::box_mesh;
-
-constexpr double kTop_m = 0.004;  // of the block
-
-std::shared_ptr<const Case> block() {
-  CaseDef def;
-  def.name = "block";
-  BoneDef bone;
-  bone.name = "block";
-  bone.mesh = box_mesh(Vec3(0.005, 0.005, kTop_m));
-  bone.felt = Felt::kField;
-  def.bones.push_back(bone);
-  auto built = build_case(std::move(def));
-  EXPECT_TRUE(built);
-  return std::make_shared<const Case>(std::move(*built));
-}
-
-struct Drilling {
-  std::shared_ptr<const Case> the_case = block();
-  SessionSettings settings;
-  Tray tray;
-  std::shared_ptr<const CarvingSetup> setup;
-
-  explicit Drilling(const std::string& instrument = "drill:3.2") {
-    settings.tray = {instrument};
-    settings.carve.on = true;
-    settings.carve.cell_m = 0.0004;
-    settings.haptic.max_force_n = 8;
-    const auto all = load_instruments();
-    EXPECT_TRUE(all);
-    const auto name = parse_tool_name(instrument);
-    const Instrument* found = find_instrument(*all, name->name);
-    tray.push_back(std::make_shared<const Tool>(
-        make_tool(*found, *find_size(*found, name->size_mm.value_or(3.2)))));
-    auto made = make_carving(*the_case, settings.tray, settings.carve);
-    EXPECT_TRUE(made);
-    setup = *made;
-  }
-  Session session() const { return Session(the_case, settings, tray, setup); }
-};
-
-// Straight down on the block's top from 1 mm above, `speed` fast, to `deepest` under it.
-HandInput down_at(std::uint64_t n, double power, double speed = 0.02, double deepest = 0.003) {
-  HandInput hand;
-  const double z = std::max(0.001 - speed * 0.001 * static_cast<double>(n), -deepest);
-  hand.input.X_WD.p = {0.0003, 0.0002, kTop_m + z};
-  if (n == 2) hand.command = {CommandKind::kPower, power};
-  return hand;
-}
+using testing::down_at;
+using testing::Drilling;
+using testing::kTop_m;
 
 void run(Session& session, std::uint64_t from, std::uint64_t to, double power,
          std::vector<Event>* events = nullptr) {
@@ -160,6 +113,49 @@ TEST(Carving, ABurrRemovesWhereItIsPressed) {
   }
   EXPECT_GT(removed_mm3(session), 3);
   EXPECT_LT(session.tool_state().X_WP.p.z(), kTop_m + 0.0005);
+}
+
+// As two threads do it: while the hand stands still physics goes on. It feels all that was cut when
+// it goes on, and a replay gives the same bits.
+TEST(Carving, AHandThatStoodStillFeelsAllAndReplays) {
+  const Drilling with;
+  Session session = with.session();
+  Recording recording;
+  recording.header = recording_header(*with.the_case, with.settings, "test", "0", with.tray);
+  ToolState tool;
+  for (std::uint64_t n = 1; n <= 2600; ++n) {
+    if (n < 1500 || n > 1900) {
+      const HandInput hand = down_at(recording.ticks.size() + 1, 1);
+      tool = session.haptic_tick(hand.input, session.bones(), hand.command);
+      recording.ticks.push_back(session.last_tick_record());
+    }
+    if (n % 2 != 0) continue;
+    (void)session.physics_step(tool);
+    recording.steps.push_back(session.last_step_record());
+  }
+  recording.complete = true;
+  ASSERT_GT(removed_mm3(session), 1);
+  ReplayOptions options;
+  options.tray = with.tray;
+  options.carving = with.setup;
+  const auto outcome = replay(recording, with.the_case, options);
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+  EXPECT_EQ(outcome->state_hash, session.state_hash());
+}
+
+TEST(Carving, AFullPoolIsToldOnceAndNothingMoreIsRemoved) {
+  Drilling with;
+  with.with([](CarvingSetup& setup) { setup.most_blocks = 20; });
+  Session session = with.session();
+  std::vector<Event> events;
+  run(session, 1, 3000, 1, &events);
+  EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                          [](const Event& e) { return e.kind == kCarvingFull; }),
+            1);
+  const double removed = removed_mm3(session);
+  run(session, 3001, 4000, 1);
+  EXPECT_EQ(removed_mm3(session), removed);
 }
 
 TEST(Carving, SettingsComeBackFromTheirText) {

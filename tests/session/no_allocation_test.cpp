@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "count_allocations.h"
+#include "drilling.h"
+#include "osteon/carve/removed.h"
 #include "session_fixtures.h"
 
 namespace osteon {
@@ -30,6 +32,24 @@ TEST(NoAllocation, InAReportWithinItsReservedTime) {
     const std::uint64_t before = allocations();
     builder.add(tool);
     ASSERT_EQ(allocations(), before) << n;
+  }
+}
+
+// Neither the hand's tick nor the step that removes bone: with a drill, with a burr.
+TEST(NoAllocation, WhileBoneIsCarved) {
+  for (const char* instrument : {"drill:3.2", "microdrill:3"}) {
+    const testing::Drilling with(instrument);
+    Session session = with.session();
+    for (std::uint64_t n = 1; n <= 3000; ++n) {
+      HandInput hand = testing::down_at(n, 1);
+      if (with.setup->tray[0]->way == CarvingTool::Way::kBurr) hand.input.X_WD.p.z() += 0.0015;
+      const std::uint64_t before = allocations();
+      const ToolState& tool = session.haptic_tick(hand.input, session.bones(), hand.command);
+      ASSERT_EQ(allocations(), before) << n;
+      if (n % 2 == 0) (void)session.physics_step(tool);
+      ASSERT_EQ(allocations(), before) << n;
+    }
+    EXPECT_GT(1e9 * total(removed_volume(*session.carving()->field(0))), 1) << instrument;
   }
 }
 

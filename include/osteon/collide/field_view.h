@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "osteon/collide/cut_field.h"
 #include "osteon/collide/distance_field.h"
 
@@ -12,18 +14,24 @@ namespace osteon {
 /// the two planes meet: a rim is round to a ball that rolls over it, not pointed.
 class FieldView {
  public:
-  FieldView(const DistanceField& bone, const CutField* cuts = nullptr) : bone_(bone), cuts_(cuts) {}
+  /// `asked`: counts how often a carved bone is looked at, for who has so many looks and no more.
+  FieldView(const DistanceField& bone, const CutField* cuts = nullptr,
+            std::uint32_t* asked = nullptr)
+      : bone_(bone), cuts_(cuts && !cuts->empty() ? cuts : nullptr), asked_(asked) {}
   FieldSample at(const Vec3& p_B) const {
     const FieldSample bone = bone_.at(p_B);
-    return cuts_ && !cuts_->empty() ? carved(bone, p_B) : bone;
+    return cuts_ ? carved(bone, p_B) : bone;
   }
+  /// Whether anything was cut out of it: then looks cost twice as much.
+  bool is_carved() const { return cuts_ != nullptr; }
   const Aabb& box() const { return bone_.box(); }
 
  private:
   FieldSample carved(const FieldSample& bone, const Vec3& p_B) const;
 
   const DistanceField& bone_;
-  const CutField* cuts_;
+  const CutField* cuts_;  ///< null: nothing was cut
+  std::uint32_t* asked_;
 };
 
 }  // namespace osteon
