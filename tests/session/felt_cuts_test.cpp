@@ -8,6 +8,11 @@
 namespace osteon {
 namespace {
 
+const CarvingSetup& setup() {
+  static const testing::Drilling with;
+  return *with.setup;
+}
+
 // The hand's copy of block 7 with that value everywhere, from that step on.
 CarvePatch patch_at(std::uint64_t step, std::int16_t um) {
   CarvePatch patch;
@@ -26,8 +31,7 @@ CarvePatch event_at(std::uint64_t step) {
 }
 
 TEST(FeltCuts, WhatHasNoRoomIsToldLaterInItsOrder) {
-  const testing::Drilling with;
-  FeltCuts felt(*with.setup, 3);
+  FeltCuts felt(setup(), 3);
   for (std::uint64_t step = 1; step <= 10; ++step) felt.tell(event_at(step));
   EXPECT_TRUE(felt.behind());
   EventList events;
@@ -43,8 +47,7 @@ TEST(FeltCuts, WhatHasNoRoomIsToldLaterInItsOrder) {
 }
 
 TEST(FeltCuts, OneThreadMissesNothingHoweverNarrowTheChannel) {
-  const testing::Drilling with;
-  FeltCuts felt(*with.setup, 2);
+  FeltCuts felt(setup(), 2);
   for (std::uint64_t step = 1; step <= 20; ++step) felt.tell(event_at(step));
   felt.tell(patch_at(21, -500));
   felt.catch_up();
@@ -65,8 +68,7 @@ TEST(FeltCuts, OneThreadMissesNothingHoweverNarrowTheChannel) {
 
 // A whole bone that comes back, with a second of drilling besides, has room.
 TEST(FeltCuts, ABoneThatComesBackHasRoom) {
-  const testing::Drilling with;
-  EXPECT_GE(channel_places(*with.setup), with.setup->most_blocks + 4096);
+  EXPECT_GE(channel_places(setup()), setup().most_blocks + 4096);
 }
 
 }  // namespace
