@@ -53,8 +53,11 @@ Result<void> make_tables(Database& database) {
   return database.run((marks + tables).c_str());
 }
 
+// A chunk fills whole pages of the file: of small ones less is left empty. Any version reads them.
 Result<void> write_header(Database& database, const RecordingHeader& header) {
-  if (const auto done = database.run("PRAGMA journal_mode=WAL; BEGIN;"); !done) return done;
+  if (const auto done = database.run("PRAGMA page_size=1024; PRAGMA journal_mode=WAL; BEGIN;");
+      !done)
+    return done;
   if (const auto done = make_tables(database); !done) return done;
   if (const auto done = put_header(database, header); !done) return done;
   return database.run("COMMIT");

@@ -107,7 +107,7 @@ struct PowerDef {
 
 /// What an endoscope sees.
 struct OpticsDef {
-  double angle_deg = 0;  ///< between the shaft and the middle of the view, towards -x of Tool
+  double angle_deg = 0;  ///< between the shaft and the middle of the view, towards +y of Tool
   double field_deg = 0;  ///< whole width of the view
 };
 
