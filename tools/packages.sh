@@ -6,6 +6,7 @@ packages_build=(
   libusb-1.0-0-dev libepoxy-dev libsqlite3-dev libzstd-dev libtomlplusplus-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev libmeshoptimizer-dev
   libgdcm-dev zlib1g-dev libhpdf-dev libhdf5-dev
+  libavcodec-dev libavformat-dev libavutil-dev
   libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )
 packages_test=(
