@@ -7,7 +7,7 @@ in vec3 v_place;
 in vec3 v_place_normal;
 in vec4 v_shade;  // openness, cavity, mottle
 
-uniform int u_kind;       // 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat
+uniform int u_kind;       // 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel
 uniform vec3 u_tint;      // the part's own colour, display
 uniform vec3 u_fibre;     // unit, along the fibres, in the part's frame; of a meniscus: its axis
 uniform vec3 u_center;    // of the part, in its frame
@@ -135,7 +135,13 @@ Look fat_look(vec3 p) {
   return Look(c, 5e-4 * (1.0 - lobule.x * lobule.x), 40.0, 0.45, 0.45);
 }
 
+Look steel_look(vec3 p) {
+  float m = noise(p * 3000.0);
+  return Look(vec3(0.46, 0.48, 0.51), 2e-6 * m, 70.0, 0.6, 0.0);
+}
+
 Look look_at(vec3 p) {
+  if (u_kind == 6) return steel_look(p);
   if (u_kind == 1) return cartilage_look(p);
   if (u_kind == 2) return meniscus_look(p);
   if (u_kind == 3) return ligament_look(p);

@@ -22,7 +22,7 @@ Quat turned(const Vec3& axis_W, double angle_rad, const Quat& q) {
 
 }  // namespace
 
-Vec3 Camera::eye_W() const { return target_W + q_WC * Vec3(0, 0, distance_m); }
+Vec3 Camera::eye_W() const { return target_W + q_WC * Vec3(eye_right_m, 0, distance_m); }
 
 Pose Camera::X_WC() const { return {eye_W(), q_WC}; }
 
@@ -77,7 +77,7 @@ Ray ray_through(const Camera& camera, const Viewport& viewport, double x_px, dou
     const Vec3 start = pixel + Vec3(0, 0, camera.distance_m + kFarthest_m);
     return {camera.target_W + camera.q_WC * start, camera.q_WC * -Vec3::UnitZ()};
   }
-  const Vec3 eye(0, 0, camera.distance_m);
+  const Vec3 eye(camera.eye_right_m, 0, camera.distance_m);
   return {camera.eye_W(), camera.q_WC * (pixel - eye).normalized()};
 }
 
@@ -86,9 +86,9 @@ std::optional<PixelPoint> project(const Camera& camera, const Viewport& viewport
   const double depth = -p_C.z();
   if (!is_finite(p_C) || (depth <= 0 && !camera.orthographic)) return std::nullopt;
   const double shrink = camera.orthographic ? 1.0 : camera.distance_m / depth;
-  const double scale = shrink * 0.5 * viewport.height / camera.half_height_m();
-  return PixelPoint{0.5 * viewport.width + scale * p_C.x(), 0.5 * viewport.height - scale * p_C.y(),
-                    depth};
+  const double scale = 0.5 * viewport.height / camera.half_height_m();
+  return PixelPoint{0.5 * viewport.width + scale * (shrink * p_C.x() + camera.eye_right_m),
+                    0.5 * viewport.height - scale * shrink * p_C.y(), depth};
 }
 
 double metres_per_pixel(const Camera& camera, const Viewport& viewport, const Vec3& p_W) {

@@ -36,8 +36,10 @@ Eigen::Matrix4d projection(const Camera& camera, double aspect, const Aabb& cont
     far = std::max(far, depth);
   }
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  const double half = std::max(camera.half_height_m(), 1e-9);
+  const double to_the_right = camera.eye_right_m / (half * aspect);
   if (camera.orthographic) {
-    const double half = std::max(camera.half_height_m(), 1e-9);
+    m(0, 3) = to_the_right;
     m(0, 0) = 1 / (half * aspect);
     m(1, 1) = 1 / half;
     m(2, 2) = -2 / (far - near);
@@ -49,6 +51,7 @@ Eigen::Matrix4d projection(const Camera& camera, double aspect, const Aabb& cont
     near = std::clamp(near, std::max(1e-3, far * 2e-3), far * 0.999);
     const double t = std::tan(0.5 * camera.vertical_fov_rad);
     m(0, 0) = 1 / (t * aspect);
+    m(0, 2) = -to_the_right;
     m(1, 1) = 1 / t;
     m(2, 2) = -(far + near) / (far - near);
     m(2, 3) = -2 * far * near / (far - near);

@@ -137,6 +137,11 @@ void Renderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
 
 void Renderer::set_others(std::span<const ToolState> others) { impl_->painter.set_others(others); }
 
+void Renderer::set_marks(std::span<const SolidMark> marks) {
+  impl_->painter.set_marks(marks);
+  impl_->kept.reset();
+}
+
 void Renderer::draw(const RenderSnapshot& snapshot, const ViewState& view,
                     const Viewport& viewport) {
   if (viewport.empty()) return;

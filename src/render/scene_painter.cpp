@@ -5,6 +5,7 @@
 
 #include "osteon/render/felt_colors.h"
 #include "shapes.h"
+#include "soft_motion.h"
 
 namespace osteon {
 namespace {
@@ -181,21 +182,7 @@ bool ScenePainter::shows(const RenderSnapshot& snapshot, const ViewState& view,
 /// A soft part follows the mean motion of its bones away from rest.
 Pose ScenePainter::pose(const RenderSnapshot& snapshot, std::size_t k) const {
   if (k < rest_X_WB_.size()) return snapshot.bones.bones[k].X_WB;
-  const BoneModel& soft = bones_[k];
-  Vec3 center_W = Vec3::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-  double count = 0;
-  for (const std::size_t bone : soft.rides_on) {
-    if (bone >= snapshot.bones.count) continue;
-    const Pose moved = snapshot.bones.bones[bone].X_WB * rest_X_WB_[bone].inverse();
-    const Eigen::Vector4d q = moved.q.coeffs();
-    turn += q.dot(turn) < 0 ? Eigen::Vector4d(-q) : q;
-    center_W += moved * soft.center_B;
-    count += 1;
-  }
-  if (count == 0 || turn.norm() < 1e-6) return {};
-  const Quat q(turn / turn.norm());
-  return {center_W / count - q * soft.center_B, q};
+  return mean_motion(snapshot.bones, rest_X_WB_, bones_[k].rides_on, bones_[k].center_B);
 }
 
 Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,
@@ -244,6 +231,15 @@ void ScenePainter::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   for (const auto& tool : tray) tools_.push_back(make_tool_model(*tool));
 }
 
+void ScenePainter::set_marks(std::span<const SolidMark> marks) {
+  solids_.clear();
+  for (const SolidMark& mark : marks) {
+    const auto& c = mark.color_srgba;
+    solids_.push_back({GpuMesh(plain_shaded(mark.mesh_W)), Color(c[0], c[1], c[2], c[3]),
+                       finite_bounds(mark.mesh_W)});
+  }
+}
+
 bool ScenePainter::shows_hand(const RenderSnapshot& snapshot, const ViewState& view) {
   return view.show_hand_ghost && hand_is_apart(snapshot.tool);
 }
@@ -281,6 +277,11 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
   for (const ToolState& other : others_) include_tool(other, other.X_WP);
   if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
     include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
+  for (const Solid& solid : solids_) {
+    if (solid.box_W.empty()) continue;
+    box.include(solid.box_W.lo);
+    box.include(solid.box_W.hi);
+  }
   if (box.empty()) box.include(view.camera.target_W);
   return box;
 }
@@ -338,6 +339,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   // Now that their depth stands, only the line around them is left of what is pushed outwards.
   paint_outlines(snapshot, view, frame, true);
   if (view.show_hulls) paint_hulls(snapshot, view, frame);
+  if (!solids_.empty()) paint_solid_marks(frame);
   if (shows_hand(snapshot, view))
     paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, 0.30f, frame);
   if (view.show_force) paint_marks(snapshot, frame);
@@ -514,6 +516,25 @@ void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_f
   glDepthFunc(GL_LEQUAL);
   mark_.set("u_color", kAmber);
   mesh.draw();
+}
+
+/// The far side first, so that the inside of a cone is seen through its near side.
+void ScenePainter::paint_solid_marks(const Frame& frame) const {
+  mark_.use();
+  mark_.set("u_form", 0.5f);
+  mark_.set("u_edge", 0.25f);
+  mark_.set("u_view_from_model", to_matrix(frame.X_CW));
+  glEnable(GL_CULL_FACE);
+  glDepthMask(GL_FALSE);
+  for (const Solid& solid : solids_) {
+    mark_.set("u_color", solid.color);
+    for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+      glCullFace(hidden);
+      solid.surface.draw();
+    }
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
 }
 
 void ScenePainter::paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const {

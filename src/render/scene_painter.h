@@ -30,6 +30,7 @@ class ScenePainter {
     others_.assign(others.begin(), others.end());
   }
   std::span<const ToolState> others() const { return others_; }
+  void set_marks(std::span<const SolidMark> marks);
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
   /// Fills the bound framebuffer's current viewport with what is behind everything.
@@ -126,12 +127,19 @@ class ScenePainter {
   void paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity, const Frame& frame) const;
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
+  void paint_solid_marks(const Frame& frame) const;
 
   Program bone_, metal_, mark_, ground_;
   std::vector<BoneModel> bones_;  ///< and soft parts
   std::vector<Pose> rest_X_WB_;   ///< of the bones
   std::vector<ToolModel> tools_;  ///< by ToolState::instrument; not empty
   std::vector<ToolState> others_;
+  struct Solid {
+    GpuMesh surface;
+    Eigen::Vector4f color;
+    Aabb box_W;
+  };
+  std::vector<Solid> solids_;
   GpuMesh shaft_, head_, ball_;
   GlVertexArray no_vertices_;
 };

@@ -14,6 +14,7 @@
 #include "light_target.h"
 #include "render_target.h"
 #include "shapes.h"
+#include "soft_motion.h"
 #include "tissue_part.h"
 
 namespace osteon {
@@ -97,7 +98,9 @@ struct ScopeRenderer::Impl {
   TissuePart wall;
   std::vector<MeshDistance> bones;
   std::vector<std::string> names;
-  std::vector<Pose> X_WB;
+  std::vector<Pose> X_WB, rest_X_WB;
+  std::vector<TissuePart> tray;  ///< by ToolState::instrument
+  std::vector<std::pair<std::size_t, Pose>> tools;
   LightTarget flat;
   RenderTarget picture;
   GlVertexArray no_vertices;
@@ -129,6 +132,7 @@ struct ScopeRenderer::Impl {
     const Pose X_CW = camera.X_WC().inverse();
     for (const TissuePart& part : parts) paint(part, X_CW);
     if (!wall.surface.empty()) paint(wall, X_CW);
+    for (const auto& [instrument, X_WT] : tools) paint(tray[instrument], X_CW * X_WT);
     glDisable(GL_DEPTH_TEST);
   }
 
@@ -184,6 +188,7 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     impl->bones.emplace_back(bone.mesh);
     impl->names.push_back(bone.name);
     impl->X_WB.push_back(bone.X_WB);
+    impl->rest_X_WB.push_back(bone.X_WB);
   }
   for (std::size_t k = 0; k < the_case.softs.size() && k < prepared.softs.size(); ++k) {
     const SoftPart& soft = the_case.softs[k];
@@ -192,10 +197,37 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     part.surface = GpuMesh(prepared.softs[k]);
     part.pattern = pattern_of(soft.kind);
     part.tint = soft.color_srgb;
+    for (const BoneId bone : soft.bones) part.rides_on.push_back(bone.index);
     find_fibres(soft.mesh_W.vertices, part);
+    part.middle = part.center.cast<double>();
     impl->parts.push_back(std::move(part));
   }
   return ScopeRenderer(std::move(impl));
+}
+
+void ScopeRenderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
+  impl_->tools.clear();
+  impl_->tray.clear();
+  for (const auto& tool : tray) {
+    TissuePart part;
+    part.surface = GpuMesh(plain_shaded(tool->mesh));
+    part.pattern = TissuePattern::kSteel;
+    part.tint = {0.86f, 0.88f, 0.91f};
+    impl_->tray.push_back(std::move(part));
+  }
+}
+
+void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools) {
+  const std::size_t count = std::min<std::size_t>(impl_->X_WB.size(), bones.count);
+  for (std::size_t k = 0; k < count; ++k)
+    if (is_finite(bones.bones[k].X_WB)) impl_->X_WB[k] = impl_->parts[k].X_WM = bones.bones[k].X_WB;
+  for (TissuePart& part : impl_->parts)
+    if (!part.rides_on.empty())
+      part.X_WM = mean_motion(bones, impl_->rest_X_WB, part.rides_on, part.middle);
+  impl_->tools.clear();
+  for (const ToolState& tool : tools)
+    if (tool.instrument < impl_->tray.size() && is_finite(tool.X_WP))
+      impl_->tools.emplace_back(tool.instrument, tool.X_WP);
 }
 
 Result<void> ScopeRenderer::set_room(const Vec3& tip_W) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 #include "gpu_mesh.h"
 #include "osteon/base/types.h"
@@ -9,7 +11,7 @@
 namespace osteon {
 
 /// As tissue.frag knows them.
-enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat };
+enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat, kSteel };
 
 /// A surface with its pattern.
 struct TissuePart {
@@ -17,6 +19,8 @@ struct TissuePart {
   Pose X_WM;
   TissuePattern pattern = TissuePattern::kBone;
   std::array<float, 3> tint{0.89f, 0.84f, 0.73f};
+  std::vector<std::size_t> rides_on;  ///< bones; of a soft part
+  Vec3 middle = Vec3::Zero();         ///< at rest, of a soft part
   Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
 };
 

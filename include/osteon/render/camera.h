@@ -14,6 +14,10 @@ struct Camera {
   double vertical_fov_rad = 0.5;
   /// Parallel projection; things at the target's depth keep the size that they have in perspective.
   bool orthographic = false;
+  /// The eye stands so far to the right of the line through the target, and still looks straight
+  /// ahead: the picture is that of a window at the target's depth, where nothing shifts (an
+  /// off-axis frustum). Parallel projection knows no eye.
+  double eye_right_m = 0;
 
   Vec3 eye_W() const;
   Pose X_WC() const;

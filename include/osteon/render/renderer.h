@@ -75,6 +75,12 @@ struct SurfacePoint {
   Vec3 p_W = Vec3::Zero();
 };
 
+/// A surface that is drawn over a scene, seen through: a cone of sight, a planned line.
+struct SolidMark {
+  TriMesh mesh_W;                                             ///< closed, facing outwards
+  std::array<float, 4> color_srgba{1.0f, 0.85f, 0.2f, 0.3f};  ///< 0..1
+};
+
 /// Draws a snapshot with OpenGL 3.3. Needs a current context in every call and in the destructor,
 /// the same one. Keeps copies of what it needs of the case and the tool. A bone or tool whose pose
 /// is not finite is not drawn.
@@ -99,6 +105,8 @@ class Renderer {
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands from now on, drawn beside the snapshot's own; without marks.
   void set_others(std::span<const ToolState> others);
+  /// Drawn from now on, after the bones; those given before are gone.
+  void set_marks(std::span<const SolidMark> marks);
 
   /// Draws into the viewport of the framebuffer that is bound; touches nothing outside it. Leaves
   /// that framebuffer bound, depth test, blending, culling and scissor off. Where a processor

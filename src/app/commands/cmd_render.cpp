@@ -12,6 +12,7 @@
 #include "commands/render_options.h"
 #include "osteon/base/file.h"
 #include "osteon/render/renderer.h"
+#include "osteon/render/stereo.h"
 
 namespace osteon {
 namespace {
@@ -27,6 +28,8 @@ struct RenderOptions {
   bool joint = false;
   bool felt = false;
   std::optional<double> flexion_deg;
+  std::string stereo;
+  std::optional<double> eye_distance_mm, screen_depth_mm;
   std::string out;
 };
 
@@ -48,9 +51,41 @@ Result<ViewState> make_view(const RenderOptions& options, const Case& the_case, 
   return view;
 }
 
+/// What is not given is what looks right of something at arm's length: the screen stands at what is
+/// looked at, the eyes a fifteenth of that apart.
+Result<StereoEyes> eyes_of(const RenderOptions& options, const Camera& camera) {
+  StereoEyes eyes;
+  eyes.screen_depth_m =
+      options.screen_depth_mm ? 0.001 * *options.screen_depth_mm : camera.distance_m;
+  eyes.distance_m =
+      options.eye_distance_mm ? 0.001 * *options.eye_distance_mm : eyes.screen_depth_m / 15;
+  if (auto ok = check(eyes, camera); !ok) return tl::unexpected(ok.error());
+  return eyes;
+}
+
+Result<Image> draw_picture(const RenderOptions& options, const PictureSize& size,
+                           const RenderSnapshot& snapshot, const ViewState& view,
+                           Renderer& renderer) {
+  const auto draw = [&](const Camera& camera) {
+    ViewState seen = view;
+    seen.camera = camera;
+    return renderer.draw_image(snapshot, seen, size.width, size.height);
+  };
+  if (options.stereo.empty()) return draw(view.camera);
+  const auto layout = parse_stereo_layout(options.stereo);
+  if (!layout) return tl::unexpected(layout.error());
+  const auto eyes = eyes_of(options, view.camera);
+  if (!eyes) return tl::unexpected(eyes.error());
+  const Image left = draw(left_eye(view.camera, *eyes));
+  return join(left, draw(right_eye(view.camera, *eyes)), *layout);
+}
+
 Result<void> render(const RenderOptions& options) {
   const auto size = parse_picture_size(options.size);
   if (!size) return tl::unexpected(size.error());
+  if (!options.stereo.empty())
+    if (auto layout = parse_stereo_layout(options.stereo); !layout)
+      return tl::unexpected(layout.error());
   auto spec = Result<std::string>(options.case_spec);
   if (options.flexion_deg) spec = bent_spec(*spec, "flexion", *options.flexion_deg);
   if (!spec) return tl::unexpected(spec.error());
@@ -70,11 +105,12 @@ Result<void> render(const RenderOptions& options) {
   if (!renderer) return tl::unexpected(renderer.error());
   RenderSnapshot snapshot;
   snapshot.bones = rest_snapshot(the_case);
-  const Image image = renderer->draw_image(snapshot, *view, size->width, size->height);
-  if (image.rgb.empty())
+  const auto image = draw_picture(options, *size, snapshot, *view, *renderer);
+  if (!image) return tl::unexpected(image.error());
+  if (image->rgb.empty())
     return fail("the graphics driver has no memory for the picture", renderer->device_name(),
                 "choose a smaller --size");
-  return save_png(image, options.out);
+  return save_png(*image, options.out);
 }
 
 int run(const RenderOptions& options) {
@@ -112,6 +148,16 @@ void add_render_command(cli::App& app, int& exit_code) {
   command->add_option("--skin-opacity", options->skin_opacity, "0 to 1; of the skin when drawn")
       ->check(cli::Range(0.0, 1.0))
       ->capture_default_str();
+  cli::Option* stereo = command->add_option(
+      "--stereo", options->stereo, "side-by-side, over-under, interlaced or anaglyph (red-cyan)");
+  command
+      ->add_option("--eye-distance", options->eye_distance_mm,
+                   "mm between the eyes (default: a fifteenth of the screen's depth)")
+      ->needs(stereo);
+  command
+      ->add_option("--screen-depth", options->screen_depth_mm,
+                   "mm from the eyes to where both pictures coincide (default: what is looked at)")
+      ->needs(stereo);
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
