@@ -48,6 +48,7 @@ void add_drill_commands(cli::App& app, int& exit_code);     // drill trial, dril
 void add_case_measure_command(cli::App& app, int& exit_code);
 void add_results_commands(cli::App& app, int& exit_code);  // results: list, show, curve, ...
 void add_debrief_command(cli::App& app, int& exit_code);   // debrief: pages of a recorded attempt
+void add_film_commands(cli::App& app, int& exit_code);     // film, sound: of a recording
 void add_skill_command(cli::App& app, int& exit_code);     // skill: do scores tell it apart
 
 }  // namespace osteon

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/record/recording.h"
+#include "osteon/render/renderer.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/state.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+
+enum class FilmView { kScope, kOutside, kPanorama, kFluoro, kLayout };
+/// "scope", "outside", "panorama", "fluoro", "layout".
+Result<FilmView> parse_film_view(const std::string& text);
+
+/// Everything that a film's picture shows at one moment.
+struct FilmMoment {
+  double time_s = 0;
+  BoneSnapshot bones;
+  std::array<ToolState, kMaxHands> tools;
+  std::size_t hands = 1;
+};
+
+/// Draws a recorded session's pictures without a window, in one of the views. One thread, where it
+/// was made. Bones are drawn whole: what was carved of them is not taken away.
+class FilmPainter {
+ public:
+  struct Order {
+    FilmView view = FilmView::kOutside;
+    int width = 1280, height = 720;
+    std::string side = "front";  ///< of the panorama: front, top or left
+  };
+  /// Fails where the view cannot be drawn: no OpenGL, no hand that ever holds a scope, a case that
+  /// X-rays cannot go through. `scope_is_held`: some hand holds one at some time.
+  static Result<FilmPainter> create(std::shared_ptr<const Case> the_case,
+                                    const SessionSettings& settings, const Tray& tray,
+                                    bool scope_is_held, const Order& order);
+  ~FilmPainter();
+  FilmPainter(FilmPainter&&) noexcept;
+  FilmPainter& operator=(FilmPainter&&) noexcept;
+
+  /// Fails where the graphics driver has no memory for it.
+  Result<Image> draw(const FilmMoment& moment);
+
+ private:
+  struct Impl;
+  explicit FilmPainter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Whether any hand of a recording holds a scope at some time.
+Result<bool> holds_a_scope(RecordingReader& recording, const SessionSettings& settings);
+
+}  // namespace osteon
