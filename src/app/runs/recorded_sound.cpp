@@ -12,9 +12,10 @@
 namespace osteon {
 namespace {
 
-constexpr double kFullLoad_n = 15;       // a hand that presses so hard loads a motor fully
-constexpr double kCuttingLoad = 0.3;     // the least while bone goes
-constexpr double kFullKnock_m_s = 0.15;  // of the hand when metal meets bone
+constexpr double kFullLoad_n = 15;             // a hand that presses so hard loads a motor fully
+constexpr double kCuttingLoad = 0.3;           // the least while bone goes
+constexpr double kFullKnock_m_s = 0.15;        // of the hand when metal meets bone
+constexpr std::uint64_t kWarm = kSoundHz / 2;  // samples that are made before a part begins
 constexpr double kSlow_rpm = 500, kFast_rpm = 20000;
 
 /// What each place of a tray sounds like at full power.
@@ -75,9 +76,14 @@ Result<RecordedSound> RecordedSound::create(RecordingReader& recording, double f
   sound.hands_.resize(std::min<std::size_t>(settings->hands.size(), kMaxHands));
   for (std::size_t h = 0; h < sound.hands_.size(); ++h)
     sound.hands_[h].instrument = settings->hands[h].instrument;
-  sound.sample_ = static_cast<std::uint64_t>(std::llround(std::max(from_s, 0.0) * kSoundHz));
-  sound.tick_ = static_cast<std::uint64_t>(std::max(from_s, 0.0) / sound.tick_s_);
+  const auto wanted = static_cast<std::uint64_t>(std::llround(std::max(from_s, 0.0) * kSoundHz));
+  sound.sample_ = wanted - std::min<std::uint64_t>(wanted, kWarm);
+  sound.tick_ = static_cast<std::uint64_t>(
+      static_cast<double>(sound.sample_) / kSoundHz / sound.tick_s_ + 1e-6);
   sound.take_events(sound.tick_, false);
+  // Motors turn at their speed and what began a little before still sounds.
+  std::vector<float> before(static_cast<std::size_t>(wanted - sound.sample_));
+  if (auto ok = sound.render(before); !ok) return tl::unexpected(ok.error());
   return sound;
 }
 
