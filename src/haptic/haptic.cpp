@@ -97,7 +97,7 @@ struct HapticLoop::Impl {
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
-  void pass_portals(bool start);
+  void pass_portals(const Pose& X_WD, bool start);
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
   double glide(const Vec3& hand_W) const;
@@ -152,13 +152,14 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   state.tool.X_WP = {move.end(), move.q_WP};
   state.tool.status |= move.status;
   list_contacts(move);
-  pass_portals(true);
+  pass_portals(X_WD, true);
 }
 
-void HapticLoop::Impl::pass_portals(bool start) {
+void HapticLoop::Impl::pass_portals(const Pose& X_WD, bool start) {
   if (!portals.empty() && tool->shaft.radius > 0)
-    follow_portals(portals, tool->shaft, state.tool.X_WP, start, state.portal);
-  state.tool.portal = state.portal.portal;
+    follow_portals(portals, tool->shaft, state.tool.X_WP, X_WD, start, state.portal);
+  if (state.portal.portal != kNoPortal || !(state.portal.grip > 0))
+    state.tool.portal = state.portal.portal;
 }
 
 PortalPivot HapticLoop::Impl::pivot(const ToolInput& input, const Pose& X_WD,
@@ -377,7 +378,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   list_contacts(move);
   const double kept = feel(input, wanted.p, held, step.sticking, portal.force_W, params);
   share_force(move, held, kept * portal.force_W);
-  pass_portals(false);
+  pass_portals(X_WD, false);
 }
 
 // The hand has a free way to go, but the proxy may still be gliding after it, around an edge.
@@ -515,7 +516,8 @@ std::uint64_t HapticLoop::state_hash() const {
     h.add(other.X_WP);
     h.add(other.v_W);
   }
-  if (s.portal.portal != kNoPortal || s.portal.nearest != kNoPortal) {
+  if (s.portal.portal != kNoPortal || s.portal.nearest != kNoPortal || s.portal.grip > 0) {
+    h.add(s.tool.portal);
     h.add(s.portal.portal);
     h.add(s.portal.anchor_m);
     h.add(s.portal.sliding);

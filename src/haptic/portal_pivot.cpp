@@ -9,9 +9,11 @@ namespace osteon {
 namespace {
 
 constexpr double kCapture_m = 0.005;
-constexpr double kWithdrawn_m = 0.0005;  // the tip is this far out before the portal lets it go
-constexpr double kSwing_m = 0.015;       // L0: a shaft so long swings as easily as it is shifted
-constexpr double kGripPerTick = 0.02;    // the skin closes about a shaft within 50 ticks
+constexpr double kWithdrawn_m = 0.0005;    // the tip is this far out before the portal lets it go
+constexpr double kFarOut_m = 0.005;        // and at the latest here, wherever the hand is
+constexpr double kSwing_m = 0.015;         // L0: a shaft so long swings as easily as it is shifted
+constexpr double kGripPerTick = 0.02;      // the skin closes about a shaft within 50 ticks
+constexpr double kForgetPerTick = 0.0125;  // 80 ticks after it was let go a shaft counts as out
 constexpr double kShortestLever_m = 1e-4;
 
 // The shaft's axis beside a portal.
@@ -138,12 +140,18 @@ PortalRing ring_of(const Portal& portal, const Capsule& shaft, const Pose& X_WT)
 }
 
 void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const Pose& X_WP,
-                    bool start, PortalHold& hold) {
+                    const Pose& X_WD, bool start, PortalHold& hold) {
   if (hold.portal != PortalHold::kNone) {
     const Portal& portal = portals[hold.portal];
-    if (tip_depth(portal, shaft, X_WP) < -kWithdrawn_m) hold = {};
+    const double depth = tip_depth(portal, shaft, X_WP);
+    const bool hand_is_out = tip_depth(portal, shaft, X_WD) < -kWithdrawn_m;
+    if (depth < -kFarOut_m || (depth < -kWithdrawn_m && hand_is_out)) {
+      hold = {};
+      hold.grip = 1;
+    }
     return;
   }
+  hold.grip = std::max(0.0, hold.grip - kForgetPerTick);
   const std::uint32_t nearest = nearest_portal(portals, shaft, X_WP);
   const std::uint32_t before = hold.nearest;
   const double depth_before = hold.tip_depth_m;

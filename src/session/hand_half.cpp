@@ -144,7 +144,8 @@ void HandHalf::take(std::uint32_t instrument, double power, double jaw, bool eve
   held_ = instrument;
   loop().begin_anew(last);
   loop().set_grip(held_, power, jaw);
-  if (!same) tell(EventKind::kInstrumentTaken, SubjectKind::kInstrument, instrument);
+  const double size_mm = instrument < sizes_mm_.size() ? sizes_mm_[instrument] : 0;
+  if (!same) tell(EventKind::kInstrumentTaken, SubjectKind::kInstrument, instrument, size_mm);
 }
 
 // The device stays where it is, so contact begins anew there, with the bones as they were.

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bones_age.h"
@@ -23,6 +24,9 @@ class alignas(64) HandHalf {
   /// Bones can be carved: what this hand feels of that, for the physics to tell. Once, before the
   /// first tick.
   FeltCuts& set_carving(const CarvingSetup& setup);
+
+  /// Of the tray's instruments, mm: what the events of an exchange tell. Before the first tick.
+  void set_sizes(std::vector<double> sizes_mm) { sizes_mm_ = std::move(sizes_mm); }
 
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                         const Command& command);
@@ -52,6 +56,7 @@ class alignas(64) HandHalf {
   std::size_t hand_;
   std::unique_ptr<FeltCuts> cuts_;  ///< null: no bone is carved
   std::vector<HapticLoop> loops_;   ///< one for each instrument in the tray
+  std::vector<double> sizes_mm_;
   std::uint32_t held_ = 0;
   std::uint32_t portal_count_;
   HapticParams params_;

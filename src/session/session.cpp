@@ -7,6 +7,7 @@
 #include "hand_half.h"
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
+#include "osteon/scene/instrument_size.h"
 #include "whole_tray.h"
 #include "world_half.h"
 
@@ -17,6 +18,14 @@ std::vector<Portal> portals_of(const Case& the_case, const SessionSettings& sett
   auto portals = open_portals(the_case, settings);
   demand(portals.has_value(), "a session's settings name a portal that its case does not have");
   return std::move(*portals);
+}
+
+std::vector<double> sizes_of(const Tray& tray, const SessionSettings& settings) {
+  std::vector<double> sizes_mm;
+  for (std::size_t i = 0; i < tray.size(); ++i)
+    sizes_mm.push_back(
+        size_in_use_mm(i < settings.tray.size() ? settings.tray[i] : tray[i]->name, *tray[i]));
+  return sizes_mm;
 }
 
 }  // namespace
@@ -30,8 +39,11 @@ struct Session::Impl {
         world(the_case, settings),
         ticks_per_step(static_cast<std::uint64_t>(
             std::round(settings.physics.step_s / settings.haptic.tick_s))) {
-    for (std::size_t i = 0; i < settings.hands.size(); ++i)
+    const std::vector<double> sizes_mm = sizes_of(tray, settings);
+    for (std::size_t i = 0; i < settings.hands.size(); ++i) {
       hands.push_back(std::make_unique<HandHalf>(the_case, tray, portals, settings, i));
+      hands.back()->set_sizes(sizes_mm);
+    }
     if (!carving) return;
     std::vector<FeltCuts*> felt;
     for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));

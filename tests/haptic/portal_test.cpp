@@ -96,6 +96,51 @@ TEST(Portal, IsEnteredThroughTheSkinAndLeftThroughIt) {
   EXPECT_EQ(rig.enter(0.03, 0.02).portal, 1u);
 }
 
+// A hand of 0.15 kg with a grip of 500 N/m, which yields to the force that it feels.
+struct YieldingHand {
+  Vec3 p_W, v_W = Vec3::Zero();
+  void step(const Vec3& wanted_W, const Vec3& force_W) {
+    constexpr double kMass = 0.15, kGrip = 500, kDamping = 12, kTick = 0.001;
+    const Vec3 pull = kGrip * (wanted_W - p_W) - kDamping * v_W + force_W;
+    v_W += kTick / kMass * pull;
+    p_W += kTick * v_W;
+  }
+};
+
+// Wherever within reach of the hole and however tilted a hand wants the tip just below the skin: it
+// is in or out, not both by turns, though the skin pushes the hand.
+TEST(Portal, AShaftAtTheRimDoesNotComeAndGo) {
+  Random random(3);
+  int most = 0, entered = 0;
+  for (int run = 0; run < 200; ++run) {
+    PortalRig rig;
+    rig.params.max_slew_n_per_s = 4000;
+    const double tilt = random.uniform(-1.1, 1.1);
+    const Quat q(std::cos(0.5 * tilt), 0, std::sin(0.5 * tilt), 0);
+    const double x = random.uniform(-0.0049, 0.0049);
+    const double y = random.uniform(-0.003, 0.003);
+    const double depth = random.uniform(-0.0002, 0.0015);
+    const Vec3 rim = Vec3(x, y, -depth) - q * rig.tool->shaft.p0;
+    YieldingHand hand{rim + Vec3(0, 0, 0.01)};
+    std::uint32_t before = kNoPortal;
+    int changes = 0;
+    Vec3 force = Vec3::Zero();
+    for (int i = 0; i < 800; ++i) {
+      const Vec3 wanted =
+          rim + Vec3(0, 0, std::max(0.0, 0.01 - 5e-5 * i) + 1e-4 * std::sin(0.012 * i));
+      hand.step(wanted, force);
+      const ToolState& s = rig.at(hand.p_W, q, hand.v_W);
+      force = s.force_W;
+      changes += s.portal != before ? 1 : 0;
+      before = s.portal;
+    }
+    entered += before != kNoPortal ? 1 : 0;
+    most = std::max(most, changes);
+  }
+  EXPECT_LE(most, 3);
+  EXPECT_GT(entered, 50);
+}
+
 TEST(Portal, SkinElsewhereIsNoPortal) {
   PortalRig rig;
   EXPECT_EQ(rig.enter(0.015, 0.02).portal, kNoPortal);

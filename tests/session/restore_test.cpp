@@ -131,6 +131,7 @@ TEST(Restore, BringsBackWhatTheHandsHeld) {
   ASSERT_EQ(session.last_events(0).size(), 1u);
   EXPECT_EQ(session.last_events(0)[0].kind, EventKind::kInstrumentTaken);
   EXPECT_EQ(session.last_events(0)[0].subject, 2u);
+  EXPECT_NEAR(session.last_events(0)[0].values[0], 3, 1e-12);  // mm across its tip
   tick(2, {CommandKind::kPower, 0.5});
   const Command mark{CommandKind::kMark, 0};
   tick(3, mark, mark);

@@ -17,6 +17,8 @@ struct RecordArguments {
   bool json = false;
   std::string csv;
   std::string hdf5;
+  bool torque = false;
+  std::string case_spec;
 };
 
 int run_info(const RecordArguments& options) {
@@ -38,10 +40,16 @@ int run_export(const RecordArguments& options) {
   if (options.csv.empty() && options.hdf5.empty())
     return report_error({"nothing says where the tables go", "record export",
                          "Give --csv FOLDER or --hdf5 FILE, or both"});
+  if (options.torque && options.csv.empty())
+    return report_error(
+        {"torques are tables of their own", "record export --torque", "Give --csv FOLDER with it"});
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
   if (!options.csv.empty())
     if (const auto done = export_csv(*recording, options.csv); !done)
+      return report_error(done.error());
+  if (options.torque)
+    if (const auto done = export_torque(options.file, options.case_spec, options.csv); !done)
       return report_error(done.error());
   if (!options.hdf5.empty())
     if (const auto done = export_hdf5(*recording, options.hdf5); !done)
@@ -67,6 +75,10 @@ void add_record_command(cli::App& app, int& exit_code) {
                        "a new or empty folder: ticks_<hand>.csv, events.csv");
   exported->add_option("--hdf5", options->hdf5,
                        "a file: a group for each hand and one for the events, with units");
+  exported->add_flag("--torque", options->torque,
+                     "repeat the run and add torque_<hand>.csv: the moment about each grip");
+  exported->add_option("--case", options->case_spec,
+                       "for --torque: the case (default: the recording's own)");
   exported->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 

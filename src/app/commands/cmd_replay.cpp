@@ -14,6 +14,7 @@
 #include "commands/session_options.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/hand_reports.h"
+#include "runs/torque_report.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -91,19 +92,32 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
 }
 
 // A run of one hand has the report that it always had.
-Result<void> save_reports(const ReplayOutcome& outcome, const RecordingHeader& header,
-                          const std::string& file) {
-  if (outcome.reports.size() == 1) return save_report(outcome.report, file);
+Result<void> save_reports(const ReplayOutcome& outcome, std::span<const TorqueReport> torques,
+                          const RecordingHeader& header, const std::string& file) {
   if (file.empty()) return {};
-  return write_file_atomic(file, to_json(outcome.reports, hand_names(header)));
+  if (outcome.reports.size() == 1)
+    return write_file_atomic(file, with_torque(to_json(outcome.report), torques, {}));
+  const std::vector<std::string> names = hand_names(header);
+  return write_file_atomic(file, with_torque(to_json(outcome.reports, names), torques, names));
 }
 
-void print_reports(const ReplayOutcome& outcome, const RecordingHeader& header) {
+void print_reports(const ReplayOutcome& outcome, std::span<const TorqueReport> torques,
+                   const RecordingHeader& header) {
   const std::vector<std::string> names = hand_names(header);
   for (std::size_t h = 0; h < outcome.reports.size(); ++h) {
     if (outcome.reports.size() > 1) std::printf("hand           %s\n", names[h].c_str());
+    if (h < torques.size()) std::fputs(to_text(torques[h]).c_str(), stdout);
     std::fputs(to_text(outcome.reports[h]).c_str(), stdout);
   }
+}
+
+Result<TorqueWatch> torque_of(const RecordingHeader& header, const Case& the_case,
+                              const Tray& tray) {
+  const auto settings = parse_settings(header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  auto portals = open_portals(the_case, *settings);
+  if (!portals) return tl::unexpected(portals.error());
+  return TorqueWatch(tray, std::move(*portals), header.hands);
 }
 
 int replay_recording(const ReplayArguments& options) {
@@ -119,16 +133,21 @@ int replay_recording(const ReplayArguments& options) {
   how.from_s = options.from_s;
   if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
     return report_error(ready.error());
+  auto torque = torque_of(recording->header(), **the_case, how.tray);
+  if (!torque) return report_error(torque.error());
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
+    torque->see(hand, tool);
     if (*frames && hand == 0) (*frames)->add(tool, bones);
   };
   const auto outcome = replay(*recording, *the_case, how);
   if (!outcome) return report_error(outcome.error());
   if (*frames && (*frames)->failure()) return report_error(*(*frames)->failure());
-  if (auto ok = save_reports(*outcome, recording->header(), options.report); !ok)
+  const std::vector<TorqueReport> torques =
+      torque->has_levers() ? torque->finish() : std::vector<TorqueReport>();
+  if (auto ok = save_reports(*outcome, torques, recording->header(), options.report); !ok)
     return report_error(ok.error());
-  print_reports(*outcome, recording->header());
+  print_reports(*outcome, torques, recording->header());
   return judge(options, *outcome);
 }
 

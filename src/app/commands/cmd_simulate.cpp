@@ -63,20 +63,25 @@ Result<HeadlessRun> run_of(const SimulateOptions& options) {
 
 int print_hands(const HeadlessOutcome& outcome, const std::string& report_file) {
   if (!report_file.empty())
-    if (auto ok = write_file_atomic(report_file, to_json(outcome.reports, outcome.names)); !ok)
+    if (auto ok = write_file_atomic(
+            report_file,
+            with_torque(to_json(outcome.reports, outcome.names), outcome.torques, outcome.names));
+        !ok)
       return report_error(ok.error());
   for (std::size_t h = 0; h < outcome.reports.size(); ++h)
-    std::printf("hand           %s\n%s\n", outcome.names[h].c_str(),
+    std::printf("hand           %s\n%s%s\n", outcome.names[h].c_str(),
+                h < outcome.torques.size() ? to_text(outcome.torques[h]).c_str() : "",
                 to_text(outcome.reports[h]).c_str());
   return kExitDone;
 }
 
-// What was carved is one more part of the report.
+// What was carved, and what the grip bore, are more parts of the report.
 Result<void> save_with_carving(const Report& report, const HeadlessOutcome& outcome,
                                const std::string& file) {
-  if (file.empty() || !outcome.carving) return save_report(report, file);
-  auto json = nlohmann::ordered_json::parse(to_json(report));
-  json["carving"] = to_json(*outcome.carving);
+  if (file.empty() || (!outcome.carving && outcome.torques.empty()))
+    return save_report(report, file);
+  auto json = nlohmann::ordered_json::parse(with_torque(to_json(report), outcome.torques, {}));
+  if (outcome.carving) json["carving"] = to_json(*outcome.carving);
   return write_file_atomic(file, json.dump(2) + "\n");
 }
 
@@ -95,6 +100,7 @@ int run_simulate(const SimulateOptions& options) {
   const Report& report = outcome->reports.front();
   if (auto ok = save_with_carving(report, *outcome, options.report); !ok)
     return report_error(ok.error());
+  if (!outcome->torques.empty()) std::fputs(to_text(outcome->torques.front()).c_str(), stdout);
   std::fputs(to_text(report).c_str(), stdout);
   if (outcome->carving) std::fputs(to_text(*outcome->carving).c_str(), stdout);
   return kExitDone;

@@ -87,7 +87,9 @@ class HeadlessLoop {
                std::shared_ptr<const CarvingSetup> carving, std::vector<RunningHand> hands)
       : run_(run),
         session_(run.the_case, settings, std::move(tray), std::move(carving)),
-        hands_(std::move(hands)) {}
+        hands_(std::move(hands)),
+        torque_(session_.tray(), {session_.portals().begin(), session_.portals().end()},
+                hands_.size()) {}
 
   void tick(std::uint64_t n, double dt) {
     inputs_.clear();
@@ -100,6 +102,7 @@ class HeadlessLoop {
       const ToolState& tool = session_.tool_state(h);
       hands_[h].hand->feel(tool.force_W);
       hands_[h].report.add(tool);
+      torque_.see(h, tool);
     }
     if (run_.on_hands) {
       tools_.clear();
@@ -116,6 +119,9 @@ class HeadlessLoop {
   }
   const Session& session() const { return session_; }
   std::optional<CarvingReport> carving() const { return carving_.finish(session_); }
+  std::vector<TorqueReport> torques() const {
+    return torque_.has_levers() ? torque_.finish() : std::vector<TorqueReport>();
+  }
 
   std::vector<Report> reports(std::int64_t elapsed_ns) const {
     std::vector<Report> reports;
@@ -136,6 +142,7 @@ class HeadlessLoop {
   std::vector<const ToolState*> tools_;
   Percentiles tick_times_;
   CarvingWatch carving_;
+  TorqueWatch torque_;
 };
 
 Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
@@ -192,6 +199,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   for (const HeadlessHand& hand : hands) outcome.names.push_back(hand.name);
   outcome.reports = loop->reports(steady_now_ns() - started);
   outcome.carving = loop->carving();
+  outcome.torques = loop->torques();
   return outcome;
 }
 

@@ -16,6 +16,7 @@
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
 #include "runs/carving_report.h"
+#include "runs/torque_report.h"
 
 namespace osteon {
 
@@ -55,6 +56,7 @@ struct HeadlessOutcome {
   std::vector<std::string> names;
   std::vector<Report> reports;
   std::optional<CarvingReport> carving;  ///< none: no bone could be carved
+  std::vector<TorqueReport> torques;     ///< of each hand; none: no instrument had a shaft
 };
 
 /// Runs it to the end of the longest path, with the settings kept within what the device bears.
