@@ -7,7 +7,7 @@
 #include "distance_search.h"
 #include "field_box.h"
 #include "osteon/collide/field_contact.h"
-#include "segments.h"
+#include "osteon/collide/segments.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "segments.h"
+#include "osteon/collide/segments.h"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "band_pull.h"
 #include "contact_field.h"
 #include "coupling.h"
 #include "friction.h"
@@ -65,6 +66,7 @@ struct HapticLoop::Impl {
   std::shared_ptr<const Tool> tool;
   ContactField field;
   ProxySolver solver;
+  BandPull bands;
   std::vector<Portal> portals;
   HapticState state;
   std::array<Pose, kMaxBones> now_WB{};
@@ -78,7 +80,8 @@ struct HapticLoop::Impl {
       : the_case(std::move(c)),
         tool(std::move(t)),
         field(*the_case, *tool),
-        solver(field, *tool, tray) {
+        solver(field, *tool, tray),
+        bands(*tool) {
     state.bone_count = static_cast<std::uint32_t>(the_case->bones.size());
     state.pairs.resize(kMaxCandidates);
   }
@@ -96,6 +99,7 @@ struct HapticLoop::Impl {
   void grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
+  Vec3 pull_of_bands(const HapticParams& params) const;
   void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
   void pass_portals(const Pose& X_WD, bool start);
   Vec3 carried_base() const;
@@ -106,8 +110,8 @@ struct HapticLoop::Impl {
   void list_contacts(const ProxyMove& move);
   Load letting_go(const HapticParams& params) const;
   double feel(const ToolInput& input, const Vec3& hand_W, const Load& held, bool sticking,
-              const Vec3& portal_W, const HapticParams& params);
-  void share_force(const ProxyMove& move, const Load& load, const Vec3& portal_W);
+              const Vec3& beside_W, const HapticParams& params);
+  void share_force(const ProxyMove& move, const Load& load, const Vec3& beside_W);
 };
 
 void HapticLoop::Impl::refuse_input() {
@@ -319,8 +323,8 @@ void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
 
 // Splits the force on the hand among the contacts: the part along the load's normal as the planes'
 // weights say, the rest (friction) in the same proportion.
-void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, const Vec3& portal_W) {
-  const Vec3 force = state.tool.force_W - portal_W;
+void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, const Vec3& beside_W) {
+  const Vec3 force = state.tool.force_W - beside_W;
   const double size = load.stretch_W.norm();
   if (!(load.sum > 0) || !(size > 0)) return;
   const double normal = std::max(0.0, force.dot(load.nhat_W));
@@ -376,9 +380,19 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   state.tool.X_WP = {step.p_W, move.q_WP};
   state.tool.status |= move.status | (step.sticking ? kTickSticking : kTickOk);
   list_contacts(move);
-  const double kept = feel(input, wanted.p, held, step.sticking, portal.force_W, params);
-  share_force(move, held, kept * portal.force_W);
+  Vec3 beside_W = portal.force_W;
+  if (bands.any()) beside_W += pull_of_bands(params);
+  const double kept = feel(input, wanted.p, held, step.sticking, beside_W, params);
+  share_force(move, held, kept * beside_W);
   pass_portals(X_WD, false);
+}
+
+// Soft bands push the tool where it is: bone and other tools alone bound its way.
+Vec3 HapticLoop::Impl::pull_of_bands(const HapticParams& params) const {
+  const ToolState& t = state.tool;
+  return bands.force_W(
+      {t.X_WP, v_hand_W, t.instrument, t.epoch, params.stiffness_n_per_m, params.damping_n_s_per_m},
+      now());
 }
 
 // The hand has a free way to go, but the proxy may still be gliding after it, around an edge.
@@ -391,10 +405,10 @@ Load HapticLoop::Impl::letting_go(const HapticParams& params) const {
   return out;
 }
 
-// Sets the force on the hand from the place that the proxy has taken, and the portal's. Returns
-// what share of it the limits have left.
+// Sets the force on the hand from the place that the proxy has taken, and what comes beside it of
+// portal and bands. Returns what share of it the limits have left.
 double HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const Load& held,
-                              bool sticking, const Vec3& portal_W, const HapticParams& params) {
+                              bool sticking, const Vec3& beside_W, const HapticParams& params) {
   Vec3 force = Vec3::Zero();
   if (held.holds()) {
     const Vec3 stretch = state.tool.X_WP.p - hand_W;
@@ -405,7 +419,7 @@ double HapticLoop::Impl::feel(const ToolInput& input, const Vec3& hand_W, const 
                             sticking});
   }
   const ForceLimits limits{params.max_force_n, params.max_slew_n_per_s * params.tick_s};
-  if (!portal_W.isZero(0)) force += portal_W;
+  if (!beside_W.isZero(0)) force += beside_W;
   const double wanted = force.norm();
   force = limited_force(force, state.tool.force_W, limits, state.tool.status);
   state.tool.force_W = params.force_on ? force : Vec3(Vec3::Zero());
@@ -544,6 +558,10 @@ void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std
 
 void HapticLoop::set_cuts(std::span<const CutField* const> by_bone) {
   impl_->field.set_cuts(by_bone);
+}
+
+void HapticLoop::set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts) {
+  impl_->bands.set(bands, contacts);
 }
 
 std::unique_ptr<HapticState> HapticLoop::save() const {

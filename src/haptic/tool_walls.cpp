@@ -2,32 +2,14 @@
 
 #include <algorithm>
 
+#include "osteon/collide/segments.h"
+#include "osteon/scene/tool_rods.h"
+
 namespace osteon {
 namespace {
 
 // Tools farther apart than both hands may bring them together in a tick, and this, do not meet, m.
 constexpr double kRoom_m = 0.002;
-
-struct NearestPair {
-  Vec3 p_A, p_B;
-};
-
-double clamped_share(double value) { return std::clamp(value, 0.0, 1.0); }
-
-// Nearest points of two segments p0 + s u and q0 + t v (Ericson, "Real-Time Collision Detection",
-// 2005, 5.1.9): the unbounded minimum in s, clamped, then the best t for it, clamped, then s again.
-NearestPair nearest_on_segments(const Capsule& a, const Capsule& b) {
-  const Vec3 u = a.p1 - a.p0;
-  const Vec3 v = b.p1 - b.p0;
-  const Vec3 w = a.p0 - b.p0;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm();
-  const double uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double denominator = uu * vv - uv * uv;
-  double s = denominator > 1e-12 * uu * vv ? clamped_share((uv * vw - uw * vv) / denominator) : 0;
-  double t = vv > 0 ? clamped_share((uv * s + vw) / vv) : 0;
-  s = uu > 0 ? clamped_share((uv * t - uw) / uu) : 0;
-  return {a.p0 + s * u, b.p0 + t * v};
-}
 
 Capsule placed(const Pose& X_WT, const Capsule& rod) {
   return {X_WT * rod.p0, X_WT * rod.p1, rod.radius};
@@ -41,31 +23,11 @@ double lowest(const Capsule& rod, const Vec3& n) {
   return std::min(n.dot(rod.p0), n.dot(rod.p1)) - rod.radius;
 }
 
-// A box is met as the rod along its longest side, as thick as the mean of the others.
-Capsule rod_of(const Primitive& part) {
-  if (part.kind == Primitive::Kind::kRod) return part.rod;
-  Eigen::Index longest = 0;
-  const double half = part.half.maxCoeff(&longest);
-  const double radius = 0.5 * (part.half.sum() - half);
-  const Vec3 along = part.X_TB.rotate(Vec3::Unit(longest)) * std::max(0.0, half - radius);
-  return {part.X_TB.p - along, part.X_TB.p + along, radius};
-}
-
 }  // namespace
 
-std::vector<Capsule> obstacle_rods(const Tool& tool) {
-  std::vector<Capsule> rods;
-  for (const Primitive& part : tool.parts) rods.push_back(rod_of(part));
-  if (!rods.empty()) return rods;
-  if (!tool.rods.empty()) return tool.rods;
-  for (const ConvexBody& body : tool.bodies)
-    rods.push_back({body.center, body.center, body.radius});
-  return rods;
-}
-
 ToolWalls::ToolWalls(const Tool& own, std::span<const std::shared_ptr<const Tool>> tray)
-    : own_(obstacle_rods(own)) {
-  for (const auto& tool : tray) tray_.push_back(obstacle_rods(*tool));
+    : own_(tool_rods(own)) {
+  for (const auto& tool : tray) tray_.push_back(tool_rods(*tool));
 }
 
 void ToolWalls::start(const OtherTools& before, const OtherTools& now, const Pose& X_WT,
@@ -97,8 +59,8 @@ void ToolWalls::meet(std::uint32_t hand, const OtherTool& line_from, const Other
   for (std::uint32_t r = 0; r < own_.size(); ++r) {
     const Capsule mine_W = placed(X_WT, own_[r]);
     for (const Capsule& rod : tray_[now.instrument]) {
-      const NearestPair line = nearest_on_segments(mine_W, placed(line_from.X_WP, rod));
-      const Vec3 apart = line.p_A - line.p_B;
+      const AxisPoints line = nearest_on_axes(mine_W, placed(line_from.X_WP, rod));
+      const Vec3 apart = line.a - line.b;
       const double distance = apart.norm();
       if (!(distance > 0)) continue;
       const Vec3 n = apart / distance;
@@ -108,7 +70,7 @@ void ToolWalls::meet(std::uint32_t hand, const OtherTool& line_from, const Other
       if (low - high > nearby) continue;
       const double mine = low + n.dot(to_hand_W);
       const double theirs = high + n.dot(to_their_hand_W);
-      keep({hand, r, low - high, 0.5 * (mine + theirs), n, line.p_A - mine_W.radius * n});
+      keep({hand, r, low - high, 0.5 * (mine + theirs), n, line.a - mine_W.radius * n});
     }
   }
 }

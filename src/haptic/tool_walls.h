@@ -12,9 +12,6 @@
 
 namespace osteon {
 
-/// What of a tool meets the tools of other hands, in Tool.
-std::vector<Capsule> obstacle_rods(const Tool& tool);
-
 /// The tools of the other hands near this one, in one tick.
 ///
 /// Two proxies that were walls for each other could not share a push: each would stand still for

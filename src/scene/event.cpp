@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "osteon/scene/carve_events.h"
+#include "osteon/scene/soft_events.h"
 
 namespace osteon {
 namespace {
@@ -38,6 +39,16 @@ constexpr std::array kRows = {
     EventKindRow{K::kMark, "mark", "restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kRestored, "restored", "back to restore point", S::kMark, {"", "", ""}},
     EventKindRow{K::kFault, "fault", "force taken off", S::kDevice, {"", "", ""}},
+    EventKindRow{kSoftBegin, "soft_begin", "pushes", S::kSoftPart, {"tension_n", "", ""}},
+    EventKindRow{kSoftEnd,
+                 "soft_end",
+                 "lets go of",
+                 S::kSoftPart,
+                 {"duration_s", "peak_force_n", "deepest_mm"}},
+    EventKindRow{
+        kSoftOver, "soft_over", "pulls too hard on", S::kSoftPart, {"force_n", "limit_n", ""}},
+    EventKindRow{kSoftTorn, "soft_torn", "tears", S::kSoftPart, {"tension_n", "force_n", ""}},
+    EventKindRow{kSoftLost, "soft_lost", "can no more feel", S::kSoftPart, {"", "", ""}},
     EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,

@@ -60,12 +60,19 @@ FeltCuts& HandHalf::set_carving(const CarvingSetup& setup) {
   return *cuts_;
 }
 
+FeltBands& HandHalf::set_bands(const std::vector<SoftBand>& bands) {
+  bands_ = std::make_unique<FeltBands>();
+  for (HapticLoop& loop : loops_) loop.set_bands(&bands, &bands_->contacts());
+  return *bands_;
+}
+
 const ToolState& HandHalf::tick(const ToolInput& input, const BoneSnapshot& bones,
                                 const OtherTools& others, const Command& command) {
   events_.clear();
   before_ = tool_state();
   ++record_.tick;
   if (cuts_) cuts_->take_until(bones.step, record_.tick, events_);
+  if (bands_) bands_->take_until(bones.step, record_.tick, events_);
   obey(command);
   const double age_s = age_.at(record_.tick, bones.step, params_.tick_s);
   OtherTools around = others;

@@ -8,6 +8,7 @@
 #include "bones_age.h"
 #include "event_list.h"
 #include "event_watch.h"
+#include "felt_bands.h"
 #include "felt_cuts.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
@@ -27,6 +28,9 @@ class alignas(64) HandHalf {
 
   /// Of the tray's instruments, mm: what the events of an exchange tell. Before the first tick.
   void set_sizes(std::vector<double> sizes_mm) { sizes_mm_ = std::move(sizes_mm); }
+  /// Bands are felt: what this hand feels of them, for the physics to tell. Once, before the first
+  /// tick; they must outlive this.
+  FeltBands& set_bands(const std::vector<SoftBand>& bands);
 
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                         const Command& command);
@@ -54,8 +58,9 @@ class alignas(64) HandHalf {
                    const Command& command);
 
   std::size_t hand_;
-  std::unique_ptr<FeltCuts> cuts_;  ///< null: no bone is carved
-  std::vector<HapticLoop> loops_;   ///< one for each instrument in the tray
+  std::unique_ptr<FeltCuts> cuts_;    ///< null: no bone is carved
+  std::unique_ptr<FeltBands> bands_;  ///< null: nothing is soft
+  std::vector<HapticLoop> loops_;     ///< one for each instrument in the tray
   std::vector<double> sizes_mm_;
   std::uint32_t held_ = 0;
   std::uint32_t portal_count_;

@@ -136,9 +136,13 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
   if (settings->carve.on && !options.carving)
     return fail("in the recording bone is removed, which a replay of this kind cannot do",
                 "recording", "Use 'osteon replay' or 'osteon case save'");
+  if (settings->soft.empty() == static_cast<bool>(options.softs))
+    return fail("in the recording soft parts are felt, which a replay of this kind cannot do",
+                "recording", "Use 'osteon replay'");
   std::unique_ptr<Replayer> replayer;
   const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
-    return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving);
+    return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving,
+                                      options.softs);
   });
   if (!begun) return tl::unexpected(begun.error());
   Tally tally(replayer->session(), settings->haptic.tick_s);

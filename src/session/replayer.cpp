@@ -19,9 +19,11 @@ RecordStream<TickRecord> ticks_from(const RecordSource& source, std::size_t hand
 
 Replayer::Replayer(const RecordSource& source, std::shared_ptr<const Case> the_case,
                    const SessionSettings& settings, Tray tray,
-                   std::shared_ptr<const CarvingSetup> carving)
+                   std::shared_ptr<const CarvingSetup> carving,
+                   std::shared_ptr<const SoftSetup> softs)
     : source_(source),
-      session_(std::move(the_case), settings, std::move(tray), std::move(carving)),
+      session_(std::move(the_case), settings, std::move(tray), std::move(carving),
+               std::move(softs)),
       steps_(source.steps, 1) {
   for (std::size_t h = 0; h < session_.hands(); ++h)
     hands_.push_back({ticks_from(source, h, 1), 0, {}, {}, {}, 0});

@@ -15,7 +15,8 @@ class Replayer {
  public:
   Replayer(const RecordSource& source, std::shared_ptr<const Case> the_case,
            const SessionSettings& settings, Tray tray,
-           std::shared_ptr<const CarvingSetup> carving = nullptr);
+           std::shared_ptr<const CarvingSetup> carving = nullptr,
+           std::shared_ptr<const SoftSetup> softs = nullptr);
 
   /// Begins after a stored state instead of at the start. False: what was on its way at that moment
   /// is not in the state, so that a replay cannot begin there.

@@ -32,10 +32,12 @@ std::vector<double> sizes_of(const Tray& tray, const SessionSettings& settings) 
 
 struct Session::Impl {
   Impl(std::shared_ptr<const Case> c, const SessionSettings& settings, Tray given,
-       const std::shared_ptr<const CarvingSetup>& carving)
+       const std::shared_ptr<const CarvingSetup>& carving,
+       std::shared_ptr<const SoftSetup> soft_setup)
       : the_case(std::move(c)),
         tray(whole_tray(std::move(given), settings)),
         portals(portals_of(*the_case, settings)),
+        softs(std::move(soft_setup)),
         world(the_case, settings),
         ticks_per_step(static_cast<std::uint64_t>(
             std::round(settings.physics.step_s / settings.haptic.tick_s))) {
@@ -44,6 +46,7 @@ struct Session::Impl {
       hands.push_back(std::make_unique<HandHalf>(the_case, tray, portals, settings, i));
       hands.back()->set_sizes(sizes_mm);
     }
+    if (softs) set_softs(settings);
     if (!carving) return;
     std::vector<FeltCuts*> felt;
     for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));
@@ -53,6 +56,7 @@ struct Session::Impl {
   std::shared_ptr<const Case> the_case;
   Tray tray;
   std::vector<Portal> portals;
+  std::shared_ptr<const SoftSetup> softs;
   std::vector<std::unique_ptr<HandHalf>> hands;
   WorldHalf world;
 
@@ -62,12 +66,24 @@ struct Session::Impl {
   int last_steps = 0;
 
   void step_if_due(std::uint64_t tick);
+
+ private:
+  void set_softs(const SessionSettings& settings) {
+    std::vector<FeltBands*> felt;
+    for (const auto& hand : hands) felt.push_back(&hand->set_bands(softs->bands));
+    world.set_softs(std::make_unique<SoftHalf>(
+        std::make_unique<SoftWorld>(softs, tray, settings.haptic.stiffness_n_per_m,
+                                    settings.force_limit_n, settings.physics.step_s),
+        std::move(felt)));
+  }
 };
 
 Session::Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray,
-                 std::shared_ptr<const CarvingSetup> carving) {
+                 std::shared_ptr<const CarvingSetup> carving,
+                 std::shared_ptr<const SoftSetup> softs) {
   assert(check_settings(settings));
-  impl_ = std::make_unique<Impl>(std::move(the_case), settings, std::move(tray), carving);
+  impl_ = std::make_unique<Impl>(std::move(the_case), settings, std::move(tray), carving,
+                                 std::move(softs));
 }
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
@@ -141,6 +157,7 @@ const ToolState& Session::tool_state(std::size_t hand) const {
 const Tray& Session::tray() const { return impl_->tray; }
 std::span<const Portal> Session::portals() const { return impl_->portals; }
 const Carving* Session::carving() const { return impl_->world.carving(); }
+const SoftWorld* Session::softs() const { return impl_->world.softs(); }
 const BoneSnapshot& Session::bones() const { return impl_->world.bones(); }
 
 std::uint64_t Session::state_hash() const {

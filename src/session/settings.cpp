@@ -201,6 +201,20 @@ Result<void> take_carve(Json& json, SessionSettings& settings) {
   return {};
 }
 
+// Stands in the settings of a session with soft parts alone.
+Result<void> take_soft(Json& json, SessionSettings& settings) {
+  if (!json.contains("soft")) return {};
+  if (auto done = read_names(json, "soft", settings.soft); !done) return done;
+  const Json* hash = find(json, "", "soft_hash");
+  if (settings.soft.empty() || !hash || !hash->is_number_unsigned())
+    return fail("the soft parts that are felt, or their hash, are missing", "settings, 'soft'",
+                kTodo);
+  settings.soft_hash = hash->get<std::uint64_t>();
+  json.erase("soft");
+  json.erase("soft_hash");
+  return {};
+}
+
 Result<void> check_hands(const SessionSettings& settings) {
   if (settings.hands.empty() || settings.hands.size() > kMaxHands)
     return fail("a session has one to four hands", "settings, 'hands'", "Name as many");
@@ -250,6 +264,10 @@ std::string to_json(const SessionSettings& settings) {
   json["tray"] = settings.tray;
   json["portals"] = settings.portals;
   if (settings.carve.on) json["carve"] = carve_json(settings.carve);
+  if (!settings.soft.empty()) {
+    json["soft"] = settings.soft;
+    json["soft_hash"] = settings.soft_hash;
+  }
   return json.dump(2);
 }
 
@@ -258,6 +276,7 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   if (!parsed) return tl::unexpected(parsed.error());
   SessionSettings settings;
   if (const auto done = take_carve(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = take_soft(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());
   const Json* seed = find(*parsed, "", "seed");
   if (!seed || !seed->is_number_unsigned())

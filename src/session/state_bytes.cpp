@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -338,16 +338,56 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
 }
 
 template <class A>
+void field(A& a, NearBand& n) {
+  field(a, n.contact.band);
+  field(a, n.contact.part);
+  field(a, n.contact.nhat_W);
+  field(a, n.contact.others_taken_m);
+  for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
+  field(a, n.deep_m);
+  field(a, n.taken_m);
+}
+
+template <class A>
+void field(A& a, BandTouch& t) {
+  field(a, t.on);
+  field(a, t.over);
+  field(a, t.first_step);
+  field(a, t.last_step);
+  field(a, t.peak_n);
+  field(a, t.deepest_m);
+}
+
+template <class A>
+void field(A& a, SoftState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 3) return;  // nothing was soft then
+  field(a, s.on);
+  if (!s.on) return;
+  for (BandState& band : s.bands) {
+    field(a, band.torn);
+    field(a, band.lost);
+  }
+  for (SoftHandState& hand : s.hands) {
+    field(a, hand.instrument);
+    first_of(a, hand.count, hand.near);
+    for (BandTouch& touch : hand.touches) field(a, touch);
+  }
+}
+
+template <class A>
 void field(A& a, WorldState& w) {
   field(a, w.bones);
   field(a, w.hold);
   field(a, w.carved);
+  field(a, w.softs);
   for (WorldMark& mark : w.marks) {
     field(a, mark.set);
     if (!mark.set) continue;
     field(a, mark.hold);
     field(a, mark.bones);
     field(a, mark.carved);
+    field(a, mark.softs);
   }
 }
 

@@ -40,6 +40,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) carving_->step(tools, world_.snapshot(), step_s_);
   const BoneSnapshot& bones = world_.step(tools);
   if (carving_) publish(*carving_, bones.step, all_changed_, felt_);
+  if (softs_) softs_->step(tools, bones);
   all_changed_ = false;
   record_ = {};
   record_.step = bones.step;
@@ -66,13 +67,15 @@ void WorldHalf::obey(const Command& command) {
 
 void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
+  if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   all_changed_ = true;
 }
 
 void WorldHalf::keep(std::uint32_t mark) {
-  marks_[mark] = {true, world_.held(), world_.snapshot(), carved()};
+  marks_[mark] = {true, world_.held(), world_.snapshot(), carved(),
+                  softs_ ? softs_->world().state() : SoftState{}};
   mark_hashes_[mark] = hash_of(marks_[mark].bones);
 }
 
@@ -80,6 +83,7 @@ std::uint64_t WorldHalf::hash() const {
   Hasher hasher;
   hasher.add(world_.state_hash());
   if (carving_) hasher.add(carving_->hash());
+  if (softs_) hasher.add(softs_->world().hash());
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     hasher.add(marks_[i].set);
     if (!marks_[i].set) continue;
@@ -93,6 +97,7 @@ void WorldHalf::save(WorldState& into) const {
   into.bones = world_.snapshot();
   into.hold = world_.held();
   into.carved = carved();
+  if (softs_) into.softs = softs_->world().state();
   into.marks = marks_;
 }
 
@@ -100,9 +105,12 @@ bool WorldHalf::fits(const WorldState& state) const {
   const auto good = [&](const std::shared_ptr<const CarvingState>& carved) {
     return carving_ ? carved && carving_->fits(*carved) : !carved;
   };
+  const auto fit = [&](const SoftState& softs) {
+    return softs_ ? softs_->world().fits(softs) : !softs.on;
+  };
   for (const WorldMark& mark : state.marks)
-    if (mark.set && !good(mark.carved)) return false;
-  return good(state.carved);
+    if (mark.set && !(good(mark.carved) && fit(mark.softs))) return false;
+  return good(state.carved) && fit(state.softs);
 }
 
 void WorldHalf::restore(const WorldState& from) {
@@ -111,6 +119,7 @@ void WorldHalf::restore(const WorldState& from) {
     carving_->restore(*from.carved);
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
   }
+  if (softs_) softs_->restore(from.softs, from.bones.epoch);
   marks_ = from.marks;
   for (std::size_t i = 0; i < marks_.size(); ++i)
     mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "felt_bands.h"
 #include "felt_cuts.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/physics/carving.h"
@@ -22,6 +23,9 @@ class alignas(64) WorldHalf {
   const Carving* carving() const { return carving_.get(); }
   /// For one thread that runs both halves: no cut waits for room on its way to a hand.
   void catch_up();
+  /// Before the first step.
+  void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
+  const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }
 
   const BoneSnapshot& step(std::span<const ToolState* const> tools, const Command& command);
   const BoneSnapshot& bones() const { return world_.snapshot(); }
@@ -39,6 +43,7 @@ class alignas(64) WorldHalf {
 
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
+  std::unique_ptr<SoftHalf> softs_;   ///< null: nothing is soft
   std::vector<FeltCuts*> felt_;       ///< of the hands
   bool all_changed_ = false;          ///< bones came back from a restore point in this step
   double step_s_;

@@ -8,6 +8,7 @@
 #include "osteon/collide/cut_field.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/soft_band.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
 
@@ -68,6 +69,9 @@ class HapticLoop {
   /// must outlive the loop; who changes it does so between two ticks. Bones felt as pieces or hulls
   /// are felt whole.
   void set_cuts(std::span<const CutField* const> by_bone);
+  /// The soft bands of the case, and those near the tool as physics has published them: changed
+  /// between two ticks. Both must outlive the loop; null: there are none.
+  void set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts);
   /// `reset` in the middle of a run, for a loop that goes on where another one was at `last`, or
   /// itself: ticks go on, the force fades to zero within kFade_s, and rises again once the hand has
   /// been free. Allocates, locks and logs nothing.

@@ -23,6 +23,8 @@
 namespace osteon {
 
 class Carving;
+class SoftWorld;
+struct SoftSetup;
 
 /// One hand of a session.
 struct HandSettings {
@@ -45,6 +47,9 @@ struct SessionSettings {
   /// Names or titles of the portals that are open; "all": every one of the case.
   std::vector<std::string> portals = {"all"};
   PortalSkin portal_skin;
+  /// Soft parts that are felt, as make_soft_setup reads them; none: nothing soft is felt.
+  std::vector<std::string> soft;
+  std::uint64_t soft_hash = 0;  ///< SoftSetup::hash of what was made of them; 0: not made yet
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.
 Result<void> check_settings(const SessionSettings& settings);
@@ -91,9 +96,11 @@ class Session {
  public:
   /// `settings` must satisfy check_settings and open_portals. An empty tray holds the wrist probe
   /// alone. `carving`: what make_carving made for the case, the tray and `settings.carve`; null: no
-  /// bone is removed.
+  /// bone is removed. `softs`: what make_soft_setup made of the case for `settings.soft`; null:
+  /// nothing soft is felt.
   Session(std::shared_ptr<const Case> the_case, const SessionSettings& settings, Tray tray = {},
-          std::shared_ptr<const CarvingSetup> carving = nullptr);
+          std::shared_ptr<const CarvingSetup> carving = nullptr,
+          std::shared_ptr<const SoftSetup> softs = nullptr);
   ~Session();
   Session(Session&&) noexcept;
 
@@ -131,6 +138,8 @@ class Session {
   std::span<const Portal> portals() const;
   /// The carved bones, as physics has them; null: none is carved. For when all rest.
   const Carving* carving() const;
+  /// The soft parts, as physics has them; null: nothing is soft. For when all rest.
+  const SoftWorld* softs() const;
   const BoneSnapshot& bones() const;
   /// Over all halves. (A tick record's hash is over the hand's half and the bones that the tick
   /// consumed: what is known at that tick whatever the other threads do.)
@@ -179,6 +188,7 @@ struct ReplayOptions {
   double from_s = 0;
   Tray tray;                                    ///< as the recorded session had it
   std::shared_ptr<const CarvingSetup> carving;  ///< likewise
+  std::shared_ptr<const SoftSetup> softs;       ///< likewise
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
   std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
 };

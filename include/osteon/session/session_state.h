@@ -10,6 +10,7 @@
 #include "osteon/base/result.h"
 #include "osteon/haptic/haptic.h"
 #include "osteon/haptic/haptic_state.h"
+#include "osteon/physics/soft_state.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/state.h"
@@ -60,6 +61,7 @@ struct WorldMark {
   bool hold = false;
   BoneSnapshot bones;
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
+  SoftState softs;                             ///< off: nothing is soft
 };
 
 /// All that one physics step leaves to the next.
@@ -67,6 +69,7 @@ struct WorldState {
   BoneSnapshot bones;
   bool hold = true;
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
+  SoftState softs;                             ///< off: nothing is soft
   std::array<WorldMark, kMaxMarks> marks{};
 };
 

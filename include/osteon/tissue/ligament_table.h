@@ -27,6 +27,7 @@ struct LigamentRow {
   /// and each is laid on the bone.
   std::string part;
   bool over_tibia = false;  ///< the band lies over the tibia's rim
+  double failure_n = 1e9;   ///< tension at which it tears; not given: never
   std::vector<LigamentBundle> bundles;
 };
 

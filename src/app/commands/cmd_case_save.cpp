@@ -42,7 +42,7 @@ CarvedMeshes meshes_of(const Session& session) {
 
 Result<CarvedMeshes> replay_to(RecordingReader& recording, const CaseSaveCommand& command,
                                const std::string& spec) {
-  auto the_case = open_and_show_progress(spec, CaseParts::kFelt);
+  auto the_case = open_and_show_progress(spec, parts_of(recording.header()));
   if (!the_case) return tl::unexpected(the_case.error());
   ReplayOptions how;
   if (auto ready = take_instruments(recording.header(), **the_case, how); !ready)

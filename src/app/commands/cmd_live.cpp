@@ -17,6 +17,7 @@
 #include "loops/device_log.h"
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
+#include "osteon/physics/soft_setup.h"
 #include "runs/demo_path.h"
 #include "runs/device_choices.h"
 #include "runs/hand_order.h"
@@ -37,6 +38,7 @@ struct LiveOptions {
   double seconds = 0;
   bool free_bones = false;
   std::string portals = "all";
+  std::string soft;
   MappingSettings mapping;
 };
 
@@ -163,6 +165,11 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
     return tl::unexpected(open.error());
   if (auto portals = open_portals(*live.run.the_case, live.run.settings); !portals)
     return tl::unexpected(portals.error());
+  live.run.settings.soft = softs_named(options.soft);
+  auto softs = softs_for(*live.run.the_case, live.run.settings);
+  if (!softs) return tl::unexpected(softs.error());
+  if (*softs) live.run.settings.soft_hash = (*softs)->hash;
+  live.run.softs = std::move(*softs);
   auto feed = feed_for(options, live.run, *tray);
   if (!feed) return tl::unexpected(feed.error());
   live.runtime = std::make_unique<Runtime>(live.run, std::move(live.plans), std::move(*feed),
@@ -254,7 +261,8 @@ Result<ProbePath> path_of(const LiveOptions& options, const Case& the_case) {
 int run_live(LiveOptions options) {
   const StopSignals signals;
   options.mapping.axes = MappingAxes::kPatient;
-  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
+  auto the_case = open_and_show_progress(options.case_spec,
+                                         options.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   const auto path = path_of(options, **the_case);
   if (!path) return report_error(path.error());
@@ -299,6 +307,7 @@ void add_live_command(cli::App& app, int& exit_code) {
                    "while it is held the device moves without the tool")
       ->check(cli::Range(0, 31));
   add_portals_option(*command, options->portals);
+  add_soft_option(*command, options->soft);
   command->add_flag("--free-bones", options->free_bones, "bones move on springs");
   command->callback([options, &exit_code] { exit_code = run_live(*options); });
 }

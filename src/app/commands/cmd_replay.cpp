@@ -125,7 +125,7 @@ int replay_recording(const ReplayArguments& options) {
   if (!recording) return report_error(recording.error());
   const auto spec = recorded_case_spec(options.file, options.case_spec, recording->header());
   if (!spec) return report_error(spec.error());
-  auto the_case = open_and_show_progress(*spec, CaseParts::kFelt);
+  auto the_case = open_and_show_progress(*spec, parts_of(recording->header()));
   if (!the_case) return report_error(the_case.error());
   auto frames = frames_for(options, **the_case);
   if (!frames) return report_error(frames.error());
@@ -154,8 +154,9 @@ int replay_recording(const ReplayArguments& options) {
 int replay_path(const ReplayArguments& options) {
   auto path = load_path(options.file);
   if (!path) return report_error(path.error());
-  auto the_case = open_and_show_progress(
-      options.case_spec.empty() ? "builtin:wrist" : options.case_spec, CaseParts::kFelt);
+  auto the_case =
+      open_and_show_progress(options.case_spec.empty() ? "builtin:wrist" : options.case_spec,
+                             options.session.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   HeadlessRun run;
   run.the_case = *the_case;

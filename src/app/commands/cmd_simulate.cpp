@@ -72,16 +72,18 @@ int print_hands(const HeadlessOutcome& outcome, const std::string& report_file) 
     std::printf("hand           %s\n%s%s\n", outcome.names[h].c_str(),
                 h < outcome.torques.size() ? to_text(outcome.torques[h]).c_str() : "",
                 to_text(outcome.reports[h]).c_str());
+  if (outcome.softs) std::fputs(to_text(*outcome.softs).c_str(), stdout);
   return kExitDone;
 }
 
-// What was carved, and what the grip bore, are more parts of the report.
-Result<void> save_with_carving(const Report& report, const HeadlessOutcome& outcome,
-                               const std::string& file) {
-  if (file.empty() || (!outcome.carving && outcome.torques.empty()))
+// What was carved, what the grip bore, and what is soft, are more parts of the report.
+Result<void> save_with_more(const Report& report, const HeadlessOutcome& outcome,
+                            const std::string& file) {
+  if (file.empty() || !(outcome.carving || outcome.softs || !outcome.torques.empty()))
     return save_report(report, file);
   auto json = nlohmann::ordered_json::parse(with_torque(to_json(report), outcome.torques, {}));
   if (outcome.carving) json["carving"] = to_json(*outcome.carving);
+  if (outcome.softs) json["soft"] = to_json(*outcome.softs);
   return write_file_atomic(file, json.dump(2) + "\n");
 }
 
@@ -91,18 +93,20 @@ int run_simulate(const SimulateOptions& options) {
                          "Give --path PATH.csv, or --hand NAME=PATH.csv for each hand"});
   auto run = run_of(options);
   if (!run) return report_error(run.error());
-  auto the_case = open_and_show_progress(options.case_spec, CaseParts::kFelt);
+  auto the_case = open_and_show_progress(
+      options.case_spec, options.session.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   run->the_case = *the_case;
   const auto outcome = simulate_hands(*run);
   if (!outcome) return report_error(outcome.error());
   if (!options.hands.empty()) return print_hands(*outcome, options.report);
   const Report& report = outcome->reports.front();
-  if (auto ok = save_with_carving(report, *outcome, options.report); !ok)
+  if (auto ok = save_with_more(report, *outcome, options.report); !ok)
     return report_error(ok.error());
   if (!outcome->torques.empty()) std::fputs(to_text(outcome->torques.front()).c_str(), stdout);
   std::fputs(to_text(report).c_str(), stdout);
   if (outcome->carving) std::fputs(to_text(*outcome->carving).c_str(), stdout);
+  if (outcome->softs) std::fputs(to_text(*outcome->softs).c_str(), stdout);
   return kExitDone;
 }
 

@@ -113,7 +113,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (!recording) return tl::unexpected(recording.error());
   const auto spec = recorded_case_spec(order.recording, order.case_spec, recording->header());
   if (!spec) return tl::unexpected(spec.error());
-  const auto the_case = open_felt_case(*spec);
+  const auto the_case = open_case(*spec, {}, parts_of(recording->header()));
   if (!the_case) return tl::unexpected(the_case.error());
   const auto settings = parse_settings(recording->header().settings_json);
   if (!settings) return tl::unexpected(settings.error());

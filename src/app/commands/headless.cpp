@@ -7,6 +7,7 @@
 #include "commands/path_commands.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
+#include "osteon/physics/soft_setup.h"
 #include "osteon/record/recording.h"
 #include "runs/tray.h"
 
@@ -84,9 +85,10 @@ std::vector<std::string> tray_of(std::span<const HeadlessHand> hands) {
 class HeadlessLoop {
  public:
   HeadlessLoop(const HeadlessRun& run, const SessionSettings& settings, Tray tray,
-               std::shared_ptr<const CarvingSetup> carving, std::vector<RunningHand> hands)
+               std::shared_ptr<const CarvingSetup> carving, std::shared_ptr<const SoftSetup> softs,
+               std::vector<RunningHand> hands)
       : run_(run),
-        session_(run.the_case, settings, std::move(tray), std::move(carving)),
+        session_(run.the_case, settings, std::move(tray), std::move(carving), std::move(softs)),
         hands_(std::move(hands)),
         torque_(session_.tray(), {session_.portals().begin(), session_.portals().end()},
                 hands_.size()) {}
@@ -110,6 +112,7 @@ class HeadlessLoop {
       run_.on_hands(tools_, session_.bones());
     }
     carving_.see(session_);
+    softs_.see(session_);
     if (run_.on_tick) run_.on_tick(session_.tool_state(0), session_.bones());
   }
   std::string complaint() const {
@@ -122,6 +125,8 @@ class HeadlessLoop {
   std::vector<TorqueReport> torques() const {
     return torque_.has_levers() ? torque_.finish() : std::vector<TorqueReport>();
   }
+
+  std::optional<SoftReport> softs() const { return softs_.finish(session_); }
 
   std::vector<Report> reports(std::int64_t elapsed_ns) const {
     std::vector<Report> reports;
@@ -143,6 +148,7 @@ class HeadlessLoop {
   Percentiles tick_times_;
   CarvingWatch carving_;
   TorqueWatch torque_;
+  SoftWatch softs_;
 };
 
 Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
@@ -166,7 +172,11 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
   auto carving = carving_for(*run.the_case, settings);
   if (!carving) return tl::unexpected(carving.error());
-  return HeadlessLoop(run, settings, std::move(*tray), std::move(*carving), std::move(running));
+  auto softs = softs_for(*run.the_case, settings);
+  if (!softs) return tl::unexpected(softs.error());
+  if (*softs) settings.soft_hash = (*softs)->hash;
+  return HeadlessLoop(run, settings, std::move(*tray), std::move(*carving), std::move(*softs),
+                      std::move(running));
 }
 
 }  // namespace
@@ -200,6 +210,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   outcome.reports = loop->reports(steady_now_ns() - started);
   outcome.carving = loop->carving();
   outcome.torques = loop->torques();
+  outcome.softs = loop->softs();
   return outcome;
 }
 

@@ -16,6 +16,7 @@
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
 #include "runs/carving_report.h"
+#include "runs/soft_report.h"
 #include "runs/torque_report.h"
 
 namespace osteon {
@@ -57,6 +58,7 @@ struct HeadlessOutcome {
   std::vector<Report> reports;
   std::optional<CarvingReport> carving;  ///< none: no bone could be carved
   std::vector<TorqueReport> torques;     ///< of each hand; none: no instrument had a shaft
+  std::optional<SoftReport> softs;       ///< none: nothing was soft
 };
 
 /// Runs it to the end of the longest path, with the settings kept within what the device bears.

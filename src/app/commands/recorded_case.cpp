@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "osteon/session/session.h"
+
 namespace osteon {
 
 namespace fs = std::filesystem;
@@ -22,6 +24,11 @@ Result<std::string> recorded_case_spec(const fs::path& recording, const std::str
   if (fs::exists(beside, ignored)) return beside.string() + choice;
   return fail("the case of the recording ('" + source + "') is not found, nor is it beside it",
               recording.string(), "Name it with --case");
+}
+
+CaseParts parts_of(const RecordingHeader& header) {
+  const auto settings = parse_settings(header.settings_json);
+  return settings && !settings->soft.empty() ? CaseParts::kAll : CaseParts::kFelt;
 }
 
 }  // namespace osteon

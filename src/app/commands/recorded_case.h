@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cases/open_case.h"
 #include "osteon/base/result.h"
 #include "osteon/record/recording.h"
 
@@ -12,5 +13,8 @@ namespace osteon {
 /// moved with it or without it. Fails when it is nowhere.
 Result<std::string> recorded_case_spec(const std::filesystem::path& recording,
                                        const std::string& asked, const RecordingHeader& header);
+
+/// What of the case a replay needs: the soft parts where some were felt.
+CaseParts parts_of(const RecordingHeader& header);
 
 }  // namespace osteon

@@ -4,6 +4,7 @@
 
 #include "commands/parser.h"
 #include "osteon/image/tissue.h"
+#include "runs/tray.h"
 
 namespace osteon {
 
@@ -21,6 +22,7 @@ void SessionOptions::add_to(cli::App& command) {
       ->capture_default_str();
   command.add_flag("--free-bones", free_bones, "bones move on springs instead of being held");
   add_portals_option(command, portals);
+  add_soft_option(command, soft);
   command.add_option("--hand-mass", hand.mass_kg, "virtual hand, kg")
       ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
@@ -32,6 +34,7 @@ void SessionOptions::add_to(cli::App& command) {
 Result<SessionSettings> SessionOptions::resolved() const {
   SessionSettings out = settings;
   out.physics.hold_bones = !free_bones;
+  out.soft = softs_named(soft);
   if (auto done = open_in_skin(portals, out); !done) return tl::unexpected(done.error());
   return out;
 }
@@ -42,6 +45,12 @@ void add_portals_option(cli::App& command, std::string& portals) {
                   "holes in the skin that shafts pass through: all, none, or some of those that "
                   "`osteon case info` lists: 3-4,4-5")
       ->capture_default_str();
+}
+
+void add_soft_option(cli::App& command, std::string& soft) {
+  command.add_option("--soft", soft,
+                     "soft parts that are felt: ligaments (all that the case has), or some of "
+                     "them: acl,pcl,mcl,lcl. Not given: none");
 }
 
 std::vector<std::string> portals_named(const std::string& text) {

@@ -15,6 +15,7 @@ struct SessionOptions {
   HandParams hand;
   bool free_bones = false;
   std::string portals = "all";
+  std::string soft;
 
   void add_to(cli::App& command);
   /// Settings after parsing, with the tissue table's skin. Fails when that cannot be read.
@@ -23,6 +24,8 @@ struct SessionOptions {
 
 /// "--portals": which holes in the skin are open, as `portals_named` reads it.
 void add_portals_option(cli::App& command, std::string& portals);
+/// "--soft": which soft parts are felt, as `softs_named` reads it.
+void add_soft_option(cli::App& command, std::string& soft);
 /// "all", "none", or names or titles with commas between: "3-4,4-5".
 std::vector<std::string> portals_named(const std::string& text);
 /// Opens these portals, in the tissue table's skin.

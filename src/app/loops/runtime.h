@@ -29,6 +29,7 @@ struct RunPlan {
   bool force_enabled = true;
   /// Why the force is off where it is not enabled: a fault of the run before this one stays named.
   ForceOff off_because = ForceOff::kSoftware;
+  std::shared_ptr<const SoftSetup> softs;  ///< of the settings' soft parts; null: nothing is soft
 };
 
 /// One hand of a run: its device, and how that lies in World.

@@ -2,8 +2,12 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "cases/all_cores.h"
+#include "osteon/base/file.h"
+#include "osteon/image/tissue.h"
+#include "osteon/physics/soft_setup.h"
 #include "osteon/scene/instrument.h"
 
 namespace osteon {
@@ -60,6 +64,32 @@ Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
   return make_carving(the_case, settings.tray, settings.carve, run);
 }
 
+Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
+                                                   const SessionSettings& settings) {
+  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  const auto table = load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
+  if (!table) return tl::unexpected(table.error());
+  const auto tissues = load_default_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  const Tissue* ligament = tissues->find("ligament");
+  if (!ligament) return fail("the tissue table has no 'ligament'", "assets/materials/tissue.toml");
+  auto setup = make_soft_setup(the_case, *table, settings.soft, ligament->stiffness_n_per_m.value);
+  if (!setup) return tl::unexpected(setup.error());
+  if (settings.soft_hash != 0 && settings.soft_hash != setup->hash)
+    return fail("the soft parts of the case are not those of the recording", "recording",
+                "Replay it with the version of Osteon that made it");
+  return std::make_shared<const SoftSetup>(std::move(*setup));
+}
+
+std::vector<std::string> softs_named(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream parts(text);
+  for (std::string name; std::getline(parts, name, ',');) names.push_back(name);
+  return names;
+}
+
 Result<void> take_instruments(const RecordingHeader& header, const Case& the_case,
                               ReplayOptions& options) {
   const auto settings = parse_settings(header.settings_json);
@@ -68,7 +98,10 @@ Result<void> take_instruments(const RecordingHeader& header, const Case& the_cas
   if (!tray) return tl::unexpected(tray.error());
   auto carving = carving_for(the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
+  auto softs = softs_for(the_case, *settings);
+  if (!softs) return tl::unexpected(softs.error());
   options.tray = std::move(*tray);
+  options.softs = std::move(*softs);
   options.carving = std::move(*carving);
   return {};
 }

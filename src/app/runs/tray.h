@@ -22,7 +22,15 @@ Result<Tray> tray_of(const RecordingHeader& header);
 Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
                                                         const SessionSettings& settings);
 
-/// Gives a replay the instruments of the recorded session, and what they remove.
+/// What is soft in a session with these settings; null: nothing. Fails where the settings name what
+/// the case has not, or a table has changed since they were recorded.
+Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
+                                                   const SessionSettings& settings);
+/// "ligaments", or names with commas between: "acl,pcl". Empty: nothing.
+std::vector<std::string> softs_named(const std::string& text);
+
+/// Gives a replay the instruments of the recorded session, what they remove and what is
+/// soft.
 Result<void> take_instruments(const RecordingHeader& header, const Case& the_case,
                               ReplayOptions& options);
 

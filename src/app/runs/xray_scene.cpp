@@ -84,6 +84,9 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   auto carving = carving_for(**the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
   how.carving = std::move(*carving);
+  auto softs = softs_for(**the_case, *settings);
+  if (!softs) return tl::unexpected(softs.error());
+  how.softs = std::move(*softs);
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     if (hand != 0 || tool.tick > *ticks) return;

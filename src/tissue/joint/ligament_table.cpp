@@ -34,11 +34,12 @@ LigamentBundle read_bundle(SceneReader& in, const Keys& keys) {
 }
 
 LigamentRow read_ligament(SceneReader& in, const Keys& keys) {
-  in.only(keys, {"name", "part", "over_tibia", "bundle"});
+  in.only(keys, {"name", "part", "over_tibia", "failure_n", "bundle"});
   LigamentRow out;
   out.name = in.text(keys, "name");
   if (SceneReader::has(keys, "part")) out.part = in.text(keys, "part");
   out.over_tibia = in.number_or(keys, "over_tibia", {0, 1}, 0) > 0;
+  out.failure_n = in.number_or(keys, "failure_n", {1, 1e5}, out.failure_n);
   for (const Keys& bundle : in.tables(keys, "bundle"))
     out.bundles.push_back(read_bundle(in, bundle));
   if (out.bundles.empty()) in.complain("needs at least one bundle", keys, "name");

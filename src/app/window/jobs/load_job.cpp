@@ -115,6 +115,9 @@ Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
   auto carving = carving_for(*loaded.the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
   options.carving = std::move(*carving);
+  auto softs = softs_for(*loaded.the_case, *settings);
+  if (!softs) return tl::unexpected(softs.error());
+  options.softs = std::move(*softs);
   replay_of.tray = std::move(*tray);
   if (replay_of.tray.empty())
     replay_of.tray.push_back(

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/soft_band.h"
+#include "osteon/tissue/ligament_table.h"
+
+namespace osteon {
+
+/// What is soft in a session: made once from the case, the same for every run of it.
+struct SoftSetup {
+  std::vector<SoftBand> bands;
+  std::uint64_t hash = 0;  ///< over all of it
+};
+/// Over everything that is felt of the bands.
+std::uint64_t hash_of(std::span<const SoftBand> bands);
+
+/// Makes bands of the case's ligaments. `names`: of the table's rows that have a soft part, or
+/// "ligaments": every one of those that the case has. Of each ligament the middle line between its
+/// footprints is felt, as thick as its volume; all its bundles lie on it, slack as the table says
+/// of the case's own bending; a finding leaves of it what the table says. `surface_n_per_m`: how a
+/// ligament's surface yields. Fails, and says what there is, where a ligament is not in the table
+/// or the case, or is no solid that runs between two bones.
+Result<SoftSetup> make_soft_setup(const Case& the_case, const LigamentTable& table,
+                                  std::span<const std::string> names, double surface_n_per_m);
+
+}  // namespace osteon

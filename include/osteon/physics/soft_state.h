@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "osteon/scene/soft_band.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// A part of a tool near a band, from step to step.
+struct NearBand {
+  BandContact contact;
+  bool touching = false;
+  /// It came about inside the band, or went too deep: not felt before it has been out of it.
+  bool barred = false;
+  bool behind = false;  ///< another part presses from the same side, deeper: that one is felt
+  double deep_m = 0;    ///< how far it has come over the surface of the band at rest
+  double taken_m = 0;   ///< length of the string's path that it takes
+};
+
+/// A hand on a band: for the events.
+struct BandTouch {
+  bool on = false, over = false;
+  std::uint64_t first_step = 0, last_step = 0;
+  double peak_n = 0, deepest_m = 0;
+};
+
+struct SoftHandState {
+  std::uint32_t instrument = 0, count = 0;
+  std::array<NearBand, kMaxBandContacts> near{};
+  std::array<BandTouch, kMaxBands> touches{};
+};
+
+struct BandState {
+  bool torn = false;
+  bool lost = false;  ///< it could not be solved
+};
+
+/// All that a step of the soft parts leaves to the next: of fixed size.
+struct SoftState {
+  bool on = false;  ///< the session has soft parts
+  std::array<BandState, kMaxBands> bands{};
+  std::array<SoftHandState, kMaxHands> hands{};
+};
+
+}  // namespace osteon

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "osteon/physics/soft_setup.h"
+#include "osteon/physics/soft_state.h"
+#include "osteon/scene/event.h"
+#include "osteon/scene/state.h"
+#include "osteon/scene/tool.h"
+
+namespace osteon {
+
+/// How a band was pulled in the last step.
+struct BandReadout {
+  double tension_n = 0;                     ///< by bones and hands together
+  std::array<double, kMaxHands> force_n{};  ///< of each hand on it
+};
+
+/// The soft parts of a session at the physics' rate: it follows from which side each tool has come
+/// to each band, how long the bands' paths are, and what tears. The hands' ticks are told which
+/// bands are near (BandContacts) and find the force by themselves, so that it has no steps of 2 ms.
+///
+/// A step allocates, locks and logs nothing. What the bands do to the bones is not known: bones
+/// that move on springs are not drawn back by them.
+class SoftWorld {
+ public:
+  /// `tray`: the instruments by ToolState::instrument. `coupling_n_per_m`: the hands' stiffness.
+  /// `limit_n`: a force on a band above it is an event.
+  SoftWorld(std::shared_ptr<const SoftSetup> setup,
+            std::span<const std::shared_ptr<const Tool>> tray, double coupling_n_per_m,
+            double limit_n, double step_s);
+
+  /// `bones`: as this step has left them.
+  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+
+  const SoftSetup& setup() const { return *setup_; }
+  const SoftState& state() const { return state_; }
+  /// What the hand's ticks are to know of the last step.
+  BandContacts contacts(std::size_t hand) const;
+  const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
+  /// Of the last step.
+  std::span<const Event> events() const { return events_; }
+  std::uint64_t hash() const;
+  bool fits(const SoftState& state) const;
+  void restore(const SoftState& state, std::uint32_t epoch);
+  /// To a restore point: what was torn since is whole, and no tool is near, wherever hands are.
+  void go_back(const SoftState& state, std::uint32_t epoch);
+
+ private:
+  struct Hand {
+    const ToolState* tool = nullptr;
+    std::size_t index = 0;
+    std::array<double, kMaxBands> force_n{}, deep_m{};
+    std::array<Vec3, kMaxBands> p_W{};
+  };
+  bool is_felt(std::size_t band) const;
+  void place_bands(const BoneSnapshot& bones);
+  void take(Hand& hand, const ToolState& tool, std::uint32_t epoch);
+  bool is_bent_far(const SoftHandState& hand, const NearBand& but) const;
+  void follow(const Hand& hand);
+  void seek(const Hand& hand);
+  void choose(SoftHandState& hand) const;
+  void press(Hand& hand);
+  void tear(std::span<const Hand> hands);
+  void tell_touches(const Hand& hand, std::uint64_t step);
+  double taken_by_others(const NearBand& near) const;
+  void tell(const Hand& hand, EventKind kind, std::size_t band, std::array<double, 3> values);
+
+  std::shared_ptr<const SoftSetup> setup_;
+  std::vector<std::vector<Capsule>> tray_;
+  double coupling_n_per_m_, limit_n_, step_s_;
+  SoftState state_;
+  std::uint32_t epoch_ = 0;
+  std::array<BandSpan, kMaxBands> spans_{};
+  std::array<BandReadout, kMaxBands> readouts_{};
+  std::vector<Event> events_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "osteon/base/id.h"
+#include "osteon/base/types.h"
+#include "osteon/collide/capsule_contact.h"
+
+namespace osteon {
+
+/// Fibres of a band that get tight together: springs that only pull. With strain e over their slack
+/// length their force is k e^2 / (4 toe) below twice the toe strain and k (e - toe) above
+/// (Blankevoort and Huiskes 1991, J Biomech Eng 113:263).
+struct BandFibres {
+  double slack_m = 0.03;
+  double stiffness_n = 1000;  ///< newtons for a strain of 1
+  double toe_strain = 0.03;
+};
+
+/// A ligament as it is felt: a string with round surface from bone to bone, whose mass does not
+/// count: after every push it is where its tension leaves it.
+struct SoftBand {
+  std::string name;        ///< of the soft part
+  std::uint32_t soft = 0;  ///< in Case::softs
+  BoneId from, to;
+  Vec3 from_B = Vec3::Zero(), to_B = Vec3::Zero();  ///< ends of what is free, each in its bone
+  double over_m = 0;                                ///< of its length, what lies on `to` beyond
+  double radius_m = 0.003;
+  double surface_n_per_m = 800;  ///< how its surface yields, of the tissue table
+  double failure_n = 1e9;        ///< tension at which it tears
+  double left = 1;               ///< share of its fibres that a finding has left
+  std::vector<BandFibres> fibres;
+};
+
+/// Tension at a length of the whole path, N.
+double tension_at(const SoftBand& band, double length_m);
+
+/// A band between its ends in World.
+struct BandSpan {
+  Vec3 a_W = Vec3::Zero(), b_W = Vec3::Zero();
+};
+
+/// How a part of a tool presses a band.
+struct BandPress {
+  bool presses = false;
+  double deep_m = 0;     ///< how far the part has come over the surface of the band at rest
+  double bent_m = 0;     ///< of that, how far the string has given way
+  double taken_m = 0;    ///< by so much the string's path is longer
+  double tension_n = 0;  ///< of the whole band
+  double force_n = 0;    ///< on the tool, along the push's normal
+  Vec3 p_W = Vec3::Zero();
+};
+
+/// Where a part of a tool and a band can meet: what physics tells the 1 kHz tick.
+struct BandContact {
+  std::uint32_t band = 0;
+  std::uint32_t part = 0;       ///< of tool_rods() of the instrument
+  Vec3 nhat_W = Vec3::UnitZ();  ///< unit, from the band to the part: the side on which it came
+  double others_taken_m = 0;    ///< length of the string's path that other contacts take
+  bool operator==(const BandContact&) const = default;
+};
+
+inline constexpr std::size_t kMaxBands = 8;
+inline constexpr std::size_t kMaxBandContacts = 6;
+
+/// Physics -> one hand: the bands that its tool is near to. What the tick feels follows from it and
+/// from where the tool and the bones are then.
+struct BandContacts {
+  std::uint32_t instrument = 0;  ///< that they are contacts of
+  std::uint32_t epoch = 0;       ///< of the world
+  std::uint32_t count = 0;
+  std::array<BandContact, kMaxBandContacts> all{};
+  bool operator==(const BandContacts&) const = default;
+};
+
+/// The string of two straight legs about the part, in balance: its surface yields by
+/// surface x (deep - bent), the string by tension (bent / leg + bent / other leg), and both forces
+/// are one. `surface_n_per_m`: the softer of the band's surface and the hand's coupling.
+BandPress press_band(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+                     const BandContact& contact, double surface_n_per_m);
+
+}  // namespace osteon

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "osteon/scene/event.h"
+
+namespace osteon {
+
+/// Kinds of events of soft parts: the codes 100 to 199 of EventKind. Their subject is the part.
+inline constexpr EventKind kSoftBegin{100};  ///< an instrument begins to push or pull it
+inline constexpr EventKind kSoftEnd{101};    ///< and has let go
+inline constexpr EventKind kSoftOver{102};   ///< the force on it has gone over the session's limit
+inline constexpr EventKind kSoftTorn{103};   ///< its tension has reached its failure load
+inline constexpr EventKind kSoftLost{104};   ///< it could not be solved: it is felt no more
+
+}  // namespace osteon

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osteon/session/session.h"
+
+namespace osteon {
+
+/// What soft parts have met in a run.
+struct SoftReport {
+  struct Part {
+    std::string name;
+    double peak_force_n = 0;    ///< of a hand on it
+    double peak_tension_n = 0;  ///< of the whole part, by bones and hands
+    double first_tension_n = 0;
+    double contact_s = 0;
+    bool whole = true;  ///< at the end; torn by a finding or in the run: false
+    bool lost = false;  ///< it could not be solved
+  };
+  std::vector<Part> parts;
+  std::vector<Event> events;          ///< codes 100 to 199
+  std::vector<std::string> subjects;  ///< soft parts of the case
+  double tick_s = 0.001;
+};
+/// "parts": "name", "peak_force_n", "peak_tension_n", "contact_s" ...; "events".
+nlohmann::ordered_json to_json(const SoftReport& report);
+std::string to_text(const SoftReport& report);
+
+/// Looks at a session with soft parts, tick by tick.
+class SoftWatch {
+ public:
+  /// After each tick.
+  void see(const Session& session);
+  /// None: nothing is soft in that session.
+  std::optional<SoftReport> finish(const Session& session) const;
+
+ private:
+  void see_step(const Session& session);
+
+  SoftReport report_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,337 @@
+#include "osteon/physics/soft_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/base/hash.h"
+#include "osteon/scene/soft_events.h"
+#include "osteon/scene/tool_rods.h"
+#include "soft/band_side.h"
+
+namespace osteon {
+namespace {
+
+// A part so near may touch before physics has looked again, even at 1 m/s.
+constexpr double kNear_m = 0.006;
+// A part that has gone so deep has left the band behind.
+constexpr double kDeepest_m = 0.025;
+// Two parts that press a band from one side are one push: the deeper counts.
+constexpr double kOneSide = 0.5;
+constexpr double kLetGo_s = 0.05;  // as a contact with bone
+constexpr double kBackUnder = 0.9;
+constexpr double kFarthest_m2 = 1e12;
+
+Capsule moved(const Pose& X_WT, const Capsule& rod) {
+  return {X_WT * rod.p0, X_WT * rod.p1, rod.radius};
+}
+
+bool usable(const ToolState& tool) {
+  return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < kFarthest_m2;
+}
+
+void add_to(Hasher& h, const NearBand& near) {
+  h.add(near.contact.band);
+  h.add(near.contact.part);
+  h.add(near.contact.nhat_W);
+  h.add(near.contact.others_taken_m);
+  h.add(near.touching);
+  h.add(near.barred);
+  h.add(near.behind);
+  h.add(near.deep_m);
+  h.add(near.taken_m);
+}
+
+void add_to(Hasher& h, const BandTouch& touch) {
+  h.add(touch.on);
+  h.add(touch.over);
+  h.add(touch.first_step);
+  h.add(touch.last_step);
+  h.add(touch.peak_n);
+  h.add(touch.deepest_m);
+}
+
+}  // namespace
+
+SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
+                     std::span<const std::shared_ptr<const Tool>> tray, double coupling_n_per_m,
+                     double limit_n, double step_s)
+    : setup_(std::move(setup)),
+      coupling_n_per_m_(coupling_n_per_m),
+      limit_n_(limit_n),
+      step_s_(step_s) {
+  for (const auto& tool : tray) tray_.push_back(tool_rods(*tool));
+  state_.on = true;
+  events_.reserve(kMaxHands * kMaxBands * 4);
+}
+
+bool SoftWorld::is_felt(std::size_t band) const {
+  return setup_->bands[band].left > 0 && !state_.bands[band].torn && !state_.bands[band].lost;
+}
+
+void SoftWorld::place_bands(const BoneSnapshot& bones) {
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
+    const SoftBand& band = setup_->bands[b];
+    spans_[b] = {bones.bones[band.from.index].X_WB * band.from_B,
+                 bones.bones[band.to.index].X_WB * band.to_B};
+    readouts_[b] = {};
+    const bool sound = is_finite(spans_[b].a_W) && is_finite(spans_[b].b_W) &&
+                       (spans_[b].b_W - spans_[b].a_W).norm() > 1e-6;
+    if (sound || !is_felt(b)) continue;
+    state_.bands[b].lost = true;
+    tell({}, kSoftLost, b, {});
+  }
+}
+
+double SoftWorld::taken_by_others(const NearBand& near) const {
+  double sum = 0;
+  for (const SoftHandState& hand : state_.hands)
+    for (std::uint32_t i = 0; i < hand.count; ++i)
+      if (&hand.near[i] != &near && hand.near[i].contact.band == near.contact.band)
+        sum += hand.near[i].taken_m;
+  return sum;
+}
+
+bool SoftWorld::is_bent_far(const SoftHandState& hand, const NearBand& but) const {
+  const auto far = [&](const NearBand& near) {
+    return near.contact.band == but.contact.band && near.contact.part != but.contact.part &&
+           near.touching && near.deep_m > 2 * setup_->bands[near.contact.band].radius_m;
+  };
+  return std::any_of(hand.near.begin(), hand.near.begin() + hand.count, far);
+}
+
+// Parts that were near: those that have gone, or whose band is no more, are dropped. A band that
+// one part has bent far is not where its rest place is: no other part comes to it then.
+void SoftWorld::follow(const Hand& hand) {
+  SoftHandState& state = state_.hands[hand.index];
+  const std::vector<Capsule>& rods = tray_[state.instrument];
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    NearBand near = state.near[i];
+    const std::size_t b = near.contact.band;
+    if (!is_felt(b)) continue;
+    const BandSide side =
+        next_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[near.contact.part]),
+                  near.contact.nhat_W);
+    if (side.gap_m > kNear_m) continue;
+    const bool begins = side.gap_m < 0 && !near.touching;
+    near.barred = side.gap_m < 0 &&
+                  (near.barred || side.gap_m < -kDeepest_m || (begins && is_bent_far(state, near)));
+    near.contact.nhat_W = side.nhat_W;
+    near.touching = side.gap_m < 0;
+    near.deep_m = -side.gap_m;
+    state.near[kept++] = near;
+  }
+  state.count = kept;
+}
+
+// Parts that have come near since. Where there is no room, those that touch stay.
+void SoftWorld::seek(const Hand& hand) {
+  SoftHandState& state = state_.hands[hand.index];
+  const std::vector<Capsule>& rods = tray_[state.instrument];
+  const auto known = [&](std::size_t band, std::size_t part) {
+    return std::any_of(state.near.begin(), state.near.begin() + state.count,
+                       [&](const NearBand& near) {
+                         return near.contact.band == band && near.contact.part == part;
+                       });
+  };
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b)
+    for (std::size_t part = 0; part < rods.size() && is_felt(b); ++part) {
+      if (state.count == kMaxBandContacts) return;
+      if (known(b, part)) continue;
+      const BandSide side =
+          first_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[part]));
+      if (side.gap_m > kNear_m) continue;
+      NearBand near;
+      near.contact = {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(part), side.nhat_W,
+                      0};
+      near.touching = near.barred = side.gap_m < 0;
+      near.deep_m = -side.gap_m;
+      state.near[state.count++] = near;
+    }
+}
+
+// Of two parts on one side of a band the deeper one counts.
+void SoftWorld::choose(SoftHandState& hand) const {
+  const auto deeper = [&](std::uint32_t i, std::uint32_t j) {
+    const NearBand &a = hand.near[i], &b = hand.near[j];
+    if (i == j || b.barred || a.contact.band != b.contact.band ||
+        !(a.contact.nhat_W.dot(b.contact.nhat_W) > kOneSide))
+      return false;
+    return b.deep_m > a.deep_m || (b.deep_m == a.deep_m && j < i);
+  };
+  for (std::uint32_t i = 0; i < hand.count; ++i) {
+    hand.near[i].behind = false;
+    for (std::uint32_t j = 0; j < hand.count; ++j)
+      hand.near[i].behind = hand.near[i].behind || deeper(i, j);
+  }
+}
+
+// The path that a part takes of the string is what other parts and hands reckon with.
+void SoftWorld::press(Hand& hand) {
+  SoftHandState& state = state_.hands[hand.index];
+  choose(state);
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    NearBand& near = state.near[i];
+    const std::size_t b = near.contact.band;
+    const SoftBand& band = setup_->bands[b];
+    near.taken_m = 0;
+    near.contact.others_taken_m = taken_by_others(near);
+    if (near.barred || near.behind) continue;
+    const Capsule part_W = moved(hand.tool->X_WP, tray_[state.instrument][near.contact.part]);
+    const BandPress press = press_band(band, spans_[b], part_W, near.contact,
+                                       std::min(coupling_n_per_m_, band.surface_n_per_m));
+    if (!press.presses) continue;
+    near.taken_m = press.taken_m;
+    hand.force_n[b] += press.force_n;
+    hand.deep_m[b] = std::max(hand.deep_m[b], press.deep_m);
+    hand.p_W[b] = press.p_W;
+  }
+}
+
+// Who pulls most tears it; where no hand pulls, the bones do.
+void SoftWorld::tear(std::span<const Hand> hands) {
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
+    if (!is_felt(b)) continue;
+    const SoftBand& band = setup_->bands[b];
+    double length = (spans_[b].b_W - spans_[b].a_W).norm() + band.over_m;
+    for (const SoftHandState& hand : state_.hands)
+      for (std::uint32_t i = 0; i < hand.count; ++i)
+        if (hand.near[i].contact.band == b) length += hand.near[i].taken_m;
+    BandReadout& readout = readouts_[b];
+    readout.tension_n = tension_at(band, length);
+    std::size_t most = hands.size();
+    for (const Hand& hand : hands) {
+      readout.force_n[hand.index] = hand.force_n[b];
+      if (hand.force_n[b] > (most < hands.size() ? hands[most].force_n[b] : 0)) most = hand.index;
+    }
+    const Hand by = most < hands.size() ? hands[most] : Hand{};
+    const double force_n = most < hands.size() ? by.force_n[b] : 0;
+    if (!std::isfinite(readout.tension_n) || !std::isfinite(force_n)) {
+      state_.bands[b].lost = true;
+      tell(by, kSoftLost, b, {});
+    } else if (readout.tension_n > band.failure_n) {
+      state_.bands[b].torn = true;
+      tell(by, kSoftTorn, b, {readout.tension_n, force_n, 0});
+    }
+    if (!is_felt(b)) readout = {};
+  }
+}
+
+void SoftWorld::tell_touches(const Hand& hand, std::uint64_t step) {
+  const auto away = static_cast<std::uint64_t>(std::ceil(kLetGo_s / step_s_));
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
+    BandTouch& touch = state_.hands[hand.index].touches[b];
+    const double force_n = hand.force_n[b];
+    if (force_n > 0 && is_felt(b)) {
+      if (!touch.on) {
+        touch = {true, false, step, step, 0, 0};
+        tell(hand, kSoftBegin, b, {readouts_[b].tension_n, 0, 0});
+      }
+      touch.last_step = step;
+      touch.peak_n = std::max(touch.peak_n, force_n);
+      touch.deepest_m = std::max(touch.deepest_m, hand.deep_m[b]);
+      if (force_n > limit_n_ && !touch.over) tell(hand, kSoftOver, b, {force_n, limit_n_, 0});
+      touch.over = force_n > limit_n_ || (touch.over && force_n > kBackUnder * limit_n_);
+    } else if (touch.on && (!is_felt(b) || step > touch.last_step + away)) {
+      const double since_s = static_cast<double>(touch.last_step - touch.first_step) * step_s_;
+      tell(hand, kSoftEnd, b, {since_s, touch.peak_n, 1e3 * touch.deepest_m});
+      touch = {};
+    }
+  }
+}
+
+void SoftWorld::tell(const Hand& hand, EventKind kind, std::size_t band,
+                     std::array<double, 3> values) {
+  const Vec3 p_W = !hand.tool               ? Vec3(0.5 * (spans_[band].a_W + spans_[band].b_W))
+                   : hand.force_n[band] > 0 ? hand.p_W[band]
+                                            : hand.tool->X_WP.p;
+  Event event;
+  event.kind = kind;
+  if (hand.tool || kind == kSoftEnd) event.hand = static_cast<std::uint8_t>(hand.index);
+  event.subject_kind = SubjectKind::kSoftPart;
+  event.subject = setup_->bands[band].soft;
+  event.p_W = is_finite(p_W) ? p_W : Vec3(Vec3::Zero());
+  event.values = values;
+  if (events_.size() < events_.capacity()) events_.push_back(event);
+}
+
+void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
+  SoftHandState& state = state_.hands[hand.index];
+  const bool here = usable(tool) && tool.epoch == epoch && tool.instrument < tray_.size();
+  if (!here || tool.instrument != state.instrument) state.count = 0;
+  if (!here) return;
+  state.instrument = tool.instrument;
+  hand.tool = &tool;
+  follow(hand);
+  seek(hand);
+}
+
+void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+  events_.clear();
+  epoch_ = bones.epoch;
+  place_bands(bones);
+  std::array<Hand, kMaxHands> all{};
+  const std::span<Hand> hands(all.data(), std::min(tools.size(), kMaxHands));
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    hands[i].index = i;
+    take(hands[i], *tools[i], bones.epoch);
+  }
+  for (Hand& hand : hands)
+    if (hand.tool) press(hand);
+  tear(hands);
+  for (const Hand& hand : hands) tell_touches(hand, bones.step);
+}
+
+BandContacts SoftWorld::contacts(std::size_t hand) const {
+  const SoftHandState& state = state_.hands[hand];
+  BandContacts out;
+  out.instrument = state.instrument;
+  out.epoch = epoch_;
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    const NearBand& near = state.near[i];
+    if (!near.barred && !near.behind && is_felt(near.contact.band))
+      out.all[out.count++] = near.contact;
+  }
+  return out;
+}
+
+std::uint64_t SoftWorld::hash() const {
+  Hasher h;
+  h.add(setup_->hash);
+  for (const BandState& band : state_.bands) {
+    h.add(band.torn);
+    h.add(band.lost);
+  }
+  for (const SoftHandState& hand : state_.hands) {
+    h.add(hand.instrument);
+    h.add(hand.count);
+    for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
+    for (const BandTouch& touch : hand.touches) add_to(h, touch);
+  }
+  return h.value();
+}
+
+bool SoftWorld::fits(const SoftState& state) const {
+  if (!state.on) return false;
+  for (const SoftHandState& hand : state.hands) {
+    if (hand.count > kMaxBandContacts || hand.instrument >= tray_.size()) return false;
+    for (std::uint32_t i = 0; i < hand.count; ++i)
+      if (hand.near[i].contact.band >= setup_->bands.size() ||
+          hand.near[i].contact.part >= tray_[hand.instrument].size())
+        return false;
+  }
+  return true;
+}
+
+void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
+  state_ = state;
+  epoch_ = epoch;
+  events_.clear();
+}
+
+void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
+  restore(state, epoch);
+  state_.hands = {};
+}
+
+}  // namespace osteon

@@ -1,0 +1,78 @@
+#include "osteon/scene/soft_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/collide/segments.h"
+
+namespace osteon {
+namespace {
+
+// Of its length, at either end a band is bone more and more.
+constexpr double kEndShare = 0.05;
+constexpr int kHalvings = 40;  // of some millimetres: to the last bits that can be felt
+
+double pull_of(const BandFibres& fibres, double length_m) {
+  const double strain = length_m / fibres.slack_m - 1;
+  if (!(strain > 0)) return 0;
+  const double toe = fibres.toe_strain;
+  return fibres.stiffness_n * (strain < 2 * toe ? strain * strain / (4 * toe) : strain - toe);
+}
+
+// A string bent by `bent` across its straight way, `to_a` and `to_b` from its ends.
+struct BentString {
+  const SoftBand& band;
+  double to_a, to_b, taken_by_others_m;
+
+  double leg(double along, double bent) const { return std::sqrt(along * along + bent * bent); }
+  double taken(double bent) const { return leg(to_a, bent) + leg(to_b, bent) - (to_a + to_b); }
+  double tension(double bent) const {
+    return tension_at(band, to_a + to_b + taken(bent) + taken_by_others_m + band.over_m);
+  }
+  double force(double bent) const {
+    return tension(bent) * bent * (1 / leg(to_a, bent) + 1 / leg(to_b, bent));
+  }
+};
+
+// bent in [0, deep] with string.force(bent) = k (deep - bent): the left side rises with bent and
+// the right one falls, so halving finds the only one.
+double balance(const BentString& string, double deep, double k) {
+  double low = 0, high = deep;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (string.force(middle) < k * (deep - middle) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double tension_at(const SoftBand& band, double length_m) {
+  double sum = 0;
+  for (const BandFibres& fibres : band.fibres) sum += pull_of(fibres, length_m);
+  return band.left * sum;
+}
+
+// Symbols: n, from the band to the part; q, from the straight band to the part's middle line where
+// the two are nearest; the part has come deep = r + R - q.n over the surface.
+BandPress press_band(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+                     const BandContact& contact, double surface_n_per_m) {
+  BandPress out;
+  const AxisPoints pair = nearest_on_axes({span.a_W, span.b_W, 0}, part_W);
+  const Vec3& n = contact.nhat_W;
+  out.p_W = pair.b - part_W.radius * n;
+  out.deep_m = band.radius_m + part_W.radius - n.dot(pair.b - pair.a);
+  const double to_a = (pair.a - span.a_W).norm(), to_b = (pair.a - span.b_W).norm();
+  const double at_end = std::min(1.0, std::min(to_a, to_b) / (kEndShare * (to_a + to_b)));
+  if (!(out.deep_m > 0) || !(at_end > 0) || !std::isfinite(to_a + to_b)) return out;
+  const BentString string{band, to_a, to_b, contact.others_taken_m};
+  const double k = at_end * surface_n_per_m;
+  out.bent_m = balance(string, out.deep_m, k);
+  out.taken_m = string.taken(out.bent_m);
+  out.tension_n = string.tension(out.bent_m);
+  out.force_n = string.force(out.bent_m);
+  out.presses = true;
+  return out;
+}
+
+}  // namespace osteon
