@@ -11,10 +11,10 @@ constexpr double kRoundings_m = 1e-9;  // far above that of any value
 
 }  // namespace
 
-NearBand::NearBand(const LaidBand& band)
+NearBandSpans::NearBandSpans(const LaidBand& band)
     : band_(&band), last_(band.sections.empty() ? 0 : band.sections.size() - 1) {}
 
-Spread NearBand::span_spread(std::size_t span, const Vicinity& where) const {
+Spread NearBandSpans::span_spread(std::size_t span, const Vicinity& where) const {
   const BandSection& a = band_->sections[span];
   const BandSection& b = band_->sections[span + 1];
   const Vec3 step = b.center - a.center, from_a = where.center - a.center;
@@ -29,7 +29,7 @@ Spread NearBand::span_spread(std::size_t span, const Vicinity& where) const {
           (d + where.radius) * std::sqrt(1 + skew) - thinnest + thicker + kRoundings_m};
 }
 
-NearBand NearBand::within(const Vicinity& where, Spread& values) const {
+NearBandSpans NearBandSpans::within(const Vicinity& where, Spread& values) const {
   values = {1e300, 1e300};
   std::vector<double> least;
   for (std::size_t i = first_; i < last_; ++i) {
@@ -38,7 +38,7 @@ NearBand NearBand::within(const Vicinity& where, Spread& values) const {
     values.least = std::min(values.least, span.least);
     values.most = std::min(values.most, span.most);
   }
-  NearBand near = *this;
+  NearBandSpans near = *this;
   while (near.first_ + 1 < near.last_ && least[near.first_ - first_] > values.most) ++near.first_;
   while (near.first_ + 1 < near.last_ && least[near.last_ - 1 - first_] > values.most) --near.last_;
   return near;

@@ -9,9 +9,9 @@ namespace osteon {
 
 /// The spans of a band that decide its value in a vicinity: all of them, at first. The band must
 /// live longer.
-class NearBand {
+class NearBandSpans {
  public:
-  explicit NearBand(const LaidBand& band);
+  explicit NearBandSpans(const LaidBand& band);
 
   /// distance(band, p), bit by bit.
   double operator()(const Vec3& p) const { return distance(*band_, p, first_, last_); }
@@ -20,7 +20,7 @@ class NearBand {
   /// A span's value lies between d - w and d sqrt(1 + s) - h + e, where d is the distance to its
   /// middle line, w the greatest of its half sizes, h the least half-thickness, e how much thicker
   /// than wide it is at most, and s how far from square its axes come to stand between its ends.
-  NearBand within(const Vicinity& where, Spread& values) const;
+  NearBandSpans within(const Vicinity& where, Spread& values) const;
 
  private:
   Spread span_spread(std::size_t span, const Vicinity& where) const;

@@ -51,7 +51,7 @@ class NearestObstacle {
 };
 
 /// What a shape holds and defects and obstacles leave. Obstacles count where the shape itself is;
-/// `beyond` it its own distance is a bound that will do. Shape: NearSolid or NearBand.
+/// `beyond` it its own distance is a bound that will do. Shape: NearSolid or NearBandSpans.
 template <class Shape>
 class ClippedField : public LocalField {
  public:
@@ -122,7 +122,7 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescripti
                           const std::vector<Obstacle>& obstacles) {
   double depth = 0;
   for (const BandSection& s : band.sections) depth = std::max(depth, s.half_thickness);
-  return grow_clipped(NearBand(band), bounds(band), depth, sink, 0, soft, obstacles);
+  return grow_clipped(NearBandSpans(band), bounds(band), depth, sink, 0, soft, obstacles);
 }
 
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,

@@ -25,9 +25,9 @@ LaidBand twisted_band() {
   return band;
 }
 
-TEST(NearBand, NarrowedTwiceItsValuesAreTheBandsBitByBit) {
+TEST(NearBandSpans, NarrowedTwiceItsValuesAreTheBandsBitByBit) {
   const LaidBand band = twisted_band();
-  const NearBand whole(band);
+  const NearBandSpans whole(band);
   Random random(5);
   int outside = 0;
   for (int trial = 0; trial < 1000; ++trial) {
@@ -35,7 +35,7 @@ TEST(NearBand, NarrowedTwiceItsValuesAreTheBandsBitByBit) {
     const Vicinity wide{Vec3(0.02, 0.008, 0.006).cwiseProduct(share), random.uniform(1e-4, 4e-3)};
     const Vicinity tight{wide.center + 0.5 * wide.radius * random.direction(), 0.5 * wide.radius};
     Spread in_wide, in_tight;
-    const NearBand near = whole.within(wide, in_wide), nearer = near.within(tight, in_tight);
+    const NearBandSpans near = whole.within(wide, in_wide), nearer = near.within(tight, in_tight);
     outside += in_tight.sign() > 0 ? 1 : 0;
     for (int i = 0; i < 30; ++i) {
       const Vec3 p = wide.center + random.uniform(0, wide.radius) * random.direction();
