@@ -217,7 +217,9 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
     return tl::unexpected(ok.error());
   auto maker = film_maker(command, *recording, *settings, *span, *the_case, how.tray);
   if (!maker) return tl::unexpected(maker.error());
-  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span); !ok)
+  const auto felt = open_recorded_case(*spec, recording->header(), *the_case);
+  if (!felt) return tl::unexpected(felt.error());
+  if (auto ok = replay_into(*maker, *recording, *felt, std::move(how), *span); !ok)
     return tl::unexpected(ok.error());
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)
