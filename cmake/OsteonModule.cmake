@@ -17,7 +17,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 target_include_directories(osteon_flags INTERFACE "${CMAKE_SOURCE_DIR}/include")
 if(OSTEON_SANITIZE)
-  target_compile_options(osteon_flags INTERFACE
+  # Before a target's own options, which may take some of it back.
+  add_compile_options(
     -fsanitize=${OSTEON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(osteon_flags INTERFACE -fsanitize=${OSTEON_SANITIZE})
 endif()
@@ -43,6 +44,28 @@ endif()
 function(osteon_share_headers target)
   if(OSTEON_PCH)
     osteon_use_headers(${target} osteon_headers)
+  endif()
+endfunction()
+
+# Under sanitizers, what lies around the modules runs seldom: not optimised and not counted for the
+# fuzzer, it builds in less than half the time. The modules stay optimised.
+set(OSTEON_LIGHT_FLAGS "")
+if(OSTEON_SANITIZE)
+  set(OSTEON_LIGHT_FLAGS -O0)
+  if(OSTEON_SANITIZE MATCHES "fuzzer-no-link")
+    list(APPEND OSTEON_LIGHT_FLAGS -fno-sanitize=fuzzer-no-link)
+  endif()
+  if(OSTEON_PCH)
+    osteon_make_headers(osteon_light_headers "${CMAKE_SOURCE_DIR}/cmake/headers.h")
+    target_compile_options(osteon_light_headers PRIVATE ${OSTEON_LIGHT_FLAGS})
+  endif()
+endif()
+function(osteon_share_light_headers target)
+  target_compile_options(${target} PRIVATE ${OSTEON_LIGHT_FLAGS})
+  if(OSTEON_PCH AND OSTEON_SANITIZE)
+    osteon_use_headers(${target} osteon_light_headers)
+  else()
+    osteon_share_headers(${target})
   endif()
 endfunction()
 
