@@ -5,13 +5,14 @@ packages_build=(
   libeigen3-dev libbullet-dev libassimp-dev libopencv-dev libglfw3-dev libimgui-dev
   libusb-1.0-0-dev libepoxy-dev libsqlite3-dev libzstd-dev libtomlplusplus-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev libmeshoptimizer-dev
-  libgdcm-dev zlib1g-dev libhpdf-dev libhdf5-dev
+  libgdcm-dev zlib1g-dev libhpdf-dev libhdf5-dev libpqxx-dev libcurl4-openssl-dev
   libavcodec-dev libavformat-dev libavutil-dev
   libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )
 packages_test=(
   libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples plastimatch
+  postgresql
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
   libglpk-dev coinor-libclp-dev libopenvdb-dev)

@@ -1,236 +1,54 @@
 #include "osteon/results/store.h"
 
-#include <sqlite3.h>
-
 #include <utility>
 
-#include "osteon/base/file.h"
+#include "backend.h"
 
 namespace osteon {
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int kStoreId = 0x4f535252;  // "OSRR"
-constexpr int kStoreFormat = 1;
-constexpr const char* kSchema =
-    "CREATE TABLE IF NOT EXISTS attempts("
-    "seq INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, learner TEXT NOT NULL,"
-    "scenario TEXT NOT NULL, scenario_version INTEGER NOT NULL, standard_version INTEGER NOT NULL,"
-    "verdict TEXT NOT NULL, score REAL, score_lo REAL, score_hi REAL, ended_ms INTEGER NOT NULL,"
-    "duration_s REAL NOT NULL, case_name TEXT NOT NULL, state_hash TEXT NOT NULL,"
-    "report TEXT NOT NULL);"
-    "CREATE INDEX IF NOT EXISTS attempts_learner ON attempts(learner, scenario);";
-constexpr const char* kColumns =
-    "id, learner, scenario, scenario_version, standard_version, verdict, score, score_lo, "
-    "score_hi, ended_ms, duration_s, case_name, state_hash, report";
-
-Error store_error(sqlite3* db, const fs::path& file) {
-  const int code = db ? sqlite3_errcode(db) : SQLITE_NOMEM;
-  Error error{std::string("the results cannot be used (") + sqlite3_errstr(code) + ")",
-              file.string(), ""};
-  if (code == SQLITE_BUSY || code == SQLITE_LOCKED)
-    error = {"another program keeps the results locked", file.string(),
-             "Close it or try again; nothing was changed"};
-  if (code == SQLITE_FULL)
-    error = {"the disk is full", file.string(), "Make room; nothing was changed"};
-  if (code == SQLITE_READONLY || code == SQLITE_CANTOPEN || code == SQLITE_PERM)
-    error = {"the results cannot be written", file.string(), "Check the rights of the folder"};
-  if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-    error = {"is not a file of results, or is damaged", file.string(),
-             "Move it away; a new one is made"};
-  return error;
-}
-
-// A prepared statement that ends with its scope.
-class ResultStatement {
- public:
-  ResultStatement(sqlite3* db, const std::string& sql) {
-    sqlite3_prepare_v2(db, sql.c_str(), -1, &handle_, nullptr);
-  }
-  ResultStatement(const ResultStatement&) = delete;
-  ResultStatement& operator=(const ResultStatement&) = delete;
-  ~ResultStatement() { sqlite3_finalize(handle_); }
-  bool ready() const { return handle_ != nullptr; }
-  int step() { return handle_ ? sqlite3_step(handle_) : SQLITE_ERROR; }
-  void bind(int i, const std::string& text) {
-    sqlite3_bind_text(handle_, i, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
-  }
-  void bind(int i, std::int64_t value) { sqlite3_bind_int64(handle_, i, value); }
-  void bind(int i, double value) { sqlite3_bind_double(handle_, i, value); }
-  void bind(int i, const std::optional<double>& value) {
-    if (value) bind(i, *value);
-  }
-  std::string text(int i) const {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_, i));
-    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_, i));
-    return bytes ? std::string(bytes, size) : std::string();
-  }
-  std::int64_t whole(int i) const { return sqlite3_column_int64(handle_, i); }
-  double number(int i) const { return sqlite3_column_double(handle_, i); }
-  std::optional<double> number_or_none(int i) const {
-    if (sqlite3_column_type(handle_, i) == SQLITE_NULL) return std::nullopt;
-    return number(i);
-  }
-
- private:
-  sqlite3_stmt* handle_ = nullptr;
-};
-
-AttemptRow row_of(const ResultStatement& s) {
-  AttemptRow row;
-  row.id = s.text(0);
-  row.learner = s.text(1);
-  row.scenario = s.text(2);
-  row.scenario_version = static_cast<int>(s.whole(3));
-  row.standard_version = static_cast<int>(s.whole(4));
-  row.verdict = s.text(5);
-  row.score = s.number_or_none(6);
-  row.score_lo = s.number_or_none(7);
-  row.score_hi = s.number_or_none(8);
-  row.ended_ms = s.whole(9);
-  row.duration_s = s.number(10);
-  row.case_name = s.text(11);
-  row.state_hash = s.text(12);
-  row.report_json = s.text(13);
-  return row;
-}
-
-void bind_row(ResultStatement& s, const AttemptRow& row) {
-  s.bind(1, row.id);
-  s.bind(2, row.learner);
-  s.bind(3, row.scenario);
-  s.bind(4, static_cast<std::int64_t>(row.scenario_version));
-  s.bind(5, static_cast<std::int64_t>(row.standard_version));
-  s.bind(6, row.verdict);
-  s.bind(7, row.score);
-  s.bind(8, row.score_lo);
-  s.bind(9, row.score_hi);
-  s.bind(10, row.ended_ms);
-  s.bind(11, row.duration_s);
-  s.bind(12, row.case_name);
-  s.bind(13, row.state_hash);
-  s.bind(14, row.report_json);
-}
-
-}  // namespace
 
 struct ResultStore::Impl {
-  sqlite3* db = nullptr;
-  fs::path file;
-  ~Impl() { sqlite3_close(db); }
-
-  Result<void> run(const char* sql) const {
-    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) == SQLITE_OK) return {};
-    return tl::unexpected(store_error(db, file));
-  }
-  Result<std::int64_t> pragma(const char* name) const {
-    ResultStatement s(db, std::string("PRAGMA ") + name);
-    if (s.step() != SQLITE_ROW) return tl::unexpected(store_error(db, file));
-    return s.whole(0);
-  }
-  // Runs `work` as one transaction: all of it or nothing.
-  template <class Work>
-  auto transaction(Work work) const -> decltype(work()) {
-    if (auto begun = run("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
-    auto done = work();
-    if (done)
-      if (auto ended = run("COMMIT"); !ended) done = tl::unexpected(ended.error());
-    if (!done) sqlite3_exec(db, "ROLLBACK", nullptr, nullptr, nullptr);
-    return done;
-  }
-  Result<void> make() const {
-    if (auto ok = run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA secure_delete=ON");
-        !ok)
-      return ok;
-    const auto version = pragma("user_version");
-    if (!version) return tl::unexpected(version.error());
-    const auto id = pragma("application_id");
-    if (!id) return tl::unexpected(id.error());
-    if (*version > kStoreFormat || (*version != 0 && *id != kStoreId))
-      return fail("is of another program or of a newer Osteon", file.string(),
-                  "Use another file of results");
-    if (*version == kStoreFormat) return {};
-    return transaction([&]() -> Result<void> {
-      const std::string marks = "PRAGMA application_id=" + std::to_string(kStoreId) +
-                                "; PRAGMA user_version=" + std::to_string(kStoreFormat) + ";";
-      return run((kSchema + marks).c_str());
-    });
-  }
+  std::unique_ptr<ResultBackend> kept_by;
 };
+
+bool is_results_server(const std::string& where) {
+  return where.starts_with("postgresql://") || where.starts_with("postgres://");
+}
+
+std::string without_password(const std::string& where) {
+  const std::size_t at = where.rfind('@'), begin = where.find("://");
+  if (at == std::string::npos || begin == std::string::npos || at < begin) return where;
+  const std::size_t colon = where.find(':', begin + 3);
+  if (colon == std::string::npos || colon > at) return where;
+  return where.substr(0, colon) + where.substr(at);
+}
 
 ResultStore::ResultStore(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ResultStore::~ResultStore() = default;
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
-Result<ResultStore> ResultStore::open(const fs::path& file, double wait_s) {
-  std::error_code ec;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), ec);
+Result<ResultStore> ResultStore::open(const std::string& where, double wait_s) {
+  auto backend =
+      is_results_server(where) ? open_postgres(where, wait_s) : open_sqlite(where, wait_s);
+  if (!backend) return tl::unexpected(backend.error());
   auto impl = std::make_unique<Impl>();
-  impl->file = file;
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
-  if (sqlite3_open_v2(file.c_str(), &impl->db, flags, nullptr) != SQLITE_OK)
-    return tl::unexpected(store_error(impl->db, file));
-  sqlite3_busy_timeout(impl->db, static_cast<int>(wait_s * 1000));
-  if (auto made = impl->make(); !made) return tl::unexpected(made.error());
+  impl->kept_by = std::move(*backend);
   return ResultStore(std::move(impl));
 }
 
-Result<bool> ResultStore::add(const AttemptRow& row) {
-  return impl_->transaction([&]() -> Result<bool> {
-    const auto there = find(row.id);
-    if (!there) return tl::unexpected(there.error());
-    if (*there) {
-      if (**there == row) return false;
-      return fail("another attempt has the id " + row.id, impl_->file.string(),
-                  "An attempt is written once and never changed");
-    }
-    ResultStatement insert(impl_->db, std::string("INSERT INTO attempts(") + kColumns +
-                                          ") VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-    if (!insert.ready()) return tl::unexpected(store_error(impl_->db, impl_->file));
-    bind_row(insert, row);
-    if (insert.step() != SQLITE_DONE) return tl::unexpected(store_error(impl_->db, impl_->file));
-    return true;
-  });
-}
-
+Result<bool> ResultStore::add(const AttemptRow& row) { return impl_->kept_by->add(row); }
 Result<std::vector<AttemptRow>> ResultStore::list(const AttemptFilter& filter) const {
-  ResultStatement s(impl_->db, std::string("SELECT ") + kColumns +
-                                   " FROM attempts WHERE (?1='' OR learner=?1) AND "
-                                   "(?2='' OR scenario=?2) ORDER BY seq");
-  if (!s.ready()) return tl::unexpected(store_error(impl_->db, impl_->file));
-  s.bind(1, filter.learner);
-  s.bind(2, filter.scenario);
-  std::vector<AttemptRow> rows;
-  int code = 0;
-  while ((code = s.step()) == SQLITE_ROW) rows.push_back(row_of(s));
-  if (code != SQLITE_DONE) return tl::unexpected(store_error(impl_->db, impl_->file));
-  return rows;
+  return impl_->kept_by->list(filter);
 }
-
 Result<std::optional<AttemptRow>> ResultStore::find(const std::string& id) const {
-  ResultStatement s(impl_->db, std::string("SELECT ") + kColumns + " FROM attempts WHERE id=?");
-  if (!s.ready()) return tl::unexpected(store_error(impl_->db, impl_->file));
-  s.bind(1, id);
-  const int code = s.step();
-  if (code == SQLITE_ROW) return std::optional<AttemptRow>(row_of(s));
-  if (code != SQLITE_DONE) return tl::unexpected(store_error(impl_->db, impl_->file));
-  return std::optional<AttemptRow>{};
+  return impl_->kept_by->find(id);
 }
-
 Result<int> ResultStore::forget(const std::string& learner) {
-  const auto gone = impl_->transaction([&]() -> Result<int> {
-    ResultStatement s(impl_->db, "DELETE FROM attempts WHERE learner=?");
-    if (!s.ready()) return tl::unexpected(store_error(impl_->db, impl_->file));
-    s.bind(1, learner);
-    if (s.step() != SQLITE_DONE) return tl::unexpected(store_error(impl_->db, impl_->file));
-    return sqlite3_changes(impl_->db);
-  });
-  // What the log still holds of the deleted rows goes with it.
-  if (gone)
-    sqlite3_wal_checkpoint_v2(impl_->db, nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
-  return gone;
+  return impl_->kept_by->forget(learner);
+}
+Result<void> ResultStore::mark(const Sending& sending) { return impl_->kept_by->mark(sending); }
+Result<std::vector<Sending>> ResultStore::sendings(const std::string& endpoint) const {
+  return impl_->kept_by->sendings(endpoint);
 }
 
 }  // namespace osteon

@@ -8,7 +8,7 @@ namespace osteon {
 
 namespace fs = std::filesystem;
 
-Result<KeptAttempt> keep_attempt(const AttemptRow& row, const fs::path& store,
+Result<KeptAttempt> keep_attempt(const AttemptRow& row, const std::string& store,
                                  const fs::path& waiting, double wait_s) {
   std::error_code ec;
   fs::create_directories(waiting, ec);

@@ -122,6 +122,14 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
   EXPECT_EQ(run_osteon("results export --format xml --out " + file("x")).exit_code, 2);
   EXPECT_EQ(run_osteon("results name --learner ada --name 'Ada Lovelace'").exit_code, 0);
   EXPECT_NE(run_osteon("results list").output.find("Ada Lovelace"), std::string::npos);
+  const Ran copied = run_osteon("results copy --to " + file("other.sqlite"));
+  EXPECT_NE(copied.output.find("3 attempts copied"), std::string::npos) << copied.output;
+  EXPECT_NE(run_osteon("results copy --to " + file("other.sqlite")).output.find("3 were there"),
+            std::string::npos);
+  const Ran sent = run_osteon("results send --to http://127.0.0.1:1/xapi");
+  EXPECT_EQ(sent.exit_code, 1);
+  EXPECT_NE(sent.output.find("0 accepted, 0 refused, 3 waiting"), std::string::npos) << sent.output;
+  EXPECT_EQ(run_osteon("results send --to nowhere").exit_code, 2);
   EXPECT_EQ(run_osteon("results forget --learner ada").exit_code, 0);
   EXPECT_EQ(json_of("results list --json").size(), 1u);
   EXPECT_EQ(run_osteon("results list").output.find("Ada"), std::string::npos);

@@ -8,6 +8,7 @@
 #include "commands/commands.h"
 #include "commands/parser.h"
 #include "commands/result_files.h"
+#include "commands/result_sending.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/lc_cusum.h"
 #include "osteon/results/exports.h"
@@ -62,8 +63,8 @@ int show_result(const ResultsCommand& command) {
   const auto row = store->find(command.id);
   if (!row) return report_error(row.error());
   if (!*row)
-    return report_error({"there is no attempt '" + command.id + "'", results_file().string(),
-                         "See: osteon results list"});
+    return report_error({"there is no attempt '" + command.id + "'",
+                         without_password(results_place()), "See: osteon results list"});
   auto json = row_json(**row);
   json["report"] = nlohmann::ordered_json::parse((*row)->report_json);
   std::printf("%s\n", json.dump(2).c_str());
@@ -199,6 +200,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
       ->required()
       ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
+  add_result_sending(*group, exit_code);
 }
 
 }  // namespace osteon

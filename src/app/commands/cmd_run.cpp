@@ -46,7 +46,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
 Result<void> keep_result(const RunCommand& command, const std::string& report) {
   const auto row = row_from_report(report, command.learner);
   if (!row) return tl::unexpected(row.error());
-  const auto kept = keep_attempt(*row, results_file(), waiting_folder());
+  const auto kept = keep_attempt(*row, results_place(), waiting_folder());
   if (!kept) return tl::unexpected(kept.error());
   if (!kept->in_store) std::fprintf(stderr, "osteon: %s\n", kept->why_waiting->message().c_str());
   return {};

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "osteon/base/result.h"
 #include "osteon/results/store.h"
 
 namespace osteon {
 
-/// Where a user's results are: attempts, attempts that wait for the store, names.
-std::filesystem::path results_file();
+/// Where a user's results are: attempts (OSTEON_RESULTS: a file or
+/// "postgresql://USER@HOST/DATABASE", else a file of the user's), attempts that wait for the store,
+/// names.
+std::string results_place();
 std::filesystem::path waiting_folder();
 std::filesystem::path names_file();
 

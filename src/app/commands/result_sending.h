@@ -1,0 +1,10 @@
+#pragma once
+
+#include "commands/parser.h"
+
+namespace osteon {
+
+/// `results send` and `results copy`: attempts given to others who keep them.
+void add_result_sending(cli::App& results, int& exit_code);
+
+}  // namespace osteon
