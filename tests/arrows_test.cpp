@@ -83,9 +83,10 @@ const Arrows& rooms() {
       {"checkup", {"loops"}},
       {"runs", {"cases", "loops"}},
       {"ui", {"cases", "loops", "runs"}},
-      {"window", {"cases", "checkup", "loops", "runs", "ui"}},
+      {"exercises", {"cases", "loops", "runs"}},
+      {"window", {"cases", "checkup", "exercises", "loops", "runs", "ui"}},
       {"segment", {"cases", "loops", "ui"}},
-      {"commands", {"cases", "checkup", "loops", "runs"}},
+      {"commands", {"cases", "checkup", "exercises", "loops", "runs"}},
   };
   return table;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -134,6 +135,40 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
   EXPECT_EQ(json_of("results list --json").size(), 1u);
   EXPECT_EQ(run_osteon("results list").output.find("Ada"), std::string::npos);
   EXPECT_EQ(play("fast_centring", "expert", 1, "--learner 'Ada Lovelace'").exit_code, 2);
+}
+
+TEST_F(Teaching, RecordingsAreJudgedAgainInSharesAndOnce) {
+  fs::create_directories(file("recs"));
+  for (const std::string seed : {"1", "2", "3"})
+    ASSERT_NE(play("fast_centring", "novice:" + seed, 1,
+                   "--no-store --record " + file("recs/" + seed + ".osr"))
+                  .exit_code,
+              2);
+  const std::string rescore = "results rescore " + file("recs") + " --out " + file("judged");
+  for (const std::string share : {" --slice 1/2", " --slice 2/2"}) {
+    const Ran ran = run_osteon(rescore + share);
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  const Ran again = run_osteon(rescore);
+  EXPECT_NE(again.output.find("3 recordings: 0 judged, 3 were judged already"), std::string::npos)
+      << again.output;
+  const TeachJson judged = read("judged/2.json");
+  EXPECT_EQ(judged["scenario"], "fast_centring");
+  EXPECT_EQ(judged["identical"], true);
+  EXPECT_TRUE(judged.contains("score_interval"));
+  // Slurm's variables name the share as well: the second of tasks 4, 6 and 8.
+  for (const auto& [name, value] :
+       std::map<std::string, std::string>{{"ID", "6"}, {"COUNT", "3"}, {"MIN", "4"}, {"MAX", "8"}})
+    ::setenv(("SLURM_ARRAY_TASK_" + name).c_str(), value.c_str(), 1);
+  const Ran task = run_osteon("results rescore " + file("recs") + " --out " + file("slurm"));
+  for (const char* name : {"ID", "COUNT", "MIN", "MAX"})
+    ::unsetenv((std::string("SLURM_ARRAY_TASK_") + name).c_str());
+  EXPECT_NE(task.output.find("1 recordings: 1 judged"), std::string::npos) << task.output;
+  EXPECT_TRUE(fs::exists(file("slurm/2.json")));
+  std::ofstream(file("recs/broken.osr")) << "no recording";
+  EXPECT_EQ(run_osteon(rescore).exit_code, 1);
+  EXPECT_EQ(run_osteon(rescore + " --slice 3/2").exit_code, 2);
+  EXPECT_EQ(run_osteon("results rescore " + file("none") + " --out " + file("x")).exit_code, 1);
 }
 
 TEST_F(Teaching, ReportsAndMeasuresHaveTheKeysThatAreDocumented) {

@@ -32,17 +32,59 @@ xdotool key ctrl+q
 wait $window
 )sh";
 
-class WindowByMouse : public CliTest {};
+// The briefing is begun by Enter; M takes the probe, F3 ends the attempt, which is judged then.
+constexpr const char* kExercise = R"sh(
+"$OSTEON" window --case 'builtin:wrist#hull' --exercise touch_bones --size 800x600 > out.txt 2>&1 &
+window=$!
+sleep 1
+for i in $(seq 600); do
+  ls osteon/recordings/touch_bones*.osr > found 2> /dev/null && break
+  xdotool key Return; sleep 0.3
+done
+xdotool mousemove 400 300
+xdotool key m; sleep 0.3
+for i in $(seq 15); do xdotool click 4; sleep 0.03; done
+sleep 0.5
+xdotool key m F3
+for i in $(seq 300); do
+  "$OSTEON" results list --json > list.json; grep -q touch_bones list.json && break; sleep 0.2
+done
+xdotool key ctrl+q
+wait $window
+)sh";
+
+class WindowByMouse : public CliTest {
+ protected:
+  int play(const char* script) const {
+    std::ofstream(file("play.sh")) << script;
+    return std::system(("cd " + dir_.string() + " && XDG_CONFIG_HOME=" + dir_.string() +
+                        " XDG_DATA_HOME=" + dir_.string() +
+                        " OSTEON=" OSTEON_EXECUTABLE " " OSTEON_SOURCE_DIR
+                        "/tools/with-display 800x600 bash play.sh")
+                           .c_str());
+  }
+};
+
+TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
+  for (const char* program : {"Xvfb", "xdotool"})
+    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+  ASSERT_EQ(play(kExercise), 0);
+  std::ifstream list(file("list.json"));
+  const std::string kept{std::istreambuf_iterator<char>(list), {}};
+  EXPECT_NE(kept.find("\"scenario\": \"touch_bones\""), std::string::npos) << kept;
+  EXPECT_NE(kept.find("\"verdict\": \"not_passed\""), std::string::npos) << kept;
+  std::ifstream found(file("found"));
+  std::string recording;
+  ASSERT_TRUE(std::getline(found, recording));
+  const Ran debrief = run_osteon("debrief " + file(recording) + " --out " + file("pages.pdf"));
+  EXPECT_EQ(debrief.exit_code, 0) << debrief.output;
+  EXPECT_NE(debrief.output.find("not_passed"), std::string::npos) << debrief.output;
+}
 
 TEST_F(WindowByMouse, AScopeAndAProbeAreLedThroughPortalsAndTheLunateIsTouched) {
   for (const char* program : {"Xvfb", "xdotool"})
     if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
-  std::ofstream(file("play.sh")) << kScript;
-  const std::string command = "cd " + dir_.string() + " && XDG_CONFIG_HOME=" + dir_.string() +
-                              " XDG_DATA_HOME=" + dir_.string() +
-                              " OSTEON=" OSTEON_EXECUTABLE " " OSTEON_SOURCE_DIR
-                              "/tools/with-display 800x600 bash play.sh";
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  ASSERT_EQ(play(kScript), 0);
   const Ran told = run_osteon("record info " + file("run.osr") + " --events");
   ASSERT_EQ(told.exit_code, 0) << told.output;
   const auto tells = [&](const std::string& what) {

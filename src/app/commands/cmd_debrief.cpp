@@ -6,7 +6,7 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
-#include "commands/debrief.h"
+#include "exercises/debrief.h"
 #include "commands/parser.h"
 #include "commands/scenario_run.h"
 #include "commands/skill_trial.h"

@@ -7,7 +7,7 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/parser.h"
-#include "commands/result_files.h"
+#include "exercises/result_files.h"
 #include "commands/result_sending.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/lc_cusum.h"
@@ -201,6 +201,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
       ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
   add_result_sending(*group, exit_code);
+  add_result_rescore(*group, exit_code);
 }
 
 }  // namespace osteon

@@ -5,8 +5,8 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
-#include "commands/result_files.h"
 #include "commands/scenario_run.h"
+#include "exercises/result_files.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -42,16 +42,6 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   return run;
 }
 
-// A store that cannot be written now is no reason to lose an attempt: it waits.
-Result<void> keep_result(const RunCommand& command, const std::string& report) {
-  const auto row = row_from_report(report, command.learner);
-  if (!row) return tl::unexpected(row.error());
-  const auto kept = keep_attempt(*row, results_place(), waiting_folder());
-  if (!kept) return tl::unexpected(kept.error());
-  if (!kept->in_store) std::fprintf(stderr, "osteon: %s\n", kept->why_waiting->message().c_str());
-  return {};
-}
-
 int run_command(const RunCommand& command) {
   if (!is_learner_id(command.learner))
     return report_error({"'" + command.learner + "' is no learner's id", "--learner",
@@ -63,8 +53,11 @@ int run_command(const RunCommand& command) {
   const std::string report = to_json(done->report, done->outcome);
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
-  if (!command.no_store)
-    if (auto ok = keep_result(command, report); !ok) return report_error(ok.error());
+  if (!command.no_store) {
+    const auto kept = keep_report(report, command.learner);
+    if (!kept) return report_error(kept.error());
+    if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
+  }
   std::fputs(to_text(done->outcome).c_str(), stdout);
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;

@@ -48,6 +48,8 @@ void add_window_command(cli::App& app, int& exit_code) {
                       "closed");
   command->add_option("--edit", order->edit, "Begin editing the surface of this bone");
   command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
+  command->add_option("--exercise", order->exercise,
+                      "open the briefing of this exercise; see: osteon scenario list");
   command->add_flag("--new-patient", order->new_patient,
                     "Begin with the panel that makes a patient");
   command->add_option("--screenshot", order->screenshot,

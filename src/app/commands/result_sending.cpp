@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "commands/cli_support.h"
-#include "commands/result_files.h"
+#include "exercises/result_files.h"
 #include "osteon/base/file.h"
 #include "osteon/results/lrs.h"
 

@@ -5,11 +5,8 @@
 #include <utility>
 
 #include "cases/open_case.h"
-#include "commands/attempt_watch.h"
 #include "commands/headless.h"
-#include "osteon/base/file.h"
-#include "osteon/base/random.h"
-#include "osteon/record/recording_note.h"
+#include "exercises/attempt_watch.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
@@ -18,8 +15,6 @@
 
 namespace osteon {
 namespace {
-
-namespace fs = std::filesystem;
 
 // The surgeon's will moves an emulated hand with a mass and a grip, which yields to the force.
 class SurgeonHand : public HandInLoop {
@@ -47,85 +42,6 @@ class SurgeonHand : public HandInLoop {
   double tick_s_;
   Vec3 force_W_ = Vec3::Zero();
 };
-
-Result<fs::path> asset_folder(const char* name) {
-  const auto data = find_data_dir();
-  if (!data) return tl::unexpected(data.error());
-  return *data / "assets" / name;
-}
-
-}  // namespace
-
-Result<std::vector<Scenario>> shipped_scenarios() {
-  const auto folder = asset_folder("scenarios");
-  if (!folder) return tl::unexpected(folder.error());
-  std::vector<fs::path> files;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(*folder, ec))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (ec) return fail("cannot be read (" + ec.message() + ")", folder->string());
-  std::sort(files.begin(), files.end());
-  std::vector<Scenario> scenarios;
-  for (const fs::path& file : files) {
-    auto scenario = load_scenario(file);
-    if (!scenario) return tl::unexpected(scenario.error());
-    scenarios.push_back(std::move(*scenario));
-  }
-  return scenarios;
-}
-
-Result<Scenario> open_scenario(const std::string& spec) {
-  std::error_code ec;
-  if (fs::is_regular_file(spec, ec)) return load_scenario(spec);
-  const auto all = shipped_scenarios();
-  if (!all) return tl::unexpected(all.error());
-  std::string names;
-  for (const Scenario& scenario : *all) {
-    if (scenario.name == spec) return scenario;
-    names += (names.empty() ? "" : ", ") + scenario.name;
-  }
-  return fail("there is no scenario '" + spec + "' and no file of that name", "scenario",
-              "Use one of: " + names);
-}
-
-Result<std::optional<Standard>> shipped_standard(const std::string& scenario) {
-  const auto folder = asset_folder("standards");
-  if (!folder) return tl::unexpected(folder.error());
-  const fs::path file = *folder / (scenario + ".toml");
-  std::error_code ec;
-  if (!fs::exists(file, ec)) return std::optional<Standard>{};
-  auto standard = load_standard(file);
-  if (!standard) return tl::unexpected(standard.error());
-  return std::optional<Standard>(std::move(*standard));
-}
-
-// Side and finding of a drawn patient: a function of the seed and of nothing else.
-std::string drawn_words(const Scenario& scenario, std::uint64_t seed) {
-  Random random(seed * 6364136223846793005u + 1442695040888963407u);
-  const double side = random.uniform(), ill = random.uniform(), which = random.uniform();
-  const auto pick = [](const std::vector<std::string>& from, double share) {
-    return from[std::min(from.size() - 1,
-                         static_cast<std::size_t>(share * static_cast<double>(from.size())))];
-  };
-  std::string words;
-  if (!scenario.sides.empty()) words += ":" + pick(scenario.sides, side);
-  if (!scenario.findings.empty() && ill < 0.5) words += ":" + pick(scenario.findings, which);
-  for (const std::string& word : scenario.always) words += ":" + word;
-  return words;
-}
-
-std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
-                         std::optional<std::uint64_t> seed) {
-  std::string spec = case_spec;
-  if (spec.empty()) spec = "builtin:" + scenario.anatomy;
-  // What every patient of the exercise has stands behind a seed alone.
-  if (!scenario.always.empty() && !seed) seed = 0;
-  if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed) + drawn_words(scenario, *seed);
-  if (spec.find('#') == std::string::npos && scenario.felt != "pieces") spec += "#" + scenario.felt;
-  return spec;
-}
-
-namespace {
 
 // An exercise that names portals on its way is a tour: its hands take turns.
 bool is_tour(const ScenarioPlan& plan) {
@@ -185,18 +101,6 @@ ProbePath holding(const std::string& instrument) {
   return path;
 }
 
-// What a recording must know so that the attempt can be judged again.
-Result<void> note_attempt(const ScenarioRun& run, const ScenarioOutcome& outcome) {
-  if (!run.record_to) return {};
-  const fs::path& file = *run.record_to;
-  if (!run.scenario.source_text.empty())
-    if (auto ok = write_note(file, "scenario", run.scenario.source_text); !ok) return ok;
-  if (run.standard)
-    if (auto ok = write_note(file, "standard", to_toml(*run.standard)); !ok) return ok;
-  if (auto ok = write_note(file, "surgeon", run.skill.name); !ok) return ok;
-  return write_note(file, "report", to_json(outcome.report, outcome.outcome));
-}
-
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -238,7 +142,11 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());
-  if (auto noted = note_attempt(run, done); !noted) return tl::unexpected(noted.error());
+  if (run.record_to)
+    if (auto noted = note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name,
+                                  to_json(done.report, done.outcome));
+        !noted)
+      return tl::unexpected(noted.error());
   return done;
 }
 

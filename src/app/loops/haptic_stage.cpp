@@ -156,6 +156,7 @@ double HapticStage::bones_age(bool fresh, double dt_s) {
 void HapticStage::publish(const ToolState& tool, const BoneSnapshot& bones) {
   exchange_.tool_to_physics.publish(tool);
   for (const Event& event : session_.last_events(options_.hand)) exchange_.events.push(event);
+  if (exchange_.judging.load(std::memory_order_relaxed)) exchange_.judged.push(tool);
   for (std::size_t h = 0; h < kMaxHands; ++h)
     if (options_.others[h]) exchange_.tool_to_hands[h].publish(seen_from_outside(tool));
   telemetry_.peak_force_n =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "osteon/base/bounded_queue.h"
@@ -69,6 +70,8 @@ struct LoopExchange {
   LatestValue<LoopStats> physics_stats;                         // physics -> window
   BoundedQueue<Telemetry> telemetry{4096};  // haptic -> window; 16 s, then points are dropped
   BoundedQueue<Event> events{1024};         // haptic -> window; full: the newest are dropped
+  BoundedQueue<ToolState> judged{512};      // haptic -> window, each tick while `judging`
+  std::atomic<bool> judging{false};         // window -> haptic
   BoundedQueue<Command> to_haptic{64};      // window -> haptic
   BoundedQueue<Command> to_physics{64};     // window -> physics
   BoundedQueue<GateWish> to_gate{16};       // window -> haptic

@@ -118,6 +118,10 @@ bool Runtime::send(const Command& command, std::size_t hand) {
   return sent;
 }
 
+void Runtime::judge_ticks() {
+  for (const auto& each : exchanges_) each->judging.store(true, std::memory_order_relaxed);
+}
+
 void Runtime::set_force_enabled(bool enabled) {
   for (std::size_t h = 0; h < hands(); ++h) set_force_enabled(enabled, h);
 }

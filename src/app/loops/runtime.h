@@ -99,6 +99,11 @@ class Runtime {
   /// Next thing that happened to a hand; false when there is none yet.
   bool pop_event(Event& event, std::size_t hand = 0) { return exchange(hand).events.pop(event); }
 
+  /// Before `start`: every tick of every hand can be had from `pop_judged`. When nobody takes them
+  /// for half a second, some are left out.
+  void judge_ticks();
+  bool pop_judged(ToolState& tool, std::size_t hand) { return exchange(hand).judged.pop(tool); }
+
   bool recording() const { return feed_ && feed_->early_end().empty(); }
   /// Why the recording ended early; empty while all is well.
   std::string recording_failure() const;

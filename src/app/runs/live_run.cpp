@@ -130,6 +130,7 @@ Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
   marks_.clear();
   next_mark_ = 0;
   undone_at_s_ = -10;
+  if (std::exchange(judged_next_, false)) runtime_->judge_ticks();
   runtime_->start();
   mark();  // the begin of a run is a restore point
   return {};
@@ -174,6 +175,13 @@ Result<void> LiveRun::start_recording(const std::filesystem::path& file) {
   recording_file_ = file;
   return start_run(poses_now(),
                    std::make_unique<RecordFeed>(std::move(*writer), 8.0, hands_.size()));
+}
+
+Result<void> LiveRun::start_judged_recording(const std::filesystem::path& file) {
+  judged_next_ = true;
+  Result<void> started = start_recording(file);
+  judged_next_ = false;
+  return started;
 }
 
 Result<void> LiveRun::stop_recording() {

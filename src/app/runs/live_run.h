@@ -66,6 +66,11 @@ class LiveRun {
   /// Starts anew with the same device where the probe is, used in another way.
   Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
   Result<void> start_recording(const std::filesystem::path& file);
+  /// The same, with every tick for who judges it: see Runtime::judge_ticks.
+  Result<void> start_judged_recording(const std::filesystem::path& file);
+  bool pop_judged(ToolState& tool, std::size_t hand) {
+    return runtime_ && runtime_->pop_judged(tool, hand);
+  }
   /// Ends the recording; the run starts anew where the probe is.
   Result<void> stop_recording();
   /// Ends the run for good: zero force, closed devices, the recording whole.
@@ -175,6 +180,7 @@ class LiveRun {
   std::unique_ptr<Runtime> runtime_;
   bool force_on_ = true;
   bool recording_ = false;
+  bool judged_next_ = false;  ///< the run that starts next
   std::filesystem::path recording_file_;
   std::filesystem::path force_log_;
   std::string recording_failure_, harmless_trip_;

@@ -34,6 +34,8 @@ class SideJob {
   SideJob& operator=(const SideJob&) = delete;
 
   bool done() const { return done_.load(std::memory_order_acquire); }
+  /// Returns when it is done.
+  void wait() const { done_.wait(false, std::memory_order_acquire); }
   void cancel() { cancelled_.store(true); }
   bool cancelled() const { return cancelled_.load(); }
   LoadProgress progress() const {
@@ -59,6 +61,7 @@ class SideJob {
       result_ = fail("there is not enough memory", {}, "Close other programs and try again");
     }
     done_.store(true, std::memory_order_release);
+    done_.notify_all();
   }
 
   mutable std::mutex mutex_;

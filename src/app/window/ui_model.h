@@ -17,6 +17,7 @@
 #include "ui/toasts.h"
 #include "window/browser_model.h"
 #include "window/edit_model.h"
+#include "window/exercise_model.h"
 #include "window/hands_model.h"
 #include "window/patient_model.h"
 
@@ -137,6 +138,7 @@ struct UiModel {
   std::span<const Toast> toasts;
 
   CheckupModel checkup;
+  ExerciseModel exercise;
   BrowserModel browser;
   HandsModel hands;
   EditModel edit;

@@ -11,6 +11,7 @@
 #include "osteon/scene/command.h"
 #include "window/browser_model.h"
 #include "window/edit_model.h"
+#include "window/exercise_model.h"
 #include "window/hands_model.h"
 #include "window/patient_model.h"
 
@@ -58,6 +59,7 @@ struct UiRequests {
   BrowserRequests browser;
   HandsRequests hands;
   PatientRequests patient;
+  ExerciseRequests exercise;
   bool force_off = false;
   bool force_on = false;
   bool toggle_probe = false;

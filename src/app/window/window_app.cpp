@@ -89,6 +89,7 @@ void WindowApp::frame(double dt_s) {
   poll_checkup();
   poll_edit_save();
   poll_patient();
+  if (ready() || exercise_.page() == ExercisePage::kJudging) poll_exercise();
   toasts_.age(now_s_);
 
   ui_->begin_frame(window_->take_pressed_keys());

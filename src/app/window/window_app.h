@@ -21,6 +21,7 @@
 #include "ui/toasts.h"
 #include "window/controllers/bone_edit.h"
 #include "window/controllers/case_browser.h"
+#include "window/controllers/exercise_run.h"
 #include "window/controllers/instrument_tray.h"
 #include "window/controllers/scene_poll.h"
 #include "window/controllers/tip_gauge.h"
@@ -54,6 +55,7 @@ struct WindowOrder {
   std::string edit;                 ///< name of the bone whose editing begins; empty: none
   bool checkup = false;             ///< opens the check-up and begins one
   bool new_patient = false;         ///< opens the panel that makes one
+  std::string exercise;             ///< whose briefing is opened; empty: none
   bool fresh = false;               ///< neither reads nor writes the settings file
 };
 
@@ -149,6 +151,15 @@ class WindowApp {
   void apply_patient(const PatientRequests& requests);
   void poll_patient();
   PatientModel patient_model() const;
+  // window_exercise.cpp: an exercise is played
+  void apply_exercise(const ExerciseRequests& requests);
+  void show_exercise(const std::string& name);
+  void open_exercise();
+  void begin_exercise();
+  void poll_exercise();
+  void end_exercise();
+  std::vector<Pose> exercise_poses(const std::vector<PlannedHand>& hands) const;
+  Result<void> start_exercise_hands(const std::vector<PlannedHand>& hands);
   // window_hands.cpp: two hands, what they hold, the way back
   void make_tray(std::span<const std::string> wanted);
   void apply_hands(const HandsRequests& requests);
@@ -232,6 +243,8 @@ class WindowApp {
 
   CaseBrowser browser_{data_home_dir()};
   std::string scan_to_segment_;  ///< that the segmentation's window opens; empty: the user chooses
+
+  ExerciseRun exercise_;
 
   InstrumentTray tray_;
   TrayPictures tray_pictures_;

@@ -82,7 +82,10 @@ void WindowApp::apply_hands(const HandsRequests& requests) {
     live_->mark();
     note(ToastKind::kInfo, "This moment is kept. U goes back to it.");
   }
-  if (requests.undo && live_->undo()) note(ToastKind::kInfo, "Back at the mark.");
+  if (requests.undo && live_->undo()) {
+    note(ToastKind::kInfo, "Back at the mark.");
+    exercise_.count_undo();
+  }
 }
 
 void WindowApp::apply_exchange(const HandsRequests& requests) {

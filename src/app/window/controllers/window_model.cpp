@@ -85,6 +85,7 @@ UiModel WindowApp::build_model() {
   model.panels_open = settings_.panels_open;
   model.help_open = help_open_;
   if (browser_.is_open()) model.browser = browser_.model();
+  model.exercise = exercise_.model();
   model.first_run_hint = !settings_.hint_dismissed && !replay_ && order_.frames == 0;
   if (!ready()) {
     model.phase = load_failure_.empty() ? UiPhase::kLoading : UiPhase::kFailed;

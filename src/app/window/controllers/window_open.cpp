@@ -42,6 +42,7 @@ void WindowApp::poll_loading() {
   install(std::move(*loaded));
   end_bend();
   if (std::exchange(order_.new_patient, false)) apply_patient({.toggle = true});
+  if (!order_.exercise.empty()) show_exercise(std::exchange(order_.exercise, {}));
   if (!std::exchange(order_.checkup, false)) return;
   checkup_open_ = true;
   begin_checkup(false);
@@ -98,6 +99,7 @@ void WindowApp::install(Loaded loaded) {
   aimed_.reset();
   marks_.clear();
   marks_told_ = 0;
+  if (!replay_ && exercise_.page() == ExercisePage::kOpening) return begin_exercise();
   if (!replay_) return begin_live();
   renderer_->set_tray(replay_->tray);
   player_.emplace(replay_->track.duration_s());

@@ -31,6 +31,7 @@ void WindowApp::apply(const UiRequests& requests) {
   apply_checkup(requests);
   apply_patient(requests.patient);
   if (!ready()) return;
+  apply_exercise(requests.exercise);
   apply_view(requests);
   if (requests.felt) choose_felt(*requests.felt);
   if (requests.bend) apply_bend(*requests.bend);
@@ -78,7 +79,10 @@ void WindowApp::apply_run(const UiRequests& requests) {
   if (requests.force_on && !bend_) live_->resume();
   if (requests.toggle_probe) probe_toggled_ = !probe_toggled_;
   if (checkup_) return;  // it may have the device
-  if (requests.toggle_record) toggle_recording();
+  if (requests.toggle_record && exercise_.page() == ExercisePage::kRunning)
+    end_exercise();
+  else if (requests.toggle_record)
+    toggle_recording();
   apply_device(requests);
   if (!requests.device || live_->recording()) return;
   const auto index = static_cast<std::size_t>(*requests.device);

@@ -47,13 +47,14 @@ constexpr std::array<KeyLine, 4> kEdit = {{
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 
-constexpr std::array<KeyLine, 11> kRun = {{
+constexpr std::array<KeyLine, 12> kRun = {{
     {"R", "record, stop"},
     {"O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
     {"P", "play, pause a replay"},
     {",  .", "slower, faster"},
     {"F2", "check this computer and its devices"},
+    {"F3, F4", "exercises, end of one; a hint"},
     {"F11", "full screen"},
     {"F12, Shift + F12", "picture of the window, of the scene alone"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},

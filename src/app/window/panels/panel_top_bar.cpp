@@ -40,6 +40,12 @@ void draw_record_button(const PanelContext& c) {
     draw->AddCircleFilled(at, r, color::kRed);
 }
 
+void draw_exercise_button(const PanelContext& c) {
+  if (ui::toggle_button("Exercises", c.model.exercise.page != ExercisePage::kClosed))
+    c.requests.exercise.toggle = true;
+  ui::tooltip("What can be learned and is judged (F3)");
+}
+
 void draw_open_button(const PanelContext& c) {
   if (ui::toggle_button("Open", c.model.browser.open)) c.requests.browser.toggle = true;
   ui::tooltip(
@@ -55,6 +61,7 @@ float right_part_width(const PanelContext& c) {
   };
   float width = ImGui::CalcTextSize("00:00.0").x + c.px(16);
   width += button(c.model.record.on ? "      Stop" : "      Record") + style.ItemSpacing.x;
+  width += button("Exercises") + style.ItemSpacing.x;
   width += button("Open") + style.ItemSpacing.x + button("Help");
   if (c.model.replay.on) width += button("Leave replay") + style.ItemSpacing.x;
   return width + c.px(16);
@@ -69,6 +76,8 @@ void draw_actions(const PanelContext& c) {
                   : "Simulated time since the start of this run, minutes and seconds");
   ImGui::SameLine(0, c.px(16));
   draw_record_button(c);
+  ImGui::SameLine();
+  draw_exercise_button(c);
   ImGui::SameLine();
   draw_open_button(c);
   if (c.model.replay.on) {

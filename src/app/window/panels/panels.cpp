@@ -26,6 +26,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   if (model.help_open) draw_help(c);
   if (model.checkup.open && ready) draw_checkup(c);
   if (model.patient.open && ready) draw_patient(c);
+  if (ready || model.exercise.page != ExercisePage::kOpening) draw_exercise(c);
   if (model.browser.open) draw_browser(c);
   if (model.hands.tray.open && ready) draw_tray(c);
   return requests;

@@ -40,8 +40,9 @@ void draw_loading(const PanelContext& c);
 void draw_browser(const PanelContext& c);  // of what can be opened
 void draw_help(const PanelContext& c);
 void draw_checkup(const PanelContext& c);
-void draw_edit(const PanelContext& c);     // of a bone's surface
-void draw_patient(const PanelContext& c);  // a new one
+void draw_edit(const PanelContext& c);      // of a bone's surface
+void draw_patient(const PanelContext& c);   // a new one
+void draw_exercise(const PanelContext& c);  // course, briefing, how far, result
 void read_shortcuts(const PanelContext& c);
 
 }  // namespace osteon

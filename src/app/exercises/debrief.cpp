@@ -1,12 +1,12 @@
-#include "commands/debrief.h"
+#include "exercises/debrief.h"
 
 #include <algorithm>
 #include <memory>
 
 #include "cases/open_case.h"
-#include "commands/attempt_watch.h"
 #include "commands/recorded_case.h"
-#include "commands/scenario_run.h"
+#include "exercises/attempt_watch.h"
+#include "exercises/scenario_files.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
@@ -140,6 +140,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   debrief.case_name = (*the_case)->name;
   debrief.duration_s = replayed->report.duration_s;
   debrief.identical = replayed->identical;
+  debrief.report = replayed->reports.front();
   const auto surgeon = read_note(order.recording, "surgeon");
   if (surgeon && *surgeon) debrief.surgeon = **surgeon;
   for (std::size_t h = 0; h < hands; ++h)

@@ -1,4 +1,4 @@
-#include "commands/result_files.h"
+#include "exercises/result_files.h"
 
 #include <cstdlib>
 

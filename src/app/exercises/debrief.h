@@ -28,6 +28,7 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
   std::optional<Outcome> outcome;
+  Report report;  ///< the first hand's
   std::vector<HandTrace> hands;
 };
 

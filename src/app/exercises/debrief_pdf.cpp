@@ -1,6 +1,6 @@
 #include <charconv>
 
-#include "commands/debrief.h"
+#include "exercises/debrief.h"
 #include "osteon/results/pdf.h"
 
 namespace osteon {

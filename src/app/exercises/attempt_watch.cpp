@@ -1,4 +1,4 @@
-#include "commands/attempt_watch.h"
+#include "exercises/attempt_watch.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exercises/attempt_watch.h"
+#include "exercises/debrief.h"
+#include "exercises/scenario_files.h"
+#include "ui/side_job.h"
+#include "window/exercise_model.h"
+
+namespace osteon {
+
+/// An exercise in the window, from the course to its result. Follows the run tick by tick, to show
+/// how far it is; the verdict comes from the recording, repeated and judged as `osteon debrief`
+/// does. Knows neither window nor picture nor devices.
+class ExerciseRun {
+ public:
+  ExercisePage page() const { return page_; }
+  /// Opens the course, or closes what is open; an exercise under way goes on.
+  void toggle();
+  void choose(std::size_t exercise);
+  bool choose(const std::string& name);
+  void set_seed(std::optional<std::uint64_t> seed) { seed_ = seed; }
+  void back();
+
+  const Scenario& scenario() const { return scenarios_[chosen_]; }
+  std::string case_spec() const;
+  void wait_for_case() { page_ = ExercisePage::kOpening; }
+  /// The patient is open: what the hands shall hold. An error is shown on the briefing.
+  std::optional<std::vector<PlannedHand>> plan(std::shared_ptr<const Case> the_case);
+  /// From tick 0 of a run that is recorded to `file`.
+  void begin(double tick_s, std::filesystem::path file);
+  void fail_to_begin(const std::string& why);
+
+  /// One tick of one hand, in the order of that hand's ticks.
+  void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
+  /// Judges the ticks that all hands have done. True: a stage has begun that can be come back to.
+  bool follow(const BoneSnapshot& bones);
+  bool over() const { return watch_ && watch_->over(); }
+  void show_cue();
+  void count_undo() { ++undone_; }
+  std::size_t hands() const { return ticks_.size(); }
+
+  /// The recording is whole: judges it on a thread of its own.
+  void judge();
+  /// Takes in the verdict; the result is kept among the user's attempts.
+  void poll();
+  /// Returns when the verdict can be taken in.
+  void wait_for_verdict() const {
+    if (judging_) judging_->wait();
+  }
+  std::optional<Error> save_pages(const std::filesystem::path& file) const;
+  const std::filesystem::path& recording() const { return file_; }
+
+  ExerciseModel model() const;
+
+ private:
+  void describe_briefing(ExerciseModel& model) const;
+  void describe_run(ExerciseModel& model) const;
+  void describe_result(ExerciseModel& model) const;
+  void keep();
+
+  ExercisePage page_ = ExercisePage::kClosed;
+  std::vector<Scenario> scenarios_;
+  std::vector<std::string> played_;  ///< as scenarios_
+  std::size_t chosen_ = 0;
+  std::optional<std::uint64_t> seed_;
+  std::string problem_;
+
+  std::shared_ptr<const Case> case_;
+  std::unique_ptr<ScenarioPlan> plan_;
+  std::vector<PlannedHand> hands_;
+  std::unique_ptr<AttemptWatch> watch_;
+  std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
+  std::vector<ToolState> last_;               ///< by hand
+  double tick_s_ = 0.001, now_s_ = 0;
+  std::uint32_t stage_ = 0;
+  bool cue_shown_ = false;
+  int hints_ = 0, undone_ = 0;
+  std::filesystem::path file_;
+
+  std::unique_ptr<SideJob<Debrief>> judging_;
+  std::optional<Debrief> debrief_;
+};
+
+}  // namespace osteon

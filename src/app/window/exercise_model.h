@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osteon {
+
+/// Where the user is with an exercise.
+enum class ExercisePage {
+  kClosed,
+  kCourse,    ///< all exercises
+  kBriefing,  ///< what one of them asks
+  kOpening,   ///< its patient is opened
+  kRunning,
+  kJudging,  ///< the recording is repeated and judged
+  kResult
+};
+
+/// What the panel for exercises shows.
+struct ExerciseModel {
+  struct Card {
+    std::string title, text;
+    std::string played;  ///< "3 attempts, passed"; empty: never
+  };
+  struct Stage {
+    std::string title, instruction;
+    bool done = false, live = false;
+    double at_s = 0;
+  };
+  struct Fault {
+    std::string title, severity, consequence;
+    double at_s = 0;
+    std::string where;  ///< the bone; may be empty
+  };
+  struct Measure {
+    std::string name, unit;
+    double value = 0, aim = 0;
+    bool lower_is_better = true;
+  };
+  ExercisePage page = ExercisePage::kClosed;
+  std::vector<Card> cards;
+  std::string title, text;
+  std::vector<std::string> hands;  ///< "Probe: hook probe, through 3-4"
+  std::vector<Stage> stages;
+  std::vector<Fault> faults;      ///< briefing: what must not happen; later: what did
+  std::vector<Measure> measures;  ///< briefing: aims; result: values
+  std::optional<std::uint64_t> seed;
+  double elapsed_s = 0, limit_s = 0;
+  std::vector<std::string> left;  ///< what the live stage still asks for
+  std::size_t goals = 0;          ///< of the live stage, those left counted
+  std::string cue;                ///< asked for; empty: not shown
+  bool has_cue = false;
+  int hints = 0, undone = 0;
+  double judged = 0;  ///< 0..1, while judging
+  std::string verdict;
+  std::optional<double> score, score_lo, score_hi;
+  bool repeats = true;  ///< the recording repeats exactly
+  std::string file, problem;
+};
+
+/// What it asks for.
+struct ExerciseRequests {
+  bool toggle = false;
+  std::optional<std::size_t> choose = {};
+  std::optional<std::optional<std::uint64_t>> seed = {};
+  bool back = false;
+  bool begin = false;
+  bool end = false;  ///< judge what was done
+  bool hint = false;
+  bool undo = false;
+  bool pages = false;  ///< to print
+  bool watch = false;
+};
+
+}  // namespace osteon

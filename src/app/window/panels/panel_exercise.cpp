@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "ui/label.h"
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+constexpr ImGuiWindowFlags kExerciseWindow =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+
+void wrapped(ImU32 color, const std::string& words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void strong(const PanelContext& c, const std::string& words) {
+  const ui::WithFont font(c.fonts.strong);
+  wrapped(color::kText, words);
+}
+
+void quiet_heading(const PanelContext& c, const char* words) {
+  ImGui::Dummy({0, c.px(4)});
+  ui::text(color::kTextQuiet, words);
+}
+
+// "path_mm" -> "Path"; the unit stands behind the number.
+std::string measure_label(const ExerciseModel::Measure& measure) {
+  std::string name = measure.name;
+  std::string unit = "_" + measure.unit;
+  std::replace(unit.begin(), unit.end(), ' ', '_');
+  std::replace(unit.begin(), unit.end(), '/', '_');
+  if (name.ends_with(unit)) name.resize(name.size() - unit.size());
+  return label_of(name);
+}
+
+std::string amount(double value, const std::string& unit) {
+  return ui::number(value, std::abs(value) < 10 ? 2 : 0) + (unit.empty() ? "" : " " + unit);
+}
+
+void draw_course(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  wrapped(color::kTextQuiet,
+          "Each is judged by what you touch, how hard and how long. Your attempts stay on this "
+          "computer.");
+  ImGui::BeginChild("cards", {0, -ImGui::GetFrameHeightWithSpacing()});
+  for (std::size_t i = 0; i < model.cards.size(); ++i) {
+    const ExerciseModel::Card& card = model.cards[i];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::Dummy({0, c.px(6)});
+    const float button_w = c.px(88);
+    const float text_w = ImGui::GetContentRegionAvail().x - button_w - c.px(12);
+    ImGui::BeginGroup();
+    {
+      const ui::WithFont font(c.fonts.strong);
+      ui::text_within(color::kText, card.title, text_w);
+    }
+    ui::text_within(color::kTextQuiet, card.played.empty() ? "not tried yet" : card.played, text_w);
+    ImGui::EndGroup();
+    ui::tooltip(card.text.c_str());
+    ImGui::SameLine(ImGui::GetCursorPosX() + text_w + c.px(12));
+    if (ImGui::Button("Choose", {button_w, 0})) c.requests.exercise.choose = i;
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+  if (ImGui::Button("Close  (F3)", {-1, 0})) c.requests.exercise.toggle = true;
+}
+
+void draw_stage_rows(const PanelContext& c) {
+  for (const ExerciseModel::Stage& stage : c.model.exercise.stages) {
+    strong(c, stage.title);
+    wrapped(color::kTextQuiet, stage.instruction);
+  }
+}
+
+void draw_faults(const PanelContext& c, bool with_time) {
+  for (const ExerciseModel::Fault& fault : c.model.exercise.faults) {
+    std::string line = fault.title + " (" + fault.severity + ")";
+    if (!fault.where.empty()) line += ", " + fault.where;
+    if (with_time) line = ui::clock_time(fault.at_s, false) + "  " + line;
+    wrapped(with_time ? color::kAmber : color::kText, line);
+    wrapped(color::kTextQuiet, fault.consequence);
+  }
+}
+
+void draw_patient_choice(const PanelContext& c) {
+  const auto& seed = c.model.exercise.seed;
+  bool random = seed.has_value();
+  if (ui::switch_row("Another patient", &random,
+                     "Side, measures and findings are drawn by the number. The first time takes a "
+                     "minute to grow."))
+    c.requests.exercise.seed =
+        random ? std::optional<std::uint64_t>(1) : std::optional<std::uint64_t>();
+  if (!seed) return;
+  std::uint64_t number = *seed;
+  ImGui::SetNextItemWidth(c.px(128));
+  if (ImGui::InputScalar("##number", ImGuiDataType_U64, &number)) c.requests.exercise.seed = number;
+  ImGui::SameLine(0, c.px(8));
+  if (ImGui::Button("Next")) c.requests.exercise.seed = *seed + 1;
+}
+
+void draw_briefing(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  const bool opening = model.page == ExercisePage::kOpening;
+  ImGui::BeginChild("briefing", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
+  wrapped(color::kText, model.text);
+  for (const std::string& hand : model.hands) wrapped(color::kTextQuiet, hand);
+  quiet_heading(c, "What to do");
+  draw_stage_rows(c);
+  quiet_heading(c, "What must not happen");
+  draw_faults(c, false);
+  quiet_heading(c, "What counts");
+  for (const ExerciseModel::Measure& m : model.measures)
+    ui::stat(measure_label(m).c_str(),
+             (m.lower_is_better ? "up to " : "from ") + amount(m.aim, m.unit),
+             "The aim; the score compares you with experts");
+  ui::stat("Time limit", ui::clock_time(model.limit_s, false), "The attempt ends then");
+  ImGui::Dummy({0, c.px(4)});
+  ImGui::BeginDisabled(opening);
+  draw_patient_choice(c);
+  ImGui::EndDisabled();
+  ImGui::EndChild();
+  if (model.problem.empty())
+    ui::text(color::kTextQuiet,
+             opening ? "The patient is opened ..." : "The time runs from Begin.");
+  else
+    ui::text_within(color::kAmber, model.problem, ImGui::GetContentRegionAvail().x);
+  const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
+  ImGui::BeginDisabled(opening);
+  if (ui::accent_button("Begin  (Enter)", {w, 0})) c.requests.exercise.begin = true;
+  ImGui::SameLine(0, c.px(8));
+  if (ImGui::Button("Back", {w, 0})) c.requests.exercise.back = true;
+  ImGui::EndDisabled();
+}
+
+void draw_verdict(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  if (model.verdict.empty()) return wrapped(color::kAmber, model.problem);
+  const bool passed = model.verdict == "passed";
+  {
+    const ui::WithFont font(c.fonts.strong);
+    ui::text(passed ? color::kAccent : color::kAmber, passed ? "Passed"
+                                                      : model.verdict == "not_passed"
+                                                          ? "Not passed"
+                                                          : "Undecided");
+  }
+  if (model.score)
+    wrapped(color::kText, "Score " + ui::number(*model.score, 1) + ", with 95 % between " +
+                              ui::number(*model.score_lo, 1) + " and " +
+                              ui::number(*model.score_hi, 1) + ". Experts have 100 on average.");
+  if (model.verdict == "undecided")
+    wrapped(color::kTextQuiet,
+            "The range of your score lies on both sides of the mark: play again.");
+}
+
+void draw_result(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  ImGui::BeginChild("result", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
+  draw_verdict(c);
+  quiet_heading(c, "Stages");
+  for (const ExerciseModel::Stage& stage : model.stages)
+    ui::stat(stage.title.c_str(), stage.done ? ui::clock_time(stage.at_s, false) : "not done",
+             "When it was done", stage.done ? color::kText : color::kAmber);
+  if (!model.faults.empty()) {
+    quiet_heading(c, "Errors, and what they cost");
+    draw_faults(c, true);
+  }
+  quiet_heading(c, "Measures");
+  for (const ExerciseModel::Measure& m : model.measures) {
+    const bool met = m.lower_is_better ? m.value <= m.aim : m.value >= m.aim;
+    ui::stat(measure_label(m).c_str(), amount(m.value, m.unit),
+             (std::string(m.lower_is_better ? "Aim: up to " : "Aim: from ") + amount(m.aim, m.unit))
+                 .c_str(),
+             met ? color::kText : color::kAmber);
+  }
+  if (model.undone > 0)
+    ui::stat("Taken back", std::to_string(model.undone), "How often you went back; errors stay");
+  if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
+  if (!model.repeats)
+    wrapped(color::kAmber,
+            "The recording did not repeat exactly; the verdict is that of the repeat.");
+  if (!model.problem.empty()) wrapped(color::kAmber, model.problem);
+  ImGui::EndChild();
+  const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
+  if (ImGui::Button("Watch it again", {w, 0})) c.requests.exercise.watch = true;
+  ui::tooltip(model.file.c_str());
+  ImGui::SameLine(0, c.px(8));
+  if (ImGui::Button("Pages to print", {w, 0})) c.requests.exercise.pages = true;
+  if (ui::accent_button("Once more", {w, 0})) c.requests.exercise.begin = true;
+  ImGui::SameLine(0, c.px(8));
+  if (ImGui::Button("Exercises", {w, 0})) c.requests.exercise.back = true;
+}
+
+void draw_dialog(const PanelContext& c) {
+  const UiRect& r = c.layout.picture;
+  const ExercisePage page = c.model.exercise.page;
+  const float w = std::min(c.px(440), r.w - c.px(16)), h = r.h - c.px(16);
+  ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({w, h});
+  ImGui::Begin("##exercise", nullptr, kExerciseWindow);
+  strong(c, page == ExercisePage::kCourse ? "Exercises" : c.model.exercise.title);
+  if (page == ExercisePage::kCourse)
+    draw_course(c);
+  else if (page == ExercisePage::kResult)
+    draw_result(c);
+  else
+    draw_briefing(c);
+  ImGui::End();
+}
+
+void draw_live_stage(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  for (const ExerciseModel::Stage& stage : model.stages) {
+    wrapped(stage.live ? color::kText : color::kTextQuiet,
+            (stage.done ? "Done: " : "") + stage.title);
+    if (!stage.live) continue;
+    wrapped(color::kTextQuiet, stage.instruction);
+    std::string left;
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, model.left.size()); ++i)
+      left += (left.empty() ? "" : ", ") + model.left[i];
+    if (model.goals > 1)
+      wrapped(color::kAccent, std::to_string(model.goals - model.left.size()) + " of " +
+                                  std::to_string(model.goals) + ". Left: " + left);
+  }
+}
+
+// Beside the scene while the exercise goes on.
+void draw_running(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  const UiRect& r = c.layout.picture;
+  const float card = c.model.panels_open ? c.layout.left.x + c.layout.left.w - r.x : 0;
+  ImGui::SetNextWindowPos({r.x + std::max(0.0f, card) + c.px(8), r.y + c.px(8)});
+  ImGui::SetNextWindowSizeConstraints({c.px(272), 0}, {c.px(272), r.h - c.px(16)});
+  ImGui::Begin("##running", nullptr, kExerciseWindow | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushItemWidth(-1);
+  strong(c, model.title);
+  if (model.page == ExercisePage::kJudging) {
+    wrapped(color::kTextQuiet, "What you did is repeated and judged ...");
+    ImGui::End();
+    return;
+  }
+  ui::stat("Time",
+           ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
+           "The attempt ends at the limit");
+  ImGui::Separator();
+  draw_live_stage(c);
+  if (!model.cue.empty()) wrapped(color::kText, "Hint: " + model.cue);
+  if (!model.faults.empty()) {
+    ImGui::Separator();
+    const std::size_t shown = std::min<std::size_t>(3, model.faults.size());
+    for (std::size_t i = model.faults.size() - shown; i < model.faults.size(); ++i)
+      wrapped(color::kAmber,
+              ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
+                  (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
+  }
+  ImGui::Separator();
+  ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
+  if (ImGui::Button("Hint (F4)")) c.requests.exercise.hint = true;
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::Button("Back (U)")) c.requests.exercise.undo = true;
+  ui::tooltip("To the begin of the stage, or the last mark. Errors stay; how often is told.");
+  ImGui::SameLine();
+  if (ImGui::Button("End (F3)")) c.requests.exercise.end = true;
+  ui::tooltip("Judges what you have done");
+  ImGui::PopItemWidth();
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_exercise(const PanelContext& c) {
+  const ExercisePage page = c.model.exercise.page;
+  if (page == ExercisePage::kClosed) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(12)});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kPanel);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+  if (page == ExercisePage::kRunning || page == ExercisePage::kJudging)
+    draw_running(c);
+  else
+    draw_dialog(c);
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar();
+}
+
+}  // namespace osteon

@@ -1,0 +1,111 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "app/ui/ui_frame.h"
+
+namespace osteon {
+namespace {
+
+using test::UiFrame;
+
+class ExercisePanel : public ::testing::Test {
+ protected:
+  ExercisePanel() {
+    UiModel model = test::small_model();
+    model.width = ui.model.width;
+    model.height = ui.model.height;
+    ui.model = std::move(model);
+  }
+  ExerciseModel& at(ExercisePage page) {
+    ui.model.exercise = {};
+    ui.model.exercise.page = page;
+    ui.model.exercise.title = "Touch the bones";
+    ui.model.exercise.stages = {{"Carpals", "Touch them", true, false, 12},
+                                {"Forearm", "Touch these", false, true, 0}};
+    return ui.model.exercise;
+  }
+  void settle() {
+    for (int i = 0; i < 4; ++i) ui.draw();
+  }
+  // A window's child has a name of its own, which ends with a number.
+  std::string child(const std::string& begin) const {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+      if (std::string(window->Name).starts_with(begin)) return window->Name;
+    return {};
+  }
+  UiFrame ui;
+};
+
+TEST_F(ExercisePanel, ClosedThereIsNothingAndTheKeyOpensTheCourse) {
+  settle();
+  EXPECT_FALSE(ui.shown("##exercise"));
+  EXPECT_FALSE(ui.shown("##running"));
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_F3).exercise.toggle);
+}
+
+TEST_F(ExercisePanel, OfNoExerciseTheCourseStillStands) {
+  at(ExercisePage::kCourse);
+  settle();
+  EXPECT_TRUE(ui.shown("##exercise"));
+  EXPECT_TRUE(ui.click("##exercise", {"Close  (F3)"}).exercise.toggle);
+}
+
+TEST_F(ExercisePanel, AnExerciseIsChosenFromTheCourse) {
+  at(ExercisePage::kCourse).cards = {{"First", "text", ""}, {"Second", "text", "2 attempts"}};
+  settle();
+  const std::string cards = child("##exercise/cards");
+  ASSERT_FALSE(cards.empty());
+  EXPECT_FALSE(ui.draw().exercise.choose);
+  const ExerciseRequests asked = ui.click(cards.c_str(), {1, "Choose"}).exercise;
+  ASSERT_TRUE(asked.choose);
+  EXPECT_EQ(*asked.choose, 1u);
+}
+
+TEST_F(ExercisePanel, TheBriefingBeginsByButtonAndByKeyAndGoesBack) {
+  at(ExercisePage::kBriefing).faults = {{"Pressed too hard", "major", "A bruise", 0, {}}};
+  ui.model.exercise.measures = {{"path_mm", "mm", 0, 3500, true}};
+  settle();
+  EXPECT_TRUE(ui.click("##exercise", {"Begin  (Enter)"}).exercise.begin);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_ENTER).exercise.begin);
+  EXPECT_TRUE(ui.click("##exercise", {"Back"}).exercise.back);
+  ui.model.exercise.page = ExercisePage::kOpening;
+  settle();
+  EXPECT_FALSE(ui.click("##exercise", {"Begin  (Enter)"}).exercise.begin) << "it is under way";
+}
+
+TEST_F(ExercisePanel, WhileItRunsItCanBeEndedTakenBackAndAHintAskedFor) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  model.left = {"Radius", "Ulna"};
+  model.goals = 2;
+  model.has_cue = true;
+  settle();
+  EXPECT_FALSE(ui.shown("##exercise")) << "the scene stays in sight";
+  EXPECT_TRUE(ui.click("##running", {"Hint (F4)"}).exercise.hint);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_F4).exercise.hint);
+  EXPECT_TRUE(ui.click("##running", {"Back (U)"}).exercise.undo);
+  EXPECT_TRUE(ui.click("##running", {"End (F3)"}).exercise.end);
+  const UiRequests key = ui.press_key(GLFW_KEY_F3);
+  EXPECT_TRUE(key.exercise.end);
+  EXPECT_FALSE(key.exercise.toggle);
+  model.cue = "They lie in two rows";
+  settle();
+  EXPECT_FALSE(ui.click("##running", {"Hint (F4)"}).exercise.hint) << "it is shown";
+}
+
+TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
+  ExerciseModel& model = at(ExercisePage::kResult);
+  model.verdict = "undecided";
+  model.score = 81;
+  model.score_lo = 70;
+  model.score_hi = 92;
+  model.faults = {{"Struck a bone", "major", "Chipped", 3, "Radius"}};
+  settle();
+  EXPECT_TRUE(ui.click("##exercise", {"Watch it again"}).exercise.watch);
+  EXPECT_TRUE(ui.click("##exercise", {"Pages to print"}).exercise.pages);
+  EXPECT_TRUE(ui.click("##exercise", {"Once more"}).exercise.begin);
+  EXPECT_TRUE(ui.click("##exercise", {"Exercises"}).exercise.back);
+}
+
+}  // namespace
+}  // namespace osteon
