@@ -1,6 +1,9 @@
 // Bone: key light over the left shoulder, cool fill from the lower right, rim from behind, sky and
 // ground through the baked occlusion, and the shade that the probe throws.
 in vec3 v_position;
+#ifdef CHANGED
+in vec3 v_model;
+#endif
 in vec3 v_normal;
 in vec4 v_shade;  // openness, cavity, mottle, height of what is felt
 
@@ -47,6 +50,9 @@ float tool_light(vec3 p, vec3 n) {
 }
 
 void main() {
+#ifdef CHANGED
+  if (is_left_out(v_model)) discard;
+#endif
   vec3 n = normalize(v_normal);
   vec3 v = to_viewer(v_position);
   if (!gl_FrontFacing) n = -n;

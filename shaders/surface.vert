@@ -8,6 +8,7 @@ uniform mat4 u_clip_from_view;
 uniform vec2 u_outline;  // half pixel sizes in clip units times the outline's width; 0: none
 
 out vec3 v_position;
+out vec3 v_model;
 out vec3 v_normal;
 out vec4 v_shade;
 
@@ -15,6 +16,7 @@ void main() {
   vec4 position = u_view_from_model * vec4(a_position, 1.0);
   vec3 normal = mat3(u_view_from_model) * a_normal;
   v_position = position.xyz;
+  v_model = a_position;
   v_normal = normal;
   v_shade = a_shade;
   gl_Position = u_clip_from_view * position;

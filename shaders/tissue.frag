@@ -167,6 +167,9 @@ vec3 bumped(vec3 n, float height) {
 }
 
 void main() {
+#ifdef CHANGED
+  if (is_left_out(v_place)) discard;
+#endif
   // Fat that the tip lies in gives way to it: it is not seen from inside.
   if (u_kind == 5 && !gl_FrontFacing) discard;
   vec3 v = -normalize(v_position);

@@ -28,13 +28,27 @@ constexpr double kBeyond_m = 0.001;       // gone on so far through nothing, it 
 constexpr std::uint32_t kRestSteps = 50;  // without a cut: it has stopped
 constexpr std::uint32_t kPlungeSteps = 250;
 constexpr double kDeepEnough_m = 0.001;  // a shallower hole has no far side
-constexpr double kBurrFriction = 0.3;    // of a burr's rim: cutting force by pressing force
+constexpr double kLeastFacing = 0.2;  // of what cuts on one side: so far it must look at the bone
+constexpr double kBladeFastest_m_per_s = 0.02;
+constexpr double kFastestByHand_rev_per_s = 4;  // also after a while in the air
 constexpr double kBurrFastest_m_per_s = 0.02;
 constexpr double kBurrLead_m = 1e-4;
 constexpr std::size_t kMostEvents = 32;  // of a step; no step has so many
 
 Pose moved_along(const Pose& X, const Vec3& way) { return {X.p + way, X.q}; }
 Vec3 back_of(const Pose& X) { return X.q * Vec3::UnitZ(); }
+
+using Way = CarvingTool::Way;
+bool needs_power(Way way) { return way == Way::kDrill || way == Way::kBurr; }
+bool goes_forward(Way way) {
+  return way == Way::kDrill || way == Way::kTwist || way == Way::kStrike;
+}
+
+// How far a tool is turned about its own axis from how the cutter stood, -pi to pi.
+double twist_about(const Pose& X_BC, const Pose& X_BT) {
+  const Quat q = X_BC.q.conjugate() * X_BT.q;
+  return 2 * std::atan2(q.w() < 0 ? -q.z() : q.z(), std::abs(q.w()));
+}
 
 void add_to(Hasher& hasher, const CarvingHand& hand) {
   hasher.add(hand.bone);
@@ -47,6 +61,7 @@ void add_to(Hasher& hasher, const CarvingHand& hand) {
   hasher.add(hand.idle);
   hasher.add(hand.since);
   hasher.add(hand.tissue);
+  hasher.add(hand.twist_rad);
   for (const bool x : {hand.was_in, hand.skives, hand.jaw_open}) hasher.add(x);
   hasher.add(hand.out);
   hasher.add(hand.p_out);
@@ -125,17 +140,20 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
     push.X_WB = bones.bones[at].X_WB;
     push.X_BT = push.X_WB.inverse() * tool.X_WP;
   }
-  if (with->way == CarvingTool::Way::kBite) {
+  if (with->way == Way::kBite) {
     for (std::uint32_t b = 0; b < bones_.size() && b < bones.count; ++b)
       if (bones_[b].field) bite(hand, *with, tool, bones.bones[b].X_WB.inverse() * tool.X_WP, b);
     h.jaw_open = tool.jaw > 0.5 || (h.jaw_open && tool.jaw > 0.1);
     return;
   }
-  if (!(tool.power > 0) || push.bone == CarvingHand::kNoBone) return rest(hand, push);
-  if (with->way == CarvingTool::Way::kBurr)
-    burr(hand, *with, push, step_s);
-  else
+  const bool off = needs_power(with->way) && !(tool.power > 0);
+  if (off || push.bone == CarvingHand::kNoBone) return rest(hand, push);
+  if (with->way == Way::kStrike)
+    strike(hand, *with, push, step_s);
+  else if (goes_forward(with->way))
     drill(hand, *with, push, step_s);
+  else
+    burr(hand, *with, push, step_s);
 }
 
 void Carving::begin(std::size_t hand, const CarvingTool& with, const Push& push) {
@@ -165,6 +183,11 @@ bool Carving::remove(std::size_t hand, const Cutter& cutter, const Pose& from_B,
   for (std::size_t n = 0; n < field.block_count(); ++n)
     if (field.changed_at(n) > before) changed_.push_back({bone, field.block_at(n)});
   return true;
+}
+
+// Once: it stays so until the bone is put back.
+void Carving::tell_full(std::size_t hand, const Push& push, bool was_full) {
+  if (full_ && !was_full) tell(hand, push, kCarvingFull, {});
 }
 
 void Carving::note_tissue(std::size_t hand, const Push& push, std::optional<BoneTissue> tissue) {
@@ -205,7 +228,7 @@ void Carving::rest(std::size_t hand, const Push& push) {
   if (h.bone == CarvingHand::kNoBone) return;
   h.drill.was_cutting = false;
   const auto& with = setup_->tray[push.tool->instrument];
-  if (with && with->way == CarvingTool::Way::kDrill) follow_out(hand, push);
+  if (with && goes_forward(with->way)) follow_out(hand, push);
   if (++h.idle < kRestSteps || h.out > 0) return;
   const double seconds = 0.002 * static_cast<double>(steps_ - h.since);
   if (h.was_in || h.most_torque_nm > 0)
@@ -213,36 +236,67 @@ void Carving::rest(std::size_t hand, const Push& push) {
   h = {};
 }
 
-void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+// Of what goes forward along its axis. False: it is pulled back, and not at its hole's end.
+bool Carving::stand_before(std::size_t hand, const CarvingTool& with, const Push& push) {
   CarvingHand& h = hands_[hand];
   const double ahead = back_of(h.X_BC).dot(h.X_BC.p - push.X_BT.p);
-  if (h.bone != push.bone || ahead > kBeyond_m) {
-    const CarvingHand before = h;
-    begin(hand, with, push);
-    const bool was_full = full_;
-    if (!remove(hand, with.cutter, h.X_BC, h.X_BC) && !was_full) tell(hand, push, kCarvingFull, {});
-    if (before.bone == push.bone) {
-      h.was_in = before.was_in;
-      h.out = before.out;
-      h.p_out = before.p_out;
-      h.plunge_m = before.plunge_m;
-      h.since = before.since;
-      h.drill.depth_m += before.drill.depth_m;
-    }
-  } else if (ahead < -kBehind_m) {
-    return rest(hand, push);
-  }
+  if (h.bone == push.bone && !(ahead > kBeyond_m)) return ahead >= -kBehind_m;
+  const CarvingHand before = h;
+  begin(hand, with, push);
+  const bool was_full = full_;
+  if (!remove(hand, with.cutter, h.X_BC, h.X_BC)) tell_full(hand, push, was_full);
+  if (before.bone != push.bone) return true;
+  h.was_in = before.was_in;
+  h.out = before.out;
+  h.p_out = before.p_out;
+  h.plunge_m = before.plunge_m;
+  h.since = before.since;
+  h.drill.depth_m += before.drill.depth_m;
+  return true;
+}
+
+// Turns a second: of the motor, or of the hand.
+double Carving::turning(std::size_t hand, const CarvingTool& with, const Push& push,
+                        double step_s) {
+  if (with.way == Way::kDrill) return push.tool->power * with.most_rev_per_s;
+  CarvingHand& h = hands_[hand];
+  const double now = twist_about(h.X_BC, push.X_BT);
+  const double turned = std::remainder(now - h.twist_rad, 2 * std::numbers::pi);
+  h.twist_rad = now;
+  return std::min(std::abs(turned) / (2 * std::numbers::pi * step_s), kFastestByHand_rev_per_s);
+}
+
+void Carving::go_on(std::size_t hand, const CarvingTool& with, const Push& push, double advance_m) {
+  CarvingHand& h = hands_[hand];
+  h.due_m += advance_m;
+  if (h.due_m < CarvingSetup::kBite_m) return;
+  const Pose next = moved_along(h.X_BC, -h.due_m * back_of(h.X_BC));
+  // Where the cutter stood it has cut: within half a cell only the new place is left.
+  const bool near = h.due_m <= 0.5 * bones_[h.bone].field->grid().cell_m;
+  const bool was_full = full_;
+  if (remove(hand, with.cutter, near ? next : h.X_BC, next))
+    h.X_BC = next;
+  else
+    tell_full(hand, push, was_full);
+  h.due_m = 0;
+}
+
+void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+  CarvingHand& h = hands_[hand];
+  if (!stand_before(hand, with, push)) return rest(hand, push);
   const Vec3 back = back_of(h.X_BC);
   const CarvedField& field = *bones_[h.bone].field;
+  const bool by_hand = with.way == Way::kTwist;
+  const DrillTable& table = by_hand ? setup_->by_hand : setup_->table;
   follow_out(hand, push);
-  const FrontShare front = look_before(field, with.cutter, with.pilot_m, h.X_BC);
+  const FrontShare front = by_hand ? look_before_point(field, with.cutter, h.X_BC)
+                                   : look_before(field, with.cutter, with.pilot_m, h.X_BC);
   note_tissue(hand, push, front.most());
-  const DrillMaterial material = mixed(setup_->table, front);
-  const DrillTool tool{with.cutter.size_m, push.tool->power * with.most_rev_per_s, 0, with.pilot_m};
+  const DrillMaterial material = mixed(table, front);
+  const DrillTool tool{with.cutter.size_m, turning(hand, with, push, step_s), 0, with.pilot_m};
   const double thrust = setup_->thrust_scale * std::max(0.0, push.force_B.dot(back));
   const bool first = h.most_torque_nm == 0;
-  const DrillStep did =
-      step_drill(h.drill, setup_->table, tool, {&material, h.angle_rad}, thrust, step_s);
+  const DrillStep did = step_drill(h.drill, table, tool, {&material, h.angle_rad}, thrust, step_s);
   if (did.skives && !h.skives)
     tell(hand, push, kSkives, {h.angle_rad * 180 / std::numbers::pi, thrust, 0});
   h.skives = did.skives;
@@ -254,37 +308,63 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   h.was_in = h.was_in || front.left() > 0;
   if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
   h.most_torque_nm = std::max(h.most_torque_nm, did.torque_nm);
-  h.due_m += did.advance_m;
-  if (h.due_m < CarvingSetup::kBite_m) return;
-  const Pose next = moved_along(h.X_BC, -h.due_m * back);
-  // Where the cutter stood it has cut: within half a cell only the new place is left.
-  const bool near = h.due_m <= 0.5 * field.grid().cell_m;
-  const bool full_before = full_;
-  if (remove(hand, with.cutter, near ? next : h.X_BC, next))
-    h.X_BC = next;
-  else if (!full_before)
-    tell(hand, push, kCarvingFull, {});  // once: it stays so until the bone is put back
-  h.due_m = 0;
+  go_on(hand, with, push, did.advance_m);
 }
 
-void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+// To go on by dx takes u A dx, u the specific energy of what stands before the edge, A the blade's
+// cross-section: the blows give it by their power, a push that is larger than u A by itself.
+void Carving::strike(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
   CarvingHand& h = hands_[hand];
-  if (h.bone != push.bone) begin(hand, with, push);
+  if (!stand_before(hand, with, push)) return rest(hand, push);
+  const Vec3 back = back_of(h.X_BC);
   const CarvedField& field = *bones_[h.bone].field;
-  const double press = push.force_B.norm(), radius = 0.5 * with.cutter.size_m;
-  const Vec3 nhat = push.force_B / press;
-  const FrontShare front = look_under_ball(field, radius, push.X_BT.p, nhat);
+  follow_out(hand, push);
+  const FrontShare front = look_before_edge(field, with.cutter.size_m, h.X_BC);
   note_tissue(hand, push, front.most());
   const DrillMaterial material = mixed(setup_->table, front);
-  const double rim_m_per_s =
-      std::numbers::pi * with.cutter.size_m * push.tool->power * with.most_rev_per_s;
-  const double watts = kBurrFriction * press * rim_m_per_s;
+  const double area = with.cutter.size_m * with.cutter.parts.front().box.extent().y();
+  const double needed = material.specific_energy_j_per_m3 * area;
+  const double thrust = setup_->thrust_scale * std::max(0.0, push.force_B.dot(back));
+  const double blows_w = thrust > 0 ? push.tool->power * with.most_w : 0;
+  const double more = std::max(0.0, thrust / needed - 1);
+  const double speed =
+      std::min(blows_w / needed + more * kBladeFastest_m_per_s, kBladeFastest_m_per_s);
+  const bool first = h.most_torque_nm == 0;
+  readouts_[hand] = {h.bone, h.X_BC.p, back, 0.5 * with.cutter.size_m, speed * step_s, thrust,
+                     0,      0,        0};
+  if (!(speed > 0)) return;
+  h.idle = 0;
+  h.was_in = h.was_in || front.left() > 0;
+  if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
+  h.most_torque_nm = std::max(h.most_torque_nm, 1e-9);  // it has cut; a blade is not turned
+  h.drill.depth_m += speed * step_s;
+  go_on(hand, with, push, speed * step_s);
+}
+
+// Of what scrapes, its speed is that of the hand along the bone.
+void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
+  CarvingHand& h = hands_[hand];
+  const double press = push.force_B.norm(), radius = 0.5 * with.cutter.size_m;
+  const Vec3 nhat = push.force_B / press;
+  if (with.one_sided && (push.X_BT.q * Vec3::UnitY()).dot(nhat) > -kLeastFacing)
+    return rest(hand, push);
+  if (h.bone != push.bone) begin(hand, with, push);
+  const CarvedField& field = *bones_[h.bone].field;
+  const FrontShare front = look_under_ball(field, radius, push.X_BT * with.middle_T, nhat);
+  note_tissue(hand, push, front.most());
+  const DrillMaterial material = mixed(setup_->table, front);
+  const bool scrapes = with.way == Way::kScrape;
+  const Vec3 drawn = push.X_WB.q.conjugate() * push.tool->v_W;
+  const double m_per_s =
+      scrapes ? (drawn - nhat * nhat.dot(drawn)).norm()
+              : std::numbers::pi * with.cutter.size_m * push.tool->power * with.most_rev_per_s;
+  const double force = with.grip * (scrapes ? setup_->thrust_scale * press : press);
   const double area = 0.5 * std::numbers::pi * radius * radius;
   // Over the whole half ball the energy is that of its shares; the rest of it cuts air.
-  const double rate = watts / material.specific_energy_j_per_m3 / area;
+  const double rate = force * m_per_s / material.specific_energy_j_per_m3 / area;
   const double advance = std::min(rate, kBurrFastest_m_per_s) * step_s;
   const bool first = h.most_torque_nm == 0;
-  const double torque = kBurrFriction * press * radius;
+  const double torque = force * radius;
   readouts_[hand] = {
       h.bone,  push.X_BT.p, nhat,   radius,
       advance, press,       torque, advance * area * material.specific_energy_j_per_m3 / step_s,
@@ -305,7 +385,7 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   h.X_BC = moved_along(from, -std::max(h.due_m, h.plunge_m) * nhat);
   h.drill.depth_m += h.plunge_m;
   const bool was_full = full_;
-  if (!remove(hand, with.cutter, from, h.X_BC) && !was_full) tell(hand, push, kCarvingFull, {});
+  if (!remove(hand, with.cutter, from, h.X_BC)) tell_full(hand, push, was_full);
   h.plunge_m = 0;
 }
 
@@ -319,7 +399,7 @@ void Carving::bite(std::size_t hand, const CarvingTool& with, const ToolState& t
   push.tool = &tool;
   push.bone = bone;
   const bool was_full = full_;
-  if (!remove(hand, with.cutter, X_BT, X_BT) && !was_full) tell(hand, push, kCarvingFull, {});
+  if (!remove(hand, with.cutter, X_BT, X_BT)) tell_full(hand, push, was_full);
   if (changed_.size() > before) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, 0, 0});
 }
 

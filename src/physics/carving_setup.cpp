@@ -1,8 +1,7 @@
 #include "osteon/physics/carving_setup.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
+#include <string>
 
 #include "osteon/base/file.h"
 #include "osteon/physics/carving.h"
@@ -14,26 +13,9 @@ namespace {
 
 using Way = CarvingTool::Way;
 
-// What an instrument cuts with.
-struct Kind {
-  std::string_view instrument, cutter;
-  Way way;
-  double pilot_m = 0;  // of a cannula
-};
-constexpr std::array kKinds{
-    Kind{"drill", "drill", Way::kDrill},
-    Kind{"cannulated_drill", "reamer", Way::kDrill, 0.0024},
-    Kind{"reamer", "reamer", Way::kDrill, 0.003},
-    Kind{"microdrill", "burr", Way::kBurr},
-    Kind{"kerrison_punch", "kerrison", Way::kBite},
-};
-
-const Kind* kind_of(std::string_view tray_name) {
-  const std::string_view name = tray_name.substr(0, tray_name.find(':'));
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
-                                  [&](const Kind& kind) { return kind.instrument == name; });
-  return found == kKinds.end() ? nullptr : &*found;
-}
+// An awl's three edges are long and steep: with a turn they take so much more than a drill's. Own
+// default.
+constexpr double kFeedByHand = 10;
 
 // Long enough that every place of the hole has once been as deep in the cutter as the wall is far,
 // and no longer: a front no higher than 0.6 diameters, and a diameter of full width behind it.
@@ -46,22 +28,66 @@ void shorten(Cutter& cutter) {
   part.box.hi.z() = length;
 }
 
-Result<CarvingTool> tool_of(const Kind& kind, const std::string& tray_name,
-                            std::span<const Instrument> instruments) {
+void shift_back(Cutter& cutter, double back_m) {
+  for (CutterPart& part : cutter.parts) {
+    for (RoundRod& rod : part.rods) {
+      rod.p0.z() += back_m;
+      rod.p1.z() += back_m;
+    }
+    for (TurnedFace& face : part.faces) face.offset += back_m * face.n_z;
+    for (Plane& plane : part.planes) plane.d += back_m * plane.n.z();
+    part.box.lo.z() += back_m;
+    part.box.hi.z() += back_m;
+  }
+}
+
+// A burr and what scrapes cut with a ball, or with the half of one.
+void find_ball(CarvingTool& tool) {
+  const CutterPart& part = tool.cutter.parts.front();
+  if (part.rods.empty()) return;
+  tool.middle_T = part.rods.front().p0;
+  tool.one_sided = !part.planes.empty();
+}
+
+Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrument,
+                            double size_m) {
+  auto cutter = make_cutter(removal.cutter, size_m);
+  if (!cutter) return tl::unexpected(cutter.error());
+  CarvingTool tool;
+  tool.way = removal.way;
+  tool.cutter = std::move(*cutter);
+  tool.pilot_m = removal.pilot_m;
+  tool.grip = removal.grip;
+  const bool turned = !tool.cutter.parts.front().faces.empty();
+  const bool ball = !tool.cutter.parts.front().rods.empty();
+  const bool drills = tool.way == Way::kDrill || tool.way == Way::kTwist;
+  const bool burrs = tool.way == Way::kBurr || tool.way == Way::kScrape;
+  if ((drills && !turned) || (burrs && !ball))
+    return fail("its cutter '" + removal.cutter + "' does not go with the way '" +
+                    std::string(to_text(tool.way)) + "'",
+                instrument.name);
+  if (instrument.power && instrument.power->unit == "rpm")
+    tool.most_rev_per_s = instrument.power->most / 60;
+  if (instrument.power && instrument.power->unit == "W") tool.most_w = instrument.power->most;
+  if (tool.way == Way::kDrill) shorten(tool.cutter);
+  shift_back(tool.cutter, removal.back_plus_m + removal.back_per_size * size_m);
+  if (burrs) find_ball(tool);
+  return tool;
+}
+
+// The instrument that a name of the tray stands for, if it removes bone.
+const Instrument* remover(std::span<const Instrument> instruments, const std::string& tray_name) {
+  const Instrument* found = find_instrument(instruments, tray_name.substr(0, tray_name.find(':')));
+  return found && found->removal ? found : nullptr;
+}
+
+Result<double> size_of(const Instrument& instrument, const std::string& tray_name) {
   const auto named = parse_tool_name(tray_name);
   if (!named) return tl::unexpected(named.error());
-  const Instrument* instrument = find_instrument(instruments, named->name);
-  if (!instrument) return fail("there is no such instrument", tray_name);
-  const auto size = named->size_mm ? find_size(*instrument, *named->size_mm)
-                                   : std::optional<std::size_t>(instrument->usual_size);
+  const auto size = named->size_mm ? find_size(instrument, *named->size_mm)
+                                   : std::optional<std::size_t>(instrument.usual_size);
   if (!size) return fail("the instrument has no such size", tray_name);
-  auto cutter = make_cutter(kind.cutter, instrument->sizes_m[*size]);
-  if (!cutter) return tl::unexpected(cutter.error());
-  CarvingTool tool{kind.way, std::move(*cutter), 0, kind.pilot_m};
-  if (instrument->power && instrument->power->unit == "rpm")
-    tool.most_rev_per_s = instrument->power->most / 60;
-  if (kind.way == Way::kDrill) shorten(tool.cutter);
-  return tool;
+  return instrument.sizes_m[*size];
 }
 
 Result<void> add_tools(std::span<const std::string> tray, CarvingSetup& setup) {
@@ -69,9 +95,11 @@ Result<void> add_tools(std::span<const std::string> tray, CarvingSetup& setup) {
   if (!instruments) return tl::unexpected(instruments.error());
   for (const std::string& name : tray) {
     setup.tray.emplace_back();
-    const Kind* kind = kind_of(name);
-    if (!kind) continue;
-    auto tool = tool_of(*kind, name, *instruments);
+    const Instrument* instrument = remover(*instruments, name);
+    if (!instrument) continue;
+    const auto size_m = size_of(*instrument, name);
+    if (!size_m) return tl::unexpected(size_m.error());
+    auto tool = tool_of(*instrument->removal, *instrument, *size_m);
     if (!tool) return tl::unexpected(tool.error());
     constexpr double kRoom_m = 0.001;
     setup.air_m = std::max(setup.air_m, 0.5 * tool->cutter.size_m + kRoom_m);
@@ -89,12 +117,14 @@ double cell_for(const Bone& bone, double cell_m) {
 
 }  // namespace
 
-bool removes_bone(const std::string& tray_name) { return kind_of(tray_name) != nullptr; }
-
 bool can_carve(const Case& the_case, std::span<const std::string> tray) {
-  return std::any_of(tray.begin(), tray.end(), removes_bone) &&
-         std::any_of(the_case.bones.begin(), the_case.bones.end(),
-                     [](const Bone& bone) { return bone.felt == Felt::kField; });
+  const bool has_field = std::any_of(the_case.bones.begin(), the_case.bones.end(),
+                                     [](const Bone& bone) { return bone.felt == Felt::kField; });
+  if (!has_field || tray.empty()) return false;
+  const auto instruments = load_instruments();
+  return instruments && std::any_of(tray.begin(), tray.end(), [&](const std::string& name) {
+           return remover(*instruments, name) != nullptr;
+         });
 }
 
 Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
@@ -111,6 +141,9 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
   if (!table) return tl::unexpected(table.error());
   setup->layers = std::move(*layers);
   setup->table = std::move(*table);
+  setup->by_hand = setup->table;
+  setup->by_hand.usual_feed_m_per_rev *= kFeedByHand;
+  setup->by_hand.largest_feed_m_per_rev *= kFeedByHand;
   setup->thrust_scale = settings.thrust_scale;
   if (auto added = add_tools(tray, *setup); !added) return tl::unexpected(added.error());
   for (const Bone& bone : the_case.bones) {

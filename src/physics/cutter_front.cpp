@@ -44,9 +44,10 @@ double front_z(const Cutter& cutter, double rho) {
   return z;
 }
 
-void look_at(const CarvedField& field, const Vec3& p_B, FrontShare& share) {
-  ++share.looked;
-  if (const auto tissue = tissue_at(field, p_B)) ++share.found[static_cast<std::size_t>(*tissue)];
+void look_at(const CarvedField& field, const Vec3& p_B, FrontShare& share, std::size_t counts = 1) {
+  share.looked += counts;
+  if (const auto tissue = tissue_at(field, p_B))
+    share.found[static_cast<std::size_t>(*tissue)] += counts;
 }
 
 const DrillMaterial* material_of(const DrillTable& table, std::size_t tissue) {
@@ -94,6 +95,31 @@ FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pi
       const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
       look_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z), share);
     }
+  }
+  return share;
+}
+
+// Rings of equal width, each counted by its area.
+FrontShare look_before_point(const CarvedField& field, const Cutter& cutter, const Pose& X_BC) {
+  constexpr std::size_t kFineRings = 10;
+  FrontShare share;
+  for (std::size_t ring = 0; ring < kFineRings; ++ring) {
+    const double rho = (static_cast<double>(ring) + 0.5) / kFineRings * 0.5 * cutter.size_m;
+    const double z = front_z(cutter, rho) - kAheadCells * field.grid().cell_m;
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
+      look_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z), share, 2 * ring + 1);
+    }
+  }
+  return share;
+}
+
+FrontShare look_before_edge(const CarvedField& field, double width_m, const Pose& X_BC) {
+  constexpr std::size_t kAlong = 16;
+  FrontShare share;
+  for (std::size_t i = 0; i < kAlong; ++i) {
+    const double x = ((static_cast<double>(i) + 0.5) / kAlong - 0.5) * width_m;
+    look_at(field, X_BC * Vec3(x, 0, -kAheadCells * field.grid().cell_m), share);
   }
   return share;
 }

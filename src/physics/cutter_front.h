@@ -28,6 +28,11 @@ bool was_outside(const CarvedField& field, const Vec3& p_B);
 /// Before a cutter that is turned about its axis, a drill or a reamer, beyond its pilot's radius.
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
                        const Pose& X_BC);
+/// The same before a long point, an awl's: what of it is in bone decides, so it is looked at in
+/// more rings.
+FrontShare look_before_point(const CarvedField& field, const Cutter& cutter, const Pose& X_BC);
+/// Before the edge of a blade, which lies along x through X_BC's origin.
+FrontShare look_before_edge(const CarvedField& field, double width_m, const Pose& X_BC);
 /// Before a ball about X_BC's origin that is pressed against -nhat_B.
 FrontShare look_under_ball(const CarvedField& field, double radius_m, const Vec3& p_B,
                            const Vec3& nhat_B);

@@ -43,13 +43,16 @@ std::string program_log(GLuint program) {
 
 constexpr const char* kReinstall = "install Osteon's shaders folder again";
 
-Result<GlShader> compile(GLenum stage, const std::filesystem::path& dir, const std::string& file) {
+Result<GlShader> compile(GLenum stage, const std::filesystem::path& dir, const std::string& file,
+                         bool changed = false) {
   constexpr std::uint64_t kLargestShader = 1 << 20;
   const auto shared = read_file(dir / "light.glsl", kLargestShader);
   if (!shared) return tl::unexpected(shared.error());
   const auto own = read_file(dir / file, kLargestShader);
   if (!own) return tl::unexpected(own.error());
-  const std::string text = "#version 330 core\n" + *shared + "#line 1\n" + *own;
+  const auto more = changed ? read_file(dir / "changed.glsl", kLargestShader) : std::string();
+  if (!more) return tl::unexpected(more.error());
+  const std::string text = "#version 330 core\n" + *shared + *more + "#line 1\n" + *own;
   GlShader shader(glCreateShader(stage));
   const char* source = text.c_str();
   glShaderSource(shader.get(), 1, &source, nullptr);
@@ -78,9 +81,19 @@ Result<Program> Program::load(const std::filesystem::path& shader_dir, const std
 
 Result<Program> Program::load(const std::filesystem::path& shader_dir, const std::string& vert,
                               const std::string& frag) {
+  return link(shader_dir, vert, frag, false);
+}
+
+Result<Program> Program::load_changed(const std::filesystem::path& shader_dir,
+                                      const std::string& vert, const std::string& frag) {
+  return link(shader_dir, vert, frag, true);
+}
+
+Result<Program> Program::link(const std::filesystem::path& shader_dir, const std::string& vert,
+                              const std::string& frag, bool changed) {
   const auto vertex = compile(GL_VERTEX_SHADER, shader_dir, vert + ".vert");
   if (!vertex) return tl::unexpected(vertex.error());
-  const auto fragment = compile(GL_FRAGMENT_SHADER, shader_dir, frag + ".frag");
+  const auto fragment = compile(GL_FRAGMENT_SHADER, shader_dir, frag + ".frag", changed);
   if (!fragment) return tl::unexpected(fragment.error());
   Program program;
   program.name_ = GlProgramName(glCreateProgram());

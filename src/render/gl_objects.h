@@ -64,6 +64,9 @@ class Program {
   /// As above with the vertex shader of another name.
   static Result<Program> load(const std::filesystem::path& shader_dir, const std::string& vert,
                               const std::string& frag);
+  /// As above for a surface of which parts are left out (changed.glsl).
+  static Result<Program> load_changed(const std::filesystem::path& shader_dir,
+                                      const std::string& vert, const std::string& frag);
 
   void use() const { glUseProgram(name_.get()); }
   void set(const char* name, int value) const;
@@ -74,6 +77,9 @@ class Program {
   void set(const char* name, const Eigen::Matrix4f& value) const;
 
  private:
+  static Result<Program> link(const std::filesystem::path& shader_dir, const std::string& vert,
+                              const std::string& frag, bool changed);
+
   GlProgramName name_;
 };
 

@@ -204,6 +204,16 @@ void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
   impl_->kept.reset();
 }
 
+void Renderer::set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes) {
+  impl_->painter.set_cubes(bone.index, grid, cubes);
+  impl_->kept.reset();
+}
+
+void Renderer::clear_cubes() {
+  impl_->painter.clear_cubes();
+  impl_->kept.reset();
+}
+
 std::string Renderer::device_name() const { return impl_->device; }
 bool Renderer::software_driver() const { return impl_->software; }
 

@@ -121,6 +121,7 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
     const std::size_t at = k < bones ? k : k - bones;
     const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
     bones_[k].closed = mesh.closed;
+    if (k < bones) bones_[k].changed.set_base(mesh);
     bones_[k].levels.clear();
     bones_[k].levels.push_back({GpuMesh(mesh), 0});
     for (const ShadedMesh::Level& level : mesh.coarser)
@@ -155,6 +156,20 @@ void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
   set_extent(model, mesh_B);
+}
+
+void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
+                             std::span<const SurfaceCube> cubes) {
+  if (bone < rest_X_WB_.size()) bones_[bone].changed.set(grid, cubes, bone);
+}
+
+void ScenePainter::clear_cubes() {
+  for (BoneModel& bone : bones_) bone.changed.clear();
+}
+
+bool ScenePainter::any_changed() const {
+  return std::any_of(bones_.begin(), bones_.end(),
+                     [](const BoneModel& bone) { return !bone.changed.empty(); });
 }
 
 ScenePainter::BoneModel ScenePainter::make_soft(const SoftPart& soft) {
@@ -201,6 +216,9 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     if (!loaded) return tl::unexpected(loaded.error());
     *p.program = std::move(*loaded);
   }
+  auto changed = Program::load_changed(shader_dir, "surface", "bone");
+  if (!changed) return tl::unexpected(changed.error());
+  painter.changed_bone_ = std::move(*changed);
   for (const Bone& bone : the_case.bones) {
     painter.bones_.push_back(make_bone(bone));
     painter.rest_X_WB_.push_back(bone.X_WB);
@@ -297,30 +315,34 @@ void ScenePainter::set_shared(const Program& program, const ViewState& view,
   program.set("u_outline", Eigen::Vector2f(0, 0));
 }
 
-void ScenePainter::set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
-                                  const Frame& frame) const {
+void ScenePainter::set_tool_shade(const Program& program, const RenderSnapshot& snapshot,
+                                  const ViewState& view, const Frame& frame) const {
   const Pose& X_WP = snapshot.tool.X_WP;
   const ToolModel& tool = model_of(snapshot.tool);
   const bool shades = view.show_proxy && !tool.mesh.empty() && is_finite(X_WP) && tool.length_m > 0;
   const Pose X_CP = frame.X_CW * X_WP;
   const Eigen::Vector3f tip = X_CP.p.cast<float>();
   const auto radius = static_cast<float>(shades ? tool.tip_radius_m : 0.0);
-  bone_.set("u_tool_tip", shades ? Color(tip.x(), tip.y(), tip.z(), radius) : Color(0, 0, 0, 0));
+  program.set("u_tool_tip", shades ? Color(tip.x(), tip.y(), tip.z(), radius) : Color(0, 0, 0, 0));
   const auto point = [&](double z, const Vec3& fallback) -> Eigen::Vector3f {
     const Vec3 p = shades ? X_CP * Vec3(tool.shaft_T.x(), tool.shaft_T.y(), z) : fallback;
     return p.cast<float>();
   };
-  bone_.set("u_tool_start",
-            point(std::min(3 * tool.tip_radius_m, 0.5 * tool.length_m), Vec3::Zero()));
-  bone_.set("u_tool_reach", Eigen::Vector2f(static_cast<float>(shade_reach(tool).near_m),
-                                            static_cast<float>(shade_reach(tool).shadow_m)));
-  bone_.set("u_tool_end", point(tool.length_m, Vec3::UnitZ()));
+  program.set("u_tool_start",
+              point(std::min(3 * tool.tip_radius_m, 0.5 * tool.length_m), Vec3::Zero()));
+  program.set("u_tool_reach", Eigen::Vector2f(static_cast<float>(shade_reach(tool).near_m),
+                                              static_cast<float>(shade_reach(tool).shadow_m)));
+  program.set("u_tool_end", point(tool.length_m, Vec3::UnitZ()));
 }
 
 void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const {
+  if (any_changed()) {
+    set_shared(changed_bone_, view, frame);
+    set_tool_shade(changed_bone_, snapshot, view, frame);
+  }
   for (const Program* p : {&metal_, &mark_, &bone_}) set_shared(*p, view, frame);
-  set_tool_shade(snapshot, view, frame);
+  set_tool_shade(bone_, snapshot, view, frame);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
@@ -388,19 +410,43 @@ void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
   });
 }
 
+void ScenePainter::draw_changed(std::size_t k, const RenderSnapshot& snapshot,
+                                const Frame& frame) const {
+  if (frame.tiles == nullptr) return bones_[k].changed.draw();
+  const Pose X_CB = frame.X_CW * pose(snapshot, k);
+  bones_[k].changed.draw([&](const GpuMesh::Chunk& chunk) {
+    return in_tiles(frame, X_CB * chunk.center, chunk.radius);
+  });
+}
+
 void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                               const Frame& frame) const {
   const BoneAppearance& look = look_of(view, k);
-  bone_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
-  bone_.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
-  draw_surface(k, snapshot, view, frame);
+  const auto begin = [&](const Program& program) {
+    program.use();
+    program.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+    program.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
+  };
+  const ChangedCubes& changed = bones_[k].changed;
+  if (!changed.empty()) {
+    begin(changed_bone_);
+    changed.hide(changed_bone_);
+    draw_surface(k, snapshot, view, frame);
+  }
+  begin(bone_);
+  if (changed.empty()) return draw_surface(k, snapshot, view, frame);
+  draw_changed(k, snapshot, frame);
 }
 
 void ScenePainter::set_felt_colors(const ViewState& view) const {
   const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
-  for (std::size_t k = 0; k < kFeltColors.size(); ++k)
-    bone_.set(names[k], Eigen::Vector3f(kFeltColors[k][0], kFeltColors[k][1], kFeltColors[k][2]));
-  bone_.set("u_felt", view.show_felt ? 1 : 0);
+  for (const Program* program : {&changed_bone_, &bone_}) {
+    program->use();
+    for (std::size_t k = 0; k < kFeltColors.size(); ++k)
+      program->set(names[k],
+                   Eigen::Vector3f(kFeltColors[k][0], kFeltColors[k][1], kFeltColors[k][2]));
+    program->set("u_felt", view.show_felt ? 1 : 0);
+  }
 }
 
 /// The nearest first: what they hide is never shaded.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "changed_cubes.h"
 #include "frame.h"
 #include "gl_objects.h"
 #include "gpu_mesh.h"
@@ -23,6 +24,8 @@ class ScenePainter {
   void set_surfaces(const PreparedCase& prepared);
   /// Another surface for a bone from now on, without its coarser levels and its baked light.
   void set_surface(std::size_t bone, const TriMesh& mesh_B);
+  void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
+  void clear_cubes();
   /// What hands may hold, by ToolState::instrument; not empty.
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands.
@@ -85,6 +88,7 @@ class ScenePainter {
   };
   struct BoneModel {
     std::vector<Level> levels;  ///< the finest, exact one first
+    ChangedCubes changed;       ///< of a bone
     std::vector<Piece> pieces;
     Vec3 center_B = Vec3::Zero();
     double radius_m = 0;  ///< of a ball about the centre that holds the bone
@@ -104,9 +108,10 @@ class ScenePainter {
   std::vector<std::size_t> near_to_far(const RenderSnapshot& snapshot, const ViewState& view,
                                        const Frame& frame, Passes passes) const;
   void set_shared(const Program& program, const ViewState& view, const Frame& frame) const;
-  void set_tool_shade(const RenderSnapshot& snapshot, const ViewState& view,
+  void set_tool_shade(const Program& program, const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
   void set_felt_colors(const ViewState& view) const;
+  bool any_changed() const;
   static void set_extent(BoneModel& model, const TriMesh& mesh);
   static BoneModel make_bone(const Bone& bone);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
@@ -114,6 +119,7 @@ class ScenePainter {
                          const Frame& frame) const;
   void draw_surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                     const Frame& frame) const;
+  void draw_changed(std::size_t k, const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                   const Frame& frame) const;
   void paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
@@ -129,7 +135,7 @@ class ScenePainter {
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
   void paint_solid_marks(const Frame& frame) const;
 
-  Program bone_, metal_, mark_, ground_;
+  Program bone_, changed_bone_, metal_, mark_, ground_;
   std::vector<BoneModel> bones_;  ///< and soft parts
   std::vector<Pose> rest_X_WB_;   ///< of the bones
   std::vector<ToolModel> tools_;  ///< by ToolState::instrument; not empty

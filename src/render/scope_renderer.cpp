@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "changed_cubes.h"
 #include "frame.h"
 #include "gl_objects.h"
 #include "gpu_mesh.h"
@@ -93,7 +94,7 @@ Image read_back(int width, int height) {
 }  // namespace
 
 struct ScopeRenderer::Impl {
-  Program tissue, lens;
+  Program tissue, changed_tissue, lens;
   std::vector<TissuePart> parts;
   TissuePart wall;
   std::vector<MeshDistance> bones;
@@ -105,13 +106,33 @@ struct ScopeRenderer::Impl {
   RenderTarget picture;
   GlVertexArray no_vertices;
 
+  std::vector<ChangedCubes> changed;  ///< of the bones, which are the first parts
+
+  void describe(const Program& program, const TissuePart& part, const Pose& X_CW) const {
+    program.set("u_view_from_model", to_matrix(X_CW * part.X_WM));
+    program.set("u_kind", static_cast<int>(part.pattern));
+    program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
+    program.set("u_fibre", part.fibre);
+    program.set("u_center", part.center);
+  }
   void paint(const TissuePart& part, const Pose& X_CW) const {
-    tissue.set("u_view_from_model", to_matrix(X_CW * part.X_WM));
-    tissue.set("u_kind", static_cast<int>(part.pattern));
-    tissue.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
-    tissue.set("u_fibre", part.fibre);
-    tissue.set("u_center", part.center);
+    describe(tissue, part, X_CW);
     part.surface.draw();
+  }
+  void paint_bone(std::size_t k, const Pose& X_CW, double half) const {
+    if (changed[k].empty()) return paint(parts[k], X_CW);
+    begin(changed_tissue, half);
+    describe(changed_tissue, parts[k], X_CW);
+    changed[k].hide(changed_tissue);
+    parts[k].surface.draw();
+    begin(tissue, half);
+    describe(tissue, parts[k], X_CW);
+    changed[k].draw();
+  }
+  static void begin(const Program& program, double half) {
+    program.use();
+    program.set("u_clip_from_view", flat_projection(half));
+    program.set("u_light", 1.0f);
   }
 
   void paint_flat(const ScopeCamera& camera, double half) const {
@@ -126,11 +147,10 @@ struct ScopeRenderer::Impl {
     glClearColor(0, 0, 0, 1);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    tissue.use();
-    tissue.set("u_clip_from_view", flat_projection(half));
-    tissue.set("u_light", 1.0f);
+    begin(tissue, half);
     const Pose X_CW = camera.X_WC().inverse();
-    for (const TissuePart& part : parts) paint(part, X_CW);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      k < changed.size() ? paint_bone(k, X_CW, half) : paint(parts[k], X_CW);
     if (!wall.surface.empty()) paint(wall, X_CW);
     for (const auto& [instrument, X_WT] : tools) paint(tray[instrument], X_CW * X_WT);
     glDisable(GL_DEPTH_TEST);
@@ -177,12 +197,16 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
   auto lens = Program::load(data_dir / "shaders", "screen", "scope");
   if (!lens) return tl::unexpected(lens.error());
   impl->tissue = std::move(*tissue);
+  auto changed = Program::load_changed(data_dir / "shaders", "tissue", "tissue");
+  if (!changed) return tl::unexpected(changed.error());
+  impl->changed_tissue = std::move(*changed);
   impl->lens = std::move(*lens);
   impl->no_vertices = make_vertex_array();
   for (std::size_t k = 0; k < the_case.bones.size() && k < prepared.bones.size(); ++k) {
     const Bone& bone = the_case.bones[k];
     TissuePart part;
     part.surface = GpuMesh(prepared.bones[k]);
+    impl->changed.emplace_back().set_base(prepared.bones[k]);
     part.X_WM = bone.X_WB;
     impl->parts.push_back(std::move(part));
     impl->bones.emplace_back(bone.mesh);
@@ -228,6 +252,15 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   for (const ToolState& tool : tools)
     if (tool.instrument < impl_->tray.size() && is_finite(tool.X_WP))
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
+}
+
+void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
+                              std::span<const SurfaceCube> cubes) {
+  if (bone.index < impl_->changed.size()) impl_->changed[bone.index].set(grid, cubes, bone.index);
+}
+
+void ScopeRenderer::clear_cubes() {
+  for (ChangedCubes& bone : impl_->changed) bone.clear();
 }
 
 Result<void> ScopeRenderer::set_room(const Vec3& tip_W) {

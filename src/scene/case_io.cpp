@@ -152,9 +152,11 @@ std::string case_text(const CaseDef& def, const MeshFiles& files) {
     text += bone_text(def.bones[i], files.bones[i]);
   for (std::size_t i = 0; i < def.softs.size(); ++i)
     text += soft_text(def.softs[i], files.softs[i]);
-  for (const Landmark& landmark : def.landmarks)
+  for (const Landmark& landmark : def.landmarks) {
     text += "\n[[landmarks]]\nname = " + quoted(landmark.name) +
             "\nposition_m = " + bracketed(landmark.p_W) + "\n";
+    if (!landmark.inwards_W.isZero(0)) text += "inwards = " + bracketed(landmark.inwards_W) + "\n";
+  }
   for (const CaseFinding& finding : def.findings)
     text += "\n[[findings]]\nname = " + quoted(finding.name) +
             "\ngrade = " + quoted(finding.grade) + "\nmeaning = " + quoted(finding.meaning) + "\n";

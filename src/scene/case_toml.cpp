@@ -1,5 +1,6 @@
 // Reading of case.toml.
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 
@@ -175,10 +176,16 @@ void read_soft(const toml::table& table, const std::string& where, CaseText& out
 void read_landmark(const toml::table& table, const std::string& where, CaseText& out,
                    CaseTomlReader& file) {
   CaseTomlReader reader(table, where, "landmark " + std::to_string(out.def.landmarks.size() + 1));
-  reader.allow_only({"name", "position_m"});
+  reader.allow_only({"name", "position_m", "inwards"});
   Landmark landmark;
   landmark.name = read_name(reader);
   landmark.p_W = reader.position("position_m");
+  if (reader.has("inwards")) {
+    landmark.inwards_W = reader.position("inwards");
+    constexpr double kUnit = 1e-6;
+    if (!(std::abs(landmark.inwards_W.norm() - 1) < kUnit))
+      reader.set_error("'inwards' must be of length 1", "inwards");
+  }
   out.def.landmarks.push_back(std::move(landmark));
   file.adopt_error(reader);
 }

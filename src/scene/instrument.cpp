@@ -9,20 +9,22 @@ namespace {
 struct FunctionRow {
   InstrumentFunction function;
   std::string_view name;
-  bool has_effect;
 };
 constexpr std::array<FunctionRow, kInstrumentFunctions> kFunctions{
-    {{InstrumentFunction::kProbe, "probe", true},
-     {InstrumentFunction::kLook, "look", false},
-     {InstrumentFunction::kCut, "cut", false},
-     {InstrumentFunction::kRemove, "remove", false},
-     {InstrumentFunction::kBurn, "burn", false},
-     {InstrumentFunction::kSuck, "suck", false},
-     {InstrumentFunction::kGrasp, "grasp", false},
-     {InstrumentFunction::kRetract, "retract", false},
-     {InstrumentFunction::kGuide, "guide", false},
-     {InstrumentFunction::kDrive, "drive", false},
-     {InstrumentFunction::kPlace, "place", false}}};
+    {{InstrumentFunction::kProbe, "probe"},
+     {InstrumentFunction::kLook, "look"},
+     {InstrumentFunction::kCut, "cut"},
+     {InstrumentFunction::kRemove, "remove"},
+     {InstrumentFunction::kBurn, "burn"},
+     {InstrumentFunction::kSuck, "suck"},
+     {InstrumentFunction::kGrasp, "grasp"},
+     {InstrumentFunction::kRetract, "retract"},
+     {InstrumentFunction::kGuide, "guide"},
+     {InstrumentFunction::kDrive, "drive"},
+     {InstrumentFunction::kPlace, "place"}}};
+
+constexpr std::array<std::string_view, kRemovalWays> kWays{"drill",  "twist",  "burr",
+                                                           "scrape", "strike", "bite"};
 
 const FunctionRow& row_of(InstrumentFunction function) {
   return kFunctions[static_cast<std::size_t>(function)];
@@ -32,7 +34,19 @@ const FunctionRow& row_of(InstrumentFunction function) {
 
 std::string_view to_text(InstrumentFunction function) { return row_of(function).name; }
 
-bool has_effect(InstrumentFunction function) { return row_of(function).has_effect; }
+bool has_effect(const Instrument& instrument, InstrumentFunction function) {
+  if (!instrument.can(function)) return false;
+  if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
+  return function == InstrumentFunction::kProbe;
+}
+
+std::string_view to_text(RemovalWay way) { return kWays[static_cast<std::size_t>(way)]; }
+
+std::optional<RemovalWay> removal_way_from_text(std::string_view text) {
+  for (std::size_t i = 0; i < kWays.size(); ++i)
+    if (kWays[i] == text) return static_cast<RemovalWay>(i);
+  return std::nullopt;
+}
 
 std::optional<InstrumentFunction> function_from_text(std::string_view text) {
   for (const FunctionRow& row : kFunctions)

@@ -32,7 +32,7 @@ bool has_mark(const std::string& source) {
 
 void read_head(InstrumentReader& in, Instrument& out) {
   in.allow_only({"name", "title", "code", "regions", "functions", "source", "size", "shaft", "felt",
-                 "look", "jaws", "power", "optics"});
+                 "look", "jaws", "power", "optics", "removes"});
   out.name = in.text("name");
   if (!is_instrument_name(out.name)) in.set_error("'name' must be of a-z, 0-9 and _", "name");
   out.title = in.text("title");
@@ -77,9 +77,11 @@ class InstrumentFile {
     part("jaws", false, &InstrumentFile::read_jaws);
     part("power", false, &InstrumentFile::read_power);
     part("optics", false, &InstrumentFile::read_optics);
+    part("removes", false, &InstrumentFile::read_removal);
     each("felt", kMostFelt, [this](InstrumentReader& t) { out_.felt.push_back(read_felt(t)); });
     each("look", kMostLooks, [this](InstrumentReader& t) { out_.look.push_back(read_look(t)); });
     check_jaws();
+    check_removal();
     if (in_.error()) return tl::unexpected(*in_.error());
     return std::move(out_);
   }
@@ -160,6 +162,41 @@ class InstrumentFile {
   void read_optics(InstrumentReader& in) {
     in.allow_only({"angle_deg", "field_deg"});
     out_.optics = {in.number("angle_deg", {0, 120}), in.number("field_deg", {1, 170})};
+  }
+
+  void read_removal(InstrumentReader& in) {
+    in.allow_only({"way", "cutter", "pilot_mm", "grip", "back_mm"});
+    RemovalDef removal;
+    const std::string word = in.text("way");
+    const auto way = removal_way_from_text(word);
+    if (!way)
+      in.set_error("there is no way '" + word + "' to remove bone", "way",
+                   "Choose from drill, twist, burr, scrape, strike and bite");
+    removal.way = way.value_or(RemovalWay::kDrill);
+    removal.cutter = in.text("cutter");
+    removal.pilot_m = kMmPerFile * in.number_or("pilot_mm", {0, 40}, 0);
+    removal.grip = in.number_or("grip", {0, 1}, removal.grip);
+    if (in.has("back_mm")) {
+      const SizedLength back = in.length("back_mm", false);
+      removal.back_plus_m = back.plus_m;
+      removal.back_per_size = back.per_size;
+    }
+    if (!out_.can(InstrumentFunction::kRemove))
+      in.set_error("'functions' must name remove where there is a table [removes]", "way");
+    out_.removal = std::move(removal);
+  }
+
+  // Who turns or strikes needs power; who bites needs jaws.
+  void check_removal() {
+    if (!out_.removal) return;
+    const RemovalWay way = out_.removal->way;
+    const bool turned = way == RemovalWay::kDrill || way == RemovalWay::kBurr;
+    if (turned && !(out_.power && out_.power->unit == "rpm"))
+      in_.set_error("what drills or burrs needs a table [power] with the unit rpm", "removes");
+    if (way == RemovalWay::kStrike && out_.power && out_.power->unit != "W")
+      in_.set_error("the power of blows is given in W", "removes");
+    if (way == RemovalWay::kBite && !out_.jaws)
+      in_.set_error("what bites needs a table [jaws]", "removes");
   }
 
   void check_jaws() {

@@ -62,7 +62,8 @@ std::vector<Portal> find_portals(const Case& the_case, const PortalSkin& skin) {
     const Landmark& landmark = the_case.landmarks[i];
     if (landmark.name.size() <= kPrefix.size() || landmark.name.compare(0, kPrefix.size(), kPrefix))
       continue;
-    Vec3 inwards = surface ? Vec3(-normal_about(surface->mesh_W, landmark.p_W)) : Vec3::Zero();
+    Vec3 inwards = landmark.inwards_W;
+    if (inwards.isZero(0) && surface) inwards = -normal_about(surface->mesh_W, landmark.p_W);
     if (inwards.isZero(0)) inwards = towards_bone(the_case, landmark.p_W);
     out.push_back({landmark.name, title_of(landmark.name), i, landmark.p_W, inwards, skin});
   }

@@ -35,12 +35,13 @@ void tell_whole(const Carving& carving, CarvePatch& patch, std::vector<FeltCuts*
 
 std::size_t channel_places(const CarvingSetup& setup) {
   constexpr std::size_t kSecondOfDrilling = 4096;
+  if (setup.channel_places > 0) return setup.channel_places;
   std::size_t carved = 0;
   for (const auto& bone : setup.bones) carved += bone ? 1 : 0;
   return kSecondOfDrilling + carved * setup.most_blocks;
 }
 
-FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places) : channel_(places) {
+FeltCuts::FeltCuts(const CarvingSetup& setup) : channel_(channel_places(setup)) {
   for (const auto& bone : setup.bones) {
     bones_.emplace_back();
     if (bone)

@@ -29,11 +29,10 @@ std::size_t channel_places(const CarvingSetup& setup);
 /// One hand's own copy of the cuts, as they were after the step that its tick consumes: a function
 /// of which step each tick consumed, so that a replay feels the same. Nothing that physics
 /// tells is lost: what has no room in the channel, because the hand has not ticked for long, waits
-/// with physics and is felt later.
+/// with physics, and until it has gone into the channel the hand is given no snapshot of its steps.
 class FeltCuts {
  public:
-  explicit FeltCuts(const CarvingSetup& setup) : FeltCuts(setup, channel_places(setup)) {}
-  FeltCuts(const CarvingSetup& setup, std::size_t places);
+  explicit FeltCuts(const CarvingSetup& setup);
 
   // Of the hand.
   /// Of each bone; null: it is not carved.

@@ -153,13 +153,20 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
     const std::uint64_t done = replayer->session().tool_state().tick;
     return !(options.to_s > 0) || static_cast<double>(done) + 1 <= to_tick;
   };
+  CutsPatch patch;
+  const auto show_cuts = [&] {
+    CutsFeed* feed = options.on_cuts ? replayer->cuts_feed() : nullptr;
+    while (feed && feed->take(patch)) options.on_cuts(patch, replayer->bones_time_s());
+  };
   while (wanted() && (last = replayer->next()) == Replayer::Outcome::kTick) {
+    show_cuts();
     tally.add(*replayer, outcome);
     const std::size_t hand = replayer->hand();
     if (options.on_tick)
       options.on_tick(hand, replayer->session().tool_state(hand), replayer->bones(),
                       replayer->session().last_events(hand));
   }
+  show_cuts();
   if (options.at_end) options.at_end(replayer->session());
   if (last == Replayer::Outcome::kError) return tl::unexpected(replayer->error());
   if (last == Replayer::Outcome::kStuck && source.complete)

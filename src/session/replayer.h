@@ -34,6 +34,9 @@ class Replayer {
   const TickRecord& record() const { return record_; }  ///< as recorded
   const BoneSnapshot& bones() const { return *bones_; }
   const Session& session() const { return session_; }
+  CutsFeed* cuts_feed() { return session_.cuts_feed(); }
+  /// Of the newest step.
+  double bones_time_s() const { return snapshots_.back().time_s; }
   std::int64_t last_tick_ns() const { return last_tick_ns_; }
   std::int64_t elapsed_ns() const { return elapsed_ns_; }
   const Error& error() const { return *error_; }

@@ -157,6 +157,9 @@ const ToolState& Session::tool_state(std::size_t hand) const {
 const Tray& Session::tray() const { return impl_->tray; }
 std::span<const Portal> Session::portals() const { return impl_->portals; }
 const Carving* Session::carving() const { return impl_->world.carving(); }
+bool Session::told(std::size_t hand) const { return impl_->world.told(hand); }
+void Session::catch_up() { impl_->world.catch_up(); }
+CutsFeed* Session::cuts_feed() { return impl_->world.cuts_feed(); }
 const SoftWorld* Session::softs() const { return impl_->world.softs(); }
 const BoneSnapshot& Session::bones() const { return impl_->world.bones(); }
 

@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -45,6 +45,10 @@ struct In {
     return value;
   }
 };
+
+// Whether a state says how far the hand has turned what it carves with.
+bool knows_twist(const Out&) { return true; }
+bool knows_twist(const In& in) { return in.version >= 4; }
 
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
@@ -314,6 +318,7 @@ void field(A& a, CarvingHand& h) {
   field(a, h.idle);
   field(a, h.since);
   field(a, h.tissue);
+  if (knows_twist(a)) field(a, h.twist_rad);
   for (bool* x : {&h.was_in, &h.skives, &h.jaw_open}) field(a, *x);
   field(a, h.out);
   field(a, h.p_out);

@@ -26,6 +26,7 @@ WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings
 
 void WorldHalf::set_carving(std::shared_ptr<const CarvingSetup> setup,
                             std::vector<FeltCuts*> hands) {
+  feed_ = std::make_unique<CutsFeed>(*setup);
   carving_ = std::make_unique<Carving>(std::move(setup), hands.size());
   felt_ = std::move(hands);
 }
@@ -39,7 +40,10 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   obey(command);
   if (carving_) carving_->step(tools, world_.snapshot(), step_s_);
   const BoneSnapshot& bones = world_.step(tools);
-  if (carving_) publish(*carving_, bones.step, all_changed_, felt_);
+  if (carving_) {
+    publish(*carving_, bones.step, all_changed_, felt_);
+    feed_->note(*carving_, all_changed_);
+  }
   if (softs_) softs_->step(tools, bones);
   all_changed_ = false;
   record_ = {};
@@ -118,6 +122,7 @@ void WorldHalf::restore(const WorldState& from) {
   if (carving_ && from.carved) {
     carving_->restore(*from.carved);
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
+    feed_->note_all(*carving_);
   }
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
   marks_ = from.marks;

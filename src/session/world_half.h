@@ -21,6 +21,9 @@ class alignas(64) WorldHalf {
   /// `hands`: who feels what is carved, one after the other. Before the first step.
   void set_carving(std::shared_ptr<const CarvingSetup> setup, std::vector<FeltCuts*> hands);
   const Carving* carving() const { return carving_.get(); }
+  /// How the bones are carved, for who draws; null: none is.
+  CutsFeed* cuts_feed() { return feed_.get(); }
+  bool told(std::size_t hand) const { return hand >= felt_.size() || !felt_[hand]->behind(); }
   /// For one thread that runs both halves: no cut waits for room on its way to a hand.
   void catch_up();
   /// Before the first step.
@@ -43,9 +46,10 @@ class alignas(64) WorldHalf {
 
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
-  std::unique_ptr<SoftHalf> softs_;   ///< null: nothing is soft
-  std::vector<FeltCuts*> felt_;       ///< of the hands
-  bool all_changed_ = false;          ///< bones came back from a restore point in this step
+  std::unique_ptr<CutsFeed> feed_;
+  std::unique_ptr<SoftHalf> softs_;  ///< null: nothing is soft
+  std::vector<FeltCuts*> felt_;      ///< of the hands
+  bool all_changed_ = false;         ///< bones came back from a restore point in this step
   double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};

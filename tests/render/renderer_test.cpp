@@ -71,6 +71,49 @@ TEST_F(RendererTest, SilhouetteOfABallHasTheSizeOfTheProjection) {
   }
 }
 
+// A cube of a grid shows what it was given in place of the bone's own surface, and no other does.
+TEST_F(RendererTest, ChangedCubesShowInPlaceOfTheSurface) {
+  const Case ball_case = one_ball(0.03);
+  Renderer renderer = make_renderer(ball_case);
+  ViewState view = front_view();
+  view.show_proxy = false;
+  ViewState without = view;
+  without.bones.resize(1);
+  without.bones[0].visible = false;
+  const RenderSnapshot snapshot = at_rest(ball_case);
+  const auto picture = [&](const ViewState& how) {
+    return renderer.draw_image(snapshot, how, 200, 200);
+  };
+  const Image ground = picture(without), whole = picture(view);
+  const CubeGrid grid{Vec3::Constant(-0.04), 0.08, {1, 1, 1}, 0};
+  SurfaceCube cube;
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  EXPECT_EQ(picture(view).rgb, ground.rgb);
+  const TriMesh smaller = sphere_mesh(0.015);
+  cube.vertices = smaller.vertices;
+  for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
+  cube.depth_m.assign(cube.vertices.size(), 0);
+  cube.triangles = smaller.triangles;
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  const int all = count_different(whole, ground, 40);
+  EXPECT_NEAR(count_different(picture(view), ground, 40), 0.25 * all, 0.03 * all);
+  // What was cut lies deep in the bone: it is darker.
+  const Image flat = picture(view);
+  cube.depth_m.assign(cube.vertices.size(), 0.015f);
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  EXPECT_LT(brightness(picture(view), 100, 100), brightness(flat, 100, 100));
+  renderer.clear_cubes();
+  EXPECT_EQ(picture(view).rgb, whole.rgb);
+  // A grid beside the bone, and what makes no sense, change nothing.
+  renderer.set_cubes(BoneId{0}, {Vec3::Constant(1), 0.08, {1, 1, 1}, 0}, {&cube, 1});
+  renderer.set_cubes(BoneId{7}, grid, {&cube, 1});
+  cube = {};
+  renderer.clear_cubes();
+  renderer.set_cubes(BoneId{0}, {Vec3::Constant(-0.04), -1, {1, 1, 1}, 0}, {&cube, 1});
+  renderer.set_cubes(BoneId{0}, {Vec3::Constant(-0.04), 0.08, {0, 1, 1}, 0}, {&cube, 1});
+  EXPECT_EQ(picture(view).rgb, whole.rgb);
+}
+
 TEST_F(RendererTest, FormReads) {
   const Case ball_case = one_ball(0.03);
   Renderer renderer = make_renderer(ball_case);

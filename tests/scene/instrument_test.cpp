@@ -103,7 +103,43 @@ TEST(Instrument, AJawTurnsAboutItsHinge) {
 }
 
 TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
-  EXPECT_TRUE(has_effect(InstrumentFunction::kProbe));
+  Instrument drill, rongeur;
+  drill.functions = rongeur.functions = {InstrumentFunction::kProbe, InstrumentFunction::kRemove};
+  drill.removal.emplace();
+  EXPECT_TRUE(has_effect(drill, InstrumentFunction::kProbe));
+  EXPECT_TRUE(has_effect(drill, InstrumentFunction::kRemove));
+  EXPECT_TRUE(has_effect(rongeur, InstrumentFunction::kProbe));
+  EXPECT_FALSE(has_effect(rongeur, InstrumentFunction::kRemove));
+  // What it cannot do has none either.
+  EXPECT_FALSE(has_effect(drill, InstrumentFunction::kCut));
+  drill.functions = {InstrumentFunction::kProbe};
+  EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
+}
+
+TEST(Instrument, HowItRemovesBoneIsRead) {
+  const std::string jaws = "[jaws]", removes =
+                                         "[removes]\nway = \"bite\"\ncutter = \"kerrison\"\n"
+                                         "back_mm = { mm = 1, size = 0.5 }\n\n[jaws]";
+  const auto without = parse_instrument(with(jaws, removes), "probe.toml");
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().what.find("functions"), std::string::npos);
+  std::string text = with(jaws, removes);
+  text.replace(text.find("\"grasp\""), 7, "\"remove\"");
+  const auto read = parse_instrument(text, "probe.toml");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_TRUE(read->removal);
+  EXPECT_EQ(read->removal->way, RemovalWay::kBite);
+  EXPECT_EQ(read->removal->cutter, "kerrison");
+  EXPECT_DOUBLE_EQ(read->removal->back_plus_m, 0.001);
+  EXPECT_DOUBLE_EQ(read->removal->back_per_size, 0.5);
+  for (const auto& [from, to] : {std::pair{"\"bite\"", "\"drill\""}, {"\"bite\"", "\"chew\""}}) {
+    std::string bad = text;
+    bad.replace(bad.find(from), std::string(from).size(), to);
+    EXPECT_FALSE(parse_instrument(bad, "probe.toml")) << to;
+  }
+}
+
+TEST(Instrument, AFunctionHasItsName) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < kInstrumentFunctions; ++i) {
     const auto function = static_cast<InstrumentFunction>(i);

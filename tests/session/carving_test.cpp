@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "drilling.h"
@@ -142,6 +144,81 @@ TEST(Carving, AHandThatStoodStillFeelsAllAndReplays) {
   ASSERT_TRUE(outcome) << outcome.error().message();
   EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
   EXPECT_EQ(outcome->state_hash, session.state_hash());
+}
+
+// A hand is given no snapshot whose cuts have not reached it, however narrow the way to it, and a
+// replay feels the same.
+TEST(Carving, AHandThatIsNotToldYetWaitsAndReplays) {
+  Drilling with;
+  with.with([](CarvingSetup& setup) { setup.channel_places = 40; });
+  Session session = with.session();
+  Recording recording;
+  recording.header = recording_header(*with.the_case, with.settings, "test", "0", with.tray);
+  BoneSnapshot seen = session.bones();
+  ToolState tool;
+  bool was_behind = false;
+  for (std::uint64_t n = 1; n <= 2600; ++n) {
+    if (n < 1500 || n > 1900) {
+      const HandInput hand = down_at(recording.ticks.size() + 1, 1);
+      tool = session.haptic_tick(hand.input, seen, hand.command);
+      recording.ticks.push_back(session.last_tick_record());
+    }
+    if (n % 2 != 0) continue;
+    (void)session.physics_step(tool);
+    recording.steps.push_back(session.last_step_record());
+    was_behind = was_behind || !session.told(0);
+    if (session.told(0)) seen = session.bones();
+  }
+  recording.complete = true;
+  EXPECT_TRUE(was_behind);
+  EXPECT_TRUE(session.told(0));
+  ASSERT_GT(removed_mm3(session), 1);
+  ReplayOptions options;
+  options.tray = with.tray;
+  options.carving = with.setup;
+  const auto outcome = replay(recording, with.the_case, options);
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+  EXPECT_EQ(outcome->state_hash, session.state_hash());
+}
+
+// Who draws gets every block, however rarely it reads, and the undo too.
+TEST(Carving, WhoDrawsSeesTheCutsAsTheyAre) {
+  const Drilling with;
+  Session session = with.session();
+  HandInput mark = down_at(1, 0);
+  mark.command = {CommandKind::kMark, 0};
+  (void)session.tick(std::span(&mark, 1));
+  std::map<std::uint32_t, std::array<std::int16_t, CutsPatch::kNodes>> drawn;
+  const auto read = [&] {
+    CutsPatch patch;
+    while (session.cuts_feed()->take(patch)) {
+      if (patch.clear)
+        drawn.clear();
+      else
+        drawn[patch.block] = patch.cut;
+    }
+  };
+  const auto expect_drawn = [&] {
+    const CarvedField& field = *session.carving()->field(0);
+    ASSERT_EQ(drawn.size(), field.block_count());
+    for (const auto& [block, cut] : drawn)
+      EXPECT_TRUE(std::equal(cut.begin(), cut.end(), field.cuts(block))) << block;
+  };
+  run(session, 2, 2500, 1);
+  read();
+  HandInput above = down_at(0, 0);
+  for (int i = 0; i < 40; ++i) (void)session.tick(std::span(&above, 1));
+  read();
+  ASSERT_GT(drawn.size(), 10u);
+  expect_drawn();
+  HandInput back = down_at(0, 0);
+  back.command = {CommandKind::kRestore, 0};
+  (void)session.tick(std::span(&back, 1));
+  for (int i = 0; i < 40; ++i) (void)session.tick(std::span(&above, 1));
+  read();
+  expect_drawn();
+  EXPECT_TRUE(drawn.empty());
 }
 
 TEST(Carving, AFullPoolIsToldOnceAndNothingMoreIsRemoved) {

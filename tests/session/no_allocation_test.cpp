@@ -35,11 +35,13 @@ TEST(NoAllocation, InAReportWithinItsReservedTime) {
   }
 }
 
-// Neither the hand's tick nor the step that removes bone: with a drill, with a burr.
+// Neither the hand's tick nor the step that removes bone, while another thread draws: with a drill,
+// with a burr.
 TEST(NoAllocation, WhileBoneIsCarved) {
   for (const char* instrument : {"drill:3.2", "microdrill:3"}) {
     const testing::Drilling with(instrument);
     Session session = with.session();
+    CutsPatch patch;
     for (std::uint64_t n = 1; n <= 3000; ++n) {
       HandInput hand = testing::down_at(n, 1);
       if (with.setup->tray[0]->way == CarvingTool::Way::kBurr) hand.input.X_WD.p.z() += 0.0015;
@@ -48,6 +50,8 @@ TEST(NoAllocation, WhileBoneIsCarved) {
       ASSERT_EQ(allocations(), before) << n;
       if (n % 2 == 0) (void)session.physics_step(tool);
       ASSERT_EQ(allocations(), before) << n;
+      while (n % 17 == 0 && session.cuts_feed()->take(patch)) {
+      }
     }
     EXPECT_GT(1e9 * total(removed_volume(*session.carving()->field(0))), 1) << instrument;
   }

@@ -45,6 +45,7 @@ struct GeneratedSoft {
 struct GeneratedLandmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
+  Vec3 inwards_W = Vec3::Zero();  ///< unit, into the body, of one on the skin; else zero
 };
 
 /// How a joint moves bones against one that stays.
@@ -88,7 +89,8 @@ struct GenerateOptions {
   /// Told the share of the bones done, from 0, before any, to 1; may throw to stop.
   std::function<void(double)> progress = {};
   RunTasks run = {};       ///< none: one after the other. The bytes are the same either way.
-  bool soft_parts = true;  ///< false: bones alone; landmarks on soft parts stay where they were
+  bool soft_parts = true;  ///< false: bones alone; landmarks on soft parts stay where they were,
+                           ///< but for those on the skin, which lie where they do with it
 };
 
 /// Grows every bone and soft part of a description (assets/anatomy/*.toml; docs/file-formats.md).

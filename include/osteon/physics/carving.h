@@ -14,21 +14,22 @@
 #include "osteon/carve/thrust.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/event.h"
+#include "osteon/scene/removal.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
 
 /// What an instrument of the tray takes away, and how.
 struct CarvingTool {
-  enum class Way : std::uint8_t {
-    kDrill,  ///< goes forward along its axis, by as much as its thrust removes
-    kBurr,   ///< a ball that removes where it is pressed
-    kBite    ///< a punch: removes once, when its jaw shuts
-  };
+  using Way = RemovalWay;
   Way way = Way::kDrill;
   Cutter cutter;
-  double most_rev_per_s = 0;  ///< at full power
-  double pilot_m = 0;         ///< of the cannula, which cuts nothing
+  double most_rev_per_s = 0;     ///< at full power
+  double most_w = 0;             ///< of the blows on a blade, at full power
+  double pilot_m = 0;            ///< of the cannula, which cuts nothing
+  double grip = 0.3;             ///< cutting force by pressing force
+  Vec3 middle_T = Vec3::Zero();  ///< of a burr's or a scraper's ball
+  bool one_sided = false;        ///< it cuts on the side of +y alone
 };
 
 /// All that is made before a session carves. Immutable.
@@ -37,10 +38,12 @@ struct CarvingSetup {
   std::vector<std::shared_ptr<const UncutField>> bones;  ///< of the case; null: it is not carved
   BoneLayers layers;
   DrillTable table;
+  DrillTable by_hand;  ///< of what the hand turns: its edges take more with each turn
   /// A desktop device gives a few newtons, a surgeon's arm a hundred: so many newtons on the drill
   /// stand for one in the hand.
   double thrust_scale = 20;
   std::size_t most_blocks = 4096;  ///< of each bone
+  std::size_t channel_places = 0;  ///< for changes on their way to a hand; 0: as many as it takes
   double air_m = 0;                ///< cuts are known so far outside of a bone
   /// Walls are felt so far behind where they were cut.
   static constexpr double kSlack_m = 15e-6;
@@ -65,6 +68,7 @@ struct CarvingHand {
   std::uint32_t out = 0;      ///< steps since it came out; 0: it has not
   Vec3 p_out = Vec3::Zero();  ///< where, in Bone
   double plunge_m = 0;
+  double twist_rad = 0;  ///< about its axis since it began, of what the hand turns
   bool jaw_open = false;
   friend bool operator==(const CarvingHand&, const CarvingHand&);
 };
@@ -95,7 +99,9 @@ struct CarvingReadout {
 /// the bone before its tip, which is looked at in points over its front; what is felt of the bone
 /// ends there, so a hand cannot push it on. When nothing is left before the tip it has come out.
 /// A burr removes where it is pressed: P = c F v at its rim, over the specific energy of what lies
-/// there, is a volume in time, and that over half its cross-section is how fast it goes in.
+/// there, is a volume in time, and that over half its cross-section is how fast it goes in. Of a
+/// scraper v is how fast the hand draws it along. A blade goes in by the power of the blows on it,
+/// over the specific energy and its cross-section, and where the push alone is more than both.
 class Carving {
  public:
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
@@ -128,6 +134,10 @@ class Carving {
 
   void step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
   void drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
+  bool stand_before(std::size_t hand, const CarvingTool& with, const Push& push);
+  void go_on(std::size_t hand, const CarvingTool& with, const Push& push, double advance_m);
+  void strike(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
+  double turning(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   void burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   void bite(std::size_t hand, const CarvingTool& with, const ToolState& tool, const Pose& X_BT,
             std::uint32_t bone);
@@ -136,6 +146,7 @@ class Carving {
   void follow_out(std::size_t hand, const Push& push);
   void note_tissue(std::size_t hand, const Push& push, std::optional<BoneTissue> tissue);
   bool remove(std::size_t hand, const Cutter& cutter, const Pose& from_B, const Pose& to_B);
+  void tell_full(std::size_t hand, const Push& push, bool was_full);
   void tell(std::size_t hand, const Push& push, EventKind kind, std::array<double, 3> values);
 
   std::shared_ptr<const CarvingSetup> setup_;

@@ -22,10 +22,9 @@ struct CarveSettings {
   double thrust_scale = 20;  ///< see CarvingSetup
 };
 
-/// Whether an instrument of that name removes bone in a session: "drill", "microdrill:4".
-bool removes_bone(const std::string& tray_name);
-/// Whether anything of a session can be carved: an instrument that removes, and a bone felt as a
-/// field.
+/// Whether anything of a session can be carved: an instrument whose file says how it removes bone
+/// (Instrument::removal), named as a tray does ("drill", "microdrill:4"), and a bone felt as a
+/// field. False where the instruments cannot be read.
 bool can_carve(const Case& the_case, std::span<const std::string> tray);
 
 /// Runs tasks 0 .. count - 1 in any order, on any threads.

@@ -81,6 +81,23 @@ struct SolidMark {
   std::array<float, 4> color_srgba{1.0f, 0.85f, 0.2f, 0.3f};  ///< 0..1
 };
 
+/// Cubes of a grid over a bone, x fastest, in Bone.
+struct CubeGrid {
+  Vec3 lo_B = Vec3::Zero();
+  double side_m = 0;
+  std::array<int, 3> count{};
+  /// Inside of the changed cubes the bone's own surface is left for so far from cubes beside them
+  /// that have not changed: at least by what a new surface may fall short of its cube.
+  double overlap_m = 0;
+};
+/// What of a bone's surface lies in one cube now.
+struct SurfaceCube {
+  std::uint32_t cube = 0;
+  std::vector<Vec3> vertices, normals;  ///< in Bone
+  std::vector<float> depth_m;           ///< of each vertex, under the surface as it was
+  std::vector<Triangle> triangles;      ///< none: nothing is left there
+};
+
 /// Draws a snapshot with OpenGL 3.3. Needs a current context in every call and in the destructor,
 /// the same one. Keeps copies of what it needs of the case and the tool. A bone or tool whose pose
 /// is not finite is not drawn.
@@ -128,6 +145,13 @@ class Renderer {
   /// Shows and picks another surface for a bone from now on, in Bone: of one that is being edited.
   /// It is drawn without the light worked out beforehand between the bones.
   void set_surface(BoneId bone, const TriMesh& mesh_B);
+
+  /// From now on these cubes of the grid show this of a bone, in place of its own surface: of one
+  /// that is being carved. Those given before stay. The bone's picking and its outline stay as they
+  /// were. Does nothing where the grid has no cubes or more than 16 million.
+  void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
+  /// Every bone shows its own surface again.
+  void clear_cubes();
 
   /// "llvmpipe (LLVM 15.0.6, 256 bits)": OpenGL's own name of what draws.
   std::string device_name() const;

@@ -39,6 +39,10 @@ class ScopeRenderer {
   /// seen, where their pose is finite. The wall stays as set_room shaped it.
   void set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools);
 
+  /// As Renderer has them.
+  void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
+  void clear_cubes();
+
   /// Sides are clamped to 1..kMaxImageSide. Without a room the wall is missing. Empty when the
   /// driver has no memory for it.
   Image draw_image(const ScopeCamera& camera, int width, int height,

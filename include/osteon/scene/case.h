@@ -83,6 +83,7 @@ std::span<const std::string_view> soft_kinds();
 struct Landmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
+  Vec3 inwards_W = Vec3::Zero();  ///< unit, into the body, of one on the skin; zero: not known
 };
 
 /// What is wrong with the patient, in words: for who teaches with the case. The parts of the case

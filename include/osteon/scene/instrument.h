@@ -13,6 +13,7 @@
 #include "osteon/base/result.h"
 #include "osteon/base/types.h"
 #include "osteon/mesh/tri_mesh.h"
+#include "osteon/scene/removal.h"
 #include "osteon/scene/tool.h"
 
 namespace osteon {
@@ -35,9 +36,6 @@ inline constexpr std::size_t kInstrumentFunctions = 11;
 /// "probe", "look", "cut" ...
 std::string_view to_text(InstrumentFunction function);
 std::optional<InstrumentFunction> function_from_text(std::string_view text);
-/// Whether the simulation acts on it yet. A function without effect is only declared.
-bool has_effect(InstrumentFunction function);
-
 /// A length that may grow with the size in use: plus_m + per_size * size.
 struct SizedLength {
   double plus_m = 0;
@@ -133,10 +131,15 @@ struct Instrument {
   std::optional<JawDef> jaws;
   std::optional<PowerDef> power;
   std::optional<OpticsDef> optics;
-  std::vector<std::string> sources;  ///< "[74] 4 mm, field 105 degrees": each begins with its mark
+  std::optional<RemovalDef> removal;  ///< none: it removes no bone
+  std::vector<std::string> sources;   ///< "[74] 4 mm, field 105 degrees": each begins with its mark
 
   bool can(InstrumentFunction function) const;
 };
+
+/// Whether the simulation acts on a function of an instrument yet. One without effect is only
+/// declared, and what the instrument cannot do has none.
+bool has_effect(const Instrument& instrument, InstrumentFunction function);
 
 /// Reads one file. Strict: a key that is missing, unknown, of another type or out of range fails
 /// with its line.

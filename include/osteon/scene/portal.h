@@ -31,8 +31,9 @@ struct Portal {
 };
 
 /// Those of a case: its landmarks whose names begin with "portal_", so that they lie where they
-/// belong in any patient grown from a description. Inwards is against the skin's normal about the
-/// landmark; in a case without skin, towards the nearest bone.
+/// belong in any patient grown from a description. Inwards is as the
+/// landmark says; where it does not, against the skin's normal about it; in a case without skin,
+/// towards the nearest bone.
 std::vector<Portal> find_portals(const Case& the_case, const PortalSkin& skin = {});
 
 /// From the tissue table's skin.

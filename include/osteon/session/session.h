@@ -18,6 +18,7 @@
 #include "osteon/scene/event.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool.h"
+#include "osteon/session/cuts_feed.h"
 #include "osteon/session/session_state.h"
 
 namespace osteon {
@@ -138,6 +139,13 @@ class Session {
   std::span<const Portal> portals() const;
   /// The carved bones, as physics has them; null: none is carved. For when all rest.
   const Carving* carving() const;
+  /// Whether all that the steps so far have cut is on its way to that hand. From the thread of
+  /// physics: until it is, the hand must be given no snapshot, or a replay would feel otherwise.
+  bool told(std::size_t hand) const;
+  /// Sends a hand what waits, whatever room there is. For one thread that runs all halves.
+  void catch_up();
+  /// For one thread that draws: how the bones are carved; null: none is.
+  CutsFeed* cuts_feed();
   /// The soft parts, as physics has them; null: nothing is soft. For when all rest.
   const SoftWorld* softs() const;
   const BoneSnapshot& bones() const;
@@ -189,6 +197,8 @@ struct ReplayOptions {
   Tray tray;                                    ///< as the recorded session had it
   std::shared_ptr<const CarvingSetup> carving;  ///< likewise
   std::shared_ptr<const SoftSetup> softs;       ///< likewise
+  /// Sees how bones are carved, about 60 times a second of the recording; none: nobody looks.
+  std::function<void(const CutsPatch&, double time_s)> on_cuts = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
   std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
 };

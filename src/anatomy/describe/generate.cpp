@@ -8,6 +8,7 @@
 #include "joint/roll_glide.h"
 #include "osteon/base/file.h"
 #include "osteon/mesh/isosurface.h"
+#include "soft/skin_places.h"
 #include "soft/soft_grow.h"
 
 namespace osteon {
@@ -75,6 +76,7 @@ Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& descripti
   PlacedBones placed;
   if (options.soft_parts || !anatomy->joints.empty()) placed = PlacedBones(*grown, options);
   if (auto ok = bend_joints(*anatomy, file, placed, *grown); !ok) return tl::unexpected(ok.error());
+  lay_on_skin(*anatomy, *grown);
   if (options.soft_parts)
     if (auto ok = grow_soft_parts(*anatomy, options, file, *grown, std::move(placed)); !ok)
       return tl::unexpected(ok.error());

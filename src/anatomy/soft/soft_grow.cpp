@@ -37,13 +37,14 @@ class SoftGrower {
     return {};
   }
 
-  /// Lays landmarks that lie on a surface onto it.
+  /// Lays landmarks that lie on a surface onto it; those on the skin lie there already.
   void lay_landmarks() {
     for (std::size_t i = 0; i < anatomy_.landmarks.size(); ++i) {
       const LandmarkDescription& landmark = anatomy_.landmarks[i];
       Vec3& p_W = grown_.landmarks[i].p_W;
       if (landmark.on_bone) p_W = grounds_[*landmark.on_bone]->surface.closest(p_W).point;
-      if (landmark.on_soft) p_W = surfaces_[*landmark.on_soft]->closest(p_W).point;
+      if (landmark.on_soft && !is_skin(anatomy_.softs[*landmark.on_soft]))
+        p_W = surfaces_[*landmark.on_soft]->closest(p_W).point;
     }
   }
 
@@ -152,6 +153,7 @@ class SoftGrower {
       return volume && std::count(volume->clear_of.begin(), volume->clear_of.end(),
                                   anatomy_.softs[i].name) > 0;
     };
+    if (is_skin(anatomy_.softs[i])) return false;
     return std::any_of(anatomy_.landmarks.begin(), anatomy_.landmarks.end(), on_it) ||
            std::any_of(anatomy_.softs.begin(), anatomy_.softs.end(), names_it);
   }

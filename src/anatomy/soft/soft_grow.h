@@ -9,9 +9,9 @@
 namespace osteon {
 
 /// Grows every soft part of the description over the bones of `grown`, which are finished, and lays
-/// the landmarks that lie on a surface onto it. Soft parts that meet give way in the order
-/// cartilage, bands, volumes. `placed` saves making the surfaces of those bones that stand where
-/// they grew.
+/// the landmarks that lie on a surface onto it (skin_places.h has those on the skin). Soft parts
+/// that meet give way in the order cartilage, bands, volumes. `placed` saves making the surfaces of
+/// those bones that stand where they grew.
 Result<void> grow_soft_parts(const AnatomyDescription& anatomy, const GenerateOptions& options,
                              const std::string& file, GeneratedAnatomy& grown,
                              PlacedBones placed = {});

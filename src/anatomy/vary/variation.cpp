@@ -11,6 +11,7 @@
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "recognise/split_bones.h"
+#include "soft/skin_places.h"
 #include "soft/soft_grow.h"
 #include "vary/vary.h"
 
@@ -175,6 +176,7 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
   if (auto ok = bend_unless_bones_meet(*bones, options, file); !ok)
     return tl::unexpected(ok.error());
   varied.anatomy = std::move(bones->grown);
+  lay_on_skin(bones->description, varied.anatomy);
   if (options.soft_parts)
     if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy,
                                   std::move(bones->placed));

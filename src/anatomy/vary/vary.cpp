@@ -285,7 +285,10 @@ void mirror(GeneratedAnatomy& anatomy) {
     for (Triangle& t : soft.mesh_W.triangles) std::swap(t[1], t[2]);
     for (GeneratedAttachment& attachment : soft.attachments) flip(attachment.p_W);
   }
-  for (GeneratedLandmark& landmark : anatomy.landmarks) flip(landmark.p_W);
+  for (GeneratedLandmark& landmark : anatomy.landmarks) {
+    flip(landmark.p_W);
+    flip(landmark.inwards_W);
+  }
   for (GeneratedJoint& joint : anatomy.joints)
     for (GeneratedJoint::Moved& moved : joint.bones)
       for (Pose& X : moved.X_FB.poses) flip_pose(X);

@@ -105,6 +105,7 @@ class FilmMaker {
     if (!good()) return tl::unexpected(*failure_);
     return writer_.finish();
   }
+  void take(const CutsPatch& cut) { painter_.take(cut); }
   bool good() const { return !failure_; }
   double share() const {
     return static_cast<double>(made_) / static_cast<double>(span_.pictures(fps_));
@@ -143,14 +144,15 @@ struct FilmStopped {};
 
 Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& recording,
                              const SessionSettings& settings, const FilmSpan& span,
-                             std::shared_ptr<const Case> the_case, const Tray& tray) {
+                             std::shared_ptr<const Case> the_case, const ReplayOptions& how) {
   const auto size = parse_picture_size(command.size);
   const auto view = parse_film_view(command.view);
   const auto scope = holds_a_scope(recording, settings);
   if (!scope) return tl::unexpected(scope.error());
-  auto painter = FilmPainter::create(std::move(the_case), settings, tray, *scope,
+  auto painter = FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
                                      {*view, size->width, size->height, command.side});
   if (!painter) return tl::unexpected(painter.error());
+  painter->set_carving(how.carving);
   auto sound = RecordedSound::create(recording, span.from_s);
   if (!sound) return tl::unexpected(sound.error());
   auto writer =
@@ -167,6 +169,7 @@ Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
   const auto tell = line.stopping();
   how.from_s = span.from_s;
   how.to_s = span.to_s;
+  how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     maker.see(hand, tool, bones);
@@ -215,11 +218,9 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
   ReplayOptions how;
   if (auto ok = take_instruments(recording->header(), **the_case, how); !ok)
     return tl::unexpected(ok.error());
-  auto maker = film_maker(command, *recording, *settings, *span, *the_case, how.tray);
+  auto maker = film_maker(command, *recording, *settings, *span, *the_case, how);
   if (!maker) return tl::unexpected(maker.error());
-  const auto felt = open_recorded_case(*spec, recording->header(), *the_case);
-  if (!felt) return tl::unexpected(felt.error());
-  if (auto ok = replay_into(*maker, *recording, *felt, std::move(how), *span); !ok)
+  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span); !ok)
     return tl::unexpected(ok.error());
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)

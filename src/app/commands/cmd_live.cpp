@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,10 +19,12 @@
 #include "loops/runtime.h"
 #include "loops/stop_signal.h"
 #include "osteon/physics/soft_setup.h"
+#include "osteon/scene/carve_events.h"
 #include "runs/demo_path.h"
 #include "runs/device_choices.h"
 #include "runs/hand_order.h"
 #include "runs/live_run.h"
+#include "runs/path_orders.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -37,6 +40,7 @@ struct LiveOptions {
   std::string force_log;
   double seconds = 0;
   bool free_bones = false;
+  double power = 0;
   std::string portals = "all";
   std::string soft;
   MappingSettings mapping;
@@ -57,6 +61,7 @@ struct LiveHands {
   std::vector<DeviceLog*> logs;  ///< of the runtime's devices
   std::vector<HandPlan> plans;
   RunPlan run;
+  std::vector<std::optional<PathOrders>> orders;  ///< none: nobody follows a path there
   std::unique_ptr<Runtime> runtime;
 };
 
@@ -135,18 +140,45 @@ Result<void> add_hand(const LiveOptions& options, const ProbePath& path, std::si
   return {};
 }
 
-Result<Tray> give_instruments(LiveHands& live) {
+// A hand takes what it was told to, else what its path names first, else the wrist probe.
+std::vector<std::string> instruments_for(const HandOrder& order, const ProbePath* path) {
+  if (!order.instrument.empty()) return {order.instrument};
+  if (!path || !path->with_instruments) return {kWristProbe};
+  return instruments_of(*path);
+}
+
+std::uint32_t place_in(std::vector<std::string>& tray, const std::string& name) {
+  auto place = std::find(tray.begin(), tray.end(), name);
+  if (place == tray.end()) place = tray.insert(place, name);
+  return static_cast<std::uint32_t>(place - tray.begin());
+}
+
+// Who follows a path is told by it what to hold, and how the pedal stands.
+void give_orders(LiveHands& live, const ProbePath& path) {
+  const SessionSettings& settings = live.run.settings;
+  for (std::size_t h = 0; h < live.hands.size(); ++h) {
+    live.orders.emplace_back();
+    if (!plays_demo(live.choices[h]) || !path.with_instruments) continue;
+    const bool told = !live.hands[h].instrument.empty();
+    live.orders.back().emplace(told ? without_instruments(path) : path, settings.tray,
+                               settings.haptic.tick_s);
+  }
+}
+
+Result<Tray> give_instruments(LiveHands& live, const ProbePath& path) {
   SessionSettings& settings = live.run.settings;
   settings.hands.clear();
   for (std::size_t h = 0; h < live.hands.size(); ++h) {
-    const std::string& wanted = live.hands[h].instrument;
-    const std::string name = wanted.empty() ? kWristProbe : wanted;
-    auto place = std::find(settings.tray.begin(), settings.tray.end(), name);
-    if (place == settings.tray.end()) place = settings.tray.insert(place, name);
-    settings.hands.push_back({name_of_hand(live.hands[h], h, live.hands.size()),
-                              static_cast<std::uint32_t>(place - settings.tray.begin())});
+    const HandOrder& order = live.hands[h];
+    const ProbePath* follows = plays_demo(live.choices[h]) ? &path : nullptr;
+    const std::vector<std::string> names = instruments_for(order, follows);
+    for (const std::string& name : names) (void)place_in(settings.tray, name);
+    settings.hands.push_back(
+        {name_of_hand(order, h, live.hands.size()), place_in(settings.tray, names.front())});
   }
+  give_orders(live, path);
   if (settings.tray == std::vector<std::string>{kWristProbe}) settings.tray.clear();
+  settings.carve.on = can_carve(*live.run.the_case, settings.tray);
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
   return make_tray(settings.tray, settings.probe_radius_m);
 }
@@ -159,7 +191,7 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
     return fail("a session has at most four hands", "--device", "Give fewer");
   for (std::size_t i = 0; i < options.devices.size(); ++i)
     if (auto done = add_hand(options, path, i, live); !done) return tl::unexpected(done.error());
-  auto tray = give_instruments(live);
+  auto tray = give_instruments(live, path);
   if (!tray) return tl::unexpected(tray.error());
   if (auto open = open_in_skin(options.portals, live.run.settings); !open)
     return tl::unexpected(open.error());
@@ -170,6 +202,9 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
   if (!softs) return tl::unexpected(softs.error());
   if (*softs) live.run.settings.soft_hash = (*softs)->hash;
   live.run.softs = std::move(*softs);
+  auto carving = carving_for(*live.run.the_case, live.run.settings);
+  if (!carving) return tl::unexpected(carving.error());
+  live.run.carving = std::move(*carving);
   auto feed = feed_for(options, live.run, *tray);
   if (!feed) return tl::unexpected(feed.error());
   live.runtime = std::make_unique<Runtime>(live.run, std::move(live.plans), std::move(*feed),
@@ -204,6 +239,29 @@ std::string told_name(const LiveHands& live, std::size_t hand) {
   return name.empty() ? device : name + " (" + device + ")";
 }
 
+// What happens to bone; the rest is in the recording.
+void tell_carving(LiveHands& live, std::size_t hand) {
+  const SessionSettings& settings = live.run.settings;
+  Event event;
+  while (live.runtime->pop_event(event, hand)) {
+    const int code = static_cast<int>(event.kind);
+    const EventKindRow* row = find_event_kind(event.kind);
+    const bool carving = code >= static_cast<int>(kCutBegin) && code < 300;
+    if (!row || !carving || event.subject >= live.run.the_case->bones.size()) continue;
+    const std::string& name = settings.hands[hand].name;
+    std::printf("%6.2f s  %s%s%s %s\n", static_cast<double>(event.tick) * settings.haptic.tick_s,
+                name.c_str(), name.empty() ? "" : ": ", std::string(row->text).c_str(),
+                live.run.the_case->bones[event.subject].name.c_str());
+    std::fflush(stdout);
+  }
+}
+
+void send_orders(LiveHands& live, std::size_t hand) {
+  const std::uint64_t tick = live.runtime->snapshot(hand).tool.tick;
+  if (!live.orders[hand] || tick == 0) return;
+  if (const auto command = live.orders[hand]->at(tick)) (void)live.runtime->send(*command, hand);
+}
+
 // Until the time is over or a signal asks for the end; what goes wrong meanwhile is told.
 void watch(LiveHands& live, double seconds) {
   const auto start = std::chrono::steady_clock::now();
@@ -211,12 +269,14 @@ void watch(LiveHands& live, double seconds) {
   std::vector<ForceOff> told(runtime.hands(), ForceOff::kSoftware);
   InputLines lines;
   while (!stop_requested()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (seconds > 0 && passed.count() >= seconds) return;
     if (const auto line = lines.next()) obey_line(live, *line);
     for (std::size_t i = 0; i < runtime.hands(); ++i) {
       const DeviceStatus& status = runtime.device_status(i);
+      send_orders(live, i);
+      tell_carving(live, i);
       Telemetry point;
       while (runtime.pop_telemetry(point, i)) {
       }
@@ -269,6 +329,9 @@ int run_live(LiveOptions options) {
   auto live = make_hands(options, *the_case, *path);
   if (!live) return report_error(live.error());
   live->runtime->start();
+  if (options.power > 0)
+    for (std::size_t h = 0; h < live->runtime->hands(); ++h)
+      (void)live->runtime->send({CommandKind::kPower, options.power}, h);
   std::printf("running; Ctrl-C ends it with the force at zero\n");
   std::printf("A force that went off comes back by `on` and Enter%s\n",
               live->runtime->hands() > 1 ? ", of one hand by `on left`, `on right`" : "");
@@ -308,6 +371,10 @@ void add_live_command(cli::App& app, int& exit_code) {
       ->check(cli::Range(0, 31));
   add_portals_option(*command, options->portals);
   add_soft_option(*command, options->soft);
+  command
+      ->add_option("--power", options->power,
+                   "power of the hands' instruments from the start, 0 to 1; a path tells its own")
+      ->check(cli::Range(0.0, 1.0));
   command->add_flag("--free-bones", options->free_bones, "bones move on springs");
   command->callback([options, &exit_code] { exit_code = run_live(*options); });
 }

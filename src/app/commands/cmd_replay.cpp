@@ -125,7 +125,7 @@ int replay_recording(const ReplayArguments& options) {
   if (!recording) return report_error(recording.error());
   const auto spec = recorded_case_spec(options.file, options.case_spec, recording->header());
   if (!spec) return report_error(spec.error());
-  auto the_case = open_recorded_case(*spec, recording->header());
+  auto the_case = open_and_show_progress(*spec, parts_of(recording->header()));
   if (!the_case) return report_error(the_case.error());
   auto frames = frames_for(options, **the_case);
   if (!frames) return report_error(frames.error());

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "commands/hand_in_loop.h"
-#include "commands/path_commands.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/record/recording.h"
+#include "runs/path_commands.h"
 #include "runs/tray.h"
 
 namespace osteon {

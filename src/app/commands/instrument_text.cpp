@@ -28,7 +28,7 @@ std::string functions_of(const Instrument& instrument) {
   std::vector<std::string> words;
   for (const InstrumentFunction function : instrument.functions) {
     const std::string word(to_text(function));
-    words.push_back(has_effect(function) ? word : "(" + word + ")");
+    words.push_back(has_effect(instrument, function) ? word : "(" + word + ")");
   }
   return joined(words);
 }
@@ -55,7 +55,7 @@ Json to_json(const Instrument& instrument) {
   Json functions = Json::array(), idle = Json::array(), sizes = Json::array();
   for (const InstrumentFunction function : instrument.functions) {
     functions.push_back(to_text(function));
-    if (!has_effect(function)) idle.push_back(to_text(function));
+    if (!has_effect(instrument, function)) idle.push_back(to_text(function));
   }
   for (const double size : instrument.sizes_m) sizes.push_back(size_mm(size));
   Json json = {{"name", instrument.name},
@@ -96,7 +96,9 @@ std::string instruments_table(const std::vector<Instrument>& instruments) {
         {instrument.name, instrument.title, functions_of(instrument), sizes_of(instrument),
          power_of(instrument),
          instrument.power && instrument.power->pedal != "none" ? instrument.power->pedal : "-"});
-  return table.text() + "Functions in brackets are declared and have no effect yet.\n";
+  return table.text() +
+         "Functions in brackets are declared and have no effect yet. Bone is removed where it is "
+         "felt as a field.\n";
 }
 
 std::string instrument_text(const Instrument& instrument) {

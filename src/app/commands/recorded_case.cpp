@@ -2,8 +2,6 @@
 
 #include <system_error>
 
-#include "commands/cli_support.h"
-#include "osteon/scene/portal.h"
 #include "osteon/session/session.h"
 
 namespace osteon {
@@ -31,27 +29,6 @@ Result<std::string> recorded_case_spec(const fs::path& recording, const std::str
 CaseParts parts_of(const RecordingHeader& header) {
   const auto settings = parse_settings(header.settings_json);
   return settings && !settings->soft.empty() ? CaseParts::kAll : CaseParts::kFelt;
-}
-
-namespace {
-
-bool has_its_portals(const Case& the_case, const RecordingHeader& header) {
-  const auto settings = parse_settings(header.settings_json);
-  if (header.portals_hash == 0 || !settings) return true;  // not known: the replay tells
-  const auto portals = open_portals(the_case, *settings);
-  return portals && hash_of(*portals) == header.portals_hash;
-}
-
-}  // namespace
-
-Result<std::shared_ptr<const Case>> open_recorded_case(const std::string& spec,
-                                                       const RecordingHeader& header,
-                                                       std::shared_ptr<const Case> drawn) {
-  if (drawn && has_its_portals(*drawn, header)) return drawn;
-  auto needed = open_and_show_progress(spec, parts_of(header));
-  if (!needed || drawn || has_its_portals(**needed, header)) return needed;
-  auto whole = open_and_show_progress(spec, CaseParts::kAll);
-  return whole && has_its_portals(**whole, header) ? whole : needed;
 }
 
 }  // namespace osteon

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "cases/open_case.h"
@@ -17,12 +16,5 @@ Result<std::string> recorded_case_spec(const std::filesystem::path& recording,
 
 /// What of the case a replay needs: the soft parts where some were felt.
 CaseParts parts_of(const RecordingHeader& header);
-
-/// Opens what the replay needs. A portal lies and points a little otherwise where skin is grown, as
-/// in the window, than where it is not: the case has the portals that the recording knew.
-/// `drawn`: the whole case, if it is open already; null: it is opened where it is needed.
-Result<std::shared_ptr<const Case>> open_recorded_case(const std::string& spec,
-                                                       const RecordingHeader& header,
-                                                       std::shared_ptr<const Case> drawn = nullptr);
 
 }  // namespace osteon

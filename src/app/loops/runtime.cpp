@@ -50,7 +50,7 @@ Runtime::Runtime(const RunPlan& plan, std::unique_ptr<HapticDevice> device,
 
 Runtime::Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_ptr<RecordFeed> feed,
                  Tray tray)
-    : session_(plan.the_case, plan.settings, std::move(tray), nullptr, plan.softs),
+    : session_(plan.the_case, plan.settings, std::move(tray), plan.carving, plan.softs),
       feed_(std::move(feed)),
       keeper_(feed_ ? std::make_unique<StateKeeper>(session_) : nullptr),
       haptic_period_s_(plan.settings.haptic.tick_s),

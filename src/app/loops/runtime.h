@@ -29,6 +29,7 @@ struct RunPlan {
   bool force_enabled = true;
   /// Why the force is off where it is not enabled: a fault of the run before this one stays named.
   ForceOff off_because = ForceOff::kSoftware;
+  std::shared_ptr<const CarvingSetup> carving = nullptr;  ///< null: no bone is removed
   std::shared_ptr<const SoftSetup> softs;  ///< of the settings' soft parts; null: nothing is soft
 };
 
@@ -96,6 +97,8 @@ class Runtime {
     return exchange(hand).telemetry.pop(point);
   }
 
+  /// How bones are carved, for one thread that draws; null: none is.
+  CutsFeed* cuts_feed() { return session_.cuts_feed(); }
   /// Next thing that happened to a hand; false when there is none yet.
   bool pop_event(Event& event, std::size_t hand = 0) { return exchange(hand).events.pop(event); }
 

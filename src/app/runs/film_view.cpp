@@ -10,6 +10,7 @@
 #include "osteon/render/scope_renderer.h"
 #include "osteon/scene/scope.h"
 #include "osteon/scene/tool_set.h"
+#include "runs/carved_picture.h"
 #include "runs/film_fluoro.h"
 
 namespace osteon {
@@ -167,6 +168,8 @@ struct FilmPainter::Impl {
   Result<Image> scene(const FilmMoment& moment, const ViewState& view, int width, int height);
   ViewState plain_view(double aspect) const;
   void shape_room(const Vec3& tip_W);
+  void show_carved();
+  CarvedPicture carved{nullptr};
 };
 
 const ScopeDef* FilmPainter::Impl::lens(const ToolState& tool) const {
@@ -321,7 +324,21 @@ Result<FilmPainter> FilmPainter::create(std::shared_ptr<const Case> the_case,
   return FilmPainter(std::move(impl));
 }
 
+void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
+  impl_->carved = CarvedPicture(std::move(setup));
+}
+
+void FilmPainter::take(const CutsPatch& cut) { impl_->carved.take(cut); }
+
+void FilmPainter::Impl::show_carved() {
+  for (const CarvedPicture::Changed& changed : carved.changes()) {
+    if (renderer) renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
+    if (scope) scope->set_cubes(changed.bone, changed.grid, changed.cubes);
+  }
+}
+
 Result<Image> FilmPainter::draw(const FilmMoment& moment) {
+  impl_->show_carved();
   const int width = impl_->order.width, height = impl_->order.height;
   switch (impl_->order.view) {
     case FilmView::kScope:

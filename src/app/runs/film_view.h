@@ -29,7 +29,7 @@ struct FilmMoment {
 };
 
 /// Draws a recorded session's pictures without a window, in one of the views. One thread, where it
-/// was made. Bones are drawn whole: what was carved of them is not taken away.
+/// was made. X-rays show bones whole: what was carved of them is not taken away there.
 class FilmPainter {
  public:
   struct Order {
@@ -46,6 +46,10 @@ class FilmPainter {
   FilmPainter(FilmPainter&&) noexcept;
   FilmPainter& operator=(FilmPainter&&) noexcept;
 
+  /// What the recorded session removed bone with; before the first cut. Null: nothing.
+  void set_carving(std::shared_ptr<const CarvingSetup> setup);
+  /// Bone is gone from the next picture on.
+  void take(const CutsPatch& cut);
   /// Fails where the graphics driver has no memory for it.
   Result<Image> draw(const FilmMoment& moment);
 

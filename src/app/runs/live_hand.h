@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "loops/runtime.h"
 #include "runs/contact_timeline.h"
 #include "runs/device_choices.h"
 #include "runs/force_history.h"
+#include "runs/path_orders.h"
 
 namespace osteon {
 
@@ -35,7 +37,8 @@ struct LiveHand {
   bool same_device = false;            ///< as in the run before
   /// By a fault in the run before: the user re-arms, no other.
   ForceOff tripped = ForceOff::kNone;
-  MouseDevice* mouse = nullptr;  ///< of the runtime, when it is one
+  std::optional<PathOrders> orders;  ///< of the path that it plays
+  MouseDevice* mouse = nullptr;      ///< of the runtime, when it is one
   PadDevice* pad = nullptr;
   RenderSnapshot snapshot;
   DeviceStatus status;

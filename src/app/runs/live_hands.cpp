@@ -1,5 +1,6 @@
 // What moves the hands of a live run, what they hold, and the way back to a restore point.
 #include <algorithm>
+#include <cmath>
 
 #include "osteon/device/mouse_device.h"
 #include "runs/live_run.h"
@@ -82,6 +83,19 @@ void LiveRun::nudge(std::size_t i, double in_m, double about_rad, double pitch_r
 void LiveRun::take(std::uint32_t place) {
   if (runtime_ && place < tray_.tools.size())
     runtime_->send({CommandKind::kTake, static_cast<double>(place)}, active_);
+}
+
+// What differs from what the hand was last seen to have is sent again.
+void LiveRun::drive(double pedal) {
+  const ToolState& tool = now().snapshot.tool;
+  if (!runtime_ || tool.tick == 0 || now().orders || tool.instrument >= tray_.driven.size()) return;
+  constexpr double kSteps = 20;
+  const double wanted = std::round(std::clamp(pedal, 0.0, 1.0) * kSteps) / kSteps;
+  const RunTray::Driven driven = tray_.driven[tool.instrument];
+  if (driven.power && tool.power != wanted)
+    (void)runtime_->send({CommandKind::kPower, wanted}, active_);
+  if (driven.jaws && tool.jaw != 1 - wanted)
+    (void)runtime_->send({CommandKind::kJaw, 1 - wanted}, active_);
 }
 
 void LiveRun::mark() {

@@ -38,7 +38,8 @@ LiveRun::LiveRun(std::shared_ptr<const Case> the_case, std::string case_source, 
       demo_(std::move(demo)),
       feel_(feel),
       tray_(std::move(tray)),
-      hands_(1) {
+      hands_(1),
+      carved_(std::make_unique<CarvedPicture>(nullptr)) {
   now().snapshot.bones = rest_snapshot(*case_);
 }
 
@@ -62,6 +63,13 @@ Result<void> LiveRun::start(const std::vector<LiveHandOrder>& hands,
     hands_[i].name = hands[i].name;
     hands_[i].instrument = hands[i].instrument;
     hands_[i].user = sane(hands[i].user);
+    hands_[i].orders.reset();
+    if (!plays_demo(hands[i].choice) || !demo_.with_instruments || demo_.samples.empty()) continue;
+    // A hand that was told what to hold takes power and jaws alone from the path.
+    const bool told = hands[i].instrument != 0;
+    hands_[i].orders.emplace(told ? without_instruments(demo_) : demo_, tray_.names,
+                             HapticParams{}.tick_s);
+    if (!told) hands_[i].instrument = hands_[i].orders->first_instrument();
   }
   active_ = 0;
   shared_ = false;
@@ -107,6 +115,7 @@ SessionSettings LiveRun::settings_now() const {
   settings.hands.clear();
   for (const LiveHand& hand : hands_) settings.hands.push_back({hand.name, hand.instrument});
   settings.tray = tray_.names;
+  settings.carve.on = tray_.carving != nullptr;
   return settings;
 }
 
@@ -120,6 +129,9 @@ Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
   RunPlan plan;
   plan.the_case = case_;
   plan.settings = settings_;
+  plan.carving = tray_.carving;
+  carved_ = std::make_unique<CarvedPicture>(tray_.carving);
+  ++run_number_;
   runtime_ = std::make_unique<Runtime>(plan, std::move(*plans), std::move(feed), tray_.tools);
   for (LiveHand& hand : hands_) {
     hand.force.clear();
@@ -218,11 +230,28 @@ void LiveRun::update() {
     Event event;
     while (runtime_->pop_event(event, i)) events_.add(event, settings_.haptic.tick_s);
     forgive_the_harmless(i);
+    send_orders(i);
   }
+  see_cuts();
   physics_stats_ = runtime_->physics_stats();
   if (!recording_ || runtime_->recording()) return;
   recording_failure_ = runtime_->recording_failure();
   recording_ = false;
+}
+
+void LiveRun::send_orders(std::size_t i) {
+  LiveHand& hand = hands_[i];
+  if (!hand.orders || hand.snapshot.tool.tick == 0) return;
+  if (const auto command = hand.orders->at(hand.snapshot.tool.tick))
+    (void)runtime_->send(*command, i);
+}
+
+void LiveRun::see_cuts() {
+  CutsPatch patch;
+  while (CutsFeed* feed = runtime_->cuts_feed()) {
+    if (!feed->take(patch)) return;
+    carved_->take(patch);
+  }
 }
 
 // A device without motors cannot hurt a hand: it goes on by itself, and the user is told.

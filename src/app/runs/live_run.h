@@ -10,6 +10,7 @@
 #include "loops/hand_share.h"
 #include "loops/runtime.h"
 #include "osteon/device/pad_device.h"
+#include "runs/carved_picture.h"
 #include "runs/live_hand.h"
 #include "runs/probe_drag.h"
 #include "runs/run_events.h"
@@ -33,8 +34,15 @@ void keep_to_weakest(const HapticParams& of_device, HapticParams& all);
 
 /// The instruments that the hands of a run may take, with their names for the recording.
 struct RunTray {
+  /// What a pedal drives of an instrument: its motor, or its jaws shut.
+  struct Driven {
+    bool power = false, jaws = false;
+  };
   std::vector<std::string> names;
   Tray tools;
+  std::vector<Driven> driven;  ///< of each; those past its end: nothing
+  /// What they remove bone with; null: nothing is carved.
+  std::shared_ptr<const CarvingSetup> carving = nullptr;
 };
 
 /// A live case in the window: the runtime, what the hands hold, the recording. Every change of
@@ -91,6 +99,13 @@ class LiveRun {
   bool rests(std::size_t hand) const;
   /// The active hand takes what stands at this place of the tray. Its force goes through zero.
   void take(std::uint32_t place);
+  /// The pedal, 0 to 1, of what the active hand holds. Once a picture; a hand that plays a path is
+  /// told by that.
+  void drive(double pedal);
+  /// What is left of carved bones, and the number of the run that it belongs to: each begins with
+  /// whole bones.
+  CarvedPicture& carved() { return *carved_; }
+  std::uint64_t run_number() const { return run_number_; }
   /// A hand that the mouse moves goes there.
   void bring(const Pose& X_WD);
   /// Keeps the state as a restore point.
@@ -161,6 +176,8 @@ class LiveRun {
   DeviceMapping mapping_at(const LiveHand& hand, const Pose& X_WD_start,
                            HapticDevice& device) const;
   SessionSettings settings_now() const;
+  void send_orders(std::size_t hand);
+  void see_cuts();
   void forgive_the_harmless(std::size_t hand);
   void end_run();
   void keep_devices();
@@ -178,6 +195,8 @@ class LiveRun {
   SessionSettings settings_;
   Quat q_WC_ = Quat::Identity();
   std::unique_ptr<Runtime> runtime_;
+  std::unique_ptr<CarvedPicture> carved_;
+  std::uint64_t run_number_ = 0;
   bool force_on_ = true;
   bool recording_ = false;
   bool judged_next_ = false;  ///< the run that starts next

@@ -24,6 +24,7 @@ using PedalMap = std::map<std::string, PedalSource>;
 
 inline constexpr const char* kDeadManPedal = "dead-man";  ///< must be held for force
 inline constexpr const char* kClutchPedal = "clutch";     ///< while held, the hand moves alone
+inline constexpr const char* kPowerPedal = "power";       ///< drives what the hand holds
 
 /// A HID joystick or a set of pedals as the system reads it.
 struct ControllerReading {

@@ -64,6 +64,14 @@ Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
   return make_carving(the_case, settings.tray, settings.carve, run);
 }
 
+Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case,
+                                                            std::span<const std::string> tray) {
+  SessionSettings settings;
+  settings.tray.assign(tray.begin(), tray.end());
+  settings.carve.on = can_carve(the_case, tray);
+  return carving_for(the_case, settings);
+}
+
 Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
                                                    const SessionSettings& settings) {
   if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();

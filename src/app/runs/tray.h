@@ -22,6 +22,11 @@ Result<Tray> tray_of(const RecordingHeader& header);
 Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
                                                         const SessionSettings& settings);
 
+/// The same for a run whose hands may take these instruments, with usual settings; null: nothing
+/// can be carved.
+Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case,
+                                                            std::span<const std::string> tray);
+
 /// What is soft in a session with these settings; null: nothing. Fails where the settings name what
 /// the case has not, or a table has changed since they were recorded.
 Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,

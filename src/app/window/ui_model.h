@@ -44,7 +44,8 @@ struct HandModel {
   struct Mapping {
     bool settable = false;  ///< a real device: an emulated one has its path
     MappingSettings settings;
-    std::string dead_man = "none", clutch = "none";  ///< what drives the pedals, in words
+    std::string dead_man = "none", clutch = "none",
+                power = "none";  ///< what drives the pedals, in words
   } mapping;
   std::string learning_pedal;  ///< the pedal that waits for its input; empty: none
 };

@@ -11,6 +11,8 @@
 #include "loops/stop_signal.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/file.h"
+#include "runs/hand_order.h"
+#include "runs/path_commands.h"
 #include "ui/screenshot.h"
 
 namespace osteon {
@@ -23,6 +25,17 @@ constexpr std::int64_t kShortestFrameOnDisplay_ns = 1'000'000'000 / 250;
 double processor_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+// What hands are told to hold, and what the path that an emulated one plays takes.
+std::vector<std::string> ordered_instruments(const WindowOrder& order) {
+  std::vector<std::string> names;
+  for (const std::string& device : order.devices)
+    names.push_back(parse_hand_order(device).instrument);
+  const auto path = order.path.empty() ? Result<ProbePath>(ProbePath{}) : load_path(order.path);
+  if (path && path->with_instruments)
+    for (const std::string& name : instruments_of(*path)) names.push_back(name);
+  return names;
+}
 
 }  // namespace
 
@@ -47,6 +60,7 @@ Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   app->choices_ = list_device_choices(&problems);
   if (!complaint.empty()) app->note(ToastKind::kWarning, complaint);
   for (const std::string& problem : problems) app->note(ToastKind::kWarning, problem);
+  app->instruments_ = ordered_instruments(order);
   app->open({order.case_spec, order.replay, nullptr});
   return app;
 }
@@ -116,6 +130,7 @@ void WindowApp::draw_picture() {
   for (const BoneId id : {hovered_, hovered_row_, picked_})
     if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
   show_others();
+  show_carved();
   renderer_->draw(shown_, shown, viewport());
 }
 

@@ -93,6 +93,7 @@ class WindowApp {
   void install(Loaded loaded);
   void begin_live();
   void start_live(const std::string& device);  ///< key of a choice
+  void show_carved();
   bool start_hands(const std::vector<std::string>& devices);
   void make_live();
   MappingSettings mapping_for(const DeviceChoice& choice) const;
@@ -161,7 +162,7 @@ class WindowApp {
   std::vector<Pose> exercise_poses(const std::vector<PlannedHand>& hands) const;
   Result<void> start_exercise_hands(const std::vector<PlannedHand>& hands);
   // window_hands.cpp: two hands, what they hold, the way back
-  void make_tray(std::span<const std::string> wanted);
+  void make_tray();
   void apply_hands(const HandsRequests& requests);
   void apply_exchange(const HandsRequests& requests);
   void change_hands();
@@ -212,6 +213,12 @@ class WindowApp {
   std::optional<PreparedCase> prepared_;  ///< of the case, until what is felt was measured over it
   std::unique_ptr<FeltJob> felt_job_;     ///< while that is under way
   bool felt_known_ = false;               ///< to the renderer
+  std::shared_ptr<const CarvingSetup> carving_;  ///< for a live run of the case
+  std::vector<std::string> instruments_;  ///< ordered by the command line: always in the tray
+  std::optional<CarvedPicture> carved_;   ///< of the replay
+  std::size_t carved_place_ = 0;          ///< of its cuts, that `carved_` shows
+  std::uint64_t carved_run_ = 0;          ///< live run whose cuts the renderer shows
+  double carved_s_ = 0;                   ///< when they were shown last
   std::unique_ptr<LiveRun> live_;
   std::optional<LoadedReplay> replay_;
   std::optional<ReplayPlayer> player_;

@@ -112,7 +112,7 @@ TEST(KneeSoft, PortalsLieOnTheSkinBesideThePatellarTendon) {
   const MeshDistance tendon(checks::soft_named(knee(), "patellar_tendon").mesh_W);
   for (const char* name : {"portal_al", "portal_am"}) {
     const Vec3 portal = checks::landmark_of(knee(), name);
-    EXPECT_LT(std::abs(skin.closest(portal).signed_distance), 1e-6) << name;
+    EXPECT_LT(std::abs(skin.closest(portal).signed_distance), 5e-5) << name;
     EXPECT_GT(tendon.closest(portal).signed_distance, 0.001) << name;
   }
 }

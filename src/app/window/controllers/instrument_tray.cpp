@@ -26,18 +26,29 @@ std::string in_mm(double size_m) {
 std::string what_it_does(const Instrument& instrument) {
   std::string text, declared;
   for (const InstrumentFunction function : instrument.functions) {
-    std::string& into = has_effect(function) ? text : declared;
+    std::string& into = has_effect(instrument, function) ? text : declared;
     into += (into.empty() ? "" : ", ") + std::string(to_text(function));
   }
   if (declared.empty()) return text;
   return text + (text.empty() ? "" : "; ") + declared + " (without effect yet)";
 }
 
+// What has no effect is not driven.
+RunTray::Driven driven_of(const Instrument& instrument) {
+  if (!instrument.removal) return {};
+  return {instrument.power.has_value(), instrument.removal->way == RemovalWay::kBite};
+}
+
 }  // namespace
+
+std::string region_of(const Case& the_case) {
+  return the_case.find("femur").valid() ? "knee" : "wrist";
+}
 
 InstrumentTray::InstrumentTray() {
   run_.names = {kWristProbe};
   run_.tools = {std::make_shared<const Tool>(make_wrist_probe())};
+  run_.driven.emplace_back();
 }
 
 Result<InstrumentTray> InstrumentTray::make(const std::string& region,
@@ -55,7 +66,10 @@ Result<InstrumentTray> InstrumentTray::make(const std::string& region,
   if (!set) return tl::unexpected(set.error());
   tray.set_ = std::move(*set);
   for (const std::string& name : tray.set_.names()) tray.run_.names.push_back(name);
-  for (const auto& tool : tray.set_.tools()) tray.run_.tools.push_back(tool);
+  for (std::size_t i = 0; i < tray.set_.tools().size(); ++i) {
+    tray.run_.tools.push_back(tray.set_.tools()[i]);
+    tray.run_.driven.push_back(driven_of(tray.set_.instruments()[tray.set_.at(i).instrument]));
+  }
   return tray;
 }
 
@@ -80,6 +94,16 @@ std::uint32_t InstrumentTray::next(std::uint32_t place, int steps) const {
   const auto n = static_cast<int>(usual.size());
   const int to = ((static_cast<int>(at) + steps) % n + n) % n;
   return usual[static_cast<std::size_t>(to)];
+}
+
+ProbePath InstrumentTray::sized(ProbePath path) const {
+  for (PathSample& sample : path.samples) {
+    if (sample.instrument.empty() || sample.size_mm > 0) continue;
+    const auto place = find(sample.instrument);
+    const auto name = place ? parse_tool_name(run_.names[*place]) : Result<ToolName>(ToolName{});
+    if (name && name->size_mm) sample.size_mm = *name->size_mm;
+  }
+  return path;
 }
 
 std::uint32_t InstrumentTray::next_size(std::uint32_t place) const {

@@ -11,6 +11,9 @@
 
 namespace osteon {
 
+/// Where the instruments of a case's tray are used: "knee" or "wrist".
+std::string region_of(const Case& the_case);
+
 /// What the hands of a window's run may take: the wrist probe at place 0, then the instruments of a
 /// region of the body in all their sizes. Knows neither window nor picture.
 class InstrumentTray {
@@ -25,6 +28,9 @@ class InstrumentTray {
   const RunTray& run() const { return run_; }
   /// None: it is not in the tray. Empty is the wrist probe.
   std::optional<std::uint32_t> find(const std::string& name) const;
+  /// `path` with every instrument in a size, as the tray names it: the usual one where it says
+  /// none.
+  ProbePath sized(ProbePath path) const;
   std::uint32_t next(std::uint32_t place, int steps) const;
   std::uint32_t next_size(std::uint32_t place) const;
   /// "Hook probe, 1.5 mm"

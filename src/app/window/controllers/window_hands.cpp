@@ -24,9 +24,8 @@ Pose beside(const Pose& X, const Quat& q_WC, double right_m) {
 
 }  // namespace
 
-void WindowApp::make_tray(std::span<const std::string> wanted) {
-  const std::string region = case_->find("femur").valid() ? "knee" : "wrist";
-  auto made = InstrumentTray::make(region, wanted);
+void WindowApp::make_tray() {
+  auto made = InstrumentTray::make(region_of(*case_), instruments_);
   if (!made) note(ToastKind::kError, made.error().message());
   tray_ = made ? std::move(*made) : InstrumentTray();
   if (renderer_) renderer_->set_tray(tray_.run().tools);
@@ -36,12 +35,8 @@ void WindowApp::make_tray(std::span<const std::string> wanted) {
 // As the command line orders them. False when one cannot be had: the reason is told.
 bool WindowApp::start_hands(const std::vector<std::string>& devices) {
   std::vector<HandOrder> orders;
-  std::vector<std::string> wanted;
-  for (const std::string& text : devices) {
-    orders.push_back(parse_hand_order(text));
-    wanted.push_back(orders.back().instrument);
-  }
-  make_tray(wanted);
+  for (const std::string& text : devices) orders.push_back(parse_hand_order(text));
+  make_tray();
   std::vector<LiveHandOrder> hands;
   std::vector<DeviceChoice> taken;
   std::vector<Pose> poses;
@@ -201,6 +196,7 @@ std::vector<HandRow> WindowApp::hand_rows() const {
     row.name = capital(hand.name);
     const bool ticks = hand.snapshot.tool.tick > 0;
     row.instrument = tray_.title(ticks ? hand.snapshot.tool.instrument : hand.instrument);
+    if (ticks && hand.snapshot.tool.power > 0) row.instrument += ", running";
     const std::uint32_t portal = hand.snapshot.tool.portal;
     if (ticks && portal < portals_.size()) row.portal = portals_[portal].title;
     row.active = i == live_->active();

@@ -129,6 +129,7 @@ UiModel WindowApp::build_model() {
     model.hand.learning_pedal = learning_pedal_;
     model.hand.mapping.dead_man = driver_of(settings_.pedals, kDeadManPedal);
     model.hand.mapping.clutch = driver_of(settings_.pedals, kClutchPedal);
+    model.hand.mapping.power = driver_of(settings_.pedals, kPowerPedal);
     model.force_history = live_->force().values();
     model.timeline = {live_->contacts().end_s(), live_->contacts().spans(), marks_};
     model.record = {live_->recording(), shown_.tool.time_s,

@@ -28,6 +28,7 @@ void WindowApp::open(LoadOrder order) {
     return;
   }
   load_failure_.clear();
+  order.instruments = instruments_;
   job_ = std::make_unique<LoadJob>(std::move(order));
 }
 
@@ -82,6 +83,7 @@ void WindowApp::install(Loaded loaded) {
     tip_.begin(case_);
     bone_middles_B_ = bone_middles(*case_);
     demo_ = loaded.demo;
+    carving_ = loaded.carving;
     const ViewState before = view_;
     const BoneId picked = picked_;
     recall_view();
@@ -96,12 +98,16 @@ void WindowApp::install(Loaded loaded) {
   live_.reset();
   replay_ = std::move(loaded.replay);
   player_.reset();
+  carved_.reset();
+  carved_place_ = 0;
+  renderer_->clear_cubes();
   aimed_.reset();
   marks_.clear();
   marks_told_ = 0;
   if (!replay_ && exercise_.page() == ExercisePage::kOpening) return begin_exercise();
   if (!replay_) return begin_live();
   renderer_->set_tray(replay_->tray);
+  if (replay_->carving) carved_.emplace(replay_->carving);
   player_.emplace(replay_->track.duration_s());
   player_->seek(order_.at_s);
   if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still
@@ -137,14 +143,17 @@ void WindowApp::make_live() {
   remember_feel();
   const FeelSettings feel{settings_.stiffness_n_per_m, settings_.friction_scale,
                           settings_.bones_held};
-  live_ = std::make_unique<LiveRun>(case_, case_source_, demo_, feel, tray_.run());
+  RunTray tray = tray_.run();
+  tray.carving = carving_;
+  live_ = std::make_unique<LiveRun>(case_, case_source_, tray_.sized(demo_), feel, std::move(tray));
+  carved_run_ = 0;
   live_->keep_force_log(order_.force_log);
   pedals_.set_map(settings_.pedals);
 }
 
 void WindowApp::start_live(const std::string& device) {
   if (choices_.empty() || !case_) return;
-  make_tray({});
+  make_tray();
   make_live();
   const DeviceChoice& choice = choices_[static_cast<std::size_t>(find_choice(choices_, device))];
   const Result<void> started = live_->start(choice, offered_probe(view_.camera, case_->bounds_W()),
@@ -159,6 +168,22 @@ void WindowApp::choose_felt(const FeltWish& wish) {
   if (!choice) return note(ToastKind::kError, choice.error().message());
   choice->of_bone[case_->bone(wish.bone).name] = wish.felt;
   open({to_text(*choice), {}, nullptr});
+}
+
+// What was carved since the picture before. A processor that draws has to draw all of it anew then.
+void WindowApp::show_carved() {
+  constexpr double kRest_s = 0.1;
+  if (live_ && carved_run_ != live_->run_number()) renderer_->clear_cubes();
+  carved_run_ = live_ ? live_->run_number() : 0;
+  if (renderer_->software_driver() && now_s_ - carved_s_ < kRest_s) return;
+  if (replay_ && player_ && carved_)
+    carved_place_ = replay_->cuts.show(player_->position_s(), carved_place_, *carved_);
+  CarvedPicture* const picture = live_ ? &live_->carved() : carved_ ? &*carved_ : nullptr;
+  if (!picture) return;
+  for (const CarvedPicture::Changed& changed : picture->changes()) {
+    renderer_->set_cubes(changed.bone, changed.grid, changed.cubes);
+    carved_s_ = now_s_;
+  }
 }
 
 // Measured when it is first shown: it would double the time that opening takes.
@@ -189,6 +214,8 @@ ViewState WindowApp::picture_view() const {
 void WindowApp::leave_replay() {
   replay_.reset();
   player_.reset();
+  carved_.reset();
+  renderer_->clear_cubes();
   start_live(settings_.device);
 }
 

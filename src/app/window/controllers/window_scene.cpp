@@ -101,6 +101,8 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
   if (live_) {
     live_->move_pad(read_gamepad(), view_.camera);
     live_->tell_hand(poll_pedals(), view_.camera);
+    const bool key = keys_free && glfwGetKey(window_->handle(), GLFW_KEY_V) == GLFW_PRESS;
+    live_->drive(std::max(key ? 1.0 : 0.0, pedals_.value(kPowerPedal)));
     live_->update();
     shown_ = live_->snapshot();
     if (const std::string why = live_->take_recording_failure(); !why.empty())

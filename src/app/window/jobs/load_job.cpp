@@ -7,6 +7,7 @@
 #include "osteon/base/clock.h"
 #include "runs/demo_path.h"
 #include "runs/tray.h"
+#include "window/controllers/instrument_tray.h"
 
 namespace osteon {
 
@@ -101,6 +102,18 @@ Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
   }
   say("Planning the demonstration", 0.7);
   loaded.demo = demo_path(*loaded.the_case, spec);
+  return loaded.prepared ? prepare_carving(loaded) : Result<void>{};
+}
+
+// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins.
+Result<void> LoadJob::prepare_carving(Loaded& loaded) {
+  const Case& the_case = *loaded.the_case;
+  const auto tray = InstrumentTray::make(region_of(the_case), order_.instruments);
+  if (!tray || !can_carve(the_case, tray->run().names)) return {};
+  say("Looking into the bones that can be carved", 0.72);
+  auto carving = carving_for_run(the_case, tray->run().names);
+  if (!carving) return tl::unexpected(carving.error());
+  loaded.carving = std::move(*carving);
   return {};
 }
 
@@ -114,7 +127,10 @@ Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
   options.tray = *tray;
   auto carving = carving_for(*loaded.the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
-  options.carving = std::move(*carving);
+  options.carving = replay_of.carving = std::move(*carving);
+  options.on_cuts = [&](const CutsPatch& patch, double time_s) {
+    replay_of.cuts.add(patch, time_s);
+  };
   auto softs = softs_for(*loaded.the_case, *settings);
   if (!softs) return tl::unexpected(softs.error());
   options.softs = std::move(*softs);

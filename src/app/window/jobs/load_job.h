@@ -14,6 +14,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
+#include "runs/cut_history.h"
 #include "runs/replay_track.h"
 #include "runs/run_events.h"
 #include "ui/load_progress.h"
@@ -25,16 +26,19 @@ struct LoadOrder {
   std::string case_spec;             ///< as open_case takes it; not used for a recording
   std::filesystem::path recording;   ///< empty: the case alone
   std::shared_ptr<const Case> open;  ///< a case that is open already, used again when it is the one
+  std::vector<std::string> instruments = {};  ///< in the tray whatever the case's region is
 };
 
 struct LoadedReplay {
   std::filesystem::path file;
   RecordingHeader header;
-  ReplayTrack track;                     ///< of the first hand
-  std::vector<ReplayTrack> more;         ///< of the others
-  std::vector<std::string> hands;        ///< names, where there are several
-  std::vector<std::string> instruments;  ///< names by their place in the tray
-  Tray tray;                             ///< what the hands held
+  ReplayTrack track;                            ///< of the first hand
+  std::vector<ReplayTrack> more;                ///< of the others
+  std::vector<std::string> hands;               ///< names, where there are several
+  std::vector<std::string> instruments;         ///< names by their place in the tray
+  Tray tray;                                    ///< what the hands held
+  std::shared_ptr<const CarvingSetup> carving;  ///< what they removed bone with; null: nothing
+  CutHistory cuts;
   RunEvents events;
   bool complete = true;  ///< false: the recording ended with a kill
   bool identical = true;
@@ -47,6 +51,8 @@ struct Loaded {
   std::string case_source;
   std::optional<PreparedCase> prepared;  ///< none: `open` was used again
   ProbePath demo;                        ///< empty when none could be made
+  /// For a live run with the case's tray; null: nothing can be carved.
+  std::shared_ptr<const CarvingSetup> carving;
   std::optional<LoadedReplay> replay;
 };
 
@@ -70,6 +76,7 @@ class LoadJob {
   Result<Loaded> run();
   Result<void> load_the_recording(Loaded& loaded, Recording& recording);
   Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
+  Result<void> prepare_carving(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
   void say(const char* what, double fraction);

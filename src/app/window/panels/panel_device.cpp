@@ -171,6 +171,7 @@ void draw_mapping(const PanelContext& c) {
   }
   draw_pedal(c, kDeadManPedal, "Dead-man pedal", "Press it now", mapping.dead_man);
   draw_pedal(c, kClutchPedal, "Clutch pedal", "Press it now", mapping.clutch);
+  draw_pedal(c, kPowerPedal, "Power pedal", "Press it now", mapping.power);
   if (changed) c.requests.mapping = mapping.settings;
 }
 

@@ -25,7 +25,7 @@ constexpr std::array<KeyLine, 10> kLook = {{
     {"Tab", "fold the panels away"},
 }};
 
-constexpr std::array<KeyLine, 12> kProbe = {{
+constexpr std::array<KeyLine, 13> kProbe = {{
     {"M", "take the probe, let it go"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
@@ -35,6 +35,7 @@ constexpr std::array<KeyLine, 12> kProbe = {{
     {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},
     {"T", "tray of instruments"},
     {"Page Up, Page Down, End", "instrument before, next; next size"},
+    {"V", "while it is held: its motor runs, its jaws shut"},
     {"K, U", "mark this moment, go back to it"},
     {"Esc", "force off at once"},
     {"Enter", "force on again"},

@@ -1,4 +1,4 @@
-#include "commands/path_commands.h"
+#include "runs/path_commands.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "osteon/base/bounded_queue.h"
+
+namespace osteon {
+
+class Carving;
+struct CarvingSetup;
+
+/// What a picture must know of a carved bone: the cuts of one block as they are now, or that the
+/// bone is whole again (`clear`), after which its blocks follow.
+struct CutsPatch {
+  static constexpr std::size_t kNodes = 512;  ///< of a block
+  std::uint32_t bone = 0, block = 0;
+  bool clear = false;
+  std::array<std::int16_t, kNodes> cut{};  ///< um, see CarvedField::cuts
+};
+
+/// From physics to one thread that draws. Of a block that changed often the reader gets the newest
+/// state alone; while it reads nothing, what it has to learn waits with physics in places made
+/// beforehand. Nobody waits for the other, and nothing is allocated after the making.
+class CutsFeed {
+ public:
+  explicit CutsFeed(const CarvingSetup& setup);
+
+  // Of physics.
+  /// Notes what the last step has changed; `all`: every bone may be another. Sends as much as there
+  /// is room for, in every eighth step.
+  void note(const Carving& carving, bool all);
+  /// Everything anew: the state was replaced. While all rest.
+  void note_all(const Carving& carving);
+
+  // Of who draws.
+  /// The next change; false: there is none yet.
+  bool take(CutsPatch& patch) { return queue_.pop(patch); }
+
+ private:
+  struct Bone {
+    bool carved = false, clear = false;
+    std::vector<std::uint8_t> waits;    ///< of each block
+    std::vector<std::uint32_t> blocks;  ///< that wait; capacity for all that may hold cuts
+  };
+  void add(std::uint32_t bone, std::uint32_t block);
+  void add_all(const Carving& carving);
+  void send(const Carving& carving);
+  bool send_bone(const Carving& carving, std::uint32_t bone);
+
+  std::vector<Bone> bones_;
+  std::uint32_t notes_ = 0;
+  CutsPatch patch_;
+  BoundedQueue<CutsPatch> queue_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "osteon/carve/carved_surface.h"
+#include "osteon/physics/carving.h"
+#include "osteon/render/renderer.h"
+#include "osteon/session/cuts_feed.h"
+
+namespace osteon {
+
+/// What is left of the bones that a session carves, for who draws them: it takes what the session
+/// tells and makes the surface of the blocks anew that have changed. Knows no picture.
+class CarvedPicture {
+ public:
+  /// Null: nothing is carved.
+  explicit CarvedPicture(std::shared_ptr<const CarvingSetup> setup);
+
+  void take(const CutsPatch& patch);
+  /// Every bone is whole again: before going through its cuts from the begin.
+  void make_whole();
+
+  struct Changed {
+    BoneId bone;
+    CubeGrid grid;
+    std::vector<SurfaceCube> cubes;
+  };
+  /// What looks different since it was last asked; for Renderer::set_cubes and its like.
+  std::vector<Changed> changes();
+
+ private:
+  struct Bone {
+    CarvedField field;
+    CarvedSurface surface;
+    bool waits = false;  ///< changed since it was last meshed
+  };
+  Bone* bone(std::uint32_t index);
+
+  std::shared_ptr<const CarvingSetup> setup_;
+  std::vector<std::optional<Bone>> bones_;  ///< made when their first cut comes
+};
+
+}  // namespace osteon
