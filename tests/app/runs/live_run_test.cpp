@@ -9,6 +9,7 @@
 #include "app/loops/fake_device.h"
 #include "osteon/base/file.h"
 #include "osteon/record/recording.h"
+#include "session/drilling.h"
 
 namespace osteon {
 namespace {
@@ -230,6 +231,38 @@ TEST(LiveHands, ARecordingOfACaseInAFolderKnowsWhereThatStood) {
   std::filesystem::remove(file);
   ASSERT_TRUE(recording);
   EXPECT_EQ(recording->header.case_path, folder.string());
+}
+
+// What a path says of instruments and power is done, and what it drills is shown. A new run begins
+// with whole bones.
+TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
+  const testing::Drilling with("drill:3.2");
+  ProbePath path;
+  path.with_instruments = true;
+  for (const auto& [time_s, z] : {std::pair{0.0, 0.001}, {0.2, -0.003}, {60.0, -0.003}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0.0003, 0.0002, testing::kTop_m + z);
+    sample.instrument = "drill";
+    sample.size_mm = 3.2;
+    sample.power = 1;
+    path.samples.push_back(sample);
+  }
+  RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
+  LiveRun live(with.the_case, "block", path, {}, tray);
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  std::size_t triangles = 0;
+  run_until(live, [&] {
+    for (const CarvedPicture::Changed& changed : live.carved().changes())
+      for (const SurfaceCube& cube : changed.cubes)
+        for (const float depth_m : cube.depth_m) triangles += depth_m > 0.0005f ? 1 : 0;
+    return triangles > 50;
+  });
+  EXPECT_EQ(live.snapshot().tool.power, 1);
+  const std::uint64_t number = live.run_number();
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  EXPECT_GT(live.run_number(), number);
+  EXPECT_TRUE(live.carved().changes().empty());
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ void WindowApp::install(Loaded loaded) {
     bone_middles_B_ = bone_middles(*case_);
     demo_ = loaded.demo;
     carving_ = loaded.carving;
+    if (!loaded.carving_problem.empty()) note(ToastKind::kWarning, loaded.carving_problem);
     const ViewState before = view_;
     const BoneId picked = picked_;
     recall_view();

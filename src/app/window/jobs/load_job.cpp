@@ -102,19 +102,22 @@ Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
   }
   say("Planning the demonstration", 0.7);
   loaded.demo = demo_path(*loaded.the_case, spec);
-  return loaded.prepared ? prepare_carving(loaded) : Result<void>{};
+  if (loaded.prepared) prepare_carving(loaded);
+  return {};
 }
 
-// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins.
-Result<void> LoadJob::prepare_carving(Loaded& loaded) {
+// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins; a bone
+// that cannot be carved is seen and felt all the same.
+void LoadJob::prepare_carving(Loaded& loaded) {
   const Case& the_case = *loaded.the_case;
   const auto tray = InstrumentTray::make(region_of(the_case), order_.instruments);
-  if (!tray || !can_carve(the_case, tray->run().names)) return {};
+  if (!tray || !can_carve(the_case, tray->run().names)) return;
   say("Looking into the bones that can be carved", 0.72);
   auto carving = carving_for_run(the_case, tray->run().names);
-  if (!carving) return tl::unexpected(carving.error());
-  loaded.carving = std::move(*carving);
-  return {};
+  if (carving)
+    loaded.carving = std::move(*carving);
+  else
+    loaded.carving_problem = carving.error().message();
 }
 
 Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {

@@ -53,6 +53,7 @@ struct Loaded {
   ProbePath demo;                        ///< empty when none could be made
   /// For a live run with the case's tray; null: nothing can be carved.
   std::shared_ptr<const CarvingSetup> carving;
+  std::string carving_problem;  ///< why nothing can, though a bone is felt as a field; empty: none
   std::optional<LoadedReplay> replay;
 };
 
@@ -76,7 +77,7 @@ class LoadJob {
   Result<Loaded> run();
   Result<void> load_the_recording(Loaded& loaded, Recording& recording);
   Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
-  Result<void> prepare_carving(Loaded& loaded);
+  void prepare_carving(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
   void say(const char* what, double fraction);
