@@ -170,8 +170,6 @@ void main() {
 #ifdef CHANGED
   if (is_left_out(v_place)) discard;
 #endif
-  // Fat that the tip lies in gives way to it: it is not seen from inside.
-  if (u_kind == 5 && !gl_FrontFacing) discard;
   vec3 v = -normalize(v_position);
   vec3 n = normalize(v_normal);
   if (dot(n, v) < 0.0) n = -n;

@@ -44,7 +44,7 @@ Viewport inner(const Viewport& r, int width, int height) {
 bool Renderer::Impl::stands_still(const RenderSnapshot& snapshot, const ViewState& still_view,
                                   int width, int height) const {
   if (!kept || kept->width != width || kept->height != height) return false;
-  if (!(kept->view == still_view)) return false;
+  if (!(kept->view == still_view) || kept->surfaces != painter.version()) return false;
   const double aspect = static_cast<double>(width) / height;
   const Frame frame =
       make_frame(still_view, aspect, painter.content(snapshot, still_view), {}, width, height);
@@ -60,7 +60,7 @@ bool Renderer::Impl::keep(const RenderSnapshot& snapshot, const ViewState& still
   if (!kept_picture.ensure(width, height, 0) || !resolved.ensure(width, height, 0)) return false;
   copy_color(drawn, kept_picture);
   const Viewport busy = busy_part(frame, content, width, height);
-  smoother.smooth(drawn, kept_picture, {&busy, 1});
+  smoother->smooth(drawn, kept_picture, {&busy, 1});
   changed = TileMask(width, height);
   changed.mark_all();
   composed.reset();
@@ -116,7 +116,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
       copy_color(drawn, resolved, r);
       areas.push_back(inner(r, width, height));
     }
-    smoother.smooth(drawn, resolved, areas);
+    smoother->smooth(drawn, resolved, areas);
   }
   changed = std::move(tiles);
   composed = snapshot.tool;
@@ -135,7 +135,7 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
     draw_tile(snapshot, view, viewport.aspect(), {}, framebuffer, viewport);
   };
   if (!stands_still(snapshot, still_view, width, height)) {
-    kept = Kept{still_view, snapshot.bones, width, height};
+    kept = Kept{still_view, snapshot.bones, width, height, painter.version()};
     kept_ready = false;
     return draw_all();
   }

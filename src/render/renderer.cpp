@@ -85,7 +85,7 @@ bool Renderer::Impl::draw_tile(const RenderSnapshot& snapshot, const ViewState& 
     if (!resolved.ensure(drawn.width(), drawn.height(), 0)) return false;
     copy_color(drawn, resolved);
     const Viewport busy = busy_part(frame, content, viewport.width, viewport.height);
-    smoother.smooth(drawn, resolved, {&busy, 1});
+    smoother->smooth(drawn, resolved, {&busy, 1});
   } else {
     if (!resolved.ensure(drawn.width(), drawn.height(), 0)) return false;
     copy_color(drawn, resolved);
@@ -107,11 +107,12 @@ Result<Renderer> Renderer::create(const Case& the_case, const Tool& tool,
   auto smoother = EdgeSmoother::create(shader_dir);
   if (!smoother) return tl::unexpected(smoother.error());
   const std::string device = gl_text(GL_RENDERER);
-  auto impl = std::unique_ptr<Impl>(new Impl{.painter = std::move(*painter),
-                                             .smoother = std::move(*smoother),
-                                             .picker = Picker(the_case),
-                                             .device = device,
-                                             .software = is_software_gl(device)});
+  auto impl = std::unique_ptr<Impl>(
+      new Impl{.painter = std::move(*painter),
+               .smoother = std::make_shared<EdgeSmoother>(std::move(*smoother)),
+               .picker = std::make_shared<Picker>(the_case),
+               .device = device,
+               .software = is_software_gl(device)});
   return Renderer(std::move(impl));
 }
 
@@ -124,6 +125,14 @@ Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Renderer Renderer::another_view() const {
+  return Renderer(std::unique_ptr<Impl>(new Impl{.painter = impl_->painter.another(),
+                                                 .smoother = impl_->smoother,
+                                                 .picker = impl_->picker,
+                                                 .device = impl_->device,
+                                                 .software = impl_->software}));
+}
 
 void Renderer::set_surfaces(const PreparedCase& prepared) {
   impl_->painter.set_surfaces(prepared);
@@ -195,12 +204,12 @@ SurfacePoint Renderer::pick_point(const RenderSnapshot& snapshot, const ViewStat
                                   const Viewport& viewport, double x_px, double y_px) const {
   const bool inside = x_px >= 0 && y_px >= 0 && x_px < viewport.width && y_px < viewport.height;
   if (viewport.empty() || !inside) return {};
-  return impl_->picker.pick(snapshot, view, ray_through(view.camera, viewport, x_px, y_px));
+  return impl_->picker->pick(snapshot, view, ray_through(view.camera, viewport, x_px, y_px));
 }
 
 void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
   impl_->painter.set_surface(bone.index, mesh_B);
-  impl_->picker.set_surface(bone.index, mesh_B);
+  impl_->picker->set_surface(bone.index, mesh_B);
   impl_->kept.reset();
 }
 

@@ -12,8 +12,8 @@ namespace osteon {
 
 struct Renderer::Impl {
   ScenePainter painter;
-  EdgeSmoother smoother;
-  Picker picker;
+  std::shared_ptr<const EdgeSmoother> smoother;
+  std::shared_ptr<Picker> picker;
   std::string device;
   bool software = false;
   RenderTarget drawn{}, resolved{}, still{};
@@ -25,6 +25,7 @@ struct Renderer::Impl {
     ViewState view;
     BoneSnapshot bones;
     int width = 0, height = 0;
+    std::uint64_t surfaces = 0;  ///< ScenePainter::version
   };
   std::optional<Kept> kept{};
   RenderTarget kept_picture{};  ///< of `kept`, without the tool

@@ -113,19 +113,33 @@ bool is_shown(const RenderSnapshot& snapshot, const ViewState& view, std::size_t
          look.opacity >= kSeenThrough && is_finite(snapshot.bones.bones[bone].X_WB);
 }
 
+ScenePainter ScenePainter::another() const {
+  ScenePainter painter;
+  painter.shared_ = shared_;
+  return painter;
+}
+
+const GpuMesh& ScenePainter::exact_surface(std::size_t k) const {
+  static const GpuMesh nothing;
+  const std::vector<BoneModel>& models = shared_->bones;
+  return k < models.size() && !models[k].levels.empty() ? models[k].levels.front().surface
+                                                        : nothing;
+}
+
 void ScenePainter::set_surfaces(const PreparedCase& prepared) {
   static const ShadedMesh nothing;
-  for (std::size_t k = 0; k < bones_.size(); ++k) {
-    const std::size_t bones = rest_X_WB_.size();
+  ++shared_->version;
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
+    const std::size_t bones = shared_->rest_X_WB.size();
     const auto& meshes = k < bones ? prepared.bones : prepared.softs;
     const std::size_t at = k < bones ? k : k - bones;
     const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
-    bones_[k].closed = mesh.closed;
-    if (k < bones) bones_[k].changed.set_base(mesh);
-    bones_[k].levels.clear();
-    bones_[k].levels.push_back({GpuMesh(mesh), 0});
+    shared_->bones[k].closed = mesh.closed;
+    if (k < bones) shared_->bones[k].changed.set_base(mesh);
+    shared_->bones[k].levels.clear();
+    shared_->bones[k].levels.push_back({GpuMesh(mesh), 0});
     for (const ShadedMesh::Level& level : mesh.coarser)
-      bones_[k].levels.push_back({GpuMesh(mesh, level.triangles), level.error_m});
+      shared_->bones[k].levels.push_back({GpuMesh(mesh, level.triangles), level.error_m});
   }
 }
 
@@ -151,8 +165,9 @@ void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
 }
 
 void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
-  if (bone >= rest_X_WB_.size()) return;
-  BoneModel& model = bones_[bone];
+  if (bone >= shared_->rest_X_WB.size()) return;
+  ++shared_->version;
+  BoneModel& model = shared_->bones[bone];
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
   set_extent(model, mesh_B);
@@ -160,15 +175,18 @@ void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
 
 void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
                              std::span<const SurfaceCube> cubes) {
-  if (bone < rest_X_WB_.size()) bones_[bone].changed.set(grid, cubes, bone);
+  if (bone >= shared_->rest_X_WB.size()) return;
+  shared_->bones[bone].changed.set(grid, cubes, bone);
+  ++shared_->version;
 }
 
 void ScenePainter::clear_cubes() {
-  for (BoneModel& bone : bones_) bone.changed.clear();
+  for (BoneModel& bone : shared_->bones) bone.changed.clear();
+  ++shared_->version;
 }
 
 bool ScenePainter::any_changed() const {
-  return std::any_of(bones_.begin(), bones_.end(),
+  return std::any_of(shared_->bones.begin(), shared_->bones.end(),
                      [](const BoneModel& bone) { return !bone.changed.empty(); });
 }
 
@@ -182,22 +200,23 @@ ScenePainter::BoneModel ScenePainter::make_soft(const SoftPart& soft) {
 
 const BoneAppearance& ScenePainter::look_of(const ViewState& view, std::size_t k) const {
   static const BoneAppearance hidden{.visible = false};
-  if (k < rest_X_WB_.size()) return appearance(view, k);
-  const std::size_t soft = k - rest_X_WB_.size();
+  if (k < shared_->rest_X_WB.size()) return appearance(view, k);
+  const std::size_t soft = k - shared_->rest_X_WB.size();
   return soft < view.softs.size() ? view.softs[soft] : hidden;
 }
 
 bool ScenePainter::shows(const RenderSnapshot& snapshot, const ViewState& view,
                          std::size_t k) const {
-  if (k < rest_X_WB_.size()) return is_shown(snapshot, view, k);
+  if (k < shared_->rest_X_WB.size()) return is_shown(snapshot, view, k);
   const BoneAppearance& look = look_of(view, k);
   return look.visible && look.opacity >= kSeenThrough && is_finite(pose(snapshot, k));
 }
 
 /// A soft part follows the mean motion of its bones away from rest.
 Pose ScenePainter::pose(const RenderSnapshot& snapshot, std::size_t k) const {
-  if (k < rest_X_WB_.size()) return snapshot.bones.bones[k].X_WB;
-  return mean_motion(snapshot.bones, rest_X_WB_, bones_[k].rides_on, bones_[k].center_B);
+  if (k < shared_->rest_X_WB.size()) return snapshot.bones.bones[k].X_WB;
+  return mean_motion(snapshot.bones, shared_->rest_X_WB, shared_->bones[k].rides_on,
+                     shared_->bones[k].center_B);
 }
 
 Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,
@@ -207,10 +226,10 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
   const struct {
     Program* program;
     const char *vert, *frag;
-  } programs[] = {{&painter.bone_, "surface", "bone"},
-                  {&painter.metal_, "surface", "metal"},
-                  {&painter.mark_, "surface", "mark"},
-                  {&painter.ground_, "screen", "ground"}};
+  } programs[] = {{&painter.shared_->bone, "surface", "bone"},
+                  {&painter.shared_->metal, "surface", "metal"},
+                  {&painter.shared_->mark, "surface", "mark"},
+                  {&painter.shared_->ground, "screen", "ground"}};
   for (const auto& p : programs) {
     auto loaded = Program::load(shader_dir, p.vert, p.frag);
     if (!loaded) return tl::unexpected(loaded.error());
@@ -218,18 +237,18 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
   }
   auto changed = Program::load_changed(shader_dir, "surface", "bone");
   if (!changed) return tl::unexpected(changed.error());
-  painter.changed_bone_ = std::move(*changed);
+  painter.shared_->changed_bone = std::move(*changed);
   for (const Bone& bone : the_case.bones) {
-    painter.bones_.push_back(make_bone(bone));
-    painter.rest_X_WB_.push_back(bone.X_WB);
+    painter.shared_->bones.push_back(make_bone(bone));
+    painter.shared_->rest_X_WB.push_back(bone.X_WB);
   }
-  for (const SoftPart& soft : the_case.softs) painter.bones_.push_back(make_soft(soft));
+  for (const SoftPart& soft : the_case.softs) painter.shared_->bones.push_back(make_soft(soft));
   painter.set_surfaces(prepared);
-  painter.tools_.push_back(make_tool_model(tool));
-  painter.shaft_ = GpuMesh(plain_shaded(cylinder(20)));
-  painter.head_ = GpuMesh(plain_shaded(cone(24)));
-  painter.ball_ = GpuMesh(plain_shaded(ball(12, 20)));
-  painter.no_vertices_ = make_vertex_array();
+  painter.shared_->tools.push_back(make_tool_model(tool));
+  painter.shared_->shaft = GpuMesh(plain_shaded(cylinder(20)));
+  painter.shared_->head = GpuMesh(plain_shaded(cone(24)));
+  painter.shared_->ball = GpuMesh(plain_shaded(ball(12, 20)));
+  painter.shared_->no_vertices = make_vertex_array();
   return painter;
 }
 
@@ -245,8 +264,9 @@ ScenePainter::ToolModel ScenePainter::make_tool_model(const Tool& tool) {
 
 void ScenePainter::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   if (tray.empty()) return;
-  tools_.clear();
-  for (const auto& tool : tray) tools_.push_back(make_tool_model(*tool));
+  ++shared_->version;
+  shared_->tools.clear();
+  for (const auto& tool : tray) shared_->tools.push_back(make_tool_model(*tool));
 }
 
 void ScenePainter::set_marks(std::span<const SolidMark> marks) {
@@ -281,9 +301,9 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
     box.include(p - Vec3::Constant(radius));
     box.include(p + Vec3::Constant(radius));
   };
-  for (std::size_t k = 0; k < bones_.size(); ++k)
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k)
     if (shows(snapshot, view, k))
-      include(pose(snapshot, k) * bones_[k].center_B, bones_[k].radius_m);
+      include(pose(snapshot, k) * shared_->bones[k].center_B, shared_->bones[k].radius_m);
   const auto include_tool = [&](const ToolState& state, const Pose& X) {
     if (!is_finite(X) || !view.show_proxy) return;
     const ToolModel& tool = model_of(state);
@@ -338,11 +358,12 @@ void ScenePainter::set_tool_shade(const Program& program, const RenderSnapshot& 
 void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const {
   if (any_changed()) {
-    set_shared(changed_bone_, view, frame);
-    set_tool_shade(changed_bone_, snapshot, view, frame);
+    set_shared(shared_->changed_bone, view, frame);
+    set_tool_shade(shared_->changed_bone, snapshot, view, frame);
   }
-  for (const Program* p : {&metal_, &mark_, &bone_}) set_shared(*p, view, frame);
-  set_tool_shade(bone_, snapshot, view, frame);
+  for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->bone})
+    set_shared(*p, view, frame);
+  set_tool_shade(shared_->bone, snapshot, view, frame);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
@@ -375,12 +396,12 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
                                                    const ViewState& view, const Frame& frame,
                                                    Passes passes) const {
   std::vector<std::pair<double, std::size_t>> by_depth;
-  for (std::size_t k = 0; k < bones_.size(); ++k) {
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     if (!shows(snapshot, view, k) || !passes(look_of(view, k))) continue;
-    const Vec3 center_W = pose(snapshot, k) * bones_[k].center_B;
-    if (!in_sight(frame, center_W, bones_[k].radius_m)) continue;
+    const Vec3 center_W = pose(snapshot, k) * shared_->bones[k].center_B;
+    if (!in_sight(frame, center_W, shared_->bones[k].radius_m)) continue;
     const double depth = -(frame.X_CW * center_W).z();
-    by_depth.emplace_back(bones_[k].outermost ? -1e300 : depth, k);
+    by_depth.emplace_back(shared_->bones[k].outermost ? -1e300 : depth, k);
   }
   std::sort(by_depth.begin(), by_depth.end());
   std::vector<std::size_t> bones;
@@ -390,7 +411,7 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
 
 const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapshot,
                                      const ViewState& view, const Frame& frame) const {
-  const BoneModel& bone = bones_[k];
+  const BoneModel& bone = shared_->bones[k];
   const double allowed_px =
       view.quality == RenderQuality::kFine ? kLevelErrorFine_px : kLevelError_px;
   const Vec3 center_W = pose(snapshot, k) * bone.center_B;
@@ -412,9 +433,9 @@ void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
 
 void ScenePainter::draw_changed(std::size_t k, const RenderSnapshot& snapshot,
                                 const Frame& frame) const {
-  if (frame.tiles == nullptr) return bones_[k].changed.draw();
+  if (frame.tiles == nullptr) return shared_->bones[k].changed.draw();
   const Pose X_CB = frame.X_CW * pose(snapshot, k);
-  bones_[k].changed.draw([&](const GpuMesh::Chunk& chunk) {
+  shared_->bones[k].changed.draw([&](const GpuMesh::Chunk& chunk) {
     return in_tiles(frame, X_CB * chunk.center, chunk.radius);
   });
 }
@@ -427,20 +448,20 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
     program.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     program.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
   };
-  const ChangedCubes& changed = bones_[k].changed;
+  const ChangedCubes& changed = shared_->bones[k].changed;
   if (!changed.empty()) {
-    begin(changed_bone_);
-    changed.hide(changed_bone_);
+    begin(shared_->changed_bone);
+    changed.hide(shared_->changed_bone);
     draw_surface(k, snapshot, view, frame);
   }
-  begin(bone_);
+  begin(shared_->bone);
   if (changed.empty()) return draw_surface(k, snapshot, view, frame);
   draw_changed(k, snapshot, frame);
 }
 
 void ScenePainter::set_felt_colors(const ViewState& view) const {
   const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
-  for (const Program* program : {&changed_bone_, &bone_}) {
+  for (const Program* program : {&shared_->changed_bone, &shared_->bone}) {
     program->use();
     for (std::size_t k = 0; k < kFeltColors.size(); ++k)
       program->set(names[k],
@@ -452,12 +473,12 @@ void ScenePainter::set_felt_colors(const ViewState& view) const {
 /// The nearest first: what they hide is never shaded.
 void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
                                       const Frame& frame) const {
-  bone_.use();
+  shared_->bone.use();
   set_felt_colors(view);
   glCullFace(GL_BACK);
   const auto solid = [](const BoneAppearance& look) { return !is_clear(look); };
   for (const std::size_t k : near_to_far(snapshot, view, frame, solid)) {
-    if (bones_[k].closed) glEnable(GL_CULL_FACE);
+    if (shared_->bones[k].closed) glEnable(GL_CULL_FACE);
     paint_bone(k, snapshot, view, frame);
     glDisable(GL_CULL_FACE);
   }
@@ -466,30 +487,31 @@ void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const View
 /// The bone's back faces, pushed outwards on the screen, show as a line around it.
 void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
                                   const Frame& frame, bool clear) const {
-  mark_.use();
-  mark_.set("u_color", kAccent);
-  mark_.set("u_form", 0.0f);
-  mark_.set("u_edge", 0.0f);
-  mark_.set("u_outline", Eigen::Vector2f(frame.pixel_clip * kOutline_px));
+  shared_->mark.use();
+  shared_->mark.set("u_color", kAccent);
+  shared_->mark.set("u_form", 0.0f);
+  shared_->mark.set("u_edge", 0.0f);
+  shared_->mark.set("u_outline", Eigen::Vector2f(frame.pixel_clip * kOutline_px));
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
-  for (std::size_t k = 0; k < bones_.size(); ++k) {
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     const BoneAppearance& look = look_of(view, k);
     if (!look.highlighted || is_clear(look) != clear || !shows(snapshot, view, k)) continue;
-    mark_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+    shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     draw_surface(k, snapshot, view, frame);
   }
   glDisable(GL_CULL_FACE);
-  mark_.set("u_outline", Eigen::Vector2f(0, 0));
+  shared_->mark.set("u_outline", Eigen::Vector2f(0, 0));
 }
 
 void ScenePainter::paint_ground(const PictureWindow& w) const {
-  ground_.use();
-  ground_.set("u_window", Eigen::Vector4d(w.x, w.y, w.width, w.height).cast<float>().eval());
+  shared_->ground.use();
+  shared_->ground.set("u_window",
+                      Eigen::Vector4d(w.x, w.y, w.width, w.height).cast<float>().eval());
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  glBindVertexArray(no_vertices_.get());
+  glBindVertexArray(shared_->no_vertices.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
 }
@@ -499,7 +521,7 @@ void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewS
                                      const Frame& frame) const {
   std::vector<std::size_t> order = near_to_far(snapshot, view, frame, is_clear);
   std::reverse(order.begin(), order.end());
-  bone_.use();
+  shared_->bone.use();
   set_felt_colors(view);
   for (const std::size_t k : order) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -513,23 +535,23 @@ void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewS
 
 void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& view,
                                const Frame& frame) const {
-  mark_.use();
+  shared_->mark.use();
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  for (std::size_t k = 0; k < bones_.size(); ++k) {
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     if (!shows(snapshot, view, k)) continue;
-    mark_.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
-    for (std::size_t piece = 0; piece < bones_[k].pieces.size(); ++piece) {
+    shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+    for (std::size_t piece = 0; piece < shared_->bones[k].pieces.size(); ++piece) {
       const std::size_t tone = k + kPieceStep * piece;
-      mark_.set("u_color", hull_color(tone, 0.16f));
-      mark_.set("u_form", 0.8f);
-      mark_.set("u_edge", 0.15f);
-      bones_[k].pieces[piece].facets.draw();
-      mark_.set("u_color", hull_color(tone, bones_[k].line_opacity));
-      mark_.set("u_form", 0.0f);
-      mark_.set("u_edge", 0.0f);
-      bones_[k].pieces[piece].lines.draw();
+      shared_->mark.set("u_color", hull_color(tone, 0.16f));
+      shared_->mark.set("u_form", 0.8f);
+      shared_->mark.set("u_edge", 0.15f);
+      shared_->bones[k].pieces[piece].facets.draw();
+      shared_->mark.set("u_color", hull_color(tone, shared_->bones[k].line_opacity));
+      shared_->mark.set("u_form", 0.0f);
+      shared_->mark.set("u_edge", 0.0f);
+      shared_->bones[k].pieces[piece].lines.draw();
     }
   }
   glDisable(GL_CULL_FACE);
@@ -539,9 +561,9 @@ void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& 
 void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity,
                               const Frame& frame) const {
   if (tool.mesh.empty() || !is_finite(X_WT)) return;
-  metal_.use();
-  metal_.set("u_view_from_model", to_matrix(frame.X_CW * X_WT));
-  metal_.set("u_color", with_alpha(kSteel, opacity));
+  shared_->metal.use();
+  shared_->metal.set("u_view_from_model", to_matrix(frame.X_CW * X_WT));
+  shared_->metal.set("u_color", with_alpha(kSteel, opacity));
   if (opacity >= 1) return tool.mesh.draw();
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
@@ -553,27 +575,27 @@ void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, float opa
 
 /// Once where it is in sight, and faintly where bone hides it.
 void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const {
-  mark_.set("u_view_from_model", view_from_model);
+  shared_->mark.set("u_view_from_model", view_from_model);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
-  mark_.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), 0.22f));
+  shared_->mark.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), 0.22f));
   mesh.draw();
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);
-  mark_.set("u_color", kAmber);
+  shared_->mark.set("u_color", kAmber);
   mesh.draw();
 }
 
 /// The far side first, so that the inside of a cone is seen through its near side.
 void ScenePainter::paint_solid_marks(const Frame& frame) const {
-  mark_.use();
-  mark_.set("u_form", 0.5f);
-  mark_.set("u_edge", 0.25f);
-  mark_.set("u_view_from_model", to_matrix(frame.X_CW));
+  shared_->mark.use();
+  shared_->mark.set("u_form", 0.5f);
+  shared_->mark.set("u_edge", 0.25f);
+  shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW));
   glEnable(GL_CULL_FACE);
   glDepthMask(GL_FALSE);
   for (const Solid& solid : solids_) {
-    mark_.set("u_color", solid.color);
+    shared_->mark.set("u_color", solid.color);
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       glCullFace(hidden);
       solid.surface.draw();
@@ -584,22 +606,24 @@ void ScenePainter::paint_solid_marks(const Frame& frame) const {
 }
 
 void ScenePainter::paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const {
-  mark_.use();
-  mark_.set("u_form", 0.75f);
-  mark_.set("u_edge", 0.0f);
+  shared_->mark.use();
+  shared_->mark.set("u_form", 0.75f);
+  shared_->mark.set("u_edge", 0.0f);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   const ToolState& tool = snapshot.tool;
   for (std::size_t k = 0; k < std::min<std::size_t>(tool.contact_count, kMaxContacts); ++k) {
     const Pose X_CM = frame.X_CW * Pose{tool.contacts[k].p_W, Quat::Identity()};
-    if (is_finite(X_CM)) paint_mark(ball_, scaled(X_CM, kContactRadius_m, kContactRadius_m));
+    if (is_finite(X_CM))
+      paint_mark(shared_->ball, scaled(X_CM, kContactRadius_m, kContactRadius_m));
   }
   if (const auto arrow = force_arrow(tool)) {
     const double head = std::min(5 * kArrowRadius_m, 0.6 * arrow->length_m);
     const Pose X_WA{arrow->from_W, z_towards(arrow->dir_W)};
     const Pose X_AH{Vec3(0, 0, arrow->length_m - head), Quat::Identity()};
-    paint_mark(shaft_, scaled(frame.X_CW * X_WA, kArrowRadius_m, arrow->length_m - head));
-    paint_mark(head_, scaled(frame.X_CW * X_WA * X_AH, kArrowHeadWidths * kArrowRadius_m, head));
+    paint_mark(shared_->shaft, scaled(frame.X_CW * X_WA, kArrowRadius_m, arrow->length_m - head));
+    paint_mark(shared_->head,
+               scaled(frame.X_CW * X_WA * X_AH, kArrowHeadWidths * kArrowRadius_m, head));
   }
   glDisable(GL_CULL_FACE);
 }

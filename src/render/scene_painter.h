@@ -13,12 +13,25 @@
 
 namespace osteon {
 
-/// Programs and meshes of a case and its tool, and the order in which they are drawn.
+/// Programs and meshes of a case and its tool, and the order in which they are drawn. Several
+/// painters may share them, each with other tools and marks of its own.
 class ScenePainter {
  public:
   static Result<ScenePainter> create(const Case& the_case, const Tool& tool,
                                      const std::filesystem::path& shader_dir,
                                      const PreparedCase& prepared);
+  /// Shares all that is set of surfaces and tray, now and later.
+  ScenePainter another() const;
+  /// Grows whenever what is shared changes.
+  std::uint64_t version() const { return shared_->version; }
+  /// The finest surface of a model: the bones, after them the soft parts.
+  const GpuMesh& exact_surface(std::size_t k) const;
+  /// Where something else stands than that surface, of a bone.
+  const ChangedCubes& changed(std::size_t bone) const { return shared_->bones[bone].changed; }
+  /// By ToolState::instrument; null: the tray has no such place.
+  const GpuMesh* tool_surface(std::uint32_t instrument) const {
+    return instrument < shared_->tools.size() ? &shared_->tools[instrument].mesh : nullptr;
+  }
 
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
   void set_surfaces(const PreparedCase& prepared);
@@ -63,7 +76,8 @@ class ScenePainter {
   };
   static ToolModel make_tool_model(const Tool& tool);
   const ToolModel& model_of(const ToolState& tool) const {
-    return tools_[tool.instrument < tools_.size() ? tool.instrument : 0];
+    const std::vector<ToolModel>& tools = shared_->tools;
+    return tools[tool.instrument < tools.size() ? tool.instrument : 0];
   }
   /// How far from the tool its shade falls on bone: by closeness, and as a shadow along the light.
   struct ShadeReach {
@@ -135,10 +149,17 @@ class ScenePainter {
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
   void paint_solid_marks(const Frame& frame) const;
 
-  Program bone_, changed_bone_, metal_, mark_, ground_;
-  std::vector<BoneModel> bones_;  ///< and soft parts
-  std::vector<Pose> rest_X_WB_;   ///< of the bones
-  std::vector<ToolModel> tools_;  ///< by ToolState::instrument; not empty
+  /// What all painters of a case have in common; never null.
+  struct Shared {
+    Program bone, changed_bone, metal, mark, ground;
+    std::vector<BoneModel> bones;  ///< and soft parts
+    std::vector<Pose> rest_X_WB;   ///< of the bones
+    std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty
+    GpuMesh shaft, head, ball;
+    GlVertexArray no_vertices;
+    std::uint64_t version = 1;
+  };
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<ToolState> others_;
   struct Solid {
     GpuMesh surface;
@@ -146,8 +167,6 @@ class ScenePainter {
     Aabb box_W;
   };
   std::vector<Solid> solids_;
-  GpuMesh shaft_, head_, ball_;
-  GlVertexArray no_vertices_;
 };
 
 /// Where bone k is, if it is to be drawn at all.

@@ -156,10 +156,10 @@ TileMask ScenePainter::bone_tiles(const RenderSnapshot& snapshot, const ViewStat
                                   const Frame& frame, int width, int height) const {
   TileMask mask(width, height);
   Marker marker(frame, width, height, mask);
-  for (std::size_t k = 0; k < bones_.size(); ++k) {
-    if (!shows(snapshot, view, k) || bones_[k].radius_m <= 0) continue;
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
+    if (!shows(snapshot, view, k) || shared_->bones[k].radius_m <= 0) continue;
     const Pose X_CB = frame.X_CW * pose(snapshot, k);
-    const Capsule& c = bones_[k].around;
+    const Capsule& c = shared_->bones[k].around;
     marker.capsule(X_CB * c.a, X_CB * c.b, c.radius_m);
   }
   return mask;
@@ -168,15 +168,15 @@ TileMask ScenePainter::bone_tiles(const RenderSnapshot& snapshot, const ViewStat
 bool ScenePainter::bones_look_still(const BoneSnapshot& before, const BoneSnapshot& now,
                                     const Frame& frame) const {
   if (before.count != now.count) return false;
-  for (std::size_t k = 0; k < std::min<std::size_t>(bones_.size(), now.count); ++k) {
+  for (std::size_t k = 0; k < std::min<std::size_t>(shared_->bones.size(), now.count); ++k) {
     const Pose& a = before.bones[k].X_WB;
     const Pose& b = now.bones[k].X_WB;
     if (!is_finite(a) || !is_finite(b)) return false;
-    const double radius = bones_[k].radius_m + bones_[k].center_B.norm();
+    const double radius = shared_->bones[k].radius_m + shared_->bones[k].center_B.norm();
     const double turned = 2 * (a.q.conjugate() * b.q).vec().norm();
     const double moved = (a.p - b.p).norm() + radius * turned;
     const double pixel_m =
-        finest_metres_per_pixel(frame, b * bones_[k].center_B, bones_[k].radius_m);
+        finest_metres_per_pixel(frame, b * shared_->bones[k].center_B, shared_->bones[k].radius_m);
     if (!(moved <= kStill_px * pixel_m)) return false;
   }
   return true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -11,9 +12,9 @@
 #include "frame.h"
 #include "gl_objects.h"
 #include "gpu_mesh.h"
-#include "joint_wall.h"
 #include "light_target.h"
 #include "render_target.h"
+#include "renderer_impl.h"
 #include "shapes.h"
 #include "soft_motion.h"
 #include "tissue_part.h"
@@ -59,7 +60,7 @@ Eigen::Matrix4f flat_projection(double half) {
 
 /// The camera's gain: brings the mean of what is seen to kMeanLight. Sparks count no more than
 /// their surroundings.
-double exposure_of(int side) {
+double gain_for(int side) {
   std::vector<float> rgba(4u * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, rgba.data());
   double sum = 0, count = 0;
@@ -91,68 +92,157 @@ Image read_back(int width, int height) {
   return image;
 }
 
+/// Whether a ball in view space can show in a square picture, `half` the tangent of half its width.
+bool in_square(const Vec3& center_C, double radius_m, double half) {
+  const double reach = radius_m * std::sqrt(1 + half * half);
+  const double edge = -half * center_C.z();
+  return std::abs(center_C.x()) - edge <= reach && std::abs(center_C.y()) - edge <= reach;
+}
+
+/// Less than a student can see: of a place, and of a turn (the sine of its half).
+constexpr double kStill_m = 2e-6, kStill_turn = 2e-5;
+
+bool looks_still(const Pose& a, const Pose& b) {
+  return (a.p - b.p).norm() < kStill_m && (a.q.conjugate() * b.q).vec().norm() < kStill_turn;
+}
+
+bool looks_still(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Pose& p, const Pose& q) { return looks_still(p, q); });
+}
+
+TissuePart steel() {
+  TissuePart part;
+  part.pattern = TissuePattern::kSteel;
+  part.tint = {0.86f, 0.88f, 0.91f};
+  return part;
+}
+
 }  // namespace
 
 struct ScopeRenderer::Impl {
+  /// How the picture that is kept was drawn.
+  struct Painted {
+    int side_px = 0;
+    Pose X_WC;
+    double half_field_rad = 0, barrel = 1;
+    std::vector<Pose> parts, tools;
+    std::vector<std::size_t> instruments;
+    std::uint64_t version = 0, wall = 0;
+    bool still(const Painted& b) const {
+      return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
+             instruments == b.instruments && version == b.version && wall == b.wall &&
+             looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
+             looks_still(tools, b.tools);
+    }
+  };
+
   Program tissue, changed_tissue, lens;
+  std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
   std::vector<TissuePart> parts;
   TissuePart wall;
-  std::vector<MeshDistance> bones;
-  std::vector<std::string> names;
-  std::vector<Pose> X_WB, rest_X_WB;
-  std::vector<TissuePart> tray;  ///< by ToolState::instrument
+  std::uint64_t walls = 0;  ///< that there have been
+  std::vector<Pose> rest_X_WB;
+  TissuePart tool = steel();
+  std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
   std::vector<std::pair<std::size_t, Pose>> tools;
   LightTarget flat;
   RenderTarget picture;
   GlVertexArray no_vertices;
+  bool software = false;
+  std::optional<Painted> painted;
+  int calm = 0;  ///< pictures since the last that moved
+  double gain = 0;
 
-  std::vector<ChangedCubes> changed;  ///< of the bones, which are the first parts
+  std::vector<ChangedCubes> own_changed;  ///< of the bones, where there is no scene
+  std::uint64_t cubes = 0;                ///< how often they have been set
 
-  void describe(const Program& program, const TissuePart& part, const Pose& X_CW) const {
-    program.set("u_view_from_model", to_matrix(X_CW * part.X_WM));
-    program.set("u_kind", static_cast<int>(part.pattern));
-    program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
-    program.set("u_fibre", part.fibre);
-    program.set("u_center", part.center);
+  const GpuMesh& surface(const TissuePart& part) const {
+    return scene ? scene->exact_surface(part.model) : part.surface;
   }
-  void paint(const TissuePart& part, const Pose& X_CW) const {
-    describe(tissue, part, X_CW);
-    part.surface.draw();
+  const GpuMesh* tool_surface(std::size_t instrument) const {
+    if (scene) return scene->tool_surface(static_cast<std::uint32_t>(instrument));
+    return instrument < tray.size() ? &tray[instrument] : nullptr;
   }
-  void paint_bone(std::size_t k, const Pose& X_CW, double half) const {
-    if (changed[k].empty()) return paint(parts[k], X_CW);
-    begin(changed_tissue, half);
-    describe(changed_tissue, parts[k], X_CW);
-    changed[k].hide(changed_tissue);
-    parts[k].surface.draw();
-    begin(tissue, half);
-    describe(tissue, parts[k], X_CW);
-    changed[k].draw();
+  /// Where another surface stands than was prepared; null: nowhere.
+  const ChangedCubes* changed(const TissuePart& part) const {
+    if (part.model >= rest_X_WB.size()) return nullptr;
+    const ChangedCubes* all = scene                             ? &scene->changed(part.model)
+                              : part.model < own_changed.size() ? &own_changed[part.model]
+                                                                : nullptr;
+    return all && !all->empty() ? all : nullptr;
   }
+
   static void begin(const Program& program, double half) {
     program.use();
     program.set("u_clip_from_view", flat_projection(half));
     program.set("u_light", 1.0f);
   }
+  static void describe(const Program& program, const TissuePart& part, const Pose& X_CM) {
+    program.set("u_view_from_model", to_matrix(X_CM));
+    program.set("u_kind", static_cast<int>(part.pattern));
+    program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
+    program.set("u_fibre", part.fibre);
+    program.set("u_center", part.center);
+  }
+  static void draw_seen(const GpuMesh& mesh, const Pose& X_CM, double half) {
+    mesh.draw([&](const GpuMesh::Chunk& chunk) {
+      return in_square(X_CM * chunk.center, chunk.radius, half);
+    });
+  }
+  /// `tissue` is in use before and after.
+  void paint_part(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM,
+                  double half) const {
+    if (const ChangedCubes* cubes_of = changed(part)) {
+      begin(changed_tissue, half);
+      describe(changed_tissue, part, X_CM);
+      cubes_of->hide(changed_tissue);
+      draw_seen(mesh, X_CM, half);
+      begin(tissue, half);
+      describe(tissue, part, X_CM);
+      cubes_of->draw();
+      return;
+    }
+    describe(tissue, part, X_CM);
+    // Fat that the tip lies in gives way to it: it is not seen from inside.
+    if (part.pattern == TissuePattern::kFat) glEnable(GL_CULL_FACE);
+    draw_seen(mesh, X_CM, half);
+    glDisable(GL_CULL_FACE);
+  }
 
+  void paint_all(const ScopeCamera& camera, double half) const {
+    const Pose X_CW = camera.X_WC().inverse();
+    for (const TissuePart& part : parts) paint_part(part, surface(part), X_CW * part.X_WM, half);
+    if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half);
+    for (const auto& [instrument, X_WT] : tools)
+      if (const GpuMesh* mesh = tool_surface(instrument))
+        paint_part(tool, *mesh, X_CW * X_WT, half);
+  }
+
+  /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
+  /// for what is seen only.
   void paint_flat(const ScopeCamera& camera, double half) const {
     glBindFramebuffer(GL_FRAMEBUFFER, flat.framebuffer());
     glViewport(0, 0, flat.side(), flat.side());
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClearColor(0, 0, 0, 1);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     begin(tissue, half);
-    const Pose X_CW = camera.X_WC().inverse();
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      k < changed.size() ? paint_bone(k, X_CW, half) : paint(parts[k], X_CW);
-    if (!wall.surface.empty()) paint(wall, X_CW);
-    for (const auto& [instrument, X_WT] : tools) paint(tray[instrument], X_CW * X_WT);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    paint_all(camera, half);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    paint_all(camera, half);
+    glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
   }
 
@@ -181,6 +271,36 @@ struct ScopeRenderer::Impl {
     glBindVertexArray(0);
     glBindTexture(GL_TEXTURE_2D, 0);
   }
+
+  Painted as_it_is(const ScopeCamera& camera, int side_px) const {
+    Painted now;
+    now.side_px = side_px;
+    now.X_WC = camera.X_WC();
+    now.half_field_rad = camera.half_field_rad();
+    now.barrel = camera.barrel();
+    now.wall = walls;
+    now.version = scene ? scene->version() : cubes;
+    for (const TissuePart& part : parts) now.parts.push_back(part.X_WM);
+    for (const auto& [instrument, X_WT] : tools) {
+      now.instruments.push_back(instrument);
+      now.tools.push_back(X_WT);
+    }
+    return now;
+  }
+
+  /// As many pixels as the round picture has in its middle, where the lens shows most, times
+  /// `finer`.
+  static int flat_side(const ScopeCamera& camera, const Viewport& viewport, double finer) {
+    const double per_tangent = ScopeCamera::radius_px(viewport) * camera.barrel() /
+                               std::tan(camera.barrel() * camera.half_field_rad());
+    return std::clamp(static_cast<int>(std::ceil(finer * 2 * flat_half(camera) * per_tangent)), 16,
+                      kMaxImageSide);
+  }
+  static double flat_half(const ScopeCamera& camera) {
+    return 1.01 * std::tan(camera.half_field_rad());
+  }
+  static Result<std::unique_ptr<Impl>> load(const std::filesystem::path& data_dir);
+  void add_parts(const Case& the_case);
 };
 
 ScopeRenderer::ScopeRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -188,9 +308,8 @@ ScopeRenderer::~ScopeRenderer() = default;
 ScopeRenderer::ScopeRenderer(ScopeRenderer&&) noexcept = default;
 ScopeRenderer& ScopeRenderer::operator=(ScopeRenderer&&) noexcept = default;
 
-Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
-                                            const std::filesystem::path& data_dir,
-                                            const PreparedCase& prepared) {
+Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
+    const std::filesystem::path& data_dir) {
   auto impl = std::make_unique<Impl>();
   auto tissue = Program::load(data_dir / "shaders", "tissue");
   if (!tissue) return tl::unexpected(tissue.error());
@@ -202,101 +321,160 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
   impl->changed_tissue = std::move(*changed);
   impl->lens = std::move(*lens);
   impl->no_vertices = make_vertex_array();
-  for (std::size_t k = 0; k < the_case.bones.size() && k < prepared.bones.size(); ++k) {
-    const Bone& bone = the_case.bones[k];
+  impl->wall.pattern = TissuePattern::kSynovium;
+  return impl;
+}
+
+/// Bones, then soft parts without the skin.
+void ScopeRenderer::Impl::add_parts(const Case& the_case) {
+  for (std::size_t k = 0; k < the_case.bones.size(); ++k) {
     TissuePart part;
-    part.surface = GpuMesh(prepared.bones[k]);
-    impl->changed.emplace_back().set_base(prepared.bones[k]);
-    part.X_WM = bone.X_WB;
-    impl->parts.push_back(std::move(part));
-    impl->bones.emplace_back(bone.mesh);
-    impl->names.push_back(bone.name);
-    impl->X_WB.push_back(bone.X_WB);
-    impl->rest_X_WB.push_back(bone.X_WB);
+    part.model = k;
+    part.X_WM = the_case.bones[k].X_WB;
+    rest_X_WB.push_back(part.X_WM);
+    parts.push_back(std::move(part));
   }
-  for (std::size_t k = 0; k < the_case.softs.size() && k < prepared.softs.size(); ++k) {
+  for (std::size_t k = 0; k < the_case.softs.size(); ++k) {
     const SoftPart& soft = the_case.softs[k];
     if (soft.kind == "skin") continue;
     TissuePart part;
-    part.surface = GpuMesh(prepared.softs[k]);
+    part.model = the_case.bones.size() + k;
     part.pattern = pattern_of(soft.kind);
     part.tint = soft.color_srgb;
     for (const BoneId bone : soft.bones) part.rides_on.push_back(bone.index);
     find_fibres(soft.mesh_W.vertices, part);
     part.middle = part.center.cast<double>();
-    impl->parts.push_back(std::move(part));
+    parts.push_back(std::move(part));
   }
-  return ScopeRenderer(std::move(impl));
+}
+
+Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
+                                            const std::filesystem::path& data_dir,
+                                            const PreparedCase& prepared) {
+  auto impl = Impl::load(data_dir);
+  if (!impl) return tl::unexpected(impl.error());
+  (*impl)->add_parts(the_case);
+  const std::size_t bones = the_case.bones.size();
+  for (TissuePart& part : (*impl)->parts) {
+    const bool soft = part.model >= bones;
+    const auto& meshes = soft ? prepared.softs : prepared.bones;
+    const std::size_t at = soft ? part.model - bones : part.model;
+    if (at < meshes.size()) part.surface = GpuMesh(meshes[at]);
+  }
+  for (std::size_t k = 0; k < bones && k < prepared.bones.size(); ++k)
+    (*impl)->own_changed.emplace_back().set_base(prepared.bones[k]);
+  return ScopeRenderer(std::move(*impl));
+}
+
+Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
+                                            const std::filesystem::path& data_dir,
+                                            const Renderer& scene) {
+  auto impl = Impl::load(data_dir);
+  if (!impl) return tl::unexpected(impl.error());
+  (*impl)->add_parts(the_case);
+  (*impl)->scene.emplace(scene.impl_->painter.another());
+  (*impl)->software = scene.software_driver();
+  return ScopeRenderer(std::move(*impl));
 }
 
 void ScopeRenderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   impl_->tools.clear();
   impl_->tray.clear();
-  for (const auto& tool : tray) {
-    TissuePart part;
-    part.surface = GpuMesh(plain_shaded(tool->mesh));
-    part.pattern = TissuePattern::kSteel;
-    part.tint = {0.86f, 0.88f, 0.91f};
-    impl_->tray.push_back(std::move(part));
-  }
+  if (impl_->scene) return;
+  for (const auto& tool : tray) impl_->tray.emplace_back(plain_shaded(tool->mesh));
 }
 
 void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools) {
-  const std::size_t count = std::min<std::size_t>(impl_->X_WB.size(), bones.count);
+  const std::size_t count = std::min<std::size_t>(impl_->rest_X_WB.size(), bones.count);
   for (std::size_t k = 0; k < count; ++k)
-    if (is_finite(bones.bones[k].X_WB)) impl_->X_WB[k] = impl_->parts[k].X_WM = bones.bones[k].X_WB;
+    if (is_finite(bones.bones[k].X_WB)) impl_->parts[k].X_WM = bones.bones[k].X_WB;
   for (TissuePart& part : impl_->parts)
     if (!part.rides_on.empty())
       part.X_WM = mean_motion(bones, impl_->rest_X_WB, part.rides_on, part.middle);
   impl_->tools.clear();
   for (const ToolState& tool : tools)
-    if (tool.instrument < impl_->tray.size() && is_finite(tool.X_WP))
+    if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
 }
 
 void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
                               std::span<const SurfaceCube> cubes) {
-  if (bone.index < impl_->changed.size()) impl_->changed[bone.index].set(grid, cubes, bone.index);
+  if (bone.index >= impl_->own_changed.size()) return;  // the scene's own are seen
+  impl_->own_changed[bone.index].set(grid, cubes, bone.index);
+  ++impl_->cubes;
 }
 
 void ScopeRenderer::clear_cubes() {
-  for (ChangedCubes& bone : impl_->changed) bone.clear();
+  for (ChangedCubes& bone : impl_->own_changed) bone.clear();
+  ++impl_->cubes;
 }
 
-Result<void> ScopeRenderer::set_room(const Vec3& tip_W) {
-  std::vector<WalledBone> bones;
-  for (std::size_t k = 0; k < impl_->bones.size(); ++k)
-    bones.push_back({&impl_->bones[k], impl_->X_WB[k], &impl_->names[k]});
-  const auto wall = joint_wall(bones, tip_W);
-  if (!wall) return tl::unexpected(wall.error());
-  impl_->wall = {};
-  impl_->wall.surface = GpuMesh(plain_shaded(*wall));
-  impl_->wall.pattern = TissuePattern::kSynovium;
-  return {};
+void ScopeRenderer::set_wall(const TriMesh& wall_W) {
+  impl_->wall.surface = GpuMesh(plain_shaded(wall_W));
+  ++impl_->walls;
 }
 
-/// First as a pinhole sees it, then through the lens. The flat picture has as many pixels as the
-/// round one in its middle, where the lens shows most.
+/// First as a pinhole sees it, then through the lens.
 Image ScopeRenderer::draw_image(const ScopeCamera& camera, int width, int height,
                                 RenderQuality quality) {
   const Viewport viewport{0, 0, std::clamp(width, 1, kMaxImageSide),
                           std::clamp(height, 1, kMaxImageSide)};
-  const double half = 1.01 * std::tan(camera.half_field_rad());
-  const double per_tangent = ScopeCamera::radius_px(viewport) * camera.barrel() /
-                             std::tan(camera.barrel() * camera.half_field_rad());
+  const double half = Impl::flat_half(camera);
   const double finer = quality == RenderQuality::kFine ? 2 : 1;
-  const int side =
-      std::clamp(static_cast<int>(std::ceil(finer * 2 * half * per_tangent)), 16, kMaxImageSide);
+  const int side = Impl::flat_side(camera, viewport, finer);
   GLint bound = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
   Image image;
+  impl_->painted.reset();
   if (impl_->flat.ensure(side) && impl_->picture.ensure(viewport.width, viewport.height, 0)) {
     impl_->paint_flat(camera, half);
-    impl_->paint_lens(camera, half, exposure_of(side), viewport);
+    impl_->paint_lens(camera, half, gain_for(side), viewport);
     image = read_back(viewport.width, viewport.height);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
   return image;
+}
+
+/// The gain is read before the picture is drawn: by then the one before is ready, and nothing waits
+/// for it.
+bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
+  constexpr double kOfProcessor = 0.7;  // flat pixels, where each costs a processor's time
+  constexpr int kSettled = 12;          // pictures after which the gain has come to rest
+  const int size = std::clamp(side_px, 16, kMaxImageSide);
+  const Viewport viewport{0, 0, size, size};
+  Impl::Painted now = impl_->as_it_is(camera, size);
+  const bool first = !impl_->painted;
+  impl_->calm = !first && impl_->painted->still(now) ? impl_->calm + 1 : 0;
+  if (impl_->calm > kSettled) return true;
+  const int side = Impl::flat_side(camera, viewport, impl_->software ? kOfProcessor : 1);
+  const double half = Impl::flat_half(camera);
+  GLint bound = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+  const bool known = !first && impl_->flat.side() == side && impl_->gain > 0;
+  const bool room = impl_->flat.ensure(side) && impl_->picture.ensure(size, size, 0);
+  if (room) {
+    glBindFramebuffer(GL_FRAMEBUFFER, impl_->flat.framebuffer());
+    if (known) impl_->gain = std::pow(impl_->gain, 0.7) * std::pow(gain_for(side), 0.3);
+    if (impl_->calm == 0 || !known) impl_->paint_flat(camera, half);
+    if (!known) impl_->gain = gain_for(side);
+    impl_->paint_lens(camera, half, impl_->gain, viewport);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
+  if (impl_->calm == 0 || first) impl_->painted = std::move(now);
+  return room;
+}
+
+void ScopeRenderer::show(const Viewport& viewport) const {
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  const RenderTarget& picture = impl_->picture;
+  if (!impl_->painted || viewport.empty()) return;
+  const bool same = picture.width() == viewport.width && picture.height() == viewport.height;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer());
+  glBlitFramebuffer(0, 0, picture.width(), picture.height(), viewport.x, viewport.y,
+                    viewport.x + viewport.width, viewport.y + viewport.height, GL_COLOR_BUFFER_BIT,
+                    same ? GL_NEAREST : GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
 }
 
 }  // namespace osteon

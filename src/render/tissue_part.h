@@ -16,6 +16,7 @@ enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynoviu
 /// A surface with its pattern.
 struct TissuePart {
   GpuMesh surface;
+  std::size_t model = 0;  ///< which it is: the bones of a case, after them the soft parts
   Pose X_WM;
   TissuePattern pattern = TissuePattern::kBone;
   std::array<float, 3> tint{0.89f, 0.84f, 0.73f};

@@ -37,6 +37,25 @@ TEST_F(RendererTest, ErrorNamesTheMissingShaderFolder) {
   EXPECT_NE(renderer.error().message().find("/nowhere"), std::string::npos);
 }
 
+TEST_F(RendererTest, AnotherViewHasTheSameSurfacesAndMarksOfItsOwn) {
+  const Case ball_case = one_ball(0.03);
+  Renderer one = make_renderer(ball_case);
+  Renderer two = one.another_view();
+  const auto picture = [&](Renderer& renderer) {
+    return renderer.draw_image(at_rest(ball_case), front_view(), 64, 64);
+  };
+  const Image before = picture(one);
+  EXPECT_EQ(before.rgb, picture(two).rgb);
+  const SolidMark mark{sphere_mesh(0.05), {1, 0, 0, 1}};
+  two.set_marks({&mark, 1});
+  EXPECT_GT(count_different(before, picture(two), 30), 100);
+  EXPECT_EQ(before.rgb, picture(one).rgb) << "marks are one view's own";
+  two.set_marks({});
+  one.set_surface(BoneId{0}, sphere_mesh(0.015));
+  EXPECT_GT(count_different(before, picture(one), 30), 100);
+  EXPECT_EQ(picture(one).rgb, picture(two).rgb) << "a surface is of both";
+}
+
 TEST_F(RendererTest, EmptyCaseGivesGroundThatIsDarkAndLighterAbove) {
   const Case nothing;
   Renderer renderer = make_renderer(nothing);

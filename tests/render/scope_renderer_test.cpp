@@ -6,6 +6,8 @@
 
 #include "gl_fixture.h"
 #include "joint_wall.h"
+#include "osteon/render/joint_room.h"
+#include "render_target.h"
 
 namespace osteon {
 namespace {
@@ -75,7 +77,9 @@ TEST_F(ScopePictures, ABallShowsWhereItsMiddleIsProjected) {
 TEST_F(ScopePictures, ThePictureIsRoundAndFullOfWall) {
   const Case the_case = lone_ball(Vec3(0, 0, -0.012), 0.004);
   ScopeRenderer renderer = make_scope(the_case);
-  ASSERT_TRUE(renderer.set_room(Vec3::Zero()));
+  const auto wall = JointRoom(the_case).wall(rest_snapshot(the_case), Vec3::Zero());
+  ASSERT_TRUE(wall);
+  renderer.set_wall(*wall);
   const Image image = renderer.draw_image(ScopeCamera(wide_scope(30, 0.6), {}), 300, 200);
   ASSERT_FALSE(image.rgb.empty());
   const double radius = ScopeCamera::radius_px({0, 0, 300, 200});
@@ -90,12 +94,50 @@ TEST_F(ScopePictures, ThePictureIsRoundAndFullOfWall) {
     }
 }
 
-TEST_F(ScopePictures, ATipInBoneIsRefusedByName) {
-  ScopeRenderer renderer = make_scope(lone_ball(Vec3::Zero(), 0.01));
-  const auto room = renderer.set_room(Vec3(0.001, 0, 0));
-  ASSERT_FALSE(room);
-  EXPECT_NE(room.error().what.find("'ball'"), std::string::npos);
-  EXPECT_FALSE(renderer.set_room(Vec3(0, 0, std::nan(""))));
+// A window's picture: of surfaces that another view has, copied to a place of the screen.
+TEST_F(ScopePictures, AWindowShowsTheSamePictureOfSharedSurfaces) {
+  const Case the_case = lone_ball(Vec3(0.001, 0, -0.012), 0.004);
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  const Image alone = make_scope(the_case).draw_image(camera, 160, 160, RenderQuality::kFast);
+  Renderer scene = make_renderer(the_case);
+  auto made = ScopeRenderer::create(the_case, OSTEON_SOURCE_DIR, scene);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(count_different(alone, made->draw_image(camera, 160, 160, RenderQuality::kFast), 0), 0);
+  RenderTarget screen;
+  ASSERT_TRUE(screen.ensure(300, 200, 0));
+  glBindFramebuffer(GL_FRAMEBUFFER, screen.framebuffer());
+  glClearColor(0, 0, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ASSERT_TRUE(made->paint(camera, 160));
+  made->show({100, 20, 160, 160});
+  const auto at = [](int x, int y) {
+    std::array<std::uint8_t, 3> rgb{};
+    glReadPixels(x, y, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    return rgb;
+  };
+  EXPECT_EQ(at(99, 100), (std::array<std::uint8_t, 3>{0, 0, 255})) << "outside of the viewport";
+  EXPECT_EQ(at(102, 22), (std::array<std::uint8_t, 3>{0, 0, 0})) << "outside of the field stop";
+  const auto ball = at(180, 100);
+  const auto same = pixel(alone, 80, 79);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(ball[c], same[c], 12);
+  EXPECT_GT(ball[0], 60);
+  // An edited surface shows in both: here it is gone.
+  scene.set_surface(BoneId{0}, sphere_mesh(1e-6));
+  ASSERT_TRUE(made->paint(camera, 160));
+  made->show({100, 20, 160, 160});
+  EXPECT_LT(at(180, 100)[0], 10);
+}
+
+TEST(JointRoom, ATipInBoneIsRefusedByName) {
+  const Case the_case = lone_ball(Vec3(0.02, 0, 0), 0.01);
+  const JointRoom room(the_case);
+  BoneSnapshot bones = rest_snapshot(the_case);
+  EXPECT_TRUE(room.wall(bones, Vec3(0.001, 0, 0)));
+  bones.bones[0].X_WB.p = Vec3::Zero();
+  const auto wall = room.wall(bones, Vec3(0.001, 0, 0));
+  ASSERT_FALSE(wall);
+  EXPECT_NE(wall.error().what.find("'ball'"), std::string::npos);
+  EXPECT_FALSE(room.wall(bones, Vec3(0, 0, std::nan(""))));
 }
 
 TEST(JointWall, EnclosesTheTipAndKeepsOffTheBone) {

@@ -115,6 +115,11 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
+  /// Draws the same scene for another place on the screen: surfaces and tray are on the graphics
+  /// card once, and what is set of them holds for both; the tools of other hands, marks and the
+  /// pictures kept are each one's own.
+  Renderer another_view() const;
+
   /// Takes surfaces of the same case that tell more than those before, as prepare_felt makes them.
   void set_surfaces(const PreparedCase& prepared);
   /// What hands may hold, by ToolState::instrument; what is not in it is drawn as the first. Until
@@ -159,6 +164,7 @@ class Renderer {
   bool software_driver() const;
 
  private:
+  friend class ScopeRenderer;  // draws the same surfaces
   struct Impl;
   explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

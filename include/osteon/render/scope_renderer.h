@@ -5,6 +5,7 @@
 #include <span>
 
 #include "osteon/base/result.h"
+#include "osteon/mesh/tri_mesh.h"
 #include "osteon/render/prepare.h"
 #include "osteon/render/renderer.h"
 #include "osteon/render/scope_camera.h"
@@ -24,29 +25,38 @@ class ScopeRenderer {
   /// prepare_case(the_case).
   static Result<ScopeRenderer> create(const Case& the_case, const std::filesystem::path& data_dir,
                                       const PreparedCase& prepared);
+  /// Draws the surfaces and the tray that `scene` has on the graphics card, also those that it is
+  /// given later. `scene` was made of the same case.
+  static Result<ScopeRenderer> create(const Case& the_case, const std::filesystem::path& data_dir,
+                                      const Renderer& scene);
   ~ScopeRenderer();
   ScopeRenderer(ScopeRenderer&&) noexcept;
   ScopeRenderer& operator=(ScopeRenderer&&) noexcept;
 
-  /// Shapes the joint's inner wall around a tip: within 60 mm of it, some 10 mm off the bones and
-  /// farther where the tip is. Takes about a second. Fails when the tip lies in a bone, which it
-  /// names, or at a place that is not finite.
-  Result<void> set_room(const Vec3& tip_W);
+  /// The joint's inner wall, in World, from now on; see JointRoom. Without one it is missing.
+  void set_wall(const TriMesh& wall_W);
 
-  /// What hands may hold, by ToolState::instrument.
+  /// What hands may hold, by ToolState::instrument; where a scene is drawn, that one's tray counts.
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Bones stand so from now on, soft parts as the mean motion of theirs has it; these tools are
-  /// seen, where their pose is finite. The wall stays as set_room shaped it.
+  /// seen, where their pose is finite. The wall stays as it is.
   void set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools);
 
   /// As Renderer has them.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   void clear_cubes();
 
-  /// Sides are clamped to 1..kMaxImageSide. Without a room the wall is missing. Empty when the
-  /// driver has no memory for it.
+  /// Sides are clamped to 1..kMaxImageSide. Empty when the driver has no memory for it.
   Image draw_image(const ScopeCamera& camera, int width, int height,
                    RenderQuality quality = RenderQuality::kFine);
+
+  /// Draws a square picture with so many pixels a side, which `show` then copies: for a window.
+  /// What has not moved is not drawn anew. The camera's gain follows what it saw a picture before.
+  /// False when the driver has no memory for it.
+  bool paint(const ScopeCamera& camera, int side_px);
+  /// Copies the picture of the last `paint` into the viewport of the framebuffer that is bound,
+  /// scaled to it. Leaves that framebuffer bound.
+  void show(const Viewport& viewport) const;
 
  private:
   struct Impl;

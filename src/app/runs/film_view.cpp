@@ -2,97 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "osteon/base/file.h"
-#include "osteon/procedure/scope_watch.h"
+#include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
-#include "osteon/scene/scope.h"
-#include "osteon/scene/tool_set.h"
 #include "runs/carved_picture.h"
 #include "runs/film_fluoro.h"
+#include "runs/panorama.h"
+#include "runs/scope_lens.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kRoomMoves_m = 0.015;  // of the tip, before the joint's wall is shaped anew
-constexpr double kSight_m = 0.030;      // length of the cone that shows what a scope sees
-constexpr int kConeSides = 48;
-constexpr float kClearBone = 0.42f;
-constexpr std::array<float, 4> kYellow{1.0f, 0.86f, 0.16f, 0.30f};
-
-/// Scope files with the lens of an instrument.
-constexpr std::pair<const char*, const char*> kLenses[] = {
-    {"arthroscope_0", "knee_0"},
-    {"arthroscope_30", "knee_30"},
-    {"arthroscope_70", "knee_70"},
-    {"wrist_arthroscope_2_7", "wrist_30"},
-    {"wrist_arthroscope_1_9", "wrist_30_small"}};
-
-using Lenses = std::vector<std::optional<ScopeDef>>;
-
-Result<std::optional<ScopeDef>> lens_of(const Instrument& instrument) {
-  if (!instrument.optics) return std::optional<ScopeDef>();
-  for (const auto& [name, lens] : kLenses)
-    if (instrument.name == name) {
-      auto scope = load_scope(lens);
-      if (!scope) return tl::unexpected(scope.error());
-      return std::optional<ScopeDef>(*scope);
-    }
-  ScopeDef scope;
-  scope.name = instrument.name;
-  scope.angle_rad = instrument.optics->angle_deg * std::numbers::pi / 180;
-  scope.field_rad = instrument.optics->field_deg * std::numbers::pi / 180;
-  return std::optional<ScopeDef>(scope);
-}
-
-/// By place in the tray; none: nobody looks through it.
-Result<Lenses> lenses_of(const std::vector<std::string>& tray) {
-  Lenses lenses(tray.size());
-  if (tray.empty()) return lenses;
-  const auto instruments = load_instruments();
-  if (!instruments) return tl::unexpected(instruments.error());
-  for (std::size_t k = 0; k < tray.size(); ++k) {
-    const auto name = parse_tool_name(tray[k]);
-    const Instrument* instrument = name ? find_instrument(*instruments, name->name) : nullptr;
-    if (!instrument) continue;
-    auto lens = lens_of(*instrument);
-    if (!lens) return tl::unexpected(lens.error());
-    lenses[k] = std::move(*lens);
-  }
-  return lenses;
-}
-
-/// The camera turns with the shaft; upwards in the picture is the side that the lens looks to.
-ScopePose scope_pose(const Pose& X_WT) {
-  ScopePose pose;
-  pose.at_W = X_WT.p;
-  pose.toward_W = X_WT * Vec3(0, 0, -0.01);
-  pose.up_W = X_WT.rotate(Vec3::UnitY());
-  return pose;
-}
-
-/// Closed, its top at the lens.
-TriMesh sight_cone(const Pose& X_WT, const ScopeDef& scope) {
-  const ScopeView view = view_through({scope.angle_rad, 0.5 * field_in_water_rad(scope)}, X_WT);
-  const Vec3 right_W = view.along_W.cross(view.up_W);
-  const double radius = kSight_m * std::tan(0.5 * field_in_water_rad(scope));
-  TriMesh cone;
-  for (int k = 0; k < kConeSides; ++k) {
-    const double turn = 2 * std::numbers::pi * k / kConeSides;
-    cone.vertices.push_back(view.eye_W + kSight_m * view.along_W +
-                            radius * (std::cos(turn) * right_W + std::sin(turn) * view.up_W));
-  }
-  cone.vertices.push_back(view.eye_W);
-  cone.vertices.push_back(view.eye_W + kSight_m * view.along_W);
-  for (std::uint32_t k = 0; k < kConeSides; ++k) {
-    const std::uint32_t next = (k + 1) % kConeSides;
-    cone.triangles.push_back({k, kConeSides, next});
-    cone.triangles.push_back({k, next, kConeSides + 1});
-  }
-  return cone;
-}
 
 void put(const Image& part, int left, int top, Image& into) {
   for (int y = 0; y < part.height; ++y) {
@@ -106,21 +29,6 @@ Image black(int width, int height) {
   Image image{width, height, {}};
   image.rgb.assign(3u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   return image;
-}
-
-/// Front: as the outside view. Top: from the fingers or the hip. Left: from the left of the front.
-Result<Camera> panorama_camera(const Case& the_case, const std::string& side, double aspect) {
-  Camera camera = preset_camera(ViewPreset::kDorsal, the_case, aspect);
-  const AnatomicalFrame frame = anatomical_frame(the_case);
-  if (side == "front") return camera;
-  if (side == "top")
-    camera.q_WC = look_rotation(frame.distal_W, frame.dorsal_W);
-  else if (side == "left")
-    camera.q_WC = look_rotation(-frame.distal_W.cross(frame.dorsal_W), frame.distal_W);
-  else
-    return fail("'" + side + "' is no side", "the panorama", "choose front, top or left");
-  camera.target_W = the_case.bounds_W().empty() ? Vec3::Zero() : the_case.bounds_W().center();
-  return camera;
 }
 
 tl::unexpected<Error> no_memory() {
@@ -152,14 +60,13 @@ struct FilmPainter::Impl {
   std::optional<Renderer> renderer;
   std::optional<ScopeRenderer> scope;
   std::optional<FilmFluoro> fluoro;
-  std::optional<Vec3> room_W;
+  std::optional<JointRoom> room;
+  std::optional<Vec3> room_W;  ///< that its wall was shaped around
 
   bool uses(FilmView view) const { return order.view == view || order.view == FilmView::kLayout; }
   Result<void> open(const SessionSettings& settings, const Tray& tray);
   Result<void> open_pictures(const Tray& tray);
-  const ScopeDef* lens(const ToolState& tool) const;
-  /// The first hand that looks through a scope now; none: nobody does.
-  std::optional<std::size_t> looking(const FilmMoment& moment) const;
+  static std::span<const ToolState> tools(const FilmMoment& moment);
 
   Result<Image> outside(const FilmMoment& moment, int width, int height);
   Result<Image> panorama(const FilmMoment& moment, const std::string& side, int width, int height);
@@ -167,20 +74,13 @@ struct FilmPainter::Impl {
   Result<Image> layout(const FilmMoment& moment);
   Result<Image> scene(const FilmMoment& moment, const ViewState& view, int width, int height);
   ViewState plain_view(double aspect) const;
-  void shape_room(const Vec3& tip_W);
+  void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
   CarvedPicture carved{nullptr};
 };
 
-const ScopeDef* FilmPainter::Impl::lens(const ToolState& tool) const {
-  const bool one = tool.instrument < lenses.size() && lenses[tool.instrument].has_value();
-  return one && is_finite(tool.X_WP) ? &*lenses[tool.instrument] : nullptr;
-}
-
-std::optional<std::size_t> FilmPainter::Impl::looking(const FilmMoment& moment) const {
-  for (std::size_t h = 0; h < moment.hands; ++h)
-    if (lens(moment.tools[h])) return h;
-  return std::nullopt;
+std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
+  return {moment.tools.data(), moment.hands};
 }
 
 Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
@@ -197,10 +97,12 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
     renderer->set_tray(tray);
   }
   if (!uses(FilmView::kScope) || !has_scope) return {};
-  auto looked = ScopeRenderer::create(*the_case, *data_dir, prepared);
+  auto looked = renderer ? ScopeRenderer::create(*the_case, *data_dir, *renderer)
+                         : ScopeRenderer::create(*the_case, *data_dir, prepared);
   if (!looked) return tl::unexpected(looked.error());
   scope.emplace(std::move(*looked));
   scope->set_tray(tray);
+  room.emplace(*the_case);
   return {};
 }
 
@@ -245,39 +147,30 @@ Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, in
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
                                           int width, int height) {
   const double aspect = static_cast<double>(width) / height;
-  ViewState view = plain_view(aspect);
-  view.camera = *panorama_camera(*the_case, side, aspect);
-  view.show_force = false;
-  for (BoneAppearance& bone : view.bones) bone.opacity = kClearBone;
-  for (std::size_t k = 0; k < the_case->softs.size(); ++k) {
-    const std::string& kind = the_case->softs[k].kind;
-    view.softs[k].visible = kind == "meniscus" || kind == "disc";
-    view.softs[k].opacity = kClearBone;
-  }
-  std::vector<SolidMark> cones;
-  for (std::size_t h = 0; h < moment.hands; ++h)
-    if (const ScopeDef* held = lens(moment.tools[h]))
-      cones.push_back({sight_cone(moment.tools[h].X_WP, *held), kYellow});
-  renderer->set_marks(cones);
-  return scene(moment, view, width, height);
+  renderer->set_marks(sight_marks(lenses, tools(moment)));
+  return scene(moment, panorama_view(*the_case, *panorama_camera(*the_case, side, aspect)), width,
+               height);
 }
 
 // Where the tip stands in bone for a moment, the wall stays as it was.
-void FilmPainter::Impl::shape_room(const Vec3& tip_W) {
+void FilmPainter::Impl::shape_room(const BoneSnapshot& bones, const Vec3& tip_W) {
   if (room_W && (tip_W - *room_W).norm() < kRoomMoves_m) return;
-  if (scope->set_room(tip_W)) room_W = tip_W;
+  const auto wall = room->wall(bones, tip_W);
+  if (!wall) return;
+  scope->set_wall(*wall);
+  room_W = tip_W;
 }
 
 Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int width, int height) {
-  const auto hand = looking(moment);
+  const auto hand = first_looking(lenses, tools(moment));
   if (!hand) return black(width, height);
   std::vector<ToolState> others;
   for (std::size_t h = 0; h < moment.hands; ++h)
     if (h != *hand) others.push_back(moment.tools[h]);
   const Pose& X_WT = moment.tools[*hand].X_WP;
   scope->set_scene(moment.bones, others);
-  shape_room(X_WT.p);
-  const ScopeCamera camera(*lens(moment.tools[*hand]), scope_pose(X_WT));
+  shape_room(moment.bones, X_WT.p);
+  const ScopeCamera camera(*lens_of_tool(lenses, moment.tools[*hand]), scope_pose(X_WT));
   Image image = scope->draw_image(camera, width, height, RenderQuality::kFast);
   if (image.rgb.empty()) return no_memory();
   return image;
