@@ -2,6 +2,9 @@
 if(OSTEON_WINDOW)
   pkg_check_modules(APP_TESTS_IMGUI REQUIRED IMPORTED_TARGET imgui glfw3)
   osteon_link_system(osteon_app_tests PkgConfig::APP_TESTS_IMGUI)
+  # Films of the window are read back.
+  pkg_check_modules(APP_TESTS_AV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil)
+  osteon_link_system(osteon_app_tests PkgConfig::APP_TESTS_AV)
 endif()
 
 # The loops by themselves, without the window: quick enough to build for the thread sanitizer.

@@ -24,7 +24,8 @@ std::string absolute_spec(const std::string& spec) {
 void add_window_command(cli::App& app, int& exit_code) {
   cli::App* command = app.add_subcommand("window", "Open the simulator's window");
   const auto order = std::make_shared<WindowOrder>();
-  const auto size = std::make_shared<std::string>();
+  const auto size = std::make_shared<std::string>(), layout = std::make_shared<std::string>(),
+             observer = std::make_shared<std::string>();
   command->add_option("--case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--replay", order->replay, "Recording to open");
@@ -33,6 +34,16 @@ void add_window_command(cli::App& app, int& exit_code) {
       ->add_option("--ui-scale", order->interface_scale,
                    "Scale of the interface; the display's when not given")
       ->check(cli::Range(0.5, 4.0));
+  command
+      ->add_option("--layout", *layout,
+                   "What the picture shows: outside, scope, panorama, layout (scope, panorama "
+                   "and outside), fluoro")
+      ->check(cli::IsMember({"outside", "scope", "panorama", "layout", "fluoro"}));
+  command
+      ->add_option("--observer", *observer,
+                   "Open the second window, for who looks on, with this in it: as --layout")
+      ->check(cli::IsMember({"outside", "scope", "panorama", "layout", "fluoro"}));
+  command->add_option("--film", order->film, "Film the window from the start to this file (.webm)");
   command->add_flag("--felt", order->felt,
                     "Begin with the bones coloured by how far what is felt is from their surface");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
@@ -61,9 +72,11 @@ void add_window_command(cli::App& app, int& exit_code) {
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);
-  command->callback([order, size, &exit_code] {
+  command->callback([order, size, layout, observer, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
       cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+    if (!layout->empty()) order->layout = *parse_picture_layout(*layout);
+    if (!observer->empty()) order->observer = *parse_picture_layout(*observer);
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;

@@ -41,11 +41,12 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
                 "Run it on a desktop, or use `osteon demo`, which needs no display");
   set_hints();
   GlWindow made;
-  made.window_ =
-      glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+  made.window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr,
+                                  options.beside);
+  made.beside_ = options.beside != nullptr;
   if (!made.window_) {
     const std::string why = last_glfw_error();
-    glfwTerminate();
+    if (!options.beside) glfwTerminate();
     return fail("the window could not be opened (" + why + ")", "display",
                 "Osteon needs OpenGL 3.3: update the graphics driver");
   }
@@ -70,10 +71,13 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
 }
 
 GlWindow::GlWindow(GlWindow&& other) noexcept
-    : window_(std::exchange(other.window_, nullptr)), state_(std::move(other.state_)) {}
+    : window_(std::exchange(other.window_, nullptr)),
+      beside_(other.beside_),
+      state_(std::move(other.state_)) {}
 
 GlWindow& GlWindow::operator=(GlWindow&& other) noexcept {
   std::swap(window_, other.window_);
+  std::swap(beside_, other.beside_);
   std::swap(state_, other.state_);
   return *this;
 }
@@ -81,7 +85,7 @@ GlWindow& GlWindow::operator=(GlWindow&& other) noexcept {
 GlWindow::~GlWindow() {
   if (!window_) return;
   glfwDestroyWindow(window_);
-  glfwTerminate();
+  if (!beside_) glfwTerminate();
 }
 
 bool GlWindow::should_close() const { return glfwWindowShouldClose(window_) != 0; }

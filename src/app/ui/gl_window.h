@@ -15,10 +15,12 @@ struct WindowOptions {
   int width = 1280, height = 720;
   std::string title = "Osteon";
   bool wait_for_display = true;  ///< at most one picture a display refresh
+  /// A window that is open: the new one shares its textures and buffers, and must end before it.
+  GLFWwindow* beside = nullptr;
 };
 
 /// A window of the desktop with an OpenGL 3.3 context, current on the thread that made it. One at a
-/// time.
+/// time, and others beside it.
 class GlWindow {
  public:
   /// Fails in words when there is no display or no OpenGL 3.3.
@@ -51,6 +53,7 @@ class GlWindow {
   struct State;
   GlWindow() = default;
   GLFWwindow* window_ = nullptr;
+  bool beside_ = false;  ///< another window's end is the display's
   std::unique_ptr<State> state_;
 };
 

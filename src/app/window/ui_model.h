@@ -20,6 +20,7 @@
 #include "window/exercise_model.h"
 #include "window/hands_model.h"
 #include "window/patient_model.h"
+#include "window/views_model.h"
 
 namespace osteon {
 
@@ -142,6 +143,7 @@ struct UiModel {
   ExerciseModel exercise;
   BrowserModel browser;
   HandsModel hands;
+  ViewsModel views;
   EditModel edit;
   PatientModel patient;
   bool panels_open = true;

@@ -14,6 +14,7 @@
 #include "window/exercise_model.h"
 #include "window/hands_model.h"
 #include "window/patient_model.h"
+#include "window/views_model.h"
 
 namespace osteon {
 
@@ -60,6 +61,7 @@ struct UiRequests {
   HandsRequests hands;
   PatientRequests patient;
   ExerciseRequests exercise;
+  ViewsRequests views;
   bool force_off = false;
   bool force_on = false;
   bool toggle_probe = false;

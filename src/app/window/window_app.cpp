@@ -39,7 +39,10 @@ std::vector<std::string> ordered_instruments(const WindowOrder& order) {
 
 }  // namespace
 
-WindowApp::WindowApp(const WindowOrder& order) : order_(order) {}
+WindowApp::WindowApp(const WindowOrder& order)
+    : order_(order),
+      layout_(order.layout),
+      observer_layout_(order.observer.value_or(PictureLayout::kScope)) {}
 
 Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   std::unique_ptr<WindowApp> app(new WindowApp(order));
@@ -61,6 +64,7 @@ Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   if (!complaint.empty()) app->note(ToastKind::kWarning, complaint);
   for (const std::string& problem : problems) app->note(ToastKind::kWarning, problem);
   app->instruments_ = ordered_instruments(order);
+  if (order.observer) app->open_observer();
   app->open({order.case_spec, order.replay, nullptr});
   return app;
 }
@@ -86,6 +90,7 @@ Result<void> WindowApp::run() {
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
   }
   checkup_.reset();
+  film_.reset();
   return live_ ? live_->end() : Result<void>();
 }
 
@@ -104,6 +109,7 @@ void WindowApp::frame(double dt_s) {
   poll_edit_save();
   poll_patient();
   if (ready() || exercise_.page() == ExercisePage::kJudging) poll_exercise();
+  poll_observer();
   toasts_.age(now_s_);
 
   ui_->begin_frame(window_->take_pressed_keys());
@@ -114,6 +120,8 @@ void WindowApp::frame(double dt_s) {
   glFlush();
   const UiRequests requests = draw_ui(build_model(), ui_->fonts());
   ui_->end_frame();
+  poll_film();
+  draw_observer();
   apply(requests);
 }
 
@@ -131,7 +139,8 @@ void WindowApp::draw_picture() {
     if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
   show_others();
   show_carved();
-  renderer_->draw(shown_, shown, viewport());
+  update_views();
+  draw_panes(shown);
 }
 
 // Counts pictures once the simulated time that was ordered is reached.
@@ -140,7 +149,7 @@ bool WindowApp::measured_run_over() {
   if (!load_failure_.empty()) return true;
   // A replay stands at the ordered moment from the start.
   const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached || checkup_ || felt_job_ || first_pictures_ > 0) {
+  if (!ready() || !reached || checkup_ || felt_job_ || views_.busy() || first_pictures_ > 0) {
     if (ready() && first_pictures_ > 0) --first_pictures_;
     processor_start_s_ = processor_now_s();
     return false;
@@ -153,6 +162,10 @@ double WindowApp::processor_ms_per_picture() const {
 }
 
 Result<void> WindowApp::finish_measured_run() {
+  if (film_) {
+    film_->end(now_s_ - film_from_s_);
+    if (auto whole = film_->wait(); !whole) return whole;
+  }
   if (!load_failure_.empty()) return fail(load_failure_);
   if (order_.screenshot.empty()) return {};
   int width = 0, height = 0;

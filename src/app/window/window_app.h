@@ -23,6 +23,8 @@
 #include "window/controllers/case_browser.h"
 #include "window/controllers/exercise_run.h"
 #include "window/controllers/instrument_tray.h"
+#include "window/controllers/observer_window.h"
+#include "window/controllers/picture_views.h"
 #include "window/controllers/scene_poll.h"
 #include "window/controllers/tip_gauge.h"
 #include "window/controllers/tray_pictures.h"
@@ -31,6 +33,7 @@
 #include "window/jobs/felt_job.h"
 #include "window/jobs/load_job.h"
 #include "window/jobs/patient_job.h"
+#include "window/jobs/screen_film.h"
 #include "window/panels/panels.h"
 
 namespace osteon {
@@ -44,8 +47,11 @@ struct WindowOrder {
   double at_s = 0;                   ///< of simulated time, reached before `frames` are counted
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
-  bool felt = false;                 ///< begins with bones coloured by what is felt
-  bool demo = false;                 ///< the virtual hand plays the case's path
+  PictureLayout layout = PictureLayout::kOutside;  ///< to begin with
+  std::optional<PictureLayout> observer;  ///< the second window begins with it; none: no window
+  std::filesystem::path film;             ///< of the window, from the first picture on; empty: none
+  bool felt = false;                      ///< begins with bones coloured by what is felt
+  bool demo = false;                      ///< the virtual hand plays the case's path
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one
   /// hand with the device of last time.
   std::vector<std::string> devices;
@@ -127,7 +133,7 @@ class WindowApp {
   HandWishes poll_pedals();
   void hold_probe(bool held);
   void pick_under_pointer(const SceneInput& input);
-  Viewport viewport() const;
+  bool over_outside(const SceneInput& input) const;
   CoveredEdges covered_edges() const;
   // window_edit.cpp: a bone's surface is edited
   void begin_edit();
@@ -177,6 +183,31 @@ class WindowApp {
   std::vector<HandRow> hand_rows() const;
   TipModel tip_model();
   std::vector<NameTag> name_tags() const;
+  // window_views.cpp: what the picture shows
+  PictureLayout picture_layout() const;
+  std::vector<Pane> panes() const;
+  Viewport pixels_of(const UiRect& r) const;
+  Viewport viewport() const;
+  bool shows_outside() const;
+  FilmMoment moment() const;
+  void tell_tray(const std::vector<std::string>& names, const Tray& tools);
+  void update_views();
+  void draw_panes(const ViewState& outside);
+  Camera hand_camera() const;
+  Viewport hand_viewport() const;
+  void apply_views(const ViewsRequests& requests);
+  std::string pane_message(PaneKind kind) const;
+  ViewsModel views_model() const;
+  // window_observer.cpp: the second window, and the film of this one
+  void open_observer();
+  void poll_observer();
+  std::vector<Pane> observer_panes() const;
+  int observer_scope_px() const;
+  void draw_observer();
+  void begin_film(const std::filesystem::path& file);
+  void toggle_film();
+  void poll_film();
+  ScreenFilmModel film_model() const;
   // window_browser.cpp: what can be opened
   void apply_browser(const BrowserRequests& requests);
   void open_any(const std::string& path);
@@ -219,6 +250,13 @@ class WindowApp {
   std::size_t carved_place_ = 0;          ///< of its cuts, that `carved_` shows
   std::uint64_t carved_run_ = 0;          ///< live run whose cuts the renderer shows
   double carved_s_ = 0;                   ///< when they were shown last
+  PictureViews views_;
+  PictureLayout layout_;
+  ShownImage observer_picture_;
+  std::unique_ptr<ObserverWindow> observer_;
+  PictureLayout observer_layout_;
+  std::unique_ptr<ScreenFilm> film_;  ///< while one is made
+  double film_from_s_ = 0;
   std::unique_ptr<LiveRun> live_;
   std::optional<LoadedReplay> replay_;
   std::optional<ReplayPlayer> player_;

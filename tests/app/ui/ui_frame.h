@@ -57,6 +57,18 @@ class UiFrame {
     return acted(on_press) ? on_press : on_release;
   }
 
+  /// The same of what concerns views.
+  ViewsRequests click_for_views(ImVec2 at) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = at;
+    draw();
+    draw();
+    io.MouseDown[0] = true;
+    draw();
+    io.MouseDown[0] = false;
+    return draw().views;
+  }
+
   UiRequests press_key(int glfw_key, bool shift = false, bool ctrl = false) {
     ImGuiIO& io = ImGui::GetIO();
     draw();

@@ -29,6 +29,7 @@ void WindowApp::make_tray() {
   if (!made) note(ToastKind::kError, made.error().message());
   tray_ = made ? std::move(*made) : InstrumentTray();
   if (renderer_) renderer_->set_tray(tray_.run().tools);
+  tell_tray(tray_.run().names, tray_.run().tools);
   if (tray_open_) tray_pictures_.want(tray_.instruments());
 }
 
@@ -231,6 +232,7 @@ HandsModel WindowApp::hands_model() {
 
 // In the interface's coordinates; none behind the eye.
 std::optional<Vec3> WindowApp::on_screen(const Vec3& p_W) const {
+  if (!shows_outside()) return std::nullopt;
   const Viewport v = viewport();
   const auto at = project(view_.camera, v, p_W);
   if (!at) return std::nullopt;

@@ -144,6 +144,7 @@ UiModel WindowApp::build_model() {
     model.activity = "Replay of " + model.replay.file;
   }
   model.hands = hands_model();
+  model.views = views_model();
   model.hand.force_n = shown_.tool.force_W.norm();
   model.hand.picture_hz = frames_.rate_hz();
   model.hand.probe_in_hand = probe_held_;

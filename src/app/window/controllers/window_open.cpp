@@ -42,6 +42,7 @@ void WindowApp::poll_loading() {
   }
   install(std::move(*loaded));
   end_bend();
+  if (!order_.film.empty()) begin_film(std::exchange(order_.film, {}));
   if (std::exchange(order_.new_patient, false)) apply_patient({.toggle = true});
   if (!order_.exercise.empty()) show_exercise(std::exchange(order_.exercise, {}));
   if (!std::exchange(order_.checkup, false)) return;
@@ -73,6 +74,7 @@ void WindowApp::install(Loaded loaded) {
     auto renderer = Renderer::create(*loaded.the_case, make_wrist_probe(), *data, *loaded.prepared);
     if (!renderer) return fail_loading(renderer.error().message());
     renderer_ = std::move(*renderer);
+    views_.begin(loaded.the_case, *renderer_);
     // From here on nothing fails: the case on show and its name change together.
     case_source_ = loaded.case_source;
     felt_job_.reset();
@@ -109,6 +111,7 @@ void WindowApp::install(Loaded loaded) {
   if (!replay_) return begin_live();
   renderer_->set_tray(replay_->tray);
   if (replay_->carving) carved_.emplace(replay_->carving);
+  tell_tray(replay_->instruments, replay_->tray);
   player_.emplace(replay_->track.duration_s());
   player_->seek(order_.at_s);
   if (order_.frames > 0 && order_.at_s > 0) player_->toggle();  // the ordered moment stands still

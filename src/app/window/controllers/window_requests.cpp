@@ -33,6 +33,7 @@ void WindowApp::apply(const UiRequests& requests) {
   if (!ready()) return;
   apply_exercise(requests.exercise);
   apply_view(requests);
+  apply_views(requests.views);
   if (requests.felt) choose_felt(*requests.felt);
   if (requests.bend) apply_bend(*requests.bend);
   apply_edit(requests.edit);

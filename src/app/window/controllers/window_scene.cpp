@@ -9,20 +9,9 @@
 
 namespace osteon {
 
-// The part of the framebuffer that the panels leave to the picture.
-Viewport WindowApp::viewport() const {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const UiRect r = make_layout(size.x, size.y, ui_->scale(), settings_.panels_open).picture;
-  const double ratio = window_->pixel_ratio();
-  const auto px = [ratio](float v) {
-    return static_cast<int>(std::lround(static_cast<double>(v) * ratio));
-  };
-  return {px(r.x), px(size.y - r.bottom()), px(r.w), px(r.h)};
-}
-
 // The cards float over the picture's sides.
 CoveredEdges WindowApp::covered_edges() const {
-  if (!settings_.panels_open) return {};
+  if (!settings_.panels_open || picture_layout() != PictureLayout::kOutside) return {};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const UiLayout layout =
       make_layout(size.x, size.y, ui_->scale(), true, static_cast<float>(settings_.left_card));
@@ -50,7 +39,7 @@ void WindowApp::pick_under_pointer(const SceneInput& input) {
   // A pointer that merely lies there points at nothing.
   pointer_moved_ = pointer_moved_ || input.dx != 0 || input.dy != 0;
   if (!pointer_moved_) return;
-  if (input.over_panels || probe_held_ || control_.dragging()) return;
+  if (input.over_panels || probe_held_ || control_.dragging() || !shows_outside()) return;
   int width = 0, height = 0;
   window_->framebuffer_size(width, height);
   const double x = input.x - v.x;
@@ -71,6 +60,16 @@ HandWishes WindowApp::poll_pedals() {
   return wishes;
 }
 
+// A drag that begins in another view does not turn this one.
+bool WindowApp::over_outside(const SceneInput& input) const {
+  if (!shows_outside()) return false;
+  const Viewport v = viewport();
+  int width = 0, height = 0;
+  window_->framebuffer_size(width, height);
+  const double x = input.x - v.x, y = input.y - (height - v.y - v.height);
+  return x >= 0 && y >= 0 && x < v.width && y < v.height;
+}
+
 void WindowApp::poll_scene(double dt_s, double wheel) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool by_mouse = live_ && live_->by_mouse();
@@ -83,7 +82,7 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
   // ImGui remembers a click that was shorter than a picture.
   input.left = input.left || io.MouseDown[0];
   input.right = input.right || io.MouseDown[1];
-  input.over_panels = io.WantCaptureMouse && !probe_held_;
+  input.over_panels = (io.WantCaptureMouse || !over_outside(input)) && !probe_held_;
   const bool nudged = nudge_rested(input);
   if (poll_edit(input)) {
     input.left = false;
@@ -92,7 +91,7 @@ void WindowApp::poll_scene(double dt_s, double wheel) {
   if (nudged) {
     pick_under_pointer(input);
   } else if (probe_held_ && !input.right) {
-    live_->move_hand(probe_motion(input), view_.camera, viewport(), dt_s, portal_near());
+    live_->move_hand(probe_motion(input), hand_camera(), hand_viewport(), dt_s, portal_near());
   } else {
     // With the probe in hand the right button orbits.
     if (probe_held_) std::swap(input.left, input.right);

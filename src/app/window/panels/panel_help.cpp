@@ -12,7 +12,7 @@ struct KeyLine {
   const char* what;
 };
 
-constexpr std::array<KeyLine, 10> kLook = {{
+constexpr std::array<KeyLine, 13> kLook = {{
     {"Drag", "look around"},
     {"Right drag, Shift + drag", "move sideways"},
     {"Wheel", "nearer, farther"},
@@ -22,6 +22,9 @@ constexpr std::array<KeyLine, 10> kLook = {{
     {"Click", "choose a bone"},
     {"H", "contact hulls"},
     {"L", "names on the bones"},
+    {"V, F5 to F9", "next view; outside, scope, panorama, all, X-ray"},
+    {"B", "take an X-ray picture"},
+    {"F3", "a second window for who looks on"},
     {"Tab", "fold the panels away"},
 }};
 
@@ -50,6 +53,7 @@ constexpr std::array<KeyLine, 4> kEdit = {{
 
 constexpr std::array<KeyLine, 12> kRun = {{
     {"R", "record, stop"},
+    {"F4", "film of this window, stop"},
     {"O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
     {"P", "play, pause a replay"},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "ui/panel_ground.h"
@@ -62,9 +63,24 @@ float right_part_width(const PanelContext& c) {
   float width = ImGui::CalcTextSize("00:00.0").x + c.px(16);
   width += button(c.model.record.on ? "      Stop" : "      Record") + style.ItemSpacing.x;
   width += button("Exercises") + style.ItemSpacing.x;
+  width += button(film_label(c.model.views.film).c_str()) + style.ItemSpacing.x;
   width += button("Open") + style.ItemSpacing.x + button("Help");
   if (c.model.replay.on) width += button("Leave replay") + style.ItemSpacing.x;
   return width + c.px(16);
+}
+
+// In the bar's middle where title and actions leave room for it, else beside the actions.
+void draw_chooser(const PanelContext& c) {
+  const UiRect& r = c.layout.top;
+  ImGui::SameLine(0, 0);
+  const float from = ImGui::GetCursorPosX() + c.px(24);
+  const float to = r.w - right_part_width(c) - c.px(24);
+  const bool wide = to - from >= layout_chooser_width(c, true);
+  const float w = layout_chooser_width(c, wide);
+  const float middle = 0.5f * (r.w - w);
+  ImGui::SetCursorPos({std::max(std::min(std::max(middle, from), to - w), 0.0f),
+                       0.5f * (r.h - ImGui::GetFrameHeight())});
+  draw_layout_chooser(c, wide);
 }
 
 void draw_actions(const PanelContext& c) {
@@ -78,6 +94,8 @@ void draw_actions(const PanelContext& c) {
   draw_record_button(c);
   ImGui::SameLine();
   draw_exercise_button(c);
+  ImGui::SameLine();
+  draw_film_button(c);
   ImGui::SameLine();
   draw_open_button(c);
   if (c.model.replay.on) {
@@ -101,6 +119,7 @@ void draw_top_bar(const PanelContext& c) {
   begin_panel("##top", kBarPanel);
   ImGui::PopStyleVar(2);
   draw_title(c);
+  if (c.model.phase == UiPhase::kReady) draw_chooser(c);
   ImGui::SetCursorPos({r.w - right_part_width(c), 0.5f * (r.h - ImGui::GetFrameHeight())});
   ImGui::AlignTextToFramePadding();
   draw_actions(c);

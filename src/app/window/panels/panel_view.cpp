@@ -96,6 +96,7 @@ void draw_view_section(const PanelContext& c) {
   bool changed = draw_light(c, view);
   changed |= draw_switches(view);
   if (changed) c.requests.view = view;
+  draw_observer_section(c);
 }
 
 }  // namespace osteon

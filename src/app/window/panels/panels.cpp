@@ -17,6 +17,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
       draw_timeline(c);
     }
   }
+  if (ready) draw_panes(c);
   if (ready) draw_tip_line(c);
   if (ready) draw_bone_names(c);
   if (ready) draw_felt_legend(c);

@@ -43,6 +43,14 @@ void draw_checkup(const PanelContext& c);
 void draw_edit(const PanelContext& c);      // of a bone's surface
 void draw_patient(const PanelContext& c);   // a new one
 void draw_exercise(const PanelContext& c);  // course, briefing, how far, result
+void draw_panes(const PanelContext& c);     // names and messages of the picture's views
+/// The chooser of what the picture shows: buttons side by side, or one that opens.
+void draw_layout_chooser(const PanelContext& c, bool wide);
+float layout_chooser_width(const PanelContext& c, bool wide);
+void draw_observer_section(const PanelContext& c);
+std::string film_label(const ScreenFilmModel& film);
+void draw_film_button(const PanelContext& c);
+void read_layout_keys(const PanelContext& c);
 void read_shortcuts(const PanelContext& c);
 
 }  // namespace osteon

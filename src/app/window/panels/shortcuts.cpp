@@ -71,6 +71,7 @@ void read_shortcuts(const PanelContext& c) {
     return;
   }
   if (!c.model.hand.probe_in_hand) read_view_keys(c);
+  read_layout_keys(c);
   read_run_keys(c);
   read_hand_keys(c);
 }

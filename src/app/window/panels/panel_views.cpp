@@ -1,0 +1,145 @@
+#include <array>
+#include <string>
+
+#include "ui/ui_widgets.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::array<PictureLayout, kPictureLayouts> kLayouts = {
+    PictureLayout::kOutside, PictureLayout::kScope, PictureLayout::kPanorama, PictureLayout::kAll,
+    PictureLayout::kFluoro};
+constexpr std::array<const char*, kPictureLayouts> kWhat = {
+    "Bones and instruments from outside (F5). V goes to the next view.",
+    "What the arthroscope shows that a hand holds, or that rests (F6)",
+    "Bones seen through, with a yellow cone where the scope looks (F7)",
+    "The scope large; panorama and outside beside it (F8)",
+    "The last X-ray picture of the scene as it stands (F9); B takes one"};
+
+void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
+  const UiRect& r = shown.pane.area;
+  const std::string name = "##pane" + std::to_string(index);
+  ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(c.px(320), r.w - c.px(16)), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, 0);
+  ImGui::Begin(name.c_str(), nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kTextQuiet);
+  ImGui::TextWrapped("%s", shown.message.c_str());
+  ImGui::PopStyleColor();
+  if (shown.offers_scope) {
+    ImGui::Dummy({0, c.px(4)});
+    if (ui::accent_button("Take a scope")) c.requests.views.take_scope = true;
+    ui::tooltip("The active hand takes an arthroscope of 30 degrees");
+  }
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+}
+
+void draw_frame(const PanelContext& c, const Pane& pane) {
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const UiRect& r = pane.area;
+  if (!pane.large)
+    draw->AddRect({r.x, r.y}, {r.right(), r.bottom()}, color::kLine, c.px(2), 0, c.px(1));
+  const ui::WithFont small(c.fonts.small);
+  const ImVec2 at{r.x + c.px(8), r.y + c.px(6)};
+  draw->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 0xc0), title_of(pane.kind));
+  draw->AddText(at, color::kTextQuiet, title_of(pane.kind));
+}
+
+}  // namespace
+
+void draw_panes(const PanelContext& c) {
+  if (c.model.views.layout == PictureLayout::kOutside) return;
+  int index = 0;
+  for (const PaneModel& shown : c.model.views.panes) {
+    draw_frame(c, shown.pane);
+    if (!shown.message.empty()) draw_message(c, shown, index);
+    ++index;
+  }
+}
+
+float layout_chooser_width(const PanelContext& c, bool wide) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  if (!wide) return c.px(112);
+  float width = 0;
+  for (const PictureLayout layout : kLayouts)
+    width += ImGui::CalcTextSize(title_of(layout)).x + 2 * style.FramePadding.x + c.px(2);
+  return width;
+}
+
+void draw_layout_chooser(const PanelContext& c, bool wide) {
+  const PictureLayout now = c.model.views.layout;
+  if (wide) {
+    for (std::size_t k = 0; k < kLayouts.size(); ++k) {
+      if (k > 0) ImGui::SameLine(0, c.px(2));
+      if (ui::toggle_button(title_of(kLayouts[k]), now == kLayouts[k]))
+        c.requests.views.layout = kLayouts[k];
+      ui::tooltip(kWhat[k]);
+    }
+    return;
+  }
+  ImGui::SetNextItemWidth(layout_chooser_width(c, false));
+  if (!ImGui::BeginCombo("##layout", title_of(now))) {
+    ui::tooltip("What the picture shows (V: the next; F5 to F9)");
+    return;
+  }
+  for (std::size_t k = 0; k < kLayouts.size(); ++k) {
+    if (ImGui::Selectable(title_of(kLayouts[k]), now == kLayouts[k]))
+      c.requests.views.layout = kLayouts[k];
+    ui::tooltip(kWhat[k]);
+  }
+  ImGui::EndCombo();
+}
+
+void draw_observer_section(const PanelContext& c) {
+  const ObserverModel& observer = c.model.views.observer;
+  bool open = observer.open;
+  if (ui::switch_row("Second window", &open,
+                     "A window without controls for who looks on, on a second screen where there "
+                     "is one (F3)"))
+    c.requests.views.toggle_observer = true;
+  if (!observer.open) return;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  const bool chooses = ImGui::BeginCombo("##observer", title_of(observer.layout));
+  ui::tooltip("What the second window shows");
+  if (!chooses) return;
+  for (const PictureLayout layout : kLayouts)
+    if (ImGui::Selectable(title_of(layout), layout == observer.layout))
+      c.requests.views.observer_layout = layout;
+  ImGui::EndCombo();
+}
+
+std::string film_label(const ScreenFilmModel& film) {
+  if (!film.on) return "Film";
+  const std::string size = ui::number(film.megabytes, 1) + " MB";
+  return (film.ending ? "Ending, " : "Stop  " + ui::clock_time(film.seconds, false) + "  ") + size;
+}
+
+void draw_film_button(const PanelContext& c) {
+  const ScreenFilmModel& film = c.model.views.film;
+  ImGui::BeginDisabled(film.ending);
+  if (ui::toggle_button((film_label(film) + "###film").c_str(), film.on))
+    c.requests.views.toggle_film = true;
+  ImGui::EndDisabled();
+  ui::tooltip(film.on ? ("Ends the film: " + film.file + " (F4)").c_str()
+                      : "A film of this window, without sound, that browsers play (F4)");
+}
+
+void read_layout_keys(const PanelContext& c) {
+  constexpr int kF5 = 294;  // GLFW's number
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+  for (std::size_t k = 0; k < kLayouts.size(); ++k)
+    if (pressed(kF5 + static_cast<int>(k))) c.requests.views.layout = kLayouts[k];
+  if (pressed('V')) c.requests.views.layout = next_layout(c.model.views.layout);
+  if (pressed(kF5 - 2)) c.requests.views.toggle_observer = true;
+  if (pressed(kF5 - 1)) c.requests.views.toggle_film = true;
+  if (pressed('B') && c.model.views.can_shoot) c.requests.views.shoot = true;
+}
+
+}  // namespace osteon

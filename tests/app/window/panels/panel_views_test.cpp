@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "app/ui/ui_frame.h"
+#include "window/panels/panels.h"
+
+namespace osteon {
+namespace {
+
+using test::small_model;
+using test::UiFrame;
+
+void fill(UiFrame& ui) {
+  UiModel model = small_model();
+  model.width = ui.model.width;
+  model.height = ui.model.height;
+  ui.model = std::move(model);
+}
+
+TEST(PanelViews, KeysChooseWhatThePictureShows) {
+  UiFrame ui;
+  fill(ui);
+  EXPECT_EQ(ui.press_key('V').views.layout, PictureLayout::kScope);
+  EXPECT_EQ(ui.press_key(GLFW_KEY_F8).views.layout, PictureLayout::kAll);
+  EXPECT_EQ(ui.press_key(GLFW_KEY_F9).views.layout, PictureLayout::kFluoro);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_F3).views.toggle_observer);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_F4).views.toggle_film);
+  EXPECT_FALSE(ui.press_key('B').views.shoot) << "one is being made";
+  ui.model.views.can_shoot = true;
+  EXPECT_TRUE(ui.press_key('B').views.shoot);
+  ui.model.phase = UiPhase::kLoading;
+  EXPECT_FALSE(ui.press_key('V').views.layout);
+}
+
+// The usual and the smallest window: the chooser is in the bar, clear of title and buttons.
+TEST(PanelViews, TheChooserWorksByMouseInWideAndNarrowBars) {
+  UiFrame wide(1280, 720);
+  fill(wide);
+  const ImVec2 at = wide.find("##top", {"Panorama"});
+  ASSERT_GT(at.x, 0);
+  EXPECT_EQ(wide.click_for_views(at).layout, PictureLayout::kPanorama);
+  for (const float width : {640.0f, 800.0f}) {
+    UiFrame narrow(width, 600);
+    fill(narrow);
+    const ImVec2 combo = narrow.find("##top", {"##layout"});
+    ASSERT_GT(combo.x, 0) << width;
+    EXPECT_LT(combo.x, narrow.find("##top", {"###record"}).x);
+    narrow.click(combo);
+    narrow.draw();
+    const std::string popup = narrow.popup();
+    ASSERT_FALSE(popup.empty());
+    const ImVec2 all = narrow.find(popup.c_str(), {"All"});
+    EXPECT_EQ(narrow.click_for_views(all).layout, PictureLayout::kAll);
+  }
+}
+
+TEST(PanelViews, AMessageStandsWhereNoHandHoldsAScopeAndOffersOne) {
+  UiFrame ui;
+  fill(ui);
+  ui.model.views.layout = PictureLayout::kScope;
+  PaneModel pane{{PaneKind::kScope, {200, 60, 700, 560}, true}, "No hand holds a scope.", true};
+  ui.model.views.panes = {pane};
+  const ImVec2 at = ui.find("##pane0", {"Take a scope"});
+  ASSERT_GT(at.x, 200);
+  EXPECT_TRUE(ui.click_for_views(at).take_scope);
+  ui.model.views.panes[0].offers_scope = false;
+  EXPECT_LT(ui.find("##pane0", {"Take a scope"}).x, 0);
+}
+
+TEST(PanelViews, TheFilmButtonTellsTimeAndSizeAndTheSecondWindowsViewIsChosen) {
+  UiFrame ui;
+  fill(ui);
+  EXPECT_TRUE(ui.click_for_views(ui.find("##top", {"###film"})).toggle_film);
+  ui.model.views.film = {true, false, 75, 3.14, "/tmp/a.webm"};
+  EXPECT_EQ(film_label(ui.model.views.film), "Stop  1:15  3.1 MB");
+  ui.model.views.film.ending = true;
+  EXPECT_FALSE(ui.click_for_views(ui.find("##top", {"###film"})).toggle_film);
+}
+
+}  // namespace
+}  // namespace osteon

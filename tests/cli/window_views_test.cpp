@@ -1,0 +1,79 @@
+// The window's views under a virtual display, of a replay in which a scope looks into a box.
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "../media/read_film.h"
+#include "run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+bool can_show() {
+  return std::getenv("OSTEON_LONG") != nullptr &&
+         std::system("command -v Xvfb > /dev/null 2>&1") == 0;
+}
+
+struct Shot {
+  int width = 0, height = 0;
+  std::unique_ptr<stbi_uc, void (*)(void*)> rgb{nullptr, stbi_image_free};
+  int light(int x, int y) const {
+    const stbi_uc* p = rgb.get() + 3 * (static_cast<std::ptrdiff_t>(y) * width + x);
+    return (p[0] + p[1] + p[2]) / 3;
+  }
+};
+
+class WindowViews : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    if (!can_show()) GTEST_SKIP() << "takes long: set OSTEON_LONG=1; needs Xvfb";
+    recording_ = file("run.osr");
+    const Ran ran = run_osteon("run fast_periscoping --no-store --record " + recording_);
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+  int window(const std::string& options) const {
+    const std::string command =
+        "XDG_CONFIG_HOME=" + dir_.string() + " XDG_DATA_HOME=" + dir_.string() +
+        " " OSTEON_SOURCE_DIR "/tools/with-display 1000x700 " OSTEON_EXECUTABLE
+        " window --size 800x600 --replay " +
+        recording_ + " --at 1 --frames 16 " + options;
+    return std::system(command.c_str());
+  }
+  Shot shot(const std::string& options) const {
+    EXPECT_EQ(window("--screenshot " + file("w.png") + " " + options), 0);
+    Shot picture;
+    int channels = 0;
+    picture.rgb.reset(
+        stbi_load(file("w.png").c_str(), &picture.width, &picture.height, &channels, 3));
+    return picture;
+  }
+  std::string recording_;
+};
+
+TEST_F(WindowViews, TheScopesRoundPictureStandsBetweenTheCards) {
+  const Shot scope = shot("--layout scope");
+  ASSERT_TRUE(scope.rgb);
+  // Between the left card (152 + 8 wide) and the right one (200 + 8): black around, lit within.
+  const int middle_x = (160 + 592) / 2, middle_y = (40 + 548) / 2;
+  EXPECT_LT(scope.light(176, 56), 20);
+  EXPECT_LT(scope.light(580, 536), 20);
+  int lit = 0;
+  for (int y = -60; y <= 60; y += 4)
+    for (int x = -60; x <= 60; x += 4) lit += scope.light(middle_x + x, middle_y + y) > 40 ? 1 : 0;
+  EXPECT_GT(lit, 480) << "of 961";
+}
+
+TEST_F(WindowViews, TheSecondWindowAndTheFilmGoBesideIt) {
+  ASSERT_EQ(window("--layout layout --observer scope --film " + file("w.webm")), 0);
+  const ReadFilm film = read_film(file("w.webm"));
+  EXPECT_EQ(film.picture_codec, "vp9");
+  EXPECT_EQ(film.width, 800);
+  EXPECT_EQ(film.height, 600);
+  EXPECT_GE(film.pictures.size(), 1u);
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli
