@@ -41,7 +41,7 @@ std::size_t channel_places(const CarvingSetup& setup) {
   return kSecondOfDrilling + carved * setup.most_blocks;
 }
 
-FeltCuts::FeltCuts(const CarvingSetup& setup) : channel_(channel_places(setup)) {
+FeltCuts::FeltCuts(const CarvingSetup& setup, std::size_t places) : channel_(places) {
   for (const auto& bone : setup.bones) {
     bones_.emplace_back();
     if (bone)

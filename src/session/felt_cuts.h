@@ -32,7 +32,8 @@ std::size_t channel_places(const CarvingSetup& setup);
 /// with physics, and until it has gone into the channel the hand is given no snapshot of its steps.
 class FeltCuts {
  public:
-  explicit FeltCuts(const CarvingSetup& setup);
+  explicit FeltCuts(const CarvingSetup& setup) : FeltCuts(setup, channel_places(setup)) {}
+  FeltCuts(const CarvingSetup& setup, std::size_t places);
 
   // Of the hand.
   /// Of each bone; null: it is not carved.

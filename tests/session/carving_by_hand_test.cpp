@@ -48,8 +48,8 @@ double removed_by(const std::string& instrument, const Hand& hand, int ticks = 2
 }
 
 TEST(CarvingByHand, AnAwlGoesInWhereItIsPushedAndTurned) {
-  const double still = removed_by("awl", {});
-  const double turned = removed_by("awl", {.twist_rad = 0.8});
+  const double still = removed_by("awl:8", {});
+  const double turned = removed_by("awl:8", {.twist_rad = 0.8});
   EXPECT_LT(still, 0.5);
   EXPECT_GT(turned, still + 1);
 }

@@ -210,7 +210,7 @@ TEST(Carving, WhoDrawsSeesTheCutsAsTheyAre) {
   HandInput above = down_at(0, 0);
   for (int i = 0; i < 40; ++i) (void)session.tick(std::span(&above, 1));
   read();
-  ASSERT_GT(drawn.size(), 10u);
+  ASSERT_GT(drawn.size(), 5u);
   expect_drawn();
   HandInput back = down_at(0, 0);
   back.command = {CommandKind::kRestore, 0};
