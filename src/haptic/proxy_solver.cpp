@@ -29,15 +29,22 @@ Vec3 clipped_to_ball(const Vec3& center, double radius, const Vec3& from, const 
 
 }  // namespace
 
-// A way with more pieces than the list holds is taken in shorter stretches.
-bool ProxySolver::gather(const ProxyTask& task) {
+// A way with more pieces than the list holds is taken in shorter stretches, and a turn in smaller
+// ones: a long instrument that lags behind a turning hand would else stand still for good.
+bool ProxySolver::gather(ProxyTask& task) {
   constexpr double kShortest = 1e-5;
-  ToolReach about{{task.base_W, task.X_WP.q}, reach_m_, angle_between(task.X_WP.q, task.q_WP)};
-  for (; reach_m_ >= kShortest; reach_m_ *= 0.5) {
-    about.reach_m = reach_m_;
-    if (field_.collect(about, task.before_WB, task.now_WB, near_pieces_, near_)) {
-      recall();
-      return true;
+  const Quat wanted = task.q_WP;
+  for (const double share : {1.0, 0.25, 1.0 / 16, 1.0 / 64, 0.0}) {
+    if (share < 1) task.q_WP = task.X_WP.q;
+    if (share > 0 && share < 1) task.q_WP = task.X_WP.q.slerp(share, wanted);
+    const double turn = angle_between(task.X_WP.q, task.q_WP);
+    ToolReach about{{task.base_W, task.X_WP.q}, task.reach_m, turn};
+    for (reach_m_ = task.reach_m; reach_m_ >= kShortest; reach_m_ *= 0.5) {
+      about.reach_m = reach_m_;
+      if (field_.collect(about, task.before_WB, task.now_WB, near_pieces_, near_)) {
+        recall();
+        return true;
+      }
     }
   }
   near_.count = 0;
@@ -306,7 +313,8 @@ void ProxySolver::meet_tools(const ProxyTask& task) {
 // between the path's points are free too. Source: Zilles and Salisbury, IROS 1995, with planes that
 // come with a proof. Ends: a move is at most kMaxRounds - 1 rounds, a round one search for the
 // nearest point, of NearestSearch::kMaxSteps steps at most.
-ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory) {
+ProxyMove ProxySolver::move(const ProxyTask& wanted, std::span<PairMemory> memory) {
+  ProxyTask task = wanted;
   memory_ = memory;
   ring_ = task.ring;
   stopped_ = false;
@@ -320,6 +328,7 @@ ProxyMove ProxySolver::move(const ProxyTask& task, std::span<PairMemory> memory)
     move.status = kTickSolverLimit;
     return move;
   }
+  if (task.q_WP.coeffs() != wanted.q_WP.coeffs()) move.status |= kTickRotationHeld;
   meet_tools(task);
   if (enter_free_space(task, task.q_WP, move)) {
     approach(task, move);

@@ -73,10 +73,10 @@ class ProxySolver {
       : field_(field), near_pieces_(field.near_pieces()), walls_(field), tools_(tool, tray) {}
   /// `memory`: of kMaxCandidates pairs, those that were near, in their order. Nothing else that a
   /// move leaves changes the next.
-  ProxyMove move(const ProxyTask& task, std::span<PairMemory> memory);
+  ProxyMove move(const ProxyTask& wanted, std::span<PairMemory> memory);
 
  private:
-  bool gather(const ProxyTask& task);
+  bool gather(ProxyTask& task);
   void recall();
   void raise(std::uint32_t i);
   void settle(std::uint32_t i);

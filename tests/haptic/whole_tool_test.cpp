@@ -67,6 +67,30 @@ TEST_P(WholeTool, AShaftThatLiesOnABlockIsHeldByIt) {
   EXPECT_GT(last, 5);
 }
 
+// Far more pieces lie within a wide turn of the shaft than a list holds: it turns in small steps
+// where it once stood still for good.
+TEST(WholeToolTurn, ALongShaftAmongManyPiecesGoesOnTurning) {
+  std::vector<Hull> pieces;
+  for (int ring = 0; ring < 5; ++ring)
+    for (int k = 0; k < 20; ++k) {
+      const double a = 2 * std::numbers::pi * k / 20;
+      pieces.push_back(
+          test::box_hull(Vec3::Constant(0.0004),
+                         Vec3(0.0065 * std::cos(a), 0.0065 * std::sin(a), 0.09 + 0.005 * ring)));
+    }
+  ASSERT_GT(pieces.size(), kMaxCandidates);
+  Rig rig({test::bone_of(std::move(pieces))}, scope());
+  rig.at(Vec3::Zero());
+  const ToolState* s = nullptr;
+  for (int i = 0; i < 200; ++i) {
+    s = &rig.at(Vec3::Zero(), about_y(0.3));
+    ASSERT_FALSE(s->status & kTickSolverLimit) << i;
+  }
+  const double turned = 2 * std::asin(std::abs(s->X_WP.q.y()));
+  EXPECT_GT(turned, 0.02);
+  EXPECT_LT(turned, 0.08);
+}
+
 // A handle thicker than the field's fine band stands off by its radius.
 TEST_P(WholeTool, AThickHandleStandsOffByItsRadius) {
   for (const double radius : {0.003, 0.008, 0.016}) {
