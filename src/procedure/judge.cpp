@@ -16,13 +16,20 @@ Result<PlannedRule> plan_marks(PlannedRule planned, const Scenario& scenario,
                   scenario.where + ":" + std::to_string(planned.rule.line),
                   "Name a landmark of the case's description");
     planned.bones.push_back(*mark);
+    planned.places_W.push_back(the_case.landmarks[*mark].p_W);
   }
+  for (const std::string& name : planned.rule.subjects)
+    if (!the_case.find(name).valid())
+      return fail("the case '" + the_case.name + "' has no bone '" + name + "'",
+                  scenario.where + ":" + std::to_string(planned.rule.line),
+                  "Name its bones as `osteon case info` does");
   return planned;
 }
 
 Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
   const RuleKind* kind = find_rule_kind(rule.kind);
   PlannedRule planned{rule, {}, kind ? kind->about : SubjectKind::kBone, kNoHand};
+  if (kind) planned.heeds = kind->heeds;
   for (std::size_t h = 0; h < scenario.hands.size(); ++h)
     if (scenario.hands[h].name == rule.hand) planned.hand = static_cast<std::uint8_t>(h);
   if (!rule.hand.empty() && planned.hand == kNoHand)

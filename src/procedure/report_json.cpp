@@ -77,4 +77,13 @@ std::string to_json(std::span<const Report> reports, std::span<const std::string
   return json_text(json);
 }
 
+std::string to_json(std::span<const Report> reports, std::span<const std::string> names,
+                    const Outcome& outcome) {
+  std::string text = to_json(reports.front(), outcome);
+  if (reports.size() < 2) return text;
+  OrderedJson json = OrderedJson::parse(text);
+  for (std::size_t h = 0; h < reports.size(); ++h) add_hand(reports[h], json["hands"][names[h]]);
+  return json_text(json);
+}
+
 }  // namespace osteon

@@ -3,19 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/tip_watch.h"
+#include "way_rules.h"
 
 namespace osteon {
-namespace {
-
-using RuleStep = std::optional<RuleHit> (*)(const PlannedRule&, const Event&, std::size_t bone,
-                                            double tick_s, RuleState&);
 
 double number_of(const PlannedRule& rule, const char* name) { return rule.rule.numbers.at(name); }
 
 double time_of(const Event& event, double tick_s) {
   return static_cast<double>(event.tick) * tick_s;
 }
+
+std::optional<RuleHit> lasting(bool wrong, const PlannedRule& rule, const Event& event,
+                               double tick_s, RuleHold& hold) {
+  const double now_s = time_of(event, tick_s);
+  if (!wrong) {
+    hold.since_s = -1;
+    hold.told = false;
+    return std::nullopt;
+  }
+  if (hold.since_s < 0) hold.since_s = now_s;
+  if (hold.told || now_s - hold.since_s < number_of(rule, "for_s")) return std::nullopt;
+  hold.told = true;
+  return RuleHit{hold.since_s};
+}
+
+namespace {
+
+using RuleStep = std::optional<RuleHit> (*)(const PlannedRule&, const Event&, std::size_t bone,
+                                            double tick_s, RuleState&);
 
 // A bone counts once a contact has lasted and pressed enough.
 std::optional<RuleHit> touched(const PlannedRule& rule, const Event& event, std::size_t bone,
@@ -104,21 +122,6 @@ std::optional<RuleHit> through(const PlannedRule& rule, const Event& event, std:
   hold.last_s = now_s;
   if (now_s - hold.since_s >= number_of(rule, "for_s")) state.done[portal] = 1;
   return std::nullopt;
-}
-
-// An error once a wrong thing has lasted; another one only after it has been right again.
-std::optional<RuleHit> lasting(bool wrong, const PlannedRule& rule, const Event& event,
-                               double tick_s, RuleHold& hold) {
-  const double now_s = time_of(event, tick_s);
-  if (!wrong) {
-    hold.since_s = -1;
-    hold.told = false;
-    return std::nullopt;
-  }
-  if (hold.since_s < 0) hold.since_s = now_s;
-  if (hold.told || now_s - hold.since_s < number_of(rule, "for_s")) return std::nullopt;
-  hold.told = true;
-  return RuleHit{hold.since_s};
 }
 
 std::optional<RuleHit> tilted(const PlannedRule& rule, const Event& event, std::size_t,
@@ -223,6 +226,50 @@ const std::vector<RuleRow>& rule_rows() {
         {{"for_s", 0, 60, 1}},
         SubjectKind::kNothing},
        tip_unseen},
+      {{"reached_in_order",
+        "the tip comes to every mark and stays for a time, one after the other as they are listed",
+        true,
+        {{"near_mm", 0.2, 100, 2}, {"for_s", 0, 60, 0}},
+        SubjectKind::kLandmark,
+        kTipAt},
+       reached_in_order},
+      {{"passed_in_order",
+        "the tip goes in at the first mark of each pair and comes out at the second, pair by pair",
+        true,
+        {{"near_mm", 0.2, 100, 3}, {"for_s", 0, 60, 0}},
+        SubjectKind::kLandmark,
+        kTipAt},
+       passed_in_order},
+      {{"removed",
+        "of what lies on a bone beside the line through the marks, this share has been removed",
+        true,
+        {{"within_mm", 0.2, 100, 3}, {"share", 0.01, 1, 0.9}, {"for_s", 0, 60, 0}},
+        SubjectKind::kLandmark,
+        kCutSeen,
+        true},
+       removed},
+      {{"strayed",
+        "between the first mark and the last, the tip is farther than a limit from the way "
+        "through the marks for a time",
+        false,
+        {{"off_mm", 0.2, 100, 3}, {"for_s", 0, 60, 0.2}},
+        SubjectKind::kLandmark,
+        kTipAt},
+       strayed},
+      {{"passed_out_of_order",
+        "the tip goes through a pair of marks while one before it is left out",
+        false,
+        {{"near_mm", 0.2, 100, 3}},
+        SubjectKind::kLandmark,
+        kTipAt},
+       passed_out_of_order},
+      {{"cut_outside",
+        "bone has been removed farther beyond the part to be removed than a limit",
+        false,
+        {{"beyond_mm", 0.1, 100, 1}},
+        SubjectKind::kNothing,
+        kCutSeen},
+       cut_outside},
   };
   return rows;
 }
@@ -246,10 +293,13 @@ const RuleKind* find_rule_kind(std::string_view name) {
 
 std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, double tick_s,
                                  RuleState& state) {
-  if (event.subject_kind != rule.about) return std::nullopt;
+  const bool of_kind = rule.heeds != EventKind::kNone;
+  if (of_kind ? event.kind != rule.heeds : event.subject_kind != rule.about) return std::nullopt;
   if (rule.hand != kNoHand && event.hand != rule.hand) return std::nullopt;
-  const auto bone = std::find(rule.bones.begin(), rule.bones.end(), event.subject);
-  if (rule.about != SubjectKind::kNothing && bone == rule.bones.end()) return std::nullopt;
+  const auto bone =
+      of_kind ? rule.bones.begin() : std::find(rule.bones.begin(), rule.bones.end(), event.subject);
+  if (!of_kind && rule.about != SubjectKind::kNothing && bone == rule.bones.end())
+    return std::nullopt;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
     const auto place = static_cast<std::size_t>(bone - rule.bones.begin());

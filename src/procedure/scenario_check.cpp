@@ -76,7 +76,7 @@ class ScenarioChecker {
                            name + "'");
       if (!names.insert(name).second) say(rule.line, "the mark '" + name + "' comes twice");
     }
-    if (rule.marks.empty() || !rule.numbers.contains("near_mm")) return;
+    if (rule.marks.empty() || !rule.numbers.contains("span_mm")) return;
     if (rule.numbers.at("near_mm") + rule.numbers.at("span_mm") >= rule.numbers.at("far_mm"))
       say(rule.line, "the rule '" + rule.kind +
                          "' can never be met: far_mm leaves no room beyond near_mm and span_mm");

@@ -23,11 +23,14 @@ Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
     return rule;
   }
   rule.hand = table.text_or("hand", "");
-  if (kind->about == SubjectKind::kBone) rule.subjects = table.texts_or_empty("bones");
+  if (kind->about == SubjectKind::kBone || kind->with_bone)
+    rule.subjects = table.texts_or_empty("bones");
   if (kind->about == SubjectKind::kLandmark) {
     rule.marks = table.texts_or_empty("marks");
     if (rule.marks.empty()) table.set_error("the rule needs marks", key, "Add marks = [...]");
   }
+  if (kind->with_bone && rule.subjects.size() != 1)
+    table.set_error("the rule needs one bone", key, "Add bones = [\"NAME\"]");
   for (const RuleNumber& n : kind->numbers)
     rule.numbers[std::string(n.name)] = table.number_or(n.name, n.lo, n.hi, n.usual);
   return rule;
@@ -96,8 +99,11 @@ Scenario read_scenario(TomlTable& table) {
   scenario.title = table.text("title");
   scenario.text = table.text("text");
   scenario.version = static_cast<int>(table.number("version", 1, kMany));
-  scenario.anatomy = table.word("anatomy", {"wrist", "knee", "fast_box"});
+  scenario.anatomy = table.word(
+      "anatomy", {"wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_suture"});
   scenario.felt = table.word("felt", {"pieces", "hull", "field"}, true);
+  scenario.fields = table.texts_or_empty("fields");
+  scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
   scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);
   scenario.sides = table.texts_or_empty("sides");
   for (const std::string& side : scenario.sides)

@@ -132,7 +132,7 @@ void ProbeSurgeon::feel(const Vec3& force_W) {
   felt_n_.pop_front();
 }
 
-FollowingScope::FollowingScope(const ProbeSurgeon& probe, const ScenarioPlan& plan,
+FollowingScope::FollowingScope(const HandPlayer& probe, const ScenarioPlan& plan,
                                const Skill& skill, const ScopeOptics& optics, const Vec3& portal_W)
     : probe_(&probe),
       skill_(skill),

@@ -4,6 +4,7 @@
 #include <locale>
 #include <nlohmann/json.hpp>
 
+#include "osteon/procedure/hand_reports.h"
 #include "report_fixtures.h"
 
 namespace osteon {
@@ -39,6 +40,19 @@ TEST(ReportJson, KeepsTheBonesInTheCasesOrder) {
   const std::string text = to_json(sample_report());
   EXPECT_LT(text.find("radius"), text.find("lunate"));
   EXPECT_LT(text.find("lunate"), text.find("hamate"));
+}
+
+TEST(ReportJson, OfAnAttemptWithTwoHandsHoldsTheBonesOfBoth) {
+  std::vector<Report> reports{sample_report(), sample_report()};
+  reports[1].bones[0].peak_force_n = 9;
+  const std::vector<std::string> names{"probe", "scope"};
+  const auto json = nlohmann::json::parse(to_json(reports, names, Outcome{}));
+  EXPECT_EQ(json["bones"]["radius"]["peak_force_n"], 2.5);
+  EXPECT_EQ(json["hands"]["probe"]["bones"]["radius"]["peak_force_n"], 2.5);
+  EXPECT_EQ(json["hands"]["scope"]["bones"]["radius"]["peak_force_n"], 9);
+  EXPECT_TRUE(json.contains("verdict"));
+  reports.pop_back();
+  EXPECT_EQ(to_json(reports, names, Outcome{}), to_json(sample_report(), Outcome{}));
 }
 
 TEST(ReportJson, OfNoBonesIsAnEmptyObject) {

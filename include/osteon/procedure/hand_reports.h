@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "osteon/procedure/attempt.h"
 #include "osteon/procedure/report.h"
 
 namespace osteon {
@@ -15,5 +16,9 @@ namespace osteon {
 /// ```
 /// As many names as reports, at least one.
 std::string to_json(std::span<const Report> reports, std::span<const std::string> names);
+/// The report of an attempt (attempt.h), whose keys tell of the first hand; of several hands with
+/// each one's own bones, portals and way under `hands.<name>` as well.
+std::string to_json(std::span<const Report> reports, std::span<const std::string> names,
+                    const Outcome& outcome);
 
 }  // namespace osteon

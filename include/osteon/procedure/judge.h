@@ -17,7 +17,9 @@ struct PlannedRule {
   Rule rule;
   std::vector<std::uint32_t> bones;  ///< or landmarks; none of a rule about the hand itself
   SubjectKind about = SubjectKind::kBone;
-  std::uint8_t hand = kNoHand;  ///< kNoHand: any
+  std::uint8_t hand = kNoHand;         ///< kNoHand: any
+  EventKind heeds = EventKind::kNone;  ///< see RuleKind
+  std::vector<Vec3> places_W = {};     ///< of landmarks: where they are
 };
 /// A scenario on one case: what judging needs, and nothing that changes.
 struct ScenarioPlan {

@@ -69,8 +69,10 @@ struct ScenarioMetric {
 struct Scenario {
   std::string name, title, text;
   int version = 1;
-  std::string anatomy;  ///< "wrist" or "knee": what grows its patients
-  std::string felt;     ///< "pieces", "hull" or "field": what of the bones is felt
+  std::string anatomy;              ///< "wrist" or "knee": what grows its patients
+  std::string felt;                 ///< "pieces", "hull" or "field": what of the bones is felt
+  std::vector<std::string> fields;  ///< bones felt as fields all the same: they can be carved
+  double cortex_mm = 1.2;           ///< of bones that are carved: how thick their hard shell is
   double time_limit_s = 600;
   std::vector<std::string> sides;     ///< of the patients that are drawn; empty: as described
   std::vector<std::string> findings;  ///< "geissler=2": half of the drawn patients have one
@@ -95,6 +97,9 @@ struct RuleKind {
   bool is_goal;  ///< of a stage; else of an error
   std::vector<RuleNumber> numbers;
   SubjectKind about = SubjectKind::kBone;  ///< bones, landmarks, or nothing (the hand itself)
+  /// The one kind of event that it reads, whatever its subject; kNone: all about its subjects.
+  EventKind heeds = EventKind::kNone;
+  bool with_bone = false;  ///< of a kind about landmarks: names the bone that they lie on as well
 };
 const std::vector<RuleKind>& rule_table();
 const RuleKind* find_rule_kind(std::string_view name);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osteon/base/types.h"
+#include "osteon/scene/command.h"
 
 namespace osteon {
 
@@ -19,6 +20,12 @@ class HandPlayer {
   /// The force on the hand in the same tick, N.
   virtual void feel(const Vec3& force_W) = 0;
   virtual bool done() const = 0;
+  /// What it does beside moving in the tick of the last step: power, jaw.
+  virtual Command command() { return {}; }
+  /// Where the tip is wanted, for a hand that looks after it.
+  virtual Vec3 tip_W() const { return Vec3::Zero(); }
+  /// How many bones or places it is done with.
+  virtual std::size_t touched() const { return 0; }
   /// Bones or marks that no free way leads to.
   virtual const std::vector<std::string>& unreachable() const = 0;
 };

@@ -27,9 +27,9 @@ class ProbeSurgeon : public HandPlayer {
   bool done() const override { return phase_ == Phase::kDone; }
   const std::vector<std::string>& unreachable() const override { return unreachable_; }
   /// Where the tip is wanted now.
-  const Vec3& tip_W() const { return tip_W_; }
+  Vec3 tip_W() const override { return tip_W_; }
   /// How many bones have been touched.
-  std::size_t touched() const { return at_; }
+  std::size_t touched() const override { return at_; }
 
  private:
   enum class Phase { kThink, kTravel, kLower, kPress, kLift, kFault, kDone };
@@ -63,12 +63,12 @@ class ProbeSurgeon : public HandPlayer {
   double known_n_ = 0, dt_s_ = 0.001;
 };
 
-/// The hand with the scope while the other probes: keeps the probe's tip in the middle of the
+/// The hand with the scope while the other works: keeps the other's tip in the middle of the
 /// picture, a little late.
 class FollowingScope : public HandPlayer {
  public:
   /// `probe` must outlive it.
-  FollowingScope(const ProbeSurgeon& probe, const ScenarioPlan& plan, const Skill& skill,
+  FollowingScope(const HandPlayer& probe, const ScenarioPlan& plan, const Skill& skill,
                  const ScopeOptics& optics, const Vec3& portal_W);
 
   Pose start() const override { return pose_; }
@@ -78,7 +78,7 @@ class FollowingScope : public HandPlayer {
   const std::vector<std::string>& unreachable() const override { return unreachable_; }
 
  private:
-  const ProbeSurgeon* probe_;
+  const HandPlayer* probe_;
   Skill skill_;
   ScopeOptics optics_;
   Vec3 portal_W_, looked_at_W_;

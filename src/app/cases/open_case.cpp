@@ -1,5 +1,7 @@
 #include "cases/open_case.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
@@ -135,9 +137,11 @@ void colour_softs(CaseDef& def) {
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
-  if (name != "wrist" && name != "knee" && name != "fast_box")
+  constexpr std::array<std::string_view, 6> kNames{"wrist",     "knee",          "fast_box",
+                                                   "fast_maze", "fast_meniscus", "fast_suture"};
+  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
     return fail("there is no built-in anatomy '" + name + "'", "anatomy",
-                "Use wrist, knee or fast_box");
+                "Use wrist, knee, fast_box, fast_maze, fast_meniscus or fast_suture");
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto folder = *data / "assets/anatomy";

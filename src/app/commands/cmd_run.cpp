@@ -50,7 +50,7 @@ int run_command(const RunCommand& command) {
   if (!run) return report_error(run.error());
   const auto done = run_scenario(*run);
   if (!done) return report_error(done.error());
-  const std::string report = to_json(done->report, done->outcome);
+  const std::string report = to_json(*done);
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
   if (!command.no_store) {

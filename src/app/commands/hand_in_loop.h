@@ -6,6 +6,7 @@
 #include "osteon/base/result.h"
 #include "osteon/device/virtual_hand.h"
 #include "osteon/haptic/haptic.h"
+#include "osteon/scene/command.h"
 #include "osteon/scene/path.h"
 
 namespace osteon {
@@ -18,6 +19,8 @@ class HandInLoop {
   virtual ToolInput move() = 0;
   /// Force of that tick, N.
   virtual void feel(const Vec3& force_W) = 0;
+  /// What it does beside moving, in the tick of the last move.
+  virtual Command command() { return {}; }
   /// Why it no longer feels the force; empty: it does.
   virtual std::string complaint() const { return {}; }
 };

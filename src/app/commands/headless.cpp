@@ -95,8 +95,11 @@ class HeadlessLoop {
 
   void tick(std::uint64_t n, double dt) {
     inputs_.clear();
-    for (RunningHand& hand : hands_)
+    for (RunningHand& hand : hands_) {
       inputs_.push_back({hand.hand->move(), hand.commands.at(static_cast<double>(n) * dt)});
+      Command& command = inputs_.back().command;
+      if (command.kind == CommandKind::kNone) command = hand.hand->command();
+    }
     const std::int64_t before = steady_now_ns();
     (void)session_.tick(inputs_);
     tick_times_.add_ns(steady_now_ns() - before);

@@ -138,7 +138,7 @@ Result<Rescored> rescore_one(const RescoreJob& job, const RescoreCommand& comman
   if (!debrief->outcome)
     return fail("the recording is of no exercise", job.recording.string(),
                 "Name one with --scenario");
-  auto json = nlohmann::ordered_json::parse(to_json(debrief->report, *debrief->outcome));
+  auto json = nlohmann::ordered_json::parse(report_of(*debrief));
   json["recording"] = job.recording.string();
   json["surgeon"] = debrief->surgeon;
   json["identical"] = debrief->identical;

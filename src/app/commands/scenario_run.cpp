@@ -7,10 +7,12 @@
 #include "cases/open_case.h"
 #include "commands/headless.h"
 #include "exercises/attempt_watch.h"
+#include "osteon/procedure/hand_reports.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
 #include "osteon/surgeon/tour_surgeon.h"
+#include "osteon/surgeon/way_surgeon.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -30,6 +32,7 @@ class SurgeonHand : public HandInLoop {
     wanted_ = next;
     return {hand_.pose(), hand_.velocity(), hand_.angular_velocity(), 0};
   }
+  Command command() override { return surgeon_.command(); }
   void feel(const Vec3& force_W) override {
     force_W_ = force_W;
     surgeon_.feel(force_W);
@@ -74,7 +77,7 @@ std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand>
                                                     const Skill& skill, double tip_radius_m) {
   if (is_tour(plan)) return tour_players(hands, plan, the_case, skill);
   std::vector<std::unique_ptr<HandPlayer>> players;
-  const ProbeSurgeon* probe = nullptr;
+  const HandPlayer* probe = nullptr;
   for (const PlannedHand& hand : hands) {
     const Vec3 portal_W = hand.portal_W.value_or(Vec3(0, 0, 0.1));
     if (hand.optics && probe)
@@ -83,7 +86,12 @@ std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand>
     else if (hand.optics)
       players.push_back(std::make_unique<ScopeSurgeon>(
           plan, the_case, skill, ScopeSurgeon::Scope{*hand.optics, portal_W, hand.shaft_radius_m}));
-    else if (hand.portal_W) {
+    else if (auto way = plan_way(plan, the_case, skill, {portal_W, hand.tip_radius_m});
+             hand.portal_W && !way.empty()) {
+      auto made = std::make_unique<WaySurgeon>(std::move(way), skill, portal_W);
+      probe = made.get();
+      players.push_back(std::move(made));
+    } else if (hand.portal_W) {
       auto made = std::make_unique<ProbeSurgeon>(plan, the_case, skill, portal_W, tip_radius_m);
       probe = made.get();
       players.push_back(std::move(made));
@@ -102,6 +110,10 @@ ProbePath holding(const std::string& instrument) {
 }
 
 }  // namespace
+
+std::string to_json(const ScenarioOutcome& done) {
+  return to_json(done.reports, done.hands, done.outcome);
+}
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const auto the_case = open_felt_case(run.case_spec);
@@ -123,6 +135,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
+  headless.settings.carve.cortex_m = run.scenario.cortex_mm / 1000;
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
   for (std::size_t h = 0; h < hands->size(); ++h)
@@ -138,13 +151,14 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   if (!reports) return tl::unexpected(reports.error());
   auto outcome = watch.finish(run.standard ? &*run.standard : nullptr);
   if (!outcome) return tl::unexpected(outcome.error());
-  ScenarioOutcome done{std::move(reports->reports.front()), std::move(*outcome), {}};
+  ScenarioOutcome done{
+      std::move(reports->reports), std::move(reports->names), std::move(*outcome), {}};
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());
   if (run.record_to)
     if (auto noted = note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name,
-                                  to_json(done.report, done.outcome));
+                                  to_json(done));
         !noted)
       return tl::unexpected(noted.error());
   return done;

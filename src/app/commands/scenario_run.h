@@ -23,10 +23,13 @@ struct ScenarioRun {
   std::optional<std::filesystem::path> record_to;
 };
 struct ScenarioOutcome {
-  Report report;
+  std::vector<Report> reports;  ///< of each hand
+  std::vector<std::string> hands;
   Outcome outcome;
   std::vector<std::string> unreachable;  ///< bones that the surgeon found no way to
 };
+/// The report as JSON.
+std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 
 }  // namespace osteon

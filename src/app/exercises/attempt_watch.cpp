@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "osteon/procedure/tip_watch.h"
 #include "osteon/scene/portal.h"
 #include "runs/tray.h"
 
@@ -13,11 +14,31 @@ std::vector<std::uint32_t> marks_of(const ScenarioPlan& plan) {
   std::vector<std::uint32_t> marks;
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals)
-      if (goal.about == SubjectKind::kLandmark && goal.rule.kind != "through")
+      if (goal.about == SubjectKind::kLandmark && goal.heeds == EventKind::kNone &&
+          goal.rule.kind != "through")
         marks.insert(marks.end(), goal.bones.begin(), goal.bones.end());
   std::sort(marks.begin(), marks.end());
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
   return marks;
+}
+
+// The parts of bones that a goal asks to remove.
+std::vector<CutPart> cut_parts_of(const ScenarioPlan& plan, const Case& the_case) {
+  std::vector<CutPart> parts;
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.heeds == kCutSeen)
+        parts.push_back({the_case.find(goal.rule.subjects.front()).index, goal.places_W,
+                         goal.rule.numbers.at("within_mm") / 1000});
+  return parts;
+}
+
+bool asks_for_tip(const ScenarioPlan& plan) {
+  const auto of_tip = [](const PlannedRule& rule) { return rule.heeds == kTipAt; };
+  return std::any_of(plan.errors.begin(), plan.errors.end(), of_tip) ||
+         std::any_of(plan.goals.begin(), plan.goals.end(), [&](const auto& goals) {
+           return std::any_of(goals.begin(), goals.end(), of_tip);
+         });
 }
 
 Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
@@ -37,6 +58,7 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
     const Tool tool = make_tool(*instrument, instrument->usual_size);
     planned.shaft_radius_m = 0.5 * instrument->sizes_m[instrument->usual_size];
     planned.tip_radius_m = tool.tip_radius_m;
+    planned.removes = instrument->removal.has_value();
     planned.shaft_offset_T = {tool.shaft.p0.x(), tool.shaft.p0.y(), 0};
   }
   if (hand.portal.empty()) return planned;
@@ -73,7 +95,9 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       case_(&the_case),
       tick_s_(tick_s),
       meter_(tick_s),
-      state_(begin_scenario(plan)) {
+      state_(begin_scenario(plan)),
+      tells_tips_(asks_for_tip(plan)) {
+  const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
     events_.emplace_back(the_case.bones.size(), event_limits(plan.scenario), hand, tick_s);
@@ -86,6 +110,9 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
     for (const Portal& portal : find_portals(the_case))
       settings.portal_marks.push_back(portal.landmark);
     scopes_.emplace_back(the_case, std::move(settings));
+    for (const CutPart& part : parts)
+      if (hands[h].removes)
+        cuts_.push_back({h, CutWatch(the_case, part, hands[h].tip_radius_m, hand, tick_s)});
   }
 }
 
@@ -96,7 +123,10 @@ void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapsh
     events_[h].add(*tools[h], fresh_);
     const ToolState* other = tools.size() == 2 ? tools[1 - h] : nullptr;
     scopes_[h].add(*tools[h], other, bones, fresh_);
+    if (tells_tips_) tell_tip(*tools[h], static_cast<std::uint8_t>(h), tick_s_, fresh_);
   }
+  for (HandCut& cut : cuts_)
+    if (cut.hand < tools.size()) cut.watch.add(*tools[cut.hand], fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
 }

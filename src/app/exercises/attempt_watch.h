@@ -6,6 +6,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
+#include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
@@ -20,6 +21,7 @@ struct PlannedHand {
   std::optional<Vec3> portal_W;
   double shaft_radius_m = 0.00075;
   double tip_radius_m = 0.00075;
+  bool removes = false;                ///< bone
   Vec3 shaft_offset_T = Vec3::Zero();  ///< the shaft's axis runs along z of Tool through this point
 };
 /// Fails on an instrument that there is none of, and on a portal that the case lacks.
@@ -37,6 +39,10 @@ class AttemptWatch {
   Result<Outcome> finish(const Standard* standard);
 
  private:
+  struct HandCut {
+    std::size_t hand = 0;
+    CutWatch watch;
+  };
   void judge_fresh();
 
   const ScenarioPlan* plan_;
@@ -46,6 +52,8 @@ class AttemptWatch {
   std::vector<ScopeWatch> scopes_;
   AttemptMeter meter_;  // of the first hand
   ScenarioState state_;
+  bool tells_tips_ = false;
+  std::vector<HandCut> cuts_;
   std::vector<Event> fresh_;
   double now_s_ = 0;
 };

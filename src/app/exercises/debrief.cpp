@@ -7,6 +7,7 @@
 #include "commands/recorded_case.h"
 #include "exercises/attempt_watch.h"
 #include "exercises/scenario_files.h"
+#include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
@@ -140,7 +141,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   debrief.case_name = (*the_case)->name;
   debrief.duration_s = replayed->report.duration_s;
   debrief.identical = replayed->identical;
-  debrief.report = replayed->reports.front();
+  debrief.reports = replayed->reports;
   const auto surgeon = read_note(order.recording, "surgeon");
   if (surgeon && *surgeon) debrief.surgeon = **surgeon;
   for (std::size_t h = 0; h < hands; ++h)
@@ -153,6 +154,12 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   debrief.outcome = std::move(*outcome);
   debrief.scenario = std::move(**scenario);
   return debrief;
+}
+
+std::string report_of(const Debrief& debrief) {
+  std::vector<std::string> names;
+  for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
+  return to_json(debrief.reports, names, *debrief.outcome);
 }
 
 }  // namespace osteon

@@ -28,7 +28,7 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
   std::optional<Outcome> outcome;
-  Report report;  ///< the first hand's
+  std::vector<Report> reports;  ///< of each of `hands`
   std::vector<HandTrace> hands;
 };
 
@@ -37,6 +37,8 @@ struct DebriefOrder {
   std::string case_spec, scenario, standard;  ///< empty: the recording's own
 };
 Result<Debrief> make_debrief(const DebriefOrder& order);
+/// The report of the attempt as JSON, as `osteon run` writes it.
+std::string report_of(const Debrief& debrief);
 
 /// Pages to print: verdict and score with its interval, stages and errors on the line of time with
 /// the force, forces by structure, metrics, and each hand's way seen from above and from the side.

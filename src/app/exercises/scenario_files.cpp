@@ -86,7 +86,11 @@ std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
   // What every patient of the exercise has stands behind a seed alone.
   if (!scenario.always.empty() && !seed) seed = 0;
   if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed) + drawn_words(scenario, *seed);
-  if (spec.find('#') == std::string::npos && scenario.felt != "pieces") spec += "#" + scenario.felt;
+  if (spec.find('#') != std::string::npos) return spec;
+  std::string felt = scenario.felt == "pieces" ? "" : scenario.felt;
+  for (const std::string& bone : scenario.fields)
+    felt += (felt.empty() ? "" : ",") + bone + "=field";
+  if (!felt.empty()) spec += "#" + felt;
   return spec;
 }
 

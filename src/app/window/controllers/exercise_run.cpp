@@ -179,7 +179,7 @@ void ExerciseRun::poll() {
 }
 
 void ExerciseRun::keep() {
-  const std::string report = to_json(debrief_->report, *debrief_->outcome);
+  const std::string report = report_of(*debrief_);
   const auto standard = shipped_standard(scenario().name);
   const auto noted =
       note_attempt(file_, scenario(), standard ? *standard : std::nullopt, "a person", report);
