@@ -13,6 +13,7 @@ namespace {
 constexpr double kTourCircle_rad = 2 * std::numbers::pi;
 constexpr double kTourOut_m = 0.012;  // over the skin on the way to another portal
 constexpr double kGoShare = 0.15, kOverShare = 0.6, kTurnShare_rad_per_m = 8;
+constexpr double kFarTurn_rad = 0.35;
 constexpr double kTourNear_m = 0.0025;   // before a touch: from here at the speed of approach
 constexpr double kTourFriction_n = 0.6;  // of the portal: felt beside what the bone answers
 constexpr double kTourNoticed_n = 1.0;
@@ -300,9 +301,13 @@ void TourHand::move(double dt_s) {
       return;
     case Phase::kBack: {
       const bool elsewhere = (visit().place.portal_W - place_.portal_W).norm() > 1e-9;
-      const double to = elsewhere ? -kTourOut_m : std::min(place_.depth_m, kTourRest_m);
+      // A hook that turned far in the joint would lean on what is about it, and two handles could
+      // meet: it is drawn out for that.
+      const bool out =
+          elsewhere || (!tool().optics && place_.q.angularDistance(visit().place.q) > kFarTurn_rad);
+      const double to = out ? -kTourOut_m : std::min(place_.depth_m, kTourRest_m);
       if (!go_deep(to, go)) return;
-      inside_ = inside_ && !elsewhere;
+      inside_ = inside_ && !out;
       return enter(elsewhere ? Phase::kOver : Phase::kTurn);
     }
     case Phase::kOver: {
