@@ -76,31 +76,49 @@ class ProxySolver {
   ProxyMove move(const ProxyTask& wanted, std::span<PairMemory> memory);
 
  private:
-  bool gather(ProxyTask& task);
-  void recall();
-  void raise(std::uint32_t i);
-  void settle(std::uint32_t i);
-  bool beyond(std::uint32_t i, const Vec3& x);
-  bool inside_all(const Vec3& x);
-  NearestPoint nearest(const Vec3& wanted);
-  bool part(std::uint32_t i, const Vec3& p_W);
-  bool part_all(std::span<const Pose> X_WB, const Pose& X_WT);
-  void raise_planes(std::span<const Pose> X_WB, const Quat& q_WT);
-  bool enter_free_space(const ProxyTask& task, const Quat& q_WP, ProxyMove& move);
-  void leave_overlap(const ProxyTask& task, ProxyMove& move);
-  void approach(const ProxyTask& task, ProxyMove& move);
-  bool step_towards(const ProxyTask& task, ProxyMove& move, NearestPoint& target);
-  bool look_again(const ProxyTask& task, const NearestPoint& target, ProxyMove& move);
+  /// What one move has from its caller and works with; gone when it ends.
+  struct Context {
+    ProxyTask task;  ///< its turn cut short where too much is near
+    std::span<PairMemory> memory;
+    double reach_m = 0;
+    /// Poses of the bones and of the tool at the start of the move.
+    std::span<const Pose> start_WB = {};
+    Pose start_WT = {};
+    /// Poses of the bones and turn of the tool for which `planes_` are right.
+    std::span<const Pose> raised_WB = {};
+    Quat raised_q_WT = Quat::Identity();
+    bool stopped = false;  ///< a field stopped the last step on its way
+  };
+
+  bool gather(Context& c);
+  void recall(Context& c);
+  void raise(const Context& c, std::uint32_t i);
+  void settle(const Context& c, std::uint32_t i);
+  bool beyond(const Context& c, std::uint32_t i, const Vec3& x);
+  bool inside_all(const Context& c, const Vec3& x);
+  NearestPoint nearest(const Context& c, const Vec3& wanted);
+  bool part(Context& c, std::uint32_t i, const Vec3& p_W);
+  bool part_all(Context& c);
+  void raise_planes(Context& c, const Quat& q_WT);
+  bool enter_free_space(Context& c, const Quat& q_WP, ProxyMove& move);
+  void leave_overlap(Context& c, ProxyMove& move);
+  void approach(Context& c, ProxyMove& move);
+  bool step_towards(Context& c, ProxyMove& move, NearestPoint& target);
+  bool look_again(Context& c, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
   void meet_tools(const ProxyTask& task);
-  bool find_start(const ProxyTask& task, const Quat& q_WP, Vec3& start);
+  bool find_start(Context& c, const Quat& q_WP, Vec3& start);
   /// Planes: those of the pieces, then those of the fields, then those of other hands' tools, then
   /// those of the portal.
   std::uint32_t bone_planes() const { return near_.count + walls_.count(); }
   std::uint32_t felt_planes() const { return bone_planes() + tools_.count(); }
-  std::uint32_t plane_count() const { return felt_planes() + (ring_ ? PortalRing::kPlanes : 0); }
-  std::span<const FreeHalfSpace> planes() const { return {planes_.data(), plane_count()}; }
+  std::uint32_t plane_count(const Context& c) const {
+    return felt_planes() + (c.task.ring ? PortalRing::kPlanes : 0);
+  }
+  std::span<const FreeHalfSpace> planes(const Context& c) const {
+    return {planes_.data(), plane_count(c)};
+  }
   std::uint32_t pair_of(std::uint32_t i) const {
     return i < near_.count ? near_.pair[i] : walls_.pair(i - near_.count);
   }
@@ -111,9 +129,7 @@ class ProxySolver {
   double gap_of(std::uint32_t i) const { return i < bone_planes() ? plane_of(i).gap : 0; }
 
   const ContactField& field_;
-  const PortalRing* ring_ = nullptr;
   std::vector<NearPieces> near_pieces_;
-  std::span<PairMemory> memory_;
   std::array<PairMemory, kMaxCandidates> last_{};  ///< for recall
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
@@ -125,14 +141,6 @@ class ProxySolver {
   /// Of the pieces' planes: false while c may be too large, as outer_half_space has it.
   std::array<bool, kMaxCandidates> settled_{};
   std::array<bool, kMaxCandidates> gap_known_{};  ///< `parting_` has the gap at the start
-  /// Poses of the bones and of the tool at the start of the move.
-  std::span<const Pose> start_WB_;
-  Pose start_WT_;
-  /// Poses of the bones and turn of the tool for which `planes_` are right.
-  std::span<const Pose> raised_WB_;
-  Quat raised_q_WT_ = Quat::Identity();
-  double reach_m_ = 0;
-  bool stopped_ = false;  ///< a field stopped the last step on its way
 };
 
 }  // namespace osteon
