@@ -7,7 +7,7 @@ packages_build=(
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev libmeshoptimizer-dev
   libgdcm-dev zlib1g-dev libhpdf-dev libhdf5-dev libpqxx-dev libcurl4-openssl-dev
   libavcodec-dev libavformat-dev libavutil-dev
-  libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
+  libnanoflann-dev libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )
 packages_test=(
   libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3

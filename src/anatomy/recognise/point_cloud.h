@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "osteon/base/types.h"
 
 namespace osteon {
 
-/// Finds the nearest of a fixed set of points by trying them all, in single precision.
+/// Finds the nearest of a fixed set of points, in single precision; of several as near the first.
 class PointCloud {
  public:
   explicit PointCloud(const std::vector<Vec3>& points);
@@ -16,11 +17,13 @@ class PointCloud {
     double distance_m = 1e9;
   };
   Hit nearest(const Vec3& p) const;
-  std::size_t size() const { return x_.size(); }
+  std::size_t size() const { return size_; }
 
  private:
+  struct Tree;
   Vec3 middle_ = Vec3::Zero();
-  std::vector<float> x_, y_, z_;
+  std::size_t size_ = 0;
+  std::shared_ptr<const Tree> tree_;  ///< null: of no points
 };
 
 /// Every n-th of the points, so that about `most` are left.

@@ -33,6 +33,18 @@ TEST(PointCloud, FindsTheNearestFarFromTheOrigin) {
   }
 }
 
+// The middle of a cube's face is as near to its four corners; corners repeat as well.
+TEST(PointCloud, OfPointsAsNearItFindsTheFirst) {
+  std::vector<Vec3> points;
+  for (int round = 0; round < 40; ++round)
+    for (int i = 0; i < 8; ++i) points.push_back(Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
+  const PointCloud cloud(points);
+  EXPECT_EQ(cloud.nearest(Vec3(0.5, 0.5, 0)).index, 0u);
+  EXPECT_EQ(cloud.nearest(Vec3(1, 0.5, 0.5)).index, 1u);
+  EXPECT_EQ(cloud.nearest(Vec3(0.5, 0.5, 1)).index, 4u);
+  EXPECT_EQ(cloud.nearest(Vec3(0.5, 0.5, 0.5)).index, 0u);
+}
+
 TEST(Thinned, LeavesAboutAsManyAsAskedAndAllOfFewer) {
   const std::vector<Vec3> points(1000, Vec3::Ones());
   EXPECT_EQ(thinned(points, 2000).size(), 1000u);
