@@ -214,25 +214,35 @@ std::string tool_help() {
 
 void add_carve_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<CarveCommand>();
-  cli::App* carve = app.add_subcommand("carve", "Remove bone along a path and write what is left");
-  carve->add_option("CASE#BONE", command->bone, "one bone of a case, as builtin:knee#femur")
+  cli::App* carve = app.add_subcommand(
+      "carve", "Move a cutting tool along a path through a bone and save the bone that is left");
+  carve->add_option("CASE#BONE", command->bone, "case and bone, such as builtin:knee#femur")
       ->required();
   carve->add_option("--tool", command->tool, tool_help())->required();
-  carve->add_option("--size", command->size_mm, "its diameter or width, mm")->required();
-  carve->add_option("--path", command->path, "the tool's poses in World, CSV as for a probe")
+  carve->add_option("--size", command->size_mm, "diameter of the tool, of a blade its width, mm")
       ->required();
-  carve->add_option("--out", command->out, "the STL file to write, in the case's unit, in Bone")
+  carve
+      ->add_option("--path", command->path,
+                   "the tool's poses in World (CSV, see docs/file-formats.md)")
       ->required();
-  carve->add_option("--cell", command->cell_mm, "side of the field's cells, mm")
+  carve
+      ->add_option("--out", command->out,
+                   "STL file to write, in the bone's own frame and the case's unit")
+      ->required();
+  carve
+      ->add_option("--cell", command->cell_mm,
+                   "side of a cell, mm; smaller cells show finer cuts and take more memory")
       ->capture_default_str();
   carve->add_option("--cortex", command->cortex_mm, "thickness of the cortical bone, mm")
       ->capture_default_str();
-  carve->add_option("--marrow", command->marrow_mm, "depth at which marrow begins, mm; 0: none")
+  carve
+      ->add_option("--marrow", command->marrow_mm,
+                   "depth below the surface at which marrow begins, mm; 0: no marrow")
       ->capture_default_str();
-  carve->add_option("--memory-mb", command->memory_mb, "the most that the field may take")
+  carve->add_option("--memory-mb", command->memory_mb, "most memory that the cuts may take, MiB")
       ->check(cli::Range(1, 65536))
       ->capture_default_str();
-  carve->add_flag("--json", command->json, "print JSON");
+  carve->add_flag("--json", command->json, "print the result as JSON");
   carve->callback([command, &exit_code] { exit_code = run_carve(*command); });
 }
 

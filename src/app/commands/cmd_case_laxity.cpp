@@ -154,20 +154,26 @@ int run_isometry(const IsometryCommand& command) {
 }
 
 void add_graft_options(cli::App& laxity, LaxityCommand& command) {
-  cli::Option* graft =
-      laxity.add_flag("--graft", command.graft, "put a graft in the place of the ACL, and fix it");
-  laxity.add_option("--graft-from", command.graft_from, "x,y,z in mm, World, on the femur")
+  cli::Option* graft = laxity.add_flag("--graft", command.graft, "replace the ACL by a graft");
+  laxity
+      .add_option("--graft-from", command.graft_from,
+                  "graft's attachment on the femur: x,y,z in World, mm")
       ->needs(graft);
-  laxity.add_option("--graft-to", command.graft_to, "x,y,z in mm, World, on the tibia")
+  laxity
+      .add_option("--graft-to", command.graft_to,
+                  "graft's attachment on the tibia: x,y,z in World, mm")
       ->needs(graft);
-  laxity.add_option("--graft-tension", command.graft_tension_n, "N, while it is fixed (90)")
+  laxity
+      .add_option("--graft-tension", command.graft_tension_n,
+                  "tension while the graft is fixed, N (90)")
       ->check(cli::Range(1.0, 500.0))
       ->needs(graft);
   laxity
-      .add_option("--graft-flexion", command.graft_flexion_deg, "degrees, while it is fixed (30)")
+      .add_option("--graft-flexion", command.graft_flexion_deg,
+                  "flexion while the graft is fixed, degrees (30)")
       ->check(cli::Range(0.0, 130.0))
       ->needs(graft);
-  laxity.add_option("--graft-diameter", command.graft_diameter_mm, "mm (8)")
+  laxity.add_option("--graft-diameter", command.graft_diameter_mm, "diameter of the graft, mm (8)")
       ->check(cli::Range(1.0, 20.0))
       ->needs(graft);
 }
@@ -176,18 +182,22 @@ void add_laxity(cli::App& group, int& exit_code) {
   auto command = std::make_shared<LaxityCommand>();
   cli::App* laxity = group.add_subcommand(
       "laxity",
-      "How far a knee gives in the tests by hand: mm, degrees and ligaments' tension; "
-      "exits 1 when it found no rest");
-  laxity->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
+      "How far a knee gives in the manual stability tests, in mm and degrees, and the tension of "
+      "its ligaments. Exits 1 when no equilibrium was found");
+  laxity->add_option("case", command->spec, "case folder of a grown knee, or builtin:knee")
+      ->required();
   laxity->add_option("--test", command->test, "lachman, drawer, pivot, varus, valgus or all (all)")
       ->check(cli::IsMember({"lachman", "drawer", "pivot", "varus", "valgus", "all"}));
-  laxity->add_option("--flexion", command->flexion_deg, "degrees, in place of the test's own")
+  laxity
+      ->add_option("--flexion", command->flexion_deg,
+                   "flexion during the test, degrees (default: each test's own)")
       ->check(cli::Range(0.0, 130.0));
-  laxity->add_option("--without", command->without, "cut this ligament; may repeat");
+  laxity->add_option("--without", command->without,
+                     "cut this ligament first; may be given several times");
   add_graft_options(*laxity, *command);
   laxity->add_option("--reference", command->reference,
-                     "a folder with the published knee: print this knee beside it, instead");
-  laxity->add_flag("--json", command->json, "print JSON");
+                     "folder with the published knee: print both knees side by side instead");
+  laxity->add_flag("--json", command->json, "print the result as JSON");
   laxity->callback([command, &exit_code] { exit_code = run_laxity(*command); });
 }
 
@@ -199,11 +209,11 @@ void add_case_laxity_commands(cli::App& app, int& exit_code) {
   auto command = std::make_shared<IsometryCommand>();
   cli::App* isometry = group->add_subcommand(
       "isometry", "How the length of a line from femur to tibia changes while the knee bends");
-  isometry->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")
+  isometry->add_option("case", command->spec, "case folder of a grown knee, or builtin:knee")
       ->required();
-  isometry->add_option("--from", command->from, "x,y,z in mm, World, on the femur")->required();
-  isometry->add_option("--to", command->to, "x,y,z in mm, World, on the tibia")->required();
-  isometry->add_flag("--json", command->json, "print JSON");
+  isometry->add_option("--from", command->from, "end on the femur: x,y,z in World, mm")->required();
+  isometry->add_option("--to", command->to, "end on the tibia: x,y,z in World, mm")->required();
+  isometry->add_flag("--json", command->json, "print the result as JSON");
   isometry->callback([command, &exit_code] { exit_code = run_isometry(*command); });
   add_case_acl_command(app, exit_code);
 }

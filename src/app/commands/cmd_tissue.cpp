@@ -22,8 +22,8 @@ int tell_lost(const SolveLost& lost) {
   std::fprintf(
       stderr,
       "osteon: %s near (%.4g, %.4g, %.4g) mm was turned inside out or squeezed flat before "
-      "%.4g s; what is told is the last sound state. Load it less or more slowly, or use "
-      "smaller cells.\n",
+      "%.4g s. The figures are of the last state without that. Load the body less or more slowly, "
+      "or use smaller cells.\n",
       lost.part.c_str(), 1000 * lost.at_m.x(), 1000 * lost.at_m.y(), 1000 * lost.at_m.z(),
       lost.time_s);
   return kExitNo;
@@ -48,16 +48,16 @@ int run_tissue_solve(const TissueSolveCommand& command) {
 }  // namespace
 
 void add_tissue_commands(cli::App& app, int& exit_code) {
-  cli::App* tissue = app.add_subcommand("tissue", "Soft bodies: solve a scene by itself");
+  cli::App* tissue = app.add_subcommand("tissue", "Compute how a soft body deforms");
   tissue->require_subcommand(1);
   cli::App* command = tissue->add_subcommand(
       "solve",
-      "Solve a scene of one soft body from rest and tell how it moved and what holds it; exits 1 "
-      "when a part of it was turned inside out");
+      "Load one soft body and print how far it moves and which forces hold it. Exits 1 when a part "
+      "of it turns inside out");
   const auto options = std::make_shared<TissueSolveCommand>();
-  command->add_option("SCENE", options->scene, "a scene (TOML), see docs/tissue.md")->required();
+  command->add_option("SCENE", options->scene, "scene file (TOML, see docs/tissue.md)")->required();
   command->add_option("--out", options->out,
-                      "write the moved body as a VTK file (legacy, ASCII, mm)");
+                      "VTK file to write the deformed body to (legacy, ASCII, mm)");
   command->add_flag("--json", options->json, "print the result as JSON");
   command->callback([options, &exit_code] { exit_code = run_tissue_solve(*options); });
 }

@@ -169,28 +169,31 @@ int run_view(const ViewCommand& command) {
 
 void add_view_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<ViewCommand>();
-  cli::App* sub = app.add_subcommand("view", "Draw what an arthroscope shows of a case");
+  cli::App* sub = app.add_subcommand("view", "Save the picture that an arthroscope shows");
   sub->add_option("case", command->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
   sub->add_option("--scope", command->scope, "knee_0, knee_30, knee_70, wrist_30 or wrist_30_small")
       ->capture_default_str();
-  sub->add_option("--at", command->at_mm, "x,y,z of the tip in World, mm")
+  sub->add_option("--at", command->at_mm, "position of the tip: x,y,z in World, mm")
       ->delimiter(',')
       ->expected(3);
-  sub->add_option("--toward", command->toward_mm, "x,y,z of a point that the shaft points to, mm")
+  sub->add_option("--toward", command->toward_mm,
+                  "point that the shaft points to: x,y,z in World, mm")
       ->delimiter(',')
       ->expected(3);
-  sub->add_option("--post", command->post_deg,
-                  "degrees that the light post is turned: 0 tips the view upwards in the picture, "
-                  "90 to its right")
+  sub->add_option(
+         "--post", command->post_deg,
+         "turn of the light post in degrees: at 0 the scope looks up in the picture, at 90 "
+         "to the right")
       ->capture_default_str();
   sub->add_option(
          "--up", command->up,
-         "x,y,z of the direction that is up in the picture (default: the hip, the fingers)")
+         "direction that is up in the picture: x,y,z in World (default: towards the hip, or "
+         "the fingers)")
       ->delimiter(',')
       ->expected(3);
-  sub->add_option("--flexion", command->flexion_deg, "bends a grown knee by so many degrees");
-  sub->add_option("--size", command->size, "pixels, width x height")->capture_default_str();
+  sub->add_option("--flexion", command->flexion_deg, "flexion of a grown knee, degrees");
+  sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
   sub->add_option("--out", command->out, "PNG file to write");
   sub->add_option("--standard", command->standard,
                   "folder for the standard views of a knee (12) or a wrist (8), as PNG files; "

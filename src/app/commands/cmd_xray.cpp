@@ -115,30 +115,36 @@ int run_xray(XrayCommand& command) {
 }
 
 void add_beam_options(cli::App& xray, XrayCommand& c) {
-  xray.add_option("--kv", c.shot.kv, "kV of the tube, 40 to 120")->capture_default_str();
-  xray.add_option("--mas", c.shot.mas, "mA s of a shot (default: automatic)");
-  xray.add_option("--shots", c.shot.shots, "how many shots or pulses the dose is of")
+  xray.add_option("--kv", c.shot.kv, "voltage of the tube, 40 to 120 kV")->capture_default_str();
+  xray.add_option("--mas", c.shot.mas,
+                  "tube current times exposure time of a shot, mAs (default: automatic)");
+  xray.add_option("--shots", c.shot.shots, "count of shots or pulses, for the dose")
       ->capture_default_str();
-  xray.add_option("--pulse", c.pulse_ms, "ms of beam of each")->capture_default_str();
-  xray.add_option("--noise", c.noise, "on or off")
+  xray.add_option("--pulse", c.pulse_ms, "length of each shot or pulse, ms")->capture_default_str();
+  xray.add_option("--noise", c.noise, "noise of the detector, on or off")
       ->check(cli::IsMember({"on", "off"}))
       ->capture_default_str();
-  xray.add_option("--seed", c.shot.seed, "of the noise")->capture_default_str();
+  xray.add_option("--seed", c.shot.seed, "seed of the noise: the same seed gives the same noise")
+      ->capture_default_str();
 }
 
 void add_place_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--view", c.view, "ap or lateral")
       ->check(cli::IsMember({"ap", "lateral"}))
       ->capture_default_str();
-  xray.add_option("--c-arm", c.arm,
-                  "orbit=DEG,angulation=DEG from the view on; also lift=, distance= (source to "
-                  "detector), source= (source to isocentre), field= (detector's width), mm");
-  xray.add_option("--isocenter", c.isocenter_mm, "x,y,z in World, mm (default: the joint)")
+  xray.add_option(
+      "--c-arm", c.arm,
+      "turn the C-arm away from --view: orbit=DEG,angulation=DEG. Move it, in mm: lift=, "
+      "distance= (source to detector), source= (source to isocentre), field= (width of "
+      "the detector)");
+  xray.add_option("--isocenter", c.isocenter_mm,
+                  "point that the C-arm turns about: x,y,z in World, mm (default: the joint)")
       ->delimiter(',')
       ->expected(3);
-  xray.add_option("--size", c.size, "pixels, width x height")->capture_default_str();
-  xray.add_option("--at", c.scene.at_s, "s from a recording's begin (default: its end)");
-  xray.add_option("--flexion", c.scene.flexion_deg, "bends a grown knee by so many degrees");
+  xray.add_option("--size", c.size, "width x height in pixels")->capture_default_str();
+  xray.add_option("--at", c.scene.at_s,
+                  "time in a recording, seconds from its start (default: its end)");
+  xray.add_option("--flexion", c.scene.flexion_deg, "flexion of a grown knee, degrees");
 }
 
 }  // namespace
@@ -146,18 +152,20 @@ void add_place_options(cli::App& xray, XrayCommand& c) {
 void add_xray_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<XrayCommand>();
   cli::App* xray =
-      app.add_subcommand("xray", "Take a picture with a C-arm, of a case or out of a recording");
+      app.add_subcommand("xray", "Take an X-ray picture of a case, or of a moment of a recording");
   xray->add_option("case", command->scene.source,
                    "a case folder, builtin:wrist, builtin:knee or a recording (.osr)")
       ->required();
   add_place_options(*xray, *command);
   add_beam_options(*xray, *command);
-  xray->add_option("--hu", command->scene.body.bones_hu,
-                   "every bone is one material of so many HU, and nothing else is there");
-  xray->add_flag("--invert", command->inverted, "bone bright, as on a film");
-  xray->add_option("--out", command->out, "picture to write: .png, or .dcm (DICOM XA)");
+  xray->add_option(
+      "--hu", command->scene.body.bones_hu,
+      "make every bone of one material of this CT value (HU) and leave everything else out");
+  xray->add_flag("--invert", command->inverted, "show bone bright, as on a film");
+  xray->add_option("--out", command->out, "picture to write: .png or .dcm (DICOM XA)");
   xray->add_option("--raw", command->raw,
-                   "write the mass along each ray, g/cm2: 32-bit floats, and FILE.json");
+                   "file to write the mass along each ray to, g/cm2: 32-bit floats, described in "
+                   "FILE.json");
   xray->add_flag("--json", command->json, "print geometry, exposure and dose as JSON");
   xray->callback([command, &exit_code] { exit_code = run_xray(*command); });
 }
