@@ -7,6 +7,8 @@ uniform mat4 u_view_from_model;
 uniform mat4 u_clip_from_view;
 uniform vec2 u_outline;  // half pixel sizes in clip units times the outline's width; 0: none
 
+invariant gl_Position;  // depth is drawn by one program, light by another
+
 out vec3 v_position;
 out vec3 v_model;
 out vec3 v_normal;

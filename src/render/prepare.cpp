@@ -52,11 +52,10 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
 bool is_skin(const SoftPart& soft) { return soft.kind == "skin"; }
 
 std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<PlacedSurface>& bones,
-                                      bool stopped) {
+                                      const PrepareProgress& go_on) {
   std::vector<PlacedSurface> surfaces;
   for (const SoftPart& soft : the_case.softs)
     if (!is_skin(soft)) surfaces.push_back({make_surface(soft.mesh_W), Pose{}});
-  const auto go_on = [stopped](double) { return !stopped; };
   const auto openness = sky_openness(surfaces, bones, kOcclusionReach_m, kSoftRays, go_on);
   std::vector<ShadedMesh> out;
   std::size_t next = 0;
@@ -66,6 +65,7 @@ std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<Pl
     const Surface& surface = skin ? own : surfaces[next].surface;
     const std::vector<float> open(skin ? surface.points.size() : 0, 1.0f);
     out.push_back(shaded(surface, skin ? open : openness[next], out.size()));
+    if (go_on(1)) out.back().coarser = coarser_levels(out.back());
     if (!skin) ++next;
   }
   return out;
@@ -90,7 +90,21 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
     if (!stopped) out.bones.back().coarser = coarser_levels(out.bones.back());
     report(kOcclusionShare + (1 - kOcclusionShare) * done);
   }
-  out.softs = prepare_softs(the_case, surfaces, stopped);
+  out.softs = prepare_softs(the_case, surfaces, [&](double) { return report(1); });
+  return out;
+}
+
+PreparedCase prepare_unlit(const Case& the_case) {
+  PreparedCase out;
+  const auto add = [](std::vector<ShadedMesh>& to, const Surface& surface) {
+    to.push_back(shaded(surface, std::vector<float>(surface.points.size(), 1.0f), to.size()));
+  };
+  for (const Bone& bone : the_case.bones) {
+    add(out.bones, make_surface(bone.mesh));
+    out.bones.back().coarser = coarser_levels(out.bones.back());
+  }
+  // Soft parts are hidden at first: their coarser levels can wait.
+  for (const SoftPart& soft : the_case.softs) add(out.softs, make_surface(soft.mesh_W));
   return out;
 }
 

@@ -139,6 +139,11 @@ void Renderer::set_surfaces(const PreparedCase& prepared) {
   impl_->kept.reset();
 }
 
+void Renderer::set_pieces(const Case& the_case) {
+  impl_->painter.set_pieces(the_case);
+  impl_->kept.reset();
+}
+
 void Renderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   impl_->painter.set_tray(tray);
   impl_->kept.reset();

@@ -145,6 +145,13 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
 
 ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone) {
   BoneModel model;
+  make_pieces(model, bone);
+  set_extent(model, bone.mesh);
+  return model;
+}
+
+void ScenePainter::make_pieces(BoneModel& model, const Bone& bone) {
+  model.pieces.clear();
   std::size_t edges = 0;
   for (const Hull& piece : bone.pieces) {
     const auto ends = facet_edges({&piece, 1});
@@ -152,8 +159,11 @@ ScenePainter::BoneModel ScenePainter::make_bone(const Bone& bone) {
     edges += ends.size() / 2;
   }
   model.line_opacity = line_opacity(edges);
-  set_extent(model, bone.mesh);
-  return model;
+}
+
+void ScenePainter::set_pieces(const Case& the_case) {
+  for (std::size_t k = 0; k < std::min(shared_->rest_X_WB.size(), the_case.bones.size()); ++k)
+    make_pieces(shared_->bones[k], the_case.bones[k]);
 }
 
 void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
@@ -227,6 +237,7 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     Program* program;
     const char *vert, *frag;
   } programs[] = {{&painter.shared_->bone, "surface", "bone"},
+                  {&painter.shared_->depth, "surface", "depth"},
                   {&painter.shared_->metal, "surface", "metal"},
                   {&painter.shared_->mark, "surface", "mark"},
                   {&painter.shared_->ground, "screen", "ground"}};
@@ -361,7 +372,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
     set_shared(shared_->changed_bone, view, frame);
     set_tool_shade(shared_->changed_bone, snapshot, view, frame);
   }
-  for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->bone})
+  for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->depth, &shared_->bone})
     set_shared(*p, view, frame);
   set_tool_shade(shared_->bone, snapshot, view, frame);
   glDisable(GL_BLEND);
@@ -424,10 +435,10 @@ const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapsh
 void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
                                 const ViewState& view, const Frame& frame) const {
   const GpuMesh& mesh = surface(k, snapshot, view, frame);
-  if (frame.tiles == nullptr) return mesh.draw();
-  const Pose X_CB = frame.X_CW * pose(snapshot, k);
+  const Pose X_WB = pose(snapshot, k), X_CB = frame.X_CW * X_WB;
   mesh.draw([&](const GpuMesh::Chunk& chunk) {
-    return in_tiles(frame, X_CB * chunk.center, chunk.radius);
+    return frame.tiles ? in_tiles(frame, X_CB * chunk.center, chunk.radius)
+                       : in_sight(frame, X_WB * chunk.center, chunk.radius);
   });
 }
 
@@ -459,6 +470,13 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   draw_changed(k, snapshot, frame);
 }
 
+void ScenePainter::paint_depth(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                               const Frame& frame) const {
+  if (!shared_->bones[k].changed.empty()) return;  // its surface is not what is seen everywhere
+  shared_->depth.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+  draw_surface(k, snapshot, view, frame);
+}
+
 void ScenePainter::set_felt_colors(const ViewState& view) const {
   const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
   for (const Program* program : {&shared_->changed_bone, &shared_->bone}) {
@@ -473,15 +491,28 @@ void ScenePainter::set_felt_colors(const ViewState& view) const {
 /// The nearest first: what they hide is never shaded.
 void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
                                       const Frame& frame) const {
-  shared_->bone.use();
-  set_felt_colors(view);
   glCullFace(GL_BACK);
   const auto solid = [](const BoneAppearance& look) { return !is_clear(look); };
-  for (const std::size_t k : near_to_far(snapshot, view, frame, solid)) {
-    if (shared_->bones[k].closed) glEnable(GL_CULL_FACE);
-    paint_bone(k, snapshot, view, frame);
-    glDisable(GL_CULL_FACE);
+  const std::vector<std::size_t> order = near_to_far(snapshot, view, frame, solid);
+  const auto each = [&](auto&& paint) {
+    for (const std::size_t k : order) {
+      if (shared_->bones[k].closed) glEnable(GL_CULL_FACE);
+      paint(k);
+      glDisable(GL_CULL_FACE);
+    }
+  };
+  // Soft parts lie close upon bones, and none of them is always the nearer one.
+  const bool layered = std::any_of(order.begin(), order.end(),
+                                   [&](std::size_t k) { return k >= shared_->rest_X_WB.size(); });
+  if (layered) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    shared_->depth.use();
+    each([&](std::size_t k) { paint_depth(k, snapshot, view, frame); });
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
+  shared_->bone.use();
+  set_felt_colors(view);
+  each([&](std::size_t k) { paint_bone(k, snapshot, view, frame); });
 }
 
 /// The bone's back faces, pushed outwards on the screen, show as a line around it.
@@ -525,9 +556,11 @@ void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewS
   set_felt_colors(view);
   for (const std::size_t k : order) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    paint_bone(k, snapshot, view, frame);
+    shared_->depth.use();
+    paint_depth(k, snapshot, view, frame);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_FALSE);
+    shared_->bone.use();
     paint_bone(k, snapshot, view, frame);
     glDepthMask(GL_TRUE);
   }

@@ -35,6 +35,7 @@ class ScenePainter {
 
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
   void set_surfaces(const PreparedCase& prepared);
+  void set_pieces(const Case& the_case);
   /// Another surface for a bone from now on, without its coarser levels and its baked light.
   void set_surface(std::size_t bone, const TriMesh& mesh_B);
   void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
@@ -128,12 +129,16 @@ class ScenePainter {
   bool any_changed() const;
   static void set_extent(BoneModel& model, const TriMesh& mesh);
   static BoneModel make_bone(const Bone& bone);
+  static void make_pieces(BoneModel& model, const Bone& bone);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
   const GpuMesh& surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const;
   void draw_surface(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                     const Frame& frame) const;
   void draw_changed(std::size_t k, const RenderSnapshot& snapshot, const Frame& frame) const;
+  /// Into the depth buffer alone.
+  void paint_depth(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
+                   const Frame& frame) const;
   void paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                   const Frame& frame) const;
   void paint_opaque_bones(const RenderSnapshot& snapshot, const ViewState& view,
@@ -151,7 +156,7 @@ class ScenePainter {
 
   /// What all painters of a case have in common; never null.
   struct Shared {
-    Program bone, changed_bone, metal, mark, ground;
+    Program bone, changed_bone, depth, metal, mark, ground;
     std::vector<BoneModel> bones;  ///< and soft parts
     std::vector<Pose> rest_X_WB;   ///< of the bones
     std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
@@ -98,6 +99,33 @@ TEST_F(Window, ShowsTheWristAtTheUsualSize) {
 TEST_F(Window, ShowsTheWristOnALargeDisplay) {
   if (no_virtual_display()) GTEST_SKIP() << "Xvfb is not installed (Debian: xvfb)";
   expect_a_finished_picture(shoot(2560, 1440, "--ui-scale 2"), 2560, 1440);
+}
+
+// Of a block that no cache knows: first its hull is felt, then its piece.
+TEST_F(Window, ACaseIsShownAtOnceAndItsPiecesFollow) {
+  if (no_virtual_display()) GTEST_SKIP() << "Xvfb is not installed (Debian: xvfb)";
+  fs::create_directories(folder_ / "meshes");
+  std::ofstream(folder_ / "meshes/block.obj")
+      << "v -20 -20 -20\nv 20 -20 -20\nv -20 20 -20\nv 20 20 -20\n"
+         "v -20 -20 20\nv 20 -20 20\nv -20 20 20\nv 20 20 20\n"
+         "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
+         "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
+  const std::string folder = folder_.string(), log = folder + "/log";
+  ASSERT_EQ(run(OSTEON_EXECUTABLE " import mesh " + folder + "/meshes --unit mm --out " + folder +
+                "/case > " + log),
+            0);
+  fs::remove(folder_ / "case/pieces.bin");
+  const std::string open = program() + "XDG_CACHE_HOME=" + folder +
+                           " " OSTEON_SOURCE_DIR "/tools/with-display 640x480 " OSTEON_EXECUTABLE
+                           " window --size 640x480 --at-once --frames 1 --case " +
+                           folder + "/case > " + log;
+  ASSERT_EQ(run(open), 0);
+  EXPECT_EQ(run("grep -q 'felt as hulls; cut into pieces after' " + log), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "case/pieces.bin"));
+  // The second time the pieces are there from the start.
+  ASSERT_EQ(run(open), 0);
+  EXPECT_EQ(run("grep -q 'first picture of the bones after' " + log), 0);
+  EXPECT_NE(run("grep -q 'felt as hulls' " + log), 0);
 }
 
 TEST_F(Window, SaysInWordsWhenThereIsNoDisplay) {

@@ -32,6 +32,24 @@ int openness_towards(const ShadedMesh& mesh, const Vec3& direction) {
   return mesh.shades[best].openness;
 }
 
+// The same surfaces at once, but for the light that is worked out between them.
+TEST(PrepareUnlit, GivesTheSurfacesInAllOfTheLight) {
+  EXPECT_TRUE(prepare_unlit({}).bones.empty());
+  const Case pair = pair_of_balls(0.0005);
+  const PreparedCase lit = prepare_case(pair), unlit = prepare_unlit(pair);
+  ASSERT_EQ(unlit.bones.size(), 2u);
+  ASSERT_LT(openness_towards(lit.bones[0], Vec3::UnitX()), 200);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(unlit.bones[k].positions, lit.bones[k].positions);
+    EXPECT_EQ(unlit.bones[k].normals, lit.bones[k].normals);
+    EXPECT_EQ(unlit.bones[k].triangles, lit.bones[k].triangles);
+    for (std::size_t v = 0; v < unlit.bones[k].shades.size(); ++v) {
+      EXPECT_EQ(unlit.bones[k].shades[v].openness, 255);
+      EXPECT_EQ(unlit.bones[k].shades[v].cavity, lit.bones[k].shades[v].cavity);
+    }
+  }
+}
+
 // A hull that stands 0.25 mm over the mesh is half of the range.
 TEST(PrepareFelt, TellsHowHighWhatIsFeltStands) {
   Case one;

@@ -49,6 +49,10 @@ using PrepareProgress = std::function<bool(double)>;
 /// stopped, vertices not reached keep openness 255.
 PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress = {});
 
+/// The same surfaces with all of the light (openness 255), without the rays that take most of the
+/// time: for a picture at once, until prepare_case is done.
+PreparedCase prepare_unlit(const Case& the_case);
+
 /// Works out the height of what is felt over every vertex, for ViewState::show_felt: seconds for a
 /// wrist felt as pieces, so only where it is asked for. `prepared` comes from
 /// prepare_case(the_case). When stopped, bones not reached keep 128.

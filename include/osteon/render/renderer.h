@@ -122,6 +122,9 @@ class Renderer {
 
   /// Takes surfaces of the same case that tell more than those before, as prepare_felt makes them.
   void set_surfaces(const PreparedCase& prepared);
+  /// Draws the pieces of this case as what is felt (ViewState::show_hulls) from now on: the same
+  /// bones, felt otherwise.
+  void set_pieces(const Case& the_case);
   /// What hands may hold, by ToolState::instrument; what is not in it is drawn as the first. Until
   /// then all hold the tool that the renderer was made with.
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);

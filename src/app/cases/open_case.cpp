@@ -134,6 +134,41 @@ void colour_softs(CaseDef& def) {
         soft.color_srgb[k] = static_cast<float>(tissue->colour_srgb[k]);
 }
 
+struct Caches {
+  explicit Caches(const std::string& source)
+      : pieces(cache_file(source, "pieces")), fields(cache_file(source, "fields")) {}
+  PieceCache pieces;
+  FieldCache fields;
+};
+
+Result<std::shared_ptr<const Case>> build(CaseDef def, Caches& caches,
+                                          const std::function<void(double)>& progress) {
+  BuildOptions options;
+  options.pieces = &caches.pieces;
+  options.fields = &caches.fields;
+  options.progress = [&](std::size_t i, std::size_t count) {
+    progress(static_cast<double>(i) / static_cast<double>(count));
+  };
+  auto built = build_case(std::move(def), options);
+  if (!built) return tl::unexpected(built.error());
+  return std::make_shared<const Case>(std::move(*built));
+}
+
+/// Bones that the caches do not know are felt as hulls; says so in the choice.
+bool feel_hulls_of_unknown(CaseDef& def, Caches& caches, FeltChoice& choice) {
+  std::vector<std::string> unknown;
+  for (BoneDef& bone : def.bones) {
+    if (is_known(bone, caches.pieces, caches.fields)) continue;
+    bone.felt = Felt::kHull;
+    unknown.push_back(bone.name);
+  }
+  if (unknown.size() == def.bones.size())
+    choice.of_bone = {{std::string(), Felt::kHull}};
+  else
+    for (const std::string& bone : unknown) choice.of_bone[bone] = Felt::kHull;
+  return !unknown.empty();
+}
+
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
@@ -214,23 +249,40 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
   if (parts == CaseParts::kSeen)
     for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   const std::string source = source_without_choice(spec);
-  PieceCache pieces(cache_file(source, "pieces"));
-  FieldCache fields(cache_file(source, "fields"));
-  find_what_is_felt(*def, pieces, fields, [&](double share) {
+  Caches caches(source);
+  find_what_is_felt(*def, caches.pieces, caches.fields, [&](double share) {
     say("Cutting the bones into pieces (once)", kOpened + kCut * share);
   });
-  BuildOptions options;
-  options.pieces = &pieces;
-  options.fields = &fields;
-  options.progress = [&](std::size_t i, std::size_t count) {
-    const double share = static_cast<double>(i) / static_cast<double>(count);
+  auto built = build(std::move(*def), caches, [&](double share) {
     say("Building the bones", kOpened + kCut + (1 - kOpened - kCut) * share);
-  };
-  auto built = build_case(std::move(*def), options);
+  });
   if (!built) return tl::unexpected(built.error());
-  keep(pieces, source, "pieces");
-  keep(fields, source, "fields");
-  return std::make_shared<const Case>(std::move(*built));
+  keep(caches.pieces, source, "pieces");
+  keep(caches.fields, source, "fields");
+  return built;
+}
+
+Result<OpenedAtOnce> open_case_at_once(const std::string& spec, const OpenProgress& progress) {
+  constexpr double kOpened = 0.8;
+  const auto say = [&](const char* what, double share) {
+    if (progress) progress(what, share);
+  };
+  say("Opening the bones", 0);
+  auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
+  if (!def) return tl::unexpected(def.error());
+  Caches caches(choice->source);
+  OpenedAtOnce out;
+  const bool coarse = feel_hulls_of_unknown(*def, caches, *choice);
+  out.spec = coarse ? to_text(*choice) : spec;
+  if (coarse) out.finer = spec;
+  auto built = build(std::move(*def), caches, [&](double share) {
+    say("Building the bones", kOpened + (1 - kOpened) * share);
+  });
+  if (!built) return tl::unexpected(built.error());
+  out.the_case = std::move(*built);
+  return out;
 }
 
 }  // namespace osteon

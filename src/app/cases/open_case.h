@@ -44,6 +44,16 @@ using OpenProgress = std::function<void(const char* what, double share)>;
 Result<std::shared_ptr<const Case>> open_case(const std::string& spec,
                                               const OpenProgress& progress = {},
                                               CaseParts parts = CaseParts::kAll);
+/// A case that need not wait for its pieces.
+struct OpenedAtOnce {
+  std::shared_ptr<const Case> the_case;
+  std::string spec;   ///< names what is felt of it
+  std::string finer;  ///< what open_case takes for the case as it was asked for; empty: this is it
+};
+/// The same, but a bone whose pieces or field no cache holds yet is felt as its hull, which takes
+/// no time: its pieces lie within it, so who does not touch a hull touches no piece either.
+Result<OpenedAtOnce> open_case_at_once(const std::string& spec, const OpenProgress& progress = {});
+
 inline Result<std::shared_ptr<const Case>> open_felt_case(const std::string& spec) {
   return open_case(spec, {}, CaseParts::kFelt);
 }

@@ -14,6 +14,7 @@
 #include "cases/all_cores.h"
 #include "osteon/base/log.h"
 #include "osteon/scene/bone_pieces.h"
+#include "osteon/scene/wide_field.h"
 
 namespace osteon {
 namespace {
@@ -102,6 +103,13 @@ std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fi
 }
 
 }  // namespace
+
+bool is_known(const BoneDef& bone, PieceCache& pieces, FieldCache& fields) {
+  if (bone.felt == Felt::kHull) return true;
+  if (!pieces.find(piece_key(bone.mesh))) return false;
+  return bone.felt != Felt::kField || (fields.find(field_key(bone.mesh)) &&
+                                       fields.find(field_key(bone.mesh, wide_field_options())));
+}
 
 void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& fields,
                        const std::function<void(double)>& progress) {

@@ -14,4 +14,7 @@ namespace osteon {
 void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& fields,
                        const std::function<void(double)>& progress);
 
+/// Whether the caches have what is felt of this bone; always for one felt as its hull.
+bool is_known(const BoneDef& bone, PieceCache& pieces, FieldCache& fields);
+
 }  // namespace osteon

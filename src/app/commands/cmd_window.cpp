@@ -46,6 +46,8 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_option("--film", order->film, "Film the window from the start to this file (.webm)");
   command->add_flag("--felt", order->felt,
                     "Begin with the bones coloured by how far what is felt is from their surface");
+  command->add_flag("--soft", order->softs, "Begin with the soft parts shown");
+  command->add_flag("--close-up", order->close_up, "Begin close up on the joint");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
   command->add_option(
       "--device", order->devices,
@@ -69,6 +71,9 @@ void add_window_command(cli::App& app, int& exit_code) {
       ->add_option("--frames", order->frames,
                    "Draw this many pictures, print what they cost, then end")
       ->check(cli::Range(1, 1000000));
+  command->add_flag("--at-once", order->at_once,
+                    "With --frames: begin as without it, at once, and print when the first picture "
+                    "of the bones and what is felt of them were ready");
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);

@@ -14,6 +14,10 @@ void print_stats(const WindowApp& app) {
   std::printf("%zu pictures, each: mean %.2f ms, p50 %.2f ms, p99 %.2f ms; processor %.2f ms%s\n",
               stats.count(), stats.mean_ms(), stats.quantile_ms(0.5), stats.quantile_ms(0.99),
               app.processor_ms_per_picture(), app.software_driver() ? " (no graphics card)" : "");
+  std::printf("first picture of the bones after %.2f s", app.first_picture_s());
+  if (app.pieces_after_s() > 0)
+    std::printf(", felt as hulls; cut into pieces after %.2f s", app.pieces_after_s());
+  std::printf("\n");
 }
 
 void print_stats(const SegmentApp& app) {

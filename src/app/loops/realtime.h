@@ -16,6 +16,8 @@ struct RealtimeGrant {
 bool request_priority();
 /// Asks that the calling thread, an ordinary one, gets its turn before other ordinary threads.
 bool request_early_turns();
+/// From now on the calling thread and those that it starts let other ordinary threads go first.
+void take_late_turns();
 /// Asks that the program's memory stays in RAM.
 bool lock_memory();
 /// Words for what was refused.

@@ -13,6 +13,7 @@ namespace {
 // Above the kernel's threaded interrupts would starve the device's own driver (they run at 50).
 constexpr int kHapticPriority = 40;
 constexpr int kEarlyTurns = -10;
+constexpr int kLateTurns = 10;
 }  // namespace
 
 bool request_priority() {
@@ -25,6 +26,8 @@ bool request_early_turns() {
   // Who is 0: on Linux the calling thread alone, not its process.
   return setpriority(PRIO_PROCESS, 0, kEarlyTurns) == 0;
 }
+
+void take_late_turns() { (void)setpriority(PRIO_PROCESS, 0, kLateTurns); }
 
 bool lock_memory() {
   // Under a finite limit MCL_FUTURE would make later allocations fail: better paged than broken.

@@ -8,6 +8,7 @@ namespace osteon {
 
 bool request_priority() { return false; }
 bool request_early_turns() { return false; }
+void take_late_turns() {}
 bool lock_memory() { return false; }
 RealtimeLimits realtime_limits() { return {}; }
 

@@ -8,6 +8,7 @@
 namespace osteon {
 namespace {
 
+constexpr double kUnfelt_n = 0.05;
 constexpr double kShownForceLimit_n = 8.0;  // of a device without motors: a teaching device's
 
 }  // namespace
@@ -166,6 +167,21 @@ Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_
     if (shares() || i == active_) hands_[i].user = sane(user);
   q_WC_ = q_WC;
   return start_run(poses_now(), nullptr);
+}
+
+Result<void> LiveRun::exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
+                                    ProbePath demo) {
+  if (recording_) return fail("stop the recording before the bones are exchanged");
+  case_ = std::move(the_case);
+  case_source_ = std::move(case_source);
+  demo_ = std::move(demo);
+  return runtime_ ? start_run(poses_now(), nullptr) : Result<void>();
+}
+
+bool LiveRun::touches_nothing() const {
+  return std::all_of(hands_.begin(), hands_.end(), [](const LiveHand& hand) {
+    return hand.snapshot.tool.contact_count == 0 && hand.snapshot.tool.force_W.norm() < kUnfelt_n;
+  });
 }
 
 RecordingHeader LiveRun::header() const {

@@ -73,6 +73,11 @@ class LiveRun {
   Result<void> add_hand(const Pose& X_WD_start, std::uint32_t instrument);
   /// Starts anew with the same device where the probe is, used in another way.
   Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
+  /// Starts anew where the probe is, on the same bones felt otherwise. Not while recording.
+  Result<void> exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
+                             ProbePath demo);
+  /// No hand touches anything: what is felt may change without being felt to.
+  bool touches_nothing() const;
   Result<void> start_recording(const std::filesystem::path& file);
   /// The same, with every tick for who judges it: see Runtime::judge_ticks.
   Result<void> start_judged_recording(const std::filesystem::path& file);

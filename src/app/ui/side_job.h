@@ -15,7 +15,8 @@
 namespace osteon {
 
 /// Work on a thread of its own that tells where it is and can be stopped, so that the window stays
-/// alive.
+/// alive. The work's progress may be called with a null `what`: it then tells nothing new and only
+/// asks whether to go on, without a lock.
 template <class T>
 class SideJob {
  public:
@@ -52,9 +53,7 @@ class SideJob {
   void run(const Work& work) {
     try {
       result_ = work([this](const char* what, double share) {
-        const std::scoped_lock lock(mutex_);
-        progress_.what = what;
-        progress_.fraction = share;
+        if (what) tell(what, share);
         return !cancelled_.load(std::memory_order_relaxed);
       });
     } catch (const std::bad_alloc&) {
@@ -62,6 +61,11 @@ class SideJob {
     }
     done_.store(true, std::memory_order_release);
     done_.notify_all();
+  }
+  void tell(const char* what, double share) {
+    const std::scoped_lock lock(mutex_);
+    progress_.what = what;
+    progress_.fraction = share;
   }
 
   mutable std::mutex mutex_;

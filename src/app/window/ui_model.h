@@ -55,11 +55,11 @@ struct HandModel {
 struct CheckupModel {
   bool open = false;
   bool running = false;
-  const char* doing = "";  ///< "Reading the device"
-  double fraction = 0;     ///< 0..1
-  Findings findings;       ///< of the last one
-  std::string verdict;     ///< empty: none was made yet
-  std::string device;      ///< that may be tried with a gentle force; empty: none
+  std::string doing;    ///< "Reading the device"
+  double fraction = 0;  ///< 0..1
+  Findings findings;    ///< of the last one
+  std::string verdict;  ///< empty: none was made yet
+  std::string device;   ///< that may be tried with a gentle force; empty: none
   UdevRule udev;
   std::string not_now;  ///< why none can be started now; empty: one can
 };

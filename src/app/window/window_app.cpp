@@ -41,6 +41,7 @@ std::vector<std::string> ordered_instruments(const WindowOrder& order) {
 
 WindowApp::WindowApp(const WindowOrder& order)
     : order_(order),
+      created_ns_(steady_now_ns()),
       layout_(order.layout),
       observer_layout_(order.observer.value_or(PictureLayout::kScope)) {}
 
@@ -85,6 +86,7 @@ Result<void> WindowApp::run() {
     frame(dt_s);
     if (measured_run_over()) return finish_measured_run();
     window_->swap();
+    if (first_picture_s_ <= 0 && ready()) first_picture_s_ = seconds(steady_now_ns() - created_ns_);
     if (measured_frames_ > 0) work_.add(seconds(steady_now_ns() - begin_ns));
     const bool paced = order_.frames == 0 && !software_driver();
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
@@ -104,6 +106,7 @@ void WindowApp::frame(double dt_s) {
   ui_->set_scale(static_cast<float>(scale));
   for (const std::string& file : window_->take_dropped_files()) open_any(file);
   poll_loading();
+  poll_refining();
   poll_felt();
   poll_checkup();
   poll_edit_save();
@@ -149,7 +152,8 @@ bool WindowApp::measured_run_over() {
   if (!load_failure_.empty()) return true;
   // A replay stands at the ordered moment from the start.
   const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached || checkup_ || felt_job_ || views_.busy() || first_pictures_ > 0) {
+  if (!ready() || !reached || checkup_ || felt_job_ || refining_ || lighting_ || views_.busy() ||
+      first_pictures_ > 0) {
     if (ready() && first_pictures_ > 0) --first_pictures_;
     processor_start_s_ = processor_now_s();
     return false;

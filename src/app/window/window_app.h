@@ -28,12 +28,9 @@
 #include "window/controllers/scene_poll.h"
 #include "window/controllers/tip_gauge.h"
 #include "window/controllers/tray_pictures.h"
-#include "window/jobs/checkup_job.h"
-#include "window/jobs/edit_save.h"
-#include "window/jobs/felt_job.h"
 #include "window/jobs/load_job.h"
-#include "window/jobs/patient_job.h"
 #include "window/jobs/screen_film.h"
+#include "window/jobs/window_jobs.h"
 #include "window/panels/panels.h"
 
 namespace osteon {
@@ -44,6 +41,7 @@ struct WindowOrder {
   std::filesystem::path replay;      ///< a recording to open; empty: the live case
   std::filesystem::path screenshot;  ///< saved after `frames` pictures; then the program ends
   int frames = 0;                    ///< pictures to draw once loaded before ending; 0: no end
+  bool at_once = false;              ///< with `frames`: begins as for a user, with what is there
   double at_s = 0;                   ///< of simulated time, reached before `frames` are counted
   int width = 0, height = 0;         ///< 0: as last time
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
@@ -51,6 +49,8 @@ struct WindowOrder {
   std::optional<PictureLayout> observer;  ///< the second window begins with it; none: no window
   std::filesystem::path film;             ///< of the window, from the first picture on; empty: none
   bool felt = false;                      ///< begins with bones coloured by what is felt
+  bool softs = false;                     ///< begins with the soft parts shown
+  bool close_up = false;                  ///< begins close up on the joint
   bool demo = false;                      ///< the virtual hand plays the case's path
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one
   /// hand with the device of last time.
@@ -82,8 +82,12 @@ class WindowApp {
   bool wants_segmentation() const { return wants_segmentation_; }
   const std::string& scan_to_segment() const { return scan_to_segment_; }
   const std::string& case_source() const {
-    return case_source_.empty() ? order_.case_spec : case_source_;
+    return case_source_.empty() ? order_.case_spec : wanted_source();
   }
+  /// Since the program began: when the first picture with bones stood, and when the last of what is
+  /// felt was there; 0: not yet, or from the start.
+  double first_picture_s() const { return first_picture_s_; }
+  double pieces_after_s() const { return pieces_after_s_; }
 
  private:
   explicit WindowApp(const WindowOrder& order);
@@ -106,6 +110,13 @@ class WindowApp {
   void leave_replay();
   void choose_felt(const FeltWish& wish);
   void poll_felt();
+  // window_refine.cpp: light and pieces of a case that was opened at once
+  void begin_refining(const Loaded& loaded);
+  const std::string& wanted_source() const;
+  void poll_refining();
+  bool may_exchange() const;
+  void exchange(FinerCase finer);
+  double share_refined() const;
   ViewState picture_view() const;  ///< `view_`, as far as it can be drawn yet
   void fail_loading(const std::string& message);
   // window_model.cpp
@@ -234,17 +245,23 @@ class WindowApp {
   int measured_frames_ = 0;
   double processor_start_s_ = 0;  ///< when the measured pictures began
 
-  std::unique_ptr<LoadJob> job_;
+  std::int64_t created_ns_ = 0;
+  double first_picture_s_ = 0, pieces_after_s_ = 0;
+
+  std::unique_ptr<SideJob<Loaded>> job_;
   std::string load_failure_;
   std::shared_ptr<const Case> case_;
   std::string case_source_;
+  std::string finer_source_;  ///< the case as asked for, while bones are felt as hulls; else empty
+  std::unique_ptr<SideJob<FinerCase>> refining_;
+  std::unique_ptr<SideJob<PreparedCase>> lighting_;
   bool wants_segmentation_ = false;
   ProbePath demo_;
   std::optional<Renderer> renderer_;
   std::optional<PreparedCase> prepared_;  ///< of the case, until what is felt was measured over it
-  std::unique_ptr<FeltJob> felt_job_;     ///< while that is under way
-  bool felt_known_ = false;               ///< to the renderer
-  std::shared_ptr<const CarvingSetup> carving_;  ///< for a live run of the case
+  std::unique_ptr<SideJob<PreparedCase>> felt_job_;  ///< while that is under way
+  bool felt_known_ = false;                          ///< to the renderer
+  std::shared_ptr<const CarvingSetup> carving_;      ///< for a live run of the case
   std::vector<std::string> instruments_;  ///< ordered by the command line: always in the tray
   std::optional<CarvedPicture> carved_;   ///< of the replay
   std::size_t carved_place_ = 0;          ///< of its cuts, that `carved_` shows
@@ -279,7 +296,7 @@ class WindowApp {
   bool help_open_ = false;
 
   std::unique_ptr<BoneEdit> edit_;
-  std::unique_ptr<EditSave> edit_save_;  ///< while one runs
+  std::unique_ptr<SideJob<std::filesystem::path>> edit_save_;  ///< while one runs
   static constexpr std::uint64_t kEditNotDrawn = ~std::uint64_t{0};
   std::uint64_t edit_drawn_ = 0;      ///< version of the surface that the renderer has
   std::optional<Vec3> edit_hover_;    ///< under the pointer, in Bone
@@ -310,11 +327,11 @@ class WindowApp {
   PatientOrder patient_order_;
   PatientChoices patient_choices_;  ///< of its anatomy; empty until first needed
   std::string patient_problem_;
-  std::unique_ptr<PatientJob> patient_job_;  ///< while one is made
+  std::unique_ptr<SideJob<SavedPatient>> patient_job_;  ///< while one is made
 
   bool checkup_open_ = false;
-  std::unique_ptr<CheckupJob> checkup_;  ///< while one runs
-  CheckupReport checkup_report_;         ///< of the last one
+  std::unique_ptr<SideJob<CheckupOutcome>> checkup_;  ///< while one runs
+  CheckupReport checkup_report_;                      ///< of the last one
 };
 
 }  // namespace osteon

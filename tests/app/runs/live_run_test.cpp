@@ -138,6 +138,32 @@ TEST_F(LiveRunTest, ALentDeviceComesBackToARunThatIsAsItWas) {
   EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
 }
 
+// Felt as before, but one bone is farther away: what is told afterwards comes from the new case.
+TEST_F(LiveRunTest, ACaseIsExchangedWhereTheProbeIsAndNotWhileRecording) {
+  const auto finer = std::make_shared<Case>(*test::blocks_case());
+  finer->bones[0].X_WB.p.x() += 0.5;
+  const Pose start{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  LiveRun mouse(test::blocks_case(), "blocks#hull", leaping_path(), {});
+  ASSERT_TRUE(mouse.exchange_case(test::blocks_case(), "blocks#hull", leaping_path()))
+      << "before anything runs";
+  const auto choices = list_device_choices(nullptr);
+  ASSERT_TRUE(
+      mouse.start(choices.at(static_cast<std::size_t>(find_choice(choices, "mouse"))), start));
+  run_until(mouse, [&] { return mouse.snapshot().tool.tick > 4; });
+  EXPECT_TRUE(mouse.touches_nothing());
+  ASSERT_TRUE(mouse.start_recording(file));
+  EXPECT_FALSE(mouse.exchange_case(finer, "blocks", leaping_path()));
+  ASSERT_TRUE(mouse.stop_recording());
+  ASSERT_TRUE(mouse.exchange_case(finer, "blocks", leaping_path()));
+  run_until(mouse, [&] {
+    return mouse.snapshot().tool.tick > 4 && mouse.snapshot().bones.bones[0].X_WB.p.x() > 0.4;
+  });
+  EXPECT_LT((mouse.snapshot().tool.X_WP.p - start.p).norm(), 1e-6);
+  const auto recording = load_recording(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->header.case_source, "blocks#hull") << "names what was felt then";
+}
+
 DeviceChoice choice_named(const char* driver) {
   const auto choices = list_device_choices(nullptr);
   return choices.at(static_cast<std::size_t>(find_choice(choices, driver)));

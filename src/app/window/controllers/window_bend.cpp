@@ -23,7 +23,7 @@ void WindowApp::apply_bend(const BendWish& wish) {
   if (!wish.done) return;
   const CaseJoint& joint = case_->joints[wish.joint];
   if (std::abs(wish.degrees - joint.at_deg) < 1e-9) return end_bend();
-  const auto spec = bent_spec(case_source_, joint.name, wish.degrees);
+  const auto spec = bent_spec(wanted_source(), joint.name, wish.degrees);
   if (spec) return open({*spec, {}, nullptr});
   note(ToastKind::kError, spec.error().message());
   end_bend();

@@ -42,7 +42,7 @@ void WindowApp::begin_checkup(bool push) {
     order.info = live_->choice().info;
   }
   checkup_report_ = {};
-  checkup_ = std::make_unique<CheckupJob>(std::move(order), drivers());
+  checkup_ = std::make_unique<SideJob<CheckupOutcome>>(check_up(std::move(order), drivers()));
 }
 
 void WindowApp::poll_checkup() {
@@ -52,10 +52,13 @@ void WindowApp::poll_checkup() {
 // Cancels one that runs. A lent device goes back to its run.
 void WindowApp::end_checkup() {
   if (!checkup_) return;
-  checkup_->end();
-  checkup_report_ = checkup_->take_report();
-  std::unique_ptr<HapticDevice> device = checkup_->take_device();
+  checkup_->cancel();
+  checkup_->wait();
+  Result<CheckupOutcome> outcome = checkup_->take();
   checkup_.reset();
+  if (!outcome) return note(ToastKind::kError, outcome.error().message());
+  checkup_report_ = std::move(outcome->report);
+  std::unique_ptr<HapticDevice> device = std::move(outcome->order->device);
   if (!device || !live_) return;
   const Result<void> resumed = live_->take_back(std::move(device));
   if (!resumed) note(ToastKind::kError, resumed.error().message());
@@ -86,8 +89,8 @@ CheckupModel WindowApp::checkup_model() const {
   model.open = checkup_open_;
   model.running = checkup_ != nullptr;
   if (checkup_) {
-    const CheckupJob::Progress now = checkup_->progress();
-    model.doing = now.what;
+    const LoadProgress now = checkup_->progress();
+    model.doing = now.what.empty() ? "Beginning" : now.what;
     model.fraction = now.fraction;
   }
   model.findings = checkup_report_.findings;

@@ -85,20 +85,21 @@ void WindowApp::apply_edit(const EditRequests& requests) {
   if (requests.save && !edit_save_) {
     edit_->release();
     const std::string& bone = case_->bone(edit_->bone()).name;
-    edit_save_ =
-        std::make_unique<EditSave>(case_source_, bone, edit_->edit().mesh(),
-                                   dated_file(data_home_dir() / "cases", bone + "-edited", ""));
+    edit_save_ = std::make_unique<SideJob<std::filesystem::path>>(
+        save_edit(wanted_source(), bone, edit_->edit().mesh(),
+                  dated_file(data_home_dir() / "cases", bone + "-edited", "")));
   }
   if (requests.leave && !edit_save_) end_edit();
 }
 
 void WindowApp::poll_edit_save() {
   if (!edit_save_ || !edit_save_->done()) return;
-  const std::unique_ptr<EditSave> save = std::move(edit_save_);
-  if (!save->result()) return note(ToastKind::kError, save->result().error().message());
-  note(ToastKind::kInfo, "Saved as " + save->folder().string());
+  const Result<std::filesystem::path> saved = edit_save_->take();
+  edit_save_.reset();
+  if (!saved) return note(ToastKind::kError, saved.error().message());
+  note(ToastKind::kInfo, "Saved as " + saved->string());
   if (edit_) edit_->mark_saved();
-  open({save->folder().string(), {}, nullptr});
+  open({saved->string(), {}, nullptr});
 }
 
 EditModel WindowApp::edit_model() const {

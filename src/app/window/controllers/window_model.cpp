@@ -112,7 +112,8 @@ UiModel WindowApp::build_model() {
   model.joints = joint_models();
   model.can_bend = can_bend();
   model.view = view_;
-  if (felt_job_) model.felt_measured = felt_job_->fraction();
+  if (felt_job_) model.felt_measured = felt_job_->progress().fraction;
+  if (refining_ || lighting_) model.felt_measured = 0;
   model.hovered = hovered_;
   model.picked = picked_;
   const double ratio = window_->pixel_ratio();
@@ -135,6 +136,9 @@ UiModel WindowApp::build_model() {
     model.record = {live_->recording(), shown_.tool.time_s,
                     live_->recording_file().filename().string()};
     model.activity = live_->choice().driver == "virtual" ? "Demonstration" : "Exploring";
+    if (refining_)
+      model.activity += "; bones felt as hulls, pieces " +
+                        std::to_string(static_cast<int>(100 * share_refined())) + " %";
     if (model.record.on) model.activity = "Recording to " + model.record.file;
   }
   if (replay_ && player_) {

@@ -29,7 +29,12 @@ void WindowApp::open(LoadOrder order) {
   }
   load_failure_.clear();
   order.instruments = instruments_;
-  job_ = std::make_unique<LoadJob>(std::move(order));
+  // What is measured, recorded, judged or edited from the start is the case as it was ordered.
+  const bool ordered = order_.frames > 0 || !order_.record.empty() || !order_.edit.empty() ||
+                       exercise_.page() == ExercisePage::kOpening;
+  order.at_once = order_.at_once || !ordered;
+  job_ = std::make_unique<SideJob<Loaded>>(
+      [order = std::move(order)](const Progress& tell) { return load(order, tell); });
 }
 
 void WindowApp::poll_loading() {
@@ -87,6 +92,7 @@ void WindowApp::install(Loaded loaded) {
     demo_ = loaded.demo;
     carving_ = loaded.carving;
     if (!loaded.carving_problem.empty()) note(ToastKind::kWarning, loaded.carving_problem);
+    begin_refining(loaded);
     const ViewState before = view_;
     const BoneId picked = picked_;
     recall_view();
@@ -97,7 +103,7 @@ void WindowApp::install(Loaded loaded) {
   }
   case_source_ = loaded.case_source;
   settings_.recent =
-      with_recent(settings_.recent, loaded.replay ? loaded.replay->file.string() : case_source_);
+      with_recent(settings_.recent, loaded.replay ? loaded.replay->file.string() : wanted_source());
   live_.reset();
   replay_ = std::move(loaded.replay);
   player_.reset();
@@ -168,7 +174,7 @@ void WindowApp::start_live(const std::string& device) {
 // The case is opened again: what is felt is part of it, and of what a recording names.
 void WindowApp::choose_felt(const FeltWish& wish) {
   if (!case_ || wish.bone.index >= case_->bones.size()) return;
-  auto choice = parse_felt_choice(case_source_);
+  auto choice = parse_felt_choice(wanted_source());
   if (!choice) return note(ToastKind::kError, choice.error().message());
   choice->of_bone[case_->bone(wish.bone).name] = wish.felt;
   open({to_text(*choice), {}, nullptr});
@@ -193,18 +199,19 @@ void WindowApp::show_carved() {
 // Measured when it is first shown: it would double the time that opening takes.
 void WindowApp::poll_felt() {
   if (felt_job_ && felt_job_->done()) {
-    if (felt_job_->failed())
-      note(
-          ToastKind::kWarning,
-          "There was not enough memory to measure what is felt of every bone. Close other programs "
-          "and open the case again.");
-    renderer_->set_surfaces(felt_job_->take());
+    const Result<PreparedCase> measured = felt_job_->take();
+    if (!measured)
+      note(ToastKind::kWarning,
+           "What is felt could not be measured: " + measured.error().message());
+    else
+      renderer_->set_surfaces(*measured);
     edit_drawn_ = kEditNotDrawn;
     felt_job_.reset();
     felt_known_ = true;
   }
-  if (!ready() || !view_.show_felt || !prepared_) return;
-  felt_job_ = std::make_unique<FeltJob>(case_, std::move(*prepared_));
+  // What is felt, and the light, may still change.
+  if (!ready() || !view_.show_felt || !prepared_ || refining_ || lighting_) return;
+  felt_job_ = std::make_unique<SideJob<PreparedCase>>(measure_felt(case_, std::move(*prepared_)));
   prepared_.reset();
 }
 

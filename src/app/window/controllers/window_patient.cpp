@@ -32,31 +32,32 @@ void WindowApp::apply_patient(const PatientRequests& requests) {
     if (patient_open_ && patient_choices_.parameters.empty()) choose_patient(patient_order_);
   }
   if (requests.order) choose_patient(*requests.order);
-  if (requests.stop && patient_job_) patient_job_->stop();
+  if (requests.stop && patient_job_) patient_job_->cancel();
   if (!requests.make || patient_job_) return;
   patient_problem_.clear();
-  patient_job_ = std::make_unique<PatientJob>(
-      patient_order_, dated_file(data_home_dir() / "cases", stem_of(patient_order_), ""));
+  patient_job_ = std::make_unique<SideJob<SavedPatient>>(save_patient(
+      patient_order_, dated_file(data_home_dir() / "cases", stem_of(patient_order_), "")));
 }
 
 void WindowApp::poll_patient() {
   if (!patient_job_ || !patient_job_->done()) return;
-  const std::unique_ptr<PatientJob> made = std::move(patient_job_);
-  if (made->was_stopped()) return;
-  if (!made->result()) {
-    patient_problem_ = made->result().error().message();
+  const bool stopped = patient_job_->cancelled();
+  const Result<SavedPatient> saved = patient_job_->take();
+  patient_job_.reset();
+  if (!saved) {
+    if (!stopped) patient_problem_ = saved.error().message();
     return;
   }
-  note(ToastKind::kInfo, "Saved as " + made->folder().string());
+  note(ToastKind::kInfo, "Saved as " + saved->folder.string());
   patient_open_ = false;
-  open({made->folder().string(), {}, nullptr});
+  open({saved->folder.string(), {}, nullptr});
 }
 
 PatientModel WindowApp::patient_model() const {
   PatientModel model;
   model.open = patient_open_;
   model.making = patient_job_ != nullptr;
-  if (patient_job_) model.fraction = patient_job_->fraction();
+  if (patient_job_) model.fraction = patient_job_->progress().fraction;
   model.parameters = patient_choices_.parameters;
   model.findings = patient_choices_.findings;
   model.order = patient_order_;

@@ -29,6 +29,10 @@ void WindowApp::recall_view() {
   view_.light_elevation_rad = settings_.light_elevation_rad;
   view_.light_brightness = static_cast<float>(settings_.light_brightness);
   view_.ambient_occlusion = static_cast<float>(settings_.ambient_occlusion);
+  if (order_.softs)
+    for (BoneAppearance& look : view_.softs) look.visible = true;
+  if (order_.close_up)
+    view_.camera = close_up_camera(view_.camera, *case_, {}, viewport().aspect(), covered_edges());
   control_ = CameraControl(anatomical_frame(*case_).distal_W);
   shown_ = {rest_snapshot(*case_), {}};
   hovered_ = picked_ = hovered_row_ = {};

@@ -4,54 +4,36 @@
 #include <utility>
 
 #include "cases/open_case.h"
-#include "osteon/base/clock.h"
 #include "runs/demo_path.h"
 #include "runs/tray.h"
 #include "window/controllers/instrument_tray.h"
 
 namespace osteon {
 
-LoadJob::LoadJob(LoadOrder order)
-    : order_(std::move(order)),
-      start_ns_(steady_now_ns()),
-      result_(fail("not loaded yet")),
-      thread_([this] {
-        try {
-          result_ = run();
-        } catch (const Cancelled&) {
-          result_ = fail("the loading was cancelled");
-        } catch (const std::bad_alloc&) {
-          result_ = fail("there is not enough memory", {}, "Close other programs and try again");
-        }
-        done_.store(true, std::memory_order_release);
-      }) {}
+namespace {
 
-LoadJob::~LoadJob() {
-  cancel();
-  thread_.join();
-}
+class Loader {
+ public:
+  struct Cancelled {};
+  Loader(const LoadOrder& order, const Progress& progress) : order_(order), progress_(progress) {}
+  Result<Loaded> run();
 
-LoadProgress LoadJob::progress() const {
-  const std::scoped_lock lock(mutex_);
-  LoadProgress progress = progress_;
-  const double elapsed_s = static_cast<double>(steady_now_ns() - start_ns_) * 1e-9;
-  progress.seconds_left = seconds_left(elapsed_s, progress.fraction);
-  return progress;
-}
+ private:
+  Result<void> load_the_recording(Loaded& loaded, Recording& recording);
+  Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
+  Result<void> open_at_once(Loaded& loaded, const std::string& spec);
+  Result<void> open_whole(Loaded& loaded, const std::string& spec);
+  Result<void> repeat(Loaded& loaded, const Recording& recording);
+  /// Reports where the work is; leaves it by an exception when it was cancelled.
+  void say(const char* what, double fraction) {
+    if (!goes_on(progress_, what, fraction)) throw Cancelled{};
+  }
 
-Result<Loaded> LoadJob::take() { return std::move(result_); }
+  const LoadOrder& order_;
+  const Progress& progress_;
+};
 
-void LoadJob::say(const char* what, double fraction) {
-  if (cancelled_.load(std::memory_order_relaxed)) throw Cancelled{};
-  set_progress(what, fraction);
-}
-
-void LoadJob::set_progress(const char* what, double fraction) {
-  const std::scoped_lock lock(mutex_);
-  progress_ = {what, fraction};
-}
-
-Result<Loaded> LoadJob::run() {
+Result<Loaded> Loader::run() {
   Loaded loaded;
   Recording recording;
   std::string spec = order_.case_spec;
@@ -72,7 +54,7 @@ Result<Loaded> LoadJob::run() {
   return loaded;
 }
 
-Result<void> LoadJob::load_the_recording(Loaded& loaded, Recording& recording) {
+Result<void> Loader::load_the_recording(Loaded& loaded, Recording& recording) {
   say("Reading the recording", 0);
   auto read = load_recording(order_.recording);
   if (!read) return tl::unexpected(read.error());
@@ -84,21 +66,15 @@ Result<void> LoadJob::load_the_recording(Loaded& loaded, Recording& recording) {
   return {};
 }
 
-Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
-                                    std::uint64_t wanted_hash) {
+Result<void> Loader::load_the_case(Loaded& loaded, const std::string& spec,
+                                   std::uint64_t wanted_hash) {
   loaded.case_source = spec;
   if (order_.open && order_.open->hash == wanted_hash && !order_.recording.empty()) {
     loaded.the_case = order_.open;
   } else {
-    auto opened =
-        open_case(spec, [this](const char* what, double share) { say(what, 0.05 + 0.35 * share); });
-    if (!opened) return tl::unexpected(opened.error());
-    loaded.the_case = std::move(*opened);
-    say("Working out the light between the bones", 0.4);
-    loaded.prepared = prepare_case(*loaded.the_case, [this](double share) {
-      set_progress("Working out the light between the bones", 0.4 + 0.3 * share);
-      return !cancelled_.load(std::memory_order_relaxed);
-    });
+    const bool at_once = order_.at_once && order_.recording.empty();
+    auto opened = at_once ? open_at_once(loaded, spec) : open_whole(loaded, spec);
+    if (!opened) return opened;
   }
   say("Planning the demonstration", 0.7);
   loaded.demo = demo_path(*loaded.the_case, spec);
@@ -106,9 +82,9 @@ Result<void> LoadJob::load_the_case(Loaded& loaded, const std::string& spec,
   return {};
 }
 
-// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins; a bone
-// that cannot be carved is seen and felt all the same.
-void LoadJob::prepare_carving(Loaded& loaded) {
+// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins; a
+// bone that cannot be carved is seen and felt all the same.
+void Loader::prepare_carving(Loaded& loaded) {
   const Case& the_case = *loaded.the_case;
   const auto tray = InstrumentTray::make(region_of(the_case), order_.instruments);
   if (!tray || !can_carve(the_case, tray->run().names)) return;
@@ -120,7 +96,33 @@ void LoadJob::prepare_carving(Loaded& loaded) {
     loaded.carving_problem = carving.error().message();
 }
 
-Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
+Result<void> Loader::open_at_once(Loaded& loaded, const std::string& spec) {
+  auto opened = open_case_at_once(
+      spec, [this](const char* what, double share) { say(what, 0.05 + 0.45 * share); });
+  if (!opened) return tl::unexpected(opened.error());
+  loaded.the_case = std::move(opened->the_case);
+  loaded.case_source = std::move(opened->spec);
+  loaded.finer_source = std::move(opened->finer);
+  say("Making the surfaces", 0.5);
+  loaded.prepared = prepare_unlit(*loaded.the_case);
+  loaded.lit = false;
+  return {};
+}
+
+Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
+  auto opened =
+      open_case(spec, [this](const char* what, double share) { say(what, 0.05 + 0.35 * share); });
+  if (!opened) return tl::unexpected(opened.error());
+  loaded.the_case = std::move(*opened);
+  constexpr const char* kLight = "Working out the light between the bones";
+  say(kLight, 0.4);
+  loaded.prepared = prepare_case(*loaded.the_case, [this](double share) {
+    return goes_on(progress_, kLight, 0.4 + 0.3 * share);
+  });
+  return {};
+}
+
+Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   LoadedReplay& replay_of = *loaded.replay;
   const auto settings = parse_settings(recording.header.settings_json);
   if (!settings) return tl::unexpected(settings.error());
@@ -161,6 +163,16 @@ Result<void> LoadJob::repeat(Loaded& loaded, const Recording& recording) {
   replay_of.first_different_tick = outcome->first_different_tick;
   replay_of.ticks = outcome->ticks;
   return {};
+}
+
+}  // namespace
+
+Result<Loaded> load(const LoadOrder& order, const Progress& progress) {
+  try {
+    return Loader(order, progress).run();
+  } catch (const Loader::Cancelled&) {
+    return fail("the loading was cancelled");
+  }
 }
 
 }  // namespace osteon

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
+#include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/image/progress.h"
 #include "osteon/record/recording.h"
 #include "osteon/render/prepare.h"
 #include "osteon/scene/case.h"
@@ -17,7 +16,6 @@
 #include "runs/cut_history.h"
 #include "runs/replay_track.h"
 #include "runs/run_events.h"
-#include "ui/load_progress.h"
 
 namespace osteon {
 
@@ -27,6 +25,9 @@ struct LoadOrder {
   std::filesystem::path recording;   ///< empty: the case alone
   std::shared_ptr<const Case> open;  ///< a case that is open already, used again when it is the one
   std::vector<std::string> instruments = {};  ///< in the tray whatever the case's region is
+  /// Not for a recording: a picture soon, without the light between the bones, and what no cache
+  /// holds of what is felt as hulls.
+  bool at_once = false;
 };
 
 struct LoadedReplay {
@@ -49,7 +50,9 @@ struct LoadedReplay {
 struct Loaded {
   std::shared_ptr<const Case> the_case;
   std::string case_source;
+  std::string finer_source;  ///< of the case with all that is felt of it; empty: this is it
   std::optional<PreparedCase> prepared;  ///< none: `open` was used again
+  bool lit = true;                       ///< false: `prepared` comes from prepare_unlit
   ProbePath demo;                        ///< empty when none could be made
   /// For a live run with the case's tray; null: nothing can be carved.
   std::shared_ptr<const CarvingSetup> carving;
@@ -57,40 +60,7 @@ struct Loaded {
   std::optional<LoadedReplay> replay;
 };
 
-/// Opens something on a thread of its own, so that the window stays alive.
-class LoadJob {
- public:
-  explicit LoadJob(LoadOrder order);
-  /// Cancels and waits for the thread.
-  ~LoadJob();
-  LoadJob(const LoadJob&) = delete;
-  LoadJob& operator=(const LoadJob&) = delete;
-
-  LoadProgress progress() const;
-  bool done() const { return done_.load(std::memory_order_acquire); }
-  void cancel() { cancelled_.store(true); }
-  /// Once, after `done`.
-  Result<Loaded> take();
-
- private:
-  struct Cancelled {};
-  Result<Loaded> run();
-  Result<void> load_the_recording(Loaded& loaded, Recording& recording);
-  Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
-  void prepare_carving(Loaded& loaded);
-  Result<void> repeat(Loaded& loaded, const Recording& recording);
-  /// Reports where the work is; leaves it by an exception when it was cancelled.
-  void say(const char* what, double fraction);
-  void set_progress(const char* what, double fraction);
-
-  LoadOrder order_;
-  mutable std::mutex mutex_;
-  LoadProgress progress_;
-  std::int64_t start_ns_ = 0;
-  std::atomic<bool> cancelled_{false};
-  std::atomic<bool> done_{false};
-  Result<Loaded> result_;
-  std::thread thread_;
-};
+/// Opens something, as the work of a SideJob.
+Result<Loaded> load(const LoadOrder& order, const Progress& progress);
 
 }  // namespace osteon

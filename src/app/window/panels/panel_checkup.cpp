@@ -37,7 +37,7 @@ void draw_verdict(const PanelContext& c) {
   const CheckupModel& checkup = c.model.checkup;
   const ui::WithFont strong(c.fonts.strong);
   if (checkup.running) {
-    ImGui::TextUnformatted(checkup.doing);
+    ImGui::TextUnformatted(checkup.doing.c_str());
     draw_bar(c, checkup.fraction);
   } else if (!checkup.verdict.empty()) {
     wrapped(mark_of(worst(checkup.findings)).ink, checkup.verdict);

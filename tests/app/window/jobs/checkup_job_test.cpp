@@ -1,4 +1,4 @@
-#include "window/jobs/checkup_job.h"
+#include "window/jobs/window_jobs.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 namespace osteon {
 namespace {
 
+using CheckupJob = SideJob<CheckupOutcome>;
 using DeviceList = Result<std::vector<DeviceInfo>>;
 using OpenDevice = Result<std::unique_ptr<HapticDevice>>;
 
@@ -78,10 +79,12 @@ const Finding* find(const Findings& findings, const std::string& topic) {
 }
 
 TEST(CheckupJob, WithoutAnyDeviceItChecksTheComputerAndSaysWhatIsMissing) {
-  CheckupJob job(short_order(), kTable);
+  CheckupJob job(check_up(short_order(), kTable));
   job.wait();
-  const CheckupReport report = job.take_report();
-  EXPECT_EQ(job.take_device(), nullptr);
+  const auto outcome = job.take();
+  ASSERT_TRUE(outcome);
+  const CheckupReport& report = outcome->report;
+  EXPECT_EQ(outcome->order->device, nullptr);
   EXPECT_FALSE(report.ended_early);
   for (const char* topic : {"usb", "USB", "Loop", "Limits", "OpenGL"})
     EXPECT_NE(find(report.findings, topic), nullptr) << topic;
@@ -93,13 +96,15 @@ TEST(CheckupJob, ALentDeviceIsReadNotPushedAndComesBackOpenAtZero) {
   Seen seen;
   CheckupOrder order = short_order();
   order.device = std::make_unique<Watched>(seen);
-  CheckupJob job(std::move(order), kTable);
+  CheckupJob job(check_up(std::move(order), kTable));
   job.wait();
-  EXPECT_NE(find(job.take_report().findings, "Readings"), nullptr);
+  const auto outcome = job.take();
+  ASSERT_TRUE(outcome);
+  EXPECT_NE(find(outcome->report.findings, "Readings"), nullptr);
   EXPECT_GT(seen.reads, 10);
   EXPECT_FALSE(seen.pushed);
   EXPECT_FALSE(seen.closed);
-  EXPECT_NE(job.take_device(), nullptr);
+  EXPECT_NE(outcome->order->device, nullptr);
 }
 
 TEST(CheckupJob, CancelledWhileItPushesTheForceEndsAtZero) {
@@ -107,14 +112,17 @@ TEST(CheckupJob, CancelledWhileItPushesTheForceEndsAtZero) {
   CheckupOrder order = short_order();
   order.push = true;
   order.device = std::make_unique<Watched>(seen);
-  CheckupJob job(std::move(order), kTable);
+  CheckupJob job(check_up(std::move(order), kTable));
   const auto pushes = seen.first_push.get_future().wait_for(std::chrono::minutes(1));
   ASSERT_EQ(pushes, std::future_status::ready);
   const int before = seen.reads;
-  job.end();
+  job.cancel();
+  job.wait();
   EXPECT_LT(seen.reads - before, 50) << "went on pushing";
   EXPECT_TRUE(seen.last_was_zero);
-  const CheckupReport report = job.take_report();
+  const auto outcome = job.take();
+  ASSERT_TRUE(outcome);
+  const CheckupReport& report = outcome->report;
   EXPECT_TRUE(report.ended_early);
   EXPECT_NE(report.verdict.find("ended"), std::string::npos);
 }
@@ -125,7 +133,7 @@ TEST(CheckupJob, GoingAwayItClosesADeviceThatNobodyTookBack) {
     CheckupOrder order = short_order();
     order.read_s = 1000;
     order.device = std::make_unique<Watched>(seen);
-    const CheckupJob job(std::move(order), kTable);
+    const CheckupJob job(check_up(std::move(order), kTable));
   }
   EXPECT_TRUE(seen.closed);
   EXPECT_TRUE(seen.last_was_zero);

@@ -1,4 +1,4 @@
-#include "window/jobs/felt_job.h"
+#include "window/jobs/window_jobs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,8 @@
 
 namespace osteon {
 namespace {
+
+using FeltJob = SideJob<PreparedCase>;
 
 /// A tetrahedron felt as one that is twice as large, at every place.
 std::shared_ptr<const Case> one_bone() {
@@ -24,20 +26,23 @@ std::shared_ptr<const Case> one_bone() {
 }
 
 TEST(FeltJob, ACaseWithoutBones) {
-  FeltJob job(std::make_shared<Case>(), {});
+  FeltJob job(measure_felt(std::make_shared<Case>(), {}));
   job.wait();
-  EXPECT_FALSE(job.failed());
-  EXPECT_TRUE(job.take().bones.empty());
+  const auto measured = job.take();
+  ASSERT_TRUE(measured);
+  EXPECT_TRUE(measured->bones.empty());
 }
 
 TEST(FeltJob, GivesWhatPrepareFeltGives) {
   const auto the_case = one_bone();
   PreparedCase expected = prepare_case(*the_case);
-  FeltJob job(the_case, expected);
+  FeltJob job(measure_felt(the_case, expected));
   job.wait();
-  EXPECT_DOUBLE_EQ(job.fraction(), 1);
+  EXPECT_DOUBLE_EQ(job.progress().fraction, 1);
   prepare_felt(*the_case, expected);
-  const PreparedCase got = job.take();
+  const auto taken = job.take();
+  ASSERT_TRUE(taken);
+  const PreparedCase& got = *taken;
   ASSERT_EQ(got.bones.size(), 1u);
   ASSERT_FALSE(got.bones[0].shades.empty());
   for (std::size_t v = 0; v < got.bones[0].shades.size(); ++v) {
@@ -50,7 +55,7 @@ TEST(FeltJob, MayBeLeftBeforeItIsDone) {
   auto the_case = one_bone();
   const std::weak_ptr<const Case> watched = the_case;
   {
-    const FeltJob job(the_case, prepare_case(*the_case));
+    const FeltJob job(measure_felt(the_case, prepare_case(*the_case)));
     the_case.reset();
     EXPECT_FALSE(watched.expired()) << "the job holds what it works on";
   }

@@ -1,4 +1,4 @@
-#include "window/jobs/patient_job.h"
+#include "window/jobs/window_jobs.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using PatientJob = SideJob<SavedPatient>;
+
 class PatientJobTest : public ::testing::Test {
  protected:
   ~PatientJobTest() override { fs::remove_all(folder); }
@@ -18,27 +20,28 @@ class PatientJobTest : public ::testing::Test {
 };
 
 TEST_F(PatientJobTest, WhatThereIsNotIsSaidAndNothingIsLeft) {
-  PatientJob job({.anatomy = "hip"}, folder / "hip");
+  PatientJob job(save_patient({.anatomy = "hip"}, folder / "hip"));
   job.wait();
-  ASSERT_FALSE(job.result());
-  EXPECT_NE(job.result().error().message().find("hip"), std::string::npos);
+  const auto saved = job.take();
+  ASSERT_FALSE(saved);
+  EXPECT_NE(saved.error().message().find("hip"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "hip"));
 }
 
 TEST_F(PatientJobTest, AFolderThatHoldsSomethingIsKept) {
   fs::create_directories(folder);
   ASSERT_TRUE(write_file_atomic(folder / "notes", "mine"));
-  PatientJob job({}, folder);
+  PatientJob job(save_patient({}, folder));
   job.wait();
-  EXPECT_FALSE(job.result());
+  EXPECT_FALSE(job.take());
   EXPECT_EQ(read_file(folder / "notes", 100).value_or(""), "mine");
 }
 
 TEST_F(PatientJobTest, OneThatIsStoppedLeavesNothing) {
-  PatientJob job({.seed = 7}, folder / "wrist");
-  job.stop();
+  PatientJob job(save_patient({.seed = 7}, folder / "wrist"));
+  job.cancel();
   job.wait();
-  EXPECT_TRUE(job.was_stopped());
+  EXPECT_FALSE(job.take());
   EXPECT_FALSE(fs::exists(folder / "wrist"));
 }
 
@@ -47,9 +50,11 @@ TEST_F(PatientJobTest, ThePatientIsAsOrderedAndItsFolderSaysHowToMakeItAgain) {
                            .set = {{"radial_inclination_deg", 18.1}},
                            .findings = {{"geissler", "3"}},
                            .side = "left"};
-  PatientJob job(order, folder / "wrist");
+  PatientJob job(save_patient(order, folder / "wrist"));
   job.wait();
-  ASSERT_TRUE(job.result()) << job.result().error().message();
+  const auto saved = job.take();
+  ASSERT_TRUE(saved) << saved.error().message();
+  EXPECT_EQ(saved->folder, folder / "wrist");
   const auto def = load_case(folder / "wrist");
   ASSERT_TRUE(def) << def.error().message();
   EXPECT_EQ(def->side, "left");

@@ -1,0 +1,2 @@
+// Depth alone: for what is drawn twice, so that each pixel is lit once.
+void main() {}
