@@ -11,12 +11,12 @@
 #include "commands/commands.h"
 #include "commands/number_check.h"
 #include "commands/parser.h"
-#include "commands/recorded_case.h"
 #include "osteon/carve/carved_surface.h"
 #include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
 #include "osteon/scene/case_io.h"
 #include "osteon/session/session.h"
+#include "runs/recorded_case.h"
 #include "runs/tray.h"
 
 namespace osteon {

@@ -6,10 +6,10 @@
 
 #include "commands/cli_support.h"
 #include "commands/commands.h"
-#include "exercises/debrief.h"
 #include "commands/parser.h"
 #include "commands/scenario_run.h"
 #include "commands/skill_trial.h"
+#include "exercises/debrief.h"
 
 namespace osteon {
 namespace {

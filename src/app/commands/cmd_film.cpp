@@ -11,11 +11,11 @@
 #include "commands/commands.h"
 #include "commands/parser.h"
 #include "commands/progress_line.h"
-#include "commands/recorded_case.h"
 #include "commands/render_options.h"
 #include "osteon/media/film_writer.h"
 #include "osteon/media/wav_writer.h"
 #include "runs/film_view.h"
+#include "runs/recorded_case.h"
 #include "runs/recorded_sound.h"
 #include "runs/tray.h"
 

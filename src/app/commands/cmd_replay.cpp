@@ -10,10 +10,10 @@
 #include "commands/frames.h"
 #include "commands/headless.h"
 #include "commands/record_names.h"
-#include "commands/recorded_case.h"
 #include "commands/session_options.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/hand_reports.h"
+#include "runs/recorded_case.h"
 #include "runs/torque_report.h"
 #include "runs/tray.h"
 

@@ -8,7 +8,7 @@
 #include "commands/cli_support.h"
 #include "commands/record_export.h"
 #include "commands/record_names.h"
-#include "commands/recorded_case.h"
+#include "runs/recorded_case.h"
 #include "runs/torque_report.h"
 #include "runs/tray.h"
 

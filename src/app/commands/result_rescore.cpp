@@ -11,9 +11,9 @@
 
 #include "cases/all_cores.h"
 #include "commands/cli_support.h"
-#include "exercises/debrief.h"
 #include "commands/progress_line.h"
 #include "commands/result_sending.h"
+#include "exercises/debrief.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
 

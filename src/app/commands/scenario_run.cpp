@@ -157,8 +157,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());
   if (run.record_to)
-    if (auto noted = note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name,
-                                  to_json(done));
+    if (auto noted =
+            note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name, to_json(done));
         !noted)
       return tl::unexpected(noted.error());
   return done;

@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "cases/open_case.h"
-#include "commands/recorded_case.h"
 #include "exercises/attempt_watch.h"
 #include "exercises/scenario_files.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
+#include "runs/recorded_case.h"
 #include "runs/tray.h"
 
 namespace osteon {

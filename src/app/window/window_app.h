@@ -173,6 +173,7 @@ class WindowApp {
   void apply_exercise(const ExerciseRequests& requests);
   void show_exercise(const std::string& name);
   void open_exercise();
+  bool want_instruments(const Scenario& scenario);
   void begin_exercise();
   void poll_exercise();
   void end_exercise();

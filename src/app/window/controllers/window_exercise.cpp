@@ -49,9 +49,21 @@ void WindowApp::open_exercise() {
   if (live_ && live_->recording())
     return note(ToastKind::kWarning, "Stop the recording before an exercise.");
   const std::string spec = exercise_.case_spec();
+  const bool all_here = want_instruments(exercise_.scenario());
   exercise_.wait_for_case();
-  if (live_ && case_ && case_source_ == spec) return begin_exercise();
+  if (live_ && case_ && case_source_ == spec && all_here) return begin_exercise();
   open({spec, {}, nullptr});
+}
+
+// False: the tray lacked one. What removes bone is prepared with the case, by the tray.
+bool WindowApp::want_instruments(const Scenario& scenario) {
+  bool all = true;
+  for (const ScenarioHand& hand : scenario.hands) {
+    if (hand.instrument == kWristProbe || tray_.find(hand.instrument)) continue;
+    instruments_.push_back(hand.instrument);
+    all = false;
+  }
+  return all;
 }
 
 std::vector<Pose> WindowApp::exercise_poses(const std::vector<PlannedHand>& hands) const {
@@ -75,7 +87,7 @@ Result<void> WindowApp::start_exercise_hands(const std::vector<PlannedHand>& han
   std::vector<std::string> wanted;
   for (const PlannedHand& hand : hands)
     wanted.push_back(hand.instrument == kWristProbe ? std::string() : hand.instrument);
-  make_tray(wanted);
+  make_tray();
   make_live();
   const int chosen = find_choice(choices_, settings_.device);
   const DeviceChoice& choice = choices_[static_cast<std::size_t>(chosen)];

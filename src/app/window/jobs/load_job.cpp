@@ -23,6 +23,7 @@ class Loader {
   Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
   Result<void> open_at_once(Loaded& loaded, const std::string& spec);
   Result<void> open_whole(Loaded& loaded, const std::string& spec);
+  void prepare_carving(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
   void say(const char* what, double fraction) {

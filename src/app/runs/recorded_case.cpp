@@ -1,4 +1,4 @@
-#include "commands/recorded_case.h"
+#include "runs/recorded_case.h"
 
 #include <system_error>
 
