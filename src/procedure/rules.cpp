@@ -6,6 +6,7 @@
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tip_watch.h"
+#include "tunnel_rules.h"
 #include "way_rules.h"
 
 namespace osteon {
@@ -280,6 +281,7 @@ const std::vector<RuleKind>& rule_table() {
   static const std::vector<RuleKind> kinds = [] {
     std::vector<RuleKind> all;
     for (const RuleRow& row : rule_rows()) all.push_back(row.kind);
+    all.insert(all.end(), tunnel_rule_table().begin(), tunnel_rule_table().end());
     return all;
   }();
   return kinds;
@@ -300,9 +302,11 @@ std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, do
       of_kind ? rule.bones.begin() : std::find(rule.bones.begin(), rule.bones.end(), event.subject);
   if (!of_kind && rule.about != SubjectKind::kNothing && bone == rule.bones.end())
     return std::nullopt;
+  const auto place = static_cast<std::size_t>(bone - rule.bones.begin());
+  std::optional<RuleHit> tunnel_hit;
+  if (step_tunnel_rule(rule, event, place, tick_s, state, tunnel_hit)) return tunnel_hit;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
-    const auto place = static_cast<std::size_t>(bone - rule.bones.begin());
     const auto hit = row.step(rule, event, place, tick_s, state);
     state.met = std::all_of(state.done.begin(), state.done.end(), [](char d) { return d != 0; });
     return hit;

@@ -82,6 +82,15 @@ ScenarioMetric read_metric(TomlTable table) {
   return metric;
 }
 
+// One word for all bones, or what may follow the '#' of a case: "femur=field,flexion=120".
+std::string read_felt(TomlTable& table) {
+  const std::string felt = table.text_or("felt", "pieces");
+  if (felt != "pieces" && felt != "hull" && felt != "field" && felt.find('=') == std::string::npos)
+    table.set_error("'" + felt + "' is no way to feel a bone", "felt",
+                    "Use pieces, hull or field, or BONE=field,... as behind a case's '#'");
+  return felt;
+}
+
 ScenarioHand read_hand(TomlTable table) {
   ScenarioHand hand;
   hand.line = table.line();
@@ -101,7 +110,7 @@ Scenario read_scenario(TomlTable& table) {
   scenario.version = static_cast<int>(table.number("version", 1, kMany));
   scenario.anatomy = table.word(
       "anatomy", {"wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_suture"});
-  scenario.felt = table.word("felt", {"pieces", "hull", "field"}, true);
+  scenario.felt = read_felt(table);
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
   scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);

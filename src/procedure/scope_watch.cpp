@@ -24,6 +24,18 @@ bool crosses(const Hull& hull, const Vec3& a, const Vec3& b) {
   return true;
 }
 
+// Strides along the segment are no longer than the distance to the bone's surface.
+bool crosses(const DistanceField& field, const Vec3& a, const Vec3& b) {
+  constexpr double kLeastStride_m = 0.0002;
+  const double length = (b - a).norm();
+  for (double at = 0; at < length;) {
+    const double room = field.at(a + (at / length) * (b - a)).distance;
+    if (!(room > 0)) return true;
+    at += std::max(room, kLeastStride_m);
+  }
+  return false;
+}
+
 }  // namespace
 
 ScopeView view_through(const ScopeOptics& optics, const Pose& X_WT) {
@@ -48,6 +60,10 @@ bool is_hidden(const Case& the_case, const BoneSnapshot& bones, const Vec3& from
     const Pose X_WB = i < bones.count ? bones.bones[i].X_WB : the_case.bones[i].X_WB;
     const Pose X_BW = X_WB.inverse();
     const Vec3 a = X_BW * from_W, b = X_BW * end_W;
+    if (the_case.bones[i].field) {
+      if (crosses(*the_case.bones[i].field, a, b)) return true;
+      continue;
+    }
     for (const Hull& piece : the_case.bones[i].pieces)
       if (crosses(piece, a, b)) return true;
   }

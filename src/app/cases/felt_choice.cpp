@@ -11,6 +11,8 @@
 namespace osteon {
 namespace {
 
+constexpr double kLeastNear_mm = 60, kMostNear_mm = 400;
+
 std::optional<double> degrees_from(const std::string& text) {
   double value = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -37,7 +39,10 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
     const bool all = equals == std::string::npos;
     const std::string value = all ? part : part.substr(equals + 1);
     if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
-      out.bent[part.substr(0, equals)] = *degrees;
+      const bool near = part.substr(0, equals) == "near";
+      if (near && !(*degrees >= kLeastNear_mm && *degrees <= kMostNear_mm))
+        return fail("'" + part + "' is not 60 to 400 mm", spec);
+      (near ? out.near_mm : out.bent[part.substr(0, equals)]) = *degrees;
       continue;
     }
     const auto felt = felt_from_text(value);
@@ -58,6 +63,8 @@ std::string to_text(const FeltChoice& choice) {
   }
   for (const auto& [joint, degrees] : choice.bent)
     out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
+  if (choice.near_mm > 0)
+    out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
   return choice.source + out;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/all_cores.h"
+#include "cases/crop_case.h"
 #include "cases/felt_choice.h"
 #include "cases/make_patient.h"
 #include "cases/piece_work.h"
@@ -232,6 +233,9 @@ Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(
   if (!def) return def;
   colour_softs(*def);
   if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
+  if (choice->near_mm > 0)
+    if (auto cut = crop_knee(*def, choice->near_mm / 1000); !cut)
+      return tl::unexpected(cut.error());
   return def;
 }
 
@@ -250,6 +254,8 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
     for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   const std::string source = source_without_choice(spec);
   Caches caches(source);
+  if (const auto choice = parse_felt_choice(spec); choice && choice->near_mm > 0)
+    prepare_cropped(*def, caches.pieces, caches.fields);
   find_what_is_felt(*def, caches.pieces, caches.fields, [&](double share) {
     say("Cutting the bones into pieces (once)", kOpened + kCut * share);
   });

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cases/open_case.h"
 #include "commands/headless.h"
 #include "exercises/attempt_watch.h"
 #include "osteon/procedure/hand_reports.h"
+#include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
@@ -109,10 +111,55 @@ ProbePath holding(const std::string& instrument) {
   return path;
 }
 
+HeadlessHand played_by(HandPlayer& player, const PlannedHand& hand, const HandParams& params) {
+  return {hand.name, holding(hand.instrument), [&params, &player](double tick_s) {
+            return std::make_unique<SurgeonHand>(player, params, tick_s);
+          }};
+}
+
+// Who reconstructs a ligament knows all his ways before he begins.
+Result<std::vector<std::string>> plan_reconstruction(const ScenarioRun& run,
+                                                     const ScenarioPlan& plan, const Case& the_case,
+                                                     std::span<const PlannedHand> hands,
+                                                     HeadlessRun& headless) {
+  AclTools tools;
+  for (const PlannedHand& hand : hands) {
+    if (hand.pin) {
+      tools.pin = hand.instrument;
+    } else if (hand.optics) {
+      tools.scope = hand.instrument;
+      tools.optics = *hand.optics;
+    } else {
+      tools.probe = hand.instrument;
+    }
+  }
+  if (tools.pin.empty() || tools.scope.empty() || tools.probe.empty())
+    return fail("needs a hand with a scope, one with a probe and one with a guide pin",
+                run.scenario.where);
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals) {
+      const auto& marks = goal.rule.marks;
+      if (goal.rule.kind == "seen") tools.tour.insert(tools.tour.end(), marks.begin(), marks.end());
+      if (goal.rule.kind == "felt") tools.felt.insert(tools.felt.end(), marks.begin(), marks.end());
+    }
+  auto ways = plan_acl(the_case, tools, run.skill);
+  if (!ways) return tl::unexpected(ways.error());
+  for (const PlannedHand& hand : hands) {
+    ProbePath& way = hand.pin ? ways->pin : hand.optics ? ways->scope : ways->probe;
+    headless.hands.push_back({hand.name, std::move(way)});
+  }
+  return ways->unreachable;
+}
+
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
-  return to_json(done.reports, done.hands, done.outcome);
+  std::string text = to_json(done.reports, done.hands, done.outcome);
+  if (!done.acl) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["acl"] = to_json(*done.acl);
+  if (!done.not_measured.empty()) json["acl"]["not_measured"] = done.not_measured;
+  return json.dump(2) + "\n";
 }
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -123,26 +170,32 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const auto hands = plan_hands(run.scenario, **the_case);
   if (!hands) return tl::unexpected(hands.error());
   HeadlessRun headless;
-  const auto players =
-      players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
+  const bool ligament = asks_about_tunnels(*plan);
+  std::vector<std::unique_ptr<HandPlayer>> players;
+  if (!ligament)
+    players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
   const auto all_done = [&] {
     return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
   };
-  if (all_done())
+  if (!ligament && all_done())
     return fail("nothing of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
+  watch.watch_tunnels(run.case_spec);
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
   headless.settings.carve.cortex_m = run.scenario.cortex_mm / 1000;
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
-  for (std::size_t h = 0; h < hands->size(); ++h)
-    headless.hands.push_back({(*hands)[h].name, holding((*hands)[h].instrument),
-                              [&headless, &player = *players[h]](double tick_s) {
-                                return std::make_unique<SurgeonHand>(player, headless.hand, tick_s);
-                              }});
+  std::vector<std::string> unreachable;
+  if (ligament) {
+    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, headless);
+    if (!planned) return tl::unexpected(planned.error());
+    unreachable = std::move(*planned);
+  }
+  for (std::size_t h = 0; h < players.size(); ++h)
+    headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
   headless.done = [&] { return watch.over() || all_done(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);
@@ -151,8 +204,15 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   if (!reports) return tl::unexpected(reports.error());
   auto outcome = watch.finish(run.standard ? &*run.standard : nullptr);
   if (!outcome) return tl::unexpected(outcome.error());
-  ScenarioOutcome done{
-      std::move(reports->reports), std::move(reports->names), std::move(*outcome), {}};
+  ScenarioOutcome done{std::move(reports->reports),
+                       std::move(reports->names),
+                       std::move(*outcome),
+                       std::move(unreachable),
+                       {},
+                       {}};
+  if (watch.tunnels()) done.acl = watch.tunnels()->report();
+  if (watch.tunnels() && watch.tunnels()->problem())
+    done.not_measured = watch.tunnels()->problem()->message();
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());

@@ -11,6 +11,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/report.h"
 #include "osteon/surgeon/skill.h"
+#include "runs/acl_report.h"
 
 namespace osteon {
 
@@ -27,8 +28,10 @@ struct ScenarioOutcome {
   std::vector<std::string> hands;
   Outcome outcome;
   std::vector<std::string> unreachable;  ///< bones that the surgeon found no way to
+  std::optional<AclReport> acl;          ///< of a scenario that asks for tunnels
+  std::string not_measured;              ///< why they could not be measured
 };
-/// The report as JSON.
+/// The report as JSON, with what was measured of its tunnels as `acl`.
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 

@@ -5,6 +5,7 @@
 
 #include "osteon/procedure/tip_watch.h"
 #include "osteon/scene/portal.h"
+#include "osteon/scene/tool_set.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -17,6 +18,9 @@ std::vector<std::uint32_t> marks_of(const ScenarioPlan& plan) {
       if (goal.about == SubjectKind::kLandmark && goal.heeds == EventKind::kNone &&
           goal.rule.kind != "through")
         marks.insert(marks.end(), goal.bones.begin(), goal.bones.end());
+  for (const PlannedRule& error : plan.errors)
+    if (error.rule.kind == "located_unseen")
+      marks.insert(marks.end(), error.bones.begin(), error.bones.end());
   std::sort(marks.begin(), marks.end());
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
   return marks;
@@ -46,8 +50,10 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
   PlannedHand planned;
   planned.name = hand.name;
   planned.instrument = hand.instrument;
+  const auto named = parse_tool_name(hand.instrument);
+  if (!named) return tl::unexpected(named.error());
   const Instrument* instrument =
-      hand.instrument == kWristProbe ? nullptr : find_instrument(instruments, hand.instrument);
+      hand.instrument == kWristProbe ? nullptr : find_instrument(instruments, named->name);
   if (!instrument && hand.instrument != kWristProbe)
     return fail("there is no instrument '" + hand.instrument + "'",
                 where + ":" + std::to_string(hand.line), "See: osteon instruments");
@@ -60,6 +66,7 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
     planned.tip_radius_m = tool.tip_radius_m;
     planned.removes = instrument->removal.has_value();
     planned.shaft_offset_T = {tool.shaft.p0.x(), tool.shaft.p0.y(), 0};
+    planned.pin = named->name == kGuidePin;
   }
   if (hand.portal.empty()) return planned;
   const auto portal = find_landmark(the_case, hand.portal);
@@ -113,6 +120,7 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
     for (const CutPart& part : parts)
       if (hands[h].removes)
         cuts_.push_back({h, CutWatch(the_case, part, hands[h].tip_radius_m, hand, tick_s)});
+    pins_.push_back(hands[h].pin);
   }
 }
 
@@ -127,13 +135,19 @@ void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapsh
   }
   for (HandCut& cut : cuts_)
     if (cut.hand < tools.size()) cut.watch.add(*tools[cut.hand], fresh_);
+  if (tunnels_) tunnels_->add(tools, bones, fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
+}
+
+void AttemptWatch::watch_tunnels(const std::string& case_spec) {
+  if (asks_about_tunnels(*plan_)) tunnels_.emplace(*plan_, *case_, case_spec, pins_, tick_s_);
 }
 
 Result<Outcome> AttemptWatch::finish(const Standard* standard) {
   fresh_.clear();
   for (ToolEvents& events : events_) events.finish(fresh_);
+  if (tunnels_) tunnels_->finish(fresh_);
   judge_fresh();
   finish_scenario(*plan_, now_s_, state_);
   auto metrics = meter_.finish();

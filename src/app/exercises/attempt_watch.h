@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "exercises/tunnel_watch.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
@@ -23,6 +24,7 @@ struct PlannedHand {
   double tip_radius_m = 0.00075;
   bool removes = false;                ///< bone
   Vec3 shaft_offset_T = Vec3::Zero();  ///< the shaft's axis runs along z of Tool through this point
+  bool pin = false;                    ///< what it holds locates tunnels
 };
 /// Fails on an instrument that there is none of, and on a portal that the case lacks.
 Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case);
@@ -37,6 +39,10 @@ class AttemptWatch {
   bool over() const { return state_.over; }
   const ScenarioState& state() const { return state_; }
   Result<Outcome> finish(const Standard* standard);
+  /// Measures located tunnels, where the scenario asks for it; once, before the first tick.
+  void watch_tunnels(const std::string& case_spec);
+  /// Null: the scenario does not ask for tunnels.
+  const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
 
  private:
   struct HandCut {
@@ -50,6 +56,8 @@ class AttemptWatch {
   double tick_s_;
   std::vector<ToolEvents> events_;
   std::vector<ScopeWatch> scopes_;
+  std::vector<char> pins_;  // by hand
+  std::optional<TunnelWatch> tunnels_;
   AttemptMeter meter_;  // of the first hand
   ScenarioState state_;
   bool tells_tips_ = false;

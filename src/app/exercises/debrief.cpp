@@ -82,7 +82,7 @@ struct JudgedAgain {
   std::vector<ToolState> tools;
 
   Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
-                     std::size_t recorded_hands) {
+                     std::size_t recorded_hands, const std::string& case_spec) {
     auto planned = plan_scenario(scenario, the_case);
     if (!planned) return tl::unexpected(planned.error());
     auto held = plan_hands(scenario, the_case);
@@ -94,6 +94,7 @@ struct JudgedAgain {
     plan = std::make_unique<ScenarioPlan>(std::move(*planned));
     hands = std::move(*held);
     watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
+    watch->watch_tunnels(case_spec);
     tools.resize(hands.size());
     return {};
   }
@@ -124,7 +125,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   const double tick_s = settings->haptic.tick_s;
   JudgedAgain again;
   if (*scenario)
-    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands); !begun)
+    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands, *spec); !begun)
       return tl::unexpected(begun.error());
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
   ReplayOptions how;

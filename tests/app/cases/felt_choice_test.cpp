@@ -40,6 +40,16 @@ TEST(FeltChoice, OneBoneAndAllOthers) {
   EXPECT_EQ(to_text(*choice), "a#b#field,lunate=hull");
 }
 
+TEST(FeltChoice, AKneeMayEndNearItsJoint) {
+  const auto choice = parse_felt_choice("builtin:knee:3#femur=field,flexion=120,near=100");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->near_mm, 100);
+  EXPECT_FALSE(choice->bent.contains("near"));
+  EXPECT_EQ(to_text(*choice), "builtin:knee:3#femur=field,flexion=120,near=100");
+  EXPECT_FALSE(parse_felt_choice("builtin:knee#near=10"));
+  EXPECT_FALSE(parse_felt_choice("builtin:knee#near=500"));
+}
+
 TEST(FeltChoice, AJointIsBentBesideWhatIsFelt) {
   const auto choice = parse_felt_choice("knee#hull,flexion=72.5");
   ASSERT_TRUE(choice);

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "osteon/scene/event.h"
+
+namespace osteon {
+
+// Codes of events that who watches tunnels being located makes; the session makes none of them.
+/// A tool presses next to a landmark: {distance mm; force N; 0}.
+inline constexpr EventKind kMarkFelt{431};
+/// The line of a tunnel is about to be fixed; told of every landmark.
+inline constexpr EventKind kTunnelBegun{432};
+/// The line of a tunnel in a bone is fixed: {its length mm; 0; 0}.
+inline constexpr EventKind kTunnelLocated{433};
+/// What was measured, of the hand itself: {a TunnelValue; the value; 0}.
+inline constexpr EventKind kTunnelMeasured{434};
+/// A graft between both tunnels was tested, of the hand itself: {Lachman beyond that of the whole
+/// knee, mm; 0; 0}.
+inline constexpr EventKind kGraftTested{435};
+
+/// What is measured of tunnels and of the graft between them.
+enum class TunnelValue : std::uint8_t {
+  kFemoralDepth,
+  kFemoralHeight,
+  kFemoralOff,
+  kFemoralClock,
+  kFemoralChannel,
+  kFemoralSocket,
+  kBackWall,
+  kAmisJakob,
+  kTibialMedial,
+  kTibialLength,
+  kBehindRoof,
+  kExcursion,
+  kLachman,
+  kPivot
+};
+/// By TunnelValue: names with their units, each of a rule `outside_NAME` for errors.
+inline constexpr std::array<std::string_view, 14> kTunnelValueNames{
+    "femoral_depth_pct",     "femoral_height_pct", "femoral_off_mm", "femoral_from_roof_deg",
+    "femoral_channel_mm",    "femoral_socket_mm",  "back_wall_mm",   "amis_jakob_pct",
+    "tibial_medial_pct",     "tibial_length_mm",   "behind_roof_mm", "graft_excursion_mm",
+    "lachman_difference_mm", "pivot_difference_mm"};
+
+}  // namespace osteon

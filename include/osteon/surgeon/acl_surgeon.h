@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/procedure/scope_watch.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/path.h"
+#include "osteon/surgeon/skill.h"
+
+namespace osteon {
+
+/// What whoever reconstructs a cruciate ligament works with.
+struct AclTools {
+  ScopeOptics optics;
+  std::string scope, probe, pin;  ///< names of the instruments
+  double reamed_m = 0.008;        ///< so wide the tunnels will be
+  std::vector<std::string> tour;  ///< landmarks that are looked at
+  std::vector<std::string> felt;  ///< and those that the probe presses next to
+};
+
+/// Ways of three hands through a reconstruction.
+struct AclWays {
+  ProbePath scope, probe, pin;
+  std::vector<std::string> unreachable;  ///< landmarks that no free way leads to
+};
+
+/// Plans the ways of somebody in a bent knee, left or right: the scope through the anterolateral
+/// portal to each landmark of the tour, the probe through the anteromedial one, then the pin on the
+/// front of the tibia's inner side, in line with the footprint, and on the femur's footprint: of
+/// the ways that leave it room one with bone behind it and a channel of about 40 mm. A
+/// beginner is slower, trembles, presses harder and misses both footprints by up to 5 mm. `skill`
+/// "bad:NAME": one thing that is done wrong, acl_faults(). Fails when the case lacks a landmark or
+/// portal, on another NAME, or when no way of the pin is free.
+Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skill& skill);
+
+/// What a bad surgeon can do wrong, as an exercise's errors are named.
+std::span<const std::string_view> acl_faults();
+
+}  // namespace osteon

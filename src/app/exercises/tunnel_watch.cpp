@@ -1,0 +1,222 @@
+#include "exercises/tunnel_watch.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "cases/felt_choice.h"
+#include "cases/open_case.h"
+#include "osteon/mesh/distance.h"
+#include "osteon/procedure/tunnel_events.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kTunnelWatchHz = 100;
+constexpr double kFarFromMark_m = 0.02;
+constexpr double kStill_m = 0.001;   // so far a pin may wander while it is held still
+constexpr double kBeyond_m = 0.002;  // a line through a bone ends so far behind it
+constexpr double kLongest_m = 0.15;
+constexpr const char* kTunnelBones[] = {"femur", "tibia"};
+
+bool is_tunnel_rule(const PlannedRule& rule) {
+  const std::string& kind = rule.rule.kind;
+  return kind == "felt" || kind == "tunnel_located" || kind == "graft_tested" ||
+         kind == "located_unseen" || kind.starts_with("outside_");
+}
+
+// By TunnelValue.
+std::vector<std::pair<TunnelValue, double>> values_of(const FemoralTunnel& t) {
+  return {{TunnelValue::kFemoralDepth, 100 * t.depth_share},
+          {TunnelValue::kFemoralHeight, 100 * t.height_share},
+          {TunnelValue::kFemoralOff, 1e3 * t.off_target_m},
+          {TunnelValue::kFemoralClock, 180 / std::numbers::pi * t.from_roof_rad},
+          {TunnelValue::kFemoralChannel, 1e3 * t.channel_m},
+          {TunnelValue::kFemoralSocket, 1e3 * t.drilled_m},
+          {TunnelValue::kBackWall, 1e3 * t.back_wall_m}};
+}
+std::vector<std::pair<TunnelValue, double>> values_of(const TibialTunnel& t) {
+  return {{TunnelValue::kAmisJakob, 100 * t.front_share},
+          {TunnelValue::kTibialMedial, 100 * t.medial_share},
+          {TunnelValue::kTibialLength, 1e3 * t.length_m},
+          {TunnelValue::kBehindRoof, 1e3 * t.behind_roof_m}};
+}
+std::vector<std::pair<TunnelValue, double>> values_of(const GraftOutcome& g) {
+  return {{TunnelValue::kExcursion, 1e3 * g.excursion_m},
+          {TunnelValue::kLachman, 1e3 * (g.lachman.anterior_m - g.lachman_whole_m)},
+          {TunnelValue::kPivot, 1e3 * (g.pivot.anterior_m - g.pivot_whole_m)}};
+}
+
+Event told(const ToolState& tool, std::size_t hand, EventKind kind, SubjectKind about,
+           std::uint32_t subject, std::array<double, 3> values) {
+  return {tool.tick, kind, static_cast<std::uint8_t>(hand), about, subject, tool.X_WP.p, values};
+}
+
+// From a place on a bone along a direction into it to behind where it leaves the bone.
+double way_through_m(const MeshDistance& bone, const Vec3& p_B, const Vec3& in_B) {
+  constexpr double kUnderSurface_m = 0.002, kLeast_m = 1e-5;
+  double way = kUnderSurface_m;
+  while (way < kLongest_m) {
+    const double inside = -bone.closest(p_B + way * in_B).signed_distance;
+    if (inside < kLeast_m) break;
+    way += inside;
+  }
+  return way + kBeyond_m;
+}
+
+}  // namespace
+
+bool asks_about_tunnels(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    if (std::any_of(goals.begin(), goals.end(), is_tunnel_rule)) return true;
+  return std::any_of(plan.errors.begin(), plan.errors.end(), is_tunnel_rule);
+}
+
+TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, std::string case_spec,
+                         std::vector<char> pins, double tick_s)
+    : case_(&the_case),
+      spec_(std::move(case_spec)),
+      pins_(std::move(pins)),
+      tick_s_(tick_s),
+      stride_(std::max<std::uint64_t>(
+          1, static_cast<std::uint64_t>(1 / (kTunnelWatchHz * tick_s) + 0.5))),
+      holds_(pins_.size()) {
+  for (std::size_t k = 0; k < kBones; ++k)
+    if (const BoneId bone = the_case.find(kTunnelBones[k]); bone.valid()) bones_[k] = bone.index;
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals) {
+      if (goal.rule.kind == "felt") felt_.insert(felt_.end(), goal.bones.begin(), goal.bones.end());
+      if (goal.rule.kind != "tunnel_located") continue;
+      const auto& n = goal.rule.numbers;
+      for (std::size_t k = 0; k < kBones; ++k)
+        if (std::find(goal.bones.begin(), goal.bones.end(), bones_[k]) != goal.bones.end())
+          wanted_[k] = {true, n.at("force_n"), n.at("for_s"), n.at("depth_mm") / 1000,
+                        n.at("reamed_mm") / 1000};
+    }
+}
+
+void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                      std::vector<Event>& out) {
+  for (std::size_t h = 0; h < std::min(tools.size(), holds_.size()); ++h) {
+    const ToolState& tool = *tools[h];
+    last_tick_ = std::max(last_tick_, tool.tick);
+    if (!is_finite(tool.X_WP)) continue;
+    if (pins_[h]) follow_pin(tool, h, bones, out);
+    if (tool.tick % stride_ == 0) see_marks(tool, h, out);
+  }
+}
+
+void TunnelWatch::see_marks(const ToolState& tool, std::size_t hand,
+                            std::vector<Event>& out) const {
+  if (tool.contact_count == 0 || !is_finite(tool.force_W)) return;
+  for (const std::uint32_t mark : felt_) {
+    const double away = (case_->landmarks[mark].p_W - tool.X_WP.p).norm();
+    if (away < kFarFromMark_m)
+      out.push_back(told(tool, hand, kMarkFelt, SubjectKind::kLandmark, mark,
+                         {1e3 * away, tool.force_W.norm(), 0}));
+  }
+}
+
+// Which of the bones that are asked for a tool stands on hard enough.
+std::size_t TunnelWatch::pressed(const ToolState& tool, const BoneSnapshot& bones) const {
+  for (std::uint32_t i = 0; i < tool.contact_count; ++i)
+    for (std::size_t k = 0; k < kBones; ++k)
+      if (wanted_[k].asked && tool.contacts[i].bone.index == bones_[k] && bones_[k] < bones.count &&
+          is_finite(tool.force_W) && tool.force_W.norm() >= wanted_[k].force_n)
+        return k;
+  return kBones;
+}
+
+void TunnelWatch::follow_pin(const ToolState& tool, std::size_t hand, const BoneSnapshot& bones,
+                             std::vector<Event>& out) {
+  Hold& hold = holds_[hand];
+  const std::size_t k = pressed(tool, bones);
+  if (k == kBones) {
+    hold = {};
+    return;
+  }
+  const Pose X_BT = bones.bones[bones_[k]].X_WB.inverse() * tool.X_WP;
+  if (hold.bone != k || (X_BT.p - hold.tip_B).norm() > kStill_m)
+    hold = {k, tool.tick, X_BT.p, false};
+  const double held_s = static_cast<double>(tool.tick - hold.since) * tick_s_;
+  if (hold.told || held_s < wanted_[k].for_s) return;
+  hold.told = true;
+  locate(tool, hand, X_BT, out);
+}
+
+void TunnelWatch::locate(const ToolState& tool, std::size_t hand, const Pose& X_BT,
+                         std::vector<Event>& out) {
+  const std::size_t k = holds_[hand].bone;
+  for (std::uint32_t mark = 0; mark < case_->landmarks.size(); ++mark)
+    out.push_back(told(tool, hand, kTunnelBegun, SubjectKind::kLandmark, mark, {}));
+  const Vec3 in_B = X_BT.rotate(-Vec3::UnitZ());
+  const double length_m =
+      wanted_[k].depth_m > 0
+          ? wanted_[k].depth_m
+          : way_through_m(MeshDistance(case_->bones[bones_[k]].mesh), X_BT.p, in_B);
+  lines_[k] = {true, X_BT.p - kBeyond_m * in_B, X_BT.p + length_m * in_B};
+  fresh_ = true;
+  out.push_back(
+      told(tool, hand, kTunnelLocated, SubjectKind::kBone, bones_[k], {1e3 * length_m, 0, 0}));
+  if (all_located())
+    measure(told(tool, hand, kTunnelMeasured, SubjectKind::kNothing, kNoSubject, {}), out);
+}
+
+bool TunnelWatch::all_located() const {
+  return std::all_of(lines_.begin(), lines_.end(), [](const Line& line) { return line.known; });
+}
+
+void TunnelWatch::finish(std::vector<Event>& out) {
+  Event at;
+  at.tick = last_tick_;
+  at.kind = kTunnelMeasured;
+  for (std::size_t h = 0; h < pins_.size(); ++h)
+    if (pins_[h]) at.hand = static_cast<std::uint8_t>(h);
+  if (fresh_) measure(at, out);
+}
+
+DrilledLine TunnelWatch::stretched_out(std::size_t k) const {
+  DrilledLine line{lines_[k].from_B, lines_[k].to_B, wanted_[k].reamed_m};
+  for (const BoneDef& bone : whole_->bones)
+    if (bone.name == kTunnelBones[k])
+      line = {bone.X_WB * line.from_W, bone.X_WB * line.to_W, wanted_[k].reamed_m};
+  return line;
+}
+
+Result<AclReport> TunnelWatch::measured() {
+  if (!whole_) {
+    auto grown = open_case_def(source_without_choice(spec_));
+    if (!grown) return tl::unexpected(grown.error());
+    whole_ = std::move(*grown);
+  }
+  AclDrilling lines;
+  if (lines_[0].known) lines.femur = stretched_out(0);
+  if (lines_[1].known) lines.tibia = stretched_out(1);
+  return make_acl_report(*whole_, lines);
+}
+
+// `at`: who measures, and when.
+void TunnelWatch::measure(const Event& at, std::vector<Event>& out) {
+  const auto tell = [&](EventKind kind, std::array<double, 3> values) {
+    out.push_back(at);
+    out.back().kind = kind;
+    out.back().values = values;
+  };
+  const auto tell_all = [&](const auto& found) {
+    for (const auto& [which, value] : values_of(found))
+      tell(kTunnelMeasured, {static_cast<double>(which), value, 0});
+  };
+  if (std::exchange(fresh_, false)) {
+    auto made = measured();
+    problem_ = made ? std::nullopt : std::optional<Error>(made.error());
+    report_ = made ? std::move(*made) : AclReport();
+    if (report_.tunnels.femur) tell_all(*report_.tunnels.femur);
+    if (report_.tunnels.tibia) tell_all(*report_.tunnels.tibia);
+    if (report_.graft) tell_all(*report_.graft);
+  }
+  if (report_.graft)
+    tell(kGraftTested,
+         {1e3 * (report_.graft->lachman.anterior_m - report_.graft->lachman_whole_m), 0, 0});
+}
+
+}  // namespace osteon

@@ -1,0 +1,220 @@
+#include "osteon/surgeon/acl_surgeon.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "acl_knee.h"
+#include "acl_lines.h"
+#include "acl_way.h"
+#include "osteon/base/random.h"
+#include "osteon/surgeon/scope_reach.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kOutside_m = 0.05;  // before the skin
+constexpr double kAway_m = 0.35;     // where an instrument stands in nobody's way
+constexpr double kPinAway_m = 0.1;
+constexpr double kAir_m_per_s = 0.25;
+constexpr double kTravel_m_per_s = 0.04;  // through the joint
+constexpr double kLook_s = 1.4, kTurn_s = 1.5;
+constexpr double kGrip_n_per_m = 500, kYields_m = 0.0012;  // of the hand, and of what it presses
+constexpr double kPress_s = 0.6;
+constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on, and for how long
+constexpr double kTooHard_m = 0.012;
+
+constexpr std::array<std::string_view, 8> kFaults{
+    "wrong_portal",   "skipped_inspection", "scuffed",        "too_hard",
+    "anterior_tibia", "short_tibia",        "vertical_femur", "blow_out"};
+
+// How somebody does it.
+struct AclHabits {
+  std::string fault;
+  double pace = 1, press_m = 0.003;
+  Vec3 femur_miss_W = Vec3::Zero(), tibia_miss_W = Vec3::Zero();
+};
+
+// An expert leads no way astray: his detour is none, and he misses nothing.
+AclHabits habits_of(const Skill& skill) {
+  AclHabits habits;
+  if (skill.name.starts_with("bad:")) habits.fault = skill.name.substr(4);
+  habits.pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
+  habits.press_m = kYields_m + skill.press_n / kGrip_n_per_m;
+  Random random(skill.seed * 31 + 7);
+  const double miss_m = 0.1 * skill.detour_m;
+  habits.femur_miss_W = miss_m * random.direction();
+  habits.tibia_miss_W = miss_m * random.direction();
+  return habits;
+}
+
+Vec3 outwards(const AclKnee& knee, const Vec3& portal_W) {
+  const Vec3 middle = 0.5 * (knee.mark("acl_femur") + knee.mark("acl_tibia"));
+  return (portal_W - middle).normalized();
+}
+
+bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
+  const Vec3 back = (eye_W - mark_W).normalized();
+  return knee.is_free(eye_W, mark_W + 0.0025 * back, 0.0004);
+}
+
+// From near what is usual outwards, upright first.
+std::optional<Gaze> gaze_at(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                            const Vec3& mark_W) {
+  constexpr double kScopeRadius_m = 0.0025;
+  for (int turn = 0; turn <= 11; ++turn)
+    for (const double side : {1.0, -1.0})
+      for (const double mm : {14.0, 18.0, 11.0, 22.0, 26.0}) {
+        const Gaze gaze{mark_W, 0.001 * mm, side * turn * 15 * kAclTurn};
+        const auto pose = pose_for(gaze, portal_W, tools.optics);
+        if (pose && knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))
+          return gaze;
+      }
+  return std::nullopt;
+}
+
+Gaze between(const Gaze& a, const Gaze& b, double f) {
+  return {a.at_W + f * (b.at_W - a.at_W), a.distance_m + f * (b.distance_m - a.distance_m),
+          a.turn_rad + f * (b.turn_rad - a.turn_rad)};
+}
+
+// Drawn back from the bone meanwhile.
+void look_over(AclWay& way, const Gaze& from, const Gaze& to, const Vec3& portal_W,
+               const ScopeOptics& optics) {
+  constexpr int kSteps = 24;
+  constexpr double kBack_m = 0.015;
+  for (int k = 1; k <= kSteps; ++k) {
+    const double f = static_cast<double>(k) / kSteps;
+    auto pose = pose_for(between(from, to, f * f * (3 - 2 * f)), portal_W, optics);
+    if (!pose) continue;
+    pose->p += kBack_m * std::min({1.0, 4 * f, 4 * (1 - f)}) * pose->rotate(Vec3::UnitZ());
+    way.go(*pose, kTurn_s / kSteps);
+  }
+}
+
+// On into the bone that it looks at, and back.
+void push_on(const AclKnee& knee, AclWay& way, const Vec3& at_W) {
+  const Pose held = way.pose();
+  way.go({at_W - kTooHard_m * knee.normal(true, at_W), held.q}, 1.5);
+  way.stay(kPress_s);
+  way.go(held, 1.5);
+}
+
+// Through the portal, from mark to mark over it, and out again: a scope that stays would stand in
+// the pin's way.
+ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                    const AclHabits& habits, std::vector<std::string>& unreachable) {
+  std::vector<Gaze> gazes;
+  for (const std::string& name : tools.tour) {
+    const auto gaze = gaze_at(knee, tools, portal_W, knee.mark(name));
+    if (gaze)
+      gazes.push_back(*gaze);
+    else
+      unreachable.push_back(name);
+  }
+  const Vec3 out = outwards(knee, portal_W);
+  AclWay way(tools.scope, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
+  way.wait_until(0.1);
+  if (gazes.empty() || habits.fault == "skipped_inspection") return way.path();
+  const Pose first = *pose_for(gazes[0], portal_W, tools.optics);
+  const Vec3 back = first.rotate(Vec3::UnitZ());
+  const Pose outside{portal_W + kOutside_m * back, first.q};
+  way.go_at(outside, kAir_m_per_s);
+  way.go_at(first, kTravel_m_per_s);
+  for (std::size_t i = 0; i < gazes.size(); ++i) {
+    if (i > 0) look_over(way, gazes[i - 1], gazes[i], portal_W, tools.optics);
+    way.stay(kLook_s);
+  }
+  if (habits.fault == "scuffed") push_on(knee, way, gazes.back().at_W);
+  const Vec3 last = way.pose().rotate(Vec3::UnitZ());
+  way.go_at({portal_W + kOutside_m * last, way.pose().q}, kTravel_m_per_s);
+  way.go_at({portal_W + kAway_m * last, way.pose().q}, kAir_m_per_s);
+  return way.path();
+}
+
+// Straight through the portal onto each mark.
+void feel_marks(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                const AclHabits& habits, AclWay& way, std::vector<std::string>& unreachable) {
+  constexpr double kProbeRadius_m = 0.0015, kBefore_m = 0.008;
+  const double press_m = habits.fault == "too_hard" ? kTooHard_m : habits.press_m;
+  for (const std::string& name : tools.felt) {
+    const Vec3 mark = knee.mark(name);
+    const Vec3 back = (portal_W - mark).normalized();
+    if (!knee.is_free(mark + 0.006 * back, portal_W, kProbeRadius_m)) {
+      unreachable.push_back(name);
+      continue;
+    }
+    way.go_at(held_by_shaft(portal_W + kOutside_m * back, back), kAir_m_per_s);
+    way.go_at(held_by_shaft(mark + kBefore_m * back, back), kTravel_m_per_s);
+    const Vec3 on = habits.fault == "too_hard" ? Vec3(-knee.normal(true, mark)) : Vec3(-back);
+    way.go(held_by_shaft(mark + press_m * on, back), 0.8);
+    way.stay(kPress_s);
+    way.go(held_by_shaft(mark + kBefore_m * back, back), 0.5);
+    way.go_at(held_by_shaft(portal_W + kOutside_m * back, back), kTravel_m_per_s);
+  }
+}
+
+// Comes along its axis, is pressed on straight into the bone, and goes back.
+void set_pin(const AclKnee& knee, bool of_femur, const AclLine& line, AclWay& way) {
+  const Vec3 back = -line.in_W, up = knee.normal(of_femur, line.at_W);
+  const auto before = [&](double m) { return held_by_shaft(line.at_W + m * back, back); };
+  way.go_at(before(kPinAway_m), kAir_m_per_s);
+  way.go_at(before(0.004), kTravel_m_per_s);
+  way.go(held_by_shaft(line.at_W - kPinDeep_m * up, back), 0.8);
+  way.stay(kPin_s);
+  way.go(before(0.004), 0.5);
+  way.go_at(before(kPinAway_m), kTravel_m_per_s);
+}
+
+AclWay pin_way(const AclKnee& knee, const AclTools& tools, const AclLine& tibia,
+               const AclLine& femur, double begin_s, double pace) {
+  AclWay way(tools.pin, 0, held_by_shaft(tibia.at_W - kPinAway_m * tibia.in_W, -tibia.in_W), pace);
+  way.wait_until(begin_s);
+  set_pin(knee, false, tibia, way);
+  set_pin(knee, true, femur, way);
+  way.stay(1);
+  return way;
+}
+
+Result<void> check_marks(const AclKnee& knee, const AclTools& tools, const AclHabits& habits) {
+  for (const auto* marks : {&tools.tour, &tools.felt})
+    for (const std::string& name : *marks)
+      if (!knee.has_mark(name)) return fail("the case has no landmark '" + name + "'", "tour");
+  if (!habits.fault.empty() &&
+      std::find(kFaults.begin(), kFaults.end(), habits.fault) == kFaults.end())
+    return fail("nobody knows how to make the error '" + habits.fault + "'", "surgeon");
+  return {};
+}
+
+}  // namespace
+
+std::span<const std::string_view> acl_faults() { return kFaults; }
+
+Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skill& skill) {
+  const auto knee = AclKnee::make(the_case);
+  if (!knee) return tl::unexpected(knee.error());
+  const AclHabits habits = habits_of(skill);
+  if (auto ok = check_marks(*knee, tools, habits); !ok) return tl::unexpected(ok.error());
+  const auto tibia = tibial_line(*knee, habits.fault, habits.tibia_miss_W);
+  if (!tibia) return tl::unexpected(tibia.error());
+  const auto femur = femoral_line(*knee, habits.fault, habits.femur_miss_W, tools.reamed_m);
+  if (!femur) return tl::unexpected(femur.error());
+  const bool swapped = habits.fault == "wrong_portal";
+  const Vec3 al = knee->mark(swapped ? "portal_am" : "portal_al");
+  const Vec3 am = knee->mark(swapped ? "portal_al" : "portal_am");
+  AclWays ways;
+  const ProbePath scope = scope_way(*knee, tools, al, habits, ways.unreachable);
+  const Vec3 out = outwards(*knee, am);
+  AclWay probe(tools.probe, 0, held_by_shaft(am + kAway_m * out, out), habits.pace);
+  probe.wait_until(scope.duration_s() + 0.5);
+  feel_marks(*knee, tools, am, habits, probe, ways.unreachable);
+  probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
+  const AclWay pin = pin_way(*knee, tools, *tibia, *femur, probe.now_s() + 0.5, habits.pace);
+  ways.scope = trembling(scope, skill.tremor_m, skill.seed);
+  ways.probe = trembling(probe.path(), skill.tremor_m, skill.seed + 1);
+  ways.pin = trembling(pin.path(), skill.tremor_m, skill.seed + 2);
+  return ways;
+}
+
+}  // namespace osteon

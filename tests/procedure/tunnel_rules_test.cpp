@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include "osteon/procedure/judge.h"
+#include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/tunnel_events.h"
+#include "report_fixtures.h"
+
+namespace osteon {
+namespace {
+
+const char* const kKneeText = R"(format = 1
+name = "tunnels"
+title = "Tunnels"
+text = "Locate."
+version = 1
+anatomy = "knee"
+felt = "femur=field,flexion=120"
+
+[[hands]]
+name = "scope"
+instrument = "arthroscope_30"
+
+[[stages]]
+name = "in"
+title = "A"
+instruction = "Go in and press."
+[[stages.goals]]
+rule = "through"
+for_s = 0
+marks = ["portal_al"]
+[[stages.goals]]
+rule = "felt"
+marks = ["spot"]
+within_mm = 5
+force_n = 0.5
+
+[[stages]]
+name = "locate"
+title = "B"
+instruction = "Locate."
+[[stages.goals]]
+rule = "tunnel_located"
+bones = ["femur"]
+[[stages.goals]]
+rule = "graft_tested"
+most_difference_mm = 3
+
+[[errors]]
+name = "wrong_portal"
+title = "Wrong portal"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "entered_by"
+marks = ["portal_am"]
+
+[[errors]]
+name = "blind"
+title = "Blind"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "located_unseen"
+marks = ["spot", "portal_al"]
+
+[[errors]]
+name = "blow_out"
+title = "Blow-out"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "outside_back_wall_mm"
+least = 0
+)";
+
+constexpr double kTick_s = 0.001;
+
+class TunnelRules : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto scenario = parse_scenario(kKneeText, "tunnels.toml");
+    ASSERT_TRUE(scenario) << scenario.error().message();
+    case_ = testing::named_case({"femur", "tibia"});
+    for (const char* name : {"portal_al", "portal_am", "spot"})
+      case_.landmarks.push_back({name, Vec3::Zero()});
+    auto plan = plan_scenario(*scenario, case_);
+    ASSERT_TRUE(plan) << plan.error().message();
+    plan_ = std::move(*plan);
+    state_ = begin_scenario(plan_);
+  }
+  void tell(EventKind kind, SubjectKind about, std::uint32_t subject,
+            std::array<double, 3> values = {}) {
+    judge(plan_, {++tick_, kind, 0, about, subject, Vec3::Zero(), values}, kTick_s, state_);
+  }
+  std::vector<std::string> errors() const {
+    std::vector<std::string> names;
+    for (const MadeError& made : state_.errors)
+      names.push_back(plan_.scenario.errors[made.error].name);
+    return names;
+  }
+
+  Case case_;
+  ScenarioPlan plan_;
+  ScenarioState state_;
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(TunnelRules, StagesEndOnceAllWasDoneWellEnough) {
+  tell(kThroughPortal, SubjectKind::kLandmark, 0);
+  tell(kMarkFelt, SubjectKind::kLandmark, 2, {6, 2, 0});
+  tell(kMarkFelt, SubjectKind::kLandmark, 2, {2, 0.4, 0});
+  EXPECT_EQ(state_.stage, 0u);
+  tell(kMarkFelt, SubjectKind::kLandmark, 2, {2, 0.6, 0});
+  EXPECT_EQ(state_.stage, 1u);
+  tell(kTunnelLocated, SubjectKind::kBone, 1, {40, 0, 0});  // of the tibia: not asked for
+  tell(kGraftTested, SubjectKind::kNothing, kNoSubject, {4, 0, 0});
+  tell(kTunnelLocated, SubjectKind::kBone, 0, {25, 0, 0});
+  EXPECT_FALSE(state_.over);
+  tell(kGraftTested, SubjectKind::kNothing, kNoSubject, {0.5, 0, 0});
+  EXPECT_TRUE(state_.over);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(TunnelRules, AGraftThatIsTooLooseIsNoEnd) {
+  tell(kThroughPortal, SubjectKind::kLandmark, 0);
+  tell(kMarkFelt, SubjectKind::kLandmark, 2, {2, 0.6, 0});
+  tell(kTunnelLocated, SubjectKind::kBone, 0, {25, 0, 0});
+  tell(kGraftTested, SubjectKind::kNothing, kNoSubject, {3.5, 0, 0});
+  EXPECT_FALSE(state_.over);
+  tell(kGraftTested, SubjectKind::kNothing, kNoSubject, {0.5, 0, 0});
+  EXPECT_TRUE(state_.over);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(TunnelRules, ErrorsAreTold) {
+  tell(kThroughPortal, SubjectKind::kLandmark, 1);
+  tell(kThroughPortal, SubjectKind::kLandmark, 1);  // it stays there
+  EXPECT_EQ(errors(), std::vector<std::string>{"wrong_portal"});
+  // One mark seen is not both; the error comes once.
+  tell(kMarkSeen, SubjectKind::kLandmark, 2, {0.2, 10, 0});
+  tell(kMarkSeen, SubjectKind::kLandmark, 0, {0.2, 45, 0});
+  for (std::uint32_t mark = 0; mark < 3; ++mark) tell(kTunnelBegun, SubjectKind::kLandmark, mark);
+  EXPECT_EQ(errors(), (std::vector<std::string>{"wrong_portal", "blind"}));
+  for (std::uint32_t mark = 0; mark < 3; ++mark) tell(kTunnelBegun, SubjectKind::kLandmark, mark);
+  const auto wall = static_cast<double>(TunnelValue::kBackWall);
+  const auto socket = static_cast<double>(TunnelValue::kFemoralSocket);
+  tell(kTunnelMeasured, SubjectKind::kNothing, kNoSubject, {socket, -5, 0});
+  tell(kTunnelMeasured, SubjectKind::kNothing, kNoSubject, {wall, 2.5, 0});
+  EXPECT_EQ(errors().size(), 2u);
+  tell(kTunnelMeasured, SubjectKind::kNothing, kNoSubject, {wall, -0.5, 0});
+  EXPECT_EQ(errors().back(), "blow_out");
+}
+
+TEST_F(TunnelRules, WhoSawBothMayLocate) {
+  for (const std::uint32_t mark : {0u, 2u})
+    tell(kMarkSeen, SubjectKind::kLandmark, mark, {0.2, 10, 0});
+  for (std::uint32_t mark = 0; mark < 3; ++mark) tell(kTunnelBegun, SubjectKind::kLandmark, mark);
+  EXPECT_TRUE(errors().empty());
+}
+
+}  // namespace
+}  // namespace osteon
