@@ -282,7 +282,7 @@ void TourHand::fault(double dt_s) {
   const double enough_n = 1.3 * plan_->fault_numbers.at("force_n") + kTourFriction_n;
   if (yielded_s_ < 0 && known_n_ > enough_n) yielded_s_ = phase_s_;
   const bool back = yielded_s_ >= 0 && phase_s_ > yielded_s_ + stay_s;
-  if (yielded_s_ < 0) place_.depth_m += kTourPush_m_per_s * dt_s;
+  if (yielded_s_ < 0 && yielded_s_ > -2) place_.depth_m += kTourPush_m_per_s * dt_s;
   if (place_.depth_m > from_.depth_m + 2 * kBumpReach_m) yielded_s_ = -2;
   if ((back || yielded_s_ < -1) && go_deep(from_.depth_m, kTourPush_m_per_s * dt_s)) go_on();
 }
