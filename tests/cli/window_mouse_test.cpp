@@ -32,7 +32,7 @@ xdotool key ctrl+q
 wait $window
 )sh";
 
-// The briefing is begun by Enter; M takes the probe, F3 ends the attempt, which is judged then.
+// The briefing is begun by Enter; M takes the probe, J ends the attempt, which is judged then.
 constexpr const char* kExercise = R"sh(
 "$OSTEON" window --case 'builtin:wrist#hull' --exercise touch_bones --size 800x600 > out.txt 2>&1 &
 window=$!
@@ -45,7 +45,7 @@ xdotool mousemove 400 300
 xdotool key m; sleep 0.3
 for i in $(seq 15); do xdotool click 4; sleep 0.03; done
 sleep 0.5
-xdotool key m F3
+xdotool key m j
 for i in $(seq 300); do
   "$OSTEON" results list --json > list.json; grep -q touch_bones list.json && break; sleep 0.2
 done

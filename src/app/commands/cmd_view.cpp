@@ -1,12 +1,9 @@
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <system_error>
-#include <utility>
 #include <vector>
 #include "commands/parser.h"
 
@@ -15,7 +12,6 @@
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/render_options.h"
-#include "commands/standard_views.h"
 #include "osteon/base/file.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/render/joint_room.h"
@@ -26,31 +22,21 @@ namespace osteon {
 namespace {
 
 struct ViewCommand {
-  std::string case_spec, scope = "knee_30", size = "720x720", out, standard;
+  std::string case_spec, scope = "knee_30", size = "720x720", out;
   std::vector<double> at_mm, toward_mm, up;
   double post_deg = 0;
   std::optional<double> flexion_deg;
 };
 
 /// The case as it is seen: what is felt of it does not matter, and takes longest to make.
-Result<Case> open_scoped_case(const std::string& case_spec, std::optional<double> flexion_deg) {
-  auto spec = Result<std::string>(case_spec);
-  if (flexion_deg) spec = bent_spec(*spec, "flexion", *flexion_deg);
+Result<Case> open_scoped_case(const ViewCommand& command) {
+  auto spec = Result<std::string>(command.case_spec);
+  if (command.flexion_deg) spec = bent_spec(*spec, "flexion", *command.flexion_deg);
   if (!spec) return tl::unexpected(spec.error());
   auto def = open_case_def(*spec);
   if (!def) return tl::unexpected(def.error());
   for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   return build_case(std::move(*def));
-}
-
-Result<ScopePose> checked_pose(const ScopePose& pose) {
-  for (const Vec3& v : {pose.at_W, pose.toward_W, pose.up_W})
-    if (!is_finite(v)) return fail("is not finite", "a place of the scope");
-  if (!std::isfinite(pose.post_rad)) return fail("is not finite", "--post");
-  if ((pose.toward_W - pose.at_W).norm() < 1e-6)
-    return fail("--at and --toward are one place", "the scope",
-                "--toward is where its shaft points to");
-  return pose;
 }
 
 Result<ScopePose> pose_of(const ViewCommand& command, const Case& the_case) {
@@ -60,105 +46,41 @@ Result<ScopePose> pose_of(const ViewCommand& command, const Case& the_case) {
   pose.toward_W = 0.001 * place(command.toward_mm);
   pose.up_W = command.up.empty() ? anatomical_frame(the_case).distal_W : place(command.up);
   pose.post_rad = command.post_deg * std::numbers::pi / 180;
-  return checked_pose(pose);
+  for (const Vec3& v : {pose.at_W, pose.toward_W, pose.up_W})
+    if (!is_finite(v)) return fail("is not finite", "a place of the scope");
+  if (!std::isfinite(pose.post_rad)) return fail("is not finite", "--post");
+  if ((pose.toward_W - pose.at_W).norm() < 1e-6)
+    return fail("--at and --toward are one place", "the scope",
+                "--toward is where its shaft points to");
+  return pose;
 }
-
-ScopePose pose_of(const StandardView& view) {
-  return {0.001 * view.at_mm, 0.001 * view.toward_mm, view.up,
-          view.post_deg * std::numbers::pi / 180};
-}
-
-/// Draws what scopes show of one case, in the OpenGL context that is current.
-class ScopedCase {
- public:
-  static Result<ScopedCase> open(const std::string& case_spec, std::optional<double> flexion_deg) {
-    auto opened = open_scoped_case(case_spec, flexion_deg);
-    if (!opened) return tl::unexpected(opened.error());
-    const auto data_dir = find_data_dir();
-    if (!data_dir) return tl::unexpected(data_dir.error());
-    auto renderer = ScopeRenderer::create(*opened, *data_dir, prepare_case(*opened));
-    if (!renderer) return tl::unexpected(renderer.error());
-    return ScopedCase(std::move(*opened), std::move(*renderer));
-  }
-
-  const Case& the_case() const { return case_; }
-  Result<void> draw(const ScopeDef& scope, const ScopePose& pose, const PictureSize& size,
-                    const std::string& out) {
-    const auto wall = room_.wall(rest_snapshot(case_), pose.at_W);
-    if (!wall) return tl::unexpected(wall.error());
-    renderer_.set_wall(*wall);
-    const Image image = renderer_.draw_image(ScopeCamera(scope, pose), size.width, size.height);
-    if (image.rgb.empty())
-      return fail("the graphics driver has no memory for the picture", out,
-                  "choose a smaller --size");
-    return save_png(image, out);
-  }
-
- private:
-  ScopedCase(Case the_case, ScopeRenderer renderer)
-      : case_(std::move(the_case)), room_(case_), renderer_(std::move(renderer)) {}
-  Case case_;
-  JointRoom room_;
-  ScopeRenderer renderer_;
-};
 
 Result<void> draw_view(const ViewCommand& command) {
   const auto size = parse_picture_size(command.size);
   if (!size) return tl::unexpected(size.error());
   const auto scope = load_scope(command.scope);
   if (!scope) return tl::unexpected(scope.error());
-  const auto context = OffscreenContext::create();
-  if (!context) return tl::unexpected(context.error());
-  auto scoped = ScopedCase::open(command.case_spec, command.flexion_deg);
-  if (!scoped) return tl::unexpected(scoped.error());
-  const auto pose = pose_of(command, scoped->the_case());
+  const auto the_case = open_scoped_case(command);
+  if (!the_case) return tl::unexpected(the_case.error());
+  const auto pose = pose_of(command, *the_case);
   if (!pose) return tl::unexpected(pose.error());
-  return scoped->draw(*scope, *pose, *size, command.out);
-}
-
-std::string numbered(std::size_t number, const std::string& name) {
-  return (number < 10 ? "0" : "") + std::to_string(number) + "-" + name + ".png";
-}
-
-/// The case is opened again only where the joint is bent otherwise.
-Result<void> draw_standard_views(const ViewCommand& command) {
-  const auto size = parse_picture_size(command.size);
-  if (!size) return tl::unexpected(size.error());
-  std::error_code made;
-  std::filesystem::create_directories(command.standard, made);
-  if (made) return fail("the folder cannot be made (" + made.message() + ")", command.standard);
+  const auto data_dir = find_data_dir();
+  if (!data_dir) return tl::unexpected(data_dir.error());
   const auto context = OffscreenContext::create();
   if (!context) return tl::unexpected(context.error());
-  auto scoped = ScopedCase::open(command.case_spec, {});
-  if (!scoped) return tl::unexpected(scoped.error());
-  const auto views = standard_views(scoped->the_case());
-  if (!views) return tl::unexpected(views.error());
-  double flexion_deg = 0;
-  for (std::size_t k = 0; k < views->size(); ++k) {
-    const StandardView& view = (*views)[k];
-    if (view.flexion_deg != flexion_deg) {
-      scoped = ScopedCase::open(command.case_spec, view.flexion_deg);
-      if (!scoped) return tl::unexpected(scoped.error());
-      flexion_deg = view.flexion_deg;
-    }
-    const auto scope = load_scope(view.scope);
-    if (!scope) return tl::unexpected(scope.error());
-    const std::string file = numbered(k + 1, view.name);
-    if (auto drawn = scoped->draw(*scope, pose_of(view), *size,
-                                  (std::filesystem::path(command.standard) / file).string());
-        !drawn)
-      return fail(drawn.error().what, view.name + ": " + drawn.error().where, drawn.error().todo);
-    std::printf("%-32s %s\n", file.c_str(), view.title.c_str());
-    std::fflush(stdout);
-  }
-  return {};
+  auto renderer = ScopeRenderer::create(*the_case, *data_dir, prepare_case(*the_case));
+  if (!renderer) return tl::unexpected(renderer.error());
+  const auto wall = JointRoom(*the_case).wall(rest_snapshot(*the_case), pose->at_W);
+  if (!wall) return tl::unexpected(wall.error());
+  renderer->set_wall(*wall);
+  const Image image = renderer->draw_image(ScopeCamera(*scope, *pose), size->width, size->height);
+  if (image.rgb.empty())
+    return fail("the graphics driver has no memory for the picture", command.out,
+                "choose a smaller --size");
+  return save_png(image, command.out);
 }
 
 int run_view(const ViewCommand& command) {
-  if (!command.standard.empty()) {
-    const auto done = draw_standard_views(command);
-    return done ? kExitDone : report_error(done.error());
-  }
   if (const auto done = draw_view(command); !done) return report_error(done.error());
   std::printf("%s in %s, %s pixels -> %s\n", command.scope.c_str(), command.case_spec.c_str(),
               command.size.c_str(), command.out.c_str());
@@ -176,11 +98,13 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   sub->add_option("--at", command->at_mm, "position of the tip: x,y,z in World, mm")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->required();
   sub->add_option("--toward", command->toward_mm,
                   "point that the shaft points to: x,y,z in World, mm")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->required();
   sub->add_option(
          "--post", command->post_deg,
          "turn of the light post in degrees: at 0 the scope looks up in the picture, at 90 "
@@ -194,17 +118,8 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->expected(3);
   sub->add_option("--flexion", command->flexion_deg, "flexion of a grown knee, degrees");
   sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
-  sub->add_option("--out", command->out, "PNG file to write");
-  sub->add_option("--standard", command->standard,
-                  "folder for the standard views of a knee (12) or a wrist (8), as PNG files; "
-                  "takes the place of --at, --toward and --out");
-  sub->callback([command, &exit_code] {
-    const bool one =
-        !command->at_mm.empty() && !command->toward_mm.empty() && !command->out.empty();
-    if (command->standard.empty() && !one)
-      cli::refuse("--at, --toward and --out", "are needed, or --standard with a folder");
-    exit_code = run_view(*command);
-  });
+  sub->add_option("--out", command->out, "PNG file to write")->required();
+  sub->callback([command, &exit_code] { exit_code = run_view(*command); });
 }
 
 }  // namespace osteon

@@ -69,7 +69,7 @@ void draw_course(const PanelContext& c) {
     ImGui::PopID();
   }
   ImGui::EndChild();
-  if (ImGui::Button("Close  (F3)", {-1, 0})) c.requests.exercise.toggle = true;
+  if (ImGui::Button("Close  (J)", {-1, 0})) c.requests.exercise.toggle = true;
 }
 
 void draw_stage_rows(const PanelContext& c) {
@@ -261,13 +261,13 @@ void draw_running(const PanelContext& c) {
   }
   ImGui::Separator();
   ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
-  if (ImGui::Button("Hint (F4)")) c.requests.exercise.hint = true;
+  if (ImGui::Button("Hint (I)")) c.requests.exercise.hint = true;
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Back (U)")) c.requests.exercise.undo = true;
   ui::tooltip("To the begin of the stage, or the last mark. Errors stay; how often is told.");
   ImGui::SameLine();
-  if (ImGui::Button("End (F3)")) c.requests.exercise.end = true;
+  if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
   ui::tooltip("Judges what you have done");
   ImGui::PopItemWidth();
   ImGui::End();

@@ -59,7 +59,7 @@ constexpr std::array<KeyLine, 12> kRun = {{
     {"P", "play, pause a replay"},
     {",  .", "slower, faster"},
     {"F2", "check this computer and its devices"},
-    {"F3, F4", "exercises, end of one; a hint"},
+    {"J, I", "exercises, end of one; a hint"},
     {"F11", "full screen"},
     {"F12, Shift + F12", "picture of the window, of the scene alone"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},

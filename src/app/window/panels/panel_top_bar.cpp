@@ -15,7 +15,8 @@ void draw_title(const PanelContext& c) {
     const ui::WithFont strong(c.fonts.strong);
     ImGui::TextUnformatted(c.model.case_title.empty() ? "Osteon" : c.model.case_title.c_str());
   }
-  if (c.model.activity.empty()) return;
+  // A narrow bar has no room for more.
+  if (c.model.activity.empty() || c.layout.top.w < c.px(960)) return;
   ImGui::SameLine(0, c.px(16));
   ui::text(color::kTextQuiet, c.model.activity.c_str());
 }
@@ -44,7 +45,7 @@ void draw_record_button(const PanelContext& c) {
 void draw_exercise_button(const PanelContext& c) {
   if (ui::toggle_button("Exercises", c.model.exercise.page != ExercisePage::kClosed))
     c.requests.exercise.toggle = true;
-  ui::tooltip("What can be learned and is judged (F3)");
+  ui::tooltip("What can be learned and is judged (J)");
 }
 
 void draw_open_button(const PanelContext& c) {

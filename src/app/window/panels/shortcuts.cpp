@@ -28,9 +28,6 @@ void read_window_keys(const PanelContext& c) {
   const ImGuiIO& io = ImGui::GetIO();
   if (pressed(GLFW_KEY_F1)) c.requests.toggle_help = true;
   if (pressed(GLFW_KEY_F2)) c.requests.toggle_checkup = true;
-  const bool running = c.model.exercise.page == ExercisePage::kRunning;
-  if (pressed(GLFW_KEY_F3)) (running ? c.requests.exercise.end : c.requests.exercise.toggle) = true;
-  if (pressed(GLFW_KEY_F4) && running) c.requests.exercise.hint = true;
   if (pressed(GLFW_KEY_F11)) c.requests.toggle_fullscreen = true;
   if (pressed(GLFW_KEY_F12))
     (io.KeyShift ? c.requests.screenshot_picture : c.requests.screenshot_window) = true;
@@ -44,6 +41,9 @@ void read_window_keys(const PanelContext& c) {
 
 void read_run_keys(const PanelContext& c) {
   const bool replay = c.model.replay.on;
+  const bool running = c.model.exercise.page == ExercisePage::kRunning;
+  if (pressed(GLFW_KEY_J)) (running ? c.requests.exercise.end : c.requests.exercise.toggle) = true;
+  if (pressed(GLFW_KEY_I) && running) c.requests.exercise.hint = true;
   const bool briefing = c.model.exercise.page == ExercisePage::kBriefing;
   if (pressed(GLFW_KEY_ENTER) && briefing) c.requests.exercise.begin = true;
   if (pressed(GLFW_KEY_M) && c.model.hand.probe_by_mouse && !replay) c.requests.toggle_probe = true;

@@ -41,14 +41,14 @@ TEST_F(ExercisePanel, ClosedThereIsNothingAndTheKeyOpensTheCourse) {
   settle();
   EXPECT_FALSE(ui.shown("##exercise"));
   EXPECT_FALSE(ui.shown("##running"));
-  EXPECT_TRUE(ui.press_key(GLFW_KEY_F3).exercise.toggle);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_J).exercise.toggle);
 }
 
 TEST_F(ExercisePanel, OfNoExerciseTheCourseStillStands) {
   at(ExercisePage::kCourse);
   settle();
   EXPECT_TRUE(ui.shown("##exercise"));
-  EXPECT_TRUE(ui.click("##exercise", {"Close  (F3)"}).exercise.toggle);
+  EXPECT_TRUE(ui.click("##exercise", {"Close  (J)"}).exercise.toggle);
 }
 
 TEST_F(ExercisePanel, AnExerciseIsChosenFromTheCourse) {
@@ -81,16 +81,16 @@ TEST_F(ExercisePanel, WhileItRunsItCanBeEndedTakenBackAndAHintAskedFor) {
   model.has_cue = true;
   settle();
   EXPECT_FALSE(ui.shown("##exercise")) << "the scene stays in sight";
-  EXPECT_TRUE(ui.click("##running", {"Hint (F4)"}).exercise.hint);
-  EXPECT_TRUE(ui.press_key(GLFW_KEY_F4).exercise.hint);
+  EXPECT_TRUE(ui.click("##running", {"Hint (I)"}).exercise.hint);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_I).exercise.hint);
   EXPECT_TRUE(ui.click("##running", {"Back (U)"}).exercise.undo);
-  EXPECT_TRUE(ui.click("##running", {"End (F3)"}).exercise.end);
-  const UiRequests key = ui.press_key(GLFW_KEY_F3);
+  EXPECT_TRUE(ui.click("##running", {"End (J)"}).exercise.end);
+  const UiRequests key = ui.press_key(GLFW_KEY_J);
   EXPECT_TRUE(key.exercise.end);
   EXPECT_FALSE(key.exercise.toggle);
   model.cue = "They lie in two rows";
   settle();
-  EXPECT_FALSE(ui.click("##running", {"Hint (F4)"}).exercise.hint) << "it is shown";
+  EXPECT_FALSE(ui.click("##running", {"Hint (I)"}).exercise.hint) << "it is shown";
 }
 
 TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
