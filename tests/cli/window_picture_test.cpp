@@ -1,7 +1,5 @@
 // Opens the real window under a virtual display and looks at what it shows; stb (which ImGui needs
 // too) reads the pictures.
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
 #include <sys/wait.h>

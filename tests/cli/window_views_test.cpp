@@ -1,5 +1,4 @@
 // The window's views under a virtual display, of a replay in which a scope looks into a box.
-#define STBI_ONLY_PNG
 #include <stb/stb_image.h>
 
 #include <cstdlib>

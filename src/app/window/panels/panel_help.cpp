@@ -51,7 +51,7 @@ constexpr std::array<KeyLine, 4> kEdit = {{
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 
-constexpr std::array<KeyLine, 12> kRun = {{
+constexpr std::array<KeyLine, 13> kRun = {{
     {"R", "record, stop"},
     {"F4", "film of this window, stop"},
     {"O", "open a case, recording, meshes or a scan"},
