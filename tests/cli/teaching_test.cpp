@@ -39,8 +39,9 @@ class Teaching : public CliTest {
   Ran play(const std::string& scenario, const std::string& surgeon, int seed,
            const std::string& more = "--no-store") const {
     fs::remove(file("r.json"));
-    return run_osteon("run " + scenario + " --seed " + std::to_string(seed) + " --surgeon " +
-                      surgeon + " --report " + file("r.json") + " " + more);
+    const std::string patient = seed < 0 ? "" : " --seed " + std::to_string(seed);
+    return run_osteon("run " + scenario + patient + " --surgeon " + surgeon + " --report " +
+                      file("r.json") + " " + more);
   }
   void expect_expert_passes(const std::string& scenario, int seed) const {
     const Ran ran = play(scenario, "expert", seed);
@@ -57,8 +58,10 @@ TEST_F(Teaching, EachNamedErrorIsMadeAloneAndTheExpertPasses) {
     const bool is_long = name == "wrist_tour" || name == "acl";
     if (is_long && !std::getenv("OSTEON_LONG")) continue;
     expect_expert_passes(name, 1);
+    // On a drawn box of these, who presses hard may slip into a hole or lose sight as well.
+    const bool as_described = name == "fast_maze" || name == "fast_suture_passing";
     for (const std::string error : scenario["errors"]) {
-      const Ran bad = play(name, "bad:" + error, 1);
+      const Ran bad = play(name, "bad:" + error, as_described ? -1 : 1);
       EXPECT_EQ(bad.exit_code, 1) << name << " " << error << "\n" << bad.output;
       const std::vector<std::string> made = errors_of();
       const std::set<std::string> distinct(made.begin(), made.end());

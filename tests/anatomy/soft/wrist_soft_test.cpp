@@ -102,7 +102,7 @@ TEST(WristSoft, TheDiscLiesBetweenUlnaAndCarpus) {
   }
 }
 
-constexpr double kSkinMesh_m = 5e-5;  // its triangles are chords of the skin
+constexpr double kSkinMesh_m = 1.5e-4;  // its triangles are chords of the skin
 
 // The way in is against the surface's mean normal about the portal.
 TEST(WristSoft, PortalsPointIntoTheSkin) {
@@ -118,7 +118,7 @@ TEST(WristSoft, PortalsPointIntoTheSkin) {
       if (((a + b + c) / 3 - l.p_W).norm() < 0.005) out += (b - a).cross(c - a);
     }
     EXPECT_NEAR(l.inwards_W.norm(), 1, 1e-12) << l.name;
-    EXPECT_LT(std::acos(std::min(1.0, -l.inwards_W.dot(out.normalized()))), 0.06) << l.name;
+    EXPECT_LT(std::acos(std::min(1.0, -l.inwards_W.dot(out.normalized()))), 0.08) << l.name;
   }
 }
 

@@ -159,8 +159,9 @@ TEST(Variation, SizeScalesBonesPlacesAndLandmarks) {
       EXPECT_NEAR(is.volume_mm3 / was.volume_mm3 / cube, 1, 0.03) << bone.name;
       EXPECT_LT((is.centroid_W - percent / 100 * was.centroid_W).norm(), 0.0002) << bone.name;
     }
+    // Portals are searched for on the skin's field, to some nanometres.
     for (std::size_t i = 0; i < plain.landmarks.size(); ++i)
-      EXPECT_LT((sized.landmarks[i].p_W - percent / 100 * plain.landmarks[i].p_W).norm(), 1e-12);
+      EXPECT_LT((sized.landmarks[i].p_W - percent / 100 * plain.landmarks[i].p_W).norm(), 2e-8);
   }
 }
 

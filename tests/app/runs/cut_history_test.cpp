@@ -45,11 +45,12 @@ struct Burred {
   }
 };
 
+// Of what was inside: depths are those of the nearest node, half a cell's diagonal away at most.
 double lowest(const CarvedPicture::Changed& changed) {
   double z = 1;
   for (const SurfaceCube& cube : changed.cubes)
     for (std::size_t v = 0; v < cube.vertices.size(); ++v)
-      if (cube.depth_m[v] > 0.0003f) z = std::min(z, cube.vertices[v].z());
+      if (cube.depth_m[v] > 0.0006f) z = std::min(z, cube.vertices[v].z());
   return z;
 }
 
