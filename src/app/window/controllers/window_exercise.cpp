@@ -117,6 +117,9 @@ void WindowApp::begin_exercise() {
     return;
   }
   exercise_.begin(SessionSettings{}.haptic.tick_s, file);
+  const bool looks = std::any_of(hands->begin(), hands->end(),
+                                 [](const PlannedHand& hand) { return hand.optics.has_value(); });
+  if (looks && layout_ == PictureLayout::kOutside) layout_ = PictureLayout::kAll;
   note(ToastKind::kInfo, "The time runs. M takes the probe, Esc lets go of it.");
 }
 
