@@ -1,5 +1,7 @@
 #include "scene_painter.h"
 
+#include "force_arrow.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,20 +15,14 @@ namespace {
 using Color = Eigen::Vector4f;
 
 constexpr std::array<float, 3> kSteel{0.86f, 0.88f, 0.91f};
-const Color kAmber(1.00f, 0.70f, 0.20f, 1.0f);
+
 const Color kAccent(0.31f, 0.76f, 0.97f, 1.0f);
 
 constexpr float kSeenThrough = 0.02f;  // below this opacity a bone is not drawn
 constexpr float kOutline_px = 2.5f;
 constexpr double kLevelError_px = 0.30;  // of a coarser surface, in the picture
 constexpr double kLevelErrorFine_px = 0.10;
-constexpr double kGhostFrom_m = 2e-4;     // hand and proxy closer than this are drawn as one
-constexpr double kGhostFrom_rad = 0.035;  // 2 degrees
-constexpr double kSmallestForce_N = 0.02;
-constexpr double kArrowRadius_m = 0.0007;
-constexpr double kArrowHeadWidths = 2.4;
 constexpr std::size_t kPieceStep = 4;  // in the row of hull colours: about to the opposite hue
-constexpr double kContactRadius_m = 0.0006;
 
 bool is_clear(const BoneAppearance& look) { return look.opacity < 0.995f; }
 
@@ -42,13 +38,6 @@ Color hull_color(std::size_t bone, float alpha) {
     return static_cast<float>(0.42 + 0.52 * std::clamp(h, 0.0, 1.0));
   };
   return {channel(0), channel(2.0 / 3), channel(1.0 / 3), alpha};
-}
-
-Aabb finite_bounds(const TriMesh& mesh) {
-  Aabb box;
-  for (const Vec3& p : mesh.vertices)
-    if (is_finite(p)) box.include(p);
-  return box;
 }
 
 /// Lines of a fine hull are fainter, so that they do not close over the bone.
@@ -67,37 +56,6 @@ Vec3 shaft_line(const TriMesh& mesh, double length_m) {
     count += 1;
   }
   return count > 0 ? Vec3(sum.x() / count, sum.y() / count, 0) : Vec3::Zero();
-}
-
-bool hand_is_apart(const ToolState& tool) {
-  return (tool.X_WD.p - tool.X_WP.p).norm() > kGhostFrom_m ||
-         tool.X_WD.q.angularDistance(tool.X_WP.q) > kGhostFrom_rad;
-}
-
-/// Turns +z to the unit vector n; any rotation about n will do.
-Quat z_towards(const Vec3& n) { return Quat::FromTwoVectors(Vec3::UnitZ(), n); }
-
-Eigen::Matrix4f scaled(const Pose& X, double across, double along) {
-  Eigen::Matrix4f m = to_matrix(X);
-  m.col(0) *= static_cast<float>(across);
-  m.col(1) *= static_cast<float>(across);
-  m.col(2) *= static_cast<float>(along);
-  return m;
-}
-
-struct Arrow {
-  Vec3 from_W = Vec3::Zero(), dir_W = Vec3::UnitZ();
-  double length_m = 0;
-};
-
-/// The force on the hand, from the place where the probe touches.
-std::optional<Arrow> force_arrow(const ToolState& tool) {
-  const double force = tool.force_W.norm();
-  if (!std::isfinite(force) || force < kSmallestForce_N) return std::nullopt;
-  Arrow arrow{tool.X_WP.p, tool.force_W / force, force * kForceArrowMetresPerNewton};
-  if (tool.contact_count > 0 && is_finite(tool.contacts[0].p_W))
-    arrow.from_W = tool.contacts[0].p_W;
-  return is_finite(arrow.from_W) ? std::optional(arrow) : std::nullopt;
 }
 
 }  // namespace
@@ -278,31 +236,6 @@ void ScenePainter::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   ++shared_->version;
   shared_->tools.clear();
   for (const auto& tool : tray) shared_->tools.push_back(make_tool_model(*tool));
-}
-
-void ScenePainter::set_marks(std::span<const SolidMark> marks) {
-  solids_.clear();
-  for (const SolidMark& mark : marks) {
-    const auto& c = mark.color_srgba;
-    solids_.push_back({GpuMesh(plain_shaded(mark.mesh_W)), Color(c[0], c[1], c[2], c[3]),
-                       finite_bounds(mark.mesh_W)});
-  }
-}
-
-bool ScenePainter::shows_hand(const RenderSnapshot& snapshot, const ViewState& view) {
-  return view.show_hand_ghost && hand_is_apart(snapshot.tool);
-}
-
-std::vector<ScenePainter::Capsule> ScenePainter::mark_capsules(const RenderSnapshot& snapshot) {
-  const ToolState& tool = snapshot.tool;
-  std::vector<Capsule> out;
-  for (std::size_t k = 0; k < std::min<std::size_t>(tool.contact_count, kMaxContacts); ++k)
-    if (is_finite(tool.contacts[k].p_W))
-      out.push_back({tool.contacts[k].p_W, tool.contacts[k].p_W, kContactRadius_m});
-  if (const auto arrow = force_arrow(tool))
-    out.push_back({arrow->from_W, arrow->from_W + arrow->length_m * arrow->dir_W,
-                   kArrowHeadWidths * kArrowRadius_m});
-  return out;
 }
 
 Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view) const {
@@ -607,58 +540,5 @@ void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, float opa
 }
 
 /// Once where it is in sight, and faintly where bone hides it.
-void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const {
-  shared_->mark.set("u_view_from_model", view_from_model);
-  glDepthMask(GL_FALSE);
-  glDepthFunc(GL_GREATER);
-  shared_->mark.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), 0.22f));
-  mesh.draw();
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LEQUAL);
-  shared_->mark.set("u_color", kAmber);
-  mesh.draw();
-}
-
-/// The far side first, so that the inside of a cone is seen through its near side.
-void ScenePainter::paint_solid_marks(const Frame& frame) const {
-  shared_->mark.use();
-  shared_->mark.set("u_form", 0.5f);
-  shared_->mark.set("u_edge", 0.25f);
-  shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW));
-  glEnable(GL_CULL_FACE);
-  glDepthMask(GL_FALSE);
-  for (const Solid& solid : solids_) {
-    shared_->mark.set("u_color", solid.color);
-    for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
-      glCullFace(hidden);
-      solid.surface.draw();
-    }
-  }
-  glDepthMask(GL_TRUE);
-  glDisable(GL_CULL_FACE);
-}
-
-void ScenePainter::paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const {
-  shared_->mark.use();
-  shared_->mark.set("u_form", 0.75f);
-  shared_->mark.set("u_edge", 0.0f);
-  glEnable(GL_CULL_FACE);
-  glCullFace(GL_BACK);
-  const ToolState& tool = snapshot.tool;
-  for (std::size_t k = 0; k < std::min<std::size_t>(tool.contact_count, kMaxContacts); ++k) {
-    const Pose X_CM = frame.X_CW * Pose{tool.contacts[k].p_W, Quat::Identity()};
-    if (is_finite(X_CM))
-      paint_mark(shared_->ball, scaled(X_CM, kContactRadius_m, kContactRadius_m));
-  }
-  if (const auto arrow = force_arrow(tool)) {
-    const double head = std::min(5 * kArrowRadius_m, 0.6 * arrow->length_m);
-    const Pose X_WA{arrow->from_W, z_towards(arrow->dir_W)};
-    const Pose X_AH{Vec3(0, 0, arrow->length_m - head), Quat::Identity()};
-    paint_mark(shared_->shaft, scaled(frame.X_CW * X_WA, kArrowRadius_m, arrow->length_m - head));
-    paint_mark(shared_->head,
-               scaled(frame.X_CW * X_WA * X_AH, kArrowHeadWidths * kArrowRadius_m, head));
-  }
-  glDisable(GL_CULL_FACE);
-}
 
 }  // namespace osteon
