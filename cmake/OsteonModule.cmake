@@ -119,10 +119,7 @@ function(osteon_module name)
     endif()
   endforeach()
   osteon_share_headers(osteon_${name})
-  # In these two files give different things one name.
-  if(NOT name MATCHES "^(anatomy|collide|hull|session)$")
-    osteon_join(osteon_${name})
-  endif()
+  osteon_join(osteon_${name})
   include("${CMAKE_SOURCE_DIR}/src/${name}/module.cmake" OPTIONAL)
 endfunction()
 

@@ -107,7 +107,7 @@ class AxisProgramme {
   Line low_, high_;
 };
 
-bool is_usable(const Capsule& c) {
+bool is_capsule(const Capsule& c) {
   return is_finite(c.p0) && is_finite(c.p1) && std::isfinite(c.radius) && c.radius >= 0;
 }
 
@@ -115,7 +115,7 @@ bool is_usable(const Capsule& c) {
 
 CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A) {
   CapsuleContact out;
-  if (!is_usable(capsule_A) || apart(a, capsule_A, out)) return out;
+  if (!is_capsule(capsule_A) || apart(a, capsule_A, out)) return out;
   return AxisProgramme(a, capsule_A).solve();
 }
 

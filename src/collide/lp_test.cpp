@@ -18,13 +18,13 @@ bool warm(CornerBasis& corner, const PairRows& rows, const LpBasis* basis) {
 }
 
 // Bodies this far apart do not touch, m.
-constexpr double kTouching = 1e-10;
+constexpr double kTouchingGap = 1e-10;
 
 // Where facets of both bodies meet at a needle's angle, a point may keep every plane to rounding
 // and still be far from both bodies. Such an answer needs a witness: a direction that parts them.
 bool parted(const ConvexBody& a, const ConvexBody& b, const Pose& X_AB) {
   const LpDepth depth = lp_depth(a, b, X_AB);
-  return depth.status == LpStatus::kOptimal && depth.gap > kTouching;
+  return depth.status == LpStatus::kOptimal && depth.gap > kTouchingGap;
 }
 
 SimplexEnd from(CornerBasis& corner, const PairRows& rows, int pivots) {

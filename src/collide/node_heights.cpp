@@ -6,8 +6,8 @@
 namespace osteon {
 namespace {
 
-constexpr int kSide = 8;  // nodes along a block
-constexpr std::size_t kBlockNodes = kSide * kSide * kSide;
+constexpr int kBlockSide = 8;  // nodes along a block
+constexpr std::size_t kBlockNodes = kBlockSide * kBlockSide * kBlockSide;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 }  // namespace
@@ -16,7 +16,7 @@ NodeHeights::NodeHeights(const MeshDistance& mesh, const Vec3& lo, double cell_m
     : mesh_(mesh), lo_(lo), cell_(cell_m) {
   std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    blocks_[k] = (size[k] + kSide - 1) / kSide;
+    blocks_[k] = (size[k] + kBlockSide - 1) / kBlockSide;
     count *= static_cast<std::size_t>(blocks_[k]);
   }
   first_.assign(count, kNone);
@@ -30,13 +30,15 @@ double NodeHeights::exact(const Vec3& p) {
 
 float NodeHeights::at(const Node& node) {
   const auto block = static_cast<std::size_t>(
-      (node[2] / kSide * blocks_[1] + node[1] / kSide) * blocks_[0] + node[0] / kSide);
+      (node[2] / kBlockSide * blocks_[1] + node[1] / kBlockSide) * blocks_[0] +
+      node[0] / kBlockSide);
   if (first_[block] == kNone) {
     first_[block] = static_cast<std::uint32_t>(values_.size() / kBlockNodes);
     values_.resize(values_.size() + kBlockNodes, std::numeric_limits<float>::quiet_NaN());
   }
-  const auto within = static_cast<std::size_t>((node[2] % kSide * kSide + node[1] % kSide) * kSide +
-                                               node[0] % kSide);
+  const auto within = static_cast<std::size_t>(
+      (node[2] % kBlockSide * kBlockSide + node[1] % kBlockSide) * kBlockSide +
+      node[0] % kBlockSide);
   float& known = values_[first_[block] * kBlockNodes + within];
   if (std::isnan(known))
     known = static_cast<float>(exact(lo_ + cell_ * Vec3(node[0], node[1], node[2])));

@@ -8,7 +8,7 @@
 namespace osteon::hull {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNotCopied = 0xffffffffu;
 
 struct Crossing {
   std::uint32_t low, high;  // ends of the edge, low < high
@@ -33,8 +33,8 @@ class Cut {
   // The part on one side: `sign` -1 below, +1 above.
   TriMesh side(double sign) const {
     Part part{{},
-              std::vector<std::uint32_t>(surface_.vertices.size(), kNone),
-              std::vector<std::uint32_t>(crossings_.size(), kNone)};
+              std::vector<std::uint32_t>(surface_.vertices.size(), kNotCopied),
+              std::vector<std::uint32_t>(crossings_.size(), kNotCopied)};
     for (const Triangle& t : surface_.triangles) add(t, sign, part);
     return std::move(part.mesh);
   }
@@ -80,7 +80,7 @@ class Cut {
   }
 
   static std::uint32_t number(std::uint32_t& known, const Vec3& p, Part& part) {
-    if (known != kNone) return known;
+    if (known != kNotCopied) return known;
     known = static_cast<std::uint32_t>(part.mesh.vertices.size());
     part.mesh.vertices.push_back(p);
     return known;

@@ -9,13 +9,14 @@
 namespace osteon::hull {
 namespace {
 
-constexpr int kMargin = 2;          // cells around the mesh
-constexpr std::uint32_t kSide = 8;  // nodes along a block
-constexpr std::uint32_t kBlockNodes = kSide * kSide * kSide;
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr int kMargin = 2;               // cells around the mesh
+constexpr std::uint32_t kBlockSide = 8;  // nodes along a block
+constexpr std::uint32_t kBlockNodes = kBlockSide * kBlockSide * kBlockSide;
+constexpr std::uint32_t kNoBlock = 0xffffffffu;
 
 std::uint32_t within_block(const std::array<std::uint32_t, 3>& node) {
-  return (node[2] % kSide * kSide + node[1] % kSide) * kSide + node[0] % kSide;
+  return (node[2] % kBlockSide * kBlockSide + node[1] % kBlockSide) * kBlockSide +
+         node[0] % kBlockSide;
 }
 
 }  // namespace
@@ -28,20 +29,20 @@ HeightGrid::HeightGrid(const TriMesh& mesh, double cell_m, std::uint64_t work)
   for (std::size_t k = 0; k < 3; ++k) {
     const double cells = box.extent()[static_cast<Eigen::Index>(k)] / cell_;
     size_[k] = 2 + static_cast<std::uint32_t>(std::floor(cells));
-    blocks_[k] = (size_[k] + kSide - 1) / kSide;
+    blocks_[k] = (size_[k] + kBlockSide - 1) / kBlockSide;
     count *= blocks_[k];
   }
-  first_.assign(count, kNone);
+  first_.assign(count, kNoBlock);
 }
 
 std::size_t HeightGrid::block_of(const Node& node) const {
-  return (std::size_t{node[2] / kSide} * blocks_[1] + node[1] / kSide) * blocks_[0] +
-         node[0] / kSide;
+  return (std::size_t{node[2] / kBlockSide} * blocks_[1] + node[1] / kBlockSide) * blocks_[0] +
+         node[0] / kBlockSide;
 }
 
 double HeightGrid::value(const Node& node) {
   const std::size_t block = block_of(node);
-  if (first_[block] == kNone) {
+  if (first_[block] == kNoBlock) {
     first_[block] = static_cast<std::uint32_t>(values_.size());
     values_.resize(values_.size() + kBlockNodes, std::numeric_limits<double>::quiet_NaN());
   }
@@ -56,11 +57,11 @@ double HeightGrid::value(const Node& node) {
 
 bool HeightGrid::known_corners(const Node& cell, Corners& corners) const {
   for (const std::uint32_t n : cell)
-    if (n % kSide == kSide - 1) return false;
+    if (n % kBlockSide == kBlockSide - 1) return false;
   const std::uint32_t first = first_[block_of(cell)];
-  if (first == kNone) return false;
+  if (first == kNoBlock) return false;
   const double* const at = &values_[first + within_block(cell)];
-  constexpr std::uint32_t kY = kSide, kZ = kSide * kSide;
+  constexpr std::uint32_t kY = kBlockSide, kZ = kBlockSide * kBlockSide;
   corners = {at[0], at[1], at[kY], at[kY + 1], at[kZ], at[kZ + 1], at[kZ + kY], at[kZ + kY + 1]};
   return true;
 }

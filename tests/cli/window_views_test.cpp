@@ -15,7 +15,7 @@ bool can_show() {
          std::system("command -v Xvfb > /dev/null 2>&1") == 0;
 }
 
-struct Shot {
+struct ViewShot {
   int width = 0, height = 0;
   std::unique_ptr<stbi_uc, void (*)(void*)> rgb{nullptr, stbi_image_free};
   int light(int x, int y) const {
@@ -41,9 +41,9 @@ class WindowViews : public CliTest {
         recording_ + " --at 1 --frames 16 " + options;
     return std::system(command.c_str());
   }
-  Shot shot(const std::string& options) const {
+  ViewShot shot(const std::string& options) const {
     EXPECT_EQ(window("--screenshot " + file("w.png") + " " + options), 0);
-    Shot picture;
+    ViewShot picture;
     int channels = 0;
     picture.rgb.reset(
         stbi_load(file("w.png").c_str(), &picture.width, &picture.height, &channels, 3));
@@ -53,7 +53,7 @@ class WindowViews : public CliTest {
 };
 
 TEST_F(WindowViews, TheScopesRoundPictureStandsBetweenTheCards) {
-  const Shot scope = shot("--layout scope");
+  const ViewShot scope = shot("--layout scope");
   ASSERT_TRUE(scope.rgb);
   // Between the left card (152 + 8 wide) and the right one (200 + 8): black around, lit within.
   const int middle_x = (160 + 592) / 2, middle_y = (40 + 548) / 2;

@@ -13,11 +13,11 @@
 namespace osteon {
 namespace {
 
-constexpr double kRadius = 0.004;
+constexpr double kBallRadius = 0.004;
 
-const DistanceField& ball_field() {
+const DistanceField& felt_ball() {
   static const DistanceField field =
-      std::move(DistanceField::make(test::sphere(kRadius, 40)).value());
+      std::move(DistanceField::make(test::sphere(kBallRadius, 40)).value());
   return field;
 }
 
@@ -26,7 +26,7 @@ TEST(FieldContact, WhatIsNotFiniteIsNoContact) {
   const Vec3 p(0.009, 0, 0);
   for (const Capsule& c : {Capsule{Vec3(nan, 0, 0), p, 0.001}, Capsule{p, Vec3(0, nan, 0), 0.001},
                            Capsule{p, p, nan}, Capsule{p, p, -1}})
-    EXPECT_NE(field_contact(ball_field(), c).status, LpStatus::kOptimal);
+    EXPECT_NE(field_contact(felt_ball(), c).status, LpStatus::kOptimal);
 }
 
 TEST(FieldContact, ABallStandsOffByItsRadius) {
@@ -34,22 +34,22 @@ TEST(FieldContact, ABallStandsOffByItsRadius) {
   for (int i = 0; i < 200; ++i) {
     const Vec3 n = random.direction();
     const double h = 0.0008 * random.uniform();
-    const Vec3 p = (kRadius + h) * n;
-    const CapsuleContact c = field_contact(ball_field(), {p, p, 0.0005});
+    const Vec3 p = (kBallRadius + h) * n;
+    const CapsuleContact c = field_contact(felt_ball(), {p, p, 0.0005});
     ASSERT_EQ(c.status, LpStatus::kOptimal);
     EXPECT_NEAR(c.gap, h - 0.0005, 1e-5);
     EXPECT_GT(c.nhat_AB_A.dot(n), 0.998);
-    EXPECT_LT((c.p_A - kRadius * n).norm(), 5e-5);
+    EXPECT_LT((c.p_A - kBallRadius * n).norm(), 5e-5);
     EXPECT_EQ(c.p_axis_A, p);
   }
 }
 
 TEST(FieldContact, FarAwayTheGapIsABound) {
   const Vec3 p(0.05, 0.02, 0);
-  const CapsuleContact c = field_contact(ball_field(), {p, p, 0.001});
+  const CapsuleContact c = field_contact(felt_ball(), {p, p, 0.001});
   ASSERT_EQ(c.status, LpStatus::kOptimal);
   EXPECT_GT(c.gap, 0.03);
-  EXPECT_LE(c.gap, p.norm() - kRadius - 0.001);
+  EXPECT_LE(c.gap, p.norm() - kBallRadius - 0.001);
 }
 
 // Oracle: the field at ten thousand places of the axis.
@@ -57,15 +57,15 @@ TEST(FieldContact, ARodTouchesWhereItsAxisIsLowest) {
   Random random(2);
   for (int i = 0; i < 40; ++i) {
     const Vec3 n = random.direction();
-    const Vec3 middle = (kRadius + 0.0006) * n;
+    const Vec3 middle = (kBallRadius + 0.0006) * n;
     const Vec3 any = 0.003 * random.direction();
     const Vec3 way = any - 0.97 * any.dot(n) * n;
     const Capsule rod{middle - 0.3 * way, middle + 0.7 * way, 0.0005};
-    const CapsuleContact c = field_contact(ball_field(), rod);
+    const CapsuleContact c = field_contact(felt_ball(), rod);
     ASSERT_EQ(c.status, LpStatus::kOptimal);
     double lowest = 1e9;
     for (int k = 0; k <= 10000; ++k)
-      lowest = std::min(lowest, ball_field().at(rod.p0 + (k / 10000.0) * way).distance);
+      lowest = std::min(lowest, felt_ball().at(rod.p0 + (k / 10000.0) * way).distance);
     EXPECT_NEAR(c.gap, lowest - rod.radius, 5e-7) << i;
   }
 }
@@ -88,7 +88,7 @@ TEST(FieldContact, TheGapIsContinuousAlongAPath) {
   Vec3 normal = Vec3::Zero();
   for (int i = 0; i < 4000; ++i) {
     const Vec3 p(-0.002 + 1e-6 * i, 0.0005, 0.0043);
-    const CapsuleContact c = field_contact(ball_field(), {p, p, 0.00075});
+    const CapsuleContact c = field_contact(felt_ball(), {p, p, 0.00075});
     ASSERT_EQ(c.status, LpStatus::kOptimal);
     if (i > 0) {
       EXPECT_LT(std::abs(c.gap - last), 1.2e-6);

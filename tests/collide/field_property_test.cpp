@@ -13,7 +13,9 @@
 namespace osteon {
 namespace {
 
-DistanceField field_of(const TriMesh& mesh) { return std::move(DistanceField::make(mesh).value()); }
+DistanceField fine_field_of(const TriMesh& mesh) {
+  return std::move(DistanceField::make(mesh).value());
+}
 
 const TriMesh& egg() {
   static const TriMesh mesh = to_mesh(shapes::ellipsoid(3, {0.004, 0.005, 0.006}));
@@ -21,7 +23,7 @@ const TriMesh& egg() {
 }
 
 const DistanceField& egg_field() {
-  static const DistanceField field = field_of(egg());
+  static const DistanceField field = fine_field_of(egg());
   return field;
 }
 
@@ -59,7 +61,7 @@ TEST(FieldProperty, AFieldMadeElsewhereInTheFrameIsTheSame) {
     const Vec3 shift = 0.02 * random.direction();
     TriMesh elsewhere = egg();
     for (Vec3& v : elsewhere.vertices) v += shift;
-    const DistanceField field = field_of(elsewhere);
+    const DistanceField field = fine_field_of(elsewhere);
     for (int i = 0; i < 500; ++i) {
       const Capsule rod = near_egg(random);
       const CapsuleContact here = field_contact(egg_field(), rod);
@@ -72,8 +74,8 @@ TEST(FieldProperty, AFieldMadeElsewhereInTheFrameIsTheSame) {
 // Of two balls each may be the field and the other the tip.
 TEST(FieldProperty, SwappingTheBodiesTurnsTheNormal) {
   constexpr double kA = 0.0012, kB = 0.0009;
-  const DistanceField a = field_of(test::sphere(kA, 24));
-  const DistanceField b = field_of(test::sphere(kB, 24));
+  const DistanceField a = fine_field_of(test::sphere(kA, 24));
+  const DistanceField b = fine_field_of(test::sphere(kB, 24));
   Random random(83);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 dir = random.direction();

@@ -12,7 +12,7 @@
 namespace osteon {
 namespace {
 
-constexpr double kTolerance = 1e-9;
+constexpr double kWithin = 1e-9;
 
 Vec3 random_point(Random& random, double reach) {
   return reach * Vec3(2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1);
@@ -56,8 +56,8 @@ Primitive moved(const Pose& X, const Primitive& p) {
 void expect_parts(const Primitive& a, const Primitive& b_A, const PrimitiveContact& contact) {
   const Vec3& n = contact.nhat_AB_A;
   EXPECT_NEAR(n.norm(), 1, 1e-12);
-  EXPECT_NEAR(support(a, n), contact.top_A, kTolerance);
-  EXPECT_NEAR(-support(b_A, -n) - support(a, n), contact.gap, kTolerance);
+  EXPECT_NEAR(support(a, n), contact.top_A, kWithin);
+  EXPECT_NEAR(-support(b_A, -n) - support(a, n), contact.gap, kWithin);
 }
 
 TEST(PrimitiveContact, WhatIsNotFiniteIsRefused) {
@@ -116,8 +116,8 @@ TEST(PrimitiveContact, BallsAreAsFarFromABoxAsTheNearestPointOfIt) {
     const PrimitiveContact ab = primitive_contact(box, ball, {});
     const PrimitiveContact ba = primitive_contact(ball, box, {});
     ASSERT_EQ(ab.status, LpStatus::kOptimal);
-    EXPECT_NEAR(ab.gap, expected, kTolerance);
-    EXPECT_NEAR(ba.gap, expected, kTolerance);
+    EXPECT_NEAR(ab.gap, expected, kWithin);
+    EXPECT_NEAR(ba.gap, expected, kWithin);
     EXPECT_LT((ab.nhat_AB_A + ba.nhat_AB_A).norm(), 1e-6);
     expect_parts(box, ball, ab);
     expect_parts(ball, box, ba);
@@ -160,7 +160,7 @@ TEST(PrimitiveContact, BoxesApartAreAsFarAsTheirEdgesAre) {
     ++apart;
     const PrimitiveContact contact = primitive_contact(a, b, X_AB);
     ASSERT_EQ(contact.status, LpStatus::kOptimal);
-    EXPECT_NEAR(contact.gap, expected, kTolerance);
+    EXPECT_NEAR(contact.gap, expected, kWithin);
     expect_parts(a, b_A, contact);
   }
   EXPECT_GT(apart, 100);
@@ -180,7 +180,7 @@ TEST(PrimitiveContact, OverlappingBoxesAreNotPartedByAShorterWay) {
     ++overlapping;
     for (int k = 0; k < 200; ++k) {
       const Vec3 n = random.direction();
-      EXPECT_LT(-support(b_A, -n) - support(a, n), contact.gap + kTolerance);
+      EXPECT_LT(-support(b_A, -n) - support(a, n), contact.gap + kWithin);
     }
   }
   EXPECT_GT(overlapping, 150);
@@ -197,16 +197,16 @@ TEST(PrimitiveContact, RodsAndBoxesMeetPiecesAsTheirBodiesDo) {
     ASSERT_EQ(of_box.status, LpStatus::kOptimal);
     const Primitive box_A = moved(X_AB, box);
     EXPECT_NEAR(-support(box_A, -of_box.nhat_AB_A) - support(piece, of_box.nhat_AB_A), of_box.gap,
-                kTolerance);
+                kWithin);
     const PrimitiveContact of_rod = primitive_contact(piece, rod, X_AB);
     ASSERT_EQ(of_rod.status, LpStatus::kOptimal);
     const Primitive rod_A = moved(X_AB, rod);
-    EXPECT_NEAR(support(piece, of_rod.nhat_AB_A), of_rod.top_A, kTolerance);
-    EXPECT_NEAR(-support(rod_A, -of_rod.nhat_AB_A) - of_rod.top_A, of_rod.gap, kTolerance);
+    EXPECT_NEAR(support(piece, of_rod.nhat_AB_A), of_rod.top_A, kWithin);
+    EXPECT_NEAR(-support(rod_A, -of_rod.nhat_AB_A) - of_rod.top_A, of_rod.gap, kWithin);
   }
 }
 
-const DistanceField& ball_field() {
+const DistanceField& round_field() {
   static const DistanceField field = [] {
     FieldOptions options;
     options.cell_m = 0.0005;
@@ -228,13 +228,13 @@ TEST(PrimitiveContact, ABoxOverAFieldOfABallIsAsFarAsItsNearestPoint) {
     const double expected = (center_B - nearest).norm() - 0.008;
     if (expected < -0.0003 || expected > 0.003) continue;
     ++looked;
-    const PrimitiveContact contact = primitive_contact(ball_field(), box, X_AB);
+    const PrimitiveContact contact = primitive_contact(round_field(), box, X_AB);
     ASSERT_EQ(contact.status, LpStatus::kOptimal);
     EXPECT_NEAR(contact.gap, expected, kOfTheMesh);
     const Vec3 up = ((X_AB * box.X_TB) * nearest).normalized();
     EXPECT_GT(contact.nhat_AB_A.dot(up), 0.998);
     // Told as a bound it is never too far.
-    const PrimitiveContact bound = primitive_contact(ball_field(), box, X_AB, 0.001);
+    const PrimitiveContact bound = primitive_contact(round_field(), box, X_AB, 0.001);
     EXPECT_LT(bound.gap, contact.gap + 1e-9);
     if (contact.gap < 0.0009) {
       EXPECT_NEAR(bound.gap, contact.gap, 1e-9);
@@ -271,7 +271,7 @@ TEST(PrimitiveContact, ALongRodsBoundIsNeverTooFar) {
     const double gap = (p + s * along).norm() - 0.009;
     if (gap < kDeep) continue;
     const PrimitiveContact bound =
-        primitive_contact(ball_field(), make_rod(p, p + along, 0.001), {}, kFar);
+        primitive_contact(round_field(), make_rod(p, p + along, 0.001), {}, kFar);
     ASSERT_EQ(bound.status, LpStatus::kOptimal);
     EXPECT_LT(bound.gap, gap + kOfTheMesh) << i;
     if (gap > kFar) continue;

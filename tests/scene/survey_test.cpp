@@ -10,7 +10,7 @@
 namespace osteon {
 namespace {
 
-TriMesh box(const Vec3& half) {
+TriMesh boxed(const Vec3& half) {
   TriMesh m;
   for (int i = 0; i < 8; ++i)
     m.vertices.push_back(Vec3((i & 1) ? half.x() : -half.x(), (i & 2) ? half.y() : -half.y(),
@@ -23,7 +23,7 @@ TriMesh box(const Vec3& half) {
 BoneDef bone(const std::string& name, const Vec3& half, const Vec3& p_W) {
   BoneDef def;
   def.name = name;
-  def.mesh = box(half);
+  def.mesh = boxed(half);
   def.X_WB.p = p_W;
   return def;
 }

@@ -12,8 +12,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
-
 std::string where_of(const std::string& file, const char* kind, const toml::table& table) {
   const auto name = table["name"].value<std::string>();
   return file + ": " + kind + " " +

@@ -5,8 +5,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
-
 /// Turns bone directions into the axes of a part that the description turns by `rotation_deg`, or
 /// by `tilt_deg` about y alone.
 Mat3 local_axes(TomlReader& in) {

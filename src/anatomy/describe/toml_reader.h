@@ -13,6 +13,9 @@
 
 namespace osteon {
 
+/// Metres in a millimetre, the unit of descriptions.
+inline constexpr double kMm = 0.001;
+
 /// Range of a number, both ends allowed.
 struct Range {
   double lo, hi;

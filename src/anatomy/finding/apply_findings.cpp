@@ -6,7 +6,7 @@
 namespace osteon {
 namespace {
 
-std::string shown(const FindingTable& table) {
+std::string names_and_grades(const FindingTable& table) {
   std::string text = "Findings:";
   for (const FindingRule& rule : table.rules) {
     text += (&rule == &table.rules[0] ? " " : ", ") + rule.finding.name + "=";
@@ -120,14 +120,14 @@ Result<std::vector<GeneratedFinding>> apply_findings(const FindingTable& table,
     const std::string where = "finding '" + choice.finding + "'";
     const auto rule = std::find_if(table.rules.begin(), table.rules.end(),
                                    [&](const auto& r) { return r.finding.name == choice.finding; });
-    if (rule == table.rules.end()) return fail("is not known", where, shown(table));
+    if (rule == table.rules.end()) return fail("is not known", where, names_and_grades(table));
     for (const GeneratedFinding& other : applied)
       if (other.name == choice.finding) return fail("is asked for twice", where);
     const auto& grades = rule->finding.grades;
     const auto grade = std::find_if(grades.begin(), grades.end(),
                                     [&](const FindingGrade& g) { return g.name == choice.grade; });
     if (grade == grades.end())
-      return fail("has no grade '" + choice.grade + "'", where, shown(table));
+      return fail("has no grade '" + choice.grade + "'", where, names_and_grades(table));
     const auto& steps = rule->steps[static_cast<std::size_t>(grade - grades.begin())];
     if (auto ok = StepWriter(anatomy).write(steps); !ok)
       return fail(ok.error().what, table.file + ": " + where + ", grade '" + grade->name + "'");

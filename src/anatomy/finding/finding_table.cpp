@@ -9,7 +9,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
 constexpr Range kShift_mm{-50, 50};
 
 CutStep read_cut(TomlReader& in) {
@@ -84,7 +83,7 @@ Result<void> read_grade(const toml::table& table, const std::string& where, Find
   return in.finish();
 }
 
-Result<FindingRule> read_rule(const toml::table& table, const std::string& file) {
+Result<FindingRule> read_finding_rule(const toml::table& table, const std::string& file) {
   const auto named = table["name"].value<std::string>();
   TomlReader in(table, file + ": finding '" + named.value_or("?") + "'");
   FindingRule rule;
@@ -106,7 +105,7 @@ Result<FindingTable> parse_findings(std::string_view text, const std::string& fi
   FindingTable table;
   table.file = file;
   for (const toml::table* entry : root.tables("finding", true)) {
-    auto rule = read_rule(*entry, file);
+    auto rule = read_finding_rule(*entry, file);
     if (!rule) return tl::unexpected(rule.error());
     for (const FindingRule& other : table.rules)
       if (other.finding.name == rule->finding.name)

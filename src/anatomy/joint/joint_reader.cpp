@@ -8,7 +8,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
 constexpr Range kTurn_deg{-180, 180};
 constexpr Range kWay_mm{-100, 100};
 

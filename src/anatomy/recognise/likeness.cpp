@@ -11,21 +11,21 @@
 namespace osteon {
 namespace {
 
-constexpr ScaleRange kScales = {0.6, 1.6};
+constexpr ScaleRange kLikenessScales = {0.6, 1.6};
 constexpr std::size_t kCoarse = 120, kFine = 500;
 constexpr int kCoarseRounds = 10, kFineRounds = 30;
 constexpr double kSettled_m = 1e-6;  // a round that gains less is the last
 constexpr std::size_t kFinalists = 2;
 
 /// The part of a bone that counts: all behind no plane, or all beyond one.
-struct Region {
+struct ComparedRegion {
   Vec3 direction = Vec3::Zero();
   double from = -1e300;
   bool holds(const Vec3& p) const { return direction.dot(p) >= from; }
 };
 
-Region region_of(const std::vector<Vec3>& points, const LikenessOptions& options) {
-  Region region;
+ComparedRegion region_of(const std::vector<Vec3>& points, const LikenessOptions& options) {
+  ComparedRegion region;
   if (options.end_m <= 0) return region;
   region.direction = principal_axes(points).col(0);
   if (region.direction.dot(options.towards_end_B) < 0) region.direction = -region.direction;
@@ -35,7 +35,7 @@ Region region_of(const std::vector<Vec3>& points, const LikenessOptions& options
   return region;
 }
 
-std::vector<Vec3> kept(const std::vector<Vec3>& points, const Region& region) {
+std::vector<Vec3> kept(const std::vector<Vec3>& points, const ComparedRegion& region) {
   std::vector<Vec3> inside;
   for (const Vec3& p : points)
     if (region.holds(p)) inside.push_back(p);
@@ -49,7 +49,7 @@ struct Samples {
 
 struct Surfaces {
   MeshDistance bone, reference;
-  Region region_B;
+  ComparedRegion region_B;
 };
 
 Vec3 to_bone(const ModelFit& fit, const Vec3& p_R) { return fit.to_model(p_R); }
@@ -80,7 +80,7 @@ double mean_distance(const Pairs& pairs, const ModelFit& fit) {
 ModelFit icp(const Surfaces& surfaces, const Samples& samples, ModelFit fit, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const Pairs pairs = match(surfaces, samples, fit);
-    ModelFit next = best_fit(pairs, kScales, false);
+    ModelFit next = best_fit(pairs, kLikenessScales, false);
     next.residual_m = mean_distance(pairs, next);
     const double gain = fit.residual_m - next.residual_m;
     fit = next;
@@ -101,7 +101,7 @@ ModelFit guess(const std::vector<Vec3>& bone_B, const std::vector<Vec3>& referen
   ModelFit fit;
   fit.scale =
       std::clamp(spread_of(reference_R, middle_R) / std::max(spread_of(bone_B, middle_B), 1e-9),
-                 kScales.lo, kScales.hi);
+                 kLikenessScales.lo, kLikenessScales.hi);
   fit.X_PM.q = Quat(R_RB).normalized();
   fit.X_PM.p = middle_R - fit.X_PM.rotate(fit.scale * middle_B);
   return fit;
@@ -195,7 +195,7 @@ Likeness measure(const Surfaces& surfaces, const Samples& samples, const ModelFi
 
 Likeness compare_surfaces(const TriMesh& bone, const TriMesh& reference,
                           const LikenessOptions& options) {
-  const Region region = region_of(surface_samples(bone, options.samples), options);
+  const ComparedRegion region = region_of(surface_samples(bone, options.samples), options);
   const Surfaces surfaces{MeshDistance(bone), MeshDistance(reference), region};
   const auto sampled = [&](std::size_t count) {
     return Samples{kept(surface_samples(bone, count), region), surface_samples(reference, count)};

@@ -5,8 +5,8 @@
 #include <nanoflann.hpp>
 
 namespace osteon {
-namespace {
 
+// Not in the unnamed namespace: a field's type may not be from there where files are joined.
 using CloudPoint = std::array<float, 3>;
 
 struct CloudPoints {
@@ -18,6 +18,11 @@ struct CloudPoints {
     return false;
   }
 };
+using CloudTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, CloudPoints>,
+                                        CloudPoints, 3, std::size_t>;
+
+namespace {
 
 /// The nearest point, of several as near the first: what trying all in order finds, whatever the
 /// order of the search. Branches are left only when they are farther by more than rounding.
@@ -40,10 +45,6 @@ class FirstNearest {
   float best_ = 1e9f;
   std::size_t index_ = 0;
 };
-
-using CloudTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, CloudPoints>,
-                                        CloudPoints, 3, std::size_t>;
 
 }  // namespace
 

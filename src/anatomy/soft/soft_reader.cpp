@@ -8,7 +8,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
 constexpr Range kThickness_mm{0.05, 100};
 constexpr Range kSink_mm{0, 5};
 

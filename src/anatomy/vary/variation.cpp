@@ -23,7 +23,7 @@ constexpr int kMostHalvings = 4;
 /// Two digits, so that a value that is shown can be given again.
 double rounded(double v) { return std::round(v * 100) / 100; }
 
-std::string shown(double v) {
+std::string two_digits(double v) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", v);
   return text;
@@ -33,8 +33,8 @@ std::string names_and_ranges(const VariationTable& table) {
   std::string text = "Parameters:";
   for (const VariationRule& rule : table.rules) {
     const VariationParameter& p = rule.parameter;
-    text += (&rule == &table.rules[0] ? " " : ", ") + p.name + " " + shown(p.min) + " to " +
-            shown(p.max);
+    text += (&rule == &table.rules[0] ? " " : ", ") + p.name + " " + two_digits(p.min) + " to " +
+            two_digits(p.max);
   }
   return text;
 }
@@ -64,9 +64,9 @@ Result<void> set_one(const VariationTable& table, const ParameterValue& set, Dra
     const VariationParameter& p = table.rules[i].parameter;
     if (p.name != name) continue;
     if (!(value >= p.min && value <= p.max))  // also refuses what is not a number
-      return fail(
-          "must lie between " + shown(p.min) + " and " + shown(p.max) + ", not be " + shown(value),
-          "parameter '" + name + "'", names_and_ranges(table));
+      return fail("must lie between " + two_digits(p.min) + " and " + two_digits(p.max) +
+                      ", not be " + two_digits(value),
+                  "parameter '" + name + "'", names_and_ranges(table));
     drawn.values[i] = value;
     drawn.free[i] = false;
     return {};
@@ -111,8 +111,9 @@ Result<void> bend_unless_bones_meet(VariedBones& bones, const GenerateOptions& o
   if (!bent) return {};
   const Overlap worst = deepest_overlap(grown, PlacedBones(grown, options), options);
   if (worst.depth <= kMostOverlap) return {};
-  return fail(worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
-              file, "Bend the joint less, or choose values nearer to the means");
+  return fail(
+      worst.bone + " would reach " + two_digits(worst.depth * 1000) + " mm into " + worst.other,
+      file, "Bend the joint less, or choose values nearer to the means");
 }
 
 Result<AnatomyDescription> load_description(const std::filesystem::path& file) {
@@ -169,7 +170,7 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
     if (worst.depth <= kMostOverlap) break;
     if (varied.halvings == kMostHalvings || !any_free(*drawn))
       return fail(
-          worst.bone + " would reach " + shown(worst.depth * 1000) + " mm into " + worst.other,
+          worst.bone + " would reach " + two_digits(worst.depth * 1000) + " mm into " + worst.other,
           description.string(), "Choose values nearer to the means");
   }
   const std::string file = description.string();

@@ -8,7 +8,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 0.001;
 constexpr Range kPlace_mm{-2000, 2000};
 constexpr Range kValue{-1e4, 1e4};
 
@@ -63,7 +62,7 @@ VariationParameter read_parameter(TomlReader& in) {
   return p;
 }
 
-Result<VariationRule> read_rule(const toml::table& table, const std::string& file) {
+Result<VariationRule> read_variation_rule(const toml::table& table, const std::string& file) {
   TomlReader in(table, file + ": parameter at line " + std::to_string(table.source().begin.line));
   VariationRule rule;
   rule.parameter = read_parameter(in);
@@ -90,7 +89,7 @@ Result<VariationTable> parse_variation(std::string_view text, const std::string&
   table.file = file;
   const std::string size_name = root.text("overall_size");
   for (const toml::table* entry : root.tables("parameter", true)) {
-    auto rule = read_rule(*entry, file);
+    auto rule = read_variation_rule(*entry, file);
     if (!rule) return tl::unexpected(rule.error());
     for (const VariationRule& other : table.rules)
       if (other.parameter.name == rule->parameter.name)

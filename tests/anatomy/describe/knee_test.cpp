@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/knee_figures.h"
 #include "anatomy/surface_probe.h"
 #include "mesh/shapes.h"
@@ -19,14 +20,12 @@
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-
 VariedAnatomy varied(const VariationRequest& request, std::optional<double> cell_m = {}) {
   GenerateOptions options;
   options.cell_m = cell_m;
   options.soft_parts = false;
-  auto r =
-      generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml", request, options);
+  auto r = generate_varied(kAnatomyAssets / "knee.toml", kAnatomyAssets / "knee_variation.toml",
+                           request, options);
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(*r);
 }

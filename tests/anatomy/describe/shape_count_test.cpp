@@ -14,7 +14,7 @@ namespace {
 const std::string kBone =
     "name = \"test\"\nside = \"left\"\n[[bone]]\nname = \"a\"\nfma_id = 7\ncell_mm = 0.7\n"
     "position_mm = [1, 2, 3]\nrotation_deg = [4, 5, 6]\ndensity_kg_per_m3 = 1200\nblend_mm = 2\n";
-const std::string kBall = "shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = [5, 4, 3]";
+const std::string kBallShape = "shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = [5, 4, 3]";
 
 std::vector<ShapeNumbers> counts_of(const std::string& text) {
   const auto anatomy = parse_description(text, "test.toml");
@@ -23,7 +23,7 @@ std::vector<ShapeNumbers> counts_of(const std::string& text) {
 }
 
 TEST(ShapeCount, PlaceDetailAndWeightShapeNothing) {
-  const auto counts = counts_of(kBone + "add = [{ " + kBall + " }]\n");
+  const auto counts = counts_of(kBone + "add = [{ " + kBallShape + " }]\n");
   ASSERT_EQ(counts.size(), 1u);
   EXPECT_EQ(counts[0].bone, "a");
   EXPECT_EQ(counts[0].section, "");
@@ -32,19 +32,20 @@ TEST(ShapeCount, PlaceDetailAndWeightShapeNothing) {
 
 TEST(ShapeCount, EveryWrittenNumberCountsZerosToo) {
   const auto counts = counts_of(
-      kBone + "add = [{ " + kBall + ", rotation_deg = [0, 0, 0], blend_mm = 1 }, " +
+      kBone + "add = [{ " + kBallShape + ", rotation_deg = [0, 0, 0], blend_mm = 1 }, " +
       "{ shape = \"tube\", points_mm = [[0, 0, 0], [9, 0, 0], [20, 0, 0]], radii_mm = [3] }]\n" +
       "cut = [{ shape = \"box\", center_mm = [0, 0, 0], half_mm = [1, 2, 3], round_mm = 0.5, " +
       "tilt_deg = 8 }]\nclear = [{ bone = \"b\", gap_mm = 1.5, blend_mm = 1 }]\n" +
-      "[[bone]]\nname = \"b\"\nfma_id = 8\nposition_mm = [30, 0, 0]\nadd = [{ " + kBall + " }]\n");
+      "[[bone]]\nname = \"b\"\nfma_id = 8\nposition_mm = [30, 0, 0]\nadd = [{ " + kBallShape +
+      " }]\n");
   ASSERT_EQ(counts.size(), 1u);
   EXPECT_EQ(counts[0].numbers, 1u + 10u + 10u + 8u + 2u);
 }
 
 TEST(ShapeCount, SectionsCountApartAndEachWithWhatIsShared) {
   const auto counts =
-      counts_of(kBone + "add = [{ section = \"head\", name = \"x\", " + kBall +
-                " }, { section = \"shaft\", " + kBall +
+      counts_of(kBone + "add = [{ section = \"head\", name = \"x\", " + kBallShape +
+                " }, { section = \"shaft\", " + kBallShape +
                 ", blend_mm = 1 }, { section = \"head\", like = \"x\", shift_mm = [1, 0, 0] }]\n");
   ASSERT_EQ(counts.size(), 2u);
   EXPECT_EQ(counts[0].section, "head");

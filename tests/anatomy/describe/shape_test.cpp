@@ -17,7 +17,7 @@ void add_part(Solid& solid, Operation operation, const Primitive& primitive, dou
   solid.parts.push_back(part);
 }
 
-Vec3 random_point(Random& random, double half) {
+Vec3 random_place(Random& random, double half) {
   const double x = random.uniform(-half, half);
   const double y = random.uniform(-half, half);
   const double z = random.uniform(-half, half);
@@ -44,7 +44,7 @@ TEST(Shape, EllipsoidOfEqualRadiiIsASphere) {
   const Ellipsoid e{Vec3(0.1, 0, 0), Vec3::Constant(0.5), rotation_xyz_deg({10, 20, 30})};
   Random random(3);
   for (int i = 0; i < 200; ++i) {
-    const Vec3 p = random_point(random, 2);
+    const Vec3 p = random_place(random, 2);
     EXPECT_NEAR(distance(e, p), (p - e.center).norm() - 0.5, 1e-12);
   }
 }
@@ -66,7 +66,7 @@ TEST(Shape, TubeOfTwoPointsIsARoundCone) {
   const Tube cone = tube_through({a, b}, {0.3, 0.1});
   Random random(7);
   for (int i = 0; i < 100; ++i) {
-    const Vec3 p = random_point(random, 2);
+    const Vec3 p = random_place(random, 2);
     EXPECT_NEAR(distance(cone, p), swept_spheres(p, a, b, 0.3, 0.1), 1e-4);
   }
 }
@@ -94,7 +94,7 @@ TEST(Shape, TubeEqualsTheNearestOfItsCones) {
       tube_through({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 1}}, {0.2, 0.4, 0.2, 0.1});
   Random random(9);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 p = random_point(random, 3);
+    const Vec3 p = random_place(random, 3);
     double nearest = 1e300;
     for (std::size_t k = 0; k + 1 < tube.points.size(); ++k)
       nearest = std::min(nearest, distance(tube_through({tube.points[k], tube.points[k + 1]},
@@ -115,7 +115,7 @@ TEST(Shape, BoxRoundedToTheFullIsABall) {
   const RoundedBox box{Vec3::Zero(), Vec3::Constant(2), 2, rotation_xyz_deg({30, 40, 50})};
   Random random(11);
   for (int i = 0; i < 50; ++i) {
-    const Vec3 p = random_point(random, 5);
+    const Vec3 p = random_place(random, 5);
     EXPECT_NEAR(distance(box, p), p.norm() - 2, 1e-12);
   }
 }
@@ -157,12 +157,12 @@ TEST(Shape, BoundsAndStretchHold) {
   Random random(17);
   for (int trial = 0; trial < 20; ++trial) {
     Ellipsoid e;
-    e.center = random_point(random, 1);
-    e.radii = random_point(random, 0.4) + Vec3::Constant(0.5);
+    e.center = random_place(random, 1);
+    e.radii = random_place(random, 0.4) + Vec3::Constant(0.5);
     e.R_local = random.rotation().toRotationMatrix();
     const Aabb box = bounds(Primitive{e});
     for (int i = 0; i < 200; ++i) {
-      const Vec3 p = e.center + random_point(random, 1.5);
+      const Vec3 p = e.center + random_place(random, 1.5);
       const double value = distance(e, p);
       if (value < 0) {
         EXPECT_TRUE(box.overlaps({p, p}));
@@ -182,7 +182,7 @@ TEST(Shape, RotationAgreesWithTheLibrarysSinesAndIsExactAtRightAngles) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   Random random(19);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 a = random_point(random, 360);
+    const Vec3 a = random_place(random, 360);
     const Mat3 want = (Eigen::AngleAxisd(a.z() * kDegree, Vec3::UnitZ()) *
                        Eigen::AngleAxisd(a.y() * kDegree, Vec3::UnitY()) *
                        Eigen::AngleAxisd(a.x() * kDegree, Vec3::UnitX()))

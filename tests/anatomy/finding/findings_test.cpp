@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <set>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/morphometry.h"
 #include "anatomy/soft/soft_checks.h"
 #include "anatomy/surface_probe.h"
@@ -26,10 +27,8 @@
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-
 AnatomyDescription description_of(const std::string& anatomy) {
-  const auto file = kAssets / (anatomy + ".toml");
+  const auto file = kAnatomyAssets / (anatomy + ".toml");
   auto parsed = parse_description(read_file(file, 1 << 22).value(), file.string());
   if (!parsed) throw std::runtime_error(parsed.error().message());
   return std::move(*parsed);
@@ -56,7 +55,7 @@ void cut_shafts(AnatomyDescription& anatomy) {
 GeneratedAnatomy grown(const std::string& name, const std::vector<FindingChoice>& findings,
                        const std::set<std::string>& softs, const std::set<std::string>& fine = {}) {
   AnatomyDescription anatomy = description_of(name);
-  const auto table = load_findings(kAssets / (name + "_findings.toml"));
+  const auto table = load_findings(kAnatomyAssets / (name + "_findings.toml"));
   if (!table) throw std::runtime_error(table.error().message());
   const auto applied = apply_findings(*table, findings, anatomy);
   if (!applied) throw std::runtime_error(applied.error().message());
@@ -101,7 +100,7 @@ void expect_whole(const TriMesh& mesh, const std::string& what) {
 
 std::string complaint(const std::vector<FindingChoice>& findings) {
   AnatomyDescription anatomy = description_of("wrist");
-  const auto table = load_findings(kAssets / "wrist_findings.toml");
+  const auto table = load_findings(kAnatomyAssets / "wrist_findings.toml");
   const auto applied = apply_findings(*table, findings, anatomy);
   return applied ? "" : applied.error().message();
 }
@@ -119,9 +118,9 @@ TEST(Findings, UnknownOnesAndUnknownGradesListWhatThereIs) {
 
 TEST(Findings, EveryFindingOfTheTablesFitsItsAnatomy) {
   for (const std::string name : {"wrist", "knee"}) {
-    const auto findings = list_findings(kAssets / (name + "_findings.toml"));
+    const auto findings = list_findings(kAnatomyAssets / (name + "_findings.toml"));
     ASSERT_TRUE(findings) << findings.error().message();
-    const auto table = load_findings(kAssets / (name + "_findings.toml"));
+    const auto table = load_findings(kAnatomyAssets / (name + "_findings.toml"));
     EXPECT_GE(findings->size(), 3u);
     for (const AnatomyFinding& finding : *findings) {
       EXPECT_FALSE(finding.source.empty());
@@ -333,14 +332,14 @@ TEST(Findings, ARandomPatientHasThemTooAndTheRestIsTheSameToTheBit) {
   options.cell_m = 0.0016;
   VariationRequest request{7, {}, "left"};
   const auto make = [&] {
-    auto made =
-        generate_varied(kAssets / "wrist.toml", kAssets / "wrist_variation.toml", request, options);
+    auto made = generate_varied(kAnatomyAssets / "wrist.toml",
+                                kAnatomyAssets / "wrist_variation.toml", request, options);
     if (!made) throw std::runtime_error(made.error().message());
     return std::move(made->anatomy);
   };
   const GeneratedAnatomy healthy = make();
   request.findings = {{"scaphoid_fracture", "undisplaced"}, {"tfcc_tear", "1A"}};
-  request.findings_table = kAssets / "wrist_findings.toml";
+  request.findings_table = kAnatomyAssets / "wrist_findings.toml";
   const GeneratedAnatomy ill = make();
   ASSERT_EQ(ill.findings.size(), 2u);
   EXPECT_EQ(ill.findings[1].grade, "1A");

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/knee_figures.h"
 #include "anatomy/soft/soft_checks.h"
 #include "osteon/anatomy/bone_gaps.h"
@@ -16,18 +17,16 @@
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-
-constexpr double kCoarse_m = 0.003;  // enough where only poses matter
+constexpr double kPoseCell_m = 0.003;  // enough where only poses matter
 
 GeneratedAnatomy grown_with(VariationRequest request, bool soft_parts,
                             std::optional<double> cell_m = {}) {
   GenerateOptions options;
   options.soft_parts = soft_parts;
   options.cell_m = cell_m;
-  request.findings_table = kAssets / "knee_findings.toml";
-  auto r =
-      generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml", request, options);
+  request.findings_table = kAnatomyAssets / "knee_findings.toml";
+  auto r = generate_varied(kAnatomyAssets / "knee.toml", kAnatomyAssets / "knee_variation.toml",
+                           request, options);
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(r->anatomy);
 }
@@ -270,8 +269,8 @@ TEST(KneeFlexion, ABentPatientIsSound) {
 }
 
 TEST(KneeFlexion, BonesOfABentKneeAreThoseOfTheStretchedOne) {
-  const GeneratedAnatomy straight = grown_with({}, false, kCoarse_m);
-  const GeneratedAnatomy bent = grown_with({{}, {{"flexion_deg", 70}}, ""}, false, kCoarse_m);
+  const GeneratedAnatomy straight = grown_with({}, false, kPoseCell_m);
+  const GeneratedAnatomy bent = grown_with({{}, {{"flexion_deg", 70}}, ""}, false, kPoseCell_m);
   for (std::size_t i = 0; i < bent.bones.size(); ++i) {
     EXPECT_EQ(checks::hash_of(bent.bones[i].mesh), checks::hash_of(straight.bones[i].mesh));
     const Pose X = pose_in_femur(straight, bent.bones[i].name, 70);
@@ -294,7 +293,7 @@ TEST(KneeFlexion, LandmarksGoWithTheirBones) {
 }
 
 TEST(KneeFlexion, BothSidesBendAlike) {
-  const GeneratedAnatomy left = grown_with({{}, {{"flexion_deg", 60}}, "left"}, false, kCoarse_m);
+  const GeneratedAnatomy left = grown_with({{}, {{"flexion_deg", 60}}, "left"}, false, kPoseCell_m);
   for (std::size_t i = 0; i < left.bones.size(); ++i) {
     const GeneratedBone& bone = left.bones[i];
     const Pose X = bone.name == "femur" ? Pose{} : pose_in_femur(left, bone.name, 60);
@@ -305,8 +304,9 @@ TEST(KneeFlexion, BothSidesBendAlike) {
 }
 
 TEST(KneeFlexion, IsNeverDrawn) {
-  const auto drawn = generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml",
-                                     {42, {}, ""}, {.cell_m = 0.004, .soft_parts = false});
+  const auto drawn =
+      generate_varied(kAnatomyAssets / "knee.toml", kAnatomyAssets / "knee_variation.toml",
+                      {42, {}, ""}, {.cell_m = 0.004, .soft_parts = false});
   ASSERT_TRUE(drawn);
   const ParameterValue& last = drawn->values.back();
   EXPECT_EQ(last.first, "flexion_deg");
@@ -315,7 +315,8 @@ TEST(KneeFlexion, IsNeverDrawn) {
 
 TEST(KneeFlexion, BeyondItsRangeIsRefused) {
   for (const double degrees : {-1.0, 131.0})
-    EXPECT_FALSE(generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml",
+    EXPECT_FALSE(generate_varied(kAnatomyAssets / "knee.toml",
+                                 kAnatomyAssets / "knee_variation.toml",
                                  {{}, {{"flexion_deg", degrees}}, ""}));
 }
 

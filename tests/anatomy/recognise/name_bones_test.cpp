@@ -33,7 +33,7 @@ TEST(Assignment, AgreesWithTryingEveryOrder) {
   EXPECT_TRUE(least_cost_assignment({}).empty());
 }
 
-const std::vector<ModelBone>& wrist() {
+const std::vector<ModelBone>& model_wrist() {
   static const std::vector<ModelBone> bones = [] {
     GenerateOptions coarse;
     coarse.cell_m = 0.0016;
@@ -59,11 +59,11 @@ std::vector<std::vector<Vec3>> regions(bool left, std::uint64_t seed, std::vecto
   const Vec3 t = 0.3 * random.direction();
   std::vector<std::vector<Vec3>> out;
   truth.clear();
-  for (std::size_t n = 0; n < wrist().size(); ++n) {
-    const std::size_t b = (n * 7 + 3) % wrist().size();
+  for (std::size_t n = 0; n < model_wrist().size(); ++n) {
+    const std::size_t b = (n * 7 + 3) % model_wrist().size();
     truth.push_back(static_cast<int>(b));
     out.emplace_back();
-    for (const Vec3& p : wrist()[b].points_M) {
+    for (const Vec3& p : model_wrist()[b].points_M) {
       const Vec3 jitter = random.direction() * 0.0003;
       const Vec3 s(1.08 * p.x(), (left ? -0.95 : 0.95) * p.y(), 1.03 * p.z() + 0.05 * p.y());
       out.back().push_back(q * (s + jitter) + t);
@@ -76,7 +76,7 @@ TEST(NameBones, EitherHandInAnyPosition) {
   for (const bool left : {false, true}) {
     std::vector<int> truth;
     const auto scan = regions(left, left ? 5 : 6, truth);
-    const BoneNames names = name_bones(wrist(), scan);
+    const BoneNames names = name_bones(model_wrist(), scan);
     ASSERT_TRUE(names.recognised());
     EXPECT_EQ(names.fit.mirrored, left);
     EXPECT_EQ(names.bone_of_region, truth);
@@ -90,7 +90,7 @@ TEST(NameBones, BonesThatHaveGrownTogetherAreListed) {
   auto scan = regions(false, 8, truth);
   const auto find = [&](const std::string& name) {
     for (std::size_t r = 0; r < truth.size(); ++r)
-      if (wrist()[static_cast<std::size_t>(truth[r])].name == name) return r;
+      if (model_wrist()[static_cast<std::size_t>(truth[r])].name == name) return r;
     return truth.size();
   };
   const std::size_t capitate = find("capitate"), hamate = find("hamate");
@@ -98,7 +98,7 @@ TEST(NameBones, BonesThatHaveGrownTogetherAreListed) {
   std::sort(both.begin(), both.end());
   scan[capitate].insert(scan[capitate].end(), scan[hamate].begin(), scan[hamate].end());
   scan[hamate].clear();
-  const BoneNames names = name_bones(wrist(), scan);
+  const BoneNames names = name_bones(model_wrist(), scan);
   ASSERT_TRUE(names.recognised());
   EXPECT_EQ(names.bones_in_region[capitate], both);
 }
@@ -109,10 +109,10 @@ TEST(NameBones, SomethingElseIsNotRecognised) {
   for (std::size_t b = 0; b < 3; ++b)
     for (int n = 0; n < 200; ++n)
       balls[b].push_back(Vec3(0.15 * static_cast<double>(b), 0, 0) + 0.06 * random.direction());
-  const BoneNames names = name_bones(wrist(), balls);
+  const BoneNames names = name_bones(model_wrist(), balls);
   EXPECT_FALSE(names.recognised());
   EXPECT_EQ(names.bone_of_region, (std::vector<int>{-1, -1, -1}));
-  EXPECT_FALSE(name_bones(wrist(), {}).recognised());
+  EXPECT_FALSE(name_bones(model_wrist(), {}).recognised());
 }
 
 }  // namespace

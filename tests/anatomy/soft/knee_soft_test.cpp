@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/knee_figures.h"
 #include "anatomy/soft/soft_checks.h"
 #include "osteon/anatomy/variation.h"
@@ -9,28 +10,27 @@
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-
 GeneratedAnatomy patient(const VariationRequest& request) {
-  auto r = generate_varied(kAssets / "knee.toml", kAssets / "knee_variation.toml", request);
+  auto r = generate_varied(kAnatomyAssets / "knee.toml", kAnatomyAssets / "knee_variation.toml",
+                           request);
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(r->anatomy);
 }
 
-const GeneratedAnatomy& knee() {
+const GeneratedAnatomy& soft_knee() {
   static const GeneratedAnatomy grown = patient({{}, {}, ""});
   return grown;
 }
 
 Vec3 extent_mm(const std::string& name) {
   Aabb box;
-  for (const Vec3& v : checks::soft_named(knee(), name).mesh_W.vertices) box.include(v);
+  for (const Vec3& v : checks::soft_named(soft_knee(), name).mesh_W.vertices) box.include(v);
   return box.extent() * 1e3;
 }
 
 TEST(KneeSoft, IsSound) {
-  checks::expect_sound_softs(knee());
-  checks::expect_layers_apart(knee());
+  checks::expect_sound_softs(soft_knee());
+  checks::expect_layers_apart(soft_knee());
 }
 
 /// Length from front to back, width across.
@@ -46,7 +46,7 @@ TEST(KneeSoft, MenisciHaveTheirPublishedSizes) {
 
 /// Section of the ligament by the plane in its middle, at right angles to its run.
 TEST(KneeSoft, AnteriorCruciateLigamentHasItsPublishedFigures) {
-  const GeneratedSoft& acl = checks::soft_named(knee(), "acl");
+  const GeneratedSoft& acl = checks::soft_named(soft_knee(), "acl");
   ASSERT_EQ(acl.attachments.size(), 2u);
   const Vec3 from = acl.attachments[0].p_W, to = acl.attachments[1].p_W;
   const double length_mm = (to - from).norm() * 1e3;
@@ -76,11 +76,11 @@ TEST(KneeSoft, AnteriorCruciateLigamentHasItsPublishedFigures) {
 
 /// The ends of both tendons lie on the front of the patella, their corners too.
 TEST(KneeSoft, TendonsDoNotOverhangThePatella) {
-  const auto bones = checks::bone_surfaces_W(knee());
+  const auto bones = checks::bone_surfaces_W(soft_knee());
   std::size_t patella = 0;
-  while (knee().bones.at(patella).name != "patella") ++patella;
+  while (soft_knee().bones.at(patella).name != "patella") ++patella;
   for (const char* name : {"patellar_tendon", "quadriceps_tendon"}) {
-    const GeneratedSoft& tendon = checks::soft_named(knee(), name);
+    const GeneratedSoft& tendon = checks::soft_named(soft_knee(), name);
     ASSERT_EQ(tendon.attachments.at(0).bone, "patella");
     const Vec3 end = tendon.attachments[0].p_W;
     Vec3 middle = Vec3::Zero();
@@ -95,12 +95,12 @@ TEST(KneeSoft, TendonsDoNotOverhangThePatella) {
   }
 }
 
-TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(knee(), 1.5); }
+TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(soft_knee(), 1.5); }
 
 TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {
   for (const char* name : {"femoral_cartilage", "medial_tibial_plateau", "lateral_tibial_plateau",
                            "patellar_cartilage"}) {
-    const double height_mm = checks::height_of(knee(), name) * 1e3;
+    const double height_mm = checks::height_of(soft_knee(), name) * 1e3;
     std::printf("%-24s %.2f mm\n", name, height_mm);
     EXPECT_GT(height_mm, 1.7) << name;
     EXPECT_LE(height_mm, 2.101) << name;
@@ -108,10 +108,10 @@ TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {
 }
 
 TEST(KneeSoft, PortalsLieOnTheSkinBesideThePatellarTendon) {
-  const MeshDistance skin(checks::soft_named(knee(), "skin").mesh_W);
-  const MeshDistance tendon(checks::soft_named(knee(), "patellar_tendon").mesh_W);
+  const MeshDistance skin(checks::soft_named(soft_knee(), "skin").mesh_W);
+  const MeshDistance tendon(checks::soft_named(soft_knee(), "patellar_tendon").mesh_W);
   for (const char* name : {"portal_al", "portal_am"}) {
-    const Vec3 portal = checks::landmark_of(knee(), name);
+    const Vec3 portal = checks::landmark_of(soft_knee(), name);
     EXPECT_LT(std::abs(skin.closest(portal).signed_distance), 5e-5) << name;
     EXPECT_GT(tendon.closest(portal).signed_distance, 0.001) << name;
   }

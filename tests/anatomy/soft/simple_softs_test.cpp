@@ -2,19 +2,18 @@
 
 #include <cstdlib>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/soft/soft_checks.h"
 #include "osteon/anatomy/variation.h"
 
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-
 GeneratedAnatomy patient(const std::string& name, std::uint64_t seed) {
   VariationRequest request;
   if (seed > 0) request.seed = seed;
-  auto r =
-      generate_varied(kAssets / (name + ".toml"), kAssets / (name + "_variation.toml"), request);
+  auto r = generate_varied(kAnatomyAssets / (name + ".toml"),
+                           kAnatomyAssets / (name + "_variation.toml"), request);
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(r->anatomy);
 }

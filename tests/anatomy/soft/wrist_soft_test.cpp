@@ -3,13 +3,12 @@
 #include <cstdio>
 #include <set>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/soft/soft_checks.h"
 #include "osteon/anatomy/variation.h"
 
 namespace osteon {
 namespace {
-
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
 
 /// Coarse bones are enough for what holds for every patient.
 GenerateOptions coarse() {
@@ -19,13 +18,13 @@ GenerateOptions coarse() {
 }
 
 GeneratedAnatomy patient(const VariationRequest& request, const GenerateOptions& options) {
-  auto r =
-      generate_varied(kAssets / "wrist.toml", kAssets / "wrist_variation.toml", request, options);
+  auto r = generate_varied(kAnatomyAssets / "wrist.toml", kAnatomyAssets / "wrist_variation.toml",
+                           request, options);
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(r->anatomy);
 }
 
-const GeneratedAnatomy& wrist() {
+const GeneratedAnatomy& soft_wrist() {
   static const GeneratedAnatomy grown = patient({{}, {}, ""}, {});
   return grown;
 }
@@ -38,7 +37,7 @@ Vec3 landmark(const GeneratedAnatomy& anatomy, const std::string& name) {
 
 TEST(WristSoft, HasWhatAnArthroscopyLooksAt) {
   std::set<std::string> names;
-  for (const GeneratedSoft& soft : wrist().softs) names.insert(soft.name);
+  for (const GeneratedSoft& soft : soft_wrist().softs) names.insert(soft.name);
   for (const char* name : {"scaphoid_fossa", "lunate_fossa", "tfcc_disc", "scapholunate_dorsal",
                            "scapholunate_proximal", "scapholunate_volar", "lunotriquetral_dorsal",
                            "lunotriquetral_volar", "radioscaphocapitate", "long_radiolunate",
@@ -47,22 +46,22 @@ TEST(WristSoft, HasWhatAnArthroscopyLooksAt) {
 }
 
 TEST(WristSoft, IsSound) {
-  checks::expect_sound_softs(wrist());
-  checks::expect_layers_apart(wrist());
+  checks::expect_sound_softs(soft_wrist());
+  checks::expect_layers_apart(soft_wrist());
 }
 
-TEST(WristSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(wrist(), 7); }
+TEST(WristSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(soft_wrist(), 7); }
 
 /// 0.8 mm (K) where the joint has room; the radiocarpal joint has.
 TEST(WristSoft, CartilageIsAsThickAsTheJointHasRoomFor) {
-  for (const GeneratedSoft& soft : wrist().softs) {
+  for (const GeneratedSoft& soft : soft_wrist().softs) {
     if (soft.kind != "cartilage") continue;
-    const double height = checks::height_of(wrist(), soft.name);
+    const double height = checks::height_of(soft_wrist(), soft.name);
     std::printf("%-24s %.2f mm\n", soft.name.c_str(), height * 1e3);
     EXPECT_GT(height, 0.5e-3) << soft.name;
     EXPECT_LE(height, 0.8001e-3) << soft.name;
   }
-  EXPECT_GT(checks::height_of(wrist(), "scaphoid_fossa"), 0.75e-3);
+  EXPECT_GT(checks::height_of(soft_wrist(), "scaphoid_fossa"), 0.75e-3);
 }
 
 TEST(WristSoft, BandsJoinTheBonesThatTheirNamesSay) {
@@ -75,7 +74,7 @@ TEST(WristSoft, BandsJoinTheBonesThatTheirNamesSay) {
       {"ulnolunate", "ulna", "lunate"},
       {"ulnotriquetral", "ulna", "triquetrum"}};
   for (const auto& [name, from, to] : bands) {
-    const GeneratedSoft& band = checks::soft_named(wrist(), name);
+    const GeneratedSoft& band = checks::soft_named(soft_wrist(), name);
     ASSERT_EQ(band.attachments.size(), 2u) << name;
     EXPECT_EQ(band.attachments[0].bone, from) << name;
     EXPECT_EQ(band.attachments[1].bone, to) << name;
@@ -84,7 +83,7 @@ TEST(WristSoft, BandsJoinTheBonesThatTheirNamesSay) {
 
 /// The disc lies between the ulna's head and the lunate and triquetrum.
 TEST(WristSoft, TheDiscLiesBetweenUlnaAndCarpus) {
-  const TriMesh& disc = checks::soft_named(wrist(), "tfcc_disc").mesh_W;
+  const TriMesh& disc = checks::soft_named(soft_wrist(), "tfcc_disc").mesh_W;
   Aabb box;
   for (const Vec3& v : disc.vertices) box.include(v);
   std::printf("disc %.1f x %.1f x %.1f mm\n", box.extent().x() * 1e3, box.extent().y() * 1e3,
@@ -92,13 +91,13 @@ TEST(WristSoft, TheDiscLiesBetweenUlnaAndCarpus) {
   EXPECT_LT(box.extent().x(), 0.006);
   EXPECT_GT(box.extent().y(), 0.012);
   EXPECT_GT(box.extent().z(), 0.009);
-  const auto bones = checks::bone_surfaces_W(wrist());
+  const auto bones = checks::bone_surfaces_W(soft_wrist());
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (wrist().bones[i].name != "ulna" && wrist().bones[i].name != "radius") continue;
+    if (soft_wrist().bones[i].name != "ulna" && soft_wrist().bones[i].name != "radius") continue;
     double nearest = 1;
     for (const Vec3& p : disc.vertices)
       nearest = std::min(nearest, std::abs(bones[i].closest(p).signed_distance));
-    EXPECT_LT(nearest, 0.0009) << "at the " << wrist().bones[i].name;
+    EXPECT_LT(nearest, 0.0009) << "at the " << soft_wrist().bones[i].name;
   }
 }
 
@@ -106,8 +105,8 @@ constexpr double kSkinMesh_m = 1.5e-4;  // its triangles are chords of the skin
 
 // The way in is against the surface's mean normal about the portal.
 TEST(WristSoft, PortalsPointIntoTheSkin) {
-  const TriMesh& skin = checks::soft_named(wrist(), "skin").mesh_W;
-  for (const GeneratedLandmark& l : wrist().landmarks) {
+  const TriMesh& skin = checks::soft_named(soft_wrist(), "skin").mesh_W;
+  for (const GeneratedLandmark& l : soft_wrist().landmarks) {
     if (l.name.rfind("portal_", 0) != 0) {
       EXPECT_EQ(l.inwards_W, Vec3(Vec3::Zero())) << l.name;
       continue;
@@ -129,10 +128,10 @@ TEST(WristSoft, PortalsLieWhereTheyDoWithoutSoftParts) {
   bare.cell_m = 0.003;
   const GeneratedAnatomy bones = patient({{}, {}, ""}, bare);
   ASSERT_TRUE(bones.softs.empty());
-  ASSERT_EQ(bones.landmarks.size(), wrist().landmarks.size());
+  ASSERT_EQ(bones.landmarks.size(), soft_wrist().landmarks.size());
   int portals = 0;
   for (std::size_t i = 0; i < bones.landmarks.size(); ++i) {
-    const GeneratedLandmark &a = bones.landmarks[i], &b = wrist().landmarks[i];
+    const GeneratedLandmark &a = bones.landmarks[i], &b = soft_wrist().landmarks[i];
     if (a.name.rfind("portal_", 0) != 0) continue;
     ++portals;
     EXPECT_EQ(a.p_W, b.p_W) << a.name;
@@ -142,19 +141,20 @@ TEST(WristSoft, PortalsLieWhereTheyDoWithoutSoftParts) {
 }
 
 TEST(WristSoft, PortalsLieOnTheSkinAndFossaCentresOnTheirCartilage) {
-  const MeshDistance skin(checks::soft_named(wrist(), "skin").mesh_W);
+  const MeshDistance skin(checks::soft_named(soft_wrist(), "skin").mesh_W);
   for (const char* name : {"portal_3_4", "portal_4_5", "portal_6r", "portal_mcr", "portal_mcu"})
-    EXPECT_LT(std::abs(skin.closest(landmark(wrist(), name)).signed_distance), kSkinMesh_m) << name;
+    EXPECT_LT(std::abs(skin.closest(landmark(soft_wrist(), name)).signed_distance), kSkinMesh_m)
+        << name;
   for (const char* fossa : {"scaphoid_fossa", "lunate_fossa"}) {
-    const MeshDistance surface(checks::soft_named(wrist(), fossa).mesh_W);
-    const Vec3 center = landmark(wrist(), std::string(fossa) + "_center");
+    const MeshDistance surface(checks::soft_named(soft_wrist(), fossa).mesh_W);
+    const Vec3 center = landmark(soft_wrist(), std::string(fossa) + "_center");
     EXPECT_LT(std::abs(surface.closest(center).signed_distance), 1e-6) << fossa;
   }
 }
 
 TEST(WristSoft, TheSkinHoldsEverything) {
-  const MeshDistance skin(checks::soft_named(wrist(), "skin").mesh_W);
-  for (const MeshDistance& bone : checks::bone_surfaces_W(wrist()))
+  const MeshDistance skin(checks::soft_named(soft_wrist(), "skin").mesh_W);
+  for (const MeshDistance& bone : checks::bone_surfaces_W(soft_wrist()))
     for (std::size_t k = 0; k < bone.mesh().vertices.size(); k += 37)
       EXPECT_LT(skin.closest(bone.mesh().vertices[k]).signed_distance, 0.0002);
 }
@@ -181,8 +181,8 @@ TEST(WristSoft, TheOrderOfTasksChangesNothing) {
                      const std::function<void(double)>&) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  const auto forwards = generate_anatomy(kAssets / "wrist.toml", coarse());
-  const auto again = generate_anatomy(kAssets / "wrist.toml", backwards);
+  const auto forwards = generate_anatomy(kAnatomyAssets / "wrist.toml", coarse());
+  const auto again = generate_anatomy(kAnatomyAssets / "wrist.toml", backwards);
   ASSERT_TRUE(again && forwards) << again.error().message();
   EXPECT_EQ(checks::hash_of_softs(*again), checks::hash_of_softs(*forwards));
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "anatomy/anatomy_assets.h"
 #include "anatomy/morphometry.h"
 #include "anatomy/surface_probe.h"
 #include "mesh/surface_checks.h"
@@ -14,9 +15,8 @@
 namespace osteon {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(OSTEON_SOURCE_DIR) / "assets/anatomy";
-const std::filesystem::path kWrist = kAssets / "wrist.toml";
-const std::filesystem::path kTable = kAssets / "wrist_variation.toml";
+const std::filesystem::path kWristFile = kAnatomyAssets / "wrist.toml";
+const std::filesystem::path kTable = kAnatomyAssets / "wrist_variation.toml";
 
 GenerateOptions cells(double cell_m) {
   GenerateOptions options;
@@ -25,22 +25,22 @@ GenerateOptions cells(double cell_m) {
   return options;
 }
 
-VariedAnatomy varied(const VariationRequest& request, double cell_m = 0.0012) {
-  auto r = generate_varied(kWrist, kTable, request, cells(cell_m));
+VariedAnatomy varied_wrist(const VariationRequest& request, double cell_m = 0.0012) {
+  auto r = generate_varied(kWristFile, kTable, request, cells(cell_m));
   if (!r) throw std::runtime_error(r.error().message());
   return std::move(*r);
 }
 
 GeneratedAnatomy with(const std::vector<ParameterValue>& set, double cell_m = 0.0012) {
-  return varied({{}, set, ""}, cell_m).anatomy;
+  return varied_wrist({{}, set, ""}, cell_m).anatomy;
 }
 
 std::string complaint(const VariationRequest& request) {
-  const auto r = generate_varied(kWrist, kTable, request, cells(0.0012));
+  const auto r = generate_varied(kWristFile, kTable, request, cells(0.0012));
   return r ? "" : r.error().message();
 }
 
-std::uint64_t hash_of(const GeneratedAnatomy& anatomy) {
+std::uint64_t hash_of_bones(const GeneratedAnatomy& anatomy) {
   Hasher hasher;
   for (const GeneratedBone& bone : anatomy.bones) {
     hasher.add(bone.X_WB);
@@ -68,9 +68,9 @@ TEST(Variation, UnknownNamesAndValuesOutOfRangeListWhatThereIs) {
 }
 
 TEST(Variation, WithNothingAskedForItIsTheBuiltInWristToTheBit) {
-  const auto plain = generate_anatomy(kWrist, cells(0.0012));
+  const auto plain = generate_anatomy(kWristFile, cells(0.0012));
   ASSERT_TRUE(plain);
-  EXPECT_EQ(hash_of(with({})), hash_of(*plain));
+  EXPECT_EQ(hash_of_bones(with({})), hash_of_bones(*plain));
 }
 
 TEST(Variation, EveryParameterSaysItsFiguresAndTheBuiltInOnesAreMeasured) {
@@ -121,13 +121,13 @@ TEST(Variation, UlnarVarianceIsMeasuredAsItWasSet) {
 
 /// Readings at fixed places of World need the size taken out first.
 TEST(Variation, UlnarVarianceKeepsItsMillimetresInALargeWrist) {
-  constexpr double kSize = 1.1;
+  constexpr double kOverallSize = 1.1;
   auto large = with({{"ulnar_variance_mm", 2}, {"size_percent", 110}}, 0.0008);
   for (GeneratedBone& bone : large.bones) {
-    bone.X_WB.p /= kSize;
-    for (Vec3& v : bone.mesh.vertices) v /= kSize;
+    bone.X_WB.p /= kOverallSize;
+    for (Vec3& v : bone.mesh.vertices) v /= kOverallSize;
   }
-  EXPECT_NEAR(checks::distal_radius_figures(large).ulnar_variance_mm * kSize, 2, 0.4);
+  EXPECT_NEAR(checks::distal_radius_figures(large).ulnar_variance_mm * kOverallSize, 2, 0.4);
 }
 
 TEST(Variation, CarpalsGrowAloneAndMetacarpalsGrowAlone) {
@@ -167,7 +167,7 @@ TEST(Variation, SizeScalesBonesPlacesAndLandmarks) {
 
 TEST(Variation, TheLeftWristIsTheRightOneInTheMirror) {
   const GeneratedAnatomy right = with({});
-  const GeneratedAnatomy left = varied({{}, {}, "left"}).anatomy;
+  const GeneratedAnatomy left = varied_wrist({{}, {}, "left"}).anatomy;
   EXPECT_EQ(left.side, "left");
   const auto mirrored = [](const Vec3& p) { return Vec3(p.x(), -p.y(), p.z()); };
   for (std::size_t i = 0; i < right.bones.size(); ++i) {
@@ -178,18 +178,20 @@ TEST(Variation, TheLeftWristIsTheRightOneInTheMirror) {
     EXPECT_GT(checks::signed_volume(left.bones[i].mesh), 0) << "faces outwards";
   }
   EXPECT_EQ(left.landmarks[0].p_W, mirrored(right.landmarks[0].p_W));
-  EXPECT_EQ(hash_of(varied({{}, {}, "right"}).anatomy), hash_of(right));
+  EXPECT_EQ(hash_of_bones(varied_wrist({{}, {}, "right"}).anatomy), hash_of_bones(right));
 }
 
 TEST(Variation, ASeedGivesTheSameWristAgainAndAnotherSeedAnother) {
-  const VariedAnatomy a = varied({7, {}, ""}), b = varied({7, {}, ""}), c = varied({8, {}, ""});
-  EXPECT_EQ(hash_of(a.anatomy), hash_of(b.anatomy));
-  EXPECT_NE(hash_of(a.anatomy), hash_of(c.anatomy));
+  const VariedAnatomy a = varied_wrist({7, {}, ""}), b = varied_wrist({7, {}, ""}),
+                      c = varied_wrist({8, {}, ""});
+  EXPECT_EQ(hash_of_bones(a.anatomy), hash_of_bones(b.anatomy));
+  EXPECT_NE(hash_of_bones(a.anatomy), hash_of_bones(c.anatomy));
   EXPECT_EQ(a.values, b.values);
   // What is told can be given back.
-  EXPECT_EQ(hash_of(with(a.values)), hash_of(a.anatomy));
-  std::printf("hash of seed 7: %016llx\n", static_cast<unsigned long long>(hash_of(a.anatomy)));
-  const auto set = varied({7, {{"volar_tilt_deg", 9}}, ""});
+  EXPECT_EQ(hash_of_bones(with(a.values)), hash_of_bones(a.anatomy));
+  std::printf("hash of seed 7: %016llx\n",
+              static_cast<unsigned long long>(hash_of_bones(a.anatomy)));
+  const auto set = varied_wrist({7, {{"volar_tilt_deg", 9}}, ""});
   for (std::size_t i = 0; i < a.values.size(); ++i)
     EXPECT_EQ(set.values[i].second, a.values[i].first == "volar_tilt_deg" ? 9 : a.values[i].second);
 }
@@ -209,7 +211,7 @@ double deepest_mm(const GeneratedAnatomy& anatomy) {
 
 TEST(Variation, NoBonesOfRandomPatientsOverlapAndAllAreWhole) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const VariedAnatomy patient = varied({seed, {}, ""});
+    const VariedAnatomy patient = varied_wrist({seed, {}, ""});
     EXPECT_LE(deepest_mm(patient.anatomy), 0.1) << "seed " << seed;
     for (const GeneratedBone& bone : patient.anatomy.bones) {
       EXPECT_TRUE(checks::is_closed_manifold(bone.mesh)) << seed << bone.name;
@@ -251,7 +253,7 @@ scale = [{ bones = ["*"], center_mm = [0, 0, 0], percent = 1 }]
 };
 
 TEST_F(WildTable, BonesThatWereSetToMeetAreAnErrorThatNamesThem) {
-  const auto r = generate_varied(kWrist, path_, {{}, {{"ulna_mm", 20}}, ""}, cells(0.0015));
+  const auto r = generate_varied(kWristFile, path_, {{}, {{"ulna_mm", 20}}, ""}, cells(0.0015));
   ASSERT_FALSE(r);
   EXPECT_NE(r.error().message().find("ulna"), std::string::npos) << r.error().message();
   EXPECT_NE(r.error().message().find(" mm into "), std::string::npos) << r.error().message();
@@ -259,7 +261,7 @@ TEST_F(WildTable, BonesThatWereSetToMeetAreAnErrorThatNamesThem) {
 
 TEST_F(WildTable, DrawnValuesMoveToTheMeanUntilBonesArePartAndSaySo) {
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
-    const auto r = generate_varied(kWrist, path_, {seed, {}, ""}, cells(0.0015));
+    const auto r = generate_varied(kWristFile, path_, {seed, {}, ""}, cells(0.0015));
     if (!r || r->halvings == 0) continue;
     EXPECT_LE(deepest_mm(r->anatomy), 0.1);
     EXPECT_GT(r->values[0].second, 0);

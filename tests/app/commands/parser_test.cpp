@@ -20,7 +20,7 @@ struct Parsed {
   bool json = false, ran = false;
 };
 
-Parsed parsed(std::vector<std::string> words) {
+Parsed parse_outcome(std::vector<std::string> words) {
   Parsed out;
   cli::App app("test", "osteon");
   app.require_subcommand(1);
@@ -44,21 +44,21 @@ Parsed parsed(std::vector<std::string> words) {
 }
 
 TEST(Parser, RefusesWhatIsNoneOfTheWordsOrOutOfRange) {
-  EXPECT_NE(parsed({"cut", "--name", "c"}).exit_code, 0);
-  EXPECT_NE(parsed({"cut", "--size", "5.1"}).exit_code, 0);
-  EXPECT_NE(parsed({"cut", "--size", "1", "--depth", "2"}).exit_code, 0);
-  EXPECT_NE(parsed({}).exit_code, 0);
+  EXPECT_NE(parse_outcome({"cut", "--name", "c"}).exit_code, 0);
+  EXPECT_NE(parse_outcome({"cut", "--size", "5.1"}).exit_code, 0);
+  EXPECT_NE(parse_outcome({"cut", "--size", "1", "--depth", "2"}).exit_code, 0);
+  EXPECT_NE(parse_outcome({}).exit_code, 0);
 }
 
 TEST(Parser, ACallbackMayRefuse) {
-  const Parsed out = parsed({"cut", "--json"});
+  const Parsed out = parse_outcome({"cut", "--json"});
   EXPECT_NE(out.exit_code, 0);
   EXPECT_NE(out.complaint.find("give --size as well"), std::string::npos) << out.complaint;
   EXPECT_FALSE(out.ran);
 }
 
 TEST(Parser, FillsInWhatIsGiven) {
-  const Parsed out = parsed({"cut", "--depth", "2.5", "--name", "a", "b"});
+  const Parsed out = parse_outcome({"cut", "--depth", "2.5", "--name", "a", "b"});
   EXPECT_EQ(out.exit_code, 0) << out.complaint;
   EXPECT_TRUE(out.ran);
   EXPECT_EQ(out.depth, 2.5);

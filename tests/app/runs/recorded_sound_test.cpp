@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kTicks = 1000;
+constexpr std::uint64_t kSoundTicks = 1000;
 
 class RecordedSoundTest : public ::testing::Test {
  protected:
@@ -36,7 +36,7 @@ class RecordedSoundTest : public ::testing::Test {
     auto writer = RecordingWriter::create(file_, header);
     ASSERT_TRUE(writer) << writer.error().message();
     ASSERT_TRUE(writer->add(StepRecord{1, {}, {}}));
-    for (std::uint64_t tick = 1; tick <= kTicks; ++tick) {
+    for (std::uint64_t tick = 1; tick <= kSoundTicks; ++tick) {
       TickRecord record;
       record.tick = tick;
       record.bone_step = 1;

@@ -20,8 +20,8 @@ LabelEdit ramp() {
 }
 
 /// Axial, four pixels a voxel: pixel (2 + 4 i, 2 + 4 j) is the middle of voxel (i, j).
-struct Pane {
-  explicit Pane(const LabelEdit& edit) : plane(slice_planes(edit.labels().frame)[0]) {
+struct SlicePane {
+  explicit SlicePane(const LabelEdit& edit) : plane(slice_planes(edit.labels().frame)[0]) {
     window = whole_slice(plane, edit.labels().frame, 64, 48);
   }
   Rgba at(const LabelEdit& edit, const SliceLook& look, int x, int y) {
@@ -39,7 +39,7 @@ int blue(Rgba c) { return static_cast<int>(c >> 16 & 0xff); }
 
 TEST(SlicePicture, GreyFollowsTheWindowAndIsBlackAndWhiteBeyond) {
   const LabelEdit edit = ramp();
-  Pane pane(edit);
+  SlicePane pane(edit);
   SliceLook look;
   look.grey = {500, 1000};
   // Between voxel centres: pixel 32, 24 lies at i = 7.625, j = 5.625.
@@ -54,7 +54,7 @@ TEST(SlicePicture, GreyFollowsTheWindowAndIsBlackAndWhiteBeyond) {
 
 TEST(SlicePicture, BeyondTheScanIsGround) {
   const LabelEdit edit = ramp();
-  Pane pane(edit);
+  SlicePane pane(edit);
   SliceLook look;
   look.grey = {-500, 100};  // all of the scan is white
   pane.window = panned(pane.plane, edit.labels().frame, pane.window, 32, 0);
@@ -68,7 +68,7 @@ TEST(SlicePicture, BonesAreFilledOutlinedAndHidden) {
   edit.begin_step("Paint");
   for (int j = 3; j < 9; ++j) edit.set(edit.labels().frame.index(4, j, 1), 8, label);
   edit.commit_step();
-  Pane pane(edit);
+  SlicePane pane(edit);
   SliceLook look;
   look.grey = {5000, 100};  // the ground is black
   look.colors[label] = 0xff0000ff;
@@ -89,7 +89,7 @@ TEST(SlicePicture, ThePreviewTintsWhatIsInRangeAndNoBoneYet) {
   edit.begin_step("Paint");
   edit.set(edit.labels().frame.index(0, 11, 1), 16, label);
   edit.commit_step();
-  Pane pane(edit);
+  SlicePane pane(edit);
   SliceLook look;
   look.grey = {5000, 100};
   look.preview = HuRange{800, 2000};
@@ -100,7 +100,7 @@ TEST(SlicePicture, ThePreviewTintsWhatIsInRangeAndNoBoneYet) {
 
 TEST(SlicePicture, ASliceBeyondTheScanIsItsLast) {
   const LabelEdit edit = ramp();
-  Pane pane(edit);
+  SlicePane pane(edit);
   draw_slice(edit, pane.plane, pane.window, 99, {}, pane.pixels);
   const auto beyond = pane.pixels;
   draw_slice(edit, pane.plane, pane.window, 3, {}, pane.pixels);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SettingsFile : public testing::Test {
+class AppSettingsFile : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("osteon-settings-" + std::to_string(::getpid()));
@@ -51,20 +51,20 @@ AppSettings unusual() {
   return s;
 }
 
-TEST_F(SettingsFile, RoundTripKeepsEveryValue) {
+TEST_F(AppSettingsFile, RoundTripKeepsEveryValue) {
   ASSERT_TRUE(save_app_settings(unusual(), file_));
   std::string message;
   EXPECT_EQ(load_app_settings(file_, &message), unusual());
   EXPECT_EQ(message, "");
 }
 
-TEST_F(SettingsFile, NoFileMeansDefaultsWithoutAWord) {
+TEST_F(AppSettingsFile, NoFileMeansDefaultsWithoutAWord) {
   std::string message;
   EXPECT_EQ(load_app_settings(file_, &message), AppSettings{});
   EXPECT_EQ(message, "");
 }
 
-TEST_F(SettingsFile, ADamagedFileMeansDefaultsAMessageAndIsKept) {
+TEST_F(AppSettingsFile, ADamagedFileMeansDefaultsAMessageAndIsKept) {
   const std::string whole = to_json(unusual());
   for (const std::string& damaged :
        {std::string(), std::string("\0\x01\xff", 3), whole.substr(0, whole.size() / 2),
@@ -79,7 +79,7 @@ TEST_F(SettingsFile, ADamagedFileMeansDefaultsAMessageAndIsKept) {
   }
 }
 
-TEST_F(SettingsFile, AFolderInItsPlaceIsToldNotFollowed) {
+TEST_F(AppSettingsFile, AFolderInItsPlaceIsToldNotFollowed) {
   fs::create_directories(file_);
   std::string message;
   EXPECT_EQ(load_app_settings(file_, &message), AppSettings{});

@@ -16,9 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = std::numbers::pi;
-
-const std::shared_ptr<const UncutField>& block() {
+const std::shared_ptr<const UncutField>& solid_block() {
   static const auto field = block_field(0.006);
   return field;
 }
@@ -65,7 +63,7 @@ TEST(CarvedSurface, NoCubeHasTwoFacesThatOneLoopTakesTwice) {
 }
 
 TEST(CarvedSurface, AnUncutBoneIsItsMesh) {
-  const CarvedField field = value(CarvedField::make(block(), {}, 64));
+  const CarvedField field = value(CarvedField::make(solid_block(), {}, 64));
   const TriMesh mesh = value(carved_mesh(field));
   expect_sound(mesh);
   EXPECT_NEAR(1e9 * volume(mesh), 12 * 12 * 12, 2);
@@ -76,12 +74,12 @@ TEST(CarvedSurface, AnUncutBoneIsItsMesh) {
 }
 
 TEST(CarvedSurface, TheMeshLosesWhatWasRemoved) {
-  const CarvedField field = value(CarvedField::make(block(), {}, 64));
+  const CarvedField field = value(CarvedField::make(solid_block(), {}, 64));
   const double whole = volume(value(carved_mesh(field)));
   for (const double size : {2.0, 3.0, 4.0, 5.0}) {
-    CarvedField cut = value(CarvedField::make(block(), {}, 4096));
+    CarvedField cut = value(CarvedField::make(solid_block(), {}, 4096));
     cut.cut(cutter("burr", size), Pose{});
-    const double ball = kPi * size * size * size / 6;
+    const double ball = std::numbers::pi * size * size * size / 6;
     EXPECT_NEAR(1e9 * (whole - volume(value(carved_mesh(cut)))), ball, 0.005 * ball) << size;
     EXPECT_NEAR(1e9 * total(removed_volume(cut)), ball, 0.005 * ball) << size;
   }
@@ -99,7 +97,7 @@ TEST(CarvedSurface, NothingLeftIsSaid) {
 // and bit by bit what meshing the whole field anew gives.
 TEST(CarvedSurface, ChangedBlocksAloneGiveTheWholeSurface) {
   Random random(7);
-  CarvedField field = value(CarvedField::make(block(), {}, 4096));
+  CarvedField field = value(CarvedField::make(solid_block(), {}, 4096));
   CarvedSurface surface(field);
   surface.mesh_all(field);
   const auto kinds = cutter_kinds();
@@ -119,7 +117,7 @@ TEST(CarvedSurface, ChangedBlocksAloneGiveTheWholeSurface) {
 }
 
 TEST(CarvedSurface, UndoPutsTheSurfaceBack) {
-  CarvedField field = value(CarvedField::make(block(), {}, 4096));
+  CarvedField field = value(CarvedField::make(solid_block(), {}, 4096));
   CarvedSurface surface(field);
   surface.mesh_all(field);
   const TriMesh whole = surface.joined();
@@ -134,7 +132,7 @@ TEST(CarvedSurface, UndoPutsTheSurfaceBack) {
 }
 
 TEST(CarvedSurface, OnlyBlocksNearACutAreMeshed) {
-  CarvedField field = value(CarvedField::make(block(), {}, 4096));
+  CarvedField field = value(CarvedField::make(solid_block(), {}, 4096));
   CarvedSurface surface(field);
   field.cut(cutter("burr", 1), pose_along({0, 0, 0.006}, Vec3::UnitZ()));
   const auto changed = surface.update(field);
@@ -146,7 +144,7 @@ TEST(CarvedSurface, OnlyBlocksNearACutAreMeshed) {
 
 // What a reader of the file makes of it, who knows places alone, in single precision.
 TEST(CarvedSurface, AFileOfItIsClosedToo) {
-  CarvedField field = value(CarvedField::make(block(), {}, 4096));
+  CarvedField field = value(CarvedField::make(solid_block(), {}, 4096));
   Random random(8);
   for (int n = 0; n < 60; ++n)
     field.cut(cutter("burr", random.uniform(0.5, 3)), random_pose(random, 0.007));

@@ -16,7 +16,7 @@ using CheckupJob = SideJob<CheckupOutcome>;
 using DeviceList = Result<std::vector<DeviceInfo>>;
 using OpenDevice = Result<std::unique_ptr<HapticDevice>>;
 
-DeviceInfo motor_info() {
+DeviceInfo seen_motor() {
   DeviceInfo info;
   info.name = "Arm";
   info.driver = "arm";
@@ -25,9 +25,11 @@ DeviceInfo motor_info() {
   return info;
 }
 
-DeviceList no_usb() { return fail("there is no USB on this computer", "usb", "Use another"); }
-OpenDevice open_none(const DeviceInfo&) { return fail("no permission", "arm", "Install the rule"); }
-const std::array<Driver, 1> kTable{{{"usb", "USB", no_usb, open_none, nullptr}}};
+DeviceList usb_missing() { return fail("there is no USB on this computer", "usb", "Use another"); }
+OpenDevice open_refused(const DeviceInfo&) {
+  return fail("no permission", "arm", "Install the rule");
+}
+const std::array<Driver, 1> kTable{{{"usb", "USB", usb_missing, open_refused, nullptr}}};
 
 // What a device saw; outlives it.
 struct Seen {
@@ -44,7 +46,7 @@ struct Seen {
 
 class Watched : public VirtualDevice {
  public:
-  explicit Watched(Seen& seen) : VirtualDevice(motor_info()), seen_(seen) {}
+  explicit Watched(Seen& seen) : VirtualDevice(seen_motor()), seen_(seen) {}
   DeviceSample read() override {
     ++seen_.reads;
     return VirtualDevice::read();
@@ -72,7 +74,7 @@ CheckupOrder short_order() {
   return order;
 }
 
-const Finding* find(const Findings& findings, const std::string& topic) {
+const Finding* found_on(const Findings& findings, const std::string& topic) {
   for (const Finding& f : findings)
     if (f.topic == topic) return &f;
   return nullptr;
@@ -87,7 +89,7 @@ TEST(CheckupJob, WithoutAnyDeviceItChecksTheComputerAndSaysWhatIsMissing) {
   EXPECT_EQ(outcome->order->device, nullptr);
   EXPECT_FALSE(report.ended_early);
   for (const char* topic : {"usb", "USB", "Loop", "Limits", "OpenGL"})
-    EXPECT_NE(find(report.findings, topic), nullptr) << topic;
+    EXPECT_NE(found_on(report.findings, topic), nullptr) << topic;
   EXPECT_NE(report.verdict.find("Ready for mouse"), std::string::npos) << report.verdict;
   EXPECT_NE(report.udev.text.find("uaccess"), std::string::npos);
 }
@@ -100,7 +102,7 @@ TEST(CheckupJob, ALentDeviceIsReadNotPushedAndComesBackOpenAtZero) {
   job.wait();
   const auto outcome = job.take();
   ASSERT_TRUE(outcome);
-  EXPECT_NE(find(outcome->report.findings, "Readings"), nullptr);
+  EXPECT_NE(found_on(outcome->report.findings, "Readings"), nullptr);
   EXPECT_GT(seen.reads, 10);
   EXPECT_FALSE(seen.pushed);
   EXPECT_FALSE(seen.closed);

@@ -19,7 +19,7 @@ Image grey(int width, int height, std::uint8_t level) {
   return image;
 }
 
-class ScreenFilms : public testing::Test {
+class ScreenFilms : public ::testing::Test {
  protected:
   void SetUp() override {
     file_ = fs::temp_directory_path() / ("osteon-screen-" + std::to_string(::getpid()) + ".webm");
