@@ -119,17 +119,4 @@ CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A) {
   return AxisProgramme(a, capsule_A).solve();
 }
 
-ChainContact chain_contact(const ConvexBody& a, std::span<const Vec3> points_A, double radius) {
-  ChainContact best;
-  if (points_A.empty()) return best;
-  const std::size_t links = std::max<std::size_t>(1, points_A.size() - 1);
-  for (std::size_t i = 0; i < links; ++i) {
-    const Vec3& end = points_A[std::min(i + 1, points_A.size() - 1)];
-    const CapsuleContact contact = capsule_contact(a, {points_A[i], end, radius});
-    if (contact.status != LpStatus::kOptimal) return {contact, i};
-    if (i == 0 || contact.gap < best.contact.gap) best = {contact, i};
-  }
-  return best;
-}
-
 }  // namespace osteon

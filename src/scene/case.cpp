@@ -22,12 +22,6 @@ std::optional<Felt> felt_from_text(std::string_view text) {
   return std::nullopt;
 }
 
-const CaseJoint* Case::find_joint(std::string_view joint_name) const {
-  for (const CaseJoint& joint : joints)
-    if (joint.name == joint_name) return &joint;
-  return nullptr;
-}
-
 BoneId Case::find(std::string_view bone_name) const {
   for (std::uint32_t i = 0; i < bones.size(); ++i)
     if (bones[i].name == bone_name) return BoneId{i};

@@ -157,16 +157,5 @@ TEST(CapsuleContact, TheGapNeverJumpsMoreThanTheCapsuleMoves) {
   }
 }
 
-TEST(ChainContact, NamesTheLinkThatIsDeepest) {
-  const ConvexBody box = box_body();
-  EXPECT_NE(chain_contact(box, {}, 0.001).contact.status, LpStatus::kOptimal);
-  const std::vector<Vec3> hook = {{0, 0, 0.09}, {0, 0, 0.05}, {0.02, 0, 0.031}, {0.04, 0, 0.05}};
-  const ChainContact c = chain_contact(box, hook, 0.002);
-  EXPECT_EQ(c.link, 1u);
-  EXPECT_GT(c.contact.gap, 0);
-  const ChainContact one = chain_contact(box, std::span(hook).first(1), 0.002);
-  EXPECT_NEAR(one.contact.gap, 0.06 - 0.002, kTolerance);
-}
-
 }  // namespace
 }  // namespace osteon

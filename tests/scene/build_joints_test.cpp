@@ -78,13 +78,12 @@ TEST(BuildJoints, ABentSnapshotMovesTheJointsBonesInTheFrameOfTheFixedOne) {
   Case bones;
   bones.bones = three_bones();
   bones.joints = build_joints({hinge()}, bones.bones).value();
-  const BoneSnapshot bent = bent_snapshot(bones, *bones.find_joint("flexion"), 60);
+  const BoneSnapshot bent = bent_snapshot(bones, bones.joints[0], 60);
   EXPECT_EQ(bent.bones[0].X_WB.p, bones.bones[0].X_WB.p);
   EXPECT_EQ(bent.bones[2].X_WB.p, bones.bones[2].X_WB.p);
   const Pose X_FB = bones.bones[0].X_WB.inverse() * bent.bones[1].X_WB;
   EXPECT_LT((X_FB.p - Vec3(0.01, 0, 0)).norm(), 1e-12);
   EXPECT_NEAR(X_FB.q.angularDistance(Quat::Identity()), 60 * 3.14159265358979323846 / 180, 1e-9);
-  EXPECT_EQ(bones.find_joint("extension"), nullptr);
 }
 
 }  // namespace

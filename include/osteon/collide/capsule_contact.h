@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "osteon/base/types.h"
 #include "osteon/collide/convex_body.h"
@@ -32,13 +31,5 @@ struct CapsuleContact {
 /// (1988). Inside: minimise t subject to n_i.x - t <= d_i for x on the axis, the depth programme
 /// with one degree of freedom left, by its dual simplex method. Allocates nothing.
 CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A);
-
-/// Of a chain of capsules of one radius along `points_A` (two neighbours each), the contact with
-/// the least gap and its link. One point is a ball. No points: kNumerical.
-struct ChainContact {
-  CapsuleContact contact;
-  std::size_t link = 0;
-};
-ChainContact chain_contact(const ConvexBody& a, std::span<const Vec3> points_A, double radius);
 
 }  // namespace osteon

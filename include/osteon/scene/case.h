@@ -106,7 +106,6 @@ struct Case {
   std::uint64_t hash = 0;  ///< over everything that is felt
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
-  const CaseJoint* find_joint(std::string_view name) const;  ///< null: there is none
   /// Of the bones: the skin may reach farther.
   Aabb bounds_W() const;
 };
