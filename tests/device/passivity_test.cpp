@@ -9,16 +9,16 @@
 namespace osteon {
 namespace {
 
-constexpr double kDt = 0.001;
+constexpr double kPassiveDt = 0.001;
 
 // Moves a hand along x by a function of time through an environment force f(x).
 template <class Path, class Wall>
 PassivityState run(PassivityControl& control, double seconds, Path x_of, Wall force_of) {
   double last = x_of(0.0);
-  for (int i = 0; i < static_cast<int>(seconds / kDt); ++i) {
-    const double x = x_of(i * kDt);
-    const Vec3 f =
-        control.control(Vec3(force_of(x), 0, 0), Vec3(x, 0, 0), Vec3((x - last) / kDt, 0, 0), kDt);
+  for (int i = 0; i < static_cast<int>(seconds / kPassiveDt); ++i) {
+    const double x = x_of(i * kPassiveDt);
+    const Vec3 f = control.control(Vec3(force_of(x), 0, 0), Vec3(x, 0, 0),
+                                   Vec3((x - last) / kPassiveDt, 0, 0), kPassiveDt);
     control.delivered(f);
     last = x;
   }
@@ -28,7 +28,7 @@ PassivityState run(PassivityControl& control, double seconds, Path x_of, Wall fo
 TEST(Passivity, AtRestItChangesNothing) {
   PassivityControl control({});
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 f = control.control(Vec3(3, -1, 0.5), Vec3(0.1, 0, 0), Vec3::Zero(), kDt);
+    const Vec3 f = control.control(Vec3(3, -1, 0.5), Vec3(0.1, 0, 0), Vec3::Zero(), kPassiveDt);
     EXPECT_EQ(f, Vec3(3, -1, 0.5));
     control.delivered(f);
   }
@@ -55,20 +55,20 @@ TEST(Passivity, AForceThatFeedsTheHandIsPaidBackAsBoundedDamping) {
   PassivityControl control(params);
   Vec3 f = Vec3::Zero();
   for (int i = 0; i < 200; ++i) {
-    const double x = 0.05 * i * kDt;
-    f = control.control(Vec3(0.2, 0, 0), Vec3(x, 0, 0), Vec3(0.05, 0, 0), kDt);
+    const double x = 0.05 * i * kPassiveDt;
+    f = control.control(Vec3(0.2, 0, 0), Vec3(x, 0, 0), Vec3(0.05, 0, 0), kPassiveDt);
     ASSERT_LE(control.state().damping_n_s_per_m, params.max_damping_n_s_per_m);
     control.delivered(f);
   }
   // It gives 0.2 N x 0.05 m/s and takes away as much: the mean force is near zero.
-  EXPECT_GT(control.state().energy_j, -0.2 * 0.05 * kDt * 3);
+  EXPECT_GT(control.state().energy_j, -0.2 * 0.05 * kPassiveDt * 3);
 }
 
 TEST(Passivity, NearRestThereIsNoDampingHoweverMuchIsOwed) {
   PassivityControl control({});
   for (int i = 0; i < 500; ++i) {
-    const double x = 0.001 * i * kDt;  // 1 mm/s
-    const Vec3 f = control.control(Vec3(5, 0, 0), Vec3(x, 0, 0), Vec3(0.001, 0, 0), kDt);
+    const double x = 0.001 * i * kPassiveDt;  // 1 mm/s
+    const Vec3 f = control.control(Vec3(5, 0, 0), Vec3(x, 0, 0), Vec3(0.001, 0, 0), kPassiveDt);
     EXPECT_EQ(f.x(), 5);
     control.delivered(f);
   }
@@ -108,7 +108,7 @@ TEST(Passivity, SwitchedOffItOnlyWatches) {
     const Vec3 f = 5 * random.direction();
     const Vec3 p = 0.01 * random.direction();
     const Vec3 v = 0.5 * random.direction();
-    ASSERT_EQ(control.control(f, p, v, kDt), f);
+    ASSERT_EQ(control.control(f, p, v, kPassiveDt), f);
     control.delivered(f);
   }
   EXPECT_NE(control.state().energy_j, 0);
@@ -116,9 +116,9 @@ TEST(Passivity, SwitchedOffItOnlyWatches) {
 
 TEST(Passivity, AJumpOfTheReadingIsNoWork) {
   PassivityControl control({});
-  control.control(Vec3(8, 0, 0), Vec3::Zero(), Vec3::Zero(), kDt);
+  control.control(Vec3(8, 0, 0), Vec3::Zero(), Vec3::Zero(), kPassiveDt);
   control.delivered(Vec3(8, 0, 0));
-  control.control(Vec3(8, 0, 0), Vec3(1e300, 0, 0), Vec3::Zero(), kDt);
+  control.control(Vec3(8, 0, 0), Vec3(1e300, 0, 0), Vec3::Zero(), kPassiveDt);
   EXPECT_EQ(control.state().energy_j, 0);
 }
 

@@ -28,7 +28,7 @@ extent_mm = [100, 80.5, 60]
 
 Result<DeviceInfo> load_text(const std::string& text) {
   // A file of its own for each process: tests run side by side.
-  const auto path = std::filesystem::path(testing::TempDir()) /
+  const auto path = std::filesystem::path(::testing::TempDir()) /
                     ("osteon_profile_" + std::to_string(::getpid()) + ".toml");
   EXPECT_TRUE(write_file_atomic(path, text));
   auto info = load_device_profile(path);

@@ -13,8 +13,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kDt = 0.001;
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSafetyDt = 0.001;
+const double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 const double kInf = std::numeric_limits<double>::infinity();
 
 DeviceInfo test_device() {
@@ -26,7 +26,7 @@ DeviceInfo test_device() {
 }
 
 // A gate behind a device that sends a new reading every tick.
-struct Rig {
+struct GateRig {
   SafetyGate gate;
   std::int64_t time_ns = 0;
 
@@ -34,7 +34,8 @@ struct Rig {
     sample.time_ns = (time_ns += 1'000'000);
     return sample;
   }
-  Vec3 filter(const Vec3& force, DeviceSample sample = {}, double age_s = 0, double dt_s = kDt) {
+  Vec3 filter(const Vec3& force, DeviceSample sample = {}, double age_s = 0,
+              double dt_s = kSafetyDt) {
     return gate.filter(force, fresh(sample), age_s, dt_s);
   }
   void enable() { gate.enable(); }
@@ -43,13 +44,13 @@ struct Rig {
   ForceOff cause() const { return gate.cause(); }
 };
 
-Rig new_rig(const DeviceInfo& info, const SafetyParams& params = {}) {
+GateRig new_rig(const DeviceInfo& info, const SafetyParams& params = {}) {
   return {SafetyGate(info, params)};
 }
 
 // An enabled gate whose ramp is over.
-Rig ready_gate(const DeviceInfo& info, const SafetyParams& params = {}) {
-  Rig rig = new_rig(info, params);
+GateRig ready_gate(const DeviceInfo& info, const SafetyParams& params = {}) {
+  GateRig rig = new_rig(info, params);
   rig.enable();
   for (int i = 0; i < 600; ++i) rig.filter(Vec3::Zero());
   return rig;
@@ -62,63 +63,64 @@ DeviceSample moving(const Vec3& v) {
 }
 
 TEST(SafetyGate, StartsOffAndStaysOffUntilEnabled) {
-  Rig gate = new_rig(test_device());
+  GateRig gate = new_rig(test_device());
   EXPECT_FALSE(gate.enabled());
   EXPECT_EQ(gate.cause(), ForceOff::kSoftware);
   for (int i = 0; i < 1000; ++i)
-    ASSERT_EQ(gate.filter(Vec3(5, 0, 0), {}, 0, kDt), Vec3(Vec3::Zero()));
+    ASSERT_EQ(gate.filter(Vec3(5, 0, 0), {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
 }
 
 TEST(SafetyGate, NotFiniteGivesZeroAndLatches) {
-  for (const Vec3& bad : {Vec3(kNan, 0, 0), Vec3(0, kInf, 0), Vec3(0, 0, -kInf)}) {
-    Rig gate = ready_gate(test_device());
-    EXPECT_EQ(gate.filter(bad, {}, 0, kDt), Vec3(Vec3::Zero()));
+  for (const Vec3& bad : {Vec3(kNoNumber, 0, 0), Vec3(0, kInf, 0), Vec3(0, 0, -kInf)}) {
+    GateRig gate = ready_gate(test_device());
+    EXPECT_EQ(gate.filter(bad, {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
     EXPECT_EQ(gate.cause(), ForceOff::kNotFinite);
     for (int i = 0; i < 100; ++i)
-      ASSERT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kDt), Vec3(Vec3::Zero()));
+      ASSERT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
     gate.enable();
     EXPECT_TRUE(gate.enabled());
-    EXPECT_GT(gate.filter(Vec3(1, 0, 0), {}, 0, kDt).x(), 0);
+    EXPECT_GT(gate.filter(Vec3(1, 0, 0), {}, 0, kSafetyDt).x(), 0);
   }
 }
 
 TEST(SafetyGate, ASampleOrAgeThatIsNotFiniteTripsToo) {
-  Rig a = ready_gate(test_device());
-  EXPECT_EQ(a.filter(Vec3(1, 0, 0), moving(Vec3(kNan, 0, 0)), 0, kDt), Vec3(Vec3::Zero()));
+  GateRig a = ready_gate(test_device());
+  EXPECT_EQ(a.filter(Vec3(1, 0, 0), moving(Vec3(kNoNumber, 0, 0)), 0, kSafetyDt),
+            Vec3(Vec3::Zero()));
   EXPECT_EQ(a.cause(), ForceOff::kNotFinite);
-  Rig b = ready_gate(test_device());
-  EXPECT_EQ(b.filter(Vec3(1, 0, 0), {}, kNan, kDt), Vec3(Vec3::Zero()));
+  GateRig b = ready_gate(test_device());
+  EXPECT_EQ(b.filter(Vec3(1, 0, 0), {}, kNoNumber, kSafetyDt), Vec3(Vec3::Zero()));
   EXPECT_EQ(b.cause(), ForceOff::kNotFinite);
 }
 
 TEST(SafetyGate, SlewBoundsEveryChange) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   Random random(3);
   Vec3 last = Vec3::Zero();
   for (int i = 0; i < 2000; ++i) {
     const Vec3 dir = random.direction();
     const double size = random.uniform(0, 20);
-    const Vec3 f = gate.filter(size * dir, {}, 0, kDt);
-    ASSERT_LE((f - last).norm(), 4000 * kDt + 1e-12);
+    const Vec3 f = gate.filter(size * dir, {}, 0, kSafetyDt);
+    ASSERT_LE((f - last).norm(), 4000 * kSafetyDt + 1e-12);
     ASSERT_LE(f.norm(), 8 + 1e-12);
     last = f;
   }
 }
 
 TEST(SafetyGate, ABrokenClockLetsNothingChange) {
-  for (const double dt : {0.0, -1.0, kNan, kInf}) {
-    Rig gate = ready_gate(test_device());
-    const Vec3 before = gate.filter(Vec3(1, 0, 0), {}, 0, kDt);
+  for (const double dt : {0.0, -1.0, kNoNumber, kInf}) {
+    GateRig gate = ready_gate(test_device());
+    const Vec3 before = gate.filter(Vec3(1, 0, 0), {}, 0, kSafetyDt);
     EXPECT_EQ(gate.filter(Vec3(-5, 3, 0), {}, 0, dt), before) << dt;
     EXPECT_TRUE(gate.enabled());
   }
 }
 
 TEST(SafetyGate, PeakClampKeepsTheDirection) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   const Vec3 wanted(30, -40, 10);
   Vec3 f = Vec3::Zero();
-  for (int i = 0; i < 50; ++i) f = gate.filter(wanted, {}, 0, kDt);
+  for (int i = 0; i < 50; ++i) f = gate.filter(wanted, {}, 0, kSafetyDt);
   EXPECT_NEAR(f.norm(), 8, 1e-12);
   EXPECT_LT((f.normalized() - wanted.normalized()).norm(), 1e-9);
 }
@@ -126,9 +128,9 @@ TEST(SafetyGate, PeakClampKeepsTheDirection) {
 TEST(SafetyGate, AxesWithoutMotorsGetNothingAndDoNotEatThePeak) {
   DeviceInfo info = test_device();
   info.force_axes = {true, false, true};
-  Rig gate = ready_gate(info);
+  GateRig gate = ready_gate(info);
   Vec3 f = Vec3::Zero();
-  for (int i = 0; i < 50; ++i) f = gate.filter(Vec3(3, 100, -4), {}, 0, kDt);
+  for (int i = 0; i < 50; ++i) f = gate.filter(Vec3(3, 100, -4), {}, 0, kSafetyDt);
   EXPECT_EQ(f.y(), 0);
   EXPECT_NEAR(f.x(), 3, 1e-9);
   EXPECT_NEAR(f.z(), -4, 1e-9);
@@ -139,10 +141,10 @@ TEST(SafetyGate, HotMotorsFallToTheContinuousForceAndRecover) {
   info.continuous_force_n = 2;
   SafetyParams params;
   params.thermal_s = 1.0;
-  Rig gate = ready_gate(info, params);
+  GateRig gate = ready_gate(info, params);
   const auto press = [&](double newtons, int ticks) {
     Vec3 f = Vec3::Zero();
-    for (int i = 0; i < ticks; ++i) f = gate.filter(Vec3(newtons, 0, 0), {}, 0, kDt);
+    for (int i = 0; i < ticks; ++i) f = gate.filter(Vec3(newtons, 0, 0), {}, 0, kSafetyDt);
     return f.x();
   };
   EXPECT_NEAR(press(8, 10), 8, 1e-9);  // the peak at first
@@ -161,36 +163,37 @@ TEST(SafetyGate, HotMotorsFallToTheContinuousForceAndRecover) {
 }
 
 TEST(SafetyGate, OverVelocityTripsAndLatches) {
-  Rig gate = ready_gate(test_device());
-  for (int i = 0; i < 5; ++i) gate.filter(Vec3(1, 0, 0), moving(Vec3(0.6, 0.7, 0.3)), 0, kDt);
+  GateRig gate = ready_gate(test_device());
+  for (int i = 0; i < 5; ++i) gate.filter(Vec3(1, 0, 0), moving(Vec3(0.6, 0.7, 0.3)), 0, kSafetyDt);
   EXPECT_TRUE(gate.enabled());  // 0.97 m/s
-  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), moving(Vec3(0.8, 0.8, 0)), 0, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), moving(Vec3(0.8, 0.8, 0)), 0, kSafetyDt),
+            Vec3(Vec3::Zero()));
   EXPECT_EQ(gate.cause(), ForceOff::kVelocity);
-  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
   // A second trip does not hide the first cause.
-  gate.filter(Vec3(kNan, 0, 0), {}, 0, kDt);
+  gate.filter(Vec3(kNoNumber, 0, 0), {}, 0, kSafetyDt);
   EXPECT_EQ(gate.cause(), ForceOff::kVelocity);
 }
 
 TEST(SafetyGate, RampsInLinearlyAfterEnabling) {
-  Rig gate = new_rig(test_device());
+  GateRig gate = new_rig(test_device());
   gate.enable();
   for (int i = 1; i <= 500; ++i) {
-    const double f = gate.filter(Vec3(4, 0, 0), {}, 0, kDt).x();
+    const double f = gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt).x();
     ASSERT_LE(f, 4.0 * i / 500 + 1e-9);
     if (i > 2) {
       ASSERT_NEAR(f, 4.0 * i / 500, 1e-9);
     }
   }
-  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0), {}, 0, kDt).x(), 4, 1e-12);
+  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt).x(), 4, 1e-12);
 }
 
 TEST(SafetyGate, StaleForceDecaysThenTheWatchdogLatches) {
-  Rig gate = ready_gate(test_device());
-  for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0), {}, 0, kDt);
+  GateRig gate = ready_gate(test_device());
+  for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt);
   double last = 4;
   for (int ms = 1; ms < 50; ++ms) {
-    const double f = gate.filter(Vec3(4, 0, 0), {}, ms * kDt, kDt).x();
+    const double f = gate.filter(Vec3(4, 0, 0), {}, ms * kSafetyDt, kSafetyDt).x();
     if (ms <= 20) {
       EXPECT_NEAR(f, 4, 1e-9);
     } else {
@@ -199,33 +202,34 @@ TEST(SafetyGate, StaleForceDecaysThenTheWatchdogLatches) {
     }
     last = f;
   }
-  EXPECT_EQ(gate.filter(Vec3(4, 0, 0), {}, 0.050001, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(4, 0, 0), {}, 0.050001, kSafetyDt), Vec3(Vec3::Zero()));
   EXPECT_EQ(gate.cause(), ForceOff::kWatchdog);
-  EXPECT_EQ(gate.filter(Vec3(4, 0, 0), {}, 0, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
 }
 
 TEST(SafetyGate, AfterAShortStallTheForceRampsInAgain) {
-  Rig gate = ready_gate(test_device());
-  for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0), {}, 0, kDt);
-  const double stalled = gate.filter(Vec3(4, 0, 0), {}, 0.035, kDt).x();
+  GateRig gate = ready_gate(test_device());
+  for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt);
+  const double stalled = gate.filter(Vec3(4, 0, 0), {}, 0.035, kSafetyDt).x();
   EXPECT_NEAR(stalled, 2, 1e-9);
-  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0), {}, 0, kDt).x(), stalled + 4 * kDt / 0.5, 1e-9);
+  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0), {}, 0, kSafetyDt).x(), stalled + 4 * kSafetyDt / 0.5,
+              1e-9);
   EXPECT_TRUE(gate.enabled());
 }
 
 TEST(SafetyGate, UnpluggedDeviceTrips) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   DeviceSample gone;
   gone.connected = false;
-  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), gone, 0, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), gone, 0, kSafetyDt), Vec3(Vec3::Zero()));
   EXPECT_EQ(gate.cause(), ForceOff::kDisconnect);
 }
 
 TEST(SafetyGate, DisableNamesItsCauseAndEveryCauseHasWords) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   gate.disable(ForceOff::kDeadMan);
   EXPECT_EQ(gate.cause(), ForceOff::kDeadMan);
-  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kDt), Vec3(Vec3::Zero()));
+  EXPECT_EQ(gate.filter(Vec3(1, 0, 0), {}, 0, kSafetyDt), Vec3(Vec3::Zero()));
   gate.enable();
   gate.disable(ForceOff::kNone);
   EXPECT_EQ(gate.cause(), ForceOff::kSoftware);
@@ -235,7 +239,7 @@ TEST(SafetyGate, DisableNamesItsCauseAndEveryCauseHasWords) {
 
 TEST(SafetyGate, WhatTheDeviceRefusesTripsWithItsOwnCause) {
   for (const ForceOff cause : {ForceOff::kTemperature, ForceOff::kDeviceFault, ForceOff::kButton}) {
-    Rig gate = ready_gate(test_device());
+    GateRig gate = ready_gate(test_device());
     DeviceSample refused;
     refused.refusal = cause;
     EXPECT_EQ(gate.filter(Vec3(1, 0, 0), refused), Vec3(Vec3::Zero()));
@@ -245,13 +249,13 @@ TEST(SafetyGate, WhatTheDeviceRefusesTripsWithItsOwnCause) {
 }
 
 TEST(SafetyGate, LostCalibrationAndALetGoDeadManLatch) {
-  Rig a = ready_gate(test_device());
+  GateRig a = ready_gate(test_device());
   DeviceSample lost;
   lost.calibrated = false;
   EXPECT_EQ(a.filter(Vec3(1, 0, 0), lost), Vec3(Vec3::Zero()));
   EXPECT_EQ(a.cause(), ForceOff::kCalibration);
   EXPECT_EQ(a.filter(Vec3(1, 0, 0)), Vec3(Vec3::Zero()));
-  Rig b = ready_gate(test_device());
+  GateRig b = ready_gate(test_device());
   DeviceSample let_go;
   let_go.dead_man_held = false;
   EXPECT_EQ(b.filter(Vec3(1, 0, 0), let_go), Vec3(Vec3::Zero()));
@@ -262,14 +266,14 @@ TEST(SafetyGate, LostCalibrationAndALetGoDeadManLatch) {
 }
 
 // A device that sends nothing new for `ms`, in contact; then it goes on.
-Rig stalled(int ms, double* largest_after_10_ms) {
-  Rig gate = ready_gate(test_device());
+GateRig stalled(int ms, double* largest_after_10_ms) {
+  GateRig gate = ready_gate(test_device());
   for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0));
   const DeviceSample old = gate.fresh();
-  gate.gate.filter(Vec3(4, 0, 0), old, 0, kDt);
+  gate.gate.filter(Vec3(4, 0, 0), old, 0, kSafetyDt);
   *largest_after_10_ms = 0;
   for (int i = 1; i <= ms; ++i) {
-    const double f = gate.gate.filter(Vec3(4, 0, 0), old, 0, kDt).norm();
+    const double f = gate.gate.filter(Vec3(4, 0, 0), old, 0, kSafetyDt).norm();
     if (i > 10) *largest_after_10_ms = std::max(*largest_after_10_ms, f);
   }
   return gate;
@@ -277,23 +281,23 @@ Rig stalled(int ms, double* largest_after_10_ms) {
 
 TEST(SafetyGate, AStallOf5MsPassesUnfelt) {
   double late = 0;
-  Rig gate = stalled(5, &late);
+  GateRig gate = stalled(5, &late);
   EXPECT_TRUE(gate.enabled());
   EXPECT_NEAR(gate.filter(Vec3(4, 0, 0)).x(), 4, 1e-9);
 }
 
 TEST(SafetyGate, AStallOf15MsIsZeroAndThenRampsInAgain) {
   double late = 1;
-  Rig gate = stalled(15, &late);
+  GateRig gate = stalled(15, &late);
   EXPECT_EQ(late, 0);
   EXPECT_TRUE(gate.enabled());
-  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0)).x(), 4 * kDt / 0.5, 1e-9);
+  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0)).x(), 4 * kSafetyDt / 0.5, 1e-9);
 }
 
 TEST(SafetyGate, AStallOf20Or100MsIsAFaultThatLatches) {
   for (const int ms : {20, 100}) {
     double late = 1;
-    Rig gate = stalled(ms, &late);
+    GateRig gate = stalled(ms, &late);
     EXPECT_EQ(late, 0) << ms;
     EXPECT_EQ(gate.cause(), ForceOff::kDisconnect) << ms;
     for (int i = 0; i < 1000; ++i)
@@ -305,32 +309,32 @@ TEST(SafetyGate, AStallOf20Or100MsIsAFaultThatLatches) {
 }
 
 TEST(SafetyGate, AStallOfTheLoopItselfRampsInAgainWithoutAFault) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   for (int i = 0; i < 10; ++i) gate.filter(Vec3(4, 0, 0));
   EXPECT_EQ(gate.filter(Vec3(4, 0, 0), {}, 0, 0.033), Vec3(Vec3::Zero()));
   EXPECT_TRUE(gate.enabled());
-  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0)).x(), 4 * kDt / 0.5, 1e-9);
+  EXPECT_NEAR(gate.filter(Vec3(4, 0, 0)).x(), 4 * kSafetyDt / 0.5, 1e-9);
 }
 
 TEST(SafetyGate, AssistPassesByThePassivityStageButNotTheLimits) {
-  Rig gate = ready_gate(test_device());
+  GateRig gate = ready_gate(test_device());
   Vec3 f = Vec3::Zero();
   for (int i = 0; i < 50; ++i) {
     DeviceSample sample = moving(Vec3(0.1, 0, 0));
-    sample.X_VD.p.x() = 0.1 * i * kDt;
-    f = gate.gate.filter(Vec3::Zero(), gate.fresh(sample), 0, kDt, Vec3(0.4, 0, 0));
+    sample.X_VD.p.x() = 0.1 * i * kSafetyDt;
+    f = gate.gate.filter(Vec3::Zero(), gate.fresh(sample), 0, kSafetyDt, Vec3(0.4, 0, 0));
   }
   EXPECT_NEAR(f.x(), 0.4, 1e-9);  // along the motion: as energy it would have been braked
   EXPECT_EQ(gate.gate.state().passivity.energy_j, 0);
   for (int i = 0; i < 50; ++i)
-    f = gate.gate.filter(Vec3::Zero(), gate.fresh(), 0, kDt, Vec3(100, 0, 0));
+    f = gate.gate.filter(Vec3::Zero(), gate.fresh(), 0, kSafetyDt, Vec3(100, 0, 0));
   EXPECT_LE(f.norm(), 8 + 1e-12);
-  f = gate.gate.filter(Vec3(1, 0, 0), gate.fresh(), 0, kDt, Vec3(kNan, 0, 0));
+  f = gate.gate.filter(Vec3(1, 0, 0), gate.fresh(), 0, kSafetyDt, Vec3(kNoNumber, 0, 0));
   EXPECT_TRUE(is_finite(f));
 }
 
 TEST(SafetyGate, ItsStateTellsWhatTheWindowShows) {
-  Rig gate = new_rig(test_device());
+  GateRig gate = new_rig(test_device());
   EXPECT_EQ(gate.gate.state().cause, ForceOff::kSoftware);
   EXPECT_EQ(gate.gate.state().gain, 0);
   gate.enable();
@@ -350,7 +354,7 @@ TEST(SafetyGate, ItsStateTellsWhatTheWindowShows) {
 // off; and only `enable` arms.
 TEST(SafetyGate, WhateverComesInTheOutputKeepsItsBounds) {
   Random random(77);
-  const double odd[] = {kNan, kInf, -kInf, 1e308, -1e308, 1e-320, 0.0, -0.0};
+  const double odd[] = {kNoNumber, kInf, -kInf, 1e308, -1e308, 1e-320, 0.0, -0.0};
   const auto value = [&](double size) {
     if (random.uniform() < 0.02) return odd[random.next() % 8];
     return random.uniform(-size, size);
@@ -383,7 +387,7 @@ TEST(SafetyGate, WhateverComesInTheOutputKeepsItsBounds) {
       if (random.uniform() < 0.3) sample.v_V = vector(0.5);
       sample.connected = random.uniform() > 0.001;
       sample.dead_man_held = random.uniform() > 0.001;
-      const double dt = random.uniform() < 0.9 ? kDt : value(0.05);
+      const double dt = random.uniform() < 0.9 ? kSafetyDt : value(0.05);
       const double age = random.uniform() < 0.9 ? 0 : value(0.03);
       const Vec3 force = random.uniform() < 0.9 ? Vec3(3, 2, 1) : vector(50);
       const Vec3 f = gate.filter(force, sample, age, dt, vector(0.2));
@@ -394,8 +398,8 @@ TEST(SafetyGate, WhateverComesInTheOutputKeepsItsBounds) {
       }
       // Rises by no more than slew and ramp allow in the longest tick that counts; falls at will.
       ASSERT_LE(f.norm() - last.norm(), 4000 * 0.005 + 1e-9);
-      if (dt == kDt) {
-        ASSERT_LE(f.norm() - last.norm(), 4000 * kDt + 8 * kDt / 0.5 + 1e-9);
+      if (dt == kSafetyDt) {
+        ASSERT_LE(f.norm() - last.norm(), 4000 * kSafetyDt + 8 * kSafetyDt / 0.5 + 1e-9);
       }
       if (!gate.enabled()) armed = false;
       felt += f.norm() > 0 ? 1 : 0;

@@ -13,7 +13,7 @@ namespace {
 
 TEST(UdevRules, ProfilesTellTheirDevicesEachOnceAndBrokenOnesAreLeftOut) {
   const auto folder =
-      std::filesystem::path(testing::TempDir()) / ("osteon_ids_" + std::to_string(::getpid()));
+      std::filesystem::path(::testing::TempDir()) / ("osteon_ids_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   ASSERT_TRUE(write_file_atomic(folder / "a.toml",
                                 "name = \"A\"\n[joystick.usb]\nvendor = 0x1209\nproduct = 1\n"));

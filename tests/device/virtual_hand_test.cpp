@@ -10,7 +10,7 @@
 namespace osteon {
 namespace {
 
-constexpr double kDt = 0.001;
+constexpr double kHandDt = 0.001;
 
 // Position of m x'' = k (x_w - x) - b x' from rest at 0 with x_w = 1, at time t.
 double step_response(const HandParams& p, double t) {
@@ -53,7 +53,7 @@ TEST(VirtualHand, ConstantForceStretchesTheGripByForceOverStiffness) {
   const HandParams p{0.15, 500, 12};
   VirtualHand hand(p);
   const Vec3 force(1, -2, 3);
-  for (int i = 0; i < 3000; ++i) hand.step(kDt, Pose{}, Vec3::Zero(), force);
+  for (int i = 0; i < 3000; ++i) hand.step(kHandDt, Pose{}, Vec3::Zero(), force);
   EXPECT_LT((hand.pose().p - force / p.grip_stiffness_n_per_m).norm(), 1e-9);
   EXPECT_LT(hand.velocity().norm(), 1e-9);
 }
@@ -63,11 +63,11 @@ TEST(VirtualHand, FollowsAMovingTargetWithinOneStep) {
   const Vec3 v(0.05, 0, -0.02);
   Pose wanted;
   for (int i = 0; i < 3000; ++i) {
-    wanted.p += kDt * v;
-    hand.step(kDt, wanted, v, Vec3::Zero());
+    wanted.p += kHandDt * v;
+    hand.step(kHandDt, wanted, v, Vec3::Zero());
   }
   // The grip pulls from where the hand was: one step of lead, no lag.
-  EXPECT_LT((hand.pose().p - wanted.p - kDt * v).norm(), 1e-9);
+  EXPECT_LT((hand.pose().p - wanted.p - kHandDt * v).norm(), 1e-9);
   EXPECT_LT((hand.velocity() - v).norm(), 1e-9);
 }
 
@@ -84,7 +84,7 @@ TEST(VirtualHand, EnergyNeverGrowsWithoutForceForEveryHandInRange) {
     const double start = hand.energy(wanted);
     // Semi-implicit Euler holds an energy that differs from the true one by O(dt k / b) at most.
     for (int i = 0; i < 500; ++i) {
-      hand.step(kDt, wanted, Vec3::Zero(), Vec3::Zero());
+      hand.step(kHandDt, wanted, Vec3::Zero(), Vec3::Zero());
       ASSERT_LT(hand.energy(wanted), 1.05 * start);
     }
     EXPECT_LT(hand.energy(wanted), 0.9 * start);
@@ -97,12 +97,12 @@ TEST(VirtualHand, AngularVelocityIsThatOfTheWantedRotation) {
   const double rate = 3.0;
   Pose wanted;
   for (int i = 1; i <= 2000; ++i) {
-    wanted.q = Quat(Eigen::AngleAxisd(rate * kDt * i, axis));
+    wanted.q = Quat(Eigen::AngleAxisd(rate * kHandDt * i, axis));
     if (i % 2) wanted.q.coeffs() *= -1;  // the same rotation
-    hand.step(kDt, wanted, Vec3::Zero(), Vec3::Zero());
+    hand.step(kHandDt, wanted, Vec3::Zero(), Vec3::Zero());
     ASSERT_LT((hand.angular_velocity() - rate * axis).norm(), 1e-9);
   }
-  hand.step(kDt, wanted, Vec3::Zero(), Vec3::Zero());
+  hand.step(kHandDt, wanted, Vec3::Zero(), Vec3::Zero());
   EXPECT_LT(hand.angular_velocity().norm(), 1e-12);
 }
 
@@ -110,14 +110,14 @@ TEST(VirtualHand, RefusesWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   VirtualHand hand;
   VirtualHand calm;
-  hand.step(kDt, Pose{}, Vec3::Zero(), Vec3(nan, 0, 0));
-  calm.step(kDt, Pose{}, Vec3::Zero(), Vec3::Zero());
+  hand.step(kHandDt, Pose{}, Vec3::Zero(), Vec3(nan, 0, 0));
+  calm.step(kHandDt, Pose{}, Vec3::Zero(), Vec3::Zero());
   EXPECT_EQ(hand.pose().p, calm.pose().p);
   Pose bad;
   bad.p.x() = std::numeric_limits<double>::infinity();
-  hand.step(kDt, bad, Vec3::Zero(), Vec3(1, 0, 0));
+  hand.step(kHandDt, bad, Vec3::Zero(), Vec3(1, 0, 0));
   hand.step(nan, Pose{}, Vec3::Zero(), Vec3(1, 0, 0));
-  hand.step(-kDt, Pose{}, Vec3::Zero(), Vec3(1, 0, 0));
+  hand.step(-kHandDt, Pose{}, Vec3::Zero(), Vec3(1, 0, 0));
   EXPECT_EQ(hand.pose().p, calm.pose().p);
 }
 

@@ -7,7 +7,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kUsbMs = 1'000'000;
 
 // Answers every frame with a counter, keeps what it is sent, echoes controls.
 class EchoDevice : public EmulatedUsbDevice {
@@ -68,15 +68,15 @@ TEST(EmulatedUsb, OneTransactionAnEndpointAndFrame) {
   rig.send(0, 1);
   rig.send(1, 2);
   rig.send(2, 3);
-  rig.bus.advance(2 * kMs);
+  rig.bus.advance(2 * kUsbMs);
   EXPECT_EQ(rig.device->taken.size(), 1u);  // what waits leaves when the host comes by
   EXPECT_TRUE(rig.link->send());
-  rig.bus.advance(kMs);
+  rig.bus.advance(kUsbMs);
   EXPECT_TRUE(rig.link->send());
   EXPECT_EQ(rig.received(), 3);
-  rig.bus.advance(kMs / 2);
+  rig.bus.advance(kUsbMs / 2);
   EXPECT_EQ(rig.received(), 0);
-  rig.bus.advance(kMs / 2);
+  rig.bus.advance(kUsbMs / 2);
   EXPECT_EQ(rig.device->taken, (std::vector<std::vector<std::uint8_t>>{{0, 1}, {1, 2}, {2, 3}}));
   EXPECT_TRUE(rig.link->out_idle());
   EXPECT_EQ(rig.link->counters().out, 3u);
@@ -93,7 +93,7 @@ TEST(EmulatedUsb, TheSlotThatIsFarthestFromWhatItSentGoesFirstAndNoneWaitsForEve
     put(1, static_cast<std::uint8_t>(4 * i));
     put(2, 0);
     EXPECT_TRUE(rig.link->send());
-    rig.bus.advance(kMs);
+    rig.bus.advance(kUsbMs);
     ASSERT_EQ(rig.device->taken.size(), i);
     const auto& taken = rig.device->taken.back();
     to_last += taken[0] == 0 ? 1 : 0;
@@ -116,23 +116,23 @@ TEST(EmulatedUsb, AtHighSpeedThreePacketsLeaveInATick) {
   const auto link = bus.open(bus.list(0x1209, 1).front(), {}).value();
   for (std::uint8_t slot = 0; slot < 3; ++slot) link->put(slot, std::array{slot}, 1);
   EXPECT_TRUE(link->send());
-  bus.advance(kMs);
+  bus.advance(kUsbMs);
   EXPECT_EQ(device->taken.size(), 3u);
   EXPECT_TRUE(link->out_idle());
 }
 
 TEST(EmulatedUsb, LastValueWinsWhenTheDeviceStalls) {
   Rig rig;
-  rig.bus.faults(rig.port).silent_until_ns = 100 * kMs;
+  rig.bus.faults(rig.port).silent_until_ns = 100 * kUsbMs;
   for (std::uint8_t i = 0; i < 100; ++i) {
     rig.send(0, i);
     rig.link->poll();
-    rig.bus.advance(kMs);
+    rig.bus.advance(kUsbMs);
   }
   // The device takes what is in flight at its waking, never older than the time to replace it.
   for (int i = 0; i < 10; ++i) {
     rig.link->send();
-    rig.bus.advance(kMs);
+    rig.bus.advance(kUsbMs);
   }
   ASSERT_GE(rig.device->taken.size(), 1u);
   ASSERT_LE(rig.device->taken.size(), 2u);
@@ -152,10 +152,10 @@ TEST(EmulatedUsb, ControlsAnswerStallAndTimeOut) {
   EXPECT_EQ(rig.device->controls.front(), (std::vector<std::uint8_t>{1, 2}));
   EXPECT_EQ(control_and_wait(*rig.link, {0xC0, 0xEE, 0, 0, 3}, {}).error, UsbError::kStall);
   EXPECT_FALSE(rig.link->start_control({0x40, 1, 0, 0, 3}, sent));  // fewer bytes than promised
-  rig.bus.faults(rig.port).silent_until_ns = rig.bus.now_ns() + 500 * kMs;
+  rig.bus.faults(rig.port).silent_until_ns = rig.bus.now_ns() + 500 * kUsbMs;
   const std::int64_t before = rig.bus.now_ns();
   EXPECT_EQ(control_and_wait(*rig.link, {0xC0, 1, 0, 0, 3}, {}, 0.05).error, UsbError::kTimeout);
-  EXPECT_LT(rig.bus.now_ns() - before, 60 * kMs);
+  EXPECT_LT(rig.bus.now_ns() - before, 60 * kUsbMs);
 }
 
 TEST(EmulatedUsb, FaultsAreWhatTheySay) {
@@ -163,7 +163,7 @@ TEST(EmulatedUsb, FaultsAreWhatTheySay) {
   UsbFaults& faults = rig.bus.faults(rig.port);
   faults.short_in = 1;
   faults.garbage_in = 2;
-  rig.bus.advance(3 * kMs);
+  rig.bus.advance(3 * kUsbMs);
   UsbPacket packet;
   rig.link->poll();
   ASSERT_TRUE(rig.link->next_in(packet));
@@ -172,24 +172,24 @@ TEST(EmulatedUsb, FaultsAreWhatTheySay) {
   EXPECT_EQ(packet.bytes.size(), 2u);
   ASSERT_TRUE(rig.link->next_in(packet));
   EXPECT_EQ(packet.bytes[1], 0xAA);
-  faults.in_late_ns = 5 * kMs;
-  rig.bus.advance(5 * kMs);
+  faults.in_late_ns = 5 * kUsbMs;
+  rig.bus.advance(5 * kUsbMs);
   EXPECT_EQ(rig.received(), 0);
-  rig.bus.advance(kMs);
+  rig.bus.advance(kUsbMs);
   EXPECT_EQ(rig.received(), 1);
   faults.in_late_ns = 0;
   faults.stall_in = true;
-  rig.bus.advance(10 * kMs);
+  rig.bus.advance(10 * kUsbMs);
   EXPECT_EQ(rig.link->in_error(), UsbError::kStall);
   rig.received();
-  rig.bus.advance(10 * kMs);
+  rig.bus.advance(10 * kUsbMs);
   EXPECT_EQ(rig.received(), 0);
   rig.link->restart();
-  rig.bus.advance(kMs);
+  rig.bus.advance(kUsbMs);
   EXPECT_EQ(rig.received(), 1);
   faults.short_out = 1;
   rig.send(0, 1);
-  rig.bus.advance(kMs);
+  rig.bus.advance(kUsbMs);
   EXPECT_EQ(rig.link->out_error(), UsbError::kShort);
   EXPECT_EQ(rig.device->taken.back().size(), 1u);
 }
@@ -205,11 +205,11 @@ TEST(EmulatedUsb, UnpluggedIsGoneAndAReplugIsAnotherLink) {
   rig.bus.attach(rig.device);
   EXPECT_EQ(rig.bus.changes().arrived, 2u);
   EXPECT_EQ(rig.bus.changes().left, 1u);
-  rig.bus.advance(10 * kMs);
+  rig.bus.advance(10 * kUsbMs);
   EXPECT_TRUE(rig.link->gone());
   EXPECT_EQ(rig.received(), 0);
   rig.link = rig.open();
-  rig.bus.advance(kMs);
+  rig.bus.advance(kUsbMs);
   EXPECT_EQ(rig.received(), 1);
 }
 

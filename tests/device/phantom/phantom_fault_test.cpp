@@ -15,18 +15,18 @@ using testing::StubLibrary;
 using testing::WallLoop;
 using testing::want;
 
-const Vec3 kCentre_mm(0, 50, -30);
+const Vec3 kFaultCentre_mm(0, 50, -30);
 
 class PhantomFault : public ::testing::Test {
  protected:
   PhantomFault() {
-    want(*stub.left, kCentre_mm - Vec3(5, 0, 0));
+    want(*stub.left, kFaultCentre_mm - Vec3(5, 0, 0));
     device = PhantomDevice::open(session, "Left Device").value();
     loop = std::make_unique<WallLoop>(*device);
     run(20);
     loop->gate.enable();
     run(600);  // the ramp
-    want(*stub.left, kCentre_mm + Vec3(6, 0, 0));
+    want(*stub.left, kFaultCentre_mm + Vec3(6, 0, 0));
     run(400);
     EXPECT_LT(motor_force(*stub.left).x(), -1.0) << "no contact to begin with";
     EXPECT_EQ(loop->gate.cause(), ForceOff::kNone);
@@ -139,7 +139,7 @@ TEST_F(PhantomFault, TheLibrarysOwnLoopIsLate) {
 }
 
 TEST_F(PhantomFault, APauseWithoutForceIsNoFault) {
-  want(*stub.left, kCentre_mm - Vec3(5, 0, 0));
+  want(*stub.left, kFaultCentre_mm - Vec3(5, 0, 0));
   run(300);
   stub.step(500);  // nobody orders anything for half a second
   run(1);

@@ -95,13 +95,13 @@ TEST(BoneSurface, ALabelThatIsNowhereIsAnError) {
   EXPECT_FALSE(bone_surface(scan.volume, scan.labels, 3, {{2, 2, 2}, {5, 5, 5}}, {}));
 }
 
-TriMesh ball() {
+TriMesh field_ball() {
   return *isosurface([](const Vec3& p) { return p.norm() - kRadius_m; },
                      {Vec3::Constant(-0.008), Vec3::Constant(0.008)}, {});
 }
 
 TEST(Taubin, TakesNoiseAwayAndKeepsTheVolume) {
-  TriMesh mesh = ball();
+  TriMesh mesh = field_ball();
   const double before_m3 = volume(mesh);
   Random random(2);
   for (Vec3& v : mesh.vertices) v += random.normal(0, 0.0001) * v.normalized();
@@ -112,7 +112,7 @@ TEST(Taubin, TakesNoiseAwayAndKeepsTheVolume) {
 }
 
 TEST(Taubin, RingsNameEveryNeighbourOnce) {
-  const TriMesh mesh = ball();
+  const TriMesh mesh = field_ball();
   const VertexRings rings = vertex_rings(mesh);
   EXPECT_EQ(rings.neighbour.size(), 3 * mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -124,7 +124,7 @@ TEST(Taubin, RingsNameEveryNeighbourOnce) {
 }
 
 TEST(Decimate, TakesTrianglesAndKeepsTheSurfaceClosedAndInPlace) {
-  TriMesh mesh = ball();
+  TriMesh mesh = field_ball();
   const std::size_t before = mesh.triangles.size();
   decimate(mesh, 0.00005);
   EXPECT_LT(mesh.triangles.size(), before / 3);

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Aabb cube(double half) { return {Vec3::Constant(-half), Vec3::Constant(half)}; }
+Aabb cube_box(double half) { return {Vec3::Constant(-half), Vec3::Constant(half)}; }
 double sphere(const Vec3& p, double radius) { return p.norm() - radius; }
-double ball(const Vec3& p) { return sphere(p, 0.01); }
+double ball_height(const Vec3& p) { return sphere(p, 0.01); }
 
 IsosurfaceOptions cell(double size) {
   IsosurfaceOptions options;
@@ -30,46 +30,47 @@ IsosurfaceOptions cell(double size) {
 TEST(Isosurface, RefusesUnusableCells) {
   for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()})
-    EXPECT_FALSE(isosurface(ball, cube(0.02), cell(size))) << size;
-  EXPECT_FALSE(isosurface(ball, cube(0.02), cell(1e-6))) << "a grid beyond memory";
+    EXPECT_FALSE(isosurface(ball_height, cube_box(0.02), cell(size))) << size;
+  EXPECT_FALSE(isosurface(ball_height, cube_box(0.02), cell(1e-6))) << "a grid beyond memory";
 }
 
 TEST(Isosurface, RefusesEmptyAndInfiniteBoxes) {
-  EXPECT_FALSE(isosurface(ball, Aabb{}, cell(0.001)));
-  EXPECT_FALSE(isosurface(ball, cube(std::numeric_limits<double>::infinity()), cell(0.001)));
+  EXPECT_FALSE(isosurface(ball_height, Aabb{}, cell(0.001)));
+  EXPECT_FALSE(
+      isosurface(ball_height, cube_box(std::numeric_limits<double>::infinity()), cell(0.001)));
 }
 
 TEST(Isosurface, RefusesBadPromises) {
   IsosurfaceOptions options = cell(0.001);
   options.stretch = 0.5;
-  EXPECT_FALSE(isosurface(ball, cube(0.02), options));
+  EXPECT_FALSE(isosurface(ball_height, cube_box(0.02), options));
   options.stretch = 1;
   options.slack_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(isosurface(ball, cube(0.02), options));
+  EXPECT_FALSE(isosurface(ball_height, cube_box(0.02), options));
 }
 
 TEST(Isosurface, SaysWhenNothingIsInside) {
-  const auto r = isosurface([](const Vec3&) { return 1.0; }, cube(0.01), cell(0.001));
+  const auto r = isosurface([](const Vec3&) { return 1.0; }, cube_box(0.01), cell(0.001));
   ASSERT_FALSE(r);
   EXPECT_NE(r.error().what.find("inside"), std::string::npos);
 }
 
 TEST(Isosurface, SaysWhenTheInsideReachesTheRim) {
-  EXPECT_FALSE(isosurface([](const Vec3&) { return -1.0; }, cube(0.01), cell(0.001)));
-  EXPECT_FALSE(isosurface(ball, cube(0.008), cell(0.001)));
+  EXPECT_FALSE(isosurface([](const Vec3&) { return -1.0; }, cube_box(0.01), cell(0.001)));
+  EXPECT_FALSE(isosurface(ball_height, cube_box(0.008), cell(0.001)));
   const auto slab = [](const Vec3& p) { return std::abs(p.x()) - 0.002; };
-  EXPECT_FALSE(isosurface(slab, cube(0.01), cell(0.001)));
+  EXPECT_FALSE(isosurface(slab, cube_box(0.01), cell(0.001)));
 }
 
 TEST(Isosurface, RefusesFieldsThatAreNotFinite) {
   const auto field = [](const Vec3& p) {
-    return p.x() > 0.004 ? std::numeric_limits<double>::quiet_NaN() : ball(p);
+    return p.x() > 0.004 ? std::numeric_limits<double>::quiet_NaN() : ball_height(p);
   };
-  EXPECT_FALSE(isosurface(field, cube(0.02), cell(0.001)));
+  EXPECT_FALSE(isosurface(field, cube_box(0.02), cell(0.001)));
 }
 
 TEST(Isosurface, SphereHasItsVolumeAndRadius) {
-  const auto mesh = isosurface(ball, cube(0.011), cell(0.0006));
+  const auto mesh = isosurface(ball_height, cube_box(0.011), cell(0.0006));
   ASSERT_TRUE(mesh);
   EXPECT_TRUE(checks::is_closed_manifold(*mesh));
   EXPECT_TRUE(checks::has_single_fans(*mesh));
@@ -83,7 +84,7 @@ TEST(Isosurface, EllipsoidAndTorusKeepTheirVolumes) {
   const auto ellipsoid = [&r](const Vec3& p) {
     return (p.cwiseQuotient(r).norm() - 1) * r.minCoeff();
   };
-  const auto egg = isosurface(ellipsoid, cube(0.013), cell(0.0006));
+  const auto egg = isosurface(ellipsoid, cube_box(0.013), cell(0.0006));
   ASSERT_TRUE(egg);
   EXPECT_NEAR(checks::signed_volume(*egg) / (4 * kPi / 3 * r.prod()), 1, 0.01);
 
@@ -91,7 +92,7 @@ TEST(Isosurface, EllipsoidAndTorusKeepTheirVolumes) {
     const double around = std::sqrt(p.x() * p.x() + p.y() * p.y()) - 0.01;
     return std::sqrt(around * around + p.z() * p.z()) - 0.003;
   };
-  const auto ring = isosurface(torus, cube(0.014), cell(0.0006));
+  const auto ring = isosurface(torus, cube_box(0.014), cell(0.0006));
   ASSERT_TRUE(ring);
   EXPECT_TRUE(checks::is_closed_manifold(*ring));
   EXPECT_EQ(checks::euler_number(*ring), 0);
@@ -104,7 +105,7 @@ TEST(Isosurface, ThinSheetsAndTouchingBallsStayManifold) {
     const Vec3 n = Vec3(1, 0.7, 3).normalized();
     return std::max(std::abs(n.dot(p)) - 0.0001, p.norm() - 0.006);
   };
-  const auto thin = isosurface(sheet, cube(0.008), cell(0.0005));
+  const auto thin = isosurface(sheet, cube_box(0.008), cell(0.0005));
   ASSERT_TRUE(thin);
   EXPECT_TRUE(checks::is_closed_manifold(*thin));
   EXPECT_TRUE(checks::has_single_fans(*thin));
@@ -112,7 +113,7 @@ TEST(Isosurface, ThinSheetsAndTouchingBallsStayManifold) {
     return std::min(sphere(p - Vec3(0.005, 0.0001, 0), 0.005),
                     sphere(p + Vec3(0.005, 0, 0.0001), 0.005));
   };
-  const auto touching = isosurface(pair, cube(0.012), cell(0.0007));
+  const auto touching = isosurface(pair, cube_box(0.012), cell(0.0007));
   ASSERT_TRUE(touching);
   EXPECT_TRUE(checks::is_closed_manifold(*touching));
 }
@@ -131,7 +132,7 @@ TEST(Isosurface, NoiseIsClosedAndManifold) {
     IsosurfaceOptions options = cell(0.001);
     options.slack_m = 1;
     options.relax_steps = 0;
-    const auto mesh = isosurface(noise, cube(0.01), options);
+    const auto mesh = isosurface(noise, cube_box(0.01), options);
     ASSERT_TRUE(mesh) << mesh.error().message();
     EXPECT_TRUE(checks::is_closed_manifold(*mesh)) << seed;
     EXPECT_TRUE(checks::has_single_fans(*mesh)) << seed;
@@ -145,8 +146,8 @@ TEST(Isosurface, SkippingBlocksChangesNothing) {
   };
   IsosurfaceOptions every = cell(0.0007);
   every.slack_m = 1;
-  const auto fast = isosurface(two, cube(0.03), cell(0.0007));
-  const auto slow = isosurface(two, cube(0.03), every);
+  const auto fast = isosurface(two, cube_box(0.03), cell(0.0007));
+  const auto slow = isosurface(two, cube_box(0.03), every);
   ASSERT_TRUE(fast && slow);
   EXPECT_EQ(checks::hash_of(*fast), checks::hash_of(*slow));
   EXPECT_EQ(checks::euler_number(*fast), 4) << "two pieces";
@@ -185,16 +186,16 @@ TEST(Isosurface, AFieldThatKnowsItselfHasTheSameSurfaceSooner) {
   int near_asked = 0, plain_asked = 0;
   const Balls balls(near_asked), asked_plainly(plain_asked);
   IsosurfaceOptions options = cell(0.0006);
-  const auto near = isosurface(balls, cube(0.03), options);
+  const auto near = isosurface(balls, cube_box(0.03), options);
   const auto plain =
-      isosurface([&](const Vec3& p) { return asked_plainly.at(p); }, cube(0.03), options);
+      isosurface([&](const Vec3& p) { return asked_plainly.at(p); }, cube_box(0.03), options);
   ASSERT_TRUE(near && plain);
   EXPECT_EQ(checks::hash_of(*near), checks::hash_of(*plain));
   EXPECT_LT(near_asked, plain_asked / 2);
 }
 
 TEST(Isosurface, TrianglesAreWellShaped) {
-  const auto mesh = isosurface(ball, cube(0.011), cell(0.0006));
+  const auto mesh = isosurface(ball_height, cube_box(0.011), cell(0.0006));
   ASSERT_TRUE(mesh);
   for (const Triangle& t : mesh->triangles) {
     const Vec3 a = mesh->vertices[t[1]] - mesh->vertices[t[0]];

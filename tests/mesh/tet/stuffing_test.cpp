@@ -19,33 +19,34 @@ ScalarField ball(double r) {
   return [r](const Vec3& p) { return p.norm() - r; };
 }
 
-StuffingOptions cell(double cell_m) {
+StuffingOptions stuffing_cell(double cell_m) {
   StuffingOptions options;
   options.cell_m = cell_m;
   return options;
 }
 
 TEST(Stuffing, RefusesWhatCannotBeStuffed) {
-  EXPECT_FALSE(stuff_isosurface(ball(0.01), kBox, cell(0)));
-  EXPECT_FALSE(stuff_isosurface(ball(0.01), kBox, cell(std::nan(""))));
-  EXPECT_FALSE(stuff_isosurface(ball(0.01), Aabb{}, cell(0.001)));
-  const auto huge = stuff_isosurface(ball(0.01), kBox, cell(1e-6));
+  EXPECT_FALSE(stuff_isosurface(ball(0.01), kBox, stuffing_cell(0)));
+  EXPECT_FALSE(stuff_isosurface(ball(0.01), kBox, stuffing_cell(std::nan(""))));
+  EXPECT_FALSE(stuff_isosurface(ball(0.01), Aabb{}, stuffing_cell(0.001)));
+  const auto huge = stuff_isosurface(ball(0.01), kBox, stuffing_cell(1e-6));
   ASSERT_FALSE(huge);
   EXPECT_NE(huge.error().message().find("million cubes"), std::string::npos);
-  const auto empty = stuff_isosurface([](const Vec3&) { return 1.0; }, kBox, cell(0.001));
+  const auto empty = stuff_isosurface([](const Vec3&) { return 1.0; }, kBox, stuffing_cell(0.001));
   ASSERT_FALSE(empty);
   EXPECT_NE(empty.error().message().find("thinner than a cell"), std::string::npos);
-  const auto full = stuff_isosurface([](const Vec3&) { return -1.0; }, kBox, cell(0.001));
+  const auto full = stuff_isosurface([](const Vec3&) { return -1.0; }, kBox, stuffing_cell(0.001));
   ASSERT_FALSE(full);
   EXPECT_NE(full.error().message().find("rim"), std::string::npos);
-  const auto nan = stuff_isosurface(
-      [](const Vec3& p) { return p.x() > 0 ? std::nan("") : p.norm() - 0.01; }, kBox, cell(0.001));
+  const auto nan =
+      stuff_isosurface([](const Vec3& p) { return p.x() > 0 ? std::nan("") : p.norm() - 0.01; },
+                       kBox, stuffing_cell(0.001));
   ASSERT_FALSE(nan);
   EXPECT_NE(nan.error().message().find("finite"), std::string::npos);
 }
 
 TEST(Stuffing, RefusesMoreElementsThanAllowed) {
-  StuffingOptions options = cell(0.001);
+  StuffingOptions options = stuffing_cell(0.001);
   options.most_tets = 1000;
   const auto many = stuff_isosurface(ball(0.01), kBox, options);
   ASSERT_FALSE(many);
@@ -53,7 +54,7 @@ TEST(Stuffing, RefusesMoreElementsThanAllowed) {
 }
 
 TEST(Stuffing, FillsABall) {
-  const auto mesh = stuff_isosurface(ball(0.01), kBox, cell(0.001));
+  const auto mesh = stuff_isosurface(ball(0.01), kBox, stuffing_cell(0.001));
   ASSERT_TRUE(mesh) << mesh.error().message();
   EXPECT_TRUE(checks::all_upright(*mesh));
   EXPECT_TRUE(checks::faces_fit(*mesh));
@@ -80,7 +81,7 @@ TEST(Stuffing, AnglesKeepToTheBoundsOfThePaper) {
       for (const Vec3& w : wave) sum += 0.0008 * std::sin(w.dot(p));
       return sum;
     };
-    StuffingOptions options = cell(0.0015);
+    StuffingOptions options = stuffing_cell(0.0015);
     options.stretch = 1 + 5 * 0.0008 * 2500;
     const auto mesh = stuff_isosurface(field, kBox, options);
     ASSERT_TRUE(mesh) << mesh.error().message();
@@ -101,7 +102,7 @@ TEST(Stuffing, TheBytesAreKnown) {
     const double across = std::sqrt(p.x() * p.x() + p.y() * p.y()) - 0.007;
     return std::sqrt(across * across + p.z() * p.z()) - 0.003;
   };
-  const auto mesh = stuff_isosurface(ring, kBox, cell(0.0013));
+  const auto mesh = stuff_isosurface(ring, kBox, stuffing_cell(0.0013));
   ASSERT_TRUE(mesh) << mesh.error().message();
   EXPECT_EQ(checks::hash_of(*mesh), 11985752004748991252u);
 }
@@ -109,9 +110,9 @@ TEST(Stuffing, TheBytesAreKnown) {
 // Blocks that the promise places clear of the surface are skipped: the same mesh comes out as when
 // nothing may be skipped.
 TEST(Stuffing, SkippingChangesNothing) {
-  StuffingOptions thorough = cell(0.0008);
+  StuffingOptions thorough = stuffing_cell(0.0008);
   thorough.slack_m = 1;
-  const auto quick = stuff_isosurface(ball(0.008), kBox, cell(0.0008));
+  const auto quick = stuff_isosurface(ball(0.008), kBox, stuffing_cell(0.0008));
   const auto slow = stuff_isosurface(ball(0.008), kBox, thorough);
   ASSERT_TRUE(quick && slow);
   EXPECT_EQ(checks::hash_of(*quick), checks::hash_of(*slow));

@@ -16,7 +16,7 @@
 namespace osteon {
 namespace {
 
-TetrahedraOptions cell(double cell_m) {
+TetrahedraOptions tet_cell(double cell_m) {
   TetrahedraOptions options;
   options.cell_m = cell_m;
   return options;
@@ -47,11 +47,11 @@ TEST(Tetrahedra, RefusesWhatIsNotASolid) {
 }
 
 TEST(Tetrahedra, RefusesWhatIsTooThinOrTooMuch) {
-  EXPECT_NE(refusal(test::turned_box(Vec3(0.02, 0.02, 0.0002)), cell(0.004)).find("thinner"),
+  EXPECT_NE(refusal(test::turned_box(Vec3(0.02, 0.02, 0.0002)), tet_cell(0.004)).find("thinner"),
             std::string::npos);
-  EXPECT_NE(refusal(test::sphere(0.01, 8), cell(1e-6)).find("larger cell"), std::string::npos);
-  EXPECT_NE(refusal(test::sphere(0.01, 8), cell(-1)).find("positive"), std::string::npos);
-  TetrahedraOptions few = cell(0.001);
+  EXPECT_NE(refusal(test::sphere(0.01, 8), tet_cell(1e-6)).find("larger cell"), std::string::npos);
+  EXPECT_NE(refusal(test::sphere(0.01, 8), tet_cell(-1)).find("positive"), std::string::npos);
+  TetrahedraOptions few = tet_cell(0.001);
   few.most_tets = 100;
   EXPECT_NE(refusal(test::sphere(0.01, 8), few).find("100 tetrahedra"), std::string::npos);
 }
@@ -111,7 +111,7 @@ TEST(Tetrahedra, FillAThinShell) {
 }
 
 TEST(Tetrahedra, WarnsOfACellTooCoarse) {
-  const auto made = make_tetrahedra(test::turned_box(Vec3(0.02, 0.02, 0.002)), cell(0.002));
+  const auto made = make_tetrahedra(test::turned_box(Vec3(0.02, 0.02, 0.002)), tet_cell(0.002));
   ASSERT_TRUE(made) << made.error().message();
   ASSERT_FALSE(made->report.warnings.empty());
   EXPECT_NE(made->report.warnings[0].find("too coarse"), std::string::npos);
@@ -119,8 +119,8 @@ TEST(Tetrahedra, WarnsOfACellTooCoarse) {
 
 TEST(Tetrahedra, TheSameInputGivesTheSameBytes) {
   const TriMesh surface = test::torus(0.01, 0.003, 48, 16);
-  const auto one = make_tetrahedra(surface, cell(0.0015));
-  const auto two = make_tetrahedra(surface, cell(0.0015));
+  const auto one = make_tetrahedra(surface, tet_cell(0.0015));
+  const auto two = make_tetrahedra(surface, tet_cell(0.0015));
   ASSERT_TRUE(one && two);
   EXPECT_EQ(checks::hash_of(one->mesh), checks::hash_of(two->mesh));
 }
