@@ -1,19 +1,20 @@
 #include "window/window_app.h"
 
 #include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "cases/xdg.h"
 #include "loops/realtime.h"
 #include "loops/stop_signal.h"
-#include "osteon/base/clock.h"
-#include "osteon/base/file.h"
-#include "runs/hand_order.h"
-#include "runs/path_commands.h"
+#include "osteon/base/log.h"
 #include "ui/screenshot.h"
+#include "window/controllers/remembered_looks.h"
+#include "window/panels/panels.h"
 
 namespace osteon {
 namespace {
@@ -26,139 +27,191 @@ double processor_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-// What hands are told to hold, and what the path that an emulated one plays takes.
-std::vector<std::string> ordered_instruments(const WindowOrder& order) {
-  std::vector<std::string> names;
-  for (const std::string& device : order.devices)
-    names.push_back(parse_hand_order(device).instrument);
-  const auto path = order.path.empty() ? Result<ProbePath>(ProbePath{}) : load_path(order.path);
-  if (path && path->with_instruments)
-    for (const std::string& name : instruments_of(*path)) names.push_back(name);
-  return names;
-}
-
 }  // namespace
-
-WindowApp::WindowApp(const WindowOrder& order)
-    : order_(order),
-      created_ns_(steady_now_ns()),
-      layout_(order.layout),
-      observer_layout_(order.observer.value_or(PictureLayout::kScope)) {}
 
 Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   std::unique_ptr<WindowApp> app(new WindowApp(order));
+  WindowHost& host = app->host_;
   std::string complaint;
-  if (!order.fresh) app->settings_ = load_app_settings(config_dir() / "settings.json", &complaint);
+  if (!order.fresh) host.settings = load_app_settings(config_dir() / "settings.json", &complaint);
   WindowOptions options;
-  options.width = order.width > 0 ? order.width : app->settings_.window_width;
-  options.height = order.height > 0 ? order.height : app->settings_.window_height;
+  options.width = order.width > 0 ? order.width : host.settings.window_width;
+  options.height = order.height > 0 ? order.height : host.settings.window_height;
   options.wait_for_display = order.frames == 0;
   auto window = GlWindow::create(options);
   if (!window) return tl::unexpected(window.error());
-  app->window_ = std::move(*window);
-  app->ui_ = std::make_unique<ImGuiHost>(app->window_->handle(), 1.0f);
+  host.window = std::move(*window);
+  host.ui = std::make_unique<ImGuiHost>(host.window->handle(), 1.0f);
   // A measured run gives the same picture wherever the pointer lies.
-  if (order.frames > 0) app->ui_->take_pointer(true);
-
-  std::vector<std::string> problems;
-  app->choices_ = list_device_choices(&problems);
-  if (!complaint.empty()) app->note(ToastKind::kWarning, complaint);
-  for (const std::string& problem : problems) app->note(ToastKind::kWarning, problem);
-  app->instruments_ = ordered_instruments(order);
-  if (order.observer) app->open_observer();
-  app->open({order.case_spec, order.replay, nullptr});
+  if (order.frames > 0) host.ui->take_pointer(true);
+  if (!complaint.empty()) host.note(ToastKind::kWarning, complaint);
+  app->live_.list_devices();
+  if (order.observer) app->observer_.open();
+  app->cases_.open({order.case_spec, order.replay, nullptr});
   return app;
 }
 
 WindowApp::~WindowApp() {
-  if (window_ && !order_.fresh) remember();
+  if (host_.window && !host_.order.fresh) remember();
 }
 
 Result<void> WindowApp::run() {
   std::int64_t last_ns = steady_now_ns();
   const std::int64_t start_ns = last_ns;
-  while (!window_->should_close() && !stop_requested()) {
+  while (!host_.window->should_close() && !stop_requested()) {
     const std::int64_t begin_ns = steady_now_ns();
     const double dt_s = seconds(begin_ns - last_ns);
     last_ns = begin_ns;
-    now_s_ = seconds(begin_ns - start_ns);
+    host_.now_s = seconds(begin_ns - start_ns);
     frames_.add(dt_s);
     frame(dt_s);
     if (measured_run_over()) return finish_measured_run();
-    window_->swap();
-    if (first_picture_s_ <= 0 && ready()) first_picture_s_ = seconds(steady_now_ns() - created_ns_);
+    host_.window->swap();
+    if (first_picture_s_ <= 0 && cases_.ready()) first_picture_s_ = host_.age_s();
     if (measured_frames_ > 0) work_.add(seconds(steady_now_ns() - begin_ns));
-    const bool paced = order_.frames == 0 && !software_driver();
+    const bool paced = host_.order.frames == 0 && !software_driver();
     sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
   }
-  checkup_.reset();
-  film_.reset();
-  return live_ ? live_->end() : Result<void>();
+  checkup_.drop();
+  film_.drop();
+  return live_.end();
 }
 
 void WindowApp::frame(double dt_s) {
-  window_->poll();
+  GlWindow& window = *host_.window;
+  window.poll();
   const double wheel = static_cast<double>(ImGui::GetIO().MouseWheel);
-  const double scale = order_.interface_scale > 0
-                           ? order_.interface_scale
-                           : static_cast<double>(window_->content_scale()) /
-                                 window_->pixel_ratio() * settings_.interface_zoom;
-  ui_->set_scale(static_cast<float>(scale));
-  for (const std::string& file : window_->take_dropped_files()) open_any(file);
-  poll_loading();
-  poll_refining();
-  poll_felt();
-  poll_checkup();
-  poll_edit_save();
-  poll_patient();
-  if (ready() || exercise_.page() == ExercisePage::kJudging) poll_exercise();
-  poll_observer();
-  toasts_.age(now_s_);
+  const double scale = host_.order.interface_scale > 0
+                           ? host_.order.interface_scale
+                           : static_cast<double>(window.content_scale()) / window.pixel_ratio() *
+                                 host_.settings.interface_zoom;
+  host_.ui->set_scale(static_cast<float>(scale));
+  poll_jobs();
+  host_.toasts.age(host_.now_s);
 
-  ui_->begin_frame(window_->take_pressed_keys());
-  if (ready()) poll_scene(dt_s, wheel);
-  show_edit();
+  host_.ui->begin_frame(window.take_pressed_keys());
+  if (cases_.ready()) move_scene(dt_s, wheel);
+  edit_.show();
   draw_picture();
   // A processor that draws works on the picture while the panels are laid out.
   glFlush();
-  const UiRequests requests = draw_ui(build_model(), ui_->fonts());
-  ui_->end_frame();
-  poll_film();
-  draw_observer();
+  const UiRequests requests = draw_ui(build_model(), host_.ui->fonts());
+  host_.ui->end_frame();
+  film_.poll();
+  observer_.draw(picture_view());
   apply(requests);
 }
 
+void WindowApp::poll_jobs() {
+  for (const std::string& file : host_.window->take_dropped_files()) browser_.open_any(file);
+  poll_loading();
+  // A piece lies within its bone's hull: who touches no hull touches no piece, and feels nothing of
+  // the exchange.
+  const bool at_rest = cases_.ready() && !replay_.on() && !edit_.on() && !checkup_.running() &&
+                       !bend_.on() &&
+                       (!live_.run() || (!live_.recording() && live_.run()->touches_nothing()));
+  if (cases_.poll_finer(at_rest)) edit_.draw_again();
+  checkup_.poll();
+  edit_.poll_save();
+  patient_.poll();
+  exercise_.poll();
+  UiRequests off;
+  off.force_off = true;
+  if (observer_.poll()) live_.apply_feel(off, false);
+}
+
+void WindowApp::poll_loading() {
+  std::optional<Loaded> loaded;
+  if (!cases_.poll(loaded)) return;
+  if (loaded) install(std::move(*loaded));
+  bend_.end();
+  if (loaded) begin_ordered();
+}
+
+void WindowApp::install(Loaded loaded) {
+  checkup_.end();
+  edit_.end();
+  if (scene_.the_case) {
+    remember_looks(host_.settings, scene_.source, *scene_.the_case, sight_.view());
+    remember_light(host_.settings, sight_.view());  // one that was turned is not turned back
+  }
+  const auto before = scene_.the_case;
+  if (!cases_.show(loaded)) return;
+  if (scene_.the_case != before) hands_.begin_case();
+  hands_.begin_run();
+  marks_.clear();
+  if (loaded.replay) return replay_.begin(std::move(*loaded.replay));
+  if (exercise_.opening()) return exercise_.begin();
+  live_.begin();
+  if (!live_.run() || host_.order.edit.empty()) return;
+  sight_.pick(scene_.the_case->find(std::exchange(host_.order.edit, {})));
+  edit_.begin();
+}
+
+// What the command line asks for beside the case.
+void WindowApp::begin_ordered() {
+  WindowOrder& order = host_.order;
+  if (!order.film.empty()) film_.begin(std::exchange(order.film, {}));
+  if (std::exchange(order.new_patient, false)) patient_.toggle();
+  if (!order.exercise.empty()) exercise_.show(std::exchange(order.exercise, {}));
+  if (std::exchange(order.checkup, false)) checkup_.open();
+}
+
+void WindowApp::move_scene(double dt_s, double wheel) {
+  pointer_.poll(dt_s, wheel);
+  replay_.advance(dt_s);
+  bend_.show();
+  pointer_.pick();
+}
+
+ViewState WindowApp::picture_view() const {
+  ViewState view = sight_.view();
+  view.show_felt = view.show_felt && cases_.felt_known();
+  bend_.hide_softs(view);
+  return view;
+}
+
 void WindowApp::draw_picture() {
-  int width = 0, height = 0;
-  window_->framebuffer_size(width, height);
+  const auto size = host_.pixels();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, width, height);
+  glViewport(0, 0, size.width, size.height);
   glClearColor(0x15 / 255.0f, 0x18 / 255.0f, 0x1c / 255.0f, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   // What was open stays in sight until the next is.
-  if (!renderer_ || !case_ || width <= 0 || height <= 0) return;
+  if (!scene_.renderer || !scene_.the_case || size.width <= 0 || size.height <= 0) return;
   ViewState shown = picture_view();
-  for (const BoneId id : {hovered_, hovered_row_, picked_})
-    if (id.index < shown.bones.size()) shown.bones[id.index].highlighted = true;
-  show_others();
-  show_carved();
-  update_views();
-  draw_panes(shown);
+  sight_.highlight(shown);
+  views_.draw(shown);
+}
+
+void WindowApp::remember() {
+  GLFWwindow* const window = host_.window->handle();
+  AppSettings& settings = host_.settings;
+  if (!glfwGetWindowMonitor(window))
+    glfwGetWindowSize(window, &settings.window_width, &settings.window_height);
+  if (scene_.the_case) {
+    remember_light(settings, sight_.view());
+    remember_looks(settings, scene_.source, *scene_.the_case, sight_.view());
+  }
+  live_.remember_feel();
+  const Result<void> saved = save_app_settings(settings, config_dir() / "settings.json");
+  if (!saved) log(LogLevel::kWarning, saved.error().message());
 }
 
 // Counts pictures once the simulated time that was ordered is reached.
 bool WindowApp::measured_run_over() {
-  if (order_.frames <= 0) return false;
-  if (!load_failure_.empty()) return true;
+  const WindowOrder& order = host_.order;
+  if (order.frames <= 0) return false;
+  if (!cases_.failure().empty()) return true;
   // A replay stands at the ordered moment from the start.
-  const bool reached = player_ || shown_.tool.time_s >= order_.at_s;
-  if (!ready() || !reached || checkup_ || felt_job_ || refining_ || lighting_ || views_.busy() ||
+  const bool reached = replay_.on() || sight_.shown().tool.time_s >= order.at_s;
+  if (!cases_.ready() || !reached || checkup_.running() || cases_.busy() || scene_.views.busy() ||
       first_pictures_ > 0) {
-    if (ready() && first_pictures_ > 0) --first_pictures_;
+    if (cases_.ready() && first_pictures_ > 0) --first_pictures_;
     processor_start_s_ = processor_now_s();
     return false;
   }
-  return ++measured_frames_ >= order_.frames;
+  return ++measured_frames_ >= order.frames;
 }
 
 double WindowApp::processor_ms_per_picture() const {
@@ -166,15 +219,11 @@ double WindowApp::processor_ms_per_picture() const {
 }
 
 Result<void> WindowApp::finish_measured_run() {
-  if (film_) {
-    film_->end(now_s_ - film_from_s_);
-    if (auto whole = film_->wait(); !whole) return whole;
-  }
-  if (!load_failure_.empty()) return fail(load_failure_);
-  if (order_.screenshot.empty()) return {};
-  int width = 0, height = 0;
-  window_->framebuffer_size(width, height);
-  return save_png(read_framebuffer(width, height), order_.screenshot);
+  if (auto whole = film_.finish(); !whole) return whole;
+  if (!cases_.failure().empty()) return fail(cases_.failure());
+  if (host_.order.screenshot.empty()) return {};
+  const auto size = host_.pixels();
+  return save_png(read_framebuffer(size.width, size.height), host_.order.screenshot);
 }
 
 }  // namespace osteon

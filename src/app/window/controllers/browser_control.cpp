@@ -1,0 +1,56 @@
+#include "window/controllers/browser_control.h"
+
+namespace osteon {
+
+void BrowserControl::apply(const BrowserRequests& requests) {
+  if (requests.toggle) browser_.toggle(host_.settings.recent);
+  if (requests.look_into) browser_.look_into(*requests.look_into);
+  if (requests.in_millimetres) browser_.set_in_millimetres(*requests.in_millimetres);
+  if (requests.stop_import) browser_.stop_import();
+  if (requests.open) open_any(requests.open->path);
+  const Result<std::string> imported = browser_.take_imported();
+  if (!imported) return host_.note(ToastKind::kError, imported.error().message());
+  if (imported->empty()) return;
+  host_.note(ToastKind::kInfo, "Saved as " + *imported);
+  open_any(*imported);
+}
+
+void BrowserControl::open_any(const std::string& path) {
+  switch (kind_of(path)) {
+    case OpenKind::kFolder:
+      return browser_.look_into(path);
+    case OpenKind::kCase: {
+      browser_.close();
+      const std::filesystem::path file = path;
+      return cases_.open(
+          {file.filename() == "case.toml" ? file.parent_path().string() : path, {}, nullptr});
+    }
+    case OpenKind::kMeshes:
+      host_.note(ToastKind::kInfo, "Importing the meshes as a case.");
+      return browser_.import(path);
+    case OpenKind::kScan:
+      scan_ = path;
+      return go_to_segmentation();
+    case OpenKind::kRecording:
+      browser_.close();
+      return cases_.open({scene_.source, path, scene_.the_case});
+    case OpenKind::kNothing:
+      break;
+  }
+  host_.note(ToastKind::kError, "This is nothing that Osteon can open: " + path +
+                                    ". It opens case folders, recordings (.osr), meshes and "
+                                    "scans.");
+}
+
+void BrowserControl::go_to_segmentation() {
+  if (live_.recording())
+    return host_.note(ToastKind::kWarning, "Stop the recording before segmenting a scan.");
+  wants_segmentation_ = true;
+  host_.window->close();
+}
+
+BrowserModel BrowserControl::model() const {
+  return browser_.is_open() ? browser_.model() : BrowserModel{};
+}
+
+}  // namespace osteon

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "window/controllers/hands_control.h"
+#include "window/controllers/observer_control.h"
+#include "window/controllers/replay_control.h"
+
+namespace osteon {
+
+/// Draws the picture's views of the scene as it stands; see PictureViews for what is in them.
+class ViewsControl {
+ public:
+  ViewsControl(WindowHost& host, ShownCase& scene, SceneSight& sight, LiveControl& live,
+               ReplayControl& replay, HandsControl& hands, ObserverControl& observer)
+      : host_(host),
+        scene_(scene),
+        sight_(sight),
+        live_(live),
+        replay_(replay),
+        hands_(hands),
+        observer_(observer) {}
+
+  /// `looks` of the view from outside.
+  void draw(const ViewState& looks);
+  void apply(const ViewsRequests& requests);
+  ViewsModel model() const;
+
+ private:
+  std::vector<ToolState> others() const;
+  FilmMoment moment() const;
+  void show_carved();
+  std::string message_on(PaneKind kind) const;
+
+  WindowHost& host_;
+  ShownCase& scene_;
+  SceneSight& sight_;
+  LiveControl& live_;
+  ReplayControl& replay_;
+  HandsControl& hands_;
+  ObserverControl& observer_;
+  std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
+  double carved_s_ = 0;                                 ///< when they were shown last
+};
+
+}  // namespace osteon
