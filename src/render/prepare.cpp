@@ -7,6 +7,7 @@
 #include "coarser_levels.h"
 #include "occlusion.h"
 #include "osteon/render/felt_colors.h"
+#include "osteon/render/prepare_unlit.h"
 #include "osteon/scene/felt_distance.h"
 #include "surface.h"
 
@@ -94,17 +95,24 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
   return out;
 }
 
+ShadedMesh unlit_bone(const Case& the_case, std::size_t bone) {
+  const Surface surface = make_surface(the_case.bones[bone].mesh);
+  ShadedMesh mesh = shaded(surface, std::vector<float>(surface.points.size(), 1.0f), bone);
+  mesh.coarser = coarser_levels(mesh);
+  return mesh;
+}
+
+ShadedMesh unlit_soft(const Case& the_case, std::size_t soft) {
+  const Surface surface = make_surface(the_case.softs[soft].mesh_W);
+  return shaded(surface, std::vector<float>(surface.points.size(), 1.0f), soft);
+}
+
 PreparedCase prepare_unlit(const Case& the_case) {
   PreparedCase out;
-  const auto add = [](std::vector<ShadedMesh>& to, const Surface& surface) {
-    to.push_back(shaded(surface, std::vector<float>(surface.points.size(), 1.0f), to.size()));
-  };
-  for (const Bone& bone : the_case.bones) {
-    add(out.bones, make_surface(bone.mesh));
-    out.bones.back().coarser = coarser_levels(out.bones.back());
-  }
-  // Soft parts are hidden at first: their coarser levels can wait.
-  for (const SoftPart& soft : the_case.softs) add(out.softs, make_surface(soft.mesh_W));
+  for (std::size_t k = 0; k < the_case.bones.size(); ++k)
+    out.bones.push_back(unlit_bone(the_case, k));
+  for (std::size_t k = 0; k < the_case.softs.size(); ++k)
+    out.softs.push_back(unlit_soft(the_case, k));
   return out;
 }
 

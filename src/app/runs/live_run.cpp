@@ -170,11 +170,12 @@ Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_
 }
 
 Result<void> LiveRun::exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
-                                    ProbePath demo) {
+                                    ProbePath demo, std::shared_ptr<const CarvingSetup> carving) {
   if (recording_) return fail("stop the recording before the bones are exchanged");
   case_ = std::move(the_case);
   case_source_ = std::move(case_source);
   demo_ = std::move(demo);
+  tray_.carving = std::move(carving);
   return runtime_ ? start_run(poses_now(), nullptr) : Result<void>();
 }
 

@@ -73,9 +73,10 @@ class LiveRun {
   Result<void> add_hand(const Pose& X_WD_start, std::uint32_t instrument);
   /// Starts anew with the same device where the probe is, used in another way.
   Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
-  /// Starts anew where the probe is, on the same bones felt otherwise. Not while recording.
+  /// Starts anew where the probe is, on the same bones felt otherwise, which `carving` (may be
+  /// null) carves. Not while recording.
   Result<void> exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
-                             ProbePath demo);
+                             ProbePath demo, std::shared_ptr<const CarvingSetup> carving = nullptr);
   /// No hand touches anything: what is felt may change without being felt to.
   bool touches_nothing() const;
   Result<void> start_recording(const std::filesystem::path& file);

@@ -39,13 +39,18 @@ Result<std::optional<ScopeDef>> lens_of(const Instrument& instrument) {
 }  // namespace
 
 Result<Lenses> lenses_of(const std::vector<std::string>& tray) {
-  Lenses lenses(tray.size());
-  if (tray.empty()) return lenses;
+  if (tray.empty()) return Lenses();
   const auto instruments = load_instruments();
   if (!instruments) return tl::unexpected(instruments.error());
+  return lenses_of(tray, *instruments);
+}
+
+Result<Lenses> lenses_of(const std::vector<std::string>& tray,
+                         std::span<const Instrument> instruments) {
+  Lenses lenses(tray.size());
   for (std::size_t k = 0; k < tray.size(); ++k) {
     const auto name = parse_tool_name(tray[k]);
-    const Instrument* instrument = name ? find_instrument(*instruments, name->name) : nullptr;
+    const Instrument* instrument = name ? find_instrument(instruments, name->name) : nullptr;
     if (!instrument) continue;
     auto lens = lens_of(*instrument);
     if (!lens) return tl::unexpected(lens.error());

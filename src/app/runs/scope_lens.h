@@ -8,6 +8,7 @@
 #include "osteon/base/result.h"
 #include "osteon/mesh/tri_mesh.h"
 #include "osteon/render/scope_camera.h"
+#include "osteon/scene/instrument.h"
 #include "osteon/scene/scope.h"
 #include "osteon/scene/state.h"
 
@@ -20,6 +21,9 @@ using Lenses = std::vector<std::optional<ScopeDef>>;
 /// `tray`: names as make_tray takes them. Fails where the files of instruments or scopes cannot be
 /// read.
 Result<Lenses> lenses_of(const std::vector<std::string>& tray);
+/// The same of instruments that have been read.
+Result<Lenses> lenses_of(const std::vector<std::string>& tray,
+                         std::span<const Instrument> instruments);
 
 /// What is seen through a tool now; null: nothing.
 const ScopeDef* lens_of_tool(const Lenses& lenses, const ToolState& tool);

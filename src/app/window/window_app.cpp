@@ -22,6 +22,8 @@ namespace {
 // A display without a refresh to wait for would otherwise take all the processor.
 constexpr std::int64_t kShortestFrame_ns = 1'000'000'000 / 60;
 constexpr std::int64_t kShortestFrameOnDisplay_ns = 1'000'000'000 / 250;
+// Growing bones needs the processor more than the bar that shows how far it is.
+constexpr std::int64_t kShortestWait_ns = 1'000'000'000 / 15;
 
 double processor_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -70,7 +72,9 @@ Result<void> WindowApp::run() {
     if (first_picture_s_ <= 0 && cases_.ready()) first_picture_s_ = host_.age_s();
     if (measured_frames_ > 0) work_.add(seconds(steady_now_ns() - begin_ns));
     const bool paced = host_.order.frames == 0 && !software_driver();
-    sleep_until_ns(begin_ns + (paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns));
+    const std::int64_t shortest_ns = paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns;
+    const bool waits = !scene_.renderer && cases_.loading();
+    sleep_until_ns(begin_ns + (waits ? kShortestWait_ns : shortest_ns));
   }
   checkup_.drop();
   film_.drop();

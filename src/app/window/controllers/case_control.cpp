@@ -85,11 +85,12 @@ bool CaseControl::show(Loaded& loaded) {
     scene_.portals = find_portals(*scene_.the_case);
     scene_.bone_middles_B = bone_middles(*scene_.the_case);
     scene_.demo = loaded.demo;
-    scene_.carving = loaded.carving;
+    scene_.carving = loaded.carving.setup;
     felt_job_.reset();
     felt_known_ = false;
     prepared_ = std::move(loaded.prepared);
-    if (!loaded.carving_problem.empty()) host_.note(ToastKind::kWarning, loaded.carving_problem);
+    if (!loaded.carving.problem.empty()) host_.note(ToastKind::kWarning, loaded.carving.problem);
+    if (loaded.tray) live_.take_tray(std::move(*loaded.tray));
     begin_finer(loaded);
     sight_.begin_case(same_case);
   }
@@ -108,11 +109,15 @@ void CaseControl::begin_finer(const Loaded& loaded) {
   scene_.finer_source = loaded.finer_source;
   if (!loaded.lit) lighting_ = std::make_unique<SideJob<PreparedCase>>(light_case(scene_.the_case));
   if (scene_.finer_source.empty()) return;
-  refining_ = std::make_unique<SideJob<FinerCase>>(refine_case(scene_.finer_source));
+  refining_ = std::make_unique<SideJob<FinerCase>>(
+      refine_case(scene_.finer_source, live_.wanted_instruments()));
+  if (scene_.finer_source == scene_.source)
+    return host_.note(ToastKind::kInfo,
+                      "You can touch the bones now. Carving them becomes possible in a while.");
   host_.note(
       ToastKind::kInfo,
-      "You can touch the bones now. What you feel are their hulls, until the bones have been cut "
-      "into pieces: once, a minute or two.");
+      "You can touch the bones now. What you feel are their hulls, until more of them has been "
+      "made: once, a minute or two.");
 }
 
 bool CaseControl::poll_finer(bool at_rest) {
@@ -145,18 +150,25 @@ void CaseControl::poll_pieces() {
 }
 
 void CaseControl::exchange(FinerCase finer) {
+  const bool was_felt = scene_.source == scene_.finer_source;
   if (LiveRun* const run = live_.run()) {
-    const auto exchanged = run->exchange_case(finer.the_case, finer.source, finer.demo);
+    const auto exchanged =
+        run->exchange_case(finer.the_case, finer.source, finer.demo, finer.carving.setup);
     if (!exchanged) return host_.note(ToastKind::kError, exchanged.error().message());
   }
   scene_.the_case = std::move(finer.the_case);
   scene_.source = std::move(finer.source);
   scene_.demo = std::move(finer.demo);
+  scene_.carving = std::move(finer.carving.setup);
   scene_.finer_source.clear();
   scene_.renderer->set_pieces(*scene_.the_case);
   pieces_after_s_ = host_.age_s();
-  host_.note(ToastKind::kInfo,
-             "The bones are cut into pieces: what you feel now follows their surface.");
+  if (!finer.carving.problem.empty())
+    host_.note(ToastKind::kWarning, finer.carving.problem);
+  else
+    host_.note(ToastKind::kInfo, was_felt
+                                     ? "Bone can be carved now."
+                                     : "What you feel of the bones now follows their surface.");
 }
 
 // Measured when it is first shown: it would double the time that opening takes.
@@ -203,7 +215,8 @@ void CaseControl::describe(UiModel& model) const {
   if (felt_job_) model.felt_measured = felt_job_->progress().fraction;
   if (refining_ || lighting_) model.felt_measured = 0;
   if (refining_ && live_.run() && !live_.recording())
-    model.activity += "; bones felt as hulls, pieces " +
+    model.activity += (scene_.source == scene_.finer_source ? "; preparing what is carved, "
+                                                            : "; bones felt as hulls, pieces ") +
                       std::to_string(static_cast<int>(100 * refining_->progress().fraction)) + " %";
 }
 

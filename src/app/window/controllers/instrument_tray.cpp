@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "runs/tray.h"
 
@@ -71,6 +72,12 @@ Result<InstrumentTray> InstrumentTray::make(const std::string& region,
     tray.run_.driven.push_back(driven_of(tray.set_.instruments()[tray.set_.at(i).instrument]));
   }
   return tray;
+}
+
+PreparedTray prepare_tray(const std::string& region, const std::vector<std::string>& wanted) {
+  auto made = InstrumentTray::make(region, wanted);
+  if (!made) return {InstrumentTray(), region, wanted, made.error().message()};
+  return {std::move(*made), region, wanted, {}};
 }
 
 std::optional<std::uint32_t> InstrumentTray::find(const std::string& name) const {

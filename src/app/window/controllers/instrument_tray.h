@@ -50,4 +50,14 @@ class InstrumentTray {
   std::vector<std::uint32_t> taken_;  ///< the last one first
 };
 
+/// A tray and what it was made of. Where it cannot be made it is the wrist probe alone, and
+/// `problem` says why.
+struct PreparedTray {
+  InstrumentTray tray;
+  std::string region;
+  std::vector<std::string> wanted;
+  std::string problem;
+};
+PreparedTray prepare_tray(const std::string& region, const std::vector<std::string>& wanted);
+
 }  // namespace osteon

@@ -38,10 +38,16 @@ void LiveControl::list_devices() {
 }
 
 void LiveControl::make_tray() {
-  auto made = InstrumentTray::make(region_of(*scene_.the_case), wanted_);
-  if (!made) host_.note(ToastKind::kError, made.error().message());
-  tray_ = made ? std::move(*made) : InstrumentTray();
-  sight_.set_tray(tray_.run().names, tray_.run().tools);
+  const std::string region = region_of(*scene_.the_case);
+  if (region != tray_region_ || wanted_ != tray_wanted_) take_tray(prepare_tray(region, wanted_));
+  sight_.set_tray(tray_.run().names, tray_.run().tools, tray_.instruments());
+}
+
+void LiveControl::take_tray(PreparedTray tray) {
+  if (!tray.problem.empty()) host_.note(ToastKind::kError, tray.problem);
+  tray_ = std::move(tray.tray);
+  tray_region_ = std::move(tray.region);
+  tray_wanted_ = std::move(tray.wanted);
 }
 
 void LiveControl::make_run() {

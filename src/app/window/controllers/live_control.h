@@ -34,6 +34,8 @@ class LiveControl {
   /// Instruments that the tray has whatever the case's region is.
   const std::vector<std::string>& wanted_instruments() const { return wanted_; }
   void want_instrument(const std::string& name) { wanted_.push_back(name); }
+  /// The tray of the case on show, made beside the window.
+  void take_tray(PreparedTray tray);
 
   /// The first run after something was opened: what the command line ordered counts once.
   void begin();
@@ -81,6 +83,8 @@ class LiveControl {
   std::vector<DeviceChoice> choices_;
   std::vector<std::string> wanted_;
   InstrumentTray tray_;
+  std::string tray_region_;  ///< what `tray_` was made of
+  std::vector<std::string> tray_wanted_;
   std::unique_ptr<LiveRun> run_;
   std::uint64_t runs_made_ = 0;
   double mapping_changed_s_ = -1;  ///< not yet in effect; -1: it is

@@ -43,11 +43,12 @@ void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& m
   failure_.reset();
 }
 
-Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const Tray& tools) {
+Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const Tray& tools,
+                                    std::span<const Instrument> instruments) {
   fluoro_.reset();
   tray_ = tools;
   lenses_.clear();
-  auto found = lenses_of(names);
+  auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
   if (!found) return tl::unexpected(found.error());
   lenses_ = std::move(*found);
   return {};

@@ -26,7 +26,9 @@ class PictureViews {
   void begin(std::shared_ptr<const Case> the_case, const Renderer& main);
   /// What hands may hold, by ToolState::instrument. Fails where a scope's file cannot be read; no
   /// instrument is looked through then.
-  Result<void> set_tray(const std::vector<std::string>& names, const Tray& tools);
+  /// `instruments`: those of the names, where they have been read already.
+  Result<void> set_tray(const std::vector<std::string>& names, const Tray& tools,
+                        std::span<const Instrument> instruments = {});
 
   /// How the scene stands now, its first tool the active hand's; before any drawing of a picture.
   /// Fails once where something could not be made: the text is for the user.

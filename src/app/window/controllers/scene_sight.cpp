@@ -167,9 +167,10 @@ void SceneSight::highlight(ViewState& view) const {
     if (id.index < view.bones.size()) view.bones[id.index].highlighted = true;
 }
 
-void SceneSight::set_tray(const std::vector<std::string>& names, const Tray& tools) {
+void SceneSight::set_tray(const std::vector<std::string>& names, const Tray& tools,
+                          std::span<const Instrument> instruments) {
   if (scene_.renderer) scene_.renderer->set_tray(tools);
-  if (auto told = scene_.views.set_tray(names, tools); !told)
+  if (auto told = scene_.views.set_tray(names, tools, instruments); !told)
     host_.note(ToastKind::kWarning, told.error().message());
 }
 

@@ -82,7 +82,8 @@ class SceneSight {
   void highlight(ViewState& view) const;
 
   /// What hands may hold, for who draws it.
-  void set_tray(const std::vector<std::string>& names, const Tray& tools);
+  void set_tray(const std::vector<std::string>& names, const Tray& tools,
+                std::span<const Instrument> instruments = {});
   void describe(UiModel& model) const;
 
  private:

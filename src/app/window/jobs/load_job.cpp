@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/all_cores.h"
 #include "cases/open_case.h"
+#include "osteon/physics/carving.h"
+#include "osteon/render/prepare_unlit.h"
 #include "runs/demo_path.h"
 #include "runs/tray.h"
-#include "window/controllers/instrument_tray.h"
 
 namespace osteon {
 
@@ -23,7 +25,7 @@ class Loader {
   Result<void> load_the_case(Loaded& loaded, const std::string& spec, std::uint64_t wanted_hash);
   Result<void> open_at_once(Loaded& loaded, const std::string& spec);
   Result<void> open_whole(Loaded& loaded, const std::string& spec);
-  void prepare_carving(Loaded& loaded);
+  void make_surfaces(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
   void say(const char* what, double fraction) {
@@ -79,22 +81,7 @@ Result<void> Loader::load_the_case(Loaded& loaded, const std::string& spec,
   }
   say("Planning the demonstration", 0.7);
   loaded.demo = demo_path(*loaded.the_case, spec);
-  if (loaded.prepared) prepare_carving(loaded);
   return {};
-}
-
-// Bones felt as fields can be carved. A tray that cannot be made is told when the run begins; a
-// bone that cannot be carved is seen and felt all the same.
-void Loader::prepare_carving(Loaded& loaded) {
-  const Case& the_case = *loaded.the_case;
-  const auto tray = InstrumentTray::make(region_of(the_case), order_.instruments);
-  if (!tray || !can_carve(the_case, tray->run().names)) return;
-  say("Looking into the bones that can be carved", 0.72);
-  auto carving = carving_for_run(the_case, tray->run().names);
-  if (carving)
-    loaded.carving = std::move(*carving);
-  else
-    loaded.carving_problem = carving.error().message();
 }
 
 Result<void> Loader::open_at_once(Loaded& loaded, const std::string& spec) {
@@ -104,10 +91,31 @@ Result<void> Loader::open_at_once(Loaded& loaded, const std::string& spec) {
   loaded.the_case = std::move(opened->the_case);
   loaded.case_source = std::move(opened->spec);
   loaded.finer_source = std::move(opened->finer);
-  say("Making the surfaces", 0.5);
-  loaded.prepared = prepare_unlit(*loaded.the_case);
+  // What it takes to carve it can wait.
+  if (loaded.finer_source.empty() && has_field(*loaded.the_case))
+    loaded.finer_source = loaded.case_source;
+  make_surfaces(loaded);
   loaded.lit = false;
   return {};
+}
+
+// Surfaces and tray at the same time, as far as there are processors.
+void Loader::make_surfaces(Loaded& loaded) {
+  const Case& the_case = *loaded.the_case;
+  const std::size_t bones = the_case.bones.size(), softs = the_case.softs.size();
+  PreparedCase& prepared = loaded.prepared.emplace();
+  prepared.bones.resize(bones);
+  prepared.softs.resize(softs);
+  const auto task = [&](std::size_t i) {
+    if (i == 0)
+      loaded.tray = prepare_tray(region_of(the_case), order_.instruments);
+    else if (i <= bones)
+      prepared.bones[i - 1] = unlit_bone(the_case, i - 1);
+    else
+      prepared.softs[i - 1 - bones] = unlit_soft(the_case, i - 1 - bones);
+  };
+  run_on_all_cores(1 + bones + softs, task,
+                   [&](double share) { say("Making the surfaces", 0.5 + 0.2 * share); });
 }
 
 Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
@@ -120,6 +128,9 @@ Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
   loaded.prepared = prepare_case(*loaded.the_case, [this](double share) {
     return goes_on(progress_, kLight, 0.4 + 0.3 * share);
   });
+  loaded.tray = prepare_tray(region_of(*loaded.the_case), order_.instruments);
+  say("Looking into the bones that can be carved", 0.7);
+  loaded.carving = prepare_carving(*loaded.the_case, loaded.tray->tray);
   return {};
 }
 
@@ -167,6 +178,19 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
 }
 
 }  // namespace
+
+bool has_field(const Case& the_case) {
+  return std::any_of(the_case.bones.begin(), the_case.bones.end(),
+                     [](const Bone& bone) { return bone.felt == Felt::kField; });
+}
+
+// A bone that cannot be carved is seen and felt all the same.
+PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray) {
+  if (!can_carve(the_case, tray.run().names)) return {};
+  auto carving = carving_for_run(the_case, tray.run().names);
+  if (!carving) return {nullptr, carving.error().message()};
+  return {std::move(*carving), {}};
+}
 
 Result<Loaded> load(const LoadOrder& order, const Progress& progress) {
   try {

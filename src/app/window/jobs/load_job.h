@@ -16,6 +16,7 @@
 #include "runs/cut_history.h"
 #include "runs/replay_track.h"
 #include "runs/run_events.h"
+#include "window/controllers/instrument_tray.h"
 
 namespace osteon {
 
@@ -47,16 +48,26 @@ struct LoadedReplay {
   std::uint64_t ticks = 0;
 };
 
+/// What a live run of a case removes bone with.
+struct PreparedCarving {
+  std::shared_ptr<const CarvingSetup> setup;  ///< null: nothing can be carved
+  std::string problem;  ///< why nothing can, though a bone is felt as a field; empty: none
+};
+/// Bones felt as fields can be carved, by the instruments of a tray; seconds for each.
+PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray);
+bool has_field(const Case& the_case);
+
 struct Loaded {
   std::shared_ptr<const Case> the_case;
   std::string case_source;
-  std::string finer_source;  ///< of the case with all that is felt of it; empty: this is it
+  /// Of the case with all that is felt of it, or with what it is carved with where that is all that
+  /// is missing; empty: this is it.
+  std::string finer_source;
   std::optional<PreparedCase> prepared;  ///< none: `open` was used again
   bool lit = true;                       ///< false: `prepared` comes from prepare_unlit
   ProbePath demo;                        ///< empty when none could be made
-  /// For a live run with the case's tray; null: nothing can be carved.
-  std::shared_ptr<const CarvingSetup> carving;
-  std::string carving_problem;  ///< why nothing can, though a bone is felt as a field; empty: none
+  std::optional<PreparedTray> tray;      ///< of the case; none: `open` was used again
+  PreparedCarving carving;
   std::optional<LoadedReplay> replay;
 };
 

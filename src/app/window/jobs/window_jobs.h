@@ -12,6 +12,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
 #include "ui/side_job.h"
+#include "window/jobs/load_job.h"
 
 namespace osteon {
 
@@ -30,9 +31,11 @@ struct FinerCase {
   std::shared_ptr<const Case> the_case;
   std::string source;
   ProbePath demo;
+  PreparedCarving carving;
 };
-/// Makes what is felt of a case that was opened at once. Other threads go first.
-SideJob<FinerCase>::Work refine_case(std::string spec);
+/// Makes what is felt of a case that was opened at once, and what it is carved with by the
+/// instruments of its tray (`wanted`: as prepare_tray takes them). Other threads go first.
+SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted);
 
 struct SavedPatient {
   std::filesystem::path folder;
