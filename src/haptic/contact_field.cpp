@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "osteon/base/check.h"
+#include "osteon/scene/rings.h"
 #include "osteon/scene/wide_field.h"
 #include "rigid_motion.h"
 
@@ -38,7 +39,7 @@ ContactField::ContactField(const Case& the_case, const Tool& tool)
   cuts_.resize(case_.bones.size());
   for (std::uint32_t b = 0; b < case_.bones.size(); ++b) {
     first_pair_.push_back(static_cast<std::uint32_t>(pairs_.size()));
-    if (case_.bones[b].field)
+    if (case_.bones[b].field && !is_loose_ring(case_, b))
       add_field(b);
     else
       add_pieces(b);
@@ -90,6 +91,8 @@ void ContactField::cut_into_stretches() {
 }
 
 void ContactField::add_pieces(std::uint32_t bone) {
+  // What jaws carry would push them apart: it is not felt.
+  if (is_loose_ring(case_, bone)) return broad_phase_.add_bone(std::span<const ConvexBody>());
   const auto& bodies = case_.bones[bone].bodies;
   const auto parts = static_cast<std::uint32_t>(parts_beside(false));
   broad_phase_.add_bone(std::span<const ConvexBody>(bodies));

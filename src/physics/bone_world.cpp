@@ -263,6 +263,9 @@ void BoneWorld::go_back(const BoneSnapshot& kept, bool hold) {
 }
 
 bool BoneWorld::held() const { return impl_->hold; }
+void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {
+  impl_->snapshot.bones[bone] = motion;
+}
 void BoneWorld::ask_to_keep() { impl_->snapshot.saved_step = impl_->snapshot.step; }
 
 }  // namespace osteon

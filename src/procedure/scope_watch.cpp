@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/scene/rings.h"
+
 namespace osteon {
 namespace {
 
@@ -57,6 +59,7 @@ bool is_hidden(const Case& the_case, const BoneSnapshot& bones, const Vec3& from
   if (length <= spare_m) return false;
   const Vec3 end_W = to_W - way * (spare_m / length);
   for (std::size_t i = 0; i < the_case.bones.size(); ++i) {
+    if (is_loose_ring(the_case, static_cast<std::uint32_t>(i))) continue;
     const Pose X_WB = i < bones.count ? bones.bones[i].X_WB : the_case.bones[i].X_WB;
     const Pose X_BW = X_WB.inverse();
     const Vec3 a = X_BW * from_W, b = X_BW * end_W;

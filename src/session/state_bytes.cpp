@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -381,11 +381,33 @@ void field(A& a, SoftState& s) {
 }
 
 template <class A>
+void field(A& a, LooseRing& r) {
+  number(a, r.is, static_cast<std::uint64_t>(LooseRing::Is::kFalling));
+  field(a, r.X_WB);
+  field(a, r.hand);
+  field(a, r.second);
+  field(a, r.X_PB);
+  field(a, r.falls_m_per_s);
+}
+
+template <class A>
+void field(A& a, RingsState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 5) return;  // nothing lay loose then
+  field(a, s.on);
+  if (!s.on) return;
+  first_of(a, s.count, s.rings);
+  for (bool& shut : s.shut) field(a, shut);
+  for (std::uint32_t& instrument : s.instrument) field(a, instrument);
+}
+
+template <class A>
 void field(A& a, WorldState& w) {
   field(a, w.bones);
   field(a, w.hold);
   field(a, w.carved);
   field(a, w.softs);
+  field(a, w.rings);
   for (WorldMark& mark : w.marks) {
     field(a, mark.set);
     if (!mark.set) continue;
@@ -393,6 +415,7 @@ void field(A& a, WorldState& w) {
     field(a, mark.bones);
     field(a, mark.carved);
     field(a, mark.softs);
+    field(a, mark.rings);
   }
 }
 

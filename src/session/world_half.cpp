@@ -20,9 +20,18 @@ PhysicsParams physics_of(const SessionSettings& settings) {
 }  // namespace
 
 WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings)
-    : world_(std::move(the_case), physics_of(settings)),
+    : world_(the_case, physics_of(settings)),
       step_s_(settings.physics.step_s),
-      keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {}
+      keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {
+  auto rings = std::make_unique<LooseRings>(std::move(the_case), step_s_);
+  if (rings->count() > 0) rings_ = std::move(rings);
+}
+
+// Whatever moves the other bones, rings are where jaws and gravity have put them.
+void WorldHalf::place_rings() {
+  for (std::size_t i = 0; i < rings_->count(); ++i)
+    world_.place(rings_->bone(i), rings_->motion(i));
+}
 
 void WorldHalf::set_carving(std::shared_ptr<const CarvingSetup> setup,
                             std::vector<FeltCuts*> hands) {
@@ -43,6 +52,10 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) {
     publish(*carving_, bones.step, all_changed_, felt_);
     feed_->note(*carving_, all_changed_);
+  }
+  if (rings_) {
+    rings_->step(tools, bones.epoch);
+    place_rings();
   }
   if (softs_) softs_->step(tools, bones);
   all_changed_ = false;
@@ -72,14 +85,19 @@ void WorldHalf::obey(const Command& command) {
 void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
+  if (rings_) rings_->go_back(mark.rings);
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   all_changed_ = true;
 }
 
 void WorldHalf::keep(std::uint32_t mark) {
-  marks_[mark] = {true, world_.held(), world_.snapshot(), carved(),
-                  softs_ ? softs_->world().state() : SoftState{}};
+  marks_[mark] = {true,
+                  world_.held(),
+                  world_.snapshot(),
+                  carved(),
+                  softs_ ? softs_->world().state() : SoftState{},
+                  rings_ ? rings_->state() : RingsState{}};
   mark_hashes_[mark] = hash_of(marks_[mark].bones);
 }
 
@@ -88,6 +106,7 @@ std::uint64_t WorldHalf::hash() const {
   hasher.add(world_.state_hash());
   if (carving_) hasher.add(carving_->hash());
   if (softs_) hasher.add(softs_->world().hash());
+  if (rings_) hasher.add(rings_->hash());
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     hasher.add(marks_[i].set);
     if (!marks_[i].set) continue;
@@ -102,6 +121,7 @@ void WorldHalf::save(WorldState& into) const {
   into.hold = world_.held();
   into.carved = carved();
   if (softs_) into.softs = softs_->world().state();
+  if (rings_) into.rings = rings_->state();
   into.marks = marks_;
 }
 
@@ -112,9 +132,12 @@ bool WorldHalf::fits(const WorldState& state) const {
   const auto fit = [&](const SoftState& softs) {
     return softs_ ? softs_->world().fits(softs) : !softs.on;
   };
+  const auto hang = [&](const RingsState& rings) {
+    return rings_ ? rings_->fits(rings) : !rings.on;
+  };
   for (const WorldMark& mark : state.marks)
-    if (mark.set && !(good(mark.carved) && fit(mark.softs))) return false;
-  return good(state.carved) && fit(state.softs);
+    if (mark.set && !(good(mark.carved) && fit(mark.softs) && hang(mark.rings))) return false;
+  return good(state.carved) && fit(state.softs) && hang(state.rings);
 }
 
 void WorldHalf::restore(const WorldState& from) {
@@ -125,6 +148,7 @@ void WorldHalf::restore(const WorldState& from) {
     feed_->note_all(*carving_);
   }
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
+  if (rings_) rings_->restore(from.rings);
   marks_ = from.marks;
   for (std::size_t i = 0; i < marks_.size(); ++i)
     mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;

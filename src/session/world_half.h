@@ -8,6 +8,7 @@
 #include "felt_cuts.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
 
@@ -43,13 +44,15 @@ class alignas(64) WorldHalf {
   void keep(std::uint32_t mark);
   void go_back(const WorldMark& mark);
   std::shared_ptr<const CarvingState> carved() const;
+  void place_rings();
 
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
   std::unique_ptr<CutsFeed> feed_;
-  std::unique_ptr<SoftHalf> softs_;  ///< null: nothing is soft
-  std::vector<FeltCuts*> felt_;      ///< of the hands
-  bool all_changed_ = false;         ///< bones came back from a restore point in this step
+  std::unique_ptr<SoftHalf> softs_;    ///< null: nothing is soft
+  std::unique_ptr<LooseRings> rings_;  ///< null: none lie loose
+  std::vector<FeltCuts*> felt_;        ///< of the hands
+  bool all_changed_ = false;           ///< bones came back from a restore point in this step
   double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};

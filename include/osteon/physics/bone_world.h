@@ -54,6 +54,8 @@ class BoneWorld {
   /// The bones as they were in `kept`, in the next epoch: steps go on counting.
   void go_back(const BoneSnapshot& kept, bool hold);
   bool held() const;
+  /// Puts a bone elsewhere that something else moves, after a step.
+  void place(std::size_t bone, const BoneMotion& motion);
   /// Marks the snapshot as one whose state is to be kept.
   void ask_to_keep();
 

@@ -10,6 +10,7 @@
 #include "osteon/base/result.h"
 #include "osteon/haptic/haptic.h"
 #include "osteon/haptic/haptic_state.h"
+#include "osteon/physics/ring_state.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
@@ -62,6 +63,7 @@ struct WorldMark {
   BoneSnapshot bones;
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
   SoftState softs;                             ///< off: nothing is soft
+  RingsState rings;                            ///< off: no rings lie loose
 };
 
 /// All that one physics step leaves to the next.
@@ -70,6 +72,7 @@ struct WorldState {
   bool hold = true;
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
   SoftState softs;                             ///< off: nothing is soft
+  RingsState rings;                            ///< off: no rings lie loose
   std::array<WorldMark, kMaxMarks> marks{};
 };
 
