@@ -47,8 +47,9 @@ function(osteon_share_headers target)
   endif()
 endfunction()
 
-# Under sanitizers, what lies around the modules runs seldom: not optimised and not counted for the
-# fuzzer, it builds in less than half the time. The modules stay optimised.
+# Under sanitizers, what lies around the modules and what no replay needs runs seldom: not optimised
+# and not counted for the fuzzer, it builds in less than half the time.
+set(OSTEON_LIGHT_MODULES xray media render surgeon results)
 set(OSTEON_LIGHT_FLAGS "")
 if(OSTEON_SANITIZE)
   set(OSTEON_LIGHT_FLAGS -O0)
@@ -118,9 +119,36 @@ function(osteon_module name)
       target_link_libraries(osteon_${name} PUBLIC osteon_${dep})
     endif()
   endforeach()
-  osteon_share_headers(osteon_${name})
+  if(name IN_LIST OSTEON_LIGHT_MODULES)
+    osteon_share_light_headers(osteon_${name})
+  else()
+    osteon_share_headers(osteon_${name})
+  endif()
   osteon_join(osteon_${name})
   include("${CMAKE_SOURCE_DIR}/src/${name}/module.cmake" OPTIONAL)
+  set(needs ${name})
+  foreach(dep IN LISTS ARG_DEPS)
+    list(APPEND needs ${OSTEON_NEEDS_${dep}})
+  endforeach()
+  list(REMOVE_DUPLICATES needs)
+  set(OSTEON_NEEDS_${name} ${needs} PARENT_SCOPE)
+endfunction()
+
+# Links the modules named, and those that they need, before the target's own objects. The linker keeps
+# the first copy of a template's code, and what lies around the modules is compiled with less
+# optimisation: without this the modules would run on its copies.
+function(osteon_modules_first target)
+  set(modules "")
+  foreach(module IN LISTS ARGN)
+    list(APPEND modules ${OSTEON_NEEDS_${module}})
+  endforeach()
+  list(REMOVE_DUPLICATES modules)
+  if(OSTEON_SANITIZE)
+    list(REMOVE_ITEM modules ${OSTEON_LIGHT_MODULES})
+  endif()
+  foreach(module IN LISTS modules)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:osteon_${module}>)
+  endforeach()
 endfunction()
 
 # Puts a package's headers where their warnings do not stop the build.

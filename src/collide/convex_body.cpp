@@ -13,22 +13,30 @@ namespace {
 
 constexpr std::size_t kBlock = ConvexBody::kBlock;
 
+// By plain numbers and each distance once: every case that is opened comes here thousands of times.
+Vec3 farthest_from(const Vec3& center, const std::vector<Vec3>& points) {
+  const double cx = center.x(), cy = center.y(), cz = center.z();
+  double most = -1;
+  const double* farthest = points.front().data();
+  for (const Vec3& p : points) {
+    const double* at = p.data();
+    const double x = at[0] - cx, y = at[1] - cy, z = at[2] - cz;
+    const double distance2 = x * x + y * y + z * z;
+    if (!(distance2 > most)) continue;
+    most = distance2;
+    farthest = at;
+  }
+  return Vec3(farthest[0], farthest[1], farthest[2]);
+}
+
 // Badoiu and Clarkson 2003: step towards the farthest point by 1 / (i + 1). The centre is a mean of
 // vertices, hence inside the body.
 void bound_by_sphere(ConvexBody& body, const std::vector<Vec3>& points) {
   constexpr int kSteps = 300;
   Vec3 center = points.front();
-  for (int i = 1; i <= kSteps; ++i) {
-    const auto farthest =
-        std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
-          return (a - center).squaredNorm() < (b - center).squaredNorm();
-        });
-    center += (*farthest - center) / (i + 1);
-  }
-  double radius = 0;
-  for (const Vec3& p : points) radius = std::max(radius, (p - center).norm());
+  for (int i = 1; i <= kSteps; ++i) center += (farthest_from(center, points) - center) / (i + 1);
   body.center = center;
-  body.radius = radius * (1 + 1e-12);
+  body.radius = (farthest_from(center, points) - center).norm() * (1 + 1e-12);
 }
 
 using Key = std::array<double, 6>;
