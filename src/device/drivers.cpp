@@ -39,7 +39,7 @@ OpenDevice open_virtual(const DeviceInfo& info) { return std::make_unique<Virtua
 OpenDevice open_mouse(const DeviceInfo& info) { return std::make_unique<MouseDevice>(info); }
 OpenDevice open_pad(const DeviceInfo& info) { return std::make_unique<PadDevice>(info); }
 
-constexpr std::array<Driver, 9> kDrivers{{
+constexpr std::array<Driver, 10> kDrivers{{
     {"mouse", "Mouse and keyboard: moves the probe, feels nothing", list_mouse, open_mouse,
      nullptr},
     {"gamepad", "Gamepad: sticks move the probe, feels nothing", list_pad, open_pad, nullptr},
@@ -54,6 +54,8 @@ constexpr std::array<Driver, 9> kDrivers{{
      open_virtual_usb_pid, nullptr},
     {"virtual-usb-vector", "Emulated USB joystick (vector report), to the byte",
      list_virtual_usb_vector, open_virtual_usb_vector, nullptr},
+    {"virtual-usb-torque", "Emulated USB joystick whose rotation is driven, to the byte",
+     list_virtual_usb_torque, open_virtual_usb_torque, nullptr},
     {"null", "No device", list_null, open_null, nullptr},
 }};
 

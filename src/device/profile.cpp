@@ -26,6 +26,19 @@ void read_force(ProfileReader& in, DeviceInfo& info) {
     in.complain("'continuous_n' is above 'peak_n'", force.get("continuous_n"));
 }
 
+// A rotation whose limits are not told gets no torque.
+void read_torque(ProfileReader& in, DeviceInfo& info) {
+  const toml::table& torque = in.table("torque");
+  in.only(torque, {"axes", "peak_nm", "continuous_nm", "max_slew_nm_per_s"});
+  info.torque_axes = in.axes(torque, "axes");
+  if (torque.size() < 2) return;
+  info.peak_torque_nm = in.number(torque, "peak_nm", 0, 10);
+  info.continuous_torque_nm = in.number(torque, "continuous_nm", 0, 10);
+  info.max_torque_slew_nm_per_s = in.number(torque, "max_slew_nm_per_s", 0, 1e5);
+  if (info.continuous_torque_nm > info.peak_torque_nm)
+    in.complain("'continuous_nm' is above 'peak_nm'", torque.get("continuous_nm"));
+}
+
 const DriverTable* table_of(std::string_view driver) {
   for (const DriverTable& t : kDriverTables)
     if (t.driver == driver) return &t;
@@ -42,9 +55,7 @@ DeviceInfo read_device_info(ProfileReader& in, const toml::table& root,
   info.driver = in.text(root, "driver");
   info.rate_hz = in.number(root, "rate_hz", 1, 100000);
   read_force(in, info);
-  const toml::table& torque = in.table("torque");
-  in.only(torque, {"axes"});
-  info.torque_axes = in.axes(torque, "axes");
+  read_torque(in, info);
   const toml::table& workspace = in.table("workspace");
   in.only(workspace, {"extent_mm"});
   info.workspace_m = in.lengths_mm(workspace, "extent_mm");

@@ -21,6 +21,7 @@ SafetyGate::SafetyGate(const DeviceInfo& info, const SafetyParams& params, Force
       passivity_(params.passivity),
       slew_(info.max_slew_n_per_s),
       budget_(info.peak_force_n, info.continuous_force_n, params.thermal_s),
+      torque_(info, params.passivity, params.thermal_s),
       ramp_(params.ramp_in_s, params.stale_after_s, params.stale_decay_s) {}
 
 void SafetyGate::enable() {
@@ -29,22 +30,30 @@ void SafetyGate::enable() {
   ramp_.restart();
   silence_.restart();
   passivity_.restart();
+  torque_.restart();
 }
 
 void SafetyGate::disable(ForceOff cause) {
   if (cause_ == ForceOff::kNone) cause_ = cause == ForceOff::kNone ? ForceOff::kSoftware : cause;
 }
 
+// A device that drives no rotation asks nothing of the torque.
+bool SafetyGate::all_finite(const DeviceWrench& wanted, const DeviceSample& sample) const {
+  if (!is_finite(wanted.force_V) || !is_finite(sample.v_V) || !is_finite(sample.X_VD)) return false;
+  return !torque_.driven() || (is_finite(wanted.torque_V) && is_finite(sample.w_V));
+}
+
 // Stages 1, 2, 6 and 8: whatever trips gives zero at once, so that all are asked first.
-ForceOff SafetyGate::trip_cause(const Vec3& force_V, const DeviceSample& sample,
+ForceOff SafetyGate::trip_cause(const DeviceWrench& wanted, const DeviceSample& sample,
                                 double age_s) const {
-  const bool finite = is_finite(force_V) && is_finite(sample.v_V) && is_finite(sample.X_VD);
-  if (!finite || std::isnan(age_s)) return ForceOff::kNotFinite;
+  if (!all_finite(wanted, sample) || std::isnan(age_s)) return ForceOff::kNotFinite;
   if (!sample.connected) return ForceOff::kDisconnect;
   if (sample.refusal != ForceOff::kNone) return sample.refusal;
   if (!sample.calibrated) return ForceOff::kCalibration;
   if (!sample.dead_man_held) return ForceOff::kDeadMan;
   if (sample.v_V.norm() > params_.max_velocity_m_per_s) return ForceOff::kVelocity;
+  if (torque_.driven() && sample.w_V.norm() > params_.max_turn_rad_per_s)
+    return ForceOff::kVelocity;
   if (ramp_.too_old(age_s)) return ForceOff::kWatchdog;
   if (silence_.silent_s() >= params_.silent_fault_s) return ForceOff::kDisconnect;
   return ForceOff::kNone;
@@ -78,27 +87,30 @@ double SafetyGate::allowed_share(double age_s, double dt_s) {
   return ramp_.advance(age_s, dt_s);
 }
 
-Vec3 SafetyGate::filter(const Vec3& force_V, const DeviceSample& sample, double age_s, double dt_s,
-                        const Vec3& assist_V) {
+DeviceWrench SafetyGate::filter(const DeviceWrench& wanted, const DeviceSample& sample,
+                                double age_s, double dt_s, const Vec3& assist_V) {
   const double dt = usable_time(dt_s);
   silence_.see(sample.time_ns, dt);
   const Vec3 assist = is_finite(assist_V) ? assist_V : Vec3::Zero();
-  const ForceOff trip = trip_cause(force_V, sample, age_s);
+  const ForceOff trip = trip_cause(wanted, sample, age_s);
   if (trip != ForceOff::kNone) disable(trip);
-  Vec3 force = Vec3::Zero();
+  DeviceWrench given;
   if (enabled()) {
-    const Vec3 whole = shaped(force_V, assist, sample, dt);
+    const Vec3 whole = shaped(wanted.force_V, assist, sample, dt);
+    const Vec3 turning = torque_.shaped(wanted.torque_V, sample, std::min(dt, kLongestSlew_s));
     const double share = allowed_share(age_s, dt);
-    force = share * whole;
+    given = {share * whole, share * turning};
     passivity_.delivered(share * (whole - actuated(assist)));
   }
-  budget_.spend(force, dt);  // the motors cool while the force is off
-  return force;
+  budget_.spend(given.force_V, dt);  // the motors cool while the force is off
+  torque_.spend(given.torque_V, dt);
+  return given;
 }
 
 SafetyState SafetyGate::state() const {
-  return {cause_, enabled() ? ramp_.gain() : 0, budget_.limit_n(), budget_.heat(),
-          passivity_.state()};
+  return {cause_,         enabled() ? ramp_.gain() : 0, budget_.limit_n(),
+          budget_.heat(), passivity_.state(),           torque_.limit_nm(),
+          torque_.heat()};
 }
 
 }  // namespace osteon

@@ -28,10 +28,15 @@ void VirtualDevice::write_force(const Vec3& force_V) {
   force_V_ = is_finite(force_V) && open_ ? force_V : Vec3::Zero();
   for (int i = 0; i < 3; ++i)
     if (!info_.force_axes[static_cast<std::size_t>(i)]) force_V_[i] = 0;
+  torque_V_ = is_finite(wanted_torque_V_) && open_ ? wanted_torque_V_ : Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    if (!info_.torque_axes[static_cast<std::size_t>(i)]) torque_V_[i] = 0;
+  wanted_torque_V_.setZero();
 }
 
 void VirtualDevice::close() {
   force_V_.setZero();
+  torque_V_.setZero();
   open_ = false;
 }
 

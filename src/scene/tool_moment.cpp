@@ -8,13 +8,12 @@ Vec3 grip_of(const Tool& tool) {
   return tool.shaft.radius > 0 ? tool.shaft.p1 : Vec3(Vec3::Zero());
 }
 
-// Symbols: g, the grip; f_i at p_i, the forces of the contacts; F, the whole force on the hand. The
-// sum of (p_i - g) x f_i, and of what F has beside the f_i: a portal's share acts in its hole.
+// Symbols: g, the point; f_i at p_i, the forces of the contacts; F, the whole force on the hand.
+// The sum of (p_i - g) x f_i, and of what F has beside the f_i: a portal's share acts in its hole.
 // Without a portal such a rest is that of a tip which has just let go, and acts there.
-Vec3 moment_at_grip(const ToolState& state, const Tool& tool, std::span<const Portal> portals) {
+Vec3 moment_about(const Vec3& g_W, const ToolState& state, std::span<const Portal> portals) {
   if ((state.status & (kTickFading | kTickGrabbing)) != 0 || state.force_W.isZero(0))
     return Vec3::Zero();
-  const Vec3 g_W = state.X_WP * grip_of(tool);
   Vec3 rest_W = state.force_W;
   Vec3 moment_W = Vec3::Zero();
   const auto add = [&](const Vec3& p_W, const Vec3& force_W) {
@@ -29,6 +28,11 @@ Vec3 moment_at_grip(const ToolState& state, const Tool& tool, std::span<const Po
     add(state.tool_contacts[i].p_W, state.tool_contacts[i].force_on_tool_W);
   const bool in_portal = state.portal < portals.size();
   moment_W += ((in_portal ? portals[state.portal].p_W : state.X_WP.p) - g_W).cross(Vec3(rest_W));
+  return moment_W;
+}
+
+Vec3 moment_at_grip(const ToolState& state, const Tool& tool, std::span<const Portal> portals) {
+  const Vec3 moment_W = moment_about(state.X_WP * grip_of(tool), state, portals);
   return is_finite(moment_W) ? moment_W : Vec3(Vec3::Zero());
 }
 

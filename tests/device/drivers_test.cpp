@@ -44,9 +44,9 @@ TEST(Drivers, EachListsDevicesThatItOpens) {
       EXPECT_FALSE((*device)->read().connected);
     }
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"falcon", "gamepad", "joystick", "mouse", "null", "phantom",
-                                   "virtual", "virtual-usb-pid", "virtual-usb-vector"}));
+  EXPECT_EQ(names, (std::set<std::string>{"falcon", "gamepad", "joystick", "mouse", "null",
+                                          "phantom", "virtual", "virtual-usb-pid",
+                                          "virtual-usb-torque", "virtual-usb-vector"}));
 }
 
 TEST(Drivers, AnUnknownNameListsTheKnownOnes) {

@@ -56,6 +56,15 @@ TEST(DeviceProfile, ReadsEveryField) {
   EXPECT_EQ(info->max_stiffness_n_per_m, 3000);
   EXPECT_EQ(info->max_slew_n_per_s, 4000);
   EXPECT_LT((info->workspace_m - Vec3(0.1, 0.0805, 0.06)).norm(), 1e-15);
+  EXPECT_FALSE(info->drives_rotation());  // no limits, no torque
+  const auto driven = load_text(with("axes = [false, false, true]",
+                                     "axes = [false, false, true]\npeak_nm = 0.2\n"
+                                     "continuous_nm = 0.05\nmax_slew_nm_per_s = 40"));
+  ASSERT_TRUE(driven) << driven.error().message();
+  EXPECT_TRUE(driven->drives_rotation());
+  EXPECT_EQ(driven->peak_torque_nm, 0.2);
+  EXPECT_EQ(driven->continuous_torque_nm, 0.05);
+  EXPECT_EQ(driven->max_torque_slew_nm_per_s, 40);
 }
 
 TEST(DeviceProfile, RefusesAndNamesEveryBrokenKey) {

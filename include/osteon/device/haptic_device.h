@@ -27,6 +27,21 @@ struct DeviceInfo {
   std::string serial;
   /// Has a switch or a pedal that must be held for force (DeviceSample::dead_man_held).
   bool has_dead_man = false;
+  // Of the driven rotations; all 0 where there are none.
+  double peak_torque_nm = 0;
+  double continuous_torque_nm = 0;
+  double max_torque_slew_nm_per_s = 0;
+
+  /// A rotation with a motor whose limits are not told gets no torque.
+  bool drives_rotation() const {
+    return peak_torque_nm > 0 && (torque_axes[0] || torque_axes[1] || torque_axes[2]);
+  }
+};
+
+/// What a device's motors do to the hand, in V.
+struct DeviceWrench {
+  Vec3 force_V = Vec3::Zero();   ///< N
+  Vec3 torque_V = Vec3::Zero();  ///< N m, about the stylus' origin (that of DeviceSample::X_VD)
 };
 
 enum class ForceOff : std::uint8_t {
@@ -86,6 +101,13 @@ class HapticDevice {
   virtual DeviceSample read() = 0;
   /// Force on the hand, N, in V. Replaces the last one; never waits.
   virtual void write_force(const Vec3& force_V) = 0;
+  /// Torque on the hand about the stylus' origin, N m, in V: goes out with the next force, and with
+  /// that one alone. Nothing to do where no rotation is driven.
+  virtual void write_torque(const Vec3& torque_V) { (void)torque_V; }
+  void write(const DeviceWrench& wrench) {
+    write_torque(wrench.torque_V);
+    write_force(wrench.force_V);
+  }
   /// Zero force, then released. Safe to call twice.
   virtual void close() = 0;
   virtual DeviceHealth health() const { return {}; }

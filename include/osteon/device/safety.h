@@ -6,6 +6,7 @@
 #include "osteon/device/passivity.h"
 #include "osteon/device/safety_limits.h"
 #include "osteon/device/safety_time.h"
+#include "osteon/device/torque_stages.h"
 
 namespace osteon {
 
@@ -18,6 +19,7 @@ struct SafetyParams {
   double silent_fault_s = 0.020;      ///< device silent for so long: a fault
   double stall_s = 0.020;             ///< a tick longer than this ramps in again
   double thermal_s = 5.0;             ///< time constant of the motors' heat
+  double max_turn_rad_per_s = 30;     ///< faster than this trips a device with driven rotations
   PassivityParams passivity;
 };
 
@@ -28,6 +30,8 @@ struct SafetyState {
   double limit_n = 0;  ///< the peak, or less when the motors are warm
   double heat = 0;     ///< of the motors by the thermal budget: 1 is what they bear for ever
   PassivityState passivity;
+  double torque_limit_nm = 0;  ///< as limit_n, of the driven rotations; 0: there are none
+  double torque_heat = 0;
 };
 
 /// Last gate between a simulation and a driver, in the order of its stages:
@@ -39,6 +43,8 @@ struct SafetyState {
 ///  6. over-velocity;
 ///  7. ramp-in, after enabling and after a stall;
 ///  8. watchdog on the simulation's data and on the device's silence.
+/// A torque goes through stages of its own (device/torque_stages.h) with limits of its own; the
+/// trips, the ramp and the watchdog are one for both: what takes the force takes the torque.
 /// A trip latches: only `enable` by the user re-arms. Stage 9, zero force at the end of the run, is
 /// the caller's. Plain arithmetic on its own state: fit for the haptic tick and for a virtual
 /// clock.
@@ -58,13 +64,20 @@ class SafetyGate {
   /// device's own friction and inertia: it passes by the passivity stage, which would undo it. A
   /// trip gives zero at once.
   Vec3 filter(const Vec3& force_V, const DeviceSample& sample, double age_s, double dt_s,
-              const Vec3& assist_V = Vec3::Zero());
+              const Vec3& assist_V = Vec3::Zero()) {
+    return filter(DeviceWrench{force_V, Vec3::Zero()}, sample, age_s, dt_s, assist_V).force_V;
+  }
+  /// The same with a torque about the stylus' origin. Where the device drives a rotation, a torque
+  /// or a rate of turn that is not finite trips as a force does.
+  DeviceWrench filter(const DeviceWrench& wanted, const DeviceSample& sample, double age_s,
+                      double dt_s, const Vec3& assist_V = Vec3::Zero());
   ForceOff cause() const { return cause_; }
   bool enabled() const { return cause_ == ForceOff::kNone; }
   SafetyState state() const;
 
  private:
-  ForceOff trip_cause(const Vec3& force_V, const DeviceSample& sample, double age_s) const;
+  bool all_finite(const DeviceWrench& wanted, const DeviceSample& sample) const;
+  ForceOff trip_cause(const DeviceWrench& wanted, const DeviceSample& sample, double age_s) const;
   Vec3 actuated(const Vec3& force_V) const;
   Vec3 shaped(const Vec3& force_V, const Vec3& assist_V, const DeviceSample& sample, double dt_s);
   double allowed_share(double age_s, double dt_s);
@@ -75,6 +88,7 @@ class SafetyGate {
   PassivityControl passivity_;
   SlewLimit slew_;
   ForceBudget budget_;
+  TorqueStages torque_;
   ForceRamp ramp_;
   SilenceWatch silence_;
 };

@@ -18,8 +18,11 @@ class VirtualDevice : public HapticDevice, public EmulatedUser {
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
+  void write_torque(const Vec3& torque_V) override { wanted_torque_V_ = torque_V; }
   void close() override;
   const VirtualHand& hand() const { return hand_; }
+  /// That went out with the last force. The emulated hand holds its turn against any.
+  const Vec3& torque_V() const { return torque_V_; }
 
  private:
   struct Target {
@@ -31,6 +34,8 @@ class VirtualDevice : public HapticDevice, public EmulatedUser {
   VirtualHand hand_;
   LatestValue<Target> target_;
   Vec3 force_V_ = Vec3::Zero();
+  Vec3 wanted_torque_V_ = Vec3::Zero();  ///< for the next force
+  Vec3 torque_V_ = Vec3::Zero();
   std::int64_t time_ns_ = 0;
   bool open_ = true;
 };

@@ -23,9 +23,14 @@ std::string describe_device(const DeviceInfo& info) {
   std::string text = info.name;
   if (!info.serial.empty()) text += " (" + info.serial + ")";
   if (info.peak_force_n <= 0) return text + ": no motors";
-  return text + ": force on " + axes_of(info.force_axes) + ", " + number(info.peak_force_n, "N") +
-         " peak, " + number(info.continuous_force_n, "N") + " lasting, " +
-         number(info.max_stiffness_n_per_m, "N/m") + ", " + number(info.rate_hz, "Hz");
+  text += ": force on " + axes_of(info.force_axes) + ", " + number(info.peak_force_n, "N") +
+          " peak, " + number(info.continuous_force_n, "N") + " lasting, " +
+          number(info.max_stiffness_n_per_m, "N/m") + ", " + number(info.rate_hz, "Hz");
+  if (info.drives_rotation())
+    text += "; torque about " + axes_of(info.torque_axes) + ", " +
+            number(info.peak_torque_nm, "N m") + " peak, " +
+            number(info.continuous_torque_nm, "N m") + " lasting";
+  return text;
 }
 
 bool is_emulated(const Driver& driver) {

@@ -21,6 +21,8 @@ Json to_json(const DeviceInfo& info) {
           {"torque_axes", info.torque_axes},
           {"peak_force_n", info.peak_force_n},
           {"continuous_force_n", info.continuous_force_n},
+          {"peak_torque_nm", info.peak_torque_nm},
+          {"continuous_torque_nm", info.continuous_torque_nm},
           {"max_stiffness_n_per_m", info.max_stiffness_n_per_m},
           {"workspace_mm",
            {info.workspace_m.x() * 1e3, info.workspace_m.y() * 1e3, info.workspace_m.z() * 1e3}},

@@ -125,7 +125,7 @@ void add_simulate_command(cli::App& app, int& exit_code) {
   command->add_option("--report", options->report, "write the report as JSON");
   command->add_option("--device", options->device,
                       "play the path on a virtual device, through its driver and the safety gate: "
-                      "virtual-usb-vector, virtual-usb-pid, virtual");
+                      "virtual-usb-vector, virtual-usb-torque, virtual-usb-pid, virtual");
   options->session.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run_simulate(*options); });
 }

@@ -34,10 +34,16 @@ class FreeHand : public HandInLoop {
   Vec3 force_W_ = Vec3::Zero();
 };
 
+// The gate sees World, and the device leaves away what its own axes do not drive.
+DeviceInfo about_all_axes(DeviceInfo info) {
+  if (info.drives_rotation()) info.torque_axes = {true, true, true};
+  return info;
+}
+
 class DeviceHand : public HandInLoop {
  public:
   DeviceHand(std::unique_ptr<PathPlayer> player, double tick_s)
-      : player_(std::move(player)), gate_(player_->info()), tick_s_(tick_s) {}
+      : player_(std::move(player)), gate_(about_all_axes(player_->info())), tick_s_(tick_s) {}
   ~DeviceHand() override {
     player_->write_force(Vec3::Zero());
     player_->close();
@@ -56,8 +62,10 @@ class DeviceHand : public HandInLoop {
     sample_ = player_->read();
     return {sample_.X_VD, sample_.v_V, sample_.w_V, sample_.buttons};
   }
+  bool drives_rotation() const override { return player_->info().drives_rotation(); }
+  void turn(const Vec3& torque_W) override { torque_W_ = torque_W; }
   void feel(const Vec3& force_W) override {
-    player_->write_force(gate_.filter(force_W, sample_, 0, tick_s_));
+    player_->write(gate_.filter(DeviceWrench{force_W, torque_W_}, sample_, 0, tick_s_));
   }
   std::string complaint() const override {
     return gate_.enabled() ? std::string() : describe(gate_.cause());
@@ -68,6 +76,7 @@ class DeviceHand : public HandInLoop {
   SafetyGate gate_;
   double tick_s_;
   DeviceSample sample_;
+  Vec3 torque_W_ = Vec3::Zero();
 };
 
 void keep_within(const DeviceInfo& info, double scale, HapticParams& haptic) {

@@ -19,6 +19,10 @@ class HandInLoop {
   virtual ToolInput move() = 0;
   /// Force of that tick, N.
   virtual void feel(const Vec3& force_W) = 0;
+  /// Some rotation is driven: `turn` tells the torque before `feel` tells the force.
+  virtual bool drives_rotation() const { return false; }
+  /// Torque of that tick about the tool's origin, N m.
+  virtual void turn(const Vec3& torque_W) { (void)torque_W; }
   /// What it does beside moving, in the tick of the last move.
   virtual Command command() { return {}; }
   /// Why it no longer feels the force; empty: it does.

@@ -8,6 +8,7 @@
 #include "osteon/base/percentiles.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/record/recording.h"
+#include "osteon/scene/tool_moment.h"
 #include "runs/path_commands.h"
 #include "runs/tray.h"
 
@@ -105,6 +106,8 @@ class HeadlessLoop {
     tick_times_.add_ns(steady_now_ns() - before);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const ToolState& tool = session_.tool_state(h);
+      if (hands_[h].hand->drives_rotation())
+        hands_[h].hand->turn(moment_about(tool.X_WP.p, tool, session_.portals()));
       hands_[h].hand->feel(tool.force_W);
       hands_[h].report.add(tool);
       torque_.see(h, tool);

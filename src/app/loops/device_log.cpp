@@ -25,9 +25,15 @@ DeviceSample DeviceLog::read() {
   return sample;
 }
 
+void DeviceLog::write_torque(const Vec3& torque_V) {
+  now_.wrench.torque_V = torque_V;
+  device_->write_torque(torque_V);
+}
+
 void DeviceLog::write_force(const Vec3& force_V) {
-  now_.force_V = force_V;
+  now_.wrench.force_V = force_V;
   rows_[count_++ % rows_.size()] = now_;
+  now_.wrench.torque_V.setZero();
   device_->write_force(force_V);
 }
 
@@ -39,17 +45,28 @@ void DeviceLog::close() {
   if (const auto saved = save(file_); !saved) log(LogLevel::kWarning, saved.error().message());
 }
 
-Result<void> DeviceLog::save(const std::filesystem::path& file) const {
-  std::string text = "time_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n\n";
-  const std::size_t kept = std::min(count_, rows_.size());
-  for (std::size_t i = count_ - kept; i < count_; ++i) {
-    const Row& row = rows_[i % rows_.size()];
-    char line[200];
-    std::snprintf(line, sizeof line, "%.6f,%.4f,%.4f,%.4f,%.5f,%.5f,%.5f\n",
-                  static_cast<double>(row.time_ns) * 1e-9, row.p_V.x() * 1e3, row.p_V.y() * 1e3,
-                  row.p_V.z() * 1e3, row.force_V.x(), row.force_V.y(), row.force_V.z());
+std::string DeviceLog::line_of(const Row& row, bool with_torque) {
+  const Vec3& f = row.wrench.force_V;
+  const Vec3& t = row.wrench.torque_V;
+  char line[200];
+  std::snprintf(line, sizeof line, "%.6f,%.4f,%.4f,%.4f,%.5f,%.5f,%.5f",
+                static_cast<double>(row.time_ns) * 1e-9, row.p_V.x() * 1e3, row.p_V.y() * 1e3,
+                row.p_V.z() * 1e3, f.x(), f.y(), f.z());
+  std::string text = line;
+  if (with_torque) {
+    std::snprintf(line, sizeof line, ",%.6f,%.6f,%.6f", t.x(), t.y(), t.z());
     text += line;
   }
+  return text + "\n";
+}
+
+Result<void> DeviceLog::save(const std::filesystem::path& file) const {
+  const bool with_torque = info().drives_rotation();
+  std::string text = "time_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n";
+  text += with_torque ? ",tx_nm,ty_nm,tz_nm\n" : "\n";
+  const std::size_t kept = std::min(count_, rows_.size());
+  for (std::size_t i = count_ - kept; i < count_; ++i)
+    text += line_of(rows_[i % rows_.size()], with_torque);
   if (closed_) text += "closed\n";
   return write_file_atomic(file, text);
 }

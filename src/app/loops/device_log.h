@@ -19,19 +19,23 @@ class DeviceLog : public HapticDevice {
   const DeviceInfo& info() const override { return device_->info(); }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
+  void write_torque(const Vec3& torque_V) override;
   void close() override;
   DeviceHealth health() const override { return device_->health(); }
   void calibrate() override { device_->calibrate(); }
 
-  /// CSV: time_s, position (mm) and force (N) of each write, then the line "closed".
+  /// CSV: time_s, position (mm) and force (N) of each write, and torque (N m) where a rotation is
+  /// driven, then the line "closed".
   Result<void> save(const std::filesystem::path& file) const;
 
  private:
   struct Row {
     std::int64_t time_ns = 0;
     Vec3 p_V = Vec3::Zero();
-    Vec3 force_V = Vec3::Zero();
+    DeviceWrench wrench;
   };
+  static std::string line_of(const Row& row, bool with_torque);
+
   std::unique_ptr<HapticDevice> device_;
   std::filesystem::path file_;
   std::vector<Row> rows_;

@@ -80,6 +80,10 @@ void SharedHand::write_force(const Vec3& force_V) {
   if (has_device()) share_->device_->write_force(gain_ * force_V);
 }
 
+void SharedHand::write_torque(const Vec3& torque_V) {
+  if (has_device()) share_->device_->write_torque(gain_ * torque_V);
+}
+
 void SharedHand::close() {
   if (has_device() && share_->device_) share_->device_->close();
 }

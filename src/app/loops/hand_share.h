@@ -42,6 +42,7 @@ class SharedHand : public HapticDevice {
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
+  void write_torque(const Vec3& torque_V) override;
   void close() override;
   DeviceHealth health() const override;
   void calibrate() override;

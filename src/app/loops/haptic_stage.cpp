@@ -4,6 +4,7 @@
 
 #include "loops/record_feed.h"
 #include "loops/state_keeper.h"
+#include "osteon/scene/tool_moment.h"
 
 namespace osteon {
 namespace {
@@ -53,12 +54,10 @@ void HapticStage::step(double dt_s) {
   touching_ = tool.contact_count > 0;
   if (mapping_.released()) gate_.ramp_in_again();
   ramp_after_fade(tool);
-  const Vec3 force_V = mapping_.force_to_device(tool.force_W);
   const double age_s = bones_age(fresh, dt_s);
-  status_.force_at_hand_V =
-      gate_.filter(force_V, sample, age_s, dt_s, assist_.force(sample.v_V, dt_s));
-  if (over_) status_.force_at_hand_V.setZero();
-  device_.write_force(status_.force_at_hand_V);
+  const DeviceWrench given =
+      gate_.filter(wanted(tool), sample, age_s, dt_s, assist_.force(sample.v_V, dt_s));
+  give(over_ ? DeviceWrench{} : given);
 
   note_fault();
   if (feed_)
@@ -107,7 +106,22 @@ void HapticStage::note_fault() {
 void HapticStage::force_to_zero() {
   over_ = true;
   gate_.disable(ForceOff::kSoftware);
-  device_.write_force(Vec3::Zero());
+  device_.write({});
+}
+
+// The stylus' origin stands for the tool's: about it the torque does the work of a turn there, so
+// that what the device gives and what the contacts store is one account.
+DeviceWrench HapticStage::wanted(const ToolState& tool) const {
+  DeviceWrench wrench{mapping_.force_to_device(tool.force_W), Vec3::Zero()};
+  if (device_.info().drives_rotation())
+    wrench.torque_V = mapping_.force_to_device(moment_about(tool.X_WP.p, tool, session_.portals()));
+  return wrench;
+}
+
+void HapticStage::give(const DeviceWrench& wrench) {
+  status_.force_at_hand_V = wrench.force_V;
+  status_.torque_at_hand_V = wrench.torque_V;
+  device_.write(wrench);
 }
 
 void HapticStage::obey_gate_wishes() {

@@ -53,6 +53,8 @@ class HapticStage {
   ToolInput read_input(const DeviceSample& sample);
   bool has_fault() const;
   double bones_age(bool fresh, double dt_s);
+  DeviceWrench wanted(const ToolState& tool) const;
+  void give(const DeviceWrench& wrench);
   OtherTools read_others();
   Command next_command();
   void ramp_after_fade(const ToolState& tool);

@@ -25,12 +25,13 @@ struct LoopStats {
 /// What the haptic loop reports of the device.
 struct DeviceStatus {
   ForceOff cause = ForceOff::kSoftware;
-  Vec3 force_at_hand_V = Vec3::Zero();  ///< N, after the safety gate
-  std::uint64_t bad_samples = 0;        ///< readings refused: not finite, or not connected
-  SafetyState safety;                   ///< what the gate sees and does, with the energy
-  bool clutched = false;                ///< the device moves without the tool
-  bool dead_man_held = true;            ///< every switch and pedal that must be held is
-  DeviceHealth health;                  ///< as the device told some ticks ago
+  Vec3 force_at_hand_V = Vec3::Zero();   ///< N, after the safety gate
+  Vec3 torque_at_hand_V = Vec3::Zero();  ///< N m, likewise; zero where no rotation is driven
+  std::uint64_t bad_samples = 0;         ///< readings refused: not finite, or not connected
+  SafetyState safety;                    ///< what the gate sees and does, with the energy
+  bool clutched = false;                 ///< the device moves without the tool
+  bool dead_man_held = true;             ///< every switch and pedal that must be held is
+  DeviceHealth health;                   ///< as the device told some ticks ago
 };
 
 /// What the window tells the haptic loop of the user's feet and eyes; once a picture.

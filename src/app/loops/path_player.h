@@ -24,6 +24,9 @@ class PathPlayer : public HapticDevice {
   /// A read with the hand kept at the path's start.
   DeviceSample read_at_start();
   void write_force(const Vec3& force_W) override;
+  void write_torque(const Vec3& torque_W) override {
+    device_->write_torque(mapping_.force_to_device(torque_W));
+  }
   void close() override { device_->close(); }
   DeviceHealth health() const override { return device_->health(); }
   void calibrate() override { device_->calibrate(); }

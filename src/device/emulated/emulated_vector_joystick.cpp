@@ -45,9 +45,12 @@ bool EmulatedVectorJoystick::control(const UsbSetup& setup, std::span<const std:
 }
 
 void EmulatedVectorJoystick::take_out(std::uint8_t endpoint, std::span<const std::uint8_t> bytes) {
-  const bool sound = endpoint == 0x02 && bytes.size() == 12 && bytes[0] == 0x01 &&
-                     (bytes[1] & 0xFC) == 0 &&
-                     static_cast<std::uint16_t>(signed16(bytes, 10)) == crc16(bytes.first(10));
+  // The one without torque, or for driven rotations the one with.
+  const std::size_t size = drives_rotation_ ? 18 : 12;
+  const bool sound =
+      endpoint == 0x02 && bytes.size() == size && bytes[0] == (drives_rotation_ ? 0x03 : 0x01) &&
+      (bytes[1] & 0xFC) == 0 &&
+      static_cast<std::uint16_t>(signed16(bytes, size - 2)) == crc16(bytes.first(size - 2));
   if (!sound) {
     ++refused_;
     return;
@@ -57,8 +60,12 @@ void EmulatedVectorJoystick::take_out(std::uint8_t endpoint, std::span<const std
   applied_ = static_cast<std::uint16_t>(signed16(bytes, 2));
   if ((bytes[1] & 0x02) != 0) sensed_ |= 0x04;  // it homes where it is
   motors_on_ = (bytes[1] & 0x01) != 0 && (sensed_ & 0x18) == 0;
-  const Vec3 force_mN(signed16(bytes, 4), signed16(bytes, 6), signed16(bytes, 8));
-  mechanics_.set_motors(motors_on_ ? Vec3(1e-3 * force_mN) : Vec3(Vec3::Zero()));
+  if (!motors_on_) return mechanics_.set_motors(Vec3::Zero());
+  const auto triple = [&](std::size_t at) {
+    return Vec3(signed16(bytes, at), signed16(bytes, at + 2), signed16(bytes, at + 4));
+  };
+  mechanics_.set_motors(1e-3 * triple(4),
+                        drives_rotation_ ? Vec3(1e-4 * triple(10)) : Vec3(Vec3::Zero()));
 }
 
 void EmulatedVectorJoystick::set_status_bit(std::uint8_t bit, bool on) {

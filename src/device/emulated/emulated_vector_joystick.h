@@ -24,6 +24,8 @@ class EmulatedVectorJoystick : public EmulatedUsbDevice {
   void set_status_bit(std::uint8_t bit, bool on);
   /// Another handle is put on.
   void set_instrument(std::uint8_t code) { instrument_ = code; }
+  /// It is one that drives its rotation: its firmware takes the report with a torque.
+  void set_drives_rotation(bool drives) { drives_rotation_ = drives; }
   std::uint64_t refused() const { return refused_; }
 
   static constexpr std::int64_t kTimeout_ns = 20'000'000;
@@ -35,6 +37,7 @@ class EmulatedVectorJoystick : public EmulatedUsbDevice {
   std::int64_t last_command_ns_ = 0;
   std::uint8_t sensed_ = 0x04;  ///< status bits beside motors and time-out; homed
   std::uint8_t instrument_ = 0;
+  bool drives_rotation_ = false;
   bool timed_out_ = true;
   bool motors_on_ = false;
   bool fresh_ = false;

@@ -14,11 +14,16 @@ class JoystickMechanics {
   explicit JoystickMechanics(const HandParams& hand = {}) : hand_(hand) {}
   /// May be called by one other thread.
   void set_target(const Pose& wanted_VD, const Vec3& wanted_v_V, std::uint32_t buttons);
-  void set_motors(const Vec3& force_V) { force_V_ = force_V; }
+  void set_motors(const Vec3& force_V, const Vec3& torque_V = Vec3::Zero()) {
+    force_V_ = force_V;
+    torque_V_ = torque_V;
+  }
   /// Goes on to that time, in whole steps.
   void advance(std::int64_t now_ns);
 
   const Vec3& motors() const { return force_V_; }
+  /// N m; the emulated user holds the turn against it.
+  const Vec3& turning_motors() const { return torque_V_; }
   const VirtualHand& hand() const { return hand_; }
   std::uint32_t buttons() const { return buttons_; }
   /// Rotation about `axis_V` of the hand's pose, rad.
@@ -34,6 +39,7 @@ class JoystickMechanics {
   LatestValue<Target> target_;
   VirtualHand hand_;
   Vec3 force_V_ = Vec3::Zero();
+  Vec3 torque_V_ = Vec3::Zero();
   std::int64_t time_ns_ = 0;
   std::uint32_t buttons_ = 0;
   bool placed_ = false;

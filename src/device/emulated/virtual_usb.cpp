@@ -26,6 +26,10 @@ Result<JoystickProfile> vector_profile() {
   return emulated_profile("joystick_vector.toml", "virtual-usb-vector");
 }
 
+Result<JoystickProfile> torque_profile() {
+  return emulated_profile("joystick_vector_torque.toml", "virtual-usb-torque");
+}
+
 Result<std::vector<DeviceInfo>> list_of(const Result<JoystickProfile>& profile) {
   if (!profile) return tl::unexpected(profile.error());
   return std::vector<DeviceInfo>{profile->info};
@@ -50,6 +54,7 @@ Result<std::unique_ptr<VirtualUsbJoystick>> VirtualUsbJoystick::open(const Joyst
     made->device_ = std::move(device);
   } else {
     auto device = std::make_shared<EmulatedVectorJoystick>("V0001", hand);
+    device->set_drives_rotation(profile.info.drives_rotation());
     made->mechanics_ = &device->mechanics();
     made->device_ = std::move(device);
   }
@@ -87,11 +92,15 @@ DeviceSample VirtualUsbJoystick::read() {
 
 Result<std::vector<DeviceInfo>> list_virtual_usb_pid() { return list_of(pid_profile()); }
 Result<std::vector<DeviceInfo>> list_virtual_usb_vector() { return list_of(vector_profile()); }
+Result<std::vector<DeviceInfo>> list_virtual_usb_torque() { return list_of(torque_profile()); }
 Result<std::unique_ptr<HapticDevice>> open_virtual_usb_pid(const DeviceInfo&) {
   return open_of(pid_profile());
 }
 Result<std::unique_ptr<HapticDevice>> open_virtual_usb_vector(const DeviceInfo&) {
   return open_of(vector_profile());
+}
+Result<std::unique_ptr<HapticDevice>> open_virtual_usb_torque(const DeviceInfo&) {
+  return open_of(torque_profile());
 }
 
 }  // namespace osteon

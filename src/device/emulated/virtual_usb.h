@@ -29,6 +29,7 @@ class VirtualUsbJoystick : public HapticDevice, public EmulatedUser {
   /// A read without time passing on the bus.
   DeviceSample read_newest() { return joystick_->read(); }
   void write_force(const Vec3& force_V) override { joystick_->write_force(force_V); }
+  void write_torque(const Vec3& torque_V) override { joystick_->write_torque(torque_V); }
   void close() override { joystick_->close(); }
   DeviceHealth health() const override { return joystick_->health(); }
   void calibrate() override { joystick_->calibrate(); }
@@ -53,7 +54,9 @@ class VirtualUsbJoystick : public HapticDevice, public EmulatedUser {
 // For the table of drivers.
 Result<std::vector<DeviceInfo>> list_virtual_usb_pid();
 Result<std::vector<DeviceInfo>> list_virtual_usb_vector();
+Result<std::vector<DeviceInfo>> list_virtual_usb_torque();
 Result<std::unique_ptr<HapticDevice>> open_virtual_usb_pid(const DeviceInfo& info);
 Result<std::unique_ptr<HapticDevice>> open_virtual_usb_vector(const DeviceInfo& info);
+Result<std::unique_ptr<HapticDevice>> open_virtual_usb_torque(const DeviceInfo& info);
 
 }  // namespace osteon

@@ -29,7 +29,6 @@ constexpr std::uint16_t kRtsLow = 0x0200, kDtrLow = 0x0100, kDtrHigh = 0x0101;
 constexpr std::uint16_t kBaud9600 = 0x4138, kBaudLoad = 0x15, kBaudNormal = 0x02;
 constexpr std::uint16_t kLine8n1 = 8, kNoFlow = 0;
 
-constexpr std::size_t kStatusBytes = 2;  // before the data of every packet
 constexpr std::size_t kChunk = 62;
 constexpr double kAnswer_s = 0.05;
 constexpr double kEcho_s = 1.0;
@@ -79,8 +78,8 @@ Bytes receive(UsbLink& link, std::size_t wanted, double limit_s) {
     link.poll();
     UsbPacket packet;
     while (link.next_in(packet))
-      if (packet.bytes.size() > kStatusBytes)
-        bytes.insert(bytes.end(), packet.bytes.begin() + kStatusBytes, packet.bytes.end());
+      if (packet.bytes.size() > kFalconStatusBytes)
+        bytes.insert(bytes.end(), packet.bytes.begin() + kFalconStatusBytes, packet.bytes.end());
     if (bytes.size() >= wanted || link.now_ns() >= end_ns || link.gone()) return bytes;
     link.wait(std::min(0.002, limit_s));
   }

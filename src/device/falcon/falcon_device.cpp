@@ -15,7 +15,6 @@ constexpr std::int64_t kShortestPeriod_ns = kMs / 2;
 constexpr std::int64_t kTalk_ns = 4 * kMs;
 constexpr std::int64_t kFaultHold_ns = 50 * kMs;
 constexpr std::int64_t kBetweenRestarts_ns = 20 * kMs;
-constexpr std::size_t kStatusBytes = 2;  // of the converter, before the data of every packet
 constexpr double kPulledOut_m = 0.170;
 constexpr double kFarthest_m = 0.120;  // from the middle; the legs reach no further
 constexpr int kZerosAtEnd = 5;
@@ -61,11 +60,11 @@ void FalconDevice::keep_talking(std::int64_t now) {
 }
 
 void FalconDevice::take(const UsbPacket& packet) {
-  if (packet.bytes.size() < kStatusBytes) {
+  if (packet.bytes.size() < kFalconStatusBytes) {
     ++health_.bad_reports;
     return;
   }
-  for (const std::uint8_t byte : packet.bytes.subspan(kStatusBytes)) {
+  for (const std::uint8_t byte : packet.bytes.subspan(kFalconStatusBytes)) {
     const std::uint64_t broken = reader_.broken();
     if (reader_.feed(byte)) accept(decode_report(reader_.packet()), packet.time_ns);
     health_.bad_reports += reader_.broken() - broken;

@@ -25,6 +25,8 @@ struct FalconReport {
 };
 
 inline constexpr std::size_t kFalconPacketBytes = 16;
+/// Of the USB converter, before the data of every packet.
+inline constexpr std::size_t kFalconStatusBytes = 2;
 using FalconPacket = std::array<std::uint8_t, kFalconPacketBytes>;
 
 /// '<', three 16-bit numbers in nibbles (lowest first, each + 'A'), flags + 'A', 'A', '>'.

@@ -12,7 +12,7 @@ constexpr double kTurn_rad = 6.283185307179586;
 
 std::unique_ptr<JoystickDialect> make_dialect(const JoystickProfile& profile) {
   if (profile.dialect == JoystickDialectKind::kPid) return std::make_unique<PidDialect>(profile);
-  return std::make_unique<VectorDialect>();
+  return std::make_unique<VectorDialect>(profile.info.drives_rotation());
 }
 
 }  // namespace
@@ -134,17 +134,26 @@ DeviceSample JoystickDevice::read() {
   return sample_;
 }
 
-void JoystickDevice::write_force(const Vec3& force_V) {
-  if (!link_ || link_->gone()) return;
-  Vec3 f = is_finite(force_V) ? force_V : Vec3::Zero();
-  for (int i = 0; i < 3; ++i)
-    if (!profile_.info.force_axes[static_cast<std::size_t>(i)]) f[i] = 0;
+// Of driven axes alone; nothing while something is wrong.
+DeviceWrench JoystickDevice::given(const DeviceWrench& wanted) const {
   const bool safe = sample_.refusal == ForceOff::kNone && sample_.calibrated &&
                     sample_.dead_man_held && sample_.connected;
-  if (!safe) f.setZero();
-  force_given_ = f != Vec3(Vec3::Zero());
+  if (!safe || !is_finite(wanted.force_V) || !is_finite(wanted.torque_V)) return {};
+  DeviceWrench out = wanted;
+  for (int i = 0; i < 3; ++i) {
+    if (!profile_.info.force_axes[static_cast<std::size_t>(i)]) out.force_V[i] = 0;
+    if (!profile_.info.torque_axes[static_cast<std::size_t>(i)]) out.torque_V[i] = 0;
+  }
+  return out;
+}
+
+void JoystickDevice::write_force(const Vec3& force_V) {
+  if (!link_ || link_->gone()) return;
+  const DeviceWrench out = given({force_V, torque_V_});
+  torque_V_.setZero();
+  force_given_ = !out.force_V.isZero(0) || !out.torque_V.isZero(0);
   ordered_ns_ = link_->now_ns();
-  dialect_->send(*link_, f);
+  dialect_->send(*link_, out);
 }
 
 void JoystickDevice::close() {

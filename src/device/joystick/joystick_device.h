@@ -7,10 +7,11 @@
 
 namespace osteon {
 
-/// The USB 4-DOF force-feedback joystick over any transport. Force on X, Y, Z; the rotation is read
-/// alone. It gives no force while it is not brought up, has sent nothing sound for 10 ms, or
-/// reports a fault; an unplugged joystick stays disconnected until it is opened anew. A force that
-/// was not followed by another within 20 ms has ended in its firmware: the next reading says so.
+/// The USB 4-DOF force-feedback joystick over any transport. Force on X, Y, Z; the rotation is
+/// read, and driven where the profile says so. It gives no force while it is not brought up, has
+/// sent nothing sound for 10 ms, or reports a fault; an unplugged joystick stays disconnected until
+/// it is opened anew. A force that was not followed by another within 20 ms has ended in its
+/// firmware: the next reading says so.
 class JoystickDevice : public HapticDevice {
  public:
   static constexpr std::int64_t kSilence_ns = 10'000'000;
@@ -27,6 +28,7 @@ class JoystickDevice : public HapticDevice {
   const DeviceInfo& info() const override { return profile_.info; }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
+  void write_torque(const Vec3& torque_V) override { torque_V_ = torque_V; }
   void close() override;
   DeviceHealth health() const override;
   /// Clears a fault of the transport and brings the joystick up, or homes it, anew.
@@ -41,6 +43,7 @@ class JoystickDevice : public HapticDevice {
   bool dead_man_held() const;
   ForceOff judge() const;
   bool too_late() const;
+  DeviceWrench given(const DeviceWrench& wanted) const;
 
   JoystickProfile profile_;
   std::unique_ptr<UsbLink> link_;  ///< null once closed
@@ -54,8 +57,9 @@ class JoystickDevice : public HapticDevice {
   int bad_in_a_row_ = 0;
   std::uint64_t bad_reports_ = 0;
   UsbCounters last_counters_;
-  bool force_given_ = false;     ///< the last command was not zero
-  std::int64_t ordered_ns_ = 0;  ///< when it was given
+  Vec3 torque_V_ = Vec3::Zero();  ///< for the next force
+  bool force_given_ = false;      ///< the last command was not zero
+  std::int64_t ordered_ns_ = 0;   ///< when it was given
 };
 
 }  // namespace osteon

@@ -42,8 +42,9 @@ class JoystickDialect {
   /// Reads one packet into `reading` or into `status()`.
   virtual ReportKind read(const UsbPacket& packet, JoystickReading& reading) = 0;
   virtual const JoystickStatus& status() const = 0;
-  /// Sends a force, N; finite. Last wins. False: it cannot be sent.
-  virtual bool send(UsbLink& link, const Vec3& force_V) = 0;
+  /// Sends a force, N, and where rotations are driven a torque, N m; finite. Last wins. False: it
+  /// cannot be sent.
+  virtual bool send(UsbLink& link, const DeviceWrench& wrench) = 0;
   virtual void home() = 0;
   /// Zero force, motors off; waits until the device has it, at most some ten milliseconds.
   virtual void shut_down(UsbLink& link) = 0;

@@ -70,6 +70,8 @@ void read_joystick(ProfileReader& in, JoystickProfile& p) {
   p.info.has_dead_man = p.dead_man_button >= 0;
   read_usb(in, joystick, p);
   if (!pid) return;
+  if (p.info.drives_rotation())
+    in.complain("dialect \"pid\" drives no rotation", joystick.get("dialect"));
   p.full_scale_force_n = in.number(joystick, "full_scale_n", 0.1, 1000);
   if (p.full_scale_force_n < p.info.peak_force_n)
     in.complain("'full_scale_n' is below 'peak_n'", joystick.get("full_scale_n"));

@@ -262,7 +262,7 @@ ReportKind PidDialect::read(const UsbPacket& packet, JoystickReading& reading) {
 }
 
 // Of the three axes the bus may take one a frame: the one whose force is farthest from what it has.
-bool PidDialect::send(UsbLink& link, const Vec3& force_V) {
+bool PidDialect::send(UsbLink& link, const DeviceWrench& wrench) {
   if (step_ != Step::kReady) return false;
   const HidField& magnitude = layout_->magnitude();
   const double largest =
@@ -270,8 +270,8 @@ bool PidDialect::send(UsbLink& link, const Vec3& force_V) {
   for (std::size_t i = 0; i < 3; ++i) {
     PidReport report = layout_->make(HidReport::kOutput, pid::kSetConstantForce);
     layout_->set(report, pid::kSetConstantForce, pid::kBlockIndex, blocks_[i]);
-    const double share =
-        profile_.axes[i].sign * force_V[static_cast<Eigen::Index>(i)] / profile_.full_scale_force_n;
+    const double share = profile_.axes[i].sign * wrench.force_V[static_cast<Eigen::Index>(i)] /
+                         profile_.full_scale_force_n;
     const auto steps = std::llround(std::clamp(share, -1.0, 1.0) * largest);
     layout_->set(report, pid::kSetConstantForce, pid::kMagnitude, steps);
     link.put(i, report.view(), static_cast<double>(steps));
@@ -287,7 +287,7 @@ void PidDialect::control_and_wait_for(UsbLink& link, std::uint32_t usage) {
 
 void PidDialect::shut_down(UsbLink& link) {
   if (!layout_ || link.gone()) return;
-  if (step_ == Step::kReady) send(link, Vec3::Zero());
+  if (step_ == Step::kReady) send(link, {});
   wait_until(link, kShutDown_s, [&] { return link.out_idle(); });
   control_and_wait_for(link, pid::kStopAll);
   control_and_wait_for(link, pid::kDisableActuators);

@@ -20,7 +20,7 @@ class PidDialect : public JoystickDialect {
   const char* failure() const override { return failure_; }
   ReportKind read(const UsbPacket& packet, JoystickReading& reading) override;
   const JoystickStatus& status() const override { return status_; }
-  bool send(UsbLink& link, const Vec3& force_V) override;
+  bool send(UsbLink& link, const DeviceWrench& wrench) override;
   void home() override { start(); }
   void shut_down(UsbLink& link) override;
   double resolution_m() const override;

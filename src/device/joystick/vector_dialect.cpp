@@ -39,21 +39,26 @@ void VectorDialect::update_status(const VectorState& state) {
   if ((state.status & VectorState::kFault) != 0) status_.refusal = ForceOff::kDeviceFault;
 }
 
-bool VectorDialect::send(UsbLink& link, const Vec3& force_V) {
+bool VectorDialect::write(UsbLink& link, const VectorCommand& command) const {
+  return with_torque_ ? link.write(0, encode_with_torque(command)) : link.write(0, encode(command));
+}
+
+bool VectorDialect::send(UsbLink& link, const DeviceWrench& wrench) {
   VectorCommand command;
   command.flags = VectorCommand::kMotorsOn;
   if (home_wanted_) command.flags |= VectorCommand::kHome;
   home_wanted_ = false;
   command.sequence = ++sequence_;
-  command.force_V = force_V;
+  command.force_V = wrench.force_V;
+  command.torque_V = wrench.torque_V;
   sent_ = true;
-  return link.write(0, encode(command));
+  return write(link, command);
 }
 
 void VectorDialect::shut_down(UsbLink& link) {
   VectorCommand off;
   off.sequence = ++sequence_;
-  link.write(0, encode(off));
+  write(link, off);
   wait_until(link, 0.05, [&] { return link.out_idle(); });
 }
 

@@ -9,6 +9,8 @@ namespace osteon {
 /// first frame on.
 class VectorDialect : public JoystickDialect {
  public:
+  /// `with_torque`: the joystick drives a rotation, and takes the longer report.
+  explicit VectorDialect(bool with_torque) : with_torque_(with_torque) {}
   Result<void> open(UsbLink&) override { return {}; }
   void start() override;
   void step(UsbLink&) override {}
@@ -16,7 +18,7 @@ class VectorDialect : public JoystickDialect {
   const char* failure() const override { return ""; }
   ReportKind read(const UsbPacket& packet, JoystickReading& reading) override;
   const JoystickStatus& status() const override { return status_; }
-  bool send(UsbLink& link, const Vec3& force_V) override;
+  bool send(UsbLink& link, const DeviceWrench& wrench) override;
   void home() override { home_wanted_ = true; }
   void shut_down(UsbLink& link) override;
   double resolution_m() const override { return 1e-7; }
@@ -25,7 +27,9 @@ class VectorDialect : public JoystickDialect {
  private:
   void update_status(const VectorState& state);
   std::int64_t unwrapped_ns(std::uint32_t time_us);
+  bool write(UsbLink& link, const VectorCommand& command) const;
 
+  bool with_torque_;
   JoystickStatus status_;
   std::uint16_t sequence_ = 0;
   bool sent_ = false;      ///< since `start`

@@ -21,9 +21,23 @@ std::uint32_t get_u32(const std::uint8_t* at) {
   return get_u16(at) | (std::uint32_t{get_u16(at + 2)} << 16);
 }
 
-std::uint16_t millinewtons(double newtons) {
-  const double steps = std::clamp(std::round(newtons * 1e3), -32767.0, 32767.0);
-  return static_cast<std::uint16_t>(static_cast<std::int16_t>(steps));
+// As a signed number of `steps` to the unit, at its bound where it is larger.
+void put_steps(std::uint8_t* at, const Vec3& v, double steps) {
+  for (int i = 0; i < 3; ++i) {
+    const double n = std::clamp(std::round(v[i] * steps), -32767.0, 32767.0);
+    put_u16(at + 2 * i, static_cast<std::uint16_t>(static_cast<std::int16_t>(n)));
+  }
+}
+
+constexpr double kForceSteps = 1e3;   // to the newton
+constexpr double kTorqueSteps = 1e4;  // to the newton metre
+
+// What all commands begin with; without power where what follows is not finite.
+void put_head(std::uint8_t* at, std::uint8_t id, const VectorCommand& command, bool finite) {
+  at[0] = id;
+  at[1] =
+      finite ? command.flags : static_cast<std::uint8_t>(command.flags & ~VectorCommand::kMotorsOn);
+  put_u16(at + 2, command.sequence);
 }
 
 }  // namespace
@@ -41,14 +55,22 @@ std::uint16_t crc16_ccitt(std::span<const std::uint8_t> bytes) {
 std::array<std::uint8_t, VectorCommand::kBytes> encode(const VectorCommand& command) {
   std::array<std::uint8_t, VectorCommand::kBytes> report{};
   const bool finite = is_finite(command.force_V);
-  report[0] = VectorCommand::kId;
-  report[1] =
-      finite ? command.flags : static_cast<std::uint8_t>(command.flags & ~VectorCommand::kMotorsOn);
-  put_u16(&report[2], command.sequence);
-  for (int i = 0; i < 3; ++i)
-    put_u16(&report[4 + 2 * static_cast<std::size_t>(i)],
-            millinewtons(finite ? command.force_V[i] : 0));
+  put_head(report.data(), VectorCommand::kId, command, finite);
+  if (finite) put_steps(&report[4], command.force_V, kForceSteps);
   put_u16(&report[10], crc16_ccitt({report.data(), 10}));
+  return report;
+}
+
+std::array<std::uint8_t, VectorCommand::kBytesWithTorque> encode_with_torque(
+    const VectorCommand& command) {
+  std::array<std::uint8_t, VectorCommand::kBytesWithTorque> report{};
+  const bool finite = is_finite(command.force_V) && is_finite(command.torque_V);
+  put_head(report.data(), VectorCommand::kIdWithTorque, command, finite);
+  if (finite) {
+    put_steps(&report[4], command.force_V, kForceSteps);
+    put_steps(&report[10], command.torque_V, kTorqueSteps);
+  }
+  put_u16(&report[16], crc16_ccitt({report.data(), 16}));
   return report;
 }
 

@@ -8,7 +8,7 @@
 
 namespace osteon {
 
-// The vector dialect's two reports: docs/joystick-firmware.md. Little-endian; each ends with a CRC.
+// The vector dialect's reports: docs/joystick-firmware.md. Little-endian; each ends with a CRC.
 
 /// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected.
 std::uint16_t crc16_ccitt(std::span<const std::uint8_t> bytes);
@@ -22,9 +22,17 @@ struct VectorCommand {
   std::uint8_t flags = 0;
   std::uint16_t sequence = 0;
   Vec3 force_V = Vec3::Zero();  ///< N; travels in steps of 1 mN, up to 32.767 N
+
+  // Of the longer report alone, for joysticks that drive a rotation.
+  static constexpr std::size_t kBytesWithTorque = 18;
+  static constexpr std::uint8_t kIdWithTorque = 0x03;
+  Vec3 torque_V = Vec3::Zero();  ///< N m; travels in steps of 0.1 mN m, up to 3.2767 N m
 };
 /// A force that is not finite travels as zero, with the motors off.
 std::array<std::uint8_t, VectorCommand::kBytes> encode(const VectorCommand& command);
+/// The longer report. A torque that is not finite is as a force that is not.
+std::array<std::uint8_t, VectorCommand::kBytesWithTorque> encode_with_torque(
+    const VectorCommand& command);
 
 struct VectorState {
   static constexpr std::size_t kBytes = 30;

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 /// The part of OpenHaptics' binary interface (HDAPI 3.x) that Osteon uses, written from its
-/// documented calls: no SDK is needed to build. Units of the interface: mm, mm/s, N, rad; frame x
-/// right, y up, z to the user; matrices by columns.
+/// documented calls: no SDK is needed to build. Units of the interface: mm, mm/s, N, N mm, rad;
+/// frame x right, y up, z to the user; matrices by columns.
 namespace osteon::hd {
 
 using Handle = std::uint32_t;
@@ -36,13 +36,18 @@ inline constexpr Enum kTransform = 0x2052;
 inline constexpr Enum kAngularVelocity = 0x2053;
 inline constexpr Enum kModel = 0x2501;
 inline constexpr Enum kUsableWorkspace = 0x2551;
+inline constexpr Enum kOutputDof = 0x2554;
 inline constexpr Enum kCalibrationStyle = 0x2555;
 inline constexpr Enum kUpdateRate = 0x2600;
 inline constexpr Enum kMaxStiffness = 0x2602;
 inline constexpr Enum kMaxForce = 0x2603;
 inline constexpr Enum kMaxContinuousForce = 0x2604;
 inline constexpr Enum kMotorTemperature = 0x2605;
+inline constexpr Enum kMaxTorque = 0x2622;
+inline constexpr Enum kMaxContinuousTorque = 0x2623;
 inline constexpr Enum kForce = 0x2700;
+/// Of arms with six driven axes: Cartesian, about the gimbal's centre.
+inline constexpr Enum kTorque = 0x2701;
 
 // Capabilities.
 inline constexpr Enum kForceOutput = 0x4000;

@@ -77,6 +77,9 @@ ArmReport HdSession::report() const {
   out.max_force_n = number(hd::kMaxForce);
   out.max_continuous_force_n = number(hd::kMaxContinuousForce);
   out.max_stiffness_n_per_m = number(hd::kMaxStiffness) * kMetre_mm;  // N/mm
+  out.max_torque_nm = number(hd::kMaxTorque) / kMetre_mm;
+  out.max_continuous_torque_nm = number(hd::kMaxContinuousTorque) / kMetre_mm;
+  api_.get_integerv(hd::kOutputDof, &out.output_dof);
   out.rate_hz = number(hd::kUpdateRate);
   std::array<double, 6> box{};
   api_.get_doublev(hd::kUsableWorkspace, box.data());

@@ -15,6 +15,9 @@ struct ArmReport {
   double max_force_n = 0;
   double max_continuous_force_n = 0;
   double max_stiffness_n_per_m = 0;
+  double max_torque_nm = 0;
+  double max_continuous_torque_nm = 0;
+  int output_dof = 0;
   double rate_hz = 0;
   Aabb workspace_m;  ///< in the library's frame; empty: not told
   hd::Enum calibration_styles = 0;

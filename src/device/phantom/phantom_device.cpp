@@ -19,6 +19,7 @@ ArmSetup setup_for(const ArmReport& report, const DeviceInfo& info) {
   ArmSetup setup;
   if (!report.workspace_m.empty()) setup.centre_m = report.workspace_m.center();
   setup.peak_force_n = info.peak_force_n;
+  setup.peak_torque_nm = info.drives_rotation() ? info.peak_torque_nm : 0;
   setup.has_dead_man = info.has_dead_man;
   setup.calibration_styles = report.calibration_styles;
   return setup;
@@ -35,7 +36,7 @@ Result<std::unique_ptr<HapticDevice>> PhantomDevice::open(std::shared_ptr<HdSess
                                                           const std::string& config_name) {
   DeviceInfo info;
   const auto describe = [&](const ArmReport& report) -> Result<ArmSetup> {
-    const ArmModel model = arm_model(report.model);
+    const ArmModel model = arm_model(report.model, report.output_dof);
     const auto profile = load_arm_profile(model.profile);
     if (!profile) return tl::unexpected(profile.error());
     info = limited_by(*profile, report);
@@ -56,7 +57,8 @@ DeviceSample PhantomDevice::read() {
 }
 
 void PhantomDevice::write_force(const Vec3& force_V) {
-  if (arm_) arm_->order(force_V);
+  if (arm_) arm_->order({force_V, torque_V_});
+  torque_V_.setZero();
 }
 
 void PhantomDevice::close() {

@@ -22,6 +22,7 @@ class PhantomDevice : public HapticDevice {
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read() override;
   void write_force(const Vec3& force_V) override;
+  void write_torque(const Vec3& torque_V) override { torque_V_ = torque_V; }
   void close() override;
   DeviceHealth health() const override;
   void calibrate() override;
@@ -33,6 +34,7 @@ class PhantomDevice : public HapticDevice {
   ServoArm* arm_;  ///< of session_; null once closed
   DeviceInfo info_;
   ServoReading last_;
+  Vec3 torque_V_ = Vec3::Zero();  ///< for the next force
 };
 
 /// `DeviceInfo::name` of every arm; they differ by `serial`.

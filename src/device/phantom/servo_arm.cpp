@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hd_errors.h"
+#include "osteon/device/safety_limits.h"
 
 namespace osteon {
 namespace {
@@ -60,9 +61,9 @@ ServoArm::ServoArm(const HdApi& api, const ArmSetup& setup, Clock now_ns)
   to_user_.publish(state_);
 }
 
-void ServoArm::order(const Vec3& force_V) {
-  const Vec3 force = is_finite(force_V) ? force_V : Vec3::Zero();
-  to_servo_.publish({force, now_ns_(), ++orders_});
+void ServoArm::order(const DeviceWrench& wrench) {
+  const bool finite = is_finite(wrench.force_V) && is_finite(wrench.torque_V);
+  to_servo_.publish({finite ? wrench : DeviceWrench{}, now_ns_(), ++orders_});
 }
 
 void ServoArm::tick() {
@@ -83,7 +84,7 @@ void ServoArm::tick() {
     watch_calibration();
   }
   settle(order, now);
-  put_out(force_for(order));
+  put_out(wrench_for(order));
   api_.end_frame(setup_.handle);
   take_errors(now);
   state_.health.advice = *fault_words_ ? fault_words_ : calibration_words_;
@@ -152,7 +153,7 @@ void ServoArm::watch_orders(const ForceOrder& order, std::int64_t now) {
     last_order_ = order.number;
   }
   // Zero may stay for as long as nobody orders anything.
-  if (now - order.time_ns > kOrderLife_ns && !order.force_V.isZero(0))
+  if (now - order.time_ns > kOrderLife_ns && !order.is_zero())
     raise(ForceOff::kWatchdog, "Osteon was too late with its force", now);
 }
 
@@ -211,24 +212,28 @@ void ServoArm::raise(ForceOff cause, const char* words, std::int64_t now) {
 void ServoArm::settle(const ForceOrder& order, std::int64_t now) {
   DeviceSample& s = state_.sample;
   if (s.refusal == ForceOff::kNone || s.refusal == ForceOff::kDisconnect) return;
-  if (now - fault_seen_ns_ < kFaultHold_ns || !order.force_V.isZero(0)) return;
+  if (now - fault_seen_ns_ < kFaultHold_ns || !order.is_zero()) return;
   s.refusal = ForceOff::kNone;
   fault_words_ = "";
   // The library itself may have switched its force off.
   if (!api_.is_enabled(hd::kForceOutput)) api_.enable(hd::kForceOutput);
 }
 
-Vec3 ServoArm::force_for(const ForceOrder& order) const {
+DeviceWrench ServoArm::wrench_for(const ForceOrder& order) const {
   const DeviceSample& s = state_.sample;
   const bool allowed = s.refusal == ForceOff::kNone && s.calibrated && s.dead_man_held && !ended_;
-  if (!allowed || order.number == 0) return Vec3::Zero();
-  const double size = order.force_V.norm();
-  return size > setup_.peak_force_n ? Vec3(order.force_V * (setup_.peak_force_n / size))
-                                    : order.force_V;
+  if (!allowed || order.number == 0) return {};
+  return {clamped_norm(order.wrench.force_V, setup_.peak_force_n),
+          clamped_norm(order.wrench.torque_V, setup_.peak_torque_nm)};
 }
 
-void ServoArm::put_out(const Vec3& force_V) {
-  api_.set_doublev(hd::kForce, force_V.data());
+// An arm without driven rotations would take the call for a mistake.
+void ServoArm::put_out(const DeviceWrench& wrench) {
+  api_.set_doublev(hd::kForce, wrench.force_V.data());
+  if (setup_.peak_torque_nm > 0) {
+    const Vec3 torque_nmm = kMmPerMetre * wrench.torque_V;
+    api_.set_doublev(hd::kTorque, torque_nmm.data());
+  }
   ++state_.health.reports_out;
 }
 

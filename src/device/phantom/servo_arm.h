@@ -14,6 +14,7 @@ struct ArmSetup {
   hd::Handle handle = hd::kInvalidHandle;
   Vec3 centre_m = Vec3::Zero();  ///< of the workspace, in the library's frame; V's origin
   double peak_force_n = 0;
+  double peak_torque_nm = 0;  ///< 0: no rotation is driven
   bool has_dead_man = false;
   hd::Enum calibration_styles = 0;  ///< bits
 };
@@ -34,7 +35,7 @@ class ServoArm {
 
   // For the thread that uses the device; none of these waits or allocates.
   const ServoReading& newest() { return to_user_.read(); }
-  void order(const Vec3& force_V);
+  void order(const DeviceWrench& wrench);
   void wish_calibration() { calibration_wished_ = true; }
   /// Zero from the next pass on, whatever is ordered; `at_rest` once that has gone out.
   void end() { ended_ = true; }
@@ -46,9 +47,11 @@ class ServoArm {
 
  private:
   struct ForceOrder {
-    Vec3 force_V = Vec3::Zero();
+    DeviceWrench wrench;
     std::int64_t time_ns = 0;
     std::uint64_t number = 0;  ///< 0: none yet
+
+    bool is_zero() const { return wrench.force_V.isZero(0) && wrench.torque_V.isZero(0); }
   };
   struct Raw;
 
@@ -62,8 +65,8 @@ class ServoArm {
   void watch_orders(const ForceOrder& order, std::int64_t now);
   void raise(ForceOff cause, const char* words, std::int64_t now);
   void settle(const ForceOrder& order, std::int64_t now);
-  Vec3 force_for(const ForceOrder& order) const;
-  void put_out(const Vec3& force_V);
+  DeviceWrench wrench_for(const ForceOrder& order) const;
+  void put_out(const DeviceWrench& wrench);
 
   const HdApi api_;
   const ArmSetup setup_;

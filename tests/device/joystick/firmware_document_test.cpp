@@ -46,6 +46,25 @@ TEST(FirmwareDocument, DescriptorsAreWhatTheEmulationAnswers) {
             static_cast<int>(pid.report.size()));
 }
 
+TEST(FirmwareDocument, TheReportWithATorqueIsWhatTheHostSendsAndTheFirmwareTakes) {
+  const Bytes report = documented()["vector out with torque"];
+  EXPECT_EQ(report, bytes_of(encode_with_torque({VectorCommand::kMotorsOn, 0x1234, Vec3(1, -2.5, 0),
+                                                 Vec3(0, 0, -0.0412)})));
+  EmulatedVectorJoystick joystick;
+  joystick.take_out(0x02, report);
+  EXPECT_EQ(joystick.refused(), 1u);  // it has no such motor
+  joystick.set_drives_rotation(true);
+  joystick.take_out(0x02, report);
+  EXPECT_EQ(joystick.refused(), 1u);
+  EXPECT_LT((joystick.mechanics().turning_motors() - Vec3(0, 0, -0.0412)).norm(), 1e-12);
+  for (std::size_t bit = 0; bit < 8 * report.size(); ++bit) {
+    Bytes broken = report;
+    broken[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
+    joystick.take_out(0x02, broken);
+  }
+  EXPECT_EQ(joystick.refused(), 1 + 8u * report.size());
+}
+
 TEST(FirmwareDocument, TheForceReportIsWhatTheHostSendsAndTheFirmwareTakes) {
   auto blocks = documented();
   const Bytes report = blocks["vector out"];

@@ -307,7 +307,7 @@ TEST(JoystickDriver, FindsJoysticksByProfileAndTellsThemApartBySerial) {
   const auto profiles =
       load_joystick_profiles(std::filesystem::path(OSTEON_SOURCE_DIR) / "assets" / "devices");
   EXPECT_TRUE(profiles.problems.empty());
-  EXPECT_EQ(profiles.sound.size(), 2u);
+  EXPECT_EQ(profiles.sound.size(), 3u);
   EXPECT_TRUE(list_joysticks(bus, profiles).empty());
   EXPECT_TRUE(unusable_joysticks(bus, profiles).empty());
   const auto left = std::make_shared<EmulatedVectorJoystick>("LEFT");

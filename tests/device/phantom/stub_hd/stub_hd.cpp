@@ -37,7 +37,8 @@ struct Arm {
   Vec3 told_v = Vec3::Zero();
   Vec3 told_w = Vec3::Zero();
   Vec3 frame_force = Vec3::Zero();
-  std::int64_t frame_ns = -1;  // time of the pass with the last frame
+  Vec3 frame_torque = Vec3::Zero();  // N mm
+  std::int64_t frame_ns = -1;        // time of the pass with the last frame
 };
 
 struct Work {
@@ -99,6 +100,7 @@ void reset_arm(Arm& arm) {
   s.calibration = s.after_update = hd::kCalibrationOk;
   s.calibration_style = hd::kStyleInkwell;
   s.model = "Touch X";
+  s.output_dof = 3;
   s.max_force_n = 7.9;
   s.max_continuous_n = 1.75;
   s.max_stiffness_n_per_mm = 1.5;
@@ -130,6 +132,9 @@ void put_on_motors(Arm& arm) {
   if (f.norm() > s.max_force_n) f *= s.max_force_n / f.norm();
   for (int i = 0; i < 3; ++i) s.motor_n[i] = in_steps(f[i], s.dac_n);
   s.peak_motor_n = std::max(s.peak_motor_n, vec(s.motor_n).norm());
+  const bool turns = s.plugged && s.force_output && lib().runs && s.open && s.output_dof >= 6;
+  for (int i = 0; i < 3; ++i) s.motor_nmm[i] = turns ? arm.frame_torque[i] : 0;
+  s.peak_motor_nmm = std::max(s.peak_motor_nmm, vec(s.motor_nmm).norm());
 }
 
 Pose wanted_pose(const StubArm& s) {
@@ -236,6 +241,12 @@ bool get_property(const Arm& arm, hd::Enum what, double* to) {
       return *to = s.max_force_n, true;
     case hd::kMaxContinuousForce:
       return *to = s.max_continuous_n, true;
+    case hd::kMaxTorque:
+      if (s.output_dof < 6) return false;
+      return *to = 515, true;
+    case hd::kMaxContinuousTorque:
+      if (s.output_dof < 6) return false;
+      return *to = 188, true;
     case hd::kMaxStiffness:
       return *to = s.max_stiffness_n_per_mm, true;
     case hd::kUpdateRate:
@@ -305,6 +316,7 @@ hd::Handle hdInitDevice(const char* name) {
     lib().arms[i].frame_ns = -1;
     ++s.inits;
     lib().arms[i].frame_force.setZero();
+    lib().arms[i].frame_torque.setZero();
     if (wishes("STUB_HD_HAND", "press")) press_by_itself(s);
     take_hold(lib().arms[i]);
     tell_state(lib().arms[i]);
@@ -413,9 +425,15 @@ void hdGetDoublev(hd::Enum what, double* to) {
 void hdSetDoublev(hd::Enum what, const double* from) {
   const Lock lock(lib().guard);
   Arm* arm = current();
-  if (!arm || what != hd::kForce) return;
+  if (!arm || (what != hd::kForce && what != hd::kTorque)) return;
   if (!arm->state.in_frame) ++lib().misuses;
-  arm->frame_force = vec(from);
+  // An arm without these motors was never to be told of them.
+  if (what == hd::kTorque && arm->state.output_dof < 6) {
+    ++lib().misuses;
+    push_error(hd::kInvalidEnum);
+    return;
+  }
+  (what == hd::kForce ? arm->frame_force : arm->frame_torque) = vec(from);
 }
 
 void hdGetIntegerv(hd::Enum what, int* to) {
@@ -423,6 +441,7 @@ void hdGetIntegerv(hd::Enum what, int* to) {
   const Arm* arm = current();
   if (!arm) return;
   if (what == hd::kButtons) *to = arm->state.buttons;
+  if (what == hd::kOutputDof && !arm->state.quiet) *to = arm->state.output_dof;
   if (what == hd::kCalibrationStyle) *to = static_cast<int>(arm->state.calibration_style);
 }
 

@@ -24,6 +24,7 @@ struct StubArm {
   bool force_off_on_error;    ///< as the library does after a force error
   bool quiet;                 ///< knows none of the questions about itself
   unsigned calibration_style; /* bits */
+  int output_dof;             ///< 6: the stylus' rotations have motors
 
   // What it is; set before it is opened.
   const char* model;
@@ -34,6 +35,8 @@ struct StubArm {
   // What happened; read by the test.
   double motor_n[3];  ///< what the motors push with now
   double peak_motor_n;
+  double motor_nmm[3];  ///< what they turn with now
+  double peak_motor_nmm;
   double p_mm[3];  ///< where the arm truly is
   std::uint64_t frames, updates, inits, disables;
   std::uint64_t zero_frames;  ///< in a row, to the last one, that asked for no force
