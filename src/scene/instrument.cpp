@@ -37,6 +37,7 @@ std::string_view to_text(InstrumentFunction function) { return row_of(function).
 bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   if (!instrument.can(function)) return false;
   if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
+  if (function == InstrumentFunction::kLook) return instrument.optics.has_value();
   return function == InstrumentFunction::kProbe;
 }
 

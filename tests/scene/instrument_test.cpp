@@ -114,6 +114,12 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kCut));
   drill.functions = {InstrumentFunction::kProbe};
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
+  // A scope shows its view.
+  Instrument scope;
+  scope.functions = {InstrumentFunction::kProbe, InstrumentFunction::kLook};
+  EXPECT_FALSE(has_effect(scope, InstrumentFunction::kLook));
+  scope.optics.emplace();
+  EXPECT_TRUE(has_effect(scope, InstrumentFunction::kLook));
 }
 
 TEST(Instrument, HowItRemovesBoneIsRead) {
