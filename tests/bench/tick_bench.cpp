@@ -1,7 +1,8 @@
 // The whole haptic tick over fifteen bones: in free air, pressing, sliding, and two tools that
 // slide at once; the same with tips alone and with whole instruments. With OSTEON_SHARED set: the
 // wrist's own bones in pieces, as a case holds them; else fifteen ellipsoids of 600 corners in the
-// same places.
+// same places. And over the built-in knee, as the program opens it: a probe on the patella and a
+// scope on the femur beside it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "cases/open_case.h"
 #include "haptic/cpu_clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/haptic/haptic.h"
@@ -66,25 +69,53 @@ std::shared_ptr<const Case> bench_case() {
 constexpr std::array<std::array<const char*, 2>, 2> kTargets{
     {{"capitate", "bone_7"}, {"scaphoid", "bone_8"}}};
 
+// What the bones are, and over what the hands stand.
+struct Place {
+  std::shared_ptr<const Case> the_case;
+  std::array<Vec3, 2> over_W;
+  std::array<const char*, 2> instruments;
+};
+
+Vec3 middle_of(const Case& the_case, std::span<const char* const> names) {
+  for (const Bone& bone : the_case.bones)
+    for (const char* name : names)
+      if (bone.name == name) return bone.X_WB * bounds(bone.mesh).center();
+  return the_case.bounds_W().center();
+}
+
+Place wrist_place() {
+  const Case& wrist = *bench_case();
+  return {bench_case(),
+          {middle_of(wrist, kTargets[0]), middle_of(wrist, kTargets[1])},
+          {"wrist_hook_probe", "wrist_arthroscope_2_7"}};
+}
+
+Place knee_place() {
+  static const std::shared_ptr<const Case> knee = [] {
+    auto opened = open_case("builtin:knee");
+    if (!opened) throw std::runtime_error(opened.error().message());
+    return *opened;
+  }();
+  constexpr std::array<const char*, 1> kPatella{"patella"};
+  const Vec3 patella = middle_of(*knee, kPatella);
+  return {knee, {patella, patella + Vec3(0.025, 0, 0)}, {"hook_probe", "arthroscope_30"}};
+}
+
 // Straight down onto a bone.
 struct Approach {
   Vec3 above;
   Vec3 surface;  // where the tip touches first
 };
 
-Approach find_approach(HapticLoop& loop, const BoneSnapshot& bones, const HapticParams& params,
-                       std::size_t tool) {
-  const Aabb box = bench_case()->bounds_W();
-  Vec3 best = box.center();
-  for (const Bone& bone : bench_case()->bones)
-    for (const char* name : kTargets[tool])
-      if (bone.name == name) best = bone.X_WB * bounds(bone.mesh).center();
+Approach find_approach(HapticLoop& loop, const Case& the_case, const Vec3& over_W) {
+  const BoneSnapshot bones = rest_snapshot(the_case);
+  const Aabb box = the_case.bounds_W();
   Approach out;
-  out.above = Vec3(best.x(), best.y(), box.hi.z() + 0.005);
+  out.above = Vec3(over_W.x(), over_W.y(), box.hi.z() + 0.005);
   for (double z = out.above.z(); z > box.lo.z(); z -= 5e-5) {
     ToolInput input;
-    input.X_WD.p = Vec3(best.x(), best.y(), z);
-    if (loop.tick(input, bones, 0, params).contact_count > 0) {
+    input.X_WD.p = Vec3(over_W.x(), over_W.y(), z);
+    if (loop.tick(input, bones, 0, HapticParams{}).contact_count > 0) {
       out.surface = input.X_WD.p;
       return out;
     }
@@ -106,11 +137,10 @@ Vec3 hand_at(Motion motion, const Approach& at, std::int64_t i) {
 // What the hands hold: the tip that is felt alone, or a probe and a scope with all their parts.
 enum Held { kTips, kWhole };
 
-Tool held_tool(Held held, std::size_t hand) {
+Tool held_tool(const Place& place, Held held, std::size_t hand) {
   if (held == kTips) return make_wrist_probe();
   static const std::vector<Instrument> all = load_instruments().value();
-  const Instrument* found =
-      find_instrument(all, hand == 0 ? "wrist_hook_probe" : "wrist_arthroscope_2_7");
+  const Instrument* found = find_instrument(all, place.instruments[hand]);
   if (found == nullptr) throw std::runtime_error("the instruments lack a probe or a scope");
   return make_tool(*found, found->usual_size);
 }
@@ -120,9 +150,9 @@ struct Hand {
   HapticLoop loop;
   Approach at;
 
-  Hand(Held held, std::size_t tool)
-      : loop(bench_case(), std::make_shared<const Tool>(held_tool(held, tool))),
-        at(find_approach(loop, rest_snapshot(*bench_case()), HapticParams{}, tool)) {}
+  Hand(const Place& place, Held held, std::size_t tool)
+      : loop(place.the_case, std::make_shared<const Tool>(held_tool(place, held, tool))),
+        at(find_approach(loop, *place.the_case, place.over_W[tool])) {}
 
   void lift(const BoneSnapshot& bones) {
     ToolInput input;
@@ -136,10 +166,10 @@ struct Hand {
   }
 };
 
-std::vector<Hand> hands_for(Motion motion, Held held, std::size_t tools,
+std::vector<Hand> hands_for(const Place& place, Motion motion, Held held, std::size_t tools,
                             const BoneSnapshot& bones) {
   std::vector<Hand> hands;
-  for (std::size_t k = 0; k < tools; ++k) hands.emplace_back(held, k);
+  for (std::size_t k = 0; k < tools; ++k) hands.emplace_back(place, held, k);
   if (motion == kFree)
     for (Hand& hand : hands) hand.lift(bones);
   return hands;
@@ -167,9 +197,10 @@ Percentiles own_cost(Motion motion, std::vector<Hand>& hands, const BoneSnapshot
   return out;
 }
 
-void run(benchmark::State& state, Motion motion, std::size_t tools, Held held = kTips) {
-  const BoneSnapshot bones = rest_snapshot(*bench_case());
-  std::vector<Hand> hands = hands_for(motion, held, tools, bones);
+void run(benchmark::State& state, const Place& place, Motion motion, std::size_t tools,
+         Held held = kTips) {
+  const BoneSnapshot bones = rest_snapshot(*place.the_case);
+  std::vector<Hand> hands = hands_for(place, motion, held, tools, bones);
   Percentiles times;
   std::int64_t i = 0;
   std::int64_t contacts = 0;
@@ -179,7 +210,7 @@ void run(benchmark::State& state, Motion motion, std::size_t tools, Held held = 
     times.add_ns(test::cpu_now_ns() - start);
     ++i;
   }
-  std::vector<Hand> again = hands_for(motion, held, tools, bones);
+  std::vector<Hand> again = hands_for(place, motion, held, tools, bones);
   const Percentiles own = own_cost(motion, again, bones);
   state.counters["p50_us"] = 1e-3 * times.quantile_ns(0.5);
   state.counters["p99_us"] = 1e-3 * times.quantile_ns(0.99);
@@ -189,7 +220,7 @@ void run(benchmark::State& state, Motion motion, std::size_t tools, Held held = 
   state.counters["own_p999_us"] = 1e-3 * own.quantile_ns(0.999);
   state.counters["in_contact"] =
       static_cast<double>(contacts) / (static_cast<double>(i) * static_cast<double>(tools));
-  state.SetLabel(bench_case()->name);
+  state.SetLabel(place.the_case->name);
 }
 
 // The clock's share in the figures of the others.
@@ -204,13 +235,15 @@ void tick_of_nothing(benchmark::State& state) {
   state.counters["p999_us"] = 1e-3 * times.quantile_ns(0.999);
 }
 
-void tick_free(benchmark::State& state) { run(state, kFree, 1); }
-void tick_press(benchmark::State& state) { run(state, kPress, 1); }
-void tick_slide(benchmark::State& state) { run(state, kSlide, 1); }
-void tick_two_tools(benchmark::State& state) { run(state, kSlide, 2); }
-void tick_whole_free(benchmark::State& state) { run(state, kFree, 1, kWhole); }
-void tick_whole_slide(benchmark::State& state) { run(state, kSlide, 1, kWhole); }
-void tick_two_whole(benchmark::State& state) { run(state, kSlide, 2, kWhole); }
+void tick_free(benchmark::State& state) { run(state, wrist_place(), kFree, 1); }
+void tick_press(benchmark::State& state) { run(state, wrist_place(), kPress, 1); }
+void tick_slide(benchmark::State& state) { run(state, wrist_place(), kSlide, 1); }
+void tick_two_tools(benchmark::State& state) { run(state, wrist_place(), kSlide, 2); }
+void tick_whole_free(benchmark::State& state) { run(state, wrist_place(), kFree, 1, kWhole); }
+void tick_whole_slide(benchmark::State& state) { run(state, wrist_place(), kSlide, 1, kWhole); }
+void tick_two_whole(benchmark::State& state) { run(state, wrist_place(), kSlide, 2, kWhole); }
+void tick_knee_whole_slide(benchmark::State& state) { run(state, knee_place(), kSlide, 1, kWhole); }
+void tick_knee_two_whole(benchmark::State& state) { run(state, knee_place(), kSlide, 2, kWhole); }
 
 BENCHMARK(tick_of_nothing);
 BENCHMARK(tick_free);
@@ -220,5 +253,7 @@ BENCHMARK(tick_two_tools);
 BENCHMARK(tick_whole_free);
 BENCHMARK(tick_whole_slide);
 BENCHMARK(tick_two_whole);
+BENCHMARK(tick_knee_whole_slide);
+BENCHMARK(tick_knee_two_whole);
 
 }  // namespace
