@@ -30,29 +30,41 @@ int run_info(const RecordArguments& options) {
     });
     return told ? kExitDone : report_error(told.error());
   }
-  const auto text = recording_info(*recording, options.json);
+  std::vector<TorqueReport> torques;
+  if (options.torque) {
+    auto repeated = torque_reports(options.file, options.case_spec);
+    if (!repeated) return report_error(repeated.error());
+    torques = std::move(*repeated);
+  }
+  const auto text = recording_info(*recording, options.json, torques);
   if (!text) return report_error(text.error());
   std::fputs(text->c_str(), stdout);
   return kExitDone;
+}
+
+// What is added to an HDF5 file; empty: nothing.
+std::function<Result<void>(const std::filesystem::path&)> torque_of(
+    const RecordArguments& options) {
+  if (!options.torque) return {};
+  return [&options](const std::filesystem::path& file) {
+    return add_torque_to_hdf5(options.file, options.case_spec, file);
+  };
 }
 
 int run_export(const RecordArguments& options) {
   if (options.csv.empty() && options.hdf5.empty())
     return report_error({"nothing says where the tables go", "record export",
                          "Give --csv FOLDER or --hdf5 FILE, or both"});
-  if (options.torque && options.csv.empty())
-    return report_error(
-        {"torques are tables of their own", "record export --torque", "Give --csv FOLDER with it"});
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
   if (!options.csv.empty())
     if (const auto done = export_csv(*recording, options.csv); !done)
       return report_error(done.error());
-  if (options.torque)
+  if (options.torque && !options.csv.empty())
     if (const auto done = export_torque(options.file, options.case_spec, options.csv); !done)
       return report_error(done.error());
   if (!options.hdf5.empty())
-    if (const auto done = export_hdf5(*recording, options.hdf5); !done)
+    if (const auto done = export_hdf5(*recording, options.hdf5, torque_of(options)); !done)
       return report_error(done.error());
   return kExitDone;
 }
@@ -67,6 +79,9 @@ void add_record_command(cli::App& app, int& exit_code) {
   info->add_option("file", options->file, "recording")->required();
   info->add_flag("--events", options->events, "its events, a line each");
   info->add_flag("--json", options->json, "as JSON; of events an object a line");
+  info->add_flag("--torque", options->torque, "repeat the run and tell the moment about each grip");
+  info->add_option("--case", options->case_spec,
+                   "for --torque: the case (default: the recording's own)");
   info->callback([options, &exit_code] { exit_code = run_info(*options); });
   cli::App* exported = command->add_subcommand(
       "export", "Write ticks, poses, forces and events as tables, for pandas or MATLAB");
@@ -76,7 +91,8 @@ void add_record_command(cli::App& app, int& exit_code) {
   exported->add_option("--hdf5", options->hdf5,
                        "a file: a group for each hand and one for the events, with units");
   exported->add_flag("--torque", options->torque,
-                     "repeat the run and add torque_<hand>.csv: the moment about each grip");
+                     "repeat the run and add the moment about each grip: torque_<hand>.csv, or in "
+                     "HDF5 a dataset of each hand");
   exported->add_option("--case", options->case_spec,
                        "for --torque: the case (default: the recording's own)");
   exported->callback([options, &exit_code] { exit_code = run_export(*options); });

@@ -174,13 +174,6 @@ Hdf5Handle make_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
 }
 
-// A slash would begin a group of its own.
-std::string group_name(std::string hand) {
-  for (char& c : hand)
-    if (c == '/' || c == '.') c = '_';
-  return hand;
-}
-
 bool describe_file(hid_t file, const RecordingReader& recording, double tick_s) {
   const RecordingHeader& header = recording.header();
   return set_hdf5_attribute(file, "case", header.case_name) &&
@@ -197,7 +190,7 @@ Result<void> write_hands(RecordingReader& recording, hid_t file, const RecordNam
   const Hdf5Handle hands = make_group(file, "hands");
   if (!hands.ok()) return not_written(name);
   for (std::size_t h = 0; h < recording.header().hands; ++h) {
-    const Hdf5Handle group = make_group(hands.id(), group_name(names.hand(h)));
+    const Hdf5Handle group = make_group(hands.id(), hdf5_group_name(names.hand(h)));
     if (!group.ok()) return not_written(name);
     TickTable table(group.id(), tick_s);
     const auto done = fill(
@@ -229,12 +222,20 @@ Result<void> write_file(RecordingReader& recording, const fs::path& part, const 
 
 }  // namespace
 
-Result<void> export_hdf5(RecordingReader& recording, const fs::path& file) {
+std::string hdf5_group_name(std::string hand) {
+  for (char& c : hand)
+    if (c == '/' || c == '.') c = '_';
+  return hand;
+}
+
+Result<void> export_hdf5(RecordingReader& recording, const fs::path& file,
+                         const std::function<Result<void>(const fs::path&)>& more) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its own words are for programmers
   fs::path part = file;
   part += ".part";
   std::error_code error;
   auto done = write_file(recording, part, file);
+  if (done && more) done = more(part);
   if (done) fs::rename(part, file, error);
   if (error) done = not_written(file);
   if (!done) fs::remove(part, error);

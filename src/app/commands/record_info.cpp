@@ -82,22 +82,26 @@ Json info_json(RecordingReader& recording, const std::vector<StoredState>& state
 
 }  // namespace
 
-Result<std::string> recording_info(RecordingReader& recording, bool json) {
+Result<std::string> recording_info(RecordingReader& recording, bool json,
+                                   std::span<const TorqueReport> torques) {
   const auto states = recording.states();
   if (!states) return tl::unexpected(states.error());
-  const Json info = info_json(recording, *states);
+  const std::vector<std::string> names = hand_names(recording.header());
+  Json info = info_json(recording, *states);
+  for (std::size_t h = 0; h < std::min(names.size(), torques.size()); ++h)
+    info["hands"][names[h]]["torque"] = to_json(torques[h]);
   if (json) return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   const RecordingHeader& header = recording.header();
   const double dt = recorded_tick_s(header);
   std::string text = line("case", header.case_name + " (" + header.case_source + ")");
   text += line("made by", "Osteon " + header.osteon_version);
-  const std::vector<std::string> names = hand_names(header);
   double longest_s = 0;
   for (std::size_t h = 0; h < header.hands; ++h) {
     const double s = static_cast<double>(recording.ticks(h)) * dt;
     longest_s = std::max(longest_s, s);
     text += line("hand", names[h] + ", " + fixed(s, 3) + " s, " +
                              std::to_string(recording.ticks(h)) + " ticks");
+    if (h < torques.size()) text += to_text(torques[h]);
   }
   text += line("physics", std::to_string(recording.steps()) + " steps");
   text += line("events", std::to_string(recording.events()));
