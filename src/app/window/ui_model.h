@@ -29,7 +29,9 @@ struct HandModel {
   int device = 0;
   DeviceInfo info;
   DeviceStatus status;
-  double force_n = 0;  ///< that the simulation computes
+  double force_n = 0;      ///< that the simulation computes
+  double torque_nm = 0;    ///< about the grip, likewise
+  bool has_lever = false;  ///< the instrument has a shaft, so that there may be a torque
   double force_limit_n = 8;
   double stiffness_n_per_m = 2000;
   double stiffness_max_n_per_m = 4000;  ///< of the device's profile

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "cases/xdg.h"
+#include "osteon/scene/tool_moment.h"
 #include "ui/label.h"
 #include "ui/screenshot.h"
 #include "window/window_app.h"
@@ -44,6 +45,15 @@ std::vector<ContactRow> contact_rows(const ToolState& tool) {
   return rows;
 }
 
+// What the instrument that the picture shows bears at its grip.
+void tell_torque(const ToolState& state, const Tray& tray, std::span<const Portal> portals,
+                 HandModel& hand) {
+  if (state.instrument >= tray.size()) return;
+  const Tool& tool = *tray[state.instrument];
+  hand.has_lever = tool.shaft.radius > 0;
+  hand.torque_nm = moment_at_grip(state, tool, portals).norm();
+}
+
 }  // namespace
 
 UiModel WindowApp::build_model() {
@@ -71,6 +81,9 @@ UiModel WindowApp::build_model() {
   marks_.update();
   model.timeline.marks = marks_.all();
   model.contacts = contact_rows(sight_.shown().tool);
+  tell_torque(sight_.shown().tool,
+              replay_.on() ? replay_.replay()->tray : live_.tray().run().tools, scene_.portals,
+              model.hand);
   model.checkup = checkup_.model();
   model.edit = edit_.model();
   model.patient = patient_.model();

@@ -84,10 +84,22 @@ void draw_number(const PanelContext& c) {
       "device's, or 8 N for a device without motors.");
 }
 
+void draw_torque(const PanelContext& c) {
+  const HandModel& hand = c.model.hand;
+  if (!hand.has_lever) return;
+  ui::stat("Torque", ui::number(1e3 * hand.torque_nm, 1) + " mN m",
+           "Moment of all that the instrument meets about its grip, where the handle begins, "
+           "thousandths of a newton metre");
+  if (c.model.replay.on || !hand.info.drives_rotation()) return;
+  ui::stat("Torque given", ui::number(1e3 * hand.status.torque_at_hand_V.norm(), 1) + " mN m",
+           "What the device's motors turn the stylus with, after its safety limits");
+}
+
 }  // namespace
 
 void draw_force_section(const PanelContext& c) {
   draw_number(c);
+  draw_torque(c);
   draw_plot(c);
 }
 
