@@ -81,11 +81,15 @@ Result<Metrics> AttemptMeter::finish() const {
 }
 
 Result<Outcome> outcome_of(const ScenarioPlan& plan, const Case& the_case,
-                           const ScenarioState& state, Metrics metrics, const Standard* standard) {
+                           const ScenarioState& state, Metrics metrics, const Standard* standard,
+                           const StatedFindings& stated) {
   Outcome outcome;
+  outcome.findings = grade_findings(plan.scenario.asks, the_case, stated);
   outcome.scenario = plan.scenario.name;
   outcome.scenario_version = plan.scenario.version;
   outcome.metrics = std::move(metrics);
+  if (!outcome.findings.empty())
+    outcome.metrics[kFindingsRight] = share_right_percent(outcome.findings);
   for (std::size_t i = 0; i < plan.scenario.stages.size(); ++i) {
     const double at_s = state.completed_s[i];
     outcome.stages.push_back(

@@ -28,6 +28,17 @@ OutcomeJson errors_json(const Outcome& outcome) {
   return list;
 }
 
+OutcomeJson findings_json(const Outcome& outcome) {
+  OutcomeJson list = OutcomeJson::array();
+  for (const GradedFinding& graded : outcome.findings)
+    list.push_back(
+        {{"name", graded.name},
+         {"stated", graded.stated.empty() ? OutcomeJson(nullptr) : OutcomeJson(graded.stated)},
+         {"truth", graded.truth},
+         {"right", graded.right()}});
+  return list;
+}
+
 std::string one_decimal(double value) {
   char digits[64];
   const auto end =
@@ -49,6 +60,7 @@ std::string to_json(const Report& report, const Outcome& outcome) {
   json["stages"] = stages_json(outcome);
   json["errors"] = errors_json(outcome);
   json["metrics"] = outcome.metrics;
+  if (!outcome.findings.empty()) json["findings"] = findings_json(outcome);
   const OutcomeJson rest = OutcomeJson::parse(to_json(report));
   for (const auto& [key, value] : rest.items()) json[key] = value;
   return json.dump(2) + "\n";
@@ -67,6 +79,10 @@ std::string to_text(const Outcome& outcome) {
     text += "error          " + error.name + " (" + std::string(to_text(error.severity)) + ") at " +
             one_decimal(error.at_s) + " s" + (error.subject.empty() ? "" : ", " + error.subject) +
             "\n";
+  for (const GradedFinding& graded : outcome.findings)
+    text += "finding        " + graded.title + ": " +
+            (graded.stated.empty() ? "nothing stated" : "stated " + graded.stated) + ", is " +
+            graded.truth + "\n";
   return text;
 }
 

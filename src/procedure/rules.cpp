@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "osteon/procedure/cut_watch.h"
+#include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tip_watch.h"
+#include "ring_rules.h"
 #include "tunnel_rules.h"
 #include "way_rules.h"
 
@@ -271,6 +273,20 @@ const std::vector<RuleRow>& rule_rows() {
         SubjectKind::kNothing,
         kCutSeen},
        cut_outside},
+      {{"ringed",
+        "a loose ring has been left on the peg of every mark, in any order",
+        true,
+        {{"near_mm", 0.2, 100, 3}},
+        SubjectKind::kLandmark,
+        kRingMoved},
+       ringed},
+      {{"ring_dropped",
+        "a loose ring has been left elsewhere than on a peg",
+        false,
+        {},
+        SubjectKind::kNothing,
+        kRingMoved},
+       ring_dropped},
   };
   return rows;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "osteon/procedure/asked_findings.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scenario.h"
@@ -39,6 +40,7 @@ class ScenarioChecker {
       if (!hand.portal.empty() && !find_landmark(case_, hand.portal))
         say(hand.line, "the case has no portal '" + hand.portal + "'");
     }
+    for (const AskedFinding& asked : scenario_.asks) once(asked.name, "finding", asked.line);
     one_slide_force();
     metrics_are_there();
     return std::move(lines_);
@@ -103,7 +105,8 @@ class ScenarioChecker {
   }
 
   void metrics_are_there() {
-    const std::vector<std::string> known = attempt_metric_names();
+    std::vector<std::string> known = attempt_metric_names();
+    if (!scenario_.asks.empty()) known.emplace_back(kFindingsRight);
     for (const ScenarioMetric& metric : scenario_.metrics)
       if (std::find(known.begin(), known.end(), metric.name) == known.end())
         say(1, "no report has the metric '" + metric.name + "'");

@@ -82,6 +82,18 @@ ScenarioMetric read_metric(TomlTable table) {
   return metric;
 }
 
+AskedFinding read_asked(TomlTable table) {
+  AskedFinding asked;
+  asked.line = table.line();
+  asked.name = table.text("finding");
+  asked.title = table.text("title");
+  asked.grades = table.texts_or_empty("grades");
+  if (asked.grades.empty())
+    table.set_error("nothing can be stated", "finding", "Add grades = [...]");
+  table.refuse_others();
+  return asked;
+}
+
 // One word for all bones, or what may follow the '#' of a case: "femur=field,flexion=120".
 std::string read_felt(TomlTable& table) {
   const std::string felt = table.text_or("felt", "pieces");
@@ -108,8 +120,8 @@ Scenario read_scenario(TomlTable& table) {
   scenario.title = table.text("title");
   scenario.text = table.text("text");
   scenario.version = static_cast<int>(table.number("version", 1, kMany));
-  scenario.anatomy = table.word(
-      "anatomy", {"wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_suture"});
+  scenario.anatomy = table.word("anatomy", {"wrist", "knee", "fast_box", "fast_maze",
+                                            "fast_meniscus", "fast_ring", "fast_suture"});
   scenario.felt = read_felt(table);
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
@@ -133,6 +145,7 @@ Scenario read_scenario(TomlTable& table) {
     scenario.errors.push_back(read_error(error));
   for (TomlTable& metric : table.tables_or_empty("metrics"))
     scenario.metrics.push_back(read_metric(metric));
+  for (TomlTable& asked : table.tables_or_empty("asks")) scenario.asks.push_back(read_asked(asked));
   if (scenario.stages.empty())
     table.set_error("a scenario needs a stage", "name", "Add [[stages]]");
   table.refuse_others();

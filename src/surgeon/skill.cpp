@@ -24,6 +24,7 @@ Skill novice_skill(std::uint64_t seed) {
   skill.detour_m = random.uniform(0.01, 0.05);
   skill.drift_m_per_s = random.uniform(0, 0.003);
   skill.skip_share = random.uniform(0, 0.04);
+  skill.misgrade_share = random.uniform(0.2, 0.6);
   return skill;
 }
 
@@ -38,6 +39,21 @@ Result<Skill> bad_skill(const Scenario& scenario, const std::string& error_name)
   }
   return fail("the scenario '" + scenario.name + "' has no error '" + error_name + "'", "surgeon",
               "See: osteon scenario info " + scenario.name);
+}
+
+StatedFindings stated_by(const Skill& skill, const Scenario& scenario, const Case& the_case) {
+  StatedFindings stated = true_findings(scenario.asks, the_case);
+  Random random(skill.seed * 104729 + 3);
+  for (const AskedFinding& asked : scenario.asks) {
+    std::vector<std::string> others{kNoFinding};
+    others.insert(others.end(), asked.grades.begin(), asked.grades.end());
+    std::erase(others, stated[asked.name]);
+    const double misses = random.uniform(), which = random.uniform();
+    if (misses < skill.misgrade_share && !others.empty())
+      stated[asked.name] =
+          others[static_cast<std::size_t>(which * static_cast<double>(others.size()))];
+  }
+  return stated;
 }
 
 Result<Skill> parse_skill(const Scenario& scenario, std::string_view text) {

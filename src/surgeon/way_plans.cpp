@@ -1,54 +1,32 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
-#include "osteon/surgeon/way_surgeon.h"
+#include "ring_plan.h"
+#include "way_draft.h"
 
 namespace osteon {
 namespace {
 
-constexpr double kWayInsideShare = 0.3;       // of the speed outside
 constexpr double kGuided_m_per_s = 0.014;     // along a groove
 constexpr double kFeed_m_per_s = 0.008;       // of a burr
 constexpr double kWayOver_m = 0.012;          // above all, between places
 constexpr double kFromGrooveSide_m = 0.0006;  // the shaft leans back: the tip keeps to the far side
+constexpr double kInFrontOfGroove_m = 0.012, kFromGroove_m = 0.004;
+constexpr double kBelowHole_m = 0.008;  // where the plate is whole
+constexpr double kBeforePlate_m = 0.004;
 constexpr double kBeforeHole_m = 0.015, kBehindHole_m = 0.001;
 constexpr double kIntoHole = 0.4;  // of the way through: where a slanted needle is in the middle
 constexpr double kCutMore_m = 0.00025;  // beyond the line, so that nothing is left before it
 constexpr double kRow_m = 0.0009;       // from one row of a burr to the next
-constexpr double kWayTooHard_n = 6.5;
-constexpr double kBeyondBone_m = 0.02;
 
-// A way that is being planned.
-struct WayDraft {
-  const Skill& skill;
-  WayTool tool;
-  std::map<std::string, double> fault;  // numbers of the rule that is broken on purpose
-  std::vector<WayLeg> legs;
-
-  double inside() const { return kWayInsideShare * skill.travel_m_per_s; }
-  bool breaks(const char* rule) const { return skill.fault == rule; }
-  void go(const Vec3& to_W, double m_per_s, bool place = false) {
-    WayLeg leg;
-    leg.to_W = to_W;
-    leg.m_per_s = m_per_s;
-    leg.place = place;
-    legs.push_back(leg);
-  }
-  // Leans on what is there, and comes back.
-  void press_hard(const Vec3& from_W, const Vec3& to_W) {
-    go(from_W, inside());
-    go(from_W + (to_W - from_W).normalized() * kBeyondBone_m, skill.approach_m_per_s);
-    legs.back().press_n = kWayTooHard_n;
-    legs.back().wait_s = 0.3;
-    legs.back().leans = true;
-    go(from_W, inside());
-    legs.back().leans = true;
-  }
-};
-
-Vec3 raised(const Vec3& p_W, double z_m) { return {p_W.x(), p_W.y(), p_W.z() + z_m}; }
+// On the free floor between the portal and the first mark, where no wall hides the tip.
+void press_before_groove(const Vec3& first_W, WayDraft& draft) {
+  Vec3 towards = draft.tool.portal_W - first_W;
+  towards.z() = 0;
+  const Vec3 floor_W = first_W + kInFrontOfGroove_m * towards.normalized();
+  draft.press_hard(raised(floor_W, kFromGroove_m), raised(floor_W, -1));
+}
 
 // From mark to mark, a little towards the side that the shaft leans away from.
 void plan_groove(const PlannedRule& goal, WayDraft& draft) {
@@ -58,6 +36,7 @@ void plan_groove(const PlannedRule& goal, WayDraft& draft) {
     away.z() = 0;
     place += kFromGrooveSide_m * away.normalized();
   }
+  if (draft.breaks("pressed_over")) press_before_groove(goal.places_W.front(), draft);
   draft.go(raised(places.front(), kWayOver_m), draft.inside());
   for (std::size_t i = 0; i < places.size(); ++i) {
     draft.go(places[i], i == 0 ? draft.skill.approach_m_per_s : kGuided_m_per_s, true);
@@ -65,14 +44,6 @@ void plan_groove(const PlannedRule& goal, WayDraft& draft) {
     draft.go(raised(places[i], 2.5 * draft.fault.at("off_mm") / 1000), draft.inside());
     draft.legs.back().wait_s = draft.fault.at("for_s") + 0.7;
     draft.go(places[i], draft.skill.approach_m_per_s);
-  }
-  // On the floor, before the last mark: with that the exercise is over.
-  if (draft.breaks("pressed_over") && places.size() > 1) {
-    const WayLeg last = draft.legs.back();
-    draft.legs.pop_back();
-    const Vec3 before = places[places.size() - 2];
-    draft.press_hard(before, raised(before, -1));
-    draft.legs.push_back(last);
   }
   draft.go(raised(places.back(), kWayOver_m), draft.inside());
 }
@@ -95,10 +66,9 @@ void plan_holes(const PlannedRule& goal, WayDraft& draft) {
   for (const std::size_t pair : order) {
     const Vec3 &in_W = goal.places_W[2 * pair], &out_W = goal.places_W[2 * pair + 1];
     if (draft.breaks("pressed_over") && pair == 1) {
-      // Between two holes, where the plate is.
-      const Vec3 between = 0.5 * (goal.places_W[2 * pair - 2] + in_W);
-      const Vec3 back = (draft.tool.portal_W - between).normalized();
-      draft.press_hard(between + kBeforeHole_m * back, between);
+      // Squarely on the plate, below the holes.
+      const Vec3 below = raised(in_W, -kBelowHole_m);
+      draft.press_hard(below - kBeforePlate_m * (out_W - in_W).normalized(), below);
     }
     pass_hole(in_W, out_W, draft);
   }
@@ -162,6 +132,7 @@ std::vector<WayLeg> plan_way(const ScenarioPlan& plan, const Case& the_case, con
     for (const PlannedRule& goal : goals) {
       if (goal.rule.kind == "reached_in_order") plan_groove(goal, draft);
       if (goal.rule.kind == "passed_in_order") plan_holes(goal, draft);
+      if (goal.rule.kind == "ringed") plan_rings(goal, the_case, draft);
       if (goal.rule.kind == "removed") plan_rows(goal, the_case, draft);
     }
   return draft.legs;

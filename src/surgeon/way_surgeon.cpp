@@ -16,6 +16,14 @@ constexpr double kGripBends_m_per_n = 1.0 / 500, kMostLead_m = 0.0012, kLeadLag_
 
 }  // namespace
 
+Quat level_jaws(const Vec3& back_W) {
+  Vec3 x_W = Vec3::UnitZ().cross(back_W);
+  x_W = x_W.norm() > 1e-9 ? Vec3(x_W.normalized()) : Vec3(Vec3::UnitX());
+  Mat3 R_WT;
+  R_WT << x_W, back_W.cross(x_W), back_W;
+  return Quat(Eigen::Quaterniond(R_WT));
+}
+
 WaySurgeon::WaySurgeon(std::vector<WayLeg> way, const Skill& skill, const Vec3& portal_W)
     : way_(std::move(way)), skill_(skill), portal_W_(portal_W) {
   Random random(skill.seed + 2);
@@ -28,6 +36,7 @@ WaySurgeon::WaySurgeon(std::vector<WayLeg> way, const Skill& skill, const Vec3& 
 
 Pose WaySurgeon::through_portal(const Vec3& tip_W) const {
   const Vec3 back = (portal_W_ - tip_W).normalized();
+  if (!way_.empty() && way_.front().level) return {tip_W, level_jaws(back)};
   return {tip_W, Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), back))};
 }
 

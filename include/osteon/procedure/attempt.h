@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "osteon/procedure/asked_findings.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/standard.h"
@@ -51,15 +52,19 @@ struct Outcome {
   std::vector<Stage> stages;
   std::vector<Error> errors;  ///< in the order in which they began
   Metrics metrics;
+  std::vector<GradedFinding> findings = {};  ///< of a scenario that asks for them
 };
 
 /// Verdict: not passed when a stage was not completed or an error is major or critical; else what
-/// the score says. Without a standard nothing can be passed: undecided at best.
+/// the score says. Without a standard nothing can be passed: undecided at best. `stated`: what the
+/// learner says is wrong with the patient, measured against the case where the scenario asks.
 Result<Outcome> outcome_of(const ScenarioPlan& plan, const Case& the_case,
-                           const ScenarioState& state, Metrics metrics, const Standard* standard);
+                           const ScenarioState& state, Metrics metrics, const Standard* standard,
+                           const StatedFindings& stated = {});
 
 /// The report of a run with an attempt's outcome before it: `scenario, verdict, score,
-/// score_interval, stages, errors, metrics`, then the keys of to_json(Report).
+/// score_interval, stages, errors, metrics`, `findings` where the scenario asks, then the keys of
+/// to_json(Report).
 std::string to_json(const Report& report, const Outcome& outcome);
 /// For a terminal.
 std::string to_text(const Outcome& outcome);

@@ -65,6 +65,15 @@ struct ScenarioMetric {
   std::string source;
 };
 
+/// Something that may be wrong with the patient, of which the learner is asked to say how bad it
+/// is.
+struct AskedFinding {
+  std::string name;                 ///< as the case's description names it: "geissler"
+  std::string title;                ///< for the learner
+  std::vector<std::string> grades;  ///< what may be stated beside "none"
+  int line = 0;
+};
+
 /// An exercise, as data. docs/scenarios.md describes the file.
 struct Scenario {
   std::string name, title, text;
@@ -81,6 +90,7 @@ struct Scenario {
   std::vector<ScenarioStage> stages;
   std::vector<ScenarioError> errors;
   std::vector<ScenarioMetric> metrics;
+  std::vector<AskedFinding> asks;
   std::string where;        ///< its file, for messages
   std::string source_text;  ///< what it was read from
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "osteon/base/result.h"
+#include "osteon/procedure/asked_findings.h"
 #include "osteon/procedure/scenario.h"
 
 namespace osteon {
@@ -24,6 +25,7 @@ struct Skill {
   double detour_m = 0;              ///< how far ways lead astray
   double drift_m_per_s = 0;         ///< sideways while pressing
   double skip_share = 0;            ///< of the bones, left out
+  double misgrade_share = 0;        ///< of the findings, stated otherwise than they are
   /// The one thing that is done wrong on purpose, on one bone; empty: nothing.
   std::string fault;
   std::string fault_hand;  ///< of a fault that belongs to one hand: its name in the scenario
@@ -35,6 +37,9 @@ Skill novice_skill(std::uint64_t seed);
 /// The expert who makes one error of the scenario: by what the error's rule asks. Fails when the
 /// scenario has no error of that name or nobody knows how to make it.
 Result<Skill> bad_skill(const Scenario& scenario, const std::string& error_name);
+
+/// What somebody of this skill says is wrong with the patient; a function of its arguments.
+StatedFindings stated_by(const Skill& skill, const Scenario& scenario, const Case& the_case);
 
 /// What `--surgeon` takes: "expert", "novice", "novice:SEED", "bad:NAME".
 Result<Skill> parse_skill(const Scenario& scenario, std::string_view text);

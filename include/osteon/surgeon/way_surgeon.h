@@ -20,6 +20,7 @@ struct WayLeg {
   double press_n = 0;                          ///< above 0: goes no farther once so much is felt
   std::optional<double> power = {}, jaw = {};  ///< set as the leg begins
   bool place = false;                          ///< a place of the exercise has been done with it
+  bool level = false;  ///< the hinge of the jaws; of the first leg, for the whole way
   bool leans = false;  ///< against what is there: who looks after the tip stays where it began
 };
 
@@ -29,9 +30,13 @@ struct WayTool {
   double tip_radius_m = 0.00075;
 };
 
+/// How an instrument whose shaft points to `back_W`, a unit vector, is turned about it so that the
+/// hinge of its jaws, x of Tool, is level.
+Quat level_jaws(const Vec3& back_W);
+
 /// The way of a tip that does what the scenario's goals ask of a tip: from mark to mark of a
-/// groove, through pairs of marks, or along the edge of a part that shall go. With the skill's
-/// fault in it, where the fault is the tip's. Empty: no goal asks for a way.
+/// groove, through pairs of marks, with rings to pegs, or along the edge of a part that shall go.
+/// With the skill's fault in it, where the fault is the tip's. Empty: no goal asks for a way.
 std::vector<WayLeg> plan_way(const ScenarioPlan& plan, const Case& the_case, const Skill& skill,
                              const WayTool& tool);
 

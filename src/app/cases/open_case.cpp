@@ -173,11 +173,11 @@ bool feel_hulls_of_unknown(CaseDef& def, Caches& caches, FeltChoice& choice) {
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
-  constexpr std::array<std::string_view, 6> kNames{"wrist",     "knee",          "fast_box",
-                                                   "fast_maze", "fast_meniscus", "fast_suture"};
+  constexpr std::array<std::string_view, 7> kNames{
+      "wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_ring", "fast_suture"};
   if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
     return fail("there is no built-in anatomy '" + name + "'", "anatomy",
-                "Use wrist, knee, fast_box, fast_maze, fast_meniscus or fast_suture");
+                "Use wrist, knee, fast_box, fast_maze, fast_meniscus, fast_ring or fast_suture");
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto folder = *data / "assets/anatomy";

@@ -121,9 +121,9 @@ int run_list(const std::string& name) {
 void add_list(cli::App& anatomy, int& exit_code) {
   cli::App* list = anatomy.add_subcommand("list", "Say what can be varied, and how far");
   auto name = std::make_shared<std::string>();
-  list->add_option(
-          "anatomy", *name,
-          "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, fast_meniscus")
+  list->add_option("anatomy", *name,
+                   "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, "
+                   "fast_meniscus, fast_ring")
       ->required();
   list->callback([name, &exit_code] { exit_code = run_list(*name); });
 }
@@ -131,9 +131,9 @@ void add_list(cli::App& anatomy, int& exit_code) {
 void add_make(cli::App& anatomy, int& exit_code) {
   cli::App* make = anatomy.add_subcommand("make", "Make a case of a varied anatomy");
   auto command = std::make_shared<MakeCommand>();
-  make->add_option(
-          "anatomy", command->name,
-          "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, fast_meniscus")
+  make->add_option("anatomy", command->name,
+                   "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, "
+                   "fast_meniscus, fast_ring")
       ->required();
   make->add_option("--seed", command->seed,
                    "draw every parameter that is not set; without it they stay as built in");

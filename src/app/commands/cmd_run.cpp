@@ -7,13 +7,14 @@
 #include "commands/commands.h"
 #include "commands/scenario_run.h"
 #include "exercises/result_files.h"
+#include "exercises/result_sender.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
 namespace {
 
 struct RunCommand {
-  std::string scenario, case_spec, surgeon = "expert", record, report, standard;
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings;
   std::string learner = "local";
   bool no_store = false;
   std::optional<std::uint64_t> seed;
@@ -34,6 +35,13 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   auto standard = standard_of(command, *scenario);
   if (!standard) return tl::unexpected(standard.error());
   ScenarioRun run;
+  if (!command.findings.empty()) {
+    const auto text = read_file(command.findings, 1u << 20);
+    if (!text) return tl::unexpected(text.error());
+    auto stated = parse_findings(*text, scenario->asks, command.findings);
+    if (!stated) return tl::unexpected(stated.error());
+    run.stated = std::move(*stated);
+  }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
   run.scenario = std::move(*scenario);
   run.standard = std::move(*standard);
@@ -57,6 +65,7 @@ int run_command(const RunCommand& command) {
     const auto kept = keep_report(report, command.learner);
     if (!kept) return report_error(kept.error());
     if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
+    (void)send_results_in_background();
   }
   std::fputs(to_text(done->outcome).c_str(), stdout);
   if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
@@ -86,6 +95,9 @@ void add_run_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--standard", options->standard,
                       "what it is judged against, TOML; default: the shipped one");
+  command->add_option("--findings", options->findings,
+                      "JSON file of what is stated to be wrong with the patient, "
+                      "{\"geissler\": \"3\"}; default: what the surgeon states");
   command->add_option("--learner", options->learner, "local id under which the attempt is kept")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not keep the attempt");

@@ -9,6 +9,7 @@
 #include "commands/headless.h"
 #include "exercises/attempt_watch.h"
 #include "osteon/procedure/hand_reports.h"
+#include "osteon/record/recording_note.h"
 #include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
@@ -202,7 +203,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   };
   auto reports = simulate_hands(headless);
   if (!reports) return tl::unexpected(reports.error());
-  auto outcome = watch.finish(run.standard ? &*run.standard : nullptr);
+  const StatedFindings stated =
+      run.stated ? *run.stated : stated_by(run.skill, run.scenario, **the_case);
+  auto outcome = watch.finish(run.standard ? &*run.standard : nullptr, stated);
   if (!outcome) return tl::unexpected(outcome.error());
   ScenarioOutcome done{std::move(reports->reports),
                        std::move(reports->names),
@@ -216,6 +219,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());
+  if (run.record_to && !run.scenario.asks.empty())
+    if (auto noted = write_note(*run.record_to, "findings", to_json(stated)); !noted)
+      return tl::unexpected(noted.error());
   if (run.record_to)
     if (auto noted =
             note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name, to_json(done));

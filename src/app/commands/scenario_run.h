@@ -22,6 +22,7 @@ struct ScenarioRun {
   std::string case_spec;
   Skill skill;
   std::optional<std::filesystem::path> record_to;
+  std::optional<StatedFindings> stated = {};  ///< none: as the surgeon's skill allows
 };
 struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand

@@ -103,7 +103,8 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       tick_s_(tick_s),
       meter_(tick_s),
       state_(begin_scenario(plan)),
-      tells_tips_(asks_for_tip(plan)) {
+      tells_tips_(asks_for_tip(plan)),
+      rings_(the_case, tick_s) {
   const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
@@ -125,6 +126,20 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
 }
 
 void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+  if (pauses_.empty() || tools.empty()) return add_counted(tools, bones);
+  const PausedTick at = paused_at(pauses_, tools[0]->tick);
+  if (at.in_pause) return;
+  shifted_.clear();
+  for (const ToolState* tool : tools) {
+    shifted_.push_back(*tool);
+    shifted_.back().tick -= std::min(at.before, tool->tick);
+  }
+  shifted_tools_.clear();
+  for (const ToolState& tool : shifted_) shifted_tools_.push_back(&tool);
+  add_counted(shifted_tools_, bones);
+}
+
+void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   fresh_.clear();
   for (std::size_t h = 0; h < std::min(tools.size(), events_.size()); ++h) {
     now_s_ = static_cast<double>(tools[h]->tick) * tick_s_;
@@ -135,6 +150,7 @@ void AttemptWatch::add(std::span<const ToolState* const> tools, const BoneSnapsh
   }
   for (HandCut& cut : cuts_)
     if (cut.hand < tools.size()) cut.watch.add(*tools[cut.hand], fresh_);
+  rings_.add(tools, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
@@ -144,7 +160,7 @@ void AttemptWatch::watch_tunnels(const std::string& case_spec) {
   if (asks_about_tunnels(*plan_)) tunnels_.emplace(*plan_, *case_, case_spec, pins_, tick_s_);
 }
 
-Result<Outcome> AttemptWatch::finish(const Standard* standard) {
+Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindings& stated) {
   fresh_.clear();
   for (ToolEvents& events : events_) events.finish(fresh_);
   if (tunnels_) tunnels_->finish(fresh_);
@@ -152,7 +168,7 @@ Result<Outcome> AttemptWatch::finish(const Standard* standard) {
   finish_scenario(*plan_, now_s_, state_);
   auto metrics = meter_.finish();
   if (!metrics) return tl::unexpected(metrics.error());
-  return outcome_of(*plan_, *case_, state_, std::move(*metrics), standard);
+  return outcome_of(*plan_, *case_, state_, std::move(*metrics), standard, stated);
 }
 
 void AttemptWatch::judge_fresh() {

@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "exercises/attempt_pause.h"
 #include "exercises/tunnel_watch.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
+#include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
@@ -38,7 +40,13 @@ class AttemptWatch {
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
   bool over() const { return state_.over; }
   const ScenarioState& state() const { return state_; }
-  Result<Outcome> finish(const Standard* standard);
+  /// `stated`: what the learner says is wrong with the patient.
+  Result<Outcome> finish(const Standard* standard, const StatedFindings& stated = {});
+  /// Ticks that do not count: the clock stands, nothing is judged. Those of the future as well, so
+  /// that a pause may be told as it begins.
+  void set_pauses(std::vector<AttemptPause> pauses) { pauses_ = std::move(pauses); }
+  /// Of the attempt: pauses left out.
+  double now_s() const { return now_s_; }
   /// Measures located tunnels, where the scenario asks for it; once, before the first tick.
   void watch_tunnels(const std::string& case_spec);
   /// Null: the scenario does not ask for tunnels.
@@ -50,6 +58,7 @@ class AttemptWatch {
     CutWatch watch;
   };
   void judge_fresh();
+  void add_counted(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
 
   const ScenarioPlan* plan_;
   const Case* case_;
@@ -62,6 +71,10 @@ class AttemptWatch {
   ScenarioState state_;
   bool tells_tips_ = false;
   std::vector<HandCut> cuts_;
+  RingWatch rings_;
+  std::vector<AttemptPause> pauses_;
+  std::vector<ToolState> shifted_;
+  std::vector<const ToolState*> shifted_tools_;
   std::vector<Event> fresh_;
   double now_s_ = 0;
 };

@@ -46,6 +46,19 @@ Result<std::optional<Standard>> standard_for(const DebriefOrder& order, const Sc
   return std::optional<Standard>(std::move(*standard));
 }
 
+Result<std::vector<AttemptPause>> pauses_of(const std::filesystem::path& recording) {
+  const auto note = read_note(recording, "pauses");
+  if (!note) return tl::unexpected(note.error());
+  return parse_pauses(*note ? **note : "", recording.string());
+}
+
+Result<StatedFindings> stated_in(const std::filesystem::path& recording, const Scenario& scenario) {
+  const auto note = read_note(recording, "findings");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return StatedFindings{};
+  return parse_findings(**note, scenario.asks, recording.string() + " (what was stated)");
+}
+
 // Gathers one hand's values.
 class TraceMaker {
  public:
@@ -127,6 +140,9 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (*scenario)
     if (auto begun = again.begin(**scenario, **the_case, tick_s, hands, *spec); !begun)
       return tl::unexpected(begun.error());
+  auto pauses = pauses_of(order.recording);
+  if (!pauses) return tl::unexpected(pauses.error());
+  if (again.watch) again.watch->set_pauses(std::move(*pauses));
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
   ReplayOptions how;
   if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
@@ -150,7 +166,9 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (!*scenario) return debrief;
   const auto standard = standard_for(order, **scenario);
   if (!standard) return tl::unexpected(standard.error());
-  auto outcome = again.watch->finish(*standard ? &**standard : nullptr);
+  const auto stated = stated_in(order.recording, **scenario);
+  if (!stated) return tl::unexpected(stated.error());
+  auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
   debrief.scenario = std::move(**scenario);

@@ -45,6 +45,15 @@ void print_timeline(const Debrief& debrief, PdfPages& pages) {
       }
 }
 
+void print_findings(const Debrief& debrief, PdfPages& pages) {
+  if (debrief.outcome->findings.empty()) return;
+  pages.heading("What was found");
+  pages.row({"finding", "stated", "is", "", ""}, true);
+  for (const GradedFinding& graded : debrief.outcome->findings)
+    pages.row({graded.title, graded.stated.empty() ? "nothing" : graded.stated, graded.truth,
+               graded.right() ? "right" : "wrong", ""});
+}
+
 std::vector<double> moments(const Debrief& debrief) {
   std::vector<double> marks;
   if (!debrief.outcome) return marks;
@@ -118,6 +127,7 @@ Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& f
   if (debrief.outcome) {
     print_verdict(debrief, pages);
     print_timeline(debrief, pages);
+    print_findings(debrief, pages);
   } else {
     pages.line("The recording is of no exercise: nothing is judged.");
   }
