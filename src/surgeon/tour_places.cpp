@@ -16,7 +16,7 @@ constexpr double kTourStrayed_m = 0.0008;  // how far friction of the skin holds
 constexpr double kTourOutside_m = 0.060;   // so far beyond the portal the shaft is looked after
 constexpr double kLeastRise = 0.3;  // of the shaft's direction outwards: handles stay over skin
 constexpr double kLeastInwards = 0.25;
-constexpr double kSquare = 0.75;  // least cosine between push and normal
+constexpr double kSquare = 0.65;  // least cosine between push and normal
 constexpr double kHandle_m = 0.074;
 constexpr double kHandlesApart_m = 0.019, kShaftsApart_m = 0.004;
 
@@ -178,7 +178,7 @@ std::optional<TourPlace> find_look(const Case& the_case, const TourTool& tool, c
 std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
                                     const Vec3& portal_W, std::uint32_t bone,
                                     const TourPlace* other, std::uint64_t seed) {
-  constexpr int kSpots = 1500, kTurns = 8;
+  constexpr int kSpots = 15000, kTurns = 16;
   const Vec3 inwards_W = inwards_at(the_case, portal_W);
   const TourAround around(the_case);
   Random random(seed * 1000003 + bone);

@@ -22,7 +22,10 @@ constexpr double kTourCorrects_m_per_n_s = 0.003;
 constexpr double kTourLongest_s = 6;
 constexpr double kTourTooHard_n = 7.5;
 constexpr double kTourPush_m_per_s = 0.02;
-constexpr double kBumpReach_m = 0.02;
+constexpr double kBumpReach_m = 0.02, kBumpPush_m = 0.013;
+constexpr double kTourPastBack_m = 0.003;
+// Of a bump, in place of when the bone has answered.
+constexpr double kBumpNotYet = -1, kBumpDrawnBack = -2;
 constexpr double kBlindLean_rad = 1.1;
 
 double smooth_tour(double f) {
@@ -30,14 +33,23 @@ double smooth_tour(double f) {
   return f * f * f * (10 + f * (6 * f - 15));
 }
 
-// How far the window can be pushed on before it meets a bone.
-double reach_ahead(const Case& the_case, const TourPlace& place, const TourTool& tool) {
+// How well the window can be pushed onto a bone: how far it goes, and more where it would slide off
+// or past; kBumpReach_m and more: not at all.
+double cost_of_bump(const Case& the_case, const TourPlace& place, const TourTool& tool) {
+  constexpr double kSlant_m = 0.03, kStep_m = 0.0002;
   const Pose pose = pose_at(place, tool);
   const Vec3 ahead = pose.rotate(-Vec3::UnitZ());
   for (double along = 0; along < kBumpReach_m; along += 0.0005)
-    for (const Bone& bone : the_case.bones)
-      if (gap_to(bone, pose.p + along * ahead) < tool.shaft_radius_m) return along;
-  return kBumpReach_m;
+    for (const Bone& bone : the_case.bones) {
+      const Vec3 p_W = pose.p + along * ahead;
+      if (gap_to(bone, p_W) >= tool.shaft_radius_m) continue;
+      Vec3 slope;
+      for (int i = 0; i < 3; ++i)
+        slope[i] = gap_to(bone, p_W + kStep_m * Vec3::Unit(i)) -
+                   gap_to(bone, p_W - kStep_m * Vec3::Unit(i));
+      return along + kSlant_m * (1 + ahead.dot(slope.normalized()));
+    }
+  return kBumpReach_m + kSlant_m;
 }
 
 bool is_in_picture(const Case& the_case, const ScopeOptics& optics, const Pose& pose,
@@ -151,9 +163,9 @@ class TourPlanner {
         if (tour_.blind) chosen = &visit;
         continue;
       }
-      const double ahead_m = reach_ahead(case_, visit.place, tour_.tools[visit.hand]);
-      if (ahead_m >= least_m) continue;
-      least_m = ahead_m;
+      const double cost_m = cost_of_bump(case_, visit.place, tour_.tools[visit.hand]);
+      if (cost_m >= least_m) continue;
+      least_m = cost_m;
       chosen = &visit;
     }
     if (chosen) chosen->faulty = true;
@@ -240,7 +252,7 @@ const std::vector<std::string>& TourHand::unreachable() const {
 void TourHand::enter(Phase phase) {
   phase_ = phase;
   phase_s_ = pressed_s_ = 0;
-  yielded_s_ = -1;
+  yielded_s_ = kBumpNotYet;
   from_ = place_;
 }
 
@@ -280,11 +292,17 @@ void TourHand::fault(double dt_s) {
     return;
   }
   const double enough_n = 1.3 * plan_->fault_numbers.at("force_n") + kTourFriction_n;
-  if (yielded_s_ < 0 && known_n_ > enough_n) yielded_s_ = phase_s_;
+  // Pushed farther it would slide past what it has met, and wedge.
+  const bool enough = known_n_ > enough_n || place_.depth_m > from_.depth_m + kBumpPush_m;
+  if (yielded_s_ == kBumpNotYet && enough) yielded_s_ = phase_s_;
   const bool back = yielded_s_ >= 0 && phase_s_ > yielded_s_ + stay_s;
-  if (yielded_s_ < 0 && yielded_s_ > -2) place_.depth_m += kTourPush_m_per_s * dt_s;
-  if (place_.depth_m > from_.depth_m + 2 * kBumpReach_m) yielded_s_ = -2;
-  if ((back || yielded_s_ < -1) && go_deep(from_.depth_m, kTourPush_m_per_s * dt_s)) go_on();
+  if (yielded_s_ == kBumpNotYet) place_.depth_m += kTourPush_m_per_s * dt_s;
+  const double step_m = kTourPush_m_per_s * dt_s;
+  // The skin's friction holds a window that only comes back deeper than it was: it goes in again.
+  if (back && go_deep(from_.depth_m - kTourPastBack_m, step_m))
+    yielded_s_ = kBumpDrawnBack;
+  else if (yielded_s_ == kBumpDrawnBack && go_deep(from_.depth_m, step_m))
+    go_on();
 }
 
 void TourHand::move(double dt_s) {
