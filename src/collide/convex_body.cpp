@@ -171,8 +171,9 @@ std::array<std::uint32_t, Basis::kRows> first_basis(const ConvexBody& body,
   std::array<std::uint32_t, Basis::kRows> ids;
   std::iota(ids.begin(), ids.end(), body.plane_count);
   Basis basis;
-  [[maybe_unused]] const bool loaded = load_basis(basis, rows, ids);
+  const bool loaded = load_basis(basis, rows, ids);
   assert(loaded && dual_feasible(basis));
+  if (!loaded) return ids;  // never: the far planes part their corners
   basis.solve();
   [[maybe_unused]] const SimplexEnd end = run_simplex(basis, rows, 0, 4000);
   assert(end.status == LpStatus::kOptimal);
