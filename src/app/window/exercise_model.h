@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osteon {
@@ -39,6 +40,13 @@ struct ExerciseModel {
     double value = 0, aim = 0;
     bool lower_is_better = true;
   };
+  /// What the exercise asks to be said of the patient.
+  struct Asked {
+    std::string name, title;
+    std::vector<std::string> grades;  ///< beside "none"
+    std::string stated;               ///< empty: nothing yet
+    std::string truth;                ///< of the result
+  };
   ExercisePage page = ExercisePage::kClosed;
   std::vector<Card> cards;
   std::string title, text;
@@ -53,6 +61,8 @@ struct ExerciseModel {
   std::string cue;                ///< asked for; empty: not shown
   bool has_cue = false;
   int hints = 0, undone = 0;
+  bool paused = false;
+  std::vector<Asked> asked;
   double judged = 0;  ///< 0..1, while judging
   std::string verdict;
   std::optional<double> score, score_lo, score_hi;
@@ -70,7 +80,9 @@ struct ExerciseRequests {
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;
-  bool pages = false;  ///< to print
+  bool pause = false;                                             ///< or go on
+  std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
+  bool pages = false;                                             ///< to print
   bool watch = false;
 };
 

@@ -13,6 +13,15 @@ namespace {
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
 
+// The force is off in a pause, and comes back as after any other stop; one that was off before
+// stays off.
+void switch_pause(ExerciseRun& exercise, LiveRun* live) {
+  const bool begins = !exercise.paused();
+  if (live && begins) exercise.keep_force_wish(live->force_wanted());
+  if (live && (begins || exercise.force_was_wanted())) live->set_force(!begins);
+  exercise.pause(begins);
+}
+
 }  // namespace
 
 void ExerciseControl::apply(const ExerciseRequests& requests) {
@@ -24,6 +33,8 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   if (running()) {
     if (requests.hint) exercise_.show_cue();
     if (requests.undo && live_.run() && live_.run()->undo()) exercise_.count_undo();
+    if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
+    if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
   }
   if (requests.pages) save_pages();
@@ -120,6 +131,7 @@ void ExerciseControl::poll() {
 }
 
 void ExerciseControl::end() {
+  if (exercise_.paused()) switch_pause(exercise_, live_.run());
   const Result<void> stopped = live_.run()->stop_recording();
   if (!stopped) host_.note(ToastKind::kError, stopped.error().message());
   live_.let_probe_go();

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "exercises/result_files.h"
+#include "exercises/result_sender.h"
 #include "osteon/procedure/attempt.h"
+#include "osteon/record/recording_note.h"
 #include "ui/label.h"
 
 namespace osteon {
@@ -119,7 +121,9 @@ void ExerciseRun::begin(double tick_s, fs::path file) {
   problem_.clear();
   now_s_ = 0;
   stage_ = 0;
-  cue_shown_ = false;
+  cue_shown_ = paused_ = false;
+  pauses_.clear();
+  stated_.clear();
   hints_ = undone_ = 0;
   page_ = ExercisePage::kRunning;
 }
@@ -141,7 +145,7 @@ bool ExerciseRun::follow(const BoneSnapshot& bones) {
         ticks_[h].pop_front();
       }
     watch_->add(tools, bones);
-    now_s_ = static_cast<double>(tick) * tick_s_;
+    now_s_ = watch_->now_s();
   }
   const std::uint32_t stage = watch_->state().stage;
   if (stage == stage_) return false;
@@ -155,7 +159,39 @@ void ExerciseRun::show_cue() {
   cue_shown_ = true;
 }
 
+// A pause begins after the newest tick that any hand has told, and ends so.
+void ExerciseRun::pause(bool paused) {
+  if (!watch_ || page_ != ExercisePage::kRunning || paused == paused_) return;
+  std::uint64_t told = 0;
+  for (std::size_t h = 0; h < ticks_.size(); ++h)
+    told = std::max({told, last_[h].tick, ticks_[h].empty() ? 0 : ticks_[h].back().tick});
+  paused_ = paused;
+  if (paused)
+    pauses_.push_back({told + 1});
+  else
+    pauses_.back().to = told + 1;
+  watch_->set_pauses(pauses_);
+}
+
+void ExerciseRun::state_finding(const std::string& name, const std::string& grade) {
+  if (page_ != ExercisePage::kRunning) return;
+  if (grade.empty())
+    stated_.erase(name);
+  else
+    stated_[name] = grade;
+}
+
+// The verdict is made from the recording alone: what was said goes with it.
+Result<void> ExerciseRun::note_what_was_said() const {
+  if (!pauses_.empty())
+    if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
+  if (!scenario().asks.empty()) return write_note(file_, "findings", to_json(stated_));
+  return {};
+}
+
 void ExerciseRun::judge() {
+  pause(false);
+  if (const auto noted = note_what_was_said(); !noted) problem_ = noted.error().message();
   page_ = ExercisePage::kJudging;
   judging_ = std::make_unique<SideJob<Debrief>>(
       [order = DebriefOrder{file_, "", scenario().where, ""}](const Progress& progress) {
@@ -187,6 +223,7 @@ void ExerciseRun::keep() {
   const auto kept = keep_report(report, "local");
   if (!kept) problem_ = kept.error().message();
   if (kept && *kept) problem_ = (*kept)->message();
+  (void)send_results_in_background();
 }
 
 std::optional<Error> ExerciseRun::save_pages(const fs::path& file) const {
@@ -247,6 +284,8 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
          made.bone < case_->bones.size() ? label_of(case_->bones[made.bone].name) : std::string()});
   }
   model.elapsed_s = now_s_;
+  model.paused = paused_;
+  describe_asked(model);
   model.hints = hints_;
   model.undone = undone_;
   if (state.stage >= scenario().stages.size()) return;
@@ -261,6 +300,17 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
           state.goals[g].met || (i < state.goals[g].done.size() && state.goals[g].done[i] != 0);
       if (!done) model.left.push_back(subject_of(goals[g], i, *case_));
     }
+}
+
+void ExerciseRun::describe_asked(ExerciseModel& model) const {
+  for (const AskedFinding& asked : scenario().asks) {
+    const auto said = stated_.find(asked.name);
+    model.asked.push_back({asked.name,
+                           asked.title,
+                           asked.grades,
+                           said == stated_.end() ? std::string() : said->second,
+                           {}});
+  }
 }
 
 void ExerciseRun::describe_result(ExerciseModel& model) const {
@@ -282,6 +332,8 @@ void ExerciseRun::describe_result(ExerciseModel& model) const {
     if (const auto it = outcome.metrics.find(metric.name); it != outcome.metrics.end())
       model.measures.push_back(
           {metric.name, metric.unit, it->second, metric.threshold, metric.lower_is_better});
+  for (const GradedFinding& graded : outcome.findings)
+    model.asked.push_back({graded.name, graded.title, {}, graded.stated, graded.truth});
   model.verdict = std::string(to_text(outcome.verdict));
   if (outcome.score) {
     model.score = outcome.score->value;

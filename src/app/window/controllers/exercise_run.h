@@ -43,6 +43,14 @@ class ExerciseRun {
   bool follow(const BoneSnapshot& bones);
   bool over() const { return watch_ && watch_->over(); }
   void show_cue();
+  /// While it is paused the clock stands and nothing that the hands do is judged.
+  void pause(bool paused);
+  bool paused() const { return paused_; }
+  /// Whether the force was on as the pause began, for when it ends.
+  void keep_force_wish(bool on) { force_was_wanted_ = on; }
+  bool force_was_wanted() const { return force_was_wanted_; }
+  /// What the user says is wrong with the patient; an empty grade takes it back.
+  void state_finding(const std::string& name, const std::string& grade);
   void count_undo() { ++undone_; }
   std::size_t hands() const { return ticks_.size(); }
 
@@ -63,7 +71,9 @@ class ExerciseRun {
   void describe_briefing(ExerciseModel& model) const;
   void describe_run(ExerciseModel& model) const;
   void describe_result(ExerciseModel& model) const;
+  void describe_asked(ExerciseModel& model) const;
   void keep();
+  Result<void> note_what_was_said() const;
 
   ExercisePage page_ = ExercisePage::kClosed;
   std::vector<Scenario> scenarios_;
@@ -80,7 +90,9 @@ class ExerciseRun {
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;
   std::uint32_t stage_ = 0;
-  bool cue_shown_ = false;
+  bool cue_shown_ = false, paused_ = false, force_was_wanted_ = true;
+  std::vector<AttemptPause> pauses_;
+  StatedFindings stated_;
   int hints_ = 0, undone_ = 0;
   std::filesystem::path file_;
 

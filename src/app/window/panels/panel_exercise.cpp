@@ -171,6 +171,14 @@ void draw_result(const PanelContext& c) {
     quiet_heading(c, "Errors, and what they cost");
     draw_faults(c, true);
   }
+  if (!model.asked.empty()) quiet_heading(c, "What you found");
+  for (const ExerciseModel::Asked& asked : model.asked)
+    ui::stat(asked.title.c_str(),
+             asked.stated == asked.truth
+                 ? asked.truth
+                 : (asked.stated.empty() ? "nothing" : asked.stated) + ", is " + asked.truth,
+             "What you stated, and what is so",
+             asked.stated == asked.truth ? color::kText : color::kAmber);
   quiet_heading(c, "Measures");
   for (const ExerciseModel::Measure& m : model.measures) {
     const bool met = m.lower_is_better ? m.value <= m.aim : m.value >= m.aim;
@@ -230,6 +238,28 @@ void draw_live_stage(const PanelContext& c) {
   }
 }
 
+// What the user says is wrong with the patient.
+void draw_asked(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  if (model.asked.empty()) return;
+  ImGui::Separator();
+  ui::text(color::kTextQuiet, "What do you find?");
+  for (const ExerciseModel::Asked& asked : model.asked) {
+    wrapped(color::kText, asked.title);
+    ImGui::PushID(asked.name.c_str());
+    if (ImGui::BeginCombo("##stated", asked.stated.empty() ? "not stated" : asked.stated.c_str())) {
+      const auto choice = [&](const std::string& grade) {
+        if (ImGui::Selectable(grade.c_str(), grade == asked.stated))
+          c.requests.exercise.state = {asked.name, grade};
+      };
+      choice("none");
+      for (const std::string& grade : asked.grades) choice(grade);
+      ImGui::EndCombo();
+    }
+    ImGui::PopID();
+  }
+}
+
 // Beside the scene while the exercise goes on.
 void draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
@@ -248,6 +278,8 @@ void draw_running(const PanelContext& c) {
   ui::stat("Time",
            ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
            "The attempt ends at the limit");
+  if (model.paused)
+    wrapped(color::kAmber, "Paused: the time stands, the force is off, nothing counts.");
   ImGui::Separator();
   draw_live_stage(c);
   if (!model.cue.empty()) wrapped(color::kText, "Hint: " + model.cue);
@@ -259,7 +291,10 @@ void draw_running(const PanelContext& c) {
               ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
                   (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
   }
+  draw_asked(c);
   ImGui::Separator();
+  if (ImGui::Button(model.paused ? "Go on (P)" : "Pause (P)", {-1, 0}))
+    c.requests.exercise.pause = true;
   ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
   if (ImGui::Button("Hint (I)")) c.requests.exercise.hint = true;
   ImGui::EndDisabled();

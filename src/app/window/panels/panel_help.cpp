@@ -56,7 +56,7 @@ constexpr std::array<KeyLine, 13> kRun = {{
     {"F4", "film of this window, stop"},
     {"O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
-    {"P", "play, pause a replay"},
+    {"P", "play, pause a replay; pause an exercise"},
     {",  .", "slower, faster"},
     {"F2", "check this computer and its devices"},
     {"J, I", "exercises, end of one; a hint"},

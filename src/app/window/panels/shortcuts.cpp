@@ -44,6 +44,7 @@ void read_run_keys(const PanelContext& c) {
   const bool running = c.model.exercise.page == ExercisePage::kRunning;
   if (pressed(GLFW_KEY_J)) (running ? c.requests.exercise.end : c.requests.exercise.toggle) = true;
   if (pressed(GLFW_KEY_I) && running) c.requests.exercise.hint = true;
+  if (pressed(GLFW_KEY_P) && running) c.requests.exercise.pause = true;
   const bool briefing = c.model.exercise.page == ExercisePage::kBriefing;
   if (pressed(GLFW_KEY_ENTER) && briefing) c.requests.exercise.begin = true;
   if (pressed(GLFW_KEY_M) && c.model.hand.probe_by_mouse && !replay) c.requests.toggle_probe = true;

@@ -111,6 +111,44 @@ TEST_F(ExerciseRunTest, StagesAndErrorsAreFollowedTickByTick) {
   EXPECT_FALSE(run_.model().cue.empty());
 }
 
+TEST_F(ExerciseRunTest, InAPauseTheTimeStandsAndNothingIsJudged) {
+  begin();
+  touch("lunate", 1, 300);
+  run_.follow(rest_snapshot(*case_));
+  const double before_s = run_.model().elapsed_s;
+  run_.pause(true);
+  EXPECT_TRUE(run_.model().paused);
+  touch("capitate", 6, 400);  // too hard, and it would count
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_DOUBLE_EQ(run_.model().elapsed_s, before_s);
+  EXPECT_TRUE(run_.model().faults.empty());
+  EXPECT_EQ(run_.model().left.size(), 7u);
+  run_.pause(false);
+  EXPECT_FALSE(run_.model().paused);
+  touch("hamate", 1, 300);
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_EQ(run_.model().left.size(), 6u);
+  EXPECT_NEAR(run_.model().elapsed_s, before_s + 0.305, 1e-9);
+  EXPECT_TRUE(run_.model().faults.empty());
+}
+
+TEST_F(ExerciseRunTest, WhatIsFoundIsAskedForAndKeptUntilTheEnd) {
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("wrist_tour"));
+  EXPECT_TRUE(run_.model().asked.empty()) << "not before it runs";
+  auto wrist = open_case("builtin:wrist#hull", {}, CaseParts::kFelt);
+  ASSERT_TRUE(wrist);
+  ASSERT_TRUE(run_.plan(*wrist)) << run_.model().problem;
+  run_.begin(0.001, dir_ / "none.osr");
+  ASSERT_EQ(run_.model().asked.size(), 2u);
+  EXPECT_EQ(run_.model().asked[0].grades.size(), 4u);
+  EXPECT_TRUE(run_.model().asked[0].stated.empty());
+  run_.state_finding("geissler", "3");
+  EXPECT_EQ(run_.model().asked[0].stated, "3");
+  run_.state_finding("geissler", "");
+  EXPECT_TRUE(run_.model().asked[0].stated.empty());
+}
+
 TEST_F(ExerciseRunTest, ARecordingThatIsNotThereIsSaid) {
   begin();
   run_.judge();

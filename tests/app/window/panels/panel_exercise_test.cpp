@@ -93,6 +93,33 @@ TEST_F(ExercisePanel, WhileItRunsItCanBeEndedTakenBackAndAHintAskedFor) {
   EXPECT_FALSE(ui.click("##running", {"Hint (I)"}).exercise.hint) << "it is shown";
 }
 
+TEST_F(ExercisePanel, ItIsPausedAndGoesOnByButtonAndByKey) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  settle();
+  EXPECT_TRUE(ui.click("##running", {"Pause (P)"}).exercise.pause);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_P).exercise.pause);
+  model.paused = true;
+  settle();
+  EXPECT_FALSE(ui.click("##running", {"Pause (P)"}).exercise.pause) << "it says Go on now";
+  EXPECT_TRUE(ui.click("##running", {"Go on (P)"}).exercise.pause);
+  model.page = ExercisePage::kBriefing;
+  settle();
+  EXPECT_FALSE(ui.press_key(GLFW_KEY_P).exercise.pause);
+}
+
+TEST_F(ExercisePanel, WhatIsFoundIsStatedByMouse) {
+  at(ExercisePage::kRunning).asked = {{"geissler", "Scaphoid", {"1", "2"}, "", ""}};
+  settle();
+  (void)ui.click("##running", {"geissler", "##stated"});
+  settle();
+  const std::string list = child("##Combo");
+  ASSERT_FALSE(list.empty());
+  const ExerciseRequests asked = ui.click(list.c_str(), {"2"}).exercise;
+  ASSERT_TRUE(asked.state);
+  EXPECT_EQ(asked.state->first, "geissler");
+  EXPECT_EQ(asked.state->second, "2");
+}
+
 TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   ExerciseModel& model = at(ExercisePage::kResult);
   model.verdict = "undecided";
