@@ -7,8 +7,10 @@
 #include "commands/parser.h"
 
 #include "cases/import_mesh.h"
+#include "cases/noted_case.h"
 #include "cases/open_case.h"
 #include "commands/cli_support.h"
+#include "commands/cmd_case_note.h"
 #include "commands/commands.h"
 #include "commands/progress_line.h"
 #include "commands/text_table.h"
@@ -151,14 +153,80 @@ std::vector<std::string> bone_row(const Bone& bone) {
           size_text_mm(bone.mesh)};
 }
 
-int info_without_pieces(const std::string& spec) {
+Vec3 place_of(const CaseNote& note, const Case& c) {
+  const BoneId bone = c.find(note.bone);
+  return bone.valid() ? c.bone(bone).X_WB * note.p_F : note.p_F;
+}
+
+std::string place_text(const CaseNote& note, const Case& c) {
+  const Vec3 at_mm = 1000 * place_of(note, c);
+  std::string text = note.bone.empty() ? "at " : note.bone + ", at ";
+  return text + fixed(at_mm.x(), 1) + " " + fixed(at_mm.y(), 1) + " " + fixed(at_mm.z(), 1) + " mm";
+}
+
+void print_notes(const CaseNotes& notes, const Case& c) {
+  if (notes.empty()) return;
+  print("\n");
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    print("note " + std::to_string(i + 1) + " (" + place_text(notes[i], c) + "): " + notes[i].text +
+          "\n");
+}
+
+nlohmann::ordered_json in_mm_json(const Vec3& p) {
+  return {1000 * p.x(), 1000 * p.y(), 1000 * p.z()};
+}
+
+nlohmann::ordered_json bones_json(const Case& c, const std::vector<Felt>& felt) {
+  auto list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < c.bones.size(); ++i)
+    list.push_back({{"name", c.bones[i].name},
+                    {"fma_id", c.bones[i].fma_id},
+                    {"triangles", c.bones[i].mesh.triangles.size()},
+                    {"volume_cm3", 1e6 * volume(c.bones[i].mesh)},
+                    {"mass_g", 1e3 * c.bones[i].mass_kg},
+                    {"felt", std::string(to_text(felt[i]))}});
+  return list;
+}
+
+void print_info_json(const Case& c, const std::vector<Felt>& felt, const CaseNotes& notes) {
+  nlohmann::ordered_json out;
+  out["case"] = c.name;
+  out["side"] = c.side;
+  out["bones"] = bones_json(c, felt);
+  out["soft_parts"] = nlohmann::ordered_json::array();
+  for (const SoftPart& soft : c.softs)
+    out["soft_parts"].push_back(
+        {{"name", soft.name}, {"kind", soft.kind}, {"tissue", soft.tissue}});
+  out["findings"] = nlohmann::ordered_json::array();
+  for (const CaseFinding& finding : c.findings)
+    out["findings"].push_back(
+        {{"name", finding.name}, {"grade", finding.grade}, {"meaning", finding.meaning}});
+  out["portals"] = nlohmann::ordered_json::array();
+  for (const Portal& portal : find_portals(c))
+    out["portals"].push_back({{"name", portal.name}, {"at_mm", in_mm_json(portal.p_W)}});
+  out["notes"] = nlohmann::ordered_json::array();
+  for (const CaseNote& note : notes)
+    out["notes"].push_back(
+        {{"text", note.text}, {"bone", note.bone}, {"at_mm", in_mm_json(place_of(note, c))}});
+  // Names of files may be any bytes; JSON is UTF-8.
+  std::puts(out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+int info_without_pieces(const std::string& spec, bool json) {
   auto def = open_case_def(spec);
   if (!def) return report_error(def.error());
+  const auto notes = notes_of(spec);
+  if (!notes) return report_error(notes.error());
+  if (auto known = check_notes(*notes, *def); !known) return report_error(known.error());
   std::vector<Felt> felt;
   for (const BoneDef& bone : def->bones) felt.push_back(bone.felt);
   for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   const auto built = build_case(std::move(*def));
   if (!built) return report_error(built.error());
+  if (json) {
+    print_info_json(*built, felt, *notes);
+    return kExitDone;
+  }
   print_head(*built);
   TextTable table(
       {"bone", "FMA", "triangles", "closed", "volume cm3", "mass g", "size mm", "felt as"});
@@ -170,10 +238,13 @@ int info_without_pieces(const std::string& spec) {
   print(table.text());
   print_softs(*built);
   print_portals(*built);
+  print_notes(*notes, *built);
   return kExitDone;
 }
 
 int info_with_pieces(const std::string& spec) {
+  const auto notes = notes_of(spec);
+  if (!notes) return report_error(notes.error());
   const auto the_case = open_and_show_progress(spec, CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   const Case& c = **the_case;
@@ -192,6 +263,7 @@ int info_with_pieces(const std::string& spec) {
   print(table.text());
   print_softs(c);
   print_portals(c);
+  print_notes(*notes, c);
   if (field_mb > 0) std::printf("\nthe distance fields take %.1f MB", field_mb);
   std::printf("\nhash %016llx\n", static_cast<unsigned long long>(c.hash));
   return kExitDone;
@@ -213,6 +285,10 @@ int run_check(const std::string& spec, bool json) {
   auto def = open_case_def(spec);
   if (!def) return report_error(def.error());
   std::vector<std::string> findings = check_case(*def);
+  const auto notes = notes_of(spec);
+  if (!notes) findings.push_back(notes.error().message());
+  if (notes)
+    if (auto known = check_notes(*notes, *def); !known) findings.push_back(known.error().message());
   const std::size_t bones = def->bones.size(), softs = def->softs.size();
   if (const auto built = build_uncut(std::move(*def)); !built)
     findings.push_back(built.error().message());
@@ -260,10 +336,14 @@ void add_case(cli::App& app, int& exit_code) {
   cli::App* info = group->add_subcommand("info", "List the bones of a case");
   info->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   auto pieces = std::make_shared<bool>(false);
-  info->add_flag("--pieces", *pieces,
-                 "cut the bones into the pieces that are felt, and list those too");
-  info->callback([spec, pieces, &exit_code] {
-    exit_code = *pieces ? info_with_pieces(*spec) : info_without_pieces(*spec);
+  cli::Option* const info_pieces = info->add_flag(
+      "--pieces", *pieces, "cut the bones into the pieces that are felt, and list those too");
+  auto info_json = std::make_shared<bool>(false);
+  info->add_flag("--json", *info_json,
+                 "print JSON: case, side, bones, soft_parts, findings, portals, notes")
+      ->excludes(info_pieces);
+  info->callback([spec, pieces, info_json, &exit_code] {
+    exit_code = *pieces ? info_with_pieces(*spec) : info_without_pieces(*spec, *info_json);
   });
   cli::App* check = group->add_subcommand(
       "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
@@ -273,6 +353,7 @@ void add_case(cli::App& app, int& exit_code) {
   check->callback([spec, json, &exit_code] { exit_code = run_check(*spec, *json); });
   add_case_pose(*group, exit_code);
   add_case_save(*group, exit_code);
+  add_case_note(*group, exit_code);
 }
 
 }  // namespace

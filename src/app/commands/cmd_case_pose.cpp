@@ -5,12 +5,12 @@
 #include "commands/parser.h"
 
 #include "cases/felt_choice.h"
+#include "cases/noted_case.h"
 #include "cases/open_case.h"
 #include "cases/whole_folder.h"
 #include "commands/cli_support.h"
 #include "commands/commands.h"
 #include "commands/progress_line.h"
-#include "osteon/scene/case_io.h"
 
 namespace osteon {
 namespace {
@@ -30,8 +30,9 @@ int run_pose(const CasePoseCommand& command) {
     if (!say("Growing the bones", share)) throw std::runtime_error("stopped; nothing was written");
   });
   if (!def) return report_error(def.error());
-  const auto saved = write_whole_folder(
-      out, [&](const std::filesystem::path& part) { return save_case(*def, part); });
+  const auto notes = notes_of(command.spec);
+  if (!notes) return report_error(notes.error());
+  const auto saved = save_noted_case(*def, *notes, out);
   if (!saved) return report_error(saved.error());
   std::printf("bent to %g degrees -> %s\n", command.flexion_deg, out.string().c_str());
   return kExitDone;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/noted_case.h"
 #include "cases/open_case.h"
 #include "cases/whole_folder.h"
 #include "commands/cli_support.h"
@@ -14,7 +15,6 @@
 #include "osteon/carve/carved_surface.h"
 #include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
-#include "osteon/scene/case_io.h"
 #include "osteon/session/session.h"
 #include "runs/recorded_case.h"
 #include "runs/tray.h"
@@ -85,8 +85,9 @@ int run_save(const CaseSaveCommand& command) {
     ++carved;
   }
   if (carved > 0) def->recipe.reset();  // it could not be grown again
-  const auto saved = write_whole_folder(
-      out, [&](const std::filesystem::path& part) { return save_case(*def, part); });
+  const auto notes = notes_of(*spec);
+  if (!notes) return report_error(notes.error());
+  const auto saved = save_noted_case(*def, *notes, out);
   if (!saved) return report_error(saved.error());
   std::printf("%zu carved bone%s at %g s -> %s\n", carved, carved == 1 ? "" : "s", command.at_s,
               out.string().c_str());

@@ -19,6 +19,7 @@
 #include "window/edit_model.h"
 #include "window/exercise_model.h"
 #include "window/hands_model.h"
+#include "window/notes_model.h"
 #include "window/patient_model.h"
 #include "window/views_model.h"
 
@@ -145,6 +146,7 @@ struct UiModel {
   ExerciseModel exercise;
   BrowserModel browser;
   HandsModel hands;
+  NotesModel notes;
   ViewsModel views;
   EditModel edit;
   PatientModel patient;

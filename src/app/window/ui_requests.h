@@ -13,6 +13,7 @@
 #include "window/edit_model.h"
 #include "window/exercise_model.h"
 #include "window/hands_model.h"
+#include "window/notes_model.h"
 #include "window/patient_model.h"
 #include "window/views_model.h"
 
@@ -59,6 +60,7 @@ struct UiRequests {
   EditRequests edit;
   BrowserRequests browser;
   HandsRequests hands;
+  NotesRequests notes;
   PatientRequests patient;
   ExerciseRequests exercise;
   ViewsRequests views;

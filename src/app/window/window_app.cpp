@@ -117,6 +117,7 @@ void WindowApp::poll_jobs() {
   if (cases_.poll_finer(at_rest)) edit_.draw_again();
   checkup_.poll();
   edit_.poll_save();
+  notes_.poll_save();
   patient_.poll();
   exercise_.poll();
   UiRequests off;
@@ -141,7 +142,10 @@ void WindowApp::install(Loaded loaded) {
   }
   const auto before = scene_.the_case;
   if (!cases_.show(loaded)) return;
-  if (scene_.the_case != before) hands_.begin_case();
+  if (scene_.the_case != before) {
+    hands_.begin_case();
+    notes_.begin_case();
+  }
   hands_.begin_run();
   marks_.clear();
   if (loaded.replay) return replay_.begin(std::move(*loaded.replay));

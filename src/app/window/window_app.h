@@ -9,6 +9,7 @@
 #include "window/controllers/checkup_control.h"
 #include "window/controllers/exercise_control.h"
 #include "window/controllers/film_control.h"
+#include "window/controllers/notes_control.h"
 #include "window/controllers/patient_control.h"
 #include "window/controllers/run_marks.h"
 #include "window/controllers/scene_pointer.h"
@@ -57,6 +58,7 @@ class WindowApp {
   void apply(const UiRequests& requests);
   void apply_window(const UiRequests& requests);
   void apply_scene(const UiRequests& requests);
+  bool may_change_case() const;
   void save_screenshot(bool whole_window);
   void remember();
   bool measured_run_over();
@@ -83,11 +85,12 @@ class WindowApp {
   CaseControl cases_{host_, scene_, sight_, live_, replay_};
   EditControl edit_{host_, scene_, sight_, live_, cases_};
   BendControl bend_{host_, scene_, sight_, live_, cases_};
+  NotesControl notes_{host_, scene_, sight_, live_, cases_};
   PatientControl patient_{host_, cases_};
   CheckupControl checkup_{host_, live_, cases_};
   BrowserControl browser_{host_, scene_, live_, cases_};
   ExerciseControl exercise_{host_, scene_, sight_, live_, cases_};
-  ScenePointer pointer_{host_, sight_, live_, hands_, edit_};
+  ScenePointer pointer_{host_, sight_, live_, hands_, edit_, notes_};
 };
 
 }  // namespace osteon

@@ -88,12 +88,18 @@ UiModel WindowApp::build_model() {
   model.edit = edit_.model();
   model.patient = patient_.model();
   model.joints = bend_.model();
-  model.can_bend = live_.run() && !live_.recording() && !edit_.on() && !checkup_.running();
+  model.can_bend = may_change_case();
+  model.notes = notes_.model(may_change_case());
   model.hands = hands_.model(!checkup_.running());
   model.views = views_.model();
   model.views.film = film_.model();
   model.hand.picture_hz = frames_.rate_hz();
   return model;
+}
+
+// Neither a replay, a recording, an edit nor a check-up needs it as it is.
+bool WindowApp::may_change_case() const {
+  return live_.run() && !live_.recording() && !edit_.on() && !checkup_.running();
 }
 
 void WindowApp::apply(const UiRequests& requests) {
@@ -121,6 +127,7 @@ void WindowApp::apply_window(const UiRequests& requests) {
     checkup_.close();
     patient_.close();
     hands_.close_tray();
+    notes_.stop_placing();
   }
   if (requests.quit) host_.window->close();
   if (requests.dismiss_hint) settings.hint_dismissed = true;
@@ -137,8 +144,8 @@ void WindowApp::apply_scene(const UiRequests& requests) {
   views_.apply(requests.views);
   if (requests.views.toggle_film) film_.toggle();
   if (requests.felt) cases_.choose_felt(*requests.felt);
-  if (requests.bend && live_.run() && !live_.recording() && !edit_.on() && !checkup_.running())
-    bend_.apply(*requests.bend);
+  if (requests.bend && may_change_case()) bend_.apply(*requests.bend);
+  notes_.apply(requests.notes, may_change_case());
   edit_.apply(requests.edit);
   live_.apply_feel(requests, !bend_.on());
   if (!checkup_.running()) {  // it may have the device

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/noted_case.h"
 #include "cases/open_case.h"
-#include "cases/whole_folder.h"
 #include "osteon/mesh/repair.h"
-#include "osteon/scene/case_io.h"
 
 namespace osteon {
 
@@ -98,10 +97,9 @@ Result<void> save_edited_case(const std::string& spec, const std::string& bone_n
   if (bone == def->bones.end())
     return fail("has no bone '" + bone_name + "'", spec, "Open the case again");
   bone->mesh = mesh_B;
-  const std::filesystem::path folder = plain_folder(out);
-  if (auto free = refuse_existing(folder); !free) return free;
-  return write_whole_folder(
-      folder, [&](const std::filesystem::path& part) { return save_case(*def, part); });
+  const auto notes = notes_of(spec);
+  if (!notes) return tl::unexpected(notes.error());
+  return save_noted_case(*def, *notes, out);
 }
 
 }  // namespace osteon

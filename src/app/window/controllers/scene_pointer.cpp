@@ -38,6 +38,7 @@ void ScenePointer::poll(double dt_s, double wheel) {
 
 void ScenePointer::move(SceneInput& input) {
   nudged_ = hands_.nudge_rested(input);
+  if (notes_.poll_pointer(input)) input.left = false;
   if (edit_.poll_pointer(input)) {
     input.left = false;
     input.wheel = 0;

@@ -2,6 +2,7 @@
 
 #include "window/controllers/edit_control.h"
 #include "window/controllers/hands_control.h"
+#include "window/controllers/notes_control.h"
 #include "window/controllers/scene_poll.h"
 
 namespace osteon {
@@ -10,8 +11,8 @@ namespace osteon {
 class ScenePointer {
  public:
   ScenePointer(WindowHost& host, SceneSight& sight, LiveControl& live, HandsControl& hands,
-               EditControl& edit)
-      : host_(host), sight_(sight), live_(live), hands_(hands), edit_(edit) {}
+               EditControl& edit, NotesControl& notes)
+      : host_(host), sight_(sight), live_(live), hands_(hands), edit_(edit), notes_(notes) {}
 
   /// Once a picture; moves what they move. `wheel`: notches.
   void poll(double dt_s, double wheel);
@@ -28,6 +29,7 @@ class ScenePointer {
   LiveControl& live_;
   HandsControl& hands_;
   EditControl& edit_;
+  NotesControl& notes_;
   ScenePoll poll_;
   SceneInput input_;
   bool nudged_ = false;  ///< the resting hand had them

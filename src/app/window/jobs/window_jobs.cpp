@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cases/noted_case.h"
 #include "cases/open_case.h"
 #include "loops/realtime.h"
 #include "runs/demo_path.h"
@@ -86,6 +87,18 @@ SideJob<std::filesystem::path>::Work save_edit(std::string case_spec, std::strin
   return [spec = std::move(case_spec), name = std::move(bone_name), mesh = std::move(mesh_B),
           out](const Progress&) -> Result<std::filesystem::path> {
     if (auto saved = save_edited_case(spec, name, mesh, out); !saved)
+      return tl::unexpected(saved.error());
+    return out;
+  };
+}
+
+SideJob<std::filesystem::path>::Work save_notes_as_case(std::string case_spec, CaseNotes notes,
+                                                        std::filesystem::path out) {
+  return [spec = std::move(case_spec), notes = std::move(notes),
+          out](const Progress&) -> Result<std::filesystem::path> {
+    const auto def = open_case_def(spec);
+    if (!def) return tl::unexpected(def.error());
+    if (auto saved = save_noted_case(*def, notes, out); !saved)
       return tl::unexpected(saved.error());
     return out;
   };

@@ -10,6 +10,7 @@
 #include "osteon/mesh/tri_mesh.h"
 #include "osteon/render/prepare.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/case_notes.h"
 #include "osteon/scene/path.h"
 #include "ui/side_job.h"
 #include "window/jobs/load_job.h"
@@ -48,6 +49,10 @@ SideJob<SavedPatient>::Work save_patient(PatientOrder order, std::filesystem::pa
 /// which takes seconds.
 SideJob<std::filesystem::path>::Work save_edit(std::string case_spec, std::string bone_name,
                                                TriMesh mesh_B, std::filesystem::path out);
+
+/// Saves the case with notes as a new case and gives its folder, as save_edit does.
+SideJob<std::filesystem::path>::Work save_notes_as_case(std::string case_spec, CaseNotes notes,
+                                                        std::filesystem::path out);
 
 struct CheckupOutcome {
   CheckupReport report;

@@ -111,7 +111,9 @@ void draw_case_card(const PanelContext& c) {
   if (ui::section(c.fonts, "Bones")) draw_bones(c, view);
   draw_joint_section(c);
   draw_soft_section(c);
+  draw_notes_section(c);
   if (ui::section(c.fonts, "View")) draw_view_section(c);
+  draw_picture_section(c);
   const float bottom = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
   ImGui::End();
   draw_width_handle(c, bottom);

@@ -90,13 +90,19 @@ bool draw_switches(ViewState& view) {
 }  // namespace
 
 void draw_view_section(const PanelContext& c) {
-  ViewState view = c.model.view;
   draw_presets(c);
   ImGui::Dummy({0, c.px(2)});
+  draw_observer_section(c);
+}
+
+// Folded at first where it would push the card's end out of the window.
+void draw_picture_section(const PanelContext& c) {
+  constexpr float kTallWindow = 800;  // units
+  if (!ui::section(c.fonts, "Light and marks", c.model.height >= c.px(kTallWindow))) return;
+  ViewState view = c.model.view;
   bool changed = draw_light(c, view);
   changed |= draw_switches(view);
   if (changed) c.requests.view = view;
-  draw_observer_section(c);
 }
 
 }  // namespace osteon

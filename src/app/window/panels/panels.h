@@ -24,8 +24,11 @@ void draw_top_bar(const PanelContext& c);
 void draw_case_card(const PanelContext& c);
 void draw_joint_section(const PanelContext& c);
 void draw_soft_section(const PanelContext& c);
+void draw_notes_section(const PanelContext& c);
+void draw_notes(const PanelContext& c);  // in the picture
 void draw_view_section(const PanelContext& c);
-void draw_felt_legend(const PanelContext& c);  // where bones are coloured by what is felt
+void draw_picture_section(const PanelContext& c);  // its light, and what is drawn beside bones
+void draw_felt_legend(const PanelContext& c);      // where bones are coloured by what is felt
 void draw_hand_card(const PanelContext& c);
 void draw_hands(const PanelContext& c);       // who holds what, within the hand card
 void draw_tray(const PanelContext& c);        // of instruments

@@ -155,6 +155,14 @@ TEST(Panels, CardsStayInsideTheWindowAndApart) {
   }
 }
 
+TEST(Panels, TheLeftCardOfAWristNeedsNoScrollingAtTheUsualSize) {
+  UiFrame ui(1280, 720);
+  std::vector<ContactRow> contacts;
+  fill(ui, full_model(contacts));
+  for (int i = 0; i < 4; ++i) ui.draw();
+  EXPECT_EQ(ImGui::FindWindowByName("##case")->ScrollMax.y, 0);
+}
+
 TEST(Panels, HintsStayBetweenTheCardsHoweverNarrowTheWindow) {
   for (const float width : {800.0f, 1280.0f}) {
     UiFrame ui(width, width == 800 ? 600 : 720);
