@@ -19,6 +19,25 @@ void ContactTimeline::add(double time_s, std::uint64_t bones_mask, float peak_fo
   }
 }
 
+void ContactTimeline::join(const ContactTimeline& other) {
+  for (ContactSpan span : other.spans_) {
+    const auto goes_on = [&](const ContactSpan& known) {
+      return known.bone == span.bone && known.start_s <= span.end_s + kBreakS &&
+             span.start_s <= known.end_s + kBreakS;
+    };
+    for (const ContactSpan& known : spans_) {
+      if (!goes_on(known)) continue;
+      span.start_s = std::min(span.start_s, known.start_s);
+      span.end_s = std::max(span.end_s, known.end_s);
+      span.peak_force_n = std::max(span.peak_force_n, known.peak_force_n);
+    }
+    std::erase_if(spans_, goes_on);
+    spans_.push_back(span);
+  }
+  open_.fill(kNone);
+  end_s_ = std::max(end_s_, other.end_s_);
+}
+
 void ContactTimeline::clear() { *this = ContactTimeline(); }
 
 }  // namespace osteon

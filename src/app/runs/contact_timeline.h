@@ -22,6 +22,9 @@ class ContactTimeline {
   ContactTimeline() { open_.fill(kNone); }
   /// The touched bones (bit i: bone i) at a time not before the last one.
   void add(double time_s, std::uint64_t bones_mask, float peak_force_n);
+  /// Puts in the touches of another stretch of time; one that goes on in it is one. Nothing is
+  /// added after that.
+  void join(const ContactTimeline& other);
   void clear();
   std::span<const ContactSpan> spans() const { return spans_; }
   double end_s() const { return end_s_; }

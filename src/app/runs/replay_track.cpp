@@ -9,6 +9,9 @@
 namespace osteon {
 namespace {
 
+// Pictures farther apart have a missing stretch between them.
+constexpr double kLongestGap_s = 0.1;
+
 bool same(const BoneMotion& a, const BoneMotion& b) {
   return a.X_WB.p == b.X_WB.p && a.X_WB.q.coeffs() == b.X_WB.q.coeffs();
 }
@@ -34,6 +37,7 @@ void ReplayTrack::add_force(const ToolState& tool) {
   for (std::uint32_t i = 0; i < tool.contact_count; ++i)
     mask_ |= std::uint64_t{1} << (tool.contacts[i].bone.index & 63u);
   if (tool.tick % kTelemetryTicks != 0) return;
+  if (force_n_.empty()) force_begin_ = static_cast<std::size_t>(tool.tick / kTelemetryTicks - 1);
   force_n_.push_back(peak_n_);
   contacts_.add(tool.time_s, mask_, peak_n_);
   peak_n_ = 0;
@@ -48,6 +52,24 @@ void ReplayTrack::add(const ToolState& tool, const BoneSnapshot& bones) {
   frames_.push_back({tool, keep_bones(bones)});
 }
 
+void ReplayTrack::join(const ReplayTrack& stretch) {
+  if (stretch.empty()) return;
+  const std::size_t bones_before = bones_.size();
+  bones_.insert(bones_.end(), stretch.bones_.begin(), stretch.bones_.end());
+  const auto place =
+      std::upper_bound(frames_.begin(), frames_.end(), stretch.frames_.front().tool.time_s,
+                       [](double t, const Frame& frame) { return t < frame.tool.time_s; });
+  const auto put = frames_.insert(place, stretch.frames_.begin(), stretch.frames_.end());
+  const auto count = static_cast<std::ptrdiff_t>(stretch.frames_.size());
+  for (auto frame = put; frame != put + count; ++frame) frame->bones += bones_before;
+  const std::size_t forces = stretch.force_begin_ + stretch.force_n_.size();
+  if (force_n_.size() < forces) force_n_.resize(forces, 0.0f);
+  std::copy(stretch.force_n_.begin(), stretch.force_n_.end(),
+            force_n_.begin() + static_cast<std::ptrdiff_t>(stretch.force_begin_));
+  contacts_.join(stretch.contacts_);
+  end_s_ = std::max(end_s_, stretch.end_s_);
+}
+
 RenderSnapshot ReplayTrack::at(double time_s) const {
   RenderSnapshot snapshot;
   if (frames_.empty()) return snapshot;
@@ -57,7 +79,8 @@ RenderSnapshot ReplayTrack::at(double time_s) const {
   const Frame& a = later == frames_.begin() ? frames_.front() : *(later - 1);
   const Frame& b = later == frames_.end() ? frames_.back() : *later;
   const double gap_s = b.tool.time_s - a.tool.time_s;
-  const double share = gap_s > 0 ? std::clamp((time_s - a.tool.time_s) / gap_s, 0.0, 1.0) : 0.0;
+  double share = gap_s > 0 ? std::clamp((time_s - a.tool.time_s) / gap_s, 0.0, 1.0) : 0.0;
+  if (gap_s > kLongestGap_s) share = share < 0.5 ? 0 : 1;
 
   snapshot.tool = a.tool;
   snapshot.tool.time_s = a.tool.time_s + share * gap_s;

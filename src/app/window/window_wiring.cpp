@@ -81,9 +81,8 @@ UiModel WindowApp::build_model() {
   marks_.update();
   model.timeline.marks = marks_.all();
   model.contacts = contact_rows(sight_.shown().tool);
-  tell_torque(sight_.shown().tool,
-              replay_.on() ? replay_.replay()->tray : live_.tray().run().tools, scene_.portals,
-              model.hand);
+  tell_torque(sight_.shown().tool, replay_.on() ? replay_.replay()->tray : live_.tray().run().tools,
+              scene_.portals, model.hand);
   model.checkup = checkup_.model();
   model.edit = edit_.model();
   model.patient = patient_.model();

@@ -30,6 +30,7 @@ void CaseControl::open(LoadOrder order, bool as_ordered) {
   }
   failure_.clear();
   order.instruments = live_.wanted_instruments();
+  order.at_s = host_.order.at_s;
   // What is measured, recorded, judged or edited from the start is the case as it was ordered.
   const WindowOrder& line = host_.order;
   const bool ordered = line.frames > 0 || !line.record.empty() || !line.edit.empty() || as_ordered;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runs/force_history.h"
+#include "window/jobs/replay_filling.h"
 #include "window/ui_model.h"
 
 namespace osteon {
@@ -12,7 +13,7 @@ ReplayModel replay_of(const LoadedReplay& replay, const ReplayPlayer& player) {
   ReplayModel model;
   model.on = true;
   model.playing = player.playing();
-  model.duration_s = replay.track.duration_s();
+  model.duration_s = replay.duration_s;
   model.position_s = player.position_s();
   model.speed = player.speed();
   model.file = replay.file.filename().string();
@@ -21,6 +22,9 @@ ReplayModel replay_of(const LoadedReplay& replay, const ReplayPlayer& player) {
                       ? "Repeats exactly: all " + std::to_string(replay.ticks) + " ticks agree"
                       : "Differs from the recording from tick " +
                             std::to_string(replay.first_different_tick) + " on";
+  if (replay.filling && !replay.filling->whole() && replay.identical)
+    model.verdict = "Repeats exactly so far; repeated: " +
+                    std::to_string(static_cast<int>(100 * replay.filling->share())) + " %";
   return model;
 }
 
@@ -37,7 +41,7 @@ void ReplayControl::begin(LoadedReplay replay) {
   replay_ = std::move(replay);
   sight_.set_tray(replay_->instruments, replay_->tray);
   if (replay_->carving) carved_.emplace(replay_->carving);
-  player_ = ReplayPlayer(replay_->track.duration_s());
+  player_ = ReplayPlayer(replay_->duration_s);
   player_.seek(host_.order.at_s);
   // The ordered moment stands still.
   if (host_.order.frames > 0 && host_.order.at_s > 0) player_.toggle();
@@ -50,6 +54,9 @@ void ReplayControl::begin(LoadedReplay replay) {
 void ReplayControl::advance(double dt_s) {
   if (!replay_) return;
   player_.advance(dt_s);
+  if (replay_->filling)
+    if (const auto filled = replay_->filling->poll(player_.position_s(), *replay_); !filled)
+      host_.note(ToastKind::kError, filled.error().message());
   sight_.shown() = replay_->track.at(player_.position_s());
   force_ = replay_->track.force_until(player_.position_s(),
                                       static_cast<std::size_t>(8 * kForceHistoryHz));

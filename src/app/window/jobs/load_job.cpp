@@ -9,6 +9,7 @@
 #include "osteon/render/prepare_unlit.h"
 #include "runs/demo_path.h"
 #include "runs/tray.h"
+#include "window/jobs/replay_filling.h"
 
 namespace osteon {
 
@@ -27,6 +28,7 @@ class Loader {
   Result<void> open_whole(Loaded& loaded, const std::string& spec);
   void make_surfaces(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
+  Result<void> repeat_first(LoadedReplay& replay_of);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
   void say(const char* what, double fraction) {
     if (!goes_on(progress_, what, fraction)) throw Cancelled{};
@@ -151,6 +153,7 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   auto softs = softs_for(*loaded.the_case, *settings);
   if (!softs) return tl::unexpected(softs.error());
   options.softs = std::move(*softs);
+  const bool from_the_start = options.carving || options.softs;
   replay_of.tray = std::move(*tray);
   if (replay_of.tray.empty())
     replay_of.tray.push_back(
@@ -158,6 +161,14 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   replay_of.instruments = settings->tray;
   for (const HandSettings& hand : settings->hands) replay_of.hands.push_back(hand.name);
   replay_of.more.resize(settings->hands.size() - 1);
+  if (!from_the_start) {
+    ReplayOptions how;
+    how.tray = options.tray;
+    auto filling = ReplayFilling::plan(order_.recording, loaded.the_case, how);
+    if (!filling) return tl::unexpected(filling.error());
+    replay_of.filling = std::move(*filling);
+  }
+  if (replay_of.filling) return repeat_first(replay_of);
   const double total = static_cast<double>(std::max<std::size_t>(1, recording.ticks.size()));
   options.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                         std::span<const Event> events) {
@@ -174,6 +185,18 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   replay_of.identical = outcome->identical;
   replay_of.first_different_tick = outcome->first_different_tick;
   replay_of.ticks = outcome->ticks;
+  replay_of.duration_s = replay_of.track.duration_s();
+  return {};
+}
+
+// What the user looks at; the rest follows beside the window.
+Result<void> Loader::repeat_first(LoadedReplay& replay_of) {
+  say("Repeating the recorded run", 0.75);
+  replay_of.duration_s = replay_of.filling->duration_s();
+  const auto filled = replay_of.filling->fill_at(order_.at_s, replay_of, progress_);
+  if (!filled) return filled;
+  if (replay_of.track.empty())
+    return fail("the recording holds no ticks", order_.recording.string(), "Record a longer run");
   return {};
 }
 

@@ -29,7 +29,10 @@ struct LoadOrder {
   /// Not for a recording: a picture soon, without the light between the bones, and what no cache
   /// holds of what is felt as hulls.
   bool at_once = false;
+  double at_s = 0;  ///< of a recording: the moment that is looked at first
 };
+
+class ReplayFilling;
 
 struct LoadedReplay {
   std::filesystem::path file;
@@ -46,6 +49,10 @@ struct LoadedReplay {
   bool identical = true;
   std::uint64_t first_different_tick = 0;
   std::uint64_t ticks = 0;
+  double duration_s = 0;
+  /// Repeats what is still missing of a long recording (window/jobs/replay_filling.h); null:
+  /// nothing is.
+  std::shared_ptr<ReplayFilling> filling;
 };
 
 /// What a live run of a case removes bone with.
