@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "guide_pull.h"
 #include "osteon/base/check.h"
 #include "osteon/scene/rings.h"
 #include "osteon/scene/wide_field.h"
@@ -245,6 +246,12 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
 // hole the splines over its nodes say too little as well: there the same look at the wall mends it.
 PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT,
                                           Looks& looks) const {
+  if (guide_ && guide_->bone == ids.bone) {
+    const Vec3 n_T = X_BT.q.conjugate() * guide_->nhat_B;
+    double tool_m = -std::numeric_limits<double>::infinity();
+    for (const Primitive& part : to_field_) tool_m = std::max(tool_m, support(part, -n_T));
+    return hole_end(*guide_, X_BT, support_against(ids, n_T), tool_m, kFarGap_m);
+  }
   const DistanceField& uncut = *case_.bones[ids.bone].field;
   const CutField* cuts = cuts_[ids.bone];
   const FieldView fine(uncut, cuts, &looks.asked);

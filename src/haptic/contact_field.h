@@ -59,6 +59,10 @@ class ContactField {
   /// must outlive this. Of bones felt as fields alone.
   void set_cuts(std::span<const CutField* const> by_bone);
   bool can_be_cut() const;
+  /// The hole that leads the tool: its bone is felt as the hole's end alone, since a tool that
+  /// fills its hole lies all along its axis equally far from the wall, and a distance there says
+  /// nothing of a direction. Null: none. Asked in each query.
+  void set_guide(const ToolGuide* guide) { guide_ = guide && guide->in_hole ? guide : nullptr; }
 
   std::span<const PiecePair> pairs() const { return pairs_; }
   /// Of the tool about its origin, m.
@@ -134,6 +138,7 @@ class ContactField {
   /// Of each bone felt as a field: of a wide band, for what is thicker than the fine one's.
   std::vector<std::shared_ptr<const DistanceField>> wide_;
   std::vector<const CutField*> cuts_;  ///< of each bone
+  const ToolGuide* guide_ = nullptr;
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece
   std::vector<std::uint32_t> first_pair_;  ///< of each bone

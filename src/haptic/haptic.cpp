@@ -8,6 +8,7 @@
 #include "coupling.h"
 #include "friction.h"
 #include "grab_force.h"
+#include "guide_pull.h"
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
 #include "osteon/haptic/haptic_state.h"
@@ -73,6 +74,8 @@ struct HapticLoop::Impl {
   std::array<BoneMotion, kMaxBones> motion{};
   OtherTools others{};           // as this tick sees them
   Vec3 v_hand_W = Vec3::Zero();  // of this tick's sample
+  std::uint32_t own = 0;         // number of its hand in the session
+  ToolGuide guide;               // of this tick
   bool waiting = false;          // for bones of the tool's own epoch
 
   Impl(std::shared_ptr<const Case> c, std::shared_ptr<const Tool> t,
@@ -92,6 +95,8 @@ struct HapticLoop::Impl {
   void refuse_input();
   void see_bones(const BoneSnapshot& bones, double age_s);
   void see_others(const OtherTools& seen);
+  void see_guide(const BoneSnapshot& bones);
+  GuidePull led(const ToolInput& input, const Pose& X_WD, const HapticParams& params) const;
   void place(const Pose& X_WD);
   void wait_for_epoch(std::uint32_t bones_epoch);
   void start_fading() { state.fade_n = state.tool.force_W.norm() / kFadeTicks; }
@@ -135,6 +140,26 @@ void HapticLoop::Impl::see_others(const OtherTools& seen) {
   others = seen;
   for (OtherTool& other : others)
     if (!usable(other.X_WP) || !is_finite(other.p_WD) || !is_finite(other.v_W)) other = {};
+}
+
+// A line that is not finite, or of another instrument, leads nothing.
+void HapticLoop::Impl::see_guide(const BoneSnapshot& bones) {
+  guide = bones.guides[own];
+  const bool usable_line = guide.bone < state.bone_count && is_finite(guide.p_B) &&
+                           is_finite(guide.nhat_B) && std::isfinite(guide.stop_m) &&
+                           guide.grip >= 0 && guide.grip <= 1 && guide.give_m_per_n >= 0;
+  guide.on = guide.on && usable_line && guide.instrument == state.tool.instrument &&
+             bones.epoch == state.tool.epoch;
+  field.set_guide(guide.on ? &guide : nullptr);
+}
+
+GuidePull HapticLoop::Impl::led(const ToolInput& input, const Pose& X_WD,
+                                const HapticParams& params) const {
+  if (!guide.on) return {};
+  const Pose& X_WB = now_WB[guide.bone];
+  const Vec3 v_W = velocity_at(motion[guide.bone], X_WB * guide.p_B);
+  return pull_of(guide, X_WB, v_W,
+                 {X_WD, input.v_W, params.stiffness_n_per_m, params.damping_n_s_per_m});
 }
 
 // Before the hand has been free once, nothing is felt: a start inside bone must not kick. The
@@ -340,9 +365,12 @@ void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, cons
 
 void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
                               const HapticParams& params) {
-  const PortalPivot portal = pivot(input, X_WD, params);
+  const GuidePull line = led(input, X_WD, params);
+  // Of a shaft that is led the skin feels nothing more.
+  const PortalPivot portal = line.in ? PortalPivot{} : pivot(input, X_WD, params);
   const Vec3 base_W = carried_base();
   Pose wanted = X_WD;
+  if (line.in) wanted = {line.p_W, line.q_W};
   if (portal.in) aim_through(portal, base_W, wanted);
   const Quat q = turned_towards(state.tool.X_WP.q, wanted.q, params.max_turn_rad_per_tick);
   // Of a whole instrument the farthest end would go far in the widest turn.
@@ -356,6 +384,12 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   PortalRing ring;
   if (portal.in) {
     ring = ring_of(portals[state.portal.portal], tool->shaft, state.tool.X_WP);
+    task.ring = &ring;
+  }
+  Portal on_line;
+  on_line.p_W = line.line_W;
+  if (line.in) {
+    ring = ring_about_line(on_line, line.along_W, state.tool.X_WP);
     task.ring = &ring;
   }
   const ProxyMove move = solver.move(task, state.pairs);
@@ -380,7 +414,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   state.tool.X_WP = {step.p_W, move.q_WP};
   state.tool.status |= move.status | (step.sticking ? kTickSticking : kTickOk);
   list_contacts(move);
-  Vec3 beside_W = portal.force_W;
+  Vec3 beside_W = line.in ? line.force_W : portal.force_W;
   if (bands.any()) beside_W += pull_of_bands(params);
   const double kept = feel(input, wanted.p, held, step.sticking, beside_W, params);
   share_force(move, held, kept * beside_W);
@@ -453,6 +487,7 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
   const Pose X_WD{input.X_WD.p, input.X_WD.q.normalized()};
   in.see_bones(bones, bones_age_s);
   in.see_others(others);
+  in.see_guide(bones);
   in.wait_for_epoch(bones.epoch);
   in.v_hand_W = out.v_W = input.v_W;
   if (params.grab_n_per_m > 0) {
@@ -558,6 +593,11 @@ void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std
 
 void HapticLoop::set_cuts(std::span<const CutField* const> by_bone) {
   impl_->field.set_cuts(by_bone);
+}
+
+void HapticLoop::set_hand(std::uint32_t hand) {
+  demand(hand < kMaxHands, "a session has at most kMaxHands hands");
+  impl_->own = hand;
 }
 
 void HapticLoop::set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts) {

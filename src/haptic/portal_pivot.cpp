@@ -139,6 +139,13 @@ PortalRing ring_of(const Portal& portal, const Capsule& shaft, const Pose& X_WT)
           std::max(kMostYield_m + kRoom_m, kInCorner * off_portal(portal, shaft, X_WT))};
 }
 
+PortalRing ring_about_line(const Portal& on_line, const Vec3& along_W, const Pose& X_WT) {
+  constexpr double kRoom_m = 2e-5, kInCorner = 0.92;
+  const Vec3 off_W = X_WT.p - on_line.p_W;
+  const double off = (off_W - off_W.dot(along_W) * along_W).norm();
+  return {&on_line, {Vec3::Zero(), Vec3::UnitZ(), 0}, std::max(kRoom_m, kInCorner * off)};
+}
+
 void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const Pose& X_WP,
                     const Pose& X_WD, bool start, PortalHold& hold) {
   if (hold.portal != PortalHold::kNone) {

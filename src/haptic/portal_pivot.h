@@ -69,6 +69,10 @@ struct PortalRing {
 /// For a shaft that is at X_WT: the skin's yield, or where it came in askew no more than it is off.
 PortalRing ring_of(const Portal& portal, const Capsule& shaft, const Pose& X_WT);
 
+/// What keeps a tool's origin on a line that its axis lies in: within 20 um of it, or no farther
+/// than it is off already. `on_line` holds a place of the line and must outlive the ring.
+PortalRing ring_about_line(const Portal& on_line, const Vec3& along_W, const Pose& X_WT);
+
 /// How far the shaft's axis passes from the portal, across the axis, m.
 double off_portal(const Portal& portal, const Capsule& shaft, const Pose& X_WT);
 

@@ -62,6 +62,23 @@ Vec3 half_extent(const Bone& bone, const Pose& X_IB) {
   return box.empty() ? Vec3::Constant(0.005) : Vec3(0.5 * box.extent());
 }
 
+void add_to(Hasher& hasher, const ToolGuide& guide) {
+  hasher.add(guide.on);
+  if (!guide.on) return;
+  hasher.add(guide.instrument);
+  hasher.add(guide.bone);
+  hasher.add(guide.p_B);
+  hasher.add(guide.nhat_B);
+  for (const double x : {guide.grip, guide.give_m_per_n, guide.stop_m}) hasher.add(x);
+  hasher.add(guide.in_hole);
+  hasher.add(guide.stops);
+}
+
+bool leads(const BoneSnapshot& snapshot) {
+  return std::any_of(snapshot.guides.begin(), snapshot.guides.end(),
+                     [](const ToolGuide& guide) { return guide.on; });
+}
+
 }  // namespace
 
 std::uint64_t hash_of(const BoneSnapshot& snapshot) {
@@ -75,6 +92,9 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
     hasher.add(snapshot.bones[i].v_W);
     hasher.add(snapshot.bones[i].w_W);
   }
+  // The rods themselves are in the state of what is carved.
+  if (leads(snapshot))
+    for (const ToolGuide& guide : snapshot.guides) add_to(hasher, guide);
   return hasher.value();
 }
 
@@ -260,6 +280,11 @@ void BoneWorld::go_back(const BoneSnapshot& kept, bool hold) {
   now.bones = kept.bones;
   ++now.epoch;
   impl_->hold = hold;
+}
+
+void BoneWorld::set_guides(const std::array<ToolGuide, kMaxHands>& guides, const GuideRods& rods) {
+  impl_->snapshot.guides = guides;
+  impl_->snapshot.rods = rods;
 }
 
 bool BoneWorld::held() const { return impl_->hold; }

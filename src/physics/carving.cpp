@@ -24,6 +24,7 @@ namespace {
 
 constexpr double kSkin_m = 5e-6;          // that a proxy keeps from a field
 constexpr double kBehind_m = 0.0003;      // pulled back so far, the drill is not at the hole's end
+constexpr double kSlid_m = 0.0005;        // slid off so far sideways, it begins anew
 constexpr double kBeyond_m = 0.001;       // gone on so far through nothing, it begins anew
 constexpr std::uint32_t kRestSteps = 50;  // without a cut: it has stopped
 constexpr std::uint32_t kPlungeSteps = 250;
@@ -65,6 +66,31 @@ void add_to(Hasher& hasher, const CarvingHand& hand) {
   for (const bool x : {hand.was_in, hand.skives, hand.jaw_open}) hasher.add(x);
   hasher.add(hand.out);
   hasher.add(hand.p_out);
+  if (!hand.in_hole && hand.rod == 0 && hand.lag_m == 0 && hand.grip == 0) return;
+  for (const bool x : {hand.in_hole, hand.open}) hasher.add(x);
+  for (const double x : {hand.lag_m, hand.grip}) hasher.add(x);
+  hasher.add(hand.mouth_B);
+  hasher.add(hand.rod);
+  hasher.add(hand.instrument);
+}
+
+void add_to(Hasher& hasher, const GuideRod& rod) {
+  hasher.add(static_cast<std::uint8_t>(rod.kind));
+  hasher.add(rod.bone);
+  hasher.add(rod.X_BR);
+  for (const double x : {rod.radius_m, rod.length_m, rod.in_bone_m}) hasher.add(x);
+}
+
+// How far behind a pose a cutter's whole front is free of bone.
+double lag_of(const CarvedField& field, const CarvingTool& with, const Pose& X_BC) {
+  constexpr double kStep_m = 1e-4, kMostSizes = 2;
+  const Vec3 back = back_of(X_BC);
+  double lag = 0;
+  while (lag < kMostSizes * with.cutter.size_m &&
+         look_before(field, with.cutter, with.pilot_m, moved_along(X_BC, (lag + kStep_m) * back))
+                 .left() > 0)
+    lag += kStep_m;
+  return lag;
 }
 
 }  // namespace
@@ -74,6 +100,15 @@ bool operator==(const CarvingHand& a, const CarvingHand& b) {
   add_to(x, a);
   add_to(y, b);
   return x.value() == y.value();
+}
+
+CarvingHand anew(const CarvingHand& hand) {
+  CarvingHand out;
+  out.rod = hand.rod;
+  out.grip = hand.grip;
+  out.jaw_open = hand.jaw_open;
+  out.instrument = hand.instrument;
+  return out;
 }
 
 Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
@@ -115,11 +150,41 @@ void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& 
 void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                         double step_s) {
   if (tool.tick == 0 || tool.epoch != bones.epoch || tool.instrument >= setup_->tray.size()) return;
+  guides_[hand] = {};
+  CarvingHand& h = hands_[hand];
+  if (h.instrument != tool.instrument) {
+    // Who takes another instrument lets a pin go; who takes one beside a pin takes that.
+    ToolState chuck = tool;
+    chuck.jaw = 1;
+    if (h.instrument < setup_->tray.size())
+      if (const auto& before = setup_->tray[h.instrument]; before && before->stays)
+        follow_chuck(hand, *before, chuck, bones);
+    h = {};
+    h.instrument = tool.instrument;
+    chuck.jaw = 0;
+    h.jaw_open = true;
+    if (const auto& now = setup_->tray[tool.instrument]; now && now->stays)
+      follow_chuck(hand, *now, chuck, bones);
+    h.jaw_open = false;
+  }
+  cut_with(hand, tool, bones, step_s);
+  publish(hand, tool, bones);
+}
+
+void Carving::cut_with(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                       double step_s) {
   const auto& with = setup_->tray[tool.instrument];
   CarvingHand& h = hands_[hand];
   if (!with) {
-    h = {};
+    if (tool.instrument < setup_->aimers.size() && setup_->aimers[tool.instrument])
+      follow_aimer(hand, *setup_->aimers[tool.instrument], tool, bones);
     return;
+  }
+  if (with->stays) follow_chuck(hand, *with, tool, bones);
+  if (with->stays && h.jaw_open) return;
+  if (with->way == Way::kDrill) {
+    leave_hole(hand, *with, tool, bones);
+    follow_rods(hand, *with, tool, bones);
   }
   Push push;
   push.tool = &tool;
@@ -158,18 +223,27 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
 
 void Carving::begin(std::size_t hand, const CarvingTool& with, const Push& push) {
   CarvingHand& h = hands_[hand];
-  h = {};
+  h = anew(h);
   h.bone = push.bone;
   const Vec3 back = back_of(push.X_BT);
   h.X_BC = moved_along(push.X_BT, (CarvingSetup::kSlack_m - kSkin_m) * back);
+  h.mouth_B = h.X_BC.p;
   h.since = steps_;
   const double size = push.force_B.norm();
   if (size > 0) h.angle_rad = std::acos(std::clamp(push.force_B.dot(back) / size, -1.0, 1.0));
-  // A tip that stands in a hole is held by it.
+  // A tip that stands in a hole is held by it, and so is one whose hole goes on before it.
   const CarvedField& field = *bones_[push.bone].field;
-  const Vec3 behind = push.X_BT.p + 0.5 * with.cutter.size_m * back;
-  if (!was_outside(field, behind) && !tissue_at(field, behind))
+  const auto is_gone = [&](const Vec3& p_B) {
+    return !was_outside(field, p_B) && !tissue_at(field, p_B);
+  };
+  const double start = setup_->table.start_depth_m + field.grid().cell_m;
+  if (is_gone(push.X_BT.p + 0.5 * with.cutter.size_m * back) || is_gone(push.X_BT.p - start * back))
     h.drill.depth_m = setup_->table.start_depth_m;
+  if (with.way == Way::kDrill) h.lag_m = lag_of(field, with, h.X_BC);
+}
+
+Pose Carving::cutter_pose(const CarvingHand& h) const {
+  return moved_along(h.X_BC, h.lag_m * back_of(h.X_BC));
 }
 
 bool Carving::remove(std::size_t hand, const Cutter& cutter, const Pose& from_B, const Pose& to_B) {
@@ -231,21 +305,34 @@ void Carving::rest(std::size_t hand, const Push& push) {
   if (with && goes_forward(with->way)) follow_out(hand, push);
   if (++h.idle < kRestSteps || h.out > 0) return;
   const double seconds = 0.002 * static_cast<double>(steps_ - h.since);
-  if (h.was_in || h.most_torque_nm > 0)
+  if (h.most_torque_nm > 0 || (h.was_in && !h.in_hole))
     tell(hand, push, kCutEnd, {1000 * h.drill.depth_m, seconds, 1000 * h.most_torque_nm});
-  h = {};
+  h.most_torque_nm = 0;
+  h.since = steps_;
+  if (h.in_hole) return;
+  h = anew(h);
+}
+
+// What no hole holds yet may be elsewhere on the bone by now.
+bool Carving::slid_off(const CarvingHand& h, const Push& push) const {
+  const auto& with = setup_->tray[push.tool->instrument];
+  if (h.in_hole || with->way != Way::kDrill) return false;
+  const Vec3 off = push.X_BT.p - h.X_BC.p, back = back_of(h.X_BC);
+  return (off - off.dot(back) * back).norm() > kSlid_m;
 }
 
 // Of what goes forward along its axis. False: it is pulled back, and not at its hole's end.
 bool Carving::stand_before(std::size_t hand, const CarvingTool& with, const Push& push) {
   CarvingHand& h = hands_[hand];
   const double ahead = back_of(h.X_BC).dot(h.X_BC.p - push.X_BT.p);
-  if (h.bone == push.bone && !(ahead > kBeyond_m)) return ahead >= -kBehind_m;
+  const bool same = h.bone == push.bone;
+  if (same && !(ahead > kBeyond_m) && !slid_off(h, push)) return ahead >= -kBehind_m;
   const CarvingHand before = h;
   begin(hand, with, push);
   const bool was_full = full_;
-  if (!remove(hand, with.cutter, h.X_BC, h.X_BC)) tell_full(hand, push, was_full);
-  if (before.bone != push.bone) return true;
+  if (with.way != Way::kDrill && !remove(hand, with.cutter, h.X_BC, h.X_BC))
+    tell_full(hand, push, was_full);
+  if (!same || !(ahead > kBeyond_m)) return true;
   h.was_in = before.was_in;
   h.out = before.out;
   h.p_out = before.p_out;
@@ -270,14 +357,19 @@ void Carving::go_on(std::size_t hand, const CarvingTool& with, const Push& push,
   CarvingHand& h = hands_[hand];
   h.due_m += advance_m;
   if (h.due_m < CarvingSetup::kBite_m) return;
-  const Pose next = moved_along(h.X_BC, -h.due_m * back_of(h.X_BC));
+  const Pose from = cutter_pose(h);
+  const Pose next = moved_along(from, -h.due_m * back_of(h.X_BC));
   // Where the cutter stood it has cut: within half a cell only the new place is left.
   const bool near = h.due_m <= 0.5 * bones_[h.bone].field->grid().cell_m;
   const bool was_full = full_;
-  if (remove(hand, with.cutter, near ? next : h.X_BC, next))
-    h.X_BC = next;
-  else
+  if (remove(hand, with.cutter, near ? next : from, next)) {
+    const double caught_up = std::min(h.lag_m, h.due_m);
+    h.lag_m -= caught_up;
+    if (h.lag_m == 0)
+      h.X_BC = caught_up > 0 ? moved_along(h.X_BC, (caught_up - h.due_m) * back_of(h.X_BC)) : next;
+  } else {
     tell_full(hand, push, was_full);
+  }
   h.due_m = 0;
 }
 
@@ -290,13 +382,20 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   const DrillTable& table = by_hand ? setup_->by_hand : setup_->table;
   follow_out(hand, push);
   const FrontShare front = by_hand ? look_before_point(field, with.cutter, h.X_BC)
-                                   : look_before(field, with.cutter, with.pilot_m, h.X_BC);
+                                   : look_before(field, with.cutter, with.pilot_m, cutter_pose(h));
   note_tissue(hand, push, front.most());
   const DrillMaterial material = mixed(table, front);
-  const DrillTool tool{with.cutter.size_m, turning(hand, with, push, step_s), 0, with.pilot_m};
+  // What leads it, or its own hole, holds a drill; a cannula that is empty does not.
+  const bool held = h.rod != 0 || h.in_hole || by_hand;
+  const double angle = held ? 0.0 : h.angle_rad;
+  const bool has_start = h.drill.depth_m >= table.start_depth_m;
+  const bool slides = !held && !has_start && angle > table.skive_angle_rad;
+  const DrillTool tool{with.cutter.size_m, turning(hand, with, push, step_s), 0,
+                       slides ? 0 : with.pilot_m};
   const double thrust = setup_->thrust_scale * std::max(0.0, push.force_B.dot(back));
   const bool first = h.most_torque_nm == 0;
-  const DrillStep did = step_drill(h.drill, table, tool, {&material, h.angle_rad}, thrust, step_s);
+  const DrillStep did =
+      step_drill(h.drill, table, tool, {&material, by_hand ? h.angle_rad : angle}, thrust, step_s);
   if (did.skives && !h.skives)
     tell(hand, push, kSkives, {h.angle_rad * 180 / std::numbers::pi, thrust, 0});
   h.skives = did.skives;
@@ -305,7 +404,11 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
                      did.rubbing_w};
   if (!(did.advance_m > 0)) return;
   h.idle = 0;
-  h.was_in = h.was_in || front.left() > 0;
+  const bool drills = with.way == Way::kDrill;
+  const bool outside = was_outside(field, h.X_BC.p);
+  h.open = drills && h.was_in && outside && front.left() == 0;
+  h.was_in = h.was_in || (drills ? !outside : front.left() > 0);
+  h.in_hole = h.in_hole || drills;
   if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
   h.most_torque_nm = std::max(h.most_torque_nm, did.torque_nm);
   go_on(hand, with, push, did.advance_m);
@@ -410,6 +513,8 @@ std::uint64_t Carving::hash() {
   for (const CarvingHand& hand : hands_) add_to(hasher, hand);
   hasher.add(steps_);
   hasher.add(full_);
+  for (const GuideRod& rod : rods_)
+    if (rod.kind != GuideRod::Kind::kNone) add_to(hasher, rod);
   return hasher.value();
 }
 
@@ -420,6 +525,7 @@ CarvingState Carving::save() const {
   state.hands = hands_;
   state.steps = steps_;
   state.full = full_;
+  state.rods = rods_;
   return state;
 }
 
@@ -439,6 +545,8 @@ void Carving::restore(const CarvingState& state) {
   hands_ = state.hands;
   steps_ = state.steps;
   full_ = state.full;
+  rods_ = state.rods;
+  guides_ = {};
   changed_.clear();
   events_.clear();
 }

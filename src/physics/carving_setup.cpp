@@ -69,6 +69,8 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
   if (instrument.power && instrument.power->unit == "rpm")
     tool.most_rev_per_s = instrument.power->most / 60;
   if (instrument.power && instrument.power->unit == "W") tool.most_w = instrument.power->most;
+  tool.stays = drills && instrument.can(InstrumentFunction::kGuide);
+  tool.length_m = instrument.shaft.to.at(size_m).z();
   if (tool.way == Way::kDrill) shorten(tool.cutter);
   shift_back(tool.cutter, removal.back_plus_m + removal.back_per_size * size_m);
   if (burrs) find_ball(tool);
@@ -79,6 +81,17 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
 const Instrument* remover(std::span<const Instrument> instruments, const std::string& tray_name) {
   const Instrument* found = find_instrument(instruments, tray_name.substr(0, tray_name.find(':')));
   return found && found->removal ? found : nullptr;
+}
+
+// The aimer that a name of the tray stands for.
+std::optional<AimingTool> aimer_of(std::span<const Instrument> instruments,
+                                   const std::string& tray_name) {
+  const Instrument* found = find_instrument(instruments, tray_name.substr(0, tray_name.find(':')));
+  if (!found || !found->aims) return std::nullopt;
+  const Vec3 out = found->aims->mouth_m - found->aims->at_m;
+  return AimingTool{{found->aims->at_m, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), out)},
+                    found->aims->bore_m,
+                    out.norm()};
 }
 
 Result<double> size_of(const Instrument& instrument, const std::string& tray_name) {
@@ -95,6 +108,7 @@ Result<void> add_tools(std::span<const std::string> tray, CarvingSetup& setup) {
   if (!instruments) return tl::unexpected(instruments.error());
   for (const std::string& name : tray) {
     setup.tray.emplace_back();
+    setup.aimers.push_back(aimer_of(*instruments, name));
     const Instrument* instrument = remover(*instruments, name);
     if (!instrument) continue;
     const auto size_m = size_of(*instrument, name);

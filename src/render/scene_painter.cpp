@@ -318,6 +318,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
     paint_tool(model_of(snapshot.tool), snapshot.tool.X_WP, 1, frame);
     for (const ToolState& other : others_) paint_tool(model_of(other), other.X_WP, 1, frame);
   }
+  paint_rods(snapshot, frame);
   paint_outlines(snapshot, view, frame, false);
   glEnable(GL_BLEND);
   // Colour is mixed; alpha stays that of a solid picture.
@@ -327,6 +328,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   paint_outlines(snapshot, view, frame, true);
   if (view.show_hulls) paint_hulls(snapshot, view, frame);
   if (!solids_.empty()) paint_solid_marks(frame);
+  paint_lines(snapshot, frame);
   if (shows_hand(snapshot, view))
     paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, 0.30f, frame);
   if (view.show_force) paint_marks(snapshot, frame);

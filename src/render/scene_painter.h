@@ -90,6 +90,7 @@ class ScenePainter {
   static std::vector<Capsule> capsules_along_z(const TriMesh& mesh);
   static Capsule capsule_around(const Aabb& box);
   static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
+  static std::vector<Capsule> rod_capsules(const RenderSnapshot& snapshot);
   static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
   TileMask shade_tiles(const ToolState& tool, const Frame& frame, int width, int height) const;
   TileMask bone_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
@@ -153,6 +154,8 @@ class ScenePainter {
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
   void paint_solid_marks(const Frame& frame) const;
+  void paint_rods(const RenderSnapshot& snapshot, const Frame& frame) const;
+  void paint_lines(const RenderSnapshot& snapshot, const Frame& frame) const;
 
   /// What all painters of a case have in common; never null.
   struct Shared {

@@ -123,6 +123,8 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
   if (view.show_force)
     for (const Capsule& c : mark_capsules(snapshot))
       marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
+  for (const Capsule& c : rod_capsules(snapshot))
+    marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   if (view.show_proxy) {
     TileMask shade = shade_tiles(snapshot.tool, frame, width, height);
     shade.keep(bone_tiles(snapshot, view, frame, width, height));

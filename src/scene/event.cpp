@@ -71,6 +71,11 @@ constexpr std::array kRows = {
     EventKindRow{kSkives, "skives", "slides off", S::kBone, {"angle_deg", "thrust_n", ""}},
     EventKindRow{kPieceOff, "piece_off", "cuts a piece off", S::kBone, {"volume_mm3", "", ""}},
     EventKindRow{kCarvingFull, "carving_full", "can cut no more of", S::kBone, {"", "", ""}},
+    EventKindRow{
+        kPinLeft, "pin_left", "leaves a pin in", S::kBone, {"depth_mm", "diameter_mm", ""}},
+    EventKindRow{kPinTaken, "pin_taken", "takes a pin out of", S::kBone, {"", "", ""}},
+    EventKindRow{kAimed, "aimed", "fixes a line into", S::kBone, {"", "", ""}},
+    EventKindRow{kLed, "led", "is led to", S::kBone, {"", "", ""}},
     EventKindRow{K::kScratch,
                  "scratch",
                  "slides under force on",

@@ -38,6 +38,8 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   if (!instrument.can(function)) return false;
   if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
   if (function == InstrumentFunction::kLook) return instrument.optics.has_value();
+  if (function == InstrumentFunction::kGuide)
+    return instrument.aims.has_value() || instrument.removal.has_value();
   return function == InstrumentFunction::kProbe;
 }
 

@@ -32,7 +32,7 @@ bool has_mark(const std::string& source) {
 
 void read_head(InstrumentReader& in, Instrument& out) {
   in.allow_only({"name", "title", "code", "regions", "functions", "source", "size", "shaft", "felt",
-                 "look", "jaws", "power", "optics", "removes"});
+                 "look", "jaws", "power", "optics", "removes", "aims"});
   out.name = in.text("name");
   if (!is_instrument_name(out.name)) in.set_error("'name' must be of a-z, 0-9 and _", "name");
   out.title = in.text("title");
@@ -78,6 +78,7 @@ class InstrumentFile {
     part("power", false, &InstrumentFile::read_power);
     part("optics", false, &InstrumentFile::read_optics);
     part("removes", false, &InstrumentFile::read_removal);
+    part("aims", false, &InstrumentFile::read_aims);
     each("felt", kMostFelt, [this](InstrumentReader& t) { out_.felt.push_back(read_felt(t)); });
     each("look", kMostLooks, [this](InstrumentReader& t) { out_.look.push_back(read_look(t)); });
     check_jaws();
@@ -184,6 +185,21 @@ class InstrumentFile {
     if (!out_.can(InstrumentFunction::kRemove))
       in.set_error("'functions' must name remove where there is a table [removes]", "way");
     out_.removal = std::move(removal);
+  }
+
+  void read_aims(InstrumentReader& in) {
+    in.allow_only({"at_mm", "mouth_mm", "bore_mm"});
+    const auto place = [&](const char* key) {
+      const std::vector<double> mm = in.numbers(key, 3, {-1000, 1000});
+      return Vec3(kMmPerFile * Vec3(mm[0], mm[1], mm[2]));
+    };
+    const AimsDef aims{place("at_mm"), place("mouth_mm"),
+                       kMmPerFile * in.number("bore_mm", {0.5, 20})};
+    if (!((aims.mouth_m - aims.at_m).norm() > 0.01))
+      in.set_error("'mouth_mm' must lie 10 mm and more from 'at_mm'", "mouth_mm");
+    if (!out_.can(InstrumentFunction::kGuide))
+      in.set_error("'functions' must name guide where there is a table [aims]", "at_mm");
+    out_.aims = aims;
   }
 
   // Who turns or strikes needs power; who bites needs jaws.

@@ -47,6 +47,7 @@ HandHalf::HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
   for (const auto& tool : tray) {
     loops_.emplace_back(the_case, tool, tray);
     loops_.back().set_portals(portals);
+    loops_.back().set_hand(static_cast<std::uint32_t>(hand));
   }
   const std::uint32_t first = settings.hands[hand].instrument;
   demand(first < loops_.size(), "a hand holds an instrument that is not in the tray");

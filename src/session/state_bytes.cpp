@@ -50,6 +50,10 @@ struct In {
 bool knows_twist(const Out&) { return true; }
 bool knows_twist(const In& in) { return in.version >= 4; }
 
+// Whether it says what leads instruments.
+bool knows_guides(const Out&) { return true; }
+bool knows_guides(const In& in) { return in.version >= 5; }
+
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
   if constexpr (A::kReads) {
@@ -158,12 +162,36 @@ void field(A& a, BoneMotion& b) {
 }
 
 template <class A>
+void field(A& a, ToolGuide& g) {
+  field(a, g.on);
+  if (!g.on) return;
+  field(a, g.instrument);
+  field(a, g.bone);
+  field(a, g.p_B);
+  field(a, g.nhat_B);
+  for (double* x : {&g.grip, &g.give_m_per_n, &g.stop_m}) field(a, *x);
+  for (bool* x : {&g.in_hole, &g.stops}) field(a, *x);
+}
+
+template <class A>
+void field(A& a, GuideRod& r) {
+  number(a, r.kind, static_cast<std::uint64_t>(GuideRod::Kind::kSleeve));
+  if (r.kind == GuideRod::Kind::kNone) return;
+  number(a, r.bone, kMaxBones - 1);
+  field(a, r.X_BR);
+  for (double* x : {&r.radius_m, &r.length_m, &r.in_bone_m}) field(a, *x);
+}
+
+template <class A>
 void field(A& a, BoneSnapshot& s) {
   field(a, s.step);
   field(a, s.time_s);
   field(a, s.epoch);
   field(a, s.saved_step);
   first_of(a, s.count, s.bones);
+  if (!knows_guides(a)) return;
+  for (ToolGuide& guide : s.guides) field(a, guide);
+  for (GuideRod& rod : s.rods) field(a, rod);
 }
 
 template <class A>
@@ -322,6 +350,12 @@ void field(A& a, CarvingHand& h) {
   for (bool* x : {&h.was_in, &h.skives, &h.jaw_open}) field(a, *x);
   field(a, h.out);
   field(a, h.p_out);
+  if (!knows_guides(a)) return;
+  for (double* x : {&h.lag_m, &h.grip}) field(a, *x);
+  field(a, h.mouth_B);
+  for (bool* x : {&h.in_hole, &h.open}) field(a, *x);
+  number(a, h.rod, kMaxGuideRods);
+  field(a, h.instrument);
 }
 
 template <class A>
@@ -339,6 +373,8 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
   for (CarvingHand& hand : state.hands) field(a, hand);
   field(a, state.steps);
   field(a, state.full);
+  if (knows_guides(a))
+    for (GuideRod& rod : state.rods) field(a, rod);
   if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
 }
 

@@ -47,7 +47,10 @@ std::shared_ptr<const CarvingState> WorldHalf::carved() const {
 const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
                                     const Command& command) {
   obey(command);
-  if (carving_) carving_->step(tools, world_.snapshot(), step_s_);
+  if (carving_) {
+    carving_->step(tools, world_.snapshot(), step_s_);
+    world_.set_guides(carving_->guides(), carving_->rods());
+  }
   const BoneSnapshot& bones = world_.step(tools);
   if (carving_) {
     publish(*carving_, bones.step, all_changed_, felt_);

@@ -56,6 +56,34 @@ TEST_F(RendererTest, AnotherViewHasTheSameSurfacesAndMarksOfItsOwn) {
   EXPECT_EQ(picture(one).rgb, picture(two).rgb) << "a surface is of both";
 }
 
+// A pin that stays in a bone is drawn where it stands, and its line through the bone.
+TEST_F(RendererTest, APinAndItsLineAreDrawnInTheBone) {
+  const Case ball_case = one_ball(0.03);
+  Renderer renderer = make_renderer(ball_case);
+  RenderSnapshot snapshot = at_rest(ball_case);
+  const Image without = renderer.draw_image(snapshot, front_view(), 200, 200);
+  // Out of the ball to the right, its inner end in the middle.
+  GuideRod& pin = snapshot.bones.rods[0];
+  pin = {GuideRod::Kind::kPin, 0, {}, 0.002, 0.06, 0.03};
+  pin.X_BR.q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()));
+  const Image with = renderer.draw_image(snapshot, front_view(), 200, 200);
+  const auto changed = [&](double x_m) {
+    // The middle is at 100; the ball's outline tells how far a metre reaches.
+    int edge = 100;
+    while (edge < 199 && brightness(without, edge + 1, 100) > 150) ++edge;
+    const int x = 100 + static_cast<int>(std::lround((edge - 100) * x_m / 0.03));
+    int most = 0;
+    for (int y = 97; y <= 103; ++y)
+      most = std::max(most, std::abs(brightness(with, x, y) - brightness(without, x, y)));
+    return most;
+  };
+  EXPECT_GT(changed(0.045), 60) << "steel before the bone";
+  EXPECT_GT(changed(0.015), 10) << "the line is seen through the bone";
+  EXPECT_GT(changed(-0.015), 10) << "and goes on";
+  pin = {};
+  EXPECT_EQ(renderer.draw_image(snapshot, front_view(), 200, 200).rgb, without.rgb);
+}
+
 TEST_F(RendererTest, EmptyCaseGivesGroundThatIsDarkAndLighterAbove) {
   const Case nothing;
   Renderer renderer = make_renderer(nothing);

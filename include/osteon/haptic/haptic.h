@@ -72,6 +72,9 @@ class HapticLoop {
   /// The soft bands of the case, and those near the tool as physics has published them: changed
   /// between two ticks. Both must outlive the loop; null: there are none.
   void set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts);
+  /// Which hand of the session it is: whose line of BoneSnapshot::guides leads the tool. Before the
+  /// first tick.
+  void set_hand(std::uint32_t hand);
   /// `reset` in the middle of a run, for a loop that goes on where another one was at `last`, or
   /// itself: ticks go on, the force fades to zero within kFade_s, and rises again once the hand has
   /// been free. Allocates, locks and logs nothing.

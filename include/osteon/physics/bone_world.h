@@ -56,6 +56,8 @@ class BoneWorld {
   bool held() const;
   /// Puts a bone elsewhere that something else moves, after a step.
   void place(std::size_t bone, const BoneMotion& motion);
+  /// What leads the hands' instruments, for the next step's snapshot.
+  void set_guides(const std::array<ToolGuide, kMaxHands>& guides, const GuideRods& rods);
   /// Marks the snapshot as one whose state is to be kept.
   void ask_to_keep();
 

@@ -30,11 +30,21 @@ struct CarvingTool {
   double grip = 0.3;             ///< cutting force by pressing force
   Vec3 middle_T = Vec3::Zero();  ///< of a burr's or a scraper's ball
   bool one_sided = false;        ///< it cuts on the side of +y alone
+  bool stays = false;            ///< a pin: let go, it stays in the bone
+  double length_m = 0;           ///< of a pin
+};
+
+/// What an instrument of the tray fixes a line with: the bore of an aimer's sleeve.
+struct AimingTool {
+  Pose X_TS;          ///< in Tool: origin at the place that is aimed at, +z outwards along the bore
+  double bore_m = 0;  ///< its diameter
+  double length_m = 0;  ///< from that place to the bore's outer end
 };
 
 /// All that is made before a session carves. Immutable.
 struct CarvingSetup {
   std::vector<std::optional<CarvingTool>> tray;          ///< none: it removes nothing
+  std::vector<std::optional<AimingTool>> aimers;         ///< as `tray`
   std::vector<std::shared_ptr<const UncutField>> bones;  ///< of the case; null: it is not carved
   BoneLayers layers;
   DrillTable table;
@@ -70,8 +80,18 @@ struct CarvingHand {
   double plunge_m = 0;
   double twist_rad = 0;  ///< about its axis since it began, of what the hand turns
   bool jaw_open = false;
+  bool in_hole = false;          ///< its hole holds it: it goes along the hole's line alone
+  bool open = false;             ///< nothing is before its tip
+  double lag_m = 0;              ///< the cutter still stands so far behind X_BC
+  Vec3 mouth_B = Vec3::Zero();   ///< where the hole begins
+  std::uint32_t rod = 0;         ///< that leads it: 1 + its place in Carving::rods; 0: none
+  double grip = 0;               ///< of the rod, 0 to 1
+  std::uint32_t instrument = 0;  ///< in the tray
   friend bool operator==(const CarvingHand&, const CarvingHand&);
 };
+
+/// A hand that cuts nothing yet with what it holds.
+CarvingHand anew(const CarvingHand& hand);
 
 /// Everything that carving changes: a value.
 struct CarvingState {
@@ -79,6 +99,7 @@ struct CarvingState {
   std::array<CarvingHand, kMaxHands> hands{};
   std::uint64_t steps = 0;
   bool full = false;
+  GuideRods rods{};
 };
 
 /// What a hand's instrument did in one step, for heat and sound.
@@ -98,10 +119,15 @@ struct CarvingReadout {
 /// pulls sideways, and the felt wall tells so. It goes forward by what step_drill lets it remove of
 /// the bone before its tip, which is looked at in points over its front; what is felt of the bone
 /// ends there, so a hand cannot push it on. When nothing is left before the tip it has come out.
-/// A burr removes where it is pressed: P = c F v at its rim, over the specific energy of what lies
-/// there, is a volume in time, and that over half its cross-section is how fast it goes in. Of a
-/// scraper v is how fast the hand draws it along. A blade goes in by the power of the blows on it,
-/// over the specific energy and its cross-section, and where the push alone is more than both.
+/// Where the bone is slanted, a wide front first cuts off what rises beside its middle.
+/// A pin whose chuck is opened (the jaw, above 0.5) stays in the bone, and a chuck that shuts
+/// (below 0.1) at a pin takes it out. A pin leads what is hollow, the sleeve of an aimer that was
+/// fixed (by its jaw, in the same way, while its tip touches bone) what fits into it: along its
+/// line alone. A burr removes where it is pressed: P = c F v at its rim, over the specific energy
+/// of what lies there, is a volume in time, and that over half its cross-section is how fast it
+/// goes in. Of a scraper v is how fast the hand draws it along. A blade goes in by the power of the
+/// blows on it, over the specific energy and its cross-section, and where the push alone is more
+/// than both.
 class Carving {
  public:
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
@@ -115,6 +141,10 @@ class Carving {
   /// Of the last step.
   std::span<const Changed> changed() const { return changed_; }
   std::span<const Event> events() const { return events_; }
+  /// What leads the hands' instruments in the next ticks.
+  const std::array<ToolGuide, kMaxHands>& guides() const { return guides_; }
+  /// Pins in the bones and sleeves before them.
+  const GuideRods& rods() const { return rods_; }
   const CarvingReadout& readout(std::size_t hand) const { return readouts_[hand]; }
 
   const CarvingSetup& setup() const { return *setup_; }
@@ -133,6 +163,7 @@ class Carving {
   struct Push;
 
   void step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
+  void cut_with(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
   void drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   bool stand_before(std::size_t hand, const CarvingTool& with, const Push& push);
   void go_on(std::size_t hand, const CarvingTool& with, const Push& push, double advance_m);
@@ -143,6 +174,23 @@ class Carving {
             std::uint32_t bone);
   void rest(std::size_t hand, const Push& push);
   void begin(std::size_t hand, const CarvingTool& with, const Push& push);
+  Pose cutter_pose(const CarvingHand& h) const;
+  bool slid_off(const CarvingHand& h, const Push& push) const;
+  void leave_hole(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                  const BoneSnapshot& bones);
+  void follow_rods(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                   const BoneSnapshot& bones);
+  void follow_chuck(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                    const BoneSnapshot& bones);
+  void follow_aimer(std::size_t hand, const AimingTool& with, const ToolState& tool,
+                    const BoneSnapshot& bones);
+  bool leads(const GuideRod& rod, const CarvingTool& with) const;
+  void publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
+  void run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT);
+  GuideRod* free_rod();
+  void drop_rod(std::size_t place);
+  void tell_of(std::size_t hand, const ToolState& tool, EventKind kind, std::uint32_t bone,
+               std::array<double, 3> values);
   void follow_out(std::size_t hand, const Push& push);
   void note_tissue(std::size_t hand, const Push& push, std::optional<BoneTissue> tissue);
   bool remove(std::size_t hand, const Cutter& cutter, const Pose& from_B, const Pose& to_B);
@@ -154,6 +202,8 @@ class Carving {
   std::size_t count_;  ///< of hands
   std::array<CarvingHand, kMaxHands> hands_{};
   std::array<CarvingReadout, kMaxHands> readouts_{};
+  std::array<ToolGuide, kMaxHands> guides_{};
+  GuideRods rods_{};
   std::vector<Changed> changed_;
   std::vector<Event> events_;
   std::uint64_t steps_ = 0;

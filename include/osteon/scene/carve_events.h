@@ -14,5 +14,9 @@ inline constexpr EventKind kPlunge{205};             ///< how far it went on the
 inline constexpr EventKind kSkives{206};       ///< a drill's tip slides off: it stands too slanted
 inline constexpr EventKind kPieceOff{207};     ///< a piece of bone hangs on nothing and is gone
 inline constexpr EventKind kCarvingFull{208};  ///< no room is left for cuts: no more is removed
+inline constexpr EventKind kPinLeft{209};      ///< a pin was let go: it stays in the bone
+inline constexpr EventKind kPinTaken{210};     ///< and is taken out again
+inline constexpr EventKind kAimed{211};        ///< an aimer was fixed: its sleeve fixes a line
+inline constexpr EventKind kLed{212};          ///< an instrument runs along a pin or in a sleeve
 
 }  // namespace osteon

@@ -109,6 +109,12 @@ struct OpticsDef {
   double field_deg = 0;  ///< whole width of the view
 };
 
+/// The bore of an aimer's sleeve, in Tool.
+struct AimsDef {
+  Vec3 at_m = Vec3::Zero(), mouth_m = Vec3::UnitZ();  ///< what it aims at, and its outer end
+  double bore_m = 0;
+};
+
 /// The straight part that passes through a portal.
 struct ShaftDef {
   SizedPoint from, to;
@@ -132,6 +138,7 @@ struct Instrument {
   std::optional<PowerDef> power;
   std::optional<OpticsDef> optics;
   std::optional<RemovalDef> removal;  ///< none: it removes no bone
+  std::optional<AimsDef> aims;        ///< none: it fixes no line
   std::vector<std::string> sources;   ///< "[74] 4 mm, field 105 degrees": each begins with its mark
 
   bool can(InstrumentFunction function) const;

@@ -7,6 +7,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/tool_guide.h"
 
 namespace osteon {
 
@@ -36,6 +37,8 @@ struct BoneSnapshot {
   std::uint64_t saved_step = 0;  ///< newest step whose state is to be kept with the hands' own
   std::uint32_t count = 0;
   std::array<BoneMotion, kMaxBones> bones{};
+  std::array<ToolGuide, kMaxHands> guides{};  ///< of each hand
+  GuideRods rods{};
 };
 
 /// One place where the tool touches a bone.

@@ -36,6 +36,7 @@ std::string what_it_does(const Instrument& instrument) {
 
 // What has no effect is not driven.
 RunTray::Driven driven_of(const Instrument& instrument) {
+  if (instrument.aims) return {false, true};
   if (!instrument.removal) return {};
   return {instrument.power.has_value(), instrument.removal->way == RemovalWay::kBite};
 }

@@ -1,0 +1,214 @@
+// What leads an instrument that carves: its own hole, a pin, the sleeve of an aimer.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cutter_front.h"
+#include "osteon/physics/carving.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kOutOfHole_m = 0.0005;  // so far before its mouth a drill has left a hole
+constexpr double kCapture_m = 0.003;     // so near an instrument is slipped on to a rod
+constexpr double kCaptureTurn_rad = 0.35;
+constexpr double kDragged_m = 0.015;      // pulled aside so far outside of bone, it is off again
+constexpr double kGripPerStep = 0.02;     // a rod holds within 50 steps
+constexpr double kFits_m = 0.0002;        // room between a rod and what is hollow
+constexpr double kShortestPin_m = 0.005;  // that holds in bone
+constexpr double kTakesPin_m = 0.006;     // so near a chuck shuts about a pin
+constexpr double kBesidePin_m = 0.003;    // a sleeve ends so far before the place that it aims at
+constexpr std::size_t kMostGuideEvents = 32;  // of a step
+// Of 316L steel, Pa (ASM Handbook, volume 1).
+constexpr double kSteel_Pa = 193e9;
+
+struct Beside {
+  double along_m = 0;   // of the tip, from the rod's inner end outwards
+  double across_m = 0;  // from its line
+  double turn_rad = 0;  // between the axes
+};
+
+Beside beside(const GuideRod& rod, const Pose& X_BT) {
+  const Vec3 out = rod.X_BR.q * Vec3::UnitZ(), off = X_BT.p - rod.X_BR.p;
+  const double along = off.dot(out);
+  const double c = std::clamp(out.dot(X_BT.q * Vec3::UnitZ()), -1.0, 1.0);
+  return {along, (off - along * out).norm(), std::acos(c)};
+}
+
+// A round bar that a force bends at the end of a free length L: L^3 / (3 E I), I = pi r^4 / 4
+// (Euler and Bernoulli; Timoshenko, Strength of Materials, chapter 5).
+double give_of(const GuideRod& rod, double tip_along_m) {
+  if (rod.kind != GuideRod::Kind::kPin) return 0;
+  const double free = std::max(0.0, tip_along_m - rod.in_bone_m);
+  const double r2 = rod.radius_m * rod.radius_m;
+  return free * free * free / (3 * kSteel_Pa * std::numbers::pi * r2 * r2 / 4);
+}
+
+Vec3 outwards(const Pose& X) { return X.q * Vec3::UnitZ(); }
+
+}  // namespace
+
+void Carving::tell_of(std::size_t hand, const ToolState& tool, EventKind kind, std::uint32_t bone,
+                      std::array<double, 3> values) {
+  if (events_.size() == kMostGuideEvents) return;
+  events_.push_back({tool.tick, kind, static_cast<std::uint8_t>(hand), SubjectKind::kBone, bone,
+                     tool.X_WP.p, values});
+}
+
+GuideRod* Carving::free_rod() {
+  for (GuideRod& rod : rods_)
+    if (rod.kind == GuideRod::Kind::kNone) return &rod;
+  return nullptr;
+}
+
+void Carving::drop_rod(std::size_t place) {
+  rods_[place] = {};
+  for (CarvingHand& hand : hands_)
+    if (hand.rod == place + 1) hand.rod = 0;
+}
+
+// Beyond the far side nothing stops a drill: its hole goes on, up to the next bone before it.
+void Carving::run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT) {
+  constexpr int kMostStrides = 16;
+  constexpr double kAhead_m = 0.003;
+  const CarvedField& field = *bones_[h.bone].field;
+  const Vec3 back = outwards(h.X_BC);
+  for (int i = 0; i < kMostStrides && back.dot(h.X_BC.p - X_BT.p) > -kAhead_m; ++i) {
+    const Pose next{h.X_BC.p - 0.5 * field.grid().cell_m * back, h.X_BC.q};
+    if (look_before(field, with.cutter, with.pilot_m, next).left() > 0) {
+      h.open = false;
+      return;
+    }
+    h.X_BC = next;
+  }
+}
+
+void Carving::leave_hole(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                         const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  if (!h.in_hole || h.bone >= bones.count) return;
+  const Pose X_BT = bones.bones[h.bone].X_WB.inverse() * tool.X_WP;
+  if (h.open) run_free(h, with, X_BT);
+  if (!(outwards(h.X_BC).dot(X_BT.p - h.mouth_B) > kOutOfHole_m)) return;
+  if (h.most_torque_nm > 0)
+    tell_of(hand, tool, kCutEnd, h.bone,
+            {1000 * h.drill.depth_m, 0.002 * static_cast<double>(steps_ - h.since),
+             1000 * h.most_torque_nm});
+  h = anew(h);
+}
+
+bool Carving::leads(const GuideRod& rod, const CarvingTool& with) const {
+  if (rod.kind == GuideRod::Kind::kPin) return with.pilot_m + kFits_m >= 2 * rod.radius_m;
+  return rod.kind == GuideRod::Kind::kSleeve && with.cutter.size_m <= 2 * rod.radius_m + kFits_m;
+}
+
+// An instrument is slipped on where it is brought to a rod, from the side as well: no device
+// reaches round the end of a long pin. It is off where it is pulled beyond the rod's end, or far
+// aside outside of the bone.
+void Carving::follow_rods(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                          const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  const auto pose_on = [&](const GuideRod& rod) {
+    return bones.bones[rod.bone].X_WB.inverse() * tool.X_WP;
+  };
+  if (h.rod != 0) {
+    const GuideRod& rod = rods_[h.rod - 1];
+    const Pose X_BD = bones.bones[rod.bone].X_WB.inverse() * tool.X_WD;
+    const bool off = beside(rod, pose_on(rod)).along_m > rod.length_m ||
+                     (!h.in_hole && beside(rod, X_BD).across_m > kDragged_m) || !leads(rod, with);
+    if (off) h.rod = 0;
+    h.grip = off ? 0 : std::min(1.0, h.grip + kGripPerStep);
+    return;
+  }
+  for (std::uint32_t r = 0; r < rods_.size() && !h.in_hole; ++r) {
+    if (!leads(rods_[r], with) || rods_[r].bone >= bones.count) continue;
+    const Beside at = beside(rods_[r], pose_on(rods_[r]));
+    const double least = rods_[r].kind == GuideRod::Kind::kPin ? rods_[r].in_bone_m : kBesidePin_m;
+    if (at.across_m > kCapture_m || at.turn_rad > kCaptureTurn_rad || at.along_m < least ||
+        at.along_m > rods_[r].length_m)
+      continue;
+    h.rod = r + 1;
+    h.grip = 0;
+    tell_of(hand, tool, kLed, rods_[r].bone, {});
+    return;
+  }
+}
+
+// Opened, a chuck lets its pin go; shut beside one, it takes it out.
+void Carving::follow_chuck(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                           const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  const bool was_open = h.jaw_open;
+  h.jaw_open = tool.jaw > 0.5 || (h.jaw_open && tool.jaw > 0.1);
+  if (h.jaw_open == was_open) return;
+  if (h.jaw_open) {
+    const double in_bone = outwards(h.X_BC).dot(h.mouth_B - h.X_BC.p);
+    GuideRod* rod = h.in_hole && in_bone >= kShortestPin_m ? free_rod() : nullptr;
+    const std::uint32_t bone = h.bone;
+    if (rod)
+      *rod = {GuideRod::Kind::kPin, bone, h.X_BC, 0.5 * with.cutter.size_m, with.length_m, in_bone};
+    h = anew(h);
+    h.rod = 0;
+    if (rod) tell_of(hand, tool, kPinLeft, bone, {1e3 * in_bone, 1e3 * with.cutter.size_m, 0});
+    return;
+  }
+  for (std::size_t r = 0; r < rods_.size(); ++r) {
+    if (rods_[r].kind != GuideRod::Kind::kPin || rods_[r].bone >= bones.count) continue;
+    const Beside at = beside(rods_[r], bones.bones[rods_[r].bone].X_WB.inverse() * tool.X_WP);
+    if (at.across_m > kTakesPin_m || at.turn_rad > kCaptureTurn_rad || at.along_m < 0) continue;
+    const std::uint32_t bone = rods_[r].bone;
+    drop_rod(r);
+    tell_of(hand, tool, kPinTaken, bone, {});
+    return;
+  }
+}
+
+// Shut while it touches a bone that is carved, an aimer is fixed to it, in place of any that was
+// fixed before; shut in the air it is off again.
+void Carving::follow_aimer(std::size_t hand, const AimingTool& with, const ToolState& tool,
+                           const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  const bool was_open = h.jaw_open;
+  h.jaw_open = tool.jaw > 0.5 || (h.jaw_open && tool.jaw > 0.1);
+  if (h.jaw_open || !was_open) return;
+  for (std::size_t r = 0; r < rods_.size(); ++r)
+    if (rods_[r].kind == GuideRod::Kind::kSleeve) drop_rod(r);
+  for (std::uint32_t i = 0; i < tool.contact_count; ++i) {
+    const std::uint32_t bone = tool.contacts[i].bone.index;
+    if (bone >= bones_.size() || !bones_[bone].field) continue;
+    GuideRod* rod = free_rod();
+    if (!rod) return;
+    *rod = {GuideRod::Kind::kSleeve,
+            bone,
+            bones.bones[bone].X_WB.inverse() * tool.X_WP * with.X_TS,
+            0.5 * with.bore_m,
+            with.length_m,
+            0};
+    tell_of(hand, tool, kAimed, bone, {});
+    return;
+  }
+}
+
+void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
+  const CarvingHand& h = hands_[hand];
+  ToolGuide& out = guides_[hand];
+  const GuideRod* rod = h.rod != 0 ? &rods_[h.rod - 1] : nullptr;
+  if (!rod && !h.in_hole) return;
+  const Pose& X_BL = rod ? rod->X_BR : h.X_BC;
+  out.on = true;
+  out.instrument = tool.instrument;
+  out.bone = rod ? rod->bone : h.bone;
+  out.p_B = X_BL.p;
+  out.nhat_B = outwards(X_BL);
+  out.grip = rod ? h.grip : 1;
+  // A hole in another bone than the rod's is met as bone is.
+  out.in_hole = h.in_hole && h.bone == out.bone;
+  out.stops = out.in_hole;
+  out.stop_m = out.nhat_B.dot(h.X_BC.p - out.p_B) - CarvingSetup::kSlack_m;
+  if (!rod) return;
+  const Pose X_BT = bones.bones[rod->bone].X_WB.inverse() * tool.X_WP;
+  out.give_m_per_n = give_of(*rod, beside(*rod, X_BT).along_m);
+}
+
+}  // namespace osteon

@@ -1,0 +1,342 @@
+// What leads an instrument into bone: its own hole, a pin that was left, an aimer that was fixed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "drilling.h"
+#include "osteon/carve/removed.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+namespace {
+
+using testing::box_mesh;
+
+constexpr double kFloor_m = 0.012;  // the block's top
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Made once: its field takes a second.
+const std::shared_ptr<const Case>& flat_bone() {
+  static const std::shared_ptr<const Case> made = [] {
+    CaseDef def;
+    def.name = "flat bone";
+    BoneDef bone;
+    bone.name = "flat";
+    bone.mesh = box_mesh(Vec3(0.02, 0.016, kFloor_m));
+    bone.felt = Felt::kField;
+    def.bones.push_back(bone);
+    auto built = build_case(std::move(def));
+    EXPECT_TRUE(built);
+    return std::make_shared<const Case>(std::move(*built));
+  }();
+  return made;
+}
+
+// A flat bone, and instruments that stand slanted on it.
+struct SlantedDrilling {
+  std::shared_ptr<const Case> the_case = flat_bone();
+  SessionSettings settings;
+  Tray tray;
+  std::shared_ptr<const CarvingSetup> setup;
+  Vec3 back_W;
+  Quat q_WT;
+  std::vector<Event> events;
+  Recording recording;
+
+  SlantedDrilling(std::vector<std::string> names, double slant_deg) {
+    settings.tray = std::move(names);
+    settings.carve.on = true;
+    settings.carve.cell_m = 0.0006;
+    settings.carve.thrust_scale = 80;
+    const auto all = load_instruments();
+    EXPECT_TRUE(all);
+    for (const std::string& text : settings.tray) {
+      const auto name = parse_tool_name(text);
+      const Instrument* found = find_instrument(*all, name->name);
+      const auto size = name->size_mm ? find_size(*found, *name->size_mm) : found->usual_size;
+      tray.push_back(std::make_shared<const Tool>(make_tool(*found, *size)));
+    }
+    auto made = make_carving(*the_case, settings.tray, settings.carve);
+    EXPECT_TRUE(made);
+    setup = *made;
+    const double a = slant_deg * kDegree;
+    back_W = {std::sin(a), 0, std::cos(a)};
+    q_WT = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), back_W);
+  }
+  Session session() const { return Session(the_case, settings, tray, setup); }
+  // On the axis through the middle of the top, `height` before it; off it sideways.
+  HandInput hand(double height, double aside = 0) const {
+    HandInput out;
+    out.input.X_WD = {Vec3(0.0003, 0.0002 + aside, kFloor_m) + height * back_W, q_WT};
+    return out;
+  }
+  double height(const Session& session) const {
+    return (session.tool_state().X_WP.p - Vec3(0.0003, 0.0002, kFloor_m)).dot(back_W);
+  }
+  double off_axis(const Session& session) const {
+    const Vec3 off = session.tool_state().X_WP.p - Vec3(0.0003, 0.0002, kFloor_m);
+    return (off - off.dot(back_W) * back_W).norm();
+  }
+  void tick(Session& session, const HandInput& input) {
+    (void)session.tick(std::span(&input, 1));
+    for (const Event& event : session.last_events()) events.push_back(event);
+    recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+  }
+  void order(Session& session, double at, CommandKind kind, double value) {
+    HandInput input = hand(at);
+    input.command = {kind, value};
+    tick(session, input);
+  }
+  // Pressed on with the same lead before the tip, until the tip is so deep or time is over.
+  void press(Session& session, double deep, int most_ticks, double aside = 0) {
+    for (int n = 0; n < most_ticks && height(session) > -deep; ++n)
+      tick(session, hand(std::max(height(session) - 0.003, -deep - 0.003), aside));
+  }
+  bool told(EventKind kind) const {
+    return std::any_of(events.begin(), events.end(),
+                       [&](const Event& e) { return e.kind == kind; });
+  }
+};
+
+double gone_mm3(const Session& session) {
+  return 1e9 * total(removed_volume(*session.carving()->field(0)));
+}
+
+// A pin as if it had been drilled in along the axis and let go.
+void put_pin(Session& session, const SlantedDrilling& with, double deep) {
+  SessionState state = session.save();
+  auto carved = std::make_shared<CarvingState>(*state.world.carved);
+  carved->rods[0] = {GuideRod::Kind::kPin,
+                     0,
+                     {Vec3(0.0003, 0.0002, kFloor_m) - deep * with.back_W, with.q_WT},
+                     0.0012,
+                     0.2,
+                     deep};
+  state.world.carved = std::move(carved);
+  ASSERT_TRUE(session.restore(state));
+}
+
+// What a cylinder with a flat front, its rim cut off at 45 degrees, takes of a half space when its
+// middle is `deep` in it along its axis: summed in thin columns.
+double cylinder_mm3(double radius, double deep, double slant) {
+  constexpr int kSteps = 400;
+  const double d = 2 * radius / kSteps, rim = 0.25 * radius;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j) {
+      const double x = -radius + (i + 0.5) * d, y = -radius + (j + 0.5) * d;
+      const double rho = std::hypot(x, y);
+      if (rho > radius) continue;
+      const double front = std::max(0.0, rho - (radius - rim));
+      sum += std::max(0.0, deep - x * std::tan(slant) - front) * d * d;
+    }
+  return 1e9 * sum;
+}
+
+class OverAPin : public ::testing::TestWithParam<double> {};
+
+// A thick drill goes along its pin into a bone however slanted, and takes what a cylinder does.
+TEST_P(OverAPin, AThickDrillGoesInAlongIt) {
+  SlantedDrilling with({"cannulated_drill:8"}, GetParam());
+  Session session = with.session();
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.012));
+  put_pin(session, with, 0.008);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.012));
+  EXPECT_TRUE(with.told(kLed));
+  with.order(session, 0.012, CommandKind::kPower, 1);
+  for (int n = 0; n < 120; ++n) with.tick(session, with.hand(0.012 - 0.0001 * n));
+  with.press(session, 0.004, 5000);
+  EXPECT_NEAR(with.height(session), -0.004, 1e-4);
+  EXPECT_LT(with.off_axis(session), 5e-5);
+  EXPECT_FALSE(with.told(kSkives));
+  const double wanted = cylinder_mm3(0.004, -with.height(session), GetParam() * kDegree);
+  EXPECT_NEAR(gone_mm3(session), wanted, 0.02 * wanted + 0.5);
+}
+INSTANTIATE_TEST_SUITE_P(Slants, OverAPin, ::testing::Values(0.0, 30.0, 60.0));
+
+// Pulled aside it bends the pin a little and no more, and the hand feels it.
+TEST(Guides, APinHoldsSideways) {
+  SlantedDrilling with({"cannulated_drill:8"}, 0);
+  Session session = with.session();
+  put_pin(session, with, 0.008);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.03));
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.03, 0.002));
+  // k and the pin in a row: L^3 / (3 E I) of 30 mm free.
+  const double inertia = std::numbers::pi / 4 * std::pow(0.0012, 4);
+  const double give = std::pow(0.03, 3) / (3 * 193e9 * inertia);
+  const double force = 0.002 / (1 / with.settings.haptic.stiffness_n_per_m + give);
+  EXPECT_NEAR(session.tool_state().force_W.y(), -force, 0.02 * force);
+  EXPECT_NEAR(with.off_axis(session), give * force, 3e-5);
+}
+
+// Without anything that leads it, a drill that stands too slanted slides off and cuts nothing.
+TEST(Guides, WithoutAStartASlantedDrillSlidesOff) {
+  for (const char* name : {"drill:3.2", "cannulated_drill:8"}) {
+    SlantedDrilling with({name}, 50);
+    Session session = with.session();
+    for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.006));
+    with.order(session, 0.006, CommandKind::kPower, 1);
+    for (int n = 0; n < 900; ++n) with.tick(session, with.hand(0.006 - 0.00001 * n));
+    EXPECT_TRUE(with.told(kSkives)) << name;
+    EXPECT_FALSE(with.told(kCutBegin)) << name;
+    EXPECT_EQ(gone_mm3(session), 0) << name;
+    EXPECT_GT(with.off_axis(session), 0.0005) << name;
+  }
+}
+
+// A drill that has begun keeps its line: as thick as it may be, pulled aside or not.
+TEST(Guides, AHoleKeepsItsLine) {
+  for (const char* name : {"drill:3.2", "cannulated_drill:8"}) {
+    SlantedDrilling with({name}, 20);
+    Session session = with.session();
+    for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.003));
+    with.order(session, 0.003, CommandKind::kPower, 1);
+    for (int n = 0; n < 300; ++n) with.tick(session, with.hand(0.003 - 0.00001 * n));
+    with.press(session, 0.002, 4000);
+    EXPECT_NEAR(with.height(session), -0.002, 1e-4) << name;
+    const double before = with.off_axis(session);
+    with.press(session, 0.003, 3000, 0.002);
+    EXPECT_NEAR(with.off_axis(session), before, 5e-5) << name;
+    EXPECT_LT(session.tool_state().force_W.y(), -3) << name;
+  }
+}
+
+void drill_pin(SlantedDrilling& with, Session& session) {
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.002));
+  with.order(session, 0.002, CommandKind::kPower, 1);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.002 - 0.00001 * n));
+  with.press(session, 0.007, 6000);
+}
+
+void play_pin(SlantedDrilling& with, Session& session) {
+  drill_pin(with, session);
+  with.order(session, -0.007, CommandKind::kPower, 0);
+  with.order(session, -0.007, CommandKind::kJaw, 1);
+  for (int n = 0; n < 10; ++n) with.tick(session, with.hand(-0.007));
+}
+
+// Drilled in and let go a pin stays, in the state too; a drill runs over it; a chuck takes it out.
+TEST(Guides, APinStaysLeadsAndIsTakenOut) {
+  SlantedDrilling with({"guide_pin:2.4", "cannulated_drill:4.5"}, 0);
+  Session session = with.session();
+  play_pin(with, session);
+  ASSERT_TRUE(with.told(kPinLeft));
+  const GuideRod pin = session.bones().rods[0];
+  EXPECT_EQ(pin.kind, GuideRod::Kind::kPin);
+  EXPECT_NEAR(pin.in_bone_m, 0.007, 3e-4);
+  const auto back = state_from_bytes(to_bytes(session.save()));
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = with.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  for (Session* each : {&session, &other}) {
+    with.events.clear();
+    with.order(*each, 0.012, CommandKind::kTake, 1);
+    for (int n = 0; n < 200; ++n) with.tick(*each, with.hand(0.012, 0.001));
+    EXPECT_TRUE(with.told(kLed));
+    EXPECT_LT(with.off_axis(*each), 5e-4);
+    EXPECT_LT(each->tool_state().force_W.y(), -0.5);
+  }
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  // Elsewhere a pin that is taken is another one.
+  HandInput beside = with.hand(0.02, 0.02);
+  beside.command = {CommandKind::kTake, 0};
+  with.tick(session, beside);
+  for (int n = 0; n < 40; ++n) with.tick(session, with.hand(0.02, 0.02 - 0.0005 * n));
+  EXPECT_FALSE(with.told(kPinTaken));
+  with.order(session, 0.001, CommandKind::kJaw, 1);
+  for (int n = 0; n < 40; ++n) with.tick(session, with.hand(0.04 - 0.001 * n));
+  with.order(session, 0.001, CommandKind::kJaw, 0);
+  for (int n = 0; n < 4; ++n) with.tick(session, with.hand(0.001));
+  EXPECT_TRUE(with.told(kPinTaken));
+  EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kNone);
+}
+
+// A hand that takes another instrument leaves its pin where it is; a replay does the same.
+TEST(Guides, APinStaysWhenAnotherInstrumentIsTakenAndReplays) {
+  SlantedDrilling with({"guide_pin:2.4", "cannulated_drill:4.5"}, 0);
+  Session session = with.session();
+  with.recording.header = recording_header(*with.the_case, with.settings, "test", "0", with.tray);
+  drill_pin(with, session);
+  with.order(session, -0.007, CommandKind::kTake, 1);
+  for (int n = 0; n < 4; ++n) with.tick(session, with.hand(0.03));
+  EXPECT_TRUE(with.told(kPinLeft));
+  EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kPin);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.03 - 0.0001 * n, 0.001));
+  EXPECT_TRUE(with.told(kLed));
+  with.recording.complete = true;
+  ReplayOptions options;
+  options.tray = with.tray;
+  options.carving = with.setup;
+  const auto outcome = replay(with.recording, with.the_case, options);
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+  EXPECT_EQ(outcome->state_hash, session.state_hash());
+}
+
+// Through the far side a drill falls on to the hand, which is told.
+TEST(Guides, ADrillThatComesOutPlunges) {
+  testing::Drilling with("drill:3.2");
+  with.with([](CarvingSetup& setup) { setup.thrust_scale = 300; });
+  Session session = with.session();
+  bool breached = false, out_in_one = false;
+  double before = 0.01, fastest = 0;
+  for (std::uint64_t n = 1; n <= 5000 && !out_in_one; ++n) {
+    HandInput hand = testing::down_at(n, 1, 0.02, 0.0);
+    const double z = session.tool_state().X_WP.p.z();
+    if (n > 60) hand.input.X_WD.p.z() = z - 0.003;
+    (void)session.tick(std::span(&hand, 1));
+    for (const Event& event : session.last_events()) breached = breached || event.kind == kBreached;
+    if (breached) fastest = std::max(fastest, before - session.tool_state().X_WP.p.z());
+    before = session.tool_state().X_WP.p.z();
+    out_in_one = breached && before < -testing::kTop_m - 0.004;
+  }
+  EXPECT_TRUE(breached);
+  EXPECT_TRUE(out_in_one);
+  EXPECT_GT(fastest, 2e-4) << "nothing holds it back";
+  EXPECT_NEAR(session.tool_state().X_WP.p.x(), 0.0003, 1e-4);
+}
+
+// An aimer's sleeve leads a pin along its line into a bone on which it would slide off.
+TEST(Guides, AnAimerFixesThePinsLine) {
+  SlantedDrilling with({"femoral_offset_aimer:6", "guide_pin:2.4"}, 50);
+  Session session = with.session();
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.006));
+  with.order(session, 0.006, CommandKind::kJaw, 1);
+  for (int n = 0; n < 500; ++n) with.tick(session, with.hand(0.006 - 0.00002 * n));
+  ASSERT_GT(session.tool_state().contact_count, 0u);
+  with.order(session, -0.004, CommandKind::kJaw, 0);
+  for (int n = 0; n < 4; ++n) with.tick(session, with.hand(-0.004));
+  ASSERT_TRUE(with.told(kAimed));
+  const GuideRod sleeve = session.bones().rods[0];
+  ASSERT_EQ(sleeve.kind, GuideRod::Kind::kSleeve);
+  // Where the aimer stands, the pin goes in.
+  const Vec3 at_W = sleeve.X_BR.p;
+  const auto hand_at = [&](double height) {
+    HandInput out;
+    out.input.X_WD = {at_W + height * with.back_W, with.q_WT};
+    return out;
+  };
+  HandInput take = hand_at(0.05);
+  take.command = {CommandKind::kTake, 1};
+  with.tick(session, take);
+  for (int n = 0; n < 200; ++n) with.tick(session, hand_at(0.05));
+  EXPECT_TRUE(with.told(kLed));
+  HandInput power = hand_at(0.05);
+  power.command = {CommandKind::kPower, 1};
+  with.tick(session, power);
+  const auto deep = [&] { return (session.tool_state().X_WP.p - at_W).dot(with.back_W); };
+  for (int n = 0; n < 5000 && deep() > -0.008; ++n)
+    with.tick(session, hand_at(std::max(deep() - 0.003, -0.012)));
+  EXPECT_LT(deep(), -0.0075);
+  EXPECT_FALSE(with.told(kSkives));
+  const Vec3 off = session.tool_state().X_WP.p - at_W;
+  EXPECT_LT((off - off.dot(with.back_W) * with.back_W).norm(), 5e-5);
+}
+
+}  // namespace
+}  // namespace osteon
