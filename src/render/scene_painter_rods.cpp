@@ -6,7 +6,7 @@ namespace {
 
 const Eigen::Vector4f kRodSteel(0.62f, 0.65f, 0.69f, 1.0f);
 constexpr double kSleeveWall_m = 0.0015;
-constexpr double kLineRadius_m = 0.0003;
+constexpr double kLineRadius_m = 0.0005;
 constexpr double kLineBeyond_m = 0.06;  // the line goes on into the bone so far
 
 struct DrawnRod {

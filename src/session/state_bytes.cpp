@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 5;
+constexpr std::uint64_t kVersion = 6;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -52,7 +52,7 @@ bool knows_twist(const In& in) { return in.version >= 4; }
 
 // Whether it says what leads instruments.
 bool knows_guides(const Out&) { return true; }
-bool knows_guides(const In& in) { return in.version >= 5; }
+bool knows_guides(const In& in) { return in.version >= 6; }
 
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
