@@ -156,6 +156,11 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
     // Who takes another instrument lets a pin go; who takes one beside a pin takes that.
     ToolState chuck = tool;
     chuck.jaw = 1;
+    const auto pins = [&] {
+      return std::count_if(rods_.begin(), rods_.end(),
+                           [](const GuideRod& rod) { return rod.kind == GuideRod::Kind::kPin; });
+    };
+    const auto stood = pins();
     if (h.instrument < setup_->tray.size())
       if (const auto& before = setup_->tray[h.instrument]; before && before->stays)
         follow_chuck(hand, *before, chuck, bones);
@@ -163,7 +168,8 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
     h.instrument = tool.instrument;
     chuck.jaw = 0;
     h.jaw_open = true;
-    if (const auto& now = setup_->tray[tool.instrument]; now && now->stays)
+    const bool let_go = pins() != stood;  // what was let go is not what is taken
+    if (const auto& now = setup_->tray[tool.instrument]; !let_go && now && now->stays)
       follow_chuck(hand, *now, chuck, bones);
     h.jaw_open = false;
   }

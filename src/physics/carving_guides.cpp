@@ -90,7 +90,10 @@ void Carving::leave_hole(std::size_t hand, const CarvingTool& with, const ToolSt
   if (!h.in_hole || h.bone >= bones.count) return;
   const Pose X_BT = bones.bones[h.bone].X_WB.inverse() * tool.X_WP;
   if (h.open) run_free(h, with, X_BT);
-  if (!(outwards(h.X_BC).dot(X_BT.p - h.mouth_B) > kOutOfHole_m)) return;
+  const Vec3 out = outwards(h.X_BC), off = X_BT.p - h.X_BC.p;
+  // Put back into its hole by a restore point while the hand is elsewhere, it is not drawn there.
+  const bool elsewhere = (off - off.dot(out) * out).norm() > kCapture_m;
+  if (!elsewhere && !(out.dot(X_BT.p - h.mouth_B) > kOutOfHole_m)) return;
   if (h.most_torque_nm > 0)
     tell_of(hand, tool, kCutEnd, h.bone,
             {1000 * h.drill.depth_m, 0.002 * static_cast<double>(steps_ - h.since),
@@ -156,7 +159,9 @@ void Carving::follow_chuck(std::size_t hand, const CarvingTool& with, const Tool
   for (std::size_t r = 0; r < rods_.size(); ++r) {
     if (rods_[r].kind != GuideRod::Kind::kPin || rods_[r].bone >= bones.count) continue;
     const Beside at = beside(rods_[r], bones.bones[rods_[r].bone].X_WB.inverse() * tool.X_WP);
-    if (at.across_m > kTakesPin_m || at.turn_rad > kCaptureTurn_rad || at.along_m < 0) continue;
+    if (at.across_m > kTakesPin_m || at.turn_rad > kCaptureTurn_rad || at.along_m < -kOutOfHole_m ||
+        at.along_m > rods_[r].length_m)
+      continue;
     const std::uint32_t bone = rods_[r].bone;
     drop_rod(r);
     tell_of(hand, tool, kPinTaken, bone, {});

@@ -25,7 +25,7 @@ int following_bytes(unsigned char first) {
   return first >= 0xf0 && first < 0xf5 ? 3 : -1;
 }
 
-// Well-formed but for what TOML's reader refuses by itself: surrogates and long forms.
+// Well-formed as TOML's reader wants it: no surrogates, no long forms, nothing beyond U+10FFFF.
 bool is_one_line_of_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto first = static_cast<unsigned char>(text[i]);
@@ -35,6 +35,10 @@ bool is_one_line_of_utf8(std::string_view text) {
       if (i + static_cast<std::size_t>(k) >= text.size() ||
           (static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]) & 0xc0) != 0x80)
         return false;
+    const auto second = more > 0 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
+    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
+      return false;
     i += 1 + static_cast<std::size_t>(more);
   }
   return true;

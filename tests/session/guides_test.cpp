@@ -205,6 +205,34 @@ TEST(Guides, AHoleKeepsItsLine) {
   }
 }
 
+// A restore point puts the drill back into its hole while the hand is elsewhere: it is not drawn
+// there.
+TEST(Guides, ARestorePointDoesNotDrawAHandToADistantHole) {
+  SlantedDrilling with({"drill:3.2"}, 0);
+  Session session = with.session();
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.002));
+  with.order(session, 0.002, CommandKind::kPower, 1);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.002 - 0.00001 * n));
+  with.press(session, 0.005, 6000);
+  ASSERT_LT(with.height(session), -0.004);
+  with.order(session, -0.005, CommandKind::kPower, 0);
+  with.order(session, -0.005, CommandKind::kMark, 0);
+  for (int n = 0; n < 100; ++n) with.tick(session, with.hand(-0.005 + 0.0002 * n));
+  // Beside the block, and lower than the hole's mouth.
+  for (int n = 0; n <= 300; ++n) with.tick(session, with.hand(0.015, 0.0001 * n));
+  for (int n = 0; n <= 200; ++n) with.tick(session, with.hand(0.015 - 0.0001 * n, 0.03));
+  ASSERT_LT(with.height(session), -0.004);
+  ASSERT_GT(with.off_axis(session), 0.029);
+  HandInput back = with.hand(-0.005, 0.03);
+  back.command = {CommandKind::kRestore, 0};
+  with.tick(session, back);
+  for (int n = 0; n < 1500; ++n) {
+    with.tick(session, with.hand(n < 100 ? -0.005 : -0.003, 0.03));
+    ASSERT_LT(session.tool_state().force_W.norm(), 0.2) << n;
+  }
+  EXPECT_GT(with.off_axis(session), 0.029);
+}
+
 void drill_pin(SlantedDrilling& with, Session& session) {
   for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.002));
   with.order(session, 0.002, CommandKind::kPower, 1);

@@ -65,9 +65,10 @@ int run_note(const CaseNoteCommand& command) {
   if (!def) return report_error(def.error());
   auto notes = notes_of(command.spec);
   if (!notes) return report_error(notes.error());
-  if (auto known = check_notes(*notes, *def); !known) return report_error(known.error());
   if (auto changed = change_notes(command, *def, *notes); !changed)
     return report_error(changed.error());
+  // After the change, which may take away a note on a bone that is gone.
+  if (auto known = check_notes(*notes, *def); !known) return report_error(known.error());
   const std::string to = command.out.empty() ? command.spec : command.out;
   const auto saved =
       command.out.empty() ? save_notes(*notes, to) : save_noted_case(*def, *notes, to);

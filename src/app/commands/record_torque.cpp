@@ -1,4 +1,5 @@
 // The moment about each hand's grip, by repeating a recording.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -26,7 +27,10 @@ std::vector<fs::path> torque_tables(const RecordingHeader& header, const fs::pat
   for (std::string name : hand_names(header)) {
     for (char& c : name)
       if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
-    files.push_back(folder / ("torque_" + name + ".csv"));
+    fs::path file = folder / ("torque_" + name + ".csv");
+    if (std::find(files.begin(), files.end(), file) != files.end())
+      file = folder / ("torque_" + name + "_" + std::to_string(files.size() + 1) + ".csv");
+    files.push_back(std::move(file));
   }
   return files;
 }

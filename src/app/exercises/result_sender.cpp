@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -62,7 +63,11 @@ bool send_results_in_background() {
     become_sender(words.data(), log.c_str());
   }
   int status = 0;
-  if (::waitpid(child, &status, 0) != child) return false;
+  pid_t ended;
+  do {
+    ended = ::waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  if (ended != child) return false;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

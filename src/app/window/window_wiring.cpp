@@ -127,6 +127,7 @@ void WindowApp::apply_window(const UiRequests& requests) {
     patient_.close();
     hands_.close_tray();
     notes_.stop_placing();
+    exercise_.forget_force();
   }
   if (requests.quit) host_.window->close();
   if (requests.dismiss_hint) settings.hint_dismissed = true;
@@ -146,7 +147,7 @@ void WindowApp::apply_scene(const UiRequests& requests) {
   if (requests.bend && may_change_case()) bend_.apply(*requests.bend);
   notes_.apply(requests.notes, may_change_case());
   edit_.apply(requests.edit);
-  live_.apply_feel(requests, !bend_.on());
+  live_.apply_feel(requests, !bend_.on() && !exercise_.paused());
   if (!checkup_.running()) {  // it may have the device
     if (requests.toggle_record && exercise_.running())
       exercise_.end();

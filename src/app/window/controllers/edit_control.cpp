@@ -100,7 +100,7 @@ void EditControl::poll_save() {
   if (!saved) return host_.note(ToastKind::kError, saved.error().message());
   host_.note(ToastKind::kInfo, "Saved as " + saved->string());
   if (edit_) edit_->mark_saved();
-  cases_.open({saved->string(), {}, nullptr});
+  if (!cases_.loading()) cases_.open({saved->string(), {}, nullptr});
 }
 
 EditModel EditControl::model() const {

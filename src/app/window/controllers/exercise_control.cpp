@@ -13,12 +13,13 @@ namespace {
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
 
-// The force is off in a pause, and comes back as after any other stop; one that was off before
-// stays off.
+// The force is off in a pause, and comes back as after any other stop. One that was off before,
+// that the user took off meanwhile or that a fault took off stays off.
 void switch_pause(ExerciseRun& exercise, LiveRun* live) {
   const bool begins = !exercise.paused();
   if (live && begins) exercise.keep_force_wish(live->force_wanted());
-  if (live && (begins || exercise.force_was_wanted())) live->set_force(!begins);
+  const bool ours = live && live->device_status().cause == ForceOff::kSoftware;
+  if (live && (begins || (exercise.force_was_wanted() && ours))) live->set_force(!begins);
   exercise.pause(begins);
 }
 
@@ -65,7 +66,9 @@ void ExerciseControl::open_patient() {
   const std::string spec = exercise_.case_spec();
   const bool all_here = want_instruments(exercise_.scenario());
   exercise_.wait_for_case();
-  if (live_.run() && scene_.the_case && scene_.source == spec && all_here) return begin();
+  if (live_.run() && scene_.the_case && scene_.source == spec && all_here &&
+      scene_.finer_source.empty())  // what carves its bones is ready
+    return begin();
   cases_.open({spec, {}, nullptr}, true);
 }
 
@@ -131,7 +134,7 @@ void ExerciseControl::poll() {
 }
 
 void ExerciseControl::end() {
-  if (exercise_.paused()) switch_pause(exercise_, live_.run());
+  exercise_.pause(false);  // the force stays off: nobody asked for it
   const Result<void> stopped = live_.run()->stop_recording();
   if (!stopped) host_.note(ToastKind::kError, stopped.error().message());
   live_.let_probe_go();

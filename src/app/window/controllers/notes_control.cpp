@@ -96,7 +96,7 @@ void NotesControl::poll_save() {
   if (!saved) return host_.note(ToastKind::kError, saved.error().message());
   changed_ = false;
   host_.note(ToastKind::kInfo, "Saved as " + saved->string());
-  cases_.open({saved->string(), {}, nullptr});
+  if (!cases_.loading()) cases_.open({saved->string(), {}, nullptr});
 }
 
 void NotesControl::apply(const NotesRequests& requests, bool may_edit) {
@@ -108,6 +108,8 @@ void NotesControl::apply(const NotesRequests& requests, bool may_edit) {
   if (requests.remove && *requests.remove < notes_.size()) {
     notes_.erase(notes_.begin() + static_cast<long>(*requests.remove));
     editing_.reset();
+    moved_.reset();
+    placing_ = false;
     keep();
   }
   const bool moves = requests.move && *requests.move < notes_.size();
