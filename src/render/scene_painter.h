@@ -152,7 +152,8 @@ class ScenePainter {
   void paint_hulls(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
   void paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity, const Frame& frame) const;
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
-  void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const;
+  void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model,
+                  float behind = 0.22f) const;
   void paint_solid_marks(const Frame& frame) const;
   void paint_rods(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_lines(const RenderSnapshot& snapshot, const Frame& frame) const;

@@ -63,11 +63,12 @@ std::vector<ScenePainter::Capsule> ScenePainter::mark_capsules(const RenderSnaps
   return out;
 }
 
-void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model) const {
+void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model,
+                              float behind) const {
   shared_->mark.set("u_view_from_model", view_from_model);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
-  shared_->mark.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), 0.22f));
+  shared_->mark.set("u_color", Color(kAmber.x(), kAmber.y(), kAmber.z(), behind));
   mesh.draw();
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);

@@ -7,7 +7,8 @@ namespace {
 const Eigen::Vector4f kRodSteel(0.62f, 0.65f, 0.69f, 1.0f);
 constexpr double kSleeveWall_m = 0.0015;
 constexpr double kLineRadius_m = 0.0005;
-constexpr double kLineBeyond_m = 0.06;  // the line goes on into the bone so far
+constexpr float kLineBehindBone = 0.5f;  // opacity: it lies in bone for the most part
+constexpr double kLineBeyond_m = 0.06;   // the line goes on into the bone so far
 
 struct DrawnRod {
   Pose X_WR;
@@ -78,7 +79,8 @@ void ScenePainter::paint_lines(const RenderSnapshot& snapshot, const Frame& fram
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   for (const DrawnRod& line : lines)
-    paint_mark(shared_->shaft, stretched(frame.X_CW * line.X_WR, line.radius_m, line.length_m));
+    paint_mark(shared_->shaft, stretched(frame.X_CW * line.X_WR, line.radius_m, line.length_m),
+               kLineBehindBone);
   glDisable(GL_CULL_FACE);
 }
 

@@ -74,7 +74,7 @@ const Finding* find(const Findings& findings, const std::string& topic) {
 
 TEST(Findings, NothingFoundIsGoodAndEmpty) {
   EXPECT_EQ(worst({}), FindingLevel::kGood);
-  EXPECT_EQ(to_text({}), "");
+  EXPECT_EQ(to_text(Findings{}), "");
   EXPECT_EQ(nlohmann::json::parse(to_json(Findings{})).size(), 0u);
 }
 
