@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lrs_that_waits.h"
+#include "osteon/record/recording_note.h"
 #include "run_osteon.h"
 
 namespace osteon::testing_cli {
@@ -124,6 +125,15 @@ TEST_F(Teaching, AnAttemptIsRecordedRepeatedAndDebriefed) {
   EXPECT_EQ(run_osteon("debrief " + file("none.osr") + " --out " + pdf).exit_code, 2);
   // A stricter standard may be laid on what was done.
   EXPECT_EQ(run_osteon("debrief " + osr + " --scenario touch_bones --out " + pdf).exit_code, 2);
+  // What was done in a pause is not judged: here all of it but the first second.
+  ASSERT_TRUE(write_note(osr, "pauses", "1000 10000000\n"));
+  const Ran paused = run_osteon("debrief " + osr + " --out " + pdf);
+  EXPECT_EQ(paused.exit_code, 0) << paused.output;
+  EXPECT_EQ(paused.output.find("lost_view"), std::string::npos) << paused.output;
+  ASSERT_TRUE(write_note(osr, "pauses", "7 3\n"));
+  const Ran damaged = run_osteon("debrief " + osr + " --out " + pdf);
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_NE(damaged.output.find("pauses are damaged"), std::string::npos) << damaged.output;
 }
 
 TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {

@@ -45,6 +45,9 @@ TEST(JoystickTorque, ReachesTheMotorOfItsDrivenAxisAlone) {
 
 TEST(JoystickTorque, NotANumberIsNoForceAndNoTorque) {
   DrivenJoystick joystick;
+  joystick.write(Vec3(0.5, 0, 0), Vec3(0, 0, 0.02));
+  ASSERT_NEAR(joystick.turned_by().z(), 0.02, 1e-12);
+  ASSERT_GT(joystick.device->mechanics().motors().norm(), 0);
   joystick.write(Vec3(0.5, 0, 0), Vec3(0, 0, std::nan("")));
   EXPECT_EQ(joystick.turned_by(), Vec3::Zero());
   EXPECT_EQ(joystick.device->mechanics().motors(), Vec3::Zero());
