@@ -10,7 +10,6 @@
 #include "grab_force.h"
 #include "guide_pull.h"
 #include "osteon/base/check.h"
-#include "osteon/base/hash.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/haptic/snapshot_age.h"
 #include "portal_pivot.h"
@@ -386,10 +385,8 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
     ring = ring_of(portals[state.portal.portal], tool->shaft, state.tool.X_WP);
     task.ring = &ring;
   }
-  Portal on_line;
-  on_line.p_W = line.line_W;
   if (line.in) {
-    ring = ring_about_line(on_line, line.along_W, state.tool.X_WP);
+    ring = ring_about_line(line.line_W, line.along_W, state.tool.X_WP);
     task.ring = &ring;
   }
   const ProxyMove move = solver.move(task, state.pairs);
@@ -538,56 +535,7 @@ void HapticLoop::set_grip(std::uint32_t instrument, double power, double jaw) no
 const HapticState& HapticLoop::state() const { return impl_->state; }
 const Tool& HapticLoop::tool() const { return *impl_->tool; }
 
-std::uint64_t HapticLoop::state_hash() const {
-  const HapticState& s = impl_->state;
-  Hasher h;
-  h.add(s.tool.tick);
-  h.add(s.tool.X_WD);
-  h.add(s.tool.X_WP);
-  h.add(s.tool.force_W);
-  h.add(s.tool.buttons);
-  h.add(s.tool.status);
-  h.add(s.armed);
-  h.add(s.sliding);
-  h.add(s.carrier.index);
-  h.add(s.grabbing);
-  h.add(s.p_WG);
-  h.add(s.fade_n);
-  h.add(s.tool.epoch);
-  h.add(s.tool.instrument);
-  h.add(s.tool.power);
-  h.add(s.tool.jaw);
-  for (const OtherTool& other : s.others) {
-    h.add(other.tick);
-    if (other.tick == 0) continue;
-    h.add(other.instrument);
-    h.add(other.p_WD);
-    h.add(other.X_WP);
-    h.add(other.v_W);
-  }
-  if (s.portal.portal != kNoPortal || s.portal.nearest != kNoPortal || s.portal.grip > 0) {
-    h.add(s.tool.portal);
-    h.add(s.portal.portal);
-    h.add(s.portal.anchor_m);
-    h.add(s.portal.sliding);
-    h.add(s.portal.grip);
-    h.add(s.portal.tip_depth_m);
-    h.add(s.portal.nearest);
-  }
-  for (std::uint32_t i = 0; i < s.bone_count; ++i) h.add(s.X_WB[i]);
-  for (const PairMemory& pair : s.pairs) {
-    if (pair.pair == PairMemory::kNone) break;
-    h.add(pair.pair);
-    h.add(pair.basis.count);
-    for (std::uint8_t i = 0; i < pair.basis.count; ++i) h.add(pair.basis.rows[i]);
-    h.add(pair.known);
-    if (!pair.known) continue;
-    h.add(pair.plane.nhat_BT_B);
-    h.add(pair.plane.bone_support);
-    h.add(pair.plane.p_B);
-  }
-  return h.value();
-}
+std::uint64_t HapticLoop::state_hash() const { return hash_of(impl_->state); }
 
 void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std::move(portals); }
 

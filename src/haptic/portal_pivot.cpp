@@ -125,25 +125,27 @@ void PortalRing::raise(const Quat& q_WT, std::span<FreeHalfSpace> out) const {
   const Vec3 u_T = other_T.cross(along_T).normalized();
   const Vec3 u_W = q_WT * u_T;
   const Vec3 v_W = q_WT * along_T.cross(u_T);
-  const Vec3 middle_W = portal->p_W - q_WT * shaft.p0;
+  const Vec3 middle_W = p_W - q_WT * shaft.p0;
   for (std::size_t i = 0; i < kPlanes; ++i) {
     const Vec3 n_W = kWays[i][0] * u_W + kWays[i][1] * v_W;
     out[i] = {n_W, n_W.dot(middle_W) - radius_m};
   }
 }
 
+// An octagon's corners reach out by no more than the inverse of this.
+constexpr double kInCorner = 0.92;
+
 PortalRing ring_of(const Portal& portal, const Capsule& shaft, const Pose& X_WT) {
   constexpr double kRoom_m = 5e-5;
-  constexpr double kInCorner = 0.92;  // an octagon's corners reach out by no more than its inverse
-  return {&portal, shaft,
+  return {portal.p_W, shaft,
           std::max(kMostYield_m + kRoom_m, kInCorner * off_portal(portal, shaft, X_WT))};
 }
 
-PortalRing ring_about_line(const Portal& on_line, const Vec3& along_W, const Pose& X_WT) {
-  constexpr double kRoom_m = 2e-5, kInCorner = 0.92;
-  const Vec3 off_W = X_WT.p - on_line.p_W;
+PortalRing ring_about_line(const Vec3& p_W, const Vec3& along_W, const Pose& X_WT) {
+  constexpr double kRoom_m = 2e-5;
+  const Vec3 off_W = X_WT.p - p_W;
   const double off = (off_W - off_W.dot(along_W) * along_W).norm();
-  return {&on_line, {Vec3::Zero(), Vec3::UnitZ(), 0}, std::max(kRoom_m, kInCorner * off)};
+  return {p_W, {Vec3::Zero(), Vec3::UnitZ(), 0}, std::max(kRoom_m, kInCorner * off)};
 }
 
 void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const Pose& X_WP,

@@ -56,13 +56,13 @@ PortalPivot pivot_in(std::span<const Portal> portals, const Capsule& shaft, cons
 /// yield.
 Quat through_portal(const Portal& portal, const Capsule& shaft, const Vec3& p_W, const Quat& q_W);
 
-/// What keeps a shaft from leaving its portal sideways, whatever bone does to its tip: where its
-/// origin may be for a turn, an octagon across the axis.
+/// What keeps a shaft from leaving its portal, or a line that leads it, sideways, whatever bone
+/// does to its tip: where its origin may be for a turn, an octagon across the axis.
 struct PortalRing {
   static constexpr std::uint32_t kPlanes = 8;
-  const Portal* portal = nullptr;
-  Capsule shaft;        ///< in Tool
-  double radius_m = 0;  ///< of the circle in the octagon
+  Vec3 p_W = Vec3::Zero();  ///< where the axis passes
+  Capsule shaft;            ///< in Tool
+  double radius_m = 0;      ///< of the circle in the octagon
   void raise(const Quat& q_WT, std::span<FreeHalfSpace> out) const;
 };
 
@@ -70,8 +70,8 @@ struct PortalRing {
 PortalRing ring_of(const Portal& portal, const Capsule& shaft, const Pose& X_WT);
 
 /// What keeps a tool's origin on a line that its axis lies in: within 20 um of it, or no farther
-/// than it is off already. `on_line` holds a place of the line and must outlive the ring.
-PortalRing ring_about_line(const Portal& on_line, const Vec3& along_W, const Pose& X_WT);
+/// than it is off already. `p_W`: a place on the line; `along_W`: unit.
+PortalRing ring_about_line(const Vec3& p_W, const Vec3& along_W, const Pose& X_WT);
 
 /// How far the shaft's axis passes from the portal, across the axis, m.
 double off_portal(const Portal& portal, const Capsule& shaft, const Pose& X_WT);

@@ -152,6 +152,7 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
   if (tool.tick == 0 || tool.epoch != bones.epoch || tool.instrument >= setup_->tray.size()) return;
   guides_[hand] = {};
   CarvingHand& h = hands_[hand];
+  if (h.instrument == CarvingHand::kAnyInstrument) h.instrument = tool.instrument;
   if (h.instrument != tool.instrument) {
     // Who takes another instrument lets a pin go; who takes one beside a pin takes that.
     ToolState chuck = tool;

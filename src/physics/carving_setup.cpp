@@ -69,7 +69,7 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
   if (instrument.power && instrument.power->unit == "rpm")
     tool.most_rev_per_s = instrument.power->most / 60;
   if (instrument.power && instrument.power->unit == "W") tool.most_w = instrument.power->most;
-  tool.stays = drills && instrument.can(InstrumentFunction::kGuide);
+  tool.stays = tool.way == Way::kDrill && instrument.can(InstrumentFunction::kGuide);
   tool.length_m = instrument.shaft.to.at(size_m).z();
   if (tool.way == Way::kDrill) shorten(tool.cutter);
   shift_back(tool.cutter, removal.back_plus_m + removal.back_per_size * size_m);

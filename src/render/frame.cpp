@@ -122,4 +122,12 @@ Eigen::Matrix4f to_matrix(const Pose& X) {
   return m.cast<float>();
 }
 
+Eigen::Matrix4f scaled(const Pose& X, double across, double along) {
+  Eigen::Matrix4f m = to_matrix(X);
+  m.col(0) *= static_cast<float>(across);
+  m.col(1) *= static_cast<float>(across);
+  m.col(2) *= static_cast<float>(along);
+  return m;
+}
+
 }  // namespace osteon

@@ -50,5 +50,7 @@ bool in_tiles(const Frame& frame, const Vec3& center_C, double radius_m);
 
 /// View-from-model matrix of a pose.
 Eigen::Matrix4f to_matrix(const Pose& X);
+/// The same for a model that is scaled: `across` in x and y, `along` in z.
+Eigen::Matrix4f scaled(const Pose& X, double across, double along);
 
 }  // namespace osteon

@@ -28,14 +28,6 @@ bool hand_is_apart(const ToolState& tool) {
 /// Turns +z to the unit vector n; any rotation about n will do.
 Quat z_towards(const Vec3& n) { return Quat::FromTwoVectors(Vec3::UnitZ(), n); }
 
-Eigen::Matrix4f scaled(const Pose& X, double across, double along) {
-  Eigen::Matrix4f m = to_matrix(X);
-  m.col(0) *= static_cast<float>(across);
-  m.col(1) *= static_cast<float>(across);
-  m.col(2) *= static_cast<float>(along);
-  return m;
-}
-
 }  // namespace
 
 void ScenePainter::set_marks(std::span<const SolidMark> marks) {

@@ -42,14 +42,6 @@ std::vector<DrawnRod> drawn_lines(const BoneSnapshot& bones) {
   return out;
 }
 
-Eigen::Matrix4f stretched(const Pose& X, double across, double along) {
-  Eigen::Matrix4f m = to_matrix(X);
-  m.col(0) *= static_cast<float>(across);
-  m.col(1) *= static_cast<float>(across);
-  m.col(2) *= static_cast<float>(along);
-  return m;
-}
-
 }  // namespace
 
 std::vector<ScenePainter::Capsule> ScenePainter::rod_capsules(const RenderSnapshot& snapshot) {
@@ -64,7 +56,7 @@ void ScenePainter::paint_rods(const RenderSnapshot& snapshot, const Frame& frame
   for (const DrawnRod& rod : drawn_rods(snapshot.bones)) {
     shared_->metal.use();
     shared_->metal.set("u_view_from_model",
-                       stretched(frame.X_CW * rod.X_WR, rod.radius_m, rod.length_m));
+                       scaled(frame.X_CW * rod.X_WR, rod.radius_m, rod.length_m));
     shared_->metal.set("u_color", kRodSteel);
     shared_->shaft.draw();
   }
@@ -79,7 +71,7 @@ void ScenePainter::paint_lines(const RenderSnapshot& snapshot, const Frame& fram
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   for (const DrawnRod& line : lines)
-    paint_mark(shared_->shaft, stretched(frame.X_CW * line.X_WR, line.radius_m, line.length_m),
+    paint_mark(shared_->shaft, scaled(frame.X_CW * line.X_WR, line.radius_m, line.length_m),
                kLineBehindBone);
   glDisable(GL_CULL_FACE);
 }

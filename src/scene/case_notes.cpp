@@ -17,33 +17,6 @@ constexpr const char* kNotesFile = "notes.toml";
 constexpr std::uint64_t kNotesLimit_bytes = 1u << 20;
 constexpr double kFarthestNote_m = 2;
 
-// Bytes that follow the first one of a character; -1: it begins none.
-int following_bytes(unsigned char first) {
-  if (first < 0x80) return 0;
-  if (first >= 0xc2 && first < 0xe0) return 1;
-  if (first >= 0xe0 && first < 0xf0) return 2;
-  return first >= 0xf0 && first < 0xf5 ? 3 : -1;
-}
-
-// Well-formed as TOML's reader wants it: no surrogates, no long forms, nothing beyond U+10FFFF.
-bool is_one_line_of_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    const int more = following_bytes(first);
-    if (more < 0 || first < 0x20 || first == 0x7f) return false;
-    for (int k = 1; k <= more; ++k)
-      if (i + static_cast<std::size_t>(k) >= text.size() ||
-          (static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]) & 0xc0) != 0x80)
-        return false;
-    const auto second = more > 0 ? static_cast<unsigned char>(text[i + 1]) : 0x80;
-    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
-        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
-      return false;
-    i += 1 + static_cast<std::size_t>(more);
-  }
-  return true;
-}
-
 std::string note_quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -51,6 +24,18 @@ std::string note_quoted(const std::string& text) {
     out += c;
   }
   return out + "\"";
+}
+
+// What was written must be read again: TOML's reader knows what UTF-8 is.
+bool is_one_line_of_utf8(const std::string& text) {
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) return false;
+  try {
+    (void)toml::parse("text = " + note_quoted(text));
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+  return true;
 }
 
 Result<CaseNote> read_note(const toml::table& table, const std::string& where, std::size_t number) {

@@ -39,7 +39,7 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
   if (function == InstrumentFunction::kLook) return instrument.optics.has_value();
   if (function == InstrumentFunction::kGuide)
-    return instrument.aims.has_value() || instrument.removal.has_value();
+    return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
   return function == InstrumentFunction::kProbe;
 }
 

@@ -350,7 +350,10 @@ void field(A& a, CarvingHand& h) {
   for (bool* x : {&h.was_in, &h.skives, &h.jaw_open}) field(a, *x);
   field(a, h.out);
   field(a, h.p_out);
-  if (!knows_guides(a)) return;
+  if (!knows_guides(a)) {
+    h.instrument = CarvingHand::kAnyInstrument;  // that which the hand holds
+    return;
+  }
   for (double* x : {&h.lag_m, &h.grip}) field(a, *x);
   field(a, h.mouth_B);
   for (bool* x : {&h.in_hole, &h.open}) field(a, *x);

@@ -45,4 +45,7 @@ struct HapticState {
   std::vector<PairMemory> pairs;       ///< those that were near, in their order; then kNone
 };
 
+/// Of all that decides what the next ticks feel.
+std::uint64_t hash_of(const HapticState& state);
+
 }  // namespace osteon

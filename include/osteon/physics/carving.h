@@ -80,13 +80,14 @@ struct CarvingHand {
   double plunge_m = 0;
   double twist_rad = 0;  ///< about its axis since it began, of what the hand turns
   bool jaw_open = false;
-  bool in_hole = false;          ///< its hole holds it: it goes along the hole's line alone
-  bool open = false;             ///< nothing is before its tip
-  double lag_m = 0;              ///< the cutter still stands so far behind X_BC
-  Vec3 mouth_B = Vec3::Zero();   ///< where the hole begins
-  std::uint32_t rod = 0;         ///< that leads it: 1 + its place in Carving::rods; 0: none
-  double grip = 0;               ///< of the rod, 0 to 1
-  std::uint32_t instrument = 0;  ///< in the tray
+  bool in_hole = false;         ///< its hole holds it: it goes along the hole's line alone
+  bool open = false;            ///< nothing is before its tip
+  double lag_m = 0;             ///< the cutter still stands so far behind X_BC
+  Vec3 mouth_B = Vec3::Zero();  ///< where the hole begins
+  std::uint32_t rod = 0;        ///< that leads it: 1 + its place in Carving::rods; 0: none
+  double grip = 0;              ///< of the rod, 0 to 1
+  static constexpr std::uint32_t kAnyInstrument = 0xffffffffu;  ///< that which the hand holds
+  std::uint32_t instrument = 0;                                 ///< in the tray
   friend bool operator==(const CarvingHand&, const CarvingHand&);
 };
 

@@ -1,6 +1,7 @@
 #include "window/controllers/remembered_looks.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "cases/felt_choice.h"
@@ -10,6 +11,19 @@ namespace {
 
 // Before the names of soft parts, which may be those of bones.
 const std::string kSoftLook = "soft:";
+
+// What is kept of light and marks, beside what is shown: one list for both directions.
+template <class Settings, class View, class Copy>
+void each_light(Settings& kept, View& shown, Copy copy) {
+  copy(kept.show_hulls, shown.show_hulls);
+  copy(kept.show_felt, shown.show_felt);
+  copy(kept.show_force, shown.show_force);
+  copy(kept.show_hand_ghost, shown.show_hand_ghost);
+  copy(kept.light_azimuth_rad, shown.light_azimuth_rad);
+  copy(kept.light_elevation_rad, shown.light_elevation_rad);
+  copy(kept.light_brightness, shown.light_brightness);
+  copy(kept.ambient_occlusion, shown.ambient_occlusion);
+}
 
 }  // namespace
 
@@ -50,25 +64,15 @@ void remember_looks(AppSettings& settings, const std::string& source, const Case
 }
 
 void recall_light(const AppSettings& settings, ViewState& view) {
-  view.show_hulls = settings.show_hulls;
-  view.show_felt = settings.show_felt;
-  view.show_force = settings.show_force;
-  view.show_hand_ghost = settings.show_hand_ghost;
-  view.light_azimuth_rad = settings.light_azimuth_rad;
-  view.light_elevation_rad = settings.light_elevation_rad;
-  view.light_brightness = static_cast<float>(settings.light_brightness);
-  view.ambient_occlusion = static_cast<float>(settings.ambient_occlusion);
+  each_light(settings, view, [](const auto& kept, auto& shown) {
+    shown = static_cast<std::decay_t<decltype(shown)>>(kept);
+  });
 }
 
 void remember_light(AppSettings& settings, const ViewState& view) {
-  settings.show_hulls = view.show_hulls;
-  settings.show_felt = view.show_felt;
-  settings.show_force = view.show_force;
-  settings.show_hand_ghost = view.show_hand_ghost;
-  settings.light_azimuth_rad = view.light_azimuth_rad;
-  settings.light_elevation_rad = view.light_elevation_rad;
-  settings.light_brightness = static_cast<double>(view.light_brightness);
-  settings.ambient_occlusion = static_cast<double>(view.ambient_occlusion);
+  each_light(settings, view, [](auto& kept, const auto& shown) {
+    kept = static_cast<std::decay_t<decltype(kept)>>(shown);
+  });
 }
 
 }  // namespace osteon
