@@ -93,11 +93,14 @@ bool share_axis(const Wall& a, const Wall& b, const HoleOptions& options) {
          std::abs(a.fit.radius - b.fit.radius) < 2 * options.roundness_m;
 }
 
-/// Way in bone from p along d, m: to the next surface, zero where the ray enters bone there, so
-/// that it began beside it; infinite where there is none.
-double way_out(const TriMesh& mesh, const Vec3& p, const Vec3& d) {
-  double best = std::numeric_limits<double>::infinity();
-  bool leaves = true;
+/// The next surface from p along the unit vector d.
+struct NextSurface {
+  double way = std::numeric_limits<double>::infinity();  ///< m; infinite: there is none
+  bool leaves = true;                                    ///< bone; else the ray enters it
+};
+
+NextSurface next_surface(const TriMesh& mesh, const Vec3& p, const Vec3& d) {
+  NextSurface next;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
     const Vec3 q = d.cross(ac);
@@ -110,11 +113,20 @@ double way_out(const TriMesh& mesh, const Vec3& p, const Vec3& d) {
     const double v = d.dot(r) / det;
     if (v < 0 || u + v > 1) continue;
     const double way = ac.dot(r) / det;
-    if (way <= 1e-9 || way >= best) continue;
-    best = way;
-    leaves = det < 0;
+    if (way <= 1e-9 || way >= next.way) continue;
+    next = {way, det < 0};
   }
-  return leaves ? best : 0;
+  return next;
+}
+
+/// Whether a drill's point ended in bone beyond the rim: its wall ends in a plane, and bone closes
+/// the axis no farther beyond than a point of 60 degrees reaches (1.73 radii) or a ball's end.
+bool has_pointed_bottom(const TriMesh& mesh, const Cylinder& fit, const WallRim& rim, double way) {
+  constexpr double kPlane = 0.3, kFrom = 0.1, kPoint = 1.8;  // in radii
+  if (rim.highest - rim.lowest > kPlane * fit.radius) return false;
+  const Vec3 p = fit.point + (rim.height - way * kFrom * fit.radius) * fit.axis;
+  const NextSurface next = next_surface(mesh, p, way * fit.axis);
+  return !next.leaves && next.way < (kFrom + kPoint) * fit.radius;
 }
 
 /// The triangles that a ray across the axis can meet between two heights.
@@ -148,8 +160,8 @@ void measure_thickness(const TriMesh& mesh, const Cylinder& fit, double low, dou
       // From just within bone, past the wall's own facets.
       const double start = fit.radius + 0.02e-3;
       const Vec3 p = fit.point + height * fit.axis + start * d;
-      const double clear = way_out(level, p, d);
-      const double way = clear > 0 ? clear + 0.02e-3 : 0;
+      const NextSurface next = next_surface(level, p, d);
+      const double way = next.leaves ? next.way + 0.02e-3 : 0;  // else it began beside the bone
       if (hole.thinnest_wall_m && way >= *hole.thinnest_wall_m) continue;
       if (!std::isfinite(way)) continue;
       hole.thinnest_wall_m = way;
@@ -171,8 +183,12 @@ std::vector<WallRim> joined_rims(const Faces& faces, const std::vector<Wall>& wa
 
 std::optional<Hole> hole_of(const Faces& faces, const std::vector<Wall>& walls) {
   const Cylinder& fit = walls[0].fit;
-  const std::vector<WallRim> rims = joined_rims(faces, walls, fit);
+  std::vector<WallRim> rims = joined_rims(faces, walls, fit);
   if (rims.size() < 2) return std::nullopt;
+  for (const double way : {-1.0, 1.0}) {
+    WallRim& end = way < 0 ? rims.front() : rims.back();
+    end.bottom = end.bottom || has_pointed_bottom(faces.mesh, fit, end, way);
+  }
   std::size_t round = 0;
   for (const WallRim& rim : rims) round += std::abs(rim.round) > M_PI ? 1 : 0;
   const WallRim &low = rims.front(), &high = rims.back();

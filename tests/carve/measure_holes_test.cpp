@@ -112,6 +112,34 @@ TEST(FindHoles, AHoleThatCameOfAFieldIsFoundAsWell) {
   EXPECT_TRUE(holes[0].through);
 }
 
+// A drill's point leaves a cone, which is a bottom as a flat end is.
+TEST(FindHoles, AHoleThatEndsInADrillsPointIsBlind) {
+  const auto field = [](const Vec3& p) {
+    const double block = (p.cwiseAbs() - Vec3::Constant(8 * kMm)).maxCoeff();
+    const double off = std::hypot(p.x(), p.y());
+    // The wall from above down to z = 0, then a point of 118 degrees.
+    const double rod = std::max(off - 3 * kMm, -p.z());
+    const double cone =
+        std::max(off * std::sin(59 * M_PI / 180) -
+                     (p.z() + 3 * kMm / std::tan(59 * M_PI / 180)) * std::cos(59 * M_PI / 180),
+                 p.z());
+    return std::max(block, -std::min(rod, cone));
+  };
+  Aabb box;
+  box.include(Vec3::Constant(-9.1 * kMm));
+  box.include(Vec3::Constant(9.1 * kMm));
+  IsosurfaceOptions options;
+  options.cell_m = 0.3 * kMm;
+  const auto mesh = isosurface(field, box, options);
+  ASSERT_TRUE(mesh) << mesh.error().message();
+  const auto holes = find_holes(*mesh);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_FALSE(holes[0].through);
+  EXPECT_NEAR(holes[0].entry.z(), 8 * kMm, 0.5 * kMm);
+  EXPECT_NEAR(holes[0].exit.z(), 0, 0.5 * kMm);
+  EXPECT_LT(holes[0].axis.z(), -0.999);
+}
+
 TEST(ShareRemoved, IsThatOfTheBall) {
   const TriMesh bone = test::cube(10 * kMm);
   const MeshDistance before(bone), after(drilled(bone, {-20, 0, 0}, {20, 0, 0}, 6));

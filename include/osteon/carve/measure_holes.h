@@ -12,11 +12,11 @@ namespace osteon {
 /// A straight round hole in a surface, in the surface's frame.
 struct Hole {
   Vec3 entry = Vec3::Zero();  ///< on the axis, in the middle of the first rim
-  Vec3 exit = Vec3::Zero();   ///< in the middle of the other rim, or of the flat bottom
+  Vec3 exit = Vec3::Zero();   ///< in the middle of the other rim, or of where its wall ends
   Vec3 axis = Vec3::UnitZ();  ///< unit, from entry to exit
   double diameter_m = 0;
-  double length_m = 0;  ///< from entry to exit
-  bool through = false;
+  double length_m = 0;   ///< from entry to exit
+  bool through = false;  ///< neither end has a bottom, flat or pointed
   /// Openings of the wall beside the two ends: a cortex that the drill broke sideways, or a hole
   /// that it crossed.
   std::size_t side_openings = 0;
