@@ -5,7 +5,7 @@ packages_build=(
   libeigen3-dev libbullet-dev libassimp-dev libopencv-dev libglfw3-dev libimgui-dev
   libusb-1.0-0-dev libepoxy-dev libsqlite3-dev libzstd-dev libtomlplusplus-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libexpected-dev libmeshoptimizer-dev
-  libgdcm-dev zlib1g-dev libhpdf-dev libhdf5-dev libpqxx-dev libcurl4-openssl-dev
+  libgdcm-dev zlib1g-dev libpng-dev libtiff-dev libhpdf-dev libhdf5-dev libpqxx-dev libcurl4-openssl-dev
   libavcodec-dev libavformat-dev libavutil-dev
   libnanoflann-dev libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )

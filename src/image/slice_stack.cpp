@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "grey_picture.h"
 #include "osteon/base/file.h"
 #include "picture_header.h"
 #include "raw_values.h"
@@ -40,36 +40,24 @@ bool natural_less(const fs::path& a, const fs::path& b) {
   return s.size() - i < t.size() - j;
 }
 
-Result<cv::Mat> decode_picture(std::string_view bytes, const std::string& where) {
+Result<GreyPicture> decode_picture(std::string_view bytes, const std::string& where) {
   if (auto sane = check_picture_header(bytes, where); !sane) return tl::unexpected(sane.error());
-  const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-  cv::Mat picture;
-  try {
-    picture = cv::imdecode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    picture.release();
-  }
-  if (picture.empty()) return fail("is damaged or no picture", where, "Export the slices again");
-  if (picture.channels() != 1 || (picture.depth() != CV_16U && picture.depth() != CV_16S))
-    return fail("is not a grey picture of 16 bits", where,
-                "Export 16-bit slices: fewer bits cannot hold Hounsfield units");
-  return picture;
+  return bytes.front() == '\x89' ? decode_png(bytes, where) : decode_tiff(bytes, where);
 }
 
-Result<cv::Mat> read_picture(const fs::path& file) {
+Result<GreyPicture> read_picture(const fs::path& file) {
   const auto bytes = read_file(file, kPictureLimitBytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return decode_picture(*bytes, file.string());
 }
 
 /// Unsigned pictures hold HU + 1024.
-void append(const cv::Mat& picture, Volume& volume) {
-  for (int row = 0; row < picture.rows; ++row)
-    for (int column = 0; column < picture.cols; ++column) {
-      const int hu = picture.depth() == CV_16U ? picture.at<std::uint16_t>(row, column) - 1024
-                                               : picture.at<std::int16_t>(row, column);
-      volume.values.push_back(static_cast<std::int16_t>(std::min(hu, 32767)));
-    }
+void append(const GreyPicture& picture, Volume& volume) {
+  for (std::size_t k = 0; k < picture.count(); ++k) {
+    const int hu =
+        picture.is_signed ? static_cast<std::int16_t>(picture.values[k]) : picture.values[k] - 1024;
+    volume.values.push_back(static_cast<std::int16_t>(std::min(hu, 32767)));
+  }
 }
 
 Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
@@ -92,7 +80,7 @@ Result<GridFrame> frame_of_stack(const std::vector<fs::path>& files,
   if (!first) return tl::unexpected(first.error());
   GridFrame frame;
   frame.spacing_m = *spacing_m;
-  frame.size = {first->cols, first->rows,
+  frame.size = {first->width, first->height,
                 static_cast<int>(std::min<std::size_t>(files.size(), 1 << 20))};
   if (auto sane = check_size(frame, where); !sane) return tl::unexpected(sane.error());
   return frame;
@@ -109,7 +97,7 @@ Result<Volume> parse_picture(std::string_view bytes, const std::string& where) {
   const auto picture = decode_picture(bytes, where);
   if (!picture) return tl::unexpected(picture.error());
   Volume volume;
-  volume.frame.size = {picture->cols, picture->rows, 1};
+  volume.frame.size = {picture->width, picture->height, 1};
   append(*picture, volume);
   return volume;
 }
@@ -134,7 +122,7 @@ Result<Volume> read_slice_stack(const fs::path& folder, const std::optional<Vec3
   for (const fs::path& file : *files) {
     const auto picture = read_picture(file);
     if (!picture) return tl::unexpected(picture.error());
-    if (picture->cols != frame->size[0] || picture->rows != frame->size[1])
+    if (picture->width != frame->size[0] || picture->height != frame->size[1])
       return fail("has another size than " + files->front().filename().string(), file.string(),
                   "Put the slices of one scan into the folder");
     append(*picture, volume);

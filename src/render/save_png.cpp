@@ -1,9 +1,7 @@
-#include <exception>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <png.h>
+
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "osteon/base/file.h"
 #include "osteon/render/renderer.h"
@@ -11,19 +9,15 @@
 namespace osteon {
 namespace {
 
-/// OpenCV's order of channels.
-cv::Mat to_bgr(const Image& image) {
-  cv::Mat bgr(image.height, image.width, CV_8UC3);
-  const std::uint8_t* source = image.rgb.data();
-  for (int row = 0; row < image.height; ++row) {
-    std::uint8_t* target = bgr.ptr<std::uint8_t>(row);
-    for (int k = 0; k < image.width; ++k, source += 3, target += 3) {
-      target[0] = source[2];
-      target[1] = source[1];
-      target[2] = source[0];
-    }
-  }
-  return bgr;
+/// The fast settings: a picture is saved in a fraction of the time that it takes to draw.
+png_image head_of(const Image& image) {
+  png_image head{};
+  head.version = PNG_IMAGE_VERSION;
+  head.width = static_cast<png_uint_32>(image.width);
+  head.height = static_cast<png_uint_32>(image.height);
+  head.format = PNG_FORMAT_RGB;
+  head.flags = PNG_IMAGE_FLAG_FAST;
+  return head;
 }
 
 }  // namespace
@@ -34,17 +28,13 @@ Result<void> save_png(const Image& image, const std::filesystem::path& file) {
                                            static_cast<std::size_t>(image.height))
     return fail("the picture is empty", file.string(),
                 "give it a width and a height of at least one pixel");
-  std::vector<std::uint8_t> png;
-  try {
-    if (!cv::imencode(".png", to_bgr(image), png))
-      return fail("the picture cannot be encoded as PNG", file.string(),
-                  "check that OpenCV was built with PNG");
-  } catch (const std::exception& e) {
-    return fail(std::string("the picture cannot be encoded as PNG: ") + e.what(), file.string(),
+  png_image head = head_of(image);
+  png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(head);
+  std::string png(bytes, '\0');
+  if (!png_image_write_to_memory(&head, png.data(), &bytes, 0, image.rgb.data(), 0, nullptr))
+    return fail(std::string("the picture cannot be encoded as PNG: ") + head.message, file.string(),
                 "try a smaller picture");
-  }
-  return write_file_atomic(file,
-                           std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
+  return write_file_atomic(file, std::string_view(png).substr(0, bytes));
 }
 
 }  // namespace osteon

@@ -1,9 +1,8 @@
 // Files of every format, made byte by byte, then spoilt.
 #include "volume_files.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "osteon/image/load_volume.h"
+#include "slice_files.h"
 #include "temp_folder.h"
 #include "volume_bytes.h"
 
@@ -176,9 +175,11 @@ TEST_F(VolumeFiles, BadInv3IsNamed) {
 
 TEST_F(VolumeFiles, PictureStacksInTheOrderOfTheirNumbers) {
   for (int k = 0; k < 12; ++k) {
-    cv::Mat picture(4, 6, CV_16U, cv::Scalar(1024 + 100 * k));
-    picture.at<std::uint16_t>(1, 2) = 1000;
-    cv::imwrite(file("s" + std::to_string(k) + (k % 2 ? ".png" : ".tif")).string(), picture);
+    TestSlice slice(6, 4, static_cast<std::uint16_t>(1024 + 100 * k));
+    slice.at(1, 2) = 1000;
+    const std::string name = "s" + std::to_string(k);
+    if (k % 2) write_png_slice(slice, file(name + ".png"));
+    if (k % 2 == 0) write_tiff_slice(slice, file(name + ".tif"));
   }
   EXPECT_FALSE(load_volume(dir_));
   LoadVolumeOptions options;
@@ -188,7 +189,7 @@ TEST_F(VolumeFiles, PictureStacksInTheOrderOfTheirNumbers) {
   EXPECT_EQ(volume->frame.size, (std::array<int, 3>{6, 4, 12}));
   for (int k = 0; k < 12; ++k) EXPECT_EQ(volume->at(0, 0, k), 100 * k);
   EXPECT_EQ(volume->at(2, 1, 5), -24);
-  cv::imwrite(file("s5.png").string(), cv::Mat(4, 6, CV_8U, cv::Scalar(3)));
+  write_png_slice(TestSlice(6, 4, 3, 8), file("s5.png"));
   EXPECT_NE(load_volume(dir_, options).error().message().find("16 bits"), std::string::npos);
   write(file("s5.png"), "broken");
   EXPECT_NE(load_volume(dir_, options).error().message().find("s5.png"), std::string::npos);

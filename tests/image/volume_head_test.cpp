@@ -1,11 +1,11 @@
 // What is said of a scan before its voxels are read: from files that end where the voxels begin.
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 
 #include "osteon/image/dicom.h"
 #include "osteon/image/load_volume.h"
+#include "slice_files.h"
 #include "temp_folder.h"
 #include "volume_bytes.h"
 
@@ -98,8 +98,7 @@ TEST_F(VolumeHeads, Inv3WhereverItsDescriptionLies) {
 
 TEST_F(VolumeHeads, PicturesByTheFirstOne) {
   for (int k = 0; k < 5; ++k)
-    cv::imwrite(file("s" + std::to_string(k) + ".png").string(),
-                cv::Mat(7, 9, CV_16U, cv::Scalar(1024)));
+    write_png_slice(TestSlice(9, 7, 1024), file("s" + std::to_string(k) + ".png"));
   write(file("s4.png"), "broken");
   const Told told = load(dir_);
   ASSERT_TRUE(told.head);
