@@ -1,5 +1,7 @@
 #include "hex_forces.h"
 
+#include "hex_viscous.h"
+
 namespace osteon {
 namespace {
 
@@ -62,6 +64,7 @@ void reckon_forces(const HexSolid& solid, const Supports& supports, double time_
       row.fill = solid.fill.data() + first;
       work(constants, row);
     }
+  add_viscous_forces(solid, state, scratch.force_n);
   add_loads(supports, time_s, scratch);
 }
 

@@ -121,6 +121,10 @@ double stable_step_s(const HexSolid& solid) {
   return 0.35 * solid.grid.cell_m / wave_speed_m_per_s(solid.material);
 }
 
-SolidState rest_state(const HexSolid& solid) { return state_at_rest(solid.slots, false); }
+SolidState rest_state(const HexSolid& solid) {
+  SolidState state = state_at_rest(solid.slots, false);
+  state.lost_pa.assign(6 * solid.material.prony.size() * solid.slots, 0.0);
+  return state;
+}
 
 }  // namespace osteon

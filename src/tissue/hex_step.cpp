@@ -1,8 +1,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hex_element.h"
+#include "hex_cube.h"
 #include "hex_forces.h"
+#include "hex_viscous.h"
 
 namespace osteon {
 namespace {
@@ -41,25 +42,6 @@ void place_held(const Supports& supports, double dt, double then_s, SolidState& 
 
 double time_of(const SolidState& state, double dt) { return static_cast<double>(state.tick) * dt; }
 
-hex::Modes<double> modes_of(const std::vector<double>& u, const HexSolid& solid, std::size_t s) {
-  const std::size_t b = s + solid.row_stride, c = s + solid.layer_stride, d = c + solid.row_stride;
-  return hex::to_modes(u[s], u[s + 1], u[b], u[b + 1], u[c], u[c + 1], u[d], u[d + 1]);
-}
-
-struct Cube {
-  hex::Modes<double> x, y, z;  // along rows, lines, layers
-};
-Cube cube_at(const HexSolid& solid, const SolidState& state, std::size_t s) {
-  return {modes_of(state.moved_m[solid.axis[0]], solid, s),
-          modes_of(state.moved_m[solid.axis[1]], solid, s),
-          modes_of(state.moved_m[solid.axis[2]], solid, s)};
-}
-
-hex::Deformation<double> deformation(const Cube& m, double s) {
-  return hex::deform<double>(m.x.x * s, m.x.y * s, m.x.z * s, m.y.x * s, m.y.y * s, m.y.z * s,
-                             m.z.x * s, m.z.y * s, m.z.z * s);
-}
-
 double hourglass_square(const hex::Modes<double>& m) {
   return m.xy * m.xy + m.xz * m.xz + m.yz * m.yz + m.xyz * m.xyz;
 }
@@ -69,9 +51,9 @@ void add_elastic_energy(const HexSolid& solid, const SolidState& state, SolidEne
   const double volume = std::pow(solid.grid.cell_m, 3);
   for (std::size_t s = 0; s < solid.slots; ++s) {
     if (!(solid.fill[s] > 0)) continue;
-    const Cube m = cube_at(solid, state, s);
+    const hex::Cube m = hex::cube_at(solid, state, s);
     sum.strain_j += solid.fill[s] * volume *
-                    hex::neo_hookean_energy(deformation(m, k.per_edge), k.shear_pa, k.bulk_pa);
+                    hex::neo_hookean_energy(hex::deformation(m, k.per_edge), k.shear_pa, k.bulk_pa);
     sum.hourglass_j += solid.fill[s] * 0.5 * k.hourglass *
                        (hourglass_square(m.x) + hourglass_square(m.y) + hourglass_square(m.z));
   }
@@ -96,6 +78,7 @@ double centred_kinetic_j(const HexSolid& solid, const Supports& supports, double
 void step(const HexSolid& solid, const Supports& supports, double step_s, SolidState& state,
           HexScratch& scratch) {
   const double now_s = time_of(state, step_s);
+  relax(solid, step_s, state);
   reckon_forces(solid, supports, now_s, state, scratch);
   advance(solid, step_s, state, scratch);
   ++state.tick;
@@ -132,7 +115,7 @@ std::optional<LostElement> find_lost(const HexSolid& solid, const SolidState& st
   std::size_t s = 0;
   for (; s < solid.slots; ++s) {
     if (!(solid.fill[s] > 0)) continue;
-    const double j = deformation(cube_at(solid, state, s), per_edge).j;
+    const double j = hex::deformation(hex::cube_at(solid, state, s), per_edge).j;
     if (j >= kLeastRatio && j < std::numeric_limits<double>::infinity()) continue;
     const auto at = solid.place(s);
     const auto& n = solid.grid.cells;

@@ -7,6 +7,19 @@ namespace {
 
 bool above_zero(double x) { return std::isfinite(x) && x > 0; }
 
+Result<void> check_prony(const std::vector<PronyTerm>& terms) {
+  double sum = 0;
+  bool sound = terms.size() <= kMostPronyTerms;
+  for (const PronyTerm& term : terms) {
+    sound = sound && term.g >= 0 && above_zero(term.tau_s);
+    sum += term.g;
+  }
+  if (sound && sum < 1) return {};
+  return fail("must be " + std::to_string(kMostPronyTerms) +
+                  " terms at most, each g 0 or more, tau_s above 0, all g together below 1",
+              "material.prony", "Give the shares of the shear modulus that are lost, and how fast");
+}
+
 }  // namespace
 
 double shear_modulus_pa(const SolidMaterial& m) { return m.young_pa / (2 * (1 + m.poisson)); }
@@ -27,7 +40,7 @@ Result<void> check_material(const SolidMaterial& m) {
     return fail("must be a number above 0", "material.density_kg_per_m3", "Water has 1000");
   if (!(std::isfinite(m.damping_per_s) && m.damping_per_s >= 0))
     return fail("must be 0 or more", "material.damping_per_s", "Use 0 for none");
-  return {};
+  return check_prony(m.prony);
 }
 
 }  // namespace osteon

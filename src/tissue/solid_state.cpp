@@ -37,13 +37,14 @@ std::uint64_t hash_of(const SolidState& state) {
   Hasher hash;
   for (const auto* field : {&state.moved_m, &state.velocity_m_per_s, &state.acceleration_m_per_s2})
     for (const auto& values : *field) add(hash, values);
+  add(hash, state.lost_pa);
   hash.add(state.tick);
   return hash.value();
 }
 
 bool is_finite(const SolidState& state) {
   return all_finite(state.moved_m) && all_finite(state.velocity_m_per_s) &&
-         all_finite(state.acceleration_m_per_s2);
+         all_finite(state.acceleration_m_per_s2) && all_finite(state.lost_pa);
 }
 
 double kinetic_j(const SolidState& state, const std::vector<double>& mass_kg) {

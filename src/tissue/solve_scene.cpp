@@ -63,9 +63,24 @@ TissueModel read_model(SceneReader& in, const Table& material) {
   return TissueModel::kNeoHookean;
 }
 
+std::vector<PronyTerm> read_prony(SceneReader& in, const Table& material) {
+  std::vector<PronyTerm> out;
+  double sum = 0;
+  for (const Table& term : in.tables(material, "prony")) {
+    in.only(term, {"g", "tau_s"});
+    out.push_back({in.number(term, "g", {0, 1}), in.number(term, "tau_s", {1e-6, 1e6})});
+    sum += out.back().g;
+  }
+  if (!(sum < 1))
+    in.complain("loses all of the shear modulus: the g must be below 1 in all", material, "prony");
+  if (out.size() > kMostPronyTerms)
+    in.complain("must be " + std::to_string(kMostPronyTerms) + " terms at most", material, "prony");
+  return out;
+}
+
 SolidMaterial read_material(SceneReader& in, const Table& material) {
   in.only(material, {"model", "young_kpa", "poisson", "density_kg_per_m3", "damping_per_s",
-                     "friction", "condensed"});
+                     "friction", "condensed", "prony"});
   SolidMaterial out;
   out.young_pa = 1000 * in.number(material, "young_kpa", {1e-6, 1e9});
   out.poisson = in.number(material, "poisson", {0, 0.5});
@@ -74,6 +89,7 @@ SolidMaterial read_material(SceneReader& in, const Table& material) {
                 "Use 0.49 for what hardly changes its volume");
   out.density_kg_per_m3 = in.number(material, "density_kg_per_m3", {1e-3, 1e6});
   out.damping_per_s = in.number_or(material, "damping_per_s", {0, 1e6}, 0);
+  out.prony = read_prony(in, material);
   return out;
 }
 
@@ -179,6 +195,9 @@ Vec3 read_gravity(SceneReader& in, const Table& table) {
 }
 
 void read_run(SceneReader& in, const Table& run, SolveScene& scene) {
+  if (SceneReader::has(run, "step_s"))
+    in.complain("is chosen by the program: a longer step would not be stable", run, "step_s",
+                "Leave it out; the result names the step");
   in.only(run, {"time_s", "probe_mm", "gravity_m_per_s2"});
   scene.time_s = in.number(run, "time_s", {1e-6, 1e4});
   if (!SceneReader::has(run, "probe_mm")) return;
@@ -196,6 +215,9 @@ SolveScene read_scene(SceneReader& in, const Table& root) {
   scene.condensed = in.truth_or(material, "condensed", false);
   if (scene.condensed && scene.model != TissueModel::kLinear)
     in.complain("is for the model linear", material, "condensed", "Leave it out");
+  const bool cubes = scene.model == TissueModel::kNeoHookean && scene.body.grid;
+  if (!scene.material.prony.empty() && !cubes)
+    in.complain("is for the model neo_hookean of a grid", material, "prony", "Leave it out");
   scene.friction = in.number_or(material, "friction", {0, 10}, scene.friction);
   const Table run = in.table(root, "run");
   read_run(in, run, scene);

@@ -86,6 +86,18 @@ TEST(SolveSceneFile, NamesTheKeyAndTheLine) {
   names("density_kg_per_m3 = 1000\n", "", "material.density_kg_per_m3");
   names("damping_per_s = 5", "damping_per_s = -5", "material.damping_per_s");
   names("damping_per_s = 5", "dampening = 5", "material.dampening");
+  const auto with_prony = [](const std::string& terms) {
+    return "damping_per_s = 5\nprony = " + terms;
+  };
+  names("damping_per_s = 5", with_prony("0.3"), "material.prony");
+  names("damping_per_s = 5", with_prony("[{g = -0.3, tau_s = 0.1}]"), "material.prony[0].g");
+  names("damping_per_s = 5", with_prony("[{g = 0.3, tau_s = 0}]"), "material.prony[0].tau_s");
+  names("damping_per_s = 5", with_prony("[{g = 0.3}]"), "material.prony[0].tau_s");
+  names("damping_per_s = 5", with_prony("[{g = nan, tau_s = 1}]"), "material.prony[0].g");
+  names("damping_per_s = 5", with_prony("[{g = 0.6, tau_s = 1}, {g = 0.4, tau_s = 2}]"),
+        "material.prony");
+  names("\"neo_hookean\"", "\"linear\"\nprony = [{g = 0.3, tau_s = 1}]", "material.prony");
+  names("time_s = 2", "time_s = 2\nstep_s = 0.1", "run.step_s");
   names("[[1, 2, 3], [1, 10, 15]]", "[[1, 2, 3]]", "fixed[0].box_mm");
   names("axes = \"xz\"", "axes = \"xw\"", "fixed[0].axes");
   names("axes = \"xz\"", "axes = \"xx\"", "fixed[0].axes");

@@ -132,5 +132,21 @@ TEST(SolveTet, SaysWhatIsWrongWithAMesh) {
   EXPECT_NE(result.error().what.find("mesh.vtk"), std::string::npos);
 }
 
+TEST(SolveTet, RefusesAMeshOfTwoParts) {
+  SolveScene scene = test::cantilever(Bar{}, TissueModel::kCorotated, 0.001);
+  scene.body.grid.reset();
+  scene.body.tets = split_into_tetrahedra({{1, 1, 1}, 0.02, Vec3::Zero()});
+  const TetMesh other = split_into_tetrahedra({{1, 1, 1}, 0.02, {0.05, 0, 0}});
+  const auto shift = static_cast<std::uint32_t>(scene.body.tets.vertices.size());
+  auto& mesh = scene.body.tets;
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Tetrahedron& t : other.tets)
+    mesh.tets.push_back({t[0] + shift, t[1] + shift, t[2] + shift, t[3] + shift});
+  const auto result = solve(scene);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().what.find("mesh.vtk"), std::string::npos);
+  EXPECT_NE(result.error().what.find("2 parts"), std::string::npos) << result.error().what;
+}
+
 }  // namespace
 }  // namespace osteon

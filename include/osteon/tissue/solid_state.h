@@ -16,7 +16,10 @@ struct SolidState {
   /// Explicit solids: half a step before `moved_m` (leapfrog).
   Field velocity_m_per_s;
   Field acceleration_m_per_s2;  ///< implicit solids only
-  std::uint64_t tick = 0;       ///< steps done
+  /// Solids of Prony terms: stress that each term has lost, by term, component (xx, yy, zz, xy, xz,
+  /// yz, in axes of rows, lines, layers) and slot of the cell. Else empty.
+  std::vector<double> lost_pa = {};
+  std::uint64_t tick = 0;  ///< steps done
 
   Vec3 moved(std::size_t slot) const {
     return {moved_m[0][slot], moved_m[1][slot], moved_m[2][slot]};
