@@ -24,7 +24,7 @@ void add_quiet(CLI::App& app) {
         ProgressLine::keep_silent();
         if (!std::freopen("/dev/null", "w", stdout)) throw std::runtime_error("no /dev/null");
       },
-      "Print errors only; the exit code says the rest. May follow any command");
+      "Print errors only; the exit code gives the result. Works after any command");
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     command->fallthrough();
     for (CLI::App* sub : command->get_subcommands([](const CLI::App*) { return true; }))

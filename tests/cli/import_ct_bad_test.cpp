@@ -62,7 +62,7 @@ TEST_F(ImportCtBad, ContoursMoveOutlinesWhereTheyAreAskedFor) {
   const Ran with = run_osteon(import + file("case") + " --contours 15");
   ASSERT_EQ(with.exit_code, 0) << with.output;
   EXPECT_EQ(without.output.find("contours"), std::string::npos) << without.output;
-  EXPECT_NE(with.output.find("contours took in"), std::string::npos) << with.output;
+  EXPECT_NE(with.output.find("contours added"), std::string::npos) << with.output;
   EXPECT_NE(with.output.find("2 bones"), std::string::npos) << with.output;
   EXPECT_EQ(run_osteon("case check " + file("case")).exit_code, 0);
   EXPECT_EQ(run_osteon(import + file("other") + " --contours -1").exit_code, 2);

@@ -76,7 +76,7 @@ bool kill_at(pid_t child, const std::string& file, std::uintmax_t bytes) {
 // the recording breaks off; one that was cut before its first chunk was saved holds no tick.
 bool replays_as_far_as_saved(const std::string& recording) {
   const Ran replayed = run_osteon("replay " + recording);
-  const bool empty = replayed.output.find("holds no tick") != std::string::npos;
+  const bool empty = replayed.output.find("holds no ticks") != std::string::npos;
   const bool whole = replayed.output.find("incomplete") == std::string::npos && !empty;
   EXPECT_EQ(replayed.exit_code, whole ? 0 : 3) << replayed.output;
   EXPECT_NE(replayed.output.find(empty ? "nothing was replayed" : "identical"), std::string::npos)

@@ -164,7 +164,7 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
   EXPECT_NE(run_osteon("results list").output.find("Ada Lovelace"), std::string::npos);
   const Ran copied = run_osteon("results copy --to " + file("other.sqlite"));
   EXPECT_NE(copied.output.find("3 attempts copied"), std::string::npos) << copied.output;
-  EXPECT_NE(run_osteon("results copy --to " + file("other.sqlite")).output.find("3 were there"),
+  EXPECT_NE(run_osteon("results copy --to " + file("other.sqlite")).output.find("3 already there"),
             std::string::npos);
   const Ran sent = run_osteon("results send --to http://127.0.0.1:1/xapi");
   EXPECT_EQ(sent.exit_code, 1);
@@ -214,7 +214,7 @@ TEST_F(Teaching, RecordingsAreJudgedAgainInSharesAndOnce) {
     EXPECT_EQ(ran.exit_code, 0) << ran.output;
   }
   const Ran again = run_osteon(rescore);
-  EXPECT_NE(again.output.find("3 recordings: 0 judged, 3 were judged already"), std::string::npos)
+  EXPECT_NE(again.output.find("3 recordings: 0 judged, 3 already judged"), std::string::npos)
       << again.output;
   const TeachJson judged = read("judged/2.json");
   EXPECT_EQ(judged["scenario"], "fast_centring");

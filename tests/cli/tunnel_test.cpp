@@ -87,7 +87,7 @@ TEST(TunnelCommand, AMissSaysSoAndBadInputWritesNothing) {
   EXPECT_EQ(drill("", "0,0,0", "6").exit_code, 2);
   EXPECT_EQ(drill("#block", "0,0,nan", "6").exit_code, 2);
   EXPECT_EQ(drill("#block", "0,0,0", "-6").exit_code, 2);
-  EXPECT_EQ(drill("#block", "0,0,0", "90").exit_code, 2);  // takes the whole bone
+  EXPECT_EQ(drill("#block", "0,0,0", "90").exit_code, 2);  // removes the whole bone
   EXPECT_FALSE(fs::exists(out));
   const Printed missed = drill("#block", "300,0,100", "6");
   EXPECT_EQ(missed.exit_code, 1);

@@ -75,8 +75,9 @@ int run_make(const MakeCommand& command) {
   if (!made) return report_error(made.error());
   for (const auto& [name, value] : made->values) std::printf("%s = %g\n", name.c_str(), value);
   if (made->halvings > 0)
-    std::printf("bones met: drawn values were moved half the way to their means %d times\n",
-                made->halvings);
+    std::printf(
+        "the bones overlapped: the drawn values were moved half way to their means %d times\n",
+        made->halvings);
   for (const CaseFinding& finding : made->findings)
     std::printf("finding %s=%s: %s\n", finding.name.c_str(), finding.grade.c_str(),
                 finding.meaning.c_str());
@@ -119,7 +120,8 @@ int run_list(const std::string& name) {
 }
 
 void add_list(cli::App& anatomy, int& exit_code) {
-  cli::App* list = anatomy.add_subcommand("list", "Say what can be varied, and how far");
+  cli::App* list =
+      anatomy.add_subcommand("list", "List the parameters that can be varied, and their bounds");
   auto name = std::make_shared<std::string>();
   list->add_option("anatomy", *name,
                    "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, "
@@ -136,12 +138,12 @@ void add_make(cli::App& anatomy, int& exit_code) {
                    "fast_meniscus, fast_ring")
       ->required();
   make->add_option("--seed", command->seed,
-                   "draw every parameter that is not set; without it they stay as built in");
-  make->add_option("--set", command->set, "NAME=NUMBER; may be given several times")
+                   "seed to draw every parameter that is not set; default: built-in values");
+  make->add_option("--set", command->set, "NAME=NUMBER, a parameter; may be given several times")
       ->take_all()
       ->expected(1);
   make->add_option("--finding", command->findings,
-                   "NAME=GRADE, what is wrong with the patient; may be given several times")
+                   "NAME=GRADE, a pathological finding; may be given several times")
       ->take_all()
       ->expected(1);
   make->add_option("--side", command->side, "left or right (default: right)");

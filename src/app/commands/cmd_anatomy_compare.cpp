@@ -125,10 +125,10 @@ void print_tables(const CaseDef& def, const std::vector<BoneLikeness>& rows,
                   row.end_m > 0 ? "end of " + fixed(row.end_m * 1e3, 0) + " mm" : "all"});
   std::fputs(likeness.text().c_str(), stdout);
   if (gaps.empty()) {
-    std::puts("\nNo two bones are nearer than 3 mm.");
+    std::puts("\nNo two bones are closer than 3 mm.");
     return;
   }
-  std::puts("\nBones nearer than 3 mm; below 0: they overlap by that");
+  std::puts("\nBones closer than 3 mm; a negative gap is an overlap");
   TextTable table({"bone", "other", "gap mm"});
   for (const BoneGap& gap : gaps)
     table.add({def.bones[gap.first].name, def.bones[gap.second].name, fixed(gap.gap_m * 1e3, 2)});
@@ -155,10 +155,9 @@ int run_compare(const CompareCommand& command) {
 }  // namespace
 
 void add_anatomy_compare(cli::App& anatomy, int& exit_code) {
-  cli::App* sub = anatomy.add_subcommand(
-      "compare",
-      "Lay each bone over the one of the same name and say how far their surfaces lie "
-      "apart; list joint gaps and overlaps");
+  cli::App* sub = anatomy.add_subcommand("compare",
+                                         "Align bones of the same name and measure the distance "
+                                         "between their surfaces; list joint gaps and overlaps");
   auto command = std::make_shared<CompareCommand>();
   sub->add_option("case", command->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();

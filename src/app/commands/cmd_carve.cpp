@@ -91,11 +91,11 @@ class Carver {
     ++out_.steps;
     last_ = X_BT;
     if ((did.status & CarveStep::kBlocksFull) != 0)
-      return fail("more is cut than memory allows", "carve",
+      return fail("the cuts need more memory than is allowed", "carve",
                   "Allow more with --memory-mb, or choose larger cells with --cell");
     if (did.status & (CarveStep::kTooLong | CarveStep::kNotFinite))
-      return fail("the path leaps too far at " + std::to_string(time_s) + " s", "carve",
-                  "Give poses that lie closer together");
+      return fail("the path jumps too far at " + std::to_string(time_s) + " s", "carve",
+                  "Give poses that are closer together");
     if (time_s - pictured_s_ >= kPicture_s) {
       pictured_s_ = time_s;
       picture();
@@ -133,7 +133,7 @@ Result<CarvedField> make_field(const BoneDef& bone, const CarveCommand& command)
   const std::size_t left = options.most_bytes - std::min((*field)->bytes(), options.most_bytes);
   const std::size_t blocks = std::min(CarvedField::kMostBlocks * 4, left / kBytesOfBlock);
   if (blocks == 0)
-    return fail("no memory is left for cuts", command.bone, "Allow more with --memory-mb");
+    return fail("there is not enough memory for cuts", command.bone, "Allow more with --memory-mb");
   return CarvedField::make(std::move(*field), *layers, blocks);
 }
 
@@ -152,7 +152,7 @@ Result<Carved> carve(const CaseBone& source, const CarveCommand& command) {
   if (auto fits = check_size(source.bone, *cutter); !fits) return tl::unexpected(fits.error());
   const auto path = load_path(command.path);
   if (!path) return tl::unexpected(path.error());
-  if (path->samples.empty()) return fail("the path has no pose", command.path);
+  if (path->samples.empty()) return fail("the path has no poses", command.path);
   auto field = make_field(source.bone, command);
   if (!field) {
     Error error = field.error();
@@ -199,12 +199,12 @@ int run_carve(const CarveCommand& command) {
   else
     print(*carved, *source, command);
   if (total(carved->removed_m3) == 0)
-    std::fprintf(stderr, "osteon: the path touches nothing of the bone: nothing was removed\n");
+    std::fprintf(stderr, "osteon: the path does not touch the bone: nothing was removed\n");
   return kExitDone;
 }
 
 std::string tool_help() {
-  std::string text = "What cuts:";
+  std::string text = "The cutting tool:";
   for (const CutterKind& kind : cutter_kinds())
     text += (text.back() == ':' ? " " : ", ") + std::string(kind.name);
   return text;
@@ -215,11 +215,11 @@ std::string tool_help() {
 void add_carve_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<CarveCommand>();
   cli::App* carve = app.add_subcommand(
-      "carve", "Move a cutting tool along a path through a bone and save the bone that is left");
+      "carve", "Move a cutting tool along a path through a bone and save the remaining bone");
   carve->add_option("CASE#BONE", command->bone, "case and bone, such as builtin:knee#femur")
       ->required();
   carve->add_option("--tool", command->tool, tool_help())->required();
-  carve->add_option("--size", command->size_mm, "diameter of the tool, of a blade its width, mm")
+  carve->add_option("--size", command->size_mm, "diameter of the tool, or width of a blade, mm")
       ->required();
   carve
       ->add_option("--path", command->path,
@@ -231,7 +231,7 @@ void add_carve_command(cli::App& app, int& exit_code) {
       ->required();
   carve
       ->add_option("--cell", command->cell_mm,
-                   "side of a cell, mm; smaller cells show finer cuts and take more memory")
+                   "edge of a cell, mm; smaller cells show finer cuts and take more memory")
       ->capture_default_str();
   carve->add_option("--cortex", command->cortex_mm, "thickness of the cortical bone, mm")
       ->capture_default_str();
@@ -239,7 +239,7 @@ void add_carve_command(cli::App& app, int& exit_code) {
       ->add_option("--marrow", command->marrow_mm,
                    "depth below the surface at which marrow begins, mm; 0: no marrow")
       ->capture_default_str();
-  carve->add_option("--memory-mb", command->memory_mb, "most memory that the cuts may take, MiB")
+  carve->add_option("--memory-mb", command->memory_mb, "memory limit for the cuts, MiB")
       ->check(cli::Range(1, 65536))
       ->capture_default_str();
   carve->add_flag("--json", command->json, "print the result as JSON");

@@ -42,7 +42,7 @@ std::string plural(std::size_t count, const std::string& one) {
 
 std::string mended_text(const ImportedBone& bone) {
   std::string text = bone.repair.summary();
-  if (bone.hollows > 0) text += ", walled up " + plural(bone.hollows, "hollow");
+  if (bone.hollows > 0) text += ", closed " + plural(bone.hollows, "hollow");
   if (bone.crossings > 0) text += ", left " + plural(bone.crossings, "crossing") + " of triangles";
   return text;
 }
@@ -55,7 +55,7 @@ int run_import(const ImportOptions& options) {
     return import_meshes(shown);
   }();
   if (!result) return report_error(result.error());
-  TextTable table({"bone", "FMA", "file", "triangles", "closed", "mended"});
+  TextTable table({"bone", "FMA", "file", "triangles", "closed", "repairs"});
   for (std::size_t i = 0; i < result->bones.size(); ++i) {
     const ImportedBone& imported = result->bones[i];
     const BoneDef& bone = result->def.bones[i];
@@ -306,7 +306,8 @@ void add_import(cli::App& app, int& exit_code) {
   cli::App* import = app.add_subcommand("import", "Make a case from other data");
   import->require_subcommand(1);
   cli::App* mesh = import->add_subcommand(
-      "mesh", "Make a case from meshes in one common frame: mended, named by their files");
+      "mesh",
+      "Make a case from meshes in one common frame; they are repaired and named after their files");
   auto options = std::make_shared<ImportOptions>();
   mesh->add_option("source", options->source,
                    "a folder of STL, OBJ, PLY, VTK, VTP, glTF files, or one file")
@@ -316,13 +317,13 @@ void add_import(cli::App& app, int& exit_code) {
       ->required()
       ->check(cli::IsMember({"m", "cm", "mm"}));
   mesh->add_option("--out", options->out, "the case folder to make")->required();
-  mesh->add_option("--name", options->name, "name of the case; default: that of the folder");
+  mesh->add_option("--name", options->name, "name of the case; default: the folder's name");
   mesh->add_option("--side", options->side, "left or right")
       ->check(cli::IsMember({"left", "right"}));
   mesh->add_flag("--keep-hollows", options->keep_hollows,
-                 "leave the marrow of a thin shell open where no ball of 2 mm gets in");
+                 "keep the cavity of a thin shell, even where no ball of 2 mm could enter it");
   mesh->add_flag("--force", options->force,
-                 "take bones three times as large or small as usual, and parts that overlap");
+                 "accept bones three times as large or small as usual, and parts that overlap");
   mesh->callback([options, unit, &exit_code] {
     options->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_import(*options);
@@ -330,14 +331,15 @@ void add_import(cli::App& app, int& exit_code) {
 }
 
 void add_case(cli::App& app, int& exit_code) {
-  cli::App* group = app.add_subcommand("case", "Look at a case");
+  cli::App* group = app.add_subcommand("case", "Inspect, check, measure and change a case");
   group->require_subcommand(1);
   auto spec = std::make_shared<std::string>();
   cli::App* info = group->add_subcommand("info", "List the bones of a case");
   info->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   auto pieces = std::make_shared<bool>(false);
   cli::Option* const info_pieces = info->add_flag(
-      "--pieces", *pieces, "cut the bones into the pieces that are felt, and list those too");
+      "--pieces", *pieces,
+      "cut the bones into the convex pieces that the probe feels, and list them too");
   auto info_json = std::make_shared<bool>(false);
   info->add_flag("--json", *info_json,
                  "print JSON: case, side, bones, soft_parts, findings, portals, notes")
@@ -345,8 +347,9 @@ void add_case(cli::App& app, int& exit_code) {
   info->callback([spec, pieces, info_json, &exit_code] {
     exit_code = *pieces ? info_with_pieces(*spec) : info_without_pieces(*spec, *info_json);
   });
-  cli::App* check = group->add_subcommand(
-      "check", "Look for trouble in a case; exits 0 when sound, 1 with findings, 2 unreadable");
+  cli::App* check = group->add_subcommand("check",
+                                          "Check a case for problems; exits 0 when it is sound, 1 "
+                                          "with findings, 2 when it cannot be read");
   check->add_option("case", *spec, "a case folder, builtin:wrist or builtin:knee")->required();
   auto json = std::make_shared<bool>(false);
   check->add_flag("--json", *json, "print JSON: case, bones, soft_parts, sound, findings");

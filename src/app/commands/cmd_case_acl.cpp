@@ -28,7 +28,7 @@ Result<std::optional<DrilledLine>> line_between(const std::string& from, const s
   if (from.empty() && to.empty()) return std::optional<DrilledLine>();
   if (from.empty() || to.empty())
     return fail(
-        "needs both of its ends", option,
+        "needs both ends", option,
         "Give --" + std::string(option) + "-from and --" + option + "-to as x,y,z in mm, World");
   const auto a = point_from_mm(from, std::string("--") + option + "-from");
   if (!a) return tl::unexpected(a.error());
@@ -76,7 +76,7 @@ Result<AclDrilling> drilling_of(const AclCommand& command) {
       line_between(command.tibia_from, command.tibia_to, command.diameter_mm, "tibia");
   if (!tibia) return tl::unexpected(tibia.error());
   if (!*femur && !*tibia)
-    return fail("no tunnel is said", "case acl",
+    return fail("no tunnel is given", "case acl",
                 "Give --drilled CASE, or a line through femur or tibia");
   return AclDrilling{*femur, *tibia};
 }
@@ -99,20 +99,21 @@ void add_case_acl_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<AclCommand>();
   cli::App* acl = app.get_subcommand("case")->add_subcommand(
       "acl",
-      "Measure the tunnels of an ACL reconstruction: where they lie, length, back wall, roof, and "
-      "what the knee does with a graft between them");
+      "Measure the tunnels of an ACL reconstruction: position, length, back wall, roof, and the "
+      "knee's behaviour with a graft between them");
   acl->add_option("case", command->spec, "the knee before drilling, grown, or builtin:knee")
       ->required();
   acl->add_option("--drilled", command->drilled, "the same case drilled: its holes are measured");
-  acl->add_option("--femur-from", command->femur_from, "x,y,z in mm, World: a drill's way instead");
-  acl->add_option("--femur-to", command->femur_to, "x,y,z in mm, World: where it ended");
+  acl->add_option("--femur-from", command->femur_from,
+                  "x,y,z in mm, World: start of a drill line, instead of --drilled");
+  acl->add_option("--femur-to", command->femur_to, "x,y,z in mm, World: end of the drill line");
   acl->add_option("--tibia-from", command->tibia_from, "x,y,z in mm, World");
   acl->add_option("--tibia-to", command->tibia_to, "x,y,z in mm, World");
-  acl->add_option("--diameter", command->diameter_mm, "of drills that are said, mm")
+  acl->add_option("--diameter", command->diameter_mm, "diameter of a given drill line, mm")
       ->check(cli::Range(1.0, 20.0))
       ->capture_default_str();
   acl->add_option("--roundness", command->roundness_mm,
-                  "how far the wall of a hole may lie from its cylinder, mm")
+                  "greatest distance of a hole's wall from its cylinder, mm")
       ->check(cli::Range(0.001, 1.0))
       ->capture_default_str();
   acl->add_flag("--json", command->json, "print JSON");

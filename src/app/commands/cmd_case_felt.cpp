@@ -59,7 +59,7 @@ void print_table(const Case& c) {
 
 void add_case_felt_command(cli::App& app, int& exit_code) {
   cli::App* felt = app.get_subcommand("case")->add_subcommand(
-      "felt", "How far what the probe feels of each bone is from the bone's mesh");
+      "felt", "Distance between each bone's mesh and the shape that the probe feels");
   auto spec = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   felt->add_option("case", *spec,

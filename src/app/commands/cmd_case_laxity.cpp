@@ -100,7 +100,7 @@ Result<LaxityBeside> beside(const std::string& name, const LaxityTestRow& test, 
     if (!knee) return tl::unexpected(knee.error());
     const auto found = test_laxity(*knee, test);
     if (!found) return tl::unexpected(found.error());
-    if (!found->converged) return fail("finds no rest", name);
+    if (!found->converged) return fail("did not reach equilibrium", name);
     (torn ? row.without_acl_m : row.whole_m) = found->anterior_m;
   }
   return row;
@@ -180,10 +180,10 @@ void add_graft_options(cli::App& laxity, LaxityCommand& command) {
 
 void add_laxity(cli::App& group, int& exit_code) {
   auto command = std::make_shared<LaxityCommand>();
-  cli::App* laxity = group.add_subcommand(
-      "laxity",
-      "How far a knee gives in the manual stability tests, in mm and degrees, and the tension of "
-      "its ligaments. Exits 1 when no equilibrium was found");
+  cli::App* laxity =
+      group.add_subcommand("laxity",
+                           "Laxity of a knee in the manual stability tests, mm and degrees, and "
+                           "the tension of its ligaments. Exits 1 when no equilibrium is found");
   laxity->add_option("case", command->spec, "case folder of a grown knee, or builtin:knee")
       ->required();
   laxity->add_option("--test", command->test, "lachman, drawer, pivot, varus, valgus or all (all)")

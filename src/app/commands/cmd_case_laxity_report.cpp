@@ -145,7 +145,7 @@ std::string isometry_text(const std::vector<LineLength>& lengths) {
     table.add({fixed(at.flexion_deg, 0), fixed(1000 * at.length_m, 2),
                fixed(1000 * (at.length_m - lengths[0].length_m), 2)});
   const auto [low, high] = range_of(lengths);
-  return table.text() + "changes by " + fixed(1000 * (high - low), 2) + " mm in all\n";
+  return table.text() + "changes by " + fixed(1000 * (high - low), 2) + " mm in total\n";
 }
 
 }  // namespace osteon

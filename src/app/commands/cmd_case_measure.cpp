@@ -80,7 +80,8 @@ Result<Json> regions_json(const MeasureCommand& command, const CaseDef& after) {
   Json out = Json::array();
   if (command.regions.empty()) return out;
   if (command.before.empty())
-    return fail("needs the case as it was", "--region", "Give it with --before CASE");
+    return fail("needs the case before the bone was removed", "--region",
+                "Give it with --before CASE");
   const auto before = open_case_def(command.before, {}, CaseParts::kFelt);
   if (!before) return tl::unexpected(before.error());
   for (const std::string& text : command.regions) {
@@ -148,13 +149,15 @@ void add_case_measure_command(cli::App& app, int& exit_code) {
       "measure", "Measure the holes in a case's bones: axis, diameter, length, walls, landmarks");
   measure->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
-  measure->add_option("--before", command->before, "the case as it was, for --region");
-  measure->add_option(
-      "--region", command->regions,
-      "name=x,y,z,r in mm, World: a ball; prints the share of its bone that is gone; may repeat");
+  measure->add_option("--before", command->before,
+                      "the case before the bone was removed, for --region");
+  measure->add_option("--region", command->regions,
+                      "name=x,y,z,r in mm, World: a ball; prints the share of its bone that was "
+                      "removed; may be given several times");
   measure
-      ->add_option("--roundness", command->roundness_mm,
-                   "how far a wall may lie from its cylinder, mm; a hand that trembles needs more")
+      ->add_option(
+          "--roundness", command->roundness_mm,
+          "greatest distance of a wall from its cylinder, mm; increase it for a trembling hand")
       ->check(cli::Range(0.001, 1.0))
       ->capture_default_str();
   measure->add_flag("--json", command->json, "print JSON, lengths in mm, World");

@@ -54,7 +54,7 @@ Result<void> change_notes(const CaseNoteCommand& command, const CaseDef& def, Ca
   if (!note) return tl::unexpected(note.error());
   if (auto sound = check_note(*note, "--text"); !sound) return sound;
   if (notes.size() >= kMostNotes)
-    return fail("the case has " + std::to_string(notes.size()) + " notes, the most there may be",
+    return fail("the case has " + std::to_string(notes.size()) + " notes, which is the limit",
                 command.spec, "Remove one with --remove");
   notes.push_back(std::move(*note));
   return {};
@@ -80,11 +80,11 @@ int run_note(const CaseNoteCommand& command) {
 void check_words(const CaseNoteCommand& command) {
   const bool removes = command.remove > 0;
   if (removes && !(command.text.empty() && command.bone.empty() && command.at.empty()))
-    cli::refuse("--remove", "leave --text, --on and --at out");
+    cli::refuse("--remove", "leave out --text, --on and --at");
   if (command.out.empty() && !std::filesystem::is_directory(command.spec))
     cli::refuse("--out", "only a case folder can be changed in place: name a new one");
   if (removes) return;
-  if (command.text.empty()) cli::refuse("--text", "say what the note shall say, or --remove");
+  if (command.text.empty()) cli::refuse("--text", "give the text of the note, or --remove");
   if (command.bone.empty() && command.at.empty())
     cli::refuse("--on", "name a bone, or give a place with --at, or both");
 }
@@ -93,17 +93,18 @@ void check_words(const CaseNoteCommand& command) {
 
 void add_case_note(cli::App& group, int& exit_code) {
   cli::App* note =
-      group.add_subcommand("note", "Write a note on a bone or at a place of a case, or remove one");
+      group.add_subcommand("note", "Add a note to a bone or a position of a case, or remove one");
   auto command = std::make_shared<CaseNoteCommand>();
   note->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
   note->add_option("--text", command->text, "what the note says");
-  note->add_option("--on", command->bone, "the bone that it is on and moves with");
-  note->add_option("--at", command->at, "its place: x,y,z in mm, World; default: on the bone");
-  note->add_option("--remove", command->remove, "remove the note of this number instead")
+  note->add_option("--on", command->bone, "the bone that the note is attached to");
+  note->add_option("--at", command->at,
+                   "position of the note: x,y,z in mm, World; default: on the bone");
+  note->add_option("--remove", command->remove, "remove the note with this number instead")
       ->check(cli::Range(1, static_cast<int>(kMostNotes)));
   note->add_option("--out", command->out,
-                   "the case folder to make; default: the note goes into the case folder itself");
+                   "the case folder to make; default: change the case folder itself");
   note->callback([command, &exit_code] {
     check_words(*command);
     exit_code = run_note(*command);

@@ -42,10 +42,11 @@ int run_pose(const CasePoseCommand& command) {
 
 void add_case_pose(cli::App& group, int& exit_code) {
   cli::App* pose =
-      group.add_subcommand("pose", "Bend the joint of a case and save that as a new case");
+      group.add_subcommand("pose", "Bend the joint of a case and save the result as a new case");
   auto command = std::make_shared<CasePoseCommand>();
   pose->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
-  pose->add_option("--flexion", command->flexion_deg, "degrees from straight")->required();
+  pose->add_option("--flexion", command->flexion_deg, "flexion, degrees; 0 is straight")
+      ->required();
   pose->add_option("--out", command->out, "the case folder to make")->required();
   pose->callback([command, &exit_code] { exit_code = run_pose(*command); });
 }

@@ -97,14 +97,14 @@ int run_save(const CaseSaveCommand& command) {
 }  // namespace
 
 void add_case_save(cli::App& group, int& exit_code) {
-  cli::App* save = group.add_subcommand(
-      "save", "Save the bones of a recording, as they were at a time, as a new case");
+  cli::App* save =
+      group.add_subcommand("save", "Save the bones of a recording at a given moment as a new case");
   auto command = std::make_shared<CaseSaveCommand>();
   save->add_option("recording", command->recording, "a recording (.osr)")->required();
   save->add_option("--at", command->at_s, "seconds from the recording's start")
       ->required()
       ->check(refuse_negative);
-  save->add_option("--case", command->case_spec, "the case, where it is not the recording's own");
+  save->add_option("--case", command->case_spec, "the case; default: the recording's own");
   save->add_option("--out", command->out, "the case folder to make")->required();
   save->callback([command, &exit_code] { exit_code = run_save(*command); });
 }

@@ -61,12 +61,12 @@ constexpr const char* kFooter =
     "POSES.csv: x_mm,y_mm,z_mm,qw,qx,qy,qz, one pose of B in the frame of A each line.\n"
     "OUT.csv: hit,depth_mm,nx,ny,nz,px_mm,py_mm,pz_mm,pivots,ns, one line each pose.\n"
     "  hit       1: the convex hulls of A and B share a point (touching counts)\n"
-    "  depth_mm  how far B must move along n to come free of A; 0 without a hit\n"
+    "  depth_mm  how far B must move along n to separate from A; 0 without a hit\n"
     "  n         unit normal from A to B, in the frame of A\n"
     "  p         centre of the largest ball inside both, or, without a hit, of the smallest\n"
     "            ball that reaches the planes of both; in the frame of A\n"
-    "  pivots    simplex pivots of the two programmes, started from those of the line before\n"
-    "  ns        time of the two programmes";
+    "  pivots    simplex pivots of the two linear programs, warm-started from the line before\n"
+    "  ns        solution time of the two linear programs";
 
 }  // namespace
 

@@ -19,7 +19,7 @@ int run_debrief(const DebriefOrder& order, const std::string& out) {
   if (!debrief) return report_error(debrief.error());
   if (auto saved = save_debrief(*debrief, out); !saved) return report_error(saved.error());
   if (debrief->outcome) std::fputs(to_text(*debrief->outcome).c_str(), stdout);
-  if (!debrief->identical) std::printf("DIFFERENT from the recording when repeated\n");
+  if (!debrief->identical) std::printf("DIFFERENT from the recording when replayed\n");
   return debrief->identical ? kExitDone : kExitNo;
 }
 
@@ -86,18 +86,17 @@ int run_skill(const SkillCommand& command) {
 void add_debrief_command(cli::App& app, int& exit_code) {
   auto order = std::make_shared<DebriefOrder>();
   auto out = std::make_shared<std::string>();
-  cli::App* command =
-      app.add_subcommand("debrief",
-                         "Repeat a recorded attempt, judge it again and write pages to print.\n"
-                         "Exit code: 0 written, 1 written, but the recording did not repeat "
-                         "exactly, 2 could not be made");
+  cli::App* command = app.add_subcommand(
+      "debrief",
+      "Replay a recorded attempt, judge it again and write a report to print.\n"
+      "Exit code: 0 written, 1 written, but the replay differs from the recording, 2 not written");
   command->add_option("recording", order->recording, "recording (.osr)")->required();
   command->add_option("--out", *out, "PDF file to write")->required();
   command->add_option("--case", order->case_spec, "a case; default: the recording's own");
   command->add_option("--scenario", order->scenario,
-                      "name or file; default: the one that the recording keeps");
+                      "name or file; default: the one stored in the recording");
   command->add_option("--standard", order->standard,
-                      "what it is judged against, TOML; default: the one that was used");
+                      "standard to judge against, TOML; default: the one that was used");
   command->callback([order, out, &exit_code] { exit_code = run_debrief(*order, *out); });
 }
 
@@ -105,13 +104,13 @@ void add_skill_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<SkillCommand>();
   cli::App* command = app.add_subcommand(
       "skill",
-      "How well scores tell simulated experts from simulated novices, each judged by a standard "
-      "set\nwithout them. Says nothing about people");
+      "How well scores separate simulated experts from simulated novices. Each is judged by a "
+      "standard\nset without it. This says nothing about people");
   command->add_option("scenario", options->scenarios, "names or files; default: all");
-  command->add_option("--experts", options->experts, "how many")
+  command->add_option("--experts", options->experts, "number of simulated experts")
       ->check(cli::Range(3, 1000))
       ->capture_default_str();
-  command->add_option("--novices", options->novices, "how many")
+  command->add_option("--novices", options->novices, "number of simulated novices")
       ->check(cli::Range(3, 1000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");

@@ -60,9 +60,9 @@ int run_devices(bool as_json) {
 
 void add_devices_command(cli::App& app, int& exit_code) {
   const auto as_json = std::make_shared<bool>(false);
-  cli::App* command = app.add_subcommand(
-      "devices", "List what can be held in the hand, and why something cannot be used");
-  command->add_flag("--json", *as_json, "print JSON, for a program");
+  cli::App* command =
+      app.add_subcommand("devices", "List the input devices, and say why one cannot be used");
+  command->add_flag("--json", *as_json, "print JSON");
   command->callback([as_json, &exit_code] { exit_code = run_devices(*as_json); });
 }
 

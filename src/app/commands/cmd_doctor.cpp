@@ -35,7 +35,7 @@ int print_udev_rule() {
 
 // A motor shall move nobody's hand unasked.
 bool consents(const DeviceInfo& info) {
-  std::printf("%s will push gently (0.5 N) on each of its axes. Hold it loosely. Go on? [y/N] ",
+  std::printf("%s will push gently (0.5 N) on each of its axes. Hold it loosely. Continue? [y/N] ",
               info.name.c_str());
   std::fflush(stdout);
   std::string answer;
@@ -90,21 +90,22 @@ int run_doctor(const DoctorOptions& options) {
 void add_doctor_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<DoctorOptions>();
   cli::App* command = app.add_subcommand(
-      "doctor", "Check devices, permissions, timing and graphics; ends with a verdict (0 or 1)");
+      "doctor", "Check devices, permissions, timing and graphics. Exit code: 0 ready, 1 not ready");
   command->add_option("--device", options->device,
-                      "driver whose devices are opened: calibration, rate, jitter, health");
+                      "driver of the devices to test: calibration, rate, jitter, health");
   command->add_flag("--force-test", options->force_test,
-                    "with --device: push gently on each axis, after asking");
-  command->add_flag("--yes", options->yes, "consent to the force test beforehand");
-  command->add_flag("--udev-rule", options->print_udev, "print the udev rule and end");
-  command->add_flag("--install-udev", options->install_udev,
-                    "write the udev rule so that users at the seat may open the devices (as root)");
-  command->add_option("--udev-folder", options->udev_folder, "where the rule goes")
+                    "with --device: push gently along each axis, after asking");
+  command->add_flag("--yes", options->yes, "run the force test without asking");
+  command->add_flag("--udev-rule", options->print_udev, "print the udev rule and exit");
+  command->add_flag(
+      "--install-udev", options->install_udev,
+      "install the udev rule, so that logged-in users may open the devices (as root)");
+  command->add_option("--udev-folder", options->udev_folder, "folder for the rule")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "how long the 1 kHz loop is measured")
+  command->add_option("--seconds", options->seconds, "how long the 1 kHz loop is measured, s")
       ->check(cli::Range(0.1, 600.0))
       ->capture_default_str();
-  command->add_flag("--json", options->as_json, "print JSON, for a program");
+  command->add_flag("--json", options->as_json, "print JSON");
   command->callback([options, &exit_code] { exit_code = run_doctor(*options); });
 }
 

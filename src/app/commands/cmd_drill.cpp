@@ -32,7 +32,7 @@ Result<std::vector<DrillLayer>> parse_layers(const std::vector<std::string>& tex
         equals == std::string::npos ? NAN : std::strtod(text.c_str() + equals + 1, &end);
     if (!std::isfinite(mm) || *end != '\0')
       return fail("is not a layer: '" + text + "'", "--layer",
-                  "Write it as material=mm, as cortical_bone=4");
+                  "Write it as material=mm, such as cortical_bone=4");
     layers.push_back({text.substr(0, equals), mm / 1000});
   }
   return layers;
@@ -163,25 +163,27 @@ int run_resistance(const std::string& out) {
 }  // namespace
 
 void add_drill_commands(cli::App& app, int& exit_code) {
-  cli::App* group = app.add_subcommand("drill", "How a drill goes through bone");
+  cli::App* group = app.add_subcommand("drill", "Simulate a drill in bone");
   group->require_subcommand(1);
   auto command = std::make_shared<TrialCommand>();
   cli::App* trial = group->add_subcommand(
-      "trial", "An emulated hand drills through layers; exits 1 when it does not get through");
+      "trial", "Drill through layers with an emulated hand; exits 1 when it does not get through");
   trial->add_option("--thrust-n", command->thrust_n, "thrust of the hand, N")
       ->capture_default_str();
-  trial->add_option("--drop-n", command->drop_n, "how much less thrust in the last layer, N")
+  trial->add_option("--drop-n", command->drop_n, "reduction of the thrust in the last layer, N")
       ->capture_default_str();
   trial->add_option("--diameter", command->diameter_mm, "mm")->capture_default_str();
-  trial->add_option("--speed-rpm", command->speed_rpm, "below zero: backwards")
+  trial->add_option("--speed-rpm", command->speed_rpm, "speed, rpm; negative: backwards")
       ->capture_default_str();
-  trial->add_option("--pilot", command->pilot_mm, "diameter of a hole drilled before, mm")
+  trial->add_option("--pilot", command->pilot_mm, "diameter of a pilot hole, mm; 0: none")
       ->capture_default_str();
-  trial->add_option("--bluntness", command->bluntness, "from 0, a new drill, to 1")
+  trial->add_option("--bluntness", command->bluntness, "wear of the drill, from 0 (new) to 1")
       ->capture_default_str();
-  trial->add_option("--layer", command->layers, "material=mm, from the surface on")
+  trial
+      ->add_option("--layer", command->layers,
+                   "material=thickness in mm, from the surface inwards; may be given several times")
       ->capture_default_str();
-  trial->add_flag("--water", command->water, "the hole is flushed");
+  trial->add_flag("--water", command->water, "irrigate the hole");
   trial->add_flag("--json", command->json, "print JSON with samples");
   trial->callback([command, &exit_code] { exit_code = run_trial(*command); });
   auto out = std::make_shared<std::string>();

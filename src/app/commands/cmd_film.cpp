@@ -46,10 +46,10 @@ struct FilmSpan {
 Result<FilmSpan> span_of(const FilmCommand& command, const RecordingReader& recording,
                          double tick_s) {
   const double end_s = static_cast<double>(recording.ticks(0)) * tick_s;
-  if (recording.ticks(0) == 0) return fail("holds no tick", command.recording);
+  if (recording.ticks(0) == 0) return fail("holds no ticks", command.recording);
   const FilmSpan span{command.from_s, std::min(command.to_s.value_or(end_s), end_s)};
   if (!(span.from_s >= 0 && span.from_s < end_s))
-    return fail("has nothing at " + std::to_string(command.from_s) + " s", command.recording,
+    return fail("has no data at " + std::to_string(command.from_s) + " s", command.recording,
                 "choose a time between 0 and " + std::to_string(end_s) + " s");
   if (!(span.to_s > span.from_s))
     return fail("ends before it begins", "--from and --to", "choose --to after --from");
@@ -101,7 +101,7 @@ class FilmMaker {
   /// After the last tick: what was recorded may end a tick before the last picture.
   Result<void> finish() {
     while (good() && made_ > 0 && made_ < span_.pictures(fps_)) add();
-    if (made_ == 0 && good()) return fail("holds no tick there", "the recording");
+    if (made_ == 0 && good()) return fail("holds no ticks there", "the recording");
     if (!good()) return tl::unexpected(*failure_);
     return writer_.finish();
   }
@@ -258,16 +258,16 @@ int run_sound(const FilmCommand& command) {
 
 void add_span_options(cli::App& sub, FilmCommand& command) {
   sub.add_option("recording", command.recording, "recording (.osr)")->required();
-  sub.add_option("--from", command.from_s, "begin so many s after the recording's begin")
+  sub.add_option("--from", command.from_s, "start of the part, s from the recording's start")
       ->check(cli::Range(0.0, 4 * 3600.0))
       ->capture_default_str();
-  sub.add_option("--to", command.to_s, "end there, s (default: the recording's end)")
+  sub.add_option("--to", command.to_s, "end of the part, s (default: the recording's end)")
       ->check(cli::Range(0.0, 4 * 3600.0));
 }
 
 void add_sound_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<FilmCommand>();
-  cli::App* sub = app.add_subcommand("sound", "Write what a recording sounds like, as WAV");
+  cli::App* sub = app.add_subcommand("sound", "Write the sound of a recording as WAV");
   add_span_options(*sub, *command);
   sub->add_option("--out", command->out, "WAV file to write")->required();
   sub->callback([command, &exit_code] { exit_code = run_sound(*command); });
@@ -278,19 +278,19 @@ void add_sound_command(cli::App& app, int& exit_code) {
 void add_film_commands(cli::App& app, int& exit_code) {
   auto command = std::make_shared<FilmCommand>();
   cli::App* sub = app.add_subcommand(
-      "film", "Make a film of a recording, with its sound: WebM, VP9 and Opus; without a window");
+      "film", "Make a film (WebM: VP9 and Opus) of a recording with its sound, without a window");
   add_span_options(*sub, *command);
   sub->add_option("--view", command->view, "scope, outside, panorama, fluoro or layout")
       ->capture_default_str();
-  sub->add_option("--side", command->side, "of the panorama: front, top or left")
+  sub->add_option("--side", command->side, "side of the panorama: front, top or left")
       ->check(cli::IsMember({"front", "top", "left"}))
       ->capture_default_str();
-  sub->add_option("--size", command->size, "pixels, width x height")->capture_default_str();
+  sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
   sub->add_option("--fps", command->fps, "pictures a second")
       ->check(cli::Range(1, 120))
       ->capture_default_str();
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
-  sub->add_flag("--mute", command->mute, "without sound");
+  sub->add_flag("--mute", command->mute, "leave out the sound");
   sub->add_option("--sound", command->sound, "write the sound as a WAV file too");
   sub->add_option("--out", command->out, "WebM file to write")->required();
   sub->callback([command, &exit_code] { exit_code = run_film(*command); });

@@ -41,14 +41,13 @@ void print_result(const ImportCtResult& result, const std::string& out) {
   }
   std::fputs(table.text().c_str(), stdout);
   if (result.recognised)
-    std::printf("a %s wrist; it lies %s mm from the built-in one on average\n",
+    std::printf("a %s wrist; its bones are %s mm from the built-in ones on average\n",
                 result.def.side.c_str(), fixed(result.fit_residual_m * 1000, 2).c_str());
   else
     std::printf("note: not recognised as a wrist, so bones are only numbered\n");
-  if (result.parted) std::printf("note: parted %d regions of joined bones\n", result.parted);
+  if (result.parted) std::printf("note: split %d regions of joined bones\n", result.parted);
   if (result.gained + result.lost > 0)
-    std::printf("note: contours took in %zu voxels and let go of %zu\n", result.gained,
-                result.lost);
+    std::printf("note: contours added %zu voxels and removed %zu\n", result.gained, result.lost);
   if (result.left_out) std::printf("note: left out %zu smaller pieces (--most)\n", result.left_out);
   for (const std::string& finding : check_case(result.def))
     std::printf("note: %s\n", finding.c_str());
@@ -110,33 +109,35 @@ int run_import_ct(ImportCtCommand command) {
 
 void add_import_ct_command(cli::App& app, int& exit_code) {
   cli::App* ct = app.get_subcommand("import")->add_subcommand(
-      "ct", "Make a case from a CT scan: finds, parts and names the bones");
+      "ct", "Make a case from a CT scan: find, separate and name the bones");
   auto command = std::make_shared<ImportCtCommand>();
   ct->add_option("source", command->source,
                  "a DICOM folder or file, .nrrd, .nii, .nii.gz, .mhd, .mha, .inv3, or a folder of "
                  "PNG or TIFF slices")
       ->required();
   ct->add_option("--out", command->out, "the case folder to make")->required();
-  ct->add_option("--name", command->options.name, "name of the case; default: that of the folder");
+  ct->add_option("--name", command->options.name, "name of the case; default: the folder's name");
   ct->add_option("--side", command->options.side, "left or right; default: as recognised")
       ->check(cli::IsMember({"left", "right"}));
-  ct->add_option("--series", command->options.series, "number or UID, where a folder has several");
+  ct->add_option("--series", command->options.series,
+                 "number or UID of the series, where a folder has several");
   auto* threshold = ct->add_option("--threshold", command->threshold_hu,
-                                   "HU above which is bone; default: suggested by the scan");
-  ct->add_option("--spacing", command->spacing_mm, "X,Y,Z in mm, for PNG and TIFF slices")
+                                   "threshold of bone, HU; default: estimated from the scan");
+  ct->add_option("--spacing", command->spacing_mm,
+                 "distances X,Y,Z between voxels, mm, for PNG and TIFF slices")
       ->delimiter(',')
       ->expected(3);
-  ct->add_option("--smooth", command->smooth_mm, "mm of blur against noise")
+  ct->add_option("--smooth", command->smooth_mm, "blur against noise, mm")
       ->check(cli::Range(0.0, 5.0));
   ct->add_option("--contours", command->options.contour_steps,
-                 "steps in which active contours move the bones' outlines onto the edges of the "
-                 "picture, slice by slice; 15 are usual")
+                 "steps of active contours, which move the bones' outlines onto the edges in each "
+                 "slice; 15 is usual")
       ->check(cli::Range(0, 1000))
       ->capture_default_str();
   ct->add_option("--most", command->options.most_bones, "keep this many of the largest bones")
       ->check(cli::Range(std::size_t{1}, kMaxBones))
       ->capture_default_str();
-  ct->add_option("--json", command->json, "write what was found to this file");
+  ct->add_option("--json", command->json, "write the findings to this JSON file");
   ct->callback([command, threshold, &exit_code] {
     command->has_threshold = threshold->count() > 0;
     exit_code = run_import_ct(*command);

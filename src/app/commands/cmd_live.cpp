@@ -332,9 +332,9 @@ int run_live(LiveOptions options) {
   if (options.power > 0)
     for (std::size_t h = 0; h < live->runtime->hands(); ++h)
       (void)live->runtime->send({CommandKind::kPower, options.power}, h);
-  std::printf("running; Ctrl-C ends it with the force at zero\n");
-  std::printf("A force that went off comes back by `on` and Enter%s\n",
-              live->runtime->hands() > 1 ? ", of one hand by `on left`, `on right`" : "");
+  std::printf("running; Ctrl-C switches the force off and ends the run\n");
+  std::printf("If the force switches off, type `on` and Enter to switch it on again%s\n",
+              live->runtime->hands() > 1 ? ", or `on left`, `on right` for one hand" : "");
   std::fflush(stdout);
   watch(*live, options.seconds);
   const Result<void> ended = stop_all(*live, options.force_log);
@@ -351,29 +351,29 @@ void add_live_command(cli::App& app, int& exit_code) {
   command
       ->add_option("--device", options->devices,
                    "driver, driver:serial or driver:left (right, third, fourth), then =INSTRUMENT; "
-                   "once for each of up to four hands in one world")
+                   "may be given for up to four hands")
       ->capture_default_str();
   command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
-  command->add_option("--path", options->path, "what the virtual hand follows (CSV)");
-  command->add_option("--seconds", options->seconds, "then end; 0: until Ctrl-C")
+  command->add_option("--path", options->path, "probe path for the virtual hand (CSV)");
+  command->add_option("--seconds", options->seconds, "length of the run, s; 0: until Ctrl-C")
       ->check(refuse_negative);
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--force-log", options->force_log,
                       "write the last 20 s of the device's positions and forces (CSV)");
   command
       ->add_option("--scale", options->mapping.scale,
-                   "how far the tool moves when the hand moves by 1")
+                   "movement of the tool per movement of the hand")
       ->check(cli::Range(kMinScale, kMaxScale));
   command
       ->add_option("--clutch-button", options->mapping.clutch_button,
-                   "while it is held the device moves without the tool")
+                   "number of the button that lets the device move without the tool")
       ->check(cli::Range(0, 31));
   add_portals_option(*command, options->portals);
   add_soft_option(*command, options->soft);
   command
       ->add_option("--power", options->power,
-                   "power of the hands' instruments from the start, 0 to 1; a path tells its own")
+                   "power of the hands' instruments from the start, 0 to 1; a path sets its own")
       ->check(cli::Range(0.0, 1.0));
   command->add_flag("--free-bones", options->free_bones, "bones move on springs");
   command->callback([options, &exit_code] { exit_code = run_live(*options); });

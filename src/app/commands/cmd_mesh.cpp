@@ -35,7 +35,7 @@ int run_tetrahedra(TetrahedraCommand command) {
     return report_error(
         {std::to_string(inverted) + " tetrahedra are inverted, so nothing is written",
          command.source,
-         "Mend the surface (osteon import mesh), choose a smaller --cell-mm, or give "
+         "Repair the surface (osteon import mesh), choose a smaller --cell-mm, or give "
          "--force"});
   if (!command.out.empty())
     if (const auto saved = save_vtk(made->mesh, command.out, source->metres_per_unit); !saved)
@@ -56,19 +56,19 @@ void add_tetrahedra(cli::App& mesh, int& exit_code) {
       ->add_option("SOURCE", options->source,
                    "a mesh file, or CASE#PART for a bone or soft part of a case, in World")
       ->required();
-  command->add_option("--unit", options->unit, "unit of a mesh file; the result has the same")
+  command->add_option("--unit", options->unit, "unit of a mesh file; the result has the same unit")
       ->check(cli::IsMember({"m", "cm", "mm"}));
   command
       ->add_option("--cell-mm", options->cell_mm,
-                   "edge of the lattice's cubes; default: from the thinnest part, made smaller "
+                   "edge of the lattice's cubes, mm; default: chosen by the thinnest part, reduced "
                    "until the volume fits")
       ->check(refuse_not_positive);
   command
       ->add_option("--goal-deg", options->options.goal_deg,
-                   "improve until no dihedral angle is sharper, where that can be")
+                   "improve until no dihedral angle is smaller, degrees, where possible")
       ->check(cli::Range(0.0, 90.0))
       ->capture_default_str();
-  command->add_option("--most", options->options.most_tets, "refuse to make more tetrahedra")
+  command->add_option("--most", options->options.most_tets, "limit of the number of tetrahedra")
       ->capture_default_str();
   command->add_option("--out", options->out, "write a VTK file (legacy, ASCII); a bone's in mm");
   command->add_flag("--force", options->force, "write the result even with inverted tetrahedra");
@@ -91,9 +91,9 @@ int run_quality(const QualityCommand& command) {
 }
 
 void add_quality(cli::App& mesh, int& exit_code) {
-  cli::App* command = mesh.add_subcommand(
-      "quality",
-      "Dihedral angles and volume of a file of tetrahedra; exits 1 when any is inverted");
+  cli::App* command = mesh.add_subcommand("quality",
+                                          "Measure dihedral angles and volume of a tetrahedral "
+                                          "mesh; exits 1 when any element is inverted");
   auto options = std::make_shared<QualityCommand>();
   command->add_option("FILE", options->file, "a VTK file (legacy, ASCII)")->required();
   command->add_option("--unit", options->unit, "unit of the file")
@@ -107,7 +107,7 @@ void add_quality(cli::App& mesh, int& exit_code) {
 
 void add_mesh_commands(cli::App& app, int& exit_code) {
   cli::App* mesh = app.add_subcommand(
-      "mesh", "Make tetrahedra of a surface; smooth, simplify or edit a surface");
+      "mesh", "Fill a surface with tetrahedra; smooth, simplify or edit a surface");
   mesh->require_subcommand(1);
   add_tetrahedra(*mesh, exit_code);
   add_quality(*mesh, exit_code);

@@ -57,7 +57,7 @@ void add_source(cli::App& command, SurfaceCommand& options) {
       .add_option("SOURCE", options.source,
                   "a mesh file, or CASE#PART for a bone or soft part, in World")
       ->required();
-  command.add_option("--unit", options.unit, "unit of a mesh file; the result has the same")
+  command.add_option("--unit", options.unit, "unit of a mesh file; the result has the same unit")
       ->check(cli::IsMember({"m", "cm", "mm"}));
   command.add_option("--out", options.out, "the STL file to write; a bone's in mm")->required();
 }
@@ -79,9 +79,7 @@ void add_smooth(cli::App& mesh, int& exit_code) {
   cli::App* smooth =
       mesh.add_subcommand("smooth", "Smooth a surface without shrinking it (Taubin, lambda | mu)");
   add_source(*smooth, *command);
-  smooth
-      ->add_option("--rounds", command->options.rounds,
-                   "how often the vertices move there and back")
+  smooth->add_option("--rounds", command->options.rounds, "number of smoothing passes")
       ->capture_default_str()
       ->check(cli::Range(1, 1000));
   smooth->callback([command, &exit_code] { exit_code = run_smooth(*command); });
@@ -102,9 +100,9 @@ int run_decimate(const DecimateCommand& command) {
 void add_decimate(cli::App& mesh, int& exit_code) {
   auto command = std::make_shared<DecimateCommand>();
   cli::App* decimate =
-      mesh.add_subcommand("decimate", "Make a surface of fewer triangles (quadric error)");
+      mesh.add_subcommand("decimate", "Reduce the triangles of a surface (quadric error)");
   add_source(*decimate, *command);
-  decimate->add_option("--error-mm", command->error_mm, "how far the surface may move, about")
+  decimate->add_option("--error-mm", command->error_mm, "how far the surface may move, about, mm")
       ->capture_default_str()
       ->check(refuse_not_positive);
   decimate->callback([command, &exit_code] { exit_code = run_decimate(*command); });
@@ -141,14 +139,14 @@ void add_drag(cli::App& mesh, int& exit_code) {
   cli::App* drag = mesh.add_subcommand(
       "drag", "Drag one vertex of a surface; its neighbours along the surface follow");
   add_source(*drag, *command);
-  drag->add_option("--at-mm", command->at_mm, "x y z: the vertex nearest to this is grabbed")
+  drag->add_option("--at-mm", command->at_mm, "x y z: the nearest vertex is grabbed")
       ->required()
       ->expected(3);
   drag->add_option("--by-mm", command->by_mm, "x y z: how far it is dragged")
       ->required()
       ->expected(3);
   drag->add_option("--radius-mm", command->radius_mm,
-                   "how far along the surface the neighbours follow")
+                   "how far along the surface the neighbours follow, mm")
       ->capture_default_str()
       ->check(refuse_not_positive);
   drag->add_option("--fall-off", command->fall_off, "smooth, cone, dome or spike")

@@ -48,7 +48,7 @@ void add_metrics_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<MetricsCommand>();
   cli::App* command = app.add_subcommand(
       "metrics",
-      "Measure a path: time, way, smoothness, time and damage in a tissue, actions.\n"
+      "Measure a path: time, length, smoothness, time and damage in a tissue, actions.\n"
       "The tip is the path's position, the shaft runs from it along the pose's +z; damage is the\n"
       "area that the 300 mm behind the tip sweep inside the tissue");
   command->add_option("path", options->path, "probe path, CSV")->required();

@@ -46,12 +46,13 @@ void add_path_commands(cli::App& app, int& exit_code) {
   group->require_subcommand(1);
   auto survey = std::make_shared<SurveyCommand>();
   cli::App* command = group->add_subcommand(
-      "survey", "A path that visits every bone in reach: press along the normal, stroke, retreat");
+      "survey",
+      "Make a path that visits every bone in reach: press along the normal, stroke, retreat");
   command->add_option("--case", survey->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
-  command->add_option("--seed", survey->options.seed, "which places are chosen")
+  command->add_option("--seed", survey->options.seed, "seed of the choice of places")
       ->capture_default_str();
-  command->add_option("--force", survey->options.press_n, "wanted force, N")
+  command->add_option("--force", survey->options.press_n, "target force, N")
       ->check(cli::Range(0.1, 20.0))
       ->capture_default_str();
   command->add_option("--out", survey->out, "probe path to write, CSV")->required();

@@ -53,8 +53,8 @@ std::function<Result<void>(const std::filesystem::path&)> torque_of(
 
 int run_export(const RecordArguments& options) {
   if (options.csv.empty() && options.hdf5.empty())
-    return report_error({"nothing says where the tables go", "record export",
-                         "Give --csv FOLDER or --hdf5 FILE, or both"});
+    return report_error(
+        {"no output is given", "record export", "Give --csv FOLDER or --hdf5 FILE, or both"});
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
   if (!options.csv.empty())
@@ -73,13 +73,14 @@ int run_export(const RecordArguments& options) {
 
 void add_record_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RecordArguments>();
-  cli::App* command = app.add_subcommand("record", "Look into recordings (.osr), and export them");
+  cli::App* command = app.add_subcommand("record", "Inspect and export recordings (.osr)");
   command->require_subcommand(1);
-  cli::App* info = command->add_subcommand("info", "What a recording holds");
+  cli::App* info = command->add_subcommand("info", "Show what a recording holds");
   info->add_option("file", options->file, "recording")->required();
-  info->add_flag("--events", options->events, "its events, a line each");
-  info->add_flag("--json", options->json, "as JSON; of events an object a line");
-  info->add_flag("--torque", options->torque, "repeat the run and tell the moment about each grip");
+  info->add_flag("--events", options->events, "print its events, one per line");
+  info->add_flag("--json", options->json, "print JSON; with --events one object per line");
+  info->add_flag("--torque", options->torque,
+                 "replay the run and report the moment about each grip");
   info->add_option("--case", options->case_spec,
                    "for --torque: the case (default: the recording's own)");
   info->callback([options, &exit_code] { exit_code = run_info(*options); });
@@ -91,8 +92,8 @@ void add_record_command(cli::App& app, int& exit_code) {
   exported->add_option("--hdf5", options->hdf5,
                        "a file: a group for each hand and one for the events, with units");
   exported->add_flag("--torque", options->torque,
-                     "repeat the run and add the moment about each grip: torque_<hand>.csv, or in "
-                     "HDF5 a dataset of each hand");
+                     "replay the run and add the moment about each grip: torque_<hand>.csv, or in "
+                     "HDF5 a dataset per hand");
   exported->add_option("--case", options->case_spec,
                        "for --torque: the case (default: the recording's own)");
   exported->callback([options, &exit_code] { exit_code = run_export(*options); });

@@ -130,33 +130,35 @@ void add_render_command(cli::App& app, int& exit_code) {
   command
       ->add_option(
           "--view", options->view,
-          "dorsal, palmar, radial, ulnar, ap or lateral; of a knee front, back, outer, inner")
+          "dorsal, palmar, radial, ulnar, ap or lateral; for a knee front, back, outer, inner")
       ->capture_default_str();
-  command->add_flag("--joint", options->joint, "Nearer: the carpal bones, or the knee's joint");
+  command->add_flag("--joint", options->joint, "Close up: the carpal bones, or the knee's joint");
   command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
   command->add_flag("--hulls", options->hulls, "Draw the convex pieces that the probe feels");
-  command->add_flag(
-      "--felt", options->felt,
-      "Colour the bones by how far what the probe feels is from their surface: orange "
-      "where it stands 0.5 mm over it, blue where it lies 0.5 mm under it");
-  command->add_option("--flexion", options->flexion_deg, "Bends a grown knee by so many degrees");
+  command->add_flag("--felt", options->felt,
+                    "Colour the bones by the distance of the felt surface from the visible one: "
+                    "orange 0.5 mm above it, blue 0.5 mm below it");
+  command->add_option("--flexion", options->flexion_deg, "Flexion of a grown knee, degrees");
   command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
   command
       ->add_option("--soft", options->softs,
                    "Soft parts to draw: all, none, names, or kinds such as ligament (default none)")
       ->delimiter(',');
-  command->add_option("--skin-opacity", options->skin_opacity, "0 to 1; of the skin when drawn")
+  command
+      ->add_option("--skin-opacity", options->skin_opacity,
+                   "opacity of the skin when it is drawn, 0 to 1")
       ->check(cli::Range(0.0, 1.0))
       ->capture_default_str();
   cli::Option* stereo = command->add_option(
       "--stereo", options->stereo, "side-by-side, over-under, interlaced or anaglyph (red-cyan)");
   command
       ->add_option("--eye-distance", options->eye_distance_mm,
-                   "mm between the eyes (default: a fifteenth of the screen's depth)")
+                   "distance between the eyes, mm (default: a fifteenth of the screen's depth)")
       ->needs(stereo);
   command
-      ->add_option("--screen-depth", options->screen_depth_mm,
-                   "mm from the eyes to where both pictures coincide (default: what is looked at)")
+      ->add_option(
+          "--screen-depth", options->screen_depth_mm,
+          "distance at which both pictures coincide, mm (default: that of the centre of view)")
       ->needs(stereo);
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

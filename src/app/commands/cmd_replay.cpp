@@ -76,7 +76,7 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
   }
   if (outcome.ticks == 0) {
     std::printf("nothing was replayed: %s\n",
-                options.from_s > 0 ? "the recording ends before" : "the recording holds no tick");
+                options.from_s > 0 ? "the recording ends before" : "the recording holds no ticks");
     return outcome.complete ? kExitNo : kExitIncomplete;
   }
   std::printf("identical: every state hash of %llu ticks agrees",
@@ -85,7 +85,7 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
     std::printf(" (from %.3f s)", static_cast<double>(outcome.first_tick - 1) * 1e-3);
   std::printf("\n");
   if (!outcome.complete) {
-    std::printf("incomplete: the recording breaks off; what was saved was replayed\n");
+    std::printf("incomplete: the recording is truncated; the saved part was replayed\n");
     if (!options.allow_incomplete) return kExitIncomplete;
   }
   return options.expect.empty() ? kExitDone : print_deviations(outcome.report, options.expect);
@@ -197,8 +197,9 @@ void add_replay_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayArguments>();
   cli::App* command = app.add_subcommand(
       "replay",
-      "Repeat a recording (.osr) bit by bit, or run a probe path (.csv) and check what it felt.\n"
-      "Exit code: 0 identical and as expected, 1 not, 2 a bad file, 3 a recording that breaks off");
+      "Replay a recording (.osr) bit by bit, or run a probe path (.csv) and check its contacts and "
+      "forces.\n"
+      "Exit code: 0 identical and as expected, 1 not, 2 a bad file, 3 a truncated recording");
   command->add_option("file", options->file, "recording or probe path")->required();
   command->add_option("--case", options->case_spec,
                       "a case folder, builtin:wrist or builtin:knee (default: the recording's own; "
@@ -208,11 +209,10 @@ void add_replay_command(cli::App& app, int& exit_code) {
   command->add_option("--frames", options->frames, "write a picture every 1/30 s into this folder");
   command
       ->add_option("--from", options->from_s,
-                   "begin at the last stored state that is not after this time, s")
+                   "begin at the last state stored at or before this time, s")
       ->check(cli::Range(0.0, 4 * 3600.0));
-  command->add_flag(
-      "--allow-incomplete", options->allow_incomplete,
-      "exit with 0 for a recording that breaks off too, when what there is of it is identical");
+  command->add_flag("--allow-incomplete", options->allow_incomplete,
+                    "exit with 0 for a truncated recording too, when the saved part is identical");
   options->session.add_to(*command);
   command->callback([options, &exit_code] { exit_code = run_replay(*options); });
 }

@@ -125,13 +125,13 @@ int forget_learner(const ResultsCommand& command) {
   if (!names) return report_error(names.error());
   if (names->erase(command.learner) > 0)
     if (auto ok = save_names(*names, names_file()); !ok) return report_error(ok.error());
-  std::printf("%d attempts of %s forgotten\n", *gone, command.learner.c_str());
+  std::printf("%d attempts of %s deleted\n", *gone, command.learner.c_str());
   return kExitDone;
 }
 
 int name_learner(const ResultsCommand& command) {
   if (!is_learner_id(command.learner))
-    return report_error({"'" + command.learner + "' is no learner's id", "--learner",
+    return report_error({"'" + command.learner + "' is not a valid learner's id", "--learner",
                          "Use 1 to 64 letters, digits, '.', '_' and '-'"});
   auto names = load_names(names_file());
   if (!names) return report_error(names.error());
@@ -161,37 +161,38 @@ void add_filter(cli::App& command, ResultsCommand& options) {
 
 void add_results_commands(cli::App& app, int& exit_code) {
   auto options = std::make_shared<ResultsCommand>();
-  cli::App* group = app.add_subcommand("results", "Attempts that were kept: list, curves, exports");
+  cli::App* group =
+      app.add_subcommand("results", "List and export stored attempts; print learning curves");
   group->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, int (*run)(const ResultsCommand&)) {
     cli::App* command = group->add_subcommand(name, text);
     command->callback([options, run, &exit_code] { exit_code = run(*options); });
     return command;
   };
-  cli::App* list = add("list", "All attempts, the oldest first", list_results);
+  cli::App* list = add("list", "List all attempts, the oldest first", list_results);
   add_filter(*list, *options);
   list->add_flag("--json", options->json, "print JSON");
-  add("show", "One attempt with its report, JSON", show_result)
+  add("show", "Show one attempt with its report, JSON", show_result)
       ->add_option("id", options->id, "its id, as `results list` prints it")
       ->required();
   cli::App* curve =
       add("curve", "Learning curves (LC-CUSUM) with warnings of relapse", show_curves);
   add_filter(*curve, *options);
   curve->add_flag("--json", options->json, "print JSON");
-  curve->add_option("--p0", options->cusum.p0, "failures that a competent person may have")
+  curve->add_option("--p0", options->cusum.p0, "share of failures that is acceptable")
       ->check(cli::Range(0.001, 0.5))
       ->capture_default_str();
-  curve->add_option("--d", options->cusum.d, "how many more are unacceptable")
+  curve->add_option("--d", options->cusum.d, "further share of failures that is unacceptable")
       ->check(cli::Range(0.001, 0.49))
       ->capture_default_str();
-  curve->add_option("--limit", options->cusum.h, "S from which on a learner is competent")
+  curve->add_option("--limit", options->cusum.h, "S at which a learner is competent")
       ->check(cli::Range(0.01, 1000.0))
       ->capture_default_str();
-  add("forget", "Erase all attempts and the name of a learner", forget_learner)
+  add("forget", "Delete all attempts and the name of a learner", forget_learner)
       ->add_option("--learner", options->learner, "the learner's id")
       ->required();
   cli::App* name =
-      add("name", "Give a learner's id a name, kept on this computer alone", name_learner);
+      add("name", "Give a learner's id a name, stored on this computer only", name_learner);
   name->add_option("--learner", options->learner, "the learner's id")->required();
   name->add_option("--name", options->name, "the name")->required();
   cli::App* write = add("export", "Write attempts to a file", export_results);

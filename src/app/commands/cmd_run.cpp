@@ -52,7 +52,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
 
 int run_command(const RunCommand& command) {
   if (!is_learner_id(command.learner))
-    return report_error({"'" + command.learner + "' is no learner's id", "--learner",
+    return report_error({"'" + command.learner + "' is not a valid learner's id", "--learner",
                          "Use 1 to 64 letters, digits, '.', '_' and '-'"});
   const auto run = ordered_run(command);
   if (!run) return report_error(run.error());
@@ -87,20 +87,19 @@ void add_run_command(cli::App& app, int& exit_code) {
   auto* case_option = command->add_option(
       "--case", options->case_spec,
       "a case folder or builtin:wrist; default: the built-in case of its anatomy");
-  command->add_option("--seed", options->seed, "the random patient that this seed draws")
-      ->excludes(case_option);
+  command->add_option("--seed", options->seed, "seed of a random patient")->excludes(case_option);
   command
       ->add_option("--surgeon", options->surgeon,
-                   "expert, novice, novice:SEED, or bad:NAME, who makes the error of that name")
+                   "expert, novice, novice:SEED, or bad:NAME, who makes the error NAME")
       ->capture_default_str();
   command->add_option("--standard", options->standard,
-                      "what it is judged against, TOML; default: the shipped one");
-  command->add_option("--findings", options->findings,
-                      "JSON file of what is stated to be wrong with the patient, "
-                      "{\"geissler\": \"3\"}; default: what the surgeon states");
-  command->add_option("--learner", options->learner, "local id under which the attempt is kept")
+                      "standard to judge against, TOML; default: the bundled one");
+  command->add_option(
+      "--findings", options->findings,
+      "JSON file of the findings that are stated, {\"geissler\": \"3\"}; default: the surgeon's");
+  command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
-  command->add_flag("--no-store", options->no_store, "do not keep the attempt");
+  command->add_flag("--no-store", options->no_store, "do not store the attempt");
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--report", options->report, "write the report as JSON");
   command->callback([options, &exit_code] { exit_code = run_command(*options); });

@@ -78,22 +78,25 @@ int run_scan(ScanCommand command) {
 
 void add_scan_command(cli::App& app, int& exit_code) {
   cli::App* scan = app.add_subcommand(
-      "scan", "Make a CT series (DICOM) of a case with a virtual scanner of known truth");
+      "scan",
+      "Make a CT series (DICOM) of a case with a virtual scanner, as a reference with known bones");
   auto command = std::make_shared<ScanCommand>();
   scan->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
       ->required();
   scan->add_option("--out", command->out, "the folder to make")->required();
-  scan->add_option("--spacing", command->spacing_mm, "mm between pixels")->capture_default_str();
-  scan->add_option("--slice", command->slice_mm, "mm between slices")->capture_default_str();
-  scan->add_option("--noise", command->options.noise_hu, "standard deviation in HU")
+  scan->add_option("--spacing", command->spacing_mm, "distance between pixels, mm")
       ->capture_default_str();
-  scan->add_option("--psf", command->psf_mm, "point spread, mm full width at half maximum")
+  scan->add_option("--slice", command->slice_mm, "distance between slices, mm")
       ->capture_default_str();
-  scan->add_option("--cortical", command->cortical_mm, "mm of cortical shell")
+  scan->add_option("--noise", command->options.noise_hu, "standard deviation of the noise, HU")
+      ->capture_default_str();
+  scan->add_option("--psf", command->psf_mm, "point spread, full width at half maximum, mm")
+      ->capture_default_str();
+  scan->add_option("--cortical", command->cortical_mm, "thickness of the cortical shell, mm")
       ->capture_default_str();
   scan->add_flag("--bones-only", command->bones_only,
                  "leave the soft parts out: bones in 8 mm of muscle");
-  scan->add_option("--seed", command->options.seed, "of the noise")->capture_default_str();
+  scan->add_option("--seed", command->options.seed, "seed of the noise")->capture_default_str();
   scan->callback([command, &exit_code] { exit_code = run_scan(*command); });
 }
 

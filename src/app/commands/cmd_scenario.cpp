@@ -129,23 +129,23 @@ int check_one(const ScenarioCommand& command) {
 }  // namespace
 
 void add_scenario_commands(cli::App& app, int& exit_code) {
-  cli::App* group = app.add_subcommand("scenario", "Exercises: list, explain, check");
+  cli::App* group = app.add_subcommand("scenario", "List, explain and check exercises");
   group->require_subcommand(1);
   auto options = std::make_shared<ScenarioCommand>();
-  cli::App* list = group->add_subcommand("list", "The exercises that Osteon ships");
+  cli::App* list = group->add_subcommand("list", "List the bundled exercises");
   list->add_flag("--json", options->json, "print JSON");
   list->callback([options, &exit_code] { exit_code = list_scenarios(*options); });
-  cli::App* info = group->add_subcommand("info", "One exercise: stages, errors, metrics");
+  cli::App* info = group->add_subcommand("info", "Show one exercise: stages, errors, metrics");
   info->add_option("scenario", options->scenario, "name or file")->required();
   info->add_flag("--json", options->json, "print JSON");
   info->callback([options, &exit_code] { exit_code = show_scenario(*options); });
   cli::App* check = group->add_subcommand(
       "check",
-      "Read a scenario critically: a rule that can never be met, a name that comes twice.\n"
+      "Check a scenario for mistakes, such as a rule that can never be met or a duplicate name.\n"
       "Exit code: 0 sound, 1 not, 2 cannot be read");
   check->add_option("scenario", options->scenario, "file or name")->required();
   check->add_option("--case", options->case_spec,
-                    "a case to check it on; default: the built-in one of its anatomy");
+                    "case to check it on; default: the built-in one of its anatomy");
   check->callback([options, &exit_code] { exit_code = check_one(*options); });
 }
 

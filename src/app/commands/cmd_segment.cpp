@@ -30,27 +30,30 @@ void add_segment_command(cli::App& app, int& exit_code) {
   command->add_option(
       "source", order->scan.source,
       "a DICOM folder or file, .nrrd, .nii, .nii.gz, .mhd, .mha, .inv3, or a folder "
-      "of PNG or TIFF slices; chosen in the window when not given");
+      "of PNG or TIFF slices; default: choose it in the window");
   command->add_option("--out", order->out,
-                      "the case folder to make; a new one among your own when not given");
-  command->add_option("--series", order->scan.series, "number or UID, where a folder has several");
-  command->add_option("--spacing", *spacing_mm, "X,Y,Z in mm, for PNG and TIFF slices")
+                      "the case folder to make; default: a new folder among your saved cases");
+  command->add_option("--series", order->scan.series,
+                      "number or UID of the series, where a folder has several");
+  command
+      ->add_option("--spacing", *spacing_mm,
+                   "distances X,Y,Z between voxels, mm, for PNG and TIFF slices")
       ->delimiter(',')
       ->expected(3);
   command->add_flag("--suggest", order->suggest,
                     "Begin with the bones that `osteon import ct` finds by itself");
   command->add_option("--choose", order->choose,
-                      "Begin with this bone chosen, of those that --suggest finds");
+                      "Begin with this bone selected, one of those that --suggest finds");
   command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
   command
       ->add_option("--ui-scale", order->interface_scale,
-                   "Scale of the interface; the display's when not given")
+                   "Scale of the interface; default: the display's")
       ->check(cli::Range(0.5, 4.0));
   command->add_option("--screenshot", order->screenshot,
-                      "Save a picture of the window (PNG), then end");
+                      "Save a picture of the window (PNG), then exit");
   command
       ->add_option("--frames", order->frames,
-                   "Draw this many pictures, print what they cost, then end")
+                   "Draw this many pictures, print their timing, then exit")
       ->check(cli::Range(1, 1000000));
   command->callback([order, size, spacing_mm, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))

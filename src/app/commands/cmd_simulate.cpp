@@ -45,7 +45,7 @@ Result<HeadlessRun> run_of(const SimulateOptions& options) {
   if (run.hands.size() > kMaxHands)
     return fail("a session has at most four hands", "--hand", "Give fewer");
   if (!run.hands.empty() && !options.device.empty())
-    return fail("--device plays one path, not hands", "--device", "Leave out one of the two");
+    return fail("--device plays one path, not hands", "--device", "Leave out one of them");
   if (run.hands.empty()) {
     auto path = load_path(options.path);
     if (!path) return tl::unexpected(path.error());
@@ -89,7 +89,7 @@ Result<void> save_with_more(const Report& report, const HeadlessOutcome& outcome
 
 int run_simulate(const SimulateOptions& options) {
   if (options.path.empty() == options.hands.empty())
-    return report_error({"one of --path and --hand is needed, not both", "simulate",
+    return report_error({"give either --path or --hand", "simulate",
                          "Give --path PATH.csv, or --hand NAME=PATH.csv for each hand"});
   auto run = run_of(options);
   if (!run) return report_error(run.error());
@@ -115,12 +115,11 @@ int run_simulate(const SimulateOptions& options) {
 void add_simulate_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<SimulateOptions>();
   cli::App* command = app.add_subcommand(
-      "simulate", "Drive the virtual hand along a path, without a window, as fast as it goes");
+      "simulate", "Drive the virtual hand along a path, without a window, as fast as possible");
   command->add_option("--case", options->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--path", options->path, "probe path, CSV");
-  command->add_option("--hand", options->hands,
-                      "NAME=PATH.csv, once for each of up to four hands in one world");
+  command->add_option("--hand", options->hands, "NAME=PATH.csv; may be given for up to four hands");
   command->add_option("--record", options->record, "write a recording (.osr)");
   command->add_option("--report", options->report, "write the report as JSON");
   command->add_option("--device", options->device,

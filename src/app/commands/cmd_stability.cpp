@@ -33,9 +33,9 @@ struct NamedGuard {
   LoopGuard guard;
 };
 
-constexpr NamedGuard kGuards[] = {{"nothing between", LoopGuard::kNone},
+constexpr NamedGuard kGuards[] = {{"no passivity stage", LoopGuard::kNone},
                                   {"observer and damping", LoopGuard::kObserverAndDamping},
-                                  {"all of the stage", LoopGuard::kAll}};
+                                  {"full passivity stage", LoopGuard::kAll}};
 
 int run_stability(const StabilityOptions& options) {
   std::vector<StabilityMap> maps;
@@ -44,7 +44,7 @@ int run_stability(const StabilityOptions& options) {
     for (const NamedGuard& guard : kGuards) {
       StabilityMap map = map_stability(hand.hand, guard.guard, options.cells, options.cells);
       map.title = std::string(hand.name) + ": " + guard.name;
-      std::printf("%-50s swings in %4d of %zu\n", map.title.c_str(), map.swinging(),
+      std::printf("%-50s oscillates in %4d of %zu\n", map.title.c_str(), map.swinging(),
                   map.outcomes.size());
       std::fflush(stdout);
       if (guard.guard == LoopGuard::kAll) swinging_with_all += map.swinging();
@@ -62,9 +62,9 @@ void add_stability_command(cli::App& app, int& exit_code) {
   const auto options = std::make_shared<StabilityOptions>();
   cli::App* command = app.add_subcommand(
       "stability",
-      "Press emulated hands onto walls and draw where the loop swings (SVG); exits 1 when it "
-      "swings with the whole passivity stage on");
-  command->add_option("--out", options->out, "the picture")->capture_default_str();
+      "Press emulated hands against virtual walls and plot where the loop oscillates (SVG); exits "
+      "1 when it oscillates with the full passivity stage");
+  command->add_option("--out", options->out, "SVG file to write")->capture_default_str();
   command->add_option("--cells", options->cells, "cells along each side of a map")
       ->check(cli::Range(2, 200))
       ->capture_default_str();

@@ -34,8 +34,8 @@ Result<double> end_of_drill(const TunnelPlan& plan, const TunnelCommand& command
   if (!(command.depth_mm > 0))
     return fail("is not above zero", "--depth", "Give a depth in mm, measured from the bone");
   if (plan.passes.empty())
-    return fail("is measured from where the axis enters the bone, which it does not", "--depth",
-                "Leave it out, or aim the line at the bone");
+    return fail("is measured from where the axis enters the bone, but the axis misses it",
+                "--depth", "Leave it out, or aim the line at the bone");
   return plan.passes.front().entry_m + command.depth_mm / 1000;
 }
 
@@ -122,12 +122,14 @@ int run_tunnel(const TunnelCommand& command) {
   if (!drilled) return report_error(drilled.error());
   const TriMesh mesh = rounded(drilled_bone(drilled->plan, drilled->cut), source->metres_per_unit);
   if (mesh.triangles.empty())
-    return report_error({"takes the whole bone", "the tunnel", "Check --diameter, which is in mm"});
+    return report_error(
+        {"removes the whole bone", "the tunnel", "Check --diameter, which is in mm"});
   if (const auto saved = save_stl(mesh, command.out, source->metres_per_unit); !saved)
     return report_error(saved.error());
   print_tunnel(*drilled, *source, command);
   if (const std::size_t crossings = new_crossings(*drilled, mesh); crossings > 0) {
-    std::fprintf(stderr, "warning: %zu pairs of triangles cross by the tunnel's rim\n", crossings);
+    std::fprintf(stderr, "warning: %zu pairs of triangles cross near the tunnel's rim\n",
+                 crossings);
     return kExitNo;
   }
   return drilled->cut.removed_m3 > 0 ? kExitDone : kExitNo;
@@ -139,15 +141,16 @@ void add_tunnel_command(cli::App& app, int& exit_code) {
   cli::App* tunnel = app.add_subcommand(
       "tunnel", "Drill a straight tunnel into a bone, exactly; exits 1 where the line misses it");
   auto command = std::make_shared<TunnelCommand>();
-  tunnel->add_option("bone", command->bone, "CASE#BONE, as builtin:knee#femur")->required();
-  tunnel->add_option("--from", command->from, "x,y,z in mm, World: where the drill starts")
-      ->required();
-  tunnel->add_option("--to", command->to, "x,y,z in mm, World: how far it goes")->required();
-  tunnel->add_option("--diameter", command->diameter_mm, "of the drill, mm")->required();
-  cli::Option* depth = tunnel->add_option(
-      "--depth", command->depth_mm,
-      "mm from where the axis first enters the bone to the drill's flat end, in place of --to");
-  tunnel->add_option("--out", command->out, "the STL file to write, in the case's unit, in Bone")
+  tunnel->add_option("bone", command->bone, "CASE#BONE, such as builtin:knee#femur")->required();
+  tunnel->add_option("--from", command->from, "x,y,z in mm, World: start of the drill")->required();
+  tunnel->add_option("--to", command->to, "x,y,z in mm, World: end of the drill")->required();
+  tunnel->add_option("--diameter", command->diameter_mm, "diameter of the drill, mm")->required();
+  cli::Option* depth = tunnel->add_option("--depth", command->depth_mm,
+                                          "depth, mm, from where the axis first enters the bone to "
+                                          "the drill's flat end; overrides the depth of --to");
+  tunnel
+      ->add_option("--out", command->out,
+                   "STL file to write, in the case's unit and the bone's own frame")
       ->required();
   tunnel->add_flag("--json", command->json, "print JSON");
   tunnel->callback([command, depth, &exit_code] {

@@ -47,11 +47,11 @@ Result<ScopePose> pose_of(const ViewCommand& command, const Case& the_case) {
   pose.up_W = command.up.empty() ? anatomical_frame(the_case).distal_W : place(command.up);
   pose.post_rad = command.post_deg * std::numbers::pi / 180;
   for (const Vec3& v : {pose.at_W, pose.toward_W, pose.up_W})
-    if (!is_finite(v)) return fail("is not finite", "a place of the scope");
+    if (!is_finite(v)) return fail("is not finite", "a position of the scope");
   if (!std::isfinite(pose.post_rad)) return fail("is not finite", "--post");
   if ((pose.toward_W - pose.at_W).norm() < 1e-6)
-    return fail("--at and --toward are one place", "the scope",
-                "--toward is where its shaft points to");
+    return fail("--at and --toward are the same point", "the scope",
+                "--toward is the point that its shaft points to");
   return pose;
 }
 
@@ -107,7 +107,7 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->required();
   sub->add_option(
          "--post", command->post_deg,
-         "turn of the light post in degrees: at 0 the scope looks up in the picture, at 90 "
+         "rotation of the light post, degrees: at 0 the scope looks up in the picture, at 90 "
          "to the right")
       ->capture_default_str();
   sub->add_option(

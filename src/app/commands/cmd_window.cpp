@@ -32,7 +32,7 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
   command
       ->add_option("--ui-scale", order->interface_scale,
-                   "Scale of the interface; the display's when not given")
+                   "Scale of the interface; default: the display's")
       ->check(cli::Range(0.5, 4.0));
   command
       ->add_option("--layout", *layout,
@@ -41,20 +41,21 @@ void add_window_command(cli::App& app, int& exit_code) {
       ->check(cli::IsMember({"outside", "scope", "panorama", "layout", "fluoro"}));
   command
       ->add_option("--observer", *observer,
-                   "Open the second window, for who looks on, with this in it: as --layout")
+                   "Open a second window for observers that shows this; values as for --layout")
       ->check(cli::IsMember({"outside", "scope", "panorama", "layout", "fluoro"}));
   command->add_option("--film", order->film, "Film the window from the start to this file (.webm)");
-  command->add_flag("--felt", order->felt,
-                    "Begin with the bones coloured by how far what is felt is from their surface");
+  command->add_flag(
+      "--felt", order->felt,
+      "Begin with the bones coloured by the distance of the felt surface from the visible one");
   command->add_flag("--soft", order->softs, "Begin with the soft parts shown");
   command->add_flag("--close-up", order->close_up, "Begin close up on the joint");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
   command->add_option(
       "--device", order->devices,
       "For each hand, a driver or driver:serial (see `osteon devices`), or driver:left "
-      "and driver:right; then =INSTRUMENT, e.g. mouse:left=wrist_arthroscope_2_7; as "
-      "last time when not given");
-  command->add_option("--path", order->path, "What an emulated hand plays (CSV)");
+      "and driver:right; then =INSTRUMENT, e.g. mouse:left=wrist_arthroscope_2_7; default: as last "
+      "time");
+  command->add_option("--path", order->path, "Probe path for an emulated hand (CSV)");
   command->add_option("--record", order->record, "Record from the start to this file (.osr)");
   command->add_option("--force-log", order->force_log,
                       "Write the last 20 s of the device's positions and forces (CSV) when it is "
@@ -62,18 +63,18 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_option("--edit", order->edit, "Begin editing the surface of this bone");
   command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
   command->add_option("--exercise", order->exercise,
-                      "open the briefing of this exercise; see: osteon scenario list");
+                      "Open the briefing of this exercise; see: osteon scenario list");
   command->add_flag("--new-patient", order->new_patient,
                     "Begin with the panel that makes a patient");
   command->add_option("--screenshot", order->screenshot,
-                      "Save a picture of the window (PNG), then end");
+                      "Save a picture of the window (PNG), then exit");
   command
       ->add_option("--frames", order->frames,
-                   "Draw this many pictures, print what they cost, then end")
+                   "Draw this many pictures, print their timing, then exit")
       ->check(cli::Range(1, 1000000));
   command->add_flag("--at-once", order->at_once,
-                    "With --frames: begin as without it, at once, and print when the first picture "
-                    "of the bones and what is felt of them were ready");
+                    "With --frames: begin at once, as without it, and print when the first picture "
+                    "of the bones and their felt shapes were ready");
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);

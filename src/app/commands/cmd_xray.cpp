@@ -78,7 +78,7 @@ Result<void> write_out(const XrayCommand& command, const XrayShot& shot) {
 
 Result<void> check_files(const XrayCommand& command) {
   if (command.out.empty() && command.raw.empty())
-    return fail("there is nothing to write", "osteon xray", "Give --out or --raw");
+    return fail("no output is given", "osteon xray", "Give --out or --raw");
   const auto kind = std::filesystem::path(command.out).extension();
   if (!command.out.empty() && kind != ".png" && kind != ".dcm")
     return fail("must end in .png or .dcm", command.out);
@@ -118,7 +118,7 @@ void add_beam_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--kv", c.shot.kv, "voltage of the tube, 40 to 120 kV")->capture_default_str();
   xray.add_option("--mas", c.shot.mas,
                   "tube current times exposure time of a shot, mAs (default: automatic)");
-  xray.add_option("--shots", c.shot.shots, "count of shots or pulses, for the dose")
+  xray.add_option("--shots", c.shot.shots, "number of shots or pulses, for the dose")
       ->capture_default_str();
   xray.add_option("--pulse", c.pulse_ms, "length of each shot or pulse, ms")->capture_default_str();
   xray.add_option("--noise", c.noise, "noise of the detector, on or off")
@@ -160,7 +160,7 @@ void add_xray_command(cli::App& app, int& exit_code) {
   add_beam_options(*xray, *command);
   xray->add_option(
       "--hu", command->scene.body.bones_hu,
-      "make every bone of one material of this CT value (HU) and leave everything else out");
+      "make every bone of one material with this CT value (HU) and leave out everything else");
   xray->add_flag("--invert", command->inverted, "show bone bright, as on a film");
   xray->add_option("--out", command->out, "picture to write: .png or .dcm (DICOM XA)");
   xray->add_option("--raw", command->raw,

@@ -38,9 +38,8 @@ Result<CollideTable> make_collide_table(const ConvexBody& a, const ConvexBody& b
     const std::int64_t ns = steady_now_ns() - start;
     ++table.poses;
     if (!answered(hit) || depth.status != LpStatus::kOptimal)
-      return fail("the contact programme ended without an answer",
-                  "pose " + std::to_string(table.poses),
-                  "Check that the meshes are not slivers and that the pose is near them");
+      return fail("the contact solver found no answer", "pose " + std::to_string(table.poses),
+                  "Check that the meshes are not slivers and that the pose is close to them");
     table.hits += hit.hit;
     table.times.add_ns(ns);
     table.csv += line(hit, depth, ns);

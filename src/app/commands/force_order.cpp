@@ -27,7 +27,7 @@ Result<ForceOrder> parse_force_order(std::string_view line, std::span<const std:
   std::string wish, hand, more;
   in >> wish >> hand >> more;
   if ((wish != "on" && wish != "off") || !more.empty())
-    return fail("this is no order", std::string(line), what_there_is(names));
+    return fail("this is not a command", std::string(line), what_there_is(names));
   ForceOrder order{wish == "on", std::nullopt};
   if (hand.empty()) return order;
   for (std::size_t i = 0; i < names.size() && !order.hand; ++i)

@@ -75,7 +75,8 @@ Result<Pose> pose_of(const Fields& fields, std::size_t count, const std::string&
     v[k] = *value;
   }
   const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5]), std::abs(v[6])});
-  if (largest == 0) return fail("the quaternion has length nought", where, "No turn is 1,0,0,0");
+  if (largest == 0)
+    return fail("the quaternion has length zero", where, "Without rotation it is 1,0,0,0");
   const Quat q(v[3] / largest, v[4] / largest, v[5] / largest, v[6] / largest);
   return Pose{Vec3(v[0], v[1], v[2]) * 1e-3, q.normalized()};
 }
@@ -103,7 +104,7 @@ Result<std::vector<Pose>> parse_pose_table(std::string_view text, std::string_vi
     }
     first = false;
   }
-  if (poses.empty()) return fail("holds no pose", std::string(where));
+  if (poses.empty()) return fail("holds no poses", std::string(where));
   return poses;
 }
 

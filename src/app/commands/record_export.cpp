@@ -85,7 +85,7 @@ Result<void> write_table(const fs::path& file, const char* columns, const Read& 
   out.close();
   if (!out)
     return fail("the table cannot be written", file.string(),
-                "Give a folder where you may write, with room");
+                "Give a writable folder with enough free space");
   return {};
 }
 
@@ -126,7 +126,7 @@ Result<void> export_csv(RecordingReader& recording, const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error)
     return fail("the folder cannot be made (" + error.message() + ")", folder.string(),
-                "Give a folder where you may write");
+                "Give a writable folder");
   auto done = write_all(recording, folder);
   if (!done) {  // no half table stays
     for (const auto& entry : fs::directory_iterator(folder, error)) fs::remove(entry.path(), error);

@@ -153,7 +153,7 @@ class EventTable {
 
 tl::unexpected<Error> not_written(const fs::path& file) {
   return fail("the file cannot be written", file.string(),
-              "Give a name in a folder where you may write, with room");
+              "Give a name in a writable folder with enough free space");
 }
 
 // Some records at a time, however long the recording.

@@ -113,7 +113,7 @@ Result<std::string> recording_info(RecordingReader& recording, bool json,
                                                       1) +
                                                 " kB a second and hand"
                                           : std::string()));
-  if (!recording.complete()) text += "incomplete: the recording breaks off\n";
+  if (!recording.complete()) text += "incomplete: the recording is truncated\n";
   return text;
 }
 

@@ -95,7 +95,7 @@ Result<void> write_torques(const fs::path& recording, const std::string& case_sp
     table.close();
     if (!table)
       return fail("a table cannot be written", files.front().parent_path().string(),
-                  "Give a folder where you may write, with room");
+                  "Give a writable folder with enough free space");
   }
   return {};
 }
@@ -144,7 +144,7 @@ Result<void> add_torque_to_hdf5(const fs::path& recording, const std::string& ca
   if (!reader) return tl::unexpected(reader.error());
   const auto not_written = [&] {
     return fail("the torques cannot be written", file.string(),
-                "Give a name in a folder where you may write, with room");
+                "Give a name in a writable folder with enough free space");
   };
   Hdf5Handle open(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   if (!open.ok()) return not_written();

@@ -42,9 +42,9 @@ Result<ViewPreset> parse_view_preset(const std::string& text) {
       {"outer", ViewPreset::kRadial},  {"inner", ViewPreset::kUlnar}};
   for (const auto& [name, preset] : presets)
     if (text == name) return preset;
-  return fail(
-      "\"" + text + "\" is not a view", "--view",
-      "choose dorsal, palmar, radial, ulnar, ap or lateral; of a knee front, back, outer or inner");
+  return fail("\"" + text + "\" is not a view", "--view",
+              "choose dorsal, palmar, radial, ulnar, ap or lateral; for a knee front, back, outer "
+              "or inner");
 }
 
 Result<void> hide_bones(const Case& the_case, const std::vector<std::string>& names,
@@ -73,8 +73,8 @@ Result<void> show_softs(const Case& the_case, const std::vector<std::string>& na
       found = true;
     }
     if (!found)
-      return fail("the case has no soft part and no kind of them named \"" + name + "\"", "--soft",
-                  "osteon case info lists them");
+      return fail("the case has no soft part, and no kind of soft part, named \"" + name + "\"",
+                  "--soft", "osteon case info lists them");
   }
   return {};
 }

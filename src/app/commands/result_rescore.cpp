@@ -65,7 +65,7 @@ Result<Slice> slice_of(const std::string& text) {
                          ? std::nullopt
                          : whole_number(std::string_view(text).substr(bar + 1));
   if (!index || !count || *count == 0 || *index < 1 || *index > *count)
-    return fail("'" + text + "' is no slice", "--slice", "Give it as I/N, with I from 1 to N");
+    return fail("'" + text + "' is not a slice", "--slice", "Give it as I/N, with I from 1 to N");
   return Slice{*index - 1, *count};
 }
 
@@ -86,14 +86,15 @@ Result<std::vector<RescoreJob>> rescore_jobs(const RescoreCommand& command, cons
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   if (files.empty())
-    return fail("there is no recording", command.from.front(), "Name .osr files or their folder");
+    return fail("no recording was found", command.from.front(), "Name .osr files or their folder");
   std::map<std::string, fs::path> names;
   std::vector<RescoreJob> jobs;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string name = files[i].stem().string() + ".json";
     if (const auto [it, added] = names.emplace(name, files[i]); !added)
-      return fail("two recordings have one name", it->second.string() + ", " + files[i].string(),
-                  "Rename one, or judge their folders into two");
+      return fail("two recordings have the same name",
+                  it->second.string() + ", " + files[i].string(),
+                  "Rename one, or judge the two folders separately");
     if (i % slice.count == slice.index) jobs.push_back({files[i], fs::path(command.out) / name});
   }
   return jobs;
@@ -136,7 +137,7 @@ Result<Rescored> rescore_one(const RescoreJob& job, const RescoreCommand& comman
   const auto debrief = make_debrief({job.recording, "", command.scenario, command.standard});
   if (!debrief) return tl::unexpected(debrief.error());
   if (!debrief->outcome)
-    return fail("the recording is of no exercise", job.recording.string(),
+    return fail("the recording holds no exercise", job.recording.string(),
                 "Name one with --scenario");
   auto json = nlohmann::ordered_json::parse(report_of(*debrief));
   json["recording"] = job.recording.string();
@@ -173,8 +174,7 @@ int rescore_results(const RescoreCommand& command) {
       },
       [&](double share) { stop("Judging", share); });
   std::printf(
-      "%zu recordings: %zu judged, %zu were judged already, %zu failed, %zu repeat "
-      "otherwise than they were made\n",
+      "%zu recordings: %zu judged, %zu already judged, %zu failed, %zu differ when replayed\n",
       jobs->size(), count[Rescored::kJudged] + count[Rescored::kDifferent], count[Rescored::kThere],
       failed, count[Rescored::kDifferent]);
   return failed + count[Rescored::kDifferent] > 0 ? kExitNo : kExitDone;
@@ -186,17 +186,17 @@ void add_result_rescore(cli::App& results, int& exit_code) {
   auto options = std::make_shared<RescoreCommand>();
   cli::App* command = results.add_subcommand(
       "rescore",
-      "Judge recorded attempts again, on all cores: a report (JSON) each in a folder. What is\n"
-      "judged already is left, so a stopped run goes on. In a Slurm job array each task takes its\n"
-      "share");
+      "Judge recorded attempts again, on all cores, and write one JSON report each. Recordings\n"
+      "that are already judged are skipped, so a stopped run can continue. In a Slurm job array\n"
+      "each task takes its share");
   command->add_option("recordings", options->from, "recordings (.osr), or folders of them")
       ->required();
   command->add_option("--out", options->out, "folder for the reports")->required();
   command->add_option("--scenario", options->scenario,
-                      "name or file; default: the one that each recording keeps");
+                      "name or file; default: the one stored in each recording");
   command->add_option("--standard", options->standard,
-                      "what they are judged against, TOML; default: the one that was used");
-  command->add_option("--slice", options->slice, "I/N: the Ith of N shares alone");
+                      "standard to judge against, TOML; default: the one that was used");
+  command->add_option("--slice", options->slice, "I/N: only the Ith of N shares");
   command->callback([options, &exit_code] { exit_code = rescore_results(*options); });
 }
 

@@ -93,7 +93,7 @@ int copy_results(const SendCommand& command) {
     if (!one) return report_error(one.error());
     added += *one ? 1 : 0;
   }
-  std::printf("%zu attempts copied to %s, %zu were there already\n", added,
+  std::printf("%zu attempts copied to %s, %zu already there\n", added,
               without_password(command.to).c_str(), rows->size() - added);
   return kExitDone;
 }
@@ -107,23 +107,24 @@ void add_whose(cli::App& command, AttemptFilter& filter) {
 
 void add_result_sending(cli::App& results, int& exit_code) {
   auto options = std::make_shared<SendCommand>();
-  cli::App* send = results.add_subcommand(
-      "send", "Send attempts that were not sent yet to a learning record store (xAPI)");
+  cli::App* send =
+      results.add_subcommand("send", "Send new attempts to a learning record store (xAPI)");
   add_whose(*send, options->filter);
-  send->add_option("--to", options->lrs.endpoint, "its address, https://HOST/PATH")->required();
+  send->add_option("--to", options->lrs.endpoint, "address of the store, https://HOST/PATH")
+      ->required();
   send->add_option("--user", options->lrs.user, "user or key");
   send->add_option("--password-file", options->password_file,
-                   "file that holds the password; else OSTEON_LRS_PASSWORD is read");
+                   "file that holds the password; default: OSTEON_LRS_PASSWORD");
   send->add_option("--certificates", options->certificates,
-                   "PEM file of who may sign its certificate; else the system's");
+                   "PEM file of trusted certificate authorities; default: the system's");
   send->add_option("--home-page", options->lrs.home_page, "home page of the learners' accounts")
       ->capture_default_str();
-  send->add_option("--timeout", options->timeout_s, "seconds that one request may take")
+  send->add_option("--timeout", options->timeout_s, "time limit of one request, s")
       ->check(cli::Range(0.1, 600.0))
       ->capture_default_str();
   send->add_flag("--json", options->json, "print JSON");
   send->callback([options, &exit_code] { exit_code = send_results(*options); });
-  cli::App* copy = results.add_subcommand("copy", "Copy attempts to another place of results");
+  cli::App* copy = results.add_subcommand("copy", "Copy attempts to another results database");
   add_whose(*copy, options->filter);
   copy->add_option("--to", options->to, "a file, or postgresql://USER@HOST/DATABASE")->required();
   copy->callback([options, &exit_code] { exit_code = copy_results(*options); });

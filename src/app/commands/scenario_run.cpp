@@ -179,7 +179,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
   };
   if (!ligament && all_done())
-    return fail("nothing of the scenario can be reached", run.case_spec,
+    return fail("no target of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
   watch.watch_tunnels(run.case_spec);

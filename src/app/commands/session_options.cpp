@@ -10,23 +10,29 @@ namespace osteon {
 
 void SessionOptions::add_to(cli::App& command) {
   command.add_option("--seed", settings.seed,
-                     "kept in the recording; nothing in a session is random yet");
-  command.add_option("--stiffness", settings.haptic.stiffness_n_per_m, "virtual coupling, N/m")
+                     "stored in the recording; nothing in a session is random yet");
+  command
+      .add_option("--stiffness", settings.haptic.stiffness_n_per_m,
+                  "stiffness of the virtual coupling, N/m")
       ->check(cli::Range(50.0, 5000.0))
       ->capture_default_str();
-  command.add_option("--friction", settings.haptic.friction_scale, "factor on every friction")
+  command
+      .add_option("--friction", settings.haptic.friction_scale,
+                  "factor on the friction of every material")
       ->check(cli::Range(0.0, 5.0))
       ->capture_default_str();
-  command.add_option("--max-force", settings.haptic.max_force_n, "the device's limit, N")
+  command.add_option("--max-force", settings.haptic.max_force_n, "force limit of the device, N")
       ->check(cli::Range(0.0, 40.0))
       ->capture_default_str();
   command.add_flag("--free-bones", free_bones, "bones move on springs instead of being held");
   add_portals_option(command, portals);
   add_soft_option(command, soft);
-  command.add_option("--hand-mass", hand.mass_kg, "virtual hand, kg")
+  command.add_option("--hand-mass", hand.mass_kg, "mass of the virtual hand, kg")
       ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
-  command.add_option("--hand-stiffness", hand.grip_stiffness_n_per_m, "virtual hand's grip, N/m")
+  command
+      .add_option("--hand-stiffness", hand.grip_stiffness_n_per_m,
+                  "stiffness of the virtual hand's grip, N/m")
       ->check(cli::Range(10.0, 5000.0))
       ->capture_default_str();
 }
@@ -50,7 +56,7 @@ void add_portals_option(cli::App& command, std::string& portals) {
 void add_soft_option(cli::App& command, std::string& soft) {
   command.add_option("--soft", soft,
                      "soft parts that are felt: ligaments (all that the case has), or some of "
-                     "them: acl,pcl,mcl,lcl. Not given: none");
+                     "them: acl,pcl,mcl,lcl; default: none");
 }
 
 std::vector<std::string> portals_named(const std::string& text) {

@@ -80,8 +80,8 @@ std::string axes(const StabilityMap& map) {
                 kHigh / 2) +
          "wall, N/mm</text>\n";
   out += text_at(kWide / 2, -24, map.title);
-  return out +
-         text_at(kWide / 2, -8, format("swings in %d of %zu", map.swinging(), map.outcomes.size()));
+  return out + text_at(kWide / 2, -8,
+                       format("oscillates in %d of %zu", map.swinging(), map.outcomes.size()));
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ std::string to_svg(const std::vector<StabilityMap>& maps, std::size_t across) {
     out += cells(maps[i]) + bound(maps[i]) + axes(maps[i]) + "</g>\n";
   }
   out += text_at(width / 2, height + 10,
-                 "green: settles; greyer: with its stiffness lowered; amber to red: swings, 0.2 to "
-                 "20 mm; dashed: K = b / (T / 2 + delay)");
+                 "green: settles; greyer: with its stiffness lowered; amber to red: oscillates, "
+                 "0.2 to 20 mm; dashed: K = b / (T / 2 + delay)");
   return out + "</svg>\n";
 }
 

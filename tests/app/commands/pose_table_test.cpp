@@ -16,14 +16,14 @@ void expect_error(std::string_view text, std::string_view part) {
 
 TEST(PoseTable, NamesTheLineOfWhatIsWrong) {
   const std::string head = std::string(kPoseColumns) + "\n";
-  expect_error("", "holds no pose");
-  expect_error(head, "holds no pose");
+  expect_error("", "holds no poses");
+  expect_error(head, "holds no poses");
   expect_error(head + "0,0,0,1,0,0,0\n0,0,zero,1,0,0,0\n", "line 3");
   expect_error(head + "0,0,zero,1,0,0,0\n", "z_mm is \"zero\"");
   expect_error(head + "0,0,0,1,0,0\n", "6 columns");
   expect_error(head + "0,0,0,1,0,0,0,0\n", "8 columns");
   expect_error(head + "0,0,0,1,0,0,\n", "qz is \"\"");
-  expect_error(head + "0,0,0,0,0,-0,0\n", "length nought");
+  expect_error(head + "0,0,0,0,0,-0,0\n", "length zero");
   expect_error(head + "nan,0,0,1,0,0,0\n", "not finite");
   expect_error(head + "0,inf,0,1,0,0,0\n", "not finite");
   expect_error(head + "0,1e999,0,1,0,0,0\n", "y_mm");

@@ -27,7 +27,7 @@ constexpr const char* kGoodTibia = "--tibia-from=50,18,22 --tibia-to=4.1,1,0 ";
 TEST_F(AclTunnelsCommand, BadInputIsToldAndExitsTwo) {
   const Ran none = run_osteon("case acl builtin:knee");
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_NE(none.output.find("no tunnel is said"), std::string::npos) << none.output;
+  EXPECT_NE(none.output.find("no tunnel is given"), std::string::npos) << none.output;
   EXPECT_EQ(run_osteon("case acl builtin:knee --femur-from 0,0,0").exit_code, 2);
   EXPECT_EQ(run_osteon("case acl builtin:knee --femur-from 0,0,nan --femur-to 1,2,3").exit_code, 2);
   EXPECT_EQ(run_osteon("case acl " + file("nowhere") + " " + kGoodTibia).exit_code, 2);
