@@ -32,7 +32,7 @@ std::string unit_name(double metres) { return metres == 1 ? "m" : metres == 0.01
 Result<CaseBone> load_case_bone(const std::string& spec) {
   const std::size_t mark = spec.rfind('#');
   if (mark == std::string::npos)
-    return fail("names no bone", spec, "Name one of a case: CASE#BONE, as builtin:knee#femur");
+    return fail("names no bone", spec, "Name one of a case: CASE#BONE, such as builtin:knee#femur");
   const std::string source = spec.substr(0, mark), name = spec.substr(mark + 1);
   const auto choice = parse_felt_choice(source);
   if (!choice) return tl::unexpected(choice.error());
@@ -57,7 +57,7 @@ Result<Vec3> point_from_mm(const std::string& text, const std::string& option) {
     const bool ends_well = k < 2 ? next != end && *next == ',' : next == end;
     if (error != std::errc{} || !ends_well || !std::isfinite(mm[k]))
       return fail("is not three numbers: '" + text + "'", option,
-                  "Write it as x,y,z in mm without spaces, as 10,-2.5,30");
+                  "Write it as x,y,z in mm without spaces, such as 10,-2.5,30");
     at = next + 1;
   }
   return Vec3(mm[0], mm[1], mm[2]) / 1000;

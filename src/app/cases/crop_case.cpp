@@ -110,13 +110,14 @@ TriMesh cut_off(const TriMesh& mesh, const Vec3& n, double c) { return PlaneCut(
 Result<void> crop_knee(CaseDef& def, double near_m) {
   if (!def.recipe || def.recipe->anatomy != "knee")
     return fail("only a knee that was grown can be cropped", "case '" + def.name + "'",
-                "Leave 'near' away");
+                "Leave out 'near'");
   for (BoneDef& bone : def.bones) {
     if (bone.name != "femur" && bone.name != "tibia") continue;
     const Vec3 away(bone.name == "femur" ? -1 : 1, 0, 0);
     TriMesh left = cut_off(bone.mesh, away, near_m);
     if (left.triangles.empty())
-      return fail("nothing of the " + bone.name + " lies so near", "case '" + def.name + "'");
+      return fail("no part of the " + bone.name + " is that close to the joint",
+                  "case '" + def.name + "'");
     bone.mesh = std::move(left);
   }
   return {};

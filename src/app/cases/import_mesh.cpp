@@ -77,8 +77,8 @@ Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const 
   if (options.force || complaint.empty()) return {};
   const std::string unit = likely_unit(name, length_m, options.metres_per_unit);
   return fail(complaint, file.string(),
-              unit.empty() ? "Check the file, or give --force to take it as it is"
-                           : "Try --unit " + unit + ", or give --force to take it as it is");
+              unit.empty() ? "Check the file, or give --force to accept it"
+                           : "Try --unit " + unit + ", or give --force to accept it");
 }
 
 // Parts that overlap are not one solid: what is felt and filled with tetrahedra would be wrong.
@@ -91,9 +91,9 @@ Result<void> refuse_overlap(const TriMesh& mesh,
     if (part[mesh.triangles[a][0]] != part[mesh.triangles[b][0]])
       return fail(
           "has parts that pass through each other (triangles " + std::to_string(a) + " and " +
-              std::to_string(b) + " of the mended mesh)",
+              std::to_string(b) + " of the repaired mesh)",
           file.string(),
-          "Join them to one surface where they were made (a Boolean union), or give --force");
+          "Merge them into one surface where you made them (a Boolean union), or give --force");
   return {};
 }
 

@@ -30,7 +30,7 @@ std::string exact_number(double v) {
 std::string provenance(const PatientOrder& order, const VariedAnatomy& varied) {
   std::string text = "# Made by: " + command_of(order) + "\n";
   if (varied.halvings > 0)
-    text += "# Bones met: drawn values were moved half the way to their means " +
+    text += "# Bones overlapped: drawn values were moved half way to their means " +
             std::to_string(varied.halvings) + " times.\n";
   for (const auto& [name, value] : varied.values)
     text += "# " + name + " = " + short_number(value) + "\n";

@@ -62,7 +62,7 @@ Result<void> read_patient_word(const std::string& word, const std::string& name,
   else if (equals != std::string::npos)
     order.findings.push_back({word.substr(0, equals), word.substr(equals + 1)});
   else
-    return fail("'" + word + "' is neither a side nor a finding", "builtin:" + name,
+    return fail("'" + word + "' is not a side or a finding", "builtin:" + name,
                 "Write left, right or FINDING=GRADE, such as builtin:wrist:7:left:geissler=2");
   return {};
 }

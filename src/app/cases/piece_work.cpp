@@ -80,8 +80,8 @@ void say_coarser(const BoneDef& bone, const PieceCorners& pieces) {
   char height[32];
   std::snprintf(height, sizeof height, "%.1f mm", 1000 * pieces.concavity_m);
   log(LogLevel::kWarning,
-      "bone '" + bone.name + "' is too large or too tangled for fine pieces: they " +
-          "stand up to " + height + " over it. With felt = \"field\" it is felt as it is.");
+      "bone '" + bone.name + "' is too large or too complex for fine pieces: they " +
+          "extend up to " + height + " beyond it. Set felt = \"field\" to feel its true surface.");
 }
 
 std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fields) {

@@ -36,7 +36,7 @@ Result<void> check_closed(const TriMesh& mesh, const std::string& where) {
   return fail("the tissue's surface is not closed: " + std::to_string(t.boundary_edges) +
                   " open edges, " + std::to_string(t.non_manifold_edges) +
                   " shared by three triangles or more, " + std::to_string(t.misoriented_edges) +
-                  " with triangles that run the same way",
+                  " shared by triangles of opposite orientation",
               where, "Close it first, e.g. with: osteon import mesh");
 }
 

@@ -39,7 +39,7 @@ CheckupReport run_checkup(CheckupOrder& order, std::span<const Driver> table,
     append(report.findings, realtime_findings(order.loop_s, cancelled));
   report.findings.push_back(order.graphics);
   report.ended_early = report.ended_early || cancelled();
-  report.verdict = report.ended_early ? "The check-up was ended before it was through."
+  report.verdict = report.ended_early ? "The check-up was stopped before it was complete."
                                       : verdict(report.findings, tries || has_force_device(table));
   progress("Done", 1);
   return report;

@@ -78,7 +78,7 @@ Finding limit_finding(bool priority, bool memory) {
   if (priority && memory) return f;
   f.level = FindingLevel::kNote;
   f.todo =
-      "As root write into /etc/security/limits.d/osteon.conf, then log in again:\n"
+      "As root, write this into /etc/security/limits.d/osteon.conf, then log in again:\n"
       "@plugdev - rtprio 50\n@plugdev - memlock unlimited\n@plugdev - nice -10";
   return f;
 }
@@ -114,7 +114,8 @@ Finding gl_finding(const std::string& version, const std::string& renderer) {
   Finding f{FindingLevel::kGood, "OpenGL", version + ", " + renderer, {}};
   if (is_software_gl(renderer)) {
     f.level = FindingLevel::kNote;
-    f.todo = "Pictures are drawn by the processor; a graphics card leaves more of it to the loops";
+    f.todo =
+        "The processor draws the pictures; a graphics card would leave more time for the loops";
   }
   return f;
 }
@@ -126,7 +127,8 @@ Findings usb_findings() {
   if (const fs::path rule = installed_rule(kUdevFolder); !rule.empty())
     return {{FindingLevel::kGood, "USB", "the udev rule is installed: " + rule.string(), ""}};
   if (::geteuid() == 0)
-    return {{FindingLevel::kNote, "USB", "root may open every device, others need the udev rule",
+    return {{FindingLevel::kNote, "USB",
+             "root may open every device; other users need the udev rule",
              "osteon doctor --install-udev"}};
   return {{FindingLevel::kNote, "USB", "no udev rule: only root may open haptic devices",
            "sudo osteon doctor --install-udev, then plug the device in again"}};

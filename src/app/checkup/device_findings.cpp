@@ -16,7 +16,7 @@ std::string axes_of(const std::array<bool, 3>& driven) {
   std::string out;
   for (std::size_t i = 0; i < 3; ++i)
     if (driven[i]) out += "XYZ"[i];
-  return out.empty() ? "no axis" : out;
+  return out.empty() ? "no axes" : out;
 }
 
 std::string describe_device(const DeviceInfo& info) {
@@ -24,12 +24,12 @@ std::string describe_device(const DeviceInfo& info) {
   if (!info.serial.empty()) text += " (" + info.serial + ")";
   if (info.peak_force_n <= 0) return text + ": no motors";
   text += ": force on " + axes_of(info.force_axes) + ", " + number(info.peak_force_n, "N") +
-          " peak, " + number(info.continuous_force_n, "N") + " lasting, " +
+          " peak, " + number(info.continuous_force_n, "N") + " continuous, " +
           number(info.max_stiffness_n_per_m, "N/m") + ", " + number(info.rate_hz, "Hz");
   if (info.drives_rotation())
     text += "; torque about " + axes_of(info.torque_axes) + ", " +
             number(info.peak_torque_nm, "N m") + " peak, " +
-            number(info.continuous_torque_nm, "N m") + " lasting";
+            number(info.continuous_torque_nm, "N m") + " continuous";
   return text;
 }
 

@@ -68,15 +68,14 @@ Finding reading_finding(TrialLoop& loop, const DeviceInfo& info, double seconds)
   }
   Finding out{FindingLevel::kGood, "Readings", {}, {}};
   const double rate_hz = readings / seconds;
-  out.text =
-      printed("%.0f a second (%.0f expected), between two: p50 %.2f ms, p99 %.2f ms", rate_hz,
-              info.rate_hz, gaps.quantile_ns(0.5) * 1e-6, gaps.quantile_ns(0.99) * 1e-6);
+  out.text = printed("%.0f a second (%.0f expected), interval: p50 %.2f ms, p99 %.2f ms", rate_hz,
+                     info.rate_hz, gaps.quantile_ns(0.5) * 1e-6, gaps.quantile_ns(0.99) * 1e-6);
   if (!connected || readings < 2) {
     out.level = FindingLevel::kBad;
-    out.todo = "Plug it out and in again, at a port of the computer itself";
+    out.todo = "Unplug it and plug it into a port of the computer itself";
   } else if (rate_hz < 0.8 * std::min(info.rate_hz, 1000.0)) {
     out.level = FindingLevel::kNote;
-    out.todo = "Free the computer of other work, and the port of other devices";
+    out.todo = "Close other programs, and unplug other devices from the port's hub";
   }
   return out;
 }
@@ -85,7 +84,7 @@ Finding calibration_finding(const HapticDevice& device, const DeviceSample& samp
   const DeviceHealth health = device.health();
   Finding out{FindingLevel::kGood, "Calibration", "not needed", health.advice};
   if (health.calibration == Calibration::kDone) out.text = "done";
-  if (health.calibration == Calibration::kRunning) out.text = "under way";
+  if (health.calibration == Calibration::kRunning) out.text = "running";
   if (health.calibration == Calibration::kNeeded) out.text = "needed";
   if (!sample.calibrated) {
     out.level = FindingLevel::kBad;
@@ -100,7 +99,7 @@ Findings health_findings(const HapticDevice& device, const DeviceSample& sample)
   if (health.motor_heat >= 0)
     out.push_back({health.motor_heat < 0.8 ? FindingLevel::kGood : FindingLevel::kNote,
                    "Motors",
-                   printed("at %.0f %% of their heat", 100 * health.motor_heat),
+                   printed("at %.0f %% of their thermal limit", 100 * health.motor_heat),
                    {}});
   if (health.bad_reports > 0)
     out.push_back(

@@ -63,12 +63,12 @@ std::string to_json(const Findings& findings) {
 
 std::string verdict(const Findings& findings, bool force_device) {
   const FindingLevel level = worst(findings);
-  if (level == FindingLevel::kBad) return "Not ready: mend what is marked BAD first.";
+  if (level == FindingLevel::kBad) return "Not ready: fix what is marked BAD first.";
   if (!force_device)
-    return "Ready for mouse and gamepad. No device that gives force was found or chosen.";
+    return "Ready for mouse and gamepad. No force-feedback device was found or chosen.";
   return level == FindingLevel::kGood
-             ? "Ready: the device gives force and this computer keeps its time."
-             : "Ready. The notes say what could be better.";
+             ? "Ready: the device gives force and this computer is fast enough."
+             : "Ready. The notes say what could be improved.";
 }
 
 }  // namespace osteon

@@ -102,7 +102,7 @@ struct JudgedAgain {
     if (!held) return tl::unexpected(held.error());
     if (held->size() != recorded_hands)
       return fail("the exercise is for " + std::to_string(held->size()) +
-                      " hands, the recording has " + std::to_string(recorded_hands),
+                      " hands, but the recording has " + std::to_string(recorded_hands),
                   scenario.name, "Name the exercise that was played with --scenario");
     plan = std::make_unique<ScenarioPlan>(std::move(*planned));
     hands = std::move(*held);

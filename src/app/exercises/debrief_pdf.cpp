@@ -67,7 +67,7 @@ void print_force(const Debrief& debrief, const HandTrace& hand, PdfPages& pages)
   if (hand.time_s.empty()) return;
   PdfPages::Curve force;
   force.title = "Force over time" + (hand.name.empty() ? "" : ", hand " + hand.name) +
-                "; lines: stages done and errors";
+                "; lines: completed stages and errors";
   force.x_unit = "s";
   force.y_unit = "N";
   force.x = hand.time_s;
@@ -79,7 +79,7 @@ void print_force(const Debrief& debrief, const HandTrace& hand, PdfPages& pages)
 void print_way(const HandTrace& hand, Eigen::Index down, const char* seen, PdfPages& pages) {
   if (hand.tip_W.empty()) return;
   PdfPages::Curve way;
-  way.title = std::string("Way of the tip seen from ") + seen +
+  way.title = std::string("Path of the tip seen from ") + seen +
               (hand.name.empty() ? "" : ", hand " + hand.name);
   way.x_unit = way.y_unit = "mm";
   way.from_zero = false;
@@ -123,13 +123,13 @@ Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& f
   pages.line("Case " + debrief.case_name + ", " + page_number_text(debrief.duration_s, 1) + " s" +
              (debrief.surgeon.empty() ? "" : ", played by " + debrief.surgeon));
   if (!debrief.identical)
-    pages.line("This computer repeats the recording otherwise than it was: judge with care.");
+    pages.line("The replay on this computer differs from the recording: judge with care.");
   if (debrief.outcome) {
     print_verdict(debrief, pages);
     print_timeline(debrief, pages);
     print_findings(debrief, pages);
   } else {
-    pages.line("The recording is of no exercise: nothing is judged.");
+    pages.line("The recording holds no exercise: nothing is judged.");
   }
   for (const HandTrace& hand : debrief.hands) print_force(debrief, hand, pages);
   for (const HandTrace& hand : debrief.hands) print_structures(hand, pages);

@@ -43,8 +43,8 @@ Result<std::unique_ptr<PathPlayer>> PathPlayer::make(std::unique_ptr<HapticDevic
                                                      ProbePath path) {
   auto* user = dynamic_cast<EmulatedUser*>(device.get());
   if (!user)
-    return fail("a real hand holds this device: no path can be played on it", device->info().name,
-                "Choose a virtual one");
+    return fail("this device is held by a real hand and cannot play a path", device->info().name,
+                "Choose a virtual device");
   std::unique_ptr<PathPlayer> player(new PathPlayer(std::move(device), *user, std::move(path)));
   if (auto ok = player->go_to_start(); !ok) return tl::unexpected(ok.error());
   return player;

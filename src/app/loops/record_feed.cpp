@@ -26,7 +26,7 @@ std::size_t RecordFeed::drain() {
   }
   if (overflowed_.load(std::memory_order_relaxed) && failure_.empty())
     fail_with(
-        "The disk was too slow and the recording ended; what was saved up to then is good. "
+        "The recording ended because the disk was too slow. The part saved until then is valid. "
         "Record to a local disk.");
   return written;
 }

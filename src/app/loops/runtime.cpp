@@ -57,7 +57,7 @@ Runtime::Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_p
       physics_period_s_(plan.settings.physics.step_s),
       exchanges_(make_exchanges(session_)),
       physics_(session_, pointers(exchanges_), feed_.get(), keeper_.get()) {
-  demand(hands.size() == session_.hands(), "a run needs a device for each hand of its settings");
+  demand(hands.size() == session_.hands(), "a run needs one device for each hand in its settings");
   make_hands(plan, std::move(hands));
 }
 

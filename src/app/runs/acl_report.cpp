@@ -70,14 +70,14 @@ void add_femur(std::string& text, const FemoralTunnel& t) {
   add_line(text, "femur: from twelve o'clock", kTurn_deg * t.from_roof_rad, "degrees");
   add_line(text, "femur: channel", 1e3 * t.channel_m, "mm");
   add_line(text, "femur: drilled", 1e3 * t.drilled_m, "mm");
-  add_line(text, "femur: back wall", 1e3 * t.back_wall_m, t.blow_out ? "mm, blown out" : "mm");
+  add_line(text, "femur: back wall", 1e3 * t.back_wall_m, t.blow_out ? "mm, breached" : "mm");
 }
 
 void add_tibia(std::string& text, const TibialTunnel& t) {
   add_line(text, "tibia: Amis-Jakob", 100 * t.front_share, "%");
   add_line(text, "tibia: from the medial border", 100 * t.medial_share, "%");
   add_line(text, "tibia: length", 1e3 * t.length_m, "mm");
-  add_line(text, "tibia: behind the roof's line", 1e3 * t.behind_roof_m, "mm");
+  add_line(text, "tibia: behind the intercondylar roof line", 1e3 * t.behind_roof_m, "mm");
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::string to_text(const AclReport& report) {
   const GraftOutcome& graft = *report.graft;
   add_line(text, "graft: length changes by", 1e3 * graft.excursion_m, "mm over flexion");
   add_line(text, "graft: room under the roof", 1e3 * graft.roof_gap_m,
-           graft.roof_gap_m < 0 ? "mm, the roof presses on it" : "mm");
+           graft.roof_gap_m < 0 ? "mm, the roof impinges on it" : "mm");
   add_line(text, "Lachman: more than when whole",
            1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m), "mm");
   add_line(text, "pivot: more than when whole",

@@ -29,7 +29,7 @@ Pose slid_through(Pose X_WD, const Vec3& hole_W, double wheel) {
 }  // namespace
 
 Result<void> LiveRun::add_hand(const Pose& X_WD_start, std::uint32_t instrument) {
-  if (recording_) return fail("stop the recording before a second hand comes in");
+  if (recording_) return fail("stop the recording before adding a second hand");
   if (hands_.size() >= kMaxHands) return fail("a session has at most four hands");
   std::vector<Pose> poses = poses_now();
   poses.push_back(X_WD_start);

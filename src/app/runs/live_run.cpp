@@ -171,7 +171,7 @@ Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_
 
 Result<void> LiveRun::exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
                                     ProbePath demo, std::shared_ptr<const CarvingSetup> carving) {
-  if (recording_) return fail("stop the recording before the bones are exchanged");
+  if (recording_) return fail("stop the recording before changing the bones");
   case_ = std::move(the_case);
   case_source_ = std::move(case_source);
   demo_ = std::move(demo);
@@ -193,8 +193,8 @@ RecordingHeader LiveRun::header() const {
 }
 
 Result<void> LiveRun::start_recording(const std::filesystem::path& file) {
-  if (recording_) return fail("there is a recording already");
-  if (!runtime_) return fail("nothing is running that could be recorded");
+  if (recording_) return fail("a recording is already running");
+  if (!runtime_) return fail("there is no run to record");
   for (LiveHand& hand : hands_)
     if (hand.snapshot.tool.tick > 0) hand.instrument = hand.snapshot.tool.instrument;
   std::error_code ec;

@@ -22,8 +22,9 @@ Result<std::string> recorded_case_spec(const fs::path& recording, const std::str
     return header.case_path + choice;
   const fs::path beside = recording.parent_path() / folder.filename();
   if (fs::exists(beside, ignored)) return beside.string() + choice;
-  return fail("the case of the recording ('" + source + "') is not found, nor is it beside it",
-              recording.string(), "Name it with --case");
+  return fail(
+      "the case of the recording ('" + source + "') was not found there or beside the recording",
+      recording.string(), "Name it with --case");
 }
 
 CaseParts parts_of(const RecordingHeader& header) {

@@ -19,7 +19,7 @@ std::string to_text(const TorqueReport& report) {
   if (!(report.peak_nm > 0)) return {};
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(),
-                "torque         at the grip %.4f N m at most (%.3f s), %.4f N m on average\n",
+                "torque         at the grip: peak %.4f N m (at %.3f s), mean %.4f N m\n",
                 report.peak_nm, report.peak_at_s, report.mean_nm);
   return text.data();
 }

@@ -46,10 +46,10 @@ Result<XrayScene> scene_of(const Case& the_case, const BoneSnapshot& bones,
 Result<std::size_t> ticks_until(const Recording& recording, const SessionSettings& settings,
                                 std::optional<double> at_s, const std::string& file) {
   const double end_s = static_cast<double>(recording.ticks.size()) * settings.haptic.tick_s;
-  if (recording.ticks.empty()) return fail("holds no tick", file);
+  if (recording.ticks.empty()) return fail("holds no ticks", file);
   if (!at_s) return recording.ticks.size();
   if (!(*at_s >= 0 && *at_s <= end_s + 1e-9))
-    return fail("has nothing at " + std::to_string(*at_s) + " s", file,
+    return fail("has no data at " + std::to_string(*at_s) + " s", file,
                 "Choose a time between 0 and " + std::to_string(end_s) + " s");
   const double ticks = std::round(*at_s / settings.haptic.tick_s);
   return std::clamp<std::size_t>(static_cast<std::size_t>(ticks), 1, recording.ticks.size());
@@ -66,8 +66,8 @@ Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
 
 Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (order.flexion_deg)
-    return fail("stands as it was recorded and cannot be bent", order.source,
-                "Leave --flexion out, or name a case");
+    return fail("is shown as it was recorded and cannot be bent", order.source,
+                "Leave out --flexion, or name a case");
   auto recording = load_recording(order.source);
   if (!recording) return tl::unexpected(recording.error());
   const auto settings = parse_settings(recording->header.settings_json);
@@ -105,8 +105,8 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
 
 Result<XrayScene> scene_of_case(const XraySceneOrder& order) {
   if (order.at_s)
-    return fail("is a case, which stands still", order.source,
-                "Leave --at out, or name a recording (.osr)");
+    return fail("is a case, which has no times", order.source,
+                "Leave out --at, or name a recording (.osr)");
   auto spec = Result<std::string>(order.source);
   if (order.flexion_deg) spec = bent_spec(*spec, "flexion", *order.flexion_deg);
   if (!spec) return tl::unexpected(spec.error());

@@ -54,13 +54,13 @@ Result<void> set_key(const std::string& item, CArm& arm) {
     const char *first = item.data() + equals + 1, *last = item.data() + item.size();
     const auto [end, bad] = std::from_chars(first, last, value);
     if (bad != std::errc{} || end != last || !std::isfinite(value))
-      return fail("is no number: '" + item.substr(equals + 1) + "'", "--c-arm " + name);
+      return fail("is not a number: '" + item.substr(equals + 1) + "'", "--c-arm " + name);
     arm.*key.field = value * key.unit;
     return {};
   }
   return fail("does not know '" + item + "'", "--c-arm",
               "Write orbit=, angulation=, lift=, distance=, source= or field= and a number, "
-              "commas between");
+              "separated by commas");
 }
 
 Result<void> check(const XrayShotOrder& order) {
@@ -69,7 +69,7 @@ Result<void> check(const XrayShotOrder& order) {
   if (!(order.pulse_s >= 0.0001 && order.pulse_s <= 10))
     return fail("must be 0.1 to 10000 ms", "the length of a pulse");
   if (order.mas && !(*order.mas > 0 && *order.mas <= 1000))
-    return fail("must lie above 0 and not above 1000 mAs", "the exposure");
+    return fail("must be above 0 and at most 1000 mAs", "the exposure");
   return {};
 }
 

@@ -126,7 +126,7 @@ TEST(CheckupJob, CancelledWhileItPushesTheForceEndsAtZero) {
   ASSERT_TRUE(outcome);
   const CheckupReport& report = outcome->report;
   EXPECT_TRUE(report.ended_early);
-  EXPECT_NE(report.verdict.find("ended"), std::string::npos);
+  EXPECT_NE(report.verdict.find("stopped"), std::string::npos);
 }
 
 TEST(CheckupJob, GoingAwayItClosesADeviceThatNobodyTookBack) {

@@ -19,7 +19,7 @@ class CheckupPanel : public ::testing::Test {
     model.checkup.findings = {{FindingLevel::kGood, "Loop", "1000 ticks a second", ""},
                               {FindingLevel::kNote, "USB", "no udev rule", "Install it"},
                               {FindingLevel::kBad, "Device", "is silent", "Plug it in again"}};
-    model.checkup.verdict = "Not ready: mend what is marked BAD first.";
+    model.checkup.verdict = "Not ready: fix what is marked BAD first.";
     ui.model = std::move(model);
     for (int i = 0; i < 4; ++i) ui.draw();  // until the list has found its height
   }
