@@ -90,11 +90,11 @@ void draw_name_field(const SegmentContext& c, const SegmentBoneRow& bone) {
   if ((entered || ImGui::IsItemDeactivatedAfterEdit()) && bone.name != text)
     c.requests.rename = NewName{bone.label, text};
   ui::tooltip(
-      "Name of the chosen bone. A name that Osteon knows brings its number in the "
-      "Foundational Model of Anatomy");
+      "Name of the chosen bone. A known name also sets its number in the Foundational Model of "
+      "Anatomy");
   ImGui::SameLine(0, c.px(4));
   if (ImGui::ArrowButton("##names", ImGuiDir_Down)) ImGui::OpenPopup("names");
-  ui::tooltip("Names of bones that Osteon knows");
+  ui::tooltip("Known names of bones");
   draw_name_menu(c, bone);
   ImGui::PopID();
 }
@@ -111,11 +111,11 @@ void draw_chosen(const SegmentContext& c) {
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   if (ImGui::Button("New", {w, 0})) c.requests.add = true;
-  ui::tooltip("A bone without voxels, to be painted or grown (N)");
+  ui::tooltip("A new bone without voxels, to paint or grow (N)");
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(none);
   if (ImGui::Button("Remove", {w, 0})) c.requests.remove = c.model.chosen;
-  ui::tooltip("Takes the chosen bone's voxels and name away; can be undone");
+  ui::tooltip("Deletes the chosen bone's voxels and name; can be undone");
   ImGui::SameLine(0, gap);
   const bool all = std::all_of(c.model.bones.begin(), c.model.bones.end(),
                                [](const SegmentBoneRow& b) { return b.shown; });
@@ -145,11 +145,11 @@ void draw_finish(const SegmentContext& c) {
   const bool empty = c.model.bones.empty();
   ImGui::BeginDisabled(c.model.job.has_value());
   if (empty ? ui::accent_button("Find the bones", {width, 0})
-            : ImGui::Button("Find the bones anew", {width, 0}))
+            : ImGui::Button("Find the bones again", {width, 0}))
     c.requests.suggest = true;
   ui::tooltip(
-      "What `osteon import ct` finds, with names where the scan shows a wrist. Takes the "
-      "place of what is drawn; can be undone");
+      "Finds bones as `osteon import ct` does, with names if the scan shows a wrist. Replaces what "
+      "is drawn; can be undone");
   ImGui::BeginDisabled(empty);
   if (!empty ? ui::accent_button("Save as a case", {width, 0})
              : ImGui::Button("Save as a case", {width, 0}))
@@ -159,7 +159,7 @@ void draw_finish(const SegmentContext& c) {
   ui::tooltip(("Draws the surfaces and writes " + c.model.out + "  (Ctrl + S)").c_str());
   if (c.model.saved) {
     if (ImGui::Button("Open in the simulator", {width, 0})) c.requests.open_case = true;
-    ui::tooltip("Ends this window and opens the saved case (Ctrl + O)");
+    ui::tooltip("Closes this window and opens the saved case (Ctrl + O)");
     return;
   }
   const ui::WithFont small(c.fonts.small);

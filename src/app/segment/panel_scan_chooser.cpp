@@ -17,10 +17,10 @@ void draw_path(const SegmentContext& c, const ScanFolder& folder) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - up - c.px(4));
   if (ImGui::InputText("##path", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue))
     c.requests.browse = text;
-  ui::tooltip("A folder or file; Enter goes there");
+  ui::tooltip("A folder or file; Enter opens it");
   ImGui::SameLine(0, c.px(4));
   if (ImGui::Button("Up", {up, 0})) c.requests.browse = folder.path.parent_path().string();
-  ui::tooltip("The folder that holds this one");
+  ui::tooltip("The parent folder");
 }
 
 void draw_entries(const SegmentContext& c, const ScanFolder& folder, float height) {
@@ -28,7 +28,7 @@ void draw_entries(const SegmentContext& c, const ScanFolder& folder, float heigh
   if (!folder.problem.empty())
     ui::text(color::kAmber, ("This folder cannot be read: " + folder.problem).c_str());
   else if (folder.entries.empty())
-    ui::text(color::kTextQuiet, "No folders and no scans of one file in here");
+    ui::text(color::kTextQuiet, "No folders or single-file scans here");
   for (std::size_t n = 0; n < folder.entries.size(); ++n) {
     const ScanFolder::Entry& entry = folder.entries[n];
     ImGui::PushID(static_cast<int>(n));
@@ -52,7 +52,7 @@ void draw_series(const SegmentContext& c, const ScanChooserModel& chooser) {
   std::snprintf(text, sizeof text, "%s", chooser.series.c_str());
   ImGui::SetNextItemWidth(c.px(200));
   if (ImGui::InputText("Series", text, sizeof text)) c.requests.series = text;
-  ui::tooltip("Its number or UID, where a folder holds several; else leave it empty");
+  ui::tooltip("Number or UID of the series, if the folder holds several; otherwise leave it empty");
 }
 
 void draw_spacing(const SegmentContext& c, const ScanChooserModel& chooser) {
@@ -63,7 +63,7 @@ void draw_spacing(const SegmentContext& c, const ScanChooserModel& chooser) {
   if (ImGui::InputFloat3("mm between pixels and slices", mm.data(), "%.3f"))
     c.requests.spacing_mm =
         Vec3(static_cast<double>(mm[0]), static_cast<double>(mm[1]), static_cast<double>(mm[2]));
-  ui::tooltip("Pictures do not say how large their pixels are: across, down, from slice to slice");
+  ui::tooltip("PNG and TIFF files do not store the size of a voxel: across, down, between slices");
 }
 
 void draw_open(const SegmentContext& c, const ScanChooserModel& chooser, float width) {

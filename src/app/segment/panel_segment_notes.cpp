@@ -147,7 +147,7 @@ void draw_segment_top(const SegmentContext& c) {
   const float whole = ImGui::CalcTextSize("Whole slices").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetCursorPos({r.w - help - whole - c.px(22), 0.5f * (r.h - ImGui::GetFrameHeight())});
   if (ImGui::Button("Whole slices")) c.requests.fit_panes = true;
-  ui::tooltip("Shows each slice as a whole again (F)");
+  ui::tooltip("Fits each slice to its view (F)");
   ImGui::SameLine(0, c.px(8));
   if (ui::toggle_button("Help", c.model.help_open)) c.requests.toggle_help = true;
   ui::tooltip("All keys (F1)");
@@ -163,7 +163,7 @@ struct HelpLine {
 
 constexpr std::array<HelpLine, 18> kHelp = {{
     {"Wheel", "through the slices"},
-    {"Ctrl + wheel", "nearer, farther"},
+    {"Ctrl + wheel", "zoom in, out"},
     {"Right drag", "brightness and contrast"},
     {"Middle drag, Shift + right", "move the slice"},
     {"F", "whole slices"},

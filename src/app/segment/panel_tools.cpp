@@ -20,14 +20,14 @@ struct ToolButton {
 constexpr std::array<ToolButton, 6> kTools = {{
     {SegmentTool::kCross, "Look", "Moves the cross-hair and chooses bones (C)",
      "Click or drag: the other views follow."},
-    {SegmentTool::kGrow, "Grow", "Takes all bone connected to a click (G)",
+    {SegmentTool::kGrow, "Grow", "Selects all bone connected to the click (G)",
      "Click on bone. Connected tinted voxels become one bone."},
     {SegmentTool::kPaint, "Paint", "Adds voxels to the chosen bone (B)",
      "Drag to add to the chosen bone; with Ctrl to erase."},
-    {SegmentTool::kErase, "Erase", "Takes voxels from the chosen bone (X)",
-     "Drag to take away from the chosen bone."},
-    {SegmentTool::kSplit, "Split", "Parts bones that have grown together (S)",
-     "Drag from one bone to the other, or click to part at the neck."},
+    {SegmentTool::kErase, "Erase", "Removes voxels from the chosen bone (X)",
+     "Drag to remove voxels from the chosen bone."},
+    {SegmentTool::kSplit, "Split", "Splits bones that are joined (S)",
+     "Drag from one bone to the other, or click to split at the neck."},
     {SegmentTool::kMerge, "Merge", "Joins pieces of one bone (M)",
      "Choose a bone in the list, then click on the pieces that belong to it."},
 }};
@@ -65,14 +65,13 @@ void draw_brush_options(ToolSettings& tools) {
 
 void draw_grow_options(ToolSettings& tools) {
   ui::switch_row("New bone each click", &tools.fresh,
-                 "Off: what a click finds is added to the chosen bone. Shift and click does the "
-                 "other of the two");
-  ui::switch_row("With marrow", &tools.fill, "Takes what the bone encloses too");
+                 "Off: a click adds to the chosen bone. Shift + click does the opposite");
+  ui::switch_row("With marrow", &tools.fill, "Includes what the bone encloses");
   double reach_mm = 1000 * tools.reach_m;
   const char* format = reach_mm > 0 ? "%.0f mm" : "no limit";
   if (ui::slider("Reach", &reach_mm, 0, 60, format,
-                 "Grows no farther from the click than this, where bone runs into what it should "
-                 "not; 0: no limit"))
+                 "Greatest distance from the click, for bone that leaks into other structures; 0: "
+                 "no limit"))
     tools.reach_m = std::round(reach_mm) / 1000;
 }
 
@@ -88,7 +87,7 @@ void draw_tool_options(const SegmentContext& c, ToolSettings& tools) {
       ImGui::BeginDisabled(c.model.chosen == 0);
       if (ImGui::Button("Split the chosen bone", {width, 0})) c.requests.split_chosen = true;
       ImGui::EndDisabled();
-      ui::tooltip("Parts it at its necks, the narrowest first");
+      ui::tooltip("Splits it at its necks, the narrowest first");
       return;
     case SegmentTool::kCross:
     case SegmentTool::kMerge:
@@ -100,10 +99,10 @@ void draw_threshold(const SegmentContext& c, ToolSettings& tools) {
   const HuRange ends = c.model.values;
   double lo = tools.range.lo, hi = std::min(tools.range.hi, ends.hi);
   const bool from = ui::slider("From", &lo, ends.lo, ends.hi, "%.0f HU",
-                               "Darker voxels do not count as bone. The scan's own suggestion is "
-                               "half-way from soft tissue to bone");
-  const bool to =
-      ui::slider("To", &hi, ends.lo, ends.hi, "%.0f HU", "Brighter voxels do not count: metal");
+                               "Darker voxels do not count as bone. The suggested value is "
+                               "half-way between the scan's soft tissue and bone");
+  const bool to = ui::slider("To", &hi, ends.lo, ends.hi, "%.0f HU",
+                             "Brighter voxels do not count: they are metal");
   if (from) tools.range.lo = static_cast<int>(std::lround(lo));
   if (from) tools.range.hi = std::max(tools.range.hi, tools.range.lo);
   if (to) tools.range.hi = static_cast<int>(std::lround(hi));

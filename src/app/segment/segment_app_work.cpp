@@ -165,7 +165,7 @@ void SegmentApp::poll_saving() {
   ends_ = ends;
   std::string text = std::to_string(saved->bones) + " bones saved as " + saved->folder.string();
   if (saved->without_voxels > 0)
-    text += "; left out, as they have no voxels: " + std::to_string(saved->without_voxels);
+    text += "; left out because they have no voxels: " + std::to_string(saved->without_voxels);
   note(saved->open_surfaces > 0 ? ToastKind::kWarning : ToastKind::kInfo,
        saved->open_surfaces > 0
            ? text + "; surfaces with holes: " + std::to_string(saved->open_surfaces)

@@ -87,7 +87,7 @@ Result<SavedSegments> save_segments(const SegmentSaveOrder& order, const Progres
   const std::vector<LabelledBone> bones = bones_to_save(order);
   if (bones.empty()) return fail("there is no bone to save yet", {}, "Grow or paint one first");
   if (bones.size() > kMaxBones)
-    return fail("a case has at most " + std::to_string(kMaxBones) + " bones, here are " +
+    return fail("a case has at most " + std::to_string(kMaxBones) + " bones, but this one has " +
                     std::to_string(bones.size()),
                 {}, "Merge or remove some");
   LabelCaseOptions options;

@@ -148,8 +148,7 @@ AppSettings load_app_settings(const fs::path& file, std::string* message) {
   fs::rename(file, aside, ec);
   if (message)
     *message =
-        "The settings could not be read, so the usual ones are in use. The old file is kept "
-        "as " +
+        "The settings could not be read, so the defaults are in use. The old file was saved as " +
         aside.string() + ".";
   return {};
 }

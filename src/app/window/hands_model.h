@@ -23,7 +23,7 @@ struct HandRow {
 struct TrayItem {
   std::string title;        ///< "Hook probe"
   std::string size;         ///< "1.5 mm"; empty: it has one size alone
-  std::string does;         ///< "probe, cut (without effect yet)"
+  std::string does;         ///< "probe, cut (no effect yet)"
   std::uint32_t place = 0;  ///< in the session's tray
   int picture = -1;         ///< cell of the sheet; -1: none
 };

@@ -112,7 +112,7 @@ TEST_F(SegmentPanels, LayoutFillsTheWindowWithoutOverlap) {
 
 TEST_F(SegmentPanels, WithoutBonesOnlyFindingThemIsOffered) {
   EXPECT_TRUE(click("##bones", "Find the bones").suggest);
-  EXPECT_LT(find("##bones", "Find the bones anew").x, 0);
+  EXPECT_LT(find("##bones", "Find the bones again").x, 0);
   EXPECT_FALSE(click("##bones", "Save as a case").save);
   EXPECT_FALSE(click("##bones", "Undo").undo);
 }

@@ -37,7 +37,7 @@ void BrowserControl::open_any(const std::string& path) {
     case OpenKind::kNothing:
       break;
   }
-  host_.note(ToastKind::kError, "This is nothing that Osteon can open: " + path +
+  host_.note(ToastKind::kError, "Osteon cannot open this: " + path +
                                     ". It opens case folders, recordings (.osr), meshes and "
                                     "scans.");
 }

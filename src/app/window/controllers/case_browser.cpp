@@ -39,7 +39,7 @@ const char* about(OpenKind kind) {
     case OpenKind::kMeshes:
       return "meshes, imported as a case";
     case OpenKind::kScan:
-      return "scan, to be segmented";
+      return "scan, opened for segmentation";
     case OpenKind::kNothing:
       break;
   }
@@ -125,7 +125,7 @@ void CaseBrowser::toggle(const std::vector<std::string>& recent) {
   model_.known.push_back(entry_of("builtin:knee", "built in"));
   for (const std::string& path : recent)
     if (!path.starts_with(kBuiltinPrefix) && kind_of(path) != OpenKind::kNothing)
-      model_.known.push_back(entry_of(path, "opened lately"));
+      model_.known.push_back(entry_of(path, "opened recently"));
   add_folder_of(home_ / "cases", "saved patient");
   add_folder_of(home_ / "recordings", "recording");
   if (!folder_.empty()) return look_into(folder_);

@@ -113,12 +113,10 @@ void CaseControl::begin_finer(const Loaded& loaded) {
   refining_ = std::make_unique<SideJob<FinerCase>>(
       refine_case(scene_.finer_source, live_.wanted_instruments()));
   if (scene_.finer_source == scene_.source)
-    return host_.note(ToastKind::kInfo,
-                      "You can touch the bones now. Carving them becomes possible in a while.");
-  host_.note(
-      ToastKind::kInfo,
-      "You can touch the bones now. What you feel are their hulls, until more of them has been "
-      "made: once, a minute or two.");
+    return host_.note(ToastKind::kInfo, "You can touch the bones now. Carving will be ready soon.");
+  host_.note(ToastKind::kInfo,
+             "You can touch the bones now. They feel like their hulls until finer pieces are "
+             "ready, in a minute or two.");
 }
 
 bool CaseControl::poll_finer(bool at_rest) {
@@ -133,7 +131,7 @@ bool CaseControl::poll_light() {
   Result<PreparedCase> lit = lighting_->take();
   lighting_.reset();
   if (!lit) {
-    host_.note(ToastKind::kWarning, "Light between the bones: " + lit.error().message());
+    host_.note(ToastKind::kWarning, "Soft shadows: " + lit.error().message());
     return false;
   }
   scene_.renderer->set_surfaces(*lit);
@@ -147,7 +145,7 @@ void CaseControl::poll_pieces() {
   refining_.reset();
   if (finer) return exchange(std::move(*finer));
   host_.note(ToastKind::kWarning,
-             "Some bones are still felt as their hulls. " + finer.error().message());
+             "Some bones still feel like their hulls. " + finer.error().message());
 }
 
 void CaseControl::exchange(FinerCase finer) {
@@ -167,9 +165,8 @@ void CaseControl::exchange(FinerCase finer) {
   if (!finer.carving.problem.empty())
     host_.note(ToastKind::kWarning, finer.carving.problem);
   else
-    host_.note(ToastKind::kInfo, was_felt
-                                     ? "Bone can be carved now."
-                                     : "What you feel of the bones now follows their surface.");
+    host_.note(ToastKind::kInfo, was_felt ? "Bone can be carved now."
+                                          : "The bones now feel like their visible surface.");
 }
 
 // Measured when it is first shown: it would double the time that opening takes.
@@ -179,7 +176,7 @@ bool CaseControl::poll_felt() {
     const Result<PreparedCase> measured = felt_job_->take();
     if (!measured)
       host_.note(ToastKind::kWarning,
-                 "What is felt could not be measured: " + measured.error().message());
+                 "The felt surface could not be measured: " + measured.error().message());
     else
       scene_.renderer->set_surfaces(*measured);
     felt_job_.reset();
@@ -216,8 +213,8 @@ void CaseControl::describe(UiModel& model) const {
   if (felt_job_) model.felt_measured = felt_job_->progress().fraction;
   if (refining_ || lighting_) model.felt_measured = 0;
   if (refining_ && live_.run() && !live_.recording())
-    model.activity += (scene_.source == scene_.finer_source ? "; preparing what is carved, "
-                                                            : "; bones felt as hulls, pieces ") +
+    model.activity += (scene_.source == scene_.finer_source ? "; preparing bones for carving, "
+                                                            : "; bones feel like hulls, pieces ") +
                       std::to_string(static_cast<int>(100 * refining_->progress().fraction)) + " %";
 }
 

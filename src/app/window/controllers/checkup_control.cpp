@@ -23,9 +23,9 @@ const Driver* driver_of(const DeviceChoice& choice) {
 }  // namespace
 
 std::string CheckupControl::not_now_because() const {
-  if (cases_.loading()) return "Something is being opened.";
+  if (cases_.loading()) return "Wait until the case is open.";
   if (live_.recording())
-    return "Stop the recording first: the check-up needs the device for itself.";
+    return "Stop the recording first: the check-up needs exclusive use of the device.";
   return {};
 }
 

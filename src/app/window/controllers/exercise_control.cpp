@@ -56,13 +56,13 @@ void ExerciseControl::save_pages() {
 void ExerciseControl::show(const std::string& name) {
   exercise_.toggle();
   if (!exercise_.choose(name))
-    host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. These are there.");
+    host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");
 }
 
 // The patient of the exercise takes the place of what is on show, unless it is that already.
 void ExerciseControl::open_patient() {
   if (live_.recording())
-    return host_.note(ToastKind::kWarning, "Stop the recording before an exercise.");
+    return host_.note(ToastKind::kWarning, "Stop the recording before starting an exercise.");
   const std::string spec = exercise_.case_spec();
   const bool all_here = want_instruments(exercise_.scenario());
   exercise_.wait_for_case();
@@ -117,7 +117,7 @@ void ExerciseControl::begin() {
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
-  host_.note(ToastKind::kInfo, "The time runs. M takes the probe, Esc lets go of it.");
+  host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
 }
 
 void ExerciseControl::poll() {

@@ -195,7 +195,7 @@ void ExerciseRun::judge() {
   page_ = ExercisePage::kJudging;
   judging_ = std::make_unique<SideJob<Debrief>>(
       [order = DebriefOrder{file_, "", scenario().where, ""}](const Progress& progress) {
-        progress("Repeating what you did", 0.1);
+        progress("Replaying your attempt", 0.1);
         return make_debrief(order);
       });
 }
@@ -205,7 +205,7 @@ void ExerciseRun::poll() {
   auto judged = judging_->take();
   judging_.reset();
   if (!judged || !judged->outcome) {
-    problem_ = judged ? "The recording holds no attempt." : judged.error().message();
+    problem_ = judged ? "The recording contains no attempt." : judged.error().message();
     page_ = ExercisePage::kResult;
     return;
   }

@@ -33,7 +33,7 @@ bool HandsControl::apply(const HandsRequests& requests, bool free) {
   if (requests.portal) bring_to(*requests.portal);
   if (requests.mark) {
     run->mark();
-    host_.note(ToastKind::kInfo, "This moment is kept. U goes back to it.");
+    host_.note(ToastKind::kInfo, "This moment is marked. U goes back to it.");
   }
   if (!requests.undo || !run->undo()) return false;
   host_.note(ToastKind::kInfo, "Back at the mark.");
@@ -67,7 +67,7 @@ void HandsControl::change_hands() {
   const Result<void> added =
       run.add_hand({offered.p - kApart_m * (camera.q_WC * Vec3::UnitX()), offered.q}, 0);
   if (!added) return host_.note(ToastKind::kWarning, added.error().message());
-  host_.note(ToastKind::kInfo, "The left hand is yours now; the right one rests. X changes hands.");
+  host_.note(ToastKind::kInfo, "You now move the left hand; the right one rests. X changes hands.");
 }
 
 // Before the portal, the shaft along its way in.

@@ -31,7 +31,7 @@ std::string what_it_does(const Instrument& instrument) {
     into += (into.empty() ? "" : ", ") + std::string(to_text(function));
   }
   if (declared.empty()) return text;
-  return text + (text.empty() ? "" : "; ") + declared + " (without effect yet)";
+  return text + (text.empty() ? "" : "; ") + declared + " (no effect yet)";
 }
 
 // What has no effect is not driven.
@@ -121,7 +121,7 @@ std::uint32_t InstrumentTray::next_size(std::uint32_t place) const {
 
 TrayItem InstrumentTray::item(std::uint32_t place) const {
   if (place < kFirst)
-    return {kWristProbeTitle, {}, "probe: the ball at its tip alone is felt", 0, -1};
+    return {kWristProbeTitle, {}, "probe: only the ball at its tip is felt", 0, -1};
   const PreparedTool& tool = set_.at(place - kFirst);
   const Instrument& instrument = set_.instruments()[tool.instrument];
   TrayItem out{

@@ -40,7 +40,7 @@ bool NotesControl::poll_pointer(const SceneInput& input) {
   const SurfacePoint under =
       scene_.renderer->pick_point(sight_.shown(), sight_.view(), sight_.viewport(), at.x, at.y);
   if (!under.bone.valid()) {
-    host_.note(ToastKind::kInfo, "Click on a bone: the note is put there.");
+    host_.note(ToastKind::kInfo, "Click on a bone to place the note.");
     return true;
   }
   place(under);

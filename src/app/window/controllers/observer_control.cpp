@@ -18,10 +18,9 @@ void ObserverControl::open() {
   if (!opened) return host_.note(ToastKind::kError, opened.error().message());
   observer_ = std::move(*opened);
   if (!own_screen)
-    host_.note(
-        ToastKind::kInfo,
-        "There is one screen only: the second window is an ordinary one. What it shows is chosen "
-        "on the left under View, or by V within it.");
+    host_.note(ToastKind::kInfo,
+               "There is only one screen, so the second window is an ordinary one. Choose what it "
+               "shows under View, or press V in it.");
 }
 
 void ObserverControl::toggle() {
@@ -39,7 +38,8 @@ bool ObserverControl::poll() {
     if (key == kKeyV) layout_ = next_layout(layout_);
   }
   if (observer_->came_back())
-    host_.note(ToastKind::kWarning, "The second screen is gone: its window is on this one now.");
+    host_.note(ToastKind::kWarning,
+               "The second screen was disconnected. Its window is now on this screen.");
   if (observer_->closed()) observer_.reset();
   return escaped;
 }

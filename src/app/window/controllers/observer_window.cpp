@@ -49,7 +49,7 @@ Result<std::unique_ptr<ObserverWindow>> ObserverWindow::open(const GlWindow& fir
   WindowOptions options;
   options.width = kWidth;
   options.height = kHeight;
-  options.title = "Osteon, for who looks on";
+  options.title = "Osteon, observer's window";
   options.wait_for_display = false;  // the first window waits
   options.beside = first.handle();
   auto window = GlWindow::create(options);

@@ -23,7 +23,7 @@ ReplayModel replay_of(const LoadedReplay& replay, const ReplayPlayer& player) {
                       : "Differs from the recording from tick " +
                             std::to_string(replay.first_different_tick) + " on";
   if (replay.filling && !replay.filling->whole() && replay.identical)
-    model.verdict = "Repeats exactly so far; repeated: " +
+    model.verdict = "Repeats exactly so far; checked: " +
                     std::to_string(static_cast<int>(100 * replay.filling->share())) + " %";
   return model;
 }
@@ -46,9 +46,9 @@ void ReplayControl::begin(LoadedReplay replay) {
   // The ordered moment stands still.
   if (host_.order.frames > 0 && host_.order.at_s > 0) player_.toggle();
   if (!replay_->complete)
-    host_.note(
-        ToastKind::kWarning,
-        "This recording was cut short, by a crash or a power cut; all that was saved is here.");
+    host_.note(ToastKind::kWarning,
+               "This recording was cut short by a crash or a power cut. Everything that was saved "
+               "is here.");
 }
 
 void ReplayControl::advance(double dt_s) {

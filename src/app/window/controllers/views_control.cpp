@@ -80,11 +80,10 @@ std::string ViewsControl::message_on(PaneKind kind) const {
   if (kind != PaneKind::kScope) return {};
   if (!views.looking())
     return replay_.on() ? "No hand holds a scope at this moment of the recording."
-                        : "No hand holds a scope. Take one here or from the tray (T); with X a "
-                          "second hand comes in, and the scope then rests as if an assistant held "
-                          "it.";
+                        : "No hand holds a scope. Take one here or from the tray (T). X adds a "
+                          "second hand; the scope then rests as if an assistant held it.";
   if (views.scope_is_outside())
-    return "The scope is far from the joint. G brings the hand before a portal, the wheel goes in.";
+    return "The scope is far from the joint. G moves the hand to a portal, the wheel moves it in.";
   return {};
 }
 

@@ -117,7 +117,7 @@ void Loader::make_surfaces(Loaded& loaded) {
       prepared.softs[i - 1 - bones] = unlit_soft(the_case, i - 1 - bones);
   };
   run_on_all_cores(1 + bones + softs, task,
-                   [&](double share) { say("Making the surfaces", 0.5 + 0.2 * share); });
+                   [&](double share) { say("Building the surfaces", 0.5 + 0.2 * share); });
 }
 
 Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
@@ -125,13 +125,13 @@ Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
       open_case(spec, [this](const char* what, double share) { say(what, 0.05 + 0.35 * share); });
   if (!opened) return tl::unexpected(opened.error());
   loaded.the_case = std::move(*opened);
-  constexpr const char* kLight = "Working out the light between the bones";
+  constexpr const char* kLight = "Computing soft shadows";
   say(kLight, 0.4);
   loaded.prepared = prepare_case(*loaded.the_case, [this](double share) {
     return goes_on(progress_, kLight, 0.4 + 0.3 * share);
   });
   loaded.tray = prepare_tray(region_of(*loaded.the_case), order_.instruments);
-  say("Looking into the bones that can be carved", 0.7);
+  say("Preparing bones for carving", 0.7);
   loaded.carving = prepare_carving(*loaded.the_case, loaded.tray->tray);
   return {};
 }
@@ -176,7 +176,7 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
     track.add(tool, bones);
     for (const Event& event : events) replay_of.events.add(event, settings->haptic.tick_s);
     if (hand == 0 && tool.tick % 500 == 0)
-      say("Repeating the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
+      say("Replaying the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
   };
   const auto outcome = replay(recording, loaded.the_case, options);
   if (!outcome) return tl::unexpected(outcome.error());
@@ -191,7 +191,7 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
 
 // What the user looks at; the rest follows beside the window.
 Result<void> Loader::repeat_first(LoadedReplay& replay_of) {
-  say("Repeating the recorded run", 0.75);
+  say("Replaying the recorded run", 0.75);
   replay_of.duration_s = replay_of.filling->duration_s();
   const auto filled = replay_of.filling->fill_at(order_.at_s, replay_of, progress_);
   if (!filled) return filled;

@@ -29,7 +29,7 @@ SideJob<PreparedCase>::Work measure_felt(std::shared_ptr<const Case> the_case,
     PreparedCase out = prepared;
     bool whole = true;
     prepare_felt(*the_case, out, [&](double share) {
-      return whole = goes_on(tell, "Measuring what is felt", share);
+      return whole = goes_on(tell, "Measuring the felt surface", share);
     });
     if (!whole) return stopped();
     return out;
@@ -41,7 +41,7 @@ SideJob<PreparedCase>::Work light_case(std::shared_ptr<const Case> the_case) {
     take_late_turns();
     bool whole = true;
     PreparedCase out = prepare_case(*the_case, [&](double share) {
-      return whole = goes_on(tell, "Working out the light between the bones", share);
+      return whole = goes_on(tell, "Computing soft shadows", share);
     });
     if (!whole) return stopped();
     return out;

@@ -48,7 +48,7 @@ void draw_folder(const PanelContext& c) {
     const OpenEntry typed{OpenKind::kNothing, text, {}, text};
     c.requests.browser.open = typed;
   }
-  ui::tooltip("A folder or file; Enter goes there");
+  ui::tooltip("A folder or file; Enter opens it");
   ImGui::SameLine(0, c.px(4));
   if (ImGui::Button("Up", {up, 0}))
     c.requests.browser.look_into = std::filesystem::path(browser.folder).parent_path().string();
@@ -56,7 +56,7 @@ void draw_folder(const PanelContext& c) {
   if (!browser.problem.empty())
     ui::text(color::kAmber, ("This folder cannot be read: " + browser.problem).c_str());
   else if (browser.files.empty())
-    ui::text(color::kTextQuiet, "Nothing in here that can be opened");
+    ui::text(color::kTextQuiet, "Nothing here can be opened");
   int i = 0;
   for (const OpenEntry& entry : browser.files) draw_entry(c, entry, i++);
   ImGui::EndChild();
@@ -74,10 +74,10 @@ void draw_browser_footer(const PanelContext& c) {
     ImGui::SameLine();
   }
   if (ImGui::Button("New patient ...")) c.requests.patient.toggle = true;
-  ui::tooltip("Makes a wrist or knee by its measures (N)");
+  ui::tooltip("Makes a wrist or knee from measures (N)");
   ImGui::SameLine();
   if (ImGui::Button("Segment a scan ...")) c.requests.segment_scan = true;
-  ui::tooltip("Makes a case of a CT scan by hand, in a window that takes the place of this one");
+  ui::tooltip("Makes a case from a CT scan by hand, in a window that replaces this one");
   ImGui::SameLine();
   if (ImGui::Button("Close  (O)")) c.requests.browser.toggle = true;
 }

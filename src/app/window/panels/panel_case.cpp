@@ -17,7 +17,7 @@ struct FeltButton {
 };
 
 constexpr std::array<FeltButton, 3> kFeltButtons = {{
-    {Felt::kHull, "Hull", "One convex body around the bone: the quickest, hollows are bridged"},
+    {Felt::kHull, "Hull", "One convex hull around the bone: the fastest, but it bridges hollows"},
     {Felt::kPieces, "Pieces", "Convex pieces that follow the bone within about 0.2 mm"},
     {Felt::kField, "Field", "The bone's own surface, smoothed over a quarter of a millimetre"},
 }};
@@ -37,7 +37,7 @@ void draw_felt(const PanelContext& c, std::size_t i) {
     ui::tooltip(button.explanation);
   }
   ImGui::EndDisabled();
-  ui::text(color::kTextQuiet, "A change opens the case again");
+  ui::text(color::kTextQuiet, "A change reopens the case");
 }
 
 void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {
@@ -53,7 +53,7 @@ void draw_bone_row(const PanelContext& c, std::size_t i, ViewState& view) {
   BoneAppearance& look = view.bones[i];
   ImGui::PushID(static_cast<int>(i));
   const float eye = c.px(18), row = ImGui::GetCursorPosY();
-  draw_swatch(c, look, "appearance", "Colour, opacity and how the bone is felt");
+  draw_swatch(c, look, "appearance", "Colour, opacity and felt shape");
   draw_appearance_popup(c, i, view);
   ImGui::SameLine(0, c.px(8));
   ImGui::SetCursorPosY(row);

@@ -71,7 +71,7 @@ void draw_findings(const PanelContext& c) {
 void draw_udev_rule(const PanelContext& c) {
   const UdevRule& udev = c.model.checkup.udev;
   if (udev.text.empty() || udev.installed) return;
-  if (!ui::section(c.fonts, "udev rule: lets you open the devices without being root", false))
+  if (!ui::section(c.fonts, "udev rule: lets users other than root open the devices", false))
     return;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, color::kField);
   {
@@ -87,7 +87,7 @@ void draw_udev_rule(const PanelContext& c) {
   ImGui::SameLine();
   if (udev.may_install) {
     if (ui::accent_button("Install it")) c.requests.install_udev = true;
-    ui::tooltip("Writes /etc/udev/rules.d/70-osteon.rules; plug the device in again afterwards");
+    ui::tooltip("Writes /etc/udev/rules.d/70-osteon.rules; then plug the device in again");
   } else {
     if (ImGui::Button("Copy the command that installs it"))
       c.requests.copy = "sudo osteon doctor --install-udev";
@@ -99,10 +99,10 @@ void draw_push_test(const PanelContext& c) {
   const CheckupModel& checkup = c.model.checkup;
   if (checkup.device.empty()) return;
   wrapped(color::kTextQuiet, "Force test: " + checkup.device +
-                                 " pushes with 0.5 N at most, along each driven axis for a second. "
-                                 "Hold it loosely; Esc ends it at once.");
+                                 " pushes with at most 0.5 N along each driven axis for one "
+                                 "second. Hold it loosely; Esc stops it at once.");
   if (ImGui::Button("Push gently")) c.requests.begin_push_test = true;
-  ui::tooltip("I hold the device and it may push with 0.5 N");
+  ui::tooltip("I hold the device; it may push with 0.5 N");
 }
 
 void draw_buttons(const PanelContext& c) {
@@ -122,7 +122,7 @@ void draw_buttons(const PanelContext& c) {
   if (ImGui::Button("Copy the list"))
     c.requests.copy = to_text(checkup.findings) + "\n" + checkup.verdict + "\n";
   ImGui::EndDisabled();
-  ui::tooltip("As text, to ask somebody for help");
+  ui::tooltip("As text, for support requests");
   ImGui::SameLine();
   if (ImGui::Button("Close  (F2)")) c.requests.toggle_checkup = true;
 }

@@ -29,11 +29,12 @@ void draw_calibration(const PanelContext& c) {
   const bool needed = health.calibration == Calibration::kNeeded;
   const bool running = health.calibration == Calibration::kRunning;
   if (health.calibration == Calibration::kDone)
-    ui::stat("Calibration", "Done", "The device knows where its stylus is");
-  if (running) ui::stat("Calibration", "Under way", "The device finds where its stylus is");
+    ui::stat("Calibration", "Done", "The device knows the position of its stylus");
+  if (running)
+    ui::stat("Calibration", "Running", "The device is finding the position of its stylus");
   if (needed)
     ui::stat("Calibration", "! Needed",
-             "The device does not know where its stylus is; it gives no force until it does",
+             "The device does not know the position of its stylus; until then it gives no force",
              color::kAmber);
   if (health.advice != nullptr && *health.advice != 0) {
     ImGui::PushTextWrapPos(0);
@@ -44,18 +45,19 @@ void draw_calibration(const PanelContext& c) {
   const ImVec2 size{ImGui::GetContentRegionAvail().x, 0};
   if (needed ? ui::accent_button("Calibrate", size) : ImGui::Button("Calibrate again", size))
     c.requests.calibrate = true;
-  ui::tooltip("Starts the device's calibration; let it go or follow its advice meanwhile");
+  ui::tooltip(
+      "Starts the device's calibration; release the device or follow its advice until it ends");
 }
 
 void draw_dead_man(const PanelContext& c) {
   const HandModel& hand = c.model.hand;
   if (hand.has_dead_man)
-    ui::stat("Dead-man", hand.dead_man_held ? "Held" : "! Let go",
-             "The switch or pedal that must be held for force",
+    ui::stat("Dead-man", hand.dead_man_held ? "Held" : "! Released",
+             "Switch or pedal that must be held down for force",
              hand.dead_man_held ? color::kText : color::kAmber);
   if (hand.status.clutched)
     ui::stat("Clutch", "Hand moves alone",
-             "While the clutch is held the device moves without the tool", color::kAccent);
+             "While the clutch is held, the device moves without the tool", color::kAccent);
 }
 
 void draw_heat(const PanelContext& c) {
@@ -66,9 +68,9 @@ void draw_heat(const PanelContext& c) {
   const bool warm = heat >= kWarm;
   draw_share(c, "Motor heat", heat, (warm ? "! " : "") + ui::number(100 * heat, 0) + " %",
              warm ? color::kAmber : color::kAccent,
-             told ? "Warmest motor, percent of its limit, as the device tells"
-                  : "Reckoned from the force given so far: 100 % is what the profile lets the "
-                    "motors bear for ever. Above it the force limit sinks.");
+             told ? "Warmest motor, percent of its limit, measured by the device"
+                  : "Estimated from the force given so far, percent of what the profile allows "
+                    "continuously. Above 100 % the force limit drops.");
 }
 
 // The observer's account on a scale that shows both a light touch and a firm push.
@@ -79,14 +81,13 @@ void draw_energy(const PanelContext& c) {
   draw_share(c, "Energy", std::abs(p.energy_j) / kFull_j,
              (owed ? "! " : "") + ui::number(p.energy_j * 1e3, 1) + " mJ",
              owed ? color::kAmber : color::kAccent,
-             "What the hand has put in and not got back, millijoules. Below zero the bone would "
-             "push more than it was pushed: then damping takes the rest out.");
+             "Energy put in by the hand and not returned, millijoules. Below zero the contact "
+             "would generate energy; damping then removes it.");
   ui::stat("Damping added", ui::number(p.damping_n_s_per_m, 1) + " N s/m",
-           "Put in by the passivity stage in the last tick to keep the contact calm; its limit is "
-           "the stage's own");
+           "Damping that the passivity stage added in the last tick to keep the contact stable");
   if (p.stiffness_share < 0.995)
     ui::stat("Force passed on", ui::number(100 * p.stiffness_share, 0) + " %",
-             "Lowered because the contact chattered; it rises again once nothing is touched",
+             "Reduced because the contact oscillated; it rises again once nothing is touched",
              color::kAmber);
 }
 
@@ -94,11 +95,10 @@ void draw_reports(const PanelContext& c) {
   const DeviceHealth& health = c.model.hand.status.health;
   if (health.reports_in == 0) return;
   ui::stat("Readings", std::to_string(health.reports_in),
-           "Readings that the device sent since it was opened");
+           "Readings received since the device was opened");
   if (health.bad_reports > 0)
     ui::stat("Garbled", "! " + std::to_string(health.bad_reports),
-             "Readings that were refused: short, garbled or out of range. Try another cable or "
-             "port.",
+             "Rejected readings: short, garbled or out of range. Try another cable or port.",
              color::kAmber);
 }
 
@@ -111,13 +111,13 @@ void draw_axes(HandModel::Mapping& mapping, bool& changed) {
     mapping.settings.axes = MappingAxes::kView;
     changed = true;
   }
-  ui::tooltip("Right at the hand is right on the screen, however the view is turned");
+  ui::tooltip("Right for the hand is right on the screen in any view");
   ImGui::SameLine(0, gap);
   if (ui::toggle_button("The patient", !view, {w, 0}) && view) {
     mapping.settings.axes = MappingAxes::kPatient;
     changed = true;
   }
-  ui::tooltip("The hand's directions stay those of the patient, whatever the view does");
+  ui::tooltip("The hand's directions stay those of the patient in any view");
 }
 
 void draw_clutch(HandModel::Mapping& mapping, bool& changed) {
@@ -142,12 +142,12 @@ void draw_pedal(const PanelContext& c, const char* name, const char* label, cons
                 const std::string& now) {
   const bool learning = c.model.hand.learning_pedal == name;
   ImGui::PushID(name);
-  ui::stat(label, learning ? wanted : now, "What drives it; kept with the settings",
+  ui::stat(label, learning ? wanted : now, "Pedal or key in use; stored with the settings",
            learning ? color::kAccent : color::kText);
   const float w = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   if (ImGui::Button(learning ? "Stop" : "Set", {w, 0}))
     c.requests.learn_pedal = learning ? std::string() : std::string(name);
-  ui::tooltip("Press it, then move the pedal or press the key that shall drive it");
+  ui::tooltip("Click here, then press the pedal or key to use");
   ImGui::SameLine();
   ImGui::BeginDisabled(now == "none");
   if (ImGui::Button("Remove", {w, 0})) c.requests.forget_pedal = name;
@@ -160,14 +160,13 @@ void draw_mapping(const PanelContext& c) {
   bool changed = false;
   if (mapping.settable) {
     changed |= ui::slider("Scale", &mapping.settings.scale, kMinScale, kMaxScale, "%.2f x",
-                          "2: one centimetre at the hand is two in the case; 0.1 to 5");
+                          "At 2, one centimetre of the hand is two in the case; 0.1 to 5");
     draw_axes(mapping, changed);
     draw_clutch(mapping, changed);
     changed |= ui::slider("Own friction", &mapping.settings.friction_n, 0, kMaxFriction_n, "%.2f N",
-                          "Friction of the device itself that is made up for, newtons; 0 to 1");
+                          "The device's own friction to compensate, newtons; 0 to 1");
     changed |= ui::slider("Own inertia", &mapping.settings.inertia_kg, 0, kMaxInertia_kg, "%.3f kg",
-                          "Mass of the device's moving parts that is made up for, kilograms; 0 to "
-                          "0.2");
+                          "Mass of the device's moving parts to compensate, kilograms; 0 to 0.2");
   }
   draw_pedal(c, kDeadManPedal, "Dead-man pedal", "Press it now", mapping.dead_man);
   draw_pedal(c, kClutchPedal, "Clutch pedal", "Press it now", mapping.clutch);
@@ -186,9 +185,7 @@ void draw_more(const PanelContext& c) {
                                 : "How the device moves the probe in this case, and its pedals");
   ImGui::SameLine(0, gap);
   if (ui::toggle_button("Check-up", c.model.checkup.open, half)) c.requests.toggle_checkup = true;
-  ui::tooltip(
-      "Checks this computer and the device, and says what to do where something is amiss "
-      "(F2)");
+  ui::tooltip("Checks this computer and the device, and says how to fix problems (F2)");
 }
 
 }  // namespace

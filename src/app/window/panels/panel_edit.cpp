@@ -18,10 +18,10 @@ struct FallOffButton {
 };
 
 constexpr std::array<FallOffButton, 4> kFallOffs = {{
-    {FallOff::kSmooth, "Smooth", "Level at the middle and at the rim: a bump without an edge"},
-    {FallOff::kCone, "Cone", "Falls evenly: a point, and an edge at the rim"},
+    {FallOff::kSmooth, "Smooth", "Flat in the middle and at the rim: a bump without an edge"},
+    {FallOff::kCone, "Cone", "Falls evenly: a point in the middle, an edge at the rim"},
     {FallOff::kDome, "Dome", "Broad, with an edge at the rim"},
-    {FallOff::kSpike, "Spike", "Narrow, level at the rim"},
+    {FallOff::kSpike, "Spike", "Narrow, flat at the rim"},
 }};
 
 void draw_fall_off(const PanelContext& c) {
@@ -29,8 +29,8 @@ void draw_fall_off(const PanelContext& c) {
   SoftSelection wanted = edit.selection;
   double radius_mm = 1000 * wanted.radius_m;
   bool changed = ui::slider("Reach", &radius_mm, 0.5, 30, "%.1f mm",
-                            "How far along the surface the bone follows your pull. The way to the "
-                            "other side of a thin part leads around its rim, so that side stays");
+                            "How far along the surface the bone follows your pull. The other side "
+                            "of a thin part does not move");
   wanted.radius_m = radius_mm / 1000;
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
@@ -56,7 +56,7 @@ void draw_history(const PanelContext& c) {
   ui::tooltip(edit.forgotten_steps == 0
                   ? "Ctrl + Z"
                   : ("Ctrl + Z. The first " + std::to_string(edit.forgotten_steps) +
-                     " can no longer be undone: there was no room to keep them")
+                     " can no longer be undone: they were not stored, to save memory")
                         .c_str());
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(edit.redo_steps == 0);
@@ -74,19 +74,19 @@ void draw_end(const PanelContext& c) {
   if (ui::accent_button(edit.saving ? "Saving ..." : "Save as a case", {w, 0}))
     c.requests.edit.save = true;
   ImGui::EndDisabled();
-  ui::tooltip("Writes a new case with the edited bone and opens it: only then is the change felt");
+  ui::tooltip(
+      "Writes a new case with the edited bone and opens it; the probe feels the change only then");
   ImGui::SameLine(0, gap);
   if (ImGui::Button(edit.changed ? "Discard###leave" : "Leave###leave", {w, 0}))
     c.requests.edit.leave = true;
-  ui::tooltip(edit.changed ? "Puts the bone back as it was and ends editing  (E)"
-                           : "Ends editing  (E)");
+  ui::tooltip(edit.changed ? "Restores the bone and ends editing  (E)" : "Ends editing  (E)");
 }
 
 void draw_state(const PanelContext& c) {
   const EditModel& edit = c.model.edit;
   ui::stat("Moved", ui::number(edit.displacement_mm, 2) + " mm",
            "How far the grabbed point has been dragged");
-  ui::stat("Volume", ui::number(edit.volume_cm3, 3) + " cm\xc2\xb3", "That the surface encloses");
+  ui::stat("Volume", ui::number(edit.volume_cm3, 3) + " cm\xc2\xb3", "Volume inside the surface");
   if (edit.sound) return;
   ImGui::PushTextWrapPos(0);
   ui::text(color::kAmber, (edit.findings + ". Undo, or drag it apart.").c_str());
@@ -105,7 +105,7 @@ void draw_dots(const PanelContext& c) {
 
 void draw_begin(const PanelContext& c) {
   if (ImGui::Button("Edit surface  (E)")) c.requests.edit.begin = true;
-  ui::tooltip("Drag the surface of the chosen bone by the mouse or by the probe");
+  ui::tooltip("Drag the surface of the chosen bone with the mouse or the probe");
 }
 
 void draw_editing(const PanelContext& c) {

@@ -47,7 +47,7 @@ std::string amount(double value, const std::string& unit) {
 void draw_course(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   wrapped(color::kTextQuiet,
-          "Each is judged by what you touch, how hard and how long. Your attempts stay on this "
+          "Each judges what you touch, how hard and for how long. Your attempts stay on this "
           "computer.");
   ImGui::BeginChild("cards", {0, -ImGui::GetFrameHeightWithSpacing()});
   for (std::size_t i = 0; i < model.cards.size(); ++i) {
@@ -93,7 +93,7 @@ void draw_patient_choice(const PanelContext& c) {
   const auto& seed = c.model.exercise.seed;
   bool random = seed.has_value();
   if (ui::switch_row("Another patient", &random,
-                     "Side, measures and findings are drawn by the number. The first time takes a "
+                     "The number determines side, measures and findings. A new patient takes a "
                      "minute to grow."))
     c.requests.exercise.seed =
         random ? std::optional<std::uint64_t>(1) : std::optional<std::uint64_t>();
@@ -128,7 +128,7 @@ void draw_briefing(const PanelContext& c) {
   ImGui::EndChild();
   if (model.problem.empty())
     ui::text(color::kTextQuiet,
-             opening ? "The patient is opened ..." : "The time runs from Begin.");
+             opening ? "Opening the patient ..." : "The time starts with Begin.");
   else
     ui::text_within(color::kAmber, model.problem, ImGui::GetContentRegionAvail().x);
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
@@ -151,12 +151,11 @@ void draw_verdict(const PanelContext& c) {
                                                           : "Undecided");
   }
   if (model.score)
-    wrapped(color::kText, "Score " + ui::number(*model.score, 1) + ", with 95 % between " +
+    wrapped(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
                               ui::number(*model.score_lo, 1) + " and " +
-                              ui::number(*model.score_hi, 1) + ". Experts have 100 on average.");
+                              ui::number(*model.score_hi, 1) + ". Experts average 100.");
   if (model.verdict == "undecided")
-    wrapped(color::kTextQuiet,
-            "The range of your score lies on both sides of the mark: play again.");
+    wrapped(color::kTextQuiet, "The interval of your score includes the pass mark: try again.");
 }
 
 void draw_result(const PanelContext& c) {
@@ -177,7 +176,7 @@ void draw_result(const PanelContext& c) {
              asked.stated == asked.truth
                  ? asked.truth
                  : (asked.stated.empty() ? "nothing" : asked.stated) + ", is " + asked.truth,
-             "What you stated, and what is so",
+             "What you stated, and the truth",
              asked.stated == asked.truth ? color::kText : color::kAmber);
   quiet_heading(c, "Measures");
   for (const ExerciseModel::Measure& m : model.measures) {
@@ -188,18 +187,19 @@ void draw_result(const PanelContext& c) {
              met ? color::kText : color::kAmber);
   }
   if (model.undone > 0)
-    ui::stat("Taken back", std::to_string(model.undone), "How often you went back; errors stay");
+    ui::stat("Taken back", std::to_string(model.undone),
+             "How often you went back; errors still count");
   if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
   if (!model.repeats)
     wrapped(color::kAmber,
-            "The recording did not repeat exactly; the verdict is that of the repeat.");
+            "The replay differs from the recording; the verdict is that of the replay.");
   if (!model.problem.empty()) wrapped(color::kAmber, model.problem);
   ImGui::EndChild();
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
   if (ImGui::Button("Watch it again", {w, 0})) c.requests.exercise.watch = true;
   ui::tooltip(model.file.c_str());
   ImGui::SameLine(0, c.px(8));
-  if (ImGui::Button("Pages to print", {w, 0})) c.requests.exercise.pages = true;
+  if (ImGui::Button("Save as PDF", {w, 0})) c.requests.exercise.pages = true;
   if (ui::accent_button("Once more", {w, 0})) c.requests.exercise.begin = true;
   ImGui::SameLine(0, c.px(8));
   if (ImGui::Button("Exercises", {w, 0})) c.requests.exercise.back = true;
@@ -271,7 +271,7 @@ void draw_running(const PanelContext& c) {
   ImGui::PushItemWidth(-1);
   strong(c, model.title);
   if (model.page == ExercisePage::kJudging) {
-    wrapped(color::kTextQuiet, "What you did is repeated and judged ...");
+    wrapped(color::kTextQuiet, "Replaying and judging your attempt ...");
     ImGui::End();
     return;
   }
@@ -279,7 +279,7 @@ void draw_running(const PanelContext& c) {
            ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
            "The attempt ends at the limit");
   if (model.paused)
-    wrapped(color::kAmber, "Paused: the time stands, the force is off, nothing counts.");
+    wrapped(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
   ImGui::Separator();
   draw_live_stage(c);
   if (!model.cue.empty()) wrapped(color::kText, "Hint: " + model.cue);
@@ -300,10 +300,12 @@ void draw_running(const PanelContext& c) {
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Back (U)")) c.requests.exercise.undo = true;
-  ui::tooltip("To the begin of the stage, or the last mark. Errors stay; how often is told.");
+  ui::tooltip(
+      "To the start of the stage or the last mark. Errors still count, and the report says how "
+      "often you went back.");
   ImGui::SameLine();
   if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
-  ui::tooltip("Judges what you have done");
+  ui::tooltip("Ends the attempt and judges it");
   ImGui::PopItemWidth();
   ImGui::End();
 }

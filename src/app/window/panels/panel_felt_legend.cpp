@@ -68,7 +68,7 @@ void draw_felt_legend(const PanelContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(10)});
   ImGui::Begin("##felt_legend", nullptr, kLegend);
   ImGui::PopStyleVar();
-  ui::text(color::kText, "What is felt, against the surface seen, mm");
+  ui::text(color::kText, "Felt surface relative to the visible one, mm");
   if (c.model.felt_measured < 1)
     ImGui::ProgressBar(static_cast<float>(c.model.felt_measured), {c.px(300), 0}, "Measuring");
   else

@@ -80,19 +80,19 @@ void draw_number(const PanelContext& c) {
                                       at_limit ? "N  at limit" : "N");
   ImGui::EndGroup();
   ui::tooltip(
-      "Force of bone on the hand, newtons, as the simulation computes it. Its limit is the "
-      "device's, or 8 N for a device without motors.");
+      "Computed force of bone on the hand, newtons. The limit is the device's, or 8 N without "
+      "motors.");
 }
 
 void draw_torque(const PanelContext& c) {
   const HandModel& hand = c.model.hand;
   if (!hand.has_lever) return;
   ui::stat("Torque", ui::number(1e3 * hand.torque_nm, 1) + " mN m",
-           "Moment of all that the instrument meets about its grip, where the handle begins, "
-           "thousandths of a newton metre");
+           "Moment of all contacts about the instrument's grip, at the front of the handle, "
+           "millinewton metres");
   if (c.model.replay.on || !hand.info.drives_rotation()) return;
   ui::stat("Torque given", ui::number(1e3 * hand.status.torque_at_hand_V.norm(), 1) + " mN m",
-           "What the device's motors turn the stylus with, after its safety limits");
+           "Torque that the device gives to the stylus, after its safety limits");
 }
 
 }  // namespace

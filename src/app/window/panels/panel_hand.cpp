@@ -31,8 +31,8 @@ void draw_device_menu(const PanelContext& c) {
   }
   ImGui::EndDisabled();
   ui::tooltip(c.model.record.on   ? "Stop the recording before choosing another device"
-              : c.model.replay.on ? "Leave the replay to hold the probe yourself"
-                                  : "What the hand holds. A new choice starts the run anew.");
+              : c.model.replay.on ? "Leave the replay to use the probe yourself"
+                                  : "The device in your hand. A new choice restarts the run.");
 }
 
 void draw_force_off(const PanelContext& c) {
@@ -50,12 +50,12 @@ void draw_force_off(const PanelContext& c) {
 void draw_force_state(const PanelContext& c) {
   const HandModel& hand = c.model.hand;
   if (hand.probe_by_mouse && !c.model.replay.on) {
-    if (ui::toggle_button(hand.probe_in_hand ? "Let the probe go  (M)" : "Take the probe  (M)",
+    if (ui::toggle_button(hand.probe_in_hand ? "Release the probe  (M)" : "Take the probe  (M)",
                           hand.probe_in_hand, {ImGui::GetContentRegionAvail().x, 0}))
       c.requests.toggle_probe = true;
     ui::tooltip(
-        "While taken, the mouse moves the probe instead of the view. Holding Space takes it "
-        "for as long as the key is down.");
+        "The mouse then moves the probe instead of the view. Hold Space to take it while the key "
+        "is down.");
   }
   if (c.model.replay.on) return;
   // What has no motors goes on by itself; only a device that is gone must be told.
@@ -64,8 +64,8 @@ void draw_force_state(const PanelContext& c) {
   if (!has_motors(hand)) {
     ui::text(color::kTextQuiet, "Force is shown, not felt");
     ui::tooltip(
-        "This device has no motors. The probe is kept out of bone all the same; the hand "
-        "may go on into it.");
+        "This device has no motors. The probe still stays outside bone, but your hand may go on "
+        "into it.");
     return;
   }
   if (ImGui::Button("Force off  (Esc)", {ImGui::GetContentRegionAvail().x, 0}))
@@ -82,8 +82,9 @@ void draw_contacts(const PanelContext& c) {
     const bool known = row.bone.index < c.model.bone_labels.size();
     const std::string label = known ? c.model.bone_labels[row.bone.index] : "Bone";
     ui::stat(label.c_str(), ui::number(row.force_n, 2) + " N",
-             row.sticking ? "Force between probe and this bone, newtons; static friction holds"
-                          : "Force between probe and this bone, newtons; the probe slides");
+             row.sticking
+                 ? "Force between probe and this bone, newtons; static friction holds the probe"
+                 : "Force between probe and this bone, newtons; the probe slides");
   }
 }
 
@@ -92,13 +93,12 @@ void draw_feel(const PanelContext& c) {
   ImGui::BeginDisabled(c.model.replay.on);
   double stiffness = hand.stiffness_n_per_m;
   if (ui::slider("Stiffness", &stiffness, 200, hand.stiffness_max_n_per_m, "%.0f N/m",
-                 "Spring between hand and probe, newtons a metre. Bounded by each bone's material "
-                 "and by the device's profile."))
+                 "Stiffness of the virtual coupling, newtons per metre. Each bone's material and "
+                 "the device's profile limit it."))
     c.requests.commands.push_back({CommandKind::kSetStiffness, stiffness});
   double friction = hand.friction_scale;
   if (ui::slider("Friction", &friction, 0, 2, "%.2f x",
-                 "Factor on the friction of every bone's material; 0 is frictionless, 1 as in the "
-                 "case"))
+                 "Factor on every bone's friction; 0 is frictionless, 1 is the case's own"))
     c.requests.commands.push_back({CommandKind::kSetFrictionScale, friction});
   bool held = hand.bones_held;
   if (ui::switch_row(
@@ -113,22 +113,20 @@ void draw_rates(const PanelContext& c) {
   const auto hz = [](double v) { return ui::number(v, 0) + " Hz"; };
   if (!c.model.replay.on) {
     ui::stat("Haptics", hz(hand.haptic.rate_hz),
-             "Haptic ticks a second, measured over a quarter second; 1000 wanted, for contact "
-             "that feels firm",
+             "Haptic ticks per second, over a quarter second; the target for firm contact is 1000",
              is_slow(hand) ? color::kAmber : color::kText);
     ui::stat("Physics", hz(hand.physics.rate_hz),
-             "Steps of the bones' motion a second; 500 wanted");
+             "Steps of the bones' motion per second; the target is 500");
   }
-  ui::stat("Picture", hz(hand.picture_hz), "Pictures a second; the display sets its limit");
+  ui::stat("Picture", hz(hand.picture_hz), "Pictures per second; the display sets the limit");
   if (c.model.replay.on) return;
   ui::stat("Tick, 99 %", ui::number(hand.haptic.p99_us, 0) + " \xC2\xB5s",
-           "99 of 100 haptic ticks took no longer than this, microseconds; the limit is the tick's "
-           "period of 1000");
+           "99 % of the haptic ticks took at most this long, microseconds; the limit is 1000");
   ui::stat("Missed ticks", std::to_string(hand.haptic.missed),
            "Haptic ticks skipped because the computer was busy, since the run began");
   if (has_motors(hand))
     ui::stat("Device limit", ui::number(hand.info.peak_force_n, 1) + " N",
-             "The most force that the device may give, newtons; from its profile");
+             "Greatest force that the device may give, newtons; from its profile");
 }
 
 // In sight whatever is folded.
@@ -137,7 +135,8 @@ void draw_warnings(const PanelContext& c) {
   if (c.model.replay.on) return;
   if (is_slow(hand)) {
     ui::text(color::kAmber, "! The haptic loop is slow");
-    ui::tooltip("Fewer than 950 haptic ticks a second: contact feels soft. Close other programs.");
+    ui::tooltip(
+        "Fewer than 950 haptic ticks per second: contact feels soft. Close other programs.");
   }
   if (hand.realtime_warning.empty()) return;
   // The first sentence names what is missing; the check-up says the same.

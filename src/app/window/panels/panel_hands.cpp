@@ -26,22 +26,21 @@ void draw_hand_buttons(const PanelContext& c) {
   ImGui::BeginDisabled(!two && !hands.can_add);
   if (ImGui::Button(two ? "Change  (X)" : "2nd hand  (X)", {w, 0})) c.requests.hands.change = true;
   ImGui::EndDisabled();
-  ui::tooltip(two ? "The other hand becomes yours; this one rests where it is"
-                  : "Brings in a second hand. The run starts anew.");
+  ui::tooltip(two ? "You move the other hand; this one rests where it is"
+                  : "Adds a second hand. This restarts the run.");
   ImGui::SameLine(0, gap);
   if (ui::toggle_button("Tray  (T)", hands.tray.open, {w, 0})) c.requests.hands.toggle_tray = true;
   ui::tooltip(
-      "All instruments, with pictures. Page Up, Page Down: the one before, the next; End: "
-      "the next size.");
+      "All instruments, with pictures. Page Up, Page Down: previous, next; End: next size.");
   if (ImGui::Button("Mark  (K)", {w, 0})) c.requests.hands.mark = true;
-  ui::tooltip("Keeps this moment: bones, instruments and power, to go back to");
+  ui::tooltip("Marks this moment (bones, instruments, power) so that you can go back to it");
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(hands.restore_points == 0);
   if (ImGui::Button("Undo  (U)", {w, 0})) c.requests.hands.undo = true;
   ImGui::EndDisabled();
   ui::tooltip(
-      "Back to the newest mark, or to the begin of the run; once more, to the one before. "
-      "Hands stay where they are; the force fades and comes back once they are free.");
+      "Back to the last mark, or the start of the run; again: to the one before. Hands stay where "
+      "they are; the force returns once they are free.");
 }
 
 void draw_portals(const PanelContext& c) {
@@ -59,8 +58,7 @@ void draw_tip(const PanelContext& c) {
   if (!tip.known || tip.bone.index >= c.model.bone_labels.size()) return;
   ui::stat(("Tip to " + c.model.bone_labels[tip.bone.index]).c_str(),
            ui::number(tip.distance_mm, 1) + " mm",
-           "From the middle of the tip to the nearest surface of bone, millimetres; below zero it "
-           "is inside");
+           "From the middle of the tip to the nearest bone surface, millimetres; negative inside");
 }
 
 }  // namespace

@@ -15,39 +15,39 @@ struct KeyLine {
 constexpr std::array<KeyLine, 13> kLook = {{
     {"Drag", "look around"},
     {"Right drag, Shift + drag", "move sideways"},
-    {"Wheel", "nearer, farther"},
-    {"Arrows,  + and -", "the same by keys"},
-    {"1 to 6", "the six views, in the panel's order"},
-    {"F", "close up on the picked bone, else the joint"},
+    {"Wheel", "zoom in, out"},
+    {"Arrows,  + and -", "the same with keys"},
+    {"1 to 6", "the six views, as in the panel"},
+    {"F", "close up on the chosen bone or the joint"},
     {"Click", "choose a bone"},
     {"H", "contact hulls"},
     {"L", "names on the bones"},
     {"V, F5 to F9", "next view; outside, scope, panorama, all, X-ray"},
     {"B", "take an X-ray picture"},
-    {"F3", "a second window for who looks on"},
+    {"F3", "second window for observers"},
     {"Tab", "fold the panels away"},
 }};
 
 constexpr std::array<KeyLine, 13> kProbe = {{
-    {"M", "take the probe, let it go"},
+    {"M", "take or release the probe"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
     {"W S, A D, Q E", "tilt, turn, roll"},
     {"X", "the other hand"},
-    {"G", "bring it before the next portal; the wheel goes in"},
+    {"G", "move it to the next portal; the wheel goes in"},
     {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},
     {"T", "tray of instruments"},
-    {"Page Up, Page Down, End", "instrument before, next; next size"},
-    {"V", "while it is held: its motor runs, its jaws shut"},
+    {"Page Up, Page Down, End", "previous, next instrument; next size"},
+    {"V", "hold: the motor runs, the jaws close"},
     {"K, U", "mark this moment, go back to it"},
     {"Esc", "force off at once"},
     {"Enter", "force on again"},
 }};
 
 constexpr std::array<KeyLine, 4> kEdit = {{
-    {"E", "edit the chosen bone's surface, leave"},
+    {"E", "edit the chosen bone's surface, or leave"},
     {"Drag, wheel", "pull the surface; along the view"},
-    {"Probe's button", "the same by hand, against a spring"},
+    {"Probe's button", "the same by hand, against a spring force"},
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 

@@ -14,8 +14,8 @@ void draw_joint(const PanelContext& c, std::size_t i) {
   double degrees = joint.degrees;
   const bool moved =
       ui::slider(joint.label.c_str(), &degrees, joint.min_deg, joint.max_deg, "%.0f\xc2\xb0",
-                 "Bends the joint: bones at once, soft parts when you let go. The force is off "
-                 "meanwhile.");
+                 "Bends the joint: bones at once, soft parts when you release it. The force is off "
+                 "while you bend it.");
   const bool let_go = ImGui::IsItemDeactivatedAfterEdit();
   if (!moved && !let_go) return;
   degrees = std::round(degrees / kBendStep_deg) * kBendStep_deg;

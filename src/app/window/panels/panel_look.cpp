@@ -24,8 +24,7 @@ bool edit_look(const std::string& label, BoneAppearance& look) {
                           ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs |
                               ImGuiColorEditFlags_PickerHueWheel);
   double opacity = 100.0 * static_cast<double>(look.opacity);
-  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%",
-                                "How much of what lies behind it is hidden, percent");
+  const bool faded = ui::slider("Opacity", &opacity, 0, 100, "%.0f %%", "Opacity, percent");
   look.opacity = static_cast<float>(opacity / 100.0);
   return recolored || faded;
 }

@@ -60,9 +60,9 @@ void draw_note_buttons(const PanelContext& c) {
   const NotesModel& notes = c.model.notes;
   if (notes.placing) {
     ImGui::PushTextWrapPos(0);
-    ui::text(color::kText, "Click on a bone: the note goes there.");
+    ui::text(color::kText, "Click on a bone to place the note.");
     ImGui::PopTextWrapPos();
-    if (ImGui::Button("Not now", {-1, 0})) c.requests.notes.stop_placing = true;
+    if (ImGui::Button("Cancel", {-1, 0})) c.requests.notes.stop_placing = true;
     return;
   }
   ImGui::BeginDisabled(!notes.can_edit);
@@ -73,7 +73,7 @@ void draw_note_buttons(const PanelContext& c) {
   if (ui::accent_button(notes.saving ? "Saving" : "Save as a case", {-1, 0}))
     c.requests.notes.save = true;
   ImGui::EndDisabled();
-  ui::tooltip("A built-in case cannot keep notes: this saves it with them as a case of yours");
+  ui::tooltip("A built-in case cannot store notes: this saves a copy of it with them");
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void draw_notes_section(const PanelContext& c) {
   for (std::size_t i = 0; i < notes.rows.size(); ++i) draw_note(c, i);
   bool shown = notes.shown;
   if (!notes.rows.empty() &&
-      ui::switch_row("In the picture", &shown, "Shows the notes where they are"))
+      ui::switch_row("In the picture", &shown, "Shows the notes at their positions"))
     c.requests.notes.toggle_shown = true;
   draw_note_buttons(c);
   ImGui::PopID();

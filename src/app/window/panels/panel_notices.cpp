@@ -127,7 +127,7 @@ void draw_probe_hint(const PanelContext& c) {
   row.key("Mouse", "moves the probe");
   row.key("Wheel", "deeper, nearer");
   row.key("W A S D Q E", "turn");
-  row.key("M", "let go");
+  row.key("M", "release");
   ImGui::End();
 }
 
@@ -135,7 +135,7 @@ void draw_first_run_hint(const PanelContext& c) {
   begin_bottom_note(c, "##hint");
   NoteRow row(c);
   row.key("Drag", "look around");
-  row.key("Wheel", "nearer, farther");
+  row.key("Wheel", "zoom");
   row.key("M", "take the probe");
   row.key("F1", "all keys");
   constexpr const char* kGotIt = "Got it";
@@ -159,8 +159,8 @@ void draw_replay_verdict(const PanelContext& c) {
   ui::text(c.model.replay.identical ? color::kTextQuiet : color::kAmber,
            c.model.replay.verdict.c_str());
   ui::tooltip(
-      "The recording was simulated again from its inputs; every 100th tick's state is "
-      "compared with the recorded one");
+      "Simulates the recording again from its inputs and compares the state of every 100th tick "
+      "with the recorded one");
   ImGui::End();
 }
 

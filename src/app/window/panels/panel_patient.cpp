@@ -63,8 +63,8 @@ void draw_whose(const PanelContext& c, PatientOrder& order, bool& changed) {
 void draw_seed(const PanelContext& c, PatientOrder& order, bool& changed) {
   bool random = order.seed.has_value();
   if (ui::switch_row("Drawn at random", &random,
-                     "Draws every measure that you have not set, as people differ. The same number "
-                     "gives the same patient again.")) {
+                     "Draws every measure that you have not set from the range among people. The "
+                     "same number gives the same patient.")) {
     order.seed = random ? std::optional<std::uint64_t>(1) : std::nullopt;
     changed = true;
   }
@@ -112,7 +112,7 @@ void draw_parameter(const VariationParameter& p, PatientOrder& order, bool& chan
   }
   ImGui::TableNextColumn();
   ui::text(color::kTextQuiet, people.c_str());
-  ui::tooltip(differs ? "Mean and standard deviation among people" : "Never drawn at random");
+  ui::tooltip(differs ? "Mean and standard deviation among people" : "Not drawn at random");
   ImGui::BeginDisabled(!set);
   if (ImGui::SmallButton("Reset")) {
     order.set.erase(at);
@@ -197,7 +197,7 @@ void draw_patient_state(const PanelContext& c) {
     return;
   }
   if (patient.problem.empty())
-    ui::text_within(color::kTextQuiet, "Saved as a case of its own, then opened.",
+    ui::text_within(color::kTextQuiet, "Saved as a new case, then opened.",
                     ImGui::GetContentRegionAvail().x);
   else
     ui::text_within(color::kAmber, patient.problem, ImGui::GetContentRegionAvail().x);

@@ -52,7 +52,7 @@ void draw_all(const PanelContext& c, ViewState& view) {
 void draw_soft_section(const PanelContext& c) {
   if (c.model.soft_labels.empty() || !ui::section(c.fonts, "Soft parts", false)) return;
   ViewState view = c.model.view;
-  ui::text(color::kTextQuiet, "Seen, not yet felt");
+  ui::text(color::kTextQuiet, "Visible, not felt yet");
   ImGui::PushID("soft");  // the bones' rows have numbers too
   draw_all(c, view);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});

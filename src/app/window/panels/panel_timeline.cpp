@@ -183,7 +183,7 @@ void draw_speed_menu(const PanelContext& c) {
         c.requests.speed = speed;
     ImGui::EndCombo();
   }
-  ui::tooltip("Speed of the replay, times real time; 0.1 to 4 ( , slower   . faster )");
+  ui::tooltip("Speed of the replay, multiple of real time; 0.1 to 4 ( , slower   . faster )");
 }
 
 float draw_transport(const PanelContext& c) {
@@ -207,7 +207,7 @@ float draw_live_label(const PanelContext& c) {
   const UiRect& r = c.layout.bottom;
   ImGui::SetCursorScreenPos({r.x + c.px(16), r.y + 0.5f * (r.h - ImGui::GetTextLineHeight())});
   ui::text(color::kTextQuiet, "Contacts");
-  ui::tooltip("Which bone was touched when, since this run began; one colour and one line a bone");
+  ui::tooltip("When each bone was touched in this run; one colour and one line per bone");
   return r.x + c.px(96);
 }
 

@@ -29,9 +29,9 @@ void draw_record_button(const PanelContext& c) {
   const ImVec2 lo = ImGui::GetItemRectMin();
   const ImVec2 hi = ImGui::GetItemRectMax();
   ImGui::EndDisabled();
-  ui::tooltip(record.on ? "Ends the recording and keeps the file (R)"
-                        : "Records this run to a file that replays exactly (R). The run starts "
-                          "anew from the present position of the hand.");
+  ui::tooltip(record.on ? "Ends the recording and saves the file (R)"
+                        : "Records this run to a file that replays exactly (R). The run restarts "
+                          "from the hand's current position.");
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 at{lo.x + c.px(16), 0.5f * (lo.y + hi.y)};
   const float r = c.px(5);
@@ -45,14 +45,13 @@ void draw_record_button(const PanelContext& c) {
 void draw_exercise_button(const PanelContext& c) {
   if (ui::toggle_button("Exercises", c.model.exercise.page != ExercisePage::kClosed))
     c.requests.exercise.toggle = true;
-  ui::tooltip("What can be learned and is judged (J)");
+  ui::tooltip("Exercises that are judged (J)");
 }
 
 void draw_open_button(const PanelContext& c) {
   if (ui::toggle_button("Open", c.model.browser.open)) c.requests.browser.toggle = true;
   ui::tooltip(
-      "Cases, patients, recordings, meshes and scans (O). What is dropped on the window "
-      "opens too.");
+      "Cases, patients, recordings, meshes and scans (O). You can also drop files on the window.");
 }
 
 // Width of the buttons and the time, so that they end at the right edge.

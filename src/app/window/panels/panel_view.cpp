@@ -14,11 +14,11 @@ struct PresetButton {
 
 // A wrist lies on its palm under the tube: the rays come from behind.
 constexpr PresetButton kPa = {"PA", ViewPreset::kAp,
-                              "As a posteroanterior radiograph is hung, without perspective (5)"};
+                              "As on a posteroanterior radiograph, without perspective (5)"};
 constexpr PresetButton kAp = {"AP", ViewPreset::kAp,
-                              "As a front radiograph is hung, without perspective (5)"};
+                              "As on an anteroposterior radiograph, without perspective (5)"};
 constexpr PresetButton kLateral = {"Lateral", ViewPreset::kLateral,
-                                   "As a side radiograph is hung, without perspective (6)"};
+                                   "As on a lateral radiograph, without perspective (6)"};
 constexpr std::array<PresetButton, 6> kWristPresets = {{
     {"Dorsal", ViewPreset::kDorsal, "From the back of the hand (1)"},
     {"Palmar", ViewPreset::kPalmar, "From the palm (2)"},
@@ -33,8 +33,7 @@ constexpr std::array<PresetButton, 6> kKneePresets = {{
     {"Lateral", ViewPreset::kRadial, "From the outer side, where the fibula is (3)"},
     {"Medial", ViewPreset::kUlnar, "From the inner side, where the other knee is (4)"},
     kAp,
-    {"Side, as X-ray", ViewPreset::kLateral,
-     "As a side radiograph is hung, without perspective (6)"},
+    {"Side, as X-ray", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
 }};
 
 void draw_presets(const PanelContext& c) {
@@ -49,19 +48,19 @@ void draw_presets(const PanelContext& c) {
   if (ImGui::Button(c.model.picked.valid() ? "Close up on the bone" : "Close up on the joint",
                     {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.close_up = true;
-  ui::tooltip("Goes near without turning: to the picked bone, else to the joint (F)");
+  ui::tooltip("Zooms to the chosen bone or the joint without turning (F)");
 }
 
 bool draw_light(const PanelContext& c, ViewState& view) {
   bool changed =
       ui::light_pad("light", c.px(44), &view.light_azimuth_rad, &view.light_elevation_rad);
-  ui::tooltip("Where the main light comes from, as seen from the viewer. Drag to move it.");
+  ui::tooltip("Direction of the main light, as seen by the viewer. Drag to move it.");
   ImGui::SameLine(0, c.px(8));
   ImGui::BeginGroup();
   ImGui::Dummy({0, c.px(4)});
   double percent = 100.0 * static_cast<double>(view.light_brightness);
   if (ui::slider("Light", &percent, 20, 200, "%.0f %%",
-                 "Brightness of the main light, percent of the usual; 20 to 200")) {
+                 "Brightness of the main light, percent of normal; 20 to 200")) {
     view.light_brightness = static_cast<float>(percent / 100.0);
     changed = true;
   }
@@ -71,14 +70,14 @@ bool draw_light(const PanelContext& c, ViewState& view) {
 
 bool draw_switches(ViewState& view) {
   bool changed = ui::switch_row("Contact hulls", &view.show_hulls,
-                                "The convex bodies that the probe feels, over the bones (H)");
-  changed |= ui::switch_row("Felt against seen", &view.show_felt,
-                            "Colours each bone by how far what the probe feels stands over the "
-                            "surface, or lies under it");
+                                "Shows the convex bodies that the probe feels (H)");
+  changed |= ui::switch_row(
+      "Felt against seen", &view.show_felt,
+      "Colours each bone by the distance of the felt surface above or below the visible one");
   changed |= ui::switch_row("Force arrow", &view.show_force,
                             "The force on the hand as an arrow at the probe's tip");
   changed |= ui::switch_row("Hand's place", &view.show_hand_ghost,
-                            "Where the hand is, when bone keeps the probe from following it");
+                            "Position of the hand, when bone keeps the probe from following it");
   bool shaded = view.ambient_occlusion > 0;
   if (ui::switch_row("Soft shadows", &shaded, "Darkens the gaps between bones")) {
     view.ambient_occlusion = shaded ? 1.0f : 0.0f;

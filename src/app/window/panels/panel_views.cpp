@@ -12,10 +12,10 @@ constexpr std::array<PictureLayout, kPictureLayouts> kLayouts = {
     PictureLayout::kFluoro};
 constexpr std::array<const char*, kPictureLayouts> kWhat = {
     "Bones and instruments from outside (F5). V goes to the next view.",
-    "What the arthroscope shows that a hand holds, or that rests (F6)",
-    "Bones seen through, with a yellow cone where the scope looks (F7)",
+    "The picture of the arthroscope, held or resting (F6)",
+    "Transparent bones, with a yellow cone where the scope looks (F7)",
     "The scope large; panorama and outside beside it (F8)",
-    "The last X-ray picture of the scene as it stands (F9); B takes one"};
+    "The last X-ray picture (F9); B takes one of the current scene"};
 
 void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
   const UiRect& r = shown.pane.area;
@@ -34,7 +34,7 @@ void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
   if (shown.offers_scope) {
     ImGui::Dummy({0, c.px(4)});
     if (ui::accent_button("Take a scope")) c.requests.views.take_scope = true;
-    ui::tooltip("The active hand takes an arthroscope of 30 degrees");
+    ui::tooltip("The active hand takes a 30-degree arthroscope");
   }
   ImGui::End();
   ImGui::PopStyleColor();
@@ -100,9 +100,9 @@ void draw_layout_chooser(const PanelContext& c, bool wide) {
 void draw_observer_section(const PanelContext& c) {
   const ObserverModel& observer = c.model.views.observer;
   bool open = observer.open;
-  if (ui::switch_row("Second window", &open,
-                     "A window without controls for who looks on, on a second screen where there "
-                     "is one (F3)"))
+  if (ui::switch_row(
+          "Second window", &open,
+          "A window without controls for observers, on the second screen if there is one (F3)"))
     c.requests.views.toggle_observer = true;
   if (!observer.open) return;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);

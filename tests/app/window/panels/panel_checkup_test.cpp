@@ -81,7 +81,7 @@ TEST_F(CheckupPanel, WhileItRunsItCanOnlyBeStopped) {
   EXPECT_TRUE(ui.press_key(GLFW_KEY_ESCAPE).force_off);
 }
 
-constexpr const char* kRule = "udev rule: lets you open the devices without being root";
+constexpr const char* kRule = "udev rule: lets users other than root open the devices";
 
 TEST_F(CheckupPanel, TheUdevRuleIsCopiedAndInstalledWhereThatIsAllowed) {
   EXPECT_LT(ui.find("##checkup", {kRule}).x, 0);  // there is none

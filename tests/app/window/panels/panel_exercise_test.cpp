@@ -129,7 +129,7 @@ TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   model.faults = {{"Struck a bone", "major", "Chipped", 3, "Radius"}};
   settle();
   EXPECT_TRUE(ui.click("##exercise", {"Watch it again"}).exercise.watch);
-  EXPECT_TRUE(ui.click("##exercise", {"Pages to print"}).exercise.pages);
+  EXPECT_TRUE(ui.click("##exercise", {"Save as PDF"}).exercise.pages);
   EXPECT_TRUE(ui.click("##exercise", {"Once more"}).exercise.begin);
   EXPECT_TRUE(ui.click("##exercise", {"Exercises"}).exercise.back);
 }

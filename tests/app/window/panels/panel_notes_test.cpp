@@ -22,7 +22,7 @@ TEST(PanelNotes, OneIsAddedByAClickThatIsWaitedFor) {
   EXPECT_TRUE(ui.click(button).notes.add);
   ui.model.notes.placing = true;
   EXPECT_LT(ui.find("##case", {"notes", "Add a note"}).x, 0);
-  EXPECT_TRUE(ui.click(ui.find("##case", {"notes", "Not now"})).notes.stop_placing);
+  EXPECT_TRUE(ui.click(ui.find("##case", {"notes", "Cancel"})).notes.stop_placing);
 }
 
 TEST(PanelNotes, NothingIsChangedWhileTheCaseIsNeededAsItIs) {
