@@ -27,12 +27,12 @@ const std::array<std::string, kTunnelValueNames.size()>& outside_names() {
 std::vector<RuleKind> make_table() {
   std::vector<RuleKind> table{
       {"felt",
-       "every mark is pressed next to with a force",
+       "a tool presses with a force next to every mark",
        true,
        {{"within_mm", 0.5, 50, 6}, {"force_n", 0, 20, 0.2}},
        SubjectKind::kLandmark},
       {"tunnel_located",
-       "a pin is pressed on every bone and held still: its line becomes that of a tunnel",
+       "a pin is pressed on every bone and held still; its line becomes the axis of a tunnel",
        true,
        {{"force_n", 0.05, 20, 0.3},
         {"for_s", 0, 60, 1},
@@ -53,7 +53,7 @@ std::vector<RuleKind> make_table() {
   };
   for (const std::string& name : outside_names())
     table.push_back({name,
-                     "what the name says was measured and is not from least to most",
+                     "the named value is measured and is outside the range from least to most",
                      false,
                      {{"least", -kMost, kMost, -kMost}, {"most", -kMost, kMost, kMost}},
                      SubjectKind::kNothing});
