@@ -113,7 +113,7 @@ void draw_briefing(const PanelContext& c) {
   for (const std::string& hand : model.hands) wrapped(color::kTextQuiet, hand);
   quiet_heading(c, "What to do");
   draw_stage_rows(c);
-  quiet_heading(c, "What must not happen");
+  quiet_heading(c, "What to avoid");
   draw_faults(c, false);
   quiet_heading(c, "What counts");
   for (const ExerciseModel::Measure& m : model.measures)
@@ -187,7 +187,7 @@ void draw_result(const PanelContext& c) {
              met ? color::kText : color::kAmber);
   }
   if (model.undone > 0)
-    ui::stat("Taken back", std::to_string(model.undone),
+    ui::stat("Steps back", std::to_string(model.undone),
              "How often you went back; errors still count");
   if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
   if (!model.repeats)
@@ -200,7 +200,7 @@ void draw_result(const PanelContext& c) {
   ui::tooltip(model.file.c_str());
   ImGui::SameLine(0, c.px(8));
   if (ImGui::Button("Save as PDF", {w, 0})) c.requests.exercise.pages = true;
-  if (ui::accent_button("Once more", {w, 0})) c.requests.exercise.begin = true;
+  if (ui::accent_button("Try again", {w, 0})) c.requests.exercise.begin = true;
   ImGui::SameLine(0, c.px(8));
   if (ImGui::Button("Exercises", {w, 0})) c.requests.exercise.back = true;
 }
@@ -293,7 +293,7 @@ void draw_running(const PanelContext& c) {
   }
   draw_asked(c);
   ImGui::Separator();
-  if (ImGui::Button(model.paused ? "Go on (P)" : "Pause (P)", {-1, 0}))
+  if (ImGui::Button(model.paused ? "Resume (P)" : "Pause (P)", {-1, 0}))
     c.requests.exercise.pause = true;
   ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
   if (ImGui::Button("Hint (I)")) c.requests.exercise.hint = true;

@@ -100,8 +100,8 @@ TEST_F(ExercisePanel, ItIsPausedAndGoesOnByButtonAndByKey) {
   EXPECT_TRUE(ui.press_key(GLFW_KEY_P).exercise.pause);
   model.paused = true;
   settle();
-  EXPECT_FALSE(ui.click("##running", {"Pause (P)"}).exercise.pause) << "it says Go on now";
-  EXPECT_TRUE(ui.click("##running", {"Go on (P)"}).exercise.pause);
+  EXPECT_FALSE(ui.click("##running", {"Pause (P)"}).exercise.pause) << "it says Resume now";
+  EXPECT_TRUE(ui.click("##running", {"Resume (P)"}).exercise.pause);
   model.page = ExercisePage::kBriefing;
   settle();
   EXPECT_FALSE(ui.press_key(GLFW_KEY_P).exercise.pause);
@@ -130,7 +130,7 @@ TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   settle();
   EXPECT_TRUE(ui.click("##exercise", {"Watch it again"}).exercise.watch);
   EXPECT_TRUE(ui.click("##exercise", {"Save as PDF"}).exercise.pages);
-  EXPECT_TRUE(ui.click("##exercise", {"Once more"}).exercise.begin);
+  EXPECT_TRUE(ui.click("##exercise", {"Try again"}).exercise.begin);
   EXPECT_TRUE(ui.click("##exercise", {"Exercises"}).exercise.back);
 }
 
