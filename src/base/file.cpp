@@ -54,7 +54,7 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t limit_bytes) {
       return fail("is larger than " + std::to_string(limit_bytes) + " bytes", path.string());
     if (got < sizeof block) break;
   }
-  if (std::ferror(f)) return fail("could not be read to its end", path.string());
+  if (std::ferror(f)) return fail("could not be read completely", path.string());
   return content;
 }
 
@@ -96,7 +96,7 @@ Result<void> replace_file(const fs::path& path, std::string_view content) {
     why = ec.message();
   }
   fs::remove(temporary, ec);
-  return fail("could not be written (" + why + "); what was there before is unchanged",
+  return fail("could not be written (" + why + "); the previous content is unchanged",
               path.string(), "Free some space or choose another folder");
 }
 
@@ -108,7 +108,7 @@ Result<void> write_file_atomic(const fs::path& path, std::string_view content) {
   const int descriptor = open_descriptor(target);
   const fs::file_status there = fs::status(target, ec);
   if (fs::is_symlink(fs::symlink_status(target, ec)) && descriptor < 0)
-    return fail("is a link that leads in a circle", path.string(), "Give another file");
+    return fail("is a circular link", path.string(), "Give another file");
   if (fs::is_directory(there))
     return fail("is a folder", path.string(), "Give the name of a file in it");
   if (descriptor >= 0 || (fs::exists(there) && !fs::is_regular_file(there)))
@@ -149,7 +149,7 @@ Result<fs::path> find_data_dir() {
   };
   if (const char* set = std::getenv("OSTEON_DATA"); set && *set) {
     if (holds_assets(set)) return fs::path(set);
-    return fail("has no assets and shaders folders", set, "Mend or unset OSTEON_DATA");
+    return fail("has no assets and shaders folders", set, "Correct or unset OSTEON_DATA");
   }
   const fs::path exe = executable_dir();
   if (!exe.empty()) {

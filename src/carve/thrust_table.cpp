@@ -117,7 +117,7 @@ Result<DrillTable> parse_drill_table(std::string_view text, const std::string& w
     root = toml::parse(text, where);
   } catch (const toml::parse_error& e) {
     return fail(std::string(e.description()), where + ":" + std::to_string(e.source().begin.line),
-                "Mend the file");
+                "Fix the file");
   }
   TableReader reader(where);
   reader.allow_only(root, {"usual", "material", "drill", "heat", "reamer"});

@@ -55,7 +55,7 @@ Result<void> check_line(const TriMesh& bone, const TunnelLine& line) {
   if (line.diameter_m < 10e-6)
     return fail("is thinner than 0.01 mm", "the tunnel", "Give its diameter in the right unit");
   if (!((line.to - line.from).norm() > kMargin_m))
-    return fail("has no length", "the tunnel's line", "Give two points that lie apart");
+    return fail("has no length", "the tunnel's line", "Give two different points");
   if (bone.triangles.empty()) return fail("has no triangles", "the bone", "Give a closed surface");
   for (const Vec3& v : bone.vertices)
     if (!is_finite(v))
@@ -64,7 +64,7 @@ Result<void> check_line(const TriMesh& bone, const TunnelLine& line) {
   if (!shape.closed())
     return fail("is not closed: " + std::to_string(shape.boundary_edges) + " open edges, " +
                     std::to_string(shape.non_manifold_edges) + " edges of three triangles or more",
-                "the bone", "Mend it first (osteon import mesh)");
+                "the bone", "Repair it first (osteon import mesh)");
   return {};
 }
 
@@ -206,8 +206,8 @@ Result<TunnelCut> advance(const TunnelPlan& plan, double depth_m) {
     cut = tunnel::cut_patch(site.patch, {radius, 0, depth}, site.placing,
                             [&site](const Vec3& p_A) { return site.in_bone(p_A); });
     if (cut.clearance == 0)
-      return fail("passes through itself in the tunnel's way", "the bone's surface",
-                  "Mend it first (osteon mesh quality shows where)");
+      return fail("intersects itself in the tunnel's path", "the bone's surface",
+                  "Repair it first (osteon mesh quality shows where)");
   } else {
     cut.points_A = site.patch.points_A;
     for (const Facet& f : site.patch.facets) cut.triangles.push_back(f.v);

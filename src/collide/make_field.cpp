@@ -124,7 +124,7 @@ class FieldMaker {
 };
 
 Result<void> check(const TriMesh& mesh) {
-  constexpr const char* kMend = "Mend the mesh with 'osteon import mesh', or feel it as pieces";
+  constexpr const char* kMend = "Repair the mesh with 'osteon import mesh', or feel it as pieces";
   if (mesh.triangles.empty()) return fail("the mesh has no triangles", "distance field", kMend);
   for (const Vec3& v : mesh.vertices)
     if (!is_finite(v)) return fail("a vertex is not finite", "distance field", kMend);

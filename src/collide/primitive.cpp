@@ -21,14 +21,14 @@ Primitive make_rod(const Vec3& p0_T, const Vec3& p1_T, double radius_m) {
 
 Primitive make_box(const Pose& X_TB, const Vec3& half_m) {
   demand(is_finite(X_TB) && is_finite(half_m) && half_m.minCoeff() > 0,
-         "a box needs a finite place and sides above 0");
+         "a box needs a finite position and sides above 0");
   std::vector<Vec3> corners;
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
       for (const double z : {-1.0, 1.0})
         corners.push_back(X_TB * half_m.cwiseProduct(Vec3(x, y, z)));
   HullOutcome hull = build_hull(corners);
-  demand(hull.hull.has_value(), "a box is too thin to be told from a sheet");
+  demand(hull.hull.has_value(), "a box is too thin");
   Primitive out;
   out.kind = Primitive::Kind::kBox;
   out.X_TB = X_TB;

@@ -69,7 +69,7 @@ Result<std::unique_ptr<HapticDevice>> open_device(std::string_view driver_name) 
     if (driver_name == driver.name) {
       const auto devices = driver.list();
       if (!devices) return tl::unexpected(devices.error());
-      if (devices->empty()) return fail("no device is there", driver.name, "Plug it in");
+      if (devices->empty()) return fail("no device was found", driver.name, "Plug it in");
       return driver.open(devices->front());
     }
     known += (known.empty() ? "" : ", ") + std::string(driver.name);

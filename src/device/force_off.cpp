@@ -7,7 +7,7 @@ const char* describe(ForceOff cause) {
     case ForceOff::kNone:
       return "Force is on";
     case ForceOff::kButton:
-      return "Force is off: the device's button was let go";
+      return "Force is off: the device's button was released";
     case ForceOff::kVelocity:
       return "Force is off: the device moved too fast";
     case ForceOff::kWatchdog:
@@ -19,9 +19,9 @@ const char* describe(ForceOff cause) {
     case ForceOff::kDeadMan:
       return "Force is off: no hand is on the device";
     case ForceOff::kNotFinite:
-      return "Force is off: a value was not a number";
+      return "Force is off: a value was not a finite number";
     case ForceOff::kTemperature:
-      return "Force is off: the motors are too warm";
+      return "Force is off: the motors are too hot";
     case ForceOff::kCalibration:
       return "Force is off: the device is not calibrated";
     case ForceOff::kDeviceFault:

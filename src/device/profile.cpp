@@ -71,7 +71,7 @@ Result<toml::table> parse_profile(const std::filesystem::path& path) {
   } catch (const toml::parse_error& e) {
     return fail(std::string(e.description()),
                 path.string() + ", line " + std::to_string(e.source().begin.line),
-                "Mend the TOML there");
+                "Fix the TOML there");
   }
 }
 

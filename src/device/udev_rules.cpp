@@ -61,7 +61,7 @@ std::vector<UsbId> known_usb_devices(const fs::path& folder) {
 
 std::string udev_rules(const std::vector<UsbId>& devices) {
   std::string text =
-      "# Lets the user at the seat open Osteon's haptic devices.\n"
+      "# Lets the logged-in user open Osteon's haptic devices.\n"
       "# Install as /etc/udev/rules.d/70-osteon.rules, then: udevadm control --reload\n";
   for (const UsbId& id : devices) {
     char line[160];

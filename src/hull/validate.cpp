@@ -22,17 +22,17 @@ bool sizes_agree(const Hull& hull, Problems& problems) {
   const std::size_t before = problems.size();
   if (hull.vertices.size() < 4) problems.push_back("fewer than four vertices");
   if (hull.planes.size() < 4) problems.push_back("fewer than four facets");
-  if (hull.source.size() != hull.vertices.size()) problems.push_back("not one source a vertex");
+  if (hull.source.size() != hull.vertices.size()) problems.push_back("not one source per vertex");
   if (hull.plane_of.size() != hull.triangles.size()) {
-    problems.push_back("not one plane index a triangle");
+    problems.push_back("not one plane index per triangle");
   }
   for (const Triangle& t : hull.triangles) {
     for (const std::uint32_t v : t) {
-      if (v >= hull.vertices.size()) problems.push_back("a triangle names a vertex that is not");
+      if (v >= hull.vertices.size()) problems.push_back("a triangle refers to a missing vertex");
     }
   }
   for (const std::uint32_t p : hull.plane_of) {
-    if (p >= hull.planes.size()) problems.push_back("a triangle names a plane that is not");
+    if (p >= hull.planes.size()) problems.push_back("a triangle refers to a missing plane");
   }
   return problems.size() == before;
 }
@@ -60,7 +60,7 @@ EdgeMap edges_of(const Hull& hull, Problems& problems) {
     const Triangle& t = hull.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
       if (!edges.emplace(std::pair(t[k], t[(k + 1) % 3]), i).second) {
-        problems.push_back("two triangles run the same way along an edge");
+        problems.push_back("two triangles at an edge have opposite orientation");
       }
     }
   }

@@ -161,15 +161,14 @@ Result<std::string> picture_file(const DicomElements& elements, const std::strin
     if (fits_header(
             {elements.syntax, kind.rows, kind.columns, kind.allocated, elements.pixel_fragments}))
       return compressed_file(elements, kind);
-    return fail(
-        "has compressed pixels that do not fit its header, or in a compression that is not read",
-        where, "Copy or export the series again, best uncompressed");
+    return fail("has compressed pixels that do not fit its header, or an unsupported compression",
+                where, "Copy or export the series again, preferably uncompressed");
   }
   const std::size_t bits = std::size_t{kind.rows} * kind.columns * kind.allocated;
   const std::size_t needed = (bits + 7) / 8;
   if (!is_plain(elements) || elements.plain_pixels.size() < needed)
-    return fail("holds fewer pixels than it says, or in a compression that cannot be unpacked",
-                where, "Copy or export the series again, best uncompressed");
+    return fail("holds fewer pixels than it says, or has an unsupported compression", where,
+                "Copy or export the series again, preferably uncompressed");
   return plain_file(elements, kind, needed);
 }
 

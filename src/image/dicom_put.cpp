@@ -66,7 +66,7 @@ Result<void> write_dicom_file(gdcm::Writer& writer, const std::filesystem::path&
     return write_file_atomic(file, bytes.str());
   } catch (const std::exception& e) {
     return fail(std::string("cannot be written (") + e.what() + ")", file.string(),
-                "Check that the disk has room");
+                "Check the free space on the disk");
   }
 }
 

@@ -18,7 +18,7 @@ Result<std::vector<fs::path>> files_in(const fs::path& folder) {
   for (const fs::directory_entry& entry : entries)
     if (entry.is_regular_file(ec) && is_dicom_file(entry.path())) files.push_back(entry.path());
   if (files.empty())
-    return fail("holds no DICOM file", folder.string(),
+    return fail("holds no DICOM files", folder.string(),
                 "Name the folder that holds the slices of the series themselves");
   std::sort(files.begin(), files.end());
   return files;

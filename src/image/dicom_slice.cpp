@@ -35,8 +35,8 @@ Result<void> convert(const gdcm::Image& image, const DicomHeader& slice, std::in
   const std::size_t length = image.GetBufferLength();
   std::vector<char> bytes(length);
   if (length != count * format.GetPixelSize() || !image.GetBuffer(bytes.data()))
-    return fail("holds fewer pixels than it says, or in a compression that cannot be unpacked",
-                file, "Copy or export the series again, best uncompressed");
+    return fail("holds fewer pixels than it says, or has an unsupported compression", file,
+                "Copy or export the series again, preferably uncompressed");
   switch (format.GetScalarType()) {
     case gdcm::PixelFormat::INT12:
     case gdcm::PixelFormat::INT16:

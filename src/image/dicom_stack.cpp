@@ -24,13 +24,13 @@ std::string mm(double metres) {
 Result<void> check_same(const DicomHeader& first, const DicomHeader& slice) {
   const std::string hint = "Remove the file or choose one series";
   if (slice.rows != first.rows || slice.columns != first.columns)
-    return fail("has another size in pixels than " + first.file.filename().string(),
+    return fail("has a different size in pixels from " + first.file.filename().string(),
                 slice.file.string(), hint);
   if ((*slice.axes_P - *first.axes_P).cwiseAbs().maxCoeff() > 1e-3)
-    return fail("is turned against " + first.file.filename().string(), slice.file.string(), hint);
+    return fail("is rotated against " + first.file.filename().string(), slice.file.string(), hint);
   if (std::abs(slice.spacing_i_m - first.spacing_i_m) > 1e-6 ||
       std::abs(slice.spacing_j_m - first.spacing_j_m) > 1e-6)
-    return fail("has another pixel spacing than " + first.file.filename().string(),
+    return fail("has a different pixel spacing from " + first.file.filename().string(),
                 slice.file.string(), hint);
   return {};
 }
@@ -48,7 +48,7 @@ Result<double> slice_distance(const std::vector<DicomHeader>& slices, const Vec3
         slices[k].file.filename().string() + " and " + slices[k + 1].file.filename().string();
     const std::string folder = slices[k].file.parent_path().string();
     if (gaps[k] < kSlack_m)
-      return fail(between + " show the same place", folder,
+      return fail(between + " show the same position", folder,
                   "Remove the doubled slices or choose one series");
     if (gaps[k] > 1.5 * usual)
       return fail("slices are missing between " + between + ": " + mm(gaps[k]) + " apart, " +
@@ -84,7 +84,7 @@ Result<void> check_slice(const DicomHeader& slice) {
                 "CT is needed, because bone is found by its Hounsfield units");
   if (slice.frames != 1)
     return fail("holds " + std::to_string(slice.frames) + " frames in one file", file,
-                "Export the series as one file a slice");
+                "Export the series as one file per slice");
   if (slice.rows < 2 || slice.columns < 2)
     return fail("does not give its size in pixels", file, "Export the series again");
   if (slice.rows > kWidestSlice || slice.columns > kWidestSlice)
@@ -92,7 +92,7 @@ Result<void> check_slice(const DicomHeader& slice) {
                     " pixels large, more than any scanner makes",
                 file, "Export the series again");
   if (!slice.position_P || !slice.axes_P)
-    return fail("does not say where its slice lies", file,
+    return fail("does not give its slice position", file,
                 "Export the series with image position and orientation");
   const auto sane = [](double s) { return s >= 1e-5 && s <= 0.02; };
   if (!sane(slice.spacing_i_m) || !sane(slice.spacing_j_m))

@@ -186,7 +186,7 @@ unsigned DicomElements::number(std::uint16_t group, std::uint16_t element,
 Result<DicomElements> walk_dicom(std::string_view bytes, const std::string& where) {
   Walker walker(bytes);
   if (walker.walk_file()) return walker.take();
-  return fail("is truncated, damaged or no DICOM picture", where,
+  return fail("is truncated, damaged or not a DICOM picture", where,
               "Copy or export the series again, or remove the file");
 }
 

@@ -36,7 +36,7 @@ Result<GreyPicture> decode_tiff(std::string_view bytes, const std::string& where
 
 /// What both say.
 inline tl::unexpected<Error> damaged_picture(const std::string& where) {
-  return fail("is damaged or no picture", where, "Export the slices again");
+  return fail("is damaged or not a picture", where, "Export the slices again");
 }
 inline tl::unexpected<Error> not_grey_16_bits(const std::string& where) {
   return fail("is not a grey picture of 16 bits", where,

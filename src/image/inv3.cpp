@@ -60,7 +60,7 @@ Result<Project> open_project(std::string_view bytes, const std::string& where) {
   if (!files) return tl::unexpected(files.error());
   project.files = std::move(*files);
   if (!project.files.count("main.plist"))
-    return fail("is no InVesalius project: it has no main.plist", where, "Save it again");
+    return fail("is not an InVesalius project: it has no main.plist", where, "Save it again");
   project.main = project.files["main.plist"];
   return project;
 }
@@ -82,7 +82,7 @@ Result<std::string_view> file_named(const Project& project, const std::string& n
                                     const std::string& where) {
   const auto file = project.files.find(name);
   if (file == project.files.end())
-    return fail("lacks its part '" + name + "'", where, "Copy or save it again");
+    return fail("lacks the part '" + name + "'", where, "Copy or save it again");
   return file->second;
 }
 
@@ -136,7 +136,7 @@ Result<Volume> parse_inv3(std::string_view bytes, const std::string& where) {
     return fail("is of modality '" + modality + "', not CT", where,
                 "CT is needed, because bone is found by its Hounsfield units");
   if (plist_text(project->main, "dtype") != "int16")
-    return fail("has voxels that are not of 16 bits", where, "Save it again");
+    return fail("has voxels that are not 16-bit", where, "Save it again");
   const auto frame = frame_of(project->main, where);
   if (!frame) return tl::unexpected(frame.error());
   const std::string_view matrix = plist_value(project->main, "matrix");

@@ -22,14 +22,15 @@ std::string LabelEdit::unused_name() const {
 
 Result<void> LabelEdit::check_label(std::uint16_t label) const {
   if (has(label)) return {};
-  return fail("there is no such bone", "label " + std::to_string(label), "Choose one of the list");
+  return fail("there is no such bone", "label " + std::to_string(label),
+              "Choose one from the list");
 }
 
 Result<void> LabelEdit::check_name(const std::string& name, std::uint16_t label) const {
   if (name.empty()) return fail("a bone needs a name", {}, "Type one");
   for (const auto& [other, bone] : bones_)
     if (other != label && bone.name == name)
-      return fail("there is a bone of this name already", name, "Choose another name, or merge");
+      return fail("a bone with this name exists", name, "Choose another name, or merge");
   return {};
 }
 
@@ -94,11 +95,12 @@ Result<void> LabelEdit::merge(std::uint16_t from, std::uint16_t into) {
 Result<void> LabelEdit::check_labels(const LabelVolume& labels,
                                      const std::map<std::uint16_t, std::string>& names) const {
   if (labels.frame.size != labels_.frame.size || labels.values.size() != labels_.values.size())
-    return fail("have another size than the scan", "the labels", "Make them from this scan");
+    return fail("have a different size from the scan", "the labels", "Make them from this scan");
   std::set<std::string> used;
   for (const auto& [label, name] : names)
     if (label == 0 || name.empty() || !used.insert(name).second)
-      return fail("is empty or used twice", "the name '" + name + "'", "Give each bone its own");
+      return fail("is empty or used twice", "the name '" + name + "'",
+                  "Give each bone its own name");
   std::uint16_t last = 0;
   for (const std::uint16_t label : labels.values) {
     if (label != last && label != 0 && !names.count(label))

@@ -176,8 +176,7 @@ Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptio
   LabelVolume bodies;
   std::vector<Component> found = label_components(mask, smallest, bodies);
   if (found.empty())
-    return fail("nothing is left within the threshold that is as large as a bone", {},
-                "Move the threshold");
+    return fail("no part within the threshold is as large as a bone", {}, "Move the threshold");
   if (found.size() > options.most) found.resize(options.most);
   edit.begin_step("Find bodies");
   std::vector<std::uint16_t> labels;

@@ -92,7 +92,7 @@ Result<Volume> load_any(const fs::path& source, const LoadVolumeOptions& options
     return read_slice_stack(source, options.spacing_m);
   }
   if (!fs::is_regular_file(source, ec))
-    return fail("is not there", source.string(), "Check the name");
+    return fail("does not exist", source.string(), "Check the name");
   const std::string name = lower(source.filename().string());
   for (const Format& format : kFormats)
     if (ends_with(name, format.end)) {
@@ -101,7 +101,7 @@ Result<Volume> load_any(const fs::path& source, const LoadVolumeOptions& options
       return format.read(source);
     }
   if (is_dicom_file(source)) return load_dicom(source, options);
-  return fail("is no scan that Osteon knows", source.string(),
+  return fail("is not a scan format that Osteon knows", source.string(),
               "Name a DICOM folder or a .nrrd, .nii, .mhd, .mha or .inv3 file");
 }
 

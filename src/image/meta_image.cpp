@@ -49,7 +49,7 @@ Result<GridFrame> frame_of(TextHeader& header, bool& flip_k, const std::string& 
   const auto sizes = numbers_or_none(header, {"dimsize"});
   const auto channels = numbers_or_none(header, {"elementnumberofchannels"});
   if (sizes.size() != 3 || (!channels.empty() && channels[0] != 1))
-    return fail("is not three-dimensional with one value a voxel", where,
+    return fail("is not three-dimensional with one value per voxel", where,
                 "Export one scalar volume");
   for (std::size_t a = 0; a < 3; ++a) frame.size[a] = whole_number(sizes[a]).value_or(0);
   const auto spacing = numbers_or_none(header, {"elementspacing"});
@@ -82,7 +82,7 @@ Result<std::string_view> data_of(TextHeader& header, std::string_view attached,
   if (lower_case(name) != "local") {
     if (name.empty() || folder.empty() || fs::path(name).has_parent_path() ||
         name.find('%') != name.npos || name.rfind("LIST", 0) == 0)
-      return fail("has its data in '" + name + "', which is not one file beside it", where,
+      return fail("has its data in '" + name + "', which is not one file in the same folder", where,
                   "Export it as one .mha file");
     auto detached = read_file(folder / name, kVolumeLimitBytes);
     if (!detached) return tl::unexpected(detached.error());
@@ -100,10 +100,10 @@ Result<TextVolumeHead> parse_meta_head(std::string_view bytes, const std::string
   TextVolumeHead head;
   head.header = read_header(bytes, head.attached);
   if (!head.header.count("elementdatafile"))
-    return fail("is no MetaImage file", where, "Export it again");
+    return fail("is not a MetaImage file", where, "Export it again");
   const auto type = types().find(lower_case(head.header["elementtype"]));
   if (type == types().end())
-    return fail("has voxels of type '" + head.header["elementtype"] + "', which is not known",
+    return fail("has voxels of type '" + head.header["elementtype"] + "', which is not supported",
                 where, "Export it as 16-bit numbers");
   head.type = type->second;
   const auto frame = frame_of(head.header, head.flip_k, where);

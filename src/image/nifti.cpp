@@ -112,15 +112,16 @@ Result<GridFrame> frame_of(const Header& header, std::string_view bytes, bool& f
 
 Result<NiftiHead> parse_nifti_head(std::string_view bytes, const std::string& where) {
   if (bytes.size() < kHeaderBytes + 4)
-    return fail("is truncated: its header is not whole", where, "Copy or export it again");
+    return fail("is truncated: its header is incomplete", where, "Copy or export it again");
   const bool little = Header(bytes, false).whole(0) == 348;
   const Header header(bytes, !little);
   if (header.whole(0) != 348 || bytes.substr(344, 3) != "n+1")
-    return fail("is no NIfTI-1 file in one piece", where, "Export it as .nii or .nii.gz");
+    return fail("is not a single-file NIfTI-1", where, "Export it as .nii or .nii.gz");
   const auto type = nifti_types().find(header.word(70));
   if (type == nifti_types().end())
-    return fail("has voxels of type " + std::to_string(header.word(70)) + ", which is not known",
-                where, "Export it as 16-bit numbers");
+    return fail(
+        "has voxels of type " + std::to_string(header.word(70)) + ", which is not supported", where,
+        "Export it as 16-bit numbers");
   NiftiHead head;
   const auto frame = frame_of(header, bytes, head.flip_k, where);
   if (!frame) return tl::unexpected(frame.error());

@@ -31,7 +31,7 @@ const std::map<std::string, ValueType>& nrrd_types() {
 /// Lines up to the first empty one; `data` is what follows.
 Result<TextHeader> read_header(std::string_view bytes, std::string_view& data,
                                const std::string& where) {
-  if (bytes.substr(0, 4) != "NRRD") return fail("is no NRRD file", where, "Export it again");
+  if (bytes.substr(0, 4) != "NRRD") return fail("is not an NRRD file", where, "Export it again");
   TextHeader header;
   for (std::size_t at = 0;;) {
     const std::size_t end = bytes.find('\n', at);
@@ -72,7 +72,7 @@ Result<Mat3> space_of(TextHeader& header, const std::string& where) {
   if (space == "right-anterior-superior" || space == "ras")
     return Mat3(Vec3(-1, -1, 1).asDiagonal());
   if (space == "left-anterior-superior" || space == "las") return Mat3(Vec3(1, -1, 1).asDiagonal());
-  return fail("lies in the space '" + space + "', which is not known", where,
+  return fail("lies in the space '" + space + "', which is not supported", where,
               "Export it in left-posterior-superior");
 }
 
@@ -113,7 +113,7 @@ Result<std::string_view> nrrd_data(TextHeader& header, std::string_view attached
   if (!name.empty()) {
     if (folder.empty() || fs::path(name).has_parent_path() || name.find('%') != name.npos ||
         name.rfind("LIST", 0) == 0)
-      return fail("has its data in '" + name + "', which is not one file beside it", where,
+      return fail("has its data in '" + name + "', which is not one file in the same folder", where,
                   "Export it as one .nrrd file");
     auto detached = read_file(folder / name, kVolumeLimitBytes);
     if (!detached) return tl::unexpected(detached.error());
@@ -122,7 +122,7 @@ Result<std::string_view> nrrd_data(TextHeader& header, std::string_view attached
   }
   if (lower_case(header["encoding"]) == "raw") return attached;
   if (!is_nrrd_packed(header))
-    return fail("has the encoding '" + lower_case(header["encoding"]) + "', which is not known",
+    return fail("has the encoding '" + lower_case(header["encoding"]) + "', which is not supported",
                 where, "Export it with raw or gzip encoding");
   auto unpacked = gunzip(attached, kVolumeLimitBytes, where);
   if (!unpacked) return tl::unexpected(unpacked.error());
@@ -137,7 +137,7 @@ Result<TextVolumeHead> parse_nrrd_head(std::string_view bytes, const std::string
   head.header = std::move(*header);
   const auto type = nrrd_types().find(lower_case(head.header["type"]));
   if (type == nrrd_types().end())
-    return fail("has voxels of type '" + head.header["type"] + "', which is not known", where,
+    return fail("has voxels of type '" + head.header["type"] + "', which is not supported", where,
                 "Export it as 16-bit numbers");
   head.type = type->second;
   const auto frame = nrrd_frame(head.header, head.flip_k, where);

@@ -75,10 +75,10 @@ StoredSize size_of_picture(std::string_view bytes) {
 Result<void> check_picture_header(std::string_view bytes, const std::string& where) {
   const StoredSize size = size_of_picture(bytes);
   if (size.width == 0 || size.height == 0)
-    return fail("is damaged or no PNG or TIFF picture", where, "Export the slices again");
+    return fail("is damaged or not a PNG or TIFF picture", where, "Export the slices again");
   if (size.width > kWidestPicture || size.height > kWidestPicture || size.samples > kMostSamples)
     return fail("is " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                    " pixels large, more than a slice has",
+                    " pixels large, too large for a slice",
                 where, "Crop the slices to the joint");
   return {};
 }

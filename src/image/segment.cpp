@@ -138,7 +138,7 @@ Result<Segmentation> segment_bone(const Volume& volume, const SegmentOptions& op
   std::size_t done = 0;
   for (const Component& component : components) {
     const double share = static_cast<double>(done++) / static_cast<double>(components.size());
-    if (!goes_on(options.progress, "Parting bones", share)) return stopped();
+    if (!goes_on(options.progress, "Separating bones", share)) return stopped();
     next += part_component(component, options, next, out.labels);
   }
   renumber(out, options.smallest_m3);

@@ -65,7 +65,8 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
   std::error_code ec;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ec))
     if (is_picture(entry.path())) files.push_back(entry.path());
-  if (files.empty()) return fail("holds no PNG or TIFF picture", folder.string(), "Check the name");
+  if (files.empty())
+    return fail("holds no PNG or TIFF pictures", folder.string(), "Check the name");
   std::sort(files.begin(), files.end(), natural_less);
   return files;
 }
@@ -74,7 +75,7 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder) {
 Result<GridFrame> frame_of_stack(const std::vector<fs::path>& files,
                                  const std::optional<Vec3>& spacing_m, const std::string& where) {
   if (!spacing_m)
-    return fail("holds pictures, which do not say how large their pixels are", where,
+    return fail("holds pictures, which do not store their pixel size", where,
                 "Give --spacing X,Y,Z in mm");
   const auto first = read_picture(files.front());
   if (!first) return tl::unexpected(first.error());
@@ -123,7 +124,7 @@ Result<Volume> read_slice_stack(const fs::path& folder, const std::optional<Vec3
     const auto picture = read_picture(file);
     if (!picture) return tl::unexpected(picture.error());
     if (picture->width != frame->size[0] || picture->height != frame->size[1])
-      return fail("has another size than " + files->front().filename().string(), file.string(),
+      return fail("has a different size from " + files->front().filename().string(), file.string(),
                   "Put the slices of one scan into the folder");
     append(*picture, volume);
   }

@@ -107,18 +107,18 @@ tl::unexpected<Error> FilmWriter::Impl::give_up(Error error) {
   if (!first || out.error_number == 0 || !begun || picture.next == 0) return tl::unexpected(error);
   // All that the file took can be played but for the piece at its end that is not whole.
   if (out.file.size() > 0 && out.file.keep())
-    error.todo += "; what was written so far is kept and can be played";
+    error.todo += "; the part written so far is kept and can be played";
   return tl::unexpected(error);
 }
 
 Result<AVCodecContext*> FilmWriter::Impl::encoder(const char* name) const {
   const AVCodec* codec = av.avcodec_find_encoder_by_name(name);
   if (codec == nullptr)
-    return fail(
-        "the FFmpeg that is installed has no encoder '" + std::string(name) + "'", "films",
-        "install one that has, as Debian's libavcodec" + std::to_string(LIBAVCODEC_VERSION_MAJOR));
+    return fail("the installed FFmpeg has no encoder '" + std::string(name) + "'", "films",
+                "install one that has it, such as Debian's libavcodec" +
+                    std::to_string(LIBAVCODEC_VERSION_MAJOR));
   AVCodecContext* context = av.avcodec_alloc_context3(codec);
-  if (context == nullptr) return fail("no memory is left", "films");
+  if (context == nullptr) return fail("there is not enough memory", "films");
   if ((muxer->oformat->flags & AVFMT_GLOBALHEADER) != 0)
     context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   context->flags |= AV_CODEC_FLAG_BITEXACT;
@@ -131,7 +131,7 @@ Result<void> FilmWriter::Impl::start(FilmTrack& track, AVDictionary** options) {
   if (opened < 0) return tl::unexpected(failed("the encoder does not start", opened));
   track.stream = av.avformat_new_stream(muxer, nullptr);
   track.frame = av.av_frame_alloc();
-  if (!track.stream || !track.frame) return fail("no memory is left", "films");
+  if (!track.stream || !track.frame) return fail("there is not enough memory", "films");
   track.stream->time_base = track.codec->time_base;
   av.avcodec_parameters_from_context(track.stream->codecpar, track.codec);
   return {};
@@ -168,7 +168,8 @@ Result<void> FilmWriter::Impl::open_picture() {
   picture.frame->width = codec.width;
   picture.frame->height = codec.height;
   const int got = av.av_frame_get_buffer(picture.frame, 0);
-  return got < 0 ? Result<void>(tl::unexpected(failed("no memory is left", got))) : Result<void>();
+  return got < 0 ? Result<void>(tl::unexpected(failed("there is not enough memory", got)))
+                 : Result<void>();
 }
 
 Result<void> FilmWriter::Impl::open_sound() {
@@ -189,12 +190,13 @@ Result<void> FilmWriter::Impl::open_sound() {
   frame.sample_rate = kSoundHz;
   av.av_channel_layout_default(&frame.ch_layout, 1);
   const int got = av.av_frame_get_buffer(sound.frame, 0);
-  return got < 0 ? Result<void>(tl::unexpected(failed("no memory is left", got))) : Result<void>();
+  return got < 0 ? Result<void>(tl::unexpected(failed("there is not enough memory", got)))
+                 : Result<void>();
 }
 
 Result<void> FilmWriter::Impl::open() {
   const int made = av.avformat_alloc_output_context2(&muxer, nullptr, "webm", nullptr);
-  if (made < 0) return tl::unexpected(failed("the FFmpeg that is installed writes no WebM", made));
+  if (made < 0) return tl::unexpected(failed("the installed FFmpeg cannot write WebM", made));
   muxer->flags |= AVFMT_FLAG_BITEXACT;
   // Opus begins a little before its first sample, which WebM has a field for.
   muxer->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
@@ -202,10 +204,10 @@ Result<void> FilmWriter::Impl::open() {
   if (auto ok = open_sound(); !ok) return ok;
   auto* buffer = static_cast<std::uint8_t*>(av.av_malloc(kIoBytes));
   packet = av.av_packet_alloc();
-  if (!buffer || !packet) return fail("no memory is left", "films");
+  if (!buffer || !packet) return fail("there is not enough memory", "films");
   io = av.avio_alloc_context(buffer, kIoBytes, 1, &out, nullptr, write_some,
                              out.file.seekable() ? seek_to : nullptr);
-  if (!io) return fail("no memory is left", "films");
+  if (!io) return fail("there is not enough memory", "films");
   muxer->pb = io;
   return begin();
 }
@@ -217,7 +219,7 @@ Result<void> FilmWriter::Impl::begin() {
   const int written = av.avformat_write_header(muxer, &options);
   av.av_dict_free(&options);
   if (written < 0 || out.error_number != 0)
-    return tl::unexpected(failed("the film cannot be begun", written));
+    return tl::unexpected(failed("the film cannot be started", written));
   begun = true;
   return {};
 }
@@ -276,7 +278,7 @@ Result<void> FilmWriter::add_picture(std::span<const std::uint8_t> rgb) {
   const FilmFormat& f = impl.format;
   if (impl.ended) return fail("the film has ended", impl.out.file.file().string());
   if (rgb.size() != 3u * static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height))
-    return fail("a picture has not the film's size", impl.out.file.file().string());
+    return fail("a picture does not have the film's size", impl.out.file.file().string());
   AVFrame& frame = *impl.picture.frame;
   impl.av.av_frame_make_writable(&frame);
   to_yuv420(rgb, f.width, f.height, {frame.data[0], frame.linesize[0]},

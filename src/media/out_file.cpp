@@ -16,7 +16,7 @@ Error write_error(int error_number, const fs::path& file) {
   const bool full = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
   return {std::string(full ? "the disk is full" : "cannot be written") + " (" +
               std::strerror(error_number) + ")",
-          file.string(), full ? "make room or choose another disk" : "choose another place"};
+          file.string(), full ? "free some space or choose another disk" : "choose another place"};
 }
 
 Result<OutFile> OutFile::create(const fs::path& file) {

@@ -27,7 +27,7 @@ Result<void> check_stated(const std::string& name, const std::string& grade,
     if (grade == kNoFinding ||
         std::find(asked.grades.begin(), asked.grades.end(), grade) != asked.grades.end())
       return {};
-    return fail("'" + grade + "' is no grade of " + name, where,
+    return fail("'" + grade + "' is not a grade of " + name, where,
                 "Use none, " + listed(asked.grades));
   }
   return fail("the exercise does not ask for '" + name + "'", where,
@@ -64,11 +64,11 @@ Result<StatedFindings> parse_findings(std::string_view text, const std::vector<A
                                       const std::string& where) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object())
-    return fail("is no JSON object of findings", where, "Write {\"geissler\": \"3\"}");
+    return fail("is not a JSON object of findings", where, "Write {\"geissler\": \"3\"}");
   StatedFindings stated;
   for (const auto& [name, grade] : json.items()) {
     if (!grade.is_string())
-      return fail("the grade of '" + name + "' is no text", where, "Write {\"geissler\": \"3\"}");
+      return fail("the grade of '" + name + "' is not text", where, "Write {\"geissler\": \"3\"}");
     if (auto ok = check_stated(name, grade, asks, where); !ok) return tl::unexpected(ok.error());
     stated[name] = grade;
   }

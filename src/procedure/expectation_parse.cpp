@@ -39,7 +39,7 @@ Result<Json> parse_json(const std::string& text) {
   RepeatedKeys repeated;
   try {
     Json json = Json::parse(text, std::ref(repeated));
-    if (!repeated.first().empty()) return refuse("the key comes twice", repeated.first());
+    if (!repeated.first().empty()) return refuse("the key is given twice", repeated.first());
     if (!json.is_object()) return refuse("the expectation is not a JSON object", "");
     return json;
   } catch (const Json::exception& e) {
@@ -101,7 +101,7 @@ Result<std::vector<std::string>> parse_names(const Json& json, const std::string
     if (!name.is_string()) return refuse("this is not a list of bones", key);
     const std::string text = name;
     if (std::find(names.begin(), names.end(), text) != names.end())
-      return refuse("'" + text + "' comes twice", key);
+      return refuse("'" + text + "' is given twice", key);
     names.push_back(text);
   }
   return names;
@@ -128,7 +128,7 @@ Result<void> store(Result<T> result, Into& into) {
 }
 
 Result<std::string> parse_text(const Json& json, const std::string& key) {
-  if (!json.is_string()) return refuse("this is not a text", key);
+  if (!json.is_string()) return refuse("this is not text", key);
   return json.get<std::string>();
 }
 
@@ -164,7 +164,7 @@ Result<Expectation> parse_expectation(const std::string& json) {
   const auto parsed = parse_json(json);
   if (!parsed) return tl::unexpected(parsed.error());
   // An expectation that expects nothing would hold for everything: surely a mistake.
-  if (parsed->empty()) return refuse("it expects nothing", "");
+  if (parsed->empty()) return refuse("it has no expectations", "");
   Expectation expectation;
   for (const auto& [key, value] : parsed->items())
     if (const auto done = parse_key(key, value, expectation); !done)

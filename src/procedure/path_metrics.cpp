@@ -54,7 +54,7 @@ Result<void> check_samples(const Samples& samples, const PathMetricsOptions& opt
     if (!std::isfinite(samples[i].time_s) || !is_finite(samples[i].X_WD))
       return fail("holds a value that is not a finite number", where);
     if (i > 0 && !(samples[i].time_s > samples[i - 1].time_s))
-      return fail("the time does not rise", where, "Sort the samples and drop repeated ones");
+      return fail("the time does not increase", where, "Sort the samples and drop repeated ones");
   }
   if (options.axis_W && (!is_finite(*options.axis_W) || !(options.axis_W->norm() > 0)))
     return fail("the axis has no direction", "axis", "Give three numbers, not all zero");

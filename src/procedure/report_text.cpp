@@ -82,7 +82,7 @@ std::string to_text(const Report& report) {
          "duration       " + fixed(report.duration_s, 3) + " s, " + std::to_string(report.ticks) +
          " ticks\n" + "path length    " + fixed(report.path_length_mm, 1) + " mm\n" +
          "smoothness     " + fixed(report.smoothness_sparc, 2) +
-         " (spectral arc length; nearer 0 is smoother)\n" + portal_line(report) +
+         " (spectral arc length; closer to 0 is smoother)\n" + portal_line(report) +
          timing_lines(report) + "state hash     " + hex16(report.state_hash) + "\n\n" +
          (any ? bone_table(report) : std::string("no bone was touched\n")) + untouched_line(report);
 }

@@ -53,7 +53,7 @@ class ScenarioChecker {
 
   void once(const std::string& name, const std::string& what, int line) {
     if (!names_.insert(what + " " + name).second)
-      say(line, "the " + what + " '" + name + "' comes twice");
+      say(line, "the " + what + " '" + name + "' is given twice");
   }
 
   std::size_t count_of(const Rule& rule) const {
@@ -67,7 +67,7 @@ class ScenarioChecker {
       if (!case_.find(name).valid())
         say(rule.line,
             "the rule '" + rule.kind + "' can never be met: the case has no bone '" + name + "'");
-      if (!seen.insert(name).second) say(rule.line, "the bone '" + name + "' comes twice");
+      if (!seen.insert(name).second) say(rule.line, "the bone '" + name + "' is given twice");
     }
   }
 
@@ -77,7 +77,7 @@ class ScenarioChecker {
       if (!find_landmark(case_, name))
         say(rule.line, "the rule '" + rule.kind + "' can never be met: the case has no landmark '" +
                            name + "'");
-      if (!names.insert(name).second) say(rule.line, "the mark '" + name + "' comes twice");
+      if (!names.insert(name).second) say(rule.line, "the mark '" + name + "' is given twice");
     }
     if (rule.marks.empty() || !rule.numbers.contains("span_mm")) return;
     if (rule.numbers.at("near_mm") + rule.numbers.at("span_mm") >= rule.numbers.at("far_mm"))

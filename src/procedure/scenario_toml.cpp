@@ -89,7 +89,7 @@ AskedFinding read_asked(TomlTable table) {
   asked.title = table.text("title");
   asked.grades = table.texts_or_empty("grades");
   if (asked.grades.empty())
-    table.set_error("nothing can be stated", "finding", "Add grades = [...]");
+    table.set_error("no answer can be stated", "finding", "Add grades = [...]");
   table.refuse_others();
   return asked;
 }
@@ -98,8 +98,8 @@ AskedFinding read_asked(TomlTable table) {
 std::string read_felt(TomlTable& table) {
   const std::string felt = table.text_or("felt", "pieces");
   if (felt != "pieces" && felt != "hull" && felt != "field" && felt.find('=') == std::string::npos)
-    table.set_error("'" + felt + "' is no way to feel a bone", "felt",
-                    "Use pieces, hull or field, or BONE=field,... as behind a case's '#'");
+    table.set_error("'" + felt + "' is not a felt shape of a bone", "felt",
+                    "Use pieces, hull or field, or BONE=field,... as after a case's '#'");
   return felt;
 }
 
@@ -129,7 +129,7 @@ Scenario read_scenario(TomlTable& table) {
   scenario.sides = table.texts_or_empty("sides");
   for (const std::string& side : scenario.sides)
     if (side != "left" && side != "right")
-      table.set_error("'" + side + "' is no side", "sides", "Use left and right");
+      table.set_error("'" + side + "' is not a side", "sides", "Use left and right");
   scenario.findings = table.texts_or_empty("findings");
   scenario.always = table.texts_or_empty("always");
   for (const auto* list : {&scenario.findings, &scenario.always})
@@ -138,7 +138,7 @@ Scenario read_scenario(TomlTable& table) {
         table.set_error("'" + finding + "' has no grade",
                         list == &scenario.always ? "always" : "findings", "Write NAME=GRADE");
   for (TomlTable& hand : table.tables_or_empty("hands")) scenario.hands.push_back(read_hand(hand));
-  if (scenario.hands.size() > 4) table.set_error("there are four hands at most", "hands");
+  if (scenario.hands.size() > 4) table.set_error("at most four hands are allowed", "hands");
   for (TomlTable& stage : table.tables_or_empty("stages"))
     scenario.stages.push_back(read_stage(stage));
   for (TomlTable& error : table.tables_or_empty("errors"))

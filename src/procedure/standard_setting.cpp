@@ -64,8 +64,8 @@ Result<ContrastingMark> contrasting_groups(const std::vector<double>& experts,
   double hi = e.mean, lo = n.mean;
   const auto expert_likelier = [&](double x) { return log_density(x, e) > log_density(x, n); };
   if (!(hi > lo) || !expert_likelier(hi) || expert_likelier(lo))
-    return fail("the groups' scores do not lie apart", "contrasting groups",
-                "A score that does not tell them apart can set no mark");
+    return fail("the groups' scores do not differ", "contrasting groups",
+                "A score that does not separate them cannot set a mark");
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (lo + hi);
     (expert_likelier(middle) ? hi : lo) = middle;
@@ -83,7 +83,7 @@ Result<double> cronbach_alpha(const std::vector<std::vector<double>>& persons) {
     std::vector<double> column;
     for (std::size_t p = 0; p < persons.size(); ++p) {
       if (persons[p].size() != items)
-        return fail("a person has another count of items", "reliability");
+        return fail("a person has a different number of items", "reliability");
       column.push_back(persons[p][i]);
       totals[p] += persons[p][i];
     }

@@ -33,10 +33,10 @@ Error explain(int code, const char* detail, const std::string& name) {
     case SQLITE_PERM:
     case SQLITE_READONLY:
       return {std::string("the file cannot be opened (") + detail + ")", name,
-              "Check that it exists and that you may use it"};
+              "Check that it exists and that you may read it"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return {"another program holds the file", name, "Close it there and try again"};
+      return {"another program uses the file", name, "Close it there and try again"};
     default:
       return {std::string("the database refused (") + detail + ")", name, "Use another copy of it"};
   }
@@ -127,9 +127,9 @@ class Database::TempCopy {
     if (!error) fs::copy_file(file, copy->file(), error);
     if (!error && fs::exists(log)) fs::copy_file(log, copy->file().string() + "-wal", error);
     if (error || copy->folder_.empty())
-      return fail("the recording lies where nothing may be written, and cannot be copied (" +
-                      error.message() + ")",
-                  file.string(), "Copy it, with its -wal file, to a folder of your own");
+      return fail(
+          "the recording is in a read-only folder, and cannot be copied (" + error.message() + ")",
+          file.string(), "Copy it, with its -wal file, to a folder of your own");
     // A copy of a write-protected file would be write-protected too.
     for (const auto& entry : fs::directory_iterator(copy->folder_, error))
       fs::permissions(entry.path(), fs::perms::owner_read | fs::perms::owner_write, error);
@@ -161,7 +161,7 @@ Result<Database> Database::create(const fs::path& file) {
   std::FILE* made = std::fopen(file.string().c_str(), "wbx");
   if (!made)
     return fail(std::string("the recording cannot be made (") + std::strerror(errno) + ")",
-                file.string(), "Give the name of a new file in a folder where you may write");
+                file.string(), "Give the name of a new file in a writable folder");
   std::fclose(made);
   return open_at(file, file.string());
 }

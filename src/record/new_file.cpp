@@ -22,7 +22,7 @@ Result<void> name_new_file(const fs::path& file) {
   if (linked || error) fs::remove(part, ignored);
   if (error)
     return fail("the recording cannot be made (" + error.message() + ")", file.string(),
-                "Give the name of a new file in a folder where you may write");
+                "Give the name of a new file in a writable folder");
   return {};
 }
 

@@ -73,7 +73,7 @@ class RoomField : public LocalField {
 }  // namespace
 
 Result<TriMesh> joint_wall(std::span<const WalledBone> bones, const Vec3& tip_W) {
-  if (!is_finite(tip_W) || tip_W.norm() > 100) return fail("is no place in World", "the tip");
+  if (!is_finite(tip_W) || tip_W.norm() > 100) return fail("is not a position in World", "the tip");
   std::vector<const WalledBone*> near;
   double nearest = kWallReach_m;
   for (const WalledBone& bone : bones) {

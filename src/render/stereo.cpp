@@ -61,7 +61,7 @@ Result<StereoLayout> parse_stereo_layout(std::string_view text) {
                                      {"interlaced", StereoLayout::kInterlaced},
                                      {"anaglyph", StereoLayout::kAnaglyph}})
     if (text == name) return layout;
-  return fail("\"" + std::string(text) + "\" is no way to show two eyes", "--stereo",
+  return fail("\"" + std::string(text) + "\" is not a stereo format", "--stereo",
               "choose side-by-side, over-under, interlaced or anaglyph");
 }
 

@@ -55,7 +55,7 @@ bool is_learner_id(std::string_view text) {
 
 Result<AttemptRow> row_from_report(const std::string& report_json, const std::string& learner) {
   if (!is_learner_id(learner))
-    return fail("'" + learner + "' is no learner's id", "learner",
+    return fail("'" + learner + "' is not a valid learner's id", "learner",
                 "Use 1 to 64 letters, digits, '.', '_' and '-'");
   try {
     const RowJson json = RowJson::parse(report_json);
@@ -120,10 +120,10 @@ Result<AttemptRow> parse_attempt_row(const std::string& text, const std::string&
     row.state_hash = json.at("state_hash");
     row.report_json = json.at("report");
     if (!is_uuid(row.id) || !is_learner_id(row.learner))
-      return fail("the attempt's id or learner is none", where);
+      return fail("the attempt has no id or no learner", where);
     return row;
   } catch (const RowJson::exception& e) {
-    return fail(std::string("is no attempt (") + e.what() + ")", where,
+    return fail(std::string("is not an attempt (") + e.what() + ")", where,
                 "Move the file away if it is damaged");
   }
 }

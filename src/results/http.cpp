@@ -38,7 +38,7 @@ Error way_error(CURLcode code, const Lrs& lrs, const char* detail) {
   const std::string why = *detail ? detail : curl_easy_strerror(code);
   if (code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_SSL_CACERT_BADFILE)
     return {"the record store's certificate is not trusted (" + why + ")", lrs.endpoint,
-            "Give the certificate of who signed it with --certificates FILE"};
+            "Give its certificate authority with --certificates FILE"};
   if (code == CURLE_OPERATION_TIMEDOUT)
     return {"the record store did not answer in time", lrs.endpoint,
             "Nothing is lost: send again later"};
@@ -102,10 +102,10 @@ LrsHttp::~LrsHttp() = default;
 Result<LrsHttp> LrsHttp::to(const Lrs& lrs) {
   const bool open_way = lrs.endpoint.starts_with("http://");
   if (!open_way && !lrs.endpoint.starts_with("https://"))
-    return fail("'" + lrs.endpoint + "' is no address of a record store", "--to",
+    return fail("'" + lrs.endpoint + "' is not the address of a record store", "--to",
                 "Give it as https://HOST/PATH");
   if (open_way && !lrs.user.empty() && !is_here(lrs.endpoint))
-    return fail("a password would be sent in the open", lrs.endpoint, "Use https://");
+    return fail("the password would be sent unencrypted", lrs.endpoint, "Use https://");
   static const CURLcode started = curl_global_init(CURL_GLOBAL_DEFAULT);
   auto impl = std::make_unique<Impl>();
   impl->lrs = lrs;

@@ -122,8 +122,8 @@ class Sender {
         there = *shown;
       }
       if (!there) {
-        report.why_waiting = Error{"the record store said that it took an attempt and has it not",
-                                   lrs_.endpoint, "Tell who keeps it; the attempt waits"};
+        report.why_waiting = Error{"the record store accepted an attempt but does not have it",
+                                   lrs_.endpoint, "Tell its administrator; the attempt waits"};
         return {};
       }
       if (auto ok = accept(row); !ok) return ok;

@@ -15,7 +15,7 @@ Result<LearnerNames> load_names(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(*text).get<LearnerNames>();
   } catch (const nlohmann::json::exception& e) {
-    return fail(std::string("is no map of names (") + e.what() + ")", file.string(),
+    return fail(std::string("is not a map of names (") + e.what() + ")", file.string(),
                 "Correct it or move it away");
   }
 }

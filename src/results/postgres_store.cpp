@@ -85,7 +85,7 @@ class PostgresStore final : public ResultBackend {
       if (version.empty())
         work.exec("INSERT INTO osteon_format VALUES(" + std::to_string(kServerFormat) + ")");
       else if (version[0][0].as<int>() > kServerFormat)
-        return fail("is of a newer Osteon", shown(), "Use that version, or another database");
+        return fail("belongs to a newer Osteon", shown(), "Use that version, or another database");
       work.commit();
       return {};
     });
@@ -207,15 +207,15 @@ class PostgresStore final : public ResultBackend {
       return work();
     } catch (const pqxx::in_doubt_error&) {
       connection_.reset();
-      return fail("the server was lost while it wrote", shown(),
-                  "Send the attempt again: it is kept once, however often it comes");
+      return fail("the connection to the server was lost during writing", shown(),
+                  "Send the attempt again: it is stored only once");
     } catch (const pqxx::broken_connection& e) {
       connection_.reset();
-      return fail("the server of results does not answer (" + first_line(e.what()) + ")", shown(),
-                  "Check that it runs and that the address, user and password are right");
+      return fail("the results server does not answer (" + first_line(e.what()) + ")", shown(),
+                  "Check that it is running, and check address, user and password");
     } catch (const std::exception& e) {
       connection_.reset();
-      return fail("the server of results refused (" + first_line(e.what()) + ")", shown(),
+      return fail("the results server refused (" + first_line(e.what()) + ")", shown(),
                   "Check the user's rights on the database; nothing was changed");
     }
   }

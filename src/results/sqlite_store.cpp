@@ -33,15 +33,15 @@ Error store_error(sqlite3* db, const fs::path& file) {
   Error error{std::string("the results cannot be used (") + sqlite3_errstr(code) + ")",
               file.string(), ""};
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED)
-    error = {"another program keeps the results locked", file.string(),
+    error = {"another program has locked the results", file.string(),
              "Close it or try again; nothing was changed"};
   if (code == SQLITE_FULL)
-    error = {"the disk is full", file.string(), "Make room; nothing was changed"};
+    error = {"the disk is full", file.string(), "Free some space; nothing was changed"};
   if (code == SQLITE_READONLY || code == SQLITE_CANTOPEN || code == SQLITE_PERM)
-    error = {"the results cannot be written", file.string(), "Check the rights of the folder"};
+    error = {"the results cannot be written", file.string(), "Check the folder's permissions"};
   if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-    error = {"is not a file of results, or is damaged", file.string(),
-             "Move it away; a new one is made"};
+    error = {"is not a results file, or is damaged", file.string(),
+             "Move it away; a new one will be made"};
   return error;
 }
 
@@ -157,8 +157,8 @@ class SqliteStore final : public ResultBackend {
     const auto id = pragma("application_id");
     if (!id) return tl::unexpected(id.error());
     if (*version > kStoreFormat || (*version != 0 && *id != kStoreId))
-      return fail("is of another program or of a newer Osteon", file.string(),
-                  "Use another file of results");
+      return fail("belongs to another program or a newer Osteon", file.string(),
+                  "Use another results file");
     if (*version == kStoreFormat) return run(kSendings);
     return transaction([&]() -> Result<void> {
       const std::string marks = "PRAGMA application_id=" + std::to_string(kStoreId) +

@@ -23,8 +23,7 @@ Result<KeptAttempt> keep_attempt(const AttemptRow& row, const std::string& store
   }
   if (!written) return tl::unexpected(written.error());
   Error why = added.error();
-  why.todo =
-      "The attempt waits in " + file.string() + " and is taken up by the next results command";
+  why.todo = "The attempt waits in " + file.string() + " and is added by the next results command";
   return KeptAttempt{false, why};
 }
 

@@ -45,7 +45,7 @@ BoneSize usual_size(const std::string& bone_name) {
 std::string size_complaint(const std::string& bone_name, double length_m) {
   const BoneSize size = usual_size(bone_name);
   if (fits(size, length_m)) return {};
-  return "is " + in_mm(length_m) + " long; usual are " + in_mm(size.least_m) + " to " +
+  return "is " + in_mm(length_m) + " long; usual lengths are " + in_mm(size.least_m) + " to " +
          in_mm(size.most_m) + ", so the unit may be wrong";
 }
 

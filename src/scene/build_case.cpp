@@ -37,11 +37,12 @@ Result<void> check_bone(const BoneDef& def) {
   if (!is_finite(def.X_WB) || std::abs(def.X_WB.q.norm() - 1) > 1e-6)
     return fail("the pose is not finite with a unit quaternion", where);
   if (!std::isfinite(def.density_kg_per_m3) || def.density_kg_per_m3 <= 0)
-    return fail("the density must be above zero", where, "Bone is near 1900 kg/m3");
+    return fail("the density must be above zero", where, "Bone has about 1900 kg/m3");
   if (!is_sound(def.material))
     return fail("the material is out of range", where,
                 "Stiffness above zero, friction not negative, dynamic not above static");
-  if (!indices_fit(def.mesh)) return fail("a triangle names a vertex that is not there", where);
+  if (!indices_fit(def.mesh))
+    return fail("a triangle refers to a vertex that does not exist", where);
   return {};
 }
 

@@ -25,7 +25,7 @@ Result<fs::path> resolve_inside(const fs::path& folder, const std::string& file)
   const fs::path root = fs::canonical(folder, ec);
   const auto differ = std::mismatch(root.begin(), root.end(), real.begin(), real.end());
   if (ec || differ.first != root.end())
-    return fail("leads out of the case's folder", path.string(), "Copy the mesh into the folder");
+    return fail("points outside the case's folder", path.string(), "Copy the mesh into the folder");
   return path;
 }
 
@@ -171,7 +171,7 @@ Result<void> make_empty_folder(const fs::path& folder) {
   if (ec || !fs::is_directory(folder, ec))
     return fail("cannot be made (" + ec.message() + ")", folder.string(), "Choose another folder");
   if (!fs::is_empty(folder, ec) || ec)
-    return fail("already holds files", folder.string(), "Choose a new or empty folder");
+    return fail("is not empty", folder.string(), "Choose a new or empty folder");
   return {};
 }
 

@@ -71,15 +71,15 @@ Result<CaseNotes> read_notes(const toml::table& table, const std::string& where)
 
 Result<void> check_note(const CaseNote& note, const std::string& where) {
   if (note.text.find_first_not_of(' ') == std::string::npos)
-    return fail("the note says nothing", where, "Write what it shall say");
+    return fail("the note has no text", where, "Write its text");
   if (note.text.size() > kLongestNote)
     return fail("the note has " + std::to_string(note.text.size()) + " bytes, more than " +
                     std::to_string(kLongestNote),
-                where, "Say it shorter, or in two notes");
+                where, "Shorten it, or write two notes");
   if (!is_one_line_of_utf8(note.text))
     return fail("the note is not one line of UTF-8 text", where, "Write it without line breaks");
   if (!note.p_F.allFinite() || note.p_F.norm() > kFarthestNote_m)
-    return fail("the note's place is not within 2 m", where, "Places are in mm, World");
+    return fail("the note's position is more than 2 m away", where, "Positions are in mm, World");
   return {};
 }
 
@@ -88,7 +88,7 @@ Result<CaseNotes> parse_notes(std::string_view text, const std::string& where) {
     return read_notes(toml::parse(text), where);
   } catch (const toml::parse_error& e) {
     return fail("is not TOML: " + std::string(e.description()), case_toml_place(where, e.source()),
-                "Mend the line");
+                "Fix the line");
   } catch (const std::exception& e) {
     return fail(std::string("cannot be read (") + e.what() + ")", where);
   }
@@ -96,7 +96,7 @@ Result<CaseNotes> parse_notes(std::string_view text, const std::string& where) {
 
 std::string notes_text(const CaseNotes& notes) {
   std::string text =
-      "# Notes on an Osteon case. Places in metres, in the frame of the bone, else in World.\n"
+      "# Notes on an Osteon case. Positions in metres, in the frame of the bone, else in World.\n"
       "format = 1\n";
   for (const CaseNote& note : notes) {
     text += "\n[[notes]]\ntext = " + note_quoted(note.text) + "\n";

@@ -236,7 +236,7 @@ Result<CaseText> parse_case_toml(std::string_view text, const std::string& where
     return read_case(toml::parse(text), where);
   } catch (const toml::parse_error& e) {
     return fail("is not TOML: " + std::string(e.description()), case_toml_place(where, e.source()),
-                "Mend the line");
+                "Fix the line");
   } catch (const std::exception& e) {
     return fail(std::string("cannot be read (") + e.what() + ")", where);
   }

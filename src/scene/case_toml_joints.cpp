@@ -24,7 +24,7 @@ PoseTrack read_track(CaseTomlReader& reader) {
   PoseTrack track{reader.number("first_deg", kDegrees), reader.number("step_deg", {1e-3, 360}), {}};
   const auto rows = reader.rows_or_empty("poses", 7, {-100, 100});
   if (rows.empty() || rows.size() > kMostRows)
-    reader.set_error("'poses' must hold 1 to 1000 rows: place in metres, quaternion w x y z",
+    reader.set_error("'poses' must hold 1 to 1000 rows: position in metres, quaternion w x y z",
                      "poses");
   for (const std::vector<double>& r : rows) {
     const auto unit = as_unit(Quat(r[3], r[4], r[5], r[6]));

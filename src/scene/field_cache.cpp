@@ -89,7 +89,7 @@ std::string to_bytes(const std::map<std::uint64_t, FieldCache::Field>& entries) 
 
 Result<std::map<std::uint64_t, FieldCache::Field>> read_fields(std::string_view bytes) {
   std::string_view body;
-  if (!cache::open(bytes, kMagic, body)) return fail("is not a whole file of fields");
+  if (!cache::open(bytes, kMagic, body)) return fail("is not a complete file of fields");
   Reader reader(body);
   std::map<std::uint64_t, FieldCache::Field> out;
   const auto count = reader.count(sizeof(std::uint64_t));

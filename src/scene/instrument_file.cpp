@@ -38,14 +38,15 @@ void read_head(InstrumentReader& in, Instrument& out) {
   out.title = in.text("title");
   if (out.title.empty()) in.set_error("'title' must not be empty", "title");
   out.code = static_cast<int>(in.number("code", {1, 255}));
-  if (out.code != in.integer_or("code", {1, 255}, 0)) in.set_error("'code' is not whole", "code");
+  if (out.code != in.integer_or("code", {1, 255}, 0))
+    in.set_error("'code' is not a whole number", "code");
   out.regions = in.texts_or_empty("regions");
   if (out.regions.empty()) in.set_error("'regions' must name one or more", "regions");
   out.sources = in.texts_or_empty("source");
   if (out.sources.empty()) in.set_error("'source' must name one or more", "source");
   for (const std::string& source : out.sources)
     if (!has_mark(source))
-      in.set_error("each 'source' begins with its mark: [number], K or D, then says of what",
+      in.set_error("each 'source' begins with its mark ([number], K or D) and says what it is for",
                    "source");
 }
 
@@ -58,7 +59,7 @@ void read_functions(InstrumentReader& in, Instrument& out) {
                    "and place");
       return;
     }
-    if (out.can(*function)) in.set_error("function '" + name + "' comes twice", "functions");
+    if (out.can(*function)) in.set_error("function '" + name + "' is given twice", "functions");
     out.functions.push_back(*function);
   }
   if (out.functions.empty()) in.set_error("'functions' must name one or more", "functions");
@@ -119,7 +120,7 @@ class InstrumentFile {
     const bool grows =
         std::is_sorted(out_.sizes_m.begin(), out_.sizes_m.end(), std::less_equal<>());
     if (out_.sizes_m.empty() || !grows)
-      in.set_error("'list_mm' must hold lengths that grow", "list_mm");
+      in.set_error("'list_mm' must hold increasing lengths", "list_mm");
     if (out_.sizes_m.size() > 64) in.set_error("'list_mm' holds more than 64", "list_mm");
     const double usual = in.number("usual_mm", {0, 1000});
     const auto found = find_size(out_, usual);
@@ -196,7 +197,7 @@ class InstrumentFile {
     const AimsDef aims{place("at_mm"), place("mouth_mm"),
                        kMmPerFile * in.number("bore_mm", {0.5, 20})};
     if (!((aims.mouth_m - aims.at_m).norm() > 0.01))
-      in.set_error("'mouth_mm' must lie 10 mm and more from 'at_mm'", "mouth_mm");
+      in.set_error("'mouth_mm' must be at least 10 mm from 'at_mm'", "mouth_mm");
     if (!out_.can(InstrumentFunction::kGuide))
       in.set_error("'functions' must name guide where there is a table [aims]", "at_mm");
     out_.aims = aims;
@@ -208,11 +209,12 @@ class InstrumentFile {
     const RemovalWay way = out_.removal->way;
     const bool turned = way == RemovalWay::kDrill || way == RemovalWay::kBurr;
     if (turned && !(out_.power && out_.power->unit == "rpm"))
-      in_.set_error("what drills or burrs needs a table [power] with the unit rpm", "removes");
+      in_.set_error("an instrument that drills or burrs needs a table [power] with the unit rpm",
+                    "removes");
     if (way == RemovalWay::kStrike && out_.power && out_.power->unit != "W")
       in_.set_error("the power of blows is given in W", "removes");
     if (way == RemovalWay::kBite && !out_.jaws)
-      in_.set_error("what bites needs a table [jaws]", "removes");
+      in_.set_error("an instrument that bites needs a table [jaws]", "removes");
   }
 
   void check_jaws() {
@@ -266,7 +268,7 @@ Result<std::vector<Instrument>> load_instruments(const std::filesystem::path& fo
     if (!one) return tl::unexpected(one.error());
     if (one->name != file.stem().string())
       return fail("the instrument is named '" + one->name + "'", file.string(),
-                  "Name it and its file alike");
+                  "Give it and its file the same name");
     if (!codes.insert(one->code).second)
       return fail("another instrument has code " + std::to_string(one->code), file.string(),
                   "Choose a code that is free");

@@ -85,7 +85,7 @@ bool is_instrument_name(std::string_view name) {
 Result<void> parse_instrument_columns(std::string_view text, const std::string& where,
                                       PathSample& sample) {
   if (std::count(text.begin(), text.end(), ',') != 3)
-    return fail("has not the values instrument,size,power,jaw at its end", where,
+    return fail("lacks the values instrument,size,power,jaw at its end", where,
                 "Write " + std::string(kHeader) + std::string(kMoreColumns));
   const std::string_view name = trimmed(take(text, ','));
   if (!is_instrument_name(name))
@@ -162,7 +162,7 @@ Result<ProbePath> parse_path(std::string_view text, const std::string& where) {
   path.with_instruments = header == std::string(kHeader) + std::string(kMoreColumns);
   if (!path.with_instruments && header != kHeader)
     return fail("the first line must be " + std::string(kHeader), where + ":1",
-                "It may go on with " + std::string(kMoreColumns));
+                "It may continue with " + std::string(kMoreColumns));
   while (!text.empty()) {
     const std::string_view line = trimmed(take(text, '\n'));
     const std::string here = where + ":" + std::to_string(++line_number);
@@ -173,10 +173,10 @@ Result<ProbePath> parse_path(std::string_view text, const std::string& where) {
     auto sample = parse_line(line, path.with_instruments, here);
     if (!sample) return tl::unexpected(sample.error());
     if (!path.samples.empty() && !(sample->time_s > path.samples.back().time_s))
-      return fail("the time does not rise", here, "Sort the samples and drop repeated ones");
+      return fail("the time does not increase", here, "Sort the samples and drop repeated ones");
     path.samples.push_back(*sample);
   }
-  if (path.samples.empty()) return fail("holds no sample", where, "Write at least one line");
+  if (path.samples.empty()) return fail("holds no samples", where, "Write at least one line");
   return path;
 }
 

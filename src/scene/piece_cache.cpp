@@ -55,7 +55,7 @@ std::string to_bytes(const std::map<std::uint64_t, PieceCorners>& entries) {
 
 Result<std::map<std::uint64_t, PieceCorners>> read_pieces(std::string_view bytes) {
   std::string_view body;
-  if (!cache::open(bytes, kPieceMagic, body)) return fail("is not a whole file of pieces");
+  if (!cache::open(bytes, kPieceMagic, body)) return fail("is not a complete file of pieces");
   Reader reader(body);
   std::map<std::uint64_t, PieceCorners> out;
   const auto count = reader.count(sizeof(std::uint64_t));

@@ -27,7 +27,7 @@ class ScopeReader {
 
   std::string text(std::string_view key) {
     const auto value = table_[key].value<std::string>();
-    if (!value || value->empty()) wrong(key, "is missing or no text");
+    if (!value || value->empty()) wrong(key, "is missing or not text");
     return value.value_or("");
   }
   double number(std::string_view key, double least, double most) {

@@ -29,7 +29,7 @@ Result<void> check_soft(const SoftDef& def, const std::string& where) {
   for (const Triangle& t : def.mesh_W.triangles)
     for (const std::uint32_t v : t)
       if (v >= def.mesh_W.vertices.size() || !is_finite(def.mesh_W.vertices[v]))
-        return fail("a triangle names a vertex that is not there or not finite", where);
+        return fail("a triangle refers to a vertex that does not exist or is not finite", where);
   for (const AttachmentDef& attachment : def.attachments)
     if (!is_finite(attachment.p_W)) return fail("an attachment is not finite", where);
   return {};

@@ -134,11 +134,11 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
   const auto settings = settings_of(*source.header, *the_case, options.tray);
   if (!settings) return tl::unexpected(settings.error());
   if (settings->carve.on && !options.carving)
-    return fail("in the recording bone is removed, which a replay of this kind cannot do",
-                "recording", "Use 'osteon replay' or 'osteon case save'");
+    return fail("the recording removes bone, which this kind of replay cannot do", "recording",
+                "Use 'osteon replay' or 'osteon case save'");
   if (settings->soft.empty() == static_cast<bool>(options.softs))
-    return fail("in the recording soft parts are felt, which a replay of this kind cannot do",
-                "recording", "Use 'osteon replay'");
+    return fail("the recording feels soft parts, which this kind of replay cannot do", "recording",
+                "Use 'osteon replay'");
   std::unique_ptr<Replayer> replayer;
   const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
     return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving,
@@ -170,7 +170,7 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
   if (options.at_end) options.at_end(replayer->session());
   if (last == Replayer::Outcome::kError) return tl::unexpected(replayer->error());
   if (last == Replayer::Outcome::kStuck && source.complete)
-    return fail("a tick or step consumed what is not in the recording", "recording", kDamaged);
+    return fail("a tick or step used data that is not in the recording", "recording", kDamaged);
   tally.finish(*replayer, outcome);
   outcome.complete = source.complete;
   return outcome;

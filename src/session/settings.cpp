@@ -135,7 +135,7 @@ Result<void> read_names(const Json& json, const char* key, std::vector<std::stri
   if (!names || !names->is_array()) return fail("a list of names is missing", where, kTodo);
   into.clear();
   for (const Json& name : *names) {
-    if (!name.is_string()) return fail("an entry is no name", where, kTodo);
+    if (!name.is_string()) return fail("an entry is not a name", where, kTodo);
     into.push_back(name.get<std::string>());
   }
   return {};

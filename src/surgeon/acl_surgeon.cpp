@@ -183,7 +183,7 @@ Result<void> check_marks(const AclKnee& knee, const AclTools& tools, const AclHa
       if (!knee.has_mark(name)) return fail("the case has no landmark '" + name + "'", "tour");
   if (!habits.fault.empty() &&
       std::find(kFaults.begin(), kFaults.end(), habits.fault) == kFaults.end())
-    return fail("nobody knows how to make the error '" + habits.fault + "'", "surgeon");
+    return fail("no virtual surgeon can make the error '" + habits.fault + "'", "surgeon");
   return {};
 }
 

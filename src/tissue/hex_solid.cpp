@@ -36,8 +36,8 @@ Result<void> check_fill(const HexSolidDef& def) {
     any = any || f > 0;
   }
   if (sound && any) return {};
-  return fail("the fill of the cells is not one number from 0 to 1 a cell, some above 0", "fill",
-              "Give one of every cell");
+  return fail("each cell needs a fill from 0 to 1, and some must be above 0", "fill",
+              "Give one number per cell");
 }
 
 std::size_t round_up(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }

@@ -19,7 +19,7 @@ Result<CellPoint> find_cell(const SolveScene& scene, const HexSolid& solid, std:
     const double n = solid.grid.cells[k], x = p[static_cast<Eigen::Index>(k)];
     if (!(x >= -kSlack * n && x <= n + kSlack * n))
       return fail("'run.probe_mm[" + std::to_string(i) + "]' lies outside the body", scene.name,
-                  "Put it into the grid, or onto its surface");
+                  "Move it into the grid, or onto its surface");
     const double cell = std::min(std::max(std::floor(x), 0.0), n - 1);
     out.cell[k] = static_cast<std::size_t>(cell);
     out.at[static_cast<Eigen::Index>(k)] = x - cell;

@@ -36,9 +36,9 @@ Result<void> check_points(const RodDef& def) {
   for (std::size_t i = 0; i < def.points_W.size(); ++i) {
     const std::string key = "'mesh.rod.points_mm[" + std::to_string(i) + "]'";
     if (!is_finite(def.points_W[i]))
-      return fail(key + " is not three finite numbers", {}, "Give a place in mm");
+      return fail(key + " is not three finite numbers", {}, "Give a position in mm");
     if (i > 0 && !((def.points_W[i] - def.points_W[i - 1]).norm() > 1e-9))
-      return fail(key + " is the point before it", {}, "Leave one of the two out");
+      return fail(key + " is the same as the point before it", {}, "Remove one of them");
   }
   return {};
 }
@@ -47,7 +47,7 @@ Result<void> check_size(const RodDef& def) {
   if (!(std::isfinite(def.radius_m) && def.radius_m > 0))
     return fail("'mesh.rod.radius_mm' must be above 0", {}, "Give half the rod's thickness");
   if (def.segments < 1 || def.segments > 10000)
-    return fail("'mesh.rod.segments' must lie from 1 to 10000", {}, "40 is a good number");
+    return fail("'mesh.rod.segments' must lie from 1 to 10000", {}, "40 is usual");
   if (!(def.friction >= 0 && def.friction <= 10))
     return fail("'material.friction' must lie from 0 to 10", {}, "Most tissue: 0.1 to 0.4");
   const double segment_m = length_of(def.points_W) / def.segments;

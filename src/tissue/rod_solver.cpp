@@ -34,7 +34,7 @@ Result<RodProbe> find_rod_probe(const SolveScene& scene, const Rod& rod, std::si
   }
   if (nearest <= rod.radius_m * (1 + 1e-6)) return best;
   return fail("'run.probe_mm[" + std::to_string(index) + "]' lies outside the body", scene.name,
-              "Put it into the rod, within its radius of the middle line");
+              "Move it into the rod, within its radius of the middle line");
 }
 
 /// What grips the nodes of one entry, and which segments it holds by both ends.

@@ -67,7 +67,7 @@ void SceneReader::only(const Table& in, std::initializer_list<std::string_view> 
   for (const auto& [key, node] : *in.keys) {
     bool found = false;
     for (const std::string_view k : known) found = found || k == key.str();
-    if (!found) complain("is not a key that is known here", in, key.str(), "Remove it");
+    if (!found) complain("is not a known key here", in, key.str(), "Remove it");
   }
 }
 

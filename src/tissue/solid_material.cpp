@@ -35,7 +35,7 @@ Result<void> check_material(const SolidMaterial& m) {
     return fail("must be a number above 0", "material.young_kpa", "Give Young's modulus in kPa");
   if (!(m.poisson >= 0 && m.poisson < 0.5))
     return fail("must lie from 0 to below 0.5", "material.poisson",
-                "Use 0.49 or 0.499 for what hardly changes its volume");
+                "Use 0.49 or 0.499 for a nearly incompressible material");
   if (!above_zero(m.density_kg_per_m3))
     return fail("must be a number above 0", "material.density_kg_per_m3", "Water has 1000");
   if (!(std::isfinite(m.damping_per_s) && m.damping_per_s >= 0))

@@ -86,7 +86,7 @@ SolidMaterial read_material(SceneReader& in, const Table& material) {
   out.poisson = in.number(material, "poisson", {0, 0.5});
   if (out.poisson > 0.4999)
     in.complain("must lie from 0 to 0.4999", material, "poisson",
-                "Use 0.49 for what hardly changes its volume");
+                "Use 0.49 for a nearly incompressible material");
   out.density_kg_per_m3 = in.number(material, "density_kg_per_m3", {1e-3, 1e6});
   out.damping_per_s = in.number_or(material, "damping_per_s", {0, 1e6}, 0);
   out.prony = read_prony(in, material);
@@ -243,7 +243,7 @@ Result<SolveScene> parse_solve_scene(std::string_view text, const std::string& n
     root = toml::parse(text, name);
   } catch (const toml::parse_error& e) {
     return fail(std::string(e.description()),
-                name + ", line " + std::to_string(e.source().begin.line), "Mend the TOML there");
+                name + ", line " + std::to_string(e.source().begin.line), "Fix the TOML there");
   }
   SceneReader in(name);
   SolveScene scene = read_scene(in, {&root, ""});

@@ -161,7 +161,7 @@ Result<CondensedSolid> CondensedSolid::make(TetSolid solid, Supports supports) {
   if (impl->sizes[0] > kMostUnknowns)
     return fail("'material.condensed': the surface has " + std::to_string(impl->sizes[0] / 3) +
                     " free nodes, more than " + std::to_string(kMostUnknowns / 3),
-                {}, "Use fewer, larger cells, or leave condensed out");
+                {}, "Use fewer, larger cells, or leave out condensed");
   Entries all;
   for (const TetElement& e : impl->solid.elements) add_element(impl->solid, e, all);
   const auto cut = [&](int r, int c) { return part(all, impl->where, impl->sizes, r, c); };
@@ -177,8 +177,8 @@ Result<CondensedSolid> CondensedSolid::make(TetSolid solid, Supports supports) {
   impl->surface.compute(k);
   const Column pivots = impl->surface.vectorD();
   if (pivots.size() > 0 && !(pivots.minCoeff() > 1e-11 * pivots.maxCoeff()))
-    return fail("'fixed': the supports leave the body free to move, so it has no place of rest", {},
-                "Hold it so that it can neither go nor turn");
+    return fail("'fixed': the supports leave the body free to move, so it has no equilibrium", {},
+                "Hold it so that it can neither move nor turn");
   return CondensedSolid(std::move(impl));
 }
 

@@ -56,7 +56,7 @@ Result<void> check_mesh(const TetMesh& mesh) {
     const double volume = signed_volume(corners_of(mesh, mesh.tets[i]));
     if (!(std::isfinite(volume) && volume > 1e-21))
       return fail("tetrahedron " + std::to_string(i) + " is inverted or flat", "mesh",
-                  "Look at it with osteon mesh quality; make the mesh again");
+                  "Check it with osteon mesh quality, and make the mesh again");
   }
   return check_parts(mesh);
 }

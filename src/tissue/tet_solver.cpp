@@ -19,7 +19,7 @@ Result<std::vector<TetPoint>> find_probes(const SolveScene& scene, const TetSoli
     const auto point = find_point(solid, scene.probes_m[i]);
     if (!point)
       return fail("'run.probe_mm[" + std::to_string(i) + "]' lies outside the body", scene.name,
-                  "Put it into the body, or onto its surface");
+                  "Move it into the body, or onto its surface");
     out.push_back(*point);
   }
   return out;

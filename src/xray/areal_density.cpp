@@ -171,7 +171,7 @@ Result<void> check_body(const XrayBody& body) {
       return fail("has a density out of range", "layer '" + layer.name + "'");
     for (const XraySurface& surface : layer.surfaces)
       if (!is_finite(surface.X_WM))
-        return fail("stands at a place that is not finite", "layer '" + layer.name + "'");
+        return fail("has a position that is not finite", "layer '" + layer.name + "'");
   }
   return {};
 }
@@ -192,7 +192,7 @@ Result<std::shared_ptr<const TriMesh>> xray_surface(TriMesh mesh, const std::str
     return fail("has a vertex that is not finite or a triangle without its vertices", name,
                 "Repair the mesh");
   if (!topology(mesh).closed())
-    return fail("is not closed: how far a ray goes in it cannot be told", name,
+    return fail("is not closed, so a ray's length in it is undefined", name,
                 "Close its surface, as 'osteon import mesh' does");
   if (volume(mesh) < 0)
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);

@@ -65,7 +65,7 @@ TEST_F(CaseNote, BadInputIsRefusedAndChangesNothing) {
   refused("--at 1,2 --text a", "--at");
   refused("--at 1,2,nan --text a", "--at");
   refused("--at 0,0,9000 --text a", "2 m");
-  refused("--on block --text ' '", "says nothing");
+  refused("--on block --text ' '", "has no text");
   refused("--remove 1 --text a", "--remove");
   refused("--on block --text a --out " + file("meshes"), "meshes");
   EXPECT_FALSE(fs::exists(dir_ / "case/notes.toml"));

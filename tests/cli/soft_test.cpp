@@ -96,7 +96,7 @@ TEST_F(SoftSession, ALigamentThatTheCaseLacksExitsWithTwoAndSaysWhatThereIs) {
   const Ran ran = press("whole", "--soft pcl");
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_NE(ran.output.find("no ligament 'pcl'"), std::string::npos) << ran.output;
-  EXPECT_NE(ran.output.find("Choose among acl"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("Choose from acl"), std::string::npos) << ran.output;
   const Ran live = run_osteon("live --case " + file("whole") + " --seconds 0.1 --soft meniscus");
   EXPECT_EQ(live.exit_code, 2) << live.output;
 }

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!path) return 0;
   double last = -HUGE_VAL;
   for (const osteon::PathSample& sample : path->samples) {
-    osteon::demand(sample.time_s > last, "the time does not rise");
+    osteon::demand(sample.time_s > last, "the time does not increase");
     osteon::demand(osteon::is_finite(sample.X_WD), "a pose is not finite");
     last = sample.time_s;
   }

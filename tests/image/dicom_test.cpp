@@ -356,7 +356,7 @@ TEST_F(Dicom, AMissingSliceIsNamed) {
 TEST_F(Dicom, DoubledSlicesAreRefused) {
   make();
   fs::copy_file(file("0003.dcm"), file("copy.dcm"));
-  expect_refused("same place");
+  expect_refused("same position");
 }
 
 TEST_F(Dicom, UnevenSpacingIsRefused) {
@@ -376,15 +376,15 @@ TEST_F(Dicom, OtherModalitiesAreRefused) {
 TEST_F(Dicom, MixedSlicesAreRefused) {
   make();
   edit("0002.dcm", kOrientation, "0\\1\\0\\0\\0\\1");
-  expect_refused("turned", "0002.dcm");
+  expect_refused("rotated", "0002.dcm");
   edit("0002.dcm", kOrientation, "1\\0\\0\\0\\1\\0");
   edit("0002.dcm", kSpacing, "0.9\\0.9");
-  expect_refused("another pixel spacing", "0002.dcm");
+  expect_refused("a different pixel spacing", "0002.dcm");
 }
 
 TEST_F(Dicom, MissingEntriesAreNamed) {
   const std::pair<gdcm::Tag, std::string> entries[] = {
-      {kPosition, "where its slice lies"}, {kSpacing, "pixel spacing"}, {kSlope, "rescale"}};
+      {kPosition, "slice position"}, {kSpacing, "pixel spacing"}, {kSlope, "rescale"}};
   for (const auto& [tag, says] : entries) {
     make();
     edit("0004.dcm", tag, "");

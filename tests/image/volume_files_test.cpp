@@ -78,7 +78,7 @@ TEST_F(VolumeFiles, BadNrrdIsNamed) {
     return text.replace(text.find(from), from.size(), to);
   };
   const std::string good = nrrd_header("raw");
-  expect_refused("a.nrrd", "PNG", "no NRRD");
+  expect_refused("a.nrrd", "PNG", "not an NRRD");
   expect_refused("a.nrrd", good + raw.substr(2), "truncated");
   expect_refused("a.nrrd", nrrd_header("gzip") + gzip(raw).substr(0, 300), "ends early");
   expect_refused("a.nrrd", nrrd_header("bzip2") + raw, "encoding 'bzip2'");
@@ -89,7 +89,7 @@ TEST_F(VolumeFiles, BadNrrdIsNamed) {
   expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(0,0,0)") + raw, "spacing");
   expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(400,0,0)") + raw, "spacing outside");
   expect_refused("a.nrrd", with(good, "(0.4,0,0)", "(0.4,0.3,0)") + raw, "right angles");
-  expect_refused("a.nrrd", nrrd_header("raw", "data file: ../../secret\n") + raw, "beside it");
+  expect_refused("a.nrrd", nrrd_header("raw", "data file: ../../secret\n") + raw, "same folder");
   std::string flat = with(good, "9 7 5", "9 7 2");
   expect_refused("a.nrrd", flat + raw, "9 x 7 x 2");
 }
@@ -104,9 +104,9 @@ TEST_F(VolumeFiles, MetaImageLocalDetachedAndPacked) {
 
 TEST_F(VolumeFiles, BadMetaImageIsNamed) {
   const std::string raw = raw_bytes(volume_);
-  expect_refused("a.mha", "nonsense", "no MetaImage");
+  expect_refused("a.mha", "nonsense", "not a MetaImage");
   expect_refused("a.mha", meta_header("", "LOCAL") + raw.substr(1), "truncated");
-  expect_refused("a.mhd", meta_header("", "/etc/passwd"), "beside it");
+  expect_refused("a.mhd", meta_header("", "/etc/passwd"), "same folder");
   const auto none = load("a.mhd", meta_header("", "none.raw"));
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message().find("none.raw"), std::string::npos);
@@ -143,7 +143,7 @@ TEST_F(VolumeFiles, BadNiftiIsNamed) {
   const std::string good = nifti(volume_, false, true);
   expect_refused("a.nii", good.substr(0, 200), "truncated");
   expect_refused("a.nii", good.substr(0, 500), "truncated");
-  expect_refused("a.nii", std::string(400, 'x'), "no NIfTI-1");
+  expect_refused("a.nii", std::string(400, 'x'), "NIfTI-1");
   expect_refused("a.nii.gz", gzip(good).substr(0, 200), "ends early");
   std::string bad = good;
   set<std::int16_t>(bad, 70, 128);
@@ -168,8 +168,8 @@ TEST_F(VolumeFiles, BadInv3IsNamed) {
   expect_refused("a.inv3", good.substr(0, good.size() / 2), "ends early");
   expect_refused("a.inv3", gzip("no archive, but long enough" + std::string(600, 'x')), "damaged");
   expect_refused("a.inv3", inv3(plist("int16", "MRI"), raw), "'MRI'");
-  expect_refused("a.inv3", inv3(plist("uint8", "CT"), raw), "16 bits");
-  expect_refused("a.inv3", inv3("<dict></dict>", raw), "16 bits");
+  expect_refused("a.inv3", inv3(plist("uint8", "CT"), raw), "16-bit");
+  expect_refused("a.inv3", inv3("<dict></dict>", raw), "16-bit");
   expect_refused("a.inv3", inv3(plist("int16", "CT"), raw.substr(9)), "truncated");
 }
 
@@ -213,7 +213,7 @@ TEST_F(VolumeFiles, PicturesThatClaimToBeHugeAreRefusedUnseen) {
 }
 
 TEST_F(VolumeFiles, UnknownFilesAreRefused) {
-  expect_refused("a.txt", "hello", "no scan that Osteon knows");
+  expect_refused("a.txt", "hello", "not a scan format");
   EXPECT_FALSE(load_volume(file("nothing")));
 }
 

@@ -29,7 +29,7 @@ TEST(Expectation, RefusesWhatIsNoObject) {
   expect_malformed("{", "not JSON");
   expect_malformed("[]", "not a JSON object");
   expect_malformed("3", "not a JSON object");
-  expect_malformed("{}", "expects nothing");
+  expect_malformed("{}", "no expectations");
   expect_malformed(R"({"ticks": {"min": 1e999}})", "not JSON");
   expect_malformed(std::string(100000, '['), "not JSON");
 }

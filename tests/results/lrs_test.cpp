@@ -56,7 +56,7 @@ TEST_F(LrsTest, AddressesThatAreNoneAndPasswordsInTheOpenAreRefused) {
   lrs.user = "key";
   const auto open_way = send_to_lrs(lrs, {}, *store_, {});
   ASSERT_FALSE(open_way);
-  EXPECT_NE(open_way.error().what.find("in the open"), std::string::npos);
+  EXPECT_NE(open_way.error().what.find("unencrypted"), std::string::npos);
   lrs.endpoint = "http://127.0.0.1.example.org/xapi";
   EXPECT_FALSE(send_to_lrs(lrs, {}, *store_, {}));
 }
@@ -193,7 +193,7 @@ TEST_F(LrsTest, AStoreThatLiesIsNotBelieved) {
   const SentReport sent = send(lrs);
   EXPECT_EQ(sent.accepted, 0u);
   EXPECT_EQ(sent.waiting, 2u);
-  EXPECT_NE(sent.why_waiting->what.find("has it not"), std::string::npos);
+  EXPECT_NE(sent.why_waiting->what.find("does not have it"), std::string::npos);
 }
 
 TEST_F(LrsTest, AWrongPasswordRefusesNoAttempt) {

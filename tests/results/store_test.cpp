@@ -86,7 +86,7 @@ TEST_F(StoreTest, RefusesOtherFilesAndKeepsThem) {
   std::ofstream(dir_ / "results.sqlite") << "my diary, which is long enough to be a page of text";
   const auto store = ResultStore::open(dir_ / "results.sqlite");
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().what.find("not a file of results"), std::string::npos);
+  EXPECT_NE(store.error().what.find("not a results file"), std::string::npos);
   EXPECT_EQ(read_file(dir_ / "results.sqlite")->substr(0, 8), "my diary");
   EXPECT_FALSE(ResultStore::open("/proc/nowhere/results.sqlite"));
 }

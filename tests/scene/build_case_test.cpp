@@ -61,7 +61,8 @@ TEST(BuildCase, RefusesWhatCannotBeSimulated) {
                   }),
                   "bone 'cube'"));
   EXPECT_TRUE(has(spoiled([&](CaseDef& d) { d.bones[1].mesh.vertices[3].x() = nan; }), "cube"));
-  EXPECT_TRUE(has(spoiled([](CaseDef& d) { d.bones[1].mesh.triangles[3][1] = 99; }), "not there"));
+  EXPECT_TRUE(
+      has(spoiled([](CaseDef& d) { d.bones[1].mesh.triangles[3][1] = 99; }), "does not exist"));
   EXPECT_TRUE(has(spoiled([&](CaseDef& d) { d.bones[0].X_WB.p.x() = nan; }), "pose"));
   EXPECT_TRUE(has(spoiled([](CaseDef& d) { d.bones[0].X_WB.q.w() = 2; }), "pose"));
   EXPECT_TRUE(has(spoiled([](CaseDef& d) { d.bones[0].density_kg_per_m3 = 0; }), "density"));

@@ -256,7 +256,7 @@ TEST(CaseIo, NeverWritesOverFiles) {
   ASSERT_TRUE(write_file_atomic(dir / "thesis.txt", "years of work"));
   const auto saved = save_case(sample_case(), dir);
   ASSERT_FALSE(saved);
-  EXPECT_NE(saved.error().what.find("already holds files"), std::string::npos);
+  EXPECT_NE(saved.error().what.find("is not empty"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(dir), fs::directory_iterator()), 1);
   EXPECT_FALSE(save_case(sample_case(), dir / "thesis.txt"));
   EXPECT_FALSE(save_case(sample_case(), dir / "thesis.txt" / "case"));

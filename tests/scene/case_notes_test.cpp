@@ -29,7 +29,7 @@ TEST(CaseNotes, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(refused(head + "text = \"a\"\n").find("'position_m' is missing"), std::string::npos);
   EXPECT_NE(refused(head + "text = \"a\"\nposition_m = [0, nan, 0]\n").find("notes.toml:4"),
             std::string::npos);
-  EXPECT_NE(refused(head + "text = \" \"\nposition_m = [0, 0, 0]\n").find("says nothing"),
+  EXPECT_NE(refused(head + "text = \" \"\nposition_m = [0, 0, 0]\n").find("has no text"),
             std::string::npos);
   EXPECT_NE(refused(head + "text = 3\nposition_m = [0, 0, 0]\n").find("must be text"),
             std::string::npos);

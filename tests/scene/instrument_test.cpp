@@ -167,7 +167,7 @@ TEST(Instrument, WhatIsWrongIsNamedWithItsLine) {
       {"\"grasp\"", "\"fly\"", ":5", "no function 'fly'"},
       {"\"K of its form\"", "\"of its form\"", ":6", "mark"},
       {"usual_mm = 2", "usual_mm = 3", ":11", "usual_mm"},
-      {"list_mm = [1, 2]", "list_mm = [2, 1]", ":10", "grow"},
+      {"list_mm = [1, 2]", "list_mm = [2, 1]", ":10", "increasing"},
       {"to_mm = [0, 0, 100]", "to_mm = [0, 0, nan]", ":15", "to_mm"},
       {"to_mm = [0, 0, 100]", "to_mm = [0, 0]", ":15", "three"},
       {"radius_mm = { size = 0.5 }", "radius_mm = { szie = 0.5 }", ":16", "radius_mm"},

@@ -47,8 +47,8 @@ TEST(Path, RefusesBadText) {
       {"0,1,2,3,0,0,0,0,0\n", "unit quaternion", "p.csv:2"},
       {"0,1,2,3,1,0.1,0,0,0\n", "unit quaternion", "p.csv:2"},
       {"0,1,2,3,1,0,0,0,2\n", "button", "p.csv:2"},
-      {"0,1,2,3,1,0,0,0,0\n0,1,2,3,1,0,0,0,0\n", "not rise", "p.csv:3"},
-      {"1,1,2,3,1,0,0,0,0\n0.5,1,2,3,1,0,0,0,0\n", "not rise", "p.csv:3"},
+      {"0,1,2,3,1,0,0,0,0\n0,1,2,3,1,0,0,0,0\n", "not increase", "p.csv:3"},
+      {"1,1,2,3,1,0,0,0,0\n0.5,1,2,3,1,0,0,0,0\n", "not increase", "p.csv:3"},
       {"0,1,2,3,1,0,0,0,0\n\n1,1,2,3,1,0,0,0,0\n", "1 values", "p.csv:3"},
   };
   for (std::size_t i = 0; i < std::size(table); ++i) {

@@ -9,7 +9,7 @@ namespace {
 /// by `tilt_deg` about y alone.
 Mat3 local_axes(TomlReader& in) {
   if (in.has("tilt_deg")) {
-    if (in.has("rotation_deg")) in.reject("cannot stand beside 'rotation_deg'", "tilt_deg");
+    if (in.has("rotation_deg")) in.reject("cannot be combined with 'rotation_deg'", "tilt_deg");
     return rotation_xyz_deg({0, in.number("tilt_deg", kAngle_deg), 0}).transpose();
   }
   return rotation_xyz_deg(in.vec3_or("rotation_deg", kAngle_deg, Vec3::Zero())).transpose();
@@ -36,7 +36,7 @@ Primitive read_tube(TomlReader& in) {
   std::vector<double> radii = in.numbers("radii_mm", kRadius_mm);
   if (radii.size() == 1) radii.resize(points.size(), radii[0]);
   if (points.size() != radii.size())
-    in.reject("must hold one radius a point, or one for all", "radii_mm");
+    in.reject("must hold one radius per point, or one for all", "radii_mm");
   for (std::size_t i = 1; i < points.size(); ++i)
     if ((points[i] - points[i - 1]).norm() < 1e-3)
       in.reject("holds the same point twice in a row", "points_mm");
@@ -45,7 +45,7 @@ Primitive read_tube(TomlReader& in) {
   for (double& r : radii) r *= kMm;
   Tube tube = tube_through(points, radii);
   if (*std::min_element(tube.radii.begin(), tube.radii.end()) <= 0)
-    in.reject("swing so hard that the curve through them falls below zero", "radii_mm");
+    in.reject("vary so much that the curve through them falls below zero", "radii_mm");
   return tube;
 }
 
@@ -135,7 +135,7 @@ Part read_copy(TomlReader& in, Operation operation, const Solid& above) {
     return p.operation == operation && !like.empty() && p.name == like;
   });
   if (model == above.parts.end()) {
-    in.reject("names no part further up in the list: '" + like + "'", "like");
+    in.reject("names no earlier part of the list: '" + like + "'", "like");
     return {};
   }
   Part part = *model;
@@ -156,7 +156,7 @@ Part read_part(TomlReader& in, Operation operation, double blend) {
   const auto* known = std::find_if(std::begin(kShapes), std::end(kShapes),
                                    [&](const ShapeReader& s) { return shape == s.name; });
   if (known == std::end(kShapes)) {
-    in.reject("names no shape that is known: '" + shape + "'", "shape");
+    in.reject("names no known shape: '" + shape + "'", "shape");
   } else if (operation == Operation::kAdd && !known->has_end) {
     in.reject("can only cut, not add: '" + shape + "'", "shape");
   } else {

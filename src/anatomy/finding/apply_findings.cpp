@@ -74,7 +74,7 @@ class StepWriter {
     } else if (auto* layer = std::get_if<LayerDescription>(&soft->shape)) {
       layer->thickness *= step.share;
     } else {
-      return fail("has no thickness that could be less: '" + step.of + "'");
+      return fail("has no thickness to reduce: '" + step.of + "'");
     }
     return {};
   }
@@ -122,7 +122,7 @@ Result<std::vector<GeneratedFinding>> apply_findings(const FindingTable& table,
                                    [&](const auto& r) { return r.finding.name == choice.finding; });
     if (rule == table.rules.end()) return fail("is not known", where, names_and_grades(table));
     for (const GeneratedFinding& other : applied)
-      if (other.name == choice.finding) return fail("is asked for twice", where);
+      if (other.name == choice.finding) return fail("is given twice", where);
     const auto& grades = rule->finding.grades;
     const auto grade = std::find_if(grades.begin(), grades.end(),
                                     [&](const FindingGrade& g) { return g.name == choice.grade; });

@@ -125,7 +125,7 @@ class Seater {
       seat.down += 0.5 * (medial + lateral);
       seat.tilt_deg -= kDegrees * (medial - lateral) / apart_;
     }
-    return fail("finds no seat for the moved bone at " +
+    return fail("finds no contact for the moved bone at " +
                 std::to_string(joint_.step_deg * static_cast<double>(k)) + " degrees");
   }
 
@@ -181,7 +181,7 @@ class Glider {
       const double far = step.norm(), most = 0.006;
       X.p += far > most ? Vec3(step * (most / far)) : step;
     }
-    return fail("finds no place for the gliding bone at row " + std::to_string(k));
+    return fail("finds no position for the gliding bone at row " + std::to_string(k));
   }
 
  private:
@@ -273,7 +273,7 @@ Result<void> bend_joints(AnatomyDescription& anatomy, const std::string& file,
     const auto motion = roll_and_glide(anatomy, joint, placed);
     if (!motion)
       return fail(motion.error().what, file + ": joint '" + joint.name + "'",
-                  "Choose values nearer to the means");
+                  "Choose values closer to the means");
     grown.joints.push_back(keep_motion(anatomy, joint, *motion, grown));
     if (joint.at_deg != 0) bend(*motion, joint, anatomy);
   }

@@ -36,13 +36,13 @@ class Splitter {
                                    [&](const GeneratedBone& b) { return b.name == name_; });
     const std::size_t count = split_.fragments.size();
     const auto pieces = largest_pieces(bone->mesh, count);
-    if (pieces.size() < count) return fail("has not come apart");
+    if (pieces.size() < count) return fail("was not separated");
     std::vector<std::optional<GeneratedBone>> fragments(count);
     for (const std::uint32_t piece : pieces) {
       GeneratedBone fragment = *bone;
       fragment.mesh = take_pieces(bone->mesh, {piece});
       auto& slot = fragments[nearest_name(bone->X_WB * middle_of(fragment.mesh), moved)];
-      if (slot) return fail("two of its fragments lie nearest to one name");
+      if (slot) return fail("two of its fragments match the same name");
       slot = std::move(fragment);
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -152,7 +152,7 @@ Result<void> split_bones(const AnatomyDescription& anatomy, const std::string& f
     Splitter splitter(split, name, grown);
     if (auto ok = splitter.run(displacement_of(anatomy, split.bone)); !ok)
       return fail(ok.error().what, file + ": bone '" + name + "'",
-                  "Choose a smaller cell, or values nearer to the means");
+                  "Choose a smaller cell, or values closer to the means");
   }
   return {};
 }

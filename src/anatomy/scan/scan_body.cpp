@@ -52,10 +52,10 @@ class BodyMaker {
       const std::string where = "soft part '" + soft.name + "'";
       if (std::find(std::begin(kSeenFirst), std::end(kSeenFirst), soft.kind) ==
           std::end(kSeenFirst))
-        return fail("is of the kind '" + soft.kind + "', which a scanner does not know", where,
+        return fail("is of the kind '" + soft.kind + "', which the scanner does not know", where,
                     "Give it another kind, or scan the bones alone");
       if (!topology(*soft.mesh_W).closed())
-        return fail("is not closed: what lies in it cannot be told", where,
+        return fail("is not closed, so its inside is undefined", where,
                     "Close its surface, or scan the bones alone");
     }
     return {};

@@ -107,7 +107,7 @@ Result<BandDescription> read_band(TomlReader& soft, const FindBone& find_bone) {
     point.thins_out = point.attached && !in.has("thickness_mm");
     if (point.attached) point.name = in.has("name") ? in.text("name") : bone;
     if (i > 0 && (point.at.p_W - band.path.back().at.p_W).norm() < kShortestStep_m)
-      in.reject("lies on the point before it", "at_mm");
+      in.reject("is the same as the point before it", "at_mm");
     if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
     band.path.push_back(std::move(point));
   }
@@ -166,7 +166,7 @@ Result<SoftDescription> read_soft(TomlReader& in, const FindBone& find_bone) {
   const auto* known = std::find_if(std::begin(kKinds), std::end(kKinds),
                                    [&](const ShapeOfKind& k) { return soft.kind == k.kind; });
   if (known == std::end(kKinds))
-    in.reject("names no kind that is known: '" + soft.kind + "'", "kind");
+    in.reject("names no known kind: '" + soft.kind + "'", "kind");
   else if (auto ok = known->read(in, find_bone, soft); !ok)
     return tl::unexpected(ok.error());
   if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());

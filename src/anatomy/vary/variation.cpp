@@ -113,7 +113,7 @@ Result<void> bend_unless_bones_meet(VariedBones& bones, const GenerateOptions& o
   if (worst.depth <= kMostOverlap) return {};
   return fail(
       worst.bone + " would reach " + two_digits(worst.depth * 1000) + " mm into " + worst.other,
-      file, "Bend the joint less, or choose values nearer to the means");
+      file, "Bend the joint less, or choose values closer to the means");
 }
 
 Result<AnatomyDescription> load_description(const std::filesystem::path& file) {
@@ -171,7 +171,7 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
     if (varied.halvings == kMostHalvings || !any_free(*drawn))
       return fail(
           worst.bone + " would reach " + two_digits(worst.depth * 1000) + " mm into " + worst.other,
-          description.string(), "Choose values nearer to the means");
+          description.string(), "Choose values closer to the means");
   }
   const std::string file = description.string();
   if (auto ok = bend_unless_bones_meet(*bones, options, file); !ok)

@@ -15,7 +15,8 @@ StepTargets read_targets(TomlReader& in) {
   StepTargets targets{in.texts("bones"), in.texts("landmarks"), in.texts("parts")};
   if (targets.bones.empty() && targets.landmarks.empty())
     in.reject("is missing, and so is 'landmarks'", "bones");
-  if (targets.bones.empty() && !targets.parts.empty()) in.reject("must say whose parts", "bones");
+  if (targets.bones.empty() && !targets.parts.empty())
+    in.reject("must name the bone of the parts", "bones");
   return targets;
 }
 
@@ -74,7 +75,7 @@ Result<VariationRule> read_variation_rule(const toml::table& table, const std::s
     return tl::unexpected(ok.error());
   if (in.has("joint")) rule.joint = in.text("joint");
   if (!rule.joint.empty() && rule.parameter.sd != 0)
-    in.reject("must be 0: how far a joint is bent is never drawn", "sd");
+    in.reject("must be 0: the flexion of a joint is never drawn at random", "sd");
   if (auto ok = in.finish(); !ok) return tl::unexpected(ok.error());
   return rule;
 }

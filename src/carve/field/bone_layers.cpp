@@ -43,7 +43,7 @@ Result<void> check(const BoneLayers& layers) {
     return !(a.depth_m < b.depth_m);
   };
   if (std::adjacent_find(list.begin(), list.end(), lower) != list.end())
-    return fail("layers must lie one under the other", "layers of bone");
+    return fail("layers must be in order of depth", "layers of bone");
   return {};
 }
 

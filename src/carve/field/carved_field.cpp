@@ -130,12 +130,12 @@ CarveState CarvedField::save() const {
 Result<void> CarvedField::restore(const CarveState& state) {
   constexpr const char* kWhere = "state of a carved bone";
   if (state.bone != bone_->hash()) return fail("belongs to another bone", kWhere);
-  if (state.blocks.size() > marks_.size()) return fail("holds more blocks than there are", kWhere);
+  if (state.blocks.size() > marks_.size()) return fail("holds more blocks than exist", kWhere);
   for (std::size_t n = 0; n < state.blocks.size(); ++n) {
     const std::uint32_t block = state.blocks[n].block;
     if (block >= slot_.size() || !may_hold_cuts(block) ||
         (n > 0 && block <= state.blocks[n - 1].block))
-      return fail("holds a block that cannot be", kWhere);
+      return fail("holds an impossible block", kWhere);
   }
   clear();
   ++epoch_;

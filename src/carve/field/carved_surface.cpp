@@ -139,7 +139,7 @@ Result<TriMesh> carved_mesh(const CarvedField& field) {
   surface.mesh_all(field);
   TriMesh mesh = surface.joined();
   if (mesh.triangles.empty())
-    return fail("nothing is left of the bone", "carving", "Use a smaller tool or another path");
+    return fail("nothing of the bone remains", "carving", "Use a smaller tool or another path");
   return mesh;
 }
 

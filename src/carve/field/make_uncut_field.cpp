@@ -16,7 +16,7 @@ constexpr double kLeastCells = 4;  // along the bone's longest side
 constexpr double kDiagonal = 1.7320508075688772;
 
 Result<void> check_mesh(const TriMesh& mesh) {
-  constexpr const char* kMend = "Mend the mesh with 'osteon import mesh'";
+  constexpr const char* kMend = "Repair the mesh with 'osteon import mesh'";
   if (mesh.triangles.empty()) return fail("the bone has no triangles", "carving", kMend);
   for (const Vec3& v : mesh.vertices)
     if (!is_finite(v)) return fail("a vertex of the bone is not finite", "carving", kMend);

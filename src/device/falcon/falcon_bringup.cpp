@@ -49,7 +49,7 @@ Result<void> request(UsbLink& link, std::initializer_list<Request> requests) {
     if (result.error != UsbError::kNone)
       return fail(
           "could not set up the Falcon's serial converter: " + std::string(describe(result.error)),
-          kWhere, "Unplug it, plug it in again and try once more");
+          kWhere, "Unplug it, plug it in again and try again");
   }
   return {};
 }
@@ -144,10 +144,10 @@ Result<void> load(UsbLink& link, std::span<const std::uint8_t> firmware) {
     if (const auto sent = send(link, chunk); !sent) return sent;
     const Bytes echo = receive(link, chunk.size(), kEcho_s);
     if (!std::equal(chunk.begin(), chunk.end(), echo.begin(), echo.end()))
-      return fail("the Falcon echoed other bytes of its firmware than were sent, at byte " +
+      return fail("the Falcon returned firmware bytes that differ from those sent, at byte " +
                       std::to_string(at),
                   kWhere,
-                  "Switch it off and on and try again; if it stays so, " +
+                  "Switch it off and on and try again; if the error persists, " +
                       falcon_firmware_file().string() + " is not its firmware");
   }
   return {};
@@ -180,12 +180,13 @@ Result<std::string> load_falcon_firmware() {
   const fs::path file = falcon_firmware_file();
   std::error_code ignored;
   if (!fs::exists(file, ignored))
-    return fail("the Novint Falcon's firmware is missing", file.string(),
-                "Put a copy there: its maker's driver contains it, and its licence lets nobody "
-                "else give it to you");
+    return fail(
+        "the Novint Falcon's firmware is missing", file.string(),
+        "Put a copy there: its maker's driver contains it, and its licence forbids redistribution");
   auto content = read_file(file, kLargestFirmware);
   if (content && content->empty())
-    return fail("the Novint Falcon's firmware is empty", file.string(), "Put a whole copy there");
+    return fail("the Novint Falcon's firmware is empty", file.string(),
+                "Put a complete copy there");
   return content;
 }
 

@@ -140,7 +140,7 @@ void FalconDevice::watch_link(std::int64_t now) {
   }
   const bool failed = link_->in_error() != UsbError::kNone || link_->out_error() != UsbError::kNone;
   if (!failed) return;
-  raise(ForceOff::kDeviceFault, "The Falcon's USB connection failed: plug it in anew", now);
+  raise(ForceOff::kDeviceFault, "The Falcon's USB connection failed: plug it in again", now);
   if (now - restarted_ns_ < kBetweenRestarts_ns) return;
   restarted_ns_ = now;
   reader_.reset();

@@ -45,7 +45,7 @@ Result<std::unique_ptr<HapticDevice>> open_falcon(UsbBus& bus, const DeviceInfo&
     if (const auto up = bring_up_falcon(**link, *firmware); !up) return tl::unexpected(up.error());
     return std::make_unique<FalconDevice>(std::move(*link), info);
   }
-  return fail("the Novint Falcon is not there any more", info.serial, "Plug it in");
+  return fail("the Novint Falcon is no longer there", info.serial, "Plug it in");
 }
 
 std::vector<std::string> unusable_falcons(UsbBus& bus) {

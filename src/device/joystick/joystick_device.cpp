@@ -47,7 +47,7 @@ Result<void> JoystickDevice::wait_until_ready() {
       return fail(dialect_->failure(), profile_.info.name, "Plug it in again");
   }
   if (ready()) return {};
-  return fail(link_->gone() ? "the joystick was unplugged" : "the joystick sends no sound report",
+  return fail(link_->gone() ? "the joystick was unplugged" : "the joystick sends no valid report",
               profile_.info.name, "Plug it in again; is the profile the right one?");
 }
 
@@ -178,7 +178,7 @@ DeviceHealth JoystickDevice::health() const {
   if (!link_ || link_->gone())
     health.advice = "Plug the joystick in and choose it again";
   else if (!dialect_->status().homed)
-    health.advice = "Calibrate the joystick: it does not know where it is";
+    health.advice = "Calibrate the joystick: it does not know its position";
   health.motor_heat = dialect_->status().motor_heat;
   health.reports_in = counters.in;
   health.reports_out = counters.out;

@@ -21,7 +21,7 @@ std::string EditFindings::summary() const {
   if (sound()) return "sound";
   std::string text;
   if (!turned.empty())
-    text = counted(turned.size(), "triangle is turned over", "triangles are turned over");
+    text = counted(turned.size(), "triangle is inverted", "triangles are inverted");
   if (crossings.empty()) return text;
   return text + (text.empty() ? "" : ", ") +
          counted(crossings.size(), "pair of triangles crosses", "pairs of triangles cross");
@@ -41,8 +41,8 @@ Result<MeshEdit> MeshEdit::begin(TriMesh mesh, std::size_t history_bytes) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t])
       if (v >= mesh.vertices.size())
-        return fail("triangle " + std::to_string(t) + " names a vertex that does not exist", where,
-                    "Export the surface again");
+        return fail("triangle " + std::to_string(t) + " refers to a vertex that does not exist",
+                    where, "Export the surface again");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!is_finite(mesh.vertices[v]))
       return fail("vertex " + std::to_string(v) + " is not a finite number", where,

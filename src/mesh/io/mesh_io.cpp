@@ -30,7 +30,7 @@ bool is_known(const std::string& extension) {
 }
 
 tl::unexpected<Error> unknown_format(const std::string& where) {
-  return fail("is not of a known mesh format", where, "Use STL, OBJ, PLY, VTK, VTP, glTF or GLB");
+  return fail("is not in a known mesh format", where, "Use STL, OBJ, PLY, VTK, VTP, glTF or GLB");
 }
 
 // Refuses what no bone can be; a wrong unit is the usual cause.
@@ -48,7 +48,7 @@ Result<void> check_vertex(const Vec3& v, std::size_t index, const std::string& w
 Result<TriMesh> scaled(Result<TriMesh> mesh, double metres_per_unit, const std::string& where) {
   if (!mesh) return mesh;
   if (mesh->triangles.empty())
-    return fail("holds no triangle", where, "Export it as a surface of triangles");
+    return fail("holds no triangles", where, "Export it as a surface of triangles");
   for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
     mesh->vertices[i] *= metres_per_unit;
     if (auto fine = check_vertex(mesh->vertices[i], i, where); !fine)

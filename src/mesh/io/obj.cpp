@@ -58,14 +58,14 @@ Result<TriMesh> parse_obj(std::string_view bytes, const std::string& where) {
     if (word.front() == '#' || passed_over) {
       words.rest_of_line();
     } else if (word == "v") {
-      if (!parse_vertex(words, mesh)) return fail("the vertex has no three numbers", here);
+      if (!parse_vertex(words, mesh)) return fail("the vertex does not have three numbers", here);
     } else if (word == "f") {
       if (!parse_face(words, mesh))
         return fail(
             "the face does not name 3 to " + std::to_string(kMostCorners) + " vertices above it",
             here, "Copy or export the file again");
     } else {
-      return fail("is not OBJ as it should be", here, "Copy or export the file again");
+      return fail("is not valid OBJ", here, "Copy or export the file again");
     }
   }
   return mesh;

@@ -168,7 +168,7 @@ Result<TriMesh> parse_ply(std::string_view bytes, const std::string& where) {
   std::vector<std::vector<std::uint32_t>> faces;  // may stand before the vertices
   for (const PlyElement& element : header->elements) {
     const bool is_vertex = element.name == "vertex";
-    if (is_vertex && !has_position(element)) return fail("its vertices have no x, y, z", where);
+    if (is_vertex && !has_position(element)) return fail("its vertices lack x, y or z", where);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       Face face;
       if (is_vertex ? !read_vertex(values, element, mesh) : !read_face(values, element, face))

@@ -42,15 +42,16 @@ std::uint64_t word_at(std::string_view bytes, std::size_t at) {
 Result<void> check_glb(std::string_view head, std::uint64_t size, const std::string& where) {
   const std::string todo = "Copy or export the file again, as binary glTF 2.0";
   if (head.size() < kGlbHead || head.substr(0, 4) != "glTF")
-    return fail("is no binary glTF file", where, todo);
+    return fail("is not a binary glTF file", where, todo);
   const std::uint64_t version = word_at(head, 4);
   if (version != 2)
-    return fail("is of glTF version " + std::to_string(version) + ", which is not read", where,
+    return fail("is of glTF version " + std::to_string(version) + ", which is not supported", where,
                 todo);
   const std::uint64_t length = word_at(head, 8), first_chunk = word_at(head, 12);
   if (length > size || first_chunk > size - kGlbHead)
-    return fail("is cut short: its head promises more than its " + std::to_string(size) + " bytes",
-                where, todo);
+    return fail(
+        "is truncated: its header declares more than its " + std::to_string(size) + " bytes", where,
+        todo);
   return {};
 }
 

@@ -106,8 +106,8 @@ Result<TriMesh> parse_ascii(std::string_view bytes, const std::string& where) {
       fine = inside && same_word(word, "facet") && parse_facet(words, mesh);
     }
     if (!fine)
-      return fail("breaks off or is not ASCII STL here", where + ":" + std::to_string(words.line()),
-                  "Export the file again, best as binary STL");
+      return fail("is truncated or not ASCII STL here", where + ":" + std::to_string(words.line()),
+                  "Export the file again, preferably as binary STL");
   }
   if (inside)
     return fail("is truncated: the last solid is not closed", where,

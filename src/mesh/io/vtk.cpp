@@ -96,27 +96,27 @@ Result<void> VtkReader::read_head() {
 
 Result<void> VtkReader::read_points() {
   std::size_t count = 0;
-  if (has_points_ || !read_count(count)) return broken("POINTS has no count, or comes twice");
+  if (has_points_ || !read_count(count)) return broken("POINTS has no count, or is given twice");
   words_.next();  // the type of the numbers
   if (count > 0xffffffffu || !fits(3 * count))
-    return broken("the file breaks off: " + std::to_string(count) + " points do not fit");
+    return broken("the file is truncated: " + std::to_string(count) + " points do not fit");
   mesh_.vertices.resize(count);
   for (Vec3& v : mesh_.vertices)
     for (Vec3::Index k = 0; k < 3; ++k)
-      if (!parse_number(words_.next(), v[k])) return broken("a coordinate is no number");
+      if (!parse_number(words_.next(), v[k])) return broken("a coordinate is not a number");
   has_points_ = true;
   return {};
 }
 
 Result<void> VtkReader::read_counted_cells(std::size_t cells, std::size_t numbers) {
   if (!fits(numbers) || cells > numbers)
-    return broken("the file breaks off: " + std::to_string(numbers) + " numbers do not fit");
+    return broken("the file is truncated: " + std::to_string(numbers) + " numbers do not fit");
   for (std::size_t i = 0; i < cells; ++i) {
     std::size_t corners = 0;
     if (!read_count(corners) || corners > numbers) return broken("a cell has no count");
     for (std::size_t k = 0; k < corners; ++k) {
       std::uint32_t corner = 0;
-      if (!read_corner(corner)) return broken("a cell names a point that does not exist");
+      if (!read_corner(corner)) return broken("a cell refers to a point that does not exist");
       cells_.corner.push_back(corner);
     }
     cells_.start.push_back(cells_.corner.size());
@@ -127,31 +127,31 @@ Result<void> VtkReader::read_counted_cells(std::size_t cells, std::size_t number
 
 Result<void> VtkReader::read_offset_cells(std::size_t offsets, std::size_t corners) {
   if (offsets == 0 || !fits(offsets) || !fits(corners))
-    return broken("the file breaks off: the cells do not fit");
+    return broken("the file is truncated: the cells do not fit");
   if (!same_word(words_.next(), "offsets")) return broken("OFFSETS is missing");
   words_.next();
   cells_.start.resize(offsets);
   for (std::size_t i = 0; i < offsets; ++i) {
     const std::size_t least = i == 0 ? 0 : cells_.start[i - 1];
     if (!read_count(cells_.start[i]) || cells_.start[i] < least || cells_.start[i] > corners)
-      return broken("the offsets do not rise from 0 to the count of corners");
+      return broken("the offsets do not increase from 0 to the number of corners");
   }
   if (cells_.start.front() != 0 || cells_.start.back() != corners)
-    return broken("the offsets do not rise from 0 to the count of corners");
+    return broken("the offsets do not increase from 0 to the number of corners");
   if (!same_word(words_.next(), "connectivity")) return broken("CONNECTIVITY is missing");
   words_.next();
   cells_.corner.resize(corners);
   for (std::uint32_t& corner : cells_.corner)
-    if (!read_corner(corner)) return broken("a cell names a point that does not exist");
+    if (!read_corner(corner)) return broken("a cell refers to a point that does not exist");
   cells_.line.assign(cells_.count(), words_.line());
   return {};
 }
 
 Result<void> VtkReader::read_cells() {
   std::size_t first = 0, second = 0;
-  if (!has_points_) return broken("CELLS stands before POINTS");
+  if (!has_points_) return broken("CELLS comes before POINTS");
   if (has_cells_ || !read_count(first) || !read_count(second))
-    return broken("CELLS has no two counts, or comes twice");
+    return broken("CELLS has no two counts, or is given twice");
   has_cells_ = true;
   return version_ >= 5 ? read_offset_cells(first, second) : read_counted_cells(first, second);
 }
@@ -159,10 +159,10 @@ Result<void> VtkReader::read_cells() {
 Result<void> VtkReader::read_types() {
   std::size_t count = 0;
   if (has_types_ || !read_count(count) || !fits(count))
-    return broken("CELL_TYPES has no count that fits, or comes twice");
+    return broken("CELL_TYPES has a wrong count, or is given twice");
   types_.resize(count);
   for (long long& type : types_)
-    if (!parse_integer(words_.next(), type)) return broken("a cell's type is no number");
+    if (!parse_integer(words_.next(), type)) return broken("a cell's type is not a number");
   has_types_ = true;
   return {};
 }
@@ -171,13 +171,13 @@ Result<void> VtkReader::read_types() {
 Result<void> VtkReader::pass_field() {
   std::size_t arrays = 0;
   words_.next();
-  if (!read_count(arrays) || !fits(arrays)) return broken("FIELD has no count that fits");
+  if (!read_count(arrays) || !fits(arrays)) return broken("FIELD has a wrong count");
   for (std::size_t i = 0; i < arrays; ++i) {
     std::size_t components = 0, tuples = 0;
     words_.next();
     if (!read_count(components) || !read_count(tuples) || !fits(components) || !fits(tuples) ||
         !fits(components * tuples))
-      return broken("an array of FIELD has no size that fits");
+      return broken("an array of FIELD has a wrong size");
     words_.next();
     for (std::size_t k = 0; k < components * tuples; ++k) words_.next();
   }
@@ -206,7 +206,7 @@ Result<void> VtkReader::read_section(std::string_view name) {
 
 Result<void> VtkReader::collect() {
   if (!has_points_ || !has_cells_ || !has_types_)
-    return broken("the file breaks off: POINTS, CELLS or CELL_TYPES is missing");
+    return broken("the file is truncated: POINTS, CELLS or CELL_TYPES is missing");
   if (types_.size() != cells_.count())
     return broken("there are " + std::to_string(cells_.count()) + " cells and " +
                   std::to_string(types_.size()) + " types");
@@ -219,12 +219,12 @@ Result<void> VtkReader::collect() {
                   at, "Split the cells into tetrahedra first");
     const std::uint32_t* corner = cells_.corner.data() + cells_.start[i];
     if (cells_.start[i + 1] - cells_.start[i] != 4)
-      return fail("tetrahedron " + std::to_string(i) + " has not four corners", at);
+      return fail("tetrahedron " + std::to_string(i) + " does not have four corners", at);
     const Tetrahedron tet{corner[0], corner[1], corner[2], corner[3]};
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t j = 0; j < k; ++j)
         if (tet[k] == tet[j])
-          return fail("tetrahedron " + std::to_string(i) + " names a point twice", at);
+          return fail("tetrahedron " + std::to_string(i) + " uses a point twice", at);
     mesh_.tets.push_back(tet);
   }
   if (mesh_.tets.empty()) return fail("holds no tetrahedron", where_, "Export the solid's mesh");

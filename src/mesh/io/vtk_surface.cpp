@@ -17,14 +17,14 @@ class LegacySurface {
   LegacySurface(std::string_view bytes, const std::string& where) : bytes_(bytes), where_(where) {}
 
   Result<TriMesh> run() {
-    if (!read_head()) return broken("has no head of a legacy VTK file with DATASET POLYDATA");
+    if (!read_head()) return broken("has no legacy VTK header with DATASET POLYDATA");
     while (!done_) {
       const std::string_view name = word();
       if (name.empty()) break;
       if (auto read = read_section(name); !read) return tl::unexpected(read.error());
     }
     if (!add_vtk_polygons(mesh_, polygons_) || !add_vtk_strips(mesh_, strips_))
-      return broken("has a polygon whose corners are no points");
+      return broken("has a polygon with corners that do not exist");
     return std::move(mesh_);
   }
 

@@ -17,12 +17,12 @@ class VtpSurface {
     std::size_t at = 0;
     const auto file = next_element(bytes_, "VTKFile", at);
     if (!file || file->attribute("type") != "PolyData")
-      return broken("is no VTK XML file of the type PolyData");
+      return broken("is not a VTK XML file of the type PolyData");
     if (file->attribute("byte_order") == "BigEndian")
-      return broken("has its highest bytes first, which is not read");
+      return broken("is big-endian, which is not supported");
     const std::string_view packer = file->attribute("compressor");
     if (!packer.empty() && packer != "vtkZLibDataCompressor")
-      return broken("is packed by " + std::string(packer) + ", which is not read");
+      return broken("is compressed by " + std::string(packer) + ", which is not supported");
     encoding_.packed = !packer.empty();
     encoding_.wide_header = file->attribute("header_type") == "UInt64";
     std::string_view text = file->body;
@@ -37,7 +37,7 @@ class VtpSurface {
 
  private:
   tl::unexpected<Error> broken(const std::string& what) const {
-    return fail(what, where_, "Write the file again, as PolyData in ASCII or packed by zlib");
+    return fail(what, where_, "Write the file again, as PolyData in ASCII or compressed by zlib");
   }
 
   bool find_appended(std::string_view text) {

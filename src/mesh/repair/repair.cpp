@@ -23,7 +23,7 @@ class Summary {
     text_ += ' ';
     text_ += count == 1 ? one : many;
   }
-  std::string text() const { return text_.empty() ? "nothing to mend" : text_; }
+  std::string text() const { return text_.empty() ? "nothing to repair" : text_; }
 
  private:
   std::string text_;

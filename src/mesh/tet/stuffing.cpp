@@ -210,7 +210,7 @@ Result<TetMesh> stuff_isosurface(const ScalarField& field, const Aabb& box,
                 "tetrahedra", "Choose a larger cell");
   if (stuffer.mesh.tets.empty())
     return fail(
-        "nothing is left once the lattice fits the surface: the part is thinner than a cell",
+        "nothing remains after fitting the lattice to the surface: the part is thinner than a cell",
         "tetrahedra", "Choose a smaller cell");
   return std::move(stuffer.mesh);
 }

@@ -44,8 +44,8 @@ Result<void> check_numbers(const TriMesh& surface) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     for (const std::uint32_t v : surface.triangles[t])
       if (v >= surface.vertices.size())
-        return fail("triangle " + std::to_string(t) + " names a vertex that does not exist", kWhere,
-                    "Export the surface again");
+        return fail("triangle " + std::to_string(t) + " refers to a vertex that does not exist",
+                    kWhere, "Export the surface again");
   return {};
 }
 
@@ -55,18 +55,19 @@ Result<void> check_surface(const TriMesh& surface) {
   if (!found.closed())
     return fail("the surface is not closed: " + counted(found.boundary_edges, "open edge") + ", " +
                     counted(found.non_manifold_edges, "edge") + " of more than two triangles, " +
-                    std::to_string(found.misoriented_edges) + " between triangles that face apart",
-                kWhere, "Mend it first (osteon import mesh mends what it can)");
+                    std::to_string(found.misoriented_edges) +
+                    " between triangles of opposite orientation",
+                kWhere, "Repair it first (with osteon import mesh)");
   if (!(volume(surface) > 0))
-    return fail("the surface faces inwards or holds no volume", kWhere,
-                "Turn its triangles around (osteon import mesh does so)");
+    return fail("the surface faces inwards or encloses no volume", kWhere,
+                "Flip its triangles (osteon import mesh does so)");
   const auto crossings = self_crossings(surface);
   if (crossings.empty()) return {};
   const auto [a, b] = crossings.front();
   const Vec3 at_mm = 1000 * surface.vertices[surface.triangles[a][0]];
   char place[96];
   std::snprintf(place, sizeof place, "(%.2f, %.2f, %.2f) mm", at_mm.x(), at_mm.y(), at_mm.z());
-  return fail("the surface crosses itself: " + counted(crossings.size(), "pair") +
+  return fail("the surface intersects itself: " + counted(crossings.size(), "pair") +
                   " of triangles, the first " + std::to_string(a) + " and " + std::to_string(b) +
                   " near " + place,
               kWhere, "Edit or rebuild the surface there, so that it bounds one solid");
@@ -164,14 +165,15 @@ void Maker::warn(TetrahedraReport& report) const {
                               " or less");
   if (std::abs(report.volume_error()) > 0.01) {
     std::snprintf(text, sizeof text,
-                  "the volume misses that of the surface by %.1f %%: choose a smaller cell",
+                  "the volume differs from the surface's by %.1f %%: choose a smaller cell",
                   100 * report.volume_error());
     report.warnings.emplace_back(text);
   }
   if (report.after.min_dihedral_rad < 15 * kPi / 180) {
-    std::snprintf(text, sizeof text,
-                  "the smallest dihedral angle is %.1f degrees: another cell may do better",
-                  report.after.min_dihedral_rad * 180 / kPi);
+    std::snprintf(
+        text, sizeof text,
+        "the smallest dihedral angle is %.1f degrees: another cell size may give a better one",
+        report.after.min_dihedral_rad * 180 / kPi);
     report.warnings.emplace_back(text);
   }
   const std::size_t parts = topology(surface_.mesh()).components;
@@ -181,7 +183,7 @@ void Maker::warn(TetrahedraReport& report) const {
                               ": choose a smaller cell");
   if (report.boundary.non_manifold_edges > 0)
     report.warnings.push_back(counted(report.boundary.non_manifold_edges, "edge") +
-                              " of the mesh's surface hold more than two faces: choose a smaller "
+                              " of the mesh's surface have more than two faces: choose a smaller "
                               "cell");
 }
 

@@ -56,7 +56,7 @@ Result<Bore> bore_of(const KneeParts::Bone& bone, const Axis& axis, const Vec3& 
   }
   if (!(most > 0.001))
     return fail("the drill's axis misses the bone", "the " + std::string(bone.name),
-                "Say where it began and ended, in mm, World");
+                "Give its start and end, in mm, World");
   const Vec3 in = axis.from + best.first * axis.along, out = axis.from + best.second * axis.along;
   const bool begins = (in - joint).norm() < (out - joint).norm();
   Bore bore;

@@ -31,8 +31,8 @@ Result<void> check_names(const LigamentTable& table, const KneeChanges& changes)
   for (const std::string& cut : changes.without)
     if (std::none_of(table.ligaments.begin(), table.ligaments.end(),
                      [&](const LigamentRow& row) { return row.name == cut; }))
-      return fail("there is no ligament '" + cut + "'", "what the knee is without",
-                  "Choose of " + all);
+      return fail("there is no ligament '" + cut + "'", "the ligaments to cut",
+                  "Choose from " + all);
   return {};
 }
 
@@ -77,8 +77,8 @@ Result<JointFibre> pulled_graft(const CaseDef& def, const KneeParts& parts,
                                 const LigamentTable& table, const KneeGraft& graft) {
   const auto ends = ends_of(def, parts, table.graft.ligament);
   if (!ends && !(graft.from_W && graft.to_W))
-    return fail("the case has no '" + table.graft.ligament + "' whose footprints it could have",
-                "graft", "Give both of its ends");
+    return fail("the case has no '" + table.graft.ligament + "', so its footprints are unknown",
+                "graft", "Give both ends");
   JointFibre fibre;
   fibre.from_F = graft.from_W ? parts.place(parts.femur, *graft.from_W) : ends->first;
   fibre.to_T = graft.to_W ? parts.place(parts.tibia, *graft.to_W) : ends->second;
@@ -87,7 +87,7 @@ Result<JointFibre> pulled_graft(const CaseDef& def, const KneeParts& parts,
   const double apart = (fibre.to_T - fibre.from_F).norm();
   if (!(apart > 0.005 && apart < 0.15))
     return fail("its ends are " + std::to_string(1000 * apart) +
-                    " mm apart when the knee is stretched out; 5 to 150 can be",
+                    " mm apart with the knee straight; they must be 5 to 150",
                 "graft", "Give places in mm, World, on femur and tibia");
   return fibre;
 }
@@ -114,8 +114,8 @@ Result<void> fix_graft(const CaseDef& def, const KneeParts& parts, const Ligamen
   const auto rest = settle(pulled, load, start);
   if (!rest) return tl::unexpected(rest.error());
   if (!rest->converged)
-    return fail("the knee finds no rest while the graft is pulled", "graft",
-                "Look at its ends and its tension");
+    return fail("the knee reaches no equilibrium while the graft is pulled", "graft",
+                "Check its ends and its tension");
   const double length = rest->fibres.back().length_m;
   const double diameter = graft.diameter_m.value_or(table.graft.diameter_m);
   const double body = table.graft.young_pa * 0.25 * std::numbers::pi * diameter * diameter;
@@ -137,7 +137,7 @@ Result<void> check_held(const CaseDef& def, const LigamentTable& table, const Kn
                std::find(knee.absent.begin(), knee.absent.end(), row.name) == knee.absent.end();
       });
   if (held && !bare) return {};
-  return fail("the tibia is held by nothing", "case '" + def.name + "'",
+  return fail("nothing holds the tibia", "case '" + def.name + "'",
               bare
                   ? "The case has no ligaments as soft parts; make it with osteon anatomy make knee"
                   : "Leave at least one ligament whole, or put in a graft");

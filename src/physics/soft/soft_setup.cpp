@@ -47,8 +47,8 @@ Result<std::vector<const LigamentRow*>> rows_asked(const Case& the_case, const L
                                                    std::span<const std::string> names) {
   const std::vector<std::string> there = names_there(the_case, table);
   const std::string advice = there.empty()
-                                 ? "Give a case with a knee, as builtin:knee"
-                                 : "Choose among " + listed(there) + ", or " + kAllLigaments;
+                                 ? "Give a case with a knee, such as builtin:knee"
+                                 : "Choose from " + listed(there) + ", or " + kAllLigaments;
   std::vector<std::string> wanted;
   for (const std::string& name : names) {
     const std::vector<std::string> more =
@@ -167,7 +167,7 @@ Result<void> lay_ends(const Case& the_case, const SoftPart& part, bool over, Sof
   const double free_m = (leaves_W - from_W).norm();
   if (!(free_m >= kShortest_m && free_m <= kLongest_m))
     return fail("the ligament '" + part.name + "' is " + std::to_string(1e3 * free_m) + " mm long",
-                kWhere, "Footprints 5 to 300 mm apart can be");
+                kWhere, "Footprints must be 5 to 300 mm apart");
   return {};
 }
 
@@ -175,7 +175,7 @@ Result<void> lay_ends(const Case& the_case, const SoftPart& part, bool over, Sof
 Result<double> radius_of(const SoftPart& part, double length_m) {
   const double radius = std::sqrt(volume(part.mesh_W) / (std::numbers::pi * length_m));
   if (radius >= kThinnest_m && radius <= kThickest_m) return radius;
-  return fail("the surface of '" + part.name + "' holds no volume that a ligament has", kWhere,
+  return fail("the surface of '" + part.name + "' does not enclose a ligament's volume", kWhere,
               "It must be closed, its triangles facing outwards");
 }
 

@@ -63,7 +63,7 @@ Result<void> check(const HeldJoint& joint, const JointLoad& load, const JointPos
     return fail("is not a finite force", "load");
   if (!is_sound(start)) return fail("is not finite", "pose to start from");
   if (!held)
-    return fail("the tibia is held by nothing", "ligaments",
+    return fail("nothing holds the tibia", "ligaments",
                 "Leave at least one ligament whole, or put in a graft");
   return {};
 }

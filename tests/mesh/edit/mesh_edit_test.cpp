@@ -100,7 +100,7 @@ TEST(MeshEdit, SaysWhenTheSurfaceCrossesItself) {
   EXPECT_EQ(live.crossings, found.crossings);
   EXPECT_EQ(live.turned, found.turned);
   EXPECT_EQ(edit.check().crossings, found.crossings);
-  EXPECT_NE(found.summary().find("turned over"), std::string::npos) << found.summary();
+  EXPECT_NE(found.summary().find("inverted"), std::string::npos) << found.summary();
   EXPECT_NE(found.summary().find("cross"), std::string::npos);
   ASSERT_TRUE(edit.undo());
   EXPECT_TRUE(edit.check().sound());

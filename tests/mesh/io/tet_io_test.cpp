@@ -83,9 +83,9 @@ TEST(TetIo, SaysWhatIsWrongAndWhere) {
   expect_error("# vtk DataFile Version 9.0\nx\nASCII\n", "version");
   expect_error("# vtk DataFile Version 3.0\nx\nBINARY\n", "binary");
   expect_error("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n", "unstructured");
-  expect_error(kHead, "breaks off");
+  expect_error(kHead, "truncated");
   expect_error(kHead + "CELLS 1 5\n", "before POINTS");
-  expect_error(kHead + kPoints, "breaks off");
+  expect_error(kHead + kPoints, "truncated");
   expect_error(kHead + kPoints + kPoints, "twice");
   expect_error(kHead + kPoints + kCells, "CELL_TYPES is missing");
   expect_error(kHead + kPoints + kCells + "CELL_TYPES 1\n10\n", "2 cells and 1 types");
@@ -112,8 +112,8 @@ TEST(TetIo, BelievesNoCountThatTheFileCannotHold) {
   expect_error(kHead + "POINTS 4000000000 double\n0 0 0\n", "do not fit");
   expect_error(kHead + "POINTS 99999999999999999999 double\n", "count");
   expect_error(kHead + kPoints + "CELLS 4000000000 20000000000\n", "do not fit");
-  expect_error(kHead + kPoints + kCells + "CELL_TYPES 4000000000\n", "fits");
-  expect_error(kHead + "FIELD f 1\na 4000000000 4000000000 double\n", "fits");
+  expect_error(kHead + kPoints + kCells + "CELL_TYPES 4000000000\n", "wrong count");
+  expect_error(kHead + "FIELD f 1\na 4000000000 4000000000 double\n", "wrong size");
 }
 
 // Cut anywhere, the file is refused.

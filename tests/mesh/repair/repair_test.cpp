@@ -20,7 +20,7 @@ using test::soup;
 
 TEST(Repair, EmptyMesh) {
   TriMesh m;
-  EXPECT_EQ(repair(m).summary(), "nothing to mend");
+  EXPECT_EQ(repair(m).summary(), "nothing to repair");
   m.vertices = {Vec3(1, 2, 3)};
   EXPECT_EQ(repair(m).unused_vertices, 1u);
   EXPECT_TRUE(m.vertices.empty());
@@ -64,7 +64,7 @@ TEST(Repair, AFlatSheetStaysASheet) {
 TEST(Repair, SoundMeshIsLeftAlone) {
   TriMesh m = test::sphere(0.01, 8);
   const TriMesh before = m;
-  EXPECT_EQ(repair(m).summary(), "nothing to mend");
+  EXPECT_EQ(repair(m).summary(), "nothing to repair");
   EXPECT_TRUE(m.triangles.size() == before.triangles.size());
   EXPECT_NEAR(volume(m), volume(before), 1e-18);
 }
@@ -375,7 +375,7 @@ TEST(Repair, IsDoneAfterOnce) {
   m.triangles.erase(m.triangles.begin() + 17);
   repair(m);
   const TriMesh once = m;
-  EXPECT_EQ(repair(m).summary(), "nothing to mend");
+  EXPECT_EQ(repair(m).summary(), "nothing to repair");
   EXPECT_TRUE(m.vertices == once.vertices && m.triangles == once.triangles);
 }
 
