@@ -321,7 +321,7 @@ void add_import(cli::App& app, int& exit_code) {
   mesh->add_option("--side", options->side, "left or right")
       ->check(cli::IsMember({"left", "right"}));
   mesh->add_flag("--keep-hollows", options->keep_hollows,
-                 "keep the cavity of a thin shell, even where no ball of 2 mm could enter it");
+                 "do not close a thin shell whose holes are too small for a ball of 2 mm");
   mesh->add_flag("--force", options->force,
                  "accept bones three times as large or small as usual, and parts that overlap");
   mesh->callback([options, unit, &exit_code] {

@@ -65,7 +65,7 @@ void add_tetrahedra(cli::App& mesh, int& exit_code) {
       ->check(refuse_not_positive);
   command
       ->add_option("--goal-deg", options->options.goal_deg,
-                   "improve until no dihedral angle is smaller, degrees, where possible")
+                   "smallest dihedral angle to reach where possible, degrees")
       ->check(cli::Range(0.0, 90.0))
       ->capture_default_str();
   command->add_option("--most", options->options.most_tets, "limit of the number of tetrahedra")

@@ -182,7 +182,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
   curve->add_option("--p0", options->cusum.p0, "share of failures that is acceptable")
       ->check(cli::Range(0.001, 0.5))
       ->capture_default_str();
-  curve->add_option("--d", options->cusum.d, "further share of failures that is unacceptable")
+  curve->add_option("--d", options->cusum.d, "increase of that share that is unacceptable")
       ->check(cli::Range(0.001, 0.49))
       ->capture_default_str();
   curve->add_option("--limit", options->cusum.h, "S at which a learner is competent")
