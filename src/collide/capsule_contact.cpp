@@ -16,18 +16,41 @@ DifferencePoint farthest_against(const ConvexBody& a, const Capsule& c, const Ve
   std::uint32_t vertex = 0;
   support(a, -v, &vertex);
   const Vec3 p_a = a.vertex(vertex);
-  const Vec3 p_ax = v.dot(c.p0) >= v.dot(c.p1) ? c.p0 : c.p1;
-  return {p_a - p_ax, p_a, p_ax};
+  const bool at_p1 = v.dot(c.p0) < v.dot(c.p1);
+  const Vec3& p_ax = at_p1 ? c.p1 : c.p0;
+  return {p_a - p_ax, p_a, p_ax, 2 * vertex + (at_p1 ? 1 : 0)};
+}
+
+// The vertices and ends that carried the nearest point last, where they are now: mostly they still
+// do. Any of them make a simplex to begin with; a name that is none of this body's is passed over.
+void recall_simplex(const ConvexBody& a, const Capsule& c, const LpBasis& basis,
+                    NearestSimplex& simplex) {
+  for (std::uint8_t k = 0; k < std::min<std::uint8_t>(basis.count, 3); ++k) {
+    const std::uint32_t id = basis.rows[k];
+    if (id / 2 >= a.vx.size()) continue;
+    const Vec3 p_a = a.vertex(id / 2);
+    const Vec3& p_ax = id % 2 ? c.p1 : c.p0;
+    add_point(simplex, {p_a - p_ax, p_a, p_ax, id});
+  }
+}
+
+void keep_simplex(const NearestSimplex& simplex, LpBasis& basis) {
+  basis = {};
+  basis.count = static_cast<std::uint8_t>(simplex.count);
+  for (std::size_t k = 0; k < simplex.count; ++k) basis.rows[k] = simplex.points[k].id;
 }
 
 // Distance of the axis from the body; false when they meet.
-bool apart(const ConvexBody& a, const Capsule& c, CapsuleContact& out) {
+bool apart(const ConvexBody& a, const Capsule& c, LpBasis* basis, CapsuleContact& out) {
   DistanceSearch search;
+  if (basis) recall_simplex(a, c, *basis, search.simplex);
   const auto farthest = [&](const Vec3& v) { return farthest_against(a, c, v); };
   const bool found =
       search_distance(a.center - 0.5 * (c.p0 + c.p1), kTouching * a.radius, farthest, search);
   out.steps = search.steps;
+  if (basis) *basis = {};
   if (!found) return false;
+  if (basis) keep_simplex(search.simplex, *basis);
   out.status = search.ended ? LpStatus::kOptimal : LpStatus::kPivotLimit;
   out.nhat_AB_A = -search.v / search.distance;
   out.gap = search.distance - c.radius;
@@ -113,9 +136,9 @@ bool is_capsule(const Capsule& c) {
 
 }  // namespace
 
-CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A) {
+CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A, LpBasis* basis) {
   CapsuleContact out;
-  if (!is_capsule(capsule_A) || apart(a, capsule_A, out)) return out;
+  if (!is_capsule(capsule_A) || apart(a, capsule_A, basis, out)) return out;
   return AxisProgramme(a, capsule_A).solve();
 }
 

@@ -20,13 +20,19 @@ struct DistanceSearch {
 /// Gilbert, Johnson and Keerthi (1988). Symbols: v is the point of the hull of `simplex` nearest to
 /// the origin, in the difference of the bodies; farthest(v) is a point of the difference that lies
 /// farthest against v. Invariant: |v| falls with each step. It ends when no point lies farther
-/// against v by more than rounding. False when the bodies meet: nearer than `touching`.
+/// against v by more than rounding. False when the bodies meet: nearer than `touching`. Where `out`
+/// has a simplex of the bodies as they are, the search goes on from it and not from v.
 template <class Farthest>
 bool search_distance(Vec3 v, double touching, const Farthest& farthest, DistanceSearch& out) {
   constexpr int kMostSteps = 100;
   constexpr double kRelative = 1e-12;  // of the squared distance: when the search ends
-  if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
   double square = std::numeric_limits<double>::infinity();
+  if (out.simplex.count > 0) {
+    v = out.simplex.nearest();
+    square = v.squaredNorm();
+    if (square <= touching * touching) return false;
+  }
+  if (!(v.squaredNorm() > 0)) v = Vec3::UnitX();
   for (; out.steps < kMostSteps; ++out.steps) {
     const DifferencePoint w = farthest(v);
     if (out.simplex.count > 0 && square - v.dot(w.w) <= kRelative * square) break;

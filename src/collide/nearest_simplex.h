@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "osteon/base/types.h"
 
@@ -12,6 +13,7 @@ struct DifferencePoint {
   Vec3 w = Vec3::Zero();     ///< of body less of axis
   Vec3 p_a = Vec3::Zero();   ///< of the body
   Vec3 p_ax = Vec3::Zero();  ///< of the axis
+  std::uint32_t id = 0;      ///< the caller's name for it
 };
 
 /// Up to four points and the weights of the point of their hull that is nearest to the origin.

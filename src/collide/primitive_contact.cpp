@@ -134,7 +134,7 @@ PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, cons
                                    LpBasis* basis) {
   if (is_rod(b)) {
     const Capsule rod_A = moved(X_AB, b.rod);
-    return from_capsule(capsule_contact(a, rod_A), rod_A);
+    return from_capsule(capsule_contact(a, rod_A, basis), rod_A);
   }
   const LpDepth warm = lp_depth(a, b.body, X_AB, basis);
   if (warm.status == LpStatus::kOptimal || !basis) return from_depth(warm);

@@ -29,7 +29,10 @@ struct CapsuleContact {
 
 /// `capsule_A` in A's frame. Outside: the distance of the axis by Gilbert, Johnson and Keerthi
 /// (1988). Inside: minimise t subject to n_i.x - t <= d_i for x on the axis, the depth programme
-/// with one degree of freedom left, by its dual simplex method. Allocates nothing.
-CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A);
+/// with one degree of freedom left, by its dual simplex method. Allocates nothing. `basis` keeps
+/// what carried the nearest point: while the two move little, the next search is a step or two. A
+/// stale one costs time alone.
+CapsuleContact capsule_contact(const ConvexBody& a, const Capsule& capsule_A,
+                               LpBasis* basis = nullptr);
 
 }  // namespace osteon

@@ -19,7 +19,7 @@ struct PrimitiveContact {
   double top_A = 0;                ///< largest nhat_AB_A.x over A (of a field: at p_A), m
 };
 
-/// `basis` serves a box alone, see lp_depth. Allocates nothing, as those below.
+/// `basis`: of a box see lp_depth, of a rod capsule_contact. Allocates nothing, as those below.
 PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, const Pose& X_AB,
                                    LpBasis* basis = nullptr);
 
