@@ -34,6 +34,22 @@ Vec3 BandPull::of_contact(const PullingHand& hand, std::span<const Pose> X_WB,
   return std::max(0.0, press.force_n - damped) * contact.nhat_W;
 }
 
+// As of a band: a spring and a damper that only push.
+Vec3 BandPull::of_solid(const PullingHand& hand, std::span<const Pose> X_WB,
+                        const SolidContact& contact) const {
+  if (contact.bone >= X_WB.size() || contact.part >= rods_.size()) return Vec3::Zero();
+  const Pose& X = X_WB[contact.bone];
+  const Pose X_BP = X.inverse() * hand.X_WP;
+  const Capsule& rod = rods_[contact.part];
+  const SolidPress press =
+      press_solid(contact, {X_BP * rod.p0, X_BP * rod.p1, rod.radius}, hand.stiffness_n_per_m);
+  if (!(press.force_n > 0)) return Vec3::Zero();
+  const Vec3 nhat_W = X.q * contact.nhat_B;
+  const double share = press.deep_m / (press.deep_m + kDamped_m);
+  const double damped = share * hand.damping_n_s_per_m * nhat_W.dot(hand.v_W);
+  return std::max(0.0, press.force_n - damped) * nhat_W;
+}
+
 Vec3 BandPull::force_W(const PullingHand& hand, std::span<const Pose> X_WB) const {
   Vec3 sum = Vec3::Zero();
   if (!bands_ || !contacts_ || contacts_->instrument != hand.instrument ||
@@ -41,6 +57,8 @@ Vec3 BandPull::force_W(const PullingHand& hand, std::span<const Pose> X_WB) cons
     return sum;
   const std::size_t count = std::min<std::size_t>(contacts_->count, kMaxBandContacts);
   for (std::size_t i = 0; i < count; ++i) sum += of_contact(hand, X_WB, contacts_->all[i]);
+  const std::size_t solids = std::min<std::size_t>(contacts_->solid_count, kMaxSolidContacts);
+  for (std::size_t i = 0; i < solids; ++i) sum += of_solid(hand, X_WB, contacts_->solids[i]);
   return is_finite(sum) ? sum : Vec3(Vec3::Zero());
 }
 

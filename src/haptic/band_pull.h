@@ -20,13 +20,13 @@ struct PullingHand {
   double damping_n_s_per_m = 0;
 };
 
-/// What bands do with a tool in a tick. Allocates, locks and logs nothing.
+/// What bands and solids do with a tool in a tick. Allocates, locks and logs nothing.
 class BandPull {
  public:
   explicit BandPull(const Tool& tool);
   /// Both must outlive this; null: there are no bands.
   void set(const std::vector<SoftBand>* bands, const BandContacts* contacts);
-  bool any() const { return contacts_ && contacts_->count > 0; }
+  bool any() const { return contacts_ && (contacts_->count > 0 || contacts_->solid_count > 0); }
   /// On the hand, N. Zero where it is not finite, or where the contacts are of another instrument
   /// or epoch.
   Vec3 force_W(const PullingHand& hand, std::span<const Pose> X_WB) const;
@@ -34,6 +34,8 @@ class BandPull {
  private:
   Vec3 of_contact(const PullingHand& hand, std::span<const Pose> X_WB,
                   const BandContact& contact) const;
+  Vec3 of_solid(const PullingHand& hand, std::span<const Pose> X_WB,
+                const SolidContact& contact) const;
 
   std::vector<Capsule> rods_;
   const std::vector<SoftBand>* bands_ = nullptr;

@@ -132,10 +132,10 @@ void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
   model.around = capsule_around(box);
 }
 
-void ScenePainter::set_surface(std::size_t bone, const TriMesh& mesh_B) {
-  if (bone >= shared_->rest_X_WB.size()) return;
+void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
+  if (k >= shared_->bones.size()) return;
   ++shared_->version;
-  BoneModel& model = shared_->bones[bone];
+  BoneModel& model = shared_->bones[k];
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
   set_extent(model, mesh_B);

@@ -36,8 +36,8 @@ class ScenePainter {
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
   void set_surfaces(const PreparedCase& prepared);
   void set_pieces(const Case& the_case);
-  /// Another surface for a bone from now on, without its coarser levels and its baked light.
-  void set_surface(std::size_t bone, const TriMesh& mesh_B);
+  /// Another surface for a model from now on, without its coarser levels and its baked light.
+  void set_surface(std::size_t k, const TriMesh& mesh_B);
   void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   void clear_cubes();
   /// What hands may hold, by ToolState::instrument; not empty.

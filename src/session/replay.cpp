@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "osteon/base/percentiles.h"
+#include "osteon/physics/soft_world.h"
 #include "osteon/scene/tool_hash.h"
 #include "osteon/session/session.h"
 #include "replayer.h"
@@ -162,6 +163,8 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
     show_cuts();
     tally.add(*replayer, outcome);
     const std::size_t hand = replayer->hand();
+    if (options.on_pushes && replayer->session().softs())
+      options.on_pushes(replayer->session().softs()->pushes());
     if (options.on_tick)
       options.on_tick(hand, replayer->session().tool_state(hand), replayer->bones(),
                       replayer->session().last_events(hand));

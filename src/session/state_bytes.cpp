@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 6;
+constexpr std::uint64_t kVersion = 7;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -403,6 +403,28 @@ void field(A& a, BandTouch& t) {
 }
 
 template <class A>
+void field(A& a, SolidNear& n) {
+  SolidContact& c = n.contact;
+  for (std::uint32_t* x : {&c.solid, &c.bone, &c.part}) field(a, *x);
+  for (double* x : {&c.along, &c.stiffness_n_per_m, &c.others_m, &n.deep_m, &n.force_n})
+    field(a, *x);
+  for (Vec3* x : {&c.p_B, &c.nhat_B, &n.outside_B}) field(a, *x);
+  for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
+}
+
+template <class A>
+void solids_field(A& a, SoftState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 7) return;  // no solid was soft then
+  for (bool& lost : s.solid_lost) field(a, lost);
+  for (SolidHandState& hand : s.solid_hands) {
+    field(a, hand.instrument);
+    first_of(a, hand.count, hand.near);
+    for (BandTouch& touch : hand.touches) field(a, touch);
+  }
+}
+
+template <class A>
 void field(A& a, SoftState& s) {
   if constexpr (A::kReads)
     if (a.version < 3) return;  // nothing was soft then
@@ -417,6 +439,7 @@ void field(A& a, SoftState& s) {
     first_of(a, hand.count, hand.near);
     for (BandTouch& touch : hand.touches) field(a, touch);
   }
+  solids_field(a, s);
 }
 
 template <class A>

@@ -34,8 +34,8 @@ SixNumbers shape_stress(const hex::Deformation<double>& d, double shear_pa) {
           -by * inverse_c(d.cxy, d.cyy, d.czy, d.cxz, d.cyz, d.czz)};
 }
 
-double& lost(const HexSolid& solid, SolidState& state, std::size_t term, std::size_t c,
-             std::size_t s) {
+double& lost_of(const HexSolid& solid, SolidState& state, std::size_t term, std::size_t c,
+                std::size_t s) {
   return state.lost_pa[(term * kComponents + c) * solid.slots + s];
 }
 
@@ -48,8 +48,8 @@ SixNumbers all_lost(const HexSolid& solid, const SolidState& state, std::size_t 
 }
 
 // Forces of a stress row (P along one axis) on the corners of a cube.
-void scatter(const HexSolid& solid, std::size_t s, const hex::Modes<double>& modes,
-             std::vector<double>& force) {
+void scatter_row(const HexSolid& solid, std::size_t s, const hex::Modes<double>& modes,
+                 std::vector<double>& force) {
   const hex::RowValues<double> v = hex::from_modes(modes);
   const auto put = [&](std::size_t at, double even, double odd) {
     force[at] += even - odd;
@@ -75,7 +75,7 @@ void relax(const HexSolid& solid, double step_s, SolidState& state) {
         shape_stress(hex::deformation(hex::cube_at(solid, state, s), k.per_edge), k.shear_pa);
     for (std::size_t t = 0; t < terms.size(); ++t)
       for (std::size_t c = 0; c < kComponents; ++c) {
-        double& a = lost(solid, state, t, c, s);
+        double& a = lost_of(solid, state, t, c, s);
         a = keep[t] * a + (1 - keep[t]) * terms[t].g * stress[c];
       }
   }
@@ -99,9 +99,9 @@ void add_viscous_forces(const HexSolid& solid, const SolidState& state,
                                 0,
                                 0};
     };
-    scatter(solid, s, row(d.fxx, d.fxy, d.fxz), force_n[solid.axis[0]]);
-    scatter(solid, s, row(d.fyx, d.fyy, d.fyz), force_n[solid.axis[1]]);
-    scatter(solid, s, row(d.fzx, d.fzy, d.fzz), force_n[solid.axis[2]]);
+    scatter_row(solid, s, row(d.fxx, d.fxy, d.fxz), force_n[solid.axis[0]]);
+    scatter_row(solid, s, row(d.fyx, d.fyy, d.fyz), force_n[solid.axis[1]]);
+    scatter_row(solid, s, row(d.fzx, d.fzy, d.fzz), force_n[solid.axis[2]]);
   }
 }
 

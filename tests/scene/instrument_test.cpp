@@ -112,6 +112,9 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   EXPECT_FALSE(has_effect(rongeur, InstrumentFunction::kRemove));
   // What it cannot do has none either.
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kCut));
+  Instrument blade;
+  blade.functions = {InstrumentFunction::kCut};
+  EXPECT_TRUE(has_effect(blade, InstrumentFunction::kCut));
   drill.functions = {InstrumentFunction::kProbe};
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
   // A scope shows its view.

@@ -165,6 +165,34 @@ TEST(Soft, AtItsFailureLoadItTearsAndAMarkMakesItWhole) {
   EXPECT_GT(session.tool_state().force_W.z(), 1);
 }
 
+// A blade cuts where it presses as hard as the tissue resists; the same shaft, blunt, does not.
+TEST(Soft, ABladeCutsItInTwoAndABluntShaftDoesNot) {
+  for (const bool sharp : {false, true}) {
+    BandRun run;
+    Tool blade = testing::shaft_tool();
+    blade.parts = {make_rod(Vec3(0, 0, 0), Vec3(0, 0, 0.025), testing::kShaftRadius_m)};
+    run.tray = {std::make_shared<const Tool>(blade)};
+    SoftSetup setup = *run.softs;
+    const std::uint64_t blunt_hash = setup.hash;
+    if (sharp) add_blades(setup, {0}, 2);
+    EXPECT_EQ(setup.hash != blunt_hash, sharp);
+    run.softs = std::make_shared<const SoftSetup>(setup);
+    Session session = run.session();
+    std::vector<Event> events;
+    press_to(session, 1, 700, 0.006, &events);
+    EXPECT_EQ(count_of(events, kSoftCut), sharp ? 1u : 0u);
+    EXPECT_EQ(session.softs()->state().bands[0].torn, sharp);
+    if (!sharp) continue;
+    EXPECT_EQ(session.tool_state().force_W, Vec3(0, 0, 0));
+    const Event cut = *std::find_if(events.begin(), events.end(),
+                                    [](const Event& e) { return e.kind == kSoftCut; });
+    EXPECT_EQ(run.the_case->softs[cut.subject].name, "acl");
+    EXPECT_GT(cut.values[0], 2);
+    EXPECT_LT(cut.values[0], 3);
+    EXPECT_LT((cut.p_W - testing::kBandMiddle).norm(), 0.006);
+  }
+}
+
 TEST(Soft, AStateGivesTheSameBitsAfterwards) {
   const BandRun run;
   Session session = run.session();
@@ -183,6 +211,25 @@ TEST(Soft, AStateGivesTheSameBitsAfterwards) {
   hard.softs = nullptr;
   Session without = hard.session();
   EXPECT_FALSE(without.restore(*back));
+}
+
+// Version 6 of the state's bytes knew no solids: their words stood nowhere.
+TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
+  const BandRun run;
+  Session session = run.session();
+  press_to(session, 1, 301, 0.006);
+  std::string bytes = to_bytes(session.save());
+  constexpr std::size_t kWord = 8, kTouch = 6;
+  constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
+  constexpr std::size_t kAfter = 1 + kMaxMarks + 2;  // rings, marks, command
+  ASSERT_EQ(bytes[0], 7);
+  bytes[0] = 6;
+  bytes.erase(bytes.size() - (kAfter + kSolids) * kWord, kSolids * kWord);
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
 }
 
 ToolInput wandering(Random& random, Vec3& at) {

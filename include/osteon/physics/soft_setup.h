@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/soft_solid_setup.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/soft_band.h"
 #include "osteon/tissue/ligament_table.h"
@@ -15,8 +16,15 @@ namespace osteon {
 /// What is soft in a session: made once from the case, the same for every run of it.
 struct SoftSetup {
   std::vector<SoftBand> bands;
-  std::uint64_t hash = 0;  ///< over all of it
+  std::vector<SoftSolid> solids;
+  std::vector<std::uint32_t> blades;  ///< places in the tray of what cuts bands
+  double cutting_n = 8;               ///< force of a blade on a band that cuts it
+  std::uint64_t hash = 0;             ///< over all of it
 };
+/// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
+void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
+/// Adds solids to what is soft.
+void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids);
 /// Over everything that is felt of the bands.
 std::uint64_t hash_of(std::span<const SoftBand> bands);
 

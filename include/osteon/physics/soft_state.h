@@ -32,6 +32,25 @@ struct SoftHandState {
   std::array<BandTouch, kMaxBands> touches{};
 };
 
+/// A part of a tool near a solid, from step to step.
+struct SolidNear {
+  SolidContact contact;
+  /// Where the middle of the part's axis would be, were the solid rigid: it stays outside of it, on
+  /// the side where the part came.
+  Vec3 outside_B = Vec3::Zero();
+  bool touching = false;
+  bool barred = false;  ///< as of NearBand
+  bool behind = false;  ///< another part of the tool presses the same place deeper
+  double deep_m = 0, force_n = 0;
+};
+
+/// A hand on the solids: which parts are near, and for the events.
+struct SolidHandState {
+  std::uint32_t instrument = 0, count = 0;
+  std::array<SolidNear, kMaxSolidContacts> near{};
+  std::array<BandTouch, kMaxSolids> touches{};
+};
+
 struct BandState {
   bool torn = false;
   bool lost = false;  ///< it could not be solved
@@ -42,6 +61,8 @@ struct SoftState {
   bool on = false;  ///< the session has soft parts
   std::array<BandState, kMaxBands> bands{};
   std::array<SoftHandState, kMaxHands> hands{};
+  std::array<bool, kMaxSolids> solid_lost{};  ///< it could not be solved
+  std::array<SolidHandState, kMaxHands> solid_hands{};
 };
 
 }  // namespace osteon

@@ -18,6 +18,15 @@ struct BandReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
 };
 
+class SolidPresses;
+struct SolidHand;
+
+/// How a solid was pressed in the last step.
+struct SolidReadout {
+  std::array<double, kMaxHands> force_n{};  ///< of each hand on it
+  std::array<double, kMaxHands> deep_m{};
+};
+
 /// The soft parts of a session at the physics' rate: it follows from which side each tool has come
 /// to each band, how long the bands' paths are, and what tears. The hands' ticks are told which
 /// bands are near (BandContacts) and find the force by themselves, so that it has no steps of 2 ms.
@@ -31,6 +40,7 @@ class SoftWorld {
   SoftWorld(std::shared_ptr<const SoftSetup> setup,
             std::span<const std::shared_ptr<const Tool>> tray, double coupling_n_per_m,
             double limit_n, double step_s);
+  ~SoftWorld();
 
   /// `bones`: as this step has left them.
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
@@ -40,6 +50,11 @@ class SoftWorld {
   /// What the hand's ticks are to know of the last step.
   BandContacts contacts(std::size_t hand) const;
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
+  const SolidReadout& solid_readout(std::size_t solid) const { return solid_readouts_[solid]; }
+  /// No tool is near it: nothing is done for it.
+  bool is_asleep(std::size_t solid) const;
+  /// What presses the solids now: their shape follows from it.
+  SolidPushes pushes() const;
   /// Of the last step.
   std::span<const Event> events() const { return events_; }
   std::uint64_t hash() const;
@@ -54,8 +69,13 @@ class SoftWorld {
     std::size_t index = 0;
     std::array<double, kMaxBands> force_n{}, deep_m{};
     std::array<Vec3, kMaxBands> p_W{};
+    std::array<bool, kMaxBands> cuts{};  ///< a blade presses it hard enough
   };
   bool is_felt(std::size_t band) const;
+  bool is_blade(std::uint32_t instrument, std::size_t part) const;
+  bool cut(std::size_t band, std::span<const Hand> hands);
+  void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
+  void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
   void place_bands(const BoneSnapshot& bones);
   void take(Hand& hand, const ToolState& tool, std::uint32_t epoch);
   bool is_bent_far(const SoftHandState& hand, const NearBand& but) const;
@@ -67,6 +87,7 @@ class SoftWorld {
   void tell_touches(const Hand& hand, std::uint64_t step);
   double taken_by_others(const NearBand& near) const;
   void tell(const Hand& hand, EventKind kind, std::size_t band, std::array<double, 3> values);
+  void tell(Event event, const Vec3& p_W);
 
   std::shared_ptr<const SoftSetup> setup_;
   std::vector<std::vector<Capsule>> tray_;
@@ -75,6 +96,8 @@ class SoftWorld {
   std::uint32_t epoch_ = 0;
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
+  std::unique_ptr<SolidPresses> solids_;  ///< null: there are none
+  std::array<SolidReadout, kMaxSolids> solid_readouts_{};
   std::vector<Event> events_;
 };
 

@@ -9,6 +9,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/collide/capsule_contact.h"
+#include "osteon/scene/soft_solid.h"
 
 namespace osteon {
 
@@ -67,13 +68,15 @@ struct BandContact {
 inline constexpr std::size_t kMaxBands = 8;
 inline constexpr std::size_t kMaxBandContacts = 6;
 
-/// Physics -> one hand: the bands that its tool is near to. What the tick feels follows from it and
-/// from where the tool and the bones are then.
+/// Physics -> one hand: the bands and solids that its tool is near to. What the tick feels follows
+/// from it and from where the tool and the bones are then.
 struct BandContacts {
   std::uint32_t instrument = 0;  ///< that they are contacts of
   std::uint32_t epoch = 0;       ///< of the world
   std::uint32_t count = 0;
   std::array<BandContact, kMaxBandContacts> all{};
+  std::uint32_t solid_count = 0;
+  std::array<SolidContact, kMaxSolidContacts> solids{};
   bool operator==(const BandContacts&) const = default;
 };
 

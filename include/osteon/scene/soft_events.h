@@ -10,5 +10,6 @@ inline constexpr EventKind kSoftEnd{101};    ///< and has let go
 inline constexpr EventKind kSoftOver{102};   ///< the force on it has gone over the session's limit
 inline constexpr EventKind kSoftTorn{103};   ///< its tension has reached its failure load
 inline constexpr EventKind kSoftLost{104};   ///< it could not be solved: it is felt no more
+inline constexpr EventKind kSoftCut{105};    ///< a blade has cut it in two
 
 }  // namespace osteon

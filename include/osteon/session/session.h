@@ -199,6 +199,8 @@ struct ReplayOptions {
   std::shared_ptr<const SoftSetup> softs;       ///< likewise
   /// Sees how bones are carved, about 60 times a second of the recording; none: nobody looks.
   std::function<void(const CutsPatch&, double time_s)> on_cuts = {};
+  /// Sees what presses soft solids, before each tick that on_tick sees; none: nobody looks.
+  std::function<void(const SolidPushes&)> on_pushes = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
   std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
 };

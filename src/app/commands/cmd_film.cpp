@@ -106,6 +106,7 @@ class FilmMaker {
     return writer_.finish();
   }
   void take(const CutsPatch& cut) { painter_.take(cut); }
+  void take(const SolidPushes& pushes) { moment_.pushes = pushes; }
   bool good() const { return !failure_; }
   double share() const {
     return static_cast<double>(made_) / static_cast<double>(span_.pictures(fps_));
@@ -153,6 +154,7 @@ Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& record
                                      {*view, size->width, size->height, command.side});
   if (!painter) return tl::unexpected(painter.error());
   painter->set_carving(how.carving);
+  painter->set_softs(how.softs);
   auto sound = RecordedSound::create(recording, span.from_s);
   if (!sound) return tl::unexpected(sound.error());
   auto writer =
@@ -170,6 +172,7 @@ Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
   how.from_s = span.from_s;
   how.to_s = span.to_s;
   how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
+  how.on_pushes = [&](const SolidPushes& pushes) { maker.take(pushes); };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     maker.see(hand, tool, bones);

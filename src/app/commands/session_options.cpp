@@ -55,8 +55,9 @@ void add_portals_option(cli::App& command, std::string& portals) {
 
 void add_soft_option(cli::App& command, std::string& soft) {
   command.add_option("--soft", soft,
-                     "soft parts that are felt: ligaments (all that the case has), or some of "
-                     "them: acl,pcl,mcl,lcl; default: none");
+                     "soft parts that are felt: ligaments and menisci (all that the case has), or "
+                     "some of them: acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus; default: "
+                     "none");
 }
 
 std::vector<std::string> portals_named(const std::string& text) {

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "osteon/base/file.h"
+#include "osteon/physics/soft_shape.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
+#include "osteon/render/soft_surface.h"
 #include "runs/carved_picture.h"
 #include "runs/film_fluoro.h"
 #include "runs/panorama.h"
@@ -77,6 +79,7 @@ struct FilmPainter::Impl {
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
   CarvedPicture carved{nullptr};
+  std::optional<SoftShapes> shapes;
 };
 
 std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
@@ -221,6 +224,10 @@ void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
   impl_->carved = CarvedPicture(std::move(setup));
 }
 
+void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
+  impl_->shapes.emplace(*impl_->the_case, std::move(setup));
+}
+
 void FilmPainter::take(const CutsPatch& cut) { impl_->carved.take(cut); }
 
 void FilmPainter::Impl::show_carved() {
@@ -232,6 +239,9 @@ void FilmPainter::Impl::show_carved() {
 
 Result<Image> FilmPainter::draw(const FilmMoment& moment) {
   impl_->show_carved();
+  if (impl_->shapes && impl_->renderer)
+    for (const SoftShapes::Changed& changed : impl_->shapes->changes(moment.pushes))
+      set_soft_surface(*impl_->renderer, *impl_->the_case, changed.soft, changed.mesh_W);
   const int width = impl_->order.width, height = impl_->order.height;
   switch (impl_->order.view) {
     case FilmView::kScope:

@@ -26,6 +26,7 @@ struct FilmMoment {
   BoneSnapshot bones;
   std::array<ToolState, kMaxHands> tools;
   std::size_t hands = 1;
+  SolidPushes pushes;  ///< on what is soft
 };
 
 /// Draws a recorded session's pictures without a window, in one of the views. One thread, where it
@@ -48,6 +49,9 @@ class FilmPainter {
 
   /// What the recorded session removed bone with; before the first cut. Null: nothing.
   void set_carving(std::shared_ptr<const CarvingSetup> setup);
+  /// What of the recorded session is soft: drawn as it gives way, but through a scope. Null:
+  /// nothing.
+  void set_softs(std::shared_ptr<const SoftSetup> setup);
   /// Bone is gone from the next picture on.
   void take(const CutsPatch& cut);
   /// Fails where the graphics driver has no memory for it.

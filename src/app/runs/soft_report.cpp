@@ -34,9 +34,41 @@ SoftJson soft_event_json(const Event& event, const SoftReport& report) {
   return out;
 }
 
+SoftJson soft_part_json(const SoftReport::Part& part) {
+  SoftJson out{{"name", part.name}, {"peak_force_n", part.peak_force_n}};
+  if (part.is_solid) {
+    out["deepest_mm"] = part.deepest_mm;
+  } else {
+    out["first_tension_n"] = part.first_tension_n;
+    out["peak_tension_n"] = part.peak_tension_n;
+  }
+  out["contact_s"] = part.contact_s;
+  out["whole"] = part.whole;
+  out["lost"] = part.lost;
+  return out;
+}
+
 const char* state_of(const SoftReport::Part& part) {
   if (part.lost) return ", lost";
   return part.whole ? "" : ", torn";
+}
+
+std::string soft_part_text(const SoftReport::Part& part) {
+  char line[200];
+  if (part.is_solid)
+    std::snprintf(line, sizeof line, "%-14s touched %.3f s, peak %.2f N, gave way %.2f mm%s\n",
+                  part.name.c_str(), part.contact_s, part.peak_force_n, part.deepest_mm,
+                  state_of(part));
+  else
+    std::snprintf(line, sizeof line,
+                  "%-14s touched %.3f s, peak %.2f N, tension %.1f to %.1f N%s\n",
+                  part.name.c_str(), part.contact_s, part.peak_force_n, part.first_tension_n,
+                  part.peak_tension_n, state_of(part));
+  return line;
+}
+
+double most_of(const std::array<double, kMaxHands>& values) {
+  return *std::max_element(values.begin(), values.end());
 }
 
 }  // namespace
@@ -44,14 +76,7 @@ const char* state_of(const SoftReport::Part& part) {
 SoftJson to_json(const SoftReport& report) {
   SoftJson out;
   out["parts"] = SoftJson::array();
-  for (const SoftReport::Part& part : report.parts)
-    out["parts"].push_back({{"name", part.name},
-                            {"peak_force_n", part.peak_force_n},
-                            {"first_tension_n", part.first_tension_n},
-                            {"peak_tension_n", part.peak_tension_n},
-                            {"contact_s", part.contact_s},
-                            {"whole", part.whole},
-                            {"lost", part.lost}});
+  for (const SoftReport::Part& part : report.parts) out["parts"].push_back(soft_part_json(part));
   out["events"] = SoftJson::array();
   for (const Event& event : report.events) out["events"].push_back(soft_event_json(event, report));
   return out;
@@ -60,13 +85,7 @@ SoftJson to_json(const SoftReport& report) {
 std::string to_text(const SoftReport& report) {
   char line[200];
   std::string text;
-  for (const SoftReport::Part& part : report.parts) {
-    std::snprintf(line, sizeof line,
-                  "%-14s touched %.3f s, peak %.2f N, tension %.1f to %.1f N%s\n",
-                  part.name.c_str(), part.contact_s, part.peak_force_n, part.first_tension_n,
-                  part.peak_tension_n, state_of(part));
-    text += line;
-  }
+  for (const SoftReport::Part& part : report.parts) text += soft_part_text(part);
   for (const Event& event : report.events) {
     const EventKindRow* row = find_event_kind(event.kind);
     if (!row) continue;
@@ -81,12 +100,21 @@ std::string to_text(const SoftReport& report) {
 void SoftWatch::see_step(const Session& session) {
   const SoftWorld& softs = *session.softs();
   const bool first = report_.parts.empty();
-  report_.parts.resize(softs.setup().bands.size());
+  const std::size_t bands = softs.setup().bands.size();
+  report_.parts.resize(bands + softs.setup().solids.size());
   const double step_s = session.bones().time_s / static_cast<double>(session.bones().step);
-  for (std::size_t b = 0; b < report_.parts.size(); ++b) {
+  for (std::size_t s = 0; s < softs.setup().solids.size(); ++s) {
+    SoftReport::Part& part = report_.parts[bands + s];
+    const double force_n = most_of(softs.solid_readout(s).force_n);
+    part.peak_force_n = std::max(part.peak_force_n, force_n);
+    if (!(force_n > 0)) continue;
+    part.contact_s += step_s;
+    part.deepest_mm = std::max(part.deepest_mm, 1e3 * most_of(softs.solid_readout(s).deep_m));
+  }
+  for (std::size_t b = 0; b < bands; ++b) {
     SoftReport::Part& part = report_.parts[b];
     const BandReadout& readout = softs.readout(b);
-    const double force_n = *std::max_element(readout.force_n.begin(), readout.force_n.end());
+    const double force_n = most_of(readout.force_n);
     if (first) part.first_tension_n = readout.tension_n;
     part.peak_tension_n = std::max(part.peak_tension_n, readout.tension_n);
     part.peak_force_n = std::max(part.peak_force_n, force_n);
@@ -106,8 +134,14 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
   const SoftWorld* softs = session.softs();
   if (!softs) return std::nullopt;
   SoftReport report = report_;
-  report.parts.resize(softs->setup().bands.size());
-  for (std::size_t b = 0; b < report.parts.size(); ++b) {
+  const std::size_t bands = softs->setup().bands.size();
+  report.parts.resize(bands + softs->setup().solids.size());
+  for (std::size_t s = 0; s < softs->setup().solids.size(); ++s) {
+    report.parts[bands + s].name = softs->setup().solids[s].name;
+    report.parts[bands + s].is_solid = true;
+    report.parts[bands + s].lost = softs->state().solid_lost[s];
+  }
+  for (std::size_t b = 0; b < bands; ++b) {
     const BandState& state = softs->state().bands[b];
     report.parts[b].name = softs->setup().bands[b].name;
     report.parts[b].lost = state.lost;

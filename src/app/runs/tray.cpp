@@ -72,23 +72,76 @@ Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case
   return carving_for(the_case, settings);
 }
 
-Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
-                                                   const SessionSettings& settings) {
-  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
+namespace {
+
+Result<const Tissue*> tissue_named(const TissueTable& tissues, const std::string& name) {
+  if (const Tissue* tissue = tissues.find(name)) return tissue;
+  return fail("the tissue table has no '" + name + "'", "assets/materials/tissue.toml");
+}
+
+// Places in the tray of what has an edge and does not bite.
+Result<std::vector<std::uint32_t>> blades_in(std::span<const std::string> tray) {
+  std::vector<std::uint32_t> out;
+  if (tray.empty()) return out;
+  const auto instruments = load_instruments();
+  if (!instruments) return tl::unexpected(instruments.error());
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    const Instrument* found = find_instrument(*instruments, tray[i].substr(0, tray[i].find(':')));
+    if (found && found->can(InstrumentFunction::kCut) && !found->can(InstrumentFunction::kRemove))
+      out.push_back(static_cast<std::uint32_t>(i));
+  }
+  return out;
+}
+
+Result<void> add_ligaments(const Case& the_case, std::span<const std::string> names,
+                           const TissueTable& tissues, std::span<const std::string> tray,
+                           SoftSetup& setup) {
+  if (names.empty()) return {};
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto table = load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
   if (!table) return tl::unexpected(table.error());
+  const auto ligament = tissue_named(tissues, "ligament");
+  if (!ligament) return tl::unexpected(ligament.error());
+  auto made = make_soft_setup(the_case, *table, names, (*ligament)->stiffness_n_per_m.value);
+  if (!made) return tl::unexpected(made.error());
+  setup = std::move(*made);
+  auto blades = blades_in(tray);
+  if (!blades) return tl::unexpected(blades.error());
+  add_blades(setup, std::move(*blades), (*ligament)->cutting_n.value);
+  return {};
+}
+
+Result<void> add_menisci(const Case& the_case, std::span<const std::string> names,
+                         const TissueTable& tissues, SoftSetup& setup) {
+  if (names.empty()) return {};
+  const auto meniscus = tissue_named(tissues, "meniscus");
+  if (!meniscus) return tl::unexpected(meniscus.error());
+  auto made = make_soft_solids(the_case, names, (*meniscus)->stiffness_n_per_m.value);
+  if (!made) return tl::unexpected(made.error());
+  add_solids(setup, std::move(*made));
+  return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
+                                                   const SessionSettings& settings) {
+  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
   const auto tissues = load_default_tissues();
   if (!tissues) return tl::unexpected(tissues.error());
-  const Tissue* ligament = tissues->find("ligament");
-  if (!ligament) return fail("the tissue table has no 'ligament'", "assets/materials/tissue.toml");
-  auto setup = make_soft_setup(the_case, *table, settings.soft, ligament->stiffness_n_per_m.value);
-  if (!setup) return tl::unexpected(setup.error());
-  if (settings.soft_hash != 0 && settings.soft_hash != setup->hash)
+  std::vector<std::string> ligaments, menisci;
+  for (const std::string& name : settings.soft)
+    (names_solids(the_case, name) ? menisci : ligaments).push_back(name);
+  SoftSetup setup;
+  if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
+    return tl::unexpected(done.error());
+  if (auto done = add_menisci(the_case, menisci, *tissues, setup); !done)
+    return tl::unexpected(done.error());
+  if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");
-  return std::make_shared<const SoftSetup>(std::move(*setup));
+  return std::make_shared<const SoftSetup>(std::move(setup));
 }
 
 std::vector<std::string> softs_named(const std::string& text) {

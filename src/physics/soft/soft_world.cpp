@@ -7,6 +7,8 @@
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
+#include "soft/soft_touch.h"
+#include "soft/solid_presses.h"
 
 namespace osteon {
 namespace {
@@ -17,9 +19,8 @@ constexpr double kNear_m = 0.006;
 constexpr double kDeepest_m = 0.025;
 // Two parts that press a band from one side are one push: the deeper counts.
 constexpr double kOneSide = 0.5;
-constexpr double kLetGo_s = 0.05;  // as a contact with bone
-constexpr double kBackUnder = 0.9;
 constexpr double kFarthest_m2 = 1e12;
+constexpr double kBlade_m = 0.03;  // from a blade's tip: so much of it is sharp at most
 
 Capsule moved(const Pose& X_WT, const Capsule& rod) {
   return {X_WT * rod.p0, X_WT * rod.p1, rod.radius};
@@ -50,6 +51,25 @@ void add_to(Hasher& h, const BandTouch& touch) {
   h.add(touch.deepest_m);
 }
 
+void add_to(Hasher& h, const SolidNear& near) {
+  for (const std::uint32_t x : {near.contact.solid, near.contact.bone, near.contact.part}) h.add(x);
+  for (const Vec3& v : {near.contact.p_B, near.contact.nhat_B, near.outside_B}) h.add(v);
+  for (const double x : {near.contact.along, near.contact.stiffness_n_per_m, near.contact.others_m,
+                         near.deep_m, near.force_n})
+    h.add(x);
+  for (const bool x : {near.touching, near.barred, near.behind}) h.add(x);
+}
+
+void add_solids_to(Hasher& h, const SoftState& state) {
+  for (const bool lost : state.solid_lost) h.add(lost);
+  for (const SolidHandState& hand : state.solid_hands) {
+    h.add(hand.instrument);
+    h.add(hand.count);
+    for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
+    for (const BandTouch& touch : hand.touches) add_to(h, touch);
+  }
+}
+
 }  // namespace
 
 SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
@@ -61,11 +81,21 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
       step_s_(step_s) {
   for (const auto& tool : tray) tray_.push_back(tool_rods(*tool));
   state_.on = true;
-  events_.reserve(kMaxHands * kMaxBands * 4);
+  events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4);
+  if (!setup_->solids.empty())
+    solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
 }
+SoftWorld::~SoftWorld() = default;
 
 bool SoftWorld::is_felt(std::size_t band) const {
   return setup_->bands[band].left > 0 && !state_.bands[band].torn && !state_.bands[band].lost;
+}
+
+bool SoftWorld::is_blade(std::uint32_t instrument, std::size_t part) const {
+  const auto& blades = setup_->blades;
+  if (std::find(blades.begin(), blades.end(), instrument) == blades.end()) return false;
+  const Capsule& rod = tray_[instrument][part];
+  return std::max(rod.p0.norm(), rod.p1.norm()) < kBlade_m;
 }
 
 void SoftWorld::place_bands(const BoneSnapshot& bones) {
@@ -182,10 +212,23 @@ void SoftWorld::press(Hand& hand) {
                                        std::min(coupling_n_per_m_, band.surface_n_per_m));
     if (!press.presses) continue;
     near.taken_m = press.taken_m;
+    if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
+      hand.cuts[b] = true;
     hand.force_n[b] += press.force_n;
     hand.deep_m[b] = std::max(hand.deep_m[b], press.deep_m);
     hand.p_W[b] = press.p_W;
   }
+}
+
+// In two: as of one that is torn, nothing of it is felt after that.
+bool SoftWorld::cut(std::size_t b, std::span<const Hand> hands) {
+  for (const Hand& hand : hands) {
+    if (!hand.cuts[b]) continue;
+    state_.bands[b].torn = true;
+    tell(hand, kSoftCut, b, {hand.force_n[b], readouts_[b].tension_n, 0});
+    return true;
+  }
+  return false;
 }
 
 // Who pulls most tears it; where no hand pulls, the bones do.
@@ -209,6 +252,8 @@ void SoftWorld::tear(std::span<const Hand> hands) {
     if (!std::isfinite(readout.tension_n) || !std::isfinite(force_n)) {
       state_.bands[b].lost = true;
       tell(by, kSoftLost, b, {});
+    } else if (cut(b, hands)) {
+      // A blade is sooner than tearing.
     } else if (readout.tension_n > band.failure_n) {
       state_.bands[b].torn = true;
       tell(by, kSoftTorn, b, {readout.tension_n, force_n, 0});
@@ -218,25 +263,13 @@ void SoftWorld::tear(std::span<const Hand> hands) {
 }
 
 void SoftWorld::tell_touches(const Hand& hand, std::uint64_t step) {
-  const auto away = static_cast<std::uint64_t>(std::ceil(kLetGo_s / step_s_));
   for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
-    BandTouch& touch = state_.hands[hand.index].touches[b];
-    const double force_n = hand.force_n[b];
-    if (force_n > 0 && is_felt(b)) {
-      if (!touch.on) {
-        touch = {true, false, step, step, 0, 0};
-        tell(hand, kSoftBegin, b, {readouts_[b].tension_n, 0, 0});
-      }
-      touch.last_step = step;
-      touch.peak_n = std::max(touch.peak_n, force_n);
-      touch.deepest_m = std::max(touch.deepest_m, hand.deep_m[b]);
-      if (force_n > limit_n_ && !touch.over) tell(hand, kSoftOver, b, {force_n, limit_n_, 0});
-      touch.over = force_n > limit_n_ || (touch.over && force_n > kBackUnder * limit_n_);
-    } else if (touch.on && (!is_felt(b) || step > touch.last_step + away)) {
-      const double since_s = static_cast<double>(touch.last_step - touch.first_step) * step_s_;
-      tell(hand, kSoftEnd, b, {since_s, touch.peak_n, 1e3 * touch.deepest_m});
-      touch = {};
-    }
+    const TouchNews news =
+        follow_touch(state_.hands[hand.index].touches[b],
+                     {is_felt(b), hand.force_n[b], hand.deep_m[b]}, limit_n_, step, step_s_);
+    if (news.begins) tell(hand, kSoftBegin, b, {readouts_[b].tension_n, 0, 0});
+    if (news.over) tell(hand, kSoftOver, b, {hand.force_n[b], limit_n_, 0});
+    if (news.ends) tell(hand, kSoftEnd, b, {news.since_s, news.peak_n, news.deepest_mm});
   }
 }
 
@@ -248,12 +281,77 @@ void SoftWorld::tell(const Hand& hand, EventKind kind, std::size_t band,
   Event event;
   event.kind = kind;
   if (hand.tool || kind == kSoftEnd) event.hand = static_cast<std::uint8_t>(hand.index);
-  event.subject_kind = SubjectKind::kSoftPart;
   event.subject = setup_->bands[band].soft;
-  event.p_W = is_finite(p_W) ? p_W : Vec3(Vec3::Zero());
   event.values = values;
+  tell(event, p_W);
+}
+
+void SoftWorld::tell(Event event, const Vec3& p_W) {
+  event.subject_kind = SubjectKind::kSoftPart;
+  event.p_W = is_finite(p_W) ? p_W : Vec3(Vec3::Zero());
   if (events_.size() < events_.capacity()) events_.push_back(event);
 }
+
+void SoftWorld::tell_solid_touches(const SolidHand& solid_hand, const Hand& hand,
+                                   std::uint64_t step) {
+  for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
+    const double force_n = solid_hand.force_n[s];
+    const TouchNews news = follow_touch(state_.solid_hands[hand.index].touches[s],
+                                        {!state_.solid_lost[s], force_n, solid_hand.deep_m[s]},
+                                        limit_n_, step, step_s_);
+    const Vec3 p_W = force_n > 0 ? solid_hand.p_W[s] : hand.tool ? hand.tool->X_WP.p : Vec3::Zero();
+    Event event;
+    event.hand = static_cast<std::uint8_t>(hand.index);
+    event.subject = setup_->solids[s].soft;
+    const auto say = [&](bool is_so, EventKind kind, const std::array<double, 3>& values) {
+      event.kind = kind;
+      event.values = values;
+      if (is_so) tell(event, p_W);
+    };
+    say(news.begins, kSoftBegin, {});
+    say(news.over, kSoftOver, {force_n, limit_n_, 0});
+    say(news.ends, kSoftEnd, {news.since_s, news.peak_n, news.deepest_mm});
+  }
+}
+
+// Parts are followed for all hands first: what one presses away another one meets.
+void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bones) {
+  for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
+    solid_readouts_[s] = {};
+    if (solids_->place(s, bones) || state_.solid_lost[s]) continue;
+    state_.solid_lost[s] = true;
+    Event event;
+    event.kind = kSoftLost;
+    event.subject = setup_->solids[s].soft;
+    tell(event, Vec3::Zero());
+  }
+  std::array<SolidHand, kMaxHands> all{};
+  for (const Hand& hand : hands) {
+    SolidHandState& state = state_.solid_hands[hand.index];
+    SolidHand& with = all[hand.index];
+    with.tool = hand.tool;
+    if (!hand.tool || hand.tool->instrument != state.instrument) state.count = 0;
+    if (!hand.tool) continue;
+    state.instrument = hand.tool->instrument;
+    with.rods = tray_[state.instrument];
+    solids_->follow(state, with, state_);
+  }
+  for (const Hand& hand : hands) {
+    SolidHand& with = all[hand.index];
+    if (hand.tool) solids_->press(state_.solid_hands[hand.index], with, state_);
+    for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
+      solid_readouts_[s].force_n[hand.index] = with.force_n[s];
+      solid_readouts_[s].deep_m[hand.index] = with.deep_m[s];
+    }
+    tell_solid_touches(with, hand, bones.step);
+  }
+}
+
+bool SoftWorld::is_asleep(std::size_t solid) const {
+  return !solids_ || solids_->is_asleep(solid, state_);
+}
+
+SolidPushes SoftWorld::pushes() const { return solids_ ? solids_->pushes(state_) : SolidPushes{}; }
 
 void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
   SoftHandState& state = state_.hands[hand.index];
@@ -280,6 +378,7 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
     if (hand.tool) press(hand);
   tear(hands);
   for (const Hand& hand : hands) tell_touches(hand, bones.step);
+  if (solids_) step_solids(hands, bones);
 }
 
 BandContacts SoftWorld::contacts(std::size_t hand) const {
@@ -292,6 +391,7 @@ BandContacts SoftWorld::contacts(std::size_t hand) const {
     if (!near.barred && !near.behind && is_felt(near.contact.band))
       out.all[out.count++] = near.contact;
   }
+  if (solids_) solids_->tell(state_.solid_hands[hand], out);
   return out;
 }
 
@@ -308,6 +408,7 @@ std::uint64_t SoftWorld::hash() const {
     for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
     for (const BandTouch& touch : hand.touches) add_to(h, touch);
   }
+  if (solids_) add_solids_to(h, state_);
   return h.value();
 }
 
@@ -317,6 +418,14 @@ bool SoftWorld::fits(const SoftState& state) const {
     if (hand.count > kMaxBandContacts || hand.instrument >= tray_.size()) return false;
     for (std::uint32_t i = 0; i < hand.count; ++i)
       if (hand.near[i].contact.band >= setup_->bands.size() ||
+          hand.near[i].contact.part >= tray_[hand.instrument].size())
+        return false;
+  }
+  for (const SolidHandState& hand : state.solid_hands) {
+    if (hand.count > kMaxSolidContacts || hand.instrument >= tray_.size()) return false;
+    for (std::uint32_t i = 0; i < hand.count; ++i)
+      if (hand.near[i].contact.solid >= setup_->solids.size() ||
+          hand.near[i].contact.bone != setup_->solids[hand.near[i].contact.solid].bone.index ||
           hand.near[i].contact.part >= tray_[hand.instrument].size())
         return false;
   }
@@ -332,6 +441,7 @@ void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
 void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
   restore(state, epoch);
   state_.hands = {};
+  state_.solid_hands = {};
 }
 
 }  // namespace osteon

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "osteon/mesh/tri_mesh.h"
+#include "osteon/physics/soft_setup.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/soft_solid.h"
+
+namespace osteon {
+
+/// Surfaces of soft solids as they are under pushes, for pictures.
+class SoftShapes {
+ public:
+  /// `setup` may be null: nothing is soft then.
+  SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> setup);
+
+  /// The surface of a soft part with its bone at rest.
+  struct Changed {
+    std::uint32_t soft = 0;  ///< in Case::softs
+    TriMesh mesh_W;
+  };
+  /// Those that have another shape than under the pushes before.
+  std::vector<Changed> changes(const SolidPushes& pushes);
+
+ private:
+  struct Shape {
+    TriMesh mesh_W;                   ///< at rest
+    Pose X_WB;                        ///< rest pose of the bone
+    std::vector<SolidPatch> patches;  ///< of each vertex
+  };
+  std::vector<Vec3> moved(std::size_t solid, const SolidPushes& pushes) const;
+
+  std::shared_ptr<const SoftSetup> setup_;
+  std::vector<Shape> shapes_;
+  SolidPushes shown_;
+};
+
+}  // namespace osteon

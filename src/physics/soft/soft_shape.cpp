@@ -1,0 +1,53 @@
+#include "osteon/physics/soft_shape.h"
+
+#include <algorithm>
+
+namespace osteon {
+namespace {
+
+std::vector<SolidPushes::One> pushes_on(std::size_t solid, const SolidPushes& pushes) {
+  std::vector<SolidPushes::One> out;
+  for (std::uint32_t i = 0; i < pushes.count; ++i)
+    if (pushes.all[i].solid == solid) out.push_back(pushes.all[i]);
+  return out;
+}
+
+}  // namespace
+
+SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> setup)
+    : setup_(std::move(setup)) {
+  if (!setup_) return;
+  for (const SoftSolid& solid : setup_->solids) {
+    Shape shape{the_case.softs[solid.soft].mesh_W, the_case.bone(solid.bone).X_WB, {}};
+    const Pose X_BW = shape.X_WB.inverse();
+    for (const Vec3& p : shape.mesh_W.vertices)
+      shape.patches.push_back(solid.body->patch_at(X_BW * p));
+    shapes_.push_back(std::move(shape));
+  }
+}
+
+std::vector<Vec3> SoftShapes::moved(std::size_t solid, const SolidPushes& pushes) const {
+  const PressedSolid& body = *setup_->solids[solid].body;
+  std::vector<SolidPush> here;
+  for (const SolidPushes::One& one : pushes_on(solid, pushes))
+    here.push_back(body.push_at(one.p_B, one.nhat_B, one.force_n));
+  return body.moved(here);
+}
+
+std::vector<SoftShapes::Changed> SoftShapes::changes(const SolidPushes& pushes) {
+  std::vector<Changed> out;
+  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+    if (pushes_on(s, pushes) == pushes_on(s, shown_)) continue;
+    const Shape& shape = shapes_[s];
+    const std::vector<Vec3> nodes = moved(s, pushes);
+    Changed changed{setup_->solids[s].soft, shape.mesh_W};
+    for (std::size_t v = 0; v < shape.patches.size(); ++v)
+      changed.mesh_W.vertices[v] +=
+          shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));
+    out.push_back(std::move(changed));
+  }
+  shown_ = pushes;
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,155 @@
+#include "osteon/physics/soft_solid_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/base/hash.h"
+#include "osteon/mesh/measure.h"
+#include "osteon/mesh/tri_mesh.h"
+#include "osteon/physics/soft_setup.h"
+#include "osteon/scene/soft_solid.h"
+#include "soft/rim_outline.h"
+
+namespace osteon {
+namespace {
+
+constexpr const char* kMenisci = "menisci";
+constexpr const char* kMeniscusKind = "meniscus";
+constexpr const char* kSolidsWhere = "--soft";
+constexpr double kSolidCell_m = 0.0005, kSolidOutside_m = 0.0065, kSolidInside_m = 0.001;
+constexpr double kRim_m = 0.003;  // of the outer edge, what is held
+constexpr double kUnder = -0.3;
+
+Result<std::vector<std::uint32_t>> menisci_asked(const Case& the_case,
+                                                 std::span<const std::string> names) {
+  std::vector<std::uint32_t> out;
+  std::string there;
+  for (const std::string& name : names)
+    for (std::size_t i = 0; i < the_case.softs.size(); ++i) {
+      const SoftPart& part = the_case.softs[i];
+      const auto place = static_cast<std::uint32_t>(i);
+      const bool meant = part.kind == kMeniscusKind && (name == kMenisci || name == part.name);
+      if (meant && std::find(out.begin(), out.end(), place) == out.end()) out.push_back(place);
+    }
+  if (out.empty())
+    return fail("the case has no meniscus that can be felt", kSolidsWhere,
+                "Give a case with a knee, as builtin:knee");
+  if (out.size() > kMaxSolids)
+    return fail("more than " + std::to_string(kMaxSolids) + " menisci", kSolidsWhere, "Give fewer");
+  return out;
+}
+
+std::vector<Vec3> in_bone(const Case& the_case, const SoftPart& part, BoneId bone) {
+  const Pose X_BW = the_case.bone(bone).X_WB.inverse();
+  std::vector<Vec3> out;
+  for (const Vec3& p : part.mesh_W.vertices) out.push_back(X_BW * p);
+  return out;
+}
+
+Vec3 vertices_middle(const TriMesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : mesh.vertices) sum += p;
+  return sum / static_cast<double>(std::max<std::size_t>(mesh.vertices.size(), 1));
+}
+
+PressedSolidDef solid_def(const TriMesh& mesh, const RimOutline& outline,
+                          std::shared_ptr<const DistanceField> field, double stiffness_n_per_m) {
+  PressedSolidDef def;
+  for (const Vec3& p : mesh.vertices) def.box.include(p);
+  def.up = outline.up();
+  def.stiffness_n_per_m = stiffness_n_per_m;
+  def.held = [&outline](const Vec3& p) {
+    return outline.inside(p) < kRim_m && outline.height(p) < 0;
+  };
+  def.rests = [field, &outline](const Vec3& p) {
+    return field->at(p).gradient.normalized().dot(outline.up()) < kUnder;
+  };
+  def.field = std::move(field);
+  return def;
+}
+
+Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stiffness_n_per_m) {
+  const SoftPart& part = the_case.softs[soft];
+  SoftSolid out;
+  out.name = part.name;
+  out.soft = soft;
+  if (part.bones.size() != 1)
+    return fail("the meniscus '" + part.name + "' does not belong to one bone", kSolidsWhere,
+                "It must move with the bone that it lies on");
+  out.bone = part.bones.front();
+  TriMesh mesh_B = part.mesh_W;
+  mesh_B.vertices = in_bone(the_case, part, out.bone);
+  FieldOptions options{kSolidCell_m, kSolidOutside_m, kSolidInside_m};
+  auto field = DistanceField::make(mesh_B, options);
+  if (!field) {
+    field.error().where = "the meniscus '" + part.name + "'";
+    return tl::unexpected(field.error());
+  }
+  out.field = std::make_shared<const DistanceField>(std::move(*field));
+  const RimOutline outline(mesh_B.vertices, vertices_middle(the_case.bone(out.bone).mesh));
+  auto body = PressedSolid::make(solid_def(mesh_B, outline, out.field, stiffness_n_per_m));
+  if (!body) {
+    body.error().where = "the meniscus '" + part.name + "'";
+    return tl::unexpected(body.error());
+  }
+  out.body = std::make_shared<const PressedSolid>(std::move(*body));
+  return out;
+}
+
+}  // namespace
+
+bool names_solids(const Case& the_case, const std::string& name) {
+  const auto is_it = [&](const SoftPart& part) {
+    return part.kind == kMeniscusKind && part.name == name;
+  };
+  return name == kMenisci || std::any_of(the_case.softs.begin(), the_case.softs.end(), is_it);
+}
+
+std::uint64_t hash_of(std::span<const SoftSolid> solids) {
+  Hasher h;
+  for (const SoftSolid& solid : solids) {
+    h.add(std::string_view(solid.name));
+    h.add(solid.soft);
+    h.add(solid.bone.index);
+    h.add(solid.field->hash());
+    h.add(solid.body->hash());
+  }
+  return h.value();
+}
+
+void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n) {
+  if (blades.empty() || setup.bands.empty()) return;
+  setup.blades = std::move(blades);
+  setup.cutting_n = cutting_n;
+  Hasher h;
+  h.add(setup.hash);
+  for (const std::uint32_t blade : setup.blades) h.add(blade);
+  h.add(setup.cutting_n);
+  setup.hash = h.value();
+}
+
+void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids) {
+  setup.solids = std::move(solids);
+  Hasher h;
+  h.add(setup.hash);
+  h.add(hash_of(setup.solids));
+  setup.hash = h.value();
+}
+
+Result<std::vector<SoftSolid>> make_soft_solids(const Case& the_case,
+                                                std::span<const std::string> names,
+                                                double stiffness_n_per_m) {
+  const auto asked = menisci_asked(the_case, names);
+  if (!asked) return tl::unexpected(asked.error());
+  if (!(stiffness_n_per_m > 0 && std::isfinite(stiffness_n_per_m)))
+    return fail("a meniscus has no stiffness", kSolidsWhere, "Correct the tissue table");
+  std::vector<SoftSolid> out;
+  for (const std::uint32_t soft : *asked) {
+    auto solid = solid_of(the_case, soft, stiffness_n_per_m);
+    if (!solid) return tl::unexpected(solid.error());
+    out.push_back(std::move(*solid));
+  }
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,196 @@
+#include "soft/solid_presses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/collide/field_contact.h"
+
+namespace osteon {
+namespace {
+
+// A part so near may touch before physics has looked again, even at 1 m/s.
+constexpr double kSolidNear_m = 0.003;
+// A part that has gone so deep has left the solid behind.
+constexpr double kSolidDeepest_m = 0.02;
+constexpr double kStride_m = 0.0002;  // beyond what a gap allows: thinner than any edge
+constexpr int kStrides = 24;
+// Parts of one tool that press so near to one another are one push: the deeper counts.
+constexpr double kOnePush_m = 0.004, kOneWay = 0.5;
+
+Capsule shifted_part(const Capsule& part, const Vec3& by) {
+  return {part.p0 + by, part.p1 + by, part.radius};
+}
+Vec3 axis_middle(const Capsule& part) { return 0.5 * (part.p0 + part.p1); }
+
+bool is_by(const Aabb& box, const Capsule& part) {
+  const double reach = part.radius + kSolidNear_m;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (std::min(part.p0[k], part.p1[k]) > box.hi[k] + reach ||
+        std::max(part.p0[k], part.p1[k]) < box.lo[k] - reach)
+      return false;
+  return true;
+}
+
+// Symbols: o, from the part to the place outside; g and n, gap and normal there; the plane of the
+// surface there allows every o' with n.o' >= n.o - g. Each stride goes towards the shortest such
+// o', by no more than the gap and a little: less than the part's place could pass through an edge
+// by. Ends at the shortest o of one plane, or after so many strides on the way to it.
+CapsuleContact lead_outside(const FieldView& field, const Capsule& part, Vec3& o) {
+  CapsuleContact c = field_contact(field, shifted_part(part, o));
+  for (int i = 0; i < kStrides && c.status == LpStatus::kOptimal; ++i) {
+    const Vec3& n = c.nhat_AB_A;
+    const Vec3 shortest = std::max(0.0, n.dot(o) - c.gap) * n;
+    const Vec3 way = shortest - o;
+    const double length = way.norm(), stride = std::max(c.gap, 0.0) + kStride_m;
+    if (length < 1e-7) break;
+    o += std::min(1.0, stride / length) * way;
+    c = field_contact(field, shifted_part(part, o));
+  }
+  return c;
+}
+
+double along_of(const Capsule& part, const Vec3& p_axis) {
+  const Vec3 way = part.p1 - part.p0;
+  const double square = way.squaredNorm();
+  return square > 0 ? std::clamp((p_axis - part.p0).dot(way) / square, 0.0, 1.0) : 0;
+}
+
+}  // namespace
+
+bool SolidPresses::place(std::size_t solid, const BoneSnapshot& bones) {
+  X_WB_[solid] = bones.bones[solids_[solid].bone.index].X_WB;
+  return is_finite(X_WB_[solid]);
+}
+
+Capsule SolidPresses::in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const {
+  const Pose X_BP = X_WB_[solid].inverse() * hand.tool->X_WP;
+  const Capsule& rod = hand.rods[part];
+  return {X_BP * rod.p0, X_BP * rod.p1, rod.radius};
+}
+
+// False: the part has gone.
+bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
+  SolidContact& contact = near.contact;
+  const FieldView field(*solids_[contact.solid].field);
+  const Capsule part = in_bone(contact.solid, hand, contact.part);
+  Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - axis_middle(part));
+  const CapsuleContact c = near.barred ? field_contact(field, part) : lead_outside(field, part, o);
+  if (c.status != LpStatus::kOptimal) return false;
+  near.deep_m = c.nhat_AB_A.dot(o) - c.gap;
+  if (near.deep_m < -kSolidNear_m) return false;
+  near.touching = near.deep_m > 0;
+  near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
+  near.outside_B = axis_middle(part) + o;
+  contact.p_B = c.p_A;
+  contact.nhat_B = c.nhat_AB_A;
+  contact.along = along_of(shifted_part(part, o), c.p_axis_A);
+  return true;
+}
+
+void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
+  const FieldView field(*solids_[solid].field);
+  for (std::size_t part = 0; part < hand.rods.size(); ++part) {
+    if (state.count == kMaxSolidContacts) return;
+    const auto is_it = [&](const SolidNear& near) {
+      return near.contact.solid == solid && near.contact.part == part;
+    };
+    if (std::any_of(state.near.begin(), state.near.begin() + state.count, is_it)) continue;
+    const Capsule part_B = in_bone(solid, hand, part);
+    if (!is_by(field.box(), part_B)) continue;
+    const CapsuleContact c = field_contact(field, part_B, kSolidNear_m);
+    if (c.status != LpStatus::kOptimal || c.gap > kSolidNear_m) continue;
+    SolidNear near;
+    near.contact.solid = static_cast<std::uint32_t>(solid);
+    near.contact.bone = solids_[solid].bone.index;
+    near.contact.part = static_cast<std::uint32_t>(part);
+    near.barred = c.gap < 0;
+    near.outside_B = axis_middle(part_B);
+    if (keep(near, hand)) state.near[state.count++] = near;
+  }
+}
+
+void SolidPresses::follow(SolidHandState& state, const SolidHand& hand,
+                          const SoftState& all) const {
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    SolidNear near = state.near[i];
+    if (all.solid_lost[near.contact.solid] || !keep(near, hand)) continue;
+    state.near[kept++] = near;
+  }
+  state.count = kept;
+  for (std::size_t solid = 0; solid < solids_.size(); ++solid)
+    if (!all.solid_lost[solid]) seek(state, hand, solid);
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    SolidNear& a = state.near[i];
+    a.behind = false;
+    for (std::uint32_t j = 0; j < state.count; ++j) {
+      const SolidNear& b = state.near[j];
+      if (i == j || b.barred || a.contact.solid != b.contact.solid ||
+          (a.contact.p_B - b.contact.p_B).norm() > kOnePush_m ||
+          !(a.contact.nhat_B.dot(b.contact.nhat_B) > kOneWay))
+        continue;
+      a.behind = a.behind || b.deep_m > a.deep_m || (b.deep_m == a.deep_m && j < i);
+    }
+  }
+}
+
+double SolidPresses::others(const SolidNear& near, const SolidPush& push,
+                            const SoftState& all) const {
+  const PressedSolid& body = *solids_[near.contact.solid].body;
+  double sum = 0;
+  for (const SolidHandState& hand : all.solid_hands)
+    for (std::uint32_t i = 0; i < hand.count; ++i) {
+      const SolidNear& other = hand.near[i];
+      if (&other == &near || other.contact.solid != near.contact.solid || !(other.force_n > 0))
+        continue;
+      const SolidPush by = body.push_at(other.contact.p_B, other.contact.nhat_B);
+      sum += other.force_n * body.compliance(push, by);
+    }
+  return sum;
+}
+
+void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState& all) const {
+  for (std::uint32_t i = 0; i < state.count; ++i) {
+    SolidNear& near = state.near[i];
+    SolidContact& contact = near.contact;
+    near.force_n = 0;
+    if (near.barred || near.behind) continue;
+    const PressedSolid& body = *solids_[contact.solid].body;
+    const SolidPush push = body.push_at(contact.p_B, contact.nhat_B);
+    const double compliance = body.compliance(push, push);
+    contact.stiffness_n_per_m = compliance > 0 ? 1 / compliance : 0;
+    contact.others_m = others(near, push, all);
+    const Capsule part = in_bone(contact.solid, hand, contact.part);
+    near.force_n = press_solid(contact, part, coupling_n_per_m_).force_n;
+    hand.force_n[contact.solid] += near.force_n;
+    hand.deep_m[contact.solid] = std::max(hand.deep_m[contact.solid], near.deep_m);
+    if (near.force_n > 0) hand.p_W[contact.solid] = X_WB_[contact.solid] * contact.p_B;
+  }
+}
+
+bool SolidPresses::is_asleep(std::size_t solid, const SoftState& all) const {
+  for (const SolidHandState& hand : all.solid_hands)
+    for (std::uint32_t i = 0; i < hand.count; ++i)
+      if (hand.near[i].contact.solid == solid) return false;
+  return true;
+}
+
+void SolidPresses::tell(const SolidHandState& state, BandContacts& contacts) const {
+  for (std::uint32_t i = 0; i < state.count; ++i)
+    if (!state.near[i].barred && !state.near[i].behind)
+      contacts.solids[contacts.solid_count++] = state.near[i].contact;
+}
+
+SolidPushes SolidPresses::pushes(const SoftState& all) const {
+  SolidPushes out;
+  for (const SolidHandState& hand : all.solid_hands)
+    for (std::uint32_t i = 0; i < hand.count; ++i) {
+      const SolidNear& near = hand.near[i];
+      if (near.force_n > 0)
+        out.all[out.count++] = {near.contact.solid, near.contact.p_B, near.contact.nhat_B,
+                                near.force_n};
+    }
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "osteon/physics/soft_setup.h"
+#include "osteon/physics/soft_state.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// A hand's tool in a step, for solids.
+struct SolidHand {
+  const ToolState* tool = nullptr;  ///< null: it touches nothing
+  std::span<const Capsule> rods;    ///< of the tool
+  std::array<double, kMaxSolids> force_n{}, deep_m{};
+  std::array<Vec3, kMaxSolids> p_W{};  ///< where it is pressed, of the last part
+};
+
+/// The soft solids of a session at the physics' rate. Of each part of a tool near one it keeps the
+/// place that the part would have, were the solid rigid; the way from there to where the part is
+/// is what the solid has to give way by. A solid that no tool is near is asleep: nothing is done
+/// for it, and the state says the same as if something were.
+///
+/// A step allocates, locks and logs nothing.
+class SolidPresses {
+ public:
+  SolidPresses(const std::vector<SoftSolid>& solids, double coupling_n_per_m)
+      : solids_(solids), coupling_n_per_m_(coupling_n_per_m) {}
+
+  /// Follows one hand's parts. False of a solid whose bone has no pose that is a number.
+  bool place(std::size_t solid, const BoneSnapshot& bones);
+  void follow(SolidHandState& state, const SolidHand& hand, const SoftState& all) const;
+  /// How hard each part presses, with all hands in their places.
+  void press(SolidHandState& state, SolidHand& hand, const SoftState& all) const;
+  bool is_asleep(std::size_t solid, const SoftState& all) const;
+  void tell(const SolidHandState& state, BandContacts& contacts) const;
+  SolidPushes pushes(const SoftState& all) const;
+
+ private:
+  Capsule in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
+  bool keep(SolidNear& near, const SolidHand& hand) const;
+  void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
+  double others(const SolidNear& near, const SolidPush& push, const SoftState& all) const;
+
+  const std::vector<SoftSolid>& solids_;
+  double coupling_n_per_m_;
+  std::array<Pose, kMaxSolids> X_WB_{};
+};
+
+}  // namespace osteon
