@@ -143,6 +143,42 @@ void PdfPages::curve(const Curve& curve, double height_mm) {
   impl_->y = bottom - 12;
 }
 
+void PdfPages::bars(const Bars& bars) {
+  if (bars.bars.empty()) return;
+  double least = bars.line, most = bars.line;
+  for (const Bar& bar : bars.bars) {
+    least = std::min({least, bar.value, bar.lo});
+    most = std::max({most, bar.value, bar.hi});
+  }
+  const float left = kMargin + 120, wide = impl_->width - left - kMargin - 40;
+  const auto px = [&](double x) {
+    return left + wide * static_cast<float>((x - least) / std::max(1e-9, most - least));
+  };
+  const auto stroke = [&](float x0, float y0, float x1, float y1) {
+    HPDF_Page_MoveTo(impl_->page, x0, y0);
+    HPDF_Page_LineTo(impl_->page, x1, y1);
+    HPDF_Page_Stroke(impl_->page);
+  };
+  impl_->room_for(40);
+  impl_->text_line(bars.title, impl_->bold, 9);
+  for (const Bar& bar : bars.bars) {
+    impl_->room_for(14);
+    impl_->y -= 13;
+    const float middle = impl_->y + 3;
+    impl_->write(bar.label.substr(0, 26), kMargin, impl_->y, impl_->plain, 8);
+    HPDF_Page_SetLineWidth(impl_->page, 7);
+    HPDF_Page_SetRGBStroke(impl_->page, 0.62f, 0.72f, 0.85f);
+    stroke(left, middle, px(bar.value), middle);
+    HPDF_Page_SetLineWidth(impl_->page, 1.2f);
+    HPDF_Page_SetRGBStroke(impl_->page, 0.1f, 0.3f, 0.6f);
+    stroke(px(bar.lo), middle, px(bar.hi), middle);
+    HPDF_Page_SetRGBStroke(impl_->page, 0.7f, 0.25f, 0.12f);
+    stroke(px(bars.line), impl_->y - 3, px(bars.line), impl_->y + 9);
+    impl_->write(short_decimal_text(bar.value), left + wide + 6, impl_->y, impl_->plain, 8);
+  }
+  impl_->y -= 6;
+}
+
 Result<void> PdfPages::save(const std::filesystem::path& file) {
   impl_->room_for(1);
   if (HPDF_SaveToStream(impl_->doc) != HPDF_OK || HPDF_GetError(impl_->doc) != HPDF_OK)

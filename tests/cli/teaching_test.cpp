@@ -159,6 +159,19 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
     EXPECT_EQ(ran.exit_code, 0) << ran.output;
     EXPECT_GT(fs::file_size(file("x." + format)), 100u);
   }
+  EXPECT_EQ(json_of("results cohort --json")[0]["learners"].size(), 2u);
+  EXPECT_EQ(json_of("results cohort --json")[0]["errors"][0]["name"], "bumped");
+  for (const std::string page : {"class.html", "class.pdf"}) {
+    EXPECT_EQ(run_osteon("results cohort --out " + file(page)).exit_code, 0);
+    EXPECT_GT(fs::file_size(file(page)), 1000u);
+  }
+  EXPECT_EQ(run_osteon("results cohort --out " + file("class.doc")).exit_code, 2);
+  EXPECT_EQ(run_osteon("results cohort").exit_code, 2);
+  const std::string two = std::string(all[0]["id"]) + " " + std::string(all[1]["id"]);
+  EXPECT_EQ(json_of("results compare --json " + two)["errors"]["only_b"],
+            TeachJson::array({"bumped"}));
+  EXPECT_NE(run_osteon("results compare " + two).output.find("only_b"), std::string::npos);
+  EXPECT_EQ(run_osteon("results compare x " + std::string(all[0]["id"])).exit_code, 2);
   EXPECT_EQ(run_osteon("results export --format xml --out " + file("x")).exit_code, 2);
   EXPECT_EQ(run_osteon("results name --learner ada --name 'Ada Lovelace'").exit_code, 0);
   EXPECT_NE(run_osteon("results list").output.find("Ada Lovelace"), std::string::npos);

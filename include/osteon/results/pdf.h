@@ -32,6 +32,17 @@ class PdfPages {
     bool equal_scales = false;  ///< x and y in one scale: a way seen from above
   };
   void curve(const Curve& curve, double height_mm);
+  /// A bar to each value, from the least number on, with its interval over it.
+  struct Bar {
+    std::string label;
+    double value = 0, lo = 0, hi = 0;
+  };
+  struct Bars {
+    std::string title;
+    std::vector<Bar> bars;
+    double line = 0;  ///< where a line crosses them all
+  };
+  void bars(const Bars& bars);
   /// In one step, see write_file_atomic.
   Result<void> save(const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 #include "exercises/result_files.h"
 #include "osteon/base/file.h"
 #include "osteon/procedure/lc_cusum.h"
+#include "osteon/results/cohort.h"
 #include "osteon/results/exports.h"
 #include "osteon/results/names.h"
 
@@ -18,9 +19,9 @@ namespace osteon {
 namespace {
 
 struct ResultsCommand {
-  std::string id, learner, name, scenario, format, out;
+  std::string id, other, learner, name, scenario, format, out;
   LcCusumOptions cusum;
-  bool json = false;
+  bool json = false, names = false;
 };
 
 Result<std::vector<AttemptRow>> wanted_rows(const ResultsCommand& command) {
@@ -57,16 +58,22 @@ int list_results(const ResultsCommand& command) {
   return kExitDone;
 }
 
+Result<AttemptRow> kept_attempt(const ResultStore& store, const std::string& id) {
+  auto row = store.find(id);
+  if (!row) return tl::unexpected(row.error());
+  if (!*row)
+    return fail("there is no attempt '" + id + "'", without_password(results_place()),
+                "See: osteon results list");
+  return std::move(**row);
+}
+
 int show_result(const ResultsCommand& command) {
   const auto store = open_results();
   if (!store) return report_error(store.error());
-  const auto row = store->find(command.id);
+  const auto row = kept_attempt(*store, command.id);
   if (!row) return report_error(row.error());
-  if (!*row)
-    return report_error({"there is no attempt '" + command.id + "'",
-                         without_password(results_place()), "See: osteon results list"});
-  auto json = row_json(**row);
-  json["report"] = nlohmann::ordered_json::parse((*row)->report_json);
+  auto json = row_json(*row);
+  json["report"] = nlohmann::ordered_json::parse(row->report_json);
   std::printf("%s\n", json.dump(2).c_str());
   return kExitDone;
 }
@@ -152,9 +159,83 @@ int export_results(const ResultsCommand& command) {
   return kExitDone;
 }
 
+// A page of the whole class, HTML or PDF by the file's name.
+int write_cohort(const ResultsCommand& command) {
+  if (command.out.empty() && !command.json)
+    return report_error({"there is no place for the page", "--out",
+                         "Give a file .html or .pdf, or --json to print its figures"});
+  const bool html = command.out.ends_with(".html");
+  if (!command.out.empty() && !html && !command.out.ends_with(".pdf"))
+    return report_error({"is neither .html nor .pdf", command.out, "Name the page so"});
+  const auto rows = wanted_rows(command);
+  if (!rows) return report_error(rows.error());
+  const auto names = command.names ? load_names(names_file()) : LearnerNames();
+  if (!names) return report_error(names.error());
+  const Cohort cohort = cohort_of(*rows, command.cusum);
+  if (!command.out.empty()) {
+    const auto done = html ? write_file_atomic(command.out, to_html(cohort, *names))
+                           : save_cohort_pdf(cohort, *names, command.out);
+    if (!done) return report_error(done.error());
+  }
+  if (command.json)
+    std::fputs(to_json(cohort).c_str(), stdout);
+  else
+    std::printf("%zu attempts at %zu exercises written to %s\n", rows->size(), cohort.size(),
+                command.out.c_str());
+  return kExitDone;
+}
+
+void say_compared(const nlohmann::ordered_json& json) {
+  const auto head = [&](const char* which) {
+    const auto& one = json[which];
+    std::printf("%s  %s, %s: %s, score %s\n", which, one["learner"].get<std::string>().c_str(),
+                one["scenario"].get<std::string>().c_str(),
+                one["verdict"].get<std::string>().c_str(), one["score"].dump().c_str());
+  };
+  head("a");
+  head("b");
+  if (!json["same_scenario"]) std::printf("not the same exercise: figures do not compare\n");
+  for (const auto& stage : json["stages"])
+    std::printf("stage   %-24s %10s %10s s\n", stage["name"].get<std::string>().c_str(),
+                stage["a_s"].dump().c_str(), stage["b_s"].dump().c_str());
+  for (const auto& metric : json["metrics"])
+    std::printf("metric  %-24s %10s %10s\n", metric["name"].get<std::string>().c_str(),
+                metric["a"].dump().c_str(), metric["b"].dump().c_str());
+  for (const char* where : {"both", "only_a", "only_b"})
+    for (const auto& error : json["errors"][where])
+      std::printf("error   %-24s %s\n", error.get<std::string>().c_str(), where);
+}
+
+int compare_results(const ResultsCommand& command) {
+  const auto store = open_results();
+  if (!store) return report_error(store.error());
+  const auto a = kept_attempt(*store, command.id), b = kept_attempt(*store, command.other);
+  if (!a) return report_error(a.error());
+  if (!b) return report_error(b.error());
+  const auto compared = compare_attempts(*a, *b);
+  if (!compared) return report_error(compared.error());
+  if (command.json)
+    std::fputs(compared->c_str(), stdout);
+  else
+    say_compared(nlohmann::ordered_json::parse(*compared));
+  return kExitDone;
+}
+
 void add_filter(cli::App& command, ResultsCommand& options) {
   command.add_option("--learner", options.learner, "only those of this learner");
   command.add_option("--scenario", options.scenario, "only those of this scenario");
+}
+
+void add_cusum(cli::App& command, LcCusumOptions& cusum) {
+  command.add_option("--p0", cusum.p0, "share of failures that is acceptable")
+      ->check(cli::Range(0.001, 0.5))
+      ->capture_default_str();
+  command.add_option("--d", cusum.d, "increase of that share that is unacceptable")
+      ->check(cli::Range(0.001, 0.49))
+      ->capture_default_str();
+  command.add_option("--limit", cusum.h, "S at which a learner is competent")
+      ->check(cli::Range(0.01, 1000.0))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -179,15 +260,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
       add("curve", "Learning curves (LC-CUSUM) with warnings of relapse", show_curves);
   add_filter(*curve, *options);
   curve->add_flag("--json", options->json, "print JSON");
-  curve->add_option("--p0", options->cusum.p0, "share of failures that is acceptable")
-      ->check(cli::Range(0.001, 0.5))
-      ->capture_default_str();
-  curve->add_option("--d", options->cusum.d, "increase of that share that is unacceptable")
-      ->check(cli::Range(0.001, 0.49))
-      ->capture_default_str();
-  curve->add_option("--limit", options->cusum.h, "S at which a learner is competent")
-      ->check(cli::Range(0.01, 1000.0))
-      ->capture_default_str();
+  add_cusum(*curve, options->cusum);
   add("forget", "Delete all attempts and the name of a learner", forget_learner)
       ->add_option("--learner", options->learner, "the learner's id")
       ->required();
@@ -201,6 +274,17 @@ void add_results_commands(cli::App& app, int& exit_code) {
       ->required()
       ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
+  cli::App* cohort =
+      add("cohort", "A page of a class: who, how well, learning curves, errors", write_cohort);
+  add_filter(*cohort, *options);
+  add_cusum(*cohort, options->cusum);
+  cohort->add_option("--out", options->out, "the page to write, .html or .pdf");
+  cohort->add_flag("--names", options->names, "with the names that this computer knows");
+  cohort->add_flag("--json", options->json, "print the figures as JSON");
+  cli::App* compare = add("compare", "What tells two attempts apart", compare_results);
+  compare->add_option("a", options->id, "the one's id, as `results list` prints it")->required();
+  compare->add_option("b", options->other, "the other's")->required();
+  compare->add_flag("--json", options->json, "print JSON");
   add_result_sending(*group, exit_code);
   add_result_rescore(*group, exit_code);
 }
