@@ -8,6 +8,7 @@ install(TARGETS osteon RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/assets" "${CMAKE_SOURCE_DIR}/shaders"
   DESTINATION ${CMAKE_INSTALL_DATADIR}/osteon)
 install(FILES "${package}/osteon.desktop" "${package}/osteon-recording.desktop"
+  "${package}/osteon-launch.desktop"
   DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES "${package}/osteon.svg"
   DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)

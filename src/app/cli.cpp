@@ -7,6 +7,7 @@
 
 #include "commands/cli_support.h"
 #include "commands/cmd_case_laxity.h"
+#include "commands/cmd_launch.h"
 #include "commands/commands.h"
 #include "commands/number_check.h"
 #include "commands/parser.h"
@@ -51,7 +52,7 @@ int run_cli(int argc, char** argv) {
                          add_metrics_command,      add_scenario_commands, add_run_command,
                          add_tunnel_command,       add_drill_commands,    add_case_measure_command,
                          add_case_laxity_commands, add_results_commands,  add_debrief_command,
-                         add_skill_command,        add_film_commands})
+                         add_skill_command,        add_film_commands,     add_launch_command})
     add(commands, exit_code);
   check_all_numbers(app);
   add_quiet(app);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "patient_http.h"
+
 namespace osteon {
 namespace {
 
@@ -48,6 +50,29 @@ Error way_error(CURLcode code, const Lrs& lrs, const char* detail) {
 
 }  // namespace
 
+std::string first_words(const std::string& body) {
+  std::string text = body.substr(0, 160);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  return text;
+}
+
+bool is_private_way(const std::string& url) { return url.starts_with("https://") || is_here(url); }
+
+std::string percent_encoded(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                       (byte >= 'a' && byte <= 'z') || c == '-' || c == '.' || c == '_' || c == '~';
+    if (plain)
+      out += c;
+    else
+      (out += '%', out += "0123456789ABCDEF"[byte >> 4], out += "0123456789ABCDEF"[byte & 15]);
+  }
+  return out;
+}
+
 struct LrsHttp::Impl {
   Lrs lrs;
   CURL* curl = nullptr;
@@ -70,6 +95,7 @@ struct LrsHttp::Impl {
       curl_easy_setopt(curl, CURLOPT_USERNAME, lrs.user.c_str());
       curl_easy_setopt(curl, CURLOPT_PASSWORD, lrs.password.c_str());
     }
+    if (!lrs.authorization.empty()) headers.add("Authorization: " + lrs.authorization);
     headers.add("X-Experience-API-Version: 1.0.3");
     headers.add("Content-Type: application/json");
     headers.add("Expect:");  // no pause before a body is sent
@@ -104,7 +130,8 @@ Result<LrsHttp> LrsHttp::to(const Lrs& lrs) {
   if (!open_way && !lrs.endpoint.starts_with("https://"))
     return fail("'" + lrs.endpoint + "' is not the address of a record store", "--to",
                 "Give it as https://HOST/PATH");
-  if (open_way && !lrs.user.empty() && !is_here(lrs.endpoint))
+  const bool secret = !lrs.user.empty() || !lrs.authorization.empty();
+  if (open_way && secret && !is_here(lrs.endpoint))
     return fail("the password would be sent unencrypted", lrs.endpoint, "Use https://");
   static const CURLcode started = curl_global_init(CURL_GLOBAL_DEFAULT);
   auto impl = std::make_unique<Impl>();

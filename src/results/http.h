@@ -15,6 +15,11 @@ struct HttpAnswer {
   std::optional<long> retry_after_s;
 };
 
+/// Whether what is sent there can be read by nobody on the way: https, or this computer.
+bool is_private_way(const std::string& url);
+/// As it stands in the query of an address (RFC 3986, 2.1).
+std::string percent_encoded(const std::string& text);
+
 /// Requests to one record store over one connection. An error is one of the way there: no network,
 /// a certificate that is not trusted, a time that ran out.
 class LrsHttp {

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "http.h"
 #include "osteon/results/exports.h"
+#include "patient_http.h"
 
 namespace osteon {
 namespace {
@@ -16,24 +16,10 @@ namespace {
 using LrsJson = nlohmann::json;
 using Rows = std::span<const AttemptRow>;
 
-constexpr int kTries = 3;           // of a record store that is busy, before the rest waits
-constexpr long kLongestWaitS = 30;  // more than that is for another time
-
-// 408, 425, 429 and 5xx speak of the record store and not of what was sent.
-bool speaks_of_itself(long status) {
-  return status == 408 || status == 425 || status == 429 || status >= 500;
-}
-// Neither do these, of who sends and where to: no statement is at fault.
+// These speak of who sends and where to: no statement is at fault.
 bool speaks_of_the_way(long status) {
   return status < 200 || (status >= 300 && status < 400) || status == 401 || status == 402 ||
          status == 403 || status == 404 || status == 405 || status == 407;
-}
-
-std::string first_words(const std::string& body) {
-  std::string text = body.substr(0, 160);
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 32) c = ' ';
-  return text;
 }
 
 // One sending.
@@ -78,29 +64,15 @@ class Sender {
     return to_xapi(std::vector<AttemptRow>(rows.begin(), rows.end()), lrs_.home_page);
   }
 
-  // Asks again while the record store is busy; nothing where the rest must wait.
+  // Nothing where the rest must wait.
   template <class Ask>
   std::optional<HttpAnswer> asked(Ask ask) {
-    for (int attempt = 1;; ++attempt) {
-      auto answer = ask();
-      if (!answer) {
-        report.why_waiting = answer.error();
-        return std::nullopt;
-      }
-      if (!speaks_of_itself(answer->status)) return *answer;
-      const long wait_s = answer->retry_after_s.value_or(1L << (attempt - 1));
-      if (attempt == kTries || wait_s > kLongestWaitS) {
-        report.why_waiting = busy(*answer);
-        return std::nullopt;
-      }
-      wait_(wait_s * 1000);
-    }
+    auto answer = asked_patiently(ask, wait_, lrs_.endpoint);
+    if (answer) return std::move(*answer);
+    report.why_waiting = answer.error();
+    return std::nullopt;
   }
 
-  Error busy(const HttpAnswer& answer) const {
-    return {"the record store is busy (HTTP " + std::to_string(answer.status) + ")", lrs_.endpoint,
-            "Nothing is lost: send again later"};
-  }
   Error way_refused(const HttpAnswer& answer) const {
     const bool user = answer.status == 401 || answer.status == 403;
     return {"the record store refused the request (HTTP " + std::to_string(answer.status) + ": " +

@@ -1,5 +1,7 @@
 #include "utc_text.h"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 
@@ -17,6 +19,14 @@ std::string utc_text(std::int64_t ms) {
                 int(time.minutes().count()), int(time.seconds().count()),
                 int(time.subseconds().count()));
   return text;
+}
+
+std::string duration_text(double seconds) {
+  char digits[64];
+  const auto end = std::to_chars(digits, digits + sizeof digits, std::max(0.0, seconds),
+                                 std::chars_format::fixed, 2)
+                       .ptr;
+  return "PT" + std::string(digits, end) + "S";
 }
 
 }  // namespace osteon

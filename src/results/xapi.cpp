@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "osteon/results/exports.h"
@@ -9,15 +8,6 @@ namespace osteon {
 namespace {
 
 using XapiJson = nlohmann::ordered_json;
-
-// ISO 8601, to a hundredth of a second.
-std::string duration_text(double seconds) {
-  char digits[64];
-  const auto end = std::to_chars(digits, digits + sizeof digits, std::max(0.0, seconds),
-                                 std::chars_format::fixed, 2)
-                       .ptr;
-  return "PT" + std::string(digits, end) + "S";
-}
 
 XapiJson verb_of(const AttemptRow& row) {
   const std::string name = row.verdict == "passed"       ? "passed"

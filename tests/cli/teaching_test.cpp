@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "../results/loopback_lms.h"
 #include "lrs_that_waits.h"
 #include "osteon/record/recording_note.h"
 #include "run_osteon.h"
@@ -200,6 +201,24 @@ TEST_F(Teaching, AKeptAttemptIsSentInTheBackground) {
   EXPECT_NE(request.find("/xapi/statements"), std::string::npos) << request;
   EXPECT_NE(request.find("fast_centring"), std::string::npos) << request;
   EXPECT_EQ(json_of("results list --json").size(), 1u);
+}
+
+TEST_F(Teaching, ALaunchIsDoneToldToTheLearningSystemAndKept) {
+  test::LoopbackLms lms;
+  const std::string address = " '" + lms.launch_url(true, "fast_centring") + "&seed=1'";
+  const Ran passed = run_osteon("launch --surgeon expert" + address);
+  EXPECT_EQ(passed.exit_code, 0) << passed.output;
+  EXPECT_NE(passed.output.find("4 accepted, 0 refused, 0 waiting"), std::string::npos);
+  EXPECT_EQ(run_osteon("launch --surgeon expert" + address).exit_code, 2);  // a used token
+  EXPECT_EQ(run_osteon("launch --waiting").exit_code, 0);
+  lms.stop();
+  EXPECT_EQ(lms.verbs(), "initialized completed passed terminated");
+  EXPECT_EQ(lms.faults_text(), "");
+  const TeachJson kept = json_of("results list --json");
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(std::string(kept[0]["learner"]).substr(0, 4), "lms-");
+  for (const std::string bad : {"launch", "launch http://lms.example.org", "launch --waiting x"})
+    EXPECT_EQ(run_osteon(bad).exit_code, 2) << bad;
 }
 
 TEST_F(Teaching, WhatIsStatedMustBeAskedFor) {

@@ -12,8 +12,9 @@ namespace osteon {
 
 /// A learning record store: where xAPI statements are sent to.
 struct Lrs {
-  std::string endpoint;        ///< "https://lrs.example.org/xapi": "/statements" is added
-  std::string user, password;  ///< HTTP basic authentication; without a user there is none
+  std::string endpoint;            ///< "https://lrs.example.org/xapi": "/statements" is added
+  std::string user, password;      ///< HTTP basic authentication; without a user there is none
+  std::string authorization = {};  ///< in place of both: the header's value, as it was given
   std::filesystem::path certificates = {};     ///< PEM file to trust beside none other; empty: the
                                                ///< system's
   std::string home_page = "urn:osteon:local";  ///< of the learners' accounts

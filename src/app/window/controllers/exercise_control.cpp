@@ -1,9 +1,11 @@
 #include "window/controllers/exercise_control.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "cases/xdg.h"
+#include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
 #include "runs/tray.h"
 
@@ -13,13 +15,13 @@ namespace {
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
 
-// The force is off in a pause, and comes back as after any other stop. One that was off before,
-// that the user took off meanwhile or that a fault took off stays off.
 void switch_pause(ExerciseRun& exercise, LiveRun* live) {
   const bool begins = !exercise.paused();
   if (live && begins) exercise.keep_force_wish(live->force_wanted());
-  const bool ours = live && live->device_status().cause == ForceOff::kSoftware;
-  if (live && (begins || (exercise.force_was_wanted() && ours))) live->set_force(!begins);
+  if (live)
+    if (const auto force =
+            force_at_pause(begins, exercise.force_was_wanted(), live->device_status().cause))
+      live->set_force(*force);
   exercise.pause(begins);
 }
 
@@ -53,7 +55,15 @@ void ExerciseControl::save_pages() {
              failed ? failed->message() : "Saved as " + file.string());
 }
 
-void ExerciseControl::show(const std::string& name) {
+// NAME, or NAME:SEED.
+void ExerciseControl::show(const std::string& order) {
+  const std::size_t colon = order.rfind(':');
+  const std::string name = order.substr(0, colon);
+  std::uint64_t seed = 0;
+  const char* const end = order.data() + order.size();
+  if (colon != order.npos &&
+      std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
+    exercise_.set_seed(seed);
   exercise_.toggle();
   if (!exercise_.choose(name))
     host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");
