@@ -133,7 +133,14 @@ bool way_in_is_free(const TourAround& around, const TourTool& tool, const TourPl
   return true;
 }
 
-// Two shafts side by side: apart below, and farther where their handles are.
+bool clear_of_all(const TourPlace& place, const std::vector<TourPlace>& others) {
+  return std::all_of(others.begin(), others.end(),
+                     [&](const TourPlace& other) { return clear_of(place, other); });
+}
+
+}  // namespace
+
+// Apart below, and farther where their handles are.
 bool clear_of(const TourPlace& a, const TourPlace& b) {
   const Vec3 ua = a.q * Vec3(Vec3::UnitZ()), ub = b.q * Vec3(Vec3::UnitZ());
   const Vec3 pa = a.portal_W - a.depth_m * ua, pb = b.portal_W - b.depth_m * ub;
@@ -144,8 +151,6 @@ bool clear_of(const TourPlace& a, const TourPlace& b) {
     }
   return true;
 }
-
-}  // namespace
 
 Pose pose_at(const TourPlace& place, const TourTool& tool) {
   Pose pose{place.portal_W, place.q};
@@ -203,6 +208,49 @@ std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
     if (squarest > 0.92) break;
   }
   return best;
+}
+
+TourPlace place_between(const TourPlace& from, const TourPlace& to, double lift_m, double share) {
+  constexpr double kUp = 0.3;  // of the whole way; as much in again
+  const double f = lift_m > 0 ? std::clamp((share - kUp) / (1 - 2 * kUp), 0.0, 1.0)
+                              : std::clamp(share, 0.0, 1.0);
+  const double out = lift_m * std::min({1.0, share / kUp, (1 - share) / kUp});
+  TourPlace place = from;
+  place.depth_m = -kTourOut_m - out;
+  // Between two portals the place is of neither: its portal is the point that it turns about.
+  place.portal_W = from.portal_W + f * (to.portal_W - from.portal_W) +
+                   Vec3(0, 0, lift_m > 0 ? 0 : 4 * f * (1 - f) * kTourOut_m);
+  place.q = from.q.slerp(f, to.q);
+  return place;
+}
+
+std::optional<double> lift_over(const TourPlace& from, const TourPlace& to,
+                                const std::vector<TourPlace>& others) {
+  constexpr int kSamples = 20;
+  for (const double lift_m : {0.0, 0.03, 0.06, 0.09, 0.12, 0.16}) {
+    bool clear = true;
+    // Where it begins and where it ends are as they are.
+    for (int k = 1; k < kSamples && clear; ++k)
+      clear = clear_of_all(place_between(from, to, lift_m, double(k) / kSamples), others);
+    if (clear) return lift_m;
+  }
+  return std::nullopt;
+}
+
+TourPlace turned_clear(const Case& the_case, const TourTool& tool, const TourPlace& place,
+                       const std::vector<TourPlace>& others) {
+  if (clear_of_all(place, others)) return place;
+  const Vec3 inwards_W = inwards_at(the_case, place.portal_W);
+  const TourAround around(the_case);
+  for (int turn = 1; turn < 24; ++turn) {
+    const double angle = (turn % 2 ? 1 : -1) * ((turn + 1) / 2) * std::numbers::pi / 12;
+    TourPlace turned = place;
+    turned.q = Quat(Eigen::AngleAxisd(angle, inwards_W)) * place.q;
+    if (leans_well(turned.q, inwards_W) && clear_of_all(turned, others) &&
+        room_about(around, turned, tool, tool.shaft_radius_m) >= kTourRoomNeeded_m)
+      return turned;
+  }
+  return place;
 }
 
 }  // namespace osteon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "osteon/base/random.h"
 #include "osteon/surgeon/approach.h"
@@ -11,7 +12,6 @@ namespace osteon {
 namespace {
 
 constexpr double kTourCircle_rad = 2 * std::numbers::pi;
-constexpr double kTourOut_m = 0.012;  // over the skin on the way to another portal
 constexpr double kGoShare = 0.15, kOverShare = 0.6, kTurnShare_rad_per_m = 8;
 constexpr double kFarTurn_rad = 0.35;
 constexpr double kTourNear_m = 0.0025;   // before a touch: from here at the speed of approach
@@ -75,6 +75,7 @@ class TourPlanner {
       for (const PlannedRule& goal : goals)
         for (const std::uint32_t subject : goal.bones) add(goal, subject);
     face_what_comes();
+    keep_apart();
     choose_fault();
     return std::move(tour_);
   }
@@ -124,6 +125,25 @@ class TourPlanner {
       const bool there =
           next != tour_.visits.end() && (next->place.portal_W - visit.place.portal_W).norm() < 1e-9;
       if (there) visit.place.q = next->place.q;
+    }
+  }
+
+  // A hook goes where the other hand is not: it turns aside at a portal, and on its way it is
+  // lifted over what is in between. A scope keeps its way: what it shows must not be lost for long.
+  void keep_apart() {
+    std::vector<std::optional<TourPlace>> at(tour_.tools.size());
+    for (TourVisit& visit : tour_.visits) {
+      const std::optional<TourPlace> from = std::exchange(at[visit.hand], std::nullopt);
+      std::vector<TourPlace> others;
+      for (const auto& place : at)
+        if (place) others.push_back(*place);
+      const bool hook = !tour_.tools[visit.hand].optics;
+      if (hook && visit.kind == TourVisit::Kind::kEnter)
+        visit.place = turned_clear(case_, tour_.tools[visit.hand], visit.place, others);
+      if (hook && from) visit.lift_m = lift_over(*from, visit.place, others).value_or(0);
+      at[visit.hand] = visit.place;
+      // Who has touched waits drawn back.
+      if (visit.kind == TourVisit::Kind::kTouch) at[visit.hand]->depth_m = kTourRest_m;
     }
   }
 
@@ -326,19 +346,16 @@ void TourHand::move(double dt_s) {
       const double to = out ? -kTourOut_m : std::min(place_.depth_m, kTourRest_m);
       if (!go_deep(to, go)) return;
       inside_ = inside_ && !out;
-      return enter(elsewhere ? Phase::kOver : Phase::kTurn);
+      return enter(elsewhere || (out && visit().lift_m > 0) ? Phase::kOver : Phase::kTurn);
     }
     case Phase::kOver: {
       TourPlace above = visit().place;
       above.depth_m = -kTourOut_m;
       const Vec3 from_W = pose_at(from_, tool()).p, to_W = pose_at(above, tool()).p;
-      const double seconds =
-          0.5 + 1.9 * (to_W - from_W).norm() / (kOverShare * skill_.travel_m_per_s);
-      const double f = smooth_tour(phase_s_ / seconds);
-      // Between two portals the place is of neither: its portal is the point that it turns about.
-      place_.portal_W = from_.portal_W + f * (above.portal_W - from_.portal_W) +
-                        Vec3(0, 0, 4 * f * (1 - f) * kTourOut_m);
-      place_.q = from_.q.slerp(f, above.q);
+      const double lift_m = visit().lift_m;
+      const double way_m = (to_W - from_W).norm() + 2 * lift_m;
+      const double seconds = 0.5 + 1.9 * way_m / (kOverShare * skill_.travel_m_per_s);
+      place_ = place_between(from_, above, lift_m, smooth_tour(phase_s_ / seconds));
       if (phase_s_ < seconds) return;
       place_ = above;
       return enter(Phase::kEnter);

@@ -65,5 +65,53 @@ TEST(TourPlace, ALookHasTheMarkNearTheMiddleFromAFittingDistance) {
   EXPECT_FALSE(find_look(c, scope(), c.landmarks[0].p_W, {c.landmarks[2].p_W, 0.003, 0.015}));
 }
 
+// A shaft that leans from the vertical by an angle, towards x.
+TourPlace leaning(const Vec3& portal_W, double angle_rad, double depth_m = 0.005) {
+  return {portal_W, Quat(Eigen::AngleAxisd(angle_rad, Vec3::UnitY())), depth_m};
+}
+
+TEST(TourPlace, TwoShaftsAreClearWhereNeitherMeetsTheOthersHandle) {
+  const TourPlace upright = leaning(Vec3::Zero(), 0);
+  EXPECT_FALSE(clear_of(upright, upright));
+  EXPECT_FALSE(clear_of(upright, leaning(Vec3(0.010, 0, 0), 0)));
+  EXPECT_TRUE(clear_of(upright, leaning(Vec3(0.030, 0, 0), 0)));
+  EXPECT_TRUE(clear_of(upright, leaning(Vec3(0.010, 0, 0), 0.4)));
+  EXPECT_FALSE(clear_of(upright, leaning(Vec3(0.010, 0, 0), -0.4)));  // they cross
+}
+
+TEST(TourPlace, AWayIsLiftedOverAShaftThatStandsInIt) {
+  const TourPlace from = leaning(Vec3(-0.02, 0, 0), -0.4), to = leaning(Vec3(0.02, 0, 0), 0.4);
+  EXPECT_EQ(lift_over(from, to, {}), std::optional(0.0));
+  EXPECT_EQ(lift_over(from, to, {leaning(Vec3(0, 0.2, 0), 0)}), std::optional(0.0));
+  const std::vector<TourPlace> between{leaning(Vec3(0, 0.001, 0), 0, 0.02)};
+  const auto lift = lift_over(from, to, between);
+  ASSERT_TRUE(lift);
+  EXPECT_GT(*lift, 0.08);  // what is above the skin is 120 mm long
+  for (int k = 1; k < 20; ++k)
+    EXPECT_TRUE(clear_of(place_between(from, to, *lift, k / 20.0), between[0])) << k;
+  EXPECT_FALSE(clear_of(place_between(from, to, 0, 0.5), between[0]));
+  // It begins and ends over the portals, as they lean.
+  for (const double lifted_m : {0.0, *lift}) {
+    EXPECT_NEAR((place_between(from, to, lifted_m, 0).portal_W - from.portal_W).norm(), 0, 1e-15);
+    EXPECT_NEAR((place_between(from, to, lifted_m, 1).portal_W - to.portal_W).norm(), 0, 1e-15);
+    EXPECT_NEAR(place_between(from, to, lifted_m, 1).q.angularDistance(to.q), 0, 1e-7);
+  }
+}
+
+TEST(TourPlace, AtItsPortalAShaftTurnsAsideFromOneThatIsThere) {
+  const Case c = block_under_portal();
+  const Vec3 portal_W = c.landmarks[0].p_W;
+  const TourPlace wanted = leaning(portal_W, 0.5);
+  const TourPlace far = leaning(portal_W + Vec3(0, 0.2, 0), 0);
+  EXPECT_EQ(turned_clear(c, hook(), wanted, {far}).q.coeffs(), wanted.q.coeffs());
+  const TourPlace other = leaning(portal_W + Vec3(0.008, 0, 0), 0.3);
+  ASSERT_FALSE(clear_of(wanted, other));
+  const TourPlace turned = turned_clear(c, hook(), wanted, {other});
+  EXPECT_TRUE(clear_of(turned, other));
+  // As steep as before, through the same portal.
+  EXPECT_NEAR((turned.q * Vec3(Vec3::UnitZ())).z(), std::cos(0.5), 1e-9);
+  EXPECT_EQ(turned.portal_W, portal_W);
+}
+
 }  // namespace
 }  // namespace osteon

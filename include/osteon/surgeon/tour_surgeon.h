@@ -55,6 +55,24 @@ std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
                                     const Vec3& portal_W, std::uint32_t bone,
                                     const TourPlace* other, std::uint64_t seed);
 
+/// Whether two shafts in their places leave each other room, with what is above the skin of both.
+bool clear_of(const TourPlace& a, const TourPlace& b);
+/// How much farther out along its shaft a tool has to be drawn on its way from one place to another
+/// so that it passes other hands' shafts: the least of a few lengths, 0 where the plain way passes
+/// them. None: no length is enough.
+std::optional<double> lift_over(const TourPlace& from, const TourPlace& to,
+                                const std::vector<TourPlace>& others);
+/// The place, turned about the way into its portal by as little as leaves it clear of the others,
+/// with room about the shaft. Where no turn does, as it is.
+TourPlace turned_clear(const Case& the_case, const TourTool& tool, const TourPlace& place,
+                       const std::vector<TourPlace>& others);
+/// Outside the skin between two places, from 0 to 1: by the plain way (no lift), or out along the
+/// one's shaft, across, and in along the other's.
+TourPlace place_between(const TourPlace& from, const TourPlace& to, double lift_m, double share);
+
+/// How far out of the portal a tool is drawn that goes to another place.
+inline constexpr double kTourOut_m = 0.012;
+
 /// One thing that one hand does.
 struct TourVisit {
   enum class Kind { kEnter, kLook, kTouch };
@@ -63,6 +81,7 @@ struct TourVisit {
   bool faulty = false;  ///< the one thing that is done wrong is done here
   TourPlace place;
   double for_s = 1.5;
+  double lift_m = 0;  ///< on the way there, see lift_over
 };
 
 /// What is done in which order by which hand: goals of the scenario, stage by stage, through the
