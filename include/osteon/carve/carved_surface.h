@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "osteon/base/result.h"
@@ -32,6 +33,8 @@ class CarvedSurface {
   /// Makes anew the patches of blocks that changed since the last call, of a carved bone alone:
   /// blocks that no cut came near have a patch only after mesh_all. Returns these blocks.
   const std::vector<std::uint32_t>& update(const CarvedField& field);
+  /// Makes the patches of these blocks, changed or not.
+  void mesh(const CarvedField& field, std::span<const std::uint32_t> blocks);
 
   /// Null where there is no surface.
   const SurfacePatch* patch(std::uint32_t block) const;

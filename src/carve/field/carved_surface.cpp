@@ -98,6 +98,10 @@ const std::vector<std::uint32_t>& CarvedSurface::update(const CarvedField& field
   return changed_;
 }
 
+void CarvedSurface::mesh(const CarvedField& field, std::span<const std::uint32_t> blocks) {
+  for (const std::uint32_t block : blocks) remesh(field, block);
+}
+
 // Vertices under one key are one. In order of blocks, so that the same field gives the same bytes
 // whatever was meshed before.
 TriMesh CarvedSurface::joined() const {

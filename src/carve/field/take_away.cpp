@@ -1,0 +1,190 @@
+// A loose piece is cut away: its nodes, and the distances around it.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "osteon/carve/loose_pieces.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kStillCells = 2;     // so near to what is left no cut changes: its surface stays
+constexpr double kSurelyCells = 0.5;  // a distance is wrong by more than what the search is
+constexpr std::size_t kMostNodes = std::size_t{1} << 24;
+constexpr std::int32_t kNowhere = -1;
+
+}  // namespace
+
+/// The nodes about a piece, and how far each is from what is left: every node learns from its
+/// neighbours which node of the remaining bone's rim is nearest (Danielsson, Euclidean Distance
+/// Mapping, 1980; off by less than half a cell). It ends because a distance only falls, and each is
+/// one of finitely many.
+struct LoosePieces::Local {
+  const CarvedField& field;
+  const BlockGrid& grid;
+  double reach_um, cell_um;
+  std::array<int, 3> lo{}, size{};
+  std::vector<std::int16_t> level;    ///< um over what is left; negative: bone
+  std::vector<std::int16_t> outside;  ///< um over the uncut bone
+  std::vector<std::uint8_t> loose;
+  std::vector<std::int32_t> nearest;
+
+  Local(const CarvedField& f, const LoosePiece& piece, double reach_m)
+      : field(f), grid(f.grid()), reach_um(1e6 * reach_m), cell_um(1e6 * f.grid().cell_m) {
+    const int room = static_cast<int>(std::ceil(reach_m / grid.cell_m)) + 2;
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = std::max(0, piece.first[a] - room);
+      const int hi = std::min(BlockGrid::kSide * grid.blocks[a] - 1, piece.last[a] + room);
+      size[a] = hi - lo[a] + 1;
+    }
+  }
+  std::size_t count() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
+  std::array<int, 3> place(std::size_t n) const {
+    const int i = static_cast<int>(n);
+    return {i % size[0], i / size[0] % size[1], i / size[0] / size[1]};
+  }
+  struct Node {
+    std::uint32_t block = 0;
+    std::size_t node = 0;
+  };
+  Node node_of(std::size_t n) const {
+    std::array<int, 3> at = place(n), in{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      at[a] += lo[a];
+      in[a] = at[a] % BlockGrid::kSide;
+      at[a] /= BlockGrid::kSide;
+    }
+    return {grid.index(at), static_cast<std::size_t>(64 * in[2] + 8 * in[1] + in[0])};
+  }
+  void read(const LoosePieces& of, const LoosePiece& piece);
+  double distance_um(std::size_t n, std::int32_t from) const;
+  template <class Visit>
+  void for_neighbours(std::size_t n, const Visit& visit) const;
+  void spread();
+  std::int16_t cut_at(std::size_t n, std::int16_t before) const;
+};
+
+void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& piece) {
+  constexpr std::int16_t kFar = UncutField::kFar;
+  level.resize(count());
+  outside.resize(count());
+  loose.assign(count(), 0);
+  const auto is_part = [](const LoosePiece::Part& a, const LoosePiece::Part& b) {
+    return std::pair(a.block, a.label) < std::pair(b.block, b.label);
+  };
+  for (std::size_t n = 0; n < count(); ++n) {
+    const Node at = node_of(n);
+    const std::int16_t* cuts = field.cuts(at.block);
+    const std::int16_t* heights = cuts ? field.heights(at.block) : field.bone().stored(at.block);
+    const bool deep = field.bone().place(at.block) == UncutField::Place::kDeep;
+    outside[n] = heights ? heights[at.node] : (deep ? static_cast<std::int16_t>(-kFar) : kFar);
+    level[n] = std::max(outside[n],
+                        cuts ? static_cast<std::int16_t>(-cuts[at.node]) : std::int16_t(-kFar));
+    const std::uint8_t label = of.label_at(field, at.block, at.node);
+    loose[n] = label != 0 && std::binary_search(piece.parts.begin(), piece.parts.end(),
+                                                LoosePiece::Part{at.block, label}, is_part);
+  }
+}
+
+// To the surface beyond a node of the rim, which lies so deep under it.
+double LoosePieces::Local::distance_um(std::size_t n, std::int32_t from) const {
+  if (from == kNowhere) return 1e18;
+  const auto a = place(n), b = place(static_cast<std::size_t>(from));
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += double(a[k] - b[k]) * double(a[k] - b[k]);
+  const double depth = -static_cast<double>(level[static_cast<std::size_t>(from)]);
+  return cell_um * std::sqrt(sum) - std::min(depth, cell_um);
+}
+
+template <class Visit>
+void LoosePieces::Local::for_neighbours(std::size_t n, const Visit& visit) const {
+  const auto at = place(n);
+  const std::array<std::size_t, 3> step{
+      1, static_cast<std::size_t>(size[0]),
+      static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (at[a] > 0) visit(n - step[a]);
+    if (at[a] + 1 < size[a]) visit(n + step[a]);
+  }
+}
+
+void LoosePieces::Local::spread() {
+  nearest.assign(count(), kNowhere);
+  std::deque<std::uint32_t> open;
+  const auto stays = [&](std::size_t n) { return level[n] < 0 && loose[n] == 0; };
+  for (std::size_t n = 0; n < count(); ++n) {
+    bool rim = false;
+    if (stays(n)) for_neighbours(n, [&](std::size_t m) { rim = rim || !stays(m); });
+    if (!rim) continue;
+    nearest[n] = static_cast<std::int32_t>(n);
+    open.push_back(static_cast<std::uint32_t>(n));
+  }
+  while (!open.empty()) {
+    const std::int32_t from = nearest[open.front()];
+    const std::size_t here = open.front();
+    open.pop_front();
+    for_neighbours(here, [&](std::size_t m) {
+      if (stays(m)) return;
+      const double now = distance_um(m, from);
+      if (now > reach_um || !(now < distance_um(m, nearest[m]))) return;
+      nearest[m] = from;
+      open.push_back(static_cast<std::uint32_t>(m));
+    });
+  }
+}
+
+// The cut that a node gets instead of the one before.
+std::int16_t LoosePieces::Local::cut_at(std::size_t n, std::int16_t before) const {
+  if (level[n] < 0 && loose[n] == 0) return before;
+  const double to = std::min(reach_um, distance_um(n, nearest[n]));
+  const auto um = static_cast<std::int16_t>(-std::clamp(std::round(to), 1.0, 32767.0));
+  if (loose[n] != 0) return std::min(before, um);
+  const bool known = to <= kStillCells * cell_um || to <= level[n] + kSurelyCells * cell_um;
+  return known ? before : std::min(before, um);
+}
+
+bool LoosePieces::take_away(CarvedField& field, const LoosePiece& piece, double reach_m) const {
+  Local local(field, piece, reach_m);
+  if (local.count() > kMostNodes) return false;
+  local.read(*this, piece);
+  local.spread();
+  struct Change {
+    std::uint32_t block;
+    std::uint16_t node;
+    std::int16_t cut;
+    bool operator<(const Change& b) const {
+      return std::pair(block, node) < std::pair(b.block, b.node);
+    }
+  };
+  std::vector<Change> changes;
+  for (std::size_t n = 0; n < local.count(); ++n) {
+    const Local::Node at = local.node_of(n);
+    const std::int16_t* cuts = field.cuts(at.block);
+    const std::int16_t before = cuts ? cuts[at.node] : CarvedField::kUncut;
+    const std::int16_t now = local.cut_at(n, before);
+    if (now != before) changes.push_back({at.block, static_cast<std::uint16_t>(at.node), now});
+  }
+  std::sort(changes.begin(), changes.end());
+  std::size_t wanted = field.block_count();
+  for (std::size_t n = 0; n < changes.size(); ++n)
+    if ((n == 0 || changes[n].block != changes[n - 1].block) && !field.cuts(changes[n].block))
+      ++wanted;
+  if (wanted > field.most_blocks()) return false;
+  const std::uint64_t step = field.step() + 1;
+  std::array<std::int16_t, BlockGrid::kNodes> cut;
+  for (std::size_t n = 0; n < changes.size();) {
+    const std::uint32_t block = changes[n].block;
+    const std::int16_t* cuts = field.cuts(block);
+    cut.fill(CarvedField::kUncut);
+    if (cuts) std::copy_n(cuts, cut.size(), cut.begin());
+    for (; n < changes.size() && changes[n].block == block; ++n)
+      cut[changes[n].node] = changes[n].cut;
+    (void)field.apply(block, cut, step);  // air beyond what a field keeps stays unknown
+  }
+  return true;
+}
+
+}  // namespace osteon
