@@ -366,5 +366,52 @@ TEST(Guides, AnAimerFixesThePinsLine) {
   EXPECT_LT((off - off.dot(with.back_W) * with.back_W).norm(), 5e-5);
 }
 
+// The tibial aimer's arm stands at 55 degrees to its shaft. With the shaft leant over by 65 degrees
+// its tip rests on the middle of the top, and the line comes from outside and below, through the
+// bone's side: along it a pin goes to the tip.
+TEST(Guides, ATibialAimersLineComesThroughTheBoneToItsTip) {
+  SlantedDrilling with({"tibial_aimer", "guide_pin:2.4"}, 0);
+  Session session = with.session();
+  const Quat lean(Eigen::AngleAxisd(65 * kDegree, Vec3::UnitY()));
+  const auto hand_at = [&](const Vec3& p_W, const Quat& q, CommandKind kind = CommandKind::kNone,
+                           double value = 0) {
+    HandInput out;
+    out.input.X_WD = {p_W, q};
+    out.command = {kind, value};
+    return out;
+  };
+  const auto tip_at = [&](double over) { return Vec3(0, 0, kFloor_m + 0.0011 + over); };
+  with.tick(session, hand_at(tip_at(0.003), lean, CommandKind::kJaw, 1));
+  for (int n = 0; n < 400; ++n) with.tick(session, hand_at(tip_at(0.003 - 0.00001 * n), lean));
+  ASSERT_GT(session.tool_state().contact_count, 0u);
+  with.tick(session, hand_at(tip_at(-0.001), lean, CommandKind::kJaw, 0));
+  for (int n = 0; n < 4; ++n) with.tick(session, hand_at(tip_at(-0.001), lean));
+  ASSERT_TRUE(with.told(kAimed));
+  const GuideRod sleeve = session.bones().rods[0];
+  ASSERT_EQ(sleeve.kind, GuideRod::Kind::kSleeve);
+  const Vec3 out = sleeve.X_BR.q * Vec3::UnitZ();
+  EXPECT_LT((out - Vec3(std::sin(120 * kDegree), 0, std::cos(120 * kDegree))).norm(), 2e-3);
+  EXPECT_LT((sleeve.X_BR.p - session.tool_state().X_WP.p).norm(), 1e-4);
+  // The pin is slipped into the sleeve outside of the bone and drilled to 8 mm before the tip.
+  const Quat along = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), out);
+  const auto on_line = [&](double from_tip) { return Vec3(sleeve.X_BR.p + from_tip * out); };
+  with.tick(session, hand_at(on_line(0.05), along, CommandKind::kTake, 1));
+  for (int n = 0; n < 200; ++n) with.tick(session, hand_at(on_line(0.05), along));
+  EXPECT_TRUE(with.told(kLed));
+  with.tick(session, hand_at(on_line(0.05), along, CommandKind::kPower, 1));
+  for (int n = 0; n < 200; ++n) with.tick(session, hand_at(on_line(0.05 - 0.0001 * n), along));
+  const auto left = [&] { return (session.tool_state().X_WP.p - sleeve.X_BR.p).dot(out); };
+  for (int n = 0; n < 6000 && left() > 0.008; ++n)
+    with.tick(session, hand_at(on_line(std::max(left() - 0.003, 0.005)), along));
+  EXPECT_LT(left(), 0.0085);
+  EXPECT_FALSE(with.told(kSkives));
+  const Vec3 off = session.tool_state().X_WP.p - on_line(left());
+  EXPECT_LT(off.norm(), 5e-5);
+  // From the side at x = 20 mm to there, less what its point of 60 degrees leaves.
+  const double point = 0.0012 / std::tan(30 * kDegree);
+  const double deep = 0.020 / std::sin(120 * kDegree) - left() - 2 * point / 3;
+  EXPECT_NEAR(gone_mm3(session), std::numbers::pi * 1.2 * 1.2 * 1000 * deep, 5);
+}
+
 }  // namespace
 }  // namespace osteon
