@@ -73,6 +73,13 @@ void CarvedPicture::make_whole() {
   for (patch.bone = 0; patch.bone < bones_.size(); ++patch.bone) take(patch);
 }
 
+CutBones CarvedPicture::cut_bones() const {
+  CutBones out;
+  for (std::uint32_t b = 0; b < bones_.size(); ++b)
+    if (bones_[b] && bones_[b]->field.block_count() > 0) out.emplace_back(b, bones_[b]->field);
+  return out;
+}
+
 std::vector<CarvedPicture::Changed> CarvedPicture::changes() {
   std::vector<Changed> out;
   for (std::uint32_t b = 0; b < bones_.size(); ++b) {

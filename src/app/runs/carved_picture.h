@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osteon/carve/carved_surface.h"
+#include "osteon/carve/cut_surface.h"
 #include "osteon/physics/carving.h"
 #include "osteon/render/renderer.h"
 #include "osteon/session/cuts_feed.h"
@@ -30,6 +31,8 @@ class CarvedPicture {
   };
   /// What looks different since it was last asked; for Renderer::set_cubes and its like.
   std::vector<Changed> changes();
+  /// Copies of the bones that hold cuts, for who looks through them.
+  CutBones cut_bones() const;
 
  private:
   struct Bone {

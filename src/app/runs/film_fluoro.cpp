@@ -45,8 +45,9 @@ Result<FilmFluoro> FilmFluoro::create(const Case& the_case, const Tray& tray) {
   return fluoro;
 }
 
-Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side) {
+Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side, const AskCuts& cuts) {
   scene_.body = body_.posed(moment.bones);
+  if (cuts) add_cuts(cuts(), moment.bones, false, scene_.body);
   XrayLayer steel{"instruments", kSteel, {}};
   for (std::size_t h = 0; h < moment.hands; ++h) {
     const ToolState& tool = moment.tools[h];
@@ -66,12 +67,13 @@ Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side) {
   return {};
 }
 
-Result<Image> FilmFluoro::draw(const FilmMoment& moment, int width, int height) {
+Result<Image> FilmFluoro::draw(const FilmMoment& moment, int width, int height,
+                               const AskCuts& cuts) {
   const int square = std::min(width, height), side = std::min(square, kMostSide_px);
   const auto now = static_cast<std::int64_t>(moment.time_s * kPulsesPerSecond + 1e-6);
   if (now != pulse_ || side != side_) {
     pulse_ = now;
-    if (auto ok = pulse(moment, side); !ok) return tl::unexpected(ok.error());
+    if (auto ok = pulse(moment, side, cuts); !ok) return tl::unexpected(ok.error());
   }
   Image image{width, height, {}};
   image.rgb.assign(3u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);

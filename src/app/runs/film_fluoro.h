@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,12 +22,14 @@ class FilmFluoro {
 
   /// Fails as CaseBody::create does, and on an instrument that is not closed.
   static Result<FilmFluoro> create(const Case& the_case, const Tray& tray);
+  /// Asked where a picture is taken: what was cut out of the bones.
+  using AskCuts = std::function<CutBones()>;
   /// A square picture in the middle of one of this size, black around it.
-  Result<Image> draw(const FilmMoment& moment, int width, int height);
+  Result<Image> draw(const FilmMoment& moment, int width, int height, const AskCuts& cuts = {});
 
  private:
   explicit FilmFluoro(CaseBody body) : body_(std::move(body)) {}
-  Result<void> pulse(const FilmMoment& moment, int side);
+  Result<void> pulse(const FilmMoment& moment, int side, const AskCuts& cuts);
 
   CaseBody body_;
   std::vector<std::shared_ptr<const TriMesh>> steel_;  ///< by place in the tray

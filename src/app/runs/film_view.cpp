@@ -73,6 +73,7 @@ struct FilmPainter::Impl {
   Result<Image> outside(const FilmMoment& moment, int width, int height);
   Result<Image> panorama(const FilmMoment& moment, const std::string& side, int width, int height);
   Result<Image> through_scope(const FilmMoment& moment, int width, int height);
+  Result<Image> through_beam(const FilmMoment& moment, int width, int height);
   Result<Image> layout(const FilmMoment& moment);
   Result<Image> scene(const FilmMoment& moment, const ViewState& view, int width, int height);
   ViewState plain_view(double aspect) const;
@@ -179,6 +180,10 @@ Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int wid
   return image;
 }
 
+Result<Image> FilmPainter::Impl::through_beam(const FilmMoment& moment, int width, int height) {
+  return fluoro->draw(moment, width, height, [this] { return carved.cut_bones(); });
+}
+
 /// Large: the scope where there is one, else the outside. Beside it three small ones.
 Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
   constexpr int kGap = 2;
@@ -192,7 +197,7 @@ Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
   for (int row = 0; row < 3; ++row) {
     const int tall = std::max(high - (row < 2 ? kGap : 0), 1);
     const auto part = row == 0    ? panorama(moment, order.side, small, tall)
-                      : row == 2  ? fluoro->draw(moment, small, tall)
+                      : row == 2  ? through_beam(moment, small, tall)
                       : has_scope ? outside(moment, small, tall)
                                   : panorama(moment, "top", small, tall);
     if (!part) return part;
@@ -249,7 +254,7 @@ Result<Image> FilmPainter::draw(const FilmMoment& moment) {
     case FilmView::kPanorama:
       return impl_->panorama(moment, impl_->order.side, width, height);
     case FilmView::kFluoro:
-      return impl_->fluoro->draw(moment, width, height);
+      return impl_->through_beam(moment, width, height);
     case FilmView::kLayout:
       return impl_->layout(moment);
     case FilmView::kOutside:

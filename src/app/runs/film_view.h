@@ -30,7 +30,7 @@ struct FilmMoment {
 };
 
 /// Draws a recorded session's pictures without a window, in one of the views. One thread, where it
-/// was made. X-rays show bones whole: what was carved of them is not taken away there.
+/// was made.
 class FilmPainter {
  public:
   struct Order {

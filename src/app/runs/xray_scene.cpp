@@ -6,6 +6,7 @@
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
+#include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/build_case.h"
@@ -64,6 +65,15 @@ Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
   return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
 }
 
+CutBones cut_bones_of(const Session& session) {
+  CutBones out;
+  const Carving* carving = session.carving();
+  for (std::uint32_t b = 0; carving && b < session.the_case().bones.size(); ++b)
+    if (const CarvedField* field = carving->field(b); field && field->block_count() > 0)
+      out.emplace_back(b, *field);
+  return out;
+}
+
 Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (order.flexion_deg)
     return fail("is shown as it was recorded and cannot be bent", order.source,
@@ -79,7 +89,10 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   const auto tray = tray_of(recording->header);
   if (!tray) return tl::unexpected(tray.error());
   RenderSnapshot last;
+  CutBones cut;
   ReplayOptions how;
+  how.to_s = static_cast<double>(*ticks) * settings->haptic.tick_s;
+  how.at_end = [&](const Session& session) { cut = cut_bones_of(session); };
   how.tray = *tray;
   auto carving = carving_for(**the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
@@ -96,7 +109,9 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   const auto replayed = replay(*recording, *the_case, how);
   if (!replayed) return tl::unexpected(replayed.error());
   auto scene = scene_of(**the_case, last.bones, order.body);
-  if (!scene || order.body.bones_hu) return scene;
+  if (!scene) return scene;
+  add_cuts(cut, last.bones, order.body.bones_hu.has_value(), scene->body);
+  if (order.body.bones_hu) return scene;
   auto tool = steel_tool(*settings, *tray, last.tool.instrument, last.tool.X_WP);
   if (!tool) return tl::unexpected(tool.error());
   scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));

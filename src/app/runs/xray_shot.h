@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/carve/cut_surface.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 #include "osteon/xray/case_body.h"
@@ -29,6 +30,10 @@ struct XraySceneOrder {
   CaseBodyOptions body;
 };
 Result<XrayScene> open_xray_scene(const XraySceneOrder& order);
+
+/// What was cut out of bones stands before them: water, about phantoms nothing. `bones`: where they
+/// are.
+void add_cuts(const CutBones& cut, const BoneSnapshot& bones, bool phantom, XrayBody& body);
 
 struct XrayShotOrder {
   CArm arm;

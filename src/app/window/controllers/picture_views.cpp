@@ -185,18 +185,18 @@ void PictureViews::draw_fluoro(const Viewport& viewport) const {
 }
 
 // The fluoroscope belongs to the thread that makes the picture until that is done.
-void PictureViews::shoot() {
+void PictureViews::shoot(CutBones cut) {
   if (shot_job_ || !case_ || moment_.hands == 0) return;
   if (!fluoro_) fluoro_ = std::make_shared<std::optional<FilmFluoro>>();
-  shot_job_ =
-      std::make_unique<SideJob<Image>>([fluoro = fluoro_, the_case = case_, tray = tray_,
-                                        moment = moment_](const Progress&) -> Result<Image> {
+  shot_job_ = std::make_unique<SideJob<Image>>(
+      [fluoro = fluoro_, the_case = case_, tray = tray_, moment = moment_,
+       cut = std::move(cut)](const Progress&) -> Result<Image> {
         if (!*fluoro) {
           auto made = FilmFluoro::create(*the_case, tray);
           if (!made) return tl::unexpected(made.error());
           fluoro->emplace(std::move(*made));
         }
-        return (*fluoro)->draw(moment, kShot_px, kShot_px);
+        return (*fluoro)->draw(moment, kShot_px, kShot_px, [&cut] { return cut; });
       });
 }
 

@@ -22,6 +22,10 @@ FilmMoment ViewsControl::moment() const {
   return moment;
 }
 
+CarvedPicture* ViewsControl::carved() {
+  return live_.run() ? &live_.run()->carved() : replay_.carved();
+}
+
 // What was carved since the picture before. A processor that draws has to draw all of it anew then.
 void ViewsControl::show_carved() {
   constexpr double kRest_s = 0.1;
@@ -31,7 +35,7 @@ void ViewsControl::show_carved() {
   if (live && carved_run_ != run) scene_.renderer->clear_cubes();
   carved_run_ = run;
   if (scene_.renderer->software_driver() && host_.now_s - carved_s_ < kRest_s) return;
-  CarvedPicture* const picture = live ? &live->carved() : replay_.carved();
+  CarvedPicture* const picture = carved();
   if (!picture) return;
   for (const CarvedPicture::Changed& changed : picture->changes()) {
     scene_.renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
@@ -65,7 +69,8 @@ void ViewsControl::apply(const ViewsRequests& requests) {
   if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);
   if (requests.toggle_observer) observer_.toggle();
   if (requests.shoot) {
-    scene_.views.shoot();
+    const CarvedPicture* const picture = carved();
+    scene_.views.shoot(picture ? picture->cut_bones() : CutBones{});
     if (sight_.layout() != PictureLayout::kAll) sight_.set_layout(PictureLayout::kFluoro);
   }
   if (!requests.take_scope || !live_.run()) return;

@@ -31,6 +31,7 @@ class ViewsControl {
  private:
   std::vector<ToolState> others() const;
   FilmMoment moment() const;
+  CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
   std::string message_on(PaneKind kind) const;
 
