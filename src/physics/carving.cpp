@@ -118,9 +118,13 @@ Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
     if (!bone) continue;
     auto field = CarvedField::make(bone, setup_->layers, setup_->most_blocks, setup_->air_m);
     demand(field.has_value(), "a setup for carving has layers that do not fit together");
-    bones_.back().field = std::move(*field);
+    Bone& made = bones_.back();
+    made.field = std::move(*field);
+    made.loose = std::make_unique<LoosePieces>(*made.field);
+    made.removed = std::make_unique<RemovedNodes>(*made.field);
+    made.whole = whole_nodes(*bone).count;
   }
-  changed_.reserve(kMaxHands * setup_->most_blocks);
+  changed_.reserve((kMaxHands + bones_.size()) * setup_->most_blocks);
   events_.reserve(kMostEvents);
 }
 
@@ -140,11 +144,13 @@ void Carving::tell(std::size_t hand, const Push& push, EventKind kind,
 void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                    double step_s) {
   changed_.clear();
+  fallen_.clear();
   events_.clear();
   readouts_ = {};
   ++steps_;
   for (std::size_t h = 0; h < std::min(tools.size(), count_); ++h)
     step_hand(h, *tools[h], bones, step_s);
+  if (steps_ % kLookEvery == 0) drop_pieces(tools);
 }
 
 void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
@@ -189,10 +195,8 @@ void Carving::cut_with(std::size_t hand, const ToolState& tool, const BoneSnapsh
   }
   if (with->stays) follow_chuck(hand, *with, tool, bones);
   if (with->stays && h.jaw_open) return;
-  if (with->way == Way::kDrill) {
-    leave_hole(hand, *with, tool, bones);
-    follow_rods(hand, *with, tool, bones);
-  }
+  if (goes_forward(with->way)) leave_hole(hand, *with, tool, bones);
+  if (with->way == Way::kDrill) follow_rods(hand, *with, tool, bones);
   Push push;
   push.tool = &tool;
   // The bone that is pressed most; of equals the first.
@@ -411,11 +415,10 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
                      did.rubbing_w};
   if (!(did.advance_m > 0)) return;
   h.idle = 0;
-  const bool drills = with.way == Way::kDrill;
   const bool outside = was_outside(field, h.X_BC.p);
-  h.open = drills && h.was_in && outside && front.left() == 0;
-  h.was_in = h.was_in || (drills ? !outside : front.left() > 0);
-  h.in_hole = h.in_hole || drills;
+  h.open = h.was_in && outside && front.left() == 0;
+  h.was_in = h.was_in || !outside;
+  h.in_hole = true;
   if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
   h.most_torque_nm = std::max(h.most_torque_nm, did.torque_nm);
   go_on(hand, with, push, did.advance_m);
@@ -444,7 +447,10 @@ void Carving::strike(std::size_t hand, const CarvingTool& with, const Push& push
                      0,      0,        0};
   if (!(speed > 0)) return;
   h.idle = 0;
-  h.was_in = h.was_in || front.left() > 0;
+  const bool outside = was_outside(field, h.X_BC.p);
+  h.open = h.was_in && outside && front.left() == 0;
+  h.was_in = h.was_in || !outside;
+  h.in_hole = true;  // an edge is thinner than the field's cells: its slot is felt as a line
   if (first) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, thrust, 0});
   h.most_torque_nm = std::max(h.most_torque_nm, 1e-9);  // it has cut; a blade is not turned
   h.drill.depth_m += speed * step_s;
@@ -462,6 +468,7 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   const CarvedField& field = *bones_[h.bone].field;
   const FrontShare front = look_under_ball(field, radius, push.X_BT * with.middle_T, nhat);
   note_tissue(hand, push, front.most());
+  if (with.soft_only && (front.left() == 0 || front.meets_bone())) return rest(hand, push);
   const DrillMaterial material = mixed(setup_->table, front);
   const bool scrapes = with.way == Way::kScrape;
   const Vec3 drawn = push.X_WB.q.conjugate() * push.tool->v_W;
@@ -555,6 +562,7 @@ void Carving::restore(const CarvingState& state) {
   rods_ = state.rods;
   guides_ = {};
   changed_.clear();
+  fallen_.clear();
   events_.clear();
 }
 

@@ -74,6 +74,7 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
   if (tool.way == Way::kDrill) shorten(tool.cutter);
   shift_back(tool.cutter, removal.back_plus_m + removal.back_per_size * size_m);
   if (burrs) find_ball(tool);
+  tool.soft_only = removal.cutter == "shaver";
   return tool;
 }
 

@@ -63,6 +63,11 @@ std::size_t FrontShare::left() const {
   return sum;
 }
 
+bool FrontShare::meets_bone() const {
+  return found[static_cast<std::size_t>(BoneTissue::kCortical)] > 0 ||
+         found[static_cast<std::size_t>(BoneTissue::kCancellous)] > 0;
+}
+
 std::optional<BoneTissue> FrontShare::most() const {
   const auto largest = std::max_element(found.begin(), found.end());
   if (*largest == 0) return std::nullopt;

@@ -16,6 +16,7 @@ struct FrontShare {
   std::size_t looked = 0;
   std::array<std::size_t, kBoneTissues> found{};
   std::size_t left() const;  ///< points with bone
+  bool meets_bone() const;   ///< not cartilage or marrow alone
   /// The tissue that most points are in; none: no bone.
   std::optional<BoneTissue> most() const;
 };

@@ -87,7 +87,7 @@ std::optional<Error> complaint(const Cmi5Launch& launch) {
     if (!address->starts_with("http://") && !address->starts_with("https://"))
       return launch_error("'" + *address + "' is no address of a record store");
     if (!is_private_way(*address))
-      return Error{"a launch's token would be sent in the open", *address, "Use https://"};
+      return Error{"the launch's token would be sent unencrypted", *address, "Use https://"};
   }
   return std::nullopt;
 }

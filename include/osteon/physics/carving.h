@@ -11,7 +11,10 @@
 #include "osteon/base/result.h"
 #include "osteon/carve/carved_field.h"
 #include "osteon/carve/cutter.h"
+#include "osteon/carve/loose_pieces.h"
+#include "osteon/carve/node_moments.h"
 #include "osteon/carve/thrust.h"
+#include "osteon/physics/bone_loss.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/removal.h"
@@ -30,6 +33,7 @@ struct CarvingTool {
   double grip = 0.3;             ///< cutting force by pressing force
   Vec3 middle_T = Vec3::Zero();  ///< of a burr's or a scraper's ball
   bool one_sided = false;        ///< it cuts on the side of +y alone
+  bool soft_only = false;        ///< bone stops it: it removes what is softer
   bool stays = false;            ///< a pin: let go, it stays in the bone
   double length_m = 0;           ///< of a pin
 };
@@ -126,9 +130,9 @@ struct CarvingReadout {
 /// fixed (by its jaw, in the same way, while its tip touches bone) what fits into it: along its
 /// line alone. A burr removes where it is pressed: P = c F v at its rim, over the specific energy
 /// of what lies there, is a volume in time, and that over half its cross-section is how fast it
-/// goes in. Of a scraper v is how fast the hand draws it along. A blade goes in by the power of the
-/// blows on it, over the specific energy and its cross-section, and where the push alone is more
-/// than both.
+/// goes in. A piece that hangs on nothing any more is gone with the next look for such pieces. Of a
+/// scraper v is how fast the hand draws it along. A blade goes in by the power of the blows on it,
+/// over the specific energy and its cross-section, and where the push alone is more than both.
 class Carving {
  public:
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
@@ -141,6 +145,16 @@ class Carving {
   };
   /// Of the last step.
   std::span<const Changed> changed() const { return changed_; }
+  /// A piece that hung on nothing and is gone.
+  struct Fallen {
+    std::uint32_t bone = 0;
+    double volume_m3 = 0;
+    bool dust = false;  ///< too small for an event
+  };
+  /// Of the last step; looked for in every kLookEvery-th.
+  std::span<const Fallen> fallen() const { return fallen_; }
+  static constexpr std::uint64_t kLookEvery = 64;
+  static constexpr double kDust_m3 = 5e-9;  ///< own default
   std::span<const Event> events() const { return events_; }
   /// What leads the hands' instruments in the next ticks.
   const std::array<ToolGuide, kMaxHands>& guides() const { return guides_; }
@@ -151,6 +165,9 @@ class Carving {
   const CarvingSetup& setup() const { return *setup_; }
   /// Null: that bone is not carved.
   const CarvedField* field(std::size_t bone) const;
+  /// What a bone of that mass has lost: by nodes of its field, all of one density. A function of
+  /// the cuts alone.
+  BoneLoss loss(std::size_t bone, double mass_kg);
   std::uint64_t hash();
   CarvingState save() const;
   bool fits(const CarvingState& state) const;
@@ -160,8 +177,16 @@ class Carving {
  private:
   struct Bone {
     std::optional<CarvedField> field;
+    std::unique_ptr<LoosePieces> loose;
+    std::unique_ptr<RemovedNodes> removed;
+    std::int64_t whole = 0;                           ///< nodes of the uncut bone
+    std::uint64_t looked_step = 0, looked_epoch = 0;  ///< of the field, when last looked for pieces
   };
   struct Push;
+
+  void drop_pieces(std::span<const ToolState* const> tools);
+  void drop_pieces_of(std::uint32_t bone, std::span<const ToolState* const> tools);
+  void let_go_of(const LoosePiece& piece, std::uint32_t bone);
 
   void step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
   void cut_with(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
@@ -206,6 +231,7 @@ class Carving {
   std::array<ToolGuide, kMaxHands> guides_{};
   GuideRods rods_{};
   std::vector<Changed> changed_;
+  std::vector<Fallen> fallen_;
   std::vector<Event> events_;
   std::uint64_t steps_ = 0;
   bool full_ = false;

@@ -15,6 +15,7 @@
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
 #include "osteon/carve/carved_surface.h"
+#include "osteon/carve/loose_pieces.h"
 #include "osteon/carve/removed.h"
 #include "osteon/mesh/mesh_io.h"
 #include "osteon/scene/path.h"
@@ -35,6 +36,8 @@ struct Carved {
   Percentiles step_time, surface_time;
   ByTissue removed_m3{};
   std::size_t blocks = 0;
+  double dust_m3 = 0;             ///< loose and removed, in removed_m3 too
+  std::vector<double> pieces_m3;  ///< loose and larger: in the mesh beside the bone
   TriMesh mesh;
 };
 
@@ -61,6 +64,7 @@ class Carver {
       return tl::unexpected(done.error());
     for (std::size_t n = 1; n < path.samples.size(); ++n)
       if (auto done = follow(path, n); !done) return tl::unexpected(done.error());
+    clear_dust();
     picture();
     out_.removed_m3 = removed_volume(field_);
     out_.blocks = field_.block_count();
@@ -101,6 +105,20 @@ class Carver {
       picture();
     }
     return {};
+  }
+
+  /// What hangs on nothing stays where it is when it is large enough to be a body.
+  void clear_dust() {
+    constexpr double kDust_m3 = 5e-9, kAround_m = 0.001;
+    if (field_.block_count() == 0) return;
+    LoosePieces loose(field_);
+    for (const LoosePiece& piece : loose.find(field_)) {
+      const bool dust = piece.volume_m3 < kDust_m3;
+      if (dust && loose.take_away(field_, piece, kAround_m))
+        out_.dust_m3 += piece.volume_m3;
+      else
+        out_.pieces_m3.push_back(piece.volume_m3);
+    }
   }
 
   void picture() {
@@ -166,9 +184,13 @@ nlohmann::json to_json(const Carved& carved) {
   nlohmann::json tissues = nlohmann::json::object();
   for (std::size_t t = 0; t < kBoneTissues; ++t)
     tissues[std::string(to_text(static_cast<BoneTissue>(t)))] = 1e9 * carved.removed_m3[t];
+  nlohmann::json pieces = nlohmann::json::array();
+  for (const double piece : carved.pieces_m3) pieces.push_back(1e9 * piece);
   const auto us = [&](double q) { return 1e-3 * carved.step_time.quantile_ns(q); };
   return {{"removed_mm3", 1e9 * total(carved.removed_m3)},
           {"removed_by_tissue_mm3", tissues},
+          {"dust_mm3", 1e9 * carved.dust_m3},
+          {"pieces_mm3", pieces},
           {"steps", carved.steps},
           {"step_us", {{"p50", us(0.5)}, {"p99", us(0.99)}, {"p999", us(0.999)}}},
           {"surface_us", 1e-3 * carved.surface_time.quantile_ns(0.5)},
@@ -182,6 +204,10 @@ void print(const Carved& carved, const CaseBone& source, const CarveCommand& com
     if (carved.removed_m3[t] > 0)
       std::printf("  %-16s %.2f mm^3\n", std::string(to_text(static_cast<BoneTissue>(t))).c_str(),
                   1e9 * carved.removed_m3[t]);
+  if (carved.dust_m3 > 0)
+    std::printf("  %.2f mm^3 of it hung on nothing and fell off as dust\n", 1e9 * carved.dust_m3);
+  for (const double piece : carved.pieces_m3)
+    std::printf("  a piece of %.2f mm^3 is cut off; it stays in the file\n", 1e9 * piece);
   std::printf("  a step           %.1f us (median), %.1f us (p99.9)\n",
               1e-3 * carved.step_time.quantile_ns(0.5), 1e-3 * carved.step_time.quantile_ns(0.999));
   std::printf("%s written, in %s\n", command.out.c_str(), source.unit.c_str());

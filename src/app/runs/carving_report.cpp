@@ -53,6 +53,9 @@ OrderedJson to_json(const CarvingReport& report) {
   for (std::size_t b = 0; b < report.bones.size(); ++b)
     if (total(report.removed_m3[b]) > 0)
       out["removed_by_bone_mm3"][report.bones[b]] = 1e9 * total(report.removed_m3[b]);
+  out["dust_mm3"] = 1e9 * report.dust_m3;
+  out["pieces_mm3"] = OrderedJson::array();
+  for (const double piece : report.pieces_m3) out["pieces_mm3"].push_back(1e9 * piece);
   out["most_thrust_n"] = report.most_thrust_n;
   out["most_torque_nmm"] = 1000 * report.most_torque_nm;
   out["heat"] = {{"hottest_c", report.hottest_c},
@@ -98,6 +101,12 @@ void CarvingWatch::see(const Session& session) {
     for (const Event& event : session.last_events(h))
       if (of_carving(event)) report_.events.push_back(event);
   if (session.last_steps() == 0) return;
+  for (const Carving::Fallen& fallen : carving->fallen()) {
+    if (fallen.dust)
+      report_.dust_m3 += fallen.volume_m3;
+    else
+      report_.pieces_m3.push_back(fallen.volume_m3);
+  }
   const DrillTable& table = carving->setup().table;
   material_ = table.heat;
   chips_share_ = table.chips_heat_share;

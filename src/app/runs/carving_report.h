@@ -23,6 +23,8 @@ struct CarvingReport {
   double most_thrust_n = 0, most_torque_nm = 0;
   double hottest_c = 37;
   std::array<double, 2> necrosis_m3{};
+  double dust_m3 = 0;             ///< hung on nothing and fell off, too small for an event
+  std::vector<double> pieces_m3;  ///< the same, each with its event
 };
 /// "removed_mm3", "removed_by_tissue_mm3", "removed_by_bone_mm3", "heat", "events" ...
 nlohmann::ordered_json to_json(const CarvingReport& report);

@@ -9,6 +9,7 @@ namespace osteon {
 namespace {
 
 constexpr double kStillCells = 2;     // so near to what is left no cut changes: its surface stays
+constexpr double kKnownCells = 2.5;   // distances to cuts are written so far out, see cut.cpp
 constexpr double kSurelyCells = 0.5;  // a distance is wrong by more than what the search is
 constexpr std::size_t kMostNodes = std::size_t{1} << 24;
 constexpr std::int32_t kNowhere = -1;
@@ -27,14 +28,15 @@ struct LoosePieces::Local {
   std::vector<std::int16_t> level;    ///< um over what is left; negative: bone
   std::vector<std::int16_t> outside;  ///< um over the uncut bone
   std::vector<std::uint8_t> loose;
-  std::vector<std::int32_t> nearest;
+  std::vector<std::int32_t> nearest;  ///< of what is left
+  std::vector<std::int32_t> piece;    ///< nearest node of the piece
 
-  Local(const CarvedField& f, const LoosePiece& piece, double reach_m)
+  Local(const CarvedField& f, const LoosePiece& of, double reach_m)
       : field(f), grid(f.grid()), reach_um(1e6 * reach_m), cell_um(1e6 * f.grid().cell_m) {
-    const int room = static_cast<int>(std::ceil(reach_m / grid.cell_m)) + 2;
+    const int room = static_cast<int>(std::ceil(reach_m / grid.cell_m + kKnownCells)) + 1;
     for (std::size_t a = 0; a < 3; ++a) {
-      lo[a] = std::max(0, piece.first[a] - room);
-      const int hi = std::min(BlockGrid::kSide * grid.blocks[a] - 1, piece.last[a] + room);
+      lo[a] = std::max(0, of.first[a] - room);
+      const int hi = std::min(BlockGrid::kSide * grid.blocks[a] - 1, of.last[a] + room);
       size[a] = hi - lo[a] + 1;
     }
   }
@@ -59,15 +61,18 @@ struct LoosePieces::Local {
     }
     return {grid.index(at), static_cast<std::size_t>(64 * in[2] + 8 * in[1] + in[0])};
   }
-  void read(const LoosePieces& of, const LoosePiece& piece);
+  void read(const LoosePieces& of, const LoosePiece& which);
   double distance_um(std::size_t n, std::int32_t from) const;
   template <class Visit>
   void for_neighbours(std::size_t n, const Visit& visit) const;
-  void spread();
+  bool stays(std::size_t n) const { return level[n] < 0 && loose[n] == 0; }
+  template <class Source>
+  void spread(const Source& is_source, double most_um, std::vector<std::int32_t>& from) const;
+  void measure();
   std::int16_t cut_at(std::size_t n, std::int16_t before) const;
 };
 
-void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& piece) {
+void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& which) {
   constexpr std::int16_t kFar = UncutField::kFar;
   level.resize(count());
   outside.resize(count());
@@ -84,7 +89,7 @@ void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& piece) {
     level[n] = std::max(outside[n],
                         cuts ? static_cast<std::int16_t>(-cuts[at.node]) : std::int16_t(-kFar));
     const std::uint8_t label = of.label_at(field, at.block, at.node);
-    loose[n] = label != 0 && std::binary_search(piece.parts.begin(), piece.parts.end(),
+    loose[n] = label != 0 && std::binary_search(which.parts.begin(), which.parts.end(),
                                                 LoosePiece::Part{at.block, label}, is_part);
   }
 }
@@ -111,46 +116,58 @@ void LoosePieces::Local::for_neighbours(std::size_t n, const Visit& visit) const
   }
 }
 
-void LoosePieces::Local::spread() {
-  nearest.assign(count(), kNowhere);
+template <class Source>
+void LoosePieces::Local::spread(const Source& is_source, double most_um,
+                                std::vector<std::int32_t>& from) const {
+  from.assign(count(), kNowhere);
   std::deque<std::uint32_t> open;
-  const auto stays = [&](std::size_t n) { return level[n] < 0 && loose[n] == 0; };
   for (std::size_t n = 0; n < count(); ++n) {
     bool rim = false;
-    if (stays(n)) for_neighbours(n, [&](std::size_t m) { rim = rim || !stays(m); });
+    if (is_source(n)) for_neighbours(n, [&](std::size_t m) { rim = rim || !is_source(m); });
     if (!rim) continue;
-    nearest[n] = static_cast<std::int32_t>(n);
+    from[n] = static_cast<std::int32_t>(n);
     open.push_back(static_cast<std::uint32_t>(n));
   }
   while (!open.empty()) {
-    const std::int32_t from = nearest[open.front()];
     const std::size_t here = open.front();
+    const std::int32_t source = from[here];
     open.pop_front();
     for_neighbours(here, [&](std::size_t m) {
-      if (stays(m)) return;
-      const double now = distance_um(m, from);
-      if (now > reach_um || !(now < distance_um(m, nearest[m]))) return;
-      nearest[m] = from;
+      if (is_source(m) || stays(m)) return;
+      const double now = distance_um(m, source);
+      if (now > most_um || !(now < distance_um(m, from[m]))) return;
+      from[m] = source;
       open.push_back(static_cast<std::uint32_t>(m));
     });
   }
 }
 
-// The cut that a node gets instead of the one before.
+void LoosePieces::Local::measure() {
+  spread([this](std::size_t n) { return stays(n); }, reach_um, nearest);
+  const double known = reach_um + kKnownCells * cell_um;
+  spread([this](std::size_t n) { return loose[n] != 0; }, known, piece);
+}
+
+// The cut that a node gets instead of the one before. What is cut away is all that lies within the
+// reach of the piece and not in what is left: the larger of both distances.
 std::int16_t LoosePieces::Local::cut_at(std::size_t n, std::int16_t before) const {
-  if (level[n] < 0 && loose[n] == 0) return before;
+  if (stays(n)) return before;
   const double to = std::min(reach_um, distance_um(n, nearest[n]));
-  const auto um = static_cast<std::int16_t>(-std::clamp(std::round(to), 1.0, 32767.0));
-  if (loose[n] != 0) return std::min(before, um);
-  const bool known = to <= kStillCells * cell_um || to <= level[n] + kSurelyCells * cell_um;
-  return known ? before : std::min(before, um);
+  const auto whole = [](double um) {
+    return static_cast<std::int16_t>(std::clamp(std::round(um), -32767.0, 32767.0));
+  };
+  if (loose[n] != 0) return std::min(before, whole(std::min(-1.0, -to)));
+  if (piece[n] == kNowhere || to <= kStillCells * cell_um) return before;
+  const double shape = std::max(-to, distance_um(n, piece[n]) - reach_um);
+  const bool known = -shape <= -before + kSurelyCells * cell_um;
+  return known || shape > kKnownCells * cell_um ? before : std::min(before, whole(shape));
 }
 
 bool LoosePieces::take_away(CarvedField& field, const LoosePiece& piece, double reach_m) const {
   Local local(field, piece, reach_m);
   if (local.count() > kMostNodes) return false;
   local.read(*this, piece);
-  local.spread();
+  local.measure();
   struct Change {
     std::uint32_t block;
     std::uint16_t node;

@@ -1,0 +1,80 @@
+// Bone that hangs on nothing any more is gone, and what is lost has no mass.
+#include <algorithm>
+
+#include "osteon/physics/carving.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+
+// Where a state was put back all is looked at again: with the same cuts nothing more is found.
+void Carving::drop_pieces(std::span<const ToolState* const> tools) {
+  for (std::uint32_t b = 0; b < bones_.size(); ++b) {
+    Bone& bone = bones_[b];
+    if (!bone.field || bone.field->block_count() == 0) continue;
+    if (bone.field->step() == bone.looked_step && bone.field->epoch() == bone.looked_epoch)
+      continue;
+    drop_pieces_of(b, tools);
+    bone.looked_step = bone.field->step();
+    bone.looked_epoch = bone.field->epoch();
+  }
+}
+
+void Carving::drop_pieces_of(std::uint32_t b, std::span<const ToolState* const> tools) {
+  Bone& bone = bones_[b];
+  std::size_t hand = 0;  // that cut it
+  while (hand < count_ && hands_[hand].bone != b) ++hand;
+  if (hand >= tools.size() || hand >= count_) hand = 0;
+  const std::uint64_t before = bone.field->step();
+  for (const LoosePiece& piece : bone.loose->find(*bone.field)) {
+    if (!bone.loose->take_away(*bone.field, piece, setup_->air_m)) {
+      if (!full_ && !tools.empty()) tell_of(hand, *tools[hand], kCarvingFull, b, {});
+      full_ = true;
+      continue;
+    }
+    const bool dust = piece.volume_m3 < kDust_m3;
+    fallen_.push_back({b, piece.volume_m3, dust});
+    let_go_of(piece, b);
+    if (!dust && !tools.empty())
+      tell_of(hand, *tools[hand], kPieceOff, b, {1e9 * piece.volume_m3, 0, 0});
+  }
+  for (std::size_t n = 0; n < bone.field->block_count(); ++n)
+    if (bone.field->changed_at(n) > before) changed_.push_back({b, bone.field->block_at(n)});
+}
+
+// A hole that was in it holds no drill any more.
+void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone) {
+  const BlockGrid& grid = bones_[bone].field->grid();
+  Aabb box;
+  box.include(grid.node(piece.first[0], piece.first[1], piece.first[2]));
+  box.include(grid.node(piece.last[0], piece.last[1], piece.last[2]));
+  for (CarvingHand& h : hands_) {
+    const bool inside = (h.mouth_B.array() >= box.lo.array() - grid.cell_m).all() &&
+                        (h.mouth_B.array() <= box.hi.array() + grid.cell_m).all();
+    if (h.bone == bone && h.in_hole && inside) h = anew(h);
+  }
+}
+
+// Sums over nodes in whole cells, then once into metres: lo + h n.
+BoneLoss Carving::loss(std::size_t b, double mass_kg) {
+  BoneLoss out;
+  if (b >= bones_.size() || !bones_[b].field || bones_[b].whole == 0) return out;
+  const NodeMoments& gone = bones_[b].removed->of(*bones_[b].field);
+  if (gone.count == 0) return out;
+  const BlockGrid& grid = bones_[b].field->grid();
+  const double h = grid.cell_m, each = mass_kg / static_cast<double>(bones_[b].whole);
+  const auto number = [](std::int64_t n) { return static_cast<double>(n); };
+  const double count = number(gone.count);
+  const Vec3 sum(number(gone.first[0]), number(gone.first[1]), number(gone.first[2]));
+  const auto& s = gone.second;
+  Mat3 products;
+  products << number(s[0]), number(s[3]), number(s[4]), number(s[3]), number(s[1]), number(s[5]),
+      number(s[4]), number(s[5]), number(s[2]);
+  out.mass_kg = each * count;
+  out.first_B = each * (count * grid.lo + h * sum);
+  out.second_B =
+      each * (count * grid.lo * grid.lo.transpose() +
+              h * (grid.lo * sum.transpose() + sum * grid.lo.transpose()) + h * h * products);
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,109 @@
+// Bone that is cut off in a session falls off, and what is left weighs less.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "drilling.h"
+#include "osteon/carve/removed.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+namespace {
+
+using testing::Drilling;
+using testing::kTop_m;
+
+// The block of 10 x 10 x 8 mm is sawn through with a burr of 1 mm at that height, as if it had been
+// done before.
+std::shared_ptr<CarvingState> sawn_through(const Drilling& with, double z_m) {
+  Carving carving(with.setup, 1);
+  CarvedField field = *carving.field(0);
+  const auto burr = make_cutter("burr", 0.001);
+  EXPECT_TRUE(burr);
+  for (double y = -0.006; y <= 0.0061; y += 0.0004)
+    (void)field.cut(*burr, {Vec3(-0.007, y, z_m), Quat::Identity()},
+                    {Vec3(0.007, y, z_m), Quat::Identity()});
+  auto state = std::make_shared<CarvingState>(carving.save());
+  state->bones[0] = field.save();
+  return state;
+}
+
+void put_carved(Session& session, std::shared_ptr<const CarvingState> carved) {
+  SessionState state = session.save();
+  state.world.carved = std::move(carved);
+  ASSERT_TRUE(session.restore(state));
+}
+
+std::vector<Event> rest_above(Session& session, int ticks) {
+  std::vector<Event> events;
+  for (int n = 0; n < ticks; ++n) {
+    const HandInput hand = testing::down_at(0, 0);
+    (void)session.tick(std::span(&hand, 1));
+    for (const Event& event : session.last_events()) events.push_back(event);
+  }
+  return events;
+}
+
+TEST(CarvedPieces, WhatIsSawnOffFallsOffAndIsTold) {
+  const Drilling with;
+  Session session = with.session();
+  put_carved(session, sawn_through(with, 0.002));
+  const double sawn = 1e9 * total(removed_volume(*session.carving()->field(0)));
+  const auto events = rest_above(session, 300);
+  const auto told = std::find_if(events.begin(), events.end(),
+                                 [](const Event& e) { return e.kind == kPieceOff; });
+  ASSERT_NE(told, events.end());
+  EXPECT_NEAR(told->values[0], 10 * 10 * 1.5, 35);  // by nodes 0.4 mm apart
+  EXPECT_NEAR(1e9 * total(removed_volume(*session.carving()->field(0))), sawn + 150, 5);
+  EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                          [](const Event& e) { return e.kind == kPieceOff; }),
+            1);
+  // A hand meets what is left, 2.5 mm under where the top was.
+  for (int n = 1; n <= 500; ++n) {
+    HandInput hand = testing::down_at(static_cast<std::uint64_t>(n), 0, 0.02, 0.004);
+    (void)session.tick(std::span(&hand, 1));
+  }
+  EXPECT_NEAR(session.tool_state().X_WP.p.z(), kTop_m - 0.0025, 2e-4);
+}
+
+// The look for pieces comes with certain steps: from a state between two of them it is the same.
+TEST(CarvedPieces, FromAStateOnTheWayTheSameFalls) {
+  const Drilling with;
+  Session session = with.session();
+  put_carved(session, sawn_through(with, 0.002));
+  rest_above(session, 61);
+  const auto back = state_from_bytes(to_bytes(session.save()));
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = with.session();
+  ASSERT_TRUE(other.restore(*back));
+  rest_above(session, 200);
+  rest_above(other, 200);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const auto later = state_from_bytes(to_bytes(session.save()));
+  ASSERT_TRUE(later);
+  ASSERT_TRUE(other.restore(*later));
+  rest_above(session, 200);
+  rest_above(other, 200);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+}
+
+// Half of the block sawn off along its lower half's top: mass and centre are those of the rest.
+TEST(CarvedPieces, ABoneLosesTheMassOfWhatIsGone) {
+  const Drilling with;
+  Session session = with.session();
+  put_carved(session, sawn_through(with, 0.0005));
+  rest_above(session, 300);
+  Carving carving(with.setup, 1);
+  EXPECT_EQ(carving.loss(0, 0.01).mass_kg, 0);
+  carving.restore(*session.save().world.carved);
+  const BoneLoss loss = carving.loss(0, 0.01);
+  EXPECT_NEAR(loss.mass_kg, 0.005, 0.0003);
+  EXPECT_LT((loss.first_B / loss.mass_kg - Vec3(0, 0, 0.002)).norm(), 3e-4);
+  const double xx = loss.mass_kg * 0.01 * 0.01 / 12, zz = loss.mass_kg * 0.004 * 0.004 / 3;
+  EXPECT_NEAR(loss.second_B(0, 0), xx, 0.06 * xx);
+  EXPECT_NEAR(loss.second_B(2, 2), zz, 0.15 * zz);
+}
+
+}  // namespace
+}  // namespace osteon
