@@ -1,5 +1,6 @@
 // The round picture of a scope: takes the flat picture through its lens (barrel), out of focus
-// where it lies near or far, within the field stop, with the camera's own exposure.
+// where it lies near or far, in water that takes light and gives some of it back, behind fog on the
+// glass, within the field stop, with the camera's own exposure.
 in vec2 v_at;
 
 uniform sampler2D u_flat;      // linear light and distance, as a pinhole sees it
@@ -12,14 +13,56 @@ uniform float u_tipped_to;     // angle in the picture of the mark on the field 
 uniform float u_exposure;
 uniform float u_focus;         // sharp at this distance, metres
 uniform float u_blur_px;       // radius of blur, pixels of the flat picture, a dioptre off focus
+uniform float u_taken;         // light that the water takes, each metre
+uniform float u_blood;         // share of that which blood takes
+uniform float u_fog;           // share of the glass that is fogged
+uniform mat4 u_world_from_view;
 
 out vec4 o_color;
 
-vec4 flat_at(vec2 from_center) {
+float hash(vec3 p) {
+  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yxz + 33.33);
+  return fract((p.x + p.y) * p.z);
+}
+
+// Smooth values 0..1, one change a unit.
+float noise(vec3 p) {
+  vec3 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  float a = mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
+                mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y);
+  float b = mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
+                mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y);
+  return mix(a, b, f.z);
+}
+
+// How thick the water is at a place of World, 1 on the mean: it hangs in clouds and threads.
+float clouds(vec3 p) {
+  p += 0.004 * vec3(noise(p * 150.0), noise(p * 150.0 + 9.0), noise(p * 150.0 + 21.0));
+  return 0.3 + 1.4 * (0.65 * noise(p * 170.0) + 0.35 * noise(p * 460.0 + 3.0));
+}
+
+// Light through cloudy water, from the tip to the tissue and back: it falls by an exponential, and
+// what the water scatters comes back from near by as a veil. Blood takes green and blue before red.
+vec3 through_water(vec3 light, float distance_m, vec3 dir_C) {
+  vec3 eye = u_world_from_view[3].xyz, along = mat3(u_world_from_view) * dir_C;
+  float thick = 0.0;
+  for (int k = 0; k < 4; ++k) thick += 0.25 * clouds(eye + (0.125 + 0.25 * float(k)) * distance_m * along);
+  vec3 takes = u_taken * thick * mix(vec3(1.0), vec3(0.55, 1.5, 1.6), u_blood);
+  vec3 left = exp(-2.0 * takes * distance_m);
+  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), u_blood) * (0.55 + 0.45 * thick);
+  return light * left + veil * (1.0 - left);
+}
+
+vec2 on_plane(vec2 from_center) {
   float r = length(from_center);
   float off = atan(r * tan(u_barrel * u_half_field)) / u_barrel;
-  vec2 on_plane = r > 0.0 ? from_center / r * tan(off) : vec2(0.0);
-  vec2 uv = 0.5 + 0.5 * on_plane / u_flat_half;
+  return r > 0.0 ? from_center / r * tan(off) : vec2(0.0);
+}
+
+vec4 flat_at(vec2 plane) {
+  vec2 uv = 0.5 + 0.5 * plane / u_flat_half;
   vec4 sharp = texture(u_flat, uv);
   float dioptres = abs(1.0 / max(sharp.a, 1e-3) - 1.0 / u_focus);
   float blur = min(u_blur_px * max(dioptres - 60.0, 0.0), 9.0);
@@ -31,6 +74,21 @@ vec4 flat_at(vec2 from_center) {
     sum += texture(u_flat, uv + blur * q * vec2(cos(a), sin(a)) * texel);
   }
   return sum / 13.0;
+}
+
+// Fine drops on the glass spread the light of all that is around; they leave holes where they run
+// together.
+vec3 through_fog(vec3 light, vec2 plane, vec2 from_center) {
+  float patchy = noise(vec3(from_center * 3.0, 4.0)) + 0.25 * noise(vec3(from_center * 23.0, 8.0));
+  float share = smoothstep(1.0 - u_fog, 1.25 - 0.9 * u_fog, patchy + 0.35 * u_fog) * min(1.0, 2.0 * u_fog);
+  float turn = 6.2832 * hash(vec3(gl_FragCoord.xy, 1.0));
+  vec3 spread = vec3(0.0);
+  for (int k = 0; k < 24; ++k) {
+    float a = turn + 2.39996 * float(k), q = 0.34 * sqrt((float(k) + 0.5) / 24.0);
+    spread += texture(u_flat, 0.5 + 0.5 * (plane + q * u_flat_half * vec2(cos(a), sin(a))) / u_flat_half).rgb;
+  }
+  vec3 milky = 0.75 * min(spread / 24.0, vec3(2.0)) + vec3(0.10, 0.10, 0.11) / u_exposure;
+  return mix(light, milky, 0.93 * share);
 }
 
 // As a camera rolls off what is too bright.
@@ -52,7 +110,12 @@ void main() {
     o_color = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }
-  vec3 light = flat_at(from_center).rgb * u_exposure;
+  vec2 plane = on_plane(from_center);
+  vec4 seen = flat_at(plane);
+  vec3 light = seen.rgb;
+  if (u_fog > 0.0) light = through_fog(light, plane, from_center);
+  light *= u_exposure;
+  if (u_taken > 0.0) light = through_water(light, max(seen.a, 1e-3), normalize(vec3(plane, -1.0)));
   float vignette = 1.0 - 0.55 * pow(r, 3.0) - 0.15 * r * r;
   o_color = vec4(shown(light * vignette) * stop, 1.0);
 }

@@ -129,10 +129,11 @@ struct ScopeRenderer::Impl {
     std::vector<Pose> parts, tools;
     std::vector<std::size_t> instruments;
     std::uint64_t version = 0, wall = 0;
+    ScopeWater water;
     bool still(const Painted& b) const {
       return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
              instruments == b.instruments && version == b.version && wall == b.wall &&
-             looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
+             water == b.water && looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
              looks_still(tools, b.tools);
     }
   };
@@ -142,6 +143,7 @@ struct ScopeRenderer::Impl {
   std::vector<TissuePart> parts;
   TissuePart wall;
   std::uint64_t walls = 0;  ///< that there have been
+  ScopeWater water;
   std::vector<Pose> rest_X_WB;
   TissuePart tool = steel();
   std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
@@ -266,6 +268,10 @@ struct ScopeRenderer::Impl {
     lens.set("u_exposure", static_cast<float>(exposure));
     lens.set("u_focus", static_cast<float>(kFocus_m));
     lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
+    lens.set("u_taken", static_cast<float>(water.taken_per_m));
+    lens.set("u_blood", static_cast<float>(water.blood));
+    lens.set("u_fog", static_cast<float>(water.fog));
+    lens.set("u_world_from_view", to_matrix(camera.X_WC()));
     glBindVertexArray(no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
@@ -279,6 +285,7 @@ struct ScopeRenderer::Impl {
     now.half_field_rad = camera.half_field_rad();
     now.barrel = camera.barrel();
     now.wall = walls;
+    now.water = water;
     now.version = scene ? scene->version() : cubes;
     for (const TissuePart& part : parts) now.parts.push_back(part.X_WM);
     for (const auto& [instrument, X_WT] : tools) {
@@ -407,6 +414,15 @@ void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
 void ScopeRenderer::clear_cubes() {
   for (ChangedCubes& bone : impl_->own_changed) bone.clear();
   ++impl_->cubes;
+}
+
+void ScopeRenderer::set_water(const ScopeWater& water) {
+  const auto bounded = [](double value, double most) {
+    return std::isfinite(value) ? std::clamp(value, 0.0, most) : 0;
+  };
+  constexpr double kMostTaken_per_m = 1e5;
+  impl_->water = {bounded(water.taken_per_m, kMostTaken_per_m), bounded(water.blood, 1),
+                  bounded(water.fog, 1)};
 }
 
 void ScopeRenderer::set_wall(const TriMesh& wall_W) {

@@ -94,6 +94,40 @@ TEST_F(ScopePictures, ThePictureIsRoundAndFullOfWall) {
     }
 }
 
+double mean_channel(const Image& image, int channel) {
+  double sum = 0;
+  for (std::size_t k = static_cast<std::size_t>(channel); k < image.rgb.size(); k += 3)
+    sum += image.rgb[k];
+  return sum / static_cast<double>(image.rgb.size() / 3);
+}
+
+/// How much a picture's neighbours differ: detail.
+double detail_of(const Image& image) {
+  double sum = 0;
+  for (int y = 40; y < 120; ++y)
+    for (int x = 40; x < 120; ++x)
+      sum += std::abs(brightness(image, x, y) - brightness(image, x + 1, y));
+  return sum;
+}
+
+TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
+  const Case the_case = lone_ball(Vec3(0.001, 0, -0.012), 0.006);
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  ScopeRenderer renderer = make_scope(the_case);
+  const auto drawn = [&](const ScopeWater& water) {
+    renderer.set_water(water);
+    return renderer.draw_image(camera, 160, 160, RenderQuality::kFast);
+  };
+  const Image clear = drawn({});
+  const Image cloudy = drawn({200, 0, 0}), bloody = drawn({200, 1, 0}), fogged = drawn({0, 0, 1});
+  EXPECT_LT(detail_of(cloudy), 0.5 * detail_of(clear));
+  EXPECT_LT(detail_of(fogged), 0.75 * detail_of(clear));
+  EXPECT_GT(mean_channel(bloody, 0), 2 * mean_channel(bloody, 1));
+  EXPECT_LT(mean_channel(cloudy, 0), 1.2 * mean_channel(cloudy, 1));
+  // Numbers that are none are clear water.
+  EXPECT_EQ(count_different(clear, drawn({std::nan(""), -1, -1}), 0), 0);
+}
+
 // A window's picture: of surfaces that another view has, copied to a place of the screen.
 TEST_F(ScopePictures, AWindowShowsTheSamePictureOfSharedSurfaces) {
   const Case the_case = lone_ball(Vec3(0.001, 0, -0.012), 0.004);

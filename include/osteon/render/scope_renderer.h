@@ -15,6 +15,14 @@
 
 namespace osteon {
 
+/// What stands between a scope and what it looks at.
+struct ScopeWater {
+  double taken_per_m = 0;  ///< light that the water takes, each metre
+  double blood = 0;        ///< share of that which blood takes, 0 to 1; the rest is pale debris
+  double fog = 0;          ///< share of the lens that is fogged, 0 to 1
+  bool operator==(const ScopeWater&) const = default;
+};
+
 /// Draws what an arthroscope shows of a case, at rest until it is told otherwise, with OpenGL 3.3:
 /// a round picture, lit from the tip, each tissue with the pattern of its kind, and the joint's
 /// inner wall behind all. Needs a current context in every call and in the destructor, the same
@@ -41,6 +49,9 @@ class ScopeRenderer {
   /// Bones stand so from now on, soft parts as the mean motion of theirs has it; these tools are
   /// seen, where their pose is finite. The wall stays as it is.
   void set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools);
+
+  /// Clear until it is told otherwise.
+  void set_water(const ScopeWater& water);
 
   /// As Renderer has them.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
