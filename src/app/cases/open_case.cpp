@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/all_cores.h"
+#include "cases/colour_softs.h"
 #include "cases/crop_case.h"
 #include "cases/felt_choice.h"
 #include "cases/make_patient.h"
@@ -17,7 +18,6 @@
 #include "cases/xdg.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
-#include "osteon/image/tissue.h"
 #include "osteon/scene/case_io.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
@@ -122,17 +122,6 @@ Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(dou
     def = bend_case(std::move(*def), joint, degrees, parts != CaseParts::kFelt, progress);
   }
   return def;
-}
-
-/// Soft parts look as their tissues do; one that the table lacks keeps its plain colour.
-void colour_softs(CaseDef& def) {
-  if (def.softs.empty()) return;
-  const auto tissues = load_default_tissues();
-  if (!tissues) return;
-  for (SoftDef& soft : def.softs)
-    if (const Tissue* tissue = tissues->find(soft.tissue))
-      for (std::size_t k = 0; k < 3; ++k)
-        soft.color_srgb[k] = static_cast<float>(tissue->colour_srgb[k]);
 }
 
 struct Caches {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+
+#include "osteon/base/result.h"
+#include "osteon/physics/joint_fluid.h"
+#include "osteon/render/joint_room.h"
+#include "osteon/render/scope_renderer.h"
+
+namespace osteon {
+
+/// A case at rest, drawn as scopes show it, in the OpenGL context that is current.
+class ScopedCase {
+ public:
+  static Result<ScopedCase> create(Case the_case);
+
+  const Case& the_case() const { return case_; }
+  void set_water(const ScopeWater& water) { renderer_.set_water(water); }
+  /// Writes a PNG. Fails when the tip lies in bone.
+  Result<void> draw(const ScopeDef& scope, const ScopePose& pose, int width, int height,
+                    const std::filesystem::path& out);
+
+ private:
+  ScopedCase(Case the_case, ScopeRenderer renderer)
+      : case_(std::move(the_case)), room_(case_), renderer_(std::move(renderer)) {}
+  Case case_;
+  JointRoom room_;
+  ScopeRenderer renderer_;
+};
+
+/// Which water a picture is taken through.
+struct WaterOrder {
+  FluidDrive drive;
+  double after_s = 60;   ///< since pump and bleeding began
+  double turbidity = 0;  ///< of pale debris, beside the blood; see osteon::turbidity
+  double fog = 0;        ///< of the lens
+};
+struct WaterNow {
+  ScopeWater seen;
+  FluidState state;
+  FluidFlows flows;
+  double turbidity = 0;  ///< of blood and debris together
+};
+/// Fails on numbers that are none, or out of range.
+Result<WaterNow> water_after(const WaterOrder& order, const FluidJoint& joint);
+
+/// The water of a wrist or a knee.
+FluidJoint fluid_of(const Case& the_case);
+
+}  // namespace osteon
