@@ -34,6 +34,8 @@ Result<WaterNow> water_after(const WaterOrder& order, const FluidJoint& joint) {
     return fail("is not 0 to 3600 s", "the time since the pump began");
   if (!(order.turbidity >= 0 && order.turbidity <= 1)) return fail("is not 0 to 1", "--turbidity");
   if (!(order.fog >= 0 && order.fog <= 1)) return fail("is not 0 to 1", "--fog");
+  if (!(order.flushed_s >= 0 && order.flushed_s <= kMost_s))
+    return fail("is not 0 to 3600 s", "--flush");
   WaterNow water;
   for (auto k = std::llround(order.after_s / kStep_s); k > 0; --k)
     water.state = step_fluid(joint, order.drive, water.state, kStep_s);
@@ -41,7 +43,8 @@ Result<WaterNow> water_after(const WaterOrder& order, const FluidJoint& joint) {
   const double bled = light_taken_per_m(joint, water.state);
   const double pale = -std::log1p(-std::min(order.turbidity, 0.9999)) / kThereAndBack_m;
   const double all = bled + pale;
-  water.seen = {all, all > 0 ? bled / all : 0, order.fog};
+  water.seen = {all, all > 0 ? bled / all : 0,
+                step_lens({order.fog, 0}, true, order.flushed_s).fog};
   water.turbidity = -std::expm1(-kThereAndBack_m * all);
   return water;
 }

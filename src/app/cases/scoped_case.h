@@ -34,6 +34,7 @@ struct WaterOrder {
   double after_s = 60;   ///< since pump and bleeding began
   double turbidity = 0;  ///< of pale debris, beside the blood; see osteon::turbidity
   double fog = 0;        ///< of the lens
+  double flushed_s = 0;  ///< for so long water was then flushed over the lens
 };
 struct WaterNow {
   ScopeWater seen;

@@ -237,6 +237,9 @@ void add_water_options(cli::App& sub, ViewCommand& command) {
       ->capture_default_str();
   sub.add_option("--fog", command.water.fog, "share of the lens that is fogged, 0 to 1")
       ->capture_default_str();
+  sub.add_option("--flush", command.water.flushed_s,
+                 "s for which water was then flushed over the lens: the fog goes")
+      ->capture_default_str();
   sub.add_option("--bleeding", command.bleeding_ml_min,
                  "blood that flows into a joint without pressure, ml/min")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -106,6 +107,11 @@ TEST(StandardViews, WaterOfAPictureIsThatOfTheModel) {
   EXPECT_EQ(red->seen.blood, 1);
   EXPECT_NEAR(red->turbidity, turbidity(knee_fluid(), red->state), 1e-12);
   EXPECT_NEAR(red->state.time_s, 60, 1e-6);
+  order.fog = 0.5;
+  order.flushed_s = 1;
+  const auto flushed = water_after(order, knee_fluid());
+  ASSERT_TRUE(flushed);
+  EXPECT_NEAR(flushed->seen.fog, 0.5 * std::exp(-0.55), 1e-12);
   for (double* wrong : {&order.turbidity, &order.fog, &order.after_s, &order.drive.suction}) {
     const double right = *wrong;
     *wrong = -1;
