@@ -24,7 +24,9 @@ class NotesControlTest : public ::testing::Test {
     notes_.begin_case();
   }
   static CaseNotes three() {
-    return {{"one", "", Vec3(0.001, 0, 0)}, {"two", "", Vec3(0, 0.002, 0)}, {"three", "", {}}};
+    return {{"one", "", Vec3(0.001, 0, 0)},
+            {"two", "", Vec3(0, 0.002, 0)},
+            {"three", "", Vec3(0, 0, 0.003)}};
   }
   CaseNotes kept(const std::string& name = "a") const {
     const auto read = load_notes(folder(name));
@@ -73,8 +75,8 @@ TEST_F(NotesControlTest, ATextThatWasTypedIsKeptInTheCasesFolderAtOnce) {
 }
 
 TEST_F(NotesControlTest, ATextThatIsNoneIsRefusedInWordsAndTheOldOneStays) {
-  for (const std::string bad : {std::string(), std::string(kLongestNote + 1, 'x'),
-                                std::string("two\nlines"), std::string("\xff")}) {
+  for (const std::string& bad : {std::string(), std::string(kLongestNote + 1, 'x'),
+                                 std::string("two\nlines"), std::string("\xff")}) {
     edit(1, bad);
     EXPECT_EQ(kept(), three());
   }
