@@ -203,5 +203,44 @@ TEST_F(XrayCli, AgreesWithPlastimatchOfTheVirtualScan) {
   EXPECT_GT(correlation(raw.g_per_cm2, peer), 0.99);
 }
 
+// What a burr has removed is missing in the picture: of one density, summed over the picture at the
+// block's top and thinned by the beam's spread, by just its volume.
+TEST_F(XrayCli, CarvedBoneIsMissing) {
+  ASSERT_EQ(make_block_case(dir_, 5).exit_code, 0);
+  std::ofstream(file("burr.csv"))
+      << "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button,instrument,size,power,jaw\n"
+         "0,0,0,8,1,0,0,0,0,microdrill,4,1,0\n0.1,0,0,6,1,0,0,0,0,microdrill,4,1,0\n"
+         "0.7,0,0,4,1,0,0,0,0,microdrill,4,1,0\n";
+  const Ran ran =
+      run_osteon("simulate --case '" + file("case") + "#block=field' --path " + file("burr.csv") +
+                 " --record " + file("r.osr") + " --report " + file("report.json"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  Json report;
+  std::ifstream(file("report.json")) >> report;
+  const double removed_mm3 = report["carving"]["removed_mm3"];
+  ASSERT_GT(removed_mm3, 3);
+  const auto picture = [&](const std::string& at) {
+    const Ran shot = xray(file("r.osr") + at + " --c-arm field=30,distance=1000,source=900 " +
+                          "--size 128x128 --hu 700 --raw " + file("raw"));
+    EXPECT_EQ(shot.exit_code, 0) << shot.output;
+    return read_raw(file("raw"));
+  };
+  const Raw whole = picture(" --at 0.05"), carved = picture("");
+  ASSERT_EQ(whole.g_per_cm2.size(), carved.g_per_cm2.size());
+  double missing_g_per_cm2 = 0;
+  for (std::size_t n = 0; n < whole.g_per_cm2.size(); ++n) {
+    EXPECT_LE(carved.g_per_cm2[n], whole.g_per_cm2[n] + 1e-3F) << n;
+    missing_g_per_cm2 += static_cast<double>(whole.g_per_cm2[n] - carved.g_per_cm2[n]);
+  }
+  // The hole lies within 1 mm of the top's middle; a pixel there is smaller as it is nearer.
+  const Vec3 source = vec(whole.at["source_mm"]);
+  const double to_hole = (Vec3(0, 0, 4.5) - source).norm();
+  const double to_detector = (vec(whole.at["detector_center_mm"]) - source).norm();
+  const double pixel_cm = 0.1 * whole.at["pixel_mm"].get<double>() * to_hole / to_detector;
+  const double density = 0.0005886 * 700 + 1.03;
+  const double missing_mm3 = 1000 * missing_g_per_cm2 * pixel_cm * pixel_cm / density;
+  EXPECT_NEAR(missing_mm3, removed_mm3, 0.03 * removed_mm3);
+}
+
 }  // namespace
 }  // namespace osteon::testing_cli
