@@ -103,7 +103,8 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
 struct BoneWorld::Impl {
   // What a bone is, and where its springs pull it.
   struct Body {
-    MassProperties mass;
+    MassProperties whole, mass;
+    BoneLoss loss;
     Pose X_IB;
     Pose X_WI_rest;
     Pose X_WB_rest;
@@ -118,6 +119,7 @@ struct BoneWorld::Impl {
 
   Impl(std::shared_ptr<const Case> c, const PhysicsParams& p);
   Body make_body(const Bone& bone) const;
+  void set_mass(Body& body, const MassProperties& mass) const;
   BodyMotion motion_of(std::size_t i) const;
   void push(std::size_t i, Tools tools, BodyMotion& motion) const;
   void limit(std::size_t i, BodyMotion& motion) const;
@@ -150,16 +152,21 @@ BoneWorld::Impl::Impl(std::shared_ptr<const Case> c, const PhysicsParams& p)
 BoneWorld::Impl::Body BoneWorld::Impl::make_body(const Bone& bone) const {
   assert(bone.mass_kg > 0);
   Body body;
-  body.mass = mass_properties(bone.pieces, bone.mass_kg);
-  body.X_IB = body.mass.X_BI.inverse();
+  body.whole = mass_properties(bone.pieces, bone.mass_kg);
   body.X_WB_rest = bone.X_WB;
-  body.X_WI_rest = bone.X_WB * body.mass.X_BI;
+  set_mass(body, body.whole);
+  return body;
+}
+
+void BoneWorld::Impl::set_mass(Body& body, const MassProperties& mass) const {
+  body.mass = mass;
+  body.X_IB = mass.X_BI.inverse();
+  body.X_WI_rest = body.X_WB_rest * mass.X_BI;
   body.damping_n_s_per_m =
-      damping_constant(bone.mass_kg, params.spring_n_per_m, params.damping_ratio);
+      damping_constant(mass.mass_kg, params.spring_n_per_m, params.damping_ratio);
   for (int i = 0; i < 3; ++i)
     body.damping_nm_s[i] =
-        damping_constant(body.mass.moments[i], params.spring_nm_per_rad, params.damping_ratio);
-  return body;
+        damping_constant(mass.moments[i], params.spring_nm_per_rad, params.damping_ratio);
 }
 
 void BoneWorld::Impl::rest() {
@@ -291,6 +298,14 @@ bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {
   impl_->snapshot.bones[bone] = motion;
 }
+// The body's frame alone is Bullet's: what it weighs there moves nothing, see push.
+void BoneWorld::set_loss(std::size_t bone, const BoneLoss& loss) {
+  Impl::Body& body = impl_->bodies[bone];
+  if (loss == body.loss) return;
+  body.loss = loss;
+  impl_->set_mass(body, less(body.whole, loss));
+}
+double BoneWorld::mass_kg(std::size_t bone) const { return impl_->bodies[bone].mass.mass_kg; }
 void BoneWorld::ask_to_keep() { impl_->snapshot.saved_step = impl_->snapshot.step; }
 
 }  // namespace osteon

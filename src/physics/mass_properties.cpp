@@ -1,5 +1,6 @@
 #include "mass_properties.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osteon {
@@ -89,6 +90,29 @@ MassProperties mass_properties(std::span<const Hull> pieces, double mass_kg) {
   const Mat3 axes = principal_axes(inertia, result.moments);
   result.X_BI = {p_B + com, Quat(axes).normalized()};
   return result;
+}
+
+// S = sum of m r r^T about the origin; about the centre c it is S - M c c^T, and the inertia there
+// is tr(S) 1 - S.
+MassProperties less(const MassProperties& whole, const BoneLoss& loss) {
+  constexpr double kLeastMass = 0.05, kLeastMoment = 0.01;
+  if (loss.mass_kg == 0) return whole;
+  MassProperties left = whole;
+  left.mass_kg = std::max(kLeastMass * whole.mass_kg, whole.mass_kg - loss.mass_kg);
+  left.moments = left.mass_kg / whole.mass_kg * whole.moments;
+  if (left.mass_kg == kLeastMass * whole.mass_kg) return left;
+  const Mat3 axes = whole.X_BI.q.toRotationMatrix();
+  const Vec3 c = whole.X_BI.p;
+  const Vec3 about = Vec3::Constant(0.5 * whole.moments.sum()) - whole.moments;
+  const Mat3 second = axes * about.asDiagonal() * axes.transpose() +
+                      whole.mass_kg * c * c.transpose() - loss.second_B;
+  const Vec3 com = (whole.mass_kg * c - loss.first_B) / left.mass_kg;
+  const Mat3 central = second - left.mass_kg * com * com.transpose();
+  Vec3 moments;
+  const Mat3 turned = principal_axes(central.trace() * Mat3::Identity() - central, moments);
+  left.moments = moments.cwiseMax(kLeastMoment * whole.moments.minCoeff());
+  left.X_BI = {com, Quat(turned).normalized()};
+  return left;
 }
 
 }  // namespace osteon

@@ -4,6 +4,7 @@
 
 #include "osteon/base/types.h"
 #include "osteon/hull/hull.h"
+#include "osteon/physics/bone_loss.h"
 
 namespace osteon {
 
@@ -18,6 +19,10 @@ struct MassProperties {
 /// Of closed hulls of one density that together weigh `mass_kg`; what two pieces share counts
 /// twice. Hulls without volume (or no hulls) give a ball of 5 mm radius around their middle.
 MassProperties mass_properties(std::span<const Hull> pieces, double mass_kg);
+
+/// What is left of a body. At least a twentieth of its mass, and a hundredth of its least moment,
+/// stay: a body of nothing cannot be moved.
+MassProperties less(const MassProperties& whole, const BoneLoss& loss);
 
 /// Eigenvectors (columns, right-handed) of a symmetric matrix by Jacobi's rotations, with only
 /// square roots: the same bits on every machine. `values`: the eigenvalues.

@@ -20,7 +20,8 @@ PhysicsParams physics_of(const SessionSettings& settings) {
 }  // namespace
 
 WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings)
-    : world_(the_case, physics_of(settings)),
+    : the_case_(the_case),
+      world_(the_case, physics_of(settings)),
       step_s_(settings.physics.step_s),
       keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {
   auto rings = std::make_unique<LooseRings>(std::move(the_case), step_s_);
@@ -50,6 +51,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) {
     carving_->step(tools, world_.snapshot(), step_s_);
     world_.set_guides(carving_->guides(), carving_->rods());
+    if (!world_.held()) lighten();
   }
   const BoneSnapshot& bones = world_.step(tools);
   if (carving_) {
@@ -69,6 +71,13 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   const bool marked = command.kind == CommandKind::kMark && mark_of(command) < kMaxMarks;
   if (marked || bones.step % keep_every_ == 0) world_.ask_to_keep();
   return bones;
+}
+
+// Bones that move weigh what is left of them.
+void WorldHalf::lighten() {
+  const std::vector<Bone>& bones = the_case_->bones;
+  for (std::size_t b = 0; b < bones.size(); ++b)
+    if (carving_->field(b)) world_.set_loss(b, carving_->loss(b, bones[b].mass_kg));
 }
 
 void WorldHalf::catch_up() {

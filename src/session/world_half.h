@@ -22,6 +22,7 @@ class alignas(64) WorldHalf {
   /// `hands`: who feels what is carved, one after the other. Before the first step.
   void set_carving(std::shared_ptr<const CarvingSetup> setup, std::vector<FeltCuts*> hands);
   const Carving* carving() const { return carving_.get(); }
+  double mass_kg(std::size_t bone) const { return world_.mass_kg(bone); }
   /// How the bones are carved, for who draws; null: none is.
   CutsFeed* cuts_feed() { return feed_.get(); }
   bool told(std::size_t hand) const { return hand >= felt_.size() || !felt_[hand]->behind(); }
@@ -45,7 +46,9 @@ class alignas(64) WorldHalf {
   void go_back(const WorldMark& mark);
   std::shared_ptr<const CarvingState> carved() const;
   void place_rings();
+  void lighten();
 
+  std::shared_ptr<const Case> the_case_;
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
   std::unique_ptr<CutsFeed> feed_;

@@ -55,6 +55,28 @@ TEST(BoneWorld, OfNoBonesSteps) {
   EXPECT_EQ(world.snapshot().count, 0u);
 }
 
+// After one step from rest a body of half the mass is faster; what it has lost is told, not kept in
+// its state.
+TEST(BoneWorld, ABoneThatHasLostHalfIsLighter) {
+  const auto the_case = box_case({0.1});
+  BoneWorld whole(the_case, springs()), half(the_case, springs());
+  const double mass = whole.mass_kg(0);
+  BoneLoss loss;
+  loss.mass_kg = 0.5 * mass;
+  loss.first_B = loss.mass_kg * Vec3(0.03, -0.02, 0.05);
+  half.set_loss(0, loss);
+  EXPECT_NEAR(half.mass_kg(0), 0.5 * mass, 1e-15);
+  EXPECT_EQ(half.snapshot().bones[0].X_WB.p, whole.snapshot().bones[0].X_WB.p);
+  half.set_loss(0, {});
+  EXPECT_EQ(half.mass_kg(0), mass);
+  half.set_loss(0, loss);
+  const ToolState pushed = push(0, center_W(the_case->bones[0].X_WB), Vec3(0, 0, 1));
+  const double v_whole = whole.step(pushed).bones[0].v_W.z();
+  const double v_half = half.step(pushed).bones[0].v_W.z();
+  EXPECT_GT(v_whole, 0);
+  EXPECT_GT(v_half, 1.05 * v_whole);
+}
+
 TEST(BoneWorld, BeginsAtRestAndCountsItsSteps) {
   const auto the_case = box_case({0.003, 0.05});
   BoneWorld world(the_case, springs());

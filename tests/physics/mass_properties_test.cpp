@@ -63,6 +63,28 @@ TEST(MassProperties, OfTwoHalvesAreThoseOfTheWhole) {
   EXPECT_LT((inertia_of(m) - expected).norm(), 1e-12 * expected.norm());
 }
 
+// A box that has lost one half is the other half.
+TEST(MassProperties, LessAHalfAreThoseOfTheOther) {
+  const Vec3 half(0.01, 0.008, 0.006), middle(0.02, -0.01, 0.03);
+  const MassProperties whole = mass_properties(std::vector<Hull>{box_hull(middle, half)}, 0.02);
+  EXPECT_EQ(less(whole, BoneLoss{}).moments, whole.moments);
+  const Vec3 quarter(0.005, 0.008, 0.006), right = middle + Vec3(0.005, 0, 0);
+  BoneLoss loss;
+  loss.mass_kg = 0.01;
+  loss.first_B = 0.01 * right;
+  loss.second_B = 0.01 * right * right.transpose();
+  for (int a = 0; a < 3; ++a) loss.second_B(a, a) += 0.01 * quarter[a] * quarter[a] / 3;
+  const MassProperties left = less(whole, loss);
+  EXPECT_NEAR(left.mass_kg, 0.01, 1e-15);
+  EXPECT_LT((left.X_BI.p - (middle - Vec3(0.005, 0, 0))).norm(), 1e-12);
+  const Mat3 wanted = box_inertia(0.01, quarter, Quat::Identity());
+  EXPECT_LT((inertia_of(left) - wanted).norm(), 1e-9 * wanted.norm());
+  // Of a body that has lost all, a little stays.
+  loss.mass_kg = 0.02;
+  EXPECT_NEAR(less(whole, loss).mass_kg, 0.001, 1e-15);
+  EXPECT_GT(less(whole, loss).moments.minCoeff(), 0);
+}
+
 TEST(PrincipalAxes, OfADiagonalMatrixAreItsOwn) {
   Vec3 values;
   const Mat3 axes = principal_axes(Vec3(3, 1, 2).asDiagonal(), values);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "osteon/physics/bone_loss.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 
@@ -58,6 +59,10 @@ class BoneWorld {
   void place(std::size_t bone, const BoneMotion& motion);
   /// What leads the hands' instruments, for the next step's snapshot.
   void set_guides(const std::array<ToolGuide, kMaxHands>& guides, const GuideRods& rods);
+  /// Mass, centre and inertia of a bone from now on: those of the whole one less what it has lost,
+  /// but no less than a twentieth. The pose stays; a function of `loss` alone.
+  void set_loss(std::size_t bone, const BoneLoss& loss);
+  double mass_kg(std::size_t bone) const;
   /// Marks the snapshot as one whose state is to be kept.
   void ask_to_keep();
 
