@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grey_picture.h"
+#include "picture_header.h"
 
 namespace osteon {
 namespace {
@@ -72,8 +73,12 @@ Result<GreyPicture> decode_png(std::string_view bytes, const std::string& where)
   if (png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_GRAY ||
       png_get_bit_depth(reading.png, reading.info) != 16)
     return not_grey_16_bits(where);
-  GreyPicture picture(png_get_image_width(reading.png, reading.info),
-                      png_get_image_height(reading.png, reading.info), false);
+  const std::uint32_t width = png_get_image_width(reading.png, reading.info);
+  const std::uint32_t height = png_get_image_height(reading.png, reading.info);
+  // The header was read by another reader: it may have taken another chunk for this one.
+  if (width == 0 || height == 0 || width > kWidestPicture || height > kWidestPicture)
+    return damaged_picture(where);
+  GreyPicture picture(width, height, false);
   std::vector<png_bytep> rows = rows_of(picture);
   if (!read_png_rows(reading, rows.data())) return damaged_picture(where);
   return picture;

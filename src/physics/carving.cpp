@@ -467,8 +467,8 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   if (h.bone != push.bone) begin(hand, with, push);
   const CarvedField& field = *bones_[h.bone].field;
   const FrontShare front = look_under_ball(field, radius, push.X_BT * with.middle_T, nhat);
-  note_tissue(hand, push, front.most());
   if (with.soft_only && (front.left() == 0 || front.meets_bone())) return rest(hand, push);
+  note_tissue(hand, push, front.most());
   const DrillMaterial material = mixed(setup_->table, front);
   const bool scrapes = with.way == Way::kScrape;
   const Vec3 drawn = push.X_WB.q.conjugate() * push.tool->v_W;
@@ -510,6 +510,7 @@ void Carving::bite(std::size_t hand, const CarvingTool& with, const ToolState& t
                    const Pose& X_BT, std::uint32_t bone) {
   CarvingHand& h = hands_[hand];
   if (!h.jaw_open || tool.jaw > 0.1) return;
+  const std::uint32_t bone_before = h.bone;
   h.bone = bone;
   const std::size_t before = changed_.size();
   Push push;
@@ -517,7 +518,10 @@ void Carving::bite(std::size_t hand, const CarvingTool& with, const ToolState& t
   push.bone = bone;
   const bool was_full = full_;
   if (!remove(hand, with.cutter, X_BT, X_BT)) tell_full(hand, push, was_full);
-  if (changed_.size() > before) tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, 0, 0});
+  if (changed_.size() > before)
+    tell(hand, push, kCutBegin, {1000 * with.cutter.size_m, 0, 0});
+  else
+    h.bone = bone_before;
 }
 
 std::uint64_t Carving::hash() {
@@ -550,6 +554,11 @@ bool Carving::fits(const CarvingState& state) const {
     CarvedField copy = *bones_[b].field;
     if (!copy.restore(state.bones[b])) return false;
   }
+  const auto is_carved = [&](std::uint32_t b) { return b < bones_.size() && bones_[b].field; };
+  for (const CarvingHand& hand : state.hands)
+    if (hand.bone != CarvingHand::kNoBone && !is_carved(hand.bone)) return false;
+  for (const GuideRod& rod : state.rods)
+    if (rod.kind != GuideRod::Kind::kNone && !is_carved(rod.bone)) return false;
   return true;
 }
 

@@ -76,7 +76,11 @@ void Carving::run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT
   const Vec3 back = outwards(h.X_BC);
   for (int i = 0; i < kMostStrides && back.dot(h.X_BC.p - X_BT.p) > -kAhead_m; ++i) {
     const Pose next{h.X_BC.p - 0.5 * field.grid().cell_m * back, h.X_BC.q};
-    if (look_before(field, with.cutter, with.pilot_m, next).left() > 0) {
+    // A blade has an edge and no faces.
+    const FrontShare front = with.way == CarvingTool::Way::kStrike
+                                 ? look_before_edge(field, with.cutter.size_m, next)
+                                 : look_before(field, with.cutter, with.pilot_m, next);
+    if (front.left() > 0) {
       h.open = false;
       return;
     }
@@ -94,6 +98,11 @@ void Carving::leave_hole(std::size_t hand, const CarvingTool& with, const ToolSt
   // Put back into its hole by a restore point while the hand is elsewhere, it is not drawn there.
   const bool elsewhere = (off - off.dot(out) * out).norm() > kCapture_m;
   if (!elsewhere && !(out.dot(X_BT.p - h.mouth_B) > kOutOfHole_m)) return;
+  end_hole(hand, tool);
+}
+
+void Carving::end_hole(std::size_t hand, const ToolState& tool) {
+  CarvingHand& h = hands_[hand];
   if (h.most_torque_nm > 0)
     tell_of(hand, tool, kCutEnd, h.bone,
             {1000 * h.drill.depth_m, 0.002 * static_cast<double>(steps_ - h.since),

@@ -33,7 +33,7 @@ void Carving::drop_pieces_of(std::uint32_t b, std::span<const ToolState* const> 
     }
     const bool dust = piece.volume_m3 < kDust_m3;
     fallen_.push_back({b, piece.volume_m3, dust});
-    let_go_of(piece, b);
+    if (!dust) let_go_of(piece, b, tools);
     if (!dust && !tools.empty())
       tell_of(hand, *tools[hand], kPieceOff, b, {1e9 * piece.volume_m3, 0, 0});
   }
@@ -41,16 +41,28 @@ void Carving::drop_pieces_of(std::uint32_t b, std::span<const ToolState* const> 
     if (bone.field->changed_at(n) > before) changed_.push_back({b, bone.field->block_at(n)});
 }
 
-// A hole that was in it holds no drill any more.
-void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone) {
+// A hole that was in it holds no drill any more, and a pin that stood in it is gone with it. Dust
+// about a hole leaves the hole.
+void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
+                        std::span<const ToolState* const> tools) {
   const BlockGrid& grid = bones_[bone].field->grid();
   Aabb box;
   box.include(grid.node(piece.first[0], piece.first[1], piece.first[2]));
   box.include(grid.node(piece.last[0], piece.last[1], piece.last[2]));
-  for (CarvingHand& h : hands_) {
-    const bool inside = (h.mouth_B.array() >= box.lo.array() - grid.cell_m).all() &&
-                        (h.mouth_B.array() <= box.hi.array() + grid.cell_m).all();
-    if (h.bone == bone && h.in_hole && inside) h = anew(h);
+  const auto inside = [&](const Vec3& p) {
+    return (p.array() >= box.lo.array() - grid.cell_m).all() &&
+           (p.array() <= box.hi.array() + grid.cell_m).all();
+  };
+  for (std::size_t n = 0; n < count_; ++n) {
+    CarvingHand& h = hands_[n];
+    if (h.bone != bone || !h.in_hole || !inside(h.mouth_B)) continue;
+    if (n < tools.size()) end_hole(n, *tools[n]);
+  }
+  for (std::size_t r = 0; r < rods_.size(); ++r) {
+    const GuideRod& rod = rods_[r];
+    const Vec3 mouth = rod.X_BR.p + rod.in_bone_m * (rod.X_BR.q * Vec3::UnitZ());
+    if (rod.kind == GuideRod::Kind::kPin && rod.bone == bone && inside(rod.X_BR.p) && inside(mouth))
+      drop_rod(r);
   }
 }
 

@@ -41,6 +41,12 @@ std::optional<std::string> decoded(std::string_view text) {
     if (static_cast<unsigned char>(c) < 32 || c == 127) return std::nullopt;
     out += c;
   }
+  // What is not UTF-8 cannot be told to anybody.
+  try {
+    (void)Cmi5Json(out).dump();
+  } catch (const Cmi5Json::exception&) {
+    return std::nullopt;
+  }
   return out;
 }
 
@@ -53,7 +59,7 @@ Result<std::map<std::string, std::string>> query_of(std::string_view text) {
     const auto name = decoded(pair.substr(0, pair.find('=')));
     const auto value = decoded(pair.find('=') == pair.npos ? "" : pair.substr(pair.find('=') + 1));
     if (!name || !value)
-      return tl::unexpected(launch_error("'" + std::string(pair) + "' is not encoded as it must"));
+      return tl::unexpected(launch_error("'" + std::string(pair) + "' is not encoded correctly"));
     values.emplace(*name, *value);
   }
   return values;
@@ -78,14 +84,14 @@ Cmi5Json account_of(const std::string& actor_json) {
 
 std::optional<Error> complaint(const Cmi5Launch& launch) {
   if (!is_exercise_name(launch.scenario))
-    return launch_error("'" + launch.scenario + "' is no name of an exercise");
-  if (!is_uuid(launch.registration)) return launch_error("the registration is no UUID");
+    return launch_error("'" + launch.scenario + "' is not the name of an exercise");
+  if (!is_uuid(launch.registration)) return launch_error("the registration is not a UUID");
   if (launch.activity.empty()) return launch_error("the activityId is missing");
   if (account_of(launch.actor_json).is_null())
-    return launch_error("the actor is no agent with an account");
+    return launch_error("the actor is not an agent with an account");
   for (const std::string* address : {&launch.endpoint, &launch.fetch}) {
     if (!address->starts_with("http://") && !address->starts_with("https://"))
-      return launch_error("'" + *address + "' is no address of a record store");
+      return launch_error("'" + *address + "' is not the address of a record store");
     if (!is_private_way(*address))
       return Error{"the launch's token would be sent unencrypted", *address, "Use https://"};
   }
@@ -123,7 +129,7 @@ Result<std::string> fetched_token(const Cmi5Launch& launch, const Cmi5Way& way) 
   auto http = LrsHttp::to(record_store(launch.fetch.substr(0, end), way));
   if (!http) return tl::unexpected(http.error());
   const auto answer = http->post(launch.fetch.substr(end), "");
-  if (!answer) return tl::unexpected(answer.error());
+  if (!answer) return fail(answer.error().what, answer.error().where, kLaunchAgain);
   const Cmi5Json body = Cmi5Json::parse(answer->body, nullptr, false);
   if (answer->status == 200 && body.is_object() && body.contains("auth-token") &&
       body["auth-token"].is_string() && is_token(body["auth-token"]))
@@ -139,7 +145,7 @@ Result<Cmi5Json> launch_data(LrsHttp& http, const Cmi5Launch& launch, const Cmi5
       "/activities/state?stateId=LMS.LaunchData&activityId=" + percent_encoded(launch.activity) +
       "&agent=" + percent_encoded(launch.actor_json) + "&registration=" + launch.registration;
   const auto answer = asked_patiently([&] { return http.get(query); }, way.wait, launch.endpoint);
-  if (!answer) return tl::unexpected(answer.error());
+  if (!answer) return fail(answer.error().what, answer.error().where, kLaunchAgain);
   Cmi5Json data = Cmi5Json::parse(answer->body, nullptr, false);
   if (answer->status == 200 && data.is_object() && data.contains("contextTemplate") &&
       data["contextTemplate"].is_object())
@@ -163,7 +169,8 @@ std::int64_t now_ms() {
 
 Result<Cmi5Launch> parse_cmi5_launch(const std::string& url) {
   const std::string_view scheme = kLaunchScheme;
-  if (!url.starts_with(scheme)) return tl::unexpected(launch_error("it begins not with osteon://"));
+  if (!url.starts_with(scheme))
+    return tl::unexpected(launch_error("it does not begin with osteon://"));
   const std::size_t question = std::min(url.find('?'), url.size());
   std::string path = url.substr(scheme.size(), question - scheme.size());
   while (path.ends_with('/')) path.pop_back();
@@ -184,7 +191,7 @@ Result<Cmi5Launch> parse_cmi5_launch(const std::string& url) {
     std::uint64_t number = 0;
     const auto [end, ec] = std::from_chars(seed.data(), seed.data() + seed.size(), number);
     if (ec != std::errc() || end != seed.data() + seed.size())
-      return tl::unexpected(launch_error("the seed '" + seed + "' is no whole number"));
+      return tl::unexpected(launch_error("the seed '" + seed + "' is not a whole number"));
     launch.seed = number;
   }
   while (launch.endpoint.ends_with('/')) launch.endpoint.pop_back();

@@ -14,6 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 using QueueJson = nlohmann::ordered_json;
 
+// What a server answered may be no UTF-8.
+std::string safe_dump(const QueueJson& json) {
+  return json.dump(2, ' ', false, QueueJson::error_handler_t::replace);
+}
+
 // Of one session: files of one stem, "<began>-<session>", in the order of their parts.
 std::string session_stem(const fs::path& file) {
   const std::string name = file.stem().string();
@@ -80,12 +85,23 @@ class Cmi5Sender {
       if (*there) return ++sent_.accepted, true;
     }
     if (answer->status == 200) {
-      sent_.why_waiting = Error{"the record store said that it took a statement and has it not",
-                                endpoint_, "Tell who keeps it; the statement waits"};
+      sent_.why_waiting = Error{"the record store accepted a statement but does not have it",
+                                endpoint_, "Tell its administrator; the statement waits"};
+      return false;
+    }
+    if (speaks_of_the_way(answer->status)) {
+      sent_.why_waiting =
+          Error{"the record store was not reached (HTTP " + std::to_string(answer->status) + ")",
+                endpoint_, "Nothing is lost: send again later"};
       return false;
     }
     refuse(statement, *answer);
     return true;
+  }
+
+  // A page to sign in, a proxy, a server without its record store: not what a statement is told.
+  static bool speaks_of_the_way(long status) {
+    return status < 400 || status == 404 || status == 405 || status == 407;
   }
 
   void refuse(const QueueJson& statement, const HttpAnswer& answer) {
@@ -135,8 +151,11 @@ Result<bool> send_file(const fs::path& file, const Cmi5Way& way, Cmi5Sent& sent)
   const auto text = read_file(file, 16u << 20);
   if (!text) return tl::unexpected(text.error());
   const QueueJson queued = QueueJson::parse(*text, nullptr, false);
-  if (!queued.is_object() || !queued.contains("endpoint") || !queued.contains("authorization") ||
-      !queued.contains("statements"))
+  const auto is_text = [&](const char* key) {
+    return queued.contains(key) && queued[key].is_string();
+  };
+  if (!queued.is_object() || !is_text("endpoint") || !is_text("authorization") ||
+      !queued.contains("statements") || !queued["statements"].is_array())
     return fail("holds no statements of a launch", file.string(), "Move the file away");
   Lrs lrs;
   lrs.endpoint = queued["endpoint"];
@@ -158,7 +177,7 @@ Result<bool> send_file(const fs::path& file, const Cmi5Way& way, Cmi5Sent& sent)
     fs::path aside = file;
     aside.replace_extension(".refused");
     const QueueJson kept = {{"endpoint", lrs.endpoint}, {"refused", sender.refused}};
-    if (auto ok = write_file_atomic(aside, kept.dump(2) + "\n"); !ok)
+    if (auto ok = write_file_atomic(aside, safe_dump(kept) + "\n"); !ok)
       return tl::unexpected(ok.error());
   }
   std::error_code ec;
@@ -205,8 +224,13 @@ Result<Cmi5Sent> send_cmi5(const fs::path& folder, const Cmi5Way& way) {
       continue;
     }
     const auto done = send_file(file, way, sent);
-    if (!done) return tl::unexpected(done.error());
-    if (!*done) waiting.insert(stem);
+    std::error_code ec;
+    if (!done && !fs::exists(file, ec)) continue;  // another program was quicker
+    if (!done) {
+      sent.why_waiting = done.error();
+      sent.waiting += std::max<std::size_t>(1, statements_in(file));
+    }
+    if (!done || !*done) waiting.insert(stem);
   }
   return sent;
 }

@@ -200,14 +200,15 @@ Result<std::string> compare_attempts(const AttemptRow& a, const AttemptRow& b) {
   for (const auto& [name, severity] : in_a) (in_b.count(name) ? both : only_a).push_back(name);
   for (const auto& [name, severity] : in_b)
     if (!in_a.count(name)) only_b.push_back(name);
+  const bool same = a.scenario == b.scenario && a.scenario_version == b.scenario_version;
   const auto part = [](const CohortJson& report, const char* key) {
     return report.value(key, CohortJson());
   };
   const CohortJson json = {
-      {"same_scenario", a.scenario == b.scenario && a.scenario_version == b.scenario_version},
+      {"same_scenario", same},
       {"a", head_of(a)},
       {"b", head_of(b)},
-      {"stages", stage_times(part(ra, "stages"), part(rb, "stages"))},
+      {"stages", same ? stage_times(part(ra, "stages"), part(rb, "stages")) : CohortJson::array()},
       {"errors", {{"both", both}, {"only_a", only_a}, {"only_b", only_b}}},
       {"metrics", metric_changes(part(ra, "metrics"), part(rb, "metrics"))}};
   return json.dump(2) + "\n";

@@ -4,6 +4,7 @@
 #include "osteon/base/file.h"
 #include "osteon/results/cohort.h"
 #include "osteon/results/pdf.h"
+#include "short_text.h"
 
 namespace osteon {
 namespace {
@@ -57,7 +58,8 @@ std::string standing(const CohortLearner& one) {
 
 // What scores and intervals of an exercise lie between.
 struct ScoreScale {
-  double least = 100, most = 100;
+  // From 0, so that a bar twice as long is a score twice as high.
+  double least = 0, most = 100;
   void include(const std::optional<double>& value) {
     if (!value) return;
     least = std::min(least, *value);
@@ -97,7 +99,7 @@ std::string bars_svg(const CohortScenario& scenario, const LearnerNames& names) 
   std::string svg = "<svg viewBox=\"0 0 640 " + tenths(high) + "\" role=\"img\">";
   double y = 12;
   for (const CohortLearner& one : scenario.learners) {
-    svg += svg_text(0, y + 4, shown_name(one.learner, names).substr(0, 24));
+    svg += svg_text(0, y + 4, short_text(shown_name(one.learner, names), 24));
     if (one.last) svg += svg_line(kPlotLeft, y, scale.x(*one.last), y, "bar");
     if (one.last_lo && one.last_hi)
       svg += svg_line(scale.x(*one.last_lo), y, scale.x(*one.last_hi), y, "interval");

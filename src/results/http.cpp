@@ -30,8 +30,11 @@ struct HeaderList {
 bool is_here(const std::string& endpoint) {
   for (const char* host : {"http://127.0.0.1", "http://localhost", "http://[::1]"})
     if (endpoint.starts_with(host)) {
-      const char next = endpoint.c_str()[std::string_view(host).size()];
-      if (next == '\0' || next == ':' || next == '/') return true;
+      // Up to the path: after "localhost:80@" another host follows.
+      std::string_view port = std::string_view(endpoint).substr(std::string_view(host).size());
+      port = port.substr(0, port.find_first_of("/?#"));
+      if (port.empty() || (port[0] == ':' && port.find_first_not_of("0123456789", 1) == port.npos))
+        return true;
     }
   return false;
 }
@@ -83,6 +86,7 @@ struct LrsHttp::Impl {
     curl_easy_reset(curl);
     curl_easy_setopt(curl, CURLOPT_URL, (lrs.endpoint + path).c_str());
     curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(curl, CURLOPT_NOPROXY, "localhost,127.0.0.1,::1");
     curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
     curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, detail);
     curl_easy_setopt(curl, CURLOPT_TIMEOUT_MS, lrs.timeout_ms);

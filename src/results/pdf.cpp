@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "osteon/base/file.h"
+#include "short_text.h"
 
 namespace osteon {
 namespace {
@@ -145,7 +146,7 @@ void PdfPages::curve(const Curve& curve, double height_mm) {
 
 void PdfPages::bars(const Bars& bars) {
   if (bars.bars.empty()) return;
-  double least = bars.line, most = bars.line;
+  double least = std::min(0.0, bars.line), most = bars.line;
   for (const Bar& bar : bars.bars) {
     least = std::min({least, bar.value, bar.lo});
     most = std::max({most, bar.value, bar.hi});
@@ -165,7 +166,7 @@ void PdfPages::bars(const Bars& bars) {
     impl_->room_for(14);
     impl_->y -= 13;
     const float middle = impl_->y + 3;
-    impl_->write(bar.label.substr(0, 26), kMargin, impl_->y, impl_->plain, 8);
+    impl_->write(short_text(bar.label, 26), kMargin, impl_->y, impl_->plain, 8);
     HPDF_Page_SetLineWidth(impl_->page, 7);
     HPDF_Page_SetRGBStroke(impl_->page, 0.62f, 0.72f, 0.85f);
     stroke(left, middle, px(bar.value), middle);

@@ -138,8 +138,8 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
     return fail("the recording removes bone, which this kind of replay cannot do", "recording",
                 "Use 'osteon replay' or 'osteon case save'");
   if (settings->soft.empty() == static_cast<bool>(options.softs))
-    return fail("the recording feels soft parts, which this kind of replay cannot do", "recording",
-                "Use 'osteon replay'");
+    return fail("soft parts are felt in the recording, which this kind of replay cannot do",
+                "recording", "Use 'osteon replay'");
   std::unique_ptr<Replayer> replayer;
   const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
     return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving,

@@ -118,7 +118,7 @@ Result<Eigen::MatrixXd> ways_of(const CellMatrix& stiffness) {
     out = factor.solve(Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols()));
   // One that nothing holds has ways without bound.
   if (out.size() > 0 && out.allFinite() && out.cwiseAbs().maxCoeff() < 1e12) return out;
-  return fail("nothing holds the soft part, so it has no place of rest", {},
+  return fail("nothing holds the soft part, so it has no equilibrium", {},
               "It must lie on a bone and be held there");
 }
 
@@ -217,8 +217,17 @@ SolidPush PressedSolid::push_at(const Vec3& p, const Vec3& nhat, double force_n)
 
 // The gains' geometric mean keeps what two places do to one another mutual.
 double PressedSolid::compliance(const SolidPush& at, const SolidPush& push) const {
-  const double share = 0.5 * (impl_->share(at) + impl_->share(push));
-  return std::sqrt(at.gain * push.gain) * impl_->yields(at, push, share);
+  const auto between = [this](const SolidPush& a, const SolidPush& b) {
+    const double share = 0.5 * (impl_->share(a) + impl_->share(b));
+    return std::sqrt(a.gain * b.gain) * impl_->yields(a, b, share);
+  };
+  const double both = between(at, push);
+  if (&at == &push) return both;
+  // Less than what the two do to themselves: else tools on both sides would press each other on
+  // without end, since shares and gains differ from one side to the other.
+  constexpr double kMutual = 0.95;
+  const double most = kMutual * std::sqrt(std::max(0.0, between(at, at) * between(push, push)));
+  return std::clamp(both, -most, most);
 }
 
 std::vector<Vec3> PressedSolid::moved(std::span<const SolidPush> pushes) const {

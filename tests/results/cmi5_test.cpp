@@ -72,13 +72,16 @@ TEST_F(Cmi5Test, AnAddressThatLacksAPartOrHidesOneIsRefused) {
         "osteon://launch/..%2Fetc?" + good.substr(good.find('?') + 1),
         "osteon://launch/../touch_bones" + good.substr(good.find('?')),
         "osteon://run/touch_bones" + good.substr(good.find('?')), good + "&seed=-1",
-        good + "&seed=1x", good + "%", good + "&x=%0d%0aEvil", good + "&x=%g1"})
+        good + "&seed=1x", good + "%", good + "&x=%0d%0aEvil", good + "&x=%g1", good + "&x=%ff"})
     EXPECT_FALSE(parse_cmi5_launch(bad)) << bad;
   std::string open_way = good;
   open_way.replace(open_way.find("127%2e0%2e0%2e1"), 15, "lms.example.org");
   const auto refused = parse_cmi5_launch(open_way);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find("in the open"), std::string::npos);
+  EXPECT_NE(refused.error().what.find("unencrypted"), std::string::npos);
+  std::string disguised = good;  // what comes before '@' is a user's name
+  disguised.replace(disguised.find("127%2e0%2e0%2e1"), 15, "localhost%3a80%40lms.example.org");
+  EXPECT_FALSE(parse_cmi5_launch(disguised));
   EXPECT_EQ(parse_cmi5_launch(good + "&seed=7")->seed, 7u);
 }
 

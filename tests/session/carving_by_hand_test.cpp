@@ -7,6 +7,7 @@
 
 #include "drilling.h"
 #include "osteon/carve/removed.h"
+#include "osteon/scene/carve_events.h"
 
 namespace osteon {
 namespace {
@@ -106,6 +107,23 @@ TEST(CarvingByHand, AShaverTakesCartilageAndStopsAtBone) {
   EXPECT_GT(gone_by_hand("microdrill:3", {.power = 1}), 1);
   hand.lean_rad = kLeant;
   EXPECT_EQ(total(tissues_gone(on_cartilage("shaver:3.5"), hand)), 0);
+}
+
+// What it does not cut it does not enter.
+TEST(CarvingByHand, AShaverThatRestsOnBoneTellsOfNoTissue) {
+  const Drilling with("shaver:3.5");
+  Session session = with.session();
+  std::size_t told = 0;
+  for (int n = 1; n <= 400; ++n) {
+    HandInput input;
+    input.input.X_WD.p = {0, 0, kTop_m + std::max(0.002 - 0.00002 * n, -0.003)};
+    input.input.X_WD.q = Quat(Eigen::AngleAxisd(-kLeant, Vec3::UnitX()));
+    if (n == 2) input.command = {CommandKind::kPower, 1.0};
+    (void)session.tick(std::span(&input, 1));
+    for (const Event& event : session.last_events()) told += event.kind == kCortexEntered;
+  }
+  EXPECT_GT(session.tool_state().force_W.norm(), 0.5);
+  EXPECT_EQ(told, 0u);
 }
 
 // The punch hooks its foot under the block's lower edge, leant over by 40.5 degrees so that its

@@ -153,8 +153,8 @@ class Carving {
   };
   /// Of the last step; looked for in every kLookEvery-th.
   std::span<const Fallen> fallen() const { return fallen_; }
-  static constexpr std::uint64_t kLookEvery = 64;
-  static constexpr double kDust_m3 = 5e-9;  ///< own default
+  static constexpr std::uint64_t kLookEvery = 48;  ///< before a hand at rest forgets its bone
+  static constexpr double kDust_m3 = 5e-9;         ///< own default
   std::span<const Event> events() const { return events_; }
   /// What leads the hands' instruments in the next ticks.
   const std::array<ToolGuide, kMaxHands>& guides() const { return guides_; }
@@ -186,7 +186,9 @@ class Carving {
 
   void drop_pieces(std::span<const ToolState* const> tools);
   void drop_pieces_of(std::uint32_t bone, std::span<const ToolState* const> tools);
-  void let_go_of(const LoosePiece& piece, std::uint32_t bone);
+  void let_go_of(const LoosePiece& piece, std::uint32_t bone,
+                 std::span<const ToolState* const> tools);
+  void end_hole(std::size_t hand, const ToolState& tool);
 
   void step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);
   void cut_with(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones, double step_s);

@@ -45,9 +45,10 @@ Result<StandardView> parse_view_line(const std::string& line, const std::string&
   view.pose.up_W = Vec3(x[8], x[9], x[10]);
   std::istringstream shown(field[4]);
   for (std::string part; shown >> part;) view.shows.push_back(part);
-  if (view.name.empty() ||
+  // It becomes the name of a file.
+  if (view.name.empty() || view.name.find('/') != std::string::npos ||
       (view.pose.toward_W - view.pose.at_W).cross(view.pose.up_W).norm() < 1e-6)
-    return fail("needs a name, and a direction of the shaft that is not the one that is up", where);
+    return fail("needs a name without '/', and a shaft that is not parallel to 'up'", where);
   return view;
 }
 

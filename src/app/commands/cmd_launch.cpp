@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +14,8 @@
 #include "commands/window_exercise.h"
 #include "exercises/launched_exercise.h"
 #include "exercises/result_files.h"
+#include "exercises/scenario_files.h"
+#include "osteon/base/file.h"
 
 namespace osteon {
 namespace {
@@ -28,11 +31,19 @@ Cmi5Way way_of(const LaunchCommand& command) {
           [](long ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }};
 }
 
-// Not what an address may name: a shipped exercise, no file.
+// An address names a shipped exercise; a file of that name in the folder is not looked at.
+Result<Scenario> shipped_exercise(const std::string& name) {
+  auto all = shipped_scenarios();
+  if (!all) return tl::unexpected(all.error());
+  for (Scenario& one : *all)
+    if (one.name == name) return std::move(one);
+  return fail("there is no exercise '" + name + "'", "launch address", "See: osteon scenario list");
+}
+
 Result<std::optional<AttemptRow>> played_by_surgeon(const std::string& surgeon,
                                                     const Cmi5Launch& launch,
                                                     const std::string& learner) {
-  auto scenario = open_scenario(launch.scenario);
+  auto scenario = shipped_exercise(launch.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
   auto skill = parse_skill(*scenario, surgeon);
   if (!skill) return tl::unexpected(skill.error());
@@ -49,27 +60,39 @@ Result<std::optional<AttemptRow>> played_by_surgeon(const std::string& surgeon,
   if (!row) return tl::unexpected(row.error());
   const auto kept = keep_attempt(*row, results_place(), waiting_folder());
   if (!kept) return tl::unexpected(kept.error());
+  if (kept->why_waiting) report_error(*kept->why_waiting);
   return std::optional<AttemptRow>(*row);
 }
 
-// The window keeps its attempts itself: those that were not there before. One that passed counts
+// Attempts of a learner that have ended since: in the results, or where they wait for them.
+std::vector<AttemptRow> attempts_since(std::int64_t began_ms, const std::string& scenario,
+                                       const std::string& learner) {
+  std::vector<AttemptRow> rows;
+  if (const auto store = open_results())
+    if (auto listed = store->list({learner, scenario})) rows = std::move(*listed);
+  constexpr std::uint64_t kLargestAttempt = 64u << 20;
+  std::error_code ec;
+  for (std::filesystem::directory_iterator at(waiting_folder(), ec), end; !ec && at != end;
+       at.increment(ec))
+    if (const auto text = read_file(at->path(), kLargestAttempt))
+      if (auto row = parse_attempt_row(*text, at->path().string());
+          row && row->learner == learner && row->scenario == scenario)
+        rows.push_back(std::move(*row));
+  std::erase_if(rows, [&](const AttemptRow& row) { return row.ended_ms < began_ms; });
+  return rows;
+}
+
+// The window keeps its attempts itself, also where it is ended by a signal. One that passed counts
 // before a later one that did not.
 Result<std::optional<AttemptRow>> played_in_window(const Cmi5Launch& launch,
                                                    const std::string& learner) {
-  const auto attempts = [&]() -> Result<std::vector<AttemptRow>> {
-    const auto store = open_results();
-    if (!store) return tl::unexpected(store.error());
-    return store->list({learner, launch.scenario});
-  };
-  const auto before = attempts();
-  if (!before) return tl::unexpected(before.error());
-  if (auto shown = exercise_in_window(launch.scenario, launch.seed, learner); !shown)
-    return tl::unexpected(shown.error());
-  const auto after = attempts();
-  if (!after) return tl::unexpected(after.error());
+  const auto since = std::chrono::system_clock::now().time_since_epoch();
+  const auto began = std::chrono::duration_cast<std::chrono::milliseconds>(since).count();
+  const auto shown = exercise_in_window(launch.scenario, launch.seed, learner);
   std::optional<AttemptRow> counts;
-  for (std::size_t i = before->size(); i < after->size(); ++i)
-    if (!counts || counts->verdict != "passed") counts = (*after)[i];
+  for (AttemptRow& row : attempts_since(began, launch.scenario, learner))
+    if (!counts || counts->verdict != "passed") counts = std::move(row);
+  if (!counts && !shown) return tl::unexpected(shown.error());
   return counts;
 }
 
@@ -79,6 +102,11 @@ nlohmann::ordered_json sent_words(const Cmi5Sent& sent) {
   json["why_waiting"] = sent.why_waiting ? nlohmann::ordered_json(sent.why_waiting->message())
                                          : nlohmann::ordered_json(nullptr);
   return json;
+}
+
+// What a server answered may be no UTF-8.
+std::string printable(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void say_sent(const Cmi5Sent& sent) {
@@ -97,7 +125,7 @@ int send_waiting(const LaunchCommand& command) {
   const auto sent = send_cmi5(launches_folder(), way_of(command));
   if (!sent) return report_error(sent.error());
   if (command.json)
-    std::printf("%s\n", sent_words(*sent).dump(2).c_str());
+    std::printf("%s\n", printable(sent_words(*sent)).c_str());
   else
     say_sent(*sent);
   return all_told(*sent) ? kExitDone : kExitNo;
@@ -117,8 +145,11 @@ int launch_command(const LaunchCommand& command) {
   const auto launch = parse_cmi5_launch(command.address);
   if (!launch) return report_error(launch.error());
   // Before the token is used up.
-  if (const auto scenario = open_scenario(launch->scenario); !scenario)
-    return report_error(scenario.error());
+  const auto scenario = shipped_exercise(launch->scenario);
+  if (!scenario) return report_error(scenario.error());
+  if (!command.surgeon.empty())
+    if (const auto skill = parse_skill(*scenario, command.surgeon); !skill)
+      return report_error(skill.error());
   const auto done = run_launched(
       *launch, way_of(command), [&](const Cmi5Launch& order, const std::string& learner) {
         return command.surgeon.empty() ? played_in_window(order, learner)
@@ -130,7 +161,7 @@ int launch_command(const LaunchCommand& command) {
     json["verdict"] = done->attempt ? nlohmann::ordered_json(done->attempt->verdict)
                                     : nlohmann::ordered_json(nullptr);
     json["return_url"] = done->return_url;
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", printable(json).c_str());
   } else {
     say_launched(*done);
   }
@@ -156,8 +187,8 @@ void add_launch_command(cli::App& app, int& exit_code) {
   command->add_flag("--waiting", options->waiting,
                     "instead: send what earlier launches could not send");
   command->add_option("--certificates", options->certificates,
-                      "PEM file of who may sign the system's certificate; else the computer's");
-  command->add_option("--timeout", options->timeout_s, "seconds that one request may take")
+                      "PEM file of trusted certificate authorities; default: the system's");
+  command->add_option("--timeout", options->timeout_s, "time limit of one request, s")
       ->check(cli::Range(0.1, 600.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");

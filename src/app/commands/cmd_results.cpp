@@ -162,11 +162,12 @@ int export_results(const ResultsCommand& command) {
 // A page of the whole class, HTML or PDF by the file's name.
 int write_cohort(const ResultsCommand& command) {
   if (command.out.empty() && !command.json)
-    return report_error({"there is no place for the page", "--out",
+    return report_error({"no output is given", "--out",
                          "Give a file .html or .pdf, or --json to print its figures"});
   const bool html = command.out.ends_with(".html");
   if (!command.out.empty() && !html && !command.out.ends_with(".pdf"))
-    return report_error({"is neither .html nor .pdf", command.out, "Name the page so"});
+    return report_error(
+        {"is neither .html nor .pdf", command.out, "Give a name that ends in .html or .pdf"});
   const auto rows = wanted_rows(command);
   if (!rows) return report_error(rows.error());
   const auto names = command.names ? load_names(names_file()) : LearnerNames();

@@ -160,6 +160,7 @@ class StandardTour {
     if (!scoped) return tl::unexpected(scoped.error());
     scoped_.emplace(std::move(*scoped));
     scoped_->set_water(water->seen);
+    print_water(command_, *water);
     return {};
   }
   Result<void> show(const StandardView& view, bool stiff) {
@@ -232,7 +233,7 @@ int run_view(const ViewCommand& command) {
 
 void add_water_options(cli::App& sub, ViewCommand& command) {
   sub.add_option("--turbidity", command.water.turbidity,
-                 "share of the light that pale debris takes on the way to tissue 10 mm off and "
+                 "share of the light that pale debris takes on the way to tissue 10 mm away and "
                  "back, 0 to 1")
       ->capture_default_str();
   sub.add_option("--fog", command.water.fog, "share of the lens that is fogged, 0 to 1")
@@ -295,6 +296,13 @@ void add_view_command(cli::App& app, int& exit_code) {
   sub->callback([command, &exit_code] {
     if (!command->is_standard() && !command->is_single())
       cli::refuse("--at, --toward and --out", "are needed; or --standard with a folder, or --list");
+    if (command->list && !command->out.empty())
+      cli::refuse("--list", "leave out --out: no picture is drawn");
+    const bool placed = !(command->at_mm.empty() && command->toward_mm.empty());
+    if (!command->standard.empty() && (placed || !command->out.empty()))
+      cli::refuse("--standard", "leave out --at, --toward and --out");
+    if (!command->is_standard() && !(command->only.empty() && command->views.empty()))
+      cli::refuse("--only and --views", "go with --standard or --list");
     exit_code = run_view(*command);
   });
 }

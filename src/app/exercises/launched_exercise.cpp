@@ -1,5 +1,6 @@
 #include "exercises/launched_exercise.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -45,7 +46,11 @@ Result<LaunchedExercise> run_launched(const Cmi5Launch& launch, const Cmi5Way& w
   const auto tell = [&](const std::string& statements, int part) -> Result<void> {
     if (auto ok = queue_cmi5(*session, statements, part, launches_folder()); !ok) return ok;
     auto sent = send_cmi5(launches_folder(), way);
-    if (!sent) return tl::unexpected(sent.error());
+    if (!sent) {
+      done.sent.why_waiting = sent.error();
+      done.sent.waiting = std::max<std::size_t>(1, done.sent.waiting);
+      return {};
+    }
     add_sent(done.sent, std::move(*sent));
     return {};
   };

@@ -164,6 +164,13 @@ std::int16_t LoosePieces::Local::cut_at(std::size_t n, std::int16_t before) cons
 }
 
 bool LoosePieces::take_away(CarvedField& field, const LoosePiece& piece, double reach_m) const {
+  // Each of its blocks will hold cuts: without room for these nothing need be measured.
+  std::size_t least = field.block_count();
+  for (std::size_t n = 0; n < piece.parts.size(); ++n)
+    if ((n == 0 || piece.parts[n].block != piece.parts[n - 1].block) &&
+        !field.cuts(piece.parts[n].block))
+      ++least;
+  if (least > field.most_blocks()) return false;
   Local local(field, piece, reach_m);
   if (local.count() > kMostNodes) return false;
   local.read(*this, piece);

@@ -46,9 +46,9 @@ std::vector<std::string> names_there(const Case& the_case, const LigamentTable& 
 Result<std::vector<const LigamentRow*>> rows_asked(const Case& the_case, const LigamentTable& table,
                                                    std::span<const std::string> names) {
   const std::vector<std::string> there = names_there(the_case, table);
-  const std::string advice = there.empty()
-                                 ? "Give a case with a knee, such as builtin:knee"
-                                 : "Choose from " + listed(there) + ", or " + kAllLigaments;
+  const std::string advice =
+      there.empty() ? "Give a case with a knee, such as builtin:knee"
+                    : "Choose from " + listed(there) + ", " + kAllLigaments + " or menisci";
   std::vector<std::string> wanted;
   for (const std::string& name : names) {
     const std::vector<std::string> more =

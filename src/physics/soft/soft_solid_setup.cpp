@@ -33,7 +33,7 @@ Result<std::vector<std::uint32_t>> menisci_asked(const Case& the_case,
     }
   if (out.empty())
     return fail("the case has no meniscus that can be felt", kSolidsWhere,
-                "Give a case with a knee, as builtin:knee");
+                "Give a case with a knee, such as builtin:knee");
   if (out.size() > kMaxSolids)
     return fail("more than " + std::to_string(kMaxSolids) + " menisci", kSolidsWhere, "Give fewer");
   return out;

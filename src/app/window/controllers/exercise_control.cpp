@@ -61,9 +61,12 @@ void ExerciseControl::show(const std::string& order) {
   const std::string name = order.substr(0, colon);
   std::uint64_t seed = 0;
   const char* const end = order.data() + order.size();
-  if (colon != order.npos &&
-      std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
-    exercise_.set_seed(seed);
+  if (colon != order.npos) {
+    if (std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
+      exercise_.set_seed(seed);
+    else
+      host_.note(ToastKind::kWarning, "'" + order.substr(colon + 1) + "' is not a seed.");
+  }
   exercise_.toggle();
   if (!exercise_.choose(name))
     host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");

@@ -110,7 +110,7 @@ TEST_F(NotesControlTest, AnotherCaseHasItsOwnNotes) {
 }
 
 // A click goes to the camera unless a note is being placed.
-TEST_F(NotesControlTest, OnlyWhilePlacingAClickIsANotesPlace) {
+TEST_F(NotesControlTest, WithNoPlacingOrOverPanelsAClickIsNoNotesPlace) {
   SceneInput click;
   click.left = true;
   EXPECT_FALSE(notes_.poll_pointer(click));
