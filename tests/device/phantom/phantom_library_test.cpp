@@ -134,7 +134,7 @@ TEST(PhantomErrors, EachHasWordsAndACause) {
         0x301u, 0x302u, 0x303u, 0x304u, 0x400u, 0x401u, 0x402u, 0x500u, 0x501u, 0x600u}) {
     const std::string words = describe_hd_error(code);
     EXPECT_FALSE(words.empty());
-    EXPECT_EQ(words.find("does not know"), std::string::npos);
+    EXPECT_EQ(words.find("that Osteon does not know"), std::string::npos);
     EXPECT_NE(words, describe_hd_error(0x9999)) << std::hex << code;
   }
   EXPECT_EQ(force_off_for(hd::kSuccess), ForceOff::kNone);
