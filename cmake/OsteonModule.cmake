@@ -52,7 +52,7 @@ endfunction()
 set(OSTEON_LIGHT_MODULES xray media render surgeon results)
 if(OSTEON_SANITIZE MATCHES "thread")
   # The loops' tests run none of these at the rate of a loop.
-  list(APPEND OSTEON_LIGHT_MODULES image procedure tissue mesh hull)
+  list(APPEND OSTEON_LIGHT_MODULES image procedure tissue)
 endif()
 set(OSTEON_LIGHT_FLAGS "")
 if(OSTEON_SANITIZE)
