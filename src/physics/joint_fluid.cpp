@@ -98,12 +98,9 @@ bool is_obscured(const FluidJoint& joint, const FluidState& state) {
   return state.pressure_pa < kHeldOpen_pa || turbidity(joint, state) > kObscured;
 }
 
-LensFilm step_lens(const LensFilm& film, bool flushed, double dt_s) {
-  if (!(dt_s > 0) || !std::isfinite(dt_s)) return film;
-  LensFilm next = film;
-  next.fog = towards(film.fog, 0, 1 / kWarms_s + (flushed ? 1 / kFlushes_s : 0), dt_s);
-  if (flushed) next.smear = towards(film.smear, 0, 1 / kFlushes_s, dt_s);
-  return next;
+double step_fog(double fog, bool flushed, double dt_s) {
+  if (!(dt_s > 0) || !std::isfinite(dt_s)) return fog;
+  return towards(fog, 0, 1 / kWarms_s + (flushed ? 1 / kFlushes_s : 0), dt_s);
 }
 
 }  // namespace osteon

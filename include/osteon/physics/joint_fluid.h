@@ -69,13 +69,8 @@ double turbidity(const FluidJoint& joint, const FluidState& state);
 /// Turbidity over one half, or less than 30 mmHg, which do not hold the joint open.
 bool is_obscured(const FluidJoint& joint, const FluidState& state);
 
-/// The lens: a cold one fogs, warms and clears; a smear stays until it is flushed or wiped.
-struct LensFilm {
-  double fog = 0, smear = 0;  ///< shares of the lens, 0 to 1
-};
-/// Goes on by `dt_s`: fog goes by itself, and both go faster while water is flushed over the lens.
-LensFilm step_lens(const LensFilm& film, bool flushed, double dt_s);
-/// Taken out and wiped.
-inline LensFilm wiped(const LensFilm&) { return {}; }
+/// The share of a cold lens that is fogged, after `dt_s` more: it warms and clears by itself,
+/// faster while water is flushed over it.
+double step_fog(double fog, bool flushed, double dt_s);
 
 }  // namespace osteon

@@ -43,8 +43,7 @@ Result<WaterNow> water_after(const WaterOrder& order, const FluidJoint& joint) {
   const double bled = light_taken_per_m(joint, water.state);
   const double pale = -std::log1p(-std::min(order.turbidity, 0.9999)) / kThereAndBack_m;
   const double all = bled + pale;
-  water.seen = {all, all > 0 ? bled / all : 0,
-                step_lens({order.fog, 0}, true, order.flushed_s).fog};
+  water.seen = {all, all > 0 ? bled / all : 0, step_fog(order.fog, true, order.flushed_s)};
   water.turbidity = -std::expm1(-kThereAndBack_m * all);
   return water;
 }
