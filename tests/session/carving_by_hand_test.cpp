@@ -86,6 +86,47 @@ TEST(CarvingByHand, AnOsteotomeGoesInByTheBlowsOnIt) {
   EXPECT_GT(struck, pushed + 2);
 }
 
+// One bone of two walls: a plate of 1 mm, 2 mm of air, and a block under it.
+std::shared_ptr<const Case> two_walls() {
+  CaseDef def;
+  def.name = "two walls";
+  BoneDef bone;
+  bone.name = "walls";
+  bone.felt = Felt::kField;
+  for (const auto& [half_z, middle_z] : {std::pair(0.0005, 0.0035), std::pair(0.0025, -0.0015)}) {
+    const TriMesh box = testing::box_mesh(Vec3(0.005, 0.005, half_z));
+    const auto first = static_cast<std::uint32_t>(bone.mesh.vertices.size());
+    for (const Vec3& p : box.vertices) bone.mesh.vertices.push_back(p + Vec3(0, 0, middle_z));
+    for (const auto& t : box.triangles)
+      bone.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  def.bones.push_back(bone);
+  auto built = build_case(std::move(def));
+  EXPECT_TRUE(built);
+  return std::make_shared<const Case>(std::move(*built));
+}
+
+TEST(CarvingByHand, AnOsteotomeThatBreachesIsStoppedByTheNextWall) {
+  Drilling with("osteotome:4");
+  with.the_case = two_walls();
+  auto made = make_carving(*with.the_case, with.settings.tray, with.settings.carve);
+  ASSERT_TRUE(made);
+  with.setup = *made;
+  Session session = with.session();
+  int breached = 0;
+  for (int n = 1; n <= 4000 && (breached == 0 || n < breached + 800); ++n) {
+    HandInput input;
+    input.input.X_WD.p = {0, 0, kTop_m + std::max(0.001 - 0.02 * 0.001 * n, -0.007)};
+    if (n == 2) input.command = {CommandKind::kPower, 1.0};
+    if (breached > 0 && n == breached + 1) input.command = {CommandKind::kPower, 0.0};
+    (void)session.tick(std::span(&input, 1));
+    if (breached == 0 && session.tool_state().X_WP.p.z() < 0.0025) breached = n;
+  }
+  ASSERT_GT(breached, 0);
+  EXPECT_NEAR(session.tool_state().X_WP.p.z(), 0.001, 0.0008);
+  EXPECT_GT(session.tool_state().force_W.z(), 1);
+}
+
 // Cartilage of 1 mm over a cortex of 1.2 mm, instead of bare bone.
 Drilling on_cartilage(const std::string& instrument) {
   Drilling with(instrument);
