@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -43,6 +44,19 @@ class SlowToClose : public HapticDevice {
   std::unique_ptr<HapticDevice> device_;
 };
 
+// Waits until the joystick presses with half a newton. A stall of a busy machine switches the force
+// off, and it stays off until it is asked for again. False: it never pressed.
+bool wait_until_pressed(Runtime& runtime) {
+  constexpr std::int64_t kLongest_ns = 60'000'000'000;
+  const std::int64_t begun_ns = steady_now_ns();
+  while (runtime.device_status().force_at_hand_V.norm() < 0.5) {
+    if (steady_now_ns() - begun_ns > kLongest_ns) return false;
+    if (runtime.device_status().cause != ForceOff::kNone) runtime.set_force_enabled(true);
+    std::this_thread::yield();
+  }
+  return true;
+}
+
 // Runs until the joystick presses with half a newton, then ends the program so.
 void press_and(const std::function<void()>& end, const std::filesystem::path& log_file,
                bool slow_to_close = false) {
@@ -57,7 +71,10 @@ void press_and(const std::function<void()>& end, const std::filesystem::path& lo
   plan.the_case = test::blocks_case();
   Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(device), 20, log_file));
   runtime.start();
-  while (runtime.device_status().force_at_hand_V.norm() < 0.5) std::this_thread::yield();
+  if (!wait_until_pressed(runtime)) {
+    std::fprintf(stderr, "never pressed: %s\n", describe(runtime.device_status().cause));
+    std::_Exit(5);
+  }
   end();
   std::_Exit(4);  // it should not have come back
 }
