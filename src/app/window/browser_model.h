@@ -19,9 +19,10 @@ enum class OpenKind : std::uint8_t {
 /// One line of what can be opened.
 struct OpenEntry {
   OpenKind kind = OpenKind::kNothing;
-  std::string label;  ///< "Wrist"
-  std::string about;  ///< "built in", "a case, 12 March"
-  std::string path;   ///< as `open` takes it: a file, a folder or "builtin:wrist"
+  std::string label;           ///< "Wrist"
+  std::string about;           ///< "built in", "a case, 12 March"
+  std::string path;            ///< as `open` takes it: a file, a folder or "builtin:wrist"
+  std::uintptr_t picture = 0;  ///< OpenGL's texture; 0: none (yet)
 };
 
 struct BrowserModel {

@@ -8,11 +8,25 @@ void BrowserControl::apply(const BrowserRequests& requests) {
   if (requests.in_millimetres) browser_.set_in_millimetres(*requests.in_millimetres);
   if (requests.stop_import) browser_.stop_import();
   if (requests.open) open_any(requests.open->path);
+  ask_for_pictures();
   const Result<std::string> imported = browser_.take_imported();
   if (!imported) return host_.note(ToastKind::kError, imported.error().message());
   if (imported->empty()) return;
   host_.note(ToastKind::kInfo, "Saved as " + *imported);
   open_any(*imported);
+}
+
+// Once when the browser opens: a picture that cannot be drawn is not tried at each frame. Of what
+// comes later the next opening shows the picture.
+void BrowserControl::ask_for_pictures() {
+  pictures_.poll();
+  if (browser_.is_open() == pictures_wanted_) return;
+  pictures_wanted_ = browser_.is_open();
+  std::vector<std::string> cases;
+  if (pictures_wanted_)
+    for (const OpenEntry& entry : browser_.model().known)
+      if (entry.kind == OpenKind::kCase) cases.push_back(entry.path);
+  pictures_.want(cases);
 }
 
 void BrowserControl::open_any(const std::string& path) {
@@ -50,7 +64,10 @@ void BrowserControl::go_to_segmentation() {
 }
 
 BrowserModel BrowserControl::model() const {
-  return browser_.is_open() ? browser_.model() : BrowserModel{};
+  if (!browser_.is_open()) return {};
+  BrowserModel model = browser_.model();
+  for (OpenEntry& entry : model.known) entry.picture = pictures_.texture(entry.path);
+  return model;
 }
 
 }  // namespace osteon

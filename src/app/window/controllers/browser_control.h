@@ -5,6 +5,7 @@
 #include "cases/xdg.h"
 #include "window/controllers/case_browser.h"
 #include "window/controllers/case_control.h"
+#include "window/pictures/case_pictures.h"
 
 namespace osteon {
 
@@ -26,11 +27,14 @@ class BrowserControl {
   BrowserModel model() const;
 
  private:
+  void ask_for_pictures();
   WindowHost& host_;
   ShownCase& scene_;
   LiveControl& live_;
   CaseControl& cases_;
   CaseBrowser browser_{data_home_dir()};
+  CasePictures pictures_{cache_dir() / "pictures"};
+  bool pictures_wanted_ = false;
   bool wants_segmentation_ = false;
   std::string scan_;
 };

@@ -6,8 +6,8 @@
 
 #include "window/controllers/live_control.h"
 #include "window/controllers/tip_gauge.h"
-#include "window/controllers/tray_pictures.h"
 #include "window/hands_model.h"
+#include "window/pictures/tray_pictures.h"
 
 namespace osteon {
 

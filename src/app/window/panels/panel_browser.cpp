@@ -9,17 +9,39 @@
 namespace osteon {
 namespace {
 
+// The whole row can be clicked. Leaves the cursor where it was.
+void draw_row(const PanelContext& c, const OpenEntry& entry, float height) {
+  const ImVec2 at = ImGui::GetCursorPos();
+  const bool chosen = ImGui::Selectable("###entry", false, 0, {0, height});
+  if (chosen && entry.kind == OpenKind::kFolder) c.requests.browser.look_into = entry.path;
+  if (chosen && entry.kind != OpenKind::kFolder) c.requests.browser.open = entry;
+  ui::tooltip(entry.path.c_str());
+  ImGui::SetCursorPos(at);
+}
+
+// A case with its picture; the place stays empty until there is one.
+void draw_case(const PanelContext& c, const OpenEntry& entry, int i) {
+  ImGui::PushID(i);
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float w = ImGui::GetContentRegionAvail().x;
+  const float picture_w = c.px(84), picture_h = c.px(56);
+  draw_row(c, entry, picture_h);
+  if (entry.picture != 0)
+    ImGui::Image(reinterpret_cast<ImTextureID>(entry.picture), {picture_w, picture_h});
+  const float text_x = at.x + picture_w + c.px(12), text_w = w - picture_w - c.px(12);
+  ImGui::SetCursorPos({text_x, at.y + c.px(10)});
+  ImGui::TextUnformatted(ui::shortened(entry.label, text_w).c_str());
+  ImGui::SetCursorPos({text_x, at.y + c.px(29)});
+  ui::text(color::kTextQuiet, ui::shortened(entry.about, text_w).c_str());
+  ImGui::SetCursorPos({at.x, at.y + picture_h + c.px(4)});
+  ImGui::PopID();
+}
+
 void draw_entry(const PanelContext& c, const OpenEntry& entry, int i) {
   ImGui::PushID(i);
   const ImVec2 at = ImGui::GetCursorPos();
   const float w = ImGui::GetContentRegionAvail().x;
-  if (ImGui::Selectable("###entry", false, 0, {0, c.px(20)})) {
-    if (entry.kind == OpenKind::kFolder)
-      c.requests.browser.look_into = entry.path;
-    else
-      c.requests.browser.open = entry;
-  }
-  ui::tooltip(entry.path.c_str());
+  draw_row(c, entry, c.px(20));
   ImGui::SetCursorPos({at.x, at.y + c.px(2)});
   const std::string name = entry.kind == OpenKind::kFolder ? entry.label + "/" : entry.label;
   ImGui::TextUnformatted(ui::shortened(name, 0.58f * w).c_str());
@@ -33,7 +55,8 @@ void draw_known(const PanelContext& c) {
   ui::text(color::kTextQuiet, "Cases and recordings");
   ImGui::BeginChild("known", {0, 0}, true);
   int i = 0;
-  for (const OpenEntry& entry : c.model.browser.known) draw_entry(c, entry, i++);
+  for (const OpenEntry& entry : c.model.browser.known)
+    entry.kind == OpenKind::kCase ? draw_case(c, entry, i++) : draw_entry(c, entry, i++);
   ImGui::EndChild();
 }
 

@@ -1,8 +1,9 @@
-#include "window/controllers/tray_pictures.h"
+#include "window/pictures/tray_pictures.h"
 
 #include <epoxy/gl.h>
 
 #include "runs/instrument_sheet.h"
+#include "window/pictures/picture_texture.h"
 
 namespace osteon {
 namespace {
@@ -37,15 +38,7 @@ void TrayPictures::poll() {
   const Result<Image> sheet = job_->take();
   job_.reset();
   if (!sheet) return;
-  glGenTextures(1, &texture_);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, sheet->width, sheet->height, 0, GL_RGB, GL_UNSIGNED_BYTE,
-               sheet->rgb.data());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glBindTexture(GL_TEXTURE_2D, 0);
+  texture_ = make_texture(*sheet);
 }
 
 }  // namespace osteon
