@@ -147,10 +147,24 @@ void InstrumentTray::took(std::uint32_t place) {
   taken_.insert(taken_.begin(), place);
 }
 
+// Of what was never taken, an instrument's usual size comes before its others.
+std::vector<std::uint32_t> InstrumentTray::usual_first() const {
+  std::vector<std::uint32_t> out{0};
+  std::vector<bool> begun(set_.instruments().size(), false);
+  for (std::uint32_t place = kFirst; place < run_.tools.size(); ++place) {
+    const std::size_t of = set_.at(place - kFirst).instrument;
+    if (!begun[of])
+      out.push_back(static_cast<std::uint32_t>(*set_.find(set_.instruments()[of].name)) + kFirst);
+    begun[of] = true;
+    if (std::find(out.begin(), out.end(), place) == out.end()) out.push_back(place);
+  }
+  return out;
+}
+
 std::vector<TrayItem> InstrumentTray::items() const {
   std::vector<TrayItem> out;
   for (const std::uint32_t place : taken_) out.push_back(item(place));
-  for (std::uint32_t place = 0; place < run_.tools.size(); ++place)
+  for (const std::uint32_t place : usual_first())
     if (std::find(taken_.begin(), taken_.end(), place) == taken_.end()) out.push_back(item(place));
   return out;
 }

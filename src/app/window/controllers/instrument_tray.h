@@ -43,6 +43,7 @@ class InstrumentTray {
   std::vector<TrayItem> items() const;
 
  private:
+  std::vector<std::uint32_t> usual_first() const;
   TrayItem item(std::uint32_t place) const;
 
   ToolSet set_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <vector>
 
 #include "ui/ui_widgets.h"
 #include "window/panels/panels.h"
@@ -30,21 +31,74 @@ void draw_picture(const PanelContext& c, const TrayItem& item) {
                {(column + 1) * w, (row + 1) * h});
 }
 
-void draw_item(const PanelContext& c, const TrayItem& item) {
-  ImGui::PushID(static_cast<int>(item.place));
-  const bool held = item.place == c.model.hands.tray.held;
+// An instrument with all its sizes; the one that a click takes comes first.
+using TrayRow = std::vector<const TrayItem*>;
+
+std::vector<TrayRow> rows_of(const TrayModel& tray) {
+  std::vector<TrayRow> rows;
+  for (const TrayItem& item : tray.items) {
+    if (!contains(item.title, tray.search.c_str()) && !contains(item.does, tray.search.c_str()))
+      continue;
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const TrayRow& other) {
+      return other.front()->title == item.title;
+    });
+    if (row == rows.end())
+      rows.push_back({&item});
+    else
+      row->push_back(&item);
+  }
+  return rows;
+}
+
+constexpr int kSizesInALine = 6;
+
+// "4.5": the unit stands in the first button's tooltip and in the row's name.
+void draw_sizes(const PanelContext& c, TrayRow row) {
+  if (row.size() < 2) return;
+  std::sort(row.begin(), row.end(),
+            [](const TrayItem* a, const TrayItem* b) { return a->place < b->place; });
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (i % kSizesInALine != 0) ImGui::SameLine(0, c.px(3));
+    ImGui::PushID(static_cast<int>(row[i]->place));
+    const std::string number = row[i]->size.substr(0, row[i]->size.find(' '));
+    const bool held = row[i]->place == c.model.hands.tray.held;
+    if (held) ImGui::PushStyleColor(ImGuiCol_Button, color::kAccent);
+    if (ImGui::Button(number.c_str(), {c.px(34), c.px(20)})) c.requests.hands.take = row[i]->place;
+    if (held) ImGui::PopStyleColor();
+    ui::tooltip((row[i]->title + ", " + row[i]->size).c_str());
+    ImGui::PopID();
+  }
+}
+
+float height_of(const PanelContext& c, const TrayRow& row) {
+  if (row.size() < 2) return c.px(64);
+  const auto lines = static_cast<float>((row.size() + kSizesInALine - 1) / kSizesInALine);
+  return c.px(46) + lines * (c.px(20) + ImGui::GetStyle().ItemSpacing.y);
+}
+
+void draw_row(const PanelContext& c, const TrayRow& row) {
+  const std::uint32_t in_hand = c.model.hands.tray.held;
+  const auto held = std::find_if(
+      row.begin(), row.end(), [in_hand](const TrayItem* item) { return item->place == in_hand; });
+  const TrayItem& item = held == row.end() ? *row.front() : **held;
+  ImGui::PushID(static_cast<int>(row.front()->place));
   const ImVec2 at = ImGui::GetCursorPos();
-  if (ImGui::Selectable("##take", held, 0, {0, c.px(64)})) c.requests.hands.take = item.place;
+  const float height = height_of(c, row);
+  if (ImGui::Selectable("##take", held != row.end(), ImGuiSelectableFlags_AllowItemOverlap,
+                        {0, height}))
+    c.requests.hands.take = item.place;
+  ImGui::SetItemAllowOverlap();  // the buttons of sizes lie on it
   ImGui::SetCursorPos(at);
   draw_picture(c, item);
   ImGui::SameLine(0, c.px(12));
   ImGui::BeginGroup();
   const std::string title = item.size.empty() ? item.title : item.title + ", " + item.size;
-  ImGui::Dummy({0, c.px(6)});
+  ImGui::Dummy({0, c.px(row.size() < 2 ? 6 : 0)});
   ImGui::TextUnformatted(title.c_str());
-  ui::text(color::kTextQuiet, held ? "in your hand" : item.does.c_str());
+  ui::text(color::kTextQuiet, held != row.end() ? "in your hand" : item.does.c_str());
+  draw_sizes(c, row);
   ImGui::EndGroup();
-  ImGui::SetCursorPos({at.x, at.y + c.px(68)});
+  ImGui::SetCursorPos({at.x, at.y + height + c.px(4)});
   ImGui::PopID();
 }
 
@@ -69,9 +123,7 @@ void draw_tray(const PanelContext& c) {
   ImGui::SameLine();
   if (ImGui::Button("Close  (T)")) c.requests.hands.toggle_tray = true;
   ImGui::BeginChild("items");
-  for (const TrayItem& item : c.model.hands.tray.items)
-    if (contains(item.title, search.data()) || contains(item.does, search.data()))
-      draw_item(c, item);
+  for (const TrayRow& row : rows_of(c.model.hands.tray)) draw_row(c, row);
   ImGui::EndChild();
   ImGui::End();
   ImGui::PopStyleColor();

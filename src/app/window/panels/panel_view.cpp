@@ -33,7 +33,7 @@ constexpr std::array<PresetButton, 6> kKneePresets = {{
     {"Lateral", ViewPreset::kRadial, "From the outer side, where the fibula is (3)"},
     {"Medial", ViewPreset::kUlnar, "From the inner side, where the other knee is (4)"},
     kAp,
-    {"Side, as X-ray", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
+    {"X-ray, side", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
 }};
 
 void draw_presets(const PanelContext& c) {

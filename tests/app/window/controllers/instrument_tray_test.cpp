@@ -49,6 +49,23 @@ TEST(InstrumentTray, WhatIsWantedComesInWhateverTheRegion) {
   EXPECT_EQ(tray->run().names.size(), tray->run().tools.size());
 }
 
+TEST(InstrumentTray, OfWhatWasNeverTakenTheUsualSizeComesFirst) {
+  const auto tray = InstrumentTray::make("knee", {});
+  ASSERT_TRUE(tray);
+  std::set<std::string> met;
+  std::set<std::uint32_t> places;
+  std::size_t with_sizes = 0;
+  for (const TrayItem& item : tray->items()) {
+    EXPECT_TRUE(places.insert(item.place).second);
+    if (item.picture < 0 || !met.insert(item.title).second) continue;
+    const Instrument& instrument = tray->instruments()[static_cast<std::size_t>(item.picture)];
+    EXPECT_EQ(tray->find(instrument.name), item.place);
+    with_sizes += !item.size.empty();
+  }
+  EXPECT_GT(with_sizes, 3u);
+  EXPECT_EQ(places.size(), tray->run().tools.size());
+}
+
 TEST(InstrumentTray, WhatWasTakenLastComesFirst) {
   auto tray = InstrumentTray::make("wrist", {});
   ASSERT_TRUE(tray);

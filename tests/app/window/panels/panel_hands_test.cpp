@@ -78,6 +78,31 @@ TEST(TrayPanel, AnInstrumentIsTakenByAClickAndFoundByItsName) {
   EXPECT_EQ(*found.hands.take, 2u);
 }
 
+TEST(TrayPanel, TheSizesOfAnInstrumentShareARowAndEachCanBeTaken) {
+  UiFrame ui;
+  fill_hands(ui);
+  ui.model.hands.tray.open = true;
+  ui.model.hands.tray.items = {{"Cannulated drill", "9 mm", "drive", 3, -1},
+                               {"Grasper", "", "grasp", 1, -1},
+                               {"Cannulated drill", "4.5 mm", "drive", 2, -1},
+                               {"Cannulated drill", "10 mm", "drive", 4, -1}};
+  for (int i = 0; i < 3; ++i) ui.draw();
+  const UiRect tray = ui.rect("##tray");
+  const float text_x = tray.x + 8 + 64 + 12 + 8, top = tray.y + 31;
+  const UiRequests row = ui.click({tray.x + 250, top + 10});
+  ASSERT_TRUE(row.hands.take) << "by its name: the one that comes first";
+  EXPECT_EQ(*row.hands.take, 3u);
+  const UiRequests smallest = ui.click({text_x + 17, top + 50});
+  ASSERT_TRUE(smallest.hands.take) << "sizes stand in order";
+  EXPECT_EQ(*smallest.hands.take, 2u);
+  const UiRequests largest = ui.click({text_x + 2 * 37 + 17, top + 50});
+  ASSERT_TRUE(largest.hands.take);
+  EXPECT_EQ(*largest.hands.take, 4u);
+  const UiRequests next_row = ui.click({tray.x + 200, top + 46 + 24 + 4 + 30});
+  ASSERT_TRUE(next_row.hands.take);
+  EXPECT_EQ(*next_row.hands.take, 1u);
+}
+
 TEST(BrowserPanel, OpensByKeyListsAndClosesInsideTheWindow) {
   for (const ImVec2 size : {ImVec2(800, 600), ImVec2(1280, 720)}) {
     UiFrame ui(size.x, size.y);
