@@ -127,6 +127,7 @@ void WindowApp::apply_window(const UiRequests& requests) {
     patient_.close();
     hands_.close_tray();
     notes_.stop_placing();
+    exercise_.close_page();
     exercise_.forget_force();
   }
   if (requests.quit) host_.window->close();

@@ -25,6 +25,7 @@ class ExerciseControl {
   void end();
   void apply(const ExerciseRequests& requests);
   /// The user took the force off: the end of a pause does not bring it back.
+  void close_page() { exercise_.close_page(); }
   void forget_force() { exercise_.keep_force_wish(false); }
   bool paused() const { return exercise_.paused(); }
   void count_undo() { exercise_.count_undo(); }

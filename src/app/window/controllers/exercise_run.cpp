@@ -53,14 +53,14 @@ std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_c
 
 }  // namespace
 
-void ExerciseRun::toggle() {
-  if (page_ == ExercisePage::kOpening || page_ == ExercisePage::kRunning ||
-      page_ == ExercisePage::kJudging)
-    return;
-  if (page_ != ExercisePage::kClosed) {
+void ExerciseRun::close_page() {
+  if (page_ != ExercisePage::kOpening && page_ != ExercisePage::kRunning &&
+      page_ != ExercisePage::kJudging)
     page_ = ExercisePage::kClosed;
-    return;
-  }
+}
+
+void ExerciseRun::toggle() {
+  if (page_ != ExercisePage::kClosed) return close_page();
   problem_.clear();
   if (scenarios_.empty()) {
     auto all = shipped_scenarios();

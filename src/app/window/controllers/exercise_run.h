@@ -21,6 +21,8 @@ namespace osteon {
 class ExerciseRun {
  public:
   ExercisePage page() const { return page_; }
+  /// Closes the course, a briefing or a result; an exercise that runs goes on.
+  void close_page();
   /// Opens the course, or closes what is open; an exercise under way goes on.
   void toggle();
   void choose(std::size_t exercise);

@@ -69,6 +69,21 @@ TEST_F(ExerciseRunTest, TheCourseListsWhatIsShippedTheFirstExerciseFirst) {
   EXPECT_EQ(run_.page(), ExercisePage::kClosed);
 }
 
+TEST_F(ExerciseRunTest, PagesCloseButWhatRunsGoesOn) {
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed);
+  run_.toggle();
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed);
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("touch_bones"));
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed) << "a briefing";
+  begin();
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kRunning);
+}
+
 TEST_F(ExerciseRunTest, TheBriefingTellsStagesErrorsAndAims) {
   run_.toggle();
   ASSERT_TRUE(run_.choose("touch_bones"));
