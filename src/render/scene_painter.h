@@ -92,7 +92,10 @@ class ScenePainter {
   static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
   static std::vector<Capsule> rod_capsules(const RenderSnapshot& snapshot);
   static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
-  TileMask shade_tiles(const ToolState& tool, const Frame& frame, int width, int height) const;
+  double nearest_bone(const RenderSnapshot& snapshot, const ViewState& view,
+                      const Frame& frame) const;
+  TileMask shade_tiles(const ToolState& tool, const Frame& frame, int width, int height,
+                       double nearest_m) const;
   TileMask bone_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
                       int width, int height) const;
   struct Level {

@@ -11,32 +11,55 @@ namespace {
 constexpr double kStill_px = 0.05;  // a bone that moved by less need not be drawn anew
 constexpr double kSlack_px = 3;     // for the rounding of pixels and the smoothing of edges
 constexpr int kShadowSteps = 6;
+constexpr double kWidening = 1.25;  // of a capsule's piece from its far end to its near one
+constexpr int kMostPieces = 16;
 
 /// Marks capsules given in view space.
 class Marker {
  public:
-  Marker(const Frame& frame, int width, int height, TileMask& mask)
+  /// What is nearer to the eye than `nearest_m` is not looked at.
+  Marker(const Frame& frame, int width, int height, TileMask& mask, double nearest_m = 0)
       : frame_(frame), width_(width), height_(height), mask_(mask) {
     const Eigen::Matrix4f& m = frame.clip_from_view;
     perspective_ = m(3, 2) != 0;
     near_m_ = perspective_ ? static_cast<double>(m(2, 3) / (m(2, 2) - 1)) : 0;
+    nearest_m_ = std::max(near_m_, nearest_m);
   }
 
   void capsule(Vec3 a_C, Vec3 b_C, double radius_m) {
     if (!cut(a_C, b_C, radius_m)) return;
+    const int pieces = pieces_of(a_C, b_C);
+    for (int k = 0; k < pieces; ++k) {
+      const double from = static_cast<double>(k) / pieces, to = (k + 1.0) / pieces;
+      piece(a_C + from * (b_C - a_C), a_C + to * (b_C - a_C), radius_m);
+    }
+  }
+
+ private:
+  // As wide everywhere as at its nearest point.
+  void piece(const Vec3& a_C, const Vec3& b_C, double radius_m) {
     const double depth =
-        perspective_ ? std::max(near_m_, -std::max(a_C.z(), b_C.z()) - radius_m) : 1;
+        perspective_ ? std::max(nearest_m_, -std::max(a_C.z(), b_C.z()) - radius_m) : 1;
     const double metres_per_px = static_cast<double>(frame_.pixel_clip.y()) * depth /
                                  static_cast<double>(frame_.clip_from_view(1, 1));
     mask_.mark(pixel(a_C), pixel(b_C), radius_m / metres_per_px + kSlack_px);
   }
 
- private:
+  // One that runs towards the eye grows wider on the way: in pieces it is not as wide everywhere.
+  int pieces_of(const Vec3& a_C, const Vec3& b_C) const {
+    if (!perspective_) return 1;
+    const double near = std::min(-a_C.z(), -b_C.z()), far = std::max(-a_C.z(), -b_C.z());
+    const double steps = std::log(far / std::max(near, near_m_)) / std::log(kWidening);
+    return std::clamp(static_cast<int>(std::ceil(steps)), 1, kMostPieces);
+  }
+
   /// Leaves the part of the segment before the eye; false when there is none.
   bool cut(Vec3& a_C, Vec3& b_C, double radius_m) const {
     if (!perspective_) return true;
-    double da = -a_C.z() - near_m_, db = -b_C.z() - near_m_;
-    if (std::max(da, db) < -radius_m) return false;
+    if (std::max(-a_C.z(), -b_C.z()) < nearest_m_ - radius_m) return false;
+    // Its thickness reaches as far beyond what is looked at.
+    const double from_m = std::max(near_m_, nearest_m_ - radius_m);
+    const double da = -a_C.z() - from_m, db = -b_C.z() - from_m;
     if (std::max(da, db) < 0) {  // only its thickness reaches in: somewhere near the picture's edge
       mask_.mark_all();
       return false;
@@ -56,7 +79,7 @@ class Marker {
   int width_, height_;
   TileMask& mask_;
   bool perspective_ = false;
-  double near_m_ = 0;
+  double near_m_ = 0, nearest_m_ = 0;
 };
 
 }  // namespace
@@ -126,20 +149,36 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
   for (const Capsule& c : rod_capsules(snapshot))
     marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   if (view.show_proxy) {
-    TileMask shade = shade_tiles(snapshot.tool, frame, width, height);
+    const double nearest_m = nearest_bone(snapshot, view, frame);
+    TileMask shade = shade_tiles(snapshot.tool, frame, width, height, nearest_m);
     shade.keep(bone_tiles(snapshot, view, frame, width, height));
     mask.add(shade);
   }
   return mask;
 }
 
+// Depth, metres; it may lie behind the eye.
+double ScenePainter::nearest_bone(const RenderSnapshot& snapshot, const ViewState& view,
+                                  const Frame& frame) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
+    if (!shows(snapshot, view, k) || shared_->bones[k].radius_m <= 0) continue;
+    const Pose X_CB = frame.X_CW * pose(snapshot, k);
+    const Capsule& c = shared_->bones[k].around;
+    const double depth = -std::max((X_CB * c.a).z(), (X_CB * c.b).z()) - c.radius_m;
+    nearest_m = std::min(nearest_m, depth);
+  }
+  return nearest_m;
+}
+
+// Shade falls on bones alone: what of it is nearer than the nearest bone is not seen.
 TileMask ScenePainter::shade_tiles(const ToolState& state, const Frame& frame, int width,
-                                   int height) const {
+                                   int height, double nearest_m) const {
   TileMask mask(width, height);
   const ToolModel& tool = model_of(state);
   const Pose X_CP = frame.X_CW * state.X_WP;
   if (!is_finite(X_CP) || tool.length_m <= 0) return mask;
-  Marker marker(frame, width, height, mask);
+  Marker marker(frame, width, height, mask, nearest_m);
   const ShadeReach reach = shade_reach(tool);
   const Vec3 tip = X_CP.p;
   const Vec3 end = X_CP * Vec3(tool.shaft_T.x(), tool.shaft_T.y(), tool.length_m);
