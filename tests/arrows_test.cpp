@@ -81,12 +81,13 @@ const Arrows& rooms() {
       {"loops", {}},
       {"cases", {}},
       {"checkup", {"loops"}},
-      {"runs", {"cases", "loops"}},
+      {"water", {}},
+      {"runs", {"cases", "loops", "water"}},
       {"ui", {"cases", "loops", "runs"}},
       {"exercises", {"cases", "loops", "runs"}},
-      {"window", {"cases", "checkup", "exercises", "loops", "runs", "ui"}},
+      {"window", {"cases", "checkup", "exercises", "loops", "runs", "ui", "water"}},
       {"segment", {"cases", "loops", "ui"}},
-      {"commands", {"cases", "checkup", "exercises", "loops", "runs"}},
+      {"commands", {"cases", "checkup", "exercises", "loops", "runs", "water"}},
   };
   return table;
 }

@@ -28,11 +28,14 @@ struct FilmCommand {
   double from_s = 0;
   std::optional<double> to_s;
   bool mute = false;
+  double pressure_mmhg = WaterSettings().pump_pa / kPa_per_mmHg;
+  WaterSettings water;
 };
 
 /// A part of a recording.
 struct FilmSpan {
   double from_s = 0, to_s = 0;
+  double obscured_s = 0;  ///< for so long a scope's picture showed nothing but water
 
   std::uint64_t samples() const {
     return static_cast<std::uint64_t>(std::llround((to_s - from_s) * kSoundHz));
@@ -47,7 +50,7 @@ Result<FilmSpan> span_of(const FilmCommand& command, const RecordingReader& reco
                          double tick_s) {
   const double end_s = static_cast<double>(recording.ticks(0)) * tick_s;
   if (recording.ticks(0) == 0) return fail("holds no ticks", command.recording);
-  const FilmSpan span{command.from_s, std::min(command.to_s.value_or(end_s), end_s)};
+  const FilmSpan span{command.from_s, std::min(command.to_s.value_or(end_s), end_s), 0};
   if (!(span.from_s >= 0 && span.from_s < end_s))
     return fail("has no data at " + std::to_string(command.from_s) + " s", command.recording,
                 "choose a time between 0 and " + std::to_string(end_s) + " s");
@@ -108,6 +111,7 @@ class FilmMaker {
   void take(const CutsPatch& cut) { painter_.take(cut); }
   void take(const SolidPushes& pushes) { moment_.pushes = pushes; }
   bool good() const { return !failure_; }
+  double obscured_s() const { return painter_.obscured_s(); }
   double share() const {
     return static_cast<double>(made_) / static_cast<double>(span_.pictures(fps_));
   }
@@ -150,8 +154,13 @@ Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& record
   const auto view = parse_film_view(command.view);
   const auto scope = holds_a_scope(recording, settings);
   if (!scope) return tl::unexpected(scope.error());
-  auto painter = FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
-                                     {*view, size->width, size->height, command.side});
+  auto painter =
+      FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
+                          {*view,
+                           size->width,
+                           size->height,
+                           command.side,
+                           {kPa_per_mmHg * command.pressure_mmhg, command.water.outlet_open}});
   if (!painter) return tl::unexpected(painter.error());
   painter->set_carving(how.carving);
   painter->set_softs(how.softs);
@@ -228,7 +237,7 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)
       return tl::unexpected(ok.error());
-  return span;
+  return FilmSpan{span->from_s, span->to_s, maker->obscured_s()};
 }
 
 int run_film(const FilmCommand& command) {
@@ -237,6 +246,8 @@ int run_film(const FilmCommand& command) {
   std::printf("%s view of %s, %.2f to %.2f s, %d pictures a second -> %s\n", command.view.c_str(),
               command.recording.c_str(), span->from_s, span->to_s, command.fps,
               command.out.c_str());
+  if (span->obscured_s > 0)
+    std::printf("the water let nothing be seen for %.1f s\n", span->obscured_s);
   return kExitDone;
 }
 
@@ -291,6 +302,13 @@ void add_film_commands(cli::App& app, int& exit_code) {
   sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
   sub->add_option("--fps", command->fps, "pictures a second")
       ->check(cli::Range(1, 120))
+      ->capture_default_str();
+  sub->add_option("--pressure", command->pressure_mmhg,
+                  "of the pump that fills the joint, mmHg; seen through a scope")
+      ->check(cli::Range(0.0, 300.0))
+      ->capture_default_str();
+  sub->add_option("--outlet", command->water.outlet_open, "how far the outlet is open, 0 to 1")
+      ->check(cli::Range(0.0, 1.0))
       ->capture_default_str();
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
   sub->add_flag("--mute", command->mute, "leave out the sound");

@@ -31,6 +31,9 @@ class CarvedPicture {
   };
   /// What looks different since it was last asked; for Renderer::set_cubes and its like.
   std::vector<Changed> changes();
+  /// What is gone of all bones, by tissue. Looks at all cuts of each bone that has changed since it
+  /// was last asked.
+  ByTissue removed();
   /// Copies of the bones that hold cuts, for who looks through them.
   CutBones cut_bones() const;
 
@@ -38,7 +41,9 @@ class CarvedPicture {
   struct Bone {
     CarvedField field;
     CarvedSurface surface;
-    bool waits = false;  ///< changed since it was last meshed
+    bool waits = false;    ///< changed since it was last meshed
+    bool counted = false;  ///< `gone_m3` is of the cuts as they are
+    ByTissue gone_m3{};
   };
   Bone* bone(std::uint32_t index);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cases/scoped_case.h"
 #include "osteon/base/file.h"
 #include "osteon/physics/soft_shape.h"
 #include "osteon/render/joint_room.h"
@@ -79,7 +80,12 @@ struct FilmPainter::Impl {
   ViewState plain_view(double aspect) const;
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
+  void flow(const FilmMoment& moment);
   CarvedPicture carved{nullptr};
+  std::optional<JointWater> water;  ///< where a scope is drawn
+  Suckers suckers;
+  double counted_s = -1e9;  ///< when the bone that is gone was counted last
+  ByTissue removed_m3{};
   std::optional<SoftShapes> shapes;
 };
 
@@ -107,6 +113,8 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
   scope.emplace(std::move(*looked));
   scope->set_tray(tray);
   room.emplace(*the_case);
+  water.emplace(fluid_of(*the_case));
+  water->set(order.water);
   return {};
 }
 
@@ -114,6 +122,9 @@ Result<void> FilmPainter::Impl::open(const SessionSettings& settings, const Tray
   auto found = lenses_of(settings.tray);
   if (!found) return tl::unexpected(found.error());
   lenses = std::move(*found);
+  auto sucks = suckers_of(settings.tray);
+  if (!sucks) return tl::unexpected(sucks.error());
+  suckers = std::move(*sucks);
   if (auto side = panorama_camera(*the_case, order.side, 1); !side)
     return tl::unexpected(side.error());
   if (order.view == FilmView::kScope && !has_scope)
@@ -165,7 +176,19 @@ void FilmPainter::Impl::shape_room(const BoneSnapshot& bones, const Vec3& tip_W)
   room_W = tip_W;
 }
 
+// Bone that is gone is counted a few times a second: it means looking at all cuts.
+void FilmPainter::Impl::flow(const FilmMoment& moment) {
+  constexpr double kCounts_s = 0.2;
+  if (std::abs(moment.time_s - counted_s) >= kCounts_s) {
+    removed_m3 = carved.removed();
+    counted_s = moment.time_s;
+  }
+  water->go_to(moment.time_s, suction_of(suckers, tools(moment)), removed_m3);
+  scope->set_water(water->seen());
+}
+
 Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int width, int height) {
+  flow(moment);
   const auto hand = first_looking(lenses, tools(moment));
   if (!hand) return black(width, height);
   std::vector<ToolState> others;
@@ -207,6 +230,9 @@ Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
 }
 
 FilmPainter::FilmPainter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+double FilmPainter::obscured_s() const {
+  return impl_->water ? impl_->water->state().obscured_s : 0;
+}
 FilmPainter::~FilmPainter() = default;
 FilmPainter::FilmPainter(FilmPainter&&) noexcept = default;
 FilmPainter& FilmPainter::operator=(FilmPainter&&) noexcept = default;

@@ -13,6 +13,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 #include "osteon/session/session.h"
+#include "water/joint_water.h"
 
 namespace osteon {
 
@@ -37,6 +38,7 @@ class FilmPainter {
     FilmView view = FilmView::kOutside;
     int width = 1280, height = 720;
     std::string side = "front";  ///< of the panorama: front, top or left
+    WaterSettings water;         ///< that a scope looks through
   };
   /// Fails where the view cannot be drawn: no OpenGL, no hand that ever holds a scope, a case that
   /// X-rays cannot go through. `scope_is_held`: some hand holds one at some time.
@@ -54,6 +56,8 @@ class FilmPainter {
   void set_softs(std::shared_ptr<const SoftSetup> setup);
   /// Bone is gone from the next picture on.
   void take(const CutsPatch& cut);
+  /// For so long of what was drawn through a scope the water let nothing be seen.
+  double obscured_s() const;
   /// Fails where the graphics driver has no memory for it.
   Result<Image> draw(const FilmMoment& moment);
 

@@ -8,6 +8,7 @@
 
 #include "osteon/base/result.h"
 #include "ui/ui_layout.h"
+#include "water/joint_water.h"
 
 namespace osteon {
 
@@ -62,12 +63,20 @@ struct ObserverModel {
   PictureLayout layout = PictureLayout::kScope;
 };
 
+/// The water that a scope looks through.
+struct WaterModel {
+  WaterSettings settings;
+  double pressure_pa = 0;  ///< in the joint
+  double turbidity = 0;    ///< 0 clear to 1 nothing is seen
+};
+
 struct ViewsModel {
   PictureLayout layout = PictureLayout::kOutside;
   std::vector<PaneModel> panes;
   bool can_shoot = false;  ///< an X-ray picture can be asked for
   bool shooting = false;
   ObserverModel observer;
+  std::optional<WaterModel> water;  ///< none: no scope's picture is on show
   ScreenFilmModel film;
 };
 
@@ -77,6 +86,7 @@ struct ViewsRequests {
   std::optional<PictureLayout> observer_layout;
   bool take_scope = false;
   bool shoot = false;
+  std::optional<WaterSettings> water;
   bool toggle_observer = false;
   bool toggle_film = false;
 };

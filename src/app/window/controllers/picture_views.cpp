@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/scoped_case.h"
 #include "osteon/base/file.h"
 #include "osteon/render/anatomical_view.h"
 
@@ -29,6 +30,9 @@ void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& m
   shot_job_.reset();
   case_ = std::move(the_case);
   main_ = &main;
+  const WaterSettings wanted = water_ ? water_->settings() : WaterSettings();
+  water_.emplace(fluid_of(*case_));
+  water_->set(wanted);
   panorama_ = {};
   observer_panorama_ = {};
   observer_.reset();
@@ -51,7 +55,17 @@ Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const
   auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
   if (!found) return tl::unexpected(found.error());
   lenses_ = std::move(*found);
+  auto sucks =
+      instruments.empty() ? suckers_of(names) : Result<Suckers>(suckers_of(names, instruments));
+  if (!sucks) return tl::unexpected(sucks.error());
+  suckers_ = std::move(*sucks);
   return {};
+}
+
+void PictureViews::flow(const ByTissue& removed_m3) {
+  if (!water_) return;
+  water_->go_to(moment_.time_s, suction_of(suckers_, tools_of(moment_)), removed_m3);
+  if (scope_) scope_->set_water(water_->seen());
 }
 
 Result<void> PictureViews::set_moment(const FilmMoment& moment) {

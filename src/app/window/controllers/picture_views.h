@@ -12,6 +12,7 @@
 #include "runs/panorama.h"
 #include "runs/scope_lens.h"
 #include "ui/side_job.h"
+#include "water/joint_water.h"
 #include "window/controllers/shown_image.h"
 #include "window/views_model.h"
 
@@ -34,6 +35,11 @@ class PictureViews {
   /// Fails once where something could not be made: the text is for the user.
   Result<void> set_moment(const FilmMoment& moment);
   const FilmMoment& moment() const { return moment_; }
+  /// Lets the joint's water go on to that moment. `removed_m3`: of all bones, since the begin.
+  void flow(const ByTissue& removed_m3);
+  /// Null: no case is open.
+  JointWater* water() { return water_ ? &*water_ : nullptr; }
+  const JointWater* water() const { return water_ ? &*water_ : nullptr; }
 
   /// Through which tool one looks: the active hand's, else the first other's; none: through none.
   std::optional<std::size_t> looking() const;
@@ -83,6 +89,8 @@ class PictureViews {
   Panorama panorama_, observer_panorama_;
   std::optional<ScopeRenderer> scope_;
   bool scope_failed_ = false;
+  std::optional<JointWater> water_;
+  Suckers suckers_;  ///< by place in the tray
   Lenses lenses_;
   Tray tray_;
   FilmMoment moment_;

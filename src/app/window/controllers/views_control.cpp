@@ -43,12 +43,24 @@ void ViewsControl::show_carved() {
   }
 }
 
+// What is gone is counted a few times a second: it means looking at all cuts.
+void ViewsControl::let_water_flow() {
+  constexpr double kCounts_s = 0.2;
+  if (std::abs(host_.now_s - counted_s_) >= kCounts_s) {
+    CarvedPicture* const picture = carved();
+    removed_m3_ = picture ? picture->removed() : ByTissue{};
+    counted_s_ = host_.now_s;
+  }
+  scene_.views.flow(removed_m3_);
+}
+
 void ViewsControl::draw(const ViewState& looks) {
   scene_.renderer->set_others(others());
   show_carved();
   PictureViews& views = scene_.views;
   if (auto ok = views.set_moment(moment()); !ok)
     host_.note(ToastKind::kError, ok.error().message());
+  let_water_flow();
   const std::vector<Pane> all = sight_.panes();
   int most_px = observer_.scope_px();
   for (const Pane& pane : all) {
@@ -68,6 +80,7 @@ void ViewsControl::apply(const ViewsRequests& requests) {
   if (requests.layout) sight_.set_layout(*requests.layout);
   if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);
   if (requests.toggle_observer) observer_.toggle();
+  if (requests.water && scene_.views.water()) scene_.views.water()->set(*requests.water);
   if (requests.shoot) {
     const CarvedPicture* const picture = carved();
     scene_.views.shoot(picture ? picture->cut_bones() : CutBones{});
@@ -105,6 +118,11 @@ ViewsModel ViewsControl::model() const {
   model.can_shoot = !views.shooting();
   model.shooting = views.shooting();
   model.observer = observer_.model();
+  const bool scope = std::any_of(model.panes.begin(), model.panes.end(), [](const PaneModel& pane) {
+    return pane.pane.kind == PaneKind::kScope;
+  });
+  if (const JointWater* const water = views.water(); water && scope)
+    model.water = {water->settings(), water->state().pressure_pa, water->turbidity()};
   return model;
 }
 

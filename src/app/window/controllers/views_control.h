@@ -33,6 +33,7 @@ class ViewsControl {
   FilmMoment moment() const;
   CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
+  void let_water_flow();
   std::string message_on(PaneKind kind) const;
 
   WindowHost& host_;
@@ -44,6 +45,8 @@ class ViewsControl {
   ObserverControl& observer_;
   std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
   double carved_s_ = 0;                                 ///< when they were shown last
+  double counted_s_ = 0;                                ///< when what is gone was counted last
+  ByTissue removed_m3_{};                               ///< as it was then
 };
 
 }  // namespace osteon

@@ -92,6 +92,7 @@ void draw_view_section(const PanelContext& c) {
   draw_presets(c);
   ImGui::Dummy({0, c.px(2)});
   draw_observer_section(c);
+  draw_water_section(c);
 }
 
 // Folded at first where it would push the card's end out of the window.

@@ -115,6 +115,24 @@ void draw_observer_section(const PanelContext& c) {
   ImGui::EndCombo();
 }
 
+void draw_water_section(const PanelContext& c) {
+  if (!c.model.views.water) return;
+  const WaterModel& water = *c.model.views.water;
+  ImGui::Dummy({0, c.px(2)});
+  WaterSettings settings = water.settings;
+  double pump_mmhg = settings.pump_pa / kPa_per_mmHg, outlet_percent = 100 * settings.outlet_open;
+  bool changed = ui::slider("Pump", &pump_mmhg, 0, 150, "%.0f mmHg",
+                            "Pressure of the pump that fills the joint. More of it stops bleeding");
+  changed |= ui::slider("Outlet", &outlet_percent, 0, 100, "%.0f %%",
+                        "How far the outlet is open. More flow clears the water, but the pressure "
+                        "in the joint falls");
+  const std::string joint = ui::number(water.pressure_pa / kPa_per_mmHg, 0) + " mmHg";
+  const std::string lost = ui::number(100 * water.turbidity, 0) + " %";
+  ui::text(color::kTextQuiet, ("In the joint " + joint).c_str());
+  ui::text(color::kTextQuiet, ("Light lost " + lost).c_str());
+  if (changed) c.requests.views.water = {kPa_per_mmHg * pump_mmhg, 0.01 * outlet_percent};
+}
+
 std::string film_label(const ScreenFilmModel& film) {
   if (!film.on) return "Film";
   const std::string size = ui::number(film.megabytes, 1) + " MB";

@@ -79,5 +79,35 @@ TEST(PanelViews, TheFilmButtonTellsTimeAndSizeAndTheSecondWindowsViewIsChosen) {
   EXPECT_FALSE(ui.click_for_views(ui.find("##top", {"###film"})).toggle_film);
 }
 
+// Presses a slider a little right of its left end.
+std::optional<WaterSettings> press_water(UiFrame& ui, const char* slider) {
+  const ImVec2 at = ui.find("##case", {slider});
+  if (at.x < 0) return std::nullopt;
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {at.x + 20, at.y};
+  ui.draw();
+  io.MouseDown[0] = true;
+  const UiRequests pressed = ui.draw();
+  io.MouseDown[0] = false;
+  ui.draw();
+  return pressed.views.water;
+}
+
+TEST(ViewsPanel, TheWaterIsSetWhereAScopeIsOnShow) {
+  UiFrame ui;
+  fill(ui);
+  EXPECT_FALSE(press_water(ui, "##Pump"));
+  ui.model.views.water = WaterModel{{8000, 0.25}, 6000, 0.1};
+  const auto pumped = press_water(ui, "##Pump");
+  ASSERT_TRUE(pumped);
+  EXPECT_GT(pumped->pump_pa, 0);
+  EXPECT_NE(pumped->pump_pa, 8000);
+  EXPECT_NEAR(pumped->outlet_open, 0.25, 1e-12);
+  const auto opened = press_water(ui, "##Outlet");
+  ASSERT_TRUE(opened);
+  EXPECT_NE(opened->outlet_open, 0.25);
+  EXPECT_NEAR(opened->pump_pa, 8000, 1e-9);
+}
+
 }  // namespace
 }  // namespace osteon
