@@ -1,6 +1,7 @@
 // The round picture of a scope: takes the flat picture through its lens (barrel), out of focus
 // where it lies near or far, in water that takes light and gives some of it back, behind fog on the
-// glass, within the field stop, with the camera's own exposure.
+// glass, within the field stop, with the camera's own exposure. FOG and WATER say whether there are
+// any.
 in vec2 v_at;
 
 uniform sampler2D u_flat;      // linear light and distance, as a pinhole sees it
@@ -113,9 +114,13 @@ void main() {
   vec2 plane = on_plane(from_center);
   vec4 seen = flat_at(plane);
   vec3 light = seen.rgb;
-  if (u_fog > 0.0) light = through_fog(light, plane, from_center);
+#ifdef FOG
+  light = through_fog(light, plane, from_center);
+#endif
   light *= u_exposure;
-  if (u_taken > 0.0) light = through_water(light, max(seen.a, 1e-3), normalize(vec3(plane, -1.0)));
+#ifdef WATER
+  light = through_water(light, max(seen.a, 1e-3), normalize(vec3(plane, -1.0)));
+#endif
   float vignette = 1.0 - 0.55 * pow(r, 3.0) - 0.15 * r * r;
   o_color = vec4(shown(light * vignette) * stop, 1.0);
 }

@@ -7,7 +7,7 @@ in vec3 v_place;
 in vec3 v_place_normal;
 in vec4 v_shade;  // openness, cavity, mottle
 
-uniform int u_kind;       // 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel
+// KIND: 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel
 uniform vec3 u_tint;      // the part's own colour, display
 uniform vec3 u_fibre;     // unit, along the fibres, in the part's frame; of a meniscus: its axis
 uniform vec3 u_center;    // of the part, in its frame
@@ -141,12 +141,12 @@ Look steel_look(vec3 p) {
 }
 
 Look look_at(vec3 p) {
-  if (u_kind == 6) return steel_look(p);
-  if (u_kind == 1) return cartilage_look(p);
-  if (u_kind == 2) return meniscus_look(p);
-  if (u_kind == 3) return ligament_look(p);
-  if (u_kind == 4) return synovium_look(p);
-  if (u_kind == 5) return fat_look(p);
+  if (KIND == 6) return steel_look(p);
+  if (KIND == 1) return cartilage_look(p);
+  if (KIND == 2) return meniscus_look(p);
+  if (KIND == 3) return ligament_look(p);
+  if (KIND == 4) return synovium_look(p);
+  if (KIND == 5) return fat_look(p);
   return bone_look(p);
 }
 
@@ -191,7 +191,7 @@ void main() {
   float cavity = v_shade.y * 2.0 - 1.0;
 
   vec3 albedo = look.albedo;
-  if (u_kind != 4) albedo *= mix(vec3(1.0), to_linear(u_tint) / max(dot(to_linear(u_tint), vec3(0.333)), 0.05), 0.25);
+  if (KIND != 4) albedo *= mix(vec3(1.0), to_linear(u_tint) / max(dot(to_linear(u_tint), vec3(0.333)), 0.05), 0.25);
   albedo = albedo * albedo;
   albedo *= 1.0 + 0.3 * clamp(cavity, -1.0, 0.5);
   // Shallow angles let light travel farther inside: red comes back.

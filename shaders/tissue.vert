@@ -6,6 +6,8 @@ in vec4 a_shade;
 uniform mat4 u_view_from_model;
 uniform mat4 u_clip_from_view;
 
+invariant gl_Position;  // depth is drawn by one program, light by another
+
 out vec3 v_position;
 out vec3 v_normal;
 out vec3 v_place;         // metres, in the part's frame

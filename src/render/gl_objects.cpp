@@ -44,7 +44,7 @@ std::string program_log(GLuint program) {
 constexpr const char* kReinstall = "install Osteon's shaders folder again";
 
 Result<GlShader> compile(GLenum stage, const std::filesystem::path& dir, const std::string& file,
-                         bool changed = false) {
+                         const std::string& defines = {}, bool changed = false) {
   constexpr std::uint64_t kLargestShader = 1 << 20;
   const auto shared = read_file(dir / "light.glsl", kLargestShader);
   if (!shared) return tl::unexpected(shared.error());
@@ -52,7 +52,7 @@ Result<GlShader> compile(GLenum stage, const std::filesystem::path& dir, const s
   if (!own) return tl::unexpected(own.error());
   const auto more = changed ? read_file(dir / "changed.glsl", kLargestShader) : std::string();
   if (!more) return tl::unexpected(more.error());
-  const std::string text = "#version 330 core\n" + *shared + *more + "#line 1\n" + *own;
+  const std::string text = "#version 330 core\n" + defines + *shared + *more + "#line 1\n" + *own;
   GlShader shader(glCreateShader(stage));
   const char* source = text.c_str();
   glShaderSource(shader.get(), 1, &source, nullptr);
@@ -81,19 +81,25 @@ Result<Program> Program::load(const std::filesystem::path& shader_dir, const std
 
 Result<Program> Program::load(const std::filesystem::path& shader_dir, const std::string& vert,
                               const std::string& frag) {
-  return link(shader_dir, vert, frag, false);
+  return link(shader_dir, vert, frag, {}, false);
 }
 
 Result<Program> Program::load_changed(const std::filesystem::path& shader_dir,
                                       const std::string& vert, const std::string& frag) {
-  return link(shader_dir, vert, frag, true);
+  return link(shader_dir, vert, frag, {}, true);
+}
+
+Result<Program> Program::load_with(const std::filesystem::path& shader_dir, const std::string& vert,
+                                   const std::string& frag, const std::string& defines,
+                                   bool changed) {
+  return link(shader_dir, vert, frag, defines, changed);
 }
 
 Result<Program> Program::link(const std::filesystem::path& shader_dir, const std::string& vert,
-                              const std::string& frag, bool changed) {
+                              const std::string& frag, const std::string& defines, bool changed) {
   const auto vertex = compile(GL_VERTEX_SHADER, shader_dir, vert + ".vert");
   if (!vertex) return tl::unexpected(vertex.error());
-  const auto fragment = compile(GL_FRAGMENT_SHADER, shader_dir, frag + ".frag", changed);
+  const auto fragment = compile(GL_FRAGMENT_SHADER, shader_dir, frag + ".frag", defines, changed);
   if (!fragment) return tl::unexpected(fragment.error());
   Program program;
   program.name_ = GlProgramName(glCreateProgram());

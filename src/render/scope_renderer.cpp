@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -120,6 +121,9 @@ TissuePart steel() {
 
 }  // namespace
 
+constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
+constexpr std::size_t kSeesWater = 1, kSeesFog = 2;
+
 struct ScopeRenderer::Impl {
   /// How the picture that is kept was drawn.
   struct Painted {
@@ -138,7 +142,9 @@ struct ScopeRenderer::Impl {
     }
   };
 
-  Program tissue, changed_tissue, lens;
+  std::array<Program, kPatterns> tissues;  ///< by TissuePattern
+  Program changed_bone;
+  std::array<Program, 4> lenses;      ///< kSeesWater and kSeesFog, added
   std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
   std::vector<TissuePart> parts;
   TissuePart wall;
@@ -182,7 +188,6 @@ struct ScopeRenderer::Impl {
   }
   static void describe(const Program& program, const TissuePart& part, const Pose& X_CM) {
     program.set("u_view_from_model", to_matrix(X_CM));
-    program.set("u_kind", static_cast<int>(part.pattern));
     program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
     program.set("u_fibre", part.fibre);
     program.set("u_center", part.center);
@@ -192,33 +197,37 @@ struct ScopeRenderer::Impl {
       return in_square(X_CM * chunk.center, chunk.radius, half);
     });
   }
-  /// `tissue` is in use before and after.
-  void paint_part(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM,
-                  double half) const {
-    if (const ChangedCubes* cubes_of = changed(part)) {
-      begin(changed_tissue, half);
-      describe(changed_tissue, part, X_CM);
-      cubes_of->hide(changed_tissue);
+  const Program& program_of(const TissuePart& part, bool depth_alone) const {
+    const auto cheapest = TissuePattern::kSteel;
+    return tissues[static_cast<std::size_t>(depth_alone ? cheapest : part.pattern)];
+  }
+  void paint_part(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM, double half,
+                  bool depth_alone) const {
+    const Program& program = program_of(part, depth_alone);
+    const ChangedCubes* const cubes_of = changed(part);
+    if (cubes_of) {
+      begin(changed_bone, half);
+      describe(changed_bone, part, X_CM);
+      cubes_of->hide(changed_bone);
       draw_seen(mesh, X_CM, half);
-      begin(tissue, half);
-      describe(tissue, part, X_CM);
-      cubes_of->draw();
-      return;
     }
-    describe(tissue, part, X_CM);
+    begin(program, half);
+    describe(program, part, X_CM);
+    if (cubes_of) return cubes_of->draw();
     // Fat that the tip lies in gives way to it: it is not seen from inside.
     if (part.pattern == TissuePattern::kFat) glEnable(GL_CULL_FACE);
     draw_seen(mesh, X_CM, half);
     glDisable(GL_CULL_FACE);
   }
 
-  void paint_all(const ScopeCamera& camera, double half) const {
+  void paint_all(const ScopeCamera& camera, double half, bool depth_alone) const {
     const Pose X_CW = camera.X_WC().inverse();
-    for (const TissuePart& part : parts) paint_part(part, surface(part), X_CW * part.X_WM, half);
-    if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half);
+    for (const TissuePart& part : parts)
+      paint_part(part, surface(part), X_CW * part.X_WM, half, depth_alone);
+    if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
     for (const auto& [instrument, X_WT] : tools)
       if (const GpuMesh* mesh = tool_surface(instrument))
-        paint_part(tool, *mesh, X_CW * X_WT, half);
+        paint_part(tool, *mesh, X_CW * X_WT, half, depth_alone);
   }
 
   /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
@@ -237,13 +246,12 @@ struct ScopeRenderer::Impl {
     glClearColor(0, 0, 0, 1);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    begin(tissue, half);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    paint_all(camera, half);
+    paint_all(camera, half, true);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
-    paint_all(camera, half);
+    paint_all(camera, half, false);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
   }
@@ -252,6 +260,8 @@ struct ScopeRenderer::Impl {
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
     glViewport(0, 0, viewport.width, viewport.height);
+    const Program& lens =
+        lenses[(water.taken_per_m > 0 ? kSeesWater : 0) + (water.fog > 0 ? kSeesFog : 0)];
     lens.use();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, flat.texture());
@@ -318,15 +328,23 @@ ScopeRenderer& ScopeRenderer::operator=(ScopeRenderer&&) noexcept = default;
 Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
     const std::filesystem::path& data_dir) {
   auto impl = std::make_unique<Impl>();
-  auto tissue = Program::load(data_dir / "shaders", "tissue");
-  if (!tissue) return tl::unexpected(tissue.error());
-  auto lens = Program::load(data_dir / "shaders", "screen", "scope");
-  if (!lens) return tl::unexpected(lens.error());
-  impl->tissue = std::move(*tissue);
-  auto changed = Program::load_changed(data_dir / "shaders", "tissue", "tissue");
+  const std::filesystem::path shaders = data_dir / "shaders";
+  for (std::size_t k = 0; k < kPatterns; ++k) {
+    const std::string kind = "#define KIND " + std::to_string(k) + "\n";
+    auto tissue = Program::load_with(shaders, "tissue", "tissue", kind);
+    if (!tissue) return tl::unexpected(tissue.error());
+    impl->tissues[k] = std::move(*tissue);
+  }
+  auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
   if (!changed) return tl::unexpected(changed.error());
-  impl->changed_tissue = std::move(*changed);
-  impl->lens = std::move(*lens);
+  impl->changed_bone = std::move(*changed);
+  for (std::size_t k = 0; k < impl->lenses.size(); ++k) {
+    std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
+    if ((k & kSeesFog) != 0) defines += "#define FOG\n";
+    auto lens = Program::load_with(shaders, "screen", "scope", defines);
+    if (!lens) return tl::unexpected(lens.error());
+    impl->lenses[k] = std::move(*lens);
+  }
   impl->no_vertices = make_vertex_array();
   impl->wall.pattern = TissuePattern::kSynovium;
   return impl;
