@@ -189,6 +189,20 @@ class TourPlanner {
       chosen = &visit;
     }
     if (chosen) chosen->faulty = true;
+    if (skill_.fault == "pressed_over" && chosen) press_again(*chosen);
+  }
+
+  // Between two bones a hook leans on both, and neither may be pressed too hard: the touch after
+  // the chosen one is as hard.
+  void press_again(const TourVisit& chosen) {
+    bool after = false;
+    for (TourVisit& visit : tour_.visits) {
+      if (after && visit.kind == TourVisit::Kind::kTouch && visit.hand == chosen.hand) {
+        visit.faulty = true;
+        return;
+      }
+      after = after || &visit == &chosen;
+    }
   }
 
   void leave_out() {
