@@ -109,6 +109,7 @@ ScenarioHand read_hand(TomlTable table) {
   hand.name = table.text("name");
   hand.instrument = table.text("instrument");
   hand.portal = table.text_or("portal", "");
+  hand.also = table.texts_or_empty("also");
   table.refuse_others();
   return hand;
 }

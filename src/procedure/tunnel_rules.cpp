@@ -10,7 +10,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kFixedKinds = 5;
+constexpr std::size_t kFixedKinds = 9;
 constexpr double kMost = 1000;
 
 // Names of the rules about measures live as long as the program.
@@ -50,6 +50,19 @@ std::vector<RuleKind> make_table() {
        false,
        {{"central", 0.01, 1, 0.6}, {"far_mm", 0.1, 500, 30}},
        SubjectKind::kLandmark},
+      {"tunnel_drilled",
+       "a tunnel was drilled through every bone, measured from what is left of it",
+       true,
+       {{"least_mm", 0, 200, 15}, {"wide_mm", 1, 20, 7}}},
+      {"socket_drilled",
+       "a socket was drilled in every bone, and a channel from it to the far side",
+       true,
+       {{"least_mm", 0, 200, 10}, {"wide_mm", 1, 20, 7}, {"channel_mm", 0, 20, 4.2}}},
+      {"drilled_free", "a drill works in one of these bones without a pin", false, {}},
+      {"plunged_past",
+       "a drill under power goes farther beyond one of these bones",
+       false,
+       {{"most_mm", 0, 200, 10}}},
   };
   for (const std::string& name : outside_names())
     table.push_back({name,
@@ -78,6 +91,17 @@ std::optional<RuleHit> located_unseen(const PlannedRule& rule, const Event& even
   return now(event, tick_s);
 }
 
+// Once for each bone.
+std::optional<RuleHit> drill_went_wrong(const PlannedRule& rule, const Event& event,
+                                        std::size_t place, double tick_s, RuleState& state) {
+  const bool past = rule.rule.kind == "plunged_past";
+  if (event.kind != (past ? kDrillPlunged : kDrilledFree) || state.holds[place].told)
+    return std::nullopt;
+  if (past && event.values[0] <= rule.rule.numbers.at("most_mm")) return std::nullopt;
+  state.holds[place].told = true;
+  return now(event, tick_s);
+}
+
 // Once for each portal, however long the shaft stays.
 std::optional<RuleHit> entered_by(const Event& event, std::size_t place, double tick_s,
                                   RuleState& state) {
@@ -102,6 +126,12 @@ void step_goal(const PlannedRule& rule, const Event& event, std::size_t place, R
   if (kind == "felt" && event.kind == kMarkFelt && event.values[0] <= n.at("within_mm") &&
       event.values[1] >= n.at("force_n"))
     state.done[place] = 1;
+  const auto& v = event.values;
+  if (kind == "tunnel_drilled" && event.kind == kTunnelDrilled)
+    state.done[place] = v[0] >= n.at("least_mm") && v[1] >= n.at("wide_mm") && v[2] > 0;
+  if (kind == "socket_drilled" && event.kind == kSocketDrilled)
+    state.done[place] =
+        v[0] >= n.at("least_mm") && v[1] >= n.at("wide_mm") && v[2] >= n.at("channel_mm");
   if (kind == "tunnel_located" && event.kind == kTunnelLocated) state.done[place] = 1;
   // A rule about no subject has none that could be done: it holds by its hold.
   if (kind == "graft_tested" && event.kind == kGraftTested &&
@@ -129,8 +159,10 @@ bool step_tunnel_rule(const PlannedRule& rule, const Event& event, std::size_t p
     step_goal(rule, event, place, state);
   else if (rule.rule.kind == "located_unseen")
     hit = located_unseen(rule, event, place, tick_s, state);
-  else
+  else if (rule.rule.kind == "entered_by")
     hit = entered_by(event, place, tick_s, state);
+  else
+    hit = drill_went_wrong(rule, event, place, tick_s, state);
   state.met = true;
   for (const char done : state.done) state.met = state.met && done != 0;
   if (state.done.empty()) state.met = state.holds[0].told;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "acl_drilling.h"
 #include "acl_knee.h"
 #include "acl_lines.h"
 #include "acl_way.h"
@@ -25,9 +26,9 @@ constexpr double kPress_s = 0.6;
 constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on, and for how long
 constexpr double kTooHard_m = 0.012;
 
-constexpr std::array<std::string_view, 8> kFaults{
-    "wrong_portal",   "skipped_inspection", "scuffed",        "too_hard",
-    "anterior_tibia", "short_tibia",        "vertical_femur", "blow_out"};
+constexpr std::array<std::string_view, 11> kFaults{
+    "wrong_portal",   "skipped_inspection", "scuffed", "too_hard", "anterior_tibia", "short_tibia",
+    "vertical_femur", "blow_out",           "no_pin",  "plunged",  "short_socket"};
 
 // How somebody does it.
 struct AclHabits {
@@ -210,6 +211,9 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   probe.wait_until(scope.duration_s() + 0.5);
   feel_marks(*knee, tools, am, habits, probe, ways.unreachable);
   probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
+  if (tools.drills)
+    ways.drilling = drill_both(*knee, {*tibia, *femur, tools.reamed_m, 0.0045, tools.socket_m},
+                               habits.fault, probe.now_s() + 0.5, habits.pace);
   const AclWay pin = pin_way(*knee, tools, *tibia, *femur, probe.now_s() + 0.5, habits.pace);
   ways.scope = trembling(scope, skill.tremor_m, skill.seed);
   ways.probe = trembling(probe.path(), skill.tremor_m, skill.seed + 1);

@@ -99,13 +99,29 @@ TEST_F(Teaching, AReconstructionIsPassedOnThreePatientsAndRepeats) {
   const std::string osr = file("acl.osr");
   ASSERT_EQ(play("acl", "expert", 0, "--no-store --record " + osr).exit_code, 0);
   EXPECT_EQ(run_osteon("replay " + osr).exit_code, 0);
-  EXPECT_LE(read("r.json")["acl"]["lachman"]["side_difference_mm"].get<double>(), 3);
+  const TeachJson report = read("r.json");
+  EXPECT_LE(report["acl"]["lachman"]["side_difference_mm"].get<double>(), 3);
+  EXPECT_NEAR(report["acl"]["femur"]["diameter_mm"].get<double>(), 8, 0.05);
+  EXPECT_NEAR(report["acl"]["femur"]["drilled_mm"].get<double>(), 25, 3);
+  EXPECT_NEAR(report["acl"]["tibia"]["diameter_mm"].get<double>(), 8, 0.05);
+  EXPECT_TRUE(report["acl"]["tibia"]["through"]);
+}
+
+// Each makes its own error.
+TEST_F(Teaching, WhoDrillsBadlyFailsWithThatError) {
+  if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for knees that are prepared";
+  for (const std::string name : {"no_pin", "plunged", "short_socket"}) {
+    EXPECT_EQ(play("acl", "bad:" + name, 1, "--no-store").exit_code, 1) << name;
+    std::set<std::string> made;
+    for (const TeachJson& error : read("r.json")["errors"]) made.insert(error["name"]);
+    EXPECT_TRUE(made.contains(name));
+  }
 }
 
 TEST_F(Teaching, AReconstructionIsExplainedAndWantsAKneeWithItsLandmarks) {
   const TeachJson info = json_of("scenario info acl --json");
   EXPECT_EQ(info["stages"].size(), 5u);
-  EXPECT_EQ(info["errors"].size(), 8u);
+  EXPECT_EQ(info["errors"].size(), 11u);
   EXPECT_EQ(run_osteon("run acl --case builtin:wrist --no-store").exit_code, 2);
   EXPECT_EQ(run_osteon("run acl --seed 1 --surgeon bad:nothing --no-store").exit_code, 2);
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tunnel_events.h"
@@ -156,6 +158,101 @@ TEST_F(TunnelRules, WhoSawBothMayLocate) {
     tell(kMarkSeen, SubjectKind::kLandmark, mark, {0.2, 10, 0});
   for (std::uint32_t mark = 0; mark < 3; ++mark) tell(kTunnelBegun, SubjectKind::kLandmark, mark);
   EXPECT_TRUE(errors().empty());
+}
+
+const char* const kDrilledText = R"(format = 1
+name = "drilled"
+title = "Drilled"
+text = "Drill."
+version = 1
+anatomy = "knee"
+felt = "femur=field,tibia=field,flexion=120"
+
+[[hands]]
+name = "pin"
+instrument = "guide_pin"
+also = ["cannulated_drill:8"]
+
+[[stages]]
+name = "tunnel"
+title = "A"
+instruction = "Drill."
+[[stages.goals]]
+rule = "tunnel_drilled"
+bones = ["tibia"]
+least_mm = 20
+
+[[stages]]
+name = "socket"
+title = "B"
+instruction = "Drill."
+[[stages.goals]]
+rule = "socket_drilled"
+bones = ["femur"]
+least_mm = 12
+
+[[errors]]
+name = "no_pin"
+title = "No pin"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "drilled_free"
+bones = ["femur", "tibia"]
+
+[[errors]]
+name = "plunged"
+title = "Plunged"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "plunged_past"
+bones = ["tibia"]
+most_mm = 10
+)";
+
+class DrilledRules : public TunnelRules {
+ protected:
+  void SetUp() override {
+    auto scenario = parse_scenario(kDrilledText, "drilled.toml");
+    ASSERT_TRUE(scenario) << scenario.error().message();
+    EXPECT_EQ(scenario->hands[0].also, std::vector<std::string>{"cannulated_drill:8"});
+    case_ = testing::named_case({"femur", "tibia"});
+    auto plan = plan_scenario(*scenario, case_);
+    ASSERT_TRUE(plan) << plan.error().message();
+    plan_ = std::move(*plan);
+    state_ = begin_scenario(plan_);
+  }
+};
+
+TEST_F(DrilledRules, ATunnelMustBeLongWideAndOpenOnBothSides) {
+  for (const std::array<double, 3>& bad :
+       {std::array<double, 3>{19, 8, 1}, {40, 6.9, 1}, {40, 8, 0}})
+    tell(kTunnelDrilled, SubjectKind::kBone, 1, bad);
+  tell(kTunnelDrilled, SubjectKind::kBone, 0, {40, 8, 1});  // of the femur: not asked for
+  EXPECT_EQ(state_.stage, 0u);
+  tell(kTunnelDrilled, SubjectKind::kBone, 1, {40, 8, 1});
+  EXPECT_EQ(state_.stage, 1u);
+}
+
+TEST_F(DrilledRules, ASocketMustBeDeepWideAndHaveItsChannel) {
+  tell(kTunnelDrilled, SubjectKind::kBone, 1, {40, 8, 1});
+  for (const std::array<double, 3>& bad :
+       {std::array<double, 3>{11, 8, 4.5}, {25, 6, 4.5}, {25, 8, 0}, {25, 8, 2.4}})
+    tell(kSocketDrilled, SubjectKind::kBone, 0, bad);
+  EXPECT_FALSE(state_.over);
+  tell(kSocketDrilled, SubjectKind::kBone, 0, {25, 8, 4.5});
+  EXPECT_TRUE(state_.over);
+}
+
+TEST_F(DrilledRules, DrillingWithoutAPinAndPlungingAreToldOnceForEachBone) {
+  tell(kDrillPlunged, SubjectKind::kBone, 1, {9, 0, 0});
+  tell(kDrillPlunged, SubjectKind::kBone, 0, {30, 0, 0});  // not asked about
+  EXPECT_TRUE(errors().empty());
+  for (const double beyond : {10.5, 11.5})
+    tell(kDrillPlunged, SubjectKind::kBone, 1, {beyond, 0, 0});
+  for (int n = 0; n < 2; ++n) tell(kDrilledFree, SubjectKind::kBone, 0, {4, 0, 0});
+  EXPECT_EQ(errors(), (std::vector<std::string>{"plunged", "no_pin"}));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ struct ScenarioHand {
   std::string instrument;  ///< as `osteon instruments` names it; one with optics is looked through
   std::string portal;      ///< landmark through which its shaft passes; empty: none
   int line = 0;
+  std::vector<std::string> also = {};  ///< instruments that it may take beside that one
 };
 
 struct ScenarioStage {

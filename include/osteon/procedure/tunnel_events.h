@@ -21,6 +21,17 @@ inline constexpr EventKind kTunnelMeasured{434};
 /// knee, mm; 0; 0}.
 inline constexpr EventKind kGraftTested{435};
 
+/// A tunnel was drilled, and measured from the bone that is left: {its length mm; its width mm; 1
+/// where it opens on both sides, else 0}.
+inline constexpr EventKind kTunnelDrilled{441};
+/// The same of a socket: {its depth mm; its width mm; width mm of a narrower channel that goes on
+/// to the far side, 0: none}.
+inline constexpr EventKind kSocketDrilled{442};
+/// A drill works in a bone without a pin that leads it: {how deep mm; 0; 0}.
+inline constexpr EventKind kDrilledFree{443};
+/// A drill under power has gone beyond a bone's far side: {how far mm; 0; 0}.
+inline constexpr EventKind kDrillPlunged{444};
+
 /// What is measured of tunnels and of the graft between them.
 enum class TunnelValue : std::uint8_t {
   kFemoralDepth,

@@ -9,6 +9,7 @@
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
+#include "osteon/surgeon/acl_driller.h"
 #include "osteon/surgeon/skill.h"
 
 namespace osteon {
@@ -18,6 +19,8 @@ struct AclTools {
   ScopeOptics optics;
   std::string scope, probe, pin;  ///< names of the instruments
   double reamed_m = 0.008;        ///< so wide the tunnels will be
+  bool drills = false;            ///< both tunnels are drilled, not located alone
+  double socket_m = 0.025;        ///< so deep the femur's is drilled
   std::vector<std::string> tour;  ///< landmarks that are looked at
   std::vector<std::string> felt;  ///< and those that the probe presses next to
 };
@@ -25,6 +28,7 @@ struct AclTools {
 /// Ways of three hands through a reconstruction.
 struct AclWays {
   ProbePath scope, probe, pin;
+  std::vector<AclMove> drilling;         ///< in place of `pin`, where tunnels are drilled
   std::vector<std::string> unreachable;  ///< landmarks that no free way leads to
 };
 

@@ -74,15 +74,6 @@ std::vector<HeadlessHand> hands_of(const HeadlessRun& run) {
   return {HeadlessHand{"", run.path}};
 }
 
-// The tray holds what the paths name, and the wrist probe where a path begins with none.
-std::vector<std::string> tray_of(std::span<const HeadlessHand> hands) {
-  std::vector<std::string> names;
-  for (const HeadlessHand& hand : hands)
-    for (const std::string& name : instruments_of(hand.path))
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  return names.size() == 1 && names[0] == kWristProbe ? std::vector<std::string>() : names;
-}
-
 class HeadlessLoop {
  public:
   HeadlessLoop(const HeadlessRun& run, const SessionSettings& settings, Tray tray,
@@ -159,7 +150,7 @@ class HeadlessLoop {
 
 Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
                                SessionSettings& settings) {
-  settings.tray = tray_of(hands);
+  settings.tray = tray_of_hands(hands);
   auto tray = make_tray(settings.tray, settings.probe_radius_m);
   if (!tray) return tl::unexpected(tray.error());
   const auto portals = open_portals(*run.the_case, settings);
@@ -187,6 +178,15 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
 
 }  // namespace
 
+// The tray holds what the paths name, and the wrist probe where a path begins with none.
+std::vector<std::string> tray_of_hands(std::span<const HeadlessHand> hands) {
+  std::vector<std::string> names;
+  for (const HeadlessHand& hand : hands)
+    for (const std::string& name : instruments_of(hand.path))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names.size() == 1 && names[0] == kWristProbe ? std::vector<std::string>() : names;
+}
+
 Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   const std::vector<HeadlessHand> hands = hands_of(run);
   SessionSettings settings = run.settings;
@@ -194,10 +194,13 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   if (!loop) return tl::unexpected(loop.error());
   auto writer = open_recording(run, settings, loop->session());
   if (!writer) return tl::unexpected(writer.error());
+  if (run.on_session) run.on_session(loop->session());
   double duration_s = 0;
   for (const HeadlessHand& hand : hands) duration_s = std::max(duration_s, hand.path.duration_s());
   const double dt = run.settings.haptic.tick_s;
-  const bool by_users = run.user || (!run.hands.empty() && run.hands.front().user);
+  const bool by_users =
+      run.user || std::any_of(run.hands.begin(), run.hands.end(),
+                              [](const HeadlessHand& hand) { return bool(hand.user); });
   if (by_users) duration_s = run.longest_s;
   const auto ticks = static_cast<std::uint64_t>(std::ceil(duration_s / dt));
   const std::int64_t started = steady_now_ns();

@@ -48,9 +48,14 @@ struct HeadlessRun {
   std::optional<std::filesystem::path> record_to;
   /// Sees all hands' tools after every tick; may be empty.
   std::function<void(std::span<const ToolState* const>, const BoneSnapshot&)> on_hands;
+  /// Sees the session before its first tick; it stays where it is. May be empty.
+  std::function<void(const Session&)> on_session = {};
   /// Sees every tick; may be empty.
   std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;
 };
+
+/// What the tray of such a run holds: all that the paths name.
+std::vector<std::string> tray_of_hands(std::span<const HeadlessHand> hands);
 
 /// Reports of all hands, in their order.
 struct HeadlessOutcome {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cases/open_case.h"
 #include "commands/headless.h"
 #include "exercises/attempt_watch.h"
+#include "osteon/physics/carving.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/surgeon/acl_surgeon.h"
@@ -104,29 +104,35 @@ std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand>
   return players;
 }
 
-ProbePath holding(const std::string& instrument) {
+// Names what the hand holds first, and all that it may take.
+ProbePath holding(const PlannedHand& hand) {
   ProbePath path;
-  if (instrument == kWristProbe) return path;
+  if (hand.instrument == kWristProbe) return path;
   path.samples.emplace_back(0.0, Pose{}, false);
-  path.samples.back().instrument = instrument;
+  path.samples.back().instrument = hand.instrument;
+  for (const std::string& other : hand.also) {
+    path.samples.emplace_back(path.samples.back().time_s + 1, Pose{}, false);
+    path.samples.back().instrument = other;
+  }
   return path;
 }
 
 HeadlessHand played_by(HandPlayer& player, const PlannedHand& hand, const HandParams& params) {
-  return {hand.name, holding(hand.instrument), [&params, &player](double tick_s) {
+  return {hand.name, holding(hand), [&params, &player](double tick_s) {
             return std::make_unique<SurgeonHand>(player, params, tick_s);
           }};
 }
 
 // Who reconstructs a ligament knows all his ways before he begins.
-Result<std::vector<std::string>> plan_reconstruction(const ScenarioRun& run,
-                                                     const ScenarioPlan& plan, const Case& the_case,
-                                                     std::span<const PlannedHand> hands,
-                                                     HeadlessRun& headless) {
+Result<std::vector<std::string>> plan_reconstruction(
+    const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
+    std::span<const PlannedHand> hands, HeadlessRun& headless,
+    std::vector<std::unique_ptr<HandPlayer>>& players) {
   AclTools tools;
   for (const PlannedHand& hand : hands) {
     if (hand.pin) {
       tools.pin = hand.instrument;
+      tools.drills = !hand.also.empty();
     } else if (hand.optics) {
       tools.scope = hand.instrument;
       tools.optics = *hand.optics;
@@ -145,22 +151,32 @@ Result<std::vector<std::string>> plan_reconstruction(const ScenarioRun& run,
     }
   auto ways = plan_acl(the_case, tools, run.skill);
   if (!ways) return tl::unexpected(ways.error());
+  AclDriller* driller = nullptr;
   for (const PlannedHand& hand : hands) {
+    if (hand.pin && tools.drills) {
+      auto made = std::make_unique<AclDriller>(std::move(ways->drilling), run.skill);
+      driller = made.get();
+      headless.hands.push_back(played_by(*made, hand, headless.hand));
+      players.push_back(std::move(made));
+      continue;
+    }
     ProbePath& way = hand.pin ? ways->pin : hand.optics ? ways->scope : ways->probe;
     headless.hands.push_back({hand.name, std::move(way)});
   }
+  if (driller) driller->set_tray(tray_of_hands(headless.hands));
   return ways->unreachable;
+}
+
+std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bone) {
+  const Carving* carving = session ? session->carving() : nullptr;
+  const CarvedField* field = carving ? carving->field(bone) : nullptr;
+  return field && field->block_count() > 0 ? std::optional<CarvedField>(*field) : std::nullopt;
 }
 
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
-  std::string text = to_json(done.reports, done.hands, done.outcome);
-  if (!done.acl) return text;
-  auto json = nlohmann::ordered_json::parse(text);
-  json["acl"] = to_json(*done.acl);
-  if (!done.not_measured.empty()) json["acl"]["not_measured"] = done.not_measured;
-  return json.dump(2) + "\n";
+  return with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
 }
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -182,7 +198,6 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     return fail("no target of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
-  watch.watch_tunnels(run.case_spec);
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
@@ -191,12 +206,16 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.longest_s = run.scenario.time_limit_s;
   std::vector<std::string> unreachable;
   if (ligament) {
-    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, headless);
+    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, headless, players);
     if (!planned) return tl::unexpected(planned.error());
     unreachable = std::move(*planned);
   }
-  for (std::size_t h = 0; h < players.size(); ++h)
+  for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
+  const Session* session = nullptr;
+  headless.on_session = [&](const Session& begun) { session = &begun; };
+  watch.watch_tunnels({run.case_spec, tray_of_hands(headless.hands),
+                       [&](std::uint32_t bone) { return carved_bone(session, bone); }});
   headless.done = [&] { return watch.over() || all_done(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);

@@ -45,11 +45,27 @@ bool asks_for_tip(const ScenarioPlan& plan) {
          });
 }
 
+// Of each instrument of a tray how wide a hole it drills; 0: none.
+std::vector<double> drilled_widths(std::span<const std::string> tray) {
+  std::vector<double> widths_m(tray.size(), 0.0);
+  const auto instruments = load_instruments();
+  for (std::size_t i = 0; instruments && i < tray.size(); ++i) {
+    const auto named = parse_tool_name(tray[i]);
+    const Instrument* found = named ? find_instrument(*instruments, named->name) : nullptr;
+    if (!found || !found->removal || found->removal->way != RemovalWay::kDrill) continue;
+    const auto size = named->size_mm ? find_size(*found, *named->size_mm)
+                                     : std::optional<std::size_t>(found->usual_size);
+    if (size) widths_m[i] = found->sizes_m[*size];
+  }
+  return widths_m;
+}
+
 Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
                               std::span<const Instrument> instruments, const std::string& where) {
   PlannedHand planned;
   planned.name = hand.name;
   planned.instrument = hand.instrument;
+  planned.also = hand.also;
   const auto named = parse_tool_name(hand.instrument);
   if (!named) return tl::unexpected(named.error());
   const Instrument* instrument =
@@ -67,6 +83,13 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
     planned.removes = instrument->removal.has_value();
     planned.shaft_offset_T = {tool.shaft.p0.x(), tool.shaft.p0.y(), 0};
     planned.pin = named->name == kGuidePin;
+  }
+  for (const std::string& name : hand.also) {
+    const auto other = parse_tool_name(name);
+    const Instrument* found = other ? find_instrument(instruments, other->name) : nullptr;
+    if (!found || (other->size_mm && !find_size(*found, *other->size_mm)))
+      return fail("there is no instrument '" + name + "', or none of that size",
+                  where + ":" + std::to_string(hand.line), "See: osteon instruments");
   }
   if (hand.portal.empty()) return planned;
   const auto portal = find_landmark(the_case, hand.portal);
@@ -156,8 +179,10 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (!tools.empty()) meter_.add(*tools[0]);
 }
 
-void AttemptWatch::watch_tunnels(const std::string& case_spec) {
-  if (asks_about_tunnels(*plan_)) tunnels_.emplace(*plan_, *case_, case_spec, pins_, tick_s_);
+void AttemptWatch::watch_tunnels(TunnelSources sources) {
+  if (!asks_about_tunnels(*plan_)) return;
+  auto widths_m = drilled_widths(sources.tray);
+  tunnels_.emplace(*plan_, *case_, std::move(sources), pins_, std::move(widths_m), tick_s_);
 }
 
 Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindings& stated) {

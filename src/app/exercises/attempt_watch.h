@@ -27,6 +27,7 @@ struct PlannedHand {
   bool removes = false;                ///< bone
   Vec3 shaft_offset_T = Vec3::Zero();  ///< the shaft's axis runs along z of Tool through this point
   bool pin = false;                    ///< what it holds locates tunnels
+  std::vector<std::string> also = {};  ///< what it may take beside its instrument
 };
 /// Fails on an instrument that there is none of, and on a portal that the case lacks.
 Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case);
@@ -47,8 +48,8 @@ class AttemptWatch {
   void set_pauses(std::vector<AttemptPause> pauses) { pauses_ = std::move(pauses); }
   /// Of the attempt: pauses left out.
   double now_s() const { return now_s_; }
-  /// Measures located tunnels, where the scenario asks for it; once, before the first tick.
-  void watch_tunnels(const std::string& case_spec);
+  /// Measures tunnels, where the scenario asks for it; once, before the first tick.
+  void watch_tunnels(TunnelSources sources);
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
 

@@ -10,6 +10,7 @@
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
+#include "runs/carved_picture.h"
 #include "runs/recorded_case.h"
 #include "runs/tray.h"
 
@@ -95,7 +96,7 @@ struct JudgedAgain {
   std::vector<ToolState> tools;
 
   Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
-                     std::size_t recorded_hands, const std::string& case_spec) {
+                     std::size_t recorded_hands, TunnelSources sources) {
     auto planned = plan_scenario(scenario, the_case);
     if (!planned) return tl::unexpected(planned.error());
     auto held = plan_hands(scenario, the_case);
@@ -107,7 +108,7 @@ struct JudgedAgain {
     plan = std::make_unique<ScenarioPlan>(std::move(*planned));
     hands = std::move(*held);
     watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
-    watch->watch_tunnels(case_spec);
+    watch->watch_tunnels(std::move(sources));
     tools.resize(hands.size());
     return {};
   }
@@ -137,16 +138,25 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   const std::size_t hands = recording->header().hands;
   const double tick_s = settings->haptic.tick_s;
   JudgedAgain again;
+  ReplayOptions how;
+  if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
+    return tl::unexpected(ready.error());
+  CarvedPicture carved(how.carving);
+  if (how.carving) how.on_cuts = [&](const CutsPatch& patch, double) { carved.take(patch); };
+  const auto carved_bone = [&](std::uint32_t bone) -> std::optional<CarvedField> {
+    for (auto& [index, field] : carved.cut_bones())
+      if (index == bone) return field;
+    return std::nullopt;
+  };
   if (*scenario)
-    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands, *spec); !begun)
+    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands,
+                                 {*spec, settings->tray, carved_bone});
+        !begun)
       return tl::unexpected(begun.error());
   auto pauses = pauses_of(order.recording);
   if (!pauses) return tl::unexpected(pauses.error());
   if (again.watch) again.watch->set_pauses(std::move(*pauses));
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
-  ReplayOptions how;
-  if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
-    return tl::unexpected(ready.error());
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     traces[hand].add(tool);
@@ -171,6 +181,10 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
+  if (const TunnelWatch* tunnels = again.watch->tunnels()) {
+    debrief.acl = tunnels->report();
+    if (tunnels->problem()) debrief.not_measured = tunnels->problem()->message();
+  }
   debrief.scenario = std::move(**scenario);
   return debrief;
 }
@@ -178,7 +192,8 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
 std::string report_of(const Debrief& debrief) {
   std::vector<std::string> names;
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
-  return to_json(debrief.reports, names, *debrief.outcome);
+  return with_tunnels(to_json(debrief.reports, names, *debrief.outcome), debrief.acl,
+                      debrief.not_measured);
 }
 
 }  // namespace osteon

@@ -9,6 +9,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
+#include "runs/acl_report.h"
 
 namespace osteon {
 
@@ -28,7 +29,9 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
   std::optional<Outcome> outcome;
-  std::vector<Report> reports;  ///< of each of `hands`
+  std::optional<AclReport> acl;  ///< of an exercise that asks for tunnels
+  std::string not_measured;      ///< why they could not be measured
+  std::vector<Report> reports;   ///< of each of `hands`
   std::vector<HandTrace> hands;
 };
 

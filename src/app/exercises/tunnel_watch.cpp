@@ -1,6 +1,7 @@
 #include "exercises/tunnel_watch.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numbers>
 #include <utility>
 
@@ -22,7 +23,8 @@ constexpr const char* kTunnelBones[] = {"femur", "tibia"};
 bool is_tunnel_rule(const PlannedRule& rule) {
   const std::string& kind = rule.rule.kind;
   return kind == "felt" || kind == "tunnel_located" || kind == "graft_tested" ||
-         kind == "located_unseen" || kind.starts_with("outside_");
+         kind == "tunnel_drilled" || kind == "socket_drilled" || kind == "drilled_free" ||
+         kind == "plunged_past" || kind == "located_unseen" || kind.starts_with("outside_");
 }
 
 // By TunnelValue.
@@ -72,27 +74,41 @@ bool asks_about_tunnels(const ScenarioPlan& plan) {
   return std::any_of(plan.errors.begin(), plan.errors.end(), is_tunnel_rule);
 }
 
-TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, std::string case_spec,
-                         std::vector<char> pins, double tick_s)
+TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelSources sources,
+                         std::vector<char> pins, std::vector<double> widths_m, double tick_s)
     : case_(&the_case),
-      spec_(std::move(case_spec)),
+      sources_(std::move(sources)),
       pins_(std::move(pins)),
       tick_s_(tick_s),
       stride_(std::max<std::uint64_t>(
           1, static_cast<std::uint64_t>(1 / (kTunnelWatchHz * tick_s) + 0.5))),
       holds_(pins_.size()) {
-  for (std::size_t k = 0; k < kBones; ++k)
+  work_.spec = sources_.case_spec;
+  DrillWatch::Bones drilled{kNoSubject, kNoSubject};
+  for (std::size_t k = 0; k < kBones; ++k) {
+    work_.names[k] = kTunnelBones[k];
     if (const BoneId bone = the_case.find(kTunnelBones[k]); bone.valid()) bones_[k] = bone.index;
+  }
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals) {
-      if (goal.rule.kind == "felt") felt_.insert(felt_.end(), goal.bones.begin(), goal.bones.end());
-      if (goal.rule.kind != "tunnel_located") continue;
+      const std::string& kind = goal.rule.kind;
+      if (kind == "felt") felt_.insert(felt_.end(), goal.bones.begin(), goal.bones.end());
+      const bool is_drilled = kind == "tunnel_drilled" || kind == "socket_drilled";
+      if (kind != "tunnel_located" && !is_drilled) continue;
       const auto& n = goal.rule.numbers;
-      for (std::size_t k = 0; k < kBones; ++k)
-        if (std::find(goal.bones.begin(), goal.bones.end(), bones_[k]) != goal.bones.end())
+      for (std::size_t k = 0; k < kBones; ++k) {
+        if (std::find(goal.bones.begin(), goal.bones.end(), bones_[k]) == goal.bones.end())
+          continue;
+        is_socket_[k] = kind == "socket_drilled";
+        if (is_drilled)
+          drilled[k] = bones_[k];
+        else
           wanted_[k] = {true, n.at("force_n"), n.at("for_s"), n.at("depth_mm") / 1000,
                         n.at("reamed_mm") / 1000};
+      }
     }
+  if (drilled[0] != kNoSubject || drilled[1] != kNoSubject)
+    drills_.emplace(the_case, drilled, std::move(widths_m), tick_s, pins_.size());
 }
 
 void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
@@ -101,9 +117,35 @@ void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     const ToolState& tool = *tools[h];
     last_tick_ = std::max(last_tick_, tool.tick);
     if (!is_finite(tool.X_WP)) continue;
-    if (pins_[h]) follow_pin(tool, h, bones, out);
+    if (pins_[h] && !drills_) follow_pin(tool, h, bones, out);
     if (tool.tick % stride_ == 0) see_marks(tool, h, out);
   }
+  if (drills_) follow_drills(tools, bones, out);
+  if (!job_.valid() || job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  work_ = job_.get();
+  asked_.tick = last_tick_;
+  tell_measured(asked_, out);
+}
+
+// Measured at once where a bone is done; while one measurement goes on, the next one waits.
+void TunnelWatch::follow_drills(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                                std::vector<Event>& out) {
+  drills_->add(tools, bones, out);
+  if (job_.valid()) return;
+  for (std::size_t k = 0; k < kBones; ++k)
+    if (drills_->take_done(k)) take_cuts(k);
+  if (!fresh_) return;
+  Event at;
+  at.tick = last_tick_;
+  for (std::size_t h = 0; h < pins_.size(); ++h)
+    if (pins_[h]) at.hand = static_cast<std::uint8_t>(h);
+  measure(at, out);
+}
+
+void TunnelWatch::take_cuts(std::size_t k) {
+  if (!sources_.carved) return;
+  work_.cuts[k] = sources_.carved(bones_[k]);
+  fresh_ = fresh_ || work_.cuts[k].has_value();
 }
 
 void TunnelWatch::see_marks(const ToolState& tool, std::size_t hand,
@@ -154,7 +196,8 @@ void TunnelWatch::locate(const ToolState& tool, std::size_t hand, const Pose& X_
       wanted_[k].depth_m > 0
           ? wanted_[k].depth_m
           : way_through_m(MeshDistance(case_->bones[bones_[k]].mesh), X_BT.p, in_B);
-  lines_[k] = {true, X_BT.p - kBeyond_m * in_B, X_BT.p + length_m * in_B};
+  work_.is_new = {true, true};
+  work_.lines[k] = {true, X_BT.p - kBeyond_m * in_B, X_BT.p + length_m * in_B, wanted_[k].reamed_m};
   fresh_ = true;
   out.push_back(
       told(tool, hand, kTunnelLocated, SubjectKind::kBone, bones_[k], {1e3 * length_m, 0, 0}));
@@ -163,7 +206,8 @@ void TunnelWatch::locate(const ToolState& tool, std::size_t hand, const Pose& X_
 }
 
 bool TunnelWatch::all_located() const {
-  return std::all_of(lines_.begin(), lines_.end(), [](const Line& line) { return line.known; });
+  return std::all_of(work_.lines.begin(), work_.lines.end(),
+                     [](const Line& line) { return line.known; });
 }
 
 void TunnelWatch::finish(std::vector<Event>& out) {
@@ -172,31 +216,85 @@ void TunnelWatch::finish(std::vector<Event>& out) {
   at.kind = kTunnelMeasured;
   for (std::size_t h = 0; h < pins_.size(); ++h)
     if (pins_[h]) at.hand = static_cast<std::uint8_t>(h);
+  if (job_.valid()) {
+    work_ = job_.get();
+    tell_measured(at, out);
+  }
+  for (std::size_t k = 0; drills_ && k < kBones; ++k)
+    if (drills_->take_drilled(k)) take_cuts(k);
+  sources_.in_background = false;
   if (fresh_) measure(at, out);
 }
 
-DrilledLine TunnelWatch::stretched_out(std::size_t k) const {
-  DrilledLine line{lines_[k].from_B, lines_[k].to_B, wanted_[k].reamed_m};
-  for (const BoneDef& bone : whole_->bones)
-    if (bone.name == kTunnelBones[k])
-      line = {bone.X_WB * line.from_W, bone.X_WB * line.to_W, wanted_[k].reamed_m};
-  return line;
+// Lines of what was drilled since: the holes in what is left.
+void TunnelWatch::find_lines(Work& work) {
+  for (std::size_t k = 0; k < kBones; ++k) {
+    if (!work.cuts[k]) continue;
+    work.is_new[k] = true;
+    for (const BoneDef& bone : work.whole->bones)
+      if (bone.name == work.names[k])
+        work.holes[k] = find_drilled(*work.cuts[k], MeshDistance(bone.mesh));
+    work.cuts[k].reset();
+    if (const auto& hole = work.holes[k])
+      work.lines[k] = {true, hole->line.from_W, hole->line.to_W, hole->line.diameter_m};
+    else
+      work.lines[k] = {};
+  }
 }
 
-Result<AclReport> TunnelWatch::measured() {
-  if (!whole_) {
-    auto grown = open_case_def(source_without_choice(spec_));
+Result<AclReport> TunnelWatch::report_of(Work& work) {
+  if (!work.whole) {
+    auto grown = open_case_def(source_without_choice(work.spec));
     if (!grown) return tl::unexpected(grown.error());
-    whole_ = std::move(*grown);
+    work.whole = std::make_shared<const CaseDef>(std::move(*grown));
   }
-  AclDrilling lines;
-  if (lines_[0].known) lines.femur = stretched_out(0);
-  if (lines_[1].known) lines.tibia = stretched_out(1);
-  return make_acl_report(*whole_, lines);
+  find_lines(work);
+  AclDrilling drilling;
+  for (std::size_t k = 0; k < kBones; ++k) {
+    if (!work.lines[k].known) continue;
+    const Line& line = work.lines[k];
+    for (const BoneDef& bone : work.whole->bones)
+      if (bone.name == work.names[k])
+        (k == 0 ? drilling.femur : drilling.tibia) =
+            DrilledLine{bone.X_WB * line.from_B, bone.X_WB * line.to_B, line.wide_m};
+  }
+  return make_acl_report(*work.whole, drilling);
+}
+
+TunnelWatch::Work TunnelWatch::measured(Work work) {
+  auto made = report_of(work);
+  work.problem = made ? std::nullopt : std::optional<Error>(made.error());
+  work.report = made ? std::move(*made) : AclReport();
+  return work;
 }
 
 // `at`: who measures, and when.
 void TunnelWatch::measure(const Event& at, std::vector<Event>& out) {
+  asked_ = at;
+  if (!std::exchange(fresh_, false)) return tell_measured(at, out);
+  if (sources_.in_background) {
+    job_ = std::async(std::launch::async, &TunnelWatch::measured, work_);
+    for (auto& cuts : work_.cuts) cuts.reset();
+    return;
+  }
+  work_ = measured(std::move(work_));
+  tell_measured(at, out);
+}
+
+void TunnelWatch::tell_drilled(const Event& at, std::vector<Event>& out) const {
+  for (std::size_t k = 0; drills_ && k < kBones; ++k) {
+    const auto& hole = work_.holes[k];
+    if (!hole || !work_.is_new[k]) continue;
+    out.push_back(at);
+    out.back().kind = is_socket_[k] ? kSocketDrilled : kTunnelDrilled;
+    out.back().subject_kind = SubjectKind::kBone;
+    out.back().subject = bones_[k];
+    out.back().values = {1e3 * hole->length_m, 1e3 * hole->line.diameter_m,
+                         is_socket_[k] ? 1e3 * hole->channel_m : (hole->through ? 1.0 : 0.0)};
+  }
+}
+
+void TunnelWatch::tell_measured(const Event& at, std::vector<Event>& out) {
   const auto tell = [&](EventKind kind, std::array<double, 3> values) {
     out.push_back(at);
     out.back().kind = kind;
@@ -206,17 +304,15 @@ void TunnelWatch::measure(const Event& at, std::vector<Event>& out) {
     for (const auto& [which, value] : values_of(found))
       tell(kTunnelMeasured, {static_cast<double>(which), value, 0});
   };
-  if (std::exchange(fresh_, false)) {
-    auto made = measured();
-    problem_ = made ? std::nullopt : std::optional<Error>(made.error());
-    report_ = made ? std::move(*made) : AclReport();
-    if (report_.tunnels.femur) tell_all(*report_.tunnels.femur);
-    if (report_.tunnels.tibia) tell_all(*report_.tunnels.tibia);
-    if (report_.graft) tell_all(*report_.graft);
-  }
-  if (report_.graft)
-    tell(kGraftTested,
-         {1e3 * (report_.graft->lachman.anterior_m - report_.graft->lachman_whole_m), 0, 0});
+  tell_drilled(at, out);
+  const AclTunnels& tunnels = work_.report.tunnels;
+  const std::array<bool, kBones> is_new = std::exchange(work_.is_new, {});
+  if (tunnels.femur && is_new[0]) tell_all(*tunnels.femur);
+  if (tunnels.tibia && is_new[1]) tell_all(*tunnels.tibia);
+  if (!work_.report.graft) return;
+  const GraftOutcome& graft = *work_.report.graft;
+  if (is_new[0] || is_new[1]) tell_all(graft);
+  tell(kGraftTested, {1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m), 0, 0});
 }
 
 }  // namespace osteon

@@ -2,15 +2,21 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "exercises/drill_watch.h"
+#include "osteon/carve/carved_field.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/state.h"
 #include "runs/acl_report.h"
+#include "runs/drilled_bone.h"
 
 namespace osteon {
 
@@ -20,25 +26,39 @@ bool asks_about_tunnels(const ScenarioPlan& plan);
 /// What locates tunnels.
 inline constexpr std::string_view kGuidePin = "guide_pin";
 
+/// What is known of a run beside its tools.
+struct TunnelSources {
+  std::string case_spec;          ///< names the case: its knee, stretched out, is grown to measure
+  std::vector<std::string> tray;  ///< of the session
+  /// A copy of a bone as it is now, by its number in the case; none: nothing was cut from it.
+  std::function<std::optional<CarvedField>(std::uint32_t)> carved = {};
+  /// Measures on another thread and tells when that is done: for who may not wait. What is told
+  /// then comes at a later tick than elsewhere.
+  bool in_background = false;
+};
+
 /// Makes the events of tunnel_events.h from what hands did in a knee. The line of a tunnel is that
 /// of a pin which is pressed on a bone and held still: from its tip along its axis, as deep as the
 /// scenario says or through the bone. Of each bone the last line counts; all is measured once each
-/// bone has one, anew whenever one changes, and as the attempt ends. A function of the tools'
-/// states: a replay makes the same events. The plan and the case must outlive it.
+/// bone has one, anew whenever one changes, and as the attempt ends. Where the scenario asks for
+/// tunnels that are drilled, their lines are the axes of holes found in what is left of the bones:
+/// looked for when drills and pins are out of a bone, and as the attempt ends. A function of the
+/// tools' states and the cuts: a replay makes the same events. The plan and the case must outlive
+/// it.
 class TunnelWatch {
  public:
-  /// `case_spec` names the case: its knee, stretched out and whole, is grown before measuring.
-  /// `pins`: of each hand whether it holds a pin.
-  TunnelWatch(const ScenarioPlan& plan, const Case& the_case, std::string case_spec,
-              std::vector<char> pins, double tick_s);
+  /// `pins`: of each hand whether it holds a pin. `widths_m`: of each instrument of the tray how
+  /// wide it drills, 0: it does not.
+  TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelSources sources,
+              std::vector<char> pins, std::vector<double> widths_m, double tick_s);
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
            std::vector<Event>& out);
   /// The attempt is over: what was not measured yet is.
   void finish(std::vector<Event>& out);
   /// What was measured.
-  const AclReport& report() const { return report_; }
+  const AclReport& report() const { return work_.report; }
   /// Why tunnels could not be measured: their line misses what it must meet, for example.
-  const std::optional<Error>& problem() const { return problem_; }
+  const std::optional<Error>& problem() const { return work_.problem; }
 
  private:
   static constexpr std::size_t kBones = 2;  ///< femur, tibia
@@ -50,7 +70,23 @@ class TunnelWatch {
   struct Line {
     bool known = false;
     Vec3 from_B = Vec3::Zero(), to_B = Vec3::Zero();
+    double wide_m = 0.008;
   };
+  /// What is measured, and what comes of it.
+  struct Work {
+    std::string spec;
+    std::shared_ptr<const CaseDef> whole;  ///< stretched out; null: to be grown
+    std::array<std::string, kBones> names;
+    std::array<Line, kBones> lines;
+    std::array<std::optional<CarvedField>, kBones> cuts;  ///< none: the line stands
+    std::array<std::optional<DrilledHole>, kBones> holes;
+    std::array<bool, kBones> is_new{};  ///< not told yet
+    AclReport report;
+    std::optional<Error> problem;
+  };
+  static Work measured(Work work);
+  static void find_lines(Work& work);
+  static Result<AclReport> report_of(Work& work);
   /// A pin on a bone.
   struct Hold {
     std::size_t bone = kBones;
@@ -64,12 +100,15 @@ class TunnelWatch {
   std::size_t pressed(const ToolState& tool, const BoneSnapshot& bones) const;
   void locate(const ToolState& tool, std::size_t hand, const Pose& X_BT, std::vector<Event>& out);
   bool all_located() const;
+  void follow_drills(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                     std::vector<Event>& out);
+  void take_cuts(std::size_t k);
   void measure(const Event& at, std::vector<Event>& out);
-  Result<AclReport> measured();
-  DrilledLine stretched_out(std::size_t k) const;
+  void tell_measured(const Event& at, std::vector<Event>& out);
+  void tell_drilled(const Event& at, std::vector<Event>& out) const;
 
   const Case* case_;
-  std::string spec_;
+  TunnelSources sources_;
   std::vector<char> pins_;
   double tick_s_;
   std::uint64_t stride_;
@@ -79,10 +118,12 @@ class TunnelWatch {
   std::array<Line, kBones> lines_;
   std::vector<Hold> holds_;  ///< by hand
   std::uint64_t last_tick_ = 0;
-  bool fresh_ = false;  ///< a line has changed since they were measured
-  std::optional<CaseDef> whole_;
-  AclReport report_;
-  std::optional<Error> problem_;
+  bool fresh_ = false;                ///< a line has changed since they were measured
+  std::optional<DrillWatch> drills_;  ///< none: tunnels are located alone
+  std::array<bool, kBones> is_socket_{};
+  Work work_;
+  std::future<Work> job_;  ///< of what is measured in the background
+  Event asked_;            ///< who asked for it
 };
 
 }  // namespace osteon

@@ -114,6 +114,15 @@ AclJson to_json(const AclReport& report) {
   return out;
 }
 
+std::string with_tunnels(const std::string& attempt_json, const std::optional<AclReport>& report,
+                         const std::string& not_measured) {
+  if (!report) return attempt_json;
+  auto json = AclJson::parse(attempt_json);
+  json["acl"] = to_json(*report);
+  if (!not_measured.empty()) json["acl"]["not_measured"] = not_measured;
+  return json.dump(2) + "\n";
+}
+
 std::string to_text(const AclReport& report) {
   std::string text;
   if (report.tunnels.femur) add_femur(text, *report.tunnels.femur);

@@ -23,5 +23,8 @@ Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drillin
 /// docs/acl.md names the keys; lengths in mm, shares in percent.
 nlohmann::ordered_json to_json(const AclReport& report);
 std::string to_text(const AclReport& report);
+/// An attempt's report as JSON with that as `acl`; as it is where nothing was asked.
+std::string with_tunnels(const std::string& attempt_json, const std::optional<AclReport>& report,
+                         const std::string& not_measured);
 
 }  // namespace osteon

@@ -88,10 +88,14 @@ void ExerciseControl::open_patient() {
 // False: the tray lacked one. What removes bone is prepared with the case, by the tray.
 bool ExerciseControl::want_instruments(const Scenario& scenario) {
   bool all = true;
-  for (const ScenarioHand& hand : scenario.hands) {
-    if (hand.instrument == kWristProbe || live_.tray().find(hand.instrument)) continue;
-    live_.want_instrument(hand.instrument);
+  const auto want = [&](const std::string& name) {
+    if (name == kWristProbe || live_.tray().find(name)) return;
+    live_.want_instrument(name);
     all = false;
+  };
+  for (const ScenarioHand& hand : scenario.hands) {
+    want(hand.instrument);
+    for (const std::string& other : hand.also) want(other);
   }
   return all;
 }
@@ -126,7 +130,13 @@ void ExerciseControl::begin() {
     exercise_.fail_to_begin(started.error().message());
     return;
   }
-  exercise_.begin(SessionSettings{}.haptic.tick_s, file);
+  const auto carved = [this](std::uint32_t bone) -> std::optional<CarvedField> {
+    if (LiveRun* const run = live_.run())
+      for (auto& [index, field] : run->carved().cut_bones())
+        if (index == bone) return field;
+    return std::nullopt;
+  };
+  exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved});
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);

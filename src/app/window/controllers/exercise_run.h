@@ -35,8 +35,9 @@ class ExerciseRun {
   void wait_for_case() { page_ = ExercisePage::kOpening; }
   /// The patient is open: what the hands shall hold. An error is shown on the briefing.
   std::optional<std::vector<PlannedHand>> plan(std::shared_ptr<const Case> the_case);
-  /// From tick 0 of a run that is recorded to `file`.
-  void begin(double tick_s, std::filesystem::path file);
+  /// From tick 0 of a run that is recorded to `file`. `sources`: what else is known of the run,
+  /// where the exercise asks for tunnels; they are measured on another thread.
+  void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {});
   void fail_to_begin(const std::string& why);
 
   /// One tick of one hand, in the order of that hand's ticks.

@@ -1,0 +1,121 @@
+#include "osteon/surgeon/acl_driller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "osteon/base/random.h"
+
+namespace osteon {
+namespace {
+
+// How far the tip stays behind where the hand is wanted, by force: the grip's spring and the
+// tool's coupling in a row (HandParams, HapticParams).
+constexpr double kGivesWay_m_per_n = 1.0 / 500 + 1.0 / 2000;
+constexpr double kAnswer_s = 0.15;    // how fast the force comes to what is wanted
+constexpr double kSlowsAt_m = 0.004;  // before the end of a hole the hand presses less
+constexpr double kLeastPress_n = 0.35;
+constexpr double kThere_m = 0.0001;
+constexpr double kFastestTurn_rad_per_s = 1.5;
+constexpr double kTremble_Hz = 9.1;
+
+}  // namespace
+
+AclDriller::AclDriller(std::vector<AclMove> moves, const Skill& skill)
+    : moves_(std::move(moves)), skill_(skill) {
+  Random random(skill.seed + 23);
+  for (double& phase : phases_) phase = random.uniform(0, 2 * std::numbers::pi);
+  const auto first = std::find_if(moves_.begin(), moves_.end(), [](const AclMove& move) {
+    return move.kind == AclMove::Kind::kGo;
+  });
+  if (first == moves_.end()) return;
+  p_W_ = first->X_WT.p;
+  q_ = first->X_WT.q;
+}
+
+void AclDriller::next() {
+  ++at_;
+  in_move_s_ = 0;
+}
+
+void AclDriller::go(const AclMove& move, double dt_s) {
+  if (in_move_s_ == 0) {
+    q_from_ = q_;
+    way_m_ = (move.X_WT.p - p_W_).norm();
+    turn_rad_ = q_.angularDistance(move.X_WT.q);
+  }
+  const double takes_s = std::max(way_m_ / move.m_per_s, turn_rad_ / kFastestTurn_rad_per_s) + dt_s;
+  const double left_s = takes_s - in_move_s_;
+  if (left_s <= 1.5 * dt_s) {
+    p_W_ = move.X_WT.p;
+    q_ = move.X_WT.q;
+    return next();
+  }
+  p_W_ += (move.X_WT.p - p_W_) * (dt_s / left_s);
+  q_ = q_from_.slerp(std::min(1.0, in_move_s_ / takes_s), move.X_WT.q).normalized();
+  in_move_s_ += dt_s;
+}
+
+void AclDriller::press(const AclMove& move, double dt_s) {
+  const Vec3 back = move.X_WT.rotate(Vec3::UnitZ());
+  const double felt_n = force_W_.dot(back);
+  const double wanted_m = back.dot(p_W_ - move.X_WT.p);
+  const double left_m = wanted_m + kGivesWay_m_per_n * felt_n;
+  const bool late = in_move_s_ > move.value;
+  if (left_m < kThere_m || late) {
+    if (late) ++given_up_;
+    return next();
+  }
+  const double least_n = std::min(kLeastPress_n, move.force_n);
+  const double slow_n = std::clamp(move.force_n * left_m / kSlowsAt_m, least_n, move.force_n);
+  const double press_n = move.exact ? slow_n : move.force_n;
+  const double m_per_s =
+      std::clamp((press_n - felt_n) * kGivesWay_m_per_n / kAnswer_s, -move.m_per_s, move.m_per_s);
+  p_W_ = move.X_WT.p + (wanted_m - m_per_s * dt_s) * back;
+  q_ = move.X_WT.q;
+  in_move_s_ += dt_s;
+}
+
+void AclDriller::move(double dt_s) {
+  const AclMove& now = moves_[at_];
+  switch (now.kind) {
+    case AclMove::Kind::kGo:
+      return go(now, dt_s);
+    case AclMove::Kind::kPress:
+      return press(now, dt_s);
+    case AclMove::Kind::kWait:
+      if (time_s_ >= now.value) next();
+      return;
+    case AclMove::Kind::kTake: {
+      const auto found = std::find(tray_.begin(), tray_.end(), now.instrument);
+      if (found != tray_.end())
+        next_ = {CommandKind::kTake, static_cast<double>(found - tray_.begin())};
+      return next();
+    }
+    case AclMove::Kind::kPower:
+      next_ = {CommandKind::kPower, now.value};
+      return next();
+    case AclMove::Kind::kJaw:
+      next_ = {CommandKind::kJaw, now.value};
+      return next();
+  }
+}
+
+Pose AclDriller::step(double dt_s) {
+  time_s_ += dt_s;
+  next_ = {};
+  if (!done()) move(dt_s);
+  Pose out{p_W_, q_};
+  for (std::size_t k = 0; k < 3; ++k)
+    out.p[static_cast<Eigen::Index>(k)] +=
+        0.5 * skill_.tremor_m * std::sin(2 * std::numbers::pi * kTremble_Hz * time_s_ + phases_[k]);
+  return out;
+}
+
+Command AclDriller::command() { return next_; }
+
+void AclDriller::feel(const Vec3& force_W) {
+  force_W_ = is_finite(force_W) ? force_W : Vec3(Vec3::Zero());
+}
+
+}  // namespace osteon
