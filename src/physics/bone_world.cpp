@@ -74,6 +74,27 @@ void add_to(Hasher& hasher, const ToolGuide& guide) {
   hasher.add(guide.stops);
 }
 
+void add_to(Hasher& hasher, const GraftBenchState& bench) {
+  for (const TendonOnBench& tendon : bench.tendons) {
+    hasher.add(tendon.bands_cut);
+    hasher.add(tendon.front_m);
+    hasher.add(tendon.stripped);
+    hasher.add(tendon.amputated);
+    hasher.add(tendon.folds);
+  }
+  for (const BenchHand& hand : bench.hands) {
+    for (const std::uint32_t x : {hand.instrument, hand.line, hand.carries, hand.over, hand.hangs})
+      hasher.add(x);
+    hasher.add(hand.grip);
+    hasher.add(hand.front_m);
+    hasher.add(hand.shut);
+    hasher.add(hand.from_W);
+  }
+  for (const double x :
+       {bench.passed_m, bench.refused_m, bench.loop_m, bench.tension_n, bench.creep_s})
+    hasher.add(x);
+}
+
 bool leads(const BoneSnapshot& snapshot) {
   return std::any_of(snapshot.guides.begin(), snapshot.guides.end(),
                      [](const ToolGuide& guide) { return guide.on; });
@@ -95,6 +116,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
   // The rods themselves are in the state of what is carved.
   if (leads(snapshot))
     for (const ToolGuide& guide : snapshot.guides) add_to(hasher, guide);
+  if (snapshot.bench.on) add_to(hasher, snapshot.bench);
   return hasher.value();
 }
 
@@ -293,6 +315,8 @@ void BoneWorld::set_guides(const std::array<ToolGuide, kMaxHands>& guides, const
   impl_->snapshot.guides = guides;
   impl_->snapshot.rods = rods;
 }
+
+void BoneWorld::set_bench(const GraftBenchState& bench) { impl_->snapshot.bench = bench; }
 
 bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {

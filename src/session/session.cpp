@@ -28,6 +28,26 @@ std::vector<double> sizes_of(const Tray& tray, const SessionSettings& settings) 
   return sizes_mm;
 }
 
+// By the name in the tray, which a size follows.
+BenchTool::Kind bench_kind(const std::string& tray_name) {
+  const std::string name = tray_name.substr(0, tray_name.find(':'));
+  if (name.starts_with("scalpel")) return BenchTool::Kind::kBlade;
+  if (name == "tendon_stripper") return BenchTool::Kind::kStripper;
+  if (name == "graft_sizer") return BenchTool::Kind::kSizer;
+  if (name == "endobutton") return BenchTool::Kind::kButton;
+  if (name == "clamp") return BenchTool::Kind::kClamp;
+  return BenchTool::Kind::kOther;
+}
+
+std::vector<BenchTool> bench_tools(const Tray& tray, const SessionSettings& settings,
+                                   const std::vector<double>& sizes_mm) {
+  std::vector<BenchTool> tools;
+  for (std::size_t i = 0; i < tray.size(); ++i)
+    tools.push_back({bench_kind(i < settings.tray.size() ? settings.tray[i] : tray[i]->name),
+                     sizes_mm[i] / 1000});
+  return tools;
+}
+
 }  // namespace
 
 struct Session::Impl {
@@ -46,6 +66,7 @@ struct Session::Impl {
       hands.push_back(std::make_unique<HandHalf>(the_case, tray, portals, settings, i));
       hands.back()->set_sizes(sizes_mm);
     }
+    world.set_bench(bench_tools(tray, settings, sizes_mm));
     if (softs) set_softs(settings);
     if (!carving) return;
     std::vector<FeltCuts*> felt;

@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 7;
+constexpr std::uint64_t kVersion = 8;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -183,6 +183,37 @@ void field(A& a, GuideRod& r) {
 }
 
 template <class A>
+void field(A& a, TendonOnBench& t) {
+  number(a, t.bands_cut, (1u << kMostBands) - 1);
+  field(a, t.front_m);
+  for (bool* x : {&t.stripped, &t.amputated}) field(a, *x);
+  number(a, t.folds, 4);
+}
+
+template <class A>
+void field(A& a, BenchHand& h) {
+  field(a, h.instrument);
+  number(a, h.line, GraftBenchPlan::kLines);
+  for (double* x : {&h.grip, &h.front_m}) field(a, *x);
+  number(a, h.carries, kGraftTendons);
+  field(a, h.shut);
+  number(a, h.over, kGraftTendons * kMostBands);
+  field(a, h.from_W);
+  field(a, h.hangs);
+}
+
+template <class A>
+void field(A& a, GraftBenchState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 8) return;  // there was no bench then
+  field(a, s.on);
+  if (!s.on) return;
+  for (TendonOnBench& tendon : s.tendons) field(a, tendon);
+  for (BenchHand& hand : s.hands) field(a, hand);
+  for (double* x : {&s.passed_m, &s.refused_m, &s.loop_m, &s.tension_n, &s.creep_s}) field(a, *x);
+}
+
+template <class A>
 void field(A& a, BoneSnapshot& s) {
   field(a, s.step);
   field(a, s.time_s);
@@ -192,6 +223,7 @@ void field(A& a, BoneSnapshot& s) {
   if (!knows_guides(a)) return;
   for (ToolGuide& guide : s.guides) field(a, guide);
   for (GuideRod& rod : s.rods) field(a, rod);
+  field(a, s.bench);
 }
 
 template <class A>

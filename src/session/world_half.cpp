@@ -50,9 +50,14 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   obey(command);
   if (carving_) {
     carving_->step(tools, world_.snapshot(), step_s_);
-    world_.set_guides(carving_->guides(), carving_->rods());
     if (!world_.held()) lighten();
   }
+  if (bench_) {
+    GraftBenchState bench = world_.snapshot().bench;
+    bench_->step(tools, world_.snapshot(), bench);
+    world_.set_bench(bench);
+  }
+  lead();
   const BoneSnapshot& bones = world_.step(tools);
   if (carving_) {
     publish(*carving_, bones.step, all_changed_, felt_);
@@ -71,6 +76,24 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   const bool marked = command.kind == CommandKind::kMark && mark_of(command) < kMaxMarks;
   if (marked || bones.step % keep_every_ == 0) world_.ask_to_keep();
   return bones;
+}
+
+void WorldHalf::set_bench(std::vector<BenchTool> tray) {
+  auto plan = find_graft_bench(*the_case_);
+  if (!plan) return;
+  bench_ = std::make_unique<GraftBenchWork>(std::move(*plan), std::move(tray), step_s_);
+  world_.set_bench(GraftBenchWork::begin());
+}
+
+// A line of the bench leads before one of what is carved.
+void WorldHalf::lead() {
+  if (!carving_ && !bench_) return;
+  std::array<ToolGuide, kMaxHands> guides{};
+  if (carving_) guides = carving_->guides();
+  if (bench_)
+    for (std::size_t h = 0; h < guides.size(); ++h)
+      if (bench_->guides()[h].on) guides[h] = bench_->guides()[h];
+  world_.set_guides(guides, carving_ ? carving_->rods() : GuideRods{});
 }
 
 // Bones that move weigh what is left of them.
@@ -98,6 +121,7 @@ void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
   if (rings_) rings_->go_back(mark.rings);
+  if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   all_changed_ = true;
@@ -147,6 +171,12 @@ bool WorldHalf::fits(const WorldState& state) const {
   const auto hang = [&](const RingsState& rings) {
     return rings_ ? rings_->fits(rings) : !rings.on;
   };
+  const auto lies = [&](const BoneSnapshot& bones) {
+    return bones.bench.on == (bench_ != nullptr);
+  };
+  if (!lies(state.bones)) return false;
+  for (const WorldMark& mark : state.marks)
+    if (mark.set && !lies(mark.bones)) return false;
   for (const WorldMark& mark : state.marks)
     if (mark.set && !(good(mark.carved) && fit(mark.softs) && hang(mark.rings))) return false;
   return good(state.carved) && fit(state.softs) && hang(state.rings);

@@ -8,6 +8,7 @@
 #include "felt_cuts.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/graft_bench_work.h"
 #include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
@@ -28,6 +29,9 @@ class alignas(64) WorldHalf {
   bool told(std::size_t hand) const { return hand >= felt_.size() || !felt_[hand]->behind(); }
   /// For one thread that runs both halves: no cut waits for room on its way to a hand.
   void catch_up();
+  /// Before the first step. What an instrument of the tray can do at the bench, if the case has
+  /// one.
+  void set_bench(std::vector<BenchTool> tray);
   /// Before the first step.
   void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
   const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }
@@ -47,15 +51,17 @@ class alignas(64) WorldHalf {
   std::shared_ptr<const CarvingState> carved() const;
   void place_rings();
   void lighten();
+  void lead();
 
   std::shared_ptr<const Case> the_case_;
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
   std::unique_ptr<CutsFeed> feed_;
-  std::unique_ptr<SoftHalf> softs_;    ///< null: nothing is soft
-  std::unique_ptr<LooseRings> rings_;  ///< null: none lie loose
-  std::vector<FeltCuts*> felt_;        ///< of the hands
-  bool all_changed_ = false;           ///< bones came back from a restore point in this step
+  std::unique_ptr<SoftHalf> softs_;        ///< null: nothing is soft
+  std::unique_ptr<LooseRings> rings_;      ///< null: none lie loose
+  std::unique_ptr<GraftBenchWork> bench_;  ///< null: no graft is made
+  std::vector<FeltCuts*> felt_;            ///< of the hands
+  bool all_changed_ = false;               ///< bones came back from a restore point in this step
   double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/graft_fixation.h"
 #include "osteon/physics/knee_laxity.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/tissue/ligament_table.h"
@@ -53,6 +54,14 @@ struct TibialTunnel {
   double behind_roof_m = 0;
 };
 
+/// How a graft between two tunnels was made and fixed, where that is known.
+struct GraftChoices {
+  std::optional<double> diameter_m, length_m, loop_m, tension_n, flexion_deg;
+  std::optional<double> screw_m, screw_length_m;  ///< 1 mm more than the tunnel, 28 mm long
+  double divergence_rad = 0, button_gap_m = 0;
+  double pretension_s = 600, cycles = 25;
+};
+
 /// What a knee does with a graft between both mouths.
 struct GraftOutcome {
   std::vector<LineLength> lengths;  ///< of a straight line between the mouths
@@ -62,6 +71,12 @@ struct GraftOutcome {
   double roof_gap_m = 0;
   KneeLaxity lachman, pivot;
   double lachman_whole_m = 0, pivot_whole_m = 0;  ///< of the same knee before it was torn
+  /// Under load, how much farther forward the tibia stands than that of the whole knee: slack also
+  /// moves the place of rest from which a test counts, and shows here in full.
+  double lachman_ahead_m = 0, pivot_ahead_m = 0;
+  std::optional<FixedGraft> fixed;  ///< of a graft that was made and fixed as said
+  double diameter_m = 0;
+  bool holds = true;  ///< it is fixed, and the screw bears what the tests pull
 };
 
 struct AclTunnels {
@@ -75,8 +90,11 @@ struct AclTunnels {
 /// cartilage, its bending, landmarks of Blumensaat's line).
 Result<AclTunnels> measure_tunnels(const CaseDef& def, const AclDrilling& drilling);
 
-/// A graft as thick as the thinner tunnel, between the mouths of both, in the case's knee.
+/// A graft between the mouths of both tunnels in the case's knee: as thick as the thinner tunnel
+/// and fixed as the table says, or as was chosen. A graft that nothing holds pulls nowhere. Fails
+/// on a graft that is thicker than a tunnel, and on choices out of range.
 Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& table,
-                                   const AclTunnels& tunnels);
+                                   const AclTunnels& tunnels,
+                                   const std::optional<GraftChoices>& choices = {});
 
 }  // namespace osteon

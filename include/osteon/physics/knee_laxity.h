@@ -17,6 +17,9 @@ namespace osteon {
 struct KneeGraft {
   std::optional<Vec3> from_W, to_W;  ///< on femur and tibia, bones at rest; none: the footprints
   std::optional<double> diameter_m, tension_n, flexion_deg;
+  std::optional<double> fixation_n_per_m = {};  ///< button, loop and screw together
+  double slack_m = 0;  ///< that creep and slip add to its length once it is fixed
+  bool held = true;    ///< false: nothing fixes it; it stands in the table but does not pull
 };
 
 /// What is done to a knee before it is tested.

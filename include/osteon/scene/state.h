@@ -7,6 +7,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/graft_bench.h"
 #include "osteon/scene/tool_guide.h"
 
 namespace osteon {
@@ -39,7 +40,9 @@ struct BoneSnapshot {
   std::array<BoneMotion, kMaxBones> bones{};
   std::array<ToolGuide, kMaxHands> guides{};  ///< of each hand
   GuideRods rods{};
+  GraftBenchState bench{};  ///< off: the case has no bench
 };
+static_assert(kBenchHands == kMaxHands);
 
 /// One place where the tool touches a bone.
 struct Contact {

@@ -162,11 +162,13 @@ bool feel_hulls_of_unknown(CaseDef& def, Caches& caches, FeltChoice& choice) {
 }  // namespace
 
 Result<AnatomyFiles> builtin_anatomy(const std::string& name) {
-  constexpr std::array<std::string_view, 7> kNames{
-      "wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_ring", "fast_suture"};
+  constexpr std::array<std::string_view, 8> kNames{"wrist",       "knee",          "fast_box",
+                                                   "fast_maze",   "fast_meniscus", "fast_ring",
+                                                   "fast_suture", "graft_bench"};
   if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
     return fail("there is no built-in anatomy '" + name + "'", "anatomy",
-                "Use wrist, knee, fast_box, fast_maze, fast_meniscus, fast_ring or fast_suture");
+                "Use wrist, knee, fast_box, fast_maze, fast_meniscus, fast_ring, fast_suture or "
+                "graft_bench");
   const auto data = find_data_dir();
   if (!data) return tl::unexpected(data.error());
   const auto folder = *data / "assets/anatomy";

@@ -125,7 +125,7 @@ void add_list(cli::App& anatomy, int& exit_code) {
   auto name = std::make_shared<std::string>();
   list->add_option("anatomy", *name,
                    "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, "
-                   "fast_meniscus, fast_ring")
+                   "fast_meniscus, fast_ring, graft_bench")
       ->required();
   list->callback([name, &exit_code] { exit_code = run_list(*name); });
 }
@@ -135,7 +135,7 @@ void add_make(cli::App& anatomy, int& exit_code) {
   auto command = std::make_shared<MakeCommand>();
   make->add_option("anatomy", command->name,
                    "wrist, knee, or a practice box: fast_box, fast_maze, fast_suture, "
-                   "fast_meniscus, fast_ring")
+                   "fast_meniscus, fast_ring, graft_bench")
       ->required();
   make->add_option("--seed", command->seed,
                    "seed to draw every parameter that is not set; default: built-in values");

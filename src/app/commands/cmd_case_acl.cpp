@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,10 @@
 #include "commands/cli_support.h"
 #include "commands/cmd_case_laxity.h"
 #include "commands/parser.h"
+#include "osteon/base/file.h"
 #include "osteon/carve/measure_holes.h"
 #include "runs/acl_report.h"
+#include "runs/graft_report.h"
 
 namespace osteon {
 namespace {
@@ -21,7 +24,57 @@ struct AclCommand {
   std::string femur_from, femur_to, tibia_from, tibia_to;
   double diameter_mm = 8, roundness_mm = 0.3;
   bool json = false;
+  std::string graft_file, screw;
+  std::optional<double> graft_diameter_mm, graft_length_mm, loop_mm, tension_n, tension_flexion_deg;
+  std::optional<double> divergence_deg, button_gap_mm, pretension_s, cycles;
 };
+
+std::optional<double> in_metres(const std::optional<double>& mm) {
+  return mm ? std::optional<double>(*mm / 1000) : std::nullopt;
+}
+
+// "9x28": its diameter and length in mm.
+Result<void> read_screw(const std::string& text, GraftChoices& choices) {
+  double wide = 0, length = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lfx%lf%c", &wide, &length, &rest) != 2)
+    return fail("'" + text + "' is no screw", "--screw",
+                "Give diameter and length in mm, like 9x28");
+  choices.screw_m = wide / 1000;
+  choices.screw_length_m = length / 1000;
+  return {};
+}
+
+// None: nothing is said of the graft.
+Result<std::optional<GraftChoices>> choices_of(const AclCommand& c) {
+  const bool any = !c.graft_file.empty() || !c.screw.empty() || c.graft_diameter_mm ||
+                   c.graft_length_mm || c.loop_mm || c.tension_n || c.tension_flexion_deg ||
+                   c.divergence_deg || c.button_gap_mm || c.pretension_s || c.cycles;
+  if (!any) return std::optional<GraftChoices>();
+  GraftChoices choices;
+  if (!c.graft_file.empty()) {
+    const auto text = read_file(c.graft_file, 16u << 20);
+    if (!text) return tl::unexpected(text.error());
+    const auto made = made_graft(*text, c.graft_file);
+    if (!made) return tl::unexpected(made.error());
+    choices.diameter_m = made->diameter_m;
+    choices.length_m = made->length_m;
+    choices.loop_m = made->loop_m;
+    choices.pretension_s = made->creep_s;
+  }
+  if (c.graft_diameter_mm) choices.diameter_m = in_metres(c.graft_diameter_mm);
+  if (c.graft_length_mm) choices.length_m = in_metres(c.graft_length_mm);
+  if (c.loop_mm) choices.loop_m = in_metres(c.loop_mm);
+  choices.tension_n = c.tension_n;
+  choices.flexion_deg = c.tension_flexion_deg;
+  choices.divergence_rad = c.divergence_deg.value_or(0) * std::numbers::pi / 180;
+  choices.button_gap_m = c.button_gap_mm.value_or(0) / 1000;
+  choices.pretension_s = c.pretension_s.value_or(choices.pretension_s);
+  choices.cycles = c.cycles.value_or(choices.cycles);
+  if (!c.screw.empty())
+    if (auto ok = read_screw(c.screw, choices); !ok) return tl::unexpected(ok.error());
+  return std::optional<GraftChoices>(choices);
+}
 
 Result<std::optional<DrilledLine>> line_between(const std::string& from, const std::string& to,
                                                 double diameter_mm, const char* option) {
@@ -84,13 +137,37 @@ Result<AclDrilling> drilling_of(const AclCommand& command) {
 int run_acl_measure(const AclCommand& command) {
   const auto drilling = drilling_of(command);
   if (!drilling) return report_error(drilling.error());
+  const auto choices = choices_of(command);
+  if (!choices) return report_error(choices.error());
   const auto def = open_case_def(command.spec);
   if (!def) return report_error(def.error());
-  const auto report = make_acl_report(*def, *drilling);
+  const auto report = make_acl_report(*def, *drilling, *choices);
   if (!report) return report_error(report.error());
   const std::string text = command.json ? to_json(*report).dump(2) + "\n" : to_text(*report);
   std::fputs(text.c_str(), stdout);
   return kExitDone;
+}
+
+void add_acl_graft_options(cli::App& acl, AclCommand& c) {
+  const auto number = [&](const char* name, std::optional<double>& into, const char* text,
+                          double least, double most) {
+    acl.add_option(name, into, text)->check(cli::Range(least, most));
+  };
+  acl.add_option(
+      "--graft", c.graft_file,
+      "report of a run of acl_graft: diameter, length, loop and pretension of its graft");
+  number("--graft-diameter", c.graft_diameter_mm, "of the graft, mm (the thinner tunnel's)", 4, 14);
+  number("--graft-length", c.graft_length_mm, "of the folded graft, mm (long enough)", 5, 300);
+  number("--loop", c.loop_mm, "length of the button's loop, mm (the shortest that lets it turn)", 5,
+         60);
+  number("--tension", c.tension_n, "tension while the graft is fixed, N (90)", 1, 500);
+  number("--tension-flexion", c.tension_flexion_deg, "flexion then, degrees (30)", 0, 130);
+  number("--pretension", c.pretension_s, "seconds at 80 N on the bench (600)", 0, 1e6);
+  number("--cycles", c.cycles, "cycles of bending before the screw (25)", 0, 1e5);
+  acl.add_option("--screw", c.screw,
+                 "DIAMETERxLENGTH of the interference screw, mm (tunnel + 1, 28)");
+  number("--screw-divergence", c.divergence_deg, "between screw and tunnel, degrees (0)", 0, 60);
+  number("--button-gap", c.button_gap_mm, "soft tissue under the button, mm (0)", 0, 30);
 }
 
 }  // namespace
@@ -116,8 +193,10 @@ void add_case_acl_command(cli::App& app, int& exit_code) {
                   "greatest distance of a hole's wall from its cylinder, mm")
       ->check(cli::Range(0.001, 1.0))
       ->capture_default_str();
+  add_acl_graft_options(*acl, *command);
   acl->add_flag("--json", command->json, "print JSON");
   acl->callback([command, &exit_code] { exit_code = run_acl_measure(*command); });
+  add_case_acl_faults_command(app, exit_code);
 }
 
 }  // namespace osteon

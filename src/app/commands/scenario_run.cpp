@@ -11,6 +11,7 @@
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/surgeon/acl_surgeon.h"
+#include "osteon/surgeon/graft_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
@@ -176,8 +177,29 @@ std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bon
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
-  return with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
+  const std::string text = with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl,
+                                        done.not_measured);
+  if (!done.graft) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["acl"]["graft"] = to_json(*done.graft);
+  return json.dump(2) + "\n";
 }
+
+namespace {
+
+// One hand makes a graft.
+Result<void> plan_bench_work(const ScenarioRun& run, const Case& the_case,
+                             std::span<const PlannedHand> hands, HeadlessRun& headless) {
+  if (hands.size() != 1)
+    return fail("making a graft needs one hand, not " + std::to_string(hands.size()),
+                run.scenario.where);
+  auto way = plan_graft(the_case, run.skill);
+  if (!way) return tl::unexpected(way.error());
+  headless.hands.push_back({hands[0].name, std::move(*way)});
+  return {};
+}
+
+}  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const auto the_case = open_felt_case(run.case_spec);
@@ -189,12 +211,13 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   HeadlessRun headless;
   const bool ligament = asks_about_tunnels(*plan);
   std::vector<std::unique_ptr<HandPlayer>> players;
-  if (!ligament)
+  const bool bench = find_graft_bench(**the_case).has_value();
+  if (!ligament && !bench)
     players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
   const auto all_done = [&] {
     return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
   };
-  if (!ligament && all_done())
+  if (!ligament && !bench && all_done())
     return fail("no target of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
@@ -210,6 +233,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     if (!planned) return tl::unexpected(planned.error());
     unreachable = std::move(*planned);
   }
+  if (bench)
+    if (auto ok = plan_bench_work(run, **the_case, *hands, headless); !ok)
+      return tl::unexpected(ok.error());
   for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
   const Session* session = nullptr;
@@ -232,6 +258,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
                        std::move(unreachable),
                        {},
                        {}};
+  if (watch.graft().plan()) done.graft = GraftReport{*watch.graft().plan(), watch.graft().state()};
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();

@@ -12,6 +12,7 @@
 #include "osteon/procedure/report.h"
 #include "osteon/surgeon/skill.h"
 #include "runs/acl_report.h"
+#include "runs/graft_report.h"
 
 namespace osteon {
 
@@ -28,11 +29,13 @@ struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand
   std::vector<std::string> hands;
   Outcome outcome;
-  std::vector<std::string> unreachable;  ///< bones that the surgeon found no way to
-  std::optional<AclReport> acl;          ///< of a scenario that asks for tunnels
-  std::string not_measured;              ///< why they could not be measured
+  std::vector<std::string> unreachable;   ///< bones that the surgeon found no way to
+  std::optional<AclReport> acl;           ///< of a scenario that asks for tunnels
+  std::string not_measured;               ///< why they could not be measured
+  std::optional<GraftReport> graft = {};  ///< of a case with a bench
 };
-/// The report as JSON, with what was measured of its tunnels as `acl`.
+/// The report as JSON, with what was measured of its tunnels as `acl`, and of a
+/// graft that was made as `acl.graft`.
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 

@@ -9,6 +9,7 @@
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
+#include "osteon/procedure/graft_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
@@ -52,6 +53,8 @@ class AttemptWatch {
   void watch_tunnels(TunnelSources sources);
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
+  /// Of a case with a bench.
+  const GraftWatch& graft() const { return graft_; }
 
  private:
   struct HandCut {
@@ -73,6 +76,7 @@ class AttemptWatch {
   bool tells_tips_ = false;
   std::vector<HandCut> cuts_;
   RingWatch rings_;
+  GraftWatch graft_;
   std::vector<AttemptPause> pauses_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;

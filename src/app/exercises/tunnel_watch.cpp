@@ -24,7 +24,9 @@ bool is_tunnel_rule(const PlannedRule& rule) {
   const std::string& kind = rule.rule.kind;
   return kind == "felt" || kind == "tunnel_located" || kind == "graft_tested" ||
          kind == "tunnel_drilled" || kind == "socket_drilled" || kind == "drilled_free" ||
-         kind == "plunged_past" || kind == "located_unseen" || kind.starts_with("outside_");
+         kind == "plunged_past" || kind == "located_unseen" ||
+         std::any_of(kTunnelValueNames.begin(), kTunnelValueNames.end(),
+                     [&](std::string_view name) { return kind == "outside_" + std::string(name); });
 }
 
 // By TunnelValue.

@@ -39,10 +39,26 @@ AclJson tibia_json(const TibialTunnel& t) {
       {"behind_roof_mm", 1e3 * t.behind_roof_m}, {"through", t.through}};
 }
 
-AclJson test_json(const KneeLaxity& found, double whole_m) {
+AclJson fixed_json(const GraftOutcome& graft) {
+  const FixedGraft& fixed = *graft.fixed;
+  AclJson json{{"diameter_mm", 1e3 * graft.diameter_m},
+               {"in_socket_mm", 1e3 * fixed.in_socket_m},
+               {"in_tibia_mm", 1e3 * fixed.in_tibia_m},
+               {"screw_engaged_mm", 1e3 * fixed.engaged_m},
+               {"fixation_n_per_mm", 1e-3 * fixed.stiffness_n_per_m},
+               {"strength_n", fixed.strength_n},
+               {"slack_mm", 1e3 * fixed.slack_m},
+               {"fixed", fixed.held},
+               {"holds", graft.holds}};
+  if (!fixed.held) json["why"] = fixed.why;
+  return json;
+}
+
+AclJson test_json(const KneeLaxity& found, double whole_m, double ahead_m) {
   return {{"anterior_mm", 1e3 * found.anterior_m},
           {"whole_anterior_mm", 1e3 * whole_m},
           {"side_difference_mm", 1e3 * (found.anterior_m - whole_m)},
+          {"ahead_of_whole_mm", 1e3 * ahead_m},
           {"internal_rotation_deg", kTurn_deg * found.internal_rad},
           {"graft_n", found.ligaments.empty() ? 0 : found.ligaments.back().tension_n},
           {"converged", found.converged}};
@@ -88,14 +104,15 @@ Result<LigamentTable> shipped_ligaments() {
   return load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
 }
 
-Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drilling) {
+Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drilling,
+                                  const std::optional<GraftChoices>& choices) {
   auto tunnels = measure_tunnels(def, drilling);
   if (!tunnels) return tl::unexpected(tunnels.error());
   AclReport report{std::move(*tunnels), {}};
   if (!report.tunnels.femur || !report.tunnels.tibia) return report;
   const auto table = shipped_ligaments();
   if (!table) return tl::unexpected(table.error());
-  auto graft = graft_outcome(def, *table, report.tunnels);
+  auto graft = graft_outcome(def, *table, report.tunnels, choices);
   if (!graft) return tl::unexpected(graft.error());
   report.graft = std::move(*graft);
   return report;
@@ -109,8 +126,11 @@ AclJson to_json(const AclReport& report) {
   out["isometry"] = isometry_of(*report.graft);
   out["impingement"] = {{"roof_gap_mm", 1e3 * report.graft->roof_gap_m},
                         {"impinges", report.graft->roof_gap_m < 0}};
-  out["lachman"] = test_json(report.graft->lachman, report.graft->lachman_whole_m);
-  out["pivot"] = test_json(report.graft->pivot, report.graft->pivot_whole_m);
+  if (report.graft->fixed) out["graft"] = fixed_json(*report.graft);
+  out["lachman"] = test_json(report.graft->lachman, report.graft->lachman_whole_m,
+                             report.graft->lachman_ahead_m);
+  out["pivot"] =
+      test_json(report.graft->pivot, report.graft->pivot_whole_m, report.graft->pivot_ahead_m);
   return out;
 }
 
@@ -132,8 +152,16 @@ std::string to_text(const AclReport& report) {
   add_line(text, "graft: length changes by", 1e3 * graft.excursion_m, "mm over flexion");
   add_line(text, "graft: room under the roof", 1e3 * graft.roof_gap_m,
            graft.roof_gap_m < 0 ? "mm, the roof impinges on it" : "mm");
+  if (graft.fixed) {
+    add_line(text, "graft: in the femoral socket", 1e3 * graft.fixed->in_socket_m, "mm");
+    add_line(text, "graft: screw engages", 1e3 * graft.fixed->engaged_m, "mm");
+    add_line(text, "graft: fixation holds", graft.fixed->strength_n, "N");
+    add_line(text, "graft: slack", 1e3 * graft.fixed->slack_m, "mm");
+    if (!graft.fixed->held) text += "graft: not fixed, " + graft.fixed->why + "\n";
+  }
   add_line(text, "Lachman: more than when whole",
            1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m), "mm");
+  add_line(text, "Lachman: tibia ahead of the whole knee's", 1e3 * graft.lachman_ahead_m, "mm");
   add_line(text, "pivot: more than when whole",
            1e3 * (graft.pivot.anterior_m - graft.pivot_whole_m), "mm");
   return text;

@@ -18,7 +18,8 @@ struct AclReport {
 Result<LigamentTable> shipped_ligaments();
 
 /// Places of the tunnels, and with both of them what the knee does with a graft between.
-Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drilling);
+Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drilling,
+                                  const std::optional<GraftChoices>& choices = {});
 
 /// docs/acl.md names the keys; lengths in mm, shares in percent.
 nlohmann::ordered_json to_json(const AclReport& report);

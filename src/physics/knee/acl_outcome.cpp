@@ -3,6 +3,7 @@
 
 #include "knee/acl_frame.h"
 #include "osteon/physics/acl_tunnels.h"
+#include "osteon/scene/graft.h"
 
 namespace osteon {
 namespace {
@@ -15,7 +16,12 @@ const LaxityTestRow* find_test(const LigamentTable& table, const char* name) {
 
 struct BothTests {
   KneeLaxity lachman, pivot;
+  Vec3 lachman_F = Vec3::Zero(), pivot_F = Vec3::Zero();  // where the tibia's middle is under load
 };
+
+double ahead_m(const KneeLaxity& test, const Vec3& with_F, const Vec3& whole_F) {
+  return front_F(test.loaded.flexion_rad).dot(with_F - whole_F);
+}
 
 Result<BothTests> both_tests(const CaseDef& def, const LigamentTable& table,
                              const KneeChanges& changes) {
@@ -28,7 +34,10 @@ Result<BothTests> both_tests(const CaseDef& def, const LigamentTable& table,
   if (!drawn) return tl::unexpected(drawn.error());
   const auto shifted = test_laxity(*knee, *pivot);
   if (!shifted) return tl::unexpected(shifted.error());
-  return BothTests{*drawn, *shifted};
+  const auto middle = [&](const KneeLaxity& test) {
+    return Vec3(pose_of(knee->joint, test.loaded) * knee->joint.middle_T);
+  };
+  return BothTests{*drawn, *shifted, middle(*drawn), middle(*shifted)};
 }
 
 // A straight graft seen from the side is a line under that of the roof: its least distance to it is
@@ -50,10 +59,60 @@ Result<double> roof_gap(const CaseDef& def, const LigamentTable& table, const Ve
   return std::min(under(first), under(last)) - radius;
 }
 
+double length_at(const std::vector<LineLength>& lengths, double flexion_deg) {
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    const LineLength &a = lengths[i - 1], &b = lengths[i];
+    if (flexion_deg > b.flexion_deg) continue;
+    const double share = (flexion_deg - a.flexion_deg) / (b.flexion_deg - a.flexion_deg);
+    return a.length_m + std::clamp(share, 0.0, 1.0) * (b.length_m - a.length_m);
+  }
+  return lengths.back().length_m;
+}
+
+// What is not chosen is as an expert would: a graft that is long enough, the loop with which the
+// button just turns, a screw a millimetre wider than the tunnel.
+Result<FixedGraft> fixed_as(const GraftChoices& chosen, const AclTunnels& tunnels,
+                            double diameter_m, double between_m) {
+  constexpr double kWider_m = 0.001, kScrewLong_m = 0.028, kLongestLoop_m = 0.050;
+  GraftFixing done;
+  done.diameter_m = diameter_m;
+  done.channel_m = tunnels.femur->channel_m;
+  done.socket_m = tunnels.femur->drilled_m;
+  const double loop = loop_for(done.channel_m, done.socket_m);
+  done.loop_m = chosen.loop_m.value_or(loop > 0 ? loop : kLongestLoop_m);
+  done.tibia_m = tunnels.tibia->length_m;
+  done.tibia_diameter_m = tunnels.tibia->diameter_m;
+  done.between_m = between_m;
+  done.length_m = chosen.length_m.value_or(std::max(0.0, done.channel_m - done.loop_m) + between_m +
+                                           done.tibia_m);
+  done.button_gap_m = chosen.button_gap_m;
+  done.pretension_s = chosen.pretension_s;
+  done.cycles = chosen.cycles;
+  done.screw_m = chosen.screw_m.value_or(done.tibia_diameter_m + kWider_m);
+  done.screw_length_m = chosen.screw_length_m.value_or(kScrewLong_m);
+  done.divergence_rad = chosen.divergence_rad;
+  return fix_graft(done);
+}
+
+Result<void> check_fits(double diameter_m, const AclTunnels& tunnels) {
+  constexpr double kSqueeze_m = 0.0005;
+  const double room = std::min(tunnels.femur->diameter_m, tunnels.tibia->diameter_m);
+  if (diameter_m <= room + kSqueeze_m) return {};
+  return fail("a graft of " + std::to_string(1e3 * diameter_m) + " mm does not pass a tunnel of " +
+                  std::to_string(1e3 * room) + " mm",
+              "graft", "Drill wider, or make a thinner graft");
+}
+
+bool bears(const FixedGraft& fixed, const KneeLaxity& test) {
+  return fixed.held && !test.ligaments.empty() &&
+         test.ligaments.back().tension_n < fixed.strength_n;
+}
+
 }  // namespace
 
 Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& table,
-                                   const AclTunnels& tunnels) {
+                                   const AclTunnels& tunnels,
+                                   const std::optional<GraftChoices>& choices) {
   if (!tunnels.femur || !tunnels.tibia)
     return fail("a graft needs a tunnel in femur and tibia", "case '" + def.name + "'",
                 "Drill both");
@@ -66,7 +125,10 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
       std::minmax_element(out.lengths.begin(), out.lengths.end(),
                           [](const auto& a, const auto& b) { return a.length_m < b.length_m; });
   out.excursion_m = high->length_m - low->length_m;
-  const double diameter = std::min(tunnels.femur->diameter_m, tunnels.tibia->diameter_m);
+  double diameter = std::min(tunnels.femur->diameter_m, tunnels.tibia->diameter_m);
+  if (choices) diameter = choices->diameter_m.value_or(diameter);
+  if (auto ok = check_fits(diameter, tunnels); !ok) return tl::unexpected(ok.error());
+  out.diameter_m = diameter;
   const auto gap = roof_gap(def, table, from_W, to_W, 0.5 * diameter);
   if (!gap) return tl::unexpected(gap.error());
   out.roof_gap_m = *gap;
@@ -74,6 +136,17 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
   graft.from_W = from_W;
   graft.to_W = to_W;
   graft.diameter_m = diameter;
+  if (choices) {
+    const double bend_deg = choices->flexion_deg.value_or(table.graft.flexion_deg);
+    auto fixed = fixed_as(*choices, tunnels, diameter, length_at(out.lengths, bend_deg));
+    if (!fixed) return tl::unexpected(fixed.error());
+    graft.tension_n = choices->tension_n;
+    graft.flexion_deg = choices->flexion_deg;
+    graft.fixation_n_per_m = fixed->stiffness_n_per_m;
+    graft.slack_m = fixed->slack_m;
+    graft.held = fixed->held;
+    out.fixed = std::move(*fixed);
+  }
   KneeChanges healed, repaired;
   healed.heal = true;
   repaired.graft = graft;
@@ -83,6 +156,9 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
   if (!whole) return tl::unexpected(whole.error());
   out.lachman = with->lachman;
   out.pivot = with->pivot;
+  if (out.fixed) out.holds = bears(*out.fixed, out.lachman) && bears(*out.fixed, out.pivot);
+  out.lachman_ahead_m = ahead_m(with->lachman, with->lachman_F, whole->lachman_F);
+  out.pivot_ahead_m = ahead_m(with->pivot, with->pivot_F, whole->pivot_F);
   out.lachman_whole_m = whole->lachman.anterior_m;
   out.pivot_whole_m = whole->pivot.anterior_m;
   return out;

@@ -104,6 +104,10 @@ Result<void> fix_graft(const CaseDef& def, const KneeParts& parts, const Ligamen
                        const KneeGraft& graft, KneeModel& knee) {
   auto fibre = pulled_graft(def, parts, table, graft);
   if (!fibre) return tl::unexpected(fibre.error());
+  if (!graft.held) {
+    knee.ligaments.emplace_back("graft");
+    return {};
+  }
   fibre->ligament = knee.ligaments.size();
   HeldJoint pulled = knee.joint;
   pulled.fibres.push_back(*fibre);
@@ -119,9 +123,11 @@ Result<void> fix_graft(const CaseDef& def, const KneeParts& parts, const Ligamen
   const double length = rest->fibres.back().length_m;
   const double diameter = graft.diameter_m.value_or(table.graft.diameter_m);
   const double body = table.graft.young_pa * 0.25 * std::numbers::pi * diameter * diameter;
-  fibre->stiffness_n = 1 / (1 / body + 1 / (table.graft.fixation_n_per_m * length));
+  const double fixation = graft.fixation_n_per_m.value_or(table.graft.fixation_n_per_m);
+  fibre->stiffness_n = 1 / (1 / body + 1 / (fixation * length));
   fibre->slack_m = length / (1 + strain_at(table.graft.kept * fibre->pulled_n, fibre->stiffness_n,
-                                           fibre->toe_strain));
+                                           fibre->toe_strain)) +
+                   graft.slack_m;
   fibre->pulled_n = 0;
   knee.joint.fibres.push_back(*fibre);
   knee.ligaments.emplace_back("graft");

@@ -34,17 +34,19 @@ std::string what_it_does(const Instrument& instrument) {
   return text + (text.empty() ? "" : "; ") + declared + " (no effect yet)";
 }
 
-// What has no effect is not driven.
+// What has no effect is not driven; jaws that remove nothing carry what lies loose.
 RunTray::Driven driven_of(const Instrument& instrument) {
   if (instrument.aims) return {false, true};
-  if (!instrument.removal) return {};
+  if (!instrument.removal)
+    return {false, instrument.can(InstrumentFunction::kGrasp) && !instrument.power};
   return {instrument.power.has_value(), instrument.removal->way == RemovalWay::kBite};
 }
 
 }  // namespace
 
 std::string region_of(const Case& the_case) {
-  return the_case.find("femur").valid() ? "knee" : "wrist";
+  const bool knee = the_case.find("femur").valid() || the_case.find("thigh").valid();
+  return knee ? "knee" : "wrist";
 }
 
 InstrumentTray::InstrumentTray() {

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "graft_bench_case.h"
+
 namespace osteon {
 namespace {
 
@@ -64,6 +66,17 @@ TEST(InstrumentTray, OfWhatWasNeverTakenTheUsualSizeComesFirst) {
   }
   EXPECT_GT(with_sizes, 3u);
   EXPECT_EQ(places.size(), tray->run().tools.size());
+}
+
+TEST(InstrumentTray, AClampsJawsAreDrivenAndABenchIsOfTheKnee) {
+  const auto tray = InstrumentTray::make("knee", {});
+  ASSERT_TRUE(tray) << tray.error().message();
+  const auto clamp = tray->find("clamp"), scalpel = tray->find("scalpel_15");
+  ASSERT_TRUE(clamp && scalpel);
+  EXPECT_TRUE(tray->run().driven[*clamp].jaws);
+  EXPECT_FALSE(tray->run().driven[*scalpel].jaws);
+  EXPECT_EQ(region_of(*testing::bench_case()), "knee");
+  EXPECT_EQ(region_of(*testing::ring_box()), "wrist");
 }
 
 TEST(InstrumentTray, WhatWasTakenLastComesFirst) {

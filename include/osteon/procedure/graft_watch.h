@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "osteon/scene/event.h"
+#include "osteon/scene/graft_bench.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+// Codes of events that who watches a graft being made makes; the session makes none of them.
+/// A band of a tendon was cut: {bands left, of both; 0; 0}.
+inline constexpr EventKind kBandCut{450};
+/// A tendon came out: {its length mm; 1: cut off at a band; tendons stripped whole}.
+inline constexpr EventKind kTendonStripped{451};
+/// A tendon was folded: {strands of the graft; 0; 0}.
+inline constexpr EventKind kTendonFolded{452};
+/// A sizer passed, or did not: {smallest that passed mm; largest that did not mm; length mm}; 0:
+/// none yet.
+inline constexpr EventKind kGraftSized{453};
+/// The board has kept the graft stretched: {for how long, as if at 80 N, s; tension N; 0}.
+inline constexpr EventKind kGraftTensioned{454};
+/// A button's loop hangs on the graft: {loop mm; graft in the socket mm; 1: the button can turn}.
+inline constexpr EventKind kLoopHung{455};
+/// What was measured when the loop was hung: {a GraftValue; the value; 0}.
+inline constexpr EventKind kGraftMeasured{456};
+
+/// What is measured of a graft.
+enum class GraftValue : std::uint8_t { kDiameter, kLength, kStrands, kInSocket, kCreepLeft };
+/// By GraftValue: names with their units, each of a rule `outside_NAME` for errors.
+inline constexpr std::array<std::string_view, 5> kGraftValueNames{
+    "graft_diameter_mm", "graft_length_mm", "graft_strands", "graft_in_socket_mm",
+    "graft_creep_left_pct"};
+
+/// Follows a bench's graft by what snapshots say. A function of them: a replay finds the same. The
+/// hand of an event is the first.
+class GraftWatch {
+ public:
+  explicit GraftWatch(const Case& the_case);
+  void add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
+  /// The bench as last seen; none: the case has none.
+  const std::optional<GraftBenchPlan>& plan() const { return plan_; }
+  const GraftBenchState& state() const { return seen_; }
+
+ private:
+  void tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
+            std::vector<Event>& out) const;
+  void tell_tendons(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
+  void tell_graft(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out);
+
+  std::optional<GraftBenchPlan> plan_;
+  GraftBenchState seen_;
+  double told_creep_s_ = 0;
+};
+
+}  // namespace osteon

@@ -1,0 +1,79 @@
+#include "osteon/procedure/graft_watch.h"
+
+#include <bit>
+
+#include "osteon/scene/graft.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kTellEvery_s = 10;  // of the board's clock
+
+std::uint32_t bands_left(const GraftBenchPlan& plan, const GraftBenchState& state) {
+  std::uint32_t left = 0;
+  for (std::size_t t = 0; t < kGraftTendons; ++t)
+    left += plan.tendons[t].measures.bands -
+            static_cast<std::uint32_t>(std::popcount(state.tendons[t].bands_cut));
+  return left;
+}
+
+}  // namespace
+
+GraftWatch::GraftWatch(const Case& the_case) : plan_(find_graft_bench(the_case)) {}
+
+void GraftWatch::tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
+                      std::vector<Event>& out) const {
+  Event event;
+  event.tick = tick;
+  event.kind = kind;
+  event.hand = 0;
+  event.values = values;
+  out.push_back(event);
+}
+
+void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
+                              std::vector<Event>& out) const {
+  double whole = 0;
+  for (const TendonOnBench& tendon : now.tendons)
+    whole += tendon.stripped && !tendon.amputated ? 1 : 0;
+  for (std::size_t t = 0; t < kGraftTendons; ++t) {
+    const TendonOnBench &is = now.tendons[t], &was = seen_.tendons[t];
+    if (is.bands_cut != was.bands_cut)
+      tell(tick, kBandCut, {static_cast<double>(bands_left(*plan_, now)), 0, 0}, out);
+    if (is.stripped && !was.stripped)
+      tell(tick, kTendonStripped,
+           {1e3 * harvested(*plan_, now, t)->length_m, is.amputated ? 1.0 : 0.0, whole}, out);
+    const auto graft = is.folds != was.folds ? graft_on(*plan_, now) : std::nullopt;
+    if (graft) tell(tick, kTendonFolded, {static_cast<double>(graft->strands), 0, 0}, out);
+  }
+}
+
+void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
+                            std::vector<Event>& out) {
+  const auto graft = graft_on(*plan_, now);
+  if (!graft) return;
+  if (now.passed_m != seen_.passed_m || now.refused_m != seen_.refused_m)
+    tell(tick, kGraftSized, {1e3 * now.passed_m, 1e3 * now.refused_m, 1e3 * graft->length_m}, out);
+  if (now.creep_s < told_creep_s_) told_creep_s_ = 0;  // a restore point
+  if (now.creep_s - told_creep_s_ >= kTellEvery_s) {
+    told_creep_s_ = now.creep_s;
+    tell(tick, kGraftTensioned, {now.creep_s, now.tension_n, 0}, out);
+  }
+  if (now.loop_m == seen_.loop_m || !(now.loop_m > 0)) return;
+  const LoopFit fit = fit_loop(plan_->channel_m, plan_->socket_m, now.loop_m);
+  const std::array<double, kGraftValueNames.size()> values{
+      1e3 * graft->sized_m, 1e3 * graft->length_m, static_cast<double>(graft->strands),
+      1e3 * fit.in_socket_m, 100 * creep_left(now.creep_s)};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    tell(tick, kGraftMeasured, {static_cast<double>(i), values[i], 0}, out);
+  tell(tick, kLoopHung, {1e3 * now.loop_m, 1e3 * fit.in_socket_m, fit.flips ? 1.0 : 0.0}, out);
+}
+
+void GraftWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
+  if (!plan_ || !bones.bench.on) return;
+  tell_tendons(tick, bones.bench, out);
+  tell_graft(tick, bones.bench, out);
+  seen_ = bones.bench;
+}
+
+}  // namespace osteon

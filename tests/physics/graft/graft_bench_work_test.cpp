@@ -1,0 +1,200 @@
+#include "osteon/physics/graft_bench_work.h"
+
+#include <gtest/gtest.h>
+
+#include "graft_bench_case.h"
+
+namespace osteon {
+namespace {
+
+using testing::bench_case;
+using testing::folded_bench;
+
+enum BenchTray : std::uint32_t {
+  kBladeTool,
+  kStripperTool,
+  kSizer8,
+  kSizer75,
+  kButton20,
+  kClampTool
+};
+
+std::vector<BenchTool> bench_tray() {
+  using Kind = BenchTool::Kind;
+  return {{Kind::kBlade, 0.024},  {Kind::kStripper, 0.006}, {Kind::kSizer, 0.008},
+          {Kind::kSizer, 0.0075}, {Kind::kButton, 0.020},   {Kind::kClamp, 0.140}};
+}
+
+// A hand at a bench of which the haptic half is played: a tool that is pushed stands at its front,
+// with the force asked for.
+struct BenchRig {
+  BenchRig() : work(*find_graft_bench(*bench_case()), bench_tray(), 0.002) {
+    bones.count = 3;
+    for (std::size_t i = 0; i < 3; ++i) bones.bones[i].X_WB = bench_case()->bones[i].X_WB;
+    state = GraftBenchWork::begin();
+  }
+  void step() {
+    const ToolState* const tools[] = {&tool};
+    work.step(tools, bones, state);
+  }
+  void hold(std::uint32_t instrument) {
+    tool = ToolState{};
+    tool.instrument = instrument;
+    step();
+  }
+  void at(const Vec3& p_W) {
+    tool.X_WP = {p_W, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+    tool.X_WD = tool.X_WP;
+    step();
+  }
+  // Along a line, at its front, for a while.
+  void push(std::uint32_t line, double force_n, double seconds) {
+    const Vec3 from = work.plan().begin_W(line);
+    if (state.hands[0].line != line + 1) at(from);
+    for (int n = 0; n < static_cast<int>(seconds / 0.002); ++n) {
+      const double front = line <= 1 ? state.tendons[line].front_m : state.hands[0].front_m;
+      tool.force_W = Vec3(-force_n, 0, 0);
+      at(from + Vec3(front, 0, 0));
+    }
+    tool.force_W = Vec3::Zero();
+  }
+  GraftBenchWork work;
+  BoneSnapshot bones;
+  GraftBenchState state;
+  ToolState tool;
+};
+
+TEST(GraftBenchWork, AStripperGoesOnAboveTheResistanceOnly) {
+  BenchRig rig;
+  rig.state.tendons[0].bands_cut = 0b11;
+  rig.hold(kStripperTool);
+  rig.push(0, 1.0, 1);
+  EXPECT_EQ(rig.state.tendons[0].front_m, 0);
+  ASSERT_TRUE(rig.work.guides()[0].on);
+  EXPECT_EQ(rig.work.guides()[0].stop_m, 0);
+  rig.push(0, 2.0, 0.5);
+  EXPECT_GT(rig.state.tendons[0].front_m, 0.01);
+  EXPECT_EQ(rig.work.guides()[0].stop_m, -rig.state.tendons[0].front_m);
+  rig.push(0, 3.5, 8);
+  EXPECT_TRUE(rig.state.tendons[0].stripped);
+  EXPECT_FALSE(rig.state.tendons[0].amputated);
+  EXPECT_NEAR(rig.state.tendons[0].front_m, 0.280, 1e-12);
+}
+
+TEST(GraftBenchWork, ABandStopsTheStripperAndGivesWayWithTheTendon) {
+  BenchRig rig;
+  rig.state.tendons[0].bands_cut = 0b01;  // the second one is whole
+  rig.hold(kStripperTool);
+  rig.push(0, 3.5, 10);
+  EXPECT_FALSE(rig.state.tendons[0].stripped);
+  EXPECT_NEAR(rig.state.tendons[0].front_m, 0.0835, 0.0015);
+  rig.push(0, 6.5, 1);
+  EXPECT_TRUE(rig.state.tendons[0].amputated);
+  EXPECT_NEAR(harvested(rig.work.plan(), rig.state, 0)->length_m, 0.085, 1e-12);
+  // Cut in time it comes out whole.
+  BenchRig other;
+  other.hold(kBladeTool);
+  other.tool.contact_count = 1;
+  other.tool.force_W = Vec3(0, 0, 0.5);
+  for (const double x : {0.060, 0.085})
+    for (int n = -10; n <= 10; ++n) other.at(Vec3(x, 0.012 + 0.0005 * n, 0));
+  EXPECT_EQ(other.state.tendons[0].bands_cut, 0b11u);
+  EXPECT_EQ(other.state.tendons[1].bands_cut, 0u);
+  other.hold(kStripperTool);
+  other.push(0, 3.5, 10);
+  EXPECT_TRUE(other.state.tendons[0].stripped);
+  EXPECT_FALSE(other.state.tendons[0].amputated);
+}
+
+TEST(GraftBenchWork, ABladeThatIsNotPressedOrNotDrawnCutsNothing) {
+  BenchRig rig;
+  rig.hold(kBladeTool);
+  for (int n = -10; n <= 10; ++n) rig.at(Vec3(0.060, 0.012 + 0.0005 * n, 0));
+  rig.tool.contact_count = 1;
+  rig.tool.force_W = Vec3(0, 0, 0.5);
+  for (int n = 0; n < 200; ++n) rig.at(Vec3(0.060, 0.012, 0));
+  EXPECT_EQ(rig.state.tendons[0].bands_cut, 0u);
+}
+
+TEST(GraftBenchWork, AClampFoldsATendonAtAPost) {
+  BenchRig rig;
+  rig.state.tendons[0].stripped = true;
+  rig.hold(kClampTool);
+  const auto grasp_and_leave = [&](std::size_t tendon, std::size_t post) {
+    rig.tool.jaw = 1;
+    rig.at(rig.work.plan().tendons[tendon].free_W);
+    rig.tool.jaw = 0;
+    rig.at(rig.work.plan().tendons[tendon].free_W);
+    rig.at(rig.work.plan().posts_W[post]);
+    rig.tool.jaw = 1;
+    rig.at(rig.work.plan().posts_W[post]);
+  };
+  grasp_and_leave(0, 1);
+  EXPECT_EQ(rig.state.tendons[0].folds, 3u);
+  grasp_and_leave(1, 0);  // still in the patient
+  EXPECT_EQ(rig.state.tendons[1].folds, 0u);
+  grasp_and_leave(0, 0);
+  EXPECT_EQ(rig.state.tendons[0].folds, 2u);
+}
+
+// 7.9 mm thick.
+TEST(GraftBenchWork, OnlyASizerThatIsWideEnoughPasses) {
+  BenchRig rig;
+  rig.state = folded_bench(2, 2);
+  rig.hold(kSizer75);
+  rig.push(GraftBenchPlan::kGraft, 5, 3);
+  EXPECT_EQ(rig.state.passed_m, 0);
+  EXPECT_NEAR(rig.state.refused_m, 0.0075, 1e-12);
+  rig.hold(kSizer8);
+  rig.push(GraftBenchPlan::kGraft, 4, 3);
+  EXPECT_NEAR(rig.state.passed_m, 0.008, 1e-12);
+  EXPECT_NEAR(rig.state.refused_m, 0.0075, 1e-12);
+}
+
+TEST(GraftBenchWork, TheBoardKeepsWhatItWasPulledTo) {
+  BenchRig rig;
+  rig.state = folded_bench(2, 2);
+  rig.hold(kClampTool);
+  rig.push(GraftBenchPlan::kBoard, 80 / GraftBenchWork::kLever, 5);
+  EXPECT_NEAR(rig.state.tension_n, 80, 2);
+  EXPECT_TRUE(rig.work.guides()[0].on);
+  rig.at(rig.work.plan().board_from_W - Vec3(0.01, 0, 0));  // drawn back
+  const double before = rig.state.creep_s;
+  rig.tool = ToolState{};
+  rig.tool.instrument = kClampTool;
+  for (int n = 0; n < 500; ++n) rig.at(Vec3(0, 0, 0.2));
+  EXPECT_NEAR(rig.state.creep_s - before, rig.state.tension_n / 80 * GraftBenchWork::kClock, 0.1);
+  EXPECT_FALSE(rig.work.guides()[0].on);
+}
+
+TEST(GraftBenchWork, ALoopIsHungOnWhatIsFolded) {
+  BenchRig rig;
+  rig.hold(kButton20);
+  for (int n = 0; n < 400; ++n) rig.at(rig.work.plan().hook_W);
+  EXPECT_EQ(rig.state.loop_m, 0);
+  rig.state = folded_bench(2, 2);
+  rig.hold(kButton20);
+  for (int n = 0; n < 100; ++n) rig.at(rig.work.plan().hook_W);
+  EXPECT_EQ(rig.state.loop_m, 0);
+  for (int n = 0; n < 300; ++n) rig.at(rig.work.plan().hook_W);
+  EXPECT_NEAR(rig.state.loop_m, 0.020, 1e-12);
+}
+
+TEST(GraftBenchWork, AToolOfAnotherEpochOrThatIsNoNumberDoesNothing) {
+  BenchRig rig;
+  rig.state.tendons[0].bands_cut = 0b11;
+  rig.hold(kStripperTool);
+  rig.push(0, 3.0, 0.2);
+  const double front = rig.state.tendons[0].front_m;
+  rig.bones.epoch = 1;
+  rig.push(0, 3.0, 0.2);
+  EXPECT_EQ(rig.state.tendons[0].front_m, front);
+  EXPECT_FALSE(rig.work.guides()[0].on);
+  rig.bones.epoch = 0;
+  rig.tool.X_WP.p.x() = std::nan("");
+  rig.step();
+  EXPECT_FALSE(rig.work.guides()[0].on);
+}
+
+}  // namespace
+}  // namespace osteon

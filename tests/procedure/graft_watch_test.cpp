@@ -1,0 +1,64 @@
+#include "osteon/procedure/graft_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "graft_bench_case.h"
+
+namespace osteon {
+namespace {
+
+using testing::bench_case;
+using testing::folded_bench;
+
+std::vector<Event> told_of(GraftWatch& watch, const GraftBenchState& state) {
+  BoneSnapshot bones;
+  bones.bench = state;
+  std::vector<Event> out;
+  watch.add(5, bones, out);
+  return out;
+}
+
+TEST(GraftWatch, TellsOnceWhatHappened) {
+  GraftWatch watch(*bench_case());
+  GraftBenchState state;
+  state.on = true;
+  EXPECT_TRUE(told_of(watch, state).empty());
+  state.tendons[0].bands_cut = 0b01;
+  auto told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kBandCut);
+  EXPECT_EQ(told[0].values[0], 2);
+  state.tendons[0].stripped = state.tendons[0].amputated = true;
+  told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kTendonStripped);
+  EXPECT_NEAR(told[0].values[0], 85, 1e-9);
+  EXPECT_EQ(told[0].values[1], 1);
+  EXPECT_TRUE(told_of(watch, state).empty());
+}
+
+TEST(GraftWatch, MeasuresWhenTheLoopIsHung) {
+  GraftWatch watch(*bench_case());
+  GraftBenchState state = folded_bench(2, 2);
+  (void)told_of(watch, state);
+  state.loop_m = 0.015;
+  state.creep_s = 240;
+  const auto told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 2 + kGraftValueNames.size());  // the tension's time as well
+  EXPECT_EQ(told.back().kind, kLoopHung);
+  EXPECT_EQ(told.back().values[2], 0);  // the button cannot turn
+  EXPECT_NEAR(told.back().values[1], 25, 1e-9);
+  EXPECT_EQ(told[0].kind, kGraftTensioned);
+  EXPECT_EQ(told[1].kind, kGraftMeasured);
+  EXPECT_NEAR(told[1].values[1], 8, 1e-9);
+  EXPECT_NEAR(told[5].values[1], 100 * creep_left(240), 1e-9);
+}
+
+TEST(GraftWatch, IsSilentWithoutABench) {
+  Case none;
+  GraftWatch watch(none);
+  EXPECT_TRUE(told_of(watch, folded_bench(2, 2)).empty());
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,117 @@
+// A bench in a session: a stripper is led and stopped, the hand feels it, and everything repeats.
+#include <gtest/gtest.h>
+
+#include "count_allocations.h"
+#include "graft_bench_case.h"
+#include "osteon/scene/instrument.h"
+#include "osteon/scene/tool_set.h"
+#include "osteon/session/session.h"
+
+namespace osteon {
+namespace {
+
+const std::shared_ptr<const Case>& felt_bench() {
+  static const std::shared_ptr<const Case> made = testing::bench_case(testing::bench_def(true));
+  return made;
+}
+
+struct BenchSession {
+  BenchSession() {
+    settings.tray = {"tendon_stripper"};
+    const auto all = load_instruments();
+    EXPECT_TRUE(all);
+    const Instrument* found = find_instrument(*all, "tendon_stripper");
+    tray.push_back(std::make_shared<const Tool>(make_tool(*found, found->usual_size)));
+    recording.header = recording_header(*felt_bench(), settings, "test", "0", tray);
+  }
+  Session session() const { return Session(felt_bench(), settings, tray); }
+  SessionSettings settings;
+  Tray tray;
+  Recording recording;
+};
+
+// Comes in line with the second tendon, is taken on, and is pushed on through its band.
+HandInput strip_hand(std::uint64_t n) {
+  const double t = static_cast<double>(n) * 0.001;
+  const double x = t < 0.6 ? -0.02 + 0.03 * t : t < 1 ? -0.002 : -0.002 + 0.08 * (t - 1);
+  HandInput hand;
+  hand.input.X_WD = {Vec3(x, -0.012, -0.008),
+                     Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+  if (n == 1400) hand.command = {CommandKind::kMark, 1};
+  return hand;
+}
+
+void strip_on(Session& session, std::uint64_t from, std::uint64_t to) {
+  for (std::uint64_t n = from; n <= to; ++n) {
+    const HandInput hand = strip_hand(n);
+    (void)session.tick(std::span(&hand, 1));
+  }
+}
+
+const TendonOnBench& gracilis(const Session& session) { return session.bones().bench.tendons[1]; }
+
+TEST(SessionBench, TheHandFeelsTheStripperAndTheBandBeforeItGivesWay) {
+  const BenchSession rig;
+  Session session = rig.session();
+  strip_on(session, 1, 1600);
+  EXPECT_GT(gracilis(session).front_m, 0.01);
+  const double on_the_way = -session.tool_state().force_W.x();
+  EXPECT_GT(on_the_way, 1.0);
+  EXPECT_LT(on_the_way, 4.0);
+  double most = 0;
+  const std::size_t before = testing::allocations();
+  for (std::uint64_t n = 1601; n <= 2200; ++n) {
+    strip_on(session, n, n);
+    most = std::max(most, -session.tool_state().force_W.x());
+  }
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_GT(most, 5.0);
+  EXPECT_TRUE(gracilis(session).amputated);
+}
+
+TEST(SessionBench, AStateInTheMiddleGoesOnWithTheSameBits) {
+  const BenchSession rig;
+  for (const std::uint64_t stop : {700u, 1500u}) {
+    Session session = rig.session();
+    strip_on(session, 1, stop);
+    const auto read = state_from_bytes(to_bytes(session.save()));
+    ASSERT_TRUE(read) << read.error().message();
+    Session other = rig.session();
+    ASSERT_TRUE(other.restore(*read));
+    EXPECT_EQ(other.state_hash(), session.state_hash());
+    strip_on(session, stop + 1, 2000);
+    strip_on(other, stop + 1, 2000);
+    EXPECT_EQ(other.state_hash(), session.state_hash()) << stop;
+    SessionState odd = session.save();
+    odd.world.bones.bench.on = false;
+    EXPECT_FALSE(other.restore(odd));
+  }
+}
+
+TEST(SessionBench, ARecordingRepeatsAndARestorePointPutsTheFrontBack) {
+  BenchSession rig;
+  Session session = rig.session();
+  double marked = 0;
+  for (std::uint64_t n = 1; n <= 2100; ++n) {
+    HandInput hand = strip_hand(n);
+    if (n == 2000) hand.command = {CommandKind::kRestore, 1};
+    (void)session.tick(std::span(&hand, 1));
+    rig.recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) rig.recording.steps.push_back(session.last_step_record());
+    if (n == 1400) marked = gracilis(session).front_m;
+    if (n == 1999) {
+      EXPECT_GT(gracilis(session).front_m, marked + 0.005);
+    }
+  }
+  EXPECT_GT(marked, 0.005);
+  EXPECT_NEAR(gracilis(session).front_m, marked, 0.001);
+  rig.recording.complete = true;
+  ReplayOptions options;
+  options.tray = rig.tray;
+  const auto again = replay(rig.recording, felt_bench(), options);
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_TRUE(again->identical) << again->first_different_tick;
+}
+
+}  // namespace
+}  // namespace osteon
