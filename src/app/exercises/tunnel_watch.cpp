@@ -225,7 +225,8 @@ void TunnelWatch::finish(std::vector<Event>& out) {
   for (std::size_t k = 0; drills_ && k < kBones; ++k)
     if (drills_->take_drilled(k)) take_cuts(k);
   sources_.in_background = false;
-  if (fresh_) measure(at, out);
+  over_ = true;
+  if (fresh_ || std::find(untold_.begin(), untold_.end(), true) != untold_.end()) measure(at, out);
 }
 
 // Lines of what was drilled since: the holes in what is left.
@@ -308,7 +309,14 @@ void TunnelWatch::tell_measured(const Event& at, std::vector<Event>& out) {
   };
   tell_drilled(at, out);
   const AclTunnels& tunnels = work_.report.tunnels;
-  const std::array<bool, kBones> is_new = std::exchange(work_.is_new, {});
+  std::array<bool, kBones> is_new = std::exchange(work_.is_new, {});
+  for (std::size_t k = 0; k < kBones; ++k) {
+    is_new[k] = is_new[k] || untold_[k];
+    // A tunnel that has only been begun is judged once it is through, or at the end.
+    untold_[k] =
+        is_new[k] && !over_ && work_.holes[k] && !is_socket_[k] && !work_.holes[k]->through;
+    is_new[k] = is_new[k] && !untold_[k];
+  }
   if (tunnels.femur && is_new[0]) tell_all(*tunnels.femur);
   if (tunnels.tibia && is_new[1]) tell_all(*tunnels.tibia);
   if (!work_.report.graft) return;

@@ -118,8 +118,10 @@ class TunnelWatch {
   std::array<Line, kBones> lines_;
   std::vector<Hold> holds_;  ///< by hand
   std::uint64_t last_tick_ = 0;
-  bool fresh_ = false;                ///< a line has changed since they were measured
-  std::optional<DrillWatch> drills_;  ///< none: tunnels are located alone
+  bool fresh_ = false;                 ///< a line has changed since they were measured
+  std::optional<DrillWatch> drills_;   ///< none: tunnels are located alone
+  std::array<bool, kBones> untold_{};  ///< measured, but not through yet
+  bool over_ = false;                  ///< the attempt: what is, is judged
   std::array<bool, kBones> is_socket_{};
   Work work_;
   std::future<Work> job_;  ///< of what is measured in the background

@@ -10,14 +10,17 @@ namespace {
 
 constexpr double kLedOn_m = 0.002;  // a line ends so far outside of the bone
 constexpr double kOpens_m = 0.006;  // at most so far before the middle of its rim is no bone
+// The same where neither end has a bottom: the rim of a flat tunnel is long.
+constexpr double kOpensFlat_m = 0.010;
 constexpr double kSameLine_m = 0.001, kSameTurn = 0.9986;  // cosine of 3 degrees
 
 double volume_of(const Hole& hole) { return hole.diameter_m * hole.diameter_m * hole.length_m; }
 
-bool opens(const MeshDistance& whole, const Vec3& rim_B, const Vec3& out_B) {
+bool opens(const MeshDistance& whole, const Vec3& rim_B, const Vec3& out_B,
+           double reach_m = kOpens_m) {
   constexpr int kPlaces = 6;
   for (int i = 1; i <= kPlaces; ++i)
-    if (whole.closest(rim_B + i * kOpens_m / kPlaces * out_B).signed_distance > 0) return true;
+    if (whole.closest(rim_B + i * reach_m / kPlaces * out_B).signed_distance > 0) return true;
   return false;
 }
 
@@ -47,8 +50,9 @@ std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDist
     if (!best || volume_of(hole) > volume_of(*best)) best = &hole;
   if (!best) return std::nullopt;
   DrilledHole out;
-  const bool front = opens(whole, best->entry, -best->axis);
-  const bool back = opens(whole, best->exit, best->axis);
+  const double reach_m = best->through ? kOpensFlat_m : kOpens_m;
+  const bool front = opens(whole, best->entry, -best->axis, reach_m);
+  const bool back = opens(whole, best->exit, best->axis, reach_m);
   out.line = {best->entry - (front ? kLedOn_m : 0) * best->axis,
               best->exit + (back ? kLedOn_m : 0) * best->axis, best->diameter_m};
   out.length_m = best->length_m;

@@ -111,8 +111,10 @@ double back_wall(const KneeParts& parts, const QuadrantGrid& grid, const Bore& b
   const Vec3 side = w.cross(hind);
   double least = rim_behind(parts, grid, bore.mouth, radius);
   constexpr int kAlong = 12, kAround = 5;
+  // What is still open so deep is no slanted mouth but a missing wall.
+  constexpr double kDeepestMouth_m = 0.0125;
   const double first =
-      std::min(mouth_depth(*parts.femur.surface, bore, radius), 0.5 * bore.drilled);
+      std::min({mouth_depth(*parts.femur.surface, bore, radius), kDeepestMouth_m, bore.drilled});
   // Of one that goes through, the far mouth is open by its nature.
   const bool open_end = bore.drilled > bore.channel - 0.001;
   const double last = std::max(first, open_end ? bore.drilled - 2 * radius : bore.drilled);
