@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graft_rules.h"
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tip_watch.h"
-#include "graft_rules.h"
 #include "ring_rules.h"
 #include "tunnel_rules.h"
 #include "way_rules.h"

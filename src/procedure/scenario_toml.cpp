@@ -121,9 +121,9 @@ Scenario read_scenario(TomlTable& table) {
   scenario.title = table.text("title");
   scenario.text = table.text("text");
   scenario.version = static_cast<int>(table.number("version", 1, kMany));
-  scenario.anatomy = table.word("anatomy", {"wrist", "knee", "fast_box", "fast_maze",
-                                            "fast_meniscus", "fast_ring", "fast_suture",
-                                            "graft_bench"});
+  scenario.anatomy =
+      table.word("anatomy", {"wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_ring",
+                             "fast_suture", "graft_bench"});
   scenario.felt = read_felt(table);
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);

@@ -11,7 +11,8 @@ struct GraftRuleRig {
     const RuleKind* row = find_rule_kind(kind);
     EXPECT_NE(row, nullptr) << kind;
     rule.rule.kind = kind;
-    for (const auto& number : row->numbers) rule.rule.numbers[std::string(number.name)] = number.usual;
+    for (const auto& number : row->numbers)
+      rule.rule.numbers[std::string(number.name)] = number.usual;
     for (const auto& [name, value] : numbers) rule.rule.numbers[name] = value;
     state.holds.resize(1);
   }

@@ -177,8 +177,8 @@ std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bon
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
-  const std::string text = with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl,
-                                        done.not_measured);
+  const std::string text =
+      with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
   if (!done.graft) return text;
   auto json = nlohmann::ordered_json::parse(text);
   json["acl"]["graft"] = to_json(*done.graft);
