@@ -422,6 +422,13 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
 }
 
+void ScopeRenderer::set_surface(BoneId part, const TriMesh& mesh) {
+  if (impl_->scene) return;
+  for (TissuePart& own : impl_->parts)
+    if (own.model == part.index) own.surface = GpuMesh(plain_shaded(mesh));
+  ++impl_->cubes;
+}
+
 void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
                               std::span<const SurfaceCube> cubes) {
   if (bone.index >= impl_->own_changed.size()) return;  // the scene's own are seen

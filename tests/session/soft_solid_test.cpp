@@ -7,65 +7,18 @@
 #include "osteon/base/random.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
-#include "session_fixtures.h"
+#include "soft_solid_fixtures.h"
 
 namespace osteon {
 namespace {
 
 using testing::allocations;
 
-const Vec3 kMeniscusHalf(0.012, 0.008, 0.003);
-constexpr double kMeniscus_n_per_m = 900, kBallRadius_m = 0.001;
-constexpr double kBlockTop_m = 0.003 + kBallRadius_m;  // of the ball's middle where it touches
+using testing::kBlockTop_m;
+using testing::kMeniscus_n_per_m;
+using testing::MeniscusRun;
 
-// The bone is far below, so that a hook can come from under the block.
-std::shared_ptr<const Case> meniscus_case() {
-  CaseDef def;
-  def.name = "a block on a bone";
-  BoneDef bone;
-  bone.name = "tibia";
-  bone.X_WB.p = {0, 0, -0.040};
-  bone.mesh = testing::box_mesh(testing::kBoxHalf);
-  def.bones.push_back(bone);
-  SoftDef soft;
-  soft.name = "medial_meniscus";
-  soft.tissue = soft.kind = "meniscus";
-  soft.mesh_W = testing::box_mesh(kMeniscusHalf);
-  soft.bones = {"tibia"};
-  def.softs.push_back(soft);
-  auto built = build_case(std::move(def));
-  return built ? std::make_shared<const Case>(std::move(*built)) : nullptr;
-}
-
-struct MeniscusRun {
-  std::shared_ptr<const Case> the_case = meniscus_case();
-  SessionSettings settings;
-  Tray tray;
-  std::shared_ptr<const SoftSetup> softs;
-
-  MeniscusRun() {
-    Tool ball;
-    ball.name = "ball";
-    ball.parts.push_back(make_rod(Vec3::Zero(), Vec3::Zero(), kBallRadius_m));
-    tray = {std::make_shared<const Tool>(ball)};
-    settings.soft = {"menisci"};
-    settings.tray = {"ball"};
-    settings.haptic.max_force_n = 40;
-    auto made = make_soft_solids(*the_case, settings.soft, kMeniscus_n_per_m);
-    EXPECT_TRUE(made) << made.error().message();
-    SoftSetup setup;
-    if (made) add_solids(setup, std::move(*made));
-    settings.soft_hash = setup.hash;
-    softs = std::make_shared<const SoftSetup>(std::move(setup));
-  }
-  Session session() const { return Session(the_case, settings, tray, nullptr, softs); }
-};
-
-// One for all tests: the block's stiffness takes a while to make.
-const MeniscusRun& the_run() {
-  static const MeniscusRun run;
-  return run;
-}
+const MeniscusRun& the_run() { return testing::meniscus_run(); }
 
 ToolInput ball_at(const Vec3& p, double v_z = 0) {
   ToolInput input;

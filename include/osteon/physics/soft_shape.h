@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "osteon/mesh/tri_mesh.h"
@@ -21,20 +22,21 @@ class SoftShapes {
     std::uint32_t soft = 0;  ///< in Case::softs
     TriMesh mesh_W;
   };
-  /// Those that have another shape than under the pushes before.
+  /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
+  /// under a push of a meniscus. At first all are at rest.
   std::vector<Changed> changes(const SolidPushes& pushes);
 
  private:
   struct Shape {
-    TriMesh mesh_W;                   ///< at rest
-    Pose X_WB;                        ///< rest pose of the bone
-    std::vector<SolidPatch> patches;  ///< of each vertex
+    TriMesh mesh_W;                       ///< at rest
+    Pose X_WB;                            ///< rest pose of the bone
+    std::vector<SolidPatch> patches;      ///< of each vertex
+    std::vector<SolidPushes::One> shown;  ///< pushes that it was given with
   };
-  std::vector<Vec3> moved(std::size_t solid, const SolidPushes& pushes) const;
+  std::vector<Vec3> moved(std::size_t solid, std::span<const SolidPushes::One> pushes) const;
 
   std::shared_ptr<const SoftSetup> setup_;
   std::vector<Shape> shapes_;
-  SolidPushes shown_;
 };
 
 }  // namespace osteon

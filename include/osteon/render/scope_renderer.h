@@ -53,6 +53,8 @@ class ScopeRenderer {
   /// Clear until it is told otherwise.
   void set_water(const ScopeWater& water);
 
+  /// As Renderer has it, of a bone or a soft part; where a scene is drawn, its surfaces are seen.
+  void set_surface(BoneId part, const TriMesh& mesh);
   /// As Renderer has them.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   void clear_cubes();

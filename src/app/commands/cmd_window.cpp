@@ -7,6 +7,7 @@
 #include "commands/number_check.h"
 #include "commands/window_size.h"
 #include "commands/windows_in_turn.h"
+#include "runs/tray.h"
 
 namespace osteon {
 namespace {
@@ -47,7 +48,13 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_flag(
       "--felt", order->felt,
       "Begin with the bones coloured by the distance of the felt surface from the visible one");
-  command->add_flag("--soft", order->softs, "Begin with the soft parts shown");
+  const auto soft = std::make_shared<std::string>();
+  cli::Option* const softs = command->add_option(
+      "--soft", *soft,
+      "Begin with the soft parts shown; with names, those are shown, felt and give way: ligaments "
+      "and menisci (all that the case has), or some of them: "
+      "acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus");
+  softs->expected(0, 1);
   command->add_flag("--close-up", order->close_up, "Begin close up on the joint");
   command->add_flag("--demo", order->demo, "The virtual hand plays the case's path");
   command->add_option(
@@ -78,7 +85,9 @@ void add_window_command(cli::App& app, int& exit_code) {
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);
-  command->callback([order, size, layout, observer, &exit_code] {
+  command->callback([order, size, layout, observer, soft, softs, &exit_code] {
+    order->give_way = softs_named(*soft);
+    order->softs = softs->count() > 0 && order->give_way.empty();
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
       cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
     if (!layout->empty()) order->layout = *parse_picture_layout(*layout);

@@ -10,6 +10,7 @@
 #include "osteon/device/safety.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
+#include "osteon/scene/soft_solid.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -56,7 +57,8 @@ struct Telemetry {
 inline constexpr std::uint64_t kTelemetryTicks = 4;
 
 /// All that one hand's loop passes to the others and they to it. Each member has one writer and one
-/// reader, which the comment names. Commands for physics and its figures go by the first hand's.
+/// reader, which the comment names. Commands for physics, its figures and what
+/// presses soft parts go by the first hand's.
 struct LoopExchange {
   explicit LoopExchange(const BoneSnapshot& bones)
       : bones_to_haptic(bones), to_window(RenderSnapshot{bones, {}}) {}
@@ -65,6 +67,7 @@ struct LoopExchange {
   LatestValue<BoneSnapshot> bones_to_haptic;                    // physics -> haptic
   std::array<LatestValue<OtherTool>, kMaxHands> tool_to_hands;  // haptic -> haptic of that hand
   LatestValue<RenderSnapshot> to_window;                        // haptic -> window
+  LatestValue<SolidPushes> pushes_to_window;                    // physics -> window
   LatestValue<DeviceStatus> device_status;                      // haptic -> window
   LatestValue<HandWishes> hand_wishes;                          // window -> haptic
   LatestValue<LoopStats> haptic_stats;                          // haptic -> window

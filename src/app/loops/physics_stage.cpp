@@ -4,6 +4,7 @@
 
 #include "loops/record_feed.h"
 #include "loops/state_keeper.h"
+#include "osteon/physics/soft_world.h"
 
 namespace osteon {
 
@@ -23,6 +24,8 @@ void PhysicsStage::step() {
   if (keeper_ && bones.saved_step == bones.step) keeper_->keep_world(session_);
   // Recorded before it is published: a tick that consumes it finds its record already there.
   if (feed_) feed_->push(session_.last_step_record());
+  if (const SoftWorld* softs = session_.softs())
+    hands_.front()->pushes_to_window.publish(softs->pushes());
   // A hand that cannot know yet what was cut goes on with the snapshot it has.
   for (std::size_t h = 0; h < hands_.size(); ++h)
     if (session_.told(h)) hands_[h]->bones_to_haptic.publish(bones);

@@ -80,6 +80,7 @@ struct FilmPainter::Impl {
   ViewState plain_view(double aspect) const;
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
+  void show_softs(const SolidPushes& pushes);
   void flow(const FilmMoment& moment);
   CarvedPicture carved{nullptr};
   std::optional<JointWater> water;  ///< where a scope is drawn
@@ -268,11 +269,17 @@ void FilmPainter::Impl::show_carved() {
   }
 }
 
+void FilmPainter::Impl::show_softs(const SolidPushes& pushes) {
+  if (!shapes || !(renderer || scope)) return;
+  for (const SoftShapes::Changed& changed : shapes->changes(pushes)) {
+    if (renderer) set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W);
+    if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W);
+  }
+}
+
 Result<Image> FilmPainter::draw(const FilmMoment& moment) {
   impl_->show_carved();
-  if (impl_->shapes && impl_->renderer)
-    for (const SoftShapes::Changed& changed : impl_->shapes->changes(moment.pushes))
-      set_soft_surface(*impl_->renderer, *impl_->the_case, changed.soft, changed.mesh_W);
+  impl_->show_softs(moment.pushes);
   const int width = impl_->order.width, height = impl_->order.height;
   switch (impl_->order.view) {
     case FilmView::kScope:

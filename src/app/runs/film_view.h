@@ -51,8 +51,7 @@ class FilmPainter {
 
   /// What the recorded session removed bone with; before the first cut. Null: nothing.
   void set_carving(std::shared_ptr<const CarvingSetup> setup);
-  /// What of the recorded session is soft: drawn as it gives way, but through a scope. Null:
-  /// nothing.
+  /// What of the recorded session is soft: drawn as it gives way. Null: nothing.
   void set_softs(std::shared_ptr<const SoftSetup> setup);
   /// Bone is gone from the next picture on.
   void take(const CutsPatch& cut);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "osteon/physics/soft_setup.h"
 #include "runs/tray.h"
 
 namespace osteon {
@@ -117,6 +118,10 @@ SessionSettings LiveRun::settings_now() const {
   for (const LiveHand& hand : hands_) settings.hands.push_back({hand.name, hand.instrument});
   settings.tray = tray_.names;
   settings.carve.on = tray_.carving != nullptr;
+  if (tray_.softs.setup) {
+    settings.soft = tray_.softs.names;
+    settings.soft_hash = tray_.softs.setup->hash;
+  }
   return settings;
 }
 
@@ -131,6 +136,7 @@ Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
   plan.the_case = case_;
   plan.settings = settings_;
   plan.carving = tray_.carving;
+  plan.softs = tray_.softs.setup;
   carved_ = std::make_unique<CarvedPicture>(tray_.carving);
   ++run_number_;
   runtime_ = std::make_unique<Runtime>(plan, std::move(*plans), std::move(feed), tray_.tools);
@@ -140,6 +146,7 @@ Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
     if (hand.snapshot.bones.count == 0) hand.snapshot.bones = rest_snapshot(*case_);
   }
   events_.clear();
+  pushes_ = {};
   marks_.clear();
   next_mark_ = 0;
   undone_at_s_ = -10;
@@ -170,12 +177,14 @@ Result<void> LiveRun::change_mapping(const MappingSettings& user, const Quat& q_
 }
 
 Result<void> LiveRun::exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
-                                    ProbePath demo, std::shared_ptr<const CarvingSetup> carving) {
+                                    ProbePath demo, std::shared_ptr<const CarvingSetup> carving,
+                                    RunSofts softs) {
   if (recording_) return fail("stop the recording before changing the bones");
   case_ = std::move(the_case);
   case_source_ = std::move(case_source);
   demo_ = std::move(demo);
   tray_.carving = std::move(carving);
+  tray_.softs = std::move(softs);
   return runtime_ ? start_run(poses_now(), nullptr) : Result<void>();
 }
 
@@ -250,6 +259,7 @@ void LiveRun::update() {
     send_orders(i);
   }
   see_cuts();
+  pushes_ = runtime_->pushes();
   physics_stats_ = runtime_->physics_stats();
   if (!recording_ || runtime_->recording()) return;
   recording_failure_ = runtime_->recording_failure();

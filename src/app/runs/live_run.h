@@ -32,6 +32,13 @@ SessionSettings settings_for(const DeviceInfo& info, const FeelSettings& feel, d
 /// Where devices differ, the weakest one's limits hold for all.
 void keep_to_weakest(const HapticParams& of_device, HapticParams& all);
 
+/// What gives way to the hands of a run: the names, as SessionSettings has them, and what was made
+/// of them. Null: nothing is soft.
+struct RunSofts {
+  std::vector<std::string> names;
+  std::shared_ptr<const SoftSetup> setup;
+};
+
 /// The instruments that the hands of a run may take, with their names for the recording.
 struct RunTray {
   /// What a pedal drives of an instrument: its motor, or its jaws shut.
@@ -43,6 +50,7 @@ struct RunTray {
   std::vector<Driven> driven;  ///< of each; those past its end: nothing
   /// What they remove bone with; null: nothing is carved.
   std::shared_ptr<const CarvingSetup> carving = nullptr;
+  RunSofts softs = {};
 };
 
 /// A live case in the window: the runtime, what the hands hold, the recording. Every change of
@@ -74,9 +82,10 @@ class LiveRun {
   /// Starts anew with the same device where the probe is, used in another way.
   Result<void> change_mapping(const MappingSettings& user, const Quat& q_WC);
   /// Starts anew where the probe is, on the same bones felt otherwise, which `carving` (may be
-  /// null) carves. Not while recording.
+  /// null) carves and whose `softs` give way. Not while recording.
   Result<void> exchange_case(std::shared_ptr<const Case> the_case, std::string case_source,
-                             ProbePath demo, std::shared_ptr<const CarvingSetup> carving = nullptr);
+                             ProbePath demo, std::shared_ptr<const CarvingSetup> carving = nullptr,
+                             RunSofts softs = {});
   /// No hand touches anything: what is felt may change without being felt to.
   bool touches_nothing() const;
   Result<void> start_recording(const std::filesystem::path& file);
@@ -112,6 +121,9 @@ class LiveRun {
   /// whole bones.
   CarvedPicture& carved() { return *carved_; }
   std::uint64_t run_number() const { return run_number_; }
+  /// What gives way in this run, and what presses it now.
+  const std::shared_ptr<const SoftSetup>& softs() const { return tray_.softs.setup; }
+  const SolidPushes& pushes() const { return pushes_; }
   /// A hand that the mouse moves goes there.
   void bring(const Pose& X_WD);
   /// Keeps the state as a restore point.
@@ -210,6 +222,7 @@ class LiveRun {
   std::filesystem::path force_log_;
   std::string recording_failure_, harmless_trip_;
   LoopStats physics_stats_;
+  SolidPushes pushes_;
   RunEvents events_;
   std::vector<std::uint32_t> marks_;  ///< numbers of the restore points, oldest first
   std::uint32_t next_mark_ = 0;

@@ -114,7 +114,10 @@ void WindowApp::poll_jobs() {
   const bool at_rest = cases_.ready() && !replay_.on() && !edit_.on() && !checkup_.running() &&
                        !bend_.on() &&
                        (!live_.run() || (!live_.recording() && live_.run()->touches_nothing()));
-  if (cases_.poll_finer(at_rest)) edit_.draw_again();
+  if (cases_.poll_finer(at_rest)) {
+    edit_.draw_again();
+    views_.draw_softs_again();
+  }
   checkup_.poll();
   edit_.poll_save();
   notes_.poll_save();

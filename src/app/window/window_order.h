@@ -24,6 +24,8 @@ struct WindowOrder {
   std::filesystem::path film;             ///< of the window, from the first picture on; empty: none
   bool felt = false;                      ///< begins with bones coloured by what is felt
   bool softs = false;                     ///< begins with the soft parts shown
+  std::vector<std::string> give_way;      ///< soft parts that do in live runs, as `--soft` names
+                                          ///< them; begins with these shown
   bool close_up = false;                  ///< begins close up on the joint
   bool demo = false;                      ///< the virtual hand plays the case's path
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one

@@ -31,6 +31,8 @@ void CaseControl::open(LoadOrder order, bool as_ordered) {
   failure_.clear();
   order.instruments = live_.wanted_instruments();
   order.at_s = host_.order.at_s;
+  order.softs = host_.order.give_way;
+  order.needs_softs = !scene_.the_case && order.recording.empty();
   // What is measured, recorded, judged or edited from the start is the case as it was ordered.
   const WindowOrder& line = host_.order;
   const bool ordered = line.frames > 0 || !line.record.empty() || !line.edit.empty() || as_ordered;
@@ -87,10 +89,12 @@ bool CaseControl::show(Loaded& loaded) {
     scene_.bone_middles_B = bone_middles(*scene_.the_case);
     scene_.demo = loaded.demo;
     scene_.carving = loaded.carving.setup;
+    scene_.softs = loaded.softs.softs;
     felt_job_.reset();
     felt_known_ = false;
     prepared_ = std::move(loaded.prepared);
     if (!loaded.carving.problem.empty()) host_.note(ToastKind::kWarning, loaded.carving.problem);
+    if (!loaded.softs.problem.empty()) host_.note(ToastKind::kWarning, loaded.softs.problem);
     if (loaded.tray) live_.take_tray(std::move(*loaded.tray));
     begin_finer(loaded);
     sight_.begin_case(same_case);
@@ -111,7 +115,7 @@ void CaseControl::begin_finer(const Loaded& loaded) {
   if (!loaded.lit) lighting_ = std::make_unique<SideJob<PreparedCase>>(light_case(scene_.the_case));
   if (scene_.finer_source.empty()) return;
   refining_ = std::make_unique<SideJob<FinerCase>>(
-      refine_case(scene_.finer_source, live_.wanted_instruments()));
+      refine_case(scene_.finer_source, live_.wanted_instruments(), scene_.softs.names));
   if (scene_.finer_source == scene_.source)
     return host_.note(ToastKind::kInfo, "You can touch the bones now. Carving will be ready soon.");
   host_.note(ToastKind::kInfo,
@@ -151,14 +155,15 @@ void CaseControl::poll_pieces() {
 void CaseControl::exchange(FinerCase finer) {
   const bool was_felt = scene_.source == scene_.finer_source;
   if (LiveRun* const run = live_.run()) {
-    const auto exchanged =
-        run->exchange_case(finer.the_case, finer.source, finer.demo, finer.carving.setup);
+    const auto exchanged = run->exchange_case(finer.the_case, finer.source, finer.demo,
+                                              finer.carving.setup, finer.softs);
     if (!exchanged) return host_.note(ToastKind::kError, exchanged.error().message());
   }
   scene_.the_case = std::move(finer.the_case);
   scene_.source = std::move(finer.source);
   scene_.demo = std::move(finer.demo);
   scene_.carving = std::move(finer.carving.setup);
+  scene_.softs = std::move(finer.softs);
   scene_.finer_source.clear();
   scene_.renderer->set_pieces(*scene_.the_case);
   pieces_after_s_ = host_.age_s();

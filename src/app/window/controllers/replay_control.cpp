@@ -40,6 +40,7 @@ void ReplayControl::begin(LoadedReplay replay) {
   end();
   replay_ = std::move(replay);
   sight_.set_tray(replay_->instruments, replay_->tray);
+  sight_.show_what_gives_way(replay_->softs.get());
   if (replay_->carving) carved_.emplace(replay_->carving);
   player_ = ReplayPlayer(replay_->duration_s);
   player_.seek(host_.order.at_s);
@@ -82,6 +83,10 @@ CarvedPicture* ReplayControl::carved() {
   if (!replay_ || !carved_) return nullptr;
   carved_place_ = replay_->cuts.show(player_.position_s(), carved_place_, *carved_);
   return &*carved_;
+}
+
+SolidPushes ReplayControl::pushes() const {
+  return replay_ ? replay_->pushes.at(player_.position_s()) : SolidPushes{};
 }
 
 void ReplayControl::describe(UiModel& model) const {

@@ -30,6 +30,9 @@ class ReplayControl {
   std::vector<ToolState> others() const;
   /// Bones as they were carved up to now; null: nothing was.
   CarvedPicture* carved();
+  /// What gives way in it, null where nothing does, and what presses that now.
+  std::shared_ptr<const SoftSetup> softs() const { return replay_ ? replay_->softs : nullptr; }
+  SolidPushes pushes() const;
   void describe(UiModel& model) const;
 
  private:

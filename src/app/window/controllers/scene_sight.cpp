@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cases/felt_choice.h"
+#include "osteon/physics/soft_setup.h"
 #include "ui/label.h"
 #include "window/controllers/remembered_looks.h"
 #include "window/ui_model.h"
@@ -30,6 +31,14 @@ void SceneSight::begin_case(bool same_case) {
   picked_ = picked;
 }
 
+void SceneSight::show_what_gives_way(const SoftSetup* setup) {
+  const auto show = [this](std::size_t soft) {
+    if (soft < view_.softs.size()) view_.softs[soft].visible = true;
+  };
+  for (std::size_t i = 0; setup && i < setup->solids.size(); ++i) show(setup->solids[i].soft);
+  for (std::size_t i = 0; setup && i < setup->bands.size(); ++i) show(setup->bands[i].soft);
+}
+
 void SceneSight::recall() {
   const Case& the_case = *scene_.the_case;
   view_ = default_view(the_case);
@@ -39,6 +48,7 @@ void SceneSight::recall() {
   view_.show_felt = view_.show_felt || host_.order.felt;
   if (host_.order.softs)
     for (BoneAppearance& look : view_.softs) look.visible = true;
+  show_what_gives_way(scene_.softs.setup.get());
   if (host_.order.close_up)
     view_.camera =
         close_up_camera(view_.camera, the_case, {}, viewport().aspect(), covered_edges());

@@ -32,6 +32,8 @@ class SceneSight {
   /// A case has been opened. The same one felt otherwise: the user goes on looking at what he
   /// looked at.
   void begin_case(bool same_case);
+  /// Null: nothing does.
+  void show_what_gives_way(const SoftSetup* setup);
   void apply(const UiRequests& requests);
   void set_layout(PictureLayout layout) { layout_ = layout; }
   /// While a bone's surface is edited the picture is the one from outside.

@@ -9,6 +9,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/path.h"
 #include "osteon/scene/portal.h"
+#include "runs/live_run.h"
 #include "window/controllers/picture_views.h"
 
 namespace osteon {
@@ -22,6 +23,7 @@ struct ShownCase {
   PictureViews views;
   ProbePath demo;
   std::shared_ptr<const CarvingSetup> carving;  ///< for a live run of the case
+  RunSofts softs;                               ///< likewise
   std::vector<Portal> portals;
   std::vector<Vec3> bone_middles_B;  ///< where their names stand
 

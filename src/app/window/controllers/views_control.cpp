@@ -43,6 +43,14 @@ void ViewsControl::show_carved() {
   }
 }
 
+// While a run begins anew nothing presses.
+void ViewsControl::show_softs() {
+  LiveRun* const live = live_.run();
+  const auto setup = live ? live->softs() : replay_.softs();
+  softs_.show(scene_.the_case, setup, live ? live->pushes() : replay_.pushes(), host_.now_s,
+              *scene_.renderer);
+}
+
 // What is gone is counted a few times a second: it means looking at all cuts.
 void ViewsControl::let_water_flow() {
   constexpr double kCounts_s = 0.2;
@@ -57,6 +65,7 @@ void ViewsControl::let_water_flow() {
 void ViewsControl::draw(const ViewState& looks) {
   scene_.renderer->set_others(others());
   show_carved();
+  show_softs();
   PictureViews& views = scene_.views;
   if (auto ok = views.set_moment(moment()); !ok)
     host_.note(ToastKind::kError, ok.error().message());

@@ -7,6 +7,7 @@
 #include "window/controllers/hands_control.h"
 #include "window/controllers/observer_control.h"
 #include "window/controllers/replay_control.h"
+#include "window/controllers/soft_picture.h"
 
 namespace osteon {
 
@@ -23,6 +24,8 @@ class ViewsControl {
         hands_(hands),
         observer_(observer) {}
 
+  /// The renderer was given its surfaces anew, as they are at rest.
+  void draw_softs_again() { softs_.begin_again(); }
   /// `looks` of the view from outside.
   void draw(const ViewState& looks);
   void apply(const ViewsRequests& requests);
@@ -33,6 +36,7 @@ class ViewsControl {
   FilmMoment moment() const;
   CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
+  void show_softs();
   void let_water_flow();
   std::string message_on(PaneKind kind) const;
 
@@ -45,6 +49,7 @@ class ViewsControl {
   ObserverControl& observer_;
   std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
   double carved_s_ = 0;                                 ///< when they were shown last
+  SoftPicture softs_;
   double counted_s_ = 0;                                ///< when what is gone was counted last
   ByTissue removed_m3_{};                               ///< as it was then
 };

@@ -27,6 +27,7 @@ class Loader {
   Result<void> open_at_once(Loaded& loaded, const std::string& spec);
   Result<void> open_whole(Loaded& loaded, const std::string& spec);
   void make_surfaces(Loaded& loaded);
+  Result<void> soften(Loaded& loaded);
   Result<void> repeat(Loaded& loaded, const Recording& recording);
   Result<void> repeat_first(LoadedReplay& replay_of);
   /// Reports where the work is; leaves it by an exception when it was cancelled.
@@ -81,6 +82,7 @@ Result<void> Loader::load_the_case(Loaded& loaded, const std::string& spec,
     auto opened = at_once ? open_at_once(loaded, spec) : open_whole(loaded, spec);
     if (!opened) return opened;
   }
+  if (auto softened = soften(loaded); !softened) return softened;
   say("Planning the demonstration", 0.7);
   loaded.demo = demo_path(*loaded.the_case, spec);
   return {};
@@ -136,6 +138,14 @@ Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
   return {};
 }
 
+Result<void> Loader::soften(Loaded& loaded) {
+  if (order_.softs.empty() || !loaded.tray) return {};
+  say("Preparing what gives way", 0.7);
+  loaded.softs = prepare_softs(*loaded.the_case, loaded.tray->tray, order_.softs);
+  if (order_.needs_softs && !loaded.softs.problem.empty()) return fail(loaded.softs.problem);
+  return {};
+}
+
 Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   LoadedReplay& replay_of = *loaded.replay;
   const auto settings = parse_settings(recording.header.settings_json);
@@ -152,7 +162,9 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   };
   auto softs = softs_for(*loaded.the_case, *settings);
   if (!softs) return tl::unexpected(softs.error());
-  options.softs = std::move(*softs);
+  options.softs = replay_of.softs = std::move(*softs);
+  SolidPushes pushes;
+  options.on_pushes = [&](const SolidPushes& now) { pushes = now; };
   const bool from_the_start = options.carving || options.softs;
   replay_of.tray = std::move(*tray);
   if (replay_of.tray.empty())
@@ -174,6 +186,7 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
                         std::span<const Event> events) {
     ReplayTrack& track = hand == 0 ? replay_of.track : replay_of.more[hand - 1];
     track.add(tool, bones);
+    if (hand == 0) replay_of.pushes.add(pushes, tool.time_s);
     for (const Event& event : events) replay_of.events.add(event, settings->haptic.tick_s);
     if (hand == 0 && tool.tick % 500 == 0)
       say("Replaying the recorded run", 0.75 + 0.25 * static_cast<double>(tool.tick) / total);
@@ -213,6 +226,16 @@ PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray
   auto carving = carving_for_run(the_case, tray.run().names);
   if (!carving) return {nullptr, carving.error().message()};
   return {std::move(*carving), {}};
+}
+
+PreparedSofts prepare_softs(const Case& the_case, const InstrumentTray& tray,
+                            const std::vector<std::string>& names) {
+  SessionSettings settings;
+  settings.soft = names;
+  settings.tray = tray.run().names;
+  auto setup = softs_for(the_case, settings);
+  if (!setup) return {{}, setup.error().message()};
+  return {{names, std::move(*setup)}, {}};
 }
 
 Result<Loaded> load(const LoadOrder& order, const Progress& progress) {

@@ -14,6 +14,7 @@
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
 #include "runs/cut_history.h"
+#include "runs/push_history.h"
 #include "runs/replay_track.h"
 #include "runs/run_events.h"
 #include "window/controllers/instrument_tray.h"
@@ -29,7 +30,9 @@ struct LoadOrder {
   /// Not for a recording: a picture soon, without the light between the bones, and what no cache
   /// holds of what is felt as hulls.
   bool at_once = false;
-  double at_s = 0;  ///< of a recording: the moment that is looked at first
+  double at_s = 0;                      ///< of a recording: the moment that is looked at first
+  std::vector<std::string> softs = {};  ///< that give way in a live run, as SessionSettings::soft
+  bool needs_softs = false;  ///< a case that does not have them fails; else the user is told
 };
 
 class ReplayFilling;
@@ -44,6 +47,8 @@ struct LoadedReplay {
   Tray tray;                                    ///< what the hands held
   std::shared_ptr<const CarvingSetup> carving;  ///< what they removed bone with; null: nothing
   CutHistory cuts;
+  std::shared_ptr<const SoftSetup> softs;  ///< what gave way; null: nothing
+  PushHistory pushes;                      ///< on that
   RunEvents events;
   bool complete = true;  ///< false: the recording ended with a kill
   bool identical = true;
@@ -64,6 +69,16 @@ struct PreparedCarving {
 PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray);
 bool has_field(const Case& the_case);
 
+/// What gives way in a live run of a case.
+struct PreparedSofts {
+  RunSofts softs;
+  std::string problem;  ///< why what was asked for does not; empty: it does
+};
+/// `names`: as SessionSettings::soft has them; none: nothing is soft. About a second for each
+/// meniscus.
+PreparedSofts prepare_softs(const Case& the_case, const InstrumentTray& tray,
+                            const std::vector<std::string>& names);
+
 struct Loaded {
   std::shared_ptr<const Case> the_case;
   std::string case_source;
@@ -75,6 +90,7 @@ struct Loaded {
   ProbePath demo;                        ///< empty when none could be made
   std::optional<PreparedTray> tray;      ///< of the case; none: `open` was used again
   PreparedCarving carving;
+  PreparedSofts softs;
   std::optional<LoadedReplay> replay;
 };
 

@@ -48,18 +48,20 @@ SideJob<PreparedCase>::Work light_case(std::shared_ptr<const Case> the_case) {
   };
 }
 
-SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted) {
-  return [spec = std::move(spec),
-          wanted = std::move(wanted)](const Progress& tell) -> Result<FinerCase> {
+SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted,
+                                     std::vector<std::string> softs) {
+  return [spec = std::move(spec), wanted = std::move(wanted),
+          softs = std::move(softs)](const Progress& tell) -> Result<FinerCase> {
     take_late_turns();
     try {
       auto opened = open_case(spec, [&](const char* what, double share) {
         if (!goes_on(tell, what, share)) throw StoppedWork{};
       });
       if (!opened) return tl::unexpected(opened.error());
-      FinerCase finer{*opened, spec, demo_path(**opened, spec), {}};
-      if (!has_field(**opened)) return finer;
+      FinerCase finer{*opened, spec, demo_path(**opened, spec), {}, {}};
+      if (!has_field(**opened) && softs.empty()) return finer;
       const PreparedTray tray = prepare_tray(region_of(**opened), wanted);
+      finer.softs = prepare_softs(**opened, tray.tray, softs).softs;
       finer.carving = prepare_carving(**opened, tray.tray);
       return finer;
     } catch (const StoppedWork&) {

@@ -33,10 +33,13 @@ struct FinerCase {
   std::string source;
   ProbePath demo;
   PreparedCarving carving;
+  RunSofts softs;
 };
 /// Makes what is felt of a case that was opened at once, and what it is carved with by the
-/// instruments of its tray (`wanted`: as prepare_tray takes them). Other threads go first.
-SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted);
+/// instruments of its tray (`wanted`: as prepare_tray takes them). Other threads go first. What of
+/// it gives way (`softs`: names) is made anew as well.
+SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted,
+                                     std::vector<std::string> softs);
 
 struct SavedPatient {
   std::filesystem::path folder;
