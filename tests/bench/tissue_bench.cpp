@@ -10,10 +10,14 @@
 #include <benchmark/benchmark.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "osteon/tissue/hex_solid.h"
+#include "osteon/tissue/rod.h"
 #include "osteon/tissue/tet_solid.h"
 
 namespace {
@@ -55,11 +59,12 @@ void hexahedra(benchmark::State& state) {
   count(state, solid.elements);
 }
 
-// An implicit step of a bent corotated block of linear tetrahedra.
-void corotated_tetrahedra(benchmark::State& state) {
+// An implicit step of a corotated mesh of linear tetrahedra that bends under its weight.
+void step_corotated(benchmark::State& state, TetMesh mesh, const SolidMaterial& material,
+                    const std::vector<bool>& held) {
   TetSolidDef def;
-  def.mesh = split_into_tetrahedra(box(state.range(0)));
-  def.material = {1e6, 0.45, 1100, 5};
+  def.mesh = std::move(mesh);
+  def.material = material;
   def.order = TetOrder::kLinear;
   def.corotated = true;
   const auto made = make_tet_solid(def);
@@ -69,12 +74,54 @@ void corotated_tetrahedra(benchmark::State& state) {
   supports.entries = 1;
   for (std::uint32_t i = 0; i < made->rest_W.size(); ++i)
     for (std::uint32_t k = 0; k < 3; ++k)
-      if (made->rest_W[i].x() < 1e-9) supports.held.push_back({i, k, 0, 0, 0});
+      if (held[i]) supports.held.push_back({i, k, 0, 0, 0});
   const TetStepper stepper(*made, supports, 0.002);
   SolidState at = stepper.rest_state();
   for (auto _ : state)
     if (!stepper.step(at)) throw std::runtime_error("no balance");
   count(state, made->elements.size());
+}
+
+std::vector<bool> held_ends(const TetMesh& mesh, double end_m) {
+  std::vector<bool> held;
+  for (const Vec3& p : mesh.vertices) held.push_back(p.x() < 1e-9 || p.x() > end_m - 1e-9);
+  return held;
+}
+
+// Held at one end.
+void corotated_tetrahedra(benchmark::State& state) {
+  const TetMesh mesh = split_into_tetrahedra(box(state.range(0)));
+  step_corotated(state, mesh, {1e6, 0.45, 1100, 5}, held_ends(mesh, 1));
+}
+
+// A meniscus of 2016 tetrahedra: half a ring, 9 mm wide and 6 mm high, held at both horns.
+void implicit_meniscus(benchmark::State& state) {
+  constexpr double kPi = 3.14159265358979323846, kCell_m = 0.0015, kLength_m = 14 * kCell_m;
+  TetMesh mesh = split_into_tetrahedra({{14, 6, 4}, kCell_m, Vec3::Zero()});
+  const std::vector<bool> horns = held_ends(mesh, kLength_m);
+  for (Vec3& p : mesh.vertices) {
+    const double turn = kPi * p.x() / kLength_m, radius = 0.015 + p.y();
+    p = {-radius * std::cos(turn), radius * std::sin(turn), p.z()};
+  }
+  step_corotated(state, std::move(mesh), {20e6, 0.45, 1100, 5}, horns);
+}
+
+// A tendon of 100 segments, held at one end, that swings under its weight.
+void rod_of_100_segments(benchmark::State& state) {
+  RodDef def;
+  def.points_W = {Vec3::Zero(), {0.2, 0, 0}};
+  def.segments = 100;
+  def.material = {1e8, 0.3, 1100, 5};
+  auto made = make_rod(def);
+  if (!made) throw std::runtime_error(made.error().message());
+  RodSupports supports;
+  supports.gravity_m_per_s2 = {0, 0, -9.81};
+  supports.grips.emplace_back();
+  for (std::uint32_t k = 0; k < 3; ++k) supports.axes.push_back({0, k, 0});
+  RodStepper stepper(std::move(*made), supports, 0.001);
+  RodState at = stepper.start_state();
+  for (auto _ : state) stepper.step(at);
+  count(state, 100);
 }
 
 // Bullet's soft body of tetrahedra in its deformable world, without contact.
@@ -139,6 +186,8 @@ void bullet_implicit_tetrahedra(benchmark::State& state) { bullet_deformable(sta
 
 BENCHMARK(hexahedra)->Arg(8)->Arg(16)->Arg(22)->Unit(benchmark::kMicrosecond);
 BENCHMARK(corotated_tetrahedra)->Arg(5)->Unit(benchmark::kMicrosecond);
+BENCHMARK(implicit_meniscus)->Unit(benchmark::kMicrosecond);
+BENCHMARK(rod_of_100_segments)->Unit(benchmark::kMicrosecond);
 BENCHMARK(bullet_explicit_tetrahedra)->Arg(5)->Arg(16)->Unit(benchmark::kMicrosecond);
 BENCHMARK(bullet_implicit_tetrahedra)->Arg(5)->Unit(benchmark::kMicrosecond);
 
