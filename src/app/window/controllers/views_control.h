@@ -50,8 +50,8 @@ class ViewsControl {
   std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
   double carved_s_ = 0;                                 ///< when they were shown last
   SoftPicture softs_;
-  double counted_s_ = 0;                                ///< when what is gone was counted last
-  ByTissue removed_m3_{};                               ///< as it was then
+  double counted_s_ = 0;   ///< when what is gone was counted last
+  ByTissue removed_m3_{};  ///< as it was then
 };
 
 }  // namespace osteon
