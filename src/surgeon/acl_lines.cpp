@@ -78,14 +78,14 @@ Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const V
   // A flat way is short, but a flatter one would be no tunnel but a groove; one to a place in front
   // must be steep to be long enough.
   const bool is_short = fault == "short_tibia";
-  const int steepest = is_short ? 45 : fault == "anterior_tibia" ? 75 : 60;
+  const int steepest = is_short ? 50 : fault == "anterior_tibia" ? 75 : 60;
   Choice best;
-  for (int steep = is_short ? 30 : 40; steep <= steepest; steep += 5)
+  for (int steep = 40; steep <= steepest; steep += 5)
     for (int inner = 20; inner <= 50; inner += 10) {
       const double s = steep * kAclTurn, i = inner * kAclTurn;
       const Vec3 out =
           knee.tibial(Vec3(std::sin(s), std::cos(s) * std::sin(i), std::cos(s) * std::cos(i)));
-      weigh_tunnel(knee, mouth, out, is_short ? 0.024 : 0.045, best);
+      weigh_tunnel(knee, mouth, out, is_short ? 0.026 : 0.045, best);
     }
   if (best.worth < -1e8) return fail("no line through the tibia was found", "the pin");
   return best.line;
