@@ -5,14 +5,14 @@
 #include <exception>
 #include <stdexcept>
 
-#include "commands/cli_support.h"
-#include "commands/cmd_case_laxity.h"
-#include "commands/cmd_launch.h"
-#include "commands/commands.h"
-#include "commands/number_check.h"
-#include "commands/parser.h"
-#include "commands/progress_line.h"
-#include "commands/wrong_word.h"
+#include "commands/cases/cmd_case_laxity.h"
+#include "commands/support/cli_support.h"
+#include "commands/support/commands.h"
+#include "commands/support/number_check.h"
+#include "commands/support/parser.h"
+#include "commands/support/progress_line.h"
+#include "commands/support/wrong_word.h"
+#include "commands/teaching/cmd_launch.h"
 
 namespace osteon {
 namespace {

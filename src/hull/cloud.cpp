@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace osteon::hull {
 

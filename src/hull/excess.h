@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "exact/place_value.h"
 #include "facet_samples.h"
 #include "height_grid.h"
 #include "osteon/hull/hull.h"
 #include "peak_search.h"
-#include "place_value.h"
 
 namespace osteon::hull {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace osteon::hull {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "exact/place_value.h"
 #include "facet_table.h"
 #include "height_grid.h"
-#include "place_value.h"
 
 namespace osteon::hull {
 

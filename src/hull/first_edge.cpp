@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "exact/predicates.h"
 #include "polygon.h"
-#include "predicates.h"
 
 namespace osteon::hull {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace osteon::hull {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "exact/place_value.h"
 #include "facet_table.h"
 #include "height_grid.h"
-#include "place_value.h"
 
 namespace osteon::hull {
 

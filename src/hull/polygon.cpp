@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace osteon::hull {
 

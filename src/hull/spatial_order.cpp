@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cube_map.h"
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace osteon::hull {
 

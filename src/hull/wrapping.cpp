@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "exact/predicates.h"
 #include "first_edge.h"
 #include "polygon.h"
-#include "predicates.h"
 
 namespace osteon::hull {
 

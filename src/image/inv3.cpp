@@ -3,12 +3,12 @@
 #include <cmath>
 #include <fstream>
 
-#include "file_start.h"
+#include "files/file_start.h"
+#include "files/raw_values.h"
+#include "files/tar_archive.h"
+#include "files/text_header.h"
+#include "files/volume_files.h"
 #include "osteon/base/file.h"
-#include "raw_values.h"
-#include "tar_archive.h"
-#include "text_header.h"
-#include "volume_files.h"
 
 namespace osteon {
 namespace {

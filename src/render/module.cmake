@@ -8,5 +8,5 @@ target_link_libraries(osteon_render PRIVATE PkgConfig::OSTEON_EPOXY PkgConfig::O
 find_package(meshoptimizer REQUIRED)
 osteon_link_system(osteon_render meshoptimizer::meshoptimizer)
 # EGL's header and OpenGL's do not go together in every order.
-set_source_files_properties("${CMAKE_SOURCE_DIR}/src/render/offscreen_context.cpp"
+set_source_files_properties("${CMAKE_SOURCE_DIR}/src/render/gl/offscreen_context.cpp"
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

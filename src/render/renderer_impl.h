@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "edge_smoother.h"
+#include "gl/render_target.h"
 #include "osteon/render/renderer.h"
-#include "picker.h"
-#include "render_target.h"
 #include "scene_painter.h"
+#include "surface/edge_smoother.h"
+#include "view/picker.h"
 
 namespace osteon {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "osteon/render/felt_colors.h"
-#include "shapes.h"
-#include "soft_motion.h"
+#include "surface/shapes.h"
+#include "surface/soft_motion.h"
 
 namespace osteon {
 namespace {

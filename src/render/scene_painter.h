@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "changed_cubes.h"
-#include "frame.h"
-#include "gl_objects.h"
-#include "gpu_mesh.h"
+#include "gl/frame.h"
+#include "gl/gl_objects.h"
+#include "gl/gpu_mesh.h"
+#include "gl/tile_mask.h"
 #include "osteon/render/renderer.h"
-#include "tile_mask.h"
+#include "surface/changed_cubes.h"
 
 namespace osteon {
 

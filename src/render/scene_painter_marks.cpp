@@ -5,8 +5,8 @@
 #include "scene_painter.h"
 
 #include "force_arrow.h"
-#include "shapes.h"
-#include "soft_motion.h"
+#include "surface/shapes.h"
+#include "surface/soft_motion.h"
 
 namespace osteon {
 namespace {

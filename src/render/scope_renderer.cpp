@@ -9,16 +9,16 @@
 #include <string_view>
 #include <utility>
 
-#include "changed_cubes.h"
-#include "frame.h"
-#include "gl_objects.h"
-#include "gpu_mesh.h"
-#include "light_target.h"
-#include "render_target.h"
+#include "gl/frame.h"
+#include "gl/gl_objects.h"
+#include "gl/gpu_mesh.h"
+#include "gl/light_target.h"
+#include "gl/render_target.h"
 #include "renderer_impl.h"
-#include "shapes.h"
-#include "soft_motion.h"
-#include "tissue_part.h"
+#include "surface/changed_cubes.h"
+#include "surface/shapes.h"
+#include "surface/soft_motion.h"
+#include "surface/tissue_part.h"
 
 namespace osteon {
 namespace {

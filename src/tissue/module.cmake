@@ -6,17 +6,17 @@ osteon_link_system(osteon_tissue tomlplusplus::tomlplusplus)
 set(rows base)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND rows avx2 avx512)
-  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex_row_avx2.cpp"
+  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_avx2.cpp"
     APPEND PROPERTY COMPILE_OPTIONS -mavx2)
-  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex_row_avx512.cpp"
+  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_avx512.cpp"
     APPEND PROPERTY COMPILE_OPTIONS -mavx512f)
 else()
-  set_source_files_properties("${CMAKE_SOURCE_DIR}/src/tissue/hex_row_avx2.cpp"
-    "${CMAKE_SOURCE_DIR}/src/tissue/hex_row_avx512.cpp" PROPERTIES HEADER_FILE_ONLY ON)
+  set_source_files_properties("${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_avx2.cpp"
+    "${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_avx512.cpp" PROPERTIES HEADER_FILE_ONLY ON)
 endif()
 foreach(row IN LISTS rows)
-  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex_row_${row}.cpp"
+  set_property(SOURCE "${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_${row}.cpp"
     APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>")
-  set_source_files_properties("${CMAKE_SOURCE_DIR}/src/tissue/hex_row_${row}.cpp" PROPERTIES
+  set_source_files_properties("${CMAKE_SOURCE_DIR}/src/tissue/hex/hex_row_${row}.cpp" PROPERTIES
     SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endforeach()

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "hex_stiffness.h"
+#include "hex/hex_stiffness.h"
 #include "osteon/base/hash.h"
 
 namespace osteon {

@@ -2,7 +2,7 @@
 // surface, spectrum, noise, blur and brightness. On all cores, as the program takes it.
 #include <benchmark/benchmark.h>
 
-#include "runs/xray_shot.h"
+#include "runs/pictures/xray_shot.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "cube_map.h"
+#include "exact/predicates.h"
 #include "osteon/base/random.h"
 #include "osteon/hull/hull.h"
-#include "predicates.h"
 #include "quickhull.h"
 
 namespace osteon::hull {

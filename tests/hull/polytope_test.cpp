@@ -6,7 +6,7 @@
 #include <set>
 
 #include "cube_map.h"
-#include "predicates.h"
+#include "exact/predicates.h"
 #include "quickhull.h"
 #include "shapes.h"
 

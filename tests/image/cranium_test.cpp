@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "files/volume_files.h"
 #include "image/dice.h"
 #include "osteon/image/load_volume.h"
 #include "osteon/image/segment.h"
-#include "volume_files.h"
 
 namespace osteon {
 namespace {

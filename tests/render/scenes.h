@@ -11,7 +11,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
-#include "shapes.h"
+#include "surface/shapes.h"
 
 namespace osteon {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "gl/render_target.h"
 #include "gl_fixture.h"
-#include "joint_wall.h"
 #include "osteon/render/joint_room.h"
-#include "render_target.h"
+#include "surface/joint_wall.h"
 
 namespace osteon {
 namespace {

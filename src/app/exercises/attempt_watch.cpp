@@ -6,7 +6,7 @@
 #include "osteon/procedure/tip_watch.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
-#include "runs/tray.h"
+#include "runs/hands/tray.h"
 
 namespace osteon {
 namespace {

@@ -10,9 +10,9 @@
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/session/session.h"
-#include "runs/carved_picture.h"
-#include "runs/recorded_case.h"
-#include "runs/tray.h"
+#include "runs/hands/tray.h"
+#include "runs/pictures/carved_picture.h"
+#include "runs/replays/recorded_case.h"
 
 namespace osteon {
 namespace {

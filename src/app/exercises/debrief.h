@@ -9,7 +9,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
-#include "runs/acl_report.h"
+#include "runs/reports/acl_report.h"
 
 namespace osteon {
 

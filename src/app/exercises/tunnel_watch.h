@@ -15,8 +15,8 @@
 #include "osteon/carve/carved_field.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/state.h"
-#include "runs/acl_report.h"
-#include "runs/drilled_bone.h"
+#include "runs/reports/acl_report.h"
+#include "runs/reports/drilled_bone.h"
 
 namespace osteon {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "osteon/base/file.h"
-#include "runs/hand_settings_json.h"
+#include "runs/hands/hand_settings_json.h"
 
 namespace osteon {
 namespace fs = std::filesystem;

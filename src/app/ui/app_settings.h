@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
-#include "runs/hand_settings.h"
+#include "runs/hands/hand_settings.h"
 
 namespace osteon {
 

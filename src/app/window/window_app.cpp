@@ -13,7 +13,7 @@
 #include "loops/stop_signal.h"
 #include "osteon/base/log.h"
 #include "ui/screenshot.h"
-#include "window/controllers/remembered_looks.h"
+#include "window/controllers/cases/remembered_looks.h"
 #include "window/panels/panels.h"
 
 namespace osteon {

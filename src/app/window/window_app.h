@@ -4,16 +4,16 @@
 #include <string>
 
 #include "ui/frame_stats.h"
-#include "window/controllers/bend_control.h"
-#include "window/controllers/browser_control.h"
-#include "window/controllers/checkup_control.h"
-#include "window/controllers/exercise_control.h"
-#include "window/controllers/film_control.h"
-#include "window/controllers/notes_control.h"
-#include "window/controllers/patient_control.h"
-#include "window/controllers/run_marks.h"
-#include "window/controllers/scene_pointer.h"
-#include "window/controllers/views_control.h"
+#include "window/controllers/cases/bend_control.h"
+#include "window/controllers/cases/browser_control.h"
+#include "window/controllers/cases/checkup_control.h"
+#include "window/controllers/cases/notes_control.h"
+#include "window/controllers/cases/patient_control.h"
+#include "window/controllers/sessions/exercise_control.h"
+#include "window/controllers/sessions/run_marks.h"
+#include "window/controllers/views/film_control.h"
+#include "window/controllers/views/scene_pointer.h"
+#include "window/controllers/views/views_control.h"
 #include "window/window_order.h"
 
 namespace osteon {

@@ -9,8 +9,8 @@
 #include "osteon/physics/soft_shape.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
-#include "runs/live_run.h"
-#include "runs/push_history.h"
+#include "runs/hands/live_run.h"
+#include "runs/hands/push_history.h"
 #include "session/soft_solid_fixtures.h"
 
 namespace osteon {

@@ -7,8 +7,8 @@
 #include "cases/open_case.h"
 #include "osteon/physics/carving.h"
 #include "osteon/render/prepare_unlit.h"
-#include "runs/demo_path.h"
-#include "runs/tray.h"
+#include "runs/hands/tray.h"
+#include "runs/replays/demo_path.h"
 #include "window/jobs/replay_filling.h"
 
 namespace osteon {

@@ -13,11 +13,11 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
 #include "osteon/session/session.h"
-#include "runs/cut_history.h"
-#include "runs/push_history.h"
-#include "runs/replay_track.h"
-#include "runs/run_events.h"
-#include "window/controllers/instrument_tray.h"
+#include "runs/hands/push_history.h"
+#include "runs/replays/replay_track.h"
+#include "runs/reports/cut_history.h"
+#include "runs/reports/run_events.h"
+#include "window/controllers/sessions/instrument_tray.h"
 
 namespace osteon {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "runs/replay_track.h"
+#include "runs/replays/replay_track.h"
 #include "ui/side_job.h"
 #include "window/jobs/load_job.h"
 

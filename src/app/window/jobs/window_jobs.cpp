@@ -5,8 +5,8 @@
 #include "cases/noted_case.h"
 #include "cases/open_case.h"
 #include "loops/realtime.h"
-#include "runs/demo_path.h"
-#include "window/controllers/bone_edit.h"
+#include "runs/replays/demo_path.h"
+#include "window/controllers/cases/bone_edit.h"
 
 namespace osteon {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "runs/instrument_sheet.h"
+#include "runs/hands/instrument_sheet.h"
 #include "window/pictures/picture_texture.h"
 
 namespace osteon {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/ui/ui_frame.h"
-#include "runs/device_choices.h"
+#include "runs/hands/device_choices.h"
 #include "ui/ui_widgets.h"
 
 namespace osteon {

@@ -1,0 +1,120 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "commands/support/cli_support.h"
+#include "commands/support/commands.h"
+#include "commands/support/parser.h"
+#include "commands/teaching/scenario_run.h"
+#include "commands/teaching/skill_trial.h"
+#include "exercises/debrief.h"
+
+namespace osteon {
+namespace {
+
+int run_debrief(const DebriefOrder& order, const std::string& out) {
+  const auto debrief = make_debrief(order);
+  if (!debrief) return report_error(debrief.error());
+  if (auto saved = save_debrief(*debrief, out); !saved) return report_error(saved.error());
+  if (debrief->outcome) std::fputs(to_text(*debrief->outcome).c_str(), stdout);
+  if (!debrief->identical) std::printf("DIFFERENT from the recording when replayed\n");
+  return debrief->identical ? kExitDone : kExitNo;
+}
+
+struct SkillCommand {
+  std::vector<std::string> scenarios;
+  int experts = 20, novices = 20;
+  bool json = false;
+};
+
+nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& trial) {
+  const SkillStudy& s = trial.study;
+  return {{"scenario", name},
+          {"experts", s.expert_scores.size()},
+          {"novices", s.novice_scores.size()},
+          {"auc", s.auc},
+          {"auc_se", s.auc_se},
+          {"reliability", s.reliability},
+          {"mark", std::isfinite(s.mark) ? nlohmann::ordered_json(s.mark)
+                                         : nlohmann::ordered_json(nullptr)},
+          {"experts_below_mark", s.experts_failed},
+          {"novices_above_mark", s.novices_passed},
+          {"experts_not_passed", trial.experts_not_passed},
+          {"novices_passed", trial.novices_passed},
+          {"expert_scores", s.expert_scores},
+          {"novice_scores", s.novice_scores}};
+}
+
+void print_trial(const std::string& name, const SkillTrial& trial) {
+  const SkillStudy& s = trial.study;
+  std::printf("%-18s AUC %.3f (SE %.3f)  reliability %.2f  mark %.1f\n", name.c_str(), s.auc,
+              s.auc_se, s.reliability, s.mark);
+  std::printf(
+      "%-18s by the score alone: %d of %zu experts fail, %d of %zu novices pass; with "
+      "stages and errors: %d and %d\n",
+      "", s.experts_failed, s.expert_scores.size(), s.novices_passed, s.novice_scores.size(),
+      trial.experts_not_passed, trial.novices_passed);
+}
+
+int run_skill(const SkillCommand& command) {
+  std::vector<Scenario> scenarios;
+  if (command.scenarios.empty()) {
+    auto all = shipped_scenarios();
+    if (!all) return report_error(all.error());
+    scenarios = std::move(*all);
+  }
+  for (const std::string& name : command.scenarios) {
+    auto scenario = open_scenario(name);
+    if (!scenario) return report_error(scenario.error());
+    scenarios.push_back(std::move(*scenario));
+  }
+  auto json = nlohmann::ordered_json::array();
+  for (const Scenario& scenario : scenarios) {
+    const auto trial = try_skill(scenario, command.experts, command.novices);
+    if (!trial) return report_error(trial.error());
+    json.push_back(trial_json(scenario.name, *trial));
+    if (!command.json) print_trial(scenario.name, *trial);
+  }
+  if (command.json) std::printf("%s\n", json.dump(2).c_str());
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_debrief_command(cli::App& app, int& exit_code) {
+  auto order = std::make_shared<DebriefOrder>();
+  auto out = std::make_shared<std::string>();
+  cli::App* command = app.add_subcommand(
+      "debrief",
+      "Replay a recorded attempt, judge it again and write a report to print.\n"
+      "Exit code: 0 written, 1 written, but the replay differs from the recording, 2 not written");
+  command->add_option("recording", order->recording, "recording (.osr)")->required();
+  command->add_option("--out", *out, "PDF file to write")->required();
+  command->add_option("--case", order->case_spec, "a case; default: the recording's own");
+  command->add_option("--scenario", order->scenario,
+                      "name or file; default: the one stored in the recording");
+  command->add_option("--standard", order->standard,
+                      "standard to judge against, TOML; default: the one that was used");
+  command->callback([order, out, &exit_code] { exit_code = run_debrief(*order, *out); });
+}
+
+void add_skill_command(cli::App& app, int& exit_code) {
+  auto options = std::make_shared<SkillCommand>();
+  cli::App* command = app.add_subcommand(
+      "skill",
+      "How well scores separate simulated experts from simulated novices. Each is judged by a "
+      "standard\nset without it. This says nothing about people");
+  command->add_option("scenario", options->scenarios, "names or files; default: all");
+  command->add_option("--experts", options->experts, "number of simulated experts")
+      ->check(cli::Range(3, 1000))
+      ->capture_default_str();
+  command->add_option("--novices", options->novices, "number of simulated novices")
+      ->check(cli::Range(3, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback([options, &exit_code] { exit_code = run_skill(*options); });
+}
+
+}  // namespace osteon

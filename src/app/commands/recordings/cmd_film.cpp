@@ -1,0 +1,321 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/support/cli_support.h"
+#include "commands/support/commands.h"
+#include "commands/support/parser.h"
+#include "commands/support/progress_line.h"
+#include "commands/support/render_options.h"
+#include "osteon/media/film_writer.h"
+#include "osteon/media/wav_writer.h"
+#include "runs/hands/tray.h"
+#include "runs/pictures/film_view.h"
+#include "runs/replays/recorded_case.h"
+#include "runs/replays/recorded_sound.h"
+
+namespace osteon {
+namespace {
+
+struct FilmCommand {
+  std::string recording, view = "outside", side = "front", size = "1280x720", out, sound, case_spec;
+  int fps = 30;
+  double from_s = 0;
+  std::optional<double> to_s;
+  bool mute = false;
+  double pressure_mmhg = WaterSettings().pump_pa / kPa_per_mmHg;
+  WaterSettings water;
+};
+
+/// A part of a recording.
+struct FilmSpan {
+  double from_s = 0, to_s = 0;
+  double obscured_s = 0;  ///< for so long a scope's picture showed nothing but water
+
+  std::uint64_t samples() const {
+    return static_cast<std::uint64_t>(std::llround((to_s - from_s) * kSoundHz));
+  }
+  std::uint64_t pictures(int fps) const {
+    return std::max<std::uint64_t>(1,
+                                   static_cast<std::uint64_t>(std::llround((to_s - from_s) * fps)));
+  }
+};
+
+Result<FilmSpan> span_of(const FilmCommand& command, const RecordingReader& recording,
+                         double tick_s) {
+  const double end_s = static_cast<double>(recording.ticks(0)) * tick_s;
+  if (recording.ticks(0) == 0) return fail("holds no ticks", command.recording);
+  const FilmSpan span{command.from_s, std::min(command.to_s.value_or(end_s), end_s), 0};
+  if (!(span.from_s >= 0 && span.from_s < end_s))
+    return fail("has no data at " + std::to_string(command.from_s) + " s", command.recording,
+                "choose a time between 0 and " + std::to_string(end_s) + " s");
+  if (!(span.to_s > span.from_s))
+    return fail("ends before it begins", "--from and --to", "choose --to after --from");
+  return span;
+}
+
+Result<void> save_sound(RecordingReader& recording, const FilmSpan& span, const std::string& file) {
+  auto sound = RecordedSound::create(recording, span.from_s);
+  if (!sound) return tl::unexpected(sound.error());
+  auto wav = WavWriter::create(file, span.samples());
+  if (!wav) return tl::unexpected(wav.error());
+  ProgressLine line;
+  const auto tell = line.stopping();
+  std::vector<float> block(kSoundHz / 10);
+  for (std::uint64_t at = 0; at < span.samples(); at += block.size()) {
+    tell("sound", static_cast<double>(at) / static_cast<double>(span.samples()));
+    if (auto ok = sound->render(block); !ok) return ok;
+    if (auto ok = wav->add(block); !ok) return ok;
+  }
+  return wav->finish();
+}
+
+/// Takes a replay's ticks and makes pictures and sound of them.
+class FilmMaker {
+ public:
+  FilmMaker(FilmPainter painter, FilmWriter writer, RecordedSound sound, const FilmSpan& span,
+            int fps, std::size_t hands)
+      : painter_(std::move(painter)),
+        writer_(std::move(writer)),
+        sound_(std::move(sound)),
+        span_(span),
+        fps_(fps) {
+    moment_.hands = std::clamp<std::size_t>(hands, 1, kMaxHands);
+    // A hand that has not been heard of yet is nowhere.
+    for (ToolState& tool : moment_.tools) tool.X_WP.p = Vec3::Constant(std::nan(""));
+  }
+
+  void see(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
+    if (hand < moment_.hands) moment_.tools[hand] = tool;
+    if (hand != 0) return;
+    // A replay that begins later tells of one hand after the other: wait for all, but not long.
+    const bool all = std::all_of(moment_.tools.begin(), moment_.tools.begin() + hands(),
+                                 [](const ToolState& t) { return t.tick > 0; });
+    if (!all && tool.time_s < next_s() + kWait_s) return;
+    moment_.bones = bones;
+    moment_.time_s = tool.time_s;
+    while (good() && made_ < span_.pictures(fps_) && tool.time_s + 1e-9 >= next_s()) add();
+  }
+  /// After the last tick: what was recorded may end a tick before the last picture.
+  Result<void> finish() {
+    while (good() && made_ > 0 && made_ < span_.pictures(fps_)) add();
+    if (made_ == 0 && good()) return fail("holds no ticks there", "the recording");
+    if (!good()) return tl::unexpected(*failure_);
+    return writer_.finish();
+  }
+  void take(const CutsPatch& cut) { painter_.take(cut); }
+  void take(const SolidPushes& pushes) { moment_.pushes = pushes; }
+  bool good() const { return !failure_; }
+  double obscured_s() const { return painter_.obscured_s(); }
+  double share() const {
+    return static_cast<double>(made_) / static_cast<double>(span_.pictures(fps_));
+  }
+
+ private:
+  static constexpr double kWait_s = 0.05;
+  std::ptrdiff_t hands() const { return static_cast<std::ptrdiff_t>(moment_.hands); }
+  double next_s() const { return span_.from_s + static_cast<double>(made_) / fps_; }
+  void add() {
+    const auto fps = static_cast<std::uint64_t>(fps_);
+    const std::uint64_t begin = made_ * kSoundHz / fps, end = (made_ + 1) * kSoundHz / fps;
+    std::vector<float> block(static_cast<std::size_t>(end - begin));
+    Result<void> done = sound_.render(block);
+    if (done) done = writer_.add_sound(block);
+    if (done) {
+      const auto image = painter_.draw(moment_);
+      done = image ? writer_.add_picture(image->rgb) : tl::unexpected(image.error());
+    }
+    if (!done) failure_ = done.error();
+    ++made_;
+  }
+
+  FilmPainter painter_;
+  FilmWriter writer_;
+  RecordedSound sound_;
+  FilmSpan span_;
+  int fps_;
+  FilmMoment moment_;
+  std::uint64_t made_ = 0;
+  std::optional<Error> failure_;
+};
+
+/// Ends a replay whose film cannot go on.
+struct FilmStopped {};
+
+Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& recording,
+                             const SessionSettings& settings, const FilmSpan& span,
+                             std::shared_ptr<const Case> the_case, const ReplayOptions& how) {
+  const auto size = parse_picture_size(command.size);
+  const auto view = parse_film_view(command.view);
+  const auto scope = holds_a_scope(recording, settings);
+  if (!scope) return tl::unexpected(scope.error());
+  auto painter =
+      FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
+                          {*view,
+                           size->width,
+                           size->height,
+                           command.side,
+                           {kPa_per_mmHg * command.pressure_mmhg, command.water.outlet_open}});
+  if (!painter) return tl::unexpected(painter.error());
+  painter->set_carving(how.carving);
+  painter->set_softs(how.softs);
+  auto sound = RecordedSound::create(recording, span.from_s);
+  if (!sound) return tl::unexpected(sound.error());
+  auto writer =
+      FilmWriter::create(command.out, {size->width, size->height, command.fps, !command.mute});
+  if (!writer) return tl::unexpected(writer.error());
+  return FilmMaker(std::move(*painter), std::move(*writer), std::move(*sound), span, command.fps,
+                   recording.header().hands);
+}
+
+Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
+                         std::shared_ptr<const Case> the_case, ReplayOptions how,
+                         const FilmSpan& span) {
+  ProgressLine line;
+  const auto tell = line.stopping();
+  how.from_s = span.from_s;
+  how.to_s = span.to_s;
+  how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
+  how.on_pushes = [&](const SolidPushes& pushes) { maker.take(pushes); };
+  how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    std::span<const Event>) {
+    maker.see(hand, tool, bones);
+    if (!maker.good()) throw FilmStopped();
+    if (hand == 0 && tool.tick % 16 == 0) tell("film", maker.share());
+  };
+  try {
+    if (const auto played = replay(recording, std::move(the_case), how); !played)
+      return tl::unexpected(played.error());
+  } catch (const FilmStopped&) {
+    // The film knows why.
+  }
+  return maker.finish();
+}
+
+/// What can be seen to be wrong before anything long is begun.
+Result<void> check_film(const FilmCommand& command, RecordingReader& recording,
+                        const SessionSettings& settings) {
+  const auto size = parse_picture_size(command.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto view = parse_film_view(command.view);
+  if (!view) return tl::unexpected(view.error());
+  const std::filesystem::path out = command.out;
+  if (out.has_extension() && out.extension() != ".webm")
+    return fail("must end in .webm", command.out, "films are WebM files");
+  const auto scope = holds_a_scope(recording, settings);
+  if (!scope) return tl::unexpected(scope.error());
+  if (*view == FilmView::kScope && !*scope)
+    return fail("no hand of the recording holds a scope", command.recording,
+                "choose --view outside, panorama, fluoro or layout");
+  return {};
+}
+
+Result<FilmSpan> make_film(const FilmCommand& command) {
+  auto recording = RecordingReader::open(command.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto settings = parse_settings(recording->header().settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto span = span_of(command, *recording, settings->haptic.tick_s);
+  if (!span) return span;
+  if (auto ok = check_film(command, *recording, *settings); !ok) return tl::unexpected(ok.error());
+  const auto spec = recorded_case_spec(command.recording, command.case_spec, recording->header());
+  if (!spec) return tl::unexpected(spec.error());
+  const auto the_case = open_and_show_progress(*spec, CaseParts::kAll);
+  if (!the_case) return tl::unexpected(the_case.error());
+  ReplayOptions how;
+  if (auto ok = take_instruments(recording->header(), **the_case, how); !ok)
+    return tl::unexpected(ok.error());
+  auto maker = film_maker(command, *recording, *settings, *span, *the_case, how);
+  if (!maker) return tl::unexpected(maker.error());
+  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span); !ok)
+    return tl::unexpected(ok.error());
+  if (!command.sound.empty())
+    if (auto ok = save_sound(*recording, *span, command.sound); !ok)
+      return tl::unexpected(ok.error());
+  return FilmSpan{span->from_s, span->to_s, maker->obscured_s()};
+}
+
+int run_film(const FilmCommand& command) {
+  const auto span = make_film(command);
+  if (!span) return report_error(span.error());
+  std::printf("%s view of %s, %.2f to %.2f s, %d pictures a second -> %s\n", command.view.c_str(),
+              command.recording.c_str(), span->from_s, span->to_s, command.fps,
+              command.out.c_str());
+  if (span->obscured_s > 0)
+    std::printf("the water let nothing be seen for %.1f s\n", span->obscured_s);
+  return kExitDone;
+}
+
+Result<FilmSpan> make_sound(const FilmCommand& command) {
+  auto recording = RecordingReader::open(command.recording);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto settings = parse_settings(recording->header().settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto span = span_of(command, *recording, settings->haptic.tick_s);
+  if (!span) return span;
+  if (auto ok = save_sound(*recording, *span, command.out); !ok) return tl::unexpected(ok.error());
+  return span;
+}
+
+int run_sound(const FilmCommand& command) {
+  const auto span = make_sound(command);
+  if (!span) return report_error(span.error());
+  std::printf("sound of %s, %.2f to %.2f s -> %s\n", command.recording.c_str(), span->from_s,
+              span->to_s, command.out.c_str());
+  return kExitDone;
+}
+
+void add_span_options(cli::App& sub, FilmCommand& command) {
+  sub.add_option("recording", command.recording, "recording (.osr)")->required();
+  sub.add_option("--from", command.from_s, "start of the part, s from the recording's start")
+      ->check(cli::Range(0.0, 4 * 3600.0))
+      ->capture_default_str();
+  sub.add_option("--to", command.to_s, "end of the part, s (default: the recording's end)")
+      ->check(cli::Range(0.0, 4 * 3600.0));
+}
+
+void add_sound_command(cli::App& app, int& exit_code) {
+  auto command = std::make_shared<FilmCommand>();
+  cli::App* sub = app.add_subcommand("sound", "Write the sound of a recording as WAV");
+  add_span_options(*sub, *command);
+  sub->add_option("--out", command->out, "WAV file to write")->required();
+  sub->callback([command, &exit_code] { exit_code = run_sound(*command); });
+}
+
+}  // namespace
+
+void add_film_commands(cli::App& app, int& exit_code) {
+  auto command = std::make_shared<FilmCommand>();
+  cli::App* sub = app.add_subcommand(
+      "film", "Make a film (WebM: VP9 and Opus) of a recording with its sound, without a window");
+  add_span_options(*sub, *command);
+  sub->add_option("--view", command->view, "scope, outside, panorama, fluoro or layout")
+      ->capture_default_str();
+  sub->add_option("--side", command->side, "side of the panorama: front, top or left")
+      ->check(cli::IsMember({"front", "top", "left"}))
+      ->capture_default_str();
+  sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
+  sub->add_option("--fps", command->fps, "pictures a second")
+      ->check(cli::Range(1, 120))
+      ->capture_default_str();
+  sub->add_option("--pressure", command->pressure_mmhg,
+                  "of the pump that fills the joint, mmHg; seen through a scope")
+      ->check(cli::Range(0.0, 300.0))
+      ->capture_default_str();
+  sub->add_option("--outlet", command->water.outlet_open, "how far the outlet is open, 0 to 1")
+      ->check(cli::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
+  sub->add_flag("--mute", command->mute, "leave out the sound");
+  sub->add_option("--sound", command->sound, "write the sound as a WAV file too");
+  sub->add_option("--out", command->out, "WebM file to write")->required();
+  sub->callback([command, &exit_code] { exit_code = run_film(*command); });
+  add_sound_command(app, exit_code);
+}
+
+}  // namespace osteon

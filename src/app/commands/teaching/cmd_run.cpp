@@ -1,0 +1,109 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+#include "commands/support/parser.h"
+
+#include "commands/support/cli_support.h"
+#include "commands/support/commands.h"
+#include "commands/teaching/scenario_run.h"
+#include "exercises/result_files.h"
+#include "exercises/result_sender.h"
+#include "osteon/base/file.h"
+
+namespace osteon {
+namespace {
+
+struct RunCommand {
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings;
+  std::string learner = "local";
+  bool no_store = false;
+  std::optional<std::uint64_t> seed;
+};
+
+Result<std::optional<Standard>> standard_of(const RunCommand& command, const Scenario& scenario) {
+  if (command.standard.empty()) return shipped_standard(scenario.name);
+  auto standard = load_standard(command.standard);
+  if (!standard) return tl::unexpected(standard.error());
+  return std::optional<Standard>(std::move(*standard));
+}
+
+Result<ScenarioRun> ordered_run(const RunCommand& command) {
+  auto scenario = open_scenario(command.scenario);
+  if (!scenario) return tl::unexpected(scenario.error());
+  auto skill = parse_skill(*scenario, command.surgeon);
+  if (!skill) return tl::unexpected(skill.error());
+  auto standard = standard_of(command, *scenario);
+  if (!standard) return tl::unexpected(standard.error());
+  ScenarioRun run;
+  if (!command.findings.empty()) {
+    const auto text = read_file(command.findings, 1u << 20);
+    if (!text) return tl::unexpected(text.error());
+    auto stated = parse_findings(*text, scenario->asks, command.findings);
+    if (!stated) return tl::unexpected(stated.error());
+    run.stated = std::move(*stated);
+  }
+  run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
+  run.scenario = std::move(*scenario);
+  run.standard = std::move(*standard);
+  run.skill = std::move(*skill);
+  if (!command.record.empty()) run.record_to = command.record;
+  return run;
+}
+
+int run_command(const RunCommand& command) {
+  if (!is_learner_id(command.learner))
+    return report_error({"'" + command.learner + "' is not a valid learner's id", "--learner",
+                         "Use 1 to 64 letters, digits, '.', '_' and '-'"});
+  const auto run = ordered_run(command);
+  if (!run) return report_error(run.error());
+  const auto done = run_scenario(*run);
+  if (!done) return report_error(done.error());
+  const std::string report = to_json(*done);
+  if (!command.report.empty())
+    if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
+  if (!command.no_store) {
+    const auto kept = keep_report(report, command.learner);
+    if (!kept) return report_error(kept.error());
+    if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
+    (void)send_results_in_background();
+  }
+  std::fputs(to_text(done->outcome).c_str(), stdout);
+  if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
+  if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
+  if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
+  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
+  return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
+}
+
+}  // namespace
+
+void add_run_command(cli::App& app, int& exit_code) {
+  auto options = std::make_shared<RunCommand>();
+  cli::App* command =
+      app.add_subcommand("run",
+                         "Let a virtual surgeon play a scenario, without a window, and judge it.\n"
+                         "Exit code: 0 passed, 1 not passed or undecided, 2 could not run");
+  command->add_option("scenario", options->scenario, "name (see: scenario list) or file")
+      ->required();
+  auto* case_option = command->add_option(
+      "--case", options->case_spec,
+      "a case folder or builtin:wrist; default: the built-in case of its anatomy");
+  command->add_option("--seed", options->seed, "seed of a random patient")->excludes(case_option);
+  command
+      ->add_option("--surgeon", options->surgeon,
+                   "expert, novice, novice:SEED, or bad:NAME, who makes the error NAME")
+      ->capture_default_str();
+  command->add_option("--standard", options->standard,
+                      "standard to judge against, TOML; default: the bundled one");
+  command->add_option(
+      "--findings", options->findings,
+      "JSON file of the findings that are stated, {\"geissler\": \"3\"}; default: the surgeon's");
+  command->add_option("--learner", options->learner, "local id under which the attempt is stored")
+      ->capture_default_str();
+  command->add_flag("--no-store", options->no_store, "do not store the attempt");
+  command->add_option("--record", options->record, "write a recording (.osr)");
+  command->add_option("--report", options->report, "write the report as JSON");
+  command->callback([options, &exit_code] { exit_code = run_command(*options); });
+}
+
+}  // namespace osteon

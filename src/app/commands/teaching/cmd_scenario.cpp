@@ -1,0 +1,152 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include "commands/support/parser.h"
+
+#include "cases/open_case.h"
+#include "commands/support/cli_support.h"
+#include "commands/support/commands.h"
+#include "commands/teaching/scenario_run.h"
+
+namespace osteon {
+namespace {
+
+using ScenarioJson = nlohmann::ordered_json;
+
+struct ScenarioCommand {
+  std::string scenario, case_spec;
+  bool json = false;
+};
+
+std::vector<std::string> stage_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const ScenarioStage& stage : scenario.stages) names.push_back(stage.name);
+  return names;
+}
+
+std::vector<std::string> error_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const ScenarioError& error : scenario.errors) names.push_back(error.name);
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+ScenarioJson summary_json(const Scenario& scenario) {
+  return {{"name", scenario.name},
+          {"title", scenario.title},
+          {"stages", stage_names(scenario)},
+          {"errors", error_names(scenario)},
+          {"surgeons", surgeons_of(scenario)}};
+}
+
+int list_scenarios(const ScenarioCommand& command) {
+  const auto all = shipped_scenarios();
+  if (!all) return report_error(all.error());
+  ScenarioJson json = ScenarioJson::array();
+  for (const Scenario& scenario : *all) {
+    json.push_back(summary_json(scenario));
+    if (!command.json)
+      std::printf("%-16s %s (%zu stages, %zu errors)\n", scenario.name.c_str(),
+                  scenario.title.c_str(), scenario.stages.size(), scenario.errors.size());
+  }
+  if (command.json) std::printf("%s\n", json.dump(2).c_str());
+  return kExitDone;
+}
+
+ScenarioJson info_json(const Scenario& scenario) {
+  ScenarioJson json = summary_json(scenario);
+  json["text"] = scenario.text;
+  json["version"] = scenario.version;
+  json["anatomy"] = scenario.anatomy;
+  json["time_limit_s"] = scenario.time_limit_s;
+  json["instructions"] = ScenarioJson::object();
+  for (const ScenarioStage& stage : scenario.stages)
+    json["instructions"][stage.name] = stage.instruction;
+  json["error_details"] = ScenarioJson::array();
+  for (const ScenarioError& error : scenario.errors)
+    json["error_details"].push_back({{"name", error.name},
+                                     {"title", error.title},
+                                     {"severity", to_text(error.severity)},
+                                     {"consequence", error.consequence},
+                                     {"rule", error.rule.kind},
+                                     {"limits", error.rule.numbers},
+                                     {"source", error.source}});
+  json["metrics"] = ScenarioJson::array();
+  for (const ScenarioMetric& metric : scenario.metrics)
+    json["metrics"].push_back({{"name", metric.name},
+                               {"unit", metric.unit},
+                               {"weight", metric.weight},
+                               {"better", metric.lower_is_better ? "lower" : "higher"},
+                               {"threshold", metric.threshold},
+                               {"source", metric.source}});
+  return json;
+}
+
+void print_info(const Scenario& scenario) {
+  std::printf("%s: %s\n%s\n\n", scenario.name.c_str(), scenario.title.c_str(),
+              scenario.text.c_str());
+  for (const ScenarioStage& stage : scenario.stages)
+    std::printf("stage %s: %s\n  %s\n", stage.name.c_str(), stage.title.c_str(),
+                stage.instruction.c_str());
+  for (const ScenarioError& error : scenario.errors)
+    std::printf("error %s (%s): %s. %s Source: %s\n", error.name.c_str(),
+                std::string(to_text(error.severity)).c_str(), error.title.c_str(),
+                error.consequence.c_str(), error.source.c_str());
+  std::printf("surgeons: %s\n", listed(surgeons_of(scenario)).c_str());
+}
+
+int show_scenario(const ScenarioCommand& command) {
+  const auto scenario = open_scenario(command.scenario);
+  if (!scenario) return report_error(scenario.error());
+  if (command.json)
+    std::printf("%s\n", info_json(*scenario).dump(2).c_str());
+  else
+    print_info(*scenario);
+  return kExitDone;
+}
+
+int check_one(const ScenarioCommand& command) {
+  const auto scenario = open_scenario(command.scenario);
+  if (!scenario) return report_error(scenario.error());
+  // Which bones and landmarks there are does not depend on what is felt: hulls cost nothing.
+  Scenario plain = *scenario;
+  plain.felt = "hull";
+  const auto the_case =
+      open_felt_case(command.case_spec.empty() ? case_spec_of(plain, "", {}) : command.case_spec);
+  if (!the_case) return report_error(the_case.error());
+  const auto lines = check_scenario(*scenario, **the_case);
+  for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+  if (lines.empty()) std::printf("sound\n");
+  return lines.empty() ? kExitDone : kExitNo;
+}
+
+}  // namespace
+
+void add_scenario_commands(cli::App& app, int& exit_code) {
+  cli::App* group = app.add_subcommand("scenario", "List, explain and check exercises");
+  group->require_subcommand(1);
+  auto options = std::make_shared<ScenarioCommand>();
+  cli::App* list = group->add_subcommand("list", "List the bundled exercises");
+  list->add_flag("--json", options->json, "print JSON");
+  list->callback([options, &exit_code] { exit_code = list_scenarios(*options); });
+  cli::App* info = group->add_subcommand("info", "Show one exercise: stages, errors, metrics");
+  info->add_option("scenario", options->scenario, "name or file")->required();
+  info->add_flag("--json", options->json, "print JSON");
+  info->callback([options, &exit_code] { exit_code = show_scenario(*options); });
+  cli::App* check = group->add_subcommand(
+      "check",
+      "Check a scenario for mistakes, such as a rule that can never be met or a duplicate name.\n"
+      "Exit code: 0 sound, 1 not, 2 cannot be read");
+  check->add_option("scenario", options->scenario, "file or name")->required();
+  check->add_option("--case", options->case_spec,
+                    "case to check it on; default: the built-in one of its anatomy");
+  check->callback([options, &exit_code] { exit_code = check_one(*options); });
+}
+
+}  // namespace osteon

@@ -1,0 +1,279 @@
+#include "commands/teaching/scenario_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "cases/open_case.h"
+#include "commands/support/headless.h"
+#include "exercises/attempt_watch.h"
+#include "osteon/physics/carving.h"
+#include "osteon/procedure/hand_reports.h"
+#include "osteon/record/recording_note.h"
+#include "osteon/surgeon/acl_surgeon.h"
+#include "osteon/surgeon/graft_surgeon.h"
+#include "osteon/surgeon/probe_surgeon.h"
+#include "osteon/surgeon/scope_surgeon.h"
+#include "osteon/surgeon/surgeon.h"
+#include "osteon/surgeon/tour_surgeon.h"
+#include "osteon/surgeon/way_surgeon.h"
+#include "runs/hands/tray.h"
+
+namespace osteon {
+namespace {
+
+// The surgeon's will moves an emulated hand with a mass and a grip, which yields to the force.
+class SurgeonHand : public HandInLoop {
+ public:
+  SurgeonHand(HandPlayer& surgeon, const HandParams& hand, double tick_s)
+      : surgeon_(surgeon), hand_(hand), wanted_(surgeon.start()), tick_s_(tick_s) {
+    hand_.reset(wanted_);
+  }
+
+  ToolInput move() override {
+    const Pose next = surgeon_.step(tick_s_);
+    hand_.step(tick_s_, wanted_, (next.p - wanted_.p) / tick_s_, force_W_);
+    wanted_ = next;
+    return {hand_.pose(), hand_.velocity(), hand_.angular_velocity(), 0};
+  }
+  Command command() override { return surgeon_.command(); }
+  void feel(const Vec3& force_W) override {
+    force_W_ = force_W;
+    surgeon_.feel(force_W);
+  }
+
+ private:
+  HandPlayer& surgeon_;
+  VirtualHand hand_;
+  Pose wanted_;
+  double tick_s_;
+  Vec3 force_W_ = Vec3::Zero();
+};
+
+// An exercise that names portals on its way is a tour: its hands take turns.
+bool is_tour(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == "through") return true;
+  return false;
+}
+
+std::vector<std::unique_ptr<HandPlayer>> tour_players(std::span<const PlannedHand> hands,
+                                                      const ScenarioPlan& plan,
+                                                      const Case& the_case, const Skill& skill) {
+  std::vector<TourTool> tools;
+  for (const PlannedHand& hand : hands)
+    tools.push_back({hand.name, hand.optics, hand.shaft_offset_T, hand.shaft_radius_m,
+                     hand.tip_radius_m, hand.portal_W.value_or(Vec3(0, 0, 0.1))});
+  const auto tour =
+      std::make_shared<const TourPlan>(plan_tour(plan, the_case, skill, std::move(tools)));
+  const auto progress = std::make_shared<TourProgress>();
+  std::vector<std::unique_ptr<HandPlayer>> players;
+  for (std::size_t h = 0; h < hands.size(); ++h)
+    players.push_back(std::make_unique<TourHand>(tour, progress, h, skill));
+  return players;
+}
+
+// Who plays each hand: one that looks through its instrument looks for marks, or after the probe
+// where the exercise has no marks; a probe with a portal works through it; any other touches.
+std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand> hands,
+                                                    const ScenarioPlan& plan, const Case& the_case,
+                                                    const Skill& skill, double tip_radius_m) {
+  if (is_tour(plan)) return tour_players(hands, plan, the_case, skill);
+  std::vector<std::unique_ptr<HandPlayer>> players;
+  const HandPlayer* probe = nullptr;
+  for (const PlannedHand& hand : hands) {
+    const Vec3 portal_W = hand.portal_W.value_or(Vec3(0, 0, 0.1));
+    if (hand.optics && probe)
+      players.push_back(
+          std::make_unique<FollowingScope>(*probe, plan, skill, *hand.optics, portal_W));
+    else if (hand.optics)
+      players.push_back(std::make_unique<ScopeSurgeon>(
+          plan, the_case, skill, ScopeSurgeon::Scope{*hand.optics, portal_W, hand.shaft_radius_m}));
+    else if (auto way = plan_way(plan, the_case, skill, {portal_W, hand.tip_radius_m});
+             hand.portal_W && !way.empty()) {
+      auto made = std::make_unique<WaySurgeon>(std::move(way), skill, portal_W);
+      probe = made.get();
+      players.push_back(std::move(made));
+    } else if (hand.portal_W) {
+      auto made = std::make_unique<ProbeSurgeon>(plan, the_case, skill, portal_W, tip_radius_m);
+      probe = made.get();
+      players.push_back(std::move(made));
+    } else
+      players.push_back(std::make_unique<Surgeon>(plan, the_case, skill, tip_radius_m));
+  }
+  return players;
+}
+
+// Names what the hand holds first, and all that it may take.
+ProbePath holding(const PlannedHand& hand) {
+  ProbePath path;
+  if (hand.instrument == kWristProbe) return path;
+  path.samples.emplace_back(0.0, Pose{}, false);
+  path.samples.back().instrument = hand.instrument;
+  for (const std::string& other : hand.also) {
+    path.samples.emplace_back(path.samples.back().time_s + 1, Pose{}, false);
+    path.samples.back().instrument = other;
+  }
+  return path;
+}
+
+HeadlessHand played_by(HandPlayer& player, const PlannedHand& hand, const HandParams& params) {
+  return {hand.name, holding(hand), [&params, &player](double tick_s) {
+            return std::make_unique<SurgeonHand>(player, params, tick_s);
+          }};
+}
+
+// Who reconstructs a ligament knows all his ways before he begins.
+Result<std::vector<std::string>> plan_reconstruction(
+    const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
+    std::span<const PlannedHand> hands, HeadlessRun& headless,
+    std::vector<std::unique_ptr<HandPlayer>>& players) {
+  AclTools tools;
+  for (const PlannedHand& hand : hands) {
+    if (hand.pin) {
+      tools.pin = hand.instrument;
+      tools.drills = !hand.also.empty();
+    } else if (hand.optics) {
+      tools.scope = hand.instrument;
+      tools.optics = *hand.optics;
+    } else {
+      tools.probe = hand.instrument;
+    }
+  }
+  if (tools.pin.empty() || tools.scope.empty() || tools.probe.empty())
+    return fail("needs a hand with a scope, one with a probe and one with a guide pin",
+                run.scenario.where);
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals) {
+      const auto& marks = goal.rule.marks;
+      if (goal.rule.kind == "seen") tools.tour.insert(tools.tour.end(), marks.begin(), marks.end());
+      if (goal.rule.kind == "felt") tools.felt.insert(tools.felt.end(), marks.begin(), marks.end());
+    }
+  auto ways = plan_acl(the_case, tools, run.skill);
+  if (!ways) return tl::unexpected(ways.error());
+  AclDriller* driller = nullptr;
+  for (const PlannedHand& hand : hands) {
+    if (hand.pin && tools.drills) {
+      auto made = std::make_unique<AclDriller>(std::move(ways->drilling), run.skill);
+      driller = made.get();
+      headless.hands.push_back(played_by(*made, hand, headless.hand));
+      players.push_back(std::move(made));
+      continue;
+    }
+    ProbePath& way = hand.pin ? ways->pin : hand.optics ? ways->scope : ways->probe;
+    headless.hands.push_back({hand.name, std::move(way)});
+  }
+  if (driller) driller->set_tray(tray_of_hands(headless.hands));
+  return ways->unreachable;
+}
+
+std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bone) {
+  const Carving* carving = session ? session->carving() : nullptr;
+  const CarvedField* field = carving ? carving->field(bone) : nullptr;
+  return field && field->block_count() > 0 ? std::optional<CarvedField>(*field) : std::nullopt;
+}
+
+}  // namespace
+
+std::string to_json(const ScenarioOutcome& done) {
+  const std::string text =
+      with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
+  if (!done.graft) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["acl"]["graft"] = to_json(*done.graft);
+  return json.dump(2) + "\n";
+}
+
+namespace {
+
+// One hand makes a graft.
+Result<void> plan_bench_work(const ScenarioRun& run, const Case& the_case,
+                             std::span<const PlannedHand> hands, HeadlessRun& headless) {
+  if (hands.size() != 1)
+    return fail("making a graft needs one hand, not " + std::to_string(hands.size()),
+                run.scenario.where);
+  auto way = plan_graft(the_case, run.skill);
+  if (!way) return tl::unexpected(way.error());
+  headless.hands.push_back({hands[0].name, std::move(*way)});
+  return {};
+}
+
+}  // namespace
+
+Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
+  const auto the_case = open_felt_case(run.case_spec);
+  if (!the_case) return tl::unexpected(the_case.error());
+  const auto plan = plan_scenario(run.scenario, **the_case);
+  if (!plan) return tl::unexpected(plan.error());
+  const auto hands = plan_hands(run.scenario, **the_case);
+  if (!hands) return tl::unexpected(hands.error());
+  HeadlessRun headless;
+  const bool ligament = asks_about_tunnels(*plan);
+  std::vector<std::unique_ptr<HandPlayer>> players;
+  const bool bench = find_graft_bench(**the_case).has_value();
+  if (!ligament && !bench)
+    players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
+  const auto all_done = [&] {
+    return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
+  };
+  if (!ligament && !bench && all_done())
+    return fail("no target of the scenario can be reached", run.case_spec,
+                "Check the case with: osteon case check");
+  AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
+  headless.the_case = *the_case;
+  headless.case_source = run.case_spec;
+  headless.settings.seed = run.skill.seed;
+  headless.settings.carve.cortex_m = run.scenario.cortex_mm / 1000;
+  headless.record_to = run.record_to;
+  headless.longest_s = run.scenario.time_limit_s;
+  std::vector<std::string> unreachable;
+  if (ligament) {
+    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, headless, players);
+    if (!planned) return tl::unexpected(planned.error());
+    unreachable = std::move(*planned);
+  }
+  if (bench)
+    if (auto ok = plan_bench_work(run, **the_case, *hands, headless); !ok)
+      return tl::unexpected(ok.error());
+  for (std::size_t h = 0; !ligament && h < players.size(); ++h)
+    headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
+  const Session* session = nullptr;
+  headless.on_session = [&](const Session& begun) { session = &begun; };
+  watch.watch_tunnels({run.case_spec, tray_of_hands(headless.hands),
+                       [&](std::uint32_t bone) { return carved_bone(session, bone); }});
+  headless.done = [&] { return watch.over() || all_done(); };
+  headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+    watch.add(tools, bones);
+  };
+  auto reports = simulate_hands(headless);
+  if (!reports) return tl::unexpected(reports.error());
+  const StatedFindings stated =
+      run.stated ? *run.stated : stated_by(run.skill, run.scenario, **the_case);
+  auto outcome = watch.finish(run.standard ? &*run.standard : nullptr, stated);
+  if (!outcome) return tl::unexpected(outcome.error());
+  ScenarioOutcome done{std::move(reports->reports),
+                       std::move(reports->names),
+                       std::move(*outcome),
+                       std::move(unreachable),
+                       {},
+                       {}};
+  if (watch.graft().plan()) done.graft = GraftReport{*watch.graft().plan(), watch.graft().state()};
+  if (watch.tunnels()) done.acl = watch.tunnels()->report();
+  if (watch.tunnels() && watch.tunnels()->problem())
+    done.not_measured = watch.tunnels()->problem()->message();
+  for (const auto& player : players)
+    done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
+                            player->unreachable().end());
+  if (run.record_to && !run.scenario.asks.empty())
+    if (auto noted = write_note(*run.record_to, "findings", to_json(stated)); !noted)
+      return tl::unexpected(noted.error());
+  if (run.record_to)
+    if (auto noted =
+            note_attempt(*run.record_to, run.scenario, run.standard, run.skill.name, to_json(done));
+        !noted)
+      return tl::unexpected(noted.error());
+  return done;
+}
+
+}  // namespace osteon

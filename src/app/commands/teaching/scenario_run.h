@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exercises/scenario_files.h"
+#include "osteon/base/result.h"
+#include "osteon/procedure/attempt.h"
+#include "osteon/procedure/report.h"
+#include "osteon/surgeon/skill.h"
+#include "runs/reports/acl_report.h"
+#include "runs/reports/graft_report.h"
+
+namespace osteon {
+
+/// One attempt by a virtual surgeon, without a window, as fast as it goes.
+struct ScenarioRun {
+  Scenario scenario;
+  std::optional<Standard> standard;
+  std::string case_spec;
+  Skill skill;
+  std::optional<std::filesystem::path> record_to;
+  std::optional<StatedFindings> stated = {};  ///< none: as the surgeon's skill allows
+};
+struct ScenarioOutcome {
+  std::vector<Report> reports;  ///< of each hand
+  std::vector<std::string> hands;
+  Outcome outcome;
+  std::vector<std::string> unreachable;   ///< bones that the surgeon found no way to
+  std::optional<AclReport> acl;           ///< of a scenario that asks for tunnels
+  std::string not_measured;               ///< why they could not be measured
+  std::optional<GraftReport> graft = {};  ///< of a case with a bench
+};
+/// The report as JSON, with what was measured of its tunnels as `acl`, and of a
+/// graft that was made as `acl.graft`.
+std::string to_json(const ScenarioOutcome& done);
+Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
+
+}  // namespace osteon

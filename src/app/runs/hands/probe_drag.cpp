@@ -1,0 +1,53 @@
+#include "runs/hands/probe_drag.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+namespace {
+
+Quat turn_about(const Vec3& axis, double angle_rad) {
+  return Quat(Eigen::AngleAxisd(angle_rad, axis));
+}
+
+Vec3 kept_within(const Vec3& p_W, const Vec3& center_W, double radius_m) {
+  const Vec3 away = p_W - center_W;
+  const double distance = away.norm();
+  return distance <= radius_m ? p_W : Vec3(center_W + away * (radius_m / distance));
+}
+
+}  // namespace
+
+Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camera,
+                const Viewport& viewport, double dt_s, const ProbeDragParams& params) {
+  const double m_per_px = metres_per_pixel(camera, viewport, X_WD.p);
+  const Vec3 step_C(motion.right_px * m_per_px, motion.up_px * m_per_px,
+                    -motion.wheel * params.wheel_m);
+  Pose moved;
+  moved.p = kept_within(X_WD.p + camera.q_WC * step_C, camera.target_W, params.max_from_target_m);
+
+  const double angle = params.turn_rad_per_s * dt_s;
+  const Quat q_C = turn_about(Vec3::UnitY(), motion.yaw * angle) *
+                   turn_about(Vec3::UnitX(), motion.pitch * angle) *
+                   turn_about(Vec3::UnitZ(), motion.roll * angle);
+  const Quat q_CW = camera.q_WC.conjugate();
+  moved.q = (camera.q_WC * q_C * q_CW * X_WD.q).normalized();
+  return moved;
+}
+
+Pose offered_probe(const Camera& camera, const Aabb& case_bounds_W) {
+  constexpr double kClearance_m = 0.010;
+  constexpr double kTilt_rad = 0.75;
+  const Vec3 towards_viewer_W = camera.q_WC * Vec3::UnitZ();
+  // The box's corner that is nearest to the viewer, measured along the view.
+  const Vec3 half = 0.5 * case_bounds_W.extent();
+  const double reach = half.cwiseAbs().dot(towards_viewer_W.cwiseAbs());
+  const Vec3 center_W = case_bounds_W.empty() ? camera.target_W : case_bounds_W.center();
+  Pose offered;
+  offered.p = center_W + towards_viewer_W * ((case_bounds_W.empty() ? 0.0 : reach) + kClearance_m);
+  // The shaft (Tool z) points to the viewer, then leans to the upper right.
+  offered.q = (camera.q_WC * turn_about(Vec3(-1, 1, 0).normalized(), kTilt_rad)).normalized();
+  return offered;
+}
+
+}  // namespace osteon

@@ -1,0 +1,177 @@
+#include "runs/hands/tray.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "cases/all_cores.h"
+#include "osteon/base/file.h"
+#include "osteon/image/tissue.h"
+#include "osteon/physics/soft_setup.h"
+#include "osteon/scene/instrument.h"
+
+namespace osteon {
+namespace {
+
+constexpr const char* kTodo = "See `osteon instruments`";
+
+Result<Tool> tool_named(std::span<const Instrument> instruments, const std::string& name) {
+  const auto colon = name.find(':');
+  const Instrument* instrument = find_instrument(instruments, name.substr(0, colon));
+  if (!instrument) return fail("there is no such instrument", name, kTodo);
+  if (colon == std::string::npos) return make_tool(*instrument, instrument->usual_size);
+  const std::string digits = name.substr(colon + 1);
+  char* end = nullptr;
+  const double size_mm = std::strtod(digits.c_str(), &end);
+  const auto size = *end == 0 && !digits.empty() ? find_size(*instrument, size_mm) : std::nullopt;
+  if (!size) return fail("the instrument has no such size", name, kTodo);
+  return make_tool(*instrument, *size);
+}
+
+}  // namespace
+
+Result<Tray> make_tray(std::span<const std::string> names, double probe_radius_m) {
+  Tray tray;
+  std::vector<Instrument> instruments;
+  for (const std::string& name : names) {
+    if (name == kWristProbe) {
+      tray.push_back(std::make_shared<const Tool>(make_wrist_probe(probe_radius_m)));
+      continue;
+    }
+    if (instruments.empty()) {
+      auto loaded = load_instruments();
+      if (!loaded) return tl::unexpected(loaded.error());
+      instruments = std::move(*loaded);
+    }
+    auto tool = tool_named(instruments, name);
+    if (!tool) return tl::unexpected(tool.error());
+    tray.push_back(std::make_shared<const Tool>(std::move(*tool)));
+  }
+  return tray;
+}
+
+Result<Tray> tray_of(const RecordingHeader& header) {
+  const auto settings = parse_settings(header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  return make_tray(settings->tray, settings->probe_radius_m);
+}
+
+Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
+                                                        const SessionSettings& settings) {
+  const RunFieldTasks run = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    run_on_all_cores(count, task, [](double) {});
+  };
+  return make_carving(the_case, settings.tray, settings.carve, run);
+}
+
+Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case,
+                                                            std::span<const std::string> tray) {
+  SessionSettings settings;
+  settings.tray.assign(tray.begin(), tray.end());
+  settings.carve.on = can_carve(the_case, tray);
+  return carving_for(the_case, settings);
+}
+
+namespace {
+
+Result<const Tissue*> tissue_named(const TissueTable& tissues, const std::string& name) {
+  if (const Tissue* tissue = tissues.find(name)) return tissue;
+  return fail("the tissue table has no '" + name + "'", "assets/materials/tissue.toml");
+}
+
+// Places in the tray of what has an edge and does not bite.
+Result<std::vector<std::uint32_t>> blades_in(std::span<const std::string> tray) {
+  std::vector<std::uint32_t> out;
+  if (tray.empty()) return out;
+  const auto instruments = load_instruments();
+  if (!instruments) return tl::unexpected(instruments.error());
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    const Instrument* found = find_instrument(*instruments, tray[i].substr(0, tray[i].find(':')));
+    if (found && found->can(InstrumentFunction::kCut) && !found->can(InstrumentFunction::kRemove))
+      out.push_back(static_cast<std::uint32_t>(i));
+  }
+  return out;
+}
+
+Result<void> add_ligaments(const Case& the_case, std::span<const std::string> names,
+                           const TissueTable& tissues, std::span<const std::string> tray,
+                           SoftSetup& setup) {
+  if (names.empty()) return {};
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  const auto table = load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
+  if (!table) return tl::unexpected(table.error());
+  const auto ligament = tissue_named(tissues, "ligament");
+  if (!ligament) return tl::unexpected(ligament.error());
+  auto made = make_soft_setup(the_case, *table, names, (*ligament)->stiffness_n_per_m.value);
+  if (!made) return tl::unexpected(made.error());
+  setup = std::move(*made);
+  auto blades = blades_in(tray);
+  if (!blades) return tl::unexpected(blades.error());
+  add_blades(setup, std::move(*blades), (*ligament)->cutting_n.value);
+  return {};
+}
+
+Result<void> add_menisci(const Case& the_case, std::span<const std::string> names,
+                         const TissueTable& tissues, SoftSetup& setup) {
+  if (names.empty()) return {};
+  const auto meniscus = tissue_named(tissues, "meniscus");
+  if (!meniscus) return tl::unexpected(meniscus.error());
+  auto made = make_soft_solids(the_case, names, (*meniscus)->stiffness_n_per_m.value);
+  if (!made) return tl::unexpected(made.error());
+  add_solids(setup, std::move(*made));
+  return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
+                                                   const SessionSettings& settings) {
+  if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
+  const auto tissues = load_default_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  std::vector<std::string> ligaments, menisci;
+  for (const std::string& name : settings.soft)
+    (names_solids(the_case, name) ? menisci : ligaments).push_back(name);
+  SoftSetup setup;
+  if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
+    return tl::unexpected(done.error());
+  if (auto done = add_menisci(the_case, menisci, *tissues, setup); !done)
+    return tl::unexpected(done.error());
+  if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
+    return fail("the soft parts of the case are not those of the recording", "recording",
+                "Replay it with the version of Osteon that made it");
+  return std::make_shared<const SoftSetup>(std::move(setup));
+}
+
+std::vector<std::string> softs_named(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream parts(text);
+  for (std::string name; std::getline(parts, name, ',');) names.push_back(name);
+  return names;
+}
+
+Result<void> take_instruments(const RecordingHeader& header, const Case& the_case,
+                              ReplayOptions& options) {
+  const auto settings = parse_settings(header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  auto tray = make_tray(settings->tray, settings->probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  auto carving = carving_for(the_case, *settings);
+  if (!carving) return tl::unexpected(carving.error());
+  auto softs = softs_for(the_case, *settings);
+  if (!softs) return tl::unexpected(softs.error());
+  options.tray = std::move(*tray);
+  options.softs = std::move(*softs);
+  options.carving = std::move(*carving);
+  return {};
+}
+
+std::string absolute_case_path(const std::string& case_source) {
+  if (case_source.empty() || case_source.rfind("builtin:", 0) == 0) return {};
+  std::error_code error;
+  const auto path = std::filesystem::absolute(case_source.substr(0, case_source.find('#')), error);
+  return error ? std::string() : path.lexically_normal().string();
+}
+
+}  // namespace osteon

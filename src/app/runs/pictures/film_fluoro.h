@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/render/renderer.h"
+#include "osteon/scene/case.h"
+#include "osteon/session/session.h"
+#include "osteon/xray/case_body.h"
+#include "runs/pictures/film_view.h"
+#include "runs/pictures/xray_shot.h"
+
+namespace osteon {
+
+/// A fluoroscope that pulses through a film, AP: between two pulses its last picture stands.
+class FilmFluoro {
+ public:
+  static constexpr double kPulsesPerSecond = 8;
+  static constexpr int kMostSide_px = 512;
+
+  /// Fails as CaseBody::create does, and on an instrument that is not closed.
+  static Result<FilmFluoro> create(const Case& the_case, const Tray& tray);
+  /// Asked where a picture is taken: what was cut out of the bones.
+  using AskCuts = std::function<CutBones()>;
+  /// A square picture in the middle of one of this size, black around it.
+  Result<Image> draw(const FilmMoment& moment, int width, int height, const AskCuts& cuts = {});
+
+ private:
+  explicit FilmFluoro(CaseBody body) : body_(std::move(body)) {}
+  Result<void> pulse(const FilmMoment& moment, int side, const AskCuts& cuts);
+
+  CaseBody body_;
+  std::vector<std::shared_ptr<const TriMesh>> steel_;  ///< by place in the tray
+  XrayScene scene_;
+  std::int64_t pulse_ = -1;
+  int side_ = 0;
+  std::vector<float> grey_;  ///< of the last pulse, side_ by side_
+};
+
+}  // namespace osteon

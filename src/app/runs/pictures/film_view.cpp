@@ -1,0 +1,317 @@
+#include "runs/pictures/film_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cases/scoped_case.h"
+#include "osteon/base/file.h"
+#include "osteon/physics/soft_shape.h"
+#include "osteon/render/joint_room.h"
+#include "osteon/render/scope_renderer.h"
+#include "osteon/render/soft_surface.h"
+#include "runs/pictures/carved_picture.h"
+#include "runs/pictures/film_fluoro.h"
+#include "runs/pictures/panorama.h"
+#include "runs/pictures/scope_lens.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kRoomMoves_m = 0.015;  // of the tip, before the joint's wall is shaped anew
+
+void put(const Image& part, int left, int top, Image& into) {
+  for (int y = 0; y < part.height; ++y) {
+    const auto from = static_cast<std::ptrdiff_t>(3) * y * part.width;
+    const auto to = 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + left);
+    std::copy_n(part.rgb.begin() + from, 3 * part.width, into.rgb.begin() + to);
+  }
+}
+
+Image black(int width, int height) {
+  Image image{width, height, {}};
+  image.rgb.assign(3u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  return image;
+}
+
+tl::unexpected<Error> no_memory() {
+  return fail("the graphics driver has no memory for the picture", "the film",
+              "choose a smaller --size");
+}
+
+}  // namespace
+
+Result<FilmView> parse_film_view(const std::string& text) {
+  const std::pair<const char*, FilmView> views[] = {{"scope", FilmView::kScope},
+                                                    {"outside", FilmView::kOutside},
+                                                    {"panorama", FilmView::kPanorama},
+                                                    {"fluoro", FilmView::kFluoro},
+                                                    {"layout", FilmView::kLayout}};
+  for (const auto& [name, view] : views)
+    if (text == name) return view;
+  return fail("\"" + text + "\" is not a view of a film", "--view",
+              "choose scope, outside, panorama, fluoro or layout");
+}
+
+struct FilmPainter::Impl {
+  std::shared_ptr<const Case> the_case;
+  Order order;
+  Lenses lenses;
+  bool has_scope = false;
+  // The context comes before what was made in it, so that it goes last.
+  std::optional<OffscreenContext> context;
+  std::optional<Renderer> renderer;
+  std::optional<ScopeRenderer> scope;
+  std::optional<FilmFluoro> fluoro;
+  std::optional<JointRoom> room;
+  std::optional<Vec3> room_W;  ///< that its wall was shaped around
+
+  bool uses(FilmView view) const { return order.view == view || order.view == FilmView::kLayout; }
+  Result<void> open(const SessionSettings& settings, const Tray& tray);
+  Result<void> open_pictures(const Tray& tray);
+  static std::span<const ToolState> tools(const FilmMoment& moment);
+
+  Result<Image> outside(const FilmMoment& moment, int width, int height);
+  Result<Image> panorama(const FilmMoment& moment, const std::string& side, int width, int height);
+  Result<Image> through_scope(const FilmMoment& moment, int width, int height);
+  Result<Image> through_beam(const FilmMoment& moment, int width, int height);
+  Result<Image> layout(const FilmMoment& moment);
+  Result<Image> scene(const FilmMoment& moment, const ViewState& view, int width, int height);
+  ViewState plain_view(double aspect) const;
+  void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
+  void show_carved();
+  void show_softs(const SolidPushes& pushes);
+  void flow(const FilmMoment& moment);
+  CarvedPicture carved{nullptr};
+  std::optional<JointWater> water;  ///< where a scope is drawn
+  Suckers suckers;
+  double counted_s = -1e9;  ///< when the bone that is gone was counted last
+  ByTissue removed_m3{};
+  std::optional<SoftShapes> shapes;
+};
+
+std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
+  return {moment.tools.data(), moment.hands};
+}
+
+Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
+  const auto data_dir = find_data_dir();
+  if (!data_dir) return tl::unexpected(data_dir.error());
+  auto made = OffscreenContext::create();
+  if (!made) return tl::unexpected(made.error());
+  context.emplace(std::move(*made));
+  const PreparedCase prepared = prepare_case(*the_case);
+  if (order.view != FilmView::kScope) {
+    auto drawn = Renderer::create(*the_case, *tray.front(), *data_dir, prepared);
+    if (!drawn) return tl::unexpected(drawn.error());
+    renderer.emplace(std::move(*drawn));
+    renderer->set_tray(tray);
+  }
+  if (!uses(FilmView::kScope) || !has_scope) return {};
+  auto looked = renderer ? ScopeRenderer::create(*the_case, *data_dir, *renderer)
+                         : ScopeRenderer::create(*the_case, *data_dir, prepared);
+  if (!looked) return tl::unexpected(looked.error());
+  scope.emplace(std::move(*looked));
+  scope->set_tray(tray);
+  room.emplace(*the_case);
+  water.emplace(fluid_of(*the_case));
+  water->set(order.water);
+  return {};
+}
+
+Result<void> FilmPainter::Impl::open(const SessionSettings& settings, const Tray& tray) {
+  auto found = lenses_of(settings.tray);
+  if (!found) return tl::unexpected(found.error());
+  lenses = std::move(*found);
+  auto sucks = suckers_of(settings.tray);
+  if (!sucks) return tl::unexpected(sucks.error());
+  suckers = std::move(*sucks);
+  if (auto side = panorama_camera(*the_case, order.side, 1); !side)
+    return tl::unexpected(side.error());
+  if (order.view == FilmView::kScope && !has_scope)
+    return fail("no hand of the recording holds a scope", "--view scope",
+                "choose outside, panorama, fluoro or layout");
+  if (uses(FilmView::kFluoro)) {
+    auto made = FilmFluoro::create(*the_case, tray);
+    if (!made) return tl::unexpected(made.error());
+    fluoro.emplace(std::move(*made));
+  }
+  if (order.view == FilmView::kFluoro) return {};
+  return open_pictures(tray);
+}
+
+ViewState FilmPainter::Impl::plain_view(double aspect) const {
+  ViewState view = default_view(*the_case);
+  view.camera = preset_camera(ViewPreset::kDorsal, *the_case, aspect);
+  view.show_hand_ghost = false;
+  return view;
+}
+
+Result<Image> FilmPainter::Impl::scene(const FilmMoment& moment, const ViewState& view, int width,
+                                       int height) {
+  renderer->set_others({moment.tools.data() + 1, moment.hands - 1});
+  Image image = renderer->draw_image({moment.bones, moment.tools[0]}, view, width, height);
+  if (image.rgb.empty()) return no_memory();
+  return image;
+}
+
+Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
+  renderer->set_marks({});
+  return scene(moment, plain_view(static_cast<double>(width) / height), width, height);
+}
+
+Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
+                                          int width, int height) {
+  const double aspect = static_cast<double>(width) / height;
+  renderer->set_marks(sight_marks(lenses, tools(moment)));
+  return scene(moment, panorama_view(*the_case, *panorama_camera(*the_case, side, aspect)), width,
+               height);
+}
+
+// Where the tip stands in bone for a moment, the wall stays as it was.
+void FilmPainter::Impl::shape_room(const BoneSnapshot& bones, const Vec3& tip_W) {
+  if (room_W && (tip_W - *room_W).norm() < kRoomMoves_m) return;
+  const auto wall = room->wall(bones, tip_W);
+  if (!wall) return;
+  scope->set_wall(*wall);
+  room_W = tip_W;
+}
+
+// Bone that is gone is counted a few times a second: it means looking at all cuts.
+void FilmPainter::Impl::flow(const FilmMoment& moment) {
+  constexpr double kCounts_s = 0.2;
+  if (std::abs(moment.time_s - counted_s) >= kCounts_s) {
+    removed_m3 = carved.removed();
+    counted_s = moment.time_s;
+  }
+  water->go_to(moment.time_s, suction_of(suckers, tools(moment)), removed_m3);
+  scope->set_water(water->seen());
+}
+
+Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int width, int height) {
+  flow(moment);
+  const auto hand = first_looking(lenses, tools(moment));
+  if (!hand) return black(width, height);
+  std::vector<ToolState> others;
+  for (std::size_t h = 0; h < moment.hands; ++h)
+    if (h != *hand) others.push_back(moment.tools[h]);
+  const Pose& X_WT = moment.tools[*hand].X_WP;
+  scope->set_scene(moment.bones, others);
+  shape_room(moment.bones, X_WT.p);
+  const ScopeCamera camera(*lens_of_tool(lenses, moment.tools[*hand]), scope_pose(X_WT));
+  Image image = scope->draw_image(camera, width, height, RenderQuality::kFast);
+  if (image.rgb.empty()) return no_memory();
+  return image;
+}
+
+Result<Image> FilmPainter::Impl::through_beam(const FilmMoment& moment, int width, int height) {
+  return fluoro->draw(moment, width, height, [this] { return carved.cut_bones(); });
+}
+
+/// Large: the scope where there is one, else the outside. Beside it three small ones.
+Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
+  constexpr int kGap = 2;
+  const int main = std::max(2 * order.width / 3 - kGap, 1);
+  const int small = std::max(order.width - main - kGap, 1), high = std::max(order.height / 3, 1);
+  Image whole = black(order.width, order.height);
+  const auto large =
+      has_scope ? through_scope(moment, main, order.height) : outside(moment, main, order.height);
+  if (!large) return large;
+  put(*large, 0, 0, whole);
+  for (int row = 0; row < 3; ++row) {
+    const int tall = std::max(high - (row < 2 ? kGap : 0), 1);
+    const auto part = row == 0    ? panorama(moment, order.side, small, tall)
+                      : row == 2  ? through_beam(moment, small, tall)
+                      : has_scope ? outside(moment, small, tall)
+                                  : panorama(moment, "top", small, tall);
+    if (!part) return part;
+    put(*part, main + kGap, row * high, whole);
+  }
+  return whole;
+}
+
+FilmPainter::FilmPainter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+double FilmPainter::obscured_s() const {
+  return impl_->water ? impl_->water->state().obscured_s : 0;
+}
+FilmPainter::~FilmPainter() = default;
+FilmPainter::FilmPainter(FilmPainter&&) noexcept = default;
+FilmPainter& FilmPainter::operator=(FilmPainter&&) noexcept = default;
+
+Result<FilmPainter> FilmPainter::create(std::shared_ptr<const Case> the_case,
+                                        const SessionSettings& settings, const Tray& tray,
+                                        bool scope_is_held, const Order& order) {
+  auto impl = std::make_unique<Impl>();
+  impl->the_case = std::move(the_case);
+  impl->order = order;
+  impl->has_scope = scope_is_held;
+  Tray held = tray;
+  if (held.empty())
+    held.push_back(std::make_shared<const Tool>(make_wrist_probe(settings.probe_radius_m)));
+  if (auto ok = impl->open(settings, held); !ok) return tl::unexpected(ok.error());
+  return FilmPainter(std::move(impl));
+}
+
+void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
+  impl_->carved = CarvedPicture(std::move(setup));
+}
+
+void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
+  impl_->shapes.emplace(*impl_->the_case, std::move(setup));
+}
+
+void FilmPainter::take(const CutsPatch& cut) { impl_->carved.take(cut); }
+
+void FilmPainter::Impl::show_carved() {
+  for (const CarvedPicture::Changed& changed : carved.changes()) {
+    if (renderer) renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
+    if (scope) scope->set_cubes(changed.bone, changed.grid, changed.cubes);
+  }
+}
+
+void FilmPainter::Impl::show_softs(const SolidPushes& pushes) {
+  if (!shapes || !(renderer || scope)) return;
+  for (const SoftShapes::Changed& changed : shapes->changes(pushes)) {
+    if (renderer) set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W);
+    if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W);
+  }
+}
+
+Result<Image> FilmPainter::draw(const FilmMoment& moment) {
+  impl_->show_carved();
+  impl_->show_softs(moment.pushes);
+  const int width = impl_->order.width, height = impl_->order.height;
+  switch (impl_->order.view) {
+    case FilmView::kScope:
+      return impl_->through_scope(moment, width, height);
+    case FilmView::kPanorama:
+      return impl_->panorama(moment, impl_->order.side, width, height);
+    case FilmView::kFluoro:
+      return impl_->through_beam(moment, width, height);
+    case FilmView::kLayout:
+      return impl_->layout(moment);
+    case FilmView::kOutside:
+      break;
+  }
+  return impl_->outside(moment, width, height);
+}
+
+Result<bool> holds_a_scope(RecordingReader& recording, const SessionSettings& settings) {
+  const auto lenses = lenses_of(settings.tray);
+  if (!lenses) return tl::unexpected(lenses.error());
+  const auto looks = [&](std::uint32_t place) {
+    return place < lenses->size() && (*lenses)[place].has_value();
+  };
+  for (const HandSettings& hand : settings.hands)
+    if (looks(hand.instrument)) return true;
+  for (std::uint64_t next = 1;;) {
+    const auto events = recording.read_events(next);
+    if (!events) return tl::unexpected(events.error());
+    if (events->empty()) return false;
+    for (const Event& event : *events)
+      if (event.kind == EventKind::kInstrumentTaken && looks(event.subject)) return true;
+    next += events->size();
+  }
+}
+
+}  // namespace osteon

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "cases/felt_choice.h"
+#include "cases/open_case.h"
+#include "osteon/physics/carving.h"
+#include "osteon/record/recording.h"
+#include "osteon/render/anatomical_view.h"
+#include "osteon/scene/build_case.h"
+#include "osteon/session/session.h"
+#include "runs/hands/tray.h"
+#include "runs/pictures/xray_shot.h"
+
+namespace osteon {
+namespace {
+
+bool is_recording(const std::string& source) {
+  return std::filesystem::path(source).extension() == ".osr";
+}
+
+/// The case as it is seen: what is felt of it does not matter, and takes longest to make.
+Result<Case> open_seen_case(const std::string& spec) {
+  auto def = open_case_def(spec);
+  if (!def) return tl::unexpected(def.error());
+  for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
+  return build_case(std::move(*def));
+}
+
+Result<XrayScene> scene_of(const Case& the_case, const BoneSnapshot& bones,
+                           const CaseBodyOptions& options) {
+  const auto tissues = load_default_tissues();
+  if (!tissues) return tl::unexpected(tissues.error());
+  const auto body = CaseBody::create(the_case, *tissues, options);
+  if (!body) return tl::unexpected(body.error());
+  const AnatomicalFrame frame = anatomical_frame(the_case);
+  XrayScene scene;
+  scene.body = body->posed(bones);
+  scene.patient = {frame.distal_W, frame.dorsal_W, frame.radial_W};
+  const Camera all = preset_camera(ViewPreset::kAp, the_case, 1);
+  scene.isocenter_W = close_up_camera(all, the_case, BoneId{}, 1).target_W;
+  return scene;
+}
+
+Result<std::size_t> ticks_until(const Recording& recording, const SessionSettings& settings,
+                                std::optional<double> at_s, const std::string& file) {
+  const double end_s = static_cast<double>(recording.ticks.size()) * settings.haptic.tick_s;
+  if (recording.ticks.empty()) return fail("holds no ticks", file);
+  if (!at_s) return recording.ticks.size();
+  if (!(*at_s >= 0 && *at_s <= end_s + 1e-9))
+    return fail("has no data at " + std::to_string(*at_s) + " s", file,
+                "Choose a time between 0 and " + std::to_string(end_s) + " s");
+  const double ticks = std::round(*at_s / settings.haptic.tick_s);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(ticks), 1, recording.ticks.size());
+}
+
+Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
+                             std::uint32_t instrument, const Pose& X_WT) {
+  const Tool held =
+      instrument < tray.size() ? *tray[instrument] : make_wrist_probe(settings.probe_radius_m);
+  auto mesh = xray_surface(held.mesh, "the instrument");
+  if (!mesh) return tl::unexpected(mesh.error());
+  return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
+}
+
+CutBones cut_bones_of(const Session& session) {
+  CutBones out;
+  const Carving* carving = session.carving();
+  for (std::uint32_t b = 0; carving && b < session.the_case().bones.size(); ++b)
+    if (const CarvedField* field = carving->field(b); field && field->block_count() > 0)
+      out.emplace_back(b, *field);
+  return out;
+}
+
+Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
+  if (order.flexion_deg)
+    return fail("is shown as it was recorded and cannot be bent", order.source,
+                "Leave out --flexion, or name a case");
+  auto recording = load_recording(order.source);
+  if (!recording) return tl::unexpected(recording.error());
+  const auto settings = parse_settings(recording->header.settings_json);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto ticks = ticks_until(*recording, *settings, order.at_s, order.source);
+  if (!ticks) return tl::unexpected(ticks.error());
+  const auto the_case = open_case(recording->header.case_source);
+  if (!the_case) return tl::unexpected(the_case.error());
+  const auto tray = tray_of(recording->header);
+  if (!tray) return tl::unexpected(tray.error());
+  RenderSnapshot last;
+  CutBones cut;
+  ReplayOptions how;
+  how.to_s = static_cast<double>(*ticks) * settings->haptic.tick_s;
+  how.at_end = [&](const Session& session) { cut = cut_bones_of(session); };
+  how.tray = *tray;
+  auto carving = carving_for(**the_case, *settings);
+  if (!carving) return tl::unexpected(carving.error());
+  how.carving = std::move(*carving);
+  auto softs = softs_for(**the_case, *settings);
+  if (!softs) return tl::unexpected(softs.error());
+  how.softs = std::move(*softs);
+  how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    std::span<const Event>) {
+    if (hand != 0 || tool.tick > *ticks) return;
+    last.tool = tool;
+    last.bones = bones;
+  };
+  const auto replayed = replay(*recording, *the_case, how);
+  if (!replayed) return tl::unexpected(replayed.error());
+  auto scene = scene_of(**the_case, last.bones, order.body);
+  if (!scene) return scene;
+  add_cuts(cut, last.bones, order.body.bones_hu.has_value(), scene->body);
+  if (order.body.bones_hu) return scene;
+  auto tool = steel_tool(*settings, *tray, last.tool.instrument, last.tool.X_WP);
+  if (!tool) return tl::unexpected(tool.error());
+  scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
+  return scene;
+}
+
+Result<XrayScene> scene_of_case(const XraySceneOrder& order) {
+  if (order.at_s)
+    return fail("is a case, which has no times", order.source,
+                "Leave out --at, or name a recording (.osr)");
+  auto spec = Result<std::string>(order.source);
+  if (order.flexion_deg) spec = bent_spec(*spec, "flexion", *order.flexion_deg);
+  if (!spec) return tl::unexpected(spec.error());
+  const auto the_case = open_seen_case(*spec);
+  if (!the_case) return tl::unexpected(the_case.error());
+  return scene_of(*the_case, rest_snapshot(*the_case), order.body);
+}
+
+}  // namespace
+
+Result<XrayScene> open_xray_scene(const XraySceneOrder& order) {
+  return is_recording(order.source) ? scene_of_recording(order) : scene_of_case(order);
+}
+
+}  // namespace osteon

@@ -1,0 +1,180 @@
+#include "runs/reports/carving_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "osteon/scene/event.h"
+
+namespace osteon {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr double kHeatCell_m = 0.0005, kHeatStep_s = 0.05;
+constexpr double kAlong_m = 0.045, kAround_m = 0.006;
+
+bool of_carving(const Event& event) {
+  const int code = static_cast<int>(event.kind);
+  return code >= 200 && code < 300;
+}
+
+OrderedJson event_json(const Event& event, const CarvingReport& report) {
+  const EventKindRow* row = find_event_kind(event.kind);
+  OrderedJson out{{"time_s", static_cast<double>(event.tick) * report.tick_s},
+                  {"kind", row ? std::string(row->name) : "unknown"},
+                  {"hand", event.hand}};
+  if (event.subject < report.bones.size()) out["bone"] = report.bones[event.subject];
+  for (std::size_t v = 0; row && v < row->value_names.size(); ++v)
+    if (!row->value_names[v].empty()) out[std::string(row->value_names[v])] = event.values[v];
+  return out;
+}
+
+ByTissue sum_of(const std::vector<ByTissue>& all) {
+  ByTissue sum{};
+  for (const ByTissue& one : all)
+    for (std::size_t t = 0; t < kBoneTissues; ++t) sum[t] += one[t];
+  return sum;
+}
+
+}  // namespace
+
+OrderedJson to_json(const CarvingReport& report) {
+  const ByTissue removed = sum_of(report.removed_m3);
+  OrderedJson out;
+  out["removed_mm3"] = 1e9 * total(removed);
+  out["removed_by_tissue_mm3"] = OrderedJson::object();
+  for (std::size_t t = 0; t < kBoneTissues; ++t)
+    out["removed_by_tissue_mm3"][std::string(to_text(static_cast<BoneTissue>(t)))] =
+        1e9 * removed[t];
+  out["removed_by_bone_mm3"] = OrderedJson::object();
+  for (std::size_t b = 0; b < report.bones.size(); ++b)
+    if (total(report.removed_m3[b]) > 0)
+      out["removed_by_bone_mm3"][report.bones[b]] = 1e9 * total(report.removed_m3[b]);
+  out["dust_mm3"] = 1e9 * report.dust_m3;
+  out["pieces_mm3"] = OrderedJson::array();
+  for (const double piece : report.pieces_m3) out["pieces_mm3"].push_back(1e9 * piece);
+  out["most_thrust_n"] = report.most_thrust_n;
+  out["most_torque_nmm"] = 1000 * report.most_torque_nm;
+  out["heat"] = {{"hottest_c", report.hottest_c},
+                 {"necrosis_47c_60s_mm3", 1e9 * report.necrosis_m3[0]},
+                 {"necrosis_50c_30s_mm3", 1e9 * report.necrosis_m3[1]}};
+  out["events"] = OrderedJson::array();
+  for (const Event& event : report.events) out["events"].push_back(event_json(event, report));
+  return out;
+}
+
+std::string to_text(const CarvingReport& report) {
+  const ByTissue removed = sum_of(report.removed_m3);
+  char line[160];
+  std::snprintf(line, sizeof line, "removed        %.2f mm^3 of bone\n", 1e9 * total(removed));
+  std::string text = line;
+  for (std::size_t t = 0; t < kBoneTissues; ++t) {
+    if (!(removed[t] > 0)) continue;
+    std::snprintf(line, sizeof line, "  %-16s %.2f mm^3\n",
+                  std::string(to_text(static_cast<BoneTissue>(t))).c_str(), 1e9 * removed[t]);
+    text += line;
+  }
+  std::snprintf(line, sizeof line,
+                "most thrust    %.1f N on the drill, torque %.1f N mm\n"
+                "hottest        %.1f C, dead bone %.2f mm^3\n",
+                report.most_thrust_n, 1000 * report.most_torque_nm, report.hottest_c,
+                1e9 * std::max(report.necrosis_m3[0], report.necrosis_m3[1]));
+  text += line;
+  for (const Event& event : report.events) {
+    const EventKindRow* row = find_event_kind(event.kind);
+    if (!row || event.subject >= report.bones.size()) continue;
+    std::snprintf(line, sizeof line, "  %8.3f s  %s %s\n",
+                  static_cast<double>(event.tick) * report.tick_s, std::string(row->text).c_str(),
+                  report.bones[event.subject].c_str());
+    text += line;
+  }
+  return text;
+}
+
+void CarvingWatch::see(const Session& session) {
+  const Carving* carving = session.carving();
+  if (!carving) return;
+  for (std::size_t h = 0; h < session.hands(); ++h)
+    for (const Event& event : session.last_events(h))
+      if (of_carving(event)) report_.events.push_back(event);
+  if (session.last_steps() == 0) return;
+  for (const Carving::Fallen& fallen : carving->fallen()) {
+    if (fallen.dust)
+      report_.dust_m3 += fallen.volume_m3;
+    else
+      report_.pieces_m3.push_back(fallen.volume_m3);
+  }
+  const DrillTable& table = carving->setup().table;
+  material_ = table.heat;
+  chips_share_ = table.chips_heat_share;
+  rubbing_share_ = table.rubbing_heat_share;
+  outrun_m_per_s_ = table.outrun_m_per_s;
+  const double step_s = session.bones().time_s / static_cast<double>(session.bones().step);
+  for (std::size_t h = 0; h < session.hands(); ++h) warm(carving->readout(h), step_s);
+  since_s_ += step_s;
+  if (since_s_ >= kHeatStep_s) conduct();
+}
+
+void CarvingWatch::begin(const CarvingReadout& readout) {
+  Aabb box;
+  box.include(readout.tip_B + 0.005 * readout.axis_B);
+  box.include(readout.tip_B - kAlong_m * readout.axis_B);
+  const Vec3 room = Vec3::Constant(readout.radius_m + kAround_m);
+  box.lo -= room;
+  box.hi += room;
+  auto grid = HeatGrid::make(box, kHeatCell_m, material_);
+  bone_ = readout.bone;
+  if (grid) heat_ = std::move(*grid);
+}
+
+// Heat is let out about the tip's rim. The bone before a quick drill goes with the heat in it.
+void CarvingWatch::warm(const CarvingReadout& readout, double step_s) {
+  report_.most_thrust_n = std::max(report_.most_thrust_n, readout.thrust_n);
+  report_.most_torque_nm = std::max(report_.most_torque_nm, readout.torque_nm);
+  if (!(readout.cutting_w + readout.rubbing_w > 0)) return;
+  if (bone_ == CarvingHand::kNoBone) begin(readout);
+  if (readout.bone != bone_ || !heat_) return;
+  const double stays = 1 / (1 + readout.advance_m / step_s / outrun_m_per_s_);
+  const double joules =
+      stays * (chips_share_ * readout.cutting_w + rubbing_share_ * readout.rubbing_w) * step_s;
+  const Vec3 x = readout.axis_B.unitOrthogonal(), y = readout.axis_B.cross(x);
+  constexpr int kAround = 8;
+  for (int i = 0; i < kAround; ++i) {
+    const double a = 2 * std::numbers::pi * (i + 0.5) / kAround;
+    const Vec3 rim = readout.radius_m * (std::cos(a) * x + std::sin(a) * y);
+    heat_->add_heat(readout.tip_B + rim, joules / kAround);
+  }
+  if (readout.advance_m > 0) tip_ = readout.tip_B + kHeatCell_m * readout.axis_B;
+  radius_m_ = readout.radius_m;
+}
+
+void CarvingWatch::conduct() {
+  if (heat_ && tip_) {
+    const Vec3 from = opened_.value_or(*tip_);
+    heat_->open(from, *tip_, std::max(0.0, radius_m_ - 0.5 * kHeatCell_m));
+    opened_ = tip_;
+  }
+  if (heat_) {
+    heat_->step(since_s_);
+    report_.hottest_c = std::max(report_.hottest_c, heat_->hottest_c());
+  }
+  since_s_ = 0;
+}
+
+std::optional<CarvingReport> CarvingWatch::finish(const Session& session) const {
+  const Carving* carving = session.carving();
+  if (!carving) return std::nullopt;
+  CarvingReport report = report_;
+  for (std::size_t b = 0; b < session.the_case().bones.size(); ++b) {
+    report.bones.push_back(session.the_case().bones[b].name);
+    const CarvedField* field = carving->field(b);
+    report.removed_m3.push_back(field ? removed_volume(*field) : ByTissue{});
+  }
+  for (std::size_t r = 0; heat_ && r < 2; ++r) report.necrosis_m3[r] = heat_->necrosis_m3(r);
+  return report;
+}
+
+}  // namespace osteon

@@ -1,0 +1,65 @@
+#include "runs/reports/drilled_bone.h"
+
+#include <cmath>
+
+#include "osteon/carve/carved_surface.h"
+#include "osteon/carve/measure_holes.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kLedOn_m = 0.002;  // a line ends so far outside of the bone
+constexpr double kOpens_m = 0.006;  // at most so far before the middle of its rim is no bone
+// The same where neither end has a bottom: the rim of a flat tunnel is long.
+constexpr double kOpensFlat_m = 0.010;
+constexpr double kSameLine_m = 0.001, kSameTurn = 0.9986;  // cosine of 3 degrees
+
+double volume_of(const Hole& hole) { return hole.diameter_m * hole.diameter_m * hole.length_m; }
+
+bool opens(const MeshDistance& whole, const Vec3& rim_B, const Vec3& out_B,
+           double reach_m = kOpens_m) {
+  constexpr int kPlaces = 6;
+  for (int i = 1; i <= kPlaces; ++i)
+    if (whole.closest(rim_B + i * reach_m / kPlaces * out_B).signed_distance > 0) return true;
+  return false;
+}
+
+// Whether a narrower hole goes on along the axis of a wide one to the far side.
+bool goes_on(const Hole& wide, const Hole& other, const MeshDistance& whole) {
+  if (!(other.diameter_m < 0.9 * wide.diameter_m)) return false;
+  const double along = wide.axis.dot(other.axis);
+  const Vec3 off = other.entry - wide.entry;
+  const bool same =
+      std::abs(along) > kSameTurn && (off - off.dot(wide.axis) * wide.axis).norm() < kSameLine_m;
+  return same && (opens(whole, other.exit, other.axis) || opens(whole, other.entry, -other.axis));
+}
+
+}  // namespace
+
+std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDistance& whole,
+                                        double roundness_m) {
+  CarvedSurface surface(field);
+  surface.update(field);
+  HoleOptions how;
+  how.least_diameter_m = 0.004;
+  how.largest_diameter_m = 0.014;
+  how.roundness_m = roundness_m;
+  const std::vector<Hole> holes = find_holes(surface.joined(), how);
+  const Hole* best = nullptr;
+  for (const Hole& hole : holes)
+    if (!best || volume_of(hole) > volume_of(*best)) best = &hole;
+  if (!best) return std::nullopt;
+  DrilledHole out;
+  const double reach_m = best->through ? kOpensFlat_m : kOpens_m;
+  const bool front = opens(whole, best->entry, -best->axis, reach_m);
+  const bool back = opens(whole, best->exit, best->axis, reach_m);
+  out.line = {best->entry - (front ? kLedOn_m : 0) * best->axis,
+              best->exit + (back ? kLedOn_m : 0) * best->axis, best->diameter_m};
+  out.length_m = best->length_m;
+  out.through = front && back;
+  for (const Hole& hole : holes)
+    if (&hole != best && goes_on(*best, hole, whole)) out.channel_m = hole.diameter_m;
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,167 @@
+#include "window/controllers/sessions/exercise_control.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "cases/xdg.h"
+#include "exercises/pause_force.h"
+#include "osteon/procedure/judge.h"
+#include "runs/hands/tray.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kHandsApart_m = 0.025;
+constexpr double kBeforePortal_m = 0.012;
+
+void switch_pause(ExerciseRun& exercise, LiveRun* live) {
+  const bool begins = !exercise.paused();
+  if (live && begins) exercise.keep_force_wish(live->force_wanted());
+  if (live)
+    if (const auto force =
+            force_at_pause(begins, exercise.force_was_wanted(), live->device_status().cause))
+      live->set_force(*force);
+  exercise.pause(begins);
+}
+
+}  // namespace
+
+void ExerciseControl::apply(const ExerciseRequests& requests) {
+  if (requests.toggle) exercise_.toggle();
+  if (requests.choose) exercise_.choose(*requests.choose);
+  if (requests.seed) exercise_.set_seed(*requests.seed);
+  if (requests.back) exercise_.back();
+  if (requests.begin && !cases_.loading()) open_patient();
+  if (running()) {
+    if (requests.hint) exercise_.show_cue();
+    if (requests.undo && live_.run() && live_.run()->undo()) exercise_.count_undo();
+    if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
+    if (requests.pause) switch_pause(exercise_, live_.run());
+    if (requests.end) end();
+  }
+  if (requests.pages) save_pages();
+  if (requests.watch) {
+    exercise_.toggle();
+    cases_.open({{}, exercise_.recording(), nullptr});
+  }
+}
+
+void ExerciseControl::save_pages() {
+  auto file = exercise_.recording();
+  file.replace_extension(".pdf");
+  const auto failed = exercise_.save_pages(file);
+  host_.note(failed ? ToastKind::kError : ToastKind::kInfo,
+             failed ? failed->message() : "Saved as " + file.string());
+}
+
+// NAME, or NAME:SEED.
+void ExerciseControl::show(const std::string& order) {
+  const std::size_t colon = order.rfind(':');
+  const std::string name = order.substr(0, colon);
+  std::uint64_t seed = 0;
+  const char* const end = order.data() + order.size();
+  if (colon != order.npos) {
+    if (std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
+      exercise_.set_seed(seed);
+    else
+      host_.note(ToastKind::kWarning, "'" + order.substr(colon + 1) + "' is not a seed.");
+  }
+  exercise_.toggle();
+  if (!exercise_.choose(name))
+    host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");
+}
+
+// The patient of the exercise takes the place of what is on show, unless it is that already.
+void ExerciseControl::open_patient() {
+  if (live_.recording())
+    return host_.note(ToastKind::kWarning, "Stop the recording before starting an exercise.");
+  const std::string spec = exercise_.case_spec();
+  const bool all_here = want_instruments(exercise_.scenario());
+  exercise_.wait_for_case();
+  if (live_.run() && scene_.the_case && scene_.source == spec && all_here &&
+      scene_.finer_source.empty())  // what carves its bones is ready
+    return begin();
+  cases_.open({spec, {}, nullptr}, true);
+}
+
+// False: the tray lacked one. What removes bone is prepared with the case, by the tray.
+bool ExerciseControl::want_instruments(const Scenario& scenario) {
+  bool all = true;
+  const auto want = [&](const std::string& name) {
+    if (name == kWristProbe || live_.tray().find(name)) return;
+    live_.want_instrument(name);
+    all = false;
+  };
+  for (const ScenarioHand& hand : scenario.hands) {
+    want(hand.instrument);
+    for (const std::string& other : hand.also) want(other);
+  }
+  return all;
+}
+
+// Before their portals where they have one, else side by side.
+std::vector<LiveControl::PlacedHand> ExerciseControl::placed(
+    const std::vector<PlannedHand>& hands) const {
+  std::vector<LiveControl::PlacedHand> placed;
+  const Camera& camera = sight_.view().camera;
+  const Pose offered = offered_probe(camera, scene_.the_case->bounds_W());
+  const double middle = 0.5 * static_cast<double>(hands.size() - 1);
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const double right_m = kHandsApart_m * (static_cast<double>(i) - middle);
+    Pose X{offered.p + right_m * (camera.q_WC * Vec3::UnitX()), offered.q};
+    for (const Portal& portal : scene_.portals)
+      if (hands[i].portal_W && (portal.p_W - *hands[i].portal_W).norm() < 1e-6)
+        X = {portal.p_W - kBeforePortal_m * portal.nhat_W,
+             Quat::FromTwoVectors(Vec3::UnitZ(), -portal.nhat_W).normalized()};
+    const bool plain = hands[i].instrument == kWristProbe;
+    placed.push_back({hands[i].name, plain ? std::string() : hands[i].instrument, X});
+  }
+  return placed;
+}
+
+void ExerciseControl::begin() {
+  const auto hands = exercise_.plan(scene_.the_case);
+  if (!hands) return;
+  Result<void> started = live_.start_placed(placed(*hands));
+  const auto file = dated_file(data_home_dir() / "recordings", exercise_.scenario().name, ".osr");
+  if (started) started = live_.run()->start_judged_recording(file);
+  if (!started) {
+    exercise_.fail_to_begin(started.error().message());
+    return;
+  }
+  const auto carved = [this](std::uint32_t bone) -> std::optional<CarvedField> {
+    if (LiveRun* const run = live_.run())
+      for (auto& [index, field] : run->carved().cut_bones())
+        if (index == bone) return field;
+    return std::nullopt;
+  };
+  exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved});
+  const bool looks = std::any_of(hands->begin(), hands->end(),
+                                 [](const PlannedHand& hand) { return hand.optics.has_value(); });
+  if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
+  host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
+}
+
+void ExerciseControl::poll() {
+  if (!cases_.ready() && exercise_.page() != ExercisePage::kJudging) return;
+  exercise_.poll();
+  if (opening() && !cases_.loading()) exercise_.fail_to_begin("The patient could not be opened.");
+  LiveRun* const run = live_.run();
+  if (!running() || !run) return;
+  ToolState tool;
+  for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
+    while (run->pop_judged(tool, h)) exercise_.take(h, tool);
+  if (exercise_.follow(sight_.shown().bones)) run->mark();
+  if (exercise_.over() || !run->recording()) end();
+}
+
+void ExerciseControl::end() {
+  exercise_.pause(false);  // the force stays off: nobody asked for it
+  const Result<void> stopped = live_.run()->stop_recording();
+  if (!stopped) host_.note(ToastKind::kError, stopped.error().message());
+  live_.let_probe_go();
+  exercise_.judge();
+}
+
+}  // namespace osteon

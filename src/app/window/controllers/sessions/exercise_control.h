@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "window/controllers/cases/case_control.h"
+#include "window/controllers/sessions/exercise_run.h"
+
+namespace osteon {
+
+/// An exercise is played in the window: ExerciseRun knows what it asks and how far it is, this one
+/// opens its patient, starts its hands and records them.
+class ExerciseControl {
+ public:
+  ExerciseControl(WindowHost& host, ShownCase& scene, SceneSight& sight, LiveControl& live,
+                  CaseControl& cases)
+      : host_(host), scene_(scene), sight_(sight), live_(live), cases_(cases) {}
+
+  /// Opens its briefing, as the command line names it.
+  void show(const std::string& name);
+  bool opening() const { return exercise_.page() == ExercisePage::kOpening; }
+  bool running() const { return exercise_.page() == ExercisePage::kRunning; }
+  /// Its patient is on show.
+  void begin();
+  void end();
+  void apply(const ExerciseRequests& requests);
+  /// The user took the force off: the end of a pause does not bring it back.
+  void close_page() { exercise_.close_page(); }
+  void forget_force() { exercise_.keep_force_wish(false); }
+  bool paused() const { return exercise_.paused(); }
+  void count_undo() { exercise_.count_undo(); }
+  /// Once a picture.
+  void poll();
+  ExerciseModel model() const { return exercise_.model(); }
+
+ private:
+  void open_patient();
+  bool want_instruments(const Scenario& scenario);
+  std::vector<LiveControl::PlacedHand> placed(const std::vector<PlannedHand>& hands) const;
+  void save_pages();
+
+  WindowHost& host_;
+  ShownCase& scene_;
+  SceneSight& sight_;
+  LiveControl& live_;
+  CaseControl& cases_;
+  ExerciseRun exercise_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,360 @@
+#include "window/controllers/sessions/exercise_run.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include "exercises/result_files.h"
+#include "exercises/result_sender.h"
+#include "osteon/procedure/attempt.h"
+#include "osteon/record/recording_note.h"
+#include "ui/label.h"
+
+namespace osteon {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whose attempts these are: a seat that several people use names them.
+std::string learner_here() {
+  const char* given = std::getenv("OSTEON_LEARNER");
+  return given && is_learner_id(given) ? given : "local";
+}
+
+// What a user did before, by exercise. A server is not asked while the window waits.
+std::vector<std::string> played_before(const std::vector<Scenario>& scenarios) {
+  std::map<std::string, std::pair<int, bool>> played;
+  if (!is_results_server(results_place()))
+    if (const auto store = ResultStore::open(results_place(), 0.2))
+      if (const auto rows = store->list({learner_here(), ""}))
+        for (const AttemptRow& row : *rows) {
+          auto& [count, passed] = played[row.scenario];
+          ++count;
+          passed = passed || row.verdict == "passed";
+        }
+  std::vector<std::string> words;
+  for (const Scenario& scenario : scenarios) {
+    const auto it = played.find(scenario.name);
+    words.push_back(it == played.end() ? ""
+                                       : std::to_string(it->second.first) +
+                                             (it->second.first == 1 ? " attempt" : " attempts") +
+                                             (it->second.second ? ", passed" : ", not passed yet"));
+  }
+  return words;
+}
+
+std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_case) {
+  const std::uint32_t at = goal.bones[i];
+  if (goal.about == SubjectKind::kLandmark)
+    return at < the_case.landmarks.size() ? label_of(the_case.landmarks[at].name) : "";
+  return at < the_case.bones.size() ? label_of(the_case.bones[at].name) : "";
+}
+
+}  // namespace
+
+void ExerciseRun::close_page() {
+  if (page_ != ExercisePage::kOpening && page_ != ExercisePage::kRunning &&
+      page_ != ExercisePage::kJudging)
+    page_ = ExercisePage::kClosed;
+}
+
+void ExerciseRun::toggle() {
+  if (page_ != ExercisePage::kClosed) return close_page();
+  problem_.clear();
+  if (scenarios_.empty()) {
+    auto all = shipped_scenarios();
+    if (all)
+      scenarios_ = std::move(*all);
+    else
+      problem_ = all.error().message();
+  }
+  // The first thing that a student meets comes first.
+  std::stable_partition(scenarios_.begin(), scenarios_.end(),
+                        [](const Scenario& s) { return s.hands.empty(); });
+  played_ = played_before(scenarios_);
+  page_ = ExercisePage::kCourse;
+}
+
+void ExerciseRun::choose(std::size_t exercise) {
+  if (exercise >= scenarios_.size()) return;
+  chosen_ = exercise;
+  problem_.clear();
+  page_ = ExercisePage::kBriefing;
+}
+
+bool ExerciseRun::choose(const std::string& name) {
+  for (std::size_t i = 0; i < scenarios_.size(); ++i)
+    if (scenarios_[i].name == name) choose(i);
+  return page_ == ExercisePage::kBriefing;
+}
+
+void ExerciseRun::back() {
+  problem_.clear();
+  if (page_ != ExercisePage::kBriefing && page_ != ExercisePage::kResult) return;
+  played_ = played_before(scenarios_);
+  page_ = ExercisePage::kCourse;
+}
+
+std::string ExerciseRun::case_spec() const { return case_spec_of(scenario(), "", seed_); }
+
+void ExerciseRun::fail_to_begin(const std::string& why) {
+  problem_ = why;
+  watch_.reset();
+  page_ = ExercisePage::kBriefing;
+}
+
+std::optional<std::vector<PlannedHand>> ExerciseRun::plan(std::shared_ptr<const Case> the_case) {
+  auto planned = plan_scenario(scenario(), *the_case);
+  auto hands = plan_hands(scenario(), *the_case);
+  if (!planned || !hands) {
+    fail_to_begin(planned ? hands.error().message() : planned.error().message());
+    return std::nullopt;
+  }
+  case_ = std::move(the_case);
+  watch_.reset();
+  plan_ = std::make_unique<ScenarioPlan>(std::move(*planned));
+  hands_ = std::move(*hands);
+  return hands_;
+}
+
+void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources) {
+  tick_s_ = tick_s;
+  file_ = std::move(file);
+  watch_ = std::make_unique<AttemptWatch>(*plan_, *case_, hands_, tick_s);
+  sources.case_spec = case_spec();
+  sources.in_background = true;
+  watch_->watch_tunnels(std::move(sources));
+  ticks_.assign(hands_.size(), {});
+  last_.assign(hands_.size(), {});
+  debrief_.reset();
+  problem_.clear();
+  now_s_ = 0;
+  stage_ = 0;
+  cue_shown_ = paused_ = false;
+  pauses_.clear();
+  stated_.clear();
+  hints_ = undone_ = 0;
+  page_ = ExercisePage::kRunning;
+}
+
+bool ExerciseRun::follow(const BoneSnapshot& bones) {
+  if (!watch_) return false;
+  const auto all_have = [&] {
+    return std::all_of(ticks_.begin(), ticks_.end(), [](const auto& q) { return !q.empty(); });
+  };
+  std::vector<const ToolState*> tools;
+  for (const ToolState& tool : last_) tools.push_back(&tool);
+  while (!watch_->over() && all_have()) {
+    // Where one hand's ticks have a gap the others wait for it.
+    std::uint64_t tick = 0;
+    for (const auto& queue : ticks_) tick = std::max(tick, queue.front().tick);
+    for (std::size_t h = 0; h < ticks_.size(); ++h)
+      while (!ticks_[h].empty() && ticks_[h].front().tick <= tick) {
+        last_[h] = ticks_[h].front();
+        ticks_[h].pop_front();
+      }
+    watch_->add(tools, bones);
+    now_s_ = watch_->now_s();
+  }
+  const std::uint32_t stage = watch_->state().stage;
+  if (stage == stage_) return false;
+  stage_ = stage;
+  cue_shown_ = false;
+  return stage < scenario().stages.size() && scenario().stages[stage].restore_point;
+}
+
+void ExerciseRun::show_cue() {
+  if (!cue_shown_) ++hints_;
+  cue_shown_ = true;
+}
+
+// A pause begins after the newest tick that any hand has told, and ends so.
+void ExerciseRun::pause(bool paused) {
+  if (!watch_ || page_ != ExercisePage::kRunning || paused == paused_) return;
+  std::uint64_t told = 0;
+  for (std::size_t h = 0; h < ticks_.size(); ++h)
+    told = std::max({told, last_[h].tick, ticks_[h].empty() ? 0 : ticks_[h].back().tick});
+  paused_ = paused;
+  if (paused)
+    pauses_.push_back({told + 1});
+  else
+    pauses_.back().to = told + 1;
+  watch_->set_pauses(pauses_);
+}
+
+void ExerciseRun::state_finding(const std::string& name, const std::string& grade) {
+  if (page_ != ExercisePage::kRunning) return;
+  if (grade.empty())
+    stated_.erase(name);
+  else
+    stated_[name] = grade;
+}
+
+// The verdict is made from the recording alone: what was said goes with it.
+Result<void> ExerciseRun::note_what_was_said() const {
+  if (!pauses_.empty())
+    if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
+  if (!scenario().asks.empty()) return write_note(file_, "findings", to_json(stated_));
+  return {};
+}
+
+void ExerciseRun::judge() {
+  pause(false);
+  if (const auto noted = note_what_was_said(); !noted) problem_ = noted.error().message();
+  page_ = ExercisePage::kJudging;
+  judging_ = std::make_unique<SideJob<Debrief>>(
+      [order = DebriefOrder{file_, "", scenario().where, ""}](const Progress& progress) {
+        progress("Replaying your attempt", 0.1);
+        return make_debrief(order);
+      });
+}
+
+void ExerciseRun::poll() {
+  if (!judging_ || !judging_->done()) return;
+  auto judged = judging_->take();
+  judging_.reset();
+  if (!judged || !judged->outcome) {
+    problem_ = judged ? "The recording contains no attempt." : judged.error().message();
+    page_ = ExercisePage::kResult;
+    return;
+  }
+  debrief_ = std::move(*judged);
+  page_ = ExercisePage::kResult;
+  keep();
+}
+
+void ExerciseRun::keep() {
+  const std::string report = report_of(*debrief_);
+  const auto standard = shipped_standard(scenario().name);
+  const auto noted =
+      note_attempt(file_, scenario(), standard ? *standard : std::nullopt, "a person", report);
+  if (!noted) problem_ = noted.error().message();
+  const auto kept = keep_report(report, learner_here());
+  if (!kept) problem_ = kept.error().message();
+  if (kept && *kept) problem_ = (*kept)->message();
+  (void)send_results_in_background();
+}
+
+std::optional<Error> ExerciseRun::save_pages(const fs::path& file) const {
+  if (!debrief_) return std::nullopt;
+  const auto saved = save_debrief(*debrief_, file);
+  return saved ? std::optional<Error>{} : saved.error();
+}
+
+ExerciseModel ExerciseRun::model() const {
+  ExerciseModel model;
+  model.page = page_;
+  model.problem = problem_;
+  model.seed = seed_;
+  if (page_ == ExercisePage::kClosed) return model;
+  if (page_ == ExercisePage::kCourse) {
+    for (std::size_t i = 0; i < scenarios_.size(); ++i)
+      model.cards.push_back({scenarios_[i].title, scenarios_[i].text, played_[i]});
+    return model;
+  }
+  model.title = scenario().title;
+  model.text = scenario().text;
+  model.limit_s = scenario().time_limit_s;
+  if (page_ == ExercisePage::kRunning)
+    describe_run(model);
+  else if (page_ == ExercisePage::kResult && debrief_)
+    describe_result(model);
+  else
+    describe_briefing(model);
+  if (judging_) model.judged = judging_->progress().fraction;
+  return model;
+}
+
+void ExerciseRun::describe_briefing(ExerciseModel& model) const {
+  for (const ScenarioHand& hand : scenario().hands)
+    model.hands.push_back(label_of(hand.name) + ": " + label_of(hand.instrument) +
+                          (hand.portal.empty() ? "" : ", through " + label_of(hand.portal)));
+  for (const ScenarioStage& stage : scenario().stages)
+    model.stages.push_back({stage.title, stage.instruction});
+  for (const ScenarioError& error : scenario().errors)
+    model.faults.push_back(
+        {error.title, std::string(to_text(error.severity)), error.consequence, 0, {}});
+  for (const ScenarioMetric& metric : scenario().metrics)
+    model.measures.push_back(
+        {metric.name, metric.unit, 0, metric.threshold, metric.lower_is_better});
+}
+
+void ExerciseRun::describe_run(ExerciseModel& model) const {
+  const ScenarioState& state = watch_->state();
+  for (std::size_t i = 0; i < scenario().stages.size(); ++i) {
+    const ScenarioStage& stage = scenario().stages[i];
+    const double at_s = i < state.completed_s.size() ? state.completed_s[i] : -1;
+    model.stages.push_back({stage.title, stage.instruction, at_s >= 0, i == state.stage, at_s});
+  }
+  for (const MadeError& made : state.errors) {
+    const ScenarioError& error = scenario().errors[made.error];
+    model.faults.push_back(
+        {error.title, std::string(to_text(error.severity)), error.consequence, made.at_s,
+         made.bone < case_->bones.size() ? label_of(case_->bones[made.bone].name) : std::string()});
+  }
+  model.elapsed_s = now_s_;
+  model.paused = paused_;
+  describe_asked(model);
+  model.hints = hints_;
+  model.undone = undone_;
+  if (state.stage >= scenario().stages.size()) return;
+  const std::string& cue = scenario().stages[state.stage].cue;
+  model.has_cue = !cue.empty();
+  if (cue_shown_) model.cue = cue;
+  const auto& goals = plan_->goals[state.stage];
+  for (std::size_t g = 0; g < goals.size() && g < state.goals.size(); ++g)
+    for (std::size_t i = 0; i < goals[g].bones.size(); ++i) {
+      ++model.goals;
+      const bool done =
+          state.goals[g].met || (i < state.goals[g].done.size() && state.goals[g].done[i] != 0);
+      if (!done) model.left.push_back(subject_of(goals[g], i, *case_));
+    }
+}
+
+void ExerciseRun::describe_asked(ExerciseModel& model) const {
+  for (const AskedFinding& asked : scenario().asks) {
+    const auto said = stated_.find(asked.name);
+    model.asked.push_back({asked.name,
+                           asked.title,
+                           asked.grades,
+                           said == stated_.end() ? std::string() : said->second,
+                           {}});
+  }
+}
+
+void ExerciseRun::describe_result(ExerciseModel& model) const {
+  const Outcome& outcome = *debrief_->outcome;
+  for (std::size_t i = 0; i < outcome.stages.size() && i < scenario().stages.size(); ++i) {
+    const auto& done = outcome.stages[i].completed_s;
+    model.stages.push_back(
+        {scenario().stages[i].title, "", done.has_value(), false, done.value_or(0)});
+  }
+  for (const Outcome::Error& made : outcome.errors) {
+    const auto it =
+        std::find_if(scenario().errors.begin(), scenario().errors.end(),
+                     [&](const ScenarioError& error) { return error.name == made.name; });
+    if (it != scenario().errors.end())
+      model.faults.push_back({it->title, std::string(to_text(made.severity)), it->consequence,
+                              made.at_s, label_of(made.subject)});
+  }
+  for (const ScenarioMetric& metric : scenario().metrics)
+    if (const auto it = outcome.metrics.find(metric.name); it != outcome.metrics.end())
+      model.measures.push_back(
+          {metric.name, metric.unit, it->second, metric.threshold, metric.lower_is_better});
+  for (const GradedFinding& graded : outcome.findings)
+    model.asked.push_back({graded.name, graded.title, {}, graded.stated, graded.truth});
+  model.verdict = std::string(to_text(outcome.verdict));
+  if (outcome.score) {
+    model.score = outcome.score->value;
+    model.score_lo = outcome.score->lo;
+    model.score_hi = outcome.score->hi;
+  }
+  model.repeats = debrief_->identical;
+  model.file = file_.string();
+  model.elapsed_s = debrief_->duration_s;
+  model.hints = hints_;
+  model.undone = undone_;
+}
+
+}  // namespace osteon

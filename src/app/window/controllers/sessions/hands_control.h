@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "window/controllers/sessions/live_control.h"
+#include "window/controllers/sessions/tip_gauge.h"
+#include "window/hands_model.h"
+#include "window/pictures/tray_pictures.h"
+
+namespace osteon {
+
+/// Who holds what and where the hands go: two hands, the tray, portals, the way back; and where
+/// the tip is to the bones.
+class HandsControl {
+ public:
+  HandsControl(WindowHost& host, ShownCase& scene, SceneSight& sight, LiveControl& live)
+      : host_(host), scene_(scene), sight_(sight), live_(live) {}
+
+  /// Another case is on show.
+  void begin_case();
+  /// Something else is on show, of the same case perhaps.
+  void begin_run() { aimed_.reset(); }
+  void close_tray() { tray_open_ = false; }
+
+  /// `free`: hands may take and move things. True: the user went back to a mark.
+  bool apply(const HandsRequests& requests, bool free);
+  /// The active hand takes what stands at this place of the tray.
+  void take(std::uint32_t place);
+  /// With Alt held, wheel and turning keys are the resting hand's: true, and taken from `input`.
+  bool nudge_rested(SceneInput& input);
+  /// The portal that leads the active hand; null: none.
+  const Vec3* portal_near() const;
+  /// Buttons of the active hand's device, once a picture.
+  void poll_buttons();
+
+  HandsModel model(bool can_add);
+
+ private:
+  void exchange(const HandsRequests& requests);
+  void change_hands();
+  void bring_to(std::size_t portal);
+  std::vector<HandRow> rows() const;
+  TrayModel tray_model() const;
+  TipModel tip_model();
+  std::vector<NameTag> name_tags() const;
+
+  WindowHost& host_;
+  ShownCase& scene_;
+  SceneSight& sight_;
+  LiveControl& live_;
+  TrayPictures pictures_;
+  bool tray_open_ = false, names_on_ = false;
+  std::string search_;
+  std::optional<std::size_t> aimed_;  ///< portal that a hand was brought to
+  std::uint32_t buttons_before_ = 0;  ///< of the active hand's device
+  TipGauge tip_;
+};
+
+}  // namespace osteon

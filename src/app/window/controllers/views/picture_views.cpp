@@ -1,0 +1,226 @@
+#include "window/controllers/views/picture_views.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cases/scoped_case.h"
+#include "osteon/base/file.h"
+#include "osteon/render/anatomical_view.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kWallMoves_m = 0.008;  // of the tip, before the joint's wall is shaped anew
+constexpr double kConeStill_m = 1e-4;   // of a scope, before its cone is drawn anew
+constexpr double kConeStill_rad = 2e-3;
+constexpr int kShot_px = 512;
+
+bool looks_alike(const Pose& a, const Pose& b) {
+  return (a.p - b.p).norm() < kConeStill_m && a.q.angularDistance(b.q) < kConeStill_rad;
+}
+
+std::span<const ToolState> tools_of(const FilmMoment& moment) {
+  return {moment.tools.data(), moment.hands};
+}
+
+}  // namespace
+
+void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& main) {
+  wall_job_.reset();
+  shot_job_.reset();
+  case_ = std::move(the_case);
+  main_ = &main;
+  const WaterSettings wanted = water_ ? water_->settings() : WaterSettings();
+  water_.emplace(fluid_of(*case_));
+  water_->set(wanted);
+  panorama_ = {};
+  observer_panorama_ = {};
+  observer_.reset();
+  scope_.reset();
+  scope_failed_ = false;
+  room_.reset();
+  wall_at_W_.reset();
+  wall_known_ = wall_empty_ = false;
+  panorama_view_.reset();
+  fluoro_.reset();
+  shot_.clear();
+  failure_.reset();
+}
+
+Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const Tray& tools,
+                                    std::span<const Instrument> instruments) {
+  fluoro_.reset();
+  tray_ = tools;
+  lenses_.clear();
+  auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
+  if (!found) return tl::unexpected(found.error());
+  lenses_ = std::move(*found);
+  auto sucks =
+      instruments.empty() ? suckers_of(names) : Result<Suckers>(suckers_of(names, instruments));
+  if (!sucks) return tl::unexpected(sucks.error());
+  suckers_ = std::move(*sucks);
+  return {};
+}
+
+void PictureViews::flow(const ByTissue& removed_m3) {
+  if (!water_) return;
+  water_->go_to(moment_.time_s, suction_of(suckers_, tools_of(moment_)), removed_m3);
+  if (scope_) scope_->set_water(water_->seen());
+}
+
+Result<void> PictureViews::set_moment(const FilmMoment& moment) {
+  moment_ = moment;
+  scope_painted_ = false;
+  poll_wall();
+  if (auto shot = poll_shot(); !shot) failure_ = shot.error();
+  if (!failure_) return {};
+  return tl::unexpected(*std::exchange(failure_, {}));
+}
+
+std::optional<std::size_t> PictureViews::looking() const {
+  return first_looking(lenses_, tools_of(moment_));
+}
+
+std::optional<ScopeCamera> PictureViews::scope_camera() const {
+  const auto hand = looking();
+  if (!hand) return std::nullopt;
+  const ToolState& tool = moment_.tools[*hand];
+  return ScopeCamera(*lens_of_tool(lenses_, tool), scope_pose(tool.X_WP));
+}
+
+// The one that most look through: the angle of 30 degrees.
+std::optional<std::uint32_t> PictureViews::scope_in_tray() const {
+  constexpr double kUsual_rad = 0.52;
+  std::optional<std::uint32_t> best;
+  double least = 10;
+  for (std::size_t k = 0; k < lenses_.size(); ++k) {
+    if (!lenses_[k]) continue;
+    const double off = std::abs(lenses_[k]->angle_rad - kUsual_rad);
+    if (off >= least) continue;
+    least = off;
+    best = static_cast<std::uint32_t>(k);
+  }
+  return best;
+}
+
+Result<void> PictureViews::ensure_scope() {
+  if (scope_) return {};
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  auto made = ScopeRenderer::create(*case_, *data, *main_);
+  if (!made) return tl::unexpected(made.error());
+  scope_.emplace(std::move(*made));
+  return {};
+}
+
+void PictureViews::ask_for_wall(const Vec3& tip_W) {
+  if (wall_job_) return;
+  if (wall_at_W_ && (tip_W - *wall_at_W_).norm() < kWallMoves_m) return;
+  wall_at_W_ = tip_W;
+  wall_job_ = std::make_unique<SideJob<Wall>>(
+      [room = room_, the_case = case_, bones = moment_.bones, tip_W](const Progress&) {
+        Wall wall{room ? room : std::make_shared<const JointRoom>(*the_case), {}};
+        if (auto made = wall.room->wall(bones, tip_W)) wall.mesh = std::move(*made);
+        return Result<Wall>(std::move(wall));
+      });
+}
+
+// Where the tip stands in bone for a moment, the wall stays as it was.
+void PictureViews::poll_wall() {
+  if (!wall_job_ || !wall_job_->done()) return;
+  auto wall = wall_job_->take();
+  wall_job_.reset();
+  if (!wall) {
+    failure_ = wall.error();
+    return;
+  }
+  room_ = std::move(wall->room);
+  if (!wall->mesh || !scope_) return;
+  wall_known_ = true;
+  wall_empty_ = wall->mesh->triangles.empty();
+  scope_->set_wall(*wall->mesh);
+}
+
+void PictureViews::draw_scope(const Viewport& viewport, int most_px) {
+  fill_viewport(viewport, 0, 0, 0);
+  const auto hand = looking();
+  if (!hand || viewport.empty() || scope_failed_) return;
+  if (auto ok = ensure_scope(); !ok) {
+    scope_failed_ = true;
+    failure_ = ok.error();
+    return;
+  }
+  if (!scope_painted_) {
+    std::vector<ToolState> others;
+    for (std::size_t h = 0; h < moment_.hands; ++h)
+      if (h != *hand) others.push_back(moment_.tools[h]);
+    scope_->set_scene(moment_.bones, others);
+    ask_for_wall(moment_.tools[*hand].X_WP.p);
+    scope_painted_ = scope_->paint(*scope_camera(), most_px);
+  }
+  if (scope_painted_) scope_->show(fitted(viewport, 1, 1));
+}
+
+void PictureViews::update_cones(Panorama& panorama) const {
+  std::vector<Pose> now;
+  for (const ToolState& tool : tools_of(moment_))
+    if (lens_of_tool(lenses_, tool)) now.push_back(tool.X_WP);
+  if (std::equal(now.begin(), now.end(), panorama.cones.begin(), panorama.cones.end(), looks_alike))
+    return;
+  panorama.renderer->set_marks(sight_marks(lenses_, tools_of(moment_)));
+  panorama.cones = std::move(now);
+}
+
+void PictureViews::draw_panorama(const Viewport& viewport, bool observer) {
+  if (!main_ || viewport.empty()) return;
+  Panorama& panorama = observer ? observer_panorama_ : panorama_;
+  if (!panorama.renderer) panorama.renderer.emplace(main_->another_view());
+  const auto camera = panorama_camera(*case_, "front", viewport.aspect());
+  if (!camera) return;
+  if (!panorama_view_) panorama_view_ = panorama_view(*case_, *camera);
+  panorama_view_->camera = *camera;
+  update_cones(panorama);
+  panorama.renderer->set_others({moment_.tools.data() + 1, moment_.hands - 1});
+  panorama.renderer->draw({moment_.bones, moment_.tools[0]}, *panorama_view_, viewport);
+}
+
+void PictureViews::draw_outside(const Viewport& viewport, const ViewState& view) {
+  if (!main_ || viewport.empty()) return;
+  if (!observer_) observer_.emplace(main_->another_view());
+  ViewState front = view;
+  front.camera = preset_camera(ViewPreset::kDorsal, *case_, viewport.aspect());
+  observer_->set_others({moment_.tools.data() + 1, moment_.hands - 1});
+  observer_->draw({moment_.bones, moment_.tools[0]}, front, viewport);
+}
+
+void PictureViews::draw_fluoro(const Viewport& viewport) const {
+  fill_viewport(viewport, 0, 0, 0);
+  shot_.show(viewport);
+}
+
+// The fluoroscope belongs to the thread that makes the picture until that is done.
+void PictureViews::shoot(CutBones cut) {
+  if (shot_job_ || !case_ || moment_.hands == 0) return;
+  if (!fluoro_) fluoro_ = std::make_shared<std::optional<FilmFluoro>>();
+  shot_job_ = std::make_unique<SideJob<Image>>(
+      [fluoro = fluoro_, the_case = case_, tray = tray_, moment = moment_,
+       cut = std::move(cut)](const Progress&) -> Result<Image> {
+        if (!*fluoro) {
+          auto made = FilmFluoro::create(*the_case, tray);
+          if (!made) return tl::unexpected(made.error());
+          fluoro->emplace(std::move(*made));
+        }
+        return (*fluoro)->draw(moment, kShot_px, kShot_px, [&cut] { return cut; });
+      });
+}
+
+Result<void> PictureViews::poll_shot() {
+  if (!shot_job_ || !shot_job_->done()) return {};
+  const auto image = shot_job_->take();
+  shot_job_.reset();
+  if (!image) return tl::unexpected(image.error());
+  shot_.set(*image);
+  return {};
+}
+
+}  // namespace osteon

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osteon/render/joint_room.h"
+#include "osteon/render/scope_renderer.h"
+#include "runs/pictures/film_fluoro.h"
+#include "runs/pictures/film_view.h"
+#include "runs/pictures/panorama.h"
+#include "runs/pictures/scope_lens.h"
+#include "ui/side_job.h"
+#include "water/joint_water.h"
+#include "window/controllers/cases/shown_image.h"
+#include "window/views_model.h"
+
+namespace osteon {
+
+/// Views of an open case beside the one from outside: through a scope, panorama, X-ray pictures.
+/// They share the surfaces of the window's renderer. Needs the window's context in every call and
+/// in the destructor. What takes long is made beside the window: the joint's wall, X-ray pictures.
+class PictureViews {
+ public:
+  /// What was open before is forgotten. `main` draws the case.
+  void begin(std::shared_ptr<const Case> the_case, const Renderer& main);
+  /// What hands may hold, by ToolState::instrument. Fails where a scope's file cannot be read; no
+  /// instrument is looked through then.
+  /// `instruments`: those of the names, where they have been read already.
+  Result<void> set_tray(const std::vector<std::string>& names, const Tray& tools,
+                        std::span<const Instrument> instruments = {});
+
+  /// How the scene stands now, its first tool the active hand's; before any drawing of a picture.
+  /// Fails once where something could not be made: the text is for the user.
+  Result<void> set_moment(const FilmMoment& moment);
+  const FilmMoment& moment() const { return moment_; }
+  /// Lets the joint's water go on to that moment. `removed_m3`: of all bones, since the begin.
+  void flow(const ByTissue& removed_m3);
+  /// Null: no case is open.
+  JointWater* water() { return water_ ? &*water_ : nullptr; }
+  const JointWater* water() const { return water_ ? &*water_ : nullptr; }
+
+  /// Through which tool one looks: the active hand's, else the first other's; none: through none.
+  std::optional<std::size_t> looking() const;
+  /// Its camera; none where nobody looks.
+  std::optional<ScopeCamera> scope_camera() const;
+  /// The tip is so far from the joint that nothing of it is lit.
+  bool scope_is_outside() const { return wall_known_ && wall_empty_; }
+  /// By place in the tray: a scope to take; none: the tray has none.
+  std::optional<std::uint32_t> scope_in_tray() const;
+
+  /// Draws into viewports of the framebuffer that is bound. One drawing through the scope serves
+  /// all places: `most_px` is the side of the largest.
+  void draw_scope(const Viewport& viewport, int most_px);
+  /// `observer`: in the second window, whose pictures are kept by themselves.
+  void draw_panorama(const Viewport& viewport, bool observer = false);
+  /// As the observer sees the scene: `view`'s looks from the front.
+  void draw_outside(const Viewport& viewport, const ViewState& view);
+  void draw_fluoro(const Viewport& viewport) const;
+
+  /// Takes an X-ray picture of the scene as it stands; while one is made, nothing. `cut`: bones
+  /// that hold cuts.
+  void shoot(CutBones cut);
+  bool shooting() const { return shot_job_ != nullptr; }
+  bool has_shot() const { return !shot_.empty(); }
+  /// Something is being made that will change the picture.
+  bool busy() const { return wall_job_ || shot_job_; }
+
+ private:
+  struct Wall {
+    std::shared_ptr<const JointRoom> room;
+    std::optional<TriMesh> mesh;  ///< none: the tip lies in bone
+  };
+  Result<void> ensure_scope();
+  void ask_for_wall(const Vec3& tip_W);
+  void poll_wall();
+  Result<void> poll_shot();
+  /// A view of the scene with what it shows beside it.
+  struct Panorama {
+    std::optional<Renderer> renderer;
+    std::vector<Pose> cones;  ///< that it has
+  };
+  void update_cones(Panorama& panorama) const;
+
+  std::shared_ptr<const Case> case_;
+  const Renderer* main_ = nullptr;  ///< of the window
+  std::optional<Renderer> observer_;
+  Panorama panorama_, observer_panorama_;
+  std::optional<ScopeRenderer> scope_;
+  bool scope_failed_ = false;
+  std::optional<JointWater> water_;
+  Suckers suckers_;  ///< by place in the tray
+  Lenses lenses_;
+  Tray tray_;
+  FilmMoment moment_;
+  bool scope_painted_ = false;  ///< of this moment
+
+  std::shared_ptr<const JointRoom> room_;
+  std::unique_ptr<SideJob<Wall>> wall_job_;
+  std::optional<Vec3> wall_at_W_;  ///< that the newest wall was asked for
+  bool wall_known_ = false, wall_empty_ = false;
+
+  std::optional<ViewState> panorama_view_;
+
+  std::shared_ptr<std::optional<FilmFluoro>> fluoro_;  ///< made with the first picture
+  std::unique_ptr<SideJob<Image>> shot_job_;
+  ShownImage shot_;
+  std::optional<Error> failure_;
+};
+
+}  // namespace osteon

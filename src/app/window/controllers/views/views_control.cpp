@@ -1,0 +1,138 @@
+#include "window/controllers/views/views_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+
+std::vector<ToolState> ViewsControl::others() const {
+  return live_.run() ? live_.run()->others() : replay_.others();
+}
+
+// The active hand first: what it holds counts before what rests.
+FilmMoment ViewsControl::moment() const {
+  FilmMoment moment;
+  const RenderSnapshot& shown = sight_.shown();
+  moment.time_s = shown.tool.time_s;
+  moment.bones = shown.bones;
+  moment.tools[0] = shown.tool;
+  if (live_.run() && shown.tool.tick == 0) moment.tools[0].X_WP.p = Vec3::Constant(std::nan(""));
+  for (const ToolState& tool : others())
+    if (moment.hands < kMaxHands) moment.tools[moment.hands++] = tool;
+  return moment;
+}
+
+CarvedPicture* ViewsControl::carved() {
+  return live_.run() ? &live_.run()->carved() : replay_.carved();
+}
+
+// What was carved since the picture before. A processor that draws has to draw all of it anew then.
+void ViewsControl::show_carved() {
+  constexpr double kRest_s = 0.1;
+  LiveRun* const live = live_.run();
+  const auto run = live ? std::pair(live_.runs_made(), live->run_number())
+                        : std::pair<std::uint64_t, std::uint64_t>();
+  if (live && carved_run_ != run) scene_.renderer->clear_cubes();
+  carved_run_ = run;
+  if (scene_.renderer->software_driver() && host_.now_s - carved_s_ < kRest_s) return;
+  CarvedPicture* const picture = carved();
+  if (!picture) return;
+  for (const CarvedPicture::Changed& changed : picture->changes()) {
+    scene_.renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
+    carved_s_ = host_.now_s;
+  }
+}
+
+// While a run begins anew nothing presses.
+void ViewsControl::show_softs() {
+  LiveRun* const live = live_.run();
+  const auto setup = live ? live->softs() : replay_.softs();
+  softs_.show(scene_.the_case, setup, live ? live->pushes() : replay_.pushes(), host_.now_s,
+              *scene_.renderer);
+}
+
+// What is gone is counted a few times a second: it means looking at all cuts.
+void ViewsControl::let_water_flow() {
+  constexpr double kCounts_s = 0.2;
+  if (std::abs(host_.now_s - counted_s_) >= kCounts_s) {
+    CarvedPicture* const picture = carved();
+    removed_m3_ = picture ? picture->removed() : ByTissue{};
+    counted_s_ = host_.now_s;
+  }
+  scene_.views.flow(removed_m3_);
+}
+
+void ViewsControl::draw(const ViewState& looks) {
+  scene_.renderer->set_others(others());
+  show_carved();
+  show_softs();
+  PictureViews& views = scene_.views;
+  if (auto ok = views.set_moment(moment()); !ok)
+    host_.note(ToastKind::kError, ok.error().message());
+  let_water_flow();
+  const std::vector<Pane> all = sight_.panes();
+  int most_px = observer_.scope_px();
+  for (const Pane& pane : all) {
+    const Viewport at = sight_.pixels_of(pane.area);
+    if (pane.kind == PaneKind::kScope) most_px = std::max(most_px, std::min(at.width, at.height));
+  }
+  for (const Pane& pane : all) {
+    const Viewport at = sight_.pixels_of(pane.area);
+    if (pane.kind == PaneKind::kOutside) scene_.renderer->draw(sight_.shown(), looks, at);
+    if (pane.kind == PaneKind::kScope) views.draw_scope(at, most_px);
+    if (pane.kind == PaneKind::kPanorama) views.draw_panorama(at);
+    if (pane.kind == PaneKind::kFluoro) views.draw_fluoro(at);
+  }
+}
+
+void ViewsControl::apply(const ViewsRequests& requests) {
+  if (requests.layout) sight_.set_layout(*requests.layout);
+  if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);
+  if (requests.toggle_observer) observer_.toggle();
+  if (requests.water && scene_.views.water()) scene_.views.water()->set(*requests.water);
+  if (requests.shoot) {
+    const CarvedPicture* const picture = carved();
+    scene_.views.shoot(picture ? picture->cut_bones() : CutBones{});
+    if (sight_.layout() != PictureLayout::kAll) sight_.set_layout(PictureLayout::kFluoro);
+  }
+  if (!requests.take_scope || !live_.run()) return;
+  const auto scope = scene_.views.scope_in_tray();
+  if (scope && *scope != sight_.shown().tool.instrument) hands_.take(*scope);
+}
+
+std::string ViewsControl::message_on(PaneKind kind) const {
+  const PictureViews& views = scene_.views;
+  if (kind == PaneKind::kFluoro && !views.has_shot())
+    return views.shooting() ? "The X-ray picture is being made." : "B takes an X-ray picture.";
+  if (kind != PaneKind::kScope) return {};
+  if (!views.looking())
+    return replay_.on() ? "No hand holds a scope at this moment of the recording."
+                        : "No hand holds a scope. Take one here or from the tray (T). X adds a "
+                          "second hand; the scope then rests as if an assistant held it.";
+  if (views.scope_is_outside())
+    return "The scope is far from the joint. G moves the hand to a portal, the wheel moves it in.";
+  return {};
+}
+
+ViewsModel ViewsControl::model() const {
+  const PictureViews& views = scene_.views;
+  ViewsModel model;
+  model.layout = sight_.layout();
+  for (const Pane& pane : sight_.panes()) {
+    PaneModel shown{pane, message_on(pane.kind), false};
+    shown.offers_scope =
+        pane.kind == PaneKind::kScope && live_.run() && !views.looking() && views.scope_in_tray();
+    model.panes.push_back(std::move(shown));
+  }
+  model.can_shoot = !views.shooting();
+  model.shooting = views.shooting();
+  model.observer = observer_.model();
+  const bool scope = std::any_of(model.panes.begin(), model.panes.end(), [](const PaneModel& pane) {
+    return pane.pane.kind == PaneKind::kScope;
+  });
+  if (const JointWater* const water = views.water(); water && scope)
+    model.water = {water->settings(), water->state().pressure_pa, water->turbidity()};
+  return model;
+}
+
+}  // namespace osteon

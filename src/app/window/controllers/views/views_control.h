@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "window/controllers/sessions/hands_control.h"
+#include "window/controllers/sessions/replay_control.h"
+#include "window/controllers/views/observer_control.h"
+#include "window/controllers/views/soft_picture.h"
+
+namespace osteon {
+
+/// Draws the picture's views of the scene as it stands; see PictureViews for what is in them.
+class ViewsControl {
+ public:
+  ViewsControl(WindowHost& host, ShownCase& scene, SceneSight& sight, LiveControl& live,
+               ReplayControl& replay, HandsControl& hands, ObserverControl& observer)
+      : host_(host),
+        scene_(scene),
+        sight_(sight),
+        live_(live),
+        replay_(replay),
+        hands_(hands),
+        observer_(observer) {}
+
+  /// The renderer was given its surfaces anew, as they are at rest.
+  void draw_softs_again() { softs_.begin_again(); }
+  /// `looks` of the view from outside.
+  void draw(const ViewState& looks);
+  void apply(const ViewsRequests& requests);
+  ViewsModel model() const;
+
+ private:
+  std::vector<ToolState> others() const;
+  FilmMoment moment() const;
+  CarvedPicture* carved();  ///< null: nothing is carved
+  void show_carved();
+  void show_softs();
+  void let_water_flow();
+  std::string message_on(PaneKind kind) const;
+
+  WindowHost& host_;
+  ShownCase& scene_;
+  SceneSight& sight_;
+  LiveControl& live_;
+  ReplayControl& replay_;
+  HandsControl& hands_;
+  ObserverControl& observer_;
+  std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
+  double carved_s_ = 0;                                 ///< when they were shown last
+  SoftPicture softs_;
+  double counted_s_ = 0;   ///< when what is gone was counted last
+  ByTissue removed_m3_{};  ///< as it was then
+};
+
+}  // namespace osteon

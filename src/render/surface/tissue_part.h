@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "gl/gpu_mesh.h"
+#include "osteon/base/types.h"
+
+namespace osteon {
+
+/// As tissue.frag knows them.
+enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat, kSteel };
+
+/// A surface with its pattern.
+struct TissuePart {
+  GpuMesh surface;
+  std::size_t model = 0;  ///< which it is: the bones of a case, after them the soft parts
+  Pose X_WM;
+  TissuePattern pattern = TissuePattern::kBone;
+  std::array<float, 3> tint{0.89f, 0.84f, 0.73f};
+  std::vector<std::size_t> rides_on;  ///< bones; of a soft part
+  Vec3 middle = Vec3::Zero();         ///< at rest, of a soft part
+  Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
+};
+
+}  // namespace osteon

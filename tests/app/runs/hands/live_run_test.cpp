@@ -1,0 +1,295 @@
+#include "runs/hands/live_run.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "../../../session/drilling.h"
+#include "../../loops/fake_device.h"
+#include "osteon/base/file.h"
+#include "osteon/record/recording.h"
+
+namespace osteon {
+namespace {
+
+// Far from the blocks; after a second it leaps by 0.2 m, faster than any hand may move.
+ProbePath leaping_path() {
+  ProbePath path;
+  for (const auto& [time_s, x] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.01, 0.2}, {9.0, 0.2}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(x, 0, 0.1);
+    path.samples.push_back(sample);
+  }
+  return path;
+}
+
+DeviceChoice virtual_hand() {
+  const auto choices = list_device_choices(nullptr);
+  return choices.at(static_cast<std::size_t>(find_choice(choices, "virtual")));
+}
+
+// The loops run in real time; how long they take does not matter.
+template <class Until>
+void run_until(LiveRun& live, Until until) {
+  do {
+    std::this_thread::yield();
+    live.update();
+  } while (!until());
+}
+
+class LiveRunTest : public ::testing::Test {
+ protected:
+  LiveRunTest() : live(test::blocks_case(), "blocks", leaping_path(), {}) {
+    EXPECT_TRUE(live.start(virtual_hand(), Pose{}));
+  }
+  ~LiveRunTest() override {
+    std::filesystem::remove(file);
+    std::filesystem::remove(log);
+  }
+
+  void run_until_it_trips() {
+    run_until(live, [&] { return live.device_status().cause == ForceOff::kVelocity; });
+  }
+  // The first that the new run tells.
+  ForceOff cause_of_next_run() {
+    run_until(live, [&] { return live.snapshot().tool.tick < 900; });
+    return live.device_status().cause;
+  }
+
+  LiveRun live;
+  std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".osr");
+  std::filesystem::path log =
+      std::filesystem::path(::testing::TempDir()) / ("live_" + std::to_string(::getpid()) + ".csv");
+};
+
+TEST_F(LiveRunTest, ARecordingThatBeginsAfterATripDoesNotArmTheForceAgain) {
+  run_until_it_trips();
+  ASSERT_TRUE(live.start_recording(file));
+  EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
+  live.set_force(true);
+  run_until(live, [&] { return live.device_status().cause == ForceOff::kNone; });
+  EXPECT_TRUE(live.stop_recording());
+}
+
+TEST_F(LiveRunTest, AFaultIsResumedForTheActiveHandAlone) {
+  const std::vector<LiveHandOrder> both = {{virtual_hand(), "left"}, {virtual_hand(), "right"}};
+  ASSERT_TRUE(live.start(both, {Pose{}, Pose{}}));
+  const auto cause = [&](std::size_t hand) { return live.hand(hand).status.cause; };
+  run_until(live,
+            [&] { return cause(0) == ForceOff::kVelocity && cause(1) == ForceOff::kVelocity; });
+  // The leap is over: nothing trips a second time.
+  const auto tick = [&](std::size_t hand) { return live.hand(hand).snapshot.tool.tick; };
+  run_until(live, [&] { return tick(0) > 1200 && tick(1) > 1200; });
+  live.resume();
+  run_until(live, [&] { return cause(0) == ForceOff::kNone; });
+  EXPECT_EQ(cause(1), ForceOff::kVelocity);
+  live.set_force(false);
+  live.resume();
+  run_until(live, [&] { return cause(1) == ForceOff::kNone; });
+}
+
+// The mouse's hand is where the run began until it is moved: a run that follows at once is there
+// too.
+TEST_F(LiveRunTest, ARunThatFollowsAtOnceBeginsWhereTheOneBeforeDid) {
+  const auto choices = list_device_choices(nullptr);
+  const Pose start{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  LiveRun mouse(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(
+      mouse.start(choices.at(static_cast<std::size_t>(find_choice(choices, "mouse"))), start));
+  ASSERT_TRUE(mouse.start_recording(file));
+  run_until(mouse, [&] { return mouse.snapshot().tool.tick > 4; });
+  EXPECT_LT((mouse.snapshot().tool.X_WP.p - start.p).norm(), 1e-6);
+}
+
+TEST_F(LiveRunTest, EndedItKeepsTheRecordingAndRunsNoMore) {
+  live.keep_force_log(log);
+  ASSERT_TRUE(live.start_recording(file));
+  run_until(live, [&] { return live.snapshot().tool.tick > 100; });
+  ASSERT_TRUE(live.end());
+  EXPECT_FALSE(live.recording());
+  const auto recording = load_recording(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_TRUE(recording->complete);
+  EXPECT_GT(recording->ticks.size(), 100u);
+  // The device was closed once, and none was opened after it.
+  const std::string told = read_file(log).value();
+  EXPECT_GT(told.size(), 1000u);
+  EXPECT_TRUE(told.ends_with("closed\n"));
+  EXPECT_TRUE(live.end());
+  live.update();
+}
+
+TEST_F(LiveRunTest, ALentDeviceComesBackToARunThatIsAsItWas) {
+  EXPECT_TRUE(live.lend_device());
+  EXPECT_FALSE(live.lend_device());
+  EXPECT_FALSE(live.start_recording(file));
+  live.update();  // stands still, harmlessly
+  live.set_force(false);
+  ASSERT_TRUE(live.take_back(nullptr));
+  run_until(live, [&] { return live.snapshot().tool.tick > 8; });
+  EXPECT_EQ(live.device_status().cause, ForceOff::kSoftware);
+  live.set_force(true);
+  run_until_it_trips();
+  ASSERT_TRUE(live.take_back(live.lend_device()));
+  EXPECT_EQ(cause_of_next_run(), ForceOff::kVelocity);
+}
+
+// Felt as before, but one bone is farther away: what is told afterwards comes from the new case.
+TEST_F(LiveRunTest, ACaseIsExchangedWhereTheProbeIsAndNotWhileRecording) {
+  const auto finer = std::make_shared<Case>(*test::blocks_case());
+  finer->bones[0].X_WB.p.x() += 0.5;
+  const Pose start{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  LiveRun mouse(test::blocks_case(), "blocks#hull", leaping_path(), {});
+  ASSERT_TRUE(mouse.exchange_case(test::blocks_case(), "blocks#hull", leaping_path()))
+      << "before anything runs";
+  const auto choices = list_device_choices(nullptr);
+  ASSERT_TRUE(
+      mouse.start(choices.at(static_cast<std::size_t>(find_choice(choices, "mouse"))), start));
+  run_until(mouse, [&] { return mouse.snapshot().tool.tick > 4; });
+  EXPECT_TRUE(mouse.touches_nothing());
+  ASSERT_TRUE(mouse.start_recording(file));
+  EXPECT_FALSE(mouse.exchange_case(finer, "blocks", leaping_path()));
+  ASSERT_TRUE(mouse.stop_recording());
+  ASSERT_TRUE(mouse.exchange_case(finer, "blocks", leaping_path()));
+  run_until(mouse, [&] {
+    return mouse.snapshot().tool.tick > 4 && mouse.snapshot().bones.bones[0].X_WB.p.x() > 0.4;
+  });
+  EXPECT_LT((mouse.snapshot().tool.X_WP.p - start.p).norm(), 1e-6);
+  const auto recording = load_recording(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  EXPECT_EQ(recording->header.case_source, "blocks#hull") << "names what was felt then";
+}
+
+DeviceChoice choice_named(const char* driver) {
+  const auto choices = list_device_choices(nullptr);
+  return choices.at(static_cast<std::size_t>(find_choice(choices, driver)));
+}
+
+TEST(LiveHands, ASecondHandByMouseComesInAndTheFirstStaysWhereItWas) {
+  const Pose right{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  const Pose left{Vec3(-0.03, -0.02, 0.2), Quat::Identity()};
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), right));
+  EXPECT_FALSE(live.change_hands());
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  ASSERT_TRUE(live.add_hand(left, 0));
+  ASSERT_EQ(live.hands(), 2u);
+  EXPECT_EQ(live.active(), 1u);
+  run_until(live, [&] { return live.snapshot().tool.tick > 4 && !live.others().empty(); });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - left.p).norm(), 1e-6);
+  EXPECT_LT((live.others()[0].X_WP.p - right.p).norm(), 1e-6);
+  ASSERT_TRUE(live.change_hands());
+  EXPECT_EQ(live.active(), 0u);
+  EXPECT_TRUE(live.rests(1));
+  // One millimetre inwards along its shaft, which points along +z.
+  live.nudge(1, 0.001, 0, 0, 0, Quat::Identity());
+  run_until(live, [&] { return std::abs(live.others()[0].X_WP.p.z() - 0.199) < 1e-6; });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - right.p).norm(), 1e-6);
+}
+
+TEST(LiveHands, OneDeviceServesTwoHandsByTurns) {
+  ProbePath still;
+  for (const double time_s : {0.0, 100.0}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0, 0, 0.1);
+    still.samples.push_back(sample);
+  }
+  LiveRun live(test::blocks_case(), "blocks", still, {});
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  const Pose left{Vec3(-0.03, 0, 0.15), Quat::Identity()};
+  ASSERT_TRUE(live.add_hand(left, 0));
+  run_until(live, [&] { return live.snapshot().tool.tick > 200 && !live.others().empty(); });
+  EXPECT_TRUE(live.rests(0));
+  const Vec3 rested = live.others()[0].X_WP.p;
+  run_until(live, [&] { return live.others()[0].tick > 300; });
+  EXPECT_LT((live.others()[0].X_WP.p - rested).norm(), 1e-9);
+  EXPECT_TRUE(live.change_hands());
+  EXPECT_TRUE(live.rests(1));
+}
+
+TEST(LiveHands, ARestorePointIsKeptAndGoneBackTo) {
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  const auto told = [&](EventKind kind) {
+    for (const RunEvent& e : live.events().events())
+      if (e.event.kind == kind) return true;
+    return false;
+  };
+  run_until(live, [&] { return told(EventKind::kMark); });
+  EXPECT_FALSE(told(EventKind::kRestored));
+  ASSERT_TRUE(live.undo());
+  run_until(live, [&] { return told(EventKind::kRestored); });
+}
+
+TEST(LiveHands, TheMouseGoesOnAfterALeapThatWouldStopAMotor) {
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  const Pose start{Vec3(0, 0, 0.1), Quat::Identity()};
+  ASSERT_TRUE(live.start(choice_named("mouse"), start));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  Pose far = start;
+  far.p.x() += 0.3;
+  live.bring(far);
+  std::string why;
+  run_until(live, [&] { return !(why = live.take_harmless_trip()).empty(); });
+  EXPECT_NE(why.find("1 m/s"), std::string::npos);
+  run_until(live, [&] {
+    return live.device_status().cause == ForceOff::kNone &&
+           (live.snapshot().tool.X_WP.p - far.p).norm() < 1e-3;
+  });
+}
+
+TEST(LiveHands, ARecordingOfACaseInAFolderKnowsWhereThatStood) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "some_case";
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("live_path_" + std::to_string(::getpid()) + ".osr");
+  LiveRun live(test::blocks_case(), folder.string() + "#near=hull", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  ASSERT_TRUE(live.start_recording(file));
+  EXPECT_FALSE(live.add_hand(Pose{}, 0));
+  ASSERT_TRUE(live.end());
+  const auto recording = load_recording(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(recording);
+  EXPECT_EQ(recording->header.case_path, folder.string());
+}
+
+// What a path says of instruments and power is done, and what it drills is shown. A new run begins
+// with whole bones.
+TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
+  const testing::Drilling with("drill:3.2");
+  ProbePath path;
+  path.with_instruments = true;
+  for (const auto& [time_s, z] : {std::pair{0.0, 0.001}, {0.2, -0.003}, {60.0, -0.003}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0.0003, 0.0002, testing::kTop_m + z);
+    sample.instrument = "drill";
+    sample.size_mm = 3.2;
+    sample.power = 1;
+    path.samples.push_back(sample);
+  }
+  RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
+  LiveRun live(with.the_case, "block", path, {}, tray);
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  std::size_t triangles = 0;
+  run_until(live, [&] {
+    for (const CarvedPicture::Changed& changed : live.carved().changes())
+      for (const SurfaceCube& cube : changed.cubes)
+        for (const float depth_m : cube.depth_m) triangles += depth_m > 0.0005f ? 1 : 0;
+    return triangles > 50;
+  });
+  EXPECT_EQ(live.snapshot().tool.power, 1);
+  const std::uint64_t number = live.run_number();
+  ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+  EXPECT_GT(live.run_number(), number);
+  EXPECT_TRUE(live.carved().changes().empty());
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,43 @@
+#include "runs/hands/push_history.h"
+
+#include <gtest/gtest.h>
+
+namespace osteon {
+namespace {
+
+SolidPushes pushed(double force_n) {
+  SolidPushes pushes;
+  pushes.count = 1;
+  pushes.all[0].force_n = force_n;
+  return pushes;
+}
+
+// Nothing for a second, a push that grows until 2 s and stays until 3 s, then nothing.
+PushHistory one_push() {
+  PushHistory history;
+  for (int tick = 1; tick <= 4000; ++tick) {
+    const double t = tick * 0.001;
+    if (t <= 1 || t > 3)
+      history.add({}, t);
+    else
+      history.add(pushed(std::min(t - 1, 1.0)), t);
+  }
+  return history;
+}
+
+TEST(PushHistory, GivesWhatPressedAtATimeInAnyOrder) {
+  const PushHistory history = one_push();
+  EXPECT_EQ(history.at(3.5).count, 0u);
+  EXPECT_EQ(history.at(2.5), pushed(1));
+  EXPECT_EQ(history.at(0.5).count, 0u);
+  ASSERT_EQ(history.at(1.5).count, 1u);
+  EXPECT_NEAR(history.at(1.5).all[0].force_n, 0.5, 0.02);
+}
+
+TEST(PushHistory, KeepsWhatChangesAtThePicturesRate) {
+  EXPECT_LE(one_push().kept(), static_cast<std::size_t>(PushHistory::kPictureHz) + 3);
+  EXPECT_EQ(PushHistory().at(1).count, 0u);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,181 @@
+#include "window/controllers/sessions/exercise_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "cases/open_case.h"
+
+namespace osteon {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExerciseRunTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    dir_ = fs::temp_directory_path() / ("osteon_exercise_" + std::to_string(::getpid()));
+    fs::create_directories(dir_);
+    ::setenv("XDG_DATA_HOME", dir_.c_str(), 1);
+  }
+  void TearDown() override {
+    ::unsetenv("XDG_DATA_HOME");
+    fs::remove_all(dir_);
+  }
+  // Begins touch_bones on the built-in wrist.
+  void begin() {
+    run_.toggle();
+    ASSERT_TRUE(run_.choose("touch_bones"));
+    const auto opened = open_case(run_.case_spec(), {}, CaseParts::kFelt);
+    ASSERT_TRUE(opened) << opened.error().message();
+    case_ = *opened;
+    ASSERT_TRUE(run_.plan(case_));
+    run_.begin(0.001, dir_ / "none.osr");
+  }
+  // The tip rests on a bone with a force for some ticks, and leaves it.
+  void touch(const char* bone, double force_n, int ticks) {
+    for (int i = 0; i < ticks + 5; ++i) {
+      ToolState tool;
+      tool.tick = ++tick_;
+      tool.time_s = 0.001 * static_cast<double>(tick_);
+      if (i < ticks) {
+        tool.contact_count = 1;
+        tool.contacts[0].bone = case_->find(bone);
+        tool.contacts[0].force_on_tool_W = {0, 0, force_n};
+        tool.contacts[0].depth_m = 1e-4;
+        tool.force_W = {0, 0, force_n};
+      }
+      run_.take(0, tool);
+    }
+  }
+  fs::path dir_;
+  ExerciseRun run_;
+  std::shared_ptr<const Case> case_;
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(ExerciseRunTest, TheCourseListsWhatIsShippedTheFirstExerciseFirst) {
+  EXPECT_EQ(run_.model().page, ExercisePage::kClosed);
+  run_.toggle();
+  const ExerciseModel course = run_.model();
+  EXPECT_EQ(course.page, ExercisePage::kCourse);
+  ASSERT_GE(course.cards.size(), 8u);
+  EXPECT_EQ(course.cards[0].title, "Touch the bones of the wrist");
+  EXPECT_TRUE(course.cards[0].played.empty());
+  EXPECT_FALSE(run_.choose("no_such_exercise"));
+  run_.choose(99);
+  EXPECT_EQ(run_.page(), ExercisePage::kCourse);
+  run_.toggle();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed);
+}
+
+TEST_F(ExerciseRunTest, PagesCloseButWhatRunsGoesOn) {
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed);
+  run_.toggle();
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed);
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("touch_bones"));
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kClosed) << "a briefing";
+  begin();
+  run_.close_page();
+  EXPECT_EQ(run_.page(), ExercisePage::kRunning);
+}
+
+TEST_F(ExerciseRunTest, TheBriefingTellsStagesErrorsAndAims) {
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("touch_bones"));
+  const ExerciseModel briefing = run_.model();
+  EXPECT_EQ(briefing.stages.size(), 3u);
+  EXPECT_EQ(briefing.faults.size(), 4u);
+  EXPECT_EQ(briefing.limit_s, 600);
+  EXPECT_EQ(run_.case_spec(), "builtin:wrist#hull");
+  run_.set_seed(3);
+  EXPECT_EQ(run_.case_spec().rfind("builtin:wrist:3", 0), 0u) << run_.case_spec();
+  run_.back();
+  EXPECT_EQ(run_.page(), ExercisePage::kCourse);
+}
+
+TEST_F(ExerciseRunTest, StagesAndErrorsAreFollowedTickByTick) {
+  begin();
+  EXPECT_FALSE(run_.follow(rest_snapshot(*case_))) << "nothing happened yet";
+  EXPECT_EQ(run_.model().goals, 8u);
+  EXPECT_EQ(run_.model().left.size(), 8u);
+  touch("lunate", 1, 300);
+  touch("capitate", 1, 100);  // too short
+  EXPECT_FALSE(run_.follow(rest_snapshot(*case_)));
+  EXPECT_EQ(run_.model().left.size(), 7u);
+  EXPECT_NEAR(run_.model().elapsed_s, 0.41, 1e-9);
+  touch("capitate", 6, 300);
+  run_.follow(rest_snapshot(*case_));
+  ASSERT_EQ(run_.model().faults.size(), 1u);
+  EXPECT_EQ(run_.model().faults[0].title, "Pressed too hard");
+  EXPECT_EQ(run_.model().faults[0].where, "Capitate");
+  for (const char* bone :
+       {"scaphoid", "triquetrum", "pisiform", "trapezium", "trapezoid", "hamate"})
+    touch(bone, 1, 300);
+  EXPECT_TRUE(run_.follow(rest_snapshot(*case_))) << "the next stage can be come back to";
+  EXPECT_TRUE(run_.model().stages[0].done);
+  EXPECT_TRUE(run_.model().stages[1].live);
+  EXPECT_FALSE(run_.over());
+  run_.show_cue();
+  run_.show_cue();
+  EXPECT_EQ(run_.model().hints, 1);
+  EXPECT_FALSE(run_.model().cue.empty());
+}
+
+TEST_F(ExerciseRunTest, InAPauseTheTimeStandsAndNothingIsJudged) {
+  begin();
+  touch("lunate", 1, 300);
+  run_.follow(rest_snapshot(*case_));
+  const double before_s = run_.model().elapsed_s;
+  run_.pause(true);
+  EXPECT_TRUE(run_.model().paused);
+  touch("capitate", 6, 400);  // too hard, and it would count
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_DOUBLE_EQ(run_.model().elapsed_s, before_s);
+  EXPECT_TRUE(run_.model().faults.empty());
+  EXPECT_EQ(run_.model().left.size(), 7u);
+  run_.pause(false);
+  EXPECT_FALSE(run_.model().paused);
+  touch("hamate", 1, 300);
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_EQ(run_.model().left.size(), 6u);
+  EXPECT_NEAR(run_.model().elapsed_s, before_s + 0.305, 1e-9);
+  EXPECT_TRUE(run_.model().faults.empty());
+}
+
+TEST_F(ExerciseRunTest, WhatIsFoundIsAskedForAndKeptUntilTheEnd) {
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("wrist_tour"));
+  EXPECT_TRUE(run_.model().asked.empty()) << "not before it runs";
+  auto wrist = open_case("builtin:wrist#hull", {}, CaseParts::kFelt);
+  ASSERT_TRUE(wrist);
+  ASSERT_TRUE(run_.plan(*wrist)) << run_.model().problem;
+  run_.begin(0.001, dir_ / "none.osr");
+  ASSERT_EQ(run_.model().asked.size(), 2u);
+  EXPECT_EQ(run_.model().asked[0].grades.size(), 4u);
+  EXPECT_TRUE(run_.model().asked[0].stated.empty());
+  run_.state_finding("geissler", "3");
+  EXPECT_EQ(run_.model().asked[0].stated, "3");
+  run_.state_finding("geissler", "");
+  EXPECT_TRUE(run_.model().asked[0].stated.empty());
+}
+
+TEST_F(ExerciseRunTest, ARecordingThatIsNotThereIsSaid) {
+  begin();
+  run_.judge();
+  EXPECT_EQ(run_.page(), ExercisePage::kJudging);
+  run_.toggle();
+  EXPECT_EQ(run_.page(), ExercisePage::kJudging) << "it cannot be closed meanwhile";
+  run_.wait_for_verdict();
+  run_.poll();
+  EXPECT_EQ(run_.page(), ExercisePage::kResult);
+  EXPECT_NE(run_.model().problem.find("none.osr"), std::string::npos) << run_.model().problem;
+  EXPECT_FALSE(run_.save_pages(dir_ / "x.pdf"));
+}
+
+}  // namespace
+}  // namespace osteon
