@@ -13,7 +13,7 @@ constexpr double kGentleZone_m = 0.005;  // above a top: from here at the speed 
 constexpr double kNoticed_n = 0.15;
 constexpr double kTooDeep_m = 0.012;
 constexpr double kCorrects_m_per_n_s = 0.004;
-constexpr double kLongest_s = 6;
+constexpr double kLongestTouch_s = 6;
 constexpr double kInsideShare = 0.3;  // of the speed outside
 constexpr double kTooHard_n = 6.5;
 constexpr double kLook_m = 0.028;  // from the window to the tip
@@ -79,7 +79,7 @@ void ProbeSurgeon::press(double dt_s) {
   const double step = std::clamp((wanted_n - known_n_) * kCorrects_m_per_n_s, -0.02, 0.02) * dt_s;
   tip_W_.z() -= step;
   if (known_n_ > 0.7 * wanted_n) pressed_s_ += dt_s;
-  if (pressed_s_ >= skill_.dwell_s || phase_s_ > kLongest_s) enter(Phase::kLift);
+  if (pressed_s_ >= skill_.dwell_s || phase_s_ > kLongestTouch_s) enter(Phase::kLift);
 }
 
 void ProbeSurgeon::lifted() {

@@ -26,7 +26,7 @@ DeviceMapping mapping_of(const ProbePath& path, const Vec3& workspace_m) {
   return mapping;
 }
 
-bool is_usable(const DeviceSample& sample) {
+bool is_a_pose(const DeviceSample& sample) {
   return sample.connected && sample.calibrated && sample.refusal == ForceOff::kNone;
 }
 
@@ -57,7 +57,7 @@ Result<void> PathPlayer::go_to_start() {
   for (int i = 0; i < kMostReads && still < kStill; ++i) {
     const DeviceSample sample = read_at_start();
     const Vec3 away = sample.X_VD.p - path_.samples.front().X_WD.p;
-    const bool there = is_usable(sample) && away.norm() < kAtStart_m * mapping_.scale;
+    const bool there = is_a_pose(sample) && away.norm() < kAtStart_m * mapping_.scale;
     still = there ? still + 1 : 0;
   }
   if (still == kStill) return {};

@@ -5,7 +5,7 @@
 namespace osteon {
 namespace {
 
-constexpr const char* kWhere = "HID report descriptor of the joystick";
+constexpr const char* kDescriptor = "HID report descriptor of the joystick";
 
 // An axis of the Generic Desktop page among the inputs.
 const HidField* find_axis(const HidReports& reports, std::uint16_t id) {
@@ -19,7 +19,7 @@ Result<HidField> demand_axis(const HidReports& reports, std::uint16_t id) {
   if (!f || f->logical_min >= f->logical_max)
     return fail("the joystick has no axis of usage 01:" + std::to_string(id) +
                     " (decimal) that its profile names",
-                kWhere, "Correct [joystick.axes] in the profile");
+                kDescriptor, "Correct [joystick.axes] in the profile");
   return *f;
 }
 
@@ -32,7 +32,7 @@ Result<PidLayout> PidLayout::find(HidReports reports, const JoystickProfile& pro
   if (auto ok = layout.find_effects(); !ok) return tl::unexpected(ok.error());
   for (const std::uint16_t force_usage : profile.force_usages)
     if (!layout.reports_.find(HidReport::kOutput, pid::kAxesEnable, hid_usage(0x01, force_usage)))
-      return fail("no effect can be put on an axis that the profile names", kWhere,
+      return fail("no effect can be put on an axis that the profile names", kDescriptor,
                   "Correct 'force_usage' in the profile");
   return layout;
 }
@@ -48,7 +48,7 @@ Result<void> PidLayout::find_inputs(const JoystickProfile& profile) {
   rotation_ = *rotation;
   for (const HidField& axis : {axes_[1], axes_[2], rotation_})
     if (axis.report_id != axes_[0].report_id)
-      return fail("the axes come in different reports", kWhere, "Osteon needs them in one");
+      return fail("the axes come in different reports", kDescriptor, "Osteon needs them in one");
   for (const HidField& f : reports_.fields)
     if (f.report == HidReport::kInput && !f.is_array && (f.usage >> 16) == 0x09 && f.bits == 1 &&
         f.report_id == axes_[0].report_id && buttons_.size() < 32)
@@ -62,13 +62,13 @@ Result<HidField> PidLayout::demand_field(HidReport kind, std::uint32_t collectio
                                          std::uint32_t usage, const char* name) const {
   const HidField* f = reports_.find(kind, collection, usage);
   if (f) return *f;
-  return fail(std::string("the joystick has no ") + name, kWhere,
+  return fail(std::string("the joystick has no ") + name, kDescriptor,
               "It is not a force-feedback joystick of HID PID class 1.0 with constant forces");
 }
 
 Result<void> PidLayout::find_effects() {
   if (!reports_.uses_ids)
-    return fail("the joystick does not number its reports", kWhere,
+    return fail("the joystick does not number its reports", kDescriptor,
                 "It is not a force-feedback joystick of HID PID class 1.0");
   control_collection_ = reports_.find(HidReport::kOutput, pid::kControl, pid::kReset)
                             ? pid::kControl
@@ -98,7 +98,7 @@ Result<void> PidLayout::find_effects() {
       return tl::unexpected(f.error());
   magnitude_ = *reports_.find(HidReport::kOutput, pid::kSetConstantForce, pid::kMagnitude);
   if (magnitude_.logical_min >= 0 || magnitude_.logical_max <= 0)
-    return fail("the magnitude of its constant force has no sign", kWhere, "Osteon needs one");
+    return fail("the magnitude of its constant force has no sign", kDescriptor, "Osteon needs one");
   return {};
 }
 

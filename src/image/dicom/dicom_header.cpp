@@ -9,7 +9,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::uint64_t kHeaderLimitBytes = 256ull << 20;
+constexpr std::uint64_t kDicomHeaderBytes = 256ull << 20;
 
 /// Backslash-separated decimal numbers; empty when one is none.
 std::vector<double> decimals_at(const DicomElements& data, std::uint16_t group,
@@ -81,7 +81,7 @@ DicomHeader header_of(const DicomElements& data) {
 }  // namespace
 
 Result<std::string> read_dicom_bytes(const std::filesystem::path& file) {
-  return read_file(file, kHeaderLimitBytes);
+  return read_file(file, kDicomHeaderBytes);
 }
 
 Result<DicomHeader> dicom_header(const DicomElements& elements, const std::filesystem::path& file) {

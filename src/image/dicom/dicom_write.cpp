@@ -9,7 +9,7 @@
 namespace osteon {
 namespace {
 
-constexpr const char* kCtImageStorage = "1.2.840.10008.5.1.4.1.1.2";
+constexpr const char* kCtSopClass = "1.2.840.10008.5.1.4.1.1.2";
 
 struct SeriesIds {
   std::string study, series, frame;
@@ -18,7 +18,7 @@ struct SeriesIds {
 void put_identity(gdcm::DataSet& data, const SeriesIds& ids, const DicomWriteOptions& options) {
   using gdcm::VR;
   put_dicom(data, 0x0008, 0x0008, VR::CS, "DERIVED\\SECONDARY\\AXIAL");
-  put_dicom(data, 0x0008, 0x0016, VR::UI, kCtImageStorage);
+  put_dicom(data, 0x0008, 0x0016, VR::UI, kCtSopClass);
   put_dicom_nobody(data);
   put_dicom(data, 0x0008, 0x0060, VR::CS, "CT");
   put_dicom(data, 0x0008, 0x103e, VR::LO, options.description);

@@ -12,7 +12,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 struct Cell {
   std::int64_t x = 0, y = 0, z = 0;
@@ -33,13 +33,13 @@ struct CellHash {
 class Places {
  public:
   Places(const std::vector<Vec3>& vertices, double distance)
-      : vertices_(vertices), distance_(distance), next_(vertices.size(), kNone) {
+      : vertices_(vertices), distance_(distance), next_(vertices.size(), kNoVertex) {
     newest_.reserve(vertices.size());
   }
 
-  // The earliest vertex within reach of `p`, or kNone.
+  // The earliest vertex within reach of `p`, or kNoVertex.
   std::uint32_t find(const Vec3& p) const {
-    std::uint32_t best = kNone;
+    std::uint32_t best = kNoVertex;
     const Cell c = cell_of(p);
     const std::int64_t reach = distance_ > 0 ? 1 : 0;
     for (std::int64_t dx = -reach; dx <= reach; ++dx)
@@ -67,10 +67,10 @@ class Places {
   }
 
   std::uint32_t find_in(const Cell& cell, const Vec3& p) const {
-    std::uint32_t best = kNone;
+    std::uint32_t best = kNoVertex;
     const auto at = newest_.find(cell);
     if (at == newest_.end()) return best;
-    for (std::uint32_t v = at->second; v != kNone; v = next_[v])
+    for (std::uint32_t v = at->second; v != kNoVertex; v = next_[v])
       if ((vertices_[v] - p).squaredNorm() <= distance_ * distance_) best = std::min(best, v);
     return best;
   }
@@ -84,11 +84,11 @@ class Places {
 }  // namespace
 
 std::size_t drop_unused_vertices(TriMesh& mesh) {
-  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kNoVertex);
   std::vector<Vec3> kept;
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) {
-      if (renamed[v] == kNone) {
+      if (renamed[v] == kNoVertex) {
         renamed[v] = static_cast<std::uint32_t>(kept.size());
         kept.push_back(mesh.vertices[v]);
       }
@@ -107,8 +107,8 @@ std::size_t weld_vertices(TriMesh& mesh, double distance_m) {
   std::size_t joined = 0;
   for (std::uint32_t v = 0; v < stays.size(); ++v) {
     const std::uint32_t earlier = places.find(mesh.vertices[v]);
-    stays[v] = earlier == kNone ? v : earlier;
-    if (earlier == kNone)
+    stays[v] = earlier == kNoVertex ? v : earlier;
+    if (earlier == kNoVertex)
       places.add(v);
     else
       ++joined;

@@ -12,7 +12,7 @@ namespace {
 constexpr ImGuiWindowFlags kExerciseWindow =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
-void wrapped(ImU32 color, const std::string& words) {
+void wrapped_text(ImU32 color, const std::string& words) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(words.c_str());
@@ -22,7 +22,7 @@ void wrapped(ImU32 color, const std::string& words) {
 
 void strong(const PanelContext& c, const std::string& words) {
   const ui::WithFont font(c.fonts.strong);
-  wrapped(color::kText, words);
+  wrapped_text(color::kText, words);
 }
 
 void quiet_heading(const PanelContext& c, const char* words) {
@@ -46,9 +46,9 @@ std::string amount(double value, const std::string& unit) {
 
 void draw_course(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
-  wrapped(color::kTextQuiet,
-          "Each judges what you touch, how hard and for how long. Your attempts stay on this "
-          "computer.");
+  wrapped_text(color::kTextQuiet,
+               "Each judges what you touch, how hard and for how long. Your attempts stay on this "
+               "computer.");
   ImGui::BeginChild("cards", {0, -ImGui::GetFrameHeightWithSpacing()});
   for (std::size_t i = 0; i < model.cards.size(); ++i) {
     const ExerciseModel::Card& card = model.cards[i];
@@ -75,7 +75,7 @@ void draw_course(const PanelContext& c) {
 void draw_stage_rows(const PanelContext& c) {
   for (const ExerciseModel::Stage& stage : c.model.exercise.stages) {
     strong(c, stage.title);
-    wrapped(color::kTextQuiet, stage.instruction);
+    wrapped_text(color::kTextQuiet, stage.instruction);
   }
 }
 
@@ -84,8 +84,8 @@ void draw_faults(const PanelContext& c, bool with_time) {
     std::string line = fault.title + " (" + fault.severity + ")";
     if (!fault.where.empty()) line += ", " + fault.where;
     if (with_time) line = ui::clock_time(fault.at_s, false) + "  " + line;
-    wrapped(with_time ? color::kAmber : color::kText, line);
-    wrapped(color::kTextQuiet, fault.consequence);
+    wrapped_text(with_time ? color::kAmber : color::kText, line);
+    wrapped_text(color::kTextQuiet, fault.consequence);
   }
 }
 
@@ -109,8 +109,8 @@ void draw_briefing(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   const bool opening = model.page == ExercisePage::kOpening;
   ImGui::BeginChild("briefing", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
-  wrapped(color::kText, model.text);
-  for (const std::string& hand : model.hands) wrapped(color::kTextQuiet, hand);
+  wrapped_text(color::kText, model.text);
+  for (const std::string& hand : model.hands) wrapped_text(color::kTextQuiet, hand);
   quiet_heading(c, "What to do");
   draw_stage_rows(c);
   quiet_heading(c, "What to avoid");
@@ -139,9 +139,9 @@ void draw_briefing(const PanelContext& c) {
   ImGui::EndDisabled();
 }
 
-void draw_verdict(const PanelContext& c) {
+void draw_exercise_verdict(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
-  if (model.verdict.empty()) return wrapped(color::kAmber, model.problem);
+  if (model.verdict.empty()) return wrapped_text(color::kAmber, model.problem);
   const bool passed = model.verdict == "passed";
   {
     const ui::WithFont font(c.fonts.strong);
@@ -151,17 +151,18 @@ void draw_verdict(const PanelContext& c) {
                                                           : "Undecided");
   }
   if (model.score)
-    wrapped(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
-                              ui::number(*model.score_lo, 1) + " and " +
-                              ui::number(*model.score_hi, 1) + ". Experts average 100.");
+    wrapped_text(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
+                                   ui::number(*model.score_lo, 1) + " and " +
+                                   ui::number(*model.score_hi, 1) + ". Experts average 100.");
   if (model.verdict == "undecided")
-    wrapped(color::kTextQuiet, "The interval of your score includes the pass mark: try again.");
+    wrapped_text(color::kTextQuiet,
+                 "The interval of your score includes the pass mark: try again.");
 }
 
 void draw_result(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   ImGui::BeginChild("result", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
-  draw_verdict(c);
+  draw_exercise_verdict(c);
   quiet_heading(c, "Stages");
   for (const ExerciseModel::Stage& stage : model.stages)
     ui::stat(stage.title.c_str(), stage.done ? ui::clock_time(stage.at_s, false) : "not done",
@@ -191,9 +192,9 @@ void draw_result(const PanelContext& c) {
              "How often you went back; errors still count");
   if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
   if (!model.repeats)
-    wrapped(color::kAmber,
-            "The replay differs from the recording; the verdict is that of the replay.");
-  if (!model.problem.empty()) wrapped(color::kAmber, model.problem);
+    wrapped_text(color::kAmber,
+                 "The replay differs from the recording; the verdict is that of the replay.");
+  if (!model.problem.empty()) wrapped_text(color::kAmber, model.problem);
   ImGui::EndChild();
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
   if (ImGui::Button("Watch it again", {w, 0})) c.requests.exercise.watch = true;
@@ -225,16 +226,16 @@ void draw_dialog(const PanelContext& c) {
 void draw_live_stage(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   for (const ExerciseModel::Stage& stage : model.stages) {
-    wrapped(stage.live ? color::kText : color::kTextQuiet,
-            (stage.done ? "Done: " : "") + stage.title);
+    wrapped_text(stage.live ? color::kText : color::kTextQuiet,
+                 (stage.done ? "Done: " : "") + stage.title);
     if (!stage.live) continue;
-    wrapped(color::kTextQuiet, stage.instruction);
+    wrapped_text(color::kTextQuiet, stage.instruction);
     std::string left;
     for (std::size_t i = 0; i < std::min<std::size_t>(8, model.left.size()); ++i)
       left += (left.empty() ? "" : ", ") + model.left[i];
     if (model.goals > 1)
-      wrapped(color::kAccent, std::to_string(model.goals - model.left.size()) + " of " +
-                                  std::to_string(model.goals) + ". Left: " + left);
+      wrapped_text(color::kAccent, std::to_string(model.goals - model.left.size()) + " of " +
+                                       std::to_string(model.goals) + ". Left: " + left);
   }
 }
 
@@ -245,7 +246,7 @@ void draw_asked(const PanelContext& c) {
   ImGui::Separator();
   ui::text(color::kTextQuiet, "What do you find?");
   for (const ExerciseModel::Asked& asked : model.asked) {
-    wrapped(color::kText, asked.title);
+    wrapped_text(color::kText, asked.title);
     ImGui::PushID(asked.name.c_str());
     if (ImGui::BeginCombo("##stated", asked.stated.empty() ? "not stated" : asked.stated.c_str())) {
       const auto choice = [&](const std::string& grade) {
@@ -271,7 +272,7 @@ void draw_running(const PanelContext& c) {
   ImGui::PushItemWidth(-1);
   strong(c, model.title);
   if (model.page == ExercisePage::kJudging) {
-    wrapped(color::kTextQuiet, "Replaying and judging your attempt ...");
+    wrapped_text(color::kTextQuiet, "Replaying and judging your attempt ...");
     ImGui::End();
     return;
   }
@@ -279,17 +280,17 @@ void draw_running(const PanelContext& c) {
            ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
            "The attempt ends at the limit");
   if (model.paused)
-    wrapped(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
+    wrapped_text(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
   ImGui::Separator();
   draw_live_stage(c);
-  if (!model.cue.empty()) wrapped(color::kText, "Hint: " + model.cue);
+  if (!model.cue.empty()) wrapped_text(color::kText, "Hint: " + model.cue);
   if (!model.faults.empty()) {
     ImGui::Separator();
     const std::size_t shown = std::min<std::size_t>(3, model.faults.size());
     for (std::size_t i = model.faults.size() - shown; i < model.faults.size(); ++i)
-      wrapped(color::kAmber,
-              ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
-                  (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
+      wrapped_text(color::kAmber,
+                   ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
+                       (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
   }
   draw_asked(c);
   ImGui::Separator();
