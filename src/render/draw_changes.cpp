@@ -1,6 +1,7 @@
 // Where a processor draws, most of a picture is the one before: bones stand still and the camera
 // rests while the tool moves. What stands still is kept as a picture; the tiles that the tool
 // reaches are drawn anew over it, in full, so that the result is that of drawing everything.
+// While all moves (the camera, a joint) there is nothing to keep; then fewer pixels may be drawn.
 #include <algorithm>
 
 #include "renderer_impl.h"
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kTooMuch = 0.6;       // share of the picture beyond which keeping saves nothing
 constexpr int kSmoothingReach_px = 6;  // of the edge smoothing about a pixel
+// A camera that is dragged rests for a picture now and then; sharpening it each time would flicker.
+constexpr int kCoarseWhileResting = 4;
 
 ViewState without_tool(ViewState view) {
   view.show_proxy = view.show_force = view.show_hand_ghost = false;
@@ -56,11 +59,12 @@ bool Renderer::Impl::keep(const RenderSnapshot& snapshot, const ViewState& still
   const Aabb content = painter.content(snapshot, still_view);
   const double aspect = static_cast<double>(width) / height;
   const Frame frame = make_frame(still_view, aspect, content, {}, width, height);
-  if (!paint_scene(snapshot, still_view, frame, width, height, 0)) return false;
-  if (!kept_picture.ensure(width, height, 0) || !resolved.ensure(width, height, 0)) return false;
-  copy_color(drawn, kept_picture);
+  if (!paint_scene(full, snapshot, still_view, frame, width, height, 0)) return false;
+  if (!kept_picture.ensure(width, height, 0) || !full.resolved.ensure(width, height, 0))
+    return false;
+  copy_color(full.drawn, kept_picture);
   const Viewport busy = busy_part(frame, content, width, height);
-  smoother->smooth(drawn, kept_picture, {&busy, 1});
+  smoother->smooth(full.drawn, kept_picture, {&busy, 1});
   changed = TileMask(width, height);
   changed.mark_all();
   composed.reset();
@@ -69,19 +73,19 @@ bool Renderer::Impl::keep(const RenderSnapshot& snapshot, const ViewState& still
 }
 
 void Renderer::Impl::restore_kept() {
-  for (const Viewport& r : changed.rectangles()) copy_color(kept_picture, resolved, r);
+  for (const Viewport& r : changed.rectangles()) copy_color(kept_picture, full.resolved, r);
   changed = TileMask(kept_picture.width(), kept_picture.height());
 }
 
 /// Depth lets pixels pass in the tiles alone: elsewhere it holds the nearest.
 void Renderer::Impl::paint_tiles(const RenderSnapshot& snapshot, const ViewState& view, Frame frame,
                                  const TileMask& tiles) {
-  const int width = drawn.width(), height = drawn.height();
+  const int width = full.drawn.width(), height = full.drawn.height();
   std::vector<Viewport> areas;
   for (const Viewport& r : tiles.rectangles())
     areas.push_back(grown(r, kSmoothingReach_px, width, height));
-  for (const Viewport& r : areas) copy_color(ground, drawn, r);
-  glBindFramebuffer(GL_FRAMEBUFFER, drawn.framebuffer());
+  for (const Viewport& r : areas) copy_color(full.ground, full.drawn, r);
+  glBindFramebuffer(GL_FRAMEBUFFER, full.drawn.framebuffer());
   glViewport(0, 0, width, height);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
@@ -113,10 +117,10 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
     paint_tiles(snapshot, view, frame, tiles);
     std::vector<Viewport> areas;
     for (const Viewport& r : tiles.rectangles()) {
-      copy_color(drawn, resolved, r);
+      copy_color(full.drawn, full.resolved, r);
       areas.push_back(inner(r, width, height));
     }
-    smoother->smooth(drawn, resolved, areas);
+    smoother->smooth(full.drawn, full.resolved, areas);
   }
   changed = std::move(tiles);
   composed = snapshot.tool;
@@ -134,10 +138,19 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
     changed.mark_all();
     draw_tile(snapshot, view, viewport.aspect(), {}, framebuffer, viewport);
   };
+  drew_all = true;
   if (!stands_still(snapshot, still_view, width, height)) {
     kept = Kept{still_view, snapshot.bones, width, height, painter.version()};
     kept_ready = false;
-    return draw_all();
+    if (moving_detail >= 1) return draw_all();
+    coarse_left = kCoarseWhileResting;
+    draw_coarse(snapshot, view, framebuffer, viewport);
+    return;
+  }
+  if (coarse_left > 0) {
+    --coarse_left;
+    draw_coarse(snapshot, view, framebuffer, viewport);
+    return;
   }
   if (!kept_ready && !keep(snapshot, still_view, width, height)) return draw_all();
   const bool shown = composed && composed_view == view &&
@@ -146,7 +159,8 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
                                 painter.others().begin(), painter.others().end(), looks_the_same);
   if (!shown && !compose(snapshot, view, width, height)) return draw_all();
   composed_view = view;
-  show(resolved, framebuffer, viewport);
+  drew_all = false;
+  show(full.resolved, framebuffer, viewport);
 }
 
 }  // namespace osteon

@@ -1,6 +1,7 @@
 #include "osteon/render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -41,33 +42,47 @@ void place(const std::vector<std::uint8_t>& pixels, const Tile& tile, Image& ima
 
 }  // namespace
 
-bool Renderer::Impl::ensure_ground(const PictureWindow& window, int width, int height) {
-  const bool same = ground.width() == width && ground.height() == height && ground_window == window;
+bool Renderer::Impl::ensure_ground(PictureTargets& targets, const PictureWindow& window, int width,
+                                   int height) {
+  RenderTarget& ground = targets.ground;
+  const bool same =
+      ground.width() == width && ground.height() == height && targets.ground_window == window;
   if (same) return true;
   if (!ground.ensure(width, height, 0)) return false;
-  ground_window = window;
+  targets.ground_window = window;
   glBindFramebuffer(GL_FRAMEBUFFER, ground.framebuffer());
   painter.paint_ground(window);
   return true;
 }
 
-bool Renderer::Impl::paint_scene(const RenderSnapshot& snapshot, const ViewState& view,
-                                 const Frame& frame, int width, int height, int samples) {
-  if (!drawn.ensure(width, height, samples)) return false;
+bool Renderer::Impl::paint_scene(PictureTargets& targets, const RenderSnapshot& snapshot,
+                                 const ViewState& view, const Frame& frame, int width, int height,
+                                 int samples) {
+  if (!targets.drawn.ensure(width, height, samples)) return false;
   glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glViewport(0, 0, width, height);
   if (samples == 0) {
-    if (!ensure_ground(frame.window, width, height)) return false;
-    copy_color(ground, drawn);
+    if (!ensure_ground(targets, frame.window, width, height)) return false;
+    copy_color(targets.ground, targets.drawn);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, drawn.framebuffer());
+  glBindFramebuffer(GL_FRAMEBUFFER, targets.drawn.framebuffer());
   glClearDepth(1.0);
   glClear(GL_DEPTH_BUFFER_BIT);
   if (samples > 0) painter.paint_ground(frame.window);
   painter.paint(snapshot, view, frame);
   return true;
+}
+
+void Renderer::Impl::smooth_and_show(PictureTargets& targets, const Frame& frame,
+                                     const Aabb& content, GLuint framebuffer,
+                                     const Viewport& viewport) {
+  copy_color(targets.drawn, targets.resolved);
+  const Viewport busy =
+      busy_part(frame, content, targets.resolved.width(), targets.resolved.height());
+  smoother->smooth(targets.drawn, targets.resolved, {&busy, 1});
+  show(targets.resolved, framebuffer, viewport);
 }
 
 bool Renderer::Impl::draw_tile(const RenderSnapshot& snapshot, const ViewState& view, double aspect,
@@ -79,18 +94,30 @@ bool Renderer::Impl::draw_tile(const RenderSnapshot& snapshot, const ViewState& 
   const bool fine = view.quality == RenderQuality::kFine;
   const int scale = fine ? 2 : 1;
   const int samples = fine || !software ? 4 : 0;
-  if (!paint_scene(snapshot, view, frame, scale * viewport.width, scale * viewport.height, samples))
-    return false;
+  const int width = scale * viewport.width, height = scale * viewport.height;
+  if (!paint_scene(full, snapshot, view, frame, width, height, samples)) return false;
+  if (!full.resolved.ensure(width, height, 0)) return false;
   if (samples == 0) {
-    if (!resolved.ensure(drawn.width(), drawn.height(), 0)) return false;
-    copy_color(drawn, resolved);
-    const Viewport busy = busy_part(frame, content, viewport.width, viewport.height);
-    smoother->smooth(drawn, resolved, {&busy, 1});
+    smooth_and_show(full, frame, content, framebuffer, viewport);
   } else {
-    if (!resolved.ensure(drawn.width(), drawn.height(), 0)) return false;
-    copy_color(drawn, resolved);
+    copy_color(full.drawn, full.resolved);
+    show(full.resolved, framebuffer, viewport);
   }
-  show(resolved, framebuffer, viewport);
+  return true;
+}
+
+bool Renderer::Impl::draw_coarse(const RenderSnapshot& snapshot, const ViewState& view,
+                                 GLuint framebuffer, const Viewport& viewport) {
+  const auto fewer = [this](int side) {
+    return std::max(1, static_cast<int>(std::lround(moving_detail * side)));
+  };
+  const int width = fewer(viewport.width), height = fewer(viewport.height);
+  const Aabb content = painter.content(snapshot, view);
+  Frame frame = make_frame(view, viewport.aspect(), content, {}, width, height);
+  frame.passing = true;
+  if (!paint_scene(coarse, snapshot, view, frame, width, height, 0)) return false;
+  if (!coarse.resolved.ensure(width, height, 0)) return false;
+  smooth_and_show(coarse, frame, content, framebuffer, viewport);
   return true;
 }
 
@@ -151,6 +178,12 @@ void Renderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
 
 void Renderer::set_others(std::span<const ToolState> others) { impl_->painter.set_others(others); }
 
+void Renderer::set_moving_detail(double share) {
+  impl_->moving_detail = std::isfinite(share) ? std::clamp(share, 0.25, 1.0) : 1.0;
+}
+
+bool Renderer::drew_all() const { return impl_->drew_all; }
+
 void Renderer::set_marks(std::span<const SolidMark> marks) {
   impl_->painter.set_marks(marks);
   impl_->kept.reset();
@@ -165,7 +198,8 @@ void Renderer::draw(const RenderSnapshot& snapshot, const ViewState& view,
   if (impl_->software && view.quality == RenderQuality::kFast)
     impl_->draw_changes(snapshot, view, framebuffer, viewport);
   else
-    impl_->draw_tile(snapshot, view, viewport.aspect(), {}, framebuffer, viewport);
+    impl_->drew_all =
+        impl_->draw_tile(snapshot, view, viewport.aspect(), {}, framebuffer, viewport);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 

@@ -10,15 +10,24 @@
 
 namespace osteon {
 
+/// What a picture of one size is drawn into.
+struct PictureTargets {
+  RenderTarget drawn{}, resolved{};
+  RenderTarget ground{};  ///< drawn once a size: its shader costs more than all bones do
+  PictureWindow ground_window{};
+};
+
 struct Renderer::Impl {
   ScenePainter painter;
   std::shared_ptr<const EdgeSmoother> smoother;
   std::shared_ptr<Picker> picker;
   std::string device;
   bool software = false;
-  RenderTarget drawn{}, resolved{}, still{};
-  RenderTarget ground{};  ///< drawn once a size: its shader costs more than all bones do
-  PictureWindow ground_window{};
+  PictureTargets full{}, coarse{};
+  RenderTarget still{};
+  double moving_detail = 1;  ///< see Renderer::set_moving_detail
+  int coarse_left = 0;       ///< pictures after a coarse one that stay coarse though all rests
+  bool drew_all = true;      ///< the last picture was drawn whole
 
   /// What does not move, as it was when it was last seen to change.
   struct Kept {
@@ -30,17 +39,22 @@ struct Renderer::Impl {
   std::optional<Kept> kept{};
   RenderTarget kept_picture{};  ///< of `kept`, without the tool
   bool kept_ready = false;
-  TileMask changed{};                   ///< where `resolved` is not `kept_picture`
-  std::optional<ToolState> composed{};  ///< the tool that `resolved` shows over `kept_picture`
+  TileMask changed{};                   ///< where `full.resolved` is not `kept_picture`
+  std::optional<ToolState> composed{};  ///< the tool that `full.resolved` shows over `kept_picture`
   std::vector<ToolState> composed_others{};
   ViewState composed_view{};
 
   /// Draws one tile of the picture into the viewport of `framebuffer`.
   bool draw_tile(const RenderSnapshot& snapshot, const ViewState& view, double aspect,
                  const PictureWindow& window, GLuint framebuffer, const Viewport& viewport);
-  bool paint_scene(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
-                   int width, int height, int samples);
-  bool ensure_ground(const PictureWindow& window, int width, int height);
+  bool paint_scene(PictureTargets& targets, const RenderSnapshot& snapshot, const ViewState& view,
+                   const Frame& frame, int width, int height, int samples);
+  bool ensure_ground(PictureTargets& targets, const PictureWindow& window, int width, int height);
+  /// Draws all of it in fewer pixels and spreads them over the viewport.
+  bool draw_coarse(const RenderSnapshot& snapshot, const ViewState& view, GLuint framebuffer,
+                   const Viewport& viewport);
+  void smooth_and_show(PictureTargets& targets, const Frame& frame, const Aabb& content,
+                       GLuint framebuffer, const Viewport& viewport);
 
   /// Draws what differs from the picture before; the whole where too much does.
   void draw_changes(const RenderSnapshot& snapshot, const ViewState& view, GLuint framebuffer,

@@ -22,6 +22,7 @@ constexpr float kSeenThrough = 0.02f;  // below this opacity a bone is not drawn
 constexpr float kOutline_px = 2.5f;
 constexpr double kLevelError_px = 0.30;  // of a coarser surface, in the picture
 constexpr double kLevelErrorFine_px = 0.10;
+constexpr double kLevelErrorPassing_px = 1.0;
 constexpr std::size_t kPieceStep = 4;  // in the row of hull colours: about to the opposite hue
 
 bool is_clear(const BoneAppearance& look) { return look.opacity < 0.995f; }
@@ -358,8 +359,9 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
 const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapshot,
                                      const ViewState& view, const Frame& frame) const {
   const BoneModel& bone = shared_->bones[k];
-  const double allowed_px =
-      view.quality == RenderQuality::kFine ? kLevelErrorFine_px : kLevelError_px;
+  const double allowed_px = frame.passing                          ? kLevelErrorPassing_px
+                            : view.quality == RenderQuality::kFine ? kLevelErrorFine_px
+                                                                   : kLevelError_px;
   const Vec3 center_W = pose(snapshot, k) * bone.center_B;
   const double allowed_m = allowed_px * finest_metres_per_pixel(frame, center_W, bone.radius_m);
   std::size_t level = 0;
@@ -436,10 +438,11 @@ void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const View
       glDisable(GL_CULL_FACE);
     }
   };
-  // Soft parts lie close upon bones, and none of them is always the nearer one.
+  // Soft parts lie close upon bones, and none of them is always the nearer one. Where few pixels
+  // are drawn, a second pass over the triangles costs more than the pixels that it spares.
   const bool layered = std::any_of(order.begin(), order.end(),
                                    [&](std::size_t k) { return k >= shared_->rest_X_WB.size(); });
-  if (layered) {
+  if (layered && !frame.passing) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     shared_->depth.use();
     each([&](std::size_t k) { paint_depth(k, snapshot, view, frame); });

@@ -168,5 +168,41 @@ TEST_F(DrawChanges, NewSurfacesAreShownThoughNothingMoved) {
   EXPECT_NE(drawn(renderer, snapshot, view).rgb, before.rgb);
 }
 
+// While all moves the picture is coarse: near the whole one, but not the same. At rest it gets
+// sharp and is then the same, pixel by pixel.
+TEST_F(DrawChanges, CoarseWhileAllMovesAndSharpAtRest) {
+  const Case pair = two_balls();
+  Renderer renderer = make_renderer(pair, make_wrist_probe());
+  if (!renderer.software_driver()) GTEST_SKIP() << "only where a processor draws";
+  const RenderSnapshot snapshot = at_rest(pair);
+  const ViewState view = front_view();
+  const Image whole = drawn_whole(renderer, snapshot, view);
+  renderer.set_moving_detail(0.5);
+  const Image coarse = drawn_whole(renderer, snapshot, view);
+  EXPECT_TRUE(renderer.drew_all());
+  double apart = 0;
+  for (std::size_t k = 0; k < whole.rgb.size(); ++k)
+    apart += std::abs(static_cast<double>(whole.rgb[k]) - coarse.rgb[k]);
+  apart /= static_cast<double>(whole.rgb.size());
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, 6);  // of 255
+  Image last = coarse;
+  for (int k = 0; k < 8; ++k) last = drawn(renderer, snapshot, view);
+  EXPECT_FALSE(renderer.drew_all());
+  EXPECT_EQ(last.rgb, whole.rgb);
+}
+
+TEST_F(DrawChanges, NoDetailIsTakenForWhole) {
+  const Case pair = two_balls();
+  Renderer renderer = make_renderer(pair, make_wrist_probe());
+  const RenderSnapshot snapshot = at_rest(pair);
+  const ViewState view = front_view();
+  const Image whole = drawn_whole(renderer, snapshot, view);
+  for (const double share : {std::nan(""), 1.0, 7.0}) {
+    renderer.set_moving_detail(share);
+    EXPECT_EQ(drawn_whole(renderer, snapshot, view).rgb, whole.rgb) << share;
+  }
+}
+
 }  // namespace
 }  // namespace osteon

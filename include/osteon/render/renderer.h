@@ -130,6 +130,12 @@ class Renderer {
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands from now on, drawn beside the snapshot's own; without marks.
   void set_others(std::span<const ToolState> others);
+  /// Where a processor draws: this share of width and height is drawn of a picture in which all
+  /// moves, and spread over the viewport; it is whole and sharp again a few pictures after all came
+  /// to rest. 1, as it is at first: always whole. Clamped to 0.25..1.
+  void set_moving_detail(double share);
+  /// The last draw kept nothing of the picture before, so its time is that of a whole picture.
+  bool drew_all() const;
   /// Drawn from now on, after the bones; those given before are gone.
   void set_marks(std::span<const SolidMark> marks);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <numbers>
 #include <utility>
 
 #include "cases/xdg.h"
@@ -70,7 +71,9 @@ Result<void> WindowApp::run() {
     if (measured_run_over()) return finish_measured_run();
     host_.window->swap();
     if (first_picture_s_ <= 0 && cases_.ready()) first_picture_s_ = host_.age_s();
-    if (measured_frames_ > 0) work_.add(seconds(steady_now_ns() - begin_ns));
+    const double work_s = seconds(steady_now_ns() - begin_ns);
+    if (measured_frames_ > 0) work_.add(work_s);
+    views_.picture_took(work_s);
     const bool paced = host_.order.frames == 0 && !software_driver();
     const std::int64_t shortest_ns = paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns;
     const bool waits = !scene_.renderer && cases_.loading();
@@ -173,6 +176,10 @@ void WindowApp::move_scene(double dt_s, double wheel) {
   replay_.advance(dt_s);
   bend_.show();
   pointer_.pick();
+  if (measured_frames_ > 0 && host_.order.turn_deg != 0) {
+    Camera& camera = sight_.view().camera;
+    camera = orbit(camera, Vec3::UnitZ(), host_.order.turn_deg * std::numbers::pi / 180, 0);
+  }
 }
 
 ViewState WindowApp::picture_view() const {

@@ -26,6 +26,7 @@ struct WindowOrder {
   bool softs = false;                     ///< begins with the soft parts shown
   std::vector<std::string> give_way;      ///< soft parts that do in live runs, as `--soft` names
                                           ///< them; begins with these shown
+  double turn_deg = 0;                    ///< of the camera, each picture that is counted
   bool close_up = false;                  ///< begins close up on the joint
   bool demo = false;                      ///< the virtual hand plays the case's path
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one

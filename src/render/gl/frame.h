@@ -29,6 +29,7 @@ struct Frame {
   /// Part that is drawn, in clip space over w: left, bottom, right, top.
   Eigen::Vector4d drawn{-1, -1, 1, 1};
   const TileMask* tiles = nullptr;  ///< tiles of the picture that are drawn; null: all
+  bool passing = false;             ///< one of many pictures in which all moves
 };
 
 /// Projection onto the window, with the depth range just around `content`.

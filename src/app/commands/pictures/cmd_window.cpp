@@ -83,6 +83,10 @@ void add_window_command(cli::App& app, int& exit_code) {
                     "With --frames: begin at once, as without it, and print when the first picture "
                     "of the bones and their felt shapes were ready");
   command
+      ->add_option("--turn", order->turn_deg,
+                   "With --frames: turn the camera by this many degrees each picture")
+      ->check(cli::Range(-45.0, 45.0));
+  command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);
   command->callback([order, size, layout, observer, soft, softs, &exit_code] {

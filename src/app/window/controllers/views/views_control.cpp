@@ -85,6 +85,13 @@ void ViewsControl::draw(const ViewState& looks) {
   }
 }
 
+void ViewsControl::picture_took(double picture_s) {
+  if (!scene_.renderer || !scene_.renderer->software_driver() || !host_.order.screenshot.empty())
+    return;
+  if (scene_.renderer->drew_all()) detail_.took(picture_s);
+  scene_.renderer->set_moving_detail(detail_.share());
+}
+
 void ViewsControl::apply(const ViewsRequests& requests) {
   if (requests.layout) sight_.set_layout(*requests.layout);
   if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);

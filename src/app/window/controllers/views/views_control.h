@@ -6,6 +6,7 @@
 
 #include "window/controllers/sessions/hands_control.h"
 #include "window/controllers/sessions/replay_control.h"
+#include "window/controllers/views/moving_detail.h"
 #include "window/controllers/views/observer_control.h"
 #include "window/controllers/views/soft_picture.h"
 
@@ -28,6 +29,8 @@ class ViewsControl {
   void draw_softs_again() { softs_.begin_again(); }
   /// `looks` of the view from outside.
   void draw(const ViewState& looks);
+  /// The work of the picture drawn last, seconds; a still that will be saved is never coarser.
+  void picture_took(double picture_s);
   void apply(const ViewsRequests& requests);
   ViewsModel model() const;
 
@@ -50,6 +53,7 @@ class ViewsControl {
   std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
   double carved_s_ = 0;                                 ///< when they were shown last
   SoftPicture softs_;
+  MovingDetail detail_;
   double counted_s_ = 0;   ///< when what is gone was counted last
   ByTissue removed_m3_{};  ///< as it was then
 };
