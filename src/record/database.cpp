@@ -204,7 +204,9 @@ bool Database::needs_copy() {
 Result<Database> Database::open(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    return fail("there is no such file", file.string(), "Check the name");
+    return fs::is_directory(file, error)
+               ? fail("is a folder", file.string(), "Give the name of a file in it")
+               : fail("there is no such file", file.string(), "Check the name");
   auto database = open_at(file, file.string());
   if (database && !database->needs_copy()) return database;
   if (database) return open_copy(file);

@@ -72,7 +72,8 @@ Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const 
     return fail("has no volume: its " + std::to_string(mesh.triangles.size()) +
                     " triangles lie in one plane",
                 file.string(), "Export the bone as a closed surface");
-  const double length_m = std::round(1e4 * bounds(mesh).extent().maxCoeff()) / 1e4;
+  const double exact_m = bounds(mesh).extent().maxCoeff();
+  const double length_m = exact_m < 1e-3 ? exact_m : std::round(1e4 * exact_m) / 1e4;
   const std::string complaint = size_complaint(name, length_m);
   if (options.force || complaint.empty()) return {};
   const std::string unit = likely_unit(name, length_m, options.metres_per_unit);
@@ -97,6 +98,18 @@ Result<void> refuse_overlap(const TriMesh& mesh,
   return {};
 }
 
+// Parts that only touch, along edges or faces, are not one solid either. An open surface is felt as
+// its hull, whatever its edges are.
+Result<void> refuse_touch(const TriMesh& mesh, const fs::path& file, const ImportOptions& options) {
+  const Topology shape = topology(mesh);
+  if (options.force || shape.boundary_edges > 0 || shape.non_manifold_edges == 0) return {};
+  return fail("has " + std::to_string(shape.non_manifold_edges) +
+                  (shape.non_manifold_edges == 1 ? " edge" : " edges") +
+                  " with more than two triangles: parts of it touch there",
+              file.string(),
+              "Merge them into one surface or part them where you made them, or give --force");
+}
+
 Result<void> read_bone(const fs::path& file, const ImportOptions& options, ImportResult& result) {
   auto mesh = load_mesh(file, options.metres_per_unit);
   if (!mesh) return tl::unexpected(mesh.error());
@@ -110,6 +123,7 @@ Result<void> read_bone(const fs::path& file, const ImportOptions& options, Impor
   const auto crossings = self_crossings(*mesh);
   imported.crossings = crossings.size();
   if (auto may = refuse_overlap(*mesh, crossings, file, options); !may) return may;
+  if (auto may = refuse_touch(*mesh, file, options); !may) return may;
   // Which side of a surface is inside is not certain where it crosses itself.
   if (!options.keep_hollows && crossings.empty()) imported.hollows = fill_hollows(*mesh);
   imported.triangles = mesh->triangles.size();

@@ -8,6 +8,7 @@
 
 #include "osteon/mesh/isosurface.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/mesh/repair.h"
 #include "repair/clean.h"
 #include "repair/edges.h"
 #include "repair/weld.h"
@@ -85,27 +86,43 @@ class WalledUp {
   std::map<std::size_t, double> heights_;  // by the node's index
 };
 
-// Drops the parts that bound room inside others: of a solid they are cavities.
-void drop_cavities(TriMesh& mesh) {
+/// Drops the parts that bound room inside others: of a solid they are cavities. Returns how many
+/// there were. Where `of_one_solid`, it drops none beside several solids: one of them may lie in a
+/// cavity of another.
+std::size_t drop_cavities(TriMesh& mesh, bool of_one_solid) {
   const auto part_of = triangle_components(mesh.triangles, edge_uses(mesh.triangles));
   std::vector<double> volume(mesh.triangles.size(), 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& v = mesh.triangles[t];
     volume[part_of[t]] += mesh.vertices[v[0]].dot(mesh.vertices[v[1]].cross(mesh.vertices[v[2]]));
   }
+  const auto count = static_cast<std::size_t>(
+      std::count_if(volume.begin(), volume.end(), [](double v) { return v < 0; }));
+  const auto solids = std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; });
+  if (count == 0 || (of_one_solid && solids > 1)) return 0;
   std::vector<char> cavity;
   for (const std::uint32_t part : part_of) cavity.push_back(volume[part] < 0);
   erase_marked(mesh, cavity);
   drop_unused_vertices(mesh);
+  return count;
+}
+
+/// What a file keeps of it: vertices that lie on each other become one.
+bool stays_closed_in_a_file(TriMesh mesh) {
+  weld_vertices(mesh, RepairOptions{}.weld_distance_m);
+  std::erase_if(mesh.triangles,
+                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return topology(mesh).closed();
 }
 
 }  // namespace
 
 std::size_t fill_hollows(TriMesh& mesh, double ball_radius_m) {
   if (mesh.triangles.empty() || !topology(mesh).closed()) return 0;
+  const std::size_t cavities = drop_cavities(mesh, true);
   const MeshDistance surface(mesh);
   const BallRooms rooms(surface, ball_radius_m);
-  if (rooms.hollows() == 0) return 0;
+  if (rooms.hollows() == 0) return cavities;
   const WalledUp solid(surface, rooms);
   IsosurfaceOptions options;
   options.cell_m = rooms.cell();
@@ -113,10 +130,11 @@ std::size_t fill_hollows(TriMesh& mesh, double ball_radius_m) {
   options.uncrossed = true;
   auto made = isosurface([&](const Vec3& p) { return solid.at(p); },
                          bounds(mesh).grown(3 * rooms.cell()), options);
-  if (!made) return 0;
+  if (!made) return cavities;
+  drop_cavities(*made, false);
+  if (!stays_closed_in_a_file(*made)) return cavities;
   mesh = std::move(*made);
-  drop_cavities(mesh);
-  return rooms.hollows();
+  return cavities + rooms.hollows();
 }
 
 }  // namespace osteon

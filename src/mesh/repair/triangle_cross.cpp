@@ -16,12 +16,14 @@ double orient(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return std::abs(det) > 1e-15 * au.dot(bound) ? det : 0;
 }
 
-/// True when the inside of segment pq passes through the inside of abc.
+/// True when the inside of segment pq passes through abc, its edges and corners included: through
+/// an edge the surface goes on with the next triangle. Two boxes whose edges meet the other's
+/// diagonals cross nowhere else.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double at_p = orient(a, b, c, p), at_q = orient(a, b, c, q);
   if (!(at_p > 0 && at_q < 0) && !(at_p < 0 && at_q > 0)) return false;
   const double u = orient(p, q, a, b), v = orient(p, q, b, c), w = orient(p, q, c, a);
-  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
 bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }

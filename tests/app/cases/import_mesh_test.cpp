@@ -103,6 +103,20 @@ TEST(ImportMesh, RefusesPartsThatOverlap) {
   EXPECT_GT(taken->bones[0].crossings, 0u);
 }
 
+// Boxes on a common diagonal, on a common face and on a common edge.
+TEST(ImportMesh, RefusesBoxesThatMeetInSpecialPlaces) {
+  int number = 0;
+  for (const Vec3& shift : {Vec3(0.01, 0.01, 0.01), Vec3(0.02, 0, 0), Vec3(0.02, 0.02, 0)}) {
+    const fs::path dir = test::fresh_folder("import_boxes_" + std::to_string(++number));
+    fs::create_directories(dir / "in");
+    const TriMesh two = test::joined(test::cube(0.01), test::cube(0.01, shift));
+    ASSERT_TRUE(save_stl(two, dir / "in/block.stl", 0.001));
+    const std::string said = complaint(options_for(dir));
+    EXPECT_NE(said.find("--force"), std::string::npos) << shift.transpose() << ": " << said;
+    EXPECT_FALSE(fs::exists(dir / "wrist"));
+  }
+}
+
 TEST(ImportMesh, CapsACutShaft) {
   const fs::path dir = test::fresh_folder("import_shaft");
   fs::create_directories(dir / "in");

@@ -78,6 +78,20 @@ TEST(FillHollows, AClosedCavityGoes) {
   expect_same_outside(mesh, before, 0);
 }
 
+TEST(FillHollows, AboutAClosedCavityTheOutsideStaysBitByBit) {
+  TriMesh mesh = test::cube(0.01);
+  TriMesh hole = test::cube(0.0025, Vec3(-0.0025, -0.0025, -0.0025));
+  for (Triangle& t : hole.triangles) std::swap(t[1], t[2]);
+  mesh = test::joined(mesh, hole);
+  EXPECT_EQ(fill_hollows(mesh), 1u);
+  const TriMesh outside = test::cube(0.01);
+  EXPECT_EQ(mesh.vertices.size(), outside.vertices.size());
+  ASSERT_EQ(mesh.triangles.size(), outside.triangles.size());
+  for (std::size_t t = 0; t < outside.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(mesh.vertices[mesh.triangles[t][k]], outside.vertices[outside.triangles[t][k]]);
+}
+
 TEST(FillHollows, AHoleThatNoBallPassesGetsALid) {
   constexpr double kHole = 0.0012, kBall = 0.0016;
   const TriMesh before = drilled(kHole);

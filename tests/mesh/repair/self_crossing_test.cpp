@@ -34,6 +34,15 @@ TEST(SelfCrossing, BoxesThatTouchDoNotCross) {
   EXPECT_TRUE(self_crossings(apart).empty());
 }
 
+// Each edge that pierces a face meets it on its diagonal: no edge goes through the inside of a
+// triangle.
+TEST(SelfCrossing, SeesBoxesThatMeetOnDiagonalsAlone) {
+  for (const double shift : {0.45, 0.5, 0.3}) {
+    const TriMesh boxes = test::joined(test::cube(0.5), test::cube(0.5, Vec3(shift, shift, shift)));
+    EXPECT_FALSE(self_crossings(boxes).empty()) << shift;
+  }
+}
+
 TEST(SelfCrossing, SeesAFoldAndAnEarThroughAFace) {
   TriMesh fold;
   fold.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.2, 1, 0), Vec3(0.8, 0.5, 0)};
