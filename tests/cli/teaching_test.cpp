@@ -81,6 +81,28 @@ TEST_F(Teaching, ScenariosThatAreShippedAreSound) {
   }
 }
 
+TEST_F(Teaching, ACourseIsWrittenForALearningManagementSystem) {
+  const auto written = [this] {
+    std::ifstream in(file("cmi5.xml"));
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string head =
+      "scenario course --id https://school.example/osteon --out " + file("cmi5.xml");
+  const Ran all = run_osteon(head + " --seed 3");
+  EXPECT_EQ(all.exit_code, 0) << all.output;
+  for (const char* name : {"touch_bones", "acl"})
+    EXPECT_NE(written().find("<url>osteon://launch/" + std::string(name) + "?seed=3</url>"),
+              std::string::npos);
+  EXPECT_EQ(std::system(("xmllint --noout " + file("cmi5.xml")).c_str()), 0);
+  EXPECT_EQ(run_osteon(head + " fast_maze touch_bones").exit_code, 0);
+  EXPECT_LT(written().find("fast_maze"), written().find("touch_bones"));
+  EXPECT_EQ(written().find("wrist_tour"), std::string::npos);
+  for (const std::string& bad : {head + " nothing", head + " --seed -1",
+                                 "scenario course --id osteon --out " + file("x.xml")})
+    EXPECT_EQ(run_osteon(bad).exit_code, 2) << bad;
+  EXPECT_FALSE(fs::exists(file("x.xml")));
+}
+
 TEST_F(Teaching, FiftyPatientsOfEachExerciseArePassedByTheExpert) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for all fifty patients";
   // The tour is known to be passed on these patients of its, and was tried on no others.

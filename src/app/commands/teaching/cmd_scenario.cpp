@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include "commands/support/parser.h"
 
@@ -8,6 +10,8 @@
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
+#include "osteon/base/file.h"
+#include "osteon/results/cmi5_course.h"
 
 namespace osteon {
 namespace {
@@ -17,6 +21,12 @@ using ScenarioJson = nlohmann::ordered_json;
 struct ScenarioCommand {
   std::string scenario, case_spec;
   bool json = false;
+};
+
+struct CourseCommand {
+  std::vector<std::string> names;
+  std::string id, title = "Osteon", out;
+  std::optional<std::uint64_t> seed;
 };
 
 std::vector<std::string> stage_names(const Scenario& scenario) {
@@ -126,6 +136,66 @@ int check_one(const ScenarioCommand& command) {
   return lines.empty() ? kExitDone : kExitNo;
 }
 
+// A launch names a bundled exercise, so a course holds no others.
+Result<Cmi5Course> course_of(const CourseCommand& command) {
+  const auto all = shipped_scenarios();
+  if (!all) return tl::unexpected(all.error());
+  Cmi5Course course{command.id,
+                    command.title,
+                    "Exercises of Osteon",
+                    command.seed ? std::to_string(*command.seed) : "",
+                    {}};
+  const auto add = [&course](const Scenario& scenario) -> Result<void> {
+    const auto standard = shipped_standard(scenario.name);
+    if (!standard) return tl::unexpected(standard.error());
+    Cmi5Unit unit{scenario.name, scenario.title, scenario.text, {}};
+    if (*standard) unit.mastery = (*standard)->pass_score / 100;
+    course.units.push_back(std::move(unit));
+    return {};
+  };
+  if (command.names.empty())
+    for (const Scenario& scenario : *all)
+      if (auto added = add(scenario); !added) return tl::unexpected(added.error());
+  for (const std::string& name : command.names) {
+    const auto named = std::find_if(
+        all->begin(), all->end(), [&](const Scenario& scenario) { return scenario.name == name; });
+    if (named == all->end())
+      return fail("there is no exercise '" + name + "'", "course", "See: osteon scenario list");
+    if (auto added = add(*named); !added) return tl::unexpected(added.error());
+  }
+  return course;
+}
+
+int write_course(const CourseCommand& command) {
+  const auto course = course_of(command);
+  if (!course) return report_error(course.error());
+  const auto xml = cmi5_course_xml(*course);
+  if (!xml) return report_error(xml.error());
+  if (auto written = write_file_atomic(command.out, *xml); !written)
+    return report_error(written.error());
+  std::printf("%zu %s -> %s\n", course->units.size(),
+              course->units.size() == 1 ? "exercise" : "exercises", command.out.c_str());
+  return kExitDone;
+}
+
+void add_course_command(cli::App* group, int& exit_code) {
+  auto order = std::make_shared<CourseCommand>();
+  cli::App* course = group->add_subcommand(
+      "course",
+      "Write the course structure (cmi5.xml) that a learning management system imports. Each\n"
+      "exercise becomes a unit that the system launches; see: osteon launch --help");
+  course->add_option("scenario", order->names, "bundled exercises in their order; default: all");
+  course
+      ->add_option("--id", order->id,
+                   "the course's own address, such as https://school.example/osteon")
+      ->required();
+  course->add_option("--title", order->title, "what the system calls it; default: Osteon");
+  course->add_option("--seed", order->seed,
+                     "seed of a random patient, every unit's; default: the one described");
+  course->add_option("--out", order->out, "the file, cmi5.xml")->required();
+  course->callback([order, &exit_code] { exit_code = write_course(*order); });
+}
+
 }  // namespace
 
 void add_scenario_commands(cli::App& app, int& exit_code) {
@@ -147,6 +217,7 @@ void add_scenario_commands(cli::App& app, int& exit_code) {
   check->add_option("--case", options->case_spec,
                     "case to check it on; default: the built-in one of its anatomy");
   check->callback([options, &exit_code] { exit_code = check_one(*options); });
+  add_course_command(group, exit_code);
 }
 
 }  // namespace osteon
