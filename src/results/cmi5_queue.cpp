@@ -25,6 +25,12 @@ std::string session_stem(const fs::path& file) {
   return name.substr(0, name.rfind('-'));
 }
 
+std::string stem_of(const Cmi5Session& session) {
+  char began[32];
+  std::snprintf(began, sizeof began, "%015lld", static_cast<long long>(session.began_ms));
+  return std::string(began) + "-" + session.launch.registration;
+}
+
 Result<std::vector<fs::path>> queued_files(const fs::path& folder) {
   std::error_code ec;
   std::vector<fs::path> files;
@@ -202,23 +208,21 @@ Result<void> queue_cmi5(const Cmi5Session& session, const std::string& statement
   const QueueJson words = QueueJson::parse(statements, nullptr, false);
   const std::string first = words.is_array() && !words.empty() ? words[0].value("id", "") : "";
   if (first.empty()) return fail("there are no statements to keep", folder.string());
-  char began[32];
-  std::snprintf(began, sizeof began, "%015lld", static_cast<long long>(session.began_ms));
   const QueueJson queued = {{"endpoint", session.launch.endpoint},
                             {"authorization", session.authorization},
                             {"statements", words}};
-  return write_file_atomic(folder / (std::string(began) + "-" + session.launch.registration + "-" +
-                                     std::to_string(part) + ".json"),
+  return write_file_atomic(folder / (stem_of(session) + "-" + std::to_string(part) + ".json"),
                            queued.dump(2) + "\n");
 }
 
-Result<Cmi5Sent> send_cmi5(const fs::path& folder, const Cmi5Way& way) {
+Result<Cmi5Sent> send_cmi5(const fs::path& folder, const Cmi5Way& way, const Cmi5Session* only) {
   const auto files = queued_files(folder);
   if (!files) return tl::unexpected(files.error());
   Cmi5Sent sent;
   std::set<std::string> waiting;  // sessions
   for (const fs::path& file : *files) {
     const std::string stem = session_stem(file);
+    if (only && stem != stem_of(*only)) continue;
     if (waiting.count(stem)) {
       sent.waiting += statements_in(file);
       continue;

@@ -72,7 +72,9 @@ struct Cmi5Sent {
   std::optional<Error> why_waiting;
 };
 /// Sends all that is queued, each session in its order, and removes what has arrived. Safe to
-/// repeat: statements keep their ids. Fails only where the folder cannot be read or written.
-Result<Cmi5Sent> send_cmi5(const std::filesystem::path& folder, const Cmi5Way& way);
+/// repeat: statements keep their ids. With `only` what other sessions left stays where it is. Fails
+/// only where the folder cannot be read or written.
+Result<Cmi5Sent> send_cmi5(const std::filesystem::path& folder, const Cmi5Way& way,
+                           const Cmi5Session* only = nullptr);
 
 }  // namespace osteon

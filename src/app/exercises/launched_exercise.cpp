@@ -43,9 +43,10 @@ Result<LaunchedExercise> run_launched(const Cmi5Launch& launch, const Cmi5Way& w
   LaunchedExercise done;
   done.counts = session->counts;
   done.return_url = session->return_url;
+  // At the start a learner waits: what others left is sent at the end.
   const auto tell = [&](const std::string& statements, int part) -> Result<void> {
     if (auto ok = queue_cmi5(*session, statements, part, launches_folder()); !ok) return ok;
-    auto sent = send_cmi5(launches_folder(), way);
+    auto sent = send_cmi5(launches_folder(), way, part == 1 ? &*session : nullptr);
     if (!sent) {
       done.sent.why_waiting = sent.error();
       done.sent.waiting = std::max<std::size_t>(1, done.sent.waiting);
