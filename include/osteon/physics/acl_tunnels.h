@@ -5,6 +5,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/physics/graft_fixation.h"
+#include "osteon/physics/graft_passing.h"
 #include "osteon/physics/knee_laxity.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/tissue/ligament_table.h"
@@ -24,6 +25,7 @@ struct AclDrilling {
 /// A socket or tunnel in the femur for a graft.
 struct FemoralTunnel {
   Vec3 aperture_W = Vec3::Zero();  ///< on the axis, where it leaves the notch's wall
+  Vec3 inwards_W = Vec3::UnitX();  ///< unit, along the axis into the bone
   /// Quadrant method (Bernard and Hertel 1997), 0 to 1, on the lateral condyle seen from the side:
   /// along Blumensaat's line from the hind border, and away from the line.
   double depth_share = 0, height_share = 0;
@@ -42,6 +44,7 @@ struct FemoralTunnel {
 /// A tunnel in the tibia.
 struct TibialTunnel {
   Vec3 aperture_W = Vec3::Zero();  ///< on the axis, on the plateau
+  Vec3 inwards_W = Vec3::UnitX();  ///< unit, along the axis into the bone
   /// Amis and Jakob 1998, 0 to 1: along a line parallel to the medial plateau from its front; and
   /// from the medial border.
   double front_share = 0, medial_share = 0;
@@ -60,6 +63,14 @@ struct GraftChoices {
   std::optional<double> screw_m, screw_length_m;  ///< 1 mm more than the tunnel, 28 mm long
   double divergence_rad = 0, button_gap_m = 0;
   double pretension_s = 600, cycles = 25;
+  double passing_flexion_deg = 90, tail_n = 10;  ///< while it is drawn in
+};
+
+/// How far a graft turns at the mouths of both tunnels at a bend of the case's own: it runs
+/// straight between them.
+struct GraftBend {
+  double flexion_deg = 0, length_m = 0;  ///< length: from mouth to mouth
+  double femur_rad = 0, tibia_rad = 0;
 };
 
 /// What a knee does with a graft between both mouths.
@@ -74,7 +85,9 @@ struct GraftOutcome {
   /// Under load, how much farther forward the tibia stands than that of the whole knee: slack also
   /// moves the place of rest from which a test counts, and shows here in full.
   double lachman_ahead_m = 0, pivot_ahead_m = 0;
-  std::optional<FixedGraft> fixed;  ///< of a graft that was made and fixed as said
+  std::vector<GraftBend> bends;       ///< at the same bends as `lengths`
+  std::optional<FixedGraft> fixed;    ///< of a graft that was made and fixed as said
+  std::optional<PassedGraft> passed;  ///< of the same graft: how it was drawn in before
   double diameter_m = 0;
   bool holds = true;  ///< it is fixed, and the screw bears what the tests pull
 };
@@ -89,6 +102,9 @@ struct AclTunnels {
 /// is not within 1 to 20 mm, and where the case lacks what a knee needs (femur, tibia, its
 /// cartilage, its bending, landmarks of Blumensaat's line).
 Result<AclTunnels> measure_tunnels(const CaseDef& def, const AclDrilling& drilling);
+
+/// Fails without both tunnels, and on a flexion that the case's knee does not reach.
+Result<GraftBend> graft_bend_at(const CaseDef& def, const AclTunnels& tunnels, double flexion_deg);
 
 /// A graft between the mouths of both tunnels in the case's knee: as thick as the thinner tunnel
 /// and fixed as the table says, or as was chosen. A graft that nothing holds pulls nowhere. Fails

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "knee/acl_frame.h"
+#include "knee/graft_bends.h"
 #include "osteon/physics/acl_tunnels.h"
 #include "osteon/scene/graft.h"
 
@@ -71,8 +72,8 @@ double length_at(const std::vector<LineLength>& lengths, double flexion_deg) {
 
 // What is not chosen is as an expert would: a graft that is long enough, the loop with which the
 // button just turns, a screw a millimetre wider than the tunnel.
-Result<FixedGraft> fixed_as(const GraftChoices& chosen, const AclTunnels& tunnels,
-                            double diameter_m, double between_m) {
+GraftFixing fixing_as(const GraftChoices& chosen, const AclTunnels& tunnels, double diameter_m,
+                      double between_m) {
   constexpr double kWider_m = 0.001, kScrewLong_m = 0.028, kLongestLoop_m = 0.050;
   GraftFixing done;
   done.diameter_m = diameter_m;
@@ -91,7 +92,24 @@ Result<FixedGraft> fixed_as(const GraftChoices& chosen, const AclTunnels& tunnel
   done.screw_m = chosen.screw_m.value_or(done.tibia_diameter_m + kWider_m);
   done.screw_length_m = chosen.screw_length_m.value_or(kScrewLong_m);
   done.divergence_rad = chosen.divergence_rad;
-  return fix_graft(done);
+  return done;
+}
+
+// Drawn in by its thread before it is fixed.
+Result<PassedGraft> passed_as(const CaseDef& def, const GraftChoices& chosen,
+                              const AclTunnels& tunnels, const GraftFixing& done) {
+  const auto bend = graft_bend_at(def, tunnels, chosen.passing_flexion_deg);
+  if (!bend) return tl::unexpected(bend.error());
+  PassingWay way;
+  way.tibia_m = done.tibia_m;
+  way.between_m = bend->length_m;
+  way.channel_m = done.channel_m;
+  way.socket_m = done.socket_m;
+  way.tibia_diameter_m = done.tibia_diameter_m;
+  way.socket_diameter_m = tunnels.femur->diameter_m;
+  way.tibia_bend_rad = bend->tibia_rad;
+  way.femur_bend_rad = bend->femur_rad;
+  return pass_graft(way, {done.diameter_m, done.length_m, done.loop_m, chosen.tail_n});
 }
 
 Result<void> check_fits(double diameter_m, const AclTunnels& tunnels) {
@@ -125,6 +143,10 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
       std::minmax_element(out.lengths.begin(), out.lengths.end(),
                           [](const auto& a, const auto& b) { return a.length_m < b.length_m; });
   out.excursion_m = high->length_m - low->length_m;
+  const auto bones = find_knee_bones(def);
+  if (!bones) return tl::unexpected(bones.error());
+  for (const LineLength& at : out.lengths)
+    out.bends.push_back(bend_of_graft(*bones, tunnels, at.flexion_deg));
   double diameter = std::min(tunnels.femur->diameter_m, tunnels.tibia->diameter_m);
   if (choices) diameter = choices->diameter_m.value_or(diameter);
   if (auto ok = check_fits(diameter, tunnels); !ok) return tl::unexpected(ok.error());
@@ -138,8 +160,13 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
   graft.diameter_m = diameter;
   if (choices) {
     const double bend_deg = choices->flexion_deg.value_or(table.graft.flexion_deg);
-    auto fixed = fixed_as(*choices, tunnels, diameter, length_at(out.lengths, bend_deg));
+    const GraftFixing done =
+        fixing_as(*choices, tunnels, diameter, length_at(out.lengths, bend_deg));
+    auto fixed = fix_graft(done);
     if (!fixed) return tl::unexpected(fixed.error());
+    auto passed = passed_as(def, *choices, tunnels, done);
+    if (!passed) return tl::unexpected(passed.error());
+    out.passed = std::move(*passed);
     graft.tension_n = choices->tension_n;
     graft.flexion_deg = choices->flexion_deg;
     graft.fixation_n_per_m = fixed->stiffness_n_per_m;

@@ -148,6 +148,7 @@ Result<FemoralTunnel> measure_femur(const CaseDef& def, const KneeParts& parts,
   FemoralTunnel out;
   const Vec3& mouth = bore->mouth;
   out.aperture_W = place_W(parts, parts.femur, mouth);
+  out.inwards_W = place_W(parts, parts.femur, mouth + bore->inwards) - out.aperture_W;
   out.depth_share = grid->depth_share(mouth);
   out.height_share = grid->height_share(mouth);
   out.off_target_m = std::hypot((out.depth_share - kTargetDepth) * (grid->front - grid->hind),
@@ -184,6 +185,7 @@ Result<TibialTunnel> measure_tibia(const CaseDef& def, const KneeParts& parts,
   if (!bore) return tl::unexpected(bore.error());
   TibialTunnel out;
   out.aperture_W = place_W(parts, parts.tibia, bore->mouth);
+  out.inwards_W = place_W(parts, parts.tibia, bore->mouth + bore->inwards) - out.aperture_W;
   out.front_share = plateau->front_share(bore->mouth);
   out.medial_share = plateau->medial_share(bore->mouth);
   out.length_m = bore->drilled;

@@ -49,6 +49,37 @@ TEST_F(AclTunnelsCommand, AtTheFootprintsTheKneeIsHeldAsBefore) {
   EXPECT_TRUE(good["lachman"]["converged"]);
   EXPECT_LT(std::abs(good["lachman"]["side_difference_mm"].get<double>()), 3);
   EXPECT_GT(good["isometry"]["excursion_mm"], 0.5);
+  // A socket that was drilled in a bent knee turns the graft most in the knee stretched out.
+  const Json& bending = good["bending"];
+  ASSERT_EQ(bending.size(), good["isometry"]["lengths"].size());
+  EXPECT_EQ(bending[9]["flexion_deg"], 90);
+  EXPECT_GT(bending[0]["femur_deg"].get<double>(), bending[9]["femur_deg"].get<double>() + 20);
+  EXPECT_LT(bending[0]["tibia_deg"].get<double>(), bending[9]["tibia_deg"].get<double>());
+}
+
+std::string on_line(const Json& through, const Json& other, double away_mm) {
+  double from[3], step[3], length = 0;
+  for (int k = 0; k < 3; ++k) {
+    from[k] = through[k];
+    step[k] = from[k] - other[k].get<double>();
+    length += step[k] * step[k];
+  }
+  std::string text;
+  for (int k = 0; k < 3; ++k)
+    text += (k ? "," : "") + std::to_string(from[k] + away_mm * step[k] / std::sqrt(length));
+  return text;
+}
+
+// Two tunnels on one line through the knee as it lies, stretched out: the graft turns nowhere.
+TEST_F(AclTunnelsCommand, AGraftOnOneLineWithBothTunnelsDoesNotTurn) {
+  const Json femur = Json::array({-23.5, -13.1, -12.2}), tibia = Json::array({4.2, 1.0, 0.0});
+  const Json line = measured(
+      "--femur-from=" + on_line(femur, tibia, -10) + " --femur-to=" + on_line(femur, tibia, 20) +
+      " --tibia-from=" + on_line(tibia, femur, 60) + " --tibia-to=" + on_line(tibia, femur, 0));
+  ASSERT_TRUE(line.is_object());
+  EXPECT_LT(line["bending"][0]["femur_deg"], 0.01);
+  EXPECT_LT(line["bending"][0]["tibia_deg"], 0.01);
+  EXPECT_GT(line["bending"][9]["femur_deg"], 30);
 }
 
 // A socket under the roof, and a tibial tunnel far in front.

@@ -61,8 +61,12 @@ TEST_F(GraftCommands, ADivergentScrewAndASlackGraftLetTheTibiaForward) {
   const Json whole = in_knee("--cycles 25");
   EXPECT_TRUE(whole["graft"]["holds"]);
   EXPECT_LT(whole["lachman"]["side_difference_mm"].get<double>(), 3);
+  EXPECT_TRUE(whole["passing"]["button_turns"]);
+  const double pull_n = whole["passing"]["most_pull_n"];
+  EXPECT_GT(pull_n, 10);  // more than the tail's
   const double good = whole["lachman"]["ahead_of_whole_mm"];
-  const Json screw = in_knee("--screw-divergence 30");
+  const Json screw = in_knee("--screw-divergence 30 --tail 40");
+  EXPECT_GT(screw["passing"]["most_pull_n"], pull_n + 30);
   EXPECT_GT(screw["lachman"]["ahead_of_whole_mm"].get<double>(), good + 2);
   EXPECT_LT(screw["graft"]["strength_n"], 200);
   const Json slack = in_knee("--pretension 0 --cycles 0 --tension 20");
@@ -79,6 +83,9 @@ TEST_F(GraftCommands, BadInputIsToldAndExitsTwo) {
   const Ran thick = run_osteon(knee + "--graft-diameter 10");
   EXPECT_EQ(thick.exit_code, 2);
   EXPECT_NE(thick.output.find("does not pass"), std::string::npos) << thick.output;
+  const Ran bent = run_osteon(knee + "--passing-flexion 150");
+  EXPECT_EQ(bent.exit_code, 2);
+  EXPECT_NE(bent.output.find("--passing-flexion"), std::string::npos) << bent.output;
   std::ofstream(file("empty.json")) << "{}";
   const Ran empty = run_osteon(knee + "--graft " + file("empty.json"));
   EXPECT_EQ(empty.exit_code, 2);

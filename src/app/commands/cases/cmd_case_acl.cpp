@@ -27,6 +27,7 @@ struct AclCommand {
   std::string graft_file, screw;
   std::optional<double> graft_diameter_mm, graft_length_mm, loop_mm, tension_n, tension_flexion_deg;
   std::optional<double> divergence_deg, button_gap_mm, pretension_s, cycles;
+  std::optional<double> passing_flexion_deg, tail_n;
 };
 
 std::optional<double> in_metres(const std::optional<double>& mm) {
@@ -49,7 +50,8 @@ Result<void> read_screw(const std::string& text, GraftChoices& choices) {
 Result<std::optional<GraftChoices>> choices_of(const AclCommand& c) {
   const bool any = !c.graft_file.empty() || !c.screw.empty() || c.graft_diameter_mm ||
                    c.graft_length_mm || c.loop_mm || c.tension_n || c.tension_flexion_deg ||
-                   c.divergence_deg || c.button_gap_mm || c.pretension_s || c.cycles;
+                   c.divergence_deg || c.button_gap_mm || c.pretension_s || c.cycles ||
+                   c.passing_flexion_deg || c.tail_n;
   if (!any) return std::optional<GraftChoices>();
   GraftChoices choices;
   if (!c.graft_file.empty()) {
@@ -71,6 +73,8 @@ Result<std::optional<GraftChoices>> choices_of(const AclCommand& c) {
   choices.button_gap_m = c.button_gap_mm.value_or(0) / 1000;
   choices.pretension_s = c.pretension_s.value_or(choices.pretension_s);
   choices.cycles = c.cycles.value_or(choices.cycles);
+  choices.passing_flexion_deg = c.passing_flexion_deg.value_or(choices.passing_flexion_deg);
+  choices.tail_n = c.tail_n.value_or(choices.tail_n);
   if (!c.screw.empty())
     if (auto ok = read_screw(c.screw, choices); !ok) return tl::unexpected(ok.error());
   return std::optional<GraftChoices>(choices);
@@ -160,6 +164,9 @@ void add_acl_graft_options(cli::App& acl, AclCommand& c) {
   number("--graft-length", c.graft_length_mm, "of the folded graft, mm (long enough)", 5, 300);
   number("--loop", c.loop_mm, "length of the button's loop, mm (the shortest that lets it turn)", 5,
          60);
+  number("--passing-flexion", c.passing_flexion_deg,
+         "flexion while the graft is drawn in, degrees (90)", 0, 130);
+  number("--tail", c.tail_n, "pull on the graft's tail then, N (10)", 0, 200);
   number("--tension", c.tension_n, "tension while the graft is fixed, N (90)", 1, 500);
   number("--tension-flexion", c.tension_flexion_deg, "flexion then, degrees (30)", 0, 130);
   number("--pretension", c.pretension_s, "seconds at 80 N on the bench (600)", 0, 1e6);

@@ -1,5 +1,6 @@
 #include "runs/reports/acl_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -52,6 +53,31 @@ AclJson fixed_json(const GraftOutcome& graft) {
                {"holds", graft.holds}};
   if (!fixed.held) json["why"] = fixed.why;
   return json;
+}
+
+AclJson passed_json(const PassedGraft& passed) {
+  AclJson json{{"most_pull_n", passed.most_pull_n},
+               {"most_pull_at_mm", 1e3 * passed.most_pull_at_m},
+               {"last_pull_n", passed.last_pull_n},
+               {"drawn_mm", 1e3 * passed.end_m},
+               {"button_turns", passed.turns}};
+  if (!passed.turns) json["why"] = passed.why;
+  return json;
+}
+
+AclJson bending_json(const GraftOutcome& graft) {
+  AclJson out = AclJson::array();
+  for (const GraftBend& at : graft.bends)
+    out.push_back({{"flexion_deg", at.flexion_deg},
+                   {"femur_deg", kTurn_deg * at.femur_rad},
+                   {"tibia_deg", kTurn_deg * at.tibia_rad}});
+  return out;
+}
+
+double most_bent_deg(const GraftOutcome& graft) {
+  double most = 0;
+  for (const GraftBend& at : graft.bends) most = std::max(most, kTurn_deg * at.femur_rad);
+  return most;
 }
 
 AclJson test_json(const KneeLaxity& found, double whole_m, double ahead_m) {
@@ -126,6 +152,8 @@ AclJson to_json(const AclReport& report) {
   out["isometry"] = isometry_of(*report.graft);
   out["impingement"] = {{"roof_gap_mm", 1e3 * report.graft->roof_gap_m},
                         {"impinges", report.graft->roof_gap_m < 0}};
+  out["bending"] = bending_json(*report.graft);
+  if (report.graft->passed) out["passing"] = passed_json(*report.graft->passed);
   if (report.graft->fixed) out["graft"] = fixed_json(*report.graft);
   out["lachman"] = test_json(report.graft->lachman, report.graft->lachman_whole_m,
                              report.graft->lachman_ahead_m);
@@ -152,6 +180,12 @@ std::string to_text(const AclReport& report) {
   add_line(text, "graft: length changes by", 1e3 * graft.excursion_m, "mm over flexion");
   add_line(text, "graft: room under the roof", 1e3 * graft.roof_gap_m,
            graft.roof_gap_m < 0 ? "mm, the roof impinges on it" : "mm");
+  add_line(text, "graft: turns at the femoral mouth by", most_bent_deg(graft), "degrees at most");
+  if (graft.passed) {
+    add_line(text, "graft: drawn in with", graft.passed->most_pull_n, "N at most");
+    add_line(text, "graft: drawn in over", 1e3 * graft.passed->end_m, "mm");
+    if (!graft.passed->turns) text += "button: does not turn, " + graft.passed->why + "\n";
+  }
   if (graft.fixed) {
     add_line(text, "graft: in the femoral socket", 1e3 * graft.fixed->in_socket_m, "mm");
     add_line(text, "graft: screw engages", 1e3 * graft.fixed->engaged_m, "mm");
