@@ -113,6 +113,7 @@ struct HapticLoop::Impl {
   Load load(const ProxyMove& move, const HapticParams& params) const;
   void list_contacts(const ProxyMove& move);
   Load letting_go(const HapticParams& params) const;
+  Friction in_hole(const Friction& on_surface) const;
   double feel(const ToolInput& input, const Vec3& hand_W, const Load& held, bool sticking,
               const Vec3& beside_W, const HapticParams& params);
   void share_force(const ProxyMove& move, const Load& load, const Vec3& beside_W);
@@ -398,8 +399,9 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   // What turns under power slips already: bone that goes from before it must not have to pull it.
   const bool turns = state.tool.power > 0 && field.can_be_cut();
   const bool rested = was_held && held.carrier.valid() && !turns;
-  const Friction friction = rested ? Friction{held.static_lag, held.dynamic_lag, glide(wanted.p)}
-                                   : Friction{0, 0, kAnyWay};
+  Friction friction{0, 0, kAnyWay};
+  if (rested) friction = {held.static_lag, held.dynamic_lag, glide(wanted.p)};
+  if (rested && line.in && guide.in_hole) friction = in_hole(friction);
   const std::span<const Vec3> path(move.path.data(), move.path_count);
   const FrictionStep step = apply_friction(path, friction, state.sliding);
   if (move.free && step.p_W == wanted.p) {
@@ -434,6 +436,16 @@ Load HapticLoop::Impl::letting_go(const HapticParams& params) const {
   out.stiffness = std::min(params.stiffness_n_per_m, material.stiffness_n_per_m);
   out.v_bone_W = velocity_at(motion[out.carrier.index], state.tool.X_WP.p);
   return out;
+}
+
+// A hole's end holds against the push, across the way that the hole leaves: its friction does not
+// stop a tip that goes on along the hole. What sticks there is the grain of the wall, which lets go
+// after a way much shorter than a cell of the bone: the tip goes on in small slips.
+Friction HapticLoop::Impl::in_hole(const Friction& on_surface) const {
+  constexpr double kGrain_m = 5e-5;  // own default
+  const double least = std::min(on_surface.static_lag_m, kGrain_m);
+  const double share = on_surface.static_lag_m > 0 ? least / on_surface.static_lag_m : 0;
+  return {least, share * on_surface.dynamic_lag_m, on_surface.glide_m};
 }
 
 // Sets the force on the hand from the place that the proxy has taken, and what comes beside it of

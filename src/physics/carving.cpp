@@ -66,12 +66,21 @@ void add_to(Hasher& hasher, const CarvingHand& hand) {
   for (const bool x : {hand.was_in, hand.skives, hand.jaw_open}) hasher.add(x);
   hasher.add(hand.out);
   hasher.add(hand.p_out);
+  if (hand.loose > 0) hasher.add(hand.loose);
   if (!hand.in_hole && hand.rod == 0 && hand.lag_m == 0 && hand.grip == 0) return;
   for (const bool x : {hand.in_hole, hand.open}) hasher.add(x);
   for (const double x : {hand.lag_m, hand.grip}) hasher.add(x);
   hasher.add(hand.mouth_B);
   hasher.add(hand.rod);
   hasher.add(hand.instrument);
+}
+
+void add_to(Hasher& hasher, const LeftHole& hole) {
+  hasher.add(hole.bone);
+  hasher.add(hole.X_BC);
+  hasher.add(hole.mouth_B);
+  for (const double x : {hole.diameter_m, hole.lag_m}) hasher.add(x);
+  hasher.add(hole.open);
 }
 
 void add_to(Hasher& hasher, const GuideRod& rod) {
@@ -169,8 +178,10 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
     };
     const auto stood = pins();
     if (h.instrument < setup_->tray.size())
-      if (const auto& before = setup_->tray[h.instrument]; before && before->stays)
-        follow_chuck(hand, *before, chuck, bones);
+      if (const auto& before = setup_->tray[h.instrument]) {
+        if (before->stays) follow_chuck(hand, *before, chuck, bones);
+        if (h.in_hole) keep_hole(h, *before);
+      }
     h = {};
     h.instrument = tool.instrument;
     chuck.jaw = 0;
@@ -194,9 +205,12 @@ void Carving::cut_with(std::size_t hand, const ToolState& tool, const BoneSnapsh
     return;
   }
   if (with->stays) follow_chuck(hand, *with, tool, bones);
-  if (with->stays && h.jaw_open) return;
+  if (with->stays && h.jaw_open) return slide_on_pin(hand, tool, bones);
   if (goes_forward(with->way)) leave_hole(hand, *with, tool, bones);
-  if (with->way == Way::kDrill) follow_rods(hand, *with, tool, bones);
+  if (with->way == Way::kDrill) {
+    follow_rods(hand, *with, tool, bones);
+    come_back(hand, *with, tool, bones);
+  }
   Push push;
   push.tool = &tool;
   // The bone that is pressed most; of equals the first.
@@ -533,6 +547,8 @@ std::uint64_t Carving::hash() {
   hasher.add(full_);
   for (const GuideRod& rod : rods_)
     if (rod.kind != GuideRod::Kind::kNone) add_to(hasher, rod);
+  for (const LeftHole& hole : holes_)
+    if (hole.bone != CarvingHand::kNoBone) add_to(hasher, hole);
   return hasher.value();
 }
 
@@ -544,6 +560,7 @@ CarvingState Carving::save() const {
   state.steps = steps_;
   state.full = full_;
   state.rods = rods_;
+  state.holes = holes_;
   return state;
 }
 
@@ -559,6 +576,8 @@ bool Carving::fits(const CarvingState& state) const {
     if (hand.bone != CarvingHand::kNoBone && !is_carved(hand.bone)) return false;
   for (const GuideRod& rod : state.rods)
     if (rod.kind != GuideRod::Kind::kNone && !is_carved(rod.bone)) return false;
+  for (const LeftHole& hole : state.holes)
+    if (hole.bone != CarvingHand::kNoBone && !is_carved(hole.bone)) return false;
   return true;
 }
 
@@ -569,6 +588,7 @@ void Carving::restore(const CarvingState& state) {
   steps_ = state.steps;
   full_ = state.full;
   rods_ = state.rods;
+  holes_ = state.holes;
   guides_ = {};
   changed_.clear();
   fallen_.clear();

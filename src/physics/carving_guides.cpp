@@ -19,6 +19,9 @@ constexpr double kFits_m = 0.0002;        // room between a rod and what is holl
 constexpr double kShortestPin_m = 0.005;  // that holds in bone
 constexpr double kTakesPin_m = 0.006;     // so near a chuck shuts about a pin
 constexpr double kBesidePin_m = 0.003;    // a sleeve ends so far before the place that it aims at
+constexpr double kKeptHole_m = 0.003;     // a hole that is as deep is known again
+constexpr double kIntoHole_m = 0.0005;    // so near its axis and mouth a tip falls into it
+constexpr double kFillsHole = 0.8;        // by diameter: what is thinner meets the wall as it is
 constexpr std::size_t kMostGuideEvents = 32;  // of a step
 // Of 316L steel, Pa (ASM Handbook, volume 1).
 constexpr double kSteel_Pa = 193e9;
@@ -98,7 +101,50 @@ void Carving::leave_hole(std::size_t hand, const CarvingTool& with, const ToolSt
   // Put back into its hole by a restore point while the hand is elsewhere, it is not drawn there.
   const bool elsewhere = (off - off.dot(out) * out).norm() > kCapture_m;
   if (!elsewhere && !(out.dot(X_BT.p - h.mouth_B) > kOutOfHole_m)) return;
+  keep_hole(h, with);
   end_hole(hand, tool);
+}
+
+void Carving::keep_hole(const CarvingHand& h, const CarvingTool& with) {
+  if (with.way != CarvingTool::Way::kDrill || (h.mouth_B - h.X_BC.p).norm() < kKeptHole_m) return;
+  std::copy_backward(holes_.begin(), holes_.end() - 1, holes_.end());
+  holes_.front() = {h.bone, h.X_BC, h.mouth_B, with.cutter.size_m, h.lag_m, h.open};
+}
+
+// A tool that fills its hole is as far from its wall all along its axis, so the field says nothing
+// of a direction there: it is led by the hole from where its tip falls into the mouth.
+void Carving::come_back(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                        const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  h.loose = std::max(0.0, h.loose - kGripPerStep);
+  if (h.in_hole || h.rod != 0) return;
+  for (std::size_t i = 0; i < holes_.size(); ++i) {
+    const LeftHole hole = holes_[i];
+    if (hole.bone >= bones.count || with.cutter.size_m > hole.diameter_m + kFits_m ||
+        with.cutter.size_m < kFillsHole * hole.diameter_m)
+      continue;
+    const Pose X_BT = bones.bones[hole.bone].X_WB.inverse() * tool.X_WP;
+    const Beside at = beside({GuideRod::Kind::kNone, hole.bone, hole.X_BC, 0, 0, 0}, X_BT);
+    const double before = at.along_m - (hole.mouth_B - hole.X_BC.p).norm();
+    if (at.across_m > kIntoHole_m || at.turn_rad > kCaptureTurn_rad ||
+        std::abs(before) > 0.8 * kIntoHole_m)
+      continue;
+    h = anew(h);
+    h.bone = hole.bone;
+    h.X_BC = hole.X_BC;
+    h.mouth_B = hole.mouth_B;
+    h.lag_m = hole.lag_m;
+    h.open = hole.open;
+    h.drill.depth_m = (hole.mouth_B - hole.X_BC.p).norm();
+    h.since = steps_;
+    h.in_hole = h.was_in = true;
+    h.loose = 1;
+    // Left again, it is the newest.
+    std::copy(holes_.begin() + static_cast<std::ptrdiff_t>(i) + 1, holes_.end(),
+              holes_.begin() + static_cast<std::ptrdiff_t>(i));
+    holes_.back() = {};
+    return;
+  }
 }
 
 void Carving::end_hole(std::size_t hand, const ToolState& tool) {
@@ -147,6 +193,19 @@ void Carving::follow_rods(std::size_t hand, const CarvingTool& with, const ToolS
   }
 }
 
+// An open chuck that still holds the pin it let go: the pin in its hole is not felt as bone.
+void Carving::slide_on_pin(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
+  CarvingHand& h = hands_[hand];
+  if (h.rod == 0) return;
+  const GuideRod& rod = rods_[h.rod - 1];
+  if (rod.kind != GuideRod::Kind::kPin || rod.bone >= bones.count) {
+    h.rod = 0;
+    return;
+  }
+  const Pose X_BT = bones.bones[rod.bone].X_WB.inverse() * tool.X_WP;
+  if (beside(rod, X_BT).along_m > rod.in_bone_m + kOutOfHole_m) h = anew(h), h.rod = 0;
+}
+
 // Opened, a chuck lets its pin go; shut beside one, it takes it out.
 void Carving::follow_chuck(std::size_t hand, const CarvingTool& with, const ToolState& tool,
                            const BoneSnapshot& bones) {
@@ -155,14 +214,28 @@ void Carving::follow_chuck(std::size_t hand, const CarvingTool& with, const Tool
   h.jaw_open = tool.jaw > 0.5 || (h.jaw_open && tool.jaw > 0.1);
   if (h.jaw_open == was_open) return;
   if (h.jaw_open) {
-    const double in_bone = outwards(h.X_BC).dot(h.mouth_B - h.X_BC.p);
+    // It stays where its tip is now, which may have been drawn back from the hole's end.
+    Pose X_BR = h.X_BC;
+    if (h.in_hole && h.bone < bones.count) {
+      const Pose X_BT = bones.bones[h.bone].X_WB.inverse() * tool.X_WP;
+      const double back = outwards(X_BR).dot(X_BT.p - X_BR.p);
+      if (back > kOutOfHole_m) X_BR.p += back * outwards(X_BR);
+    }
+    const double in_bone = outwards(X_BR).dot(h.mouth_B - X_BR.p);
     GuideRod* rod = h.in_hole && in_bone >= kShortestPin_m ? free_rod() : nullptr;
     const std::uint32_t bone = h.bone;
     if (rod)
-      *rod = {GuideRod::Kind::kPin, bone, h.X_BC, 0.5 * with.cutter.size_m, with.length_m, in_bone};
+      *rod = {GuideRod::Kind::kPin, bone, X_BR, 0.5 * with.cutter.size_m, with.length_m, in_bone};
     h = anew(h);
     h.rod = 0;
-    if (rod) tell_of(hand, tool, kPinLeft, bone, {1e3 * in_bone, 1e3 * with.cutter.size_m, 0});
+    if (rod) {
+      // The chuck slides along the pin until it is off.
+      h.rod = static_cast<std::uint32_t>(rod - rods_.data()) + 1;
+      h.grip = 1;
+      h.bone = bone;
+      h.X_BC = X_BR;
+      tell_of(hand, tool, kPinLeft, bone, {1e3 * in_bone, 1e3 * with.cutter.size_m, 0});
+    }
     return;
   }
   for (std::size_t r = 0; r < rods_.size(); ++r) {
@@ -172,7 +245,17 @@ void Carving::follow_chuck(std::size_t hand, const CarvingTool& with, const Tool
         at.along_m > rods_[r].length_m)
       continue;
     const std::uint32_t bone = rods_[r].bone;
+    const GuideRod pin = rods_[r];
     drop_rod(r);
+    if (at.along_m < pin.in_bone_m && at.across_m < kIntoHole_m) {  // it is in its hole again
+      h = anew(h);
+      h.bone = bone;
+      h.X_BC = pin.X_BR;
+      h.mouth_B = pin.X_BR.p + pin.in_bone_m * outwards(pin.X_BR);
+      h.drill.depth_m = pin.in_bone_m;
+      h.since = steps_;
+      h.in_hole = h.was_in = true;
+    }
     tell_of(hand, tool, kPinTaken, bone, {});
     return;
   }
@@ -215,9 +298,11 @@ void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapsho
   out.bone = rod ? rod->bone : h.bone;
   out.p_B = X_BL.p;
   out.nhat_B = outwards(X_BL);
-  out.grip = rod ? h.grip : 1;
+  out.grip = rod ? h.grip : 1 - h.loose;
   // A hole in another bone than the rod's is met as bone is.
-  out.in_hole = h.in_hole && h.bone == out.bone;
+  const auto& with = setup_->tray[tool.instrument];
+  const bool on_its_pin = rod && rod->kind == GuideRod::Kind::kPin && with && with->stays;
+  out.in_hole = (h.in_hole || on_its_pin) && h.bone == out.bone;
   out.stops = out.in_hole;
   out.stop_m = out.nhat_B.dot(h.X_BC.p - out.p_B) - CarvingSetup::kSlack_m;
   if (!rod) return;

@@ -58,6 +58,8 @@ void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
     if (h.bone != bone || !h.in_hole || !inside(h.mouth_B)) continue;
     if (n < tools.size()) end_hole(n, *tools[n]);
   }
+  for (LeftHole& hole : holes_)
+    if (hole.bone == bone && inside(hole.mouth_B)) hole = {};
   for (std::size_t r = 0; r < rods_.size(); ++r) {
     const GuideRod& rod = rods_[r];
     const Vec3 mouth = rod.X_BR.p + rod.in_bone_m * (rod.X_BR.q * Vec3::UnitZ());

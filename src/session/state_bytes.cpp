@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 8;
+constexpr std::uint64_t kVersion = 9;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -53,6 +53,10 @@ bool knows_twist(const In& in) { return in.version >= 4; }
 // Whether it says what leads instruments.
 bool knows_guides(const Out&) { return true; }
 bool knows_guides(const In& in) { return in.version >= 6; }
+
+// Whether it says which holes were left.
+bool knows_holes(const Out&) { return true; }
+bool knows_holes(const In& in) { return in.version >= 9; }
 
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
@@ -391,6 +395,16 @@ void field(A& a, CarvingHand& h) {
   for (bool* x : {&h.in_hole, &h.open}) field(a, *x);
   number(a, h.rod, kMaxGuideRods);
   field(a, h.instrument);
+  if (knows_holes(a)) field(a, h.loose);
+}
+
+template <class A>
+void field(A& a, LeftHole& hole) {
+  field(a, hole.bone);
+  field(a, hole.X_BC);
+  field(a, hole.mouth_B);
+  for (double* x : {&hole.diameter_m, &hole.lag_m}) field(a, *x);
+  field(a, hole.open);
 }
 
 template <class A>
@@ -410,6 +424,8 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
   field(a, state.full);
   if (knows_guides(a))
     for (GuideRod& rod : state.rods) field(a, rod);
+  if (knows_holes(a))
+    for (LeftHole& hole : state.holes) field(a, hole);
   if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
 }
 

@@ -38,10 +38,14 @@ struct Drilling {
   std::shared_ptr<const CarvingSetup> setup;
 
   explicit Drilling(const std::string& instrument = "drill:3.2") {
-    settings.tray = {instrument};
     settings.carve.on = true;
     settings.carve.cell_m = 0.0004;
     settings.haptic.max_force_n = 8;
+    also(instrument);
+  }
+  /// Puts one more instrument into the tray.
+  void also(const std::string& instrument) {
+    settings.tray.push_back(instrument);
     const auto all = load_instruments();
     EXPECT_TRUE(all);
     const auto name = parse_tool_name(instrument);

@@ -233,6 +233,75 @@ TEST(Guides, ARestorePointDoesNotDrawAHandToADistantHole) {
   EXPECT_GT(with.off_axis(session), 0.029);
 }
 
+// Taken out and put back a little beside its axis, a drill falls into its hole, which leads it to
+// the end without a jerk, and it goes on from there. So it does after its state went through bytes.
+TEST(Guides, ADrillPutBackIntoItsHoleIsLedByIt) {
+  for (const char* name : {"drill:3.2", "cannulated_drill:8"}) {
+    SlantedDrilling with({name}, 15);
+    Session session = with.session();
+    for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.003));
+    with.order(session, 0.003, CommandKind::kPower, 1);
+    for (int n = 0; n < 300; ++n) with.tick(session, with.hand(0.003 - 0.00001 * n));
+    with.press(session, 0.005, 6000);
+    ASSERT_LT(with.height(session), -0.0048) << name;
+    const Pose hole = session.save().world.carved->hands[0].X_BC;
+    // Its tip may have slid a little on the slanted bone before it cut.
+    const Vec3 to_hole = hole.p - with.hand(0).input.X_WD.p;
+    const Vec3 slid = to_hole - to_hole.dot(with.back_W) * with.back_W;
+    const auto over_hole = [&](double height, double aside) {
+      HandInput hand = with.hand(height, aside);
+      hand.input.X_WD.p += slid;
+      return hand;
+    };
+    const auto off_line = [&](const Session& of) {
+      const Vec3 off = of.tool_state().X_WP.p - hole.p, out = hole.q * Vec3::UnitZ();
+      return (off - off.dot(out) * out).norm();
+    };
+    with.order(session, -0.005, CommandKind::kPower, 0);
+    for (int n = 0; n < 200; ++n) with.tick(session, with.hand(-0.005 + 0.0001 * n));
+    const auto bytes = state_from_bytes(to_bytes(session.save()));
+    ASSERT_TRUE(bytes) << bytes.error().message();
+    Session other = with.session();
+    ASSERT_TRUE(other.restore(*bytes));
+    const double gone = gone_mm3(session);
+    for (Session* each : {&session, &other}) {
+      double last = 0, most_step = 0, most = 0;
+      for (int n = 0; n < 400; ++n) {
+        with.tick(*each, over_hole(0.015 - 0.00005 * n, 0.0003));
+        const double force = each->tool_state().force_W.norm();
+        most_step = std::max(most_step, std::abs(force - last));
+        most = std::max(most, with.height(*each) > -0.0046 ? force : 0.0);
+        last = force;
+      }
+      EXPECT_LT(with.height(*each), -0.0046) << name;
+      EXPECT_LT(off_line(*each), 5e-5) << name;
+      EXPECT_LT(most, 1.2) << name;
+      EXPECT_LT(most_step, 0.1) << name;
+      EXPECT_EQ(gone_mm3(*each), gone) << name;
+      with.order(*each, -0.006, CommandKind::kPower, 1);
+      with.press(*each, 0.007, 6000);
+      EXPECT_LT(with.height(*each), -0.0068) << name;
+      EXPECT_LT(off_line(*each), 5e-5) << name;
+    }
+    EXPECT_EQ(other.state_hash(), session.state_hash()) << name;
+  }
+}
+
+// Beside the hole there is bone.
+TEST(Guides, AHoleDoesNotDrawADrillThatIsPutBesideIt) {
+  SlantedDrilling with({"drill:3.2"}, 0);
+  Session session = with.session();
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.003));
+  with.order(session, 0.003, CommandKind::kPower, 1);
+  for (int n = 0; n < 300; ++n) with.tick(session, with.hand(0.003 - 0.00001 * n));
+  with.press(session, 0.005, 6000);
+  with.order(session, -0.005, CommandKind::kPower, 0);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(-0.005 + 0.0001 * n));
+  for (int n = 0; n < 400; ++n) with.tick(session, with.hand(0.015 - 0.00005 * n, 0.004));
+  EXPECT_GT(with.height(session), -1e-4);
+  EXPECT_NEAR(with.off_axis(session), 0.004, 2e-4);
+}
+
 void drill_pin(SlantedDrilling& with, Session& session) {
   for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.002));
   with.order(session, 0.002, CommandKind::kPower, 1);
@@ -282,6 +351,47 @@ TEST(Guides, APinStaysLeadsAndIsTakenOut) {
   for (int n = 0; n < 4; ++n) with.tick(session, with.hand(0.001));
   EXPECT_TRUE(with.told(kPinTaken));
   EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kNone);
+}
+
+// Its chuck open, the hand goes back along the pin and is off at once.
+TEST(Guides, AnOpenChuckSlidesOffItsPin) {
+  SlantedDrilling with({"guide_pin:2.4"}, 0);
+  Session session = with.session();
+  play_pin(with, session);
+  ASSERT_TRUE(with.told(kPinLeft));
+  for (int n = 0; n < 250; ++n) {
+    with.tick(session, with.hand(-0.007 + 0.0001 * n));
+    ASSERT_LT(session.tool_state().force_W.norm(), 0.5) << n;
+  }
+  EXPECT_NEAR(with.height(session), 0.0179, 5e-4);
+  EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kPin);
+}
+
+// Whatever is taken within bone feels nothing and removes nothing until it has been outside.
+TEST(Guides, AToolTakenWithinBoneDoesNothingThere) {
+  for (const char* name : {"drill:3.2", "microdrill:4", "kerrison_punch:3", "osteotome:8"}) {
+    SlantedDrilling with({"hook_probe", name}, 0);
+    Session session = with.session();
+    const HandInput within = with.hand(-0.005);
+    HandInput take = within;
+    // A probe on its way through the bone's side, as a hand may leave it, is outside; the hand is
+    // within.
+    for (int n = 0; n < 20; ++n) with.tick(session, within);
+    take.command = {CommandKind::kTake, 1};
+    with.tick(session, take);
+    with.order(session, -0.005, CommandKind::kPower, 1);
+    with.order(session, -0.005, CommandKind::kJaw, 1);
+    for (int n = 0; n < 300; ++n) {
+      with.tick(session, within);
+      if (n == 150) with.order(session, -0.005, CommandKind::kJaw, 0);
+      EXPECT_LT(session.tool_state().force_W.norm(), 0.01) << name << n;
+    }
+    EXPECT_EQ(gone_mm3(session), 0) << name;
+    with.order(session, -0.005, CommandKind::kPower, 0);
+    for (int n = 0; n < 400; ++n) with.tick(session, with.hand(-0.005 + 0.00005 * n));
+    for (int n = 0; n < 400; ++n) with.tick(session, with.hand(0.015 - 0.00005 * n));
+    EXPECT_GT(session.tool_state().force_W.norm(), 1) << name;
+  }
 }
 
 // A hand that takes another instrument leaves its pin where it is; a replay does the same.

@@ -225,7 +225,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   constexpr std::size_t kWord = 8, kTouch = 6;
   constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
   constexpr std::size_t kAfter = 1 + kMaxMarks + 2;  // rings, marks, command
-  ASSERT_EQ(bytes[0], 8);
+  ASSERT_EQ(bytes[0], 9);
   bytes[0] = 6;
   bytes.erase(bytes.size() - (kAfter + kSolids) * kWord, kSolids * kWord);
   // Nor was there a bench: the word that says so is where the two differ first.

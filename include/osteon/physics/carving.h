@@ -90,6 +90,7 @@ struct CarvingHand {
   Vec3 mouth_B = Vec3::Zero();  ///< where the hole begins
   std::uint32_t rod = 0;        ///< that leads it: 1 + its place in Carving::rods; 0: none
   double grip = 0;              ///< of the rod, 0 to 1
+  double loose = 0;             ///< of a hole that it came back to: what it does not hold yet
   static constexpr std::uint32_t kAnyInstrument = 0xffffffffu;  ///< that which the hand holds
   std::uint32_t instrument = 0;                                 ///< in the tray
   friend bool operator==(const CarvingHand&, const CarvingHand&);
@@ -98,6 +99,18 @@ struct CarvingHand {
 /// A hand that cuts nothing yet with what it holds.
 CarvingHand anew(const CarvingHand& hand);
 
+/// A hole that a drill has left and may come back to.
+struct LeftHole {
+  std::uint32_t bone = CarvingHand::kNoBone;  ///< kNoBone: none
+  Pose X_BC;                                  ///< of the cutter at its end, +z outwards
+  Vec3 mouth_B = Vec3::Zero();
+  double diameter_m = 0, lag_m = 0;
+  bool open = false;  ///< it goes through
+};
+/// The last ones; a new one takes the oldest one's place.
+inline constexpr std::size_t kMaxLeftHoles = 8;
+using LeftHoles = std::array<LeftHole, kMaxLeftHoles>;
+
 /// Everything that carving changes: a value.
 struct CarvingState {
   std::vector<CarveState> bones;  ///< as CarvingSetup::bones; of a bone that is not carved: empty
@@ -105,6 +118,7 @@ struct CarvingState {
   std::uint64_t steps = 0;
   bool full = false;
   GuideRods rods{};
+  LeftHoles holes{};  ///< from the newest
 };
 
 /// What a hand's instrument did in one step, for heat and sound.
@@ -128,11 +142,12 @@ struct CarvingReadout {
 /// A pin whose chuck is opened (the jaw, above 0.5) stays in the bone, and a chuck that shuts
 /// (below 0.1) at a pin takes it out. A pin leads what is hollow, the sleeve of an aimer that was
 /// fixed (by its jaw, in the same way, while its tip touches bone) what fits into it: along its
-/// line alone. A burr removes where it is pressed: P = c F v at its rim, over the specific energy
-/// of what lies there, is a volume in time, and that over half its cross-section is how fast it
-/// goes in. A piece that hangs on nothing any more is gone with the next look for such pieces. Of a
-/// scraper v is how fast the hand draws it along. A blade goes in by the power of the blows on it,
-/// over the specific energy and its cross-section, and where the push alone is more than both.
+/// line alone. So does a hole that a drill has left, when one as thick is put to its mouth again. A
+/// burr removes where it is pressed: P = c F v at its rim, over the specific energy of what lies
+/// there, is a volume in time, and that over half its cross-section is how fast it goes in. A piece
+/// that hangs on nothing any more is gone with the next look for such pieces. Of a scraper v is how
+/// fast the hand draws it along. A blade goes in by the power of the blows on it, over the specific
+/// energy and its cross-section, and where the push alone is more than both.
 class Carving {
  public:
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
@@ -213,6 +228,10 @@ class Carving {
   void follow_aimer(std::size_t hand, const AimingTool& with, const ToolState& tool,
                     const BoneSnapshot& bones);
   bool leads(const GuideRod& rod, const CarvingTool& with) const;
+  void slide_on_pin(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
+  void keep_hole(const CarvingHand& h, const CarvingTool& with);
+  void come_back(std::size_t hand, const CarvingTool& with, const ToolState& tool,
+                 const BoneSnapshot& bones);
   void publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
   void run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT);
   GuideRod* free_rod();
@@ -232,6 +251,7 @@ class Carving {
   std::array<CarvingReadout, kMaxHands> readouts_{};
   std::array<ToolGuide, kMaxHands> guides_{};
   GuideRods rods_{};
+  LeftHoles holes_{};
   std::vector<Changed> changed_;
   std::vector<Fallen> fallen_;
   std::vector<Event> events_;

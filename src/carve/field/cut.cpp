@@ -89,20 +89,28 @@ struct CarvedField::Pass {
     scale.layers = f.layers_.layers.size();
   }
 
-  // Blocks with bone that a placed part may reach.
-  template <class Visit>
-  void for_blocks(const PlacedPart& placed, const Visit& visit) {
+  // Blocks with bone that a placed part may reach, and in whose slots `looks_at` is interested.
+  template <class LooksAt, class Visit>
+  void for_blocks(const PlacedPart& placed, const LooksAt& looks_at, const Visit& visit) {
     const BlockGrid& grid = field.grid();
     const BlockBox box = blocks_of(grid, placed.box(), reach_m);
+    const bool ball = placed.is_ball();
     if (box.empty) return;
     for (int k = box.lo[2]; k <= box.hi[2]; ++k)
       for (int j = box.lo[1]; j <= box.hi[1]; ++j)
         for (int i = box.lo[0]; i <= box.hi[0]; ++i) {
           const std::array<int, 3> at{i, j, k};
           const std::uint32_t block = grid.index(at);
-          if (!field.may_hold_cuts(block)) continue;
+          if (!looks_at(field.slot_[block]) || !field.may_hold_cuts(block)) continue;
           if (placed.at_least(grid.middle(at)) > reach_m + grid.reach_m()) continue;
-          visit(block, at, rows_in(box, at));
+          const BlockRows all = rows_in(box, at);
+          if (!ball) {
+            visit(block, at, all);
+            continue;
+          }
+          const Vec3 lo = grid.node(8 * at[0], 8 * at[1], 8 * at[2]);
+          const BlockRows rows = near_ball(placed, lo, grid.cell_m, reach_m, all);
+          if (rows.asked != 0) visit(block, at, rows);
         }
   }
 
@@ -130,8 +138,8 @@ struct CarvedField::Pass {
     std::size_t wanted = 0;
     for_all(cutter, a, b, [&](const PlacedPart& placed) {
       if (wanted > left) return;
-      for_blocks(placed, [&](std::uint32_t block, const auto& at, const BlockRows& rows) {
-        if (field.slot_[block] != kNone) return;
+      const auto is_new = [](std::uint32_t slot) { return slot == kNone; };
+      for_blocks(placed, is_new, [&](std::uint32_t block, const auto& at, const BlockRows& rows) {
         measure(placed, at, rows);
         if (!reaches(distance.data(), scale, rows)) return;
         field.slot_[block] = kWanted;
@@ -143,8 +151,9 @@ struct CarvedField::Pass {
 
   void unmark(const Cutter& cutter, const Pose& a, const Pose& b) {
     for_all(cutter, a, b, [&](const PlacedPart& placed) {
-      for_blocks(placed, [&](std::uint32_t block, const auto&, const BlockRows&) {
-        if (field.slot_[block] == kWanted) field.slot_[block] = kNone;
+      const auto is_wanted = [](std::uint32_t slot) { return slot == kWanted; };
+      for_blocks(placed, is_wanted, [&](std::uint32_t block, const auto&, const BlockRows&) {
+        field.slot_[block] = kNone;
       });
     });
   }
@@ -160,9 +169,9 @@ struct CarvedField::Pass {
   }
 
   void remove(const PlacedPart& placed) {
-    for_blocks(placed, [&](std::uint32_t block, const auto& at, const BlockRows& rows) {
+    const auto is_taken = [](std::uint32_t slot) { return slot != kNone; };
+    for_blocks(placed, is_taken, [&](std::uint32_t block, const auto& at, const BlockRows& rows) {
       std::uint32_t slot = field.slot_[block];
-      if (slot == kNone) return;
       measure(placed, at, rows);
       if (slot == kWanted) slot = field.take(block);
       Nodes& nodes = field.nodes_[slot];

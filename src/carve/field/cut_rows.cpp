@@ -2,6 +2,7 @@
 // what scalar code would, so the bits do not depend on the registers.
 #include "field/cut_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osteon {
@@ -18,9 +19,17 @@ struct Float3 {
 
 template <class RowWork>
 void for_rows(const BlockRows& rows, float cell, float* out, const RowWork& work) {
-  for (int k = rows.k0; k <= rows.k1; ++k)
-    for (int j = rows.j0; j <= rows.j1; ++j)
-      work(static_cast<float>(j) * cell, static_cast<float>(k) * cell, out + 64 * k + kRow * j);
+  const auto row = [&](int j, int k) {
+    work(static_cast<float>(j) * cell, static_cast<float>(k) * cell, out + 64 * k + kRow * j);
+  };
+  for (int k = rows.k0; k <= rows.k1; ++k) {
+    // Without a question in between, the compiler joins a whole layer's rows.
+    if (rows.has_all())
+      for (int j = rows.j0; j <= rows.j1; ++j) row(j, k);
+    else
+      for (int j = rows.j0; j <= rows.j1; ++j)
+        if (rows.has(j, k)) row(j, k);
+  }
 }
 
 // Mean of what chords of length `cell` cut off a circle of that radius: cell^2 / 12 radius; times
@@ -117,6 +126,26 @@ void add_removed(const std::int32_t* before, const std::int16_t* after, const st
 
 }  // namespace
 
+// A row is as far from the way as from its start, less the way's length. Rounding is far below the
+// margin.
+BlockRows near_ball(const PlacedPart& ball, const Vec3& lo_B, double cell_m, double reach_m,
+                    const BlockRows& rows) {
+  constexpr double kMargin_m = 2e-6;
+  const RoundRod& rod = ball.part->rods[0];
+  const Vec3 start = ball.rod_start(rod) - lo_B;
+  const double far = rod.radius + cut_off(cell_m, rod.radius, 2) + ball.way.norm() + reach_m;
+  const double beside = std::max({-start.x(), start.x() - (kRow - 1) * cell_m, 0.0});
+  const double left = (far + kMargin_m) * (far + kMargin_m) - beside * beside;
+  BlockRows out = rows;
+  out.asked = 0;
+  for (int k = rows.k0; k <= rows.k1; ++k)
+    for (int j = rows.j0; j <= rows.j1; ++j) {
+      const double y = j * cell_m - start.y(), z = k * cell_m - start.z();
+      if (y * y + z * z <= left) out.asked |= std::uint64_t{1} << (8 * k + j);
+    }
+  return out;
+}
+
 void part_distances(const PlacedPart& placed, const Vec3& lo_B, double cell_m,
                     const BlockRows& rows, float* out_um) {
   for_rows(rows, 0, out_um, [](float, float, float* row) {
@@ -135,6 +164,7 @@ Lowered lower_cuts(const float* distance_um, const CutScale& scale, const BlockR
   const float reach = static_cast<float>(scale.reach);
   for (int k = rows.k0; k <= rows.k1; ++k)
     for (int j = rows.j0; j <= rows.j1; ++j) {
+      if (!rows.has(j, k)) continue;
       const int first = 64 * k + kRow * j;
       const float* d = distance_um + first;
       std::int16_t* c = cut + first;
@@ -168,7 +198,8 @@ bool reaches(const float* distance_um, const CutScale& scale, const BlockRows& r
   int any = 0;
   for (int k = rows.k0; k <= rows.k1; ++k)
     for (int j = rows.j0; j <= rows.j1; ++j)
-      for (int i = 0; i < kRow; ++i) any |= distance_um[64 * k + kRow * j + i] < reach ? 1 : 0;
+      for (int i = 0; rows.has(j, k) && i < kRow; ++i)
+        any |= distance_um[64 * k + kRow * j + i] < reach ? 1 : 0;
   return any != 0;
 }
 

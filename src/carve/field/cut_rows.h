@@ -9,10 +9,18 @@
 
 namespace osteon {
 
-/// Rows of a block along x: first and last j and k.
+/// Rows of a block along x: first and last j and k, and which of those.
 struct BlockRows {
   int j0 = 0, j1 = 7, k0 = 0, k1 = 7;
+  std::uint64_t asked = ~std::uint64_t{0};  ///< bit 8 k + j
+  bool has_all() const { return asked == ~std::uint64_t{0}; }
+  bool has(int j, int k) const { return (asked >> (8 * k + j) & 1) != 0; }
 };
+
+/// Of `rows` those with a node that may lie within `reach_m` of a ball's way. What is left out has
+/// none: a cut is the same without it. `lo_B` is the block's first node.
+BlockRows near_ball(const PlacedPart& ball, const Vec3& lo_B, double cell_m, double reach_m,
+                    const BlockRows& rows);
 
 /// Distances of a block's nodes to a part, um, where `rows` says; negative inside. A curved face
 /// lies by so much farther out as lines between nodes cut off of it in the mean, which keeps

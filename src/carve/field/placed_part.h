@@ -40,6 +40,7 @@ struct PlacedPart {
       const double t = length2 > 0 ? std::clamp(along.dot(p_B - a) / length2, 0.0, 1.0) : 0.0;
       most = std::max(most, (p_B - a - t * along).norm() - rod.radius);
     }
+    if (part->faces.empty() && part->planes.empty()) return most;
     const Vec3 p = X_BT.inverse() * p_B;
     const double rho = std::hypot(p.x(), p.y());
     for (const TurnedFace& f : part->faces)
