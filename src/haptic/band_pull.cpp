@@ -10,56 +10,91 @@ namespace {
 // The damper comes in over this depth: a touch is felt as a slope.
 constexpr double kDamped_m = 0.0005;
 
+// The way of a body's point that is at p_W now.
+Vec3 way_with(const Pose& before_WB, const Pose& X_WB, const Vec3& p_W) {
+  return p_W - before_WB * (X_WB.inverse() * p_W);
+}
+
 }  // namespace
 
 BandPull::BandPull(const Tool& tool) : rods_(tool_rods(tool)) {}
 
-void BandPull::set(const std::vector<SoftBand>* bands, const BandContacts* contacts) {
+struct BandPull::Pressed {
+  Vec3 nhat_W, p_W;
+  double force_n = 0, deep_m = 0;
+  Vec3 carried_W = Vec3::Zero();  // way of the part there since the tick before
+  FrictionRatios ratios;
+};
+
+void BandPull::set(const std::vector<SoftBand>* bands, const BandContacts* contacts,
+                   const SoftFriction& friction) {
   bands_ = bands;
   contacts_ = contacts;
+  friction_ = friction;
 }
 
-Vec3 BandPull::of_contact(const PullingHand& hand, std::span<const Pose> X_WB,
-                          const BandContact& contact) const {
-  if (contact.band >= bands_->size() || contact.part >= rods_.size()) return Vec3::Zero();
+// A spring and a damper that only push.
+void BandPull::add(const PullingHand& hand, const Pressed& pressed, BandForce& out) {
+  const double share = pressed.deep_m / (pressed.deep_m + kDamped_m);
+  const double damped = share * hand.damping_n_s_per_m * pressed.nhat_W.dot(hand.v_W);
+  out.force_W += std::max(0.0, pressed.force_n - damped) * pressed.nhat_W;
+  out.rests_W += pressed.force_n * pressed.nhat_W;
+  out.pressed_n += pressed.force_n;
+  out.resting_n += pressed.ratios.resting * pressed.force_n;
+  out.sliding_n += pressed.ratios.sliding * pressed.force_n;
+  out.way_W +=
+      pressed.force_n * (way_with(hand.before_WP, hand.X_WP, pressed.p_W) - pressed.carried_W);
+}
+
+// A band goes along with both of its bones, each as near as it is.
+void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandContact& contact,
+                        BandForce& out) const {
+  if (contact.band >= bands_->size() || contact.part >= rods_.size()) return;
   const SoftBand& band = (*bands_)[contact.band];
   const Capsule& rod = rods_[contact.part];
-  const BandSpan span{X_WB[band.from.index] * band.from_B, X_WB[band.to.index] * band.to_B};
+  const Pose &from = bones.X_WB[band.from.index], &to = bones.X_WB[band.to.index];
+  const BandSpan span{from * band.from_B, to * band.to_B};
   const Capsule part_W{hand.X_WP * rod.p0, hand.X_WP * rod.p1, rod.radius};
   const double k = std::min(hand.stiffness_n_per_m, band.surface_n_per_m);
   const BandPress press = press_band(band, span, part_W, contact, k);
-  if (!press.presses || !(press.force_n > 0)) return Vec3::Zero();
-  const double share = press.deep_m / (press.deep_m + kDamped_m);
-  const double damped = share * hand.damping_n_s_per_m * contact.nhat_W.dot(hand.v_W);
-  return std::max(0.0, press.force_n - damped) * contact.nhat_W;
+  if (!press.presses || !(press.force_n > 0)) return;
+  const Vec3 way = span.b_W - span.a_W;
+  const double share = std::clamp((press.p_W - span.a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  const Vec3 carried = (1 - share) * way_with(bones.before_WB[band.from.index], from, press.p_W) +
+                       share * way_with(bones.before_WB[band.to.index], to, press.p_W);
+  add(hand, {contact.nhat_W, press.p_W, press.force_n, press.deep_m, carried, friction_.band}, out);
 }
 
-// As of a band: a spring and a damper that only push.
-Vec3 BandPull::of_solid(const PullingHand& hand, std::span<const Pose> X_WB,
-                        const SolidContact& contact) const {
-  if (contact.bone >= X_WB.size() || contact.part >= rods_.size()) return Vec3::Zero();
-  const Pose& X = X_WB[contact.bone];
+void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const SolidContact& contact,
+                         BandForce& out) const {
+  if (contact.bone >= bones.X_WB.size() || contact.part >= rods_.size()) return;
+  const Pose& X = bones.X_WB[contact.bone];
   const Pose X_BP = X.inverse() * hand.X_WP;
   const Capsule& rod = rods_[contact.part];
-  const SolidPress press =
-      press_solid(contact, {X_BP * rod.p0, X_BP * rod.p1, rod.radius}, hand.stiffness_n_per_m);
-  if (!(press.force_n > 0)) return Vec3::Zero();
-  const Vec3 nhat_W = X.q * contact.nhat_B;
-  const double share = press.deep_m / (press.deep_m + kDamped_m);
-  const double damped = share * hand.damping_n_s_per_m * nhat_W.dot(hand.v_W);
-  return std::max(0.0, press.force_n - damped) * nhat_W;
+  const Capsule part_B{X_BP * rod.p0, X_BP * rod.p1, rod.radius};
+  const SolidPress press = press_solid(contact, part_B, hand.stiffness_n_per_m);
+  if (!(press.force_n > 0)) return;
+  const Vec3 axis_B = part_B.p0 + contact.along * (part_B.p1 - part_B.p0);
+  const Vec3 p_W = X * Vec3(axis_B - rod.radius * contact.nhat_B);
+  add(hand,
+      {X.q * contact.nhat_B, p_W, press.force_n, press.deep_m,
+       way_with(bones.before_WB[contact.bone], X, p_W), friction_.solid},
+      out);
 }
 
-Vec3 BandPull::force_W(const PullingHand& hand, std::span<const Pose> X_WB) const {
-  Vec3 sum = Vec3::Zero();
-  if (!bands_ || !contacts_ || contacts_->instrument != hand.instrument ||
-      contacts_->epoch != hand.epoch)
+BandForce BandPull::force(const PullingHand& hand, std::span<const Pose> before_WB,
+                          std::span<const Pose> X_WB) const {
+  BandForce sum;
+  if (!contacts_ || contacts_->instrument != hand.instrument || contacts_->epoch != hand.epoch)
     return sum;
-  const std::size_t count = std::min<std::size_t>(contacts_->count, kMaxBandContacts);
-  for (std::size_t i = 0; i < count; ++i) sum += of_contact(hand, X_WB, contacts_->all[i]);
+  const Bones bones{before_WB, X_WB};
+  const std::size_t count = bands_ ? std::min<std::size_t>(contacts_->count, kMaxBandContacts) : 0;
+  for (std::size_t i = 0; i < count; ++i) add_band(hand, bones, contacts_->all[i], sum);
   const std::size_t solids = std::min<std::size_t>(contacts_->solid_count, kMaxSolidContacts);
-  for (std::size_t i = 0; i < solids; ++i) sum += of_solid(hand, X_WB, contacts_->solids[i]);
-  return is_finite(sum) ? sum : Vec3(Vec3::Zero());
+  for (std::size_t i = 0; i < solids; ++i) add_solid(hand, bones, contacts_->solids[i], sum);
+  if (sum.pressed_n > 0) sum.way_W /= sum.pressed_n;
+  const bool sound = is_finite(sum.force_W) && is_finite(sum.way_W);
+  return sound ? sum : BandForce{};
 }
 
 }  // namespace osteon

@@ -103,7 +103,7 @@ struct HapticLoop::Impl {
   void grab(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   void follow(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
-  Vec3 pull_of_bands(const HapticParams& params) const;
+  Vec3 pull_of_bands(const Pose& before_WP, const HapticParams& params);
   void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
   void pass_portals(const Pose& X_WD, bool start);
   Vec3 carried_base() const;
@@ -177,6 +177,7 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   fade();
   state.armed = move.free && state.fade_n == 0 && !waiting;
   state.sliding = false;
+  state.rub = {};
   state.carrier = {};
   state.tool.X_WP = {move.end(), move.q_WP};
   state.tool.status |= move.status;
@@ -243,6 +244,7 @@ void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const Hapt
   state.carrier = {};
   state.tool.X_WP = X_WD;
   state.portal = {};
+  state.rub = {};
   state.tool.portal = kNoPortal;
   state.tool.contact_count = 0;
   state.tool.tool_contact_count = 0;
@@ -410,22 +412,37 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   }
   state.sliding = step.sliding;
   state.carrier = held.carrier;
+  const Pose before_WP = state.tool.X_WP;
   state.tool.X_WP = {step.p_W, move.q_WP};
   state.tool.status |= move.status | (step.sticking ? kTickSticking : kTickOk);
   list_contacts(move);
   Vec3 beside_W = line.in ? line.force_W : portal.force_W;
-  if (bands.any()) beside_W += pull_of_bands(params);
+  beside_W += pull_of_bands(before_WP, params);
   const double kept = feel(input, wanted.p, held, step.sticking, beside_W, params);
   share_force(move, held, kept * beside_W);
   pass_portals(X_WD, false);
 }
 
 // Soft bands push the tool where it is: bone and other tools alone bound its way.
-Vec3 HapticLoop::Impl::pull_of_bands(const HapticParams& params) const {
+Vec3 HapticLoop::Impl::pull_of_bands(const Pose& before_WP, const HapticParams& params) {
+  if (!bands.any()) {
+    state.rub = {};
+    return Vec3::Zero();
+  }
   const ToolState& t = state.tool;
-  return bands.force_W(
-      {t.X_WP, v_hand_W, t.instrument, t.epoch, params.stiffness_n_per_m, params.damping_n_s_per_m},
-      now());
+  const PullingHand hand{t.X_WP,
+                         before_WP,
+                         v_hand_W,
+                         t.instrument,
+                         t.epoch,
+                         params.stiffness_n_per_m,
+                         params.damping_n_s_per_m};
+  const BandForce pulled = bands.force(hand, before(), now());
+  const double scale = params.friction_scale;
+  RubNow rubbed{pulled.rests_W, scale * pulled.resting_n, scale * pulled.sliding_n,
+                pulled.way_W,   params.stiffness_n_per_m, params.damping_n_s_per_m,
+                params.tick_s};
+  return pulled.force_W + rub(rubbed, state.rub);
 }
 
 // The hand has a free way to go, but the proxy may still be gliding after it, around an edge.
@@ -528,6 +545,7 @@ void HapticLoop::begin_anew(const ToolState& last) noexcept {
   s.armed = s.sliding = s.grabbing = false;
   s.carrier = {};
   s.portal = {};
+  s.rub = {};
   s.tool.portal = kNoPortal;
   s.p_WG.setZero();
   s.others = {};
@@ -560,8 +578,9 @@ void HapticLoop::set_hand(std::uint32_t hand) {
   impl_->own = hand;
 }
 
-void HapticLoop::set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts) {
-  impl_->bands.set(bands, contacts);
+void HapticLoop::set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts,
+                           const SoftFriction& friction) {
+  impl_->bands.set(bands, contacts, friction);
 }
 
 std::unique_ptr<HapticState> HapticLoop::save() const {

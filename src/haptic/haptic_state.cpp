@@ -18,6 +18,10 @@ std::uint64_t hash_of(const HapticState& s) {
   h.add(s.grabbing);
   h.add(s.p_WG);
   h.add(s.fade_n);
+  if (s.rub.sliding || !s.rub.lag_W.isZero(0)) {
+    h.add(s.rub.lag_W);
+    h.add(s.rub.sliding);
+  }
   h.add(s.tool.epoch);
   h.add(s.tool.instrument);
   h.add(s.tool.power);

@@ -252,6 +252,11 @@ void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
   impl_->kept.reset();
 }
 
+void Renderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W) {
+  impl_->painter.move_surface(part.index, rest_W, moved_W);
+  impl_->kept.reset();
+}
+
 void Renderer::set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes) {
   impl_->painter.set_cubes(bone.index, grid, cubes);
   impl_->kept.reset();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "osteon/render/felt_colors.h"
+#include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/soft_motion.h"
 
@@ -95,6 +96,7 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
     const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
     shared_->bones[k].closed = mesh.closed;
     if (k < bones) shared_->bones[k].changed.set_base(mesh);
+    if (k >= bones) shared_->bones[k].shades = mesh.shades;
     shared_->bones[k].levels.clear();
     shared_->bones[k].levels.push_back({GpuMesh(mesh), 0});
     for (const ShadedMesh::Level& level : mesh.coarser)
@@ -140,6 +142,18 @@ void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
   set_extent(model, mesh_B);
+}
+
+void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W) {
+  if (k >= shared_->bones.size()) return;
+  const ShadedMesh lit = moved_light(rest_W, shared_->bones[k].shades, moved_W);
+  if (lit.positions.empty()) return set_surface(k, moved_W);
+  ++shared_->version;
+  BoneModel& model = shared_->bones[k];
+  model.closed = lit.closed;
+  model.levels.clear();
+  model.levels.push_back({GpuMesh(lit), 0});
+  set_extent(model, moved_W);
 }
 
 void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,

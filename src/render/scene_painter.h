@@ -36,6 +36,9 @@ class ScenePainter {
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
   void set_surfaces(const PreparedCase& prepared);
   void set_pieces(const Case& the_case);
+  /// The model's surface has given way to another: it keeps the light of each vertex. `rest_W` is
+  /// what the surfaces were prepared of.
+  void move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W);
   /// Another surface for a model from now on, without its coarser levels and its baked light.
   void set_surface(std::size_t k, const TriMesh& mesh_B);
   void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
@@ -114,8 +117,9 @@ class ScenePainter {
     Capsule around;
     bool closed = false;
     float line_opacity = 0;
-    bool outermost = false;             ///< the skin: drawn over all else that is seen through
-    std::vector<std::size_t> rides_on;  ///< bones; of a soft part
+    bool outermost = false;                 ///< the skin: drawn over all else that is seen through
+    std::vector<std::size_t> rides_on;      ///< bones; of a soft part
+    std::vector<ShadedMesh::Shade> shades;  ///< of a soft part's vertices
   };
   /// Models are the bones and after them the soft parts; what follows takes both.
   Pose pose(const RenderSnapshot& snapshot, std::size_t k) const;

@@ -16,6 +16,7 @@
 #include "gl/render_target.h"
 #include "renderer_impl.h"
 #include "surface/changed_cubes.h"
+#include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
@@ -385,6 +386,7 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     const auto& meshes = soft ? prepared.softs : prepared.bones;
     const std::size_t at = soft ? part.model - bones : part.model;
     if (at < meshes.size()) part.surface = GpuMesh(meshes[at]);
+    if (soft && at < meshes.size()) part.shades = meshes[at].shades;
   }
   for (std::size_t k = 0; k < bones && k < prepared.bones.size(); ++k)
     (*impl)->own_changed.emplace_back().set_base(prepared.bones[k]);
@@ -426,6 +428,16 @@ void ScopeRenderer::set_surface(BoneId part, const TriMesh& mesh) {
   if (impl_->scene) return;
   for (TissuePart& own : impl_->parts)
     if (own.model == part.index) own.surface = GpuMesh(plain_shaded(mesh));
+  ++impl_->cubes;
+}
+
+void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W) {
+  if (impl_->scene) return;
+  for (TissuePart& own : impl_->parts) {
+    if (own.model != part.index) continue;
+    const ShadedMesh lit = moved_light(rest_W, own.shades, moved_W);
+    own.surface = lit.positions.empty() ? GpuMesh(plain_shaded(moved_W)) : GpuMesh(lit);
+  }
   ++impl_->cubes;
 }
 

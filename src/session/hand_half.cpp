@@ -61,9 +61,9 @@ FeltCuts& HandHalf::set_carving(const CarvingSetup& setup) {
   return *cuts_;
 }
 
-FeltBands& HandHalf::set_bands(const std::vector<SoftBand>& bands) {
+FeltBands& HandHalf::set_bands(const std::vector<SoftBand>& bands, const SoftFriction& friction) {
   bands_ = std::make_unique<FeltBands>();
-  for (HapticLoop& loop : loops_) loop.set_bands(&bands, &bands_->contacts());
+  for (HapticLoop& loop : loops_) loop.set_bands(&bands, &bands_->contacts(), friction);
   return *bands_;
 }
 

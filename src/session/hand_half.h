@@ -30,7 +30,7 @@ class alignas(64) HandHalf {
   void set_sizes(std::vector<double> sizes_mm) { sizes_mm_ = std::move(sizes_mm); }
   /// Bands are felt: what this hand feels of them, for the physics to tell. Once, before the first
   /// tick; they must outlive this.
-  FeltBands& set_bands(const std::vector<SoftBand>& bands);
+  FeltBands& set_bands(const std::vector<SoftBand>& bands, const SoftFriction& friction);
 
   const ToolState& tick(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                         const Command& command);

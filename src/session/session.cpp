@@ -91,7 +91,7 @@ struct Session::Impl {
  private:
   void set_softs(const SessionSettings& settings) {
     std::vector<FeltBands*> felt;
-    for (const auto& hand : hands) felt.push_back(&hand->set_bands(softs->bands));
+    for (const auto& hand : hands) felt.push_back(&hand->set_bands(softs->bands, softs->friction));
     world.set_softs(std::make_unique<SoftHalf>(
         std::make_unique<SoftWorld>(softs, tray, settings.haptic.stiffness_n_per_m,
                                     settings.force_limit_n, settings.physics.step_s),

@@ -280,6 +280,14 @@ void field(A& a, std::vector<PairMemory>& pairs) {
 }
 
 template <class A>
+void field(A& a, SoftRub& s) {
+  if constexpr (A::kReads)
+    if (a.version < 9) return;  // soft parts did not rub then
+  field(a, s.lag_W);
+  field(a, s.sliding);
+}
+
+template <class A>
 void field(A& a, HapticState& s) {
   field(a, s.tool);
   field(a, s.armed);
@@ -287,6 +295,7 @@ void field(A& a, HapticState& s) {
   field(a, s.carrier);
   field(a, s.grabbing);
   field(a, s.p_WG);
+  field(a, s.rub);
   field(a, s.portal);
   field(a, s.fade_n);
   for (OtherTool& other : s.others) field(a, other);

@@ -516,5 +516,38 @@ TEST_F(RendererTest, PiecesOfOneBoneHaveColoursOfTheirOwn) {
   EXPECT_GT(std::abs(lr - rr) + std::abs(lg - rg) + std::abs(lb - rb), 20);
 }
 
+// A soft part between two bones lies in their shade. What gives way stays in it; a plain surface
+// does not.
+TEST_F(RendererTest, WhatGivesWayKeepsItsLight) {
+  Case the_case;
+  for (const double side : {-1.0, 1.0})
+    the_case.bones.push_back(
+        make_bone(side < 0 ? "left" : "right", sphere_mesh(0.012), Vec3(side * 0.0155, 0, 0)));
+  SoftPart soft;
+  soft.name = soft.kind = "meniscus";
+  soft.mesh_W = sphere_mesh(0.003);
+  soft.bones = {BoneId{0}};
+  the_case.softs.push_back(soft);
+  Renderer renderer = make_renderer(the_case);
+  ViewState view = front_view();
+  view.camera.distance_m = 0.1;
+  view.softs.resize(1);
+  view.show_proxy = false;
+  RenderSnapshot snapshot;
+  snapshot.bones = rest_snapshot(the_case);
+  const auto look = [&] { return renderer.draw_image(snapshot, view, 200, 200); };
+  constexpr int kLighter = 30;
+  const Image rest = look();
+  renderer.set_surface(BoneId{2}, soft.mesh_W);
+  const int plain = count_different(rest, look(), kLighter);
+  EXPECT_GT(plain, 50);
+  renderer.move_surface(BoneId{2}, soft.mesh_W, soft.mesh_W);
+  EXPECT_LT(count_different(rest, look(), kLighter), 10);
+  TriMesh moved = soft.mesh_W;
+  for (Vec3& p : moved.vertices) p.y() += 0.00005;
+  renderer.move_surface(BoneId{2}, soft.mesh_W, moved);
+  EXPECT_LT(count_different(rest, look(), kLighter), plain / 4);
+}
+
 }  // namespace
 }  // namespace osteon

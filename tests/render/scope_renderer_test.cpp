@@ -162,6 +162,42 @@ TEST_F(ScopePictures, AWindowShowsTheSamePictureOfSharedSurfaces) {
   EXPECT_LT(at(180, 100)[0], 10);
 }
 
+// A scope with surfaces of its own: another surface is seen in the place of the first.
+TEST_F(ScopePictures, AnotherSurfaceIsSeenInItsPlace) {
+  const ScopeCamera camera(wide_scope(0, 1), ScopePose{});
+  const Vec3 at = camera.X_WC() * Vec3(0, 0, -0.02);
+  ScopeRenderer renderer = make_scope(lone_ball(at, 0.003));
+  const Spot large = bright_spot(renderer.draw_image(camera, 200, 200));
+  renderer.set_surface(BoneId{0}, sphere_mesh(0.0015));
+  const Spot small = bright_spot(renderer.draw_image(camera, 200, 200));
+  ASSERT_GT(small.pixels, 50);
+  EXPECT_NEAR(small.pixels, 0.25 * large.pixels, 0.05 * large.pixels);
+  renderer.set_surface(BoneId{7}, sphere_mesh(0.010));  // of no part: nothing happens
+  EXPECT_EQ(bright_spot(renderer.draw_image(camera, 200, 200)).pixels, small.pixels);
+}
+
+// A soft part that gives way and comes back looks as before.
+TEST_F(ScopePictures, WhatGivesWayIsSeenAndComesBack) {
+  const ScopeCamera camera(wide_scope(0, 1), ScopePose{});
+  const Vec3 at = camera.X_WC() * Vec3(0, 0, -0.02);
+  Case the_case = lone_ball(at + Vec3(0, 0, 0.1), 0.002);
+  SoftPart soft;
+  soft.name = soft.kind = "meniscus";
+  soft.mesh_W = sphere_mesh(0.003);
+  for (Vec3& p : soft.mesh_W.vertices) p += at;
+  soft.bones = {BoneId{0}};
+  the_case.softs.push_back(soft);
+  ScopeRenderer renderer = make_scope(the_case);
+  const Image rest = renderer.draw_image(camera, 200, 200);
+  TriMesh moved = soft.mesh_W;
+  for (Vec3& p : moved.vertices) p += 0.002 * (camera.X_WC().q * Vec3::UnitX());
+  renderer.move_surface(BoneId{1}, soft.mesh_W, moved);
+  const Image pressed = renderer.draw_image(camera, 200, 200);
+  EXPECT_GT(bright_spot(pressed).x, bright_spot(rest).x + 3);
+  renderer.move_surface(BoneId{1}, soft.mesh_W, soft.mesh_W);
+  EXPECT_EQ(renderer.draw_image(camera, 200, 200).rgb, rest.rgb);
+}
+
 TEST(JointRoom, ATipInBoneIsRefusedByName) {
   const Case the_case = lone_ball(Vec3(0.02, 0, 0), 0.01);
   const JointRoom room(the_case);

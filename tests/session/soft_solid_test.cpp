@@ -119,7 +119,7 @@ TEST(SoftSolid, ASlowPressHasNoSteps) {
 TEST(SoftSolid, ItsShapeFollowsTheTool) {
   Session session = the_run().session();
   bring(session, over_block(0.003, 0, -0.002), over_block(0.003, 0, 0.003));
-  const SolidPushes pushes = session.softs()->pushes();
+  const SoftPushes pushes = session.softs()->pushes();
   ASSERT_EQ(pushes.count, 1u);
   const PressedSolid& body = *the_run().softs->solids[0].body;
   const SolidPush push =

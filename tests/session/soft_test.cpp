@@ -213,6 +213,32 @@ TEST(Soft, AStateGivesTheSameBitsAfterwards) {
   EXPECT_FALSE(without.restore(*back));
 }
 
+// Versions before 9 knew no friction on soft parts: its four words, in the state of the hand.
+void erase_rub(std::string& bytes, SessionState saved) {
+  constexpr std::size_t kWord = 8, kRub = 4;
+  const std::string without = to_bytes(saved);
+  saved.hands[0].haptic.rub.lag_W.setConstant(1);
+  const std::string with = to_bytes(saved);
+  const auto differ = std::mismatch(without.begin(), without.end(), with.begin());
+  const auto at = static_cast<std::size_t>(differ.first - without.begin());
+  bytes.erase(at / kWord * kWord, kRub * kWord);
+}
+
+TEST(Soft, AStateFromBeforeFrictionIsReadWithoutIt) {
+  const BandRun run;
+  Session session = run.session();
+  press_to(session, 1, 301, 0.006);
+  std::string bytes = to_bytes(session.save());
+  ASSERT_EQ(bytes[0], 9);
+  bytes[0] = 8;
+  erase_rub(bytes, session.save());
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+}
+
 // Version 6 of the state's bytes knew no solids: their words stood nowhere.
 TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   const BandRun run;
@@ -232,6 +258,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   const auto differ = std::mismatch(bytes.begin() + 1, bytes.end(), with_bench.begin() + 1);
   const auto at = static_cast<std::size_t>(differ.first - bytes.begin());
   bytes.erase(at / kWord * kWord, kWord);
+  erase_rub(bytes, session.save());
   const auto back = state_from_bytes(bytes);
   ASSERT_TRUE(back) << back.error().message();
   Session other = run.session();

@@ -9,6 +9,7 @@
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/soft_band.h"
+#include "osteon/scene/soft_friction.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
 
@@ -70,8 +71,10 @@ class HapticLoop {
   /// are felt whole.
   void set_cuts(std::span<const CutField* const> by_bone);
   /// The soft bands of the case, and those near the tool as physics has published them: changed
-  /// between two ticks. Both must outlive the loop; null: there are none.
-  void set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts);
+  /// between two ticks. Both must outlive the loop; null: there are none. `friction`: of them and
+  /// of the solids.
+  void set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts,
+                 const SoftFriction& friction = {});
   /// Which hand of the session it is: whose line of BoneSnapshot::guides leads the tool. Before the
   /// first tick.
   void set_hand(std::uint32_t hand);

@@ -6,6 +6,7 @@
 
 #include "osteon/base/id.h"
 #include "osteon/collide/lp_contact.h"
+#include "osteon/haptic/soft_rub.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/state.h"
 
@@ -37,6 +38,7 @@ struct HapticState {
   BoneId carrier;            ///< bone that the proxy rests on and moves with; none when free
   bool grabbing = false;     ///< the hand drags what it has grabbed
   Vec3 p_WG = Vec3::Zero();  ///< where the hand was when it did
+  SoftRub rub;               ///< on soft parts
   PortalHold portal;         ///< the hole in the skin that the shaft passes through
   double fade_n = 0;    ///< by so much the force falls in a tick until it is zero; 0: none left
   OtherTools others{};  ///< of the other hands, as the last tick saw them

@@ -9,6 +9,7 @@
 #include "osteon/physics/soft_solid_setup.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/soft_band.h"
+#include "osteon/scene/soft_friction.h"
 #include "osteon/tissue/ligament_table.h"
 
 namespace osteon {
@@ -19,10 +20,13 @@ struct SoftSetup {
   std::vector<SoftSolid> solids;
   std::vector<std::uint32_t> blades;  ///< places in the tray of what cuts bands
   double cutting_n = 8;               ///< force of a blade on a band that cuts it
+  SoftFriction friction;              ///< of instruments on it; none unless told
   std::uint64_t hash = 0;             ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
+/// Lets instruments rub on it, in the hands' ticks. Nothing changes where all ratios are zero.
+void add_friction(SoftSetup& setup, const SoftFriction& friction);
 /// Adds solids to what is soft.
 void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids);
 /// Over everything that is felt of the bands.

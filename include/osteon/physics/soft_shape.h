@@ -7,11 +7,11 @@
 #include "osteon/mesh/tri_mesh.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/scene/case.h"
-#include "osteon/scene/soft_solid.h"
+#include "osteon/scene/soft_pushes.h"
 
 namespace osteon {
 
-/// Surfaces of soft solids as they are under pushes, for pictures.
+/// Surfaces of soft solids and bands as they are under pushes, for pictures.
 class SoftShapes {
  public:
   /// `setup` may be null: nothing is soft then.
@@ -23,20 +23,27 @@ class SoftShapes {
     TriMesh mesh_W;
   };
   /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
-  /// under a push of a meniscus. At first all are at rest.
-  std::vector<Changed> changes(const SolidPushes& pushes);
+  /// under a push of a meniscus, or of a ligament's middle line. At first all are at rest.
+  std::vector<Changed> changes(const SoftPushes& pushes);
 
  private:
   struct Shape {
-    TriMesh mesh_W;                       ///< at rest
-    Pose X_WB;                            ///< rest pose of the bone
-    std::vector<SolidPatch> patches;      ///< of each vertex
-    std::vector<SolidPushes::One> shown;  ///< pushes that it was given with
+    TriMesh mesh_W;                      ///< at rest
+    Pose X_WB;                           ///< rest pose of the bone
+    std::vector<SolidPatch> patches;     ///< of each vertex
+    std::vector<SoftPushes::One> shown;  ///< pushes that it was given with
   };
-  std::vector<Vec3> moved(std::size_t solid, std::span<const SolidPushes::One> pushes) const;
+  struct BandShape {
+    TriMesh mesh_W;                 ///< at rest
+    BandSpan rest_W;                ///< the string, with the bones at rest
+    std::vector<StringBend> shown;  ///< bends that it was given with
+  };
+  std::vector<Vec3> moved(std::size_t solid, std::span<const SoftPushes::One> pushes) const;
+  void add_bands(const SoftPushes& pushes, std::vector<Changed>& out);
 
   std::shared_ptr<const SoftSetup> setup_;
   std::vector<Shape> shapes_;
+  std::vector<BandShape> bands_;
 };
 
 }  // namespace osteon

@@ -7,6 +7,7 @@
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/event.h"
+#include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
 
@@ -53,8 +54,9 @@ class SoftWorld {
   const SolidReadout& solid_readout(std::size_t solid) const { return solid_readouts_[solid]; }
   /// No tool is near it: nothing is done for it.
   bool is_asleep(std::size_t solid) const;
-  /// What presses the solids now: their shape follows from it.
-  SolidPushes pushes() const;
+  /// What presses the solids now, and what has bent the bands in the last step: their shape follows
+  /// from it.
+  SoftPushes pushes() const;
   /// Of the last step.
   std::span<const Event> events() const { return events_; }
   std::uint64_t hash() const;
@@ -83,6 +85,7 @@ class SoftWorld {
   void seek(const Hand& hand);
   void choose(SoftHandState& hand) const;
   void press(Hand& hand);
+  void keep_bend(const BandContact& contact, const BandPress& press, double part_radius_m);
   void tear(std::span<const Hand> hands);
   void tell_touches(const Hand& hand, std::uint64_t step);
   double taken_by_others(const NearBand& near) const;
@@ -98,6 +101,8 @@ class SoftWorld {
   std::array<BandReadout, kMaxBands> readouts_{};
   std::unique_ptr<SolidPresses> solids_;  ///< null: there are none
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};
+  std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state
+  std::array<StringBend, SoftPushes::kMostBends> bends_{};
   std::vector<Event> events_;
 };
 

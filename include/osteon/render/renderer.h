@@ -160,6 +160,11 @@ class Renderer {
   /// It is drawn without the light worked out beforehand between the bones.
   void set_surface(BoneId bone, const TriMesh& mesh_B);
 
+  /// A soft part has given way: it is drawn so from now on, and keeps at each vertex the light that
+  /// was worked out for it at rest. `part`: its place behind the bones; both meshes in World with
+  /// the bones at rest, `rest_W` the one of the case. See set_soft_surface.
+  void move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W);
+
   /// From now on these cubes of the grid show this of a bone, in place of its own surface: of one
   /// that is being carved. Those given before stay. The bone's picking and its outline stay as they
   /// were. Does nothing where the grid has no cubes or more than 16 million.

@@ -46,18 +46,4 @@ inline SolidPress press_solid(const SolidContact& contact, const Capsule& part_B
   return out;
 }
 
-/// What presses a solid now, for pictures: of every hand's parts.
-struct SolidPushes {
-  struct One {
-    std::uint32_t solid = 0;
-    Vec3 p_B = Vec3::Zero(), nhat_B = Vec3::UnitZ();
-    double force_n = 0;  ///< against the normal
-    bool operator==(const One&) const = default;
-  };
-  static constexpr std::size_t kMost = 4 * kMaxSolidContacts;
-  std::uint32_t count = 0;
-  std::array<One, kMost> all{};
-  bool operator==(const SolidPushes&) const = default;
-};
-
 }  // namespace osteon

@@ -17,6 +17,7 @@
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/portal.h"
+#include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/tool.h"
 #include "osteon/session/cuts_feed.h"
 #include "osteon/session/session_state.h"
@@ -200,7 +201,7 @@ struct ReplayOptions {
   /// Sees how bones are carved, about 60 times a second of the recording; none: nobody looks.
   std::function<void(const CutsPatch&, double time_s)> on_cuts = {};
   /// Sees what presses soft solids, before each tick that on_tick sees; none: nobody looks.
-  std::function<void(const SolidPushes&)> on_pushes = {};
+  std::function<void(const SoftPushes&)> on_pushes = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
   std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
 };

@@ -10,7 +10,7 @@
 #include "osteon/device/safety.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
-#include "osteon/scene/soft_solid.h"
+#include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -67,7 +67,7 @@ struct LoopExchange {
   LatestValue<BoneSnapshot> bones_to_haptic;                    // physics -> haptic
   std::array<LatestValue<OtherTool>, kMaxHands> tool_to_hands;  // haptic -> haptic of that hand
   LatestValue<RenderSnapshot> to_window;                        // haptic -> window
-  LatestValue<SolidPushes> pushes_to_window;                    // physics -> window
+  LatestValue<SoftPushes> pushes_to_window;                     // physics -> window
   LatestValue<DeviceStatus> device_status;                      // haptic -> window
   LatestValue<HandWishes> hand_wishes;                          // window -> haptic
   LatestValue<LoopStats> haptic_stats;                          // haptic -> window

@@ -91,7 +91,7 @@ class Runtime {
     return exchange(hand).device_status.read();
   }
   /// What presses soft solids now; nothing where none is soft.
-  const SolidPushes& pushes() { return exchange(0).pushes_to_window.read(); }
+  const SoftPushes& pushes() { return exchange(0).pushes_to_window.read(); }
   const LoopStats& haptic_stats(std::size_t hand = 0) { return exchange(hand).haptic_stats.read(); }
   const LoopStats& physics_stats() { return exchange(0).physics_stats.read(); }
   /// Next point of the plot; false when there is none yet.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soft/bent_band.h"
+
 namespace osteon {
 namespace {
 
-std::vector<SolidPushes::One> pushes_on(std::size_t solid, const SolidPushes& pushes) {
-  std::vector<SolidPushes::One> out;
+std::vector<SoftPushes::One> pushes_on(std::size_t solid, const SoftPushes& pushes) {
+  std::vector<SoftPushes::One> out;
   for (std::uint32_t i = 0; i < pushes.count; ++i)
     if (pushes.all[i].solid == solid) out.push_back(pushes.all[i]);
   return out;
@@ -16,9 +18,26 @@ std::vector<SolidPushes::One> pushes_on(std::size_t solid, const SolidPushes& pu
 // Beyond that a push looks like another one. Where none was, or none is left, is always seen.
 constexpr double kStill_n = 0.005, kStill_m = 1e-4, kStill_turn = 1e-3;
 
-bool looks_still(const SolidPushes::One& a, const SolidPushes::One& b) {
+bool looks_still(const SoftPushes::One& a, const SoftPushes::One& b) {
   return std::abs(a.force_n - b.force_n) < kStill_n && (a.p_B - b.p_B).norm() < kStill_m &&
          (a.nhat_B - b.nhat_B).norm() < kStill_turn;
+}
+
+// Of a band: what its middle line or its surface does.
+constexpr double kStillBent_m = 5e-6, kStillShare = 1e-3;
+
+bool bends_alike(const StringBend& a, const StringBend& b) {
+  return std::abs(a.bent_m - b.bent_m) < kStillBent_m &&
+         std::abs(a.dent_m - b.dent_m) < kStillBent_m &&
+         std::abs(a.share - b.share) < kStillShare && (a.nhat_W - b.nhat_W).norm() < kStill_turn &&
+         a.round_m == b.round_m;
+}
+
+std::vector<StringBend> bends_of(std::size_t band, const SoftPushes& pushes) {
+  std::vector<StringBend> out;
+  for (std::uint32_t i = 0; i < pushes.bend_count; ++i)
+    if (pushes.bends[i].band == band) out.push_back(pushes.bends[i]);
+  return out;
 }
 
 }  // namespace
@@ -33,22 +52,39 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
       shape.patches.push_back(solid.body->patch_at(X_BW * p));
     shapes_.push_back(std::move(shape));
   }
+  for (const SoftBand& band : setup_->bands)
+    bands_.push_back(
+        {the_case.softs[band.soft].mesh_W,
+         {the_case.bone(band.from).X_WB * band.from_B, the_case.bone(band.to).X_WB * band.to_B},
+         {}});
+}
+
+void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) {
+  for (std::size_t b = 0; b < bands_.size(); ++b) {
+    BandShape& shape = bands_[b];
+    std::vector<StringBend> now = bends_of(b, pushes);
+    if (std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), bends_alike))
+      continue;
+    out.push_back({setup_->bands[b].soft, shape.mesh_W});
+    out.back().mesh_W.vertices = bent_points(shape.mesh_W.vertices, shape.rest_W, now);
+    shape.shown = std::move(now);
+  }
 }
 
 std::vector<Vec3> SoftShapes::moved(std::size_t solid,
-                                    std::span<const SolidPushes::One> pushes) const {
+                                    std::span<const SoftPushes::One> pushes) const {
   const PressedSolid& body = *setup_->solids[solid].body;
   std::vector<SolidPush> here;
-  for (const SolidPushes::One& one : pushes)
+  for (const SoftPushes::One& one : pushes)
     here.push_back(body.push_at(one.p_B, one.nhat_B, one.force_n));
   return body.moved(here);
 }
 
-std::vector<SoftShapes::Changed> SoftShapes::changes(const SolidPushes& pushes) {
+std::vector<SoftShapes::Changed> SoftShapes::changes(const SoftPushes& pushes) {
   std::vector<Changed> out;
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
     Shape& shape = shapes_[s];
-    std::vector<SolidPushes::One> now = pushes_on(s, pushes);
+    std::vector<SoftPushes::One> now = pushes_on(s, pushes);
     if (std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), looks_still))
       continue;
     const std::vector<Vec3> nodes = moved(s, now);
@@ -59,6 +95,7 @@ std::vector<SoftShapes::Changed> SoftShapes::changes(const SolidPushes& pushes) 
           shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));
     out.push_back(std::move(changed));
   }
+  add_bands(pushes, out);
   return out;
 }
 

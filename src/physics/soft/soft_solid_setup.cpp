@@ -128,6 +128,18 @@ void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutt
   setup.hash = h.value();
 }
 
+void add_friction(SoftSetup& setup, const SoftFriction& friction) {
+  const double ratios[] = {friction.band.resting, friction.band.sliding, friction.solid.resting,
+                           friction.solid.sliding};
+  if (std::all_of(std::begin(ratios), std::end(ratios), [](double ratio) { return ratio == 0; }))
+    return;
+  setup.friction = friction;
+  Hasher h;
+  h.add(setup.hash);
+  for (const double ratio : ratios) h.add(ratio);
+  setup.hash = h.value();
+}
+
 void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids) {
   setup.solids = std::move(solids);
   Hasher h;

@@ -212,12 +212,28 @@ void SoftWorld::press(Hand& hand) {
                                        std::min(coupling_n_per_m_, band.surface_n_per_m));
     if (!press.presses) continue;
     near.taken_m = press.taken_m;
+    keep_bend(near.contact, press, part_W.radius);
     if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
       hand.cuts[b] = true;
     hand.force_n[b] += press.force_n;
     hand.deep_m[b] = std::max(hand.deep_m[b], press.deep_m);
     hand.p_W[b] = press.p_W;
   }
+}
+
+void SoftWorld::keep_bend(const BandContact& contact, const BandPress& press,
+                          double part_radius_m) {
+  if (bend_count_ == bends_.size()) return;
+  const BandSpan& span = spans_[contact.band];
+  const Vec3 way = span.b_W - span.a_W;
+  StringBend& bend = bends_[bend_count_++];
+  bend.band = contact.band;
+  bend.share = std::clamp((press.p_W - span.a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  bend.bent_m = press.bent_m;
+  bend.dent_m = press.deep_m - press.bent_m;
+  bend.round_m = setup_->bands[contact.band].radius_m + part_radius_m;
+  bend.nhat_W = contact.nhat_W;
+  bend.along_W = way.normalized();
 }
 
 // In two: as of one that is torn, nothing of it is felt after that.
@@ -351,7 +367,13 @@ bool SoftWorld::is_asleep(std::size_t solid) const {
   return !solids_ || solids_->is_asleep(solid, state_);
 }
 
-SolidPushes SoftWorld::pushes() const { return solids_ ? solids_->pushes(state_) : SolidPushes{}; }
+// A band that has torn in the step is bent by nobody.
+SoftPushes SoftWorld::pushes() const {
+  SoftPushes out = solids_ ? solids_->pushes(state_) : SoftPushes{};
+  for (std::uint32_t i = 0; i < bend_count_; ++i)
+    if (is_felt(bends_[i].band)) out.bends[out.bend_count++] = bends_[i];
+  return out;
+}
 
 void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
   SoftHandState& state = state_.hands[hand.index];
@@ -366,6 +388,7 @@ void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
 
 void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   events_.clear();
+  bend_count_ = 0;
   epoch_ = bones.epoch;
   place_bands(bones);
   std::array<Hand, kMaxHands> all{};
@@ -435,6 +458,7 @@ bool SoftWorld::fits(const SoftState& state) const {
 void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
   state_ = state;
   epoch_ = epoch;
+  bend_count_ = 0;
   events_.clear();
 }
 

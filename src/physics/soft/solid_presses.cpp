@@ -181,8 +181,8 @@ void SolidPresses::tell(const SolidHandState& state, BandContacts& contacts) con
       contacts.solids[contacts.solid_count++] = state.near[i].contact;
 }
 
-SolidPushes SolidPresses::pushes(const SoftState& all) const {
-  SolidPushes out;
+SoftPushes SolidPresses::pushes(const SoftState& all) const {
+  SoftPushes out;
   for (const SolidHandState& hand : all.solid_hands)
     for (std::uint32_t i = 0; i < hand.count; ++i) {
       const SolidNear& near = hand.near[i];

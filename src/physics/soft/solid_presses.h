@@ -5,6 +5,7 @@
 
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
+#include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -35,7 +36,7 @@ class SolidPresses {
   void press(SolidHandState& state, SolidHand& hand, const SoftState& all) const;
   bool is_asleep(std::size_t solid, const SoftState& all) const;
   void tell(const SolidHandState& state, BandContacts& contacts) const;
-  SolidPushes pushes(const SoftState& all) const;
+  SoftPushes pushes(const SoftState& all) const;
 
  private:
   Capsule in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;

@@ -14,13 +14,13 @@ namespace {
 constexpr double kCreaseCosine = 0.766;  // 40 degrees
 constexpr ShadedMesh::Shade kNoShade{255, 128, 128, 0};
 
-std::array<float, 3> to_floats(const Vec3& v) {
+std::array<float, 3> corner_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 void add_corner(ShadedMesh& mesh, const Vec3& p, const Vec3& n) {
-  mesh.positions.push_back(to_floats(p));
-  mesh.normals.push_back(to_floats(n));
+  mesh.positions.push_back(corner_floats(p));
+  mesh.normals.push_back(corner_floats(n));
   mesh.shades.push_back(kNoShade);
 }
 
@@ -94,8 +94,8 @@ std::vector<std::array<float, 3>> facet_edges(std::span<const Hull> hulls) {
         if (other == facet_of_edge.end()) {
           facet_of_edge[{a, b}] = hull.plane_of[k];
         } else if (other->second != hull.plane_of[k]) {
-          ends.push_back(to_floats(hull.vertices[a]));
-          ends.push_back(to_floats(hull.vertices[b]));
+          ends.push_back(corner_floats(hull.vertices[a]));
+          ends.push_back(corner_floats(hull.vertices[b]));
         }
       }
     }

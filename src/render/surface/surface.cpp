@@ -87,9 +87,10 @@ void link_neighbours(Surface& s) {
 
 }  // namespace
 
-Surface make_surface(const TriMesh& mesh) {
+Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
   Surface s;
   const std::vector<std::uint32_t> index = weld(mesh.vertices, s.points);
+  if (place) *place = index;
   for (const Triangle& t : mesh.triangles) {
     if (std::max({t[0], t[1], t[2]}) >= index.size()) continue;
     const Triangle w{index[t[0]], index[t[1]], index[t[2]]};

@@ -20,8 +20,9 @@ struct TissuePart {
   Pose X_WM;
   TissuePattern pattern = TissuePattern::kBone;
   std::array<float, 3> tint{0.89f, 0.84f, 0.73f};
-  std::vector<std::size_t> rides_on;  ///< bones; of a soft part
-  Vec3 middle = Vec3::Zero();         ///< at rest, of a soft part
+  std::vector<std::size_t> rides_on;      ///< bones; of a soft part
+  std::vector<ShadedMesh::Shade> shades;  ///< of its vertices at rest, of a soft part
+  Vec3 middle = Vec3::Zero();             ///< at rest, of a soft part
   Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
 };
 

@@ -86,12 +86,12 @@ TEST(LiveSoft, ItsRecordingRepeatsWithTheSamePushes) {
   EXPECT_EQ(settings->soft, with.settings.soft);
   EXPECT_EQ(settings->soft_hash, with.softs->hash);
   PushHistory history;
-  SolidPushes now;
+  SoftPushes now;
   double end_s = 0;
   ReplayOptions options;
   options.tray = with.tray;
   options.softs = with.softs;
-  options.on_pushes = [&](const SolidPushes& pushes) { now = pushes; };
+  options.on_pushes = [&](const SoftPushes& pushes) { now = pushes; };
   options.on_tick = [&](std::size_t, const ToolState& tool, const BoneSnapshot&,
                         std::span<const Event>) { history.add(now, end_s = tool.time_s); };
   const auto outcome = replay(*recording, with.the_case, options);

@@ -38,7 +38,7 @@ struct World {
   ToolState tool;
 
   explicit World(const SoftBand& band = taut_band())
-      : softs(std::make_shared<const SoftSetup>(SoftSetup{{band}, {}, {}, 8, 1}), tray, 2000, 5,
+      : softs(std::make_shared<const SoftSetup>(SoftSetup{{band}, {}, {}, 8, {}, 1}), tray, 2000, 5,
               0.002) {
     bones.count = 2;
     tool.tick = 1;

@@ -109,7 +109,7 @@ class FilmMaker {
     return writer_.finish();
   }
   void take(const CutsPatch& cut) { painter_.take(cut); }
-  void take(const SolidPushes& pushes) { moment_.pushes = pushes; }
+  void take(const SoftPushes& pushes) { moment_.pushes = pushes; }
   bool good() const { return !failure_; }
   double obscured_s() const { return painter_.obscured_s(); }
   double share() const {
@@ -181,7 +181,7 @@ Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
   how.from_s = span.from_s;
   how.to_s = span.to_s;
   how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
-  how.on_pushes = [&](const SolidPushes& pushes) { maker.take(pushes); };
+  how.on_pushes = [&](const SoftPushes& pushes) { maker.take(pushes); };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     maker.see(hand, tool, bones);

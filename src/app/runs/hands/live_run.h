@@ -123,7 +123,7 @@ class LiveRun {
   std::uint64_t run_number() const { return run_number_; }
   /// What gives way in this run, and what presses it now.
   const std::shared_ptr<const SoftSetup>& softs() const { return tray_.softs.setup; }
-  const SolidPushes& pushes() const { return pushes_; }
+  const SoftPushes& pushes() const { return pushes_; }
   /// A hand that the mouse moves goes there.
   void bring(const Pose& X_WD);
   /// Keeps the state as a restore point.
@@ -222,7 +222,7 @@ class LiveRun {
   std::filesystem::path force_log_;
   std::string recording_failure_, harmless_trip_;
   LoopStats physics_stats_;
-  SolidPushes pushes_;
+  SoftPushes pushes_;
   RunEvents events_;
   std::vector<std::uint32_t> marks_;  ///< numbers of the restore points, oldest first
   std::uint32_t next_mark_ = 0;

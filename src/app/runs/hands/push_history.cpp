@@ -1,29 +1,44 @@
 #include "runs/hands/push_history.h"
 
 #include <algorithm>
+#include <span>
 
 namespace osteon {
+namespace {
 
-void PushHistory::add(const SolidPushes& pushes, double time_s) {
-  if (time_s < due_s_) return;
-  due_s_ = time_s + 1 / kPictureHz;
-  const auto begin = pushes.all.begin();
-  const auto end =
-      begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(pushes.count, SolidPushes::kMost));
-  const bool same = kept_.empty()
-                        ? begin == end
-                        : std::equal(begin, end, kept_.back().all.begin(), kept_.back().all.end());
-  if (!same) kept_.push_back({time_s, {begin, end}});
+template <class T, std::size_t N>
+std::span<const T> first_of(const std::array<T, N>& all, std::uint32_t count) {
+  return {all.data(), std::min<std::size_t>(count, N)};
 }
 
-SolidPushes PushHistory::at(double time_s) const {
+template <class T>
+bool are_same(std::span<const T> a, const std::vector<T>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+}  // namespace
+
+void PushHistory::add(const SoftPushes& pushes, double time_s) {
+  if (time_s < due_s_) return;
+  due_s_ = time_s + 1 / kPictureHz;
+  const auto all = first_of(pushes.all, pushes.count);
+  const auto bends = first_of(pushes.bends, pushes.bend_count);
+  const bool same = kept_.empty()
+                        ? all.empty() && bends.empty()
+                        : are_same(all, kept_.back().all) && are_same(bends, kept_.back().bends);
+  if (!same) kept_.push_back({time_s, {all.begin(), all.end()}, {bends.begin(), bends.end()}});
+}
+
+SoftPushes PushHistory::at(double time_s) const {
   const auto later = std::upper_bound(kept_.begin(), kept_.end(), time_s,
                                       [](double t, const Kept& kept) { return t < kept.time_s; });
-  SolidPushes out;
+  SoftPushes out;
   if (later == kept_.begin()) return out;
-  const std::vector<SolidPushes::One>& all = (later - 1)->all;
-  std::copy(all.begin(), all.end(), out.all.begin());
-  out.count = static_cast<std::uint32_t>(all.size());
+  const Kept& kept = *(later - 1);
+  std::copy(kept.all.begin(), kept.all.end(), out.all.begin());
+  std::copy(kept.bends.begin(), kept.bends.end(), out.bends.begin());
+  out.count = static_cast<std::uint32_t>(kept.all.size());
+  out.bend_count = static_cast<std::uint32_t>(kept.bends.size());
   return out;
 }
 

@@ -93,6 +93,10 @@ Result<std::vector<std::uint32_t>> blades_in(std::span<const std::string> tray) 
   return out;
 }
 
+FrictionRatios ratios_of(const Tissue& tissue) {
+  return {tissue.static_friction.value, tissue.dynamic_friction.value};
+}
+
 Result<void> add_ligaments(const Case& the_case, std::span<const std::string> names,
                            const TissueTable& tissues, std::span<const std::string> tray,
                            SoftSetup& setup) {
@@ -109,6 +113,7 @@ Result<void> add_ligaments(const Case& the_case, std::span<const std::string> na
   auto blades = blades_in(tray);
   if (!blades) return tl::unexpected(blades.error());
   add_blades(setup, std::move(*blades), (*ligament)->cutting_n.value);
+  setup.friction.band = ratios_of(**ligament);
   return {};
 }
 
@@ -120,6 +125,7 @@ Result<void> add_menisci(const Case& the_case, std::span<const std::string> name
   auto made = make_soft_solids(the_case, names, (*meniscus)->stiffness_n_per_m.value);
   if (!made) return tl::unexpected(made.error());
   add_solids(setup, std::move(*made));
+  setup.friction.solid = ratios_of(**meniscus);
   return {};
 }
 
@@ -138,6 +144,7 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
     return tl::unexpected(done.error());
   if (auto done = add_menisci(the_case, menisci, *tissues, setup); !done)
     return tl::unexpected(done.error());
+  add_friction(setup, SoftFriction(setup.friction));
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");

@@ -80,7 +80,7 @@ struct FilmPainter::Impl {
   ViewState plain_view(double aspect) const;
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
-  void show_softs(const SolidPushes& pushes);
+  void show_softs(const SoftPushes& pushes);
   void flow(const FilmMoment& moment);
   CarvedPicture carved{nullptr};
   std::optional<JointWater> water;  ///< where a scope is drawn
@@ -88,6 +88,7 @@ struct FilmPainter::Impl {
   double counted_s = -1e9;  ///< when the bone that is gone was counted last
   ByTissue removed_m3{};
   std::optional<SoftShapes> shapes;
+  std::vector<std::uint32_t> felt_softs;  ///< what gives way is seen
 };
 
 std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
@@ -150,7 +151,10 @@ ViewState FilmPainter::Impl::plain_view(double aspect) const {
 Result<Image> FilmPainter::Impl::scene(const FilmMoment& moment, const ViewState& view, int width,
                                        int height) {
   renderer->set_others({moment.tools.data() + 1, moment.hands - 1});
-  Image image = renderer->draw_image({moment.bones, moment.tools[0]}, view, width, height);
+  ViewState shown = view;
+  for (const std::uint32_t soft : felt_softs)
+    if (soft < shown.softs.size()) shown.softs[soft].visible = true;
+  Image image = renderer->draw_image({moment.bones, moment.tools[0]}, shown, width, height);
   if (image.rgb.empty()) return no_memory();
   return image;
 }
@@ -257,6 +261,11 @@ void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
 }
 
 void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
+  impl_->felt_softs.clear();
+  if (setup) {
+    for (const SoftBand& band : setup->bands) impl_->felt_softs.push_back(band.soft);
+    for (const SoftSolid& solid : setup->solids) impl_->felt_softs.push_back(solid.soft);
+  }
   impl_->shapes.emplace(*impl_->the_case, std::move(setup));
 }
 
@@ -269,7 +278,7 @@ void FilmPainter::Impl::show_carved() {
   }
 }
 
-void FilmPainter::Impl::show_softs(const SolidPushes& pushes) {
+void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {
   if (!shapes || !(renderer || scope)) return;
   for (const SoftShapes::Changed& changed : shapes->changes(pushes)) {
     if (renderer) set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W);

@@ -27,7 +27,7 @@ struct FilmMoment {
   BoneSnapshot bones;
   std::array<ToolState, kMaxHands> tools;
   std::size_t hands = 1;
-  SolidPushes pushes;  ///< on what is soft
+  SoftPushes pushes;  ///< on what is soft
 };
 
 /// Draws a recorded session's pictures without a window, in one of the views. One thread, where it

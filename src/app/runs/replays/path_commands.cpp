@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
+#include "osteon/scene/tool_set.h"
 #include "runs/hands/tray.h"
 
 namespace osteon {
@@ -25,18 +27,32 @@ std::vector<std::string> instruments_of(const ProbePath& path) {
   return names;
 }
 
+namespace {
+
+// A tray may write the same size otherwise: 3.0 for 3.
+std::optional<std::uint32_t> place_in(std::span<const std::string> tray, const std::string& name) {
+  const auto wanted = parse_tool_name(name);
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    const auto there = parse_tool_name(tray[i]);
+    const bool same =
+        wanted && there && there->name == wanted->name && there->size_mm == wanted->size_mm;
+    if (same || tray[i] == name) return static_cast<std::uint32_t>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 PathCommands::PathCommands(const ProbePath& path, std::span<const std::string> tray)
     : path_(path), tray_(tray.begin(), tray.end()) {
   const bool named = !path.samples.empty() && !path.samples.front().instrument.empty();
   const std::string first = named ? tray_name(path.samples.front()) : kWristProbe;
-  const auto found = std::find(tray_.begin(), tray_.end(), first);
-  if (found != tray_.end()) held_ = static_cast<std::uint32_t>(found - tray_.begin());
+  held_ = place_in(tray_, first).value_or(held_);
 }
 
 std::uint32_t PathCommands::place_of(const PathSample& sample) const {
   if (sample.instrument.empty()) return held_;
-  const auto found = std::find(tray_.begin(), tray_.end(), tray_name(sample));
-  return found == tray_.end() ? held_ : static_cast<std::uint32_t>(found - tray_.begin());
+  return place_in(tray_, tray_name(sample)).value_or(held_);
 }
 
 Command PathCommands::at(double time_s) {

@@ -163,8 +163,8 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
   auto softs = softs_for(*loaded.the_case, *settings);
   if (!softs) return tl::unexpected(softs.error());
   options.softs = replay_of.softs = std::move(*softs);
-  SolidPushes pushes;
-  options.on_pushes = [&](const SolidPushes& now) { pushes = now; };
+  SoftPushes pushes;
+  options.on_pushes = [&](const SoftPushes& now) { pushes = now; };
   const bool from_the_start = options.carving || options.softs;
   replay_of.tray = std::move(*tray);
   if (replay_of.tray.empty())

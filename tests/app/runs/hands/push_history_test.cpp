@@ -5,8 +5,8 @@
 namespace osteon {
 namespace {
 
-SolidPushes pushed(double force_n) {
-  SolidPushes pushes;
+SoftPushes pushed(double force_n) {
+  SoftPushes pushes;
   pushes.count = 1;
   pushes.all[0].force_n = force_n;
   return pushes;
@@ -37,6 +37,19 @@ TEST(PushHistory, GivesWhatPressedAtATimeInAnyOrder) {
 TEST(PushHistory, KeepsWhatChangesAtThePicturesRate) {
   EXPECT_LE(one_push().kept(), static_cast<std::size_t>(PushHistory::kPictureHz) + 3);
   EXPECT_EQ(PushHistory().at(1).count, 0u);
+}
+
+TEST(PushHistory, KeepsHowLigamentsBendToo) {
+  PushHistory history;
+  SoftPushes bent;
+  bent.bend_count = 1;
+  bent.bends[0].bent_m = 0.002;
+  for (int tick = 1; tick <= 300; ++tick)
+    history.add(tick <= 100 || tick > 200 ? SoftPushes{} : bent, tick * 0.001);
+  EXPECT_EQ(history.at(0.05), SoftPushes{});
+  EXPECT_EQ(history.at(0.19), bent);
+  EXPECT_EQ(history.at(0.29), SoftPushes{});
+  EXPECT_EQ(history.kept(), 2u);
 }
 
 }  // namespace

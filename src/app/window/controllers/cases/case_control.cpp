@@ -154,6 +154,8 @@ void CaseControl::poll_pieces() {
 
 void CaseControl::exchange(FinerCase finer) {
   const bool was_felt = scene_.source == scene_.finer_source;
+  // A path that the command line gave is played on.
+  if (!host_.order.path.empty()) finer.demo = scene_.demo;
   if (LiveRun* const run = live_.run()) {
     const auto exchanged = run->exchange_case(finer.the_case, finer.source, finer.demo,
                                               finer.carving.setup, finer.softs);

@@ -85,8 +85,8 @@ CarvedPicture* ReplayControl::carved() {
   return &*carved_;
 }
 
-SolidPushes ReplayControl::pushes() const {
-  return replay_ ? replay_->pushes.at(player_.position_s()) : SolidPushes{};
+SoftPushes ReplayControl::pushes() const {
+  return replay_ ? replay_->pushes.at(player_.position_s()) : SoftPushes{};
 }
 
 void ReplayControl::describe(UiModel& model) const {

@@ -32,7 +32,7 @@ class ReplayControl {
   CarvedPicture* carved();
   /// What gives way in it, null where nothing does, and what presses that now.
   std::shared_ptr<const SoftSetup> softs() const { return replay_ ? replay_->softs : nullptr; }
-  SolidPushes pushes() const;
+  SoftPushes pushes() const;
   void describe(UiModel& model) const;
 
  private:

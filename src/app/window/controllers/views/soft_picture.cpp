@@ -9,7 +9,7 @@ constexpr double kShapesApart_s = 0.1;
 
 }  // namespace
 
-bool SoftPicture::put(const SolidPushes& pushes, Renderer& renderer) {
+bool SoftPicture::put(const SoftPushes& pushes, Renderer& renderer) {
   const auto changes = shapes_->changes(pushes);
   for (const SoftShapes::Changed& changed : changes)
     set_soft_surface(renderer, *case_, changed.soft, changed.mesh_W);
@@ -17,7 +17,7 @@ bool SoftPicture::put(const SolidPushes& pushes, Renderer& renderer) {
 }
 
 void SoftPicture::show(const std::shared_ptr<const Case>& the_case,
-                       const std::shared_ptr<const SoftSetup>& setup, const SolidPushes& pushes,
+                       const std::shared_ptr<const SoftSetup>& setup, const SoftPushes& pushes,
                        double now_s, Renderer& renderer) {
   if (the_case != case_ || setup != setup_) {
     if (shapes_ && the_case == case_) (void)put({}, renderer);

@@ -15,14 +15,14 @@ class SoftPicture {
   /// case, that were pressed go back to rest. A processor that draws gets other shapes at most ten
   /// times a second, since each costs a whole picture.
   void show(const std::shared_ptr<const Case>& the_case,
-            const std::shared_ptr<const SoftSetup>& setup, const SolidPushes& pushes, double now_s,
+            const std::shared_ptr<const SoftSetup>& setup, const SoftPushes& pushes, double now_s,
             Renderer& renderer);
   /// The renderer shows all parts at rest.
   void begin_again() { shapes_.reset(); }
 
  private:
   /// True: something has another shape.
-  bool put(const SolidPushes& pushes, Renderer& renderer);
+  bool put(const SoftPushes& pushes, Renderer& renderer);
 
   std::shared_ptr<const Case> case_;
   std::shared_ptr<const SoftSetup> setup_;

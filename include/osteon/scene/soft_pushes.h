@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "osteon/base/types.h"
+#include "osteon/scene/soft_band.h"
+#include "osteon/scene/soft_solid.h"
+
+namespace osteon {
+
+/// How a part of a tool bends a band now. The string goes in two straight legs from its ends to the
+/// place that is pressed.
+struct StringBend {
+  std::uint32_t band = 0;
+  double share = 0;              ///< of the way from the first end to the last: where it is pressed
+  double bent_m = 0;             ///< against nhat_W, of the middle line there
+  double dent_m = 0;             ///< of the surface, over that
+  double round_m = 0;            ///< radius of the bend: of the part and the band together
+  Vec3 nhat_W = Vec3::UnitZ();   ///< unit, from the band to the part
+  Vec3 along_W = Vec3::UnitX();  ///< unit, from the first end to the last, as the bones stand
+  bool operator==(const StringBend&) const = default;
+};
+
+/// What presses the soft parts now, for pictures: of every hand's parts.
+struct SoftPushes {
+  struct One {
+    std::uint32_t solid = 0;
+    Vec3 p_B = Vec3::Zero(), nhat_B = Vec3::UnitZ();
+    double force_n = 0;  ///< against the normal
+    bool operator==(const One&) const = default;
+  };
+  static constexpr std::size_t kMost = 4 * kMaxSolidContacts;
+  static constexpr std::size_t kMostBends = 4 * kMaxBandContacts;
+  std::uint32_t count = 0;
+  std::array<One, kMost> all{};
+  std::uint32_t bend_count = 0;
+  std::array<StringBend, kMostBends> bends{};
+  bool operator==(const SoftPushes&) const = default;
+};
+
+}  // namespace osteon

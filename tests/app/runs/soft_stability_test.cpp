@@ -1,0 +1,120 @@
+// The closed loop of an emulated hand and soft parts, with friction: pressed, they come to rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "osteon/device/virtual_hand.h"
+#include "session/soft_fixtures.h"
+#include "session/soft_solid_fixtures.h"
+
+namespace osteon {
+namespace {
+
+struct SoftLoop {
+  double mass_kg, grip_n_s_per_m, stiffness_n_per_m;
+};
+
+std::vector<SoftLoop> soft_loops() {
+  std::vector<SoftLoop> out;
+  for (const double mass : {0.05, 0.15, 0.5})
+    for (const double grip : {2.0, 12.0})
+      for (const double k : {500.0, 2000.0, 3000.0}) out.push_back({mass, grip, k});
+  return out;
+}
+
+std::shared_ptr<const SoftSetup> rough(const SoftSetup& smooth) {
+  SoftSetup setup = smooth;
+  add_friction(setup, {{0.12, 0.08}, {0.08, 0.05}});  // of the tissue table
+  return std::make_shared<const SoftSetup>(std::move(setup));
+}
+
+constexpr double kSoftGrip_n_per_m = 500;
+
+struct SoftOutcome {
+  std::vector<double> window_energy;  // largest of each quarter second, J
+  double last_swing_m = 0, last_force_n = 0;
+};
+
+// From `from` at 50 mm/s to `to`, which the hand then aims at; the force comes a tick late.
+SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput& from,
+                         const Vec3& to_W) {
+  VirtualHand hand({loop.mass_kg, kSoftGrip_n_per_m, loop.grip_n_s_per_m});
+  Pose wanted = from.X_WD;
+  hand.reset(wanted);
+  const Vec3 way = to_W - from.X_WD.p;
+  const int moves = static_cast<int>(way.norm() / 0.05 / 1e-3);
+  Vec3 late = Vec3::Zero();
+  std::vector<Vec3> place, speed;
+  for (int i = 0; i < 2500; ++i) {
+    wanted.p = from.X_WD.p + std::min(1.0, static_cast<double>(i) / moves) * way;
+    const Vec3 wanted_v = i < moves ? Vec3(0.05 * way.normalized()) : Vec3(Vec3::Zero());
+    ToolInput input;
+    input.X_WD = hand.pose();
+    input.v_W = hand.velocity();
+    (void)session.tick(input);
+    hand.step(1e-3, wanted, wanted_v, late);
+    late = session.tool_state().force_W;
+    place.push_back(hand.pose().p);
+    speed.push_back(hand.velocity());
+  }
+  SoftOutcome out;
+  out.last_force_n = late.norm();
+  for (std::size_t begin = 500; begin + 250 <= place.size(); begin += 250) {
+    double largest = 0;
+    out.last_swing_m = 0;
+    for (std::size_t i = begin; i < begin + 250; ++i) {
+      const double swing = (place[i] - place.back()).norm();
+      largest = std::max(largest, 0.5 * loop.mass_kg * speed[i].squaredNorm() +
+                                      0.5 * kSoftGrip_n_per_m * swing * swing);
+      out.last_swing_m = std::max(out.last_swing_m, swing);
+    }
+    out.window_energy.push_back(largest);
+  }
+  return out;
+}
+
+void expect_rest(const SoftOutcome& o, const SoftLoop& loop) {
+  SCOPED_TRACE("mass " + std::to_string(loop.mass_kg) + " grip " +
+               std::to_string(loop.grip_n_s_per_m) + " k " +
+               std::to_string(loop.stiffness_n_per_m));
+  constexpr double kNothing = 1e-13;  // J
+  for (std::size_t i = 1; i < o.window_energy.size(); ++i)
+    EXPECT_LE(o.window_energy[i], 0.85 * o.window_energy[i - 1] + kNothing) << "window " << i;
+  EXPECT_LT(o.last_swing_m, 3e-5);
+  EXPECT_GT(o.last_force_n, 0.5) << "it must be pressed";
+}
+
+TEST(SoftStability, AMeniscusPressedOrLiftedComesToRest) {
+  const testing::MeniscusRun& run = testing::meniscus_run();
+  const auto softs = rough(*run.softs);
+  for (const double side : {1.0, -1.0})
+    for (const SoftLoop& loop : soft_loops()) {
+      SessionSettings settings = run.settings;
+      settings.soft_hash = softs->hash;
+      settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+      Session session(run.the_case, settings, run.tray, nullptr, softs);
+      ToolInput from;
+      from.X_WD.p = {0.002, 0, side * (testing::kBlockTop_m + 0.004)};
+      expect_rest(
+          press_softly(session, loop, from, {0.002, 0, side * (testing::kBlockTop_m - 0.006)}),
+          loop);
+    }
+}
+
+TEST(SoftStability, ALigamentTautOrSlackComesToRest) {
+  for (const double strain : {0.05, -0.01}) {
+    testing::BandRun run(testing::band_table(strain));
+    run.softs = rough(*run.softs);
+    run.settings.soft_hash = run.softs->hash;
+    for (const SoftLoop& loop : soft_loops()) {
+      run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+      Session session = run.session();
+      const ToolInput from = testing::shaft_at(testing::kTouch_m + 0.004);
+      const Vec3 to_W = testing::shaft_at(testing::kTouch_m - 0.009).X_WD.p;
+      expect_rest(press_softly(session, loop, from, to_W), loop);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace osteon
