@@ -16,13 +16,20 @@ double orient(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return std::abs(det) > 1e-15 * au.dot(bound) ? det : 0;
 }
 
-/// True when the inside of segment pq passes through abc, its edges and corners included: through
-/// an edge the surface goes on with the next triangle. Two boxes whose edges meet the other's
-/// diagonals cross nowhere else.
+/// True when the inside of segment pq passes through the inside of abc, or plainly through the
+/// inside of one of its edges, where the surface goes on with the next triangle: two boxes whose
+/// edges meet the other's diagonals cross nowhere else. Of what lies almost in one plane, rounding
+/// decides on which side of an edge it passes, so that counts only in the inside.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kPlain = 1e-6;  // of the product of the lengths
   const double at_p = orient(a, b, c, p), at_q = orient(a, b, c, q);
   if (!(at_p > 0 && at_q < 0) && !(at_p < 0 && at_q > 0)) return false;
   const double u = orient(p, q, a, b), v = orient(p, q, b, c), w = orient(p, q, c, a);
+  if ((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0)) return true;
+  const int on_edges = (u == 0) + (v == 0) + (w == 0);
+  if (on_edges != 1) return false;
+  const double plain = kPlain * (b - a).norm() * (c - a).norm() * (q - p).norm();
+  if (std::min(std::abs(at_p), std::abs(at_q)) < plain) return false;
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
