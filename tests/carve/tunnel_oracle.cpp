@@ -19,8 +19,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-constexpr std::uint32_t kSides = 256;
-
 Mesh to_cgal(const TriMesh& mesh) {
   Mesh out;
   std::vector<Mesh::Vertex_index> v;

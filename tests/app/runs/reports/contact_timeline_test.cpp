@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "runs/reports/force_history.h"
-#include "ui/toasts.h"
 
 namespace osteon {
 namespace {
@@ -51,27 +50,6 @@ TEST(ForceHistory, HoldsTheNewestValuesOldestFirst) {
   }
   history.clear();
   for (const float v : history.values()) EXPECT_EQ(v, 0);
-}
-
-TEST(Toasts, TheSameWordsAreShownOnceAndFewAtATime) {
-  Toasts toasts;
-  toasts.add(ToastKind::kInfo, "Saved", 0);
-  toasts.add(ToastKind::kInfo, "Saved", 1);
-  EXPECT_EQ(toasts.shown().size(), 1u);
-  for (int i = 0; i < 9; ++i) toasts.add(ToastKind::kWarning, std::to_string(i), 2);
-  EXPECT_EQ(toasts.shown().size(), Toasts::kMaxToasts);
-  EXPECT_EQ(toasts.shown().back().text, "8");
-}
-
-TEST(Toasts, MessagesGoByThemselvesErrorsStay) {
-  Toasts toasts;
-  toasts.add(ToastKind::kInfo, "Saved", 0);
-  toasts.add(ToastKind::kError, "The disk is full", 0);
-  toasts.age(3600);
-  ASSERT_EQ(toasts.shown().size(), 1u);
-  EXPECT_EQ(toasts.shown()[0].kind, ToastKind::kError);
-  toasts.dismiss(toasts.shown()[0].id);
-  EXPECT_TRUE(toasts.shown().empty());
 }
 
 }  // namespace
