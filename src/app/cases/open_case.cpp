@@ -108,6 +108,17 @@ Result<CaseDef> grow_builtin(const std::string& name, const std::function<void(d
   return def;
 }
 
+/// The case in a folder. One who wrote "knee" where no such folder is means the built-in knee.
+Result<CaseDef> load_folder(const std::string& source) {
+  const std::filesystem::path name = std::filesystem::path(source).filename();
+  const std::string plain = name.string().substr(0, name.string().find(':'));
+  std::error_code ec;
+  if ((plain == "wrist" || plain == "knee") && !std::filesystem::exists(source, ec))
+    return fail("there is no such folder", source,
+                "For the built-in " + plain + " write builtin:" + name.string());
+  return load_case(source);
+}
+
 /// The case as saved, or grown, with its joints bent as chosen.
 Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(double)>& progress,
                           CaseParts parts) {
@@ -116,7 +127,7 @@ Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(dou
   // What is about to be bent need not have its soft parts yet.
   const CaseParts first = choice.bent.empty() ? parts : CaseParts::kFelt;
   auto def =
-      builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_case(source);
+      builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_folder(source);
   for (const auto& [joint, degrees] : choice.bent) {
     if (!def) return def;
     def = bend_case(std::move(*def), joint, degrees, parts != CaseParts::kFelt, progress);

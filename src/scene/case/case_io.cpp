@@ -180,6 +180,9 @@ Result<void> make_empty_folder(const fs::path& folder) {
 Result<CaseDef> load_case(const fs::path& folder) {
   const fs::path file = folder / "case.toml";
   std::error_code ec;
+  if (!fs::exists(folder, ec))
+    return fail("there is no such case folder", folder.string(),
+                "Name the folder that holds case.toml");
   if (!fs::is_directory(folder, ec))
     return fail("is not a case folder", folder.string(), "Name the folder that holds case.toml");
   const auto text = read_file(file, kTomlLimitBytes);

@@ -27,7 +27,8 @@ void add_window_command(cli::App& app, int& exit_code) {
   const auto order = std::make_shared<WindowOrder>();
   const auto size = std::make_shared<std::string>(), layout = std::make_shared<std::string>(),
              observer = std::make_shared<std::string>();
-  command->add_option("--case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
+  command
+      ->add_option("--case,case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
   command->add_option("--replay", order->replay, "Recording to open");
   command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
