@@ -100,13 +100,16 @@ TEST_F(OpenAtOnce, PiecesLieWithinTheHull) {
 }
 
 TEST(OpenCase, NamesTheBuiltInCaseWhereNoFolderOfItsNameIs) {
-  const auto plain = open_case_def("/nowhere/knee", [](double) {}, CaseParts::kFelt);
+  const auto plain = open_case_def(
+      "/nowhere/knee", [](double) {}, CaseParts::kFelt);
   ASSERT_FALSE(plain);
   EXPECT_NE(plain.error().message().find("builtin:knee"), std::string::npos);
-  const auto drawn = open_case_def("wrist:7:left", [](double) {}, CaseParts::kFelt);
+  const auto drawn = open_case_def(
+      "wrist:7:left", [](double) {}, CaseParts::kFelt);
   ASSERT_FALSE(drawn);
   EXPECT_NE(drawn.error().message().find("builtin:wrist:7:left"), std::string::npos);
-  const auto other = open_case_def("/nowhere/hip", [](double) {}, CaseParts::kFelt);
+  const auto other = open_case_def(
+      "/nowhere/hip", [](double) {}, CaseParts::kFelt);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().message().find("builtin"), std::string::npos);
 }
