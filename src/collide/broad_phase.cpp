@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace osteon {
 namespace {
 
 // Grows every bound by more than the rounding of a pose at a metre from the origin.
 constexpr double kRounding = 1e-9;
+
+bool same_pose(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
 
 struct Segment {
   Vec3 from;
@@ -100,19 +103,34 @@ bool BroadPhase::meets(const Bounds& piece, const BallOfBone& ball) {
          meets_box(path, piece.box_center_B, piece.box_half + Vec3::Constant(ball.reach));
 }
 
-// Whether nothing of the bone was found about a place that holds the ball: settled without a root.
-// Written so that what is not finite is looked at closely.
-bool BroadPhase::still_clear(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
-                             const SweptSphere& ball, double margin) {
+// How far the ball is from a place about which nothing of the bone was found, and how far it may
+// be. Written so that what is not finite is looked at closely.
+BroadPhase::Clearance BroadPhase::clearance(const NearPieces& near, std::uint32_t bone,
+                                            const Pose& X_WB, const SweptSphere& ball,
+                                            double margin) {
   const NearPieces::Place& place = near.places_[bone];
-  if (place.count > 0) return false;
-  const bool still = X_WB.p == place.X_WB.p && X_WB.q.coeffs() == place.X_WB.q.coeffs();
-  const Vec3 step = still ? Vec3(ball.p_from_W - place.p_W)
-                          : Vec3(X_WB.q.conjugate() * (ball.p_from_W - X_WB.p) - place.p_B);
+  if (place.count > 0) return {};
+  const Vec3 step = same_pose(X_WB, place.X_WB)
+                        ? Vec3(ball.p_from_W - place.p_W)
+                        : Vec3(X_WB.q.conjugate() * (ball.p_from_W - X_WB.p) - place.p_B);
   const double length = (ball.p_to_W - ball.p_from_W).lpNorm<1>();
   const double far = ball.p_from_W.lpNorm<1>() + X_WB.p.lpNorm<1>();
-  const double room = place.reach - (length + ball.radius + margin + kRounding * (3 + far));
-  return room > 0 && step.squaredNorm() < room * room;
+  return {place.reach - (length + ball.radius + margin + kRounding * (3 + far)),
+          step.squaredNorm()};
+}
+
+// Settled without a root.
+bool BroadPhase::still_clear(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
+                             const SweptSphere& ball, double margin) {
+  const Clearance c = clearance(near, bone, X_WB, ball, margin);
+  return c.room > 0 && c.step_squared < c.room * c.room;
+}
+
+double BroadPhase::spare(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
+                         const SweptSphere& ball, double margin) {
+  const Clearance c = clearance(near, bone, X_WB, ball, margin);
+  const double spare = c.room - std::sqrt(c.step_squared);
+  return spare > 0 ? spare : 0;
 }
 
 // Those that the ball may meet: of the kept ones where it is within their reach. Whatever meets the
@@ -128,7 +146,21 @@ std::span<const std::uint32_t> BroadPhase::near_of(std::uint32_t bone, const Pos
   return {near.pieces_.data() + first_piece_[bone], place.count};
 }
 
-// Keeps those that come a little nearer than the ball asks for; of a far bone how far it is.
+// No ball about p_B of less than this radius, m, meets a piece of the bone. A box counts by its
+// widest axis, as `meets` widens it by each.
+double BroadPhase::gap_to_pieces(std::uint32_t bone, const Vec3& p_B) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = first_piece_[bone]; i < first_piece_[bone + 1]; ++i) {
+    const Bounds& piece = pieces_[i];
+    const double to_ball = (p_B - piece.center_B).norm() - piece.radius;
+    const double to_box = ((p_B - piece.box_center_B).cwiseAbs() - piece.box_half).maxCoeff();
+    least = std::min(least, std::max(to_ball, to_box));
+  }
+  return least - 2 * kRounding * (1 + p_B.norm());
+}
+
+// Keeps those that come a little nearer than the ball asks for; of a bone with none of these how
+// far it is.
 void BroadPhase::look_about(std::uint32_t bone, const Pose& X_WB, const BallOfBone& ball,
                             NearPieces& near) const {
   constexpr double kAhead = 0.001;
@@ -140,36 +172,41 @@ void BroadPhase::look_about(std::uint32_t bone, const Pose& X_WB, const BallOfBo
   place.p_W = X_WB * ball.from_B;
   place.p_B = ball.from_B;
   place.count = 0;
-  place.reach = clear > size ? clear : size + kAhead;
-  if (clear > size) return;
+  place.reach = clear > size ? clear : gap_to_pieces(bone, place.p_B);
+  if (place.reach > size + kAhead || clear > size) return;
+  place.reach = size + kAhead;
   const BallOfBone wide{place.p_B, Vec3::Zero(), place.reach + kRounding, true};
   for (std::uint32_t i = first_piece_[bone]; i < first_piece_[bone + 1]; ++i)
     if (meets(pieces_[i], wide))
       near.pieces_[first_piece_[bone] + place.count++] = i - first_piece_[bone];
 }
 
+std::size_t BroadPhase::query_bone(std::uint32_t bone, const Pose& X_WB, const SweptSphere& ball,
+                                   double margin, std::span<PieceRef> out, std::size_t found,
+                                   NearPieces* near) const {
+  if (near ? still_clear(*near, bone, X_WB, ball, margin) : out_of_reach(bone, X_WB, ball, margin))
+    return found;
+  const BallOfBone ball_B = in_bone(X_WB, ball, margin);
+  const std::uint32_t first = first_piece_[bone];
+  const bool listed = near && ball_B.finite;
+  const auto list = listed ? near_of(bone, X_WB, ball_B, *near) : std::span<const std::uint32_t>();
+  const auto count =
+      listed ? static_cast<std::uint32_t>(list.size()) : first_piece_[bone + 1] - first;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t piece = listed ? list[k] : k;
+    if (ball_B.finite && !meets(pieces_[first + piece], ball_B)) continue;
+    if (found < out.size()) out[found] = {bone, piece};
+    ++found;
+  }
+  return found;
+}
+
 std::size_t BroadPhase::query(std::span<const Pose> X_WB, const SweptSphere& ball, double margin,
                               std::span<PieceRef> out, NearPieces* near) const {
   assert(X_WB.size() >= bone_count() && (!near || near->places_.size() == bone_count()));
   std::size_t found = 0;
-  for (std::uint32_t bone = 0; bone < bone_count(); ++bone) {
-    if (near ? still_clear(*near, bone, X_WB[bone], ball, margin)
-             : out_of_reach(bone, X_WB[bone], ball, margin))
-      continue;
-    const BallOfBone ball_B = in_bone(X_WB[bone], ball, margin);
-    const std::uint32_t first = first_piece_[bone];
-    const bool listed = near && ball_B.finite;
-    const auto list =
-        listed ? near_of(bone, X_WB[bone], ball_B, *near) : std::span<const std::uint32_t>();
-    const auto count =
-        listed ? static_cast<std::uint32_t>(list.size()) : first_piece_[bone + 1] - first;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t piece = listed ? list[k] : k;
-      if (ball_B.finite && !meets(pieces_[first + piece], ball_B)) continue;
-      if (found < out.size()) out[found] = {bone, piece};
-      ++found;
-    }
-  }
+  for (std::uint32_t bone = 0; bone < bone_count(); ++bone)
+    found = query_bone(bone, X_WB[bone], ball, margin, out, found, near);
   return found;
 }
 

@@ -122,8 +122,8 @@ std::size_t ContactField::parts_beside(bool field) const {
   return whole() ? tool_.parts.size() : tool_.bodies.size();
 }
 
-std::vector<NearPieces> ContactField::near_pieces() const {
-  return std::vector<NearPieces>(stretches_.size(), NearPieces(broad_phase_));
+Surroundings ContactField::surroundings() const {
+  return Surroundings(broad_phase_, stretches_, tool_radius_);
 }
 
 // False when the list is full.
@@ -151,7 +151,7 @@ bool ContactField::add_found(const PieceRef& found, std::uint32_t part, Candidat
 }
 
 bool ContactField::collect(const ToolReach& reach, std::span<const Pose> before_WB,
-                           std::span<const Pose> now_WB, std::vector<NearPieces>& near,
+                           std::span<const Pose> now_WB, Surroundings& around,
                            CandidateList& out) const {
   out.count = 0;
   out.field_count = 0;
@@ -160,15 +160,18 @@ bool ContactField::collect(const ToolReach& reach, std::span<const Pose> before_
   for (std::size_t b = 0; b < now_WB.size(); ++b)
     if (!same_pose(before_WB[b], now_WB[b]))
       moved_m = std::max(moved_m, travel(before_WB[b], now_WB[b], reach.X_WT.p, about));
+  const double margin = reach.reach_m + moved_m;
+  around.look(reach.X_WT, now_WB, margin);
   std::array<PieceRef, kMaxCandidates> pieces;
-  for (std::size_t s = 0; s < stretches_.size(); ++s) {
-    const Stretch& stretch = stretches_[s];
-    const SweptSphere ball{reach.X_WT * stretch.from, reach.X_WT * stretch.to, stretch.radius};
-    const std::size_t found =
-        broad_phase_.query(now_WB, ball, reach.reach_m + moved_m, pieces, &near[s]);
+  SweptSphere ball;
+  std::uint32_t stretch = kAllParts;
+  for (const StretchBesideBone& which : around.near()) {
+    if (which.stretch != stretch) ball = around.ball(which.stretch, reach.X_WT);
+    stretch = which.stretch;
+    const std::size_t found = around.query(which, ball, now_WB, margin, pieces);
     if (found > pieces.size()) return false;
     for (std::size_t i = 0; i < found; ++i)
-      if (!add_found(pieces[i], stretch.part, out)) return false;
+      if (!add_found(pieces[i], stretches_[which.stretch].part, out)) return false;
   }
   return true;
 }

@@ -13,6 +13,7 @@
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/tool.h"
+#include "surroundings.h"
 
 namespace osteon {
 
@@ -72,14 +73,13 @@ class ContactField {
   /// Whether all of the tool is felt, not its tip alone.
   bool whole() const { return !tool_.parts.empty(); }
 
-  /// For `collect`, to keep from tick to tick.
-  std::vector<NearPieces> near_pieces() const;
+  /// For `collect`, to keep from tick to tick. This must outlive it.
+  Surroundings surroundings() const;
 
   /// Pairs that may touch while the tool is within `reach`, with each bone anywhere between its two
   /// poses, in the order of pairs(). False when there are more than the list holds.
   bool collect(const ToolReach& reach, std::span<const Pose> before_WB,
-               std::span<const Pose> now_WB, std::vector<NearPieces>& near,
-               CandidateList& out) const;
+               std::span<const Pose> now_WB, Surroundings& around, CandidateList& out) const;
 
   /// Counts looks at carved bones: each costs so much that a tick has only so many.
   struct Looks {
@@ -108,12 +108,6 @@ class ContactField {
   FreeHalfSpace outer_half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB) const;
 
  private:
-  /// A stretch of the tool short enough for its surroundings to be few, in Tool.
-  struct Stretch {
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-    double radius = 0;
-    std::uint32_t part = kAllParts;
-  };
   static constexpr std::uint32_t kAllParts = 0xffffffffu;
 
   void measure_tool();
@@ -133,7 +127,7 @@ class ContactField {
   const Case& case_;
   const Tool& tool_;
   std::vector<Primitive> to_field_;  ///< the tool to a field, in Tool
-  std::vector<Stretch> stretches_;
+  std::vector<ToolStretch> stretches_;
   std::vector<double> piece_radius_;  ///< of the tool's pieces about its origin, m
   /// Of each bone felt as a field: of a wide band, for what is thicker than the fine one's.
   std::vector<std::shared_ptr<const DistanceField>> wide_;

@@ -42,7 +42,7 @@ bool ProxySolver::gather(Context& c) {
     ToolReach about{{task.base_W, task.X_WP.q}, task.reach_m, turn};
     for (c.reach_m = task.reach_m; c.reach_m >= kShortest; c.reach_m *= 0.5) {
       about.reach_m = c.reach_m;
-      if (field_.collect(about, task.before_WB, task.now_WB, near_pieces_, near_)) {
+      if (field_.collect(about, task.before_WB, task.now_WB, around_, near_)) {
         recall(c);
         return true;
       }

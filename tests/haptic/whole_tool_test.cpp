@@ -188,13 +188,13 @@ TEST(WholeToolSearch, FindsEveryPairThatIsNear) {
   tool.parts.push_back(
       make_box({Vec3(0, 0.01, 0.04), random.rotation()}, Vec3(0.006, 0.001, 0.002)));
   const ContactField field(the_case, tool);
-  auto near = field.near_pieces();
+  Surroundings around = field.surroundings();
   const std::vector<Pose> X_WB(2);
   std::size_t found = 0;
   for (int i = 0; i < 400; ++i) {
     const Pose X_WT{0.03 * random.direction(), random.rotation()};
     CandidateList list;
-    ASSERT_TRUE(field.collect({X_WT, 0.001, 0}, X_WB, X_WB, near, list));
+    ASSERT_TRUE(field.collect({X_WT, 0.001, 0}, X_WB, X_WB, around, list));
     std::vector<bool> listed(field.pairs().size(), false);
     for (std::uint32_t k = 0; k < list.count; ++k) {
       listed[list.pair[k]] = true;

@@ -48,6 +48,17 @@ class BroadPhase {
   std::size_t query(std::span<const Pose> X_WB, const SweptSphere& ball, double margin,
                     std::span<PieceRef> out, NearPieces* near = nullptr) const;
 
+  /// The same for one bone: pieces go to `out` from out[found] on. Returns `found` and what was
+  /// found in this bone.
+  std::size_t query_bone(std::uint32_t bone, const Pose& X_WB, const SweptSphere& ball,
+                         double margin, std::span<PieceRef> out, std::size_t found,
+                         NearPieces* near) const;
+
+  /// How much wider `margin` may be, m, for `query_bone` to find nothing still, as far as `near`
+  /// knows from earlier queries; 0 where it knows nothing.
+  static double spare(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
+                      const SweptSphere& ball, double margin);
+
  private:
   friend class NearPieces;
   struct Bounds {
@@ -73,8 +84,15 @@ class BroadPhase {
                     double margin) const;
   static BallOfBone in_bone(const Pose& X_WB, const SweptSphere& ball, double margin);
   static bool meets(const Bounds& piece, const BallOfBone& ball);
+  struct Clearance {
+    double room = 0;          ///< m; the ball may be so far from the place; not above 0: nowhere
+    double step_squared = 0;  ///< m^2, of how far it is
+  };
+  static Clearance clearance(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
+                             const SweptSphere& ball, double margin);
   static bool still_clear(const NearPieces& near, std::uint32_t bone, const Pose& X_WB,
                           const SweptSphere& ball, double margin);
+  double gap_to_pieces(std::uint32_t bone, const Vec3& p_B) const;
   std::span<const std::uint32_t> near_of(std::uint32_t bone, const Pose& X_WB,
                                          const BallOfBone& ball, NearPieces& near) const;
   void look_about(std::uint32_t bone, const Pose& X_WB, const BallOfBone& ball,
