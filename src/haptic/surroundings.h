@@ -47,7 +47,7 @@ class Surroundings {
 
  private:
   /// Beyond this, m, a stretch and a bone are far from each other.
-  static constexpr double kFar = 0.003;
+  static constexpr double kFar = 0.002;
 
   double approach(const Pose& X_WT, std::span<const Pose> X_WB, double margin) const;
   void look_at_all(const Pose& X_WT, std::span<const Pose> X_WB, double margin);
