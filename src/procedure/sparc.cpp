@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
 
 #include "fft.h"
 #include "osteon/procedure/report.h"
@@ -18,19 +21,43 @@ std::size_t padded_size(std::size_t samples) {
   return std::max(least, std::min(least << kPaddingLevel, kMaxSize));
 }
 
-// Magnitudes up to the cut-off, as a share of the largest of the whole spectrum. Empty for none.
-std::vector<double> normalised_spectrum(const std::vector<double>& speed, double rate_hz) {
-  std::vector<std::complex<double>> x(padded_size(speed.size()));
-  std::copy(speed.begin(), speed.end(), x.begin());
+// Bins first, first + parts, first + 2 parts, ... of the spectrum of `speed` padded with zeros to
+// size * parts samples.
+std::vector<std::complex<double>> every_nth_bin(const std::vector<double>& speed, std::size_t size,
+                                                std::size_t parts, std::size_t first) {
+  std::vector<std::complex<double>> x(size);
+  const double turn = -2 * std::numbers::pi * static_cast<double>(first) /
+                      (static_cast<double>(size) * static_cast<double>(parts));
+  for (std::size_t n = 0; n < speed.size(); ++n) {
+    const double angle = turn * static_cast<double>(n);
+    x[n] = {speed[n] * std::cos(angle), speed[n] * std::sin(angle)};
+  }
   fft(x);
-  const std::size_t below_nyquist = x.size() / 2 + 1;
-  std::vector<double> magnitude(below_nyquist);
-  for (std::size_t k = 0; k < below_nyquist; ++k) magnitude[k] = std::abs(x[k]);
-  const double largest = *std::max_element(magnitude.begin(), magnitude.end());
-  if (!(largest > 0) || !std::isfinite(largest)) return {};
-  const double bin_hz = rate_hz / static_cast<double>(x.size());
+  return x;
+}
+
+// Magnitudes up to the cut-off, as a share of the largest of the whole spectrum. Empty for none.
+// The padded signal is transformed in parts of the signal's own length, so that the padding takes
+// no memory: X[parts j + r] is bin j of the transform of x[n] exp(-2 pi i r n / (size parts)).
+std::vector<double> normalised_spectrum(const std::vector<double>& speed, double rate_hz) {
+  const std::size_t size = std::bit_ceil(speed.size());
+  const std::size_t padded = padded_size(speed.size()), parts = padded / size;
+  const std::size_t below_nyquist = padded / 2 + 1;
+  const double bin_hz = rate_hz / static_cast<double>(padded);
   const auto bins = static_cast<std::size_t>(kCutOffHz / bin_hz) + 1;
-  magnitude.resize(std::min(bins, below_nyquist));
+  std::vector<double> magnitude(std::min(bins, below_nyquist));
+  double largest = 0;
+  bool finite = true;
+  for (std::size_t r = 0; r < parts; ++r) {
+    const auto x = every_nth_bin(speed, size, parts, r);
+    for (std::size_t k = r; k < below_nyquist; k += parts) {
+      const double m = std::abs(x[k / parts]);
+      finite = finite && std::isfinite(m);
+      largest = std::max(largest, m);
+      if (k < magnitude.size()) magnitude[k] = m;
+    }
+  }
+  if (!(largest > 0) || !finite) return {};
   for (double& m : magnitude) m /= largest;
   return magnitude;
 }
