@@ -39,6 +39,17 @@ OutcomeJson findings_json(const Outcome& outcome) {
   return list;
 }
 
+OutcomeJson sight_json(const ObscuredSight& sight) {
+  OutcomeJson stretches = OutcomeJson::array();
+  for (const ObscuredSight::Stretch& stretch : sight.stretches)
+    stretches.push_back(
+        {{"from_s", stretch.from_s}, {"to_s", stretch.to_s}, {"cause", to_text(stretch.cause)}});
+  return {{"scope_s", sight.scope_s},
+          {"obscured_s", sight.obscured_s},
+          {"obscured_percent", sight.percent()},
+          {"stretches", std::move(stretches)}};
+}
+
 std::string one_decimal(double value) {
   char digits[64];
   const auto end =
@@ -61,6 +72,7 @@ std::string to_json(const Report& report, const Outcome& outcome) {
   json["errors"] = errors_json(outcome);
   json["metrics"] = outcome.metrics;
   if (!outcome.findings.empty()) json["findings"] = findings_json(outcome);
+  if (outcome.sight) json["sight"] = sight_json(*outcome.sight);
   const OutcomeJson rest = OutcomeJson::parse(to_json(report));
   for (const auto& [key, value] : rest.items()) json[key] = value;
   return json.dump(2) + "\n";
@@ -79,6 +91,9 @@ std::string to_text(const Outcome& outcome) {
     text += "error          " + error.name + " (" + std::string(to_text(error.severity)) + ") at " +
             one_decimal(error.at_s) + " s" + (error.subject.empty() ? "" : ", " + error.subject) +
             "\n";
+  if (outcome.sight)
+    text += "sight          obscured for " + one_decimal(outcome.sight->obscured_s) + " of " +
+            one_decimal(outcome.sight->scope_s) + " s with the scope\n";
   for (const GradedFinding& graded : outcome.findings)
     text += "finding        " + graded.title + ": " +
             (graded.stated.empty() ? "nothing stated" : "stated " + graded.stated) + ", is " +

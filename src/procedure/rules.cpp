@@ -7,6 +7,7 @@
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/sight_events.h"
 #include "osteon/procedure/tip_watch.h"
 #include "ring_rules.h"
 #include "tunnel_rules.h"
@@ -144,6 +145,12 @@ std::optional<RuleHit> nothing_seen(const PlannedRule& rule, const Event& event,
   return lasting(hold.armed && event.values[1] == 0, rule, event, tick_s, hold);
 }
 
+// The time in which nobody looks does not count.
+std::optional<RuleHit> obscured(const PlannedRule& rule, const Event& event, std::size_t,
+                                double tick_s, RuleState& state) {
+  return lasting(event.values[0] > 0, rule, event, tick_s, state.holds[0]);
+}
+
 std::optional<RuleHit> off_portal(const PlannedRule& rule, const Event& event, std::size_t,
                                   double tick_s, RuleState& state) {
   if (event.kind != kShaftHeld) return std::nullopt;
@@ -219,6 +226,13 @@ const std::vector<RuleRow>& rule_rows() {
         {{"for_s", 0, 60, 3}},
         SubjectKind::kNothing},
        nothing_seen},
+      {{"obscured",
+        "blood, debris or too little pressure hides everything from the scope for a time",
+        false,
+        {{"for_s", 0, 600, 10}},
+        SubjectKind::kNothing,
+        kWaterLooked},
+       obscured},
       {{"off_portal",
         "the shaft leans out of its portal for a time",
         false,

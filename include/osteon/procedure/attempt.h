@@ -8,6 +8,7 @@
 #include "osteon/procedure/asked_findings.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/report.h"
+#include "osteon/procedure/sight_events.h"
 #include "osteon/procedure/standard.h"
 #include "osteon/scene/path.h"
 
@@ -53,6 +54,7 @@ struct Outcome {
   std::vector<Error> errors;  ///< in the order in which they began
   Metrics metrics;
   std::vector<GradedFinding> findings = {};  ///< of a scenario that asks for them
+  std::optional<ObscuredSight> sight = {};   ///< of who looked through a scope into water
 };
 
 /// Verdict: not passed when a stage was not completed or an error is major or critical; else what

@@ -177,6 +177,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   rings_.add(tools, bones, fresh_);
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
+  if (water_) water_->add(tools, fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
 }
@@ -187,6 +188,10 @@ void AttemptWatch::watch_tunnels(TunnelSources sources) {
   tunnels_.emplace(*plan_, *case_, std::move(sources), pins_, std::move(widths_m), tick_s_);
 }
 
+void AttemptWatch::watch_water(WaterSources sources) {
+  water_ = WaterWatch::of(*case_, std::move(sources), tick_s_);
+}
+
 Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindings& stated) {
   fresh_.clear();
   for (ToolEvents& events : events_) events.finish(fresh_);
@@ -195,7 +200,10 @@ Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindi
   finish_scenario(*plan_, now_s_, state_);
   auto metrics = meter_.finish();
   if (!metrics) return tl::unexpected(metrics.error());
-  return outcome_of(*plan_, *case_, state_, std::move(*metrics), standard, stated);
+  if (water_) (*metrics)[kObscuredPercent] = water_->sight().percent();
+  auto outcome = outcome_of(*plan_, *case_, state_, std::move(*metrics), standard, stated);
+  if (outcome && water_) outcome->sight = water_->sight();
+  return outcome;
 }
 
 void AttemptWatch::judge_fresh() {

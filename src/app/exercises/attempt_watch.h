@@ -14,6 +14,7 @@
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
+#include "water/water_watch.h"
 
 namespace osteon {
 
@@ -53,6 +54,8 @@ class AttemptWatch {
   void watch_tunnels(TunnelSources sources);
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
+  /// Follows the water in the joint, where the tray has a scope; once, before the first tick.
+  void watch_water(WaterSources sources);
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
 
@@ -71,6 +74,7 @@ class AttemptWatch {
   std::vector<ScopeWatch> scopes_;
   std::vector<char> pins_;  // by hand
   std::optional<TunnelWatch> tunnels_;
+  std::optional<WaterWatch> water_;
   AttemptMeter meter_;  // of the first hand
   ScenarioState state_;
   bool tells_tips_ = false;

@@ -96,7 +96,7 @@ struct JudgedAgain {
   std::vector<ToolState> tools;
 
   Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
-                     std::size_t recorded_hands, TunnelSources sources) {
+                     std::size_t recorded_hands, TunnelSources sources, WaterSources water) {
     auto planned = plan_scenario(scenario, the_case);
     if (!planned) return tl::unexpected(planned.error());
     auto held = plan_hands(scenario, the_case);
@@ -109,6 +109,7 @@ struct JudgedAgain {
     hands = std::move(*held);
     watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
     watch->watch_tunnels(std::move(sources));
+    watch->watch_water(std::move(water));
     tools.resize(hands.size());
     return {};
   }
@@ -149,8 +150,9 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     return std::nullopt;
   };
   if (*scenario)
-    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands,
-                                 {*spec, settings->tray, carved_bone});
+    if (auto begun =
+            again.begin(**scenario, **the_case, tick_s, hands, {*spec, settings->tray, carved_bone},
+                        {settings->tray, [&] { return carved.removed(); }});
         !begun)
       return tl::unexpected(begun.error());
   auto pauses = pauses_of(order.recording);

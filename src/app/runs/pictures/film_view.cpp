@@ -84,7 +84,7 @@ struct FilmPainter::Impl {
   void flow(const FilmMoment& moment);
   CarvedPicture carved{nullptr};
   std::optional<JointWater> water;  ///< where a scope is drawn
-  Suckers suckers;
+  WaterTools water_tools;
   double counted_s = -1e9;  ///< when the bone that is gone was counted last
   ByTissue removed_m3{};
   std::optional<SoftShapes> shapes;
@@ -124,9 +124,9 @@ Result<void> FilmPainter::Impl::open(const SessionSettings& settings, const Tray
   auto found = lenses_of(settings.tray);
   if (!found) return tl::unexpected(found.error());
   lenses = std::move(*found);
-  auto sucks = suckers_of(settings.tray);
+  auto sucks = water_tools_of(settings.tray);
   if (!sucks) return tl::unexpected(sucks.error());
-  suckers = std::move(*sucks);
+  water_tools = std::move(*sucks);
   if (auto side = panorama_camera(*the_case, order.side, 1); !side)
     return tl::unexpected(side.error());
   if (order.view == FilmView::kScope && !has_scope)
@@ -188,7 +188,7 @@ void FilmPainter::Impl::flow(const FilmMoment& moment) {
     removed_m3 = carved.removed();
     counted_s = moment.time_s;
   }
-  water->go_to(moment.time_s, suction_of(suckers, tools(moment)), removed_m3);
+  water->go_to(moment.time_s, deeds_of(water_tools, tools(moment)), removed_m3);
   scope->set_water(water->seen());
 }
 

@@ -136,7 +136,12 @@ void ExerciseControl::begin() {
         if (index == bone) return field;
     return std::nullopt;
   };
-  exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved});
+  const auto removed = [this] {
+    LiveRun* const run = live_.run();
+    return run ? run->carved().removed() : ByTissue{};
+  };
+  exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
+                  {live_.run()->tray().names, removed});
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);

@@ -118,13 +118,14 @@ std::optional<std::vector<PlannedHand>> ExerciseRun::plan(std::shared_ptr<const 
   return hands_;
 }
 
-void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources) {
+void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources, WaterSources water) {
   tick_s_ = tick_s;
   file_ = std::move(file);
   watch_ = std::make_unique<AttemptWatch>(*plan_, *case_, hands_, tick_s);
   sources.case_spec = case_spec();
   sources.in_background = true;
   watch_->watch_tunnels(std::move(sources));
+  watch_->watch_water(std::move(water));
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   debrief_.reset();

@@ -37,7 +37,8 @@ class ExerciseRun {
   std::optional<std::vector<PlannedHand>> plan(std::shared_ptr<const Case> the_case);
   /// From tick 0 of a run that is recorded to `file`. `sources`: what else is known of the run,
   /// where the exercise asks for tunnels; they are measured on another thread.
-  void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {});
+  void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {},
+             WaterSources water = {});
   void fail_to_begin(const std::string& why);
 
   /// One tick of one hand, in the order of that hand's ticks.

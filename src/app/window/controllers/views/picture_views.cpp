@@ -55,16 +55,16 @@ Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const
   auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
   if (!found) return tl::unexpected(found.error());
   lenses_ = std::move(*found);
-  auto sucks =
-      instruments.empty() ? suckers_of(names) : Result<Suckers>(suckers_of(names, instruments));
+  auto sucks = instruments.empty() ? water_tools_of(names)
+                                   : Result<WaterTools>(water_tools_of(names, instruments));
   if (!sucks) return tl::unexpected(sucks.error());
-  suckers_ = std::move(*sucks);
+  water_tools_ = std::move(*sucks);
   return {};
 }
 
 void PictureViews::flow(const ByTissue& removed_m3) {
   if (!water_) return;
-  water_->go_to(moment_.time_s, suction_of(suckers_, tools_of(moment_)), removed_m3);
+  water_->go_to(moment_.time_s, deeds_of(water_tools_, tools_of(moment_)), removed_m3);
   if (scope_) scope_->set_water(water_->seen());
 }
 

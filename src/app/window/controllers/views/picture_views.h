@@ -90,7 +90,7 @@ class PictureViews {
   std::optional<ScopeRenderer> scope_;
   bool scope_failed_ = false;
   std::optional<JointWater> water_;
-  Suckers suckers_;  ///< by place in the tray
+  WaterTools water_tools_;  ///< by place in the tray
   Lenses lenses_;
   Tray tray_;
   FilmMoment moment_;
