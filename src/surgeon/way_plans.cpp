@@ -18,7 +18,8 @@ constexpr double kBeforePlate_m = 0.004;
 constexpr double kBeforeHole_m = 0.015, kBehindHole_m = 0.001;
 constexpr double kIntoHole = 0.4;  // of the way through: where a slanted needle is in the middle
 constexpr double kCutMore_m = 0.00025;  // beyond the line, so that nothing is left before it
-constexpr double kRow_m = 0.0009;       // from one row of a burr to the next
+constexpr double kFinish_m = 0.0006;
+constexpr double kRow_m = 0.0009;  // from one row of a burr to the next
 
 // On the free floor between the portal and the first mark, where no wall hides the tip.
 void press_before_groove(const Vec3& first_W, WayDraft& draft) {
@@ -74,6 +75,20 @@ void plan_holes(const PlannedRule& goal, WayDraft& draft) {
   }
 }
 
+// What a round burr has left at the edges of the plate: the last row again, above and below it.
+// Where nothing is left the exercise is over before.
+void finish_rows(const Vec3& at_W, const Vec3& row_W, WayDraft& draft) {
+  Vec3 here = at_W;
+  const Vec3 back = draft.legs[draft.legs.size() - 2].to_W - here;
+  Vec3 way = back.dot(row_W) > 0 ? row_W : Vec3(-row_W);
+  for (const double up_m : {kFinish_m, -kFinish_m}) {
+    draft.go(raised(here, up_m), kFeed_m_per_s);
+    draft.go(raised(here + way, up_m), kFeed_m_per_s, true);
+    here += way;
+    way = -way;
+  }
+}
+
 // Rows along the edge, each a little deeper than the one before, until the line is reached.
 void plan_rows(const PlannedRule& goal, const Case& the_case, WayDraft& draft) {
   const Bone& bone = the_case.bones[the_case.find(goal.rule.subjects.front()).index];
@@ -117,6 +132,8 @@ void plan_rows(const PlannedRule& goal, const Case& the_case, WayDraft& draft) {
     draft.legs.push_back(back);
     at = back.to_W;
   }
+  finish_rows(at, end - begin, draft);
+  at = draft.legs.back().to_W;
   draft.go(raised(at - 2 * r * inward, kWayOver_m), draft.inside());
   draft.legs.back().power = 0;
 }
