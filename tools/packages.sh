@@ -12,7 +12,7 @@ packages_build=(
 packages_test=(
   libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples plastimatch
-  postgresql libxml2-utils
+  postgresql libxml2-utils libopenal1
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
   libglpk-dev coinor-libclp-dev libopenvdb-dev)

@@ -94,6 +94,7 @@ std::string to_json(const AppSettings& s) {
                      {"light_azimuth_rad", s.light_azimuth_rad},
                      {"light_elevation_rad", s.light_elevation_rad},
                      {"light_brightness", s.light_brightness},
+                     {"sound_volume", s.sound_volume},
                      {"ambient_occlusion", s.ambient_occlusion},
                      {"device", s.device},
                      {"stiffness_n_per_m", s.stiffness_n_per_m},
@@ -126,6 +127,7 @@ Result<AppSettings> parse_app_settings(const std::string& text) {
   take(json, "light_azimuth_rad", s.light_azimuth_rad, -3.15, 3.15);
   take(json, "light_elevation_rad", s.light_elevation_rad, -1.6, 1.6);
   take(json, "light_brightness", s.light_brightness, 0.2, 2.0);
+  take(json, "sound_volume", s.sound_volume, 0.0, 1.0);
   take(json, "ambient_occlusion", s.ambient_occlusion, 0, 1);
   take(json, "device", s.device);
   take(json, "stiffness_n_per_m", s.stiffness_n_per_m, 200, 4000);

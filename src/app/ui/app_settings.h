@@ -36,6 +36,7 @@ struct AppSettings {
   double light_azimuth_rad = -0.7;
   double light_elevation_rad = 0.8;
   double light_brightness = 1;
+  double sound_volume = 0.5;  ///< 0 to 1
   double ambient_occlusion = 1;
   std::string device = "mouse";  ///< its driver's name
   double stiffness_n_per_m = 2000;

@@ -49,6 +49,11 @@ struct PaneModel {
   bool offers_scope = false;  ///< one can be taken with a click
 };
 
+struct SoundModel {
+  double volume = 0;    ///< 0 to 1
+  std::string problem;  ///< why nothing is heard; empty: nothing is wrong
+};
+
 /// A film of the window.
 struct ScreenFilmModel {
   bool on = false;
@@ -78,6 +83,7 @@ struct ViewsModel {
   ObserverModel observer;
   std::optional<WaterModel> water;  ///< none: no scope's picture is on show
   ScreenFilmModel film;
+  SoundModel sound;
 };
 
 /// What the user asked of them.
@@ -89,6 +95,7 @@ struct ViewsRequests {
   std::optional<WaterSettings> water;
   bool toggle_observer = false;
   bool toggle_film = false;
+  std::optional<double> sound_volume;
 };
 
 }  // namespace osteon

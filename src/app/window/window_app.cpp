@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -81,6 +82,7 @@ Result<void> WindowApp::run() {
   }
   checkup_.drop();
   film_.drop();
+  sound_.drop();
   return live_.end();
 }
 
@@ -104,6 +106,7 @@ void WindowApp::frame(double dt_s) {
   glFlush();
   const UiRequests requests = draw_ui(build_model(), host_.ui->fonts());
   host_.ui->end_frame();
+  make_sound();
   film_.poll();
   observer_.draw(picture_view());
   apply(requests);
@@ -187,6 +190,18 @@ ViewState WindowApp::picture_view() const {
   view.show_felt = view.show_felt && cases_.felt_known();
   bend_.hide_softs(view);
   return view;
+}
+
+void WindowApp::make_sound() {
+  SoundControl::Scene scene;
+  if (const LoadedReplay* const replay = replay_.replay())
+    scene = {{0, std::hash<std::string>()(replay->file.string())},
+             &replay->instruments,
+             &replay->events,
+             true};
+  else if (LiveRun* const run = live_.run())
+    scene = {{live_.runs_made(), run->run_number()}, &run->tray().names, &run->events(), false};
+  sound_.update(scene, views_.moment());
 }
 
 void WindowApp::draw_picture() {

@@ -13,6 +13,7 @@
 #include "window/controllers/sessions/run_marks.h"
 #include "window/controllers/views/film_control.h"
 #include "window/controllers/views/scene_pointer.h"
+#include "window/controllers/views/sound_control.h"
 #include "window/controllers/views/views_control.h"
 #include "window/window_order.h"
 
@@ -53,6 +54,7 @@ class WindowApp {
   void begin_ordered();
   void move_scene(double dt_s, double wheel);
   void draw_picture();
+  void make_sound();
   ViewState picture_view() const;  ///< as far as it can be drawn yet
   UiModel build_model();
   void apply(const UiRequests& requests);
@@ -81,6 +83,7 @@ class WindowApp {
   HandsControl hands_{host_, scene_, sight_, live_};
   ObserverControl observer_{host_, scene_};
   FilmControl film_{host_};
+  SoundControl sound_{host_, film_};
   ViewsControl views_{host_, scene_, sight_, live_, replay_, hands_, observer_};
   CaseControl cases_{host_, scene_, sight_, live_, replay_};
   EditControl edit_{host_, scene_, sight_, live_, cases_};

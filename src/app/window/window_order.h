@@ -21,6 +21,7 @@ struct WindowOrder {
   double interface_scale = 0;        ///< 0: the display's, times the user's zoom
   PictureLayout layout = PictureLayout::kOutside;  ///< to begin with
   std::optional<PictureLayout> observer;  ///< the second window begins with it; none: no window
+  bool sound = true;                      ///< through the loudspeaker
   std::filesystem::path film;             ///< of the window, from the first picture on; empty: none
   bool felt = false;                      ///< begins with bones coloured by what is felt
   bool softs = false;                     ///< begins with the soft parts shown

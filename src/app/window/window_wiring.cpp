@@ -92,6 +92,7 @@ UiModel WindowApp::build_model() {
   model.hands = hands_.model(!checkup_.running());
   model.views = views_.model();
   model.views.film = film_.model();
+  model.views.sound = sound_.model();
   model.hand.picture_hz = frames_.rate_hz();
   return model;
 }
@@ -144,6 +145,7 @@ void WindowApp::apply_scene(const UiRequests& requests) {
   sight_.apply(requests);
   views_.apply(requests.views);
   if (requests.views.toggle_film) film_.toggle();
+  sound_.apply(requests.views);
   if (requests.felt) cases_.choose_felt(*requests.felt);
   if (requests.bend && may_change_case()) bend_.apply(*requests.bend);
   notes_.apply(requests.notes, may_change_case());

@@ -38,6 +38,7 @@ AppSettings unusual() {
   s.light_azimuth_rad = 0.3;
   s.light_elevation_rad = -0.2;
   s.light_brightness = 1.4;
+  s.sound_volume = 0.2;
   s.ambient_occlusion = 0;
   s.device = "gamepad";
   s.left_card = 200;

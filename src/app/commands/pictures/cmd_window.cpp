@@ -27,6 +27,7 @@ void add_window_command(cli::App& app, int& exit_code) {
   const auto order = std::make_shared<WindowOrder>();
   const auto size = std::make_shared<std::string>(), layout = std::make_shared<std::string>(),
              observer = std::make_shared<std::string>();
+  const auto mute = std::make_shared<bool>(false);
   command
       ->add_option("--case,case", order->case_spec, "Case: a folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
@@ -46,6 +47,8 @@ void add_window_command(cli::App& app, int& exit_code) {
                    "Open a second window for observers that shows this; values as for --layout")
       ->check(cli::IsMember({"outside", "scope", "panorama", "layout", "fluoro"}));
   command->add_option("--film", order->film, "Film the window from the start to this file (.webm)");
+  command->add_flag("--mute", *mute,
+                    "Play nothing through the loudspeaker; films have their sound");
   command->add_flag(
       "--felt", order->felt,
       "Begin with the bones coloured by the distance of the felt surface from the visible one");
@@ -90,7 +93,7 @@ void add_window_command(cli::App& app, int& exit_code) {
   command
       ->add_option("--at", order->at_s, "Begin counting --frames at this simulated time, seconds")
       ->check(refuse_negative);
-  command->callback([order, size, layout, observer, soft, softs, &exit_code] {
+  command->callback([order, size, layout, observer, mute, soft, softs, &exit_code] {
     order->give_way = softs_named(*soft);
     order->softs = softs->count() > 0 && order->give_way.empty();
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
@@ -100,6 +103,7 @@ void add_window_command(cli::App& app, int& exit_code) {
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;
+    order->sound = !*mute && order->frames == 0;
     order->case_spec = absolute_spec(order->case_spec);
     exit_code = run_windows(*order);
   });

@@ -6,35 +6,12 @@
 
 #include "osteon/media/film_writer.h"
 #include "osteon/scene/carve_events.h"
-#include "osteon/scene/tool_set.h"
 #include "osteon/session/session.h"
 
 namespace osteon {
 namespace {
 
-constexpr double kFullLoad_n = 15;             // a hand that presses so hard loads a motor fully
-constexpr double kCuttingLoad = 0.3;           // the least while bone goes
-constexpr double kFullKnock_m_s = 0.15;        // of the hand when metal meets bone
 constexpr std::uint64_t kWarm = kSoundHz / 2;  // samples that are made before a part begins
-constexpr double kSlow_rpm = 500, kFast_rpm = 20000;
-
-/// What each place of a tray sounds like at full power.
-Result<std::vector<VoiceDrive>> voices_of(const std::vector<std::string>& tray) {
-  std::vector<VoiceDrive> voices(tray.size());
-  if (tray.empty()) return voices;
-  const auto instruments = load_instruments();
-  if (!instruments) return tl::unexpected(instruments.error());
-  for (std::size_t k = 0; k < tray.size(); ++k) {
-    const auto name = parse_tool_name(tray[k]);
-    const Instrument* instrument = name ? find_instrument(*instruments, name->name) : nullptr;
-    if (!instrument) continue;
-    voices[k].kind = voice_of(*instrument);
-    if (instrument->power && instrument->power->unit == "rpm")
-      voices[k].full_rpm = instrument->power->most;
-  }
-  return voices;
-}
-
 Result<std::vector<Event>> events_of(RecordingReader& recording) {
   std::vector<Event> events;
   while (true) {
@@ -49,17 +26,6 @@ Result<std::vector<Event>> events_of(RecordingReader& recording) {
 }
 
 }  // namespace
-
-VoiceKind voice_of(const Instrument& instrument) {
-  if (!instrument.power) return VoiceKind::kNone;
-  const PowerDef& power = *instrument.power;
-  if (power.kind == "current") return VoiceKind::kCautery;
-  if (power.kind == "suction") return VoiceKind::kSuction;
-  if (power.kind != "motor") return VoiceKind::kNone;
-  if (instrument.can(InstrumentFunction::kSuck)) return VoiceKind::kShaver;
-  if (power.most >= kFast_rpm) return VoiceKind::kBurr;
-  return power.most < kSlow_rpm ? VoiceKind::kReamer : VoiceKind::kDrill;
-}
 
 Result<RecordedSound> RecordedSound::create(RecordingReader& recording, double from_s) {
   const auto settings = parse_settings(recording.header().settings_json);
@@ -95,20 +61,14 @@ void RecordedSound::hear(const Event& event) {
       if (h < hands_.size())
         if (const auto tick = tick_of(h, event.tick); tick && *tick)
           speed = (*tick)->input.v_W.norm();
-      return synth_.cue(CueKind::kKnock, std::clamp(speed / kFullKnock_m_s, 0.05, 1.0));
+      return synth_.cue(CueKind::kKnock, knock_strength(speed));
     }
-    case EventKind::kForceOver:
-      return synth_.cue(CueKind::kAlarm);
-    case EventKind::kFault:
-      return synth_.cue(CueKind::kFault);
     case EventKind::kInstrumentTaken:
       return synth_.cue(CueKind::kExchange);
     default:
       break;
   }
-  const auto code = static_cast<int>(event.kind);
-  if (event.kind == kBreached) synth_.cue(CueKind::kThrough);
-  if (code >= 300 && code < 400) synth_.cue(CueKind::kBeep);
+  if (const auto cue = cue_of(event)) synth_.cue(*cue);
 }
 
 // What hands hold and drive follows from the events up to a tick; those before the begin are not
@@ -159,12 +119,8 @@ Result<void> RecordedSound::enter_tick(std::uint64_t tick) {
     if (!record) return tl::unexpected(record.error());
     VoiceDrive drive;
     const Hand& hand = hands_[h];
-    if (*record && hand.instrument < voices_.size()) {
-      drive = voices_[hand.instrument];
-      drive.power = hand.power;
-      const double pressed = (*record)->force_W.norm() / kFullLoad_n;
-      drive.load = std::max(pressed, hand.cutting ? kCuttingLoad : 0.0);
-    }
+    if (*record && hand.instrument < voices_.size())
+      drive = driven(voices_[hand.instrument], hand.power, (*record)->force_W.norm(), hand.cutting);
     synth_.drive(h, drive);
   }
   return {};

@@ -10,11 +10,9 @@
 #include "osteon/media/sound_synth.h"
 #include "osteon/record/recording.h"
 #include "osteon/scene/instrument.h"
+#include "runs/hands/instrument_voice.h"
 
 namespace osteon {
-
-/// What an instrument sounds like under power, by its numbers; kNone: nothing.
-VoiceKind voice_of(const Instrument& instrument);
 
 /// The sound of a recording, from its events and the forces of its hands alone: nothing is
 /// repeated. The same recording gives the same samples.

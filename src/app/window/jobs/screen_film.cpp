@@ -1,6 +1,7 @@
 #include "window/jobs/screen_film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <system_error>
@@ -37,7 +38,7 @@ Result<std::unique_ptr<ScreenFilm>> ScreenFilm::begin(const std::filesystem::pat
                                                       int height) {
   width = std::clamp(width, kLeastFilmSide, kMostFilmSide);
   height = std::clamp(height, kLeastFilmSide, kMostFilmSide);
-  auto writer = FilmWriter::create(file, {width, height, kFps, false});
+  auto writer = FilmWriter::create(file, {width, height, kFps, true});
   if (!writer) return tl::unexpected(writer.error());
   return std::unique_ptr<ScreenFilm>(new ScreenFilm(std::move(*writer), file, width, height));
 }
@@ -79,6 +80,12 @@ void ScreenFilm::add(double time_s, Image image) {
   changed_.notify_all();
 }
 
+void ScreenFilm::hear(std::span<const float> samples) {
+  if (ending_ || done()) return;
+  const std::scoped_lock lock(mutex_);
+  sound_.insert(sound_.end(), samples.begin(), samples.end());
+}
+
 void ScreenFilm::end(double time_s) {
   if (std::exchange(ending_, true)) return;
   {
@@ -98,6 +105,19 @@ bool ScreenFilm::take(Picture& next) {
   return true;
 }
 
+/// Of one picture. Where there is too little sound, the rest is silent.
+Result<void> ScreenFilm::write_sound() {
+  std::array<float, kSoundHz / kFps> samples{};
+  {
+    const std::scoped_lock lock(mutex_);
+    const std::size_t count = std::min(samples.size(), sound_.size());
+    const auto end = sound_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::copy(sound_.begin(), end, samples.begin());
+    sound_.erase(sound_.begin(), end);
+  }
+  return writer_.add_sound(samples);
+}
+
 /// A picture is shown from where the one before ends; that one fills what was left out between.
 void ScreenFilm::run() {
   try {
@@ -105,7 +125,8 @@ void ScreenFilm::run() {
     Picture next;
     const auto show_until = [&](std::uint64_t until) {
       while (result_ && !shown.rgb.empty() && written_ < until) {
-        result_ = writer_.add_picture(shown.rgb);
+        result_ = write_sound();
+        if (result_) result_ = writer_.add_picture(shown.rgb);
         if (result_) ++written_;
       }
     };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <thread>
 
 #include "osteon/base/result.h"
@@ -15,7 +16,7 @@
 
 namespace osteon {
 
-/// A film of the window as it is drawn, without sound, encoded on a thread of its own. Where
+/// A film of the window as it is drawn, with its sound, encoded on a thread of its own. Where
 /// pictures come late or the encoder is slow, the one before stays longer: the film keeps its time.
 class ScreenFilm {
  public:
@@ -34,6 +35,9 @@ class ScreenFilm {
   /// The window then. One of another size (the window was resized) is put in the film's middle, cut
   /// or with black around it. Where the encoder is behind, the picture is left out.
   void add(double time_s, Image image);
+  /// The sound that follows what was told before, from the film's begin on. Before the picture of
+  /// its end is added.
+  void hear(std::span<const float> samples);
   /// Ends the film at that time; `done` once the rest is written.
   void end(double time_s);
   bool ending() const { return ending_; }
@@ -55,6 +59,7 @@ class ScreenFilm {
   };
   ScreenFilm(FilmWriter writer, std::filesystem::path file, int width, int height);
   void run();
+  Result<void> write_sound();
   bool take(Picture& next);
 
   FilmWriter writer_;
@@ -65,7 +70,8 @@ class ScreenFilm {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Picture> waiting_;
-  bool closed_ = false;  ///< nothing more comes
+  std::deque<float> sound_;  ///< not written yet
+  bool closed_ = false;      ///< nothing more comes
   std::atomic<std::uint64_t> written_{0};
   std::atomic<bool> done_{false};
   Result<void> result_;

@@ -33,7 +33,7 @@ constexpr std::array<PresetButton, 6> kKneePresets = {{
     {"Lateral", ViewPreset::kRadial, "From the outer side, where the fibula is (3)"},
     {"Medial", ViewPreset::kUlnar, "From the inner side, where the other knee is (4)"},
     kAp,
-    {"X-ray, side", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
+    {"X-ray side", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
 }};
 
 void draw_presets(const PanelContext& c) {
@@ -92,6 +92,7 @@ void draw_view_section(const PanelContext& c) {
   draw_presets(c);
   ImGui::Dummy({0, c.px(2)});
   draw_observer_section(c);
+  draw_sound_section(c);
   draw_water_section(c);
 }
 

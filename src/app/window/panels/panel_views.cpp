@@ -133,6 +133,19 @@ void draw_water_section(const PanelContext& c) {
   if (changed) c.requests.views.water = {kPa_per_mmHg * pump_mmhg, 0.01 * outlet_percent};
 }
 
+void draw_sound_section(const PanelContext& c) {
+  const SoundModel& sound = c.model.views.sound;
+  if (!sound.problem.empty() && sound.volume > 0) {
+    ui::text(color::kTextQuiet, "No sound");
+    ui::tooltip(sound.problem.c_str());
+    return;
+  }
+  double percent = 100 * sound.volume;
+  if (ui::slider("Sound", &percent, 0, 100, "%.0f %%",
+                 "Volume of motors, suction, knocks and alarms; 0 is silent"))
+    c.requests.views.sound_volume = percent / 100;
+}
+
 std::string film_label(const ScreenFilmModel& film) {
   if (!film.on) return "Film";
   const std::string size = ui::number(film.megabytes, 1) + " MB";
@@ -146,7 +159,7 @@ void draw_film_button(const PanelContext& c) {
     c.requests.views.toggle_film = true;
   ImGui::EndDisabled();
   ui::tooltip(film.on ? ("Ends the film: " + film.file + " (F4)").c_str()
-                      : "A film of this window, without sound, that browsers play (F4)");
+                      : "A film of this window, with its sound, that browsers play (F4)");
 }
 
 void read_layout_keys(const PanelContext& c) {

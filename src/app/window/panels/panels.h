@@ -51,6 +51,7 @@ void draw_panes(const PanelContext& c);     // names and messages of the picture
 void draw_layout_chooser(const PanelContext& c, bool wide);
 float layout_chooser_width(const PanelContext& c, bool wide);
 void draw_observer_section(const PanelContext& c);
+void draw_sound_section(const PanelContext& c);
 void draw_water_section(const PanelContext& c);  // of a scope's picture
 std::string film_label(const ScreenFilmModel& film);
 void draw_film_button(const PanelContext& c);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "media/read_film.h"
 
@@ -68,6 +70,33 @@ TEST_F(ScreenFilms, KeepTheirTimeWherePicturesComeLate) {
   EXPECT_GT(middle(10), 150);
   EXPECT_GT(middle(14), 150);
   EXPECT_LT(read.pictures[14][0], 60) << "black around a smaller window";
+}
+
+// A tone from the second picture on; the sound of the last ones is missing.
+TEST_F(ScreenFilms, HaveTheSoundThatTheyWereTold) {
+  auto film = ScreenFilm::begin(file_, 64, 48);
+  if (!film) GTEST_SKIP() << film.error().message();
+  std::vector<float> silence(kSoundHz / 2), tone(kSoundHz / 2);
+  for (std::size_t k = 0; k < tone.size(); ++k)
+    tone[k] = 0.5f * static_cast<float>(
+                         std::sin(2 * std::numbers::pi * 1000 * static_cast<double>(k) / kSoundHz));
+  (*film)->hear(silence);
+  (*film)->hear(tone);
+  Image grey{64, 48, std::vector<std::uint8_t>(64 * 48 * 3, 90)};
+  (*film)->add(0, grey);
+  (*film)->end(1.5);
+  ASSERT_TRUE((*film)->wait());
+  film->reset();
+  const ReadFilm read = read_film(file_.string());
+  EXPECT_EQ(read.sound_hz, 48000);
+  ASSERT_GT(read.sound.size(), 1.4 * kSoundHz);
+  const auto part = [&](double from_s, double to_s) {
+    return std::vector<float>(read.sound.begin() + static_cast<long>(from_s * kSoundHz),
+                              read.sound.begin() + static_cast<long>(to_s * kSoundHz));
+  };
+  EXPECT_LT(level_at(part(0.1, 0.4), 1000, kSoundHz), 0.02);
+  EXPECT_NEAR(level_at(part(0.6, 0.9), 1000, kSoundHz), 0.5, 0.1);
+  EXPECT_LT(level_at(part(1.1, 1.4), 1000, kSoundHz), 0.02);
 }
 
 TEST_F(ScreenFilms, AreWholeWhenTheWindowCloses) {

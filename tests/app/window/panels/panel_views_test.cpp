@@ -79,10 +79,10 @@ TEST(PanelViews, TheFilmButtonTellsTimeAndSizeAndTheSecondWindowsViewIsChosen) {
   EXPECT_FALSE(ui.click_for_views(ui.find("##top", {"###film"})).toggle_film);
 }
 
-// Presses a slider a little right of its left end.
-std::optional<WaterSettings> press_water(UiFrame& ui, const char* slider) {
+// Presses a slider a little right of its left end; nothing where there is none.
+ViewsRequests press_slider(UiFrame& ui, const char* slider) {
   const ImVec2 at = ui.find("##case", {slider});
-  if (at.x < 0) return std::nullopt;
+  if (at.x < 0) return {};
   ImGuiIO& io = ImGui::GetIO();
   io.MousePos = {at.x + 20, at.y};
   ui.draw();
@@ -90,7 +90,10 @@ std::optional<WaterSettings> press_water(UiFrame& ui, const char* slider) {
   const UiRequests pressed = ui.draw();
   io.MouseDown[0] = false;
   ui.draw();
-  return pressed.views.water;
+  return pressed.views;
+}
+std::optional<WaterSettings> press_water(UiFrame& ui, const char* slider) {
+  return press_slider(ui, slider).water;
 }
 
 TEST(ViewsPanel, TheWaterIsSetWhereAScopeIsOnShow) {
@@ -107,6 +110,18 @@ TEST(ViewsPanel, TheWaterIsSetWhereAScopeIsOnShow) {
   ASSERT_TRUE(opened);
   EXPECT_NE(opened->outlet_open, 0.25);
   EXPECT_NEAR(opened->pump_pa, 8000, 1e-9);
+}
+
+TEST(ViewsPanel, TheVolumeIsSetUnlessNothingCanBeHeard) {
+  UiFrame ui;
+  fill(ui);
+  ui.model.views.sound = {0.9, ""};
+  const auto set = press_slider(ui, "##Sound").sound_volume;
+  ASSERT_TRUE(set);
+  EXPECT_GT(*set, 0);
+  EXPECT_LT(*set, 0.9);
+  ui.model.views.sound.problem = "OpenAL was not found";
+  EXPECT_FALSE(press_slider(ui, "##Sound").sound_volume);
 }
 
 }  // namespace

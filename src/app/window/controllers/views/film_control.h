@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "window/controllers/window_host.h"
 #include "window/jobs/screen_film.h"
@@ -15,6 +16,10 @@ class FilmControl {
   explicit FilmControl(WindowHost& host) : host_(host) {}
   void begin(const std::filesystem::path& file);
   void toggle();
+  /// What the window sounded like since it was told last.
+  void hear(std::span<const float> samples) {
+    if (film_) film_->hear(samples);
+  }
   /// After all of the window is drawn.
   void poll();
   /// Ends it and waits until it is written.

@@ -33,10 +33,11 @@ class ViewsControl {
   void picture_took(double picture_s);
   void apply(const ViewsRequests& requests);
   ViewsModel model() const;
+  /// What is on show now.
+  FilmMoment moment() const;
 
  private:
   std::vector<ToolState> others() const;
-  FilmMoment moment() const;
   CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
   void show_softs();
