@@ -84,7 +84,7 @@ const Arrows& rooms() {
       {"water", {}},
       {"runs", {"cases", "loops", "water"}},
       {"ui", {"cases", "loops", "runs"}},
-      {"exercises", {"cases", "loops", "runs"}},
+      {"exercises", {"cases", "loops", "runs", "water"}},
       {"window", {"cases", "checkup", "exercises", "loops", "runs", "ui", "water"}},
       {"segment", {"cases", "loops", "ui"}},
       {"commands", {"cases", "checkup", "exercises", "loops", "runs", "water"}},
@@ -125,6 +125,51 @@ TEST(Arrows, RoomsOfTheProgramFollowTheirTable) {
           << entry.path() << " includes " << target << ", which " << room << " may not";
   }
   EXPECT_GT(files, 150);
+}
+
+// The page's table of rooms, one text for each module: "| mesh | io | ... |" and the rows below it
+// that leave the module out.
+std::map<std::string, std::string> rooms_of_page() {
+  std::ifstream in(fs::path(OSTEON_SOURCE_DIR) / "docs/architecture.md");
+  std::map<std::string, std::string> rooms;
+  std::string module;
+  bool within = false;
+  static const std::regex row(R"re(^\|([^|]*)\|(.*)$)re");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("## ")) within = line == "## Rooms";
+    std::smatch match;
+    if (!within || !std::regex_match(line, match, row)) continue;
+    const std::string first = std::regex_replace(match[1].str(), std::regex("\\s+"), "");
+    if (!first.empty()) module = first;
+    rooms[module] += match[2].str() + "\n";
+  }
+  return rooms;
+}
+
+bool names_word(const std::string& text, const std::string& word) {
+  return std::regex_search(text, std::regex("\\b" + word + "\\b"));
+}
+
+// Who looks for a file finds its folder on the page: no folder of sources is left out.
+TEST(Arrows, EveryFolderOfSourcesIsOnThePageOfTheArchitecture) {
+  const auto rooms = rooms_of_page();
+  const fs::path top = fs::path(OSTEON_SOURCE_DIR) / "src";
+  int found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(top)) {
+    if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+    const fs::path folder = fs::relative(entry.path(), top).parent_path();
+    auto part = folder.begin();
+    if (part == folder.end()) continue;
+    const std::string module = part->string();
+    EXPECT_TRUE(module == "app" || allowed().contains(module)) << module;
+    for (++part; part != folder.end(); ++part) {
+      const auto page = rooms.find(module);
+      ASSERT_NE(page, rooms.end()) << folder << ": docs/architecture.md names no rooms of it";
+      EXPECT_TRUE(names_word(page->second, part->string())) << folder;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 100);
 }
 
 TEST(Arrows, ThreadsAppearInAppAndBaseOnly) {

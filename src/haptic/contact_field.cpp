@@ -122,8 +122,8 @@ std::size_t ContactField::parts_beside(bool field) const {
   return whole() ? tool_.parts.size() : tool_.bodies.size();
 }
 
-Surroundings ContactField::surroundings() const {
-  return Surroundings(broad_phase_, stretches_, tool_radius_);
+ToolVicinity ContactField::vicinity() const {
+  return ToolVicinity(broad_phase_, stretches_, tool_radius_);
 }
 
 // False when the list is full.
@@ -151,7 +151,7 @@ bool ContactField::add_found(const PieceRef& found, std::uint32_t part, Candidat
 }
 
 bool ContactField::collect(const ToolReach& reach, std::span<const Pose> before_WB,
-                           std::span<const Pose> now_WB, Surroundings& around,
+                           std::span<const Pose> now_WB, ToolVicinity& around,
                            CandidateList& out) const {
   out.count = 0;
   out.field_count = 0;

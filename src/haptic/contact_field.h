@@ -13,7 +13,7 @@
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/tool.h"
-#include "surroundings.h"
+#include "tool_vicinity.h"
 
 namespace osteon {
 
@@ -74,12 +74,12 @@ class ContactField {
   bool whole() const { return !tool_.parts.empty(); }
 
   /// For `collect`, to keep from tick to tick. This must outlive it.
-  Surroundings surroundings() const;
+  ToolVicinity vicinity() const;
 
   /// Pairs that may touch while the tool is within `reach`, with each bone anywhere between its two
   /// poses, in the order of pairs(). False when there are more than the list holds.
   bool collect(const ToolReach& reach, std::span<const Pose> before_WB,
-               std::span<const Pose> now_WB, Surroundings& around, CandidateList& out) const;
+               std::span<const Pose> now_WB, ToolVicinity& around, CandidateList& out) const;
 
   /// Counts looks at carved bones: each costs so much that a tick has only so many.
   struct Looks {

@@ -70,7 +70,7 @@ class ProxySolver {
  public:
   ProxySolver(const ContactField& field, const Tool& tool,
               std::span<const std::shared_ptr<const Tool>> tray)
-      : field_(field), around_(field.surroundings()), walls_(field), tools_(tool, tray) {}
+      : field_(field), around_(field.vicinity()), walls_(field), tools_(tool, tray) {}
   /// `memory`: of kMaxCandidates pairs, those that were near, in their order. Nothing else that a
   /// move leaves changes the next.
   ProxyMove move(const ProxyTask& wanted, std::span<PairMemory> memory);
@@ -129,7 +129,7 @@ class ProxySolver {
   double gap_of(std::uint32_t i) const { return i < bone_planes() ? plane_of(i).gap : 0; }
 
   const ContactField& field_;
-  Surroundings around_;
+  ToolVicinity around_;
   std::array<PairMemory, kMaxCandidates> last_{};  ///< for recall
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};

@@ -188,7 +188,7 @@ TEST(WholeToolSearch, FindsEveryPairThatIsNear) {
   tool.parts.push_back(
       make_box({Vec3(0, 0.01, 0.04), random.rotation()}, Vec3(0.006, 0.001, 0.002)));
   const ContactField field(the_case, tool);
-  Surroundings around = field.surroundings();
+  ToolVicinity around = field.vicinity();
   const std::vector<Pose> X_WB(2);
   std::size_t found = 0;
   for (int i = 0; i < 400; ++i) {

@@ -6,6 +6,7 @@
 
 #include "exercises/attempt_pause.h"
 #include "exercises/tunnel_watch.h"
+#include "exercises/water_watch.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
@@ -14,7 +15,6 @@
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
-#include "water/water_watch.h"
 
 namespace osteon {
 

@@ -1,4 +1,4 @@
-#include "surroundings.h"
+#include "tool_vicinity.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +17,7 @@ double farthest_way(const Pose& before, const Pose& now, double radius) {
 
 }  // namespace
 
-Surroundings::Surroundings(const BroadPhase& broad_phase, std::span<const ToolStretch> stretches,
+ToolVicinity::ToolVicinity(const BroadPhase& broad_phase, std::span<const ToolStretch> stretches,
                            double tool_radius)
     : broad_phase_(broad_phase),
       stretches_(stretches),
@@ -27,14 +27,14 @@ Surroundings::Surroundings(const BroadPhase& broad_phase, std::span<const ToolSt
   near_.reserve(stretches.size() * broad_phase.bone_count());
 }
 
-SweptSphere Surroundings::ball(std::uint32_t stretch, const Pose& X_WT) const {
+SweptSphere ToolVicinity::ball(std::uint32_t stretch, const Pose& X_WT) const {
   const ToolStretch& s = stretches_[stretch];
   return {X_WT * s.from, X_WT * s.to, s.radius};
 }
 
 // How much nearer than at the last look at all any stretch and any bone can be, and a margin reach,
 // m: infinity where a bone alone goes too far, not a number where the tool's pose is none.
-double Surroundings::approach(const Pose& X_WT, std::span<const Pose> X_WB, double margin) const {
+double ToolVicinity::approach(const Pose& X_WT, std::span<const Pose> X_WB, double margin) const {
   constexpr double kRounding = 1e-8;
   double most = 0;
   for (std::size_t b = 0; b < X_WB_.size(); ++b) {
@@ -47,13 +47,13 @@ double Surroundings::approach(const Pose& X_WT, std::span<const Pose> X_WB, doub
   return most + farthest_way(X_WT_, X_WT, tool_radius_) + (margin - margin_) + kRounding;
 }
 
-void Surroundings::look(const Pose& X_WT, std::span<const Pose> X_WB, double margin) {
+void ToolVicinity::look(const Pose& X_WT, std::span<const Pose> X_WB, double margin) {
   if (spare_ >= 0 && approach(X_WT, X_WB, margin) < spare_) return;
   look_at_all(X_WT, X_WB, margin);
 }
 
 // A query makes the stretch's own list know how far the bone is.
-void Surroundings::look_at_all(const Pose& X_WT, std::span<const Pose> X_WB, double margin) {
+void ToolVicinity::look_at_all(const Pose& X_WT, std::span<const Pose> X_WB, double margin) {
   near_.clear();
   spare_ = std::numeric_limits<double>::infinity();
   for (std::uint32_t s = 0; s < stretches_.size(); ++s) {
@@ -72,7 +72,7 @@ void Surroundings::look_at_all(const Pose& X_WT, std::span<const Pose> X_WB, dou
   margin_ = margin;
 }
 
-std::size_t Surroundings::query(const StretchBesideBone& which, const SweptSphere& ball,
+std::size_t ToolVicinity::query(const StretchBesideBone& which, const SweptSphere& ball,
                                 std::span<const Pose> X_WB, double margin,
                                 std::span<PieceRef> out) {
   return broad_phase_.query_bone(which.bone, X_WB[which.bone], ball, margin, out, 0,

@@ -26,10 +26,10 @@ struct StretchBesideBone {
 /// is not looked at again before it may have come near (Verlet's list, Physical Review 159, 1967).
 /// It changes what a look costs, never what it finds. For one caller at a time; allocates in its
 /// constructor only.
-class Surroundings {
+class ToolVicinity {
  public:
   /// `stretches` and `broad_phase` must outlive this. `tool_radius`: of the tool about its origin.
-  Surroundings(const BroadPhase& broad_phase, std::span<const ToolStretch> stretches,
+  ToolVicinity(const BroadPhase& broad_phase, std::span<const ToolStretch> stretches,
                double tool_radius);
 
   /// Makes `near()` hold every stretch and bone that may come within `margin` of each other.

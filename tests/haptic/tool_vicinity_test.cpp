@@ -1,4 +1,4 @@
-#include "surroundings.h"
+#include "tool_vicinity.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ struct SeenPiece {
   bool operator==(const SeenPiece&) const = default;
 };
 
-std::vector<SeenPiece> seen_by(Surroundings& around, const Pose& X_WT, std::span<const Pose> X_WB,
+std::vector<SeenPiece> seen_by(ToolVicinity& around, const Pose& X_WT, std::span<const Pose> X_WB,
                                double margin) {
   std::vector<SeenPiece> out;
   around.look(X_WT, X_WB, margin);
@@ -52,7 +52,7 @@ std::vector<SeenPiece> seen_by(Surroundings& around, const Pose& X_WT, std::span
   return out;
 }
 
-std::vector<SeenPiece> all_of(const Surrounded& s, const Surroundings& around, const Pose& X_WT,
+std::vector<SeenPiece> all_of(const Surrounded& s, const ToolVicinity& around, const Pose& X_WT,
                               std::span<const Pose> X_WB, double margin) {
   std::vector<SeenPiece> out;
   std::array<PieceRef, 128> pieces;
@@ -63,9 +63,9 @@ std::vector<SeenPiece> all_of(const Surrounded& s, const Surroundings& around, c
   return out;
 }
 
-TEST(Surroundings, OfAPoseThatIsNoNumberAreEverything) {
+TEST(ToolVicinity, OfAPoseThatIsNoNumberAreEverything) {
   Surrounded s;
-  Surroundings around(s.broad, s.stretches, 0.1);
+  ToolVicinity around(s.broad, s.stretches, 0.1);
   Pose X_WT;
   (void)seen_by(around, X_WT, s.X_WB, 0.001);
   X_WT.p.x() = std::numeric_limits<double>::quiet_NaN();
@@ -78,9 +78,9 @@ TEST(Surroundings, OfAPoseThatIsNoNumberAreEverything) {
 
 // Tool and bones wander by steps of all sizes, and the margin changes: what is found is what a
 // search over everything finds, in the same order.
-TEST(Surroundings, AreThoseOfASearchOverAll) {
+TEST(ToolVicinity, AreThoseOfASearchOverAll) {
   Surrounded s;
-  Surroundings around(s.broad, s.stretches, 0.1);
+  ToolVicinity around(s.broad, s.stretches, 0.1);
   Random random(8);
   Pose X_WT{Vec3(0.02, 0, 0), Quat::Identity()};
   std::size_t found = 0;

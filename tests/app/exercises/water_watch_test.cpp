@@ -1,4 +1,4 @@
-#include "water/water_watch.h"
+#include "exercises/water_watch.h"
 
 #include <gtest/gtest.h>
 
