@@ -128,6 +128,7 @@ Scenario read_scenario(TomlTable& table) {
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
   scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);
+  scenario.ghost = table.flag_or("ghost", scenario.ghost);
   scenario.sides = table.texts_or_empty("sides");
   for (const std::string& side : scenario.sides)
     if (side != "left" && side != "right")

@@ -60,6 +60,7 @@ void decide(SkillStudy& study) {
     const auto mark = contrasting_groups(experts, novices);
     if (mark) sum += mark->mark;
     marks += mark ? 1 : 0;
+    study.without_mark += mark ? 0 : 1;
     // Groups that do not part set no mark: nobody passes.
     study.passed.push_back(mark && score >= mark->mark);
     return study.passed.back();

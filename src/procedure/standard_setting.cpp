@@ -59,7 +59,9 @@ Result<ContrastingMark> contrasting_groups(const std::vector<double>& experts,
   if (experts.size() < 2 || novices.size() < 2)
     return fail("each group needs two scores", "contrasting groups");
   const Spread e = spread_of(experts), n = spread_of(novices);
-  if (!(e.sd > 0) || !(n.sd > 0))
+  // Of equal scores the rounding of their mean leaves a spread as well.
+  const auto spreads = [](const Spread& s) { return s.sd > 1e-9 * (1 + std::abs(s.mean)); };
+  if (!spreads(e) || !spreads(n))
     return fail("a group's scores are all the same", "contrasting groups");
   double hi = e.mean, lo = n.mean;
   const auto expert_likelier = [&](double x) { return log_density(x, e) > log_density(x, n); };

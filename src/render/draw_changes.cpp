@@ -30,6 +30,10 @@ bool looks_the_same(const ToolState& a, const ToolState& b) {
   return true;
 }
 
+bool looks_the_same(const GhostTool& a, const GhostTool& b) {
+  return same(a.X_WT, b.X_WT) && a.instrument == b.instrument && a.opacity == b.opacity;
+}
+
 Viewport grown(const Viewport& r, int by, int width, int height) {
   const int x = std::max(r.x - by, 0), y = std::max(r.y - by, 0);
   return {x, y, std::min(r.x + r.width + by, width) - x, std::min(r.y + r.height + by, height) - y};
@@ -125,6 +129,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
   changed = std::move(tiles);
   composed = snapshot.tool;
   composed_others.assign(painter.others().begin(), painter.others().end());
+  composed_ghosts.assign(painter.ghosts().begin(), painter.ghosts().end());
   return true;
 }
 
@@ -153,10 +158,13 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
     return;
   }
   if (!kept_ready && !keep(snapshot, still_view, width, height)) return draw_all();
-  const bool shown = composed && composed_view == view &&
-                     looks_the_same(*composed, snapshot.tool) &&
-                     std::equal(composed_others.begin(), composed_others.end(),
-                                painter.others().begin(), painter.others().end(), looks_the_same);
+  const auto alike = [](const auto& a, const auto& b) { return looks_the_same(a, b); };
+  const auto all_alike = [&](const auto& before, const auto& now) {
+    return std::equal(before.begin(), before.end(), now.begin(), now.end(), alike);
+  };
+  const bool shown =
+      composed && composed_view == view && looks_the_same(*composed, snapshot.tool) &&
+      all_alike(composed_others, painter.others()) && all_alike(composed_ghosts, painter.ghosts());
   if (!shown && !compose(snapshot, view, width, height)) return draw_all();
   composed_view = view;
   drew_all = false;

@@ -178,6 +178,8 @@ void Renderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
 
 void Renderer::set_others(std::span<const ToolState> others) { impl_->painter.set_others(others); }
 
+void Renderer::set_ghosts(std::span<const GhostTool> ghosts) { impl_->painter.set_ghosts(ghosts); }
+
 void Renderer::set_moving_detail(double share) {
   impl_->moving_detail = std::isfinite(share) ? std::clamp(share, 0.25, 1.0) : 1.0;
 }

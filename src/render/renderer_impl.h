@@ -42,6 +42,7 @@ struct Renderer::Impl {
   TileMask changed{};                   ///< where `full.resolved` is not `kept_picture`
   std::optional<ToolState> composed{};  ///< the tool that `full.resolved` shows over `kept_picture`
   std::vector<ToolState> composed_others{};
+  std::vector<GhostTool> composed_ghosts{};
   ViewState composed_view{};
 
   /// Draws one tile of the picture into the viewport of `framebuffer`.

@@ -272,6 +272,12 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
   include_tool(snapshot.tool, snapshot.tool.X_WP);
   include_tool(snapshot.tool, snapshot.tool.X_WD);
   for (const ToolState& other : others_) include_tool(other, other.X_WP);
+  for (const GhostTool& ghost : ghosts_) {
+    if (!view.show_proxy) break;
+    const ToolModel& tool = model_at(ghost.instrument);
+    include(ghost.X_WT.p, 2 * tool.tip_radius_m);
+    include(ghost.X_WT * Vec3(0, 0, tool.length_m), 0.01);
+  }
   if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
     include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
   for (const Solid& solid : solids_) {
@@ -330,8 +336,9 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   glDepthMask(GL_TRUE);
   paint_opaque_bones(snapshot, view, frame);
   if (view.show_proxy) {
-    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WP, 1, frame);
-    for (const ToolState& other : others_) paint_tool(model_of(other), other.X_WP, 1, frame);
+    const Color steel = with_alpha(kSteel, 1);
+    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WP, steel, frame);
+    for (const ToolState& other : others_) paint_tool(model_of(other), other.X_WP, steel, frame);
   }
   paint_rods(snapshot, frame);
   paint_outlines(snapshot, view, frame, false);
@@ -345,7 +352,8 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   if (!solids_.empty()) paint_solid_marks(frame);
   paint_lines(snapshot, frame);
   if (shows_hand(snapshot, view))
-    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, 0.30f, frame);
+    paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, with_alpha(kSteel, 0.30f), frame);
+  if (view.show_proxy) paint_ghosts(frame);
   if (view.show_force) paint_marks(snapshot, frame);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -543,13 +551,13 @@ void ScenePainter::paint_hulls(const RenderSnapshot& snapshot, const ViewState& 
   glDepthMask(GL_TRUE);
 }
 
-void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity,
+void ScenePainter::paint_tool(const ToolModel& tool, const Pose& X_WT, const Color& color,
                               const Frame& frame) const {
   if (tool.mesh.empty() || !is_finite(X_WT)) return;
   shared_->metal.use();
   shared_->metal.set("u_view_from_model", to_matrix(frame.X_CW * X_WT));
-  shared_->metal.set("u_color", with_alpha(kSteel, opacity));
-  if (opacity >= 1) return tool.mesh.draw();
+  shared_->metal.set("u_color", color);
+  if (color.w() >= 1) return tool.mesh.draw();
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glDepthMask(GL_FALSE);

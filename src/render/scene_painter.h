@@ -50,6 +50,9 @@ class ScenePainter {
     others_.assign(others.begin(), others.end());
   }
   std::span<const ToolState> others() const { return others_; }
+  /// Of those given only those that can be seen are kept.
+  void set_ghosts(std::span<const GhostTool> ghosts);
+  std::span<const GhostTool> ghosts() const { return ghosts_; }
   void set_marks(std::span<const SolidMark> marks);
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
@@ -79,10 +82,11 @@ class ScenePainter {
     Vec3 shaft_T = Vec3::Zero();  ///< the shaft runs along z through here, in Tool
   };
   static ToolModel make_tool_model(const Tool& tool);
-  const ToolModel& model_of(const ToolState& tool) const {
+  const ToolModel& model_at(std::uint32_t instrument) const {
     const std::vector<ToolModel>& tools = shared_->tools;
-    return tools[tool.instrument < tools.size() ? tool.instrument : 0];
+    return tools[instrument < tools.size() ? instrument : 0];
   }
+  const ToolModel& model_of(const ToolState& tool) const { return model_at(tool.instrument); }
   /// How far from the tool its shade falls on bone: by closeness, and as a shadow along the light.
   struct ShadeReach {
     double near_m = 0, shadow_m = 0;
@@ -157,7 +161,9 @@ class ScenePainter {
   void paint_clear_bones(const RenderSnapshot& snapshot, const ViewState& view,
                          const Frame& frame) const;
   void paint_hulls(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
-  void paint_tool(const ToolModel& tool, const Pose& X_WT, float opacity, const Frame& frame) const;
+  void paint_tool(const ToolModel& tool, const Pose& X_WT, const Eigen::Vector4f& color,
+                  const Frame& frame) const;
+  void paint_ghosts(const Frame& frame) const;
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model,
                   float behind = 0.22f) const;
@@ -177,6 +183,7 @@ class ScenePainter {
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<ToolState> others_;
+  std::vector<GhostTool> ghosts_;
   struct Solid {
     GpuMesh surface;
     Eigen::Vector4f color;

@@ -16,6 +16,8 @@ using Color = Eigen::Vector4f;
 const Color kAmber(1.00f, 0.70f, 0.20f, 1.0f);
 constexpr double kGhostFrom_m = 2e-4;     // hand and proxy closer than this are drawn as one
 constexpr double kGhostFrom_rad = 0.035;  // 2 degrees
+const Color kGhostTint(0.35f, 0.72f, 1.0f, 1.0f);
+constexpr float kGhostSeen = 0.02f, kGhostMost = 0.8f;  // opacity
 constexpr double kArrowRadius_m = 0.0007;
 constexpr double kArrowHeadWidths = 2.4;
 constexpr double kContactRadius_m = 0.0006;
@@ -36,6 +38,21 @@ void ScenePainter::set_marks(std::span<const SolidMark> marks) {
     const auto& c = mark.color_srgba;
     solids_.push_back({GpuMesh(plain_shaded(mark.mesh_W)), Color(c[0], c[1], c[2], c[3]),
                        finite_bounds(mark.mesh_W)});
+  }
+}
+
+void ScenePainter::set_ghosts(std::span<const GhostTool> ghosts) {
+  ghosts_.clear();
+  for (const GhostTool& ghost : ghosts)
+    if (ghost.opacity >= kGhostSeen && is_finite(ghost.X_WT)) ghosts_.push_back(ghost);
+}
+
+/// Never quite solid, so that it is not taken for an instrument that can be felt.
+void ScenePainter::paint_ghosts(const Frame& frame) const {
+  for (const GhostTool& ghost : ghosts_) {
+    Color color = kGhostTint;
+    color.w() = std::min(ghost.opacity, kGhostMost);
+    paint_tool(model_at(ghost.instrument), ghost.X_WT, color, frame);
   }
 }
 

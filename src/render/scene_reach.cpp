@@ -133,12 +133,16 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
                                     const Frame& frame, int width, int height) const {
   TileMask mask(width, height);
   Marker marker(frame, width, height, mask);
-  const auto mark_tool = [&](const ToolState& state, const Pose& X_WT) {
+  const auto mark_model = [&](const ToolModel& tool, const Pose& X_WT) {
     const Pose X_CT = frame.X_CW * X_WT;
     if (!is_finite(X_CT)) return;
-    for (const Capsule& c : model_of(state).capsules)
-      marker.capsule(X_CT * c.a, X_CT * c.b, c.radius_m);
+    for (const Capsule& c : tool.capsules) marker.capsule(X_CT * c.a, X_CT * c.b, c.radius_m);
   };
+  const auto mark_tool = [&](const ToolState& state, const Pose& X_WT) {
+    mark_model(model_of(state), X_WT);
+  };
+  if (view.show_proxy)
+    for (const GhostTool& ghost : ghosts_) mark_model(model_at(ghost.instrument), ghost.X_WT);
   if (view.show_proxy) mark_tool(snapshot.tool, snapshot.tool.X_WP);
   if (view.show_proxy)
     for (const ToolState& other : others_) mark_tool(other, other.X_WP);

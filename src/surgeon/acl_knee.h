@@ -16,6 +16,8 @@ class AclKnee {
   /// Fails where there is no femur or tibia, or a landmark is missing.
   static Result<AclKnee> make(const Case& the_case);
 
+  /// Where it is at rest.
+  const Case& whole() const { return *case_; }
   Vec3 mark(std::string_view name) const;
   bool has_mark(std::string_view name) const;
   /// Distance to a bone, negative inside.

@@ -105,13 +105,12 @@ TEST_F(Teaching, ACourseIsWrittenForALearningManagementSystem) {
 
 TEST_F(Teaching, FiftyPatientsOfEachExerciseArePassedByTheExpert) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for all fifty patients";
-  // The tour is known to be passed on these patients of its, and was tried on no others.
-  const std::map<std::string, int> last{{"acl", 0}, {"wrist_tour", 9}};
+  // The tour is passed on these; of 13 to 50 it is not on 13, 16, 40 and 49 (docs/scenarios.md).
+  const std::map<std::string, int> last{{"acl", 0}, {"wrist_tour", 12}};
   for (const TeachJson& scenario : json_of("scenario list --json")) {
     const auto known = last.find(scenario["name"]);
     for (int seed = 1; seed <= (known == last.end() ? 50 : known->second); ++seed)
-      if (scenario["name"] != "wrist_tour" || seed != 8)  // it bumps the scope there
-        expect_expert_passes(scenario["name"], seed);
+      expect_expert_passes(scenario["name"], seed);
   }
 }
 

@@ -41,6 +41,17 @@ TEST(SkillStudy, GroupsFarApartAreToldApart) {
   EXPECT_LT(study->mark, 100);
 }
 
+TEST(SkillStudy, WhereAllHaveTheLowestScoreNoMarkIsSet) {
+  const auto study = study_skill(people(3, 20, 0), people(32, 20, 60), kWanted);
+  ASSERT_TRUE(study) << study.error().message();
+  EXPECT_EQ(study->auc, 1);
+  EXPECT_EQ(study->without_mark, 40);
+  EXPECT_TRUE(std::isnan(study->mark));
+  const auto apart = study_skill(people(3, 20, 0), people(32, 20, 5.5), kWanted);
+  ASSERT_TRUE(apart);
+  EXPECT_EQ(apart->without_mark, 0);
+}
+
 // Two normals d SD apart: AUC = Phi(d / sqrt 2); talents 2 apart with noise of 0.3 / sqrt 2.
 TEST(SkillStudy, TheAreaIsThatOfTheNormals) {
   const auto study = study_skill(people(3, 300, 0), people(4, 300, 2), kWanted);

@@ -103,6 +103,9 @@ TEST_F(DrawChanges, TheResultIsThatOfDrawingAll) {
     RenderSnapshot snapshot = at_rest(balls);
     for (int step = 0; step < 5; ++step) {
       place_tool(random, snapshot);
+      // From the second step on something is shown beside it, seen through, that moves as well.
+      const GhostTool ghost{Pose{-snapshot.tool.X_WP.p, snapshot.tool.X_WP.q}, 0, 0.5f};
+      for (Renderer* each : {&renderer, &other}) each->set_ghosts({&ghost, step > 0 ? 1u : 0u});
       const Image kept = drawn(renderer, snapshot, view);
       const Image whole = drawn_whole(other, snapshot, view);
       EXPECT_LE(count_different(kept, whole, 24), 3) << "look " << look << ", step " << step;

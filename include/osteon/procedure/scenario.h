@@ -84,6 +84,7 @@ struct Scenario {
   std::vector<std::string> fields;  ///< bones felt as fields all the same: they can be carved
   double cortex_mm = 1.2;           ///< of bones that are carved: how thick their hard shell is
   double time_limit_s = 600;
+  bool ghost = true;                  ///< an expert's instruments may be shown beside the learner's
   std::vector<std::string> sides;     ///< of the patients that are drawn; empty: as described
   std::vector<std::string> findings;  ///< "geissler=2": half of the drawn patients have one
   std::vector<std::string> always;    ///< the same, of every drawn patient: "traction=10kg"

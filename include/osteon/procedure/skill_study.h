@@ -13,11 +13,14 @@ namespace osteon {
 struct SkillStudy {
   std::vector<double> expert_scores, novice_scores;  ///< each by the norm of the other experts
   double auc = 0;                                    ///< see area_under_curve
-  double auc_se = 0;         ///< its standard error (Hanley and McNeil 1982)
-  double reliability = 0;    ///< Cronbach's alpha over the metrics' z, all persons
-  double mark = 0;           ///< mean of the contrasting-groups marks; NaN: the groups do not part
-  int experts_failed = 0;    ///< below the mark that was set without them
-  int novices_passed = 0;    ///< at or above it
+  double auc_se = 0;       ///< its standard error (Hanley and McNeil 1982)
+  double reliability = 0;  ///< Cronbach's alpha over the metrics' z, all persons
+  double mark = 0;         ///< mean of the contrasting-groups marks; NaN: the groups do not part
+  int experts_failed = 0;  ///< below the mark that was set without them
+  int novices_passed = 0;  ///< at or above it
+  /// Persons without whom the others' scores set no mark, as where all of a group have the lowest
+  /// score that there is: they count as failed, which says nothing of them.
+  int without_mark = 0;
   std::vector<bool> passed;  ///< experts, then novices: at or above the mark set without them
 };
 

@@ -81,6 +81,14 @@ struct SolidMark {
   std::array<float, 4> color_srgba{1.0f, 0.85f, 0.2f, 0.3f};  ///< 0..1
 };
 
+/// An instrument that is only shown: seen through, without a shade, touching nothing. An expert's,
+/// beside the user's own. Where ViewState::show_proxy is off it is not drawn either.
+struct GhostTool {
+  Pose X_WT;
+  std::uint32_t instrument = 0;  ///< as ToolState has it
+  float opacity = 0.5f;          ///< 0..1; below 0.02, or not a number: not drawn
+};
+
 /// Cubes of a grid over a bone, x fastest, in Bone.
 struct CubeGrid {
   Vec3 lo_B = Vec3::Zero();
@@ -130,6 +138,8 @@ class Renderer {
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands from now on, drawn beside the snapshot's own; without marks.
   void set_others(std::span<const ToolState> others);
+  /// Instruments that are only shown, from now on; those given before are gone.
+  void set_ghosts(std::span<const GhostTool> ghosts);
   /// Where a processor draws: this share of width and height is drawn of a picture in which all
   /// moves, and spread over the viewport; it is whole and sharp again a few pictures after all came
   /// to rest. 1, as it is at first: always whole. Clamped to 0.25..1.

@@ -94,6 +94,7 @@ struct JudgedAgain {
   std::vector<PlannedHand> hands;
   std::unique_ptr<AttemptWatch> watch;
   std::vector<ToolState> tools;
+  std::function<void(std::span<const ToolState* const>, const ScenarioState&)> on_judged;
 
   Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
                      std::size_t recorded_hands, TunnelSources sources, WaterSources water) {
@@ -120,6 +121,7 @@ struct JudgedAgain {
     std::vector<const ToolState*> all;
     for (const ToolState& each : tools) all.push_back(&each);
     watch->add(all, bones);
+    if (on_judged) on_judged(all, watch->state());
   }
 };
 
@@ -139,6 +141,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   const std::size_t hands = recording->header().hands;
   const double tick_s = settings->haptic.tick_s;
   JudgedAgain again;
+  again.on_judged = order.on_judged;
   ReplayOptions how;
   if (auto ready = take_instruments(recording->header(), **the_case, how); !ready)
     return tl::unexpected(ready.error());

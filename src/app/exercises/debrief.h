@@ -1,14 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
+#include "osteon/procedure/judge.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
+#include "osteon/scene/state.h"
 #include "runs/reports/acl_report.h"
 
 namespace osteon {
@@ -38,6 +42,9 @@ struct Debrief {
 struct DebriefOrder {
   std::filesystem::path recording;
   std::string case_spec, scenario, standard;  ///< empty: the recording's own
+  /// Of a recording of an exercise, after each tick: the hands' tools and how far the attempt is.
+  /// Empty: nobody is told.
+  std::function<void(std::span<const ToolState* const>, const ScenarioState&)> on_judged = {};
 };
 Result<Debrief> make_debrief(const DebriefOrder& order);
 /// The report of the attempt as JSON, as `osteon run` writes it.

@@ -13,6 +13,12 @@ std::string results_place() {
 std::filesystem::path waiting_folder() { return data_home_dir() / "waiting"; }
 std::filesystem::path names_file() { return data_home_dir() / "learners.json"; }
 
+// A seat that several people use names them.
+std::string learner_here() {
+  const char* given = std::getenv("OSTEON_LEARNER");
+  return given && is_learner_id(given) ? given : "local";
+}
+
 Result<ResultStore> open_results() {
   auto store = ResultStore::open(results_place());
   if (!store) return store;

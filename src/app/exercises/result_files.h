@@ -14,6 +14,8 @@ namespace osteon {
 std::string results_place();
 std::filesystem::path waiting_folder();
 std::filesystem::path names_file();
+/// Whose attempts are made in this window: OSTEON_LEARNER where that is an id, else "local".
+std::string learner_here();
 
 /// The store with every waiting attempt taken in.
 Result<ResultStore> open_results();

@@ -19,6 +19,14 @@ enum class ExercisePage {
   kResult
 };
 
+/// What the panel tells of an expert's instruments beside the learner's.
+struct GhostModel {
+  bool allowed = false;  ///< by the exercise
+  bool on = true, preparing = false;
+  double strength = 1;  ///< 0..1, by the learner's results
+  std::string problem;
+};
+
 /// What the panel for exercises shows.
 struct ExerciseModel {
   struct Card {
@@ -63,6 +71,7 @@ struct ExerciseModel {
   int hints = 0, undone = 0;
   bool paused = false;
   std::vector<Asked> asked;
+  GhostModel ghost;
   double judged = 0;  ///< 0..1, while judging
   std::string verdict;
   std::optional<double> score, score_lo, score_hi;
@@ -80,6 +89,7 @@ struct ExerciseRequests {
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;
+  bool ghost = false;                                             ///< switched on or off
   bool pause = false;                                             ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print

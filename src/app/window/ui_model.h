@@ -120,6 +120,7 @@ struct UiModel {
 
   std::string case_title;  ///< "Wrist, right"
   bool is_knee = false;    ///< the views have a knee's names
+  bool is_box = false;     ///< something to practise with: the views are not those of a body
   std::string activity;    ///< "Exploring", "Replay", "Demonstration"
   double time_s = 0;       ///< simulated
   std::vector<std::string> bone_labels;

@@ -40,7 +40,9 @@ struct WindowOrder {
   bool checkup = false;             ///< opens the check-up and begins one
   bool new_patient = false;         ///< opens the panel that makes one
   std::string exercise;             ///< whose briefing is opened; empty: none
-  bool fresh = false;               ///< neither reads nor writes the settings file
+  std::string ghost;  ///< beside an exercise: a recording's file, "off", or empty: an expert's
+  std::optional<double> ghost_strength;  ///< 0..1; none: by the learner's results
+  bool fresh = false;                    ///< neither reads nor writes the settings file
 };
 
 }  // namespace osteon

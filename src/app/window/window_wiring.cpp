@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "cases/xdg.h"
+#include "osteon/render/anatomical_view.h"
 #include "osteon/scene/tool_moment.h"
 #include "ui/label.h"
 #include "ui/screenshot.h"
@@ -21,6 +22,7 @@ std::string title_of(const Case& the_case) {
 void describe_case(const Case& the_case, UiModel& model) {
   model.case_title = title_of(the_case);
   model.is_knee = the_case.find("femur").valid();
+  model.is_box = !anatomical_frame(the_case).from_bones;
   for (const Bone& bone : the_case.bones) {
     model.bone_labels.push_back(label_of(bone.name));
     model.bone_felt.push_back(bone.felt);

@@ -75,6 +75,15 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_flag("--check-up", order->checkup, "Begin with the check-up of computer and device");
   command->add_option("--exercise", order->exercise,
                       "Open the briefing of this exercise; see: osteon scenario list");
+  command->add_option(
+      "--ghost", order->ghost,
+      "Beside an exercise show: FILE.osr, a recording of it on the same patient, or "
+      "off, nothing; default: the virtual expert");
+  command
+      ->add_option("--ghost-strength", order->ghost_strength,
+                   "How strongly it is drawn, 0 to 1; default: the weaker the more the learner's "
+                   "results show")
+      ->check(cli::Range(0.0, 1.0));
   command->add_flag("--new-patient", order->new_patient,
                     "Begin with the panel that makes a patient");
   command->add_option("--screenshot", order->screenshot,
@@ -105,6 +114,10 @@ void add_window_command(cli::App& app, int& exit_code) {
     order->fresh = order->frames > 0;
     order->sound = !*mute && order->frames == 0;
     order->case_spec = absolute_spec(order->case_spec);
+    std::error_code ec;
+    if (!order->ghost.empty() && order->ghost != "off" &&
+        !std::filesystem::exists(order->ghost, ec))
+      cli::refuse("--ghost", "there is no recording '" + order->ghost + "'");
     exit_code = run_windows(*order);
   });
 }

@@ -39,6 +39,7 @@ nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& tri
           {"reliability", s.reliability},
           {"mark", std::isfinite(s.mark) ? nlohmann::ordered_json(s.mark)
                                          : nlohmann::ordered_json(nullptr)},
+          {"without_mark", s.without_mark},
           {"experts_below_mark", s.experts_failed},
           {"novices_above_mark", s.novices_passed},
           {"experts_not_passed", trial.experts_not_passed},
@@ -49,8 +50,17 @@ nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& tri
 
 void print_trial(const std::string& name, const SkillTrial& trial) {
   const SkillStudy& s = trial.study;
-  std::printf("%-18s AUC %.3f (SE %.3f)  reliability %.2f  mark %.1f\n", name.c_str(), s.auc,
-              s.auc_se, s.reliability, s.mark);
+  const std::size_t all = s.expert_scores.size() + s.novice_scores.size();
+  std::printf("%-18s AUC %.3f (SE %.3f)  reliability %.2f  mark ", name.c_str(), s.auc, s.auc_se,
+              s.reliability);
+  if (2 * static_cast<std::size_t>(s.without_mark) >= all) {
+    std::printf(
+        "none\n%-18s for %d of %zu persons the others set no mark: all of a group have the "
+        "same score,\n%-18s the lowest that there is\n",
+        "", s.without_mark, all, "");
+    return;
+  }
+  std::printf("%.1f\n", s.mark);
   std::printf(
       "%-18s by the score alone: %d of %zu experts fail, %d of %zu novices pass; with "
       "stages and errors: %d and %d\n",

@@ -261,6 +261,23 @@ void draw_asked(const PanelContext& c) {
   }
 }
 
+void draw_ghost_switch(const PanelContext& c) {
+  const GhostModel& ghost = c.model.exercise.ghost;
+  if (!ghost.allowed) return;
+  bool on = ghost.on;
+  if (ui::switch_row("Expert beside me", &on,
+                     "Shows an expert's instruments, seen through, at the step that comes next for "
+                     "you. They touch nothing."))
+    c.requests.exercise.ghost = true;
+  if (!ghost.on) return;
+  if (!ghost.problem.empty())
+    ui::text_within(color::kTextQuiet, ghost.problem, ImGui::GetContentRegionAvail().x);
+  else if (ghost.preparing)
+    ui::text(color::kTextQuiet, "The expert is playing it ...");
+  else if (ghost.strength <= 0)
+    wrapped_text(color::kTextQuiet, "Not shown: your results say that you can do without.");
+}
+
 // Beside the scene while the exercise goes on.
 void draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
@@ -294,6 +311,7 @@ void draw_running(const PanelContext& c) {
   }
   draw_asked(c);
   ImGui::Separator();
+  draw_ghost_switch(c);
   if (ImGui::Button(model.paused ? "Resume (P)" : "Pause (P)", {-1, 0}))
     c.requests.exercise.pause = true;
   ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());

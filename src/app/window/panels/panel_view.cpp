@@ -36,16 +36,29 @@ constexpr std::array<PresetButton, 6> kKneePresets = {{
     {"X-ray side", ViewPreset::kLateral, "As on a lateral radiograph, without perspective (6)"},
 }};
 
+// Seen from above, with y up: as cases stand that are no part of a body.
+constexpr std::array<PresetButton, 6> kBoxPresets = {{
+    {"Above", ViewPreset::kDorsal, "From above (1)"},
+    {"Below", ViewPreset::kPalmar, "From below (2)"},
+    {"Left", ViewPreset::kRadial, "From the left (3)"},
+    {"Right", ViewPreset::kUlnar, "From the right (4)"},
+    {"Plan", ViewPreset::kAp, "From above, without perspective (5)"},
+    {"Side", ViewPreset::kLateral, "From the left, without perspective (6)"},
+}};
+
 void draw_presets(const PanelContext& c) {
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
-  const auto& presets = c.model.is_knee ? kKneePresets : kWristPresets;
+  const auto& presets = c.model.is_knee  ? kKneePresets
+                        : c.model.is_box ? kBoxPresets
+                                         : kWristPresets;
   for (std::size_t i = 0; i < presets.size(); ++i) {
     if (i % 2 == 1) ImGui::SameLine(0, gap);
     if (ImGui::Button(presets[i].label, {w, 0})) c.requests.preset = presets[i].preset;
     ui::tooltip(presets[i].explanation);
   }
-  if (ImGui::Button(c.model.picked.valid() ? "Close up on the bone" : "Close up on the joint",
+  const char* const rest = c.model.is_box ? "Close up" : "Close up on the joint";
+  if (ImGui::Button(c.model.picked.valid() ? "Close up on the bone" : rest,
                     {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.close_up = true;
   ui::tooltip("Zooms to the chosen bone or the joint without turning (F)");

@@ -23,12 +23,14 @@ void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
   ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(c.px(320), r.w - c.px(16)), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, 0);
+  // Behind it may be anything, from black to a bright surface.
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0x10, 0x12, 0x15, 0xd8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
   ImGui::Begin(name.c_str(), nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kTextQuiet);
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kText);
   ImGui::TextWrapped("%s", shown.message.c_str());
   ImGui::PopStyleColor();
   if (shown.offers_scope) {
@@ -38,7 +40,7 @@ void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
   }
   ImGui::End();
   ImGui::PopStyleColor();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
 }
 
 void draw_frame(const PanelContext& c, const Pane& pane) {

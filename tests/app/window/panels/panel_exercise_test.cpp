@@ -107,6 +107,24 @@ TEST_F(ExercisePanel, ItIsPausedAndGoesOnByButtonAndByKey) {
   EXPECT_FALSE(ui.press_key(GLFW_KEY_P).exercise.pause);
 }
 
+TEST_F(ExercisePanel, TheExpertBesideTheLearnerIsSwitchedWhereTheExerciseAllowsIt) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  settle();
+  EXPECT_FALSE(ui.click("##running", {"Expert beside me"}).exercise.ghost) << "not allowed";
+  model.ghost.allowed = true;
+  for (const bool preparing : {true, false})
+    for (const double strength : {0.0, 1.0}) {
+      model.ghost.preparing = preparing;
+      model.ghost.strength = strength;
+      settle();
+      EXPECT_TRUE(ui.click("##running", {"Expert beside me"}).exercise.ghost);
+    }
+  model.ghost.on = false;
+  model.ghost.problem = "The recording is of another patient";
+  settle();
+  EXPECT_TRUE(ui.click("##running", {"Expert beside me"}).exercise.ghost);
+}
+
 TEST_F(ExercisePanel, WhatIsFoundIsStatedByMouse) {
   at(ExercisePage::kRunning).asked = {{"geissler", "Scaphoid", {"1", "2"}, "", ""}};
   settle();

@@ -7,7 +7,9 @@
 #include "cases/xdg.h"
 #include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
+#include "osteon/render/anatomical_view.h"
 #include "runs/hands/tray.h"
+#include "window/controllers/sessions/exercise_camera.h"
 
 namespace osteon {
 namespace {
@@ -35,7 +37,8 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   if (requests.begin && !cases_.loading()) open_patient();
   if (running()) {
     if (requests.hint) exercise_.show_cue();
-    if (requests.undo && live_.run() && live_.run()->undo()) exercise_.count_undo();
+    if (requests.undo && live_.run() && live_.run()->undo()) count_undo();
+    if (requests.ghost) ghost_.toggle();
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
@@ -45,6 +48,17 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     exercise_.toggle();
     cases_.open({{}, exercise_.recording(), nullptr});
   }
+}
+
+void ExerciseControl::count_undo() {
+  exercise_.count_undo();
+  ghost_.restart();
+}
+
+ExerciseModel ExerciseControl::model() const {
+  ExerciseModel model = exercise_.model();
+  model.ghost = ghost_.model();
+  return model;
 }
 
 void ExerciseControl::save_pages() {
@@ -120,6 +134,19 @@ std::vector<LiveControl::PlacedHand> ExerciseControl::placed(
   return placed;
 }
 
+// From straight above, as a case begins, the hands are beside the picture.
+void ExerciseControl::look_at_the_box(const std::vector<PlannedHand>& hands) {
+  if (anatomical_frame(*scene_.the_case).from_bones) return;
+  std::vector<Vec3> portals;
+  for (const PlannedHand& hand : hands)
+    if (hand.portal_W) portals.push_back(*hand.portal_W);
+  std::vector<Vec3> places = exercise_.places_W();
+  for (const Bone& bone : scene_.the_case->bones)
+    if (bone.name != "floor") places.push_back(bone.X_WB.p);
+  sight_.view().camera =
+      side_camera(sight_.view().camera, portals, places, sight_.viewport().aspect());
+}
+
 void ExerciseControl::begin() {
   const auto hands = exercise_.plan(scene_.the_case);
   if (!hands) return;
@@ -142,9 +169,11 @@ void ExerciseControl::begin() {
   };
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
                   {live_.run()->tray().names, removed});
+  ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
+  look_at_the_box(*hands);
   host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
 }
 
@@ -158,10 +187,12 @@ void ExerciseControl::poll() {
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) run->mark();
+  ghost_.poll(exercise_);
   if (exercise_.over() || !run->recording()) end();
 }
 
 void ExerciseControl::end() {
+  ghost_.end();
   exercise_.pause(false);  // the force stays off: nobody asked for it
   const Result<void> stopped = live_.run()->stop_recording();
   if (!stopped) host_.note(ToastKind::kError, stopped.error().message());

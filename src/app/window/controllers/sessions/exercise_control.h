@@ -5,6 +5,7 @@
 
 #include "window/controllers/cases/case_control.h"
 #include "window/controllers/sessions/exercise_run.h"
+#include "window/controllers/sessions/ghost_control.h"
 
 namespace osteon {
 
@@ -14,7 +15,12 @@ class ExerciseControl {
  public:
   ExerciseControl(WindowHost& host, ShownCase& scene, SceneSight& sight, LiveControl& live,
                   CaseControl& cases)
-      : host_(host), scene_(scene), sight_(sight), live_(live), cases_(cases) {}
+      : host_(host),
+        scene_(scene),
+        sight_(sight),
+        live_(live),
+        cases_(cases),
+        ghost_(host, sight, live) {}
 
   /// Opens its briefing, as the command line names it.
   void show(const std::string& name);
@@ -28,16 +34,17 @@ class ExerciseControl {
   void close_page() { exercise_.close_page(); }
   void forget_force() { exercise_.keep_force_wish(false); }
   bool paused() const { return exercise_.paused(); }
-  void count_undo() { exercise_.count_undo(); }
+  void count_undo();
   /// Once a picture.
   void poll();
-  ExerciseModel model() const { return exercise_.model(); }
+  ExerciseModel model() const;
 
  private:
   void open_patient();
   bool want_instruments(const Scenario& scenario);
   std::vector<LiveControl::PlacedHand> placed(const std::vector<PlannedHand>& hands) const;
   void save_pages();
+  void look_at_the_box(const std::vector<PlannedHand>& hands);
 
   WindowHost& host_;
   ShownCase& scene_;
@@ -45,6 +52,7 @@ class ExerciseControl {
   LiveControl& live_;
   CaseControl& cases_;
   ExerciseRun exercise_;
+  GhostControl ghost_;
 };
 
 }  // namespace osteon

@@ -16,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whose attempts these are: a seat that several people use names them.
-std::string learner_here() {
-  const char* given = std::getenv("OSTEON_LEARNER");
-  return given && is_learner_id(given) ? given : "local";
-}
-
 // What a user did before, by exercise. A server is not asked while the window waits.
 std::vector<std::string> played_before(const std::vector<Scenario>& scenarios) {
   std::map<std::string, std::pair<int, bool>> played;
@@ -116,6 +110,15 @@ std::optional<std::vector<PlannedHand>> ExerciseRun::plan(std::shared_ptr<const 
   plan_ = std::make_unique<ScenarioPlan>(std::move(*planned));
   hands_ = std::move(*hands);
   return hands_;
+}
+
+std::vector<Vec3> ExerciseRun::places_W() const {
+  std::vector<Vec3> places;
+  if (!plan_) return places;
+  for (const auto& goals : plan_->goals)
+    for (const PlannedRule& goal : goals)
+      places.insert(places.end(), goal.places_W.begin(), goal.places_W.end());
+  return places;
 }
 
 void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources, WaterSources water) {

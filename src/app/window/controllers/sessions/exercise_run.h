@@ -35,6 +35,8 @@ class ExerciseRun {
   void wait_for_case() { page_ = ExercisePage::kOpening; }
   /// The patient is open: what the hands shall hold. An error is shown on the briefing.
   std::optional<std::vector<PlannedHand>> plan(std::shared_ptr<const Case> the_case);
+  /// Where the goals' landmarks are, of the exercise that was planned last.
+  std::vector<Vec3> places_W() const;
   /// From tick 0 of a run that is recorded to `file`. `sources`: what else is known of the run,
   /// where the exercise asks for tunnels; they are measured on another thread.
   void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {},
@@ -45,6 +47,9 @@ class ExerciseRun {
   void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
   /// Judges the ticks that all hands have done. True: a stage has begun that can be come back to.
   bool follow(const BoneSnapshot& bones);
+  /// How far it is; null: none has begun. `now_s`: pauses left out.
+  const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
+  double now_s() const { return now_s_; }
   bool over() const { return watch_ && watch_->over(); }
   void show_cue();
   /// While it is paused the clock stands and nothing that the hands do is judged.

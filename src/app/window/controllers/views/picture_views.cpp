@@ -181,6 +181,7 @@ void PictureViews::draw_panorama(const Viewport& viewport, bool observer) {
   panorama_view_->camera = *camera;
   update_cones(panorama);
   panorama.renderer->set_others({moment_.tools.data() + 1, moment_.hands - 1});
+  panorama.renderer->set_ghosts(ghosts_);
   panorama.renderer->draw({moment_.bones, moment_.tools[0]}, *panorama_view_, viewport);
 }
 
@@ -190,6 +191,7 @@ void PictureViews::draw_outside(const Viewport& viewport, const ViewState& view)
   ViewState front = view;
   front.camera = preset_camera(ViewPreset::kDorsal, *case_, viewport.aspect());
   observer_->set_others({moment_.tools.data() + 1, moment_.hands - 1});
+  observer_->set_ghosts(ghosts_);
   observer_->draw({moment_.bones, moment_.tools[0]}, front, viewport);
 }
 

@@ -34,6 +34,8 @@ class PictureViews {
   /// How the scene stands now, its first tool the active hand's; before any drawing of a picture.
   /// Fails once where something could not be made: the text is for the user.
   Result<void> set_moment(const FilmMoment& moment);
+  /// Shown in the panorama as well, from now on.
+  void set_ghosts(const std::vector<GhostTool>& ghosts) { ghosts_ = ghosts; }
   const FilmMoment& moment() const { return moment_; }
   /// Lets the joint's water go on to that moment. `removed_m3`: of all bones, since the begin.
   void flow(const ByTissue& removed_m3);
@@ -94,6 +96,7 @@ class PictureViews {
   Lenses lenses_;
   Tray tray_;
   FilmMoment moment_;
+  std::vector<GhostTool> ghosts_;
   bool scope_painted_ = false;  ///< of this moment
 
   std::shared_ptr<const JointRoom> room_;

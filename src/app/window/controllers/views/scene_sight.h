@@ -26,6 +26,9 @@ class SceneSight {
   /// What stands in the picture now.
   RenderSnapshot& shown() { return shown_; }
   const RenderSnapshot& shown() const { return shown_; }
+  /// Instruments that are only shown.
+  void set_ghosts(std::vector<GhostTool> ghosts) { ghosts_ = std::move(ghosts); }
+  const std::vector<GhostTool>& ghosts() const { return ghosts_; }
   BoneId picked() const { return picked_; }
   void pick(BoneId bone) { picked_ = bone; }
 
@@ -95,6 +98,7 @@ class SceneSight {
   ShownCase& scene_;
   ViewState view_;
   RenderSnapshot shown_;
+  std::vector<GhostTool> ghosts_;
   CameraControl control_;
   PictureLayout layout_;
   bool outside_only_ = false;

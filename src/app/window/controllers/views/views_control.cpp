@@ -64,9 +64,11 @@ void ViewsControl::let_water_flow() {
 
 void ViewsControl::draw(const ViewState& looks) {
   scene_.renderer->set_others(others());
+  scene_.renderer->set_ghosts(sight_.ghosts());
   show_carved();
   show_softs();
   PictureViews& views = scene_.views;
+  views.set_ghosts(sight_.ghosts());
   if (auto ok = views.set_moment(moment()); !ok)
     host_.note(ToastKind::kError, ok.error().message());
   let_water_flow();

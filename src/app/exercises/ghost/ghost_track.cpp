@@ -1,0 +1,120 @@
+// A ghost follows stages, not the clock. The expert's run is cut into stretches wherever a part of
+// a goal became done. Invariant: stretches lie one behind the other, the next begins with the
+// sample at which the last ended, so that a ghost which goes from one to the next does not jump.
+#include "exercises/ghost/ghost_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "osteon/procedure/lc_cusum.h"
+
+namespace osteon {
+namespace {
+
+std::uint32_t parts_of_goal(const RuleState& goal) {
+  return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(goal.done.size()));
+}
+
+std::vector<GoalPart> all_parts(const ScenarioState& state) {
+  std::vector<GoalPart> parts;
+  for (std::uint32_t g = 0; g < state.goals.size(); ++g)
+    for (std::uint32_t i = 0; i < parts_of_goal(state.goals[g]); ++i) parts.push_back({g, i});
+  return parts;
+}
+
+}  // namespace
+
+bool is_done(const ScenarioState& state, const GoalPart& part) {
+  if (part.goal >= state.goals.size()) return false;
+  const RuleState& goal = state.goals[part.goal];
+  return goal.met || (part.part < goal.done.size() && goal.done[part.part] != 0);
+}
+
+GhostTrackMaker::GhostTrackMaker(double tick_s)
+    : stride_(std::max<std::uint64_t>(
+          1, static_cast<std::uint64_t>(std::llround(1 / (kGhostHz * tick_s))))) {}
+
+void GhostTrackMaker::keep(std::span<const ToolState* const> tools) {
+  if (track_.hands.empty()) track_.hands.resize(tools.size());
+  for (std::size_t h = 0; h < std::min(tools.size(), track_.hands.size()); ++h)
+    track_.hands[h].push_back({tools[h]->X_WP, tools[h]->instrument});
+}
+
+void GhostTrackMaker::cut(std::vector<GoalPart> done) {
+  const std::size_t kept = track_.hands.empty() ? 0 : track_.hands.front().size();
+  if (kept == 0) return;
+  track_.stretches.push_back({before_->stage, std::move(done), from_, kept - 1});
+  from_ = kept - 1;
+}
+
+void GhostTrackMaker::add(std::span<const ToolState* const> tools, const ScenarioState& state) {
+  if (tools.empty()) return;
+  if (tools[0]->tick % stride_ == 0 || track_.hands.empty()) keep(tools);
+  if (!before_) before_ = state;
+  std::vector<GoalPart> done;
+  for (const GoalPart& part : all_parts(*before_))
+    if (!is_done(*before_, part) && (state.stage != before_->stage || is_done(state, part)))
+      done.push_back(part);
+  if (!done.empty()) cut(std::move(done));
+  // Also what is taken back, so that it is told once it has been done again.
+  if (state.stage != before_->stage || !(state.goals == before_->goals)) before_ = state;
+}
+
+GhostTrack GhostTrackMaker::finish(std::vector<std::string> tray) {
+  track_.tray = std::move(tray);
+  return std::move(track_);
+}
+
+std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioState& state) {
+  for (std::size_t i = 0; i < track.stretches.size(); ++i) {
+    const GhostStretch& stretch = track.stretches[i];
+    const bool helps = std::any_of(stretch.done.begin(), stretch.done.end(),
+                                   [&](const GoalPart& part) { return !is_done(state, part); });
+    if (stretch.stage == state.stage && state.stage < state.completed_s.size() && helps) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t stretch,
+                                           std::size_t hand, double since_s) {
+  if (stretch >= track.stretches.size() || hand >= track.hands.size() || !std::isfinite(since_s))
+    return std::nullopt;
+  const GhostStretch& s = track.stretches[stretch];
+  const std::vector<GhostTrack::Sample>& samples = track.hands[hand];
+  if (s.to >= samples.size() || s.from > s.to) return std::nullopt;
+  const double length_s = static_cast<double>(s.to - s.from) / kGhostHz;
+  const double in_s = std::fmod(std::max(since_s, 0.0), length_s + kGhostRest_s);
+  const double at = std::min(in_s, length_s) * kGhostHz;
+  const std::size_t a = s.from + static_cast<std::size_t>(at), b = std::min(a + 1, s.to);
+  GhostTrack::Sample sample = samples[std::min(a, s.to)];
+  const double share = at - std::floor(at);
+  if (samples[b].instrument == sample.instrument && share > 0) {
+    sample.X_WT.p += share * (samples[b].X_WT.p - sample.X_WT.p);
+    sample.X_WT.q = sample.X_WT.q.slerp(share, samples[b].X_WT.q).normalized();
+  }
+  if (!is_finite(sample.X_WT)) return std::nullopt;
+  return sample;
+}
+
+void GhostFollower::follow(const GhostTrack& track, const ScenarioState& state, double now_s) {
+  const auto next = next_stretch(track, state);
+  if (next != stretch_) since_s_ = now_s;
+  stretch_ = next;
+}
+
+std::optional<GhostTrack::Sample> GhostFollower::at(const GhostTrack& track, std::size_t hand,
+                                                    double now_s) const {
+  return stretch_ ? ghost_at(track, *stretch_, hand, now_s - since_s_) : std::nullopt;
+}
+
+double ghost_strength(const std::vector<bool>& passed) {
+  if (passed.empty()) return 1;
+  const LcCusumOptions options;
+  const LcCusum curve = lc_cusum(passed, options);
+  if (curve.relapse_at >= 0) return 1;
+  if (curve.competent_at >= 0) return 0;
+  return std::clamp(1 - curve.s.back() / options.h, 0.0, 1.0);
+}
+
+}  // namespace osteon

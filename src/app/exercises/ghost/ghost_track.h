@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osteon/procedure/judge.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// How often an expert's instruments are kept, Hz.
+inline constexpr double kGhostHz = 50;
+/// At the end of a stretch a ghost stays this long before it begins the stretch again, s.
+inline constexpr double kGhostRest_s = 1.0;
+
+/// One thing that a stage asks for: a bone or a landmark of a goal; of a goal without any, part 0.
+struct GoalPart {
+  std::uint32_t goal = 0, part = 0;
+  bool operator==(const GoalPart&) const = default;
+};
+
+/// What an expert did to get one step further: samples `from` to `to`, both included, at whose end
+/// these parts of the stage's goals were done.
+struct GhostStretch {
+  std::uint32_t stage = 0;
+  std::vector<GoalPart> done;
+  std::size_t from = 0, to = 0;
+};
+
+/// An expert's way through an exercise, cut where something was done. It says where the expert was
+/// at any stage of the work, whatever time another one takes for it.
+struct GhostTrack {
+  struct Sample {
+    Pose X_WT;                     ///< the instrument, kept out of bone
+    std::uint32_t instrument = 0;  ///< in `tray`
+  };
+  std::vector<std::string> tray;           ///< names of instruments
+  std::vector<std::vector<Sample>> hands;  ///< kGhostHz a second, all hands equally many
+  std::vector<GhostStretch> stretches;     ///< in the order of their times
+};
+
+/// Makes a track while an attempt is judged, tick by tick.
+class GhostTrackMaker {
+ public:
+  explicit GhostTrackMaker(double tick_s);
+  /// `state`: after this tick.
+  void add(std::span<const ToolState* const> tools, const ScenarioState& state);
+  GhostTrack finish(std::vector<std::string> tray);
+
+ private:
+  void keep(std::span<const ToolState* const> tools);
+  void cut(std::vector<GoalPart> done);
+
+  std::uint64_t stride_;
+  GhostTrack track_;
+  std::optional<ScenarioState> before_;
+  std::size_t from_ = 0;
+};
+
+/// Whether that part has been done in the live stage.
+bool is_done(const ScenarioState& state, const GoalPart& part);
+
+/// Index of the stretch that shows the next step of somebody who is at `state`: the first of its
+/// stage with a part that he has not done yet. None: the stages are over, or the expert did nothing
+/// that is left to do.
+std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioState& state);
+
+/// One hand `since_s` seconds after its stretch began: it moves as the expert did, rests at the end
+/// and begins again. None: the track has no such hand or stretch, or the pose is not finite.
+std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t stretch,
+                                           std::size_t hand, double since_s);
+
+/// Follows somebody's progress: the ghost begins its stretch anew whenever the next step is another
+/// one.
+class GhostFollower {
+ public:
+  /// `now_s` of the attempt: pauses left out.
+  void follow(const GhostTrack& track, const ScenarioState& state, double now_s);
+  /// The same stretch from its begin: the stage begins again.
+  void restart(double now_s) { since_s_ = now_s; }
+  std::optional<GhostTrack::Sample> at(const GhostTrack& track, std::size_t hand,
+                                       double now_s) const;
+  std::optional<std::size_t> stretch() const { return stretch_; }
+
+ private:
+  std::optional<std::size_t> stretch_;
+  double since_s_ = 0;
+};
+
+/// How strongly a ghost is drawn, 0..1, for a learner with these attempts at the exercise, oldest
+/// first: fully for a beginner, less with each step of the learning curve (LC-CUSUM) towards its
+/// limit, not at all for somebody competent. After a relapse it is drawn fully again.
+double ghost_strength(const std::vector<bool>& passed);
+
+}  // namespace osteon

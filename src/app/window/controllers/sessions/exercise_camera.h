@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "osteon/render/camera.h"
+
+namespace osteon {
+
+/// A look at a practice box from the side, from half above: what is worked on and the portals
+/// through which it is done fit into a picture of this aspect, shafts come in from its left and
+/// hide nothing. World's z is up. `from` gives the field of view; it is returned as it is where
+/// there is no portal or no place.
+Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
+                   std::span<const Vec3> places_W, double aspect);
+
+}  // namespace osteon

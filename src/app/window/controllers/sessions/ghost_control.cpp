@@ -1,0 +1,116 @@
+#include "window/controllers/sessions/ghost_control.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "exercises/result_files.h"
+#include "runs/hands/tray.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kFullOpacity = 0.55;
+constexpr double kFaint = 0.02;  // less is not seen
+
+const std::string& name_in(const std::vector<std::string>& tray, std::uint32_t at) {
+  return tray.empty() ? kWristProbe : tray[at < tray.size() ? at : 0];
+}
+
+}  // namespace
+
+GhostControl::GhostControl(WindowHost& host, SceneSight& sight, LiveControl& live)
+    : host_(host), sight_(sight), live_(live), on_(host.order.ghost != "off") {}
+
+void GhostControl::begin(const Scenario& scenario, const std::string& case_spec,
+                         const Case& the_case) {
+  end();
+  const bool same = scenario.source_text == wanted_.scenario.source_text &&
+                    case_spec == wanted_.case_spec && the_case.hash == wanted_.case_hash;
+  if (!same) track_.reset();
+  wanted_ = {scenario, case_spec, the_case.hash};
+  allowed_ = scenario.ghost;
+  follower_ = {};
+  problem_.clear();
+  if (on_) prepare();
+}
+
+// What is known of the same exercise on the same patient is not made again, but the learner's
+// results may be new.
+void GhostControl::prepare() {
+  if (!allowed_ || job_) return;
+  const std::string& order = host_.order.ghost;
+  const std::string recording = order == "off" ? std::string() : order;
+  job_ = std::make_unique<SideJob<Prepared>>(
+      [wanted = wanted_, recording, track = track_,
+       ordered = host_.order.ghost_strength](const Progress& progress) -> Result<Prepared> {
+        Prepared prepared{track, 1};
+        prepared.strength =
+            ordered ? *ordered : ghost_strength_of(learner_here(), wanted.scenario.name);
+        if (prepared.track || kFullOpacity * prepared.strength < kFaint) return prepared;
+        const auto go_on = [&progress] { return progress(nullptr, 0); };
+        auto made = recording.empty() ? ghost_of_expert(wanted, go_on)
+                                      : ghost_of_recording(recording, wanted);
+        if (!made) return tl::unexpected(made.error());
+        prepared.track = std::make_shared<const GhostTrack>(std::move(*made));
+        return prepared;
+      });
+}
+
+void GhostControl::toggle() {
+  on_ = !on_;
+  if (on_ && !track_ && problem_.empty()) prepare();
+}
+
+void GhostControl::end() {
+  job_.reset();
+  allowed_ = false;
+  sight_.set_ghosts({});
+}
+
+void GhostControl::take_prepared() {
+  if (!job_ || !job_->done()) return;
+  auto prepared = job_->take();
+  job_.reset();
+  if (!prepared) {
+    problem_ = prepared.error().message();
+    host_.note(ToastKind::kWarning, "No expert's ghost: " + problem_);
+    return;
+  }
+  track_ = prepared->track;
+  strength_ = prepared->strength;
+}
+
+// The run's tray may have the same instruments in another order, or not all of them.
+std::optional<std::uint32_t> GhostControl::in_tray(std::uint32_t instrument) const {
+  return live_.tray().find(name_in(track_->tray, instrument));
+}
+
+void GhostControl::poll(const ExerciseRun& exercise) {
+  take_prepared();
+  std::vector<GhostTool> ghosts;
+  const ScenarioState* const state = exercise.state();
+  if (track_ && state && live_.run()) {
+    follower_.follow(*track_, *state, exercise.now_s());
+    if (std::exchange(restart_, false)) follower_.restart(exercise.now_s());
+    for (std::size_t h = 0; allowed_ && on_ && h < track_->hands.size(); ++h) {
+      const auto sample = follower_.at(*track_, h, exercise.now_s());
+      const auto instrument = sample ? in_tray(sample->instrument) : std::nullopt;
+      if (instrument)
+        ghosts.push_back({sample->X_WT, *instrument, static_cast<float>(kFullOpacity * strength_)});
+    }
+  }
+  sight_.set_ghosts(std::move(ghosts));
+}
+
+GhostModel GhostControl::model() const {
+  GhostModel model;
+  model.allowed = allowed_;
+  model.on = on_;
+  model.preparing = job_ != nullptr;
+  model.strength = strength_;
+  model.problem = problem_;
+  return model;
+}
+
+}  // namespace osteon

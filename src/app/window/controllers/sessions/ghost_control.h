@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "exercises/ghost/ghost_recording.h"
+#include "ui/side_job.h"
+#include "window/controllers/sessions/exercise_run.h"
+#include "window/controllers/sessions/live_control.h"
+#include "window/exercise_model.h"
+
+namespace osteon {
+
+/// An expert's instruments beside the learner's while an exercise goes on. Prepares them beside the
+/// window, lets them follow the learner's progress, and tells the picture where they are.
+class GhostControl {
+ public:
+  GhostControl(WindowHost& host, SceneSight& sight, LiveControl& live);
+
+  /// An exercise has begun on the case on show.
+  void begin(const Scenario& scenario, const std::string& case_spec, const Case& the_case);
+  void end();
+  void toggle();
+  /// The learner went back: what is shown begins again.
+  void restart() { restart_ = true; }
+  /// Once a picture, while an exercise runs.
+  void poll(const ExerciseRun& exercise);
+  GhostModel model() const;
+
+ private:
+  struct Prepared {
+    std::shared_ptr<const GhostTrack> track;
+    double strength = 1;
+  };
+  void prepare();
+  void take_prepared();
+  std::optional<std::uint32_t> in_tray(std::uint32_t instrument) const;
+
+  WindowHost& host_;
+  SceneSight& sight_;
+  LiveControl& live_;
+  bool on_ = true;
+  bool allowed_ = false, restart_ = false;
+  GhostWanted wanted_;
+  std::shared_ptr<const GhostTrack> track_;
+  std::unique_ptr<SideJob<Prepared>> job_;
+  double strength_ = 1;
+  std::string problem_;
+  GhostFollower follower_;
+};
+
+}  // namespace osteon

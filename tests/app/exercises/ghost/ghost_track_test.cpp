@@ -1,0 +1,133 @@
+#include "exercises/ghost/ghost_track.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace osteon {
+namespace {
+
+// Two stages: the first has a goal of two bones, the second a goal about the hand itself.
+ScenarioState state_at(std::uint32_t stage, char first = 0, char second = 0) {
+  ScenarioState state;
+  state.stage = stage;
+  state.completed_s = {-1, -1};
+  if (stage == 0) state.goals = {{{first, second}, first != 0 && second != 0}};
+  if (stage == 1) state.goals = {{{}, false}};
+  return state;
+}
+
+// The tip moves along x by 1 mm each tick of 1 ms; the second bone is done first, at 100 ms, the
+// first at 300 ms, the second stage at 500 ms.
+GhostTrack sample_track() {
+  GhostTrackMaker maker(0.001);
+  for (std::uint64_t tick = 1; tick <= 600; ++tick) {
+    ToolState tool;
+    tool.tick = tick;
+    tool.X_WP.p = Vec3(1e-3 * static_cast<double>(tick), 0, 0);
+    tool.instrument = 1;
+    const ToolState* const tools[] = {&tool};
+    maker.add(tools, tick < 100   ? state_at(0)
+                     : tick < 300 ? state_at(0, 0, 1)
+                     : tick < 500 ? state_at(1)
+                                  : state_at(2));
+  }
+  return maker.finish({"wrist_probe", "hook_probe"});
+}
+
+TEST(GhostTrack, IsCutWhereSomethingBecameDone) {
+  const GhostTrack track = sample_track();
+  ASSERT_EQ(track.hands.size(), 1u);
+  // The first tick, then every twentieth.
+  EXPECT_EQ(track.hands[0].size(), 31u);
+  ASSERT_EQ(track.stretches.size(), 3u);
+  EXPECT_EQ(track.stretches[0].done, (std::vector<GoalPart>{{0, 1}}));
+  EXPECT_EQ(track.stretches[1].done, (std::vector<GoalPart>{{0, 0}}));
+  EXPECT_EQ(track.stretches[2].done, (std::vector<GoalPart>{{0, 0}}));
+  EXPECT_EQ(track.stretches[2].stage, 1u);
+  for (std::size_t i = 1; i < 3; ++i)
+    EXPECT_EQ(track.stretches[i].from, track.stretches[i - 1].to) << "no gap, no jump";
+  EXPECT_NEAR(track.hands[0][track.stretches[0].to].X_WT.p.x(), 0.100, 1e-12);
+  EXPECT_NEAR(track.hands[0][track.stretches[1].to].X_WT.p.x(), 0.300, 1e-12);
+  EXPECT_NEAR(track.hands[0][track.stretches[2].to].X_WT.p.x(), 0.500, 1e-12);
+}
+
+TEST(GhostTrack, TheNextStepIsTheExpertsFirstThatIsLeft) {
+  const GhostTrack track = sample_track();
+  EXPECT_EQ(next_stretch(track, state_at(0)), 0u);
+  EXPECT_EQ(next_stretch(track, state_at(0, 0, 1)), 1u);
+  EXPECT_EQ(next_stretch(track, state_at(0, 1, 0)), 0u) << "in another order than the expert's";
+  EXPECT_EQ(next_stretch(track, state_at(1)), 2u);
+  EXPECT_EQ(next_stretch(track, state_at(2)), std::nullopt);
+  EXPECT_EQ(next_stretch(GhostTrack{}, state_at(0)), std::nullopt);
+}
+
+TEST(GhostTrack, MovesAsTheExpertDidRestsAndBeginsAgain) {
+  const GhostTrack track = sample_track();
+  const auto x = [&](double since_s) { return ghost_at(track, 1, 0, since_s)->X_WT.p.x(); };
+  EXPECT_NEAR(x(0), 0.100, 1e-12);
+  EXPECT_NEAR(x(0.05), 0.150, 1e-12) << "between two samples";
+  EXPECT_NEAR(x(0.2), 0.300, 1e-12);
+  EXPECT_NEAR(x(0.2 + 0.9 * kGhostRest_s), 0.300, 1e-12) << "rests";
+  EXPECT_NEAR(x(0.2 + kGhostRest_s + 0.05), 0.150, 1e-9) << "again";
+  EXPECT_NEAR(x(-3), 0.100, 1e-12);
+  EXPECT_EQ(ghost_at(track, 1, 0, 0)->instrument, 1u);
+  EXPECT_FALSE(ghost_at(track, 3, 0, 0));
+  EXPECT_FALSE(ghost_at(track, 0, 1, 0));
+  EXPECT_FALSE(ghost_at(track, 0, 0, std::nan("")));
+  GhostTrack lost = track;
+  lost.hands[0][0].X_WT.p.y() = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(ghost_at(lost, 0, 0, 0));
+}
+
+TEST(GhostTrack, TurnsBetweenSamplesByTheShorterWay) {
+  GhostTrack track;
+  track.hands = {{{}, {}}};
+  track.hands[0][1].X_WT.q = Quat(Eigen::AngleAxisd(0.2, Vec3::UnitZ()));
+  track.hands[0][1].X_WT.q.coeffs() *= -1;
+  track.stretches = {{0, {{0, 0}}, 0, 1}};
+  const auto half = ghost_at(track, 0, 0, 0.5 / kGhostHz);
+  ASSERT_TRUE(half);
+  EXPECT_NEAR(half->X_WT.q.angularDistance(Quat::Identity()), 0.1, 1e-12);
+}
+
+TEST(GhostTrack, FollowsProgressAndNotTheClock) {
+  const GhostTrack track = sample_track();
+  GhostFollower follower;
+  EXPECT_FALSE(follower.at(track, 0, 0));
+  follower.follow(track, state_at(0), 10);
+  EXPECT_NEAR(follower.at(track, 0, 10)->X_WT.p.x(), 0.001, 1e-12);
+  // However long the learner takes, the ghost shows the same step.
+  follower.follow(track, state_at(0), 1000);
+  EXPECT_LE(follower.at(track, 0, 1000)->X_WT.p.x(), 0.100 + 1e-12);
+  follower.follow(track, state_at(1), 1000.5);
+  EXPECT_NEAR(follower.at(track, 0, 1000.5)->X_WT.p.x(), 0.300, 1e-12);
+  EXPECT_NEAR(follower.at(track, 0, 1000.6)->X_WT.p.x(), 0.400, 1e-6);
+  follower.restart(1000.6);
+  EXPECT_NEAR(follower.at(track, 0, 1000.6)->X_WT.p.x(), 0.300, 1e-12);
+  follower.follow(track, state_at(2), 1001);
+  EXPECT_FALSE(follower.at(track, 0, 1001));
+}
+
+TEST(GhostTrack, FadesAlongTheLearningCurve) {
+  EXPECT_EQ(ghost_strength({}), 1);
+  EXPECT_EQ(ghost_strength({false, false}), 1);
+  double before = 1;
+  for (std::size_t passes = 1; passes < 15; ++passes) {
+    const double now = ghost_strength(std::vector<bool>(passes, true));
+    EXPECT_LT(now, before) << passes;
+    EXPECT_GT(now, 0) << passes;
+    before = now;
+  }
+  // ln(0.9 / 0.75) a pass, 3.5 to show competence: the twentieth.
+  EXPECT_NEAR(ghost_strength({true}), 1 - std::log(0.9 / 0.75) / 3.5, 1e-12);
+  EXPECT_GT(ghost_strength(std::vector<bool>(19, true)), 0);
+  EXPECT_EQ(ghost_strength(std::vector<bool>(20, true)), 0);
+  std::vector<bool> relapsed(20, true);
+  relapsed.insert(relapsed.end(), 6, false);
+  EXPECT_EQ(ghost_strength(relapsed), 1);
+}
+
+}  // namespace
+}  // namespace osteon

@@ -1,0 +1,53 @@
+#include "window/controllers/sessions/exercise_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace osteon {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+// Of a practice box, turned about z: two portals behind, three posts in front of them.
+std::array<Vec3, 5> box_points(double turn_rad) {
+  const Quat q(Eigen::AngleAxisd(turn_rad, Vec3::UnitZ()));
+  return {q * Vec3(-0.05, -0.03, 0.056), q * Vec3(-0.05, 0.03, 0.056), q * Vec3(0.02, -0.016, 0.01),
+          q * Vec3(0.02, 0, 0.01), q * Vec3(0.02, 0.016, 0.01)};
+}
+
+TEST(ExerciseCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
+  for (const double turn_rad : {0.0, 1.0, kPi, -2.0})
+    for (const double aspect : {0.6, 1.0, 1.8}) {
+      const auto points = box_points(turn_rad);
+      const Camera camera = side_camera({}, {points.data(), 2}, {points.data() + 2, 3}, aspect);
+      const Pose X_CW = camera.X_WC().inverse();
+      const double half_tan = std::tan(0.5 * camera.vertical_fov_rad);
+      for (const Vec3& p_W : points) {
+        const Vec3 p_C = X_CW * p_W;
+        ASSERT_LT(p_C.z(), 0);
+        EXPECT_LT(std::abs(p_C.y() / -p_C.z()), half_tan) << turn_rad << " " << aspect;
+        EXPECT_LT(std::abs(p_C.x() / -p_C.z()), aspect * half_tan) << turn_rad << " " << aspect;
+      }
+      EXPECT_LT((X_CW * points[0]).x(), (X_CW * points[3]).x() - 0.03);
+      EXPECT_LT((X_CW * points[1]).x(), (X_CW * points[3]).x() - 0.03);
+      EXPECT_GT(camera.eye_W().z(), 0.05) << "from above";
+      EXPECT_GT((camera.q_WC * Vec3::UnitY()).z(), 0.5) << "upright";
+    }
+}
+
+TEST(ExerciseCamera, WithoutPortalsOrWorkItStays) {
+  const auto points = box_points(0);
+  Camera camera;
+  camera.distance_m = 0.123;
+  EXPECT_EQ(side_camera(camera, {}, points, 1), camera);
+  EXPECT_EQ(side_camera(camera, points, {}, 1), camera);
+  EXPECT_EQ(side_camera(camera, points, points, 0), camera);
+  // Straight above the work there is no near side: any will do.
+  const Vec3 above(0, 0, 0.1), work(0, 0, 0);
+  EXPECT_TRUE(is_finite(side_camera(camera, {&above, 1}, {&work, 1}, 1).q_WC * Vec3::UnitX()));
+}
+
+}  // namespace
+}  // namespace osteon
