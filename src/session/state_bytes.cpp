@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 9;
+constexpr std::uint64_t kVersion = 10;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -490,6 +490,10 @@ void field(A& a, SoftState& s) {
   for (BandState& band : s.bands) {
     field(a, band.torn);
     field(a, band.lost);
+    if (!band.torn) continue;
+    if constexpr (A::kReads)
+      if (a.version < 10) continue;  // where it tore was not kept then
+    field(a, band.torn_share);
   }
   for (SoftHandState& hand : s.hands) {
     field(a, hand.instrument);

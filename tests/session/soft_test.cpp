@@ -229,7 +229,7 @@ TEST(Soft, AStateFromBeforeFrictionIsReadWithoutIt) {
   Session session = run.session();
   press_to(session, 1, 301, 0.006);
   std::string bytes = to_bytes(session.save());
-  ASSERT_EQ(bytes[0], 9);
+  ASSERT_EQ(bytes[0], 10);
   bytes[0] = 8;
   erase_rub(bytes, session.save());
   const auto back = state_from_bytes(bytes);
@@ -251,7 +251,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   constexpr std::size_t kWord = 8, kTouch = 6;
   constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
   constexpr std::size_t kAfter = 1 + kMaxMarks + 2;  // rings, marks, command
-  ASSERT_EQ(bytes[0], 9);
+  ASSERT_EQ(bytes[0], 10);
   bytes[0] = 6;
   bytes.erase(bytes.size() - (kAfter + kSolids) * kWord, kSolids * kWord);
   // Nor was there a bench: the word that says so is where the two differ first.
@@ -309,6 +309,70 @@ TEST(Soft, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
     EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
     EXPECT_EQ(outcome->state_hash, session.state_hash());
   }
+}
+
+// Where a blade has cut is kept in a state and comes back; no place that is none is taken.
+TEST(Soft, AStateKeepsWhereItWasCutAndAReplayCutsThere) {
+  BandRun run;
+  SoftSetup setup = *run.softs;
+  add_blades(setup, {0}, 2);
+  run.softs = std::make_shared<const SoftSetup>(setup);
+  run.settings.soft_hash = setup.hash;
+  Tool blade = testing::shaft_tool();
+  blade.parts = {make_rod(Vec3(0, 0, 0), Vec3(0, 0, 0.025), testing::kShaftRadius_m)};
+  run.tray = {std::make_shared<const Tool>(blade)};
+  Session session = run.session();
+  Recording recording;
+  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  constexpr double kAside_m = 0.006, kFrom_m = testing::kTouch_m + 0.003;
+  for (std::uint64_t n = 1; n <= 1000; ++n) {
+    const double z = kFrom_m - 0.009 * std::min(1.0, static_cast<double>(n) / 600);
+    (void)session.tick(shaft_at(z, 0, kAside_m));
+    recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+    if (n % 250 != 0) continue;
+    StoredState state;
+    state.ticks[0] = n;
+    state.step = session.bones().step;
+    state.bytes = to_bytes(session.save());
+    recording.states.push_back(state);
+  }
+  recording.complete = true;
+  const double share = 0.5 + kAside_m / testing::kBandGap_m;
+  const SoftPushes pushes = session.softs()->pushes();
+  ASSERT_EQ(pushes.break_count, 1u);
+  EXPECT_NEAR(pushes.breaks[0].share, share, 0.02);
+  const auto back = state_from_bytes(recording.states.back().bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  EXPECT_EQ(other.softs()->pushes().breaks, pushes.breaks);
+  ReplayOptions options;
+  options.tray = run.tray;
+  options.softs = run.softs;
+  for (const double from_s : {0.0, 0.8}) {
+    options.from_s = from_s;
+    const auto outcome = replay(recording, run.the_case, options);
+    ASSERT_TRUE(outcome) << outcome.error().message();
+    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+    EXPECT_EQ(outcome->state_hash, session.state_hash());
+  }
+  // Version 9 had no word for the place.
+  SessionState elsewhere = session.save();
+  std::string old = to_bytes(elsewhere);
+  elsewhere.world.softs.bands[0].torn_share = -1;
+  const std::string differs = to_bytes(elsewhere);
+  const auto word = std::mismatch(old.begin(), old.end(), differs.begin()).first - old.begin();
+  old.erase(static_cast<std::size_t>(word) / 8 * 8, 8);
+  old[0] = 9;
+  const auto from_9 = state_from_bytes(old);
+  ASSERT_TRUE(from_9) << from_9.error().message();
+  EXPECT_TRUE(from_9->world.softs.bands[0].torn);
+  EXPECT_EQ(from_9->world.softs.bands[0].torn_share, 0.5);
+  SessionState broken = session.save();
+  broken.world.softs.bands[0].torn_share = std::nan("");
+  EXPECT_FALSE(other.restore(broken));
 }
 
 // However wild the hand, and whatever sample it gives: a finite force, and nothing from the heap.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,8 @@ class SoftShapes {
     TriMesh mesh_W;
   };
   /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
-  /// under a push of a meniscus, or of a ligament's middle line. At first all are at rest.
+  /// under a push of a meniscus, or of a ligament's middle line. At first all are at rest. A
+  /// ligament that was cut or has torn is two stumps, at rest.
   std::vector<Changed> changes(const SoftPushes& pushes);
 
  private:
@@ -37,6 +39,7 @@ class SoftShapes {
     TriMesh mesh_W;                 ///< at rest
     BandSpan rest_W;                ///< the string, with the bones at rest
     std::vector<StringBend> shown;  ///< bends that it was given with
+    std::optional<double> broken;   ///< where it was given in two
   };
   std::vector<Vec3> moved(std::size_t solid, std::span<const SoftPushes::One> pushes) const;
   void add_bands(const SoftPushes& pushes, std::vector<Changed>& out);

@@ -53,6 +53,7 @@ struct SolidHandState {
 
 struct BandState {
   bool torn = false;
+  double torn_share = 0.5;  ///< of a torn one, where: of the way from its first end to its last
   bool lost = false;  ///< it could not be solved
 };
 

@@ -76,6 +76,7 @@ class SoftWorld {
   bool is_felt(std::size_t band) const;
   bool is_blade(std::uint32_t instrument, std::size_t part) const;
   bool cut(std::size_t band, std::span<const Hand> hands);
+  double share_of(std::size_t band, const Vec3& p_W) const;
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
   void place_bands(const BoneSnapshot& bones);

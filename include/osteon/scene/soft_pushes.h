@@ -23,7 +23,14 @@ struct StringBend {
   bool operator==(const StringBend&) const = default;
 };
 
-/// What presses the soft parts now, for pictures: of every hand's parts.
+/// A band that was cut in two or has torn.
+struct BandBreak {
+  std::uint32_t band = 0;
+  double share = 0.5;  ///< of the way from the first end to the last
+  bool operator==(const BandBreak&) const = default;
+};
+
+/// What presses the soft parts now and what is in two, for pictures: of every hand's parts.
 struct SoftPushes {
   struct One {
     std::uint32_t solid = 0;
@@ -37,6 +44,8 @@ struct SoftPushes {
   std::array<One, kMost> all{};
   std::uint32_t bend_count = 0;
   std::array<StringBend, kMostBends> bends{};
+  std::uint32_t break_count = 0;
+  std::array<BandBreak, kMaxBands> breaks{};
   bool operator==(const SoftPushes&) const = default;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soft/band_stumps.h"
 #include "soft/bent_band.h"
 
 namespace osteon {
@@ -40,6 +41,12 @@ std::vector<StringBend> bends_of(std::size_t band, const SoftPushes& pushes) {
   return out;
 }
 
+std::optional<double> break_of(std::size_t band, const SoftPushes& pushes) {
+  for (std::uint32_t i = 0; i < pushes.break_count; ++i)
+    if (pushes.breaks[i].band == band) return pushes.breaks[i].share;
+  return {};
+}
+
 }  // namespace
 
 SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> setup)
@@ -56,6 +63,7 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
     bands_.push_back(
         {the_case.softs[band.soft].mesh_W,
          {the_case.bone(band.from).X_WB * band.from_B, the_case.bone(band.to).X_WB * band.to_B},
+         {},
          {}});
 }
 
@@ -63,11 +71,19 @@ void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) 
   for (std::size_t b = 0; b < bands_.size(); ++b) {
     BandShape& shape = bands_[b];
     std::vector<StringBend> now = bends_of(b, pushes);
-    if (std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), bends_alike))
+    const std::optional<double> broken = break_of(b, pushes);
+    if (broken == shape.broken &&
+        std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), bends_alike))
       continue;
     out.push_back({setup_->bands[b].soft, shape.mesh_W});
-    out.back().mesh_W.vertices = bent_points(shape.mesh_W.vertices, shape.rest_W, now);
+    TriMesh& mesh_W = out.back().mesh_W;
+    if (broken)
+      mesh_W.vertices = stump_points(shape.mesh_W, shape.rest_W, *broken,
+                                     stump_gap_m(setup_->bands[b], shape.rest_W));
+    else
+      mesh_W.vertices = bent_points(shape.mesh_W.vertices, shape.rest_W, now);
     shape.shown = std::move(now);
+    shape.broken = broken;
   }
 }
 

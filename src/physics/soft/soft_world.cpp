@@ -236,11 +236,18 @@ void SoftWorld::keep_bend(const BandContact& contact, const BandPress& press,
   bend.along_W = way.normalized();
 }
 
+double SoftWorld::share_of(std::size_t b, const Vec3& p_W) const {
+  const Vec3 way = spans_[b].b_W - spans_[b].a_W;
+  const double share = (p_W - spans_[b].a_W).dot(way) / way.squaredNorm();
+  return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.5;
+}
+
 // In two: as of one that is torn, nothing of it is felt after that.
 bool SoftWorld::cut(std::size_t b, std::span<const Hand> hands) {
   for (const Hand& hand : hands) {
     if (!hand.cuts[b]) continue;
     state_.bands[b].torn = true;
+    state_.bands[b].torn_share = share_of(b, hand.p_W[b]);
     tell(hand, kSoftCut, b, {hand.force_n[b], readouts_[b].tension_n, 0});
     return true;
   }
@@ -272,6 +279,7 @@ void SoftWorld::tear(std::span<const Hand> hands) {
       // A blade is sooner than tearing.
     } else if (readout.tension_n > band.failure_n) {
       state_.bands[b].torn = true;
+      state_.bands[b].torn_share = by.tool ? share_of(b, by.p_W[b]) : 0.5;
       tell(by, kSoftTorn, b, {readout.tension_n, force_n, 0});
     }
     if (!is_felt(b)) readout = {};
@@ -372,6 +380,8 @@ SoftPushes SoftWorld::pushes() const {
   SoftPushes out = solids_ ? solids_->pushes(state_) : SoftPushes{};
   for (std::uint32_t i = 0; i < bend_count_; ++i)
     if (is_felt(bends_[i].band)) out.bends[out.bend_count++] = bends_[i];
+  for (std::uint32_t b = 0; b < setup_->bands.size(); ++b)
+    if (state_.bands[b].torn) out.breaks[out.break_count++] = {b, state_.bands[b].torn_share};
   return out;
 }
 
@@ -424,6 +434,7 @@ std::uint64_t SoftWorld::hash() const {
   for (const BandState& band : state_.bands) {
     h.add(band.torn);
     h.add(band.lost);
+    if (band.torn) h.add(band.torn_share);
   }
   for (const SoftHandState& hand : state_.hands) {
     h.add(hand.instrument);
@@ -437,6 +448,8 @@ std::uint64_t SoftWorld::hash() const {
 
 bool SoftWorld::fits(const SoftState& state) const {
   if (!state.on) return false;
+  for (const BandState& band : state.bands)
+    if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
   for (const SoftHandState& hand : state.hands) {
     if (hand.count > kMaxBandContacts || hand.instrument >= tray_.size()) return false;
     for (std::uint32_t i = 0; i < hand.count; ++i)

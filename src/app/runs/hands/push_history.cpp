@@ -23,10 +23,15 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
   due_s_ = time_s + 1 / kPictureHz;
   const auto all = first_of(pushes.all, pushes.count);
   const auto bends = first_of(pushes.bends, pushes.bend_count);
-  const bool same = kept_.empty()
-                        ? all.empty() && bends.empty()
-                        : are_same(all, kept_.back().all) && are_same(bends, kept_.back().bends);
-  if (!same) kept_.push_back({time_s, {all.begin(), all.end()}, {bends.begin(), bends.end()}});
+  const auto breaks = first_of(pushes.breaks, pushes.break_count);
+  const Kept nothing;
+  const Kept& last = kept_.empty() ? nothing : kept_.back();
+  if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks))
+    return;
+  kept_.push_back({time_s,
+                   {all.begin(), all.end()},
+                   {bends.begin(), bends.end()},
+                   {breaks.begin(), breaks.end()}});
 }
 
 SoftPushes PushHistory::at(double time_s) const {
@@ -37,8 +42,10 @@ SoftPushes PushHistory::at(double time_s) const {
   const Kept& kept = *(later - 1);
   std::copy(kept.all.begin(), kept.all.end(), out.all.begin());
   std::copy(kept.bends.begin(), kept.bends.end(), out.bends.begin());
+  std::copy(kept.breaks.begin(), kept.breaks.end(), out.breaks.begin());
   out.count = static_cast<std::uint32_t>(kept.all.size());
   out.bend_count = static_cast<std::uint32_t>(kept.bends.size());
+  out.break_count = static_cast<std::uint32_t>(kept.breaks.size());
   return out;
 }
 

@@ -6,7 +6,8 @@
 
 namespace osteon {
 
-/// What pressed soft parts in a repeated recording, 60 times a second, kept where it changed.
+/// What pressed soft parts, and which were in two, in a repeated recording, 60 times a second, kept
+/// where it changed.
 class PushHistory {
  public:
   static constexpr double kPictureHz = 60;
@@ -21,6 +22,7 @@ class PushHistory {
     double time_s = 0;
     std::vector<SoftPushes::One> all;
     std::vector<StringBend> bends;
+    std::vector<BandBreak> breaks;
   };
   std::vector<Kept> kept_;
   double due_s_ = 0;  ///< of the next that is looked at

@@ -52,5 +52,17 @@ TEST(PushHistory, KeepsHowLigamentsBendToo) {
   EXPECT_EQ(history.kept(), 2u);
 }
 
+TEST(PushHistory, KeepsWhichLigamentsAreInTwo) {
+  PushHistory history;
+  SoftPushes cut;
+  cut.break_count = 1;
+  cut.breaks[0] = {2, 0.3};
+  for (int tick = 1; tick <= 300; ++tick)
+    history.add(tick <= 100 ? SoftPushes{} : cut, tick * 0.001);
+  EXPECT_EQ(history.at(0.05), SoftPushes{});
+  EXPECT_EQ(history.at(0.29), cut);
+  EXPECT_EQ(history.kept(), 1u);
+}
+
 }  // namespace
 }  // namespace osteon
