@@ -2,7 +2,8 @@
 #define CHANGED
 
 uniform sampler3D u_changed;       // of each cube of a grid: whether it shows another surface now
-uniform vec4 u_changed_from;       // lowest corner of the grid in Model, and the side of a cube
+uniform mat4 u_changed_grid;       // from Model to the grid's own frame
+uniform vec4 u_changed_from;       // lowest corner of the grid in that, and the side of a cube
 uniform float u_changed_overlap;   // nearer than this to a cube that has not changed nothing is left out
 
 bool is_changed(vec3 place) {
@@ -12,7 +13,8 @@ bool is_changed(vec3 place) {
   return texelFetch(u_changed, at, 0).r > 0.5;
 }
 
-bool is_left_out(vec3 place) {
+bool is_left_out(vec3 model) {
+  vec3 place = (u_changed_grid * vec4(model, 1.0)).xyz;
   for (int k = 0; k < 8; ++k) {
     vec3 corner = 2.0 * vec3(k & 1, (k >> 1) & 1, k >> 2) - 1.0;
     if (!is_changed(place + u_changed_overlap * corner)) return false;

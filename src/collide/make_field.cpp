@@ -24,8 +24,8 @@ constexpr int kBefore = 2;
 
 class FieldMaker {
  public:
-  FieldMaker(const MeshDistance& mesh, const FieldOptions& options, double cell_m)
-      : options_(options), heights_(lay_out(mesh, cell_m)) {}
+  FieldMaker(const HeightSource& surface, const FieldOptions& options, double cell_m)
+      : options_(options), heights_(lay_out(surface, cell_m)) {}
 
   /// None when it would take more blocks than allowed.
   std::optional<FieldData> run() {
@@ -47,12 +47,12 @@ class FieldMaker {
   }
 
  private:
-  NodeHeights lay_out(const MeshDistance& mesh, double cell_m) {
+  NodeHeights lay_out(const HeightSource& surface, double cell_m) {
     const double margin = options_.outside_m + cell_m;
     data_.cell_m = cell_m;
     data_.outside_m = options_.outside_m;
     data_.inside_m = options_.inside_m;
-    data_.box = bounds(mesh.mesh());
+    data_.box = surface.box;
     data_.lo = data_.box.lo - Vec3::Constant(margin);
     NodeHeights::Node nodes{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ class FieldMaker {
     const double side = (kSide + 4) * cell_m;
     const double most = std::max(options_.outside_m, options_.inside_m) + 1.75 * side;
     data_.step_m = most / 32767;
-    return {mesh, data_.lo - Vec3::Constant(kBefore * cell_m), cell_m, nodes};
+    return {surface, data_.lo - Vec3::Constant(kBefore * cell_m), cell_m, nodes};
   }
 
   template <class Visit>
@@ -141,25 +141,39 @@ Result<void> check(const TriMesh& mesh) {
   return {};
 }
 
-}  // namespace
-
 // Symbols: f is the signed distance at a node, c = f - (second differences of f) / 6 the
 // coefficient of the cubic B-spline there, which is f to fourth order (quasi-interpolation, de Boor
 // 1978). Invariant: a block is stored wherever the band may reach into it, since a distance rises
 // by no more than the way. Ends: each round doubles the cell, until the box takes few enough
 // blocks.
+FieldData make_data(const HeightSource& surface, const FieldOptions& options) {
+  constexpr double kMostBlocks = 4e6;   // of the whole box
+  constexpr double kFinest = 1.0 / 40;  // of the band
+  const double wanted = surface.box.extent().maxCoeff() / kLeastCells;
+  double cell = std::min(options.cell_m, std::max(wanted, kFinest * options.outside_m));
+  for (;; cell *= 2) {
+    const Vec3 wide = surface.box.extent() + Vec3::Constant(2 * (options.outside_m + cell));
+    if ((wide / (kSide * cell)).array().ceil().prod() > kMostBlocks) continue;
+    if (auto data = FieldMaker(surface, options, cell).run()) return std::move(*data);
+  }
+}
+
+}  // namespace
+
 Result<DistanceField> DistanceField::make(const TriMesh& mesh, const FieldOptions& options) {
   if (auto sound = check(mesh); !sound) return tl::unexpected(sound.error());
   const MeshDistance exact(mesh);
-  constexpr double kMostBlocks = 4e6;   // of the whole box
-  constexpr double kFinest = 1.0 / 40;  // of the band
-  const double wanted = bounds(mesh).extent().maxCoeff() / kLeastCells;
-  double cell = std::min(options.cell_m, std::max(wanted, kFinest * options.outside_m));
-  for (;; cell *= 2) {
-    const Vec3 wide = bounds(mesh).extent() + Vec3::Constant(2 * (options.outside_m + cell));
-    if ((wide / (kSide * cell)).array().ceil().prod() > kMostBlocks) continue;
-    if (auto data = FieldMaker(exact, options, cell).run()) return DistanceField(std::move(*data));
-  }
+  const HeightSource source{
+      bounds(mesh), [&](const Vec3& p, std::uint32_t guess) { return exact.closest(p, guess); }};
+  return DistanceField(make_data(source, options));
+}
+
+Result<DistanceField> DistanceField::make(const CoveredSurface& body, const FieldOptions& options) {
+  if (auto sound = check(body.bone()); !sound) return tl::unexpected(sound.error());
+  const HeightSource source{bounds(body.touched()), [&](const Vec3& p, std::uint32_t guess) {
+                              return body.closest(p, guess);
+                            }};
+  return DistanceField(make_data(source, options));
 }
 
 }  // namespace osteon

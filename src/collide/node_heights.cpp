@@ -12,8 +12,9 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 }  // namespace
 
-NodeHeights::NodeHeights(const MeshDistance& mesh, const Vec3& lo, double cell_m, const Node& size)
-    : mesh_(mesh), lo_(lo), cell_(cell_m) {
+NodeHeights::NodeHeights(const HeightSource& surface, const Vec3& lo, double cell_m,
+                         const Node& size)
+    : surface_(surface), lo_(lo), cell_(cell_m) {
   std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     blocks_[k] = (size[k] + kBlockSide - 1) / kBlockSide;
@@ -23,7 +24,7 @@ NodeHeights::NodeHeights(const MeshDistance& mesh, const Vec3& lo, double cell_m
 }
 
 double NodeHeights::exact(const Vec3& p) {
-  const ClosestPoint found = mesh_.closest(p, guess_);
+  const ClosestPoint found = surface_.closest(p, guess_);
   guess_ = found.triangle;
   return found.signed_distance;
 }

@@ -131,7 +131,7 @@ Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
     made.field = std::move(*field);
     made.loose = std::make_unique<LoosePieces>(*made.field);
     made.removed = std::make_unique<RemovedNodes>(*made.field);
-    made.whole = whole_nodes(*bone).count;
+    made.whole = whole_nodes(bone->bare() ? *bone->bare() : *bone).count;
   }
   changed_.reserve((kMaxHands + bones_.size()) * setup_->most_blocks);
   events_.reserve(kMostEvents);
@@ -296,6 +296,7 @@ void Carving::note_tissue(std::size_t hand, const Push& push, std::optional<Bone
   h.tissue = now;
   const double thrust = setup_->thrust_scale * push.force_B.norm();
   const double depth_mm = 1000 * h.drill.depth_m;
+  if (tissue == BoneTissue::kCartilage) tell(hand, push, kCartilageEntered, {depth_mm, thrust, 0});
   if (tissue == BoneTissue::kCortical) tell(hand, push, kCortexEntered, {depth_mm, thrust, 0});
   if (tissue == BoneTissue::kCancellous)
     tell(hand, push, kCancellousEntered, {depth_mm, thrust, 0});
@@ -481,8 +482,14 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   if (h.bone != push.bone) begin(hand, with, push);
   const CarvedField& field = *bones_[h.bone].field;
   const FrontShare front = look_under_ball(field, radius, push.X_BT * with.middle_T, nhat);
-  if (with.soft_only && (front.left() == 0 || front.meets_bone())) return rest(hand, push);
-  note_tissue(hand, push, front.most());
+  // The points over its half lie beside the pole, which touches: a shaver asks there too.
+  const double ahead = radius + 0.6 * field.grid().cell_m;
+  const auto pole =
+      with.soft_only ? tissue_at(field, push.X_BT * with.middle_T - ahead * nhat) : std::nullopt;
+  const bool hard = pole == BoneTissue::kCortical || pole == BoneTissue::kCancellous;
+  if (with.soft_only && ((front.left() == 0 && !pole) || front.meets_bone() || hard))
+    return rest(hand, push);
+  note_tissue(hand, push, front.left() == 0 ? pole : front.most());
   const DrillMaterial material = mixed(setup_->table, front);
   const bool scrapes = with.way == Way::kScrape;
   const Vec3 drawn = push.X_WB.q.conjugate() * push.tool->v_W;

@@ -130,11 +130,26 @@ double cell_for(const Bone& bone, double cell_m) {
   return box.extent().maxCoeff() > kLong_m ? 2 * cell_m : cell_m;
 }
 
+std::vector<CarvedLayer> layers_on(const Case& the_case, const Bone& bone) {
+  std::vector<CarvedLayer> layers;
+  if (!bone.covered) return layers;
+  const Pose X_BW = bone.X_WB.inverse();
+  for (std::uint32_t s = 0; s < the_case.softs.size(); ++s) {
+    const SoftPart& soft = the_case.softs[s];
+    if (soft.kind != "cartilage" || soft.bones.size() != 1 ||
+        &the_case.bones[soft.bones.front().index] != &bone)
+      continue;
+    CarvedLayer& layer = layers.emplace_back(CarvedLayer{s, {}, bone.X_WB});
+    for (const Vec3& v : soft.mesh_W.vertices) layer.box_B.include(X_BW * v);
+  }
+  return layers;
+}
+
 }  // namespace
 
 bool can_carve(const Case& the_case, std::span<const std::string> tray) {
   const bool has_field = std::any_of(the_case.bones.begin(), the_case.bones.end(),
-                                     [](const Bone& bone) { return bone.felt == Felt::kField; });
+                                     [](const Bone& bone) { return is_field(bone.felt); });
   if (!has_field || tray.empty()) return false;
   const auto instruments = load_instruments();
   return instruments && std::any_of(tray.begin(), tray.end(), [&](const std::string& name) {
@@ -163,12 +178,14 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
   if (auto added = add_tools(tray, *setup); !added) return tl::unexpected(added.error());
   for (const Bone& bone : the_case.bones) {
     setup->bones.emplace_back();
-    if (bone.felt != Felt::kField) continue;
+    setup->layers_on.push_back(layers_on(the_case, bone));
+    if (!is_field(bone.felt)) continue;
     UncutFieldOptions options;
     options.cell_m = cell_for(bone, settings.cell_m);
     options.run = run;
     options.room_m = setup->air_m + 3 * options.cell_m;
-    auto field = UncutField::make(bone.mesh, options);
+    auto field = bone.covered ? UncutField::make(*bone.covered, options)
+                              : UncutField::make(bone.mesh, options);
     if (!field) {
       Error error = field.error();
       error.where = "carving " + bone.name;

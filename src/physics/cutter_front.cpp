@@ -30,12 +30,6 @@ std::optional<Node> nearest_node(const BlockGrid& grid, const Vec3& p_B) {
   return Node{grid.index(at), static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0])};
 }
 
-double height_m(const CarvedField& field, const Node& n) {
-  const std::int16_t* heights = field.heights(n.block);
-  if (!heights) heights = field.bone().stored(n.block);
-  return heights ? 1e-6 * heights[n.node] : field.bone().middle_m(n.block);
-}
-
 // Height of the cutter's front over its origin at a distance from the axis.
 double front_z(const Cutter& cutter, double rho) {
   double z = -1e300;
@@ -78,14 +72,15 @@ std::optional<BoneTissue> tissue_at(const CarvedField& field, const Vec3& p_B) {
   const auto node = nearest_node(field.grid(), p_B);
   if (!node) return std::nullopt;
   const std::int16_t* cuts = field.cuts(node->block);
-  const double height = height_m(field, *node);
-  if ((cuts && cuts[node->node] < 0) || height >= 0) return std::nullopt;
-  return field.layers().at(-height);
+  if ((cuts && cuts[node->node] < 0) || field.height_m(node->block, node->node) >= 0)
+    return std::nullopt;
+  const double bare = field.bare_height_m(node->block, node->node);
+  return bare < 0 ? field.layers().at(-bare) : BoneTissue::kCartilage;
 }
 
 bool was_outside(const CarvedField& field, const Vec3& p_B) {
   const auto node = nearest_node(field.grid(), p_B);
-  return !node || height_m(field, *node) >= 0;
+  return !node || field.height_m(node->block, node->node) >= 0;
 }
 
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,

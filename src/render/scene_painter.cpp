@@ -95,7 +95,7 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
     const std::size_t at = k < bones ? k : k - bones;
     const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
     shared_->bones[k].closed = mesh.closed;
-    if (k < bones) shared_->bones[k].changed.set_base(mesh);
+    if (k < bones || !prepared.softs.empty()) shared_->bones[k].changed.set_base(mesh);
     if (k >= bones) shared_->bones[k].shades = mesh.shades;
     shared_->bones[k].levels.clear();
     shared_->bones[k].levels.push_back({GpuMesh(mesh), 0});
@@ -158,8 +158,9 @@ void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriM
 
 void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
                              std::span<const SurfaceCube> cubes) {
-  if (bone >= shared_->rest_X_WB.size()) return;
-  shared_->bones[bone].changed.set(grid, cubes, bone);
+  if (bone >= shared_->bones.size()) return;
+  const bool soft = bone >= shared_->rest_X_WB.size();
+  shared_->bones[bone].changed.set(grid, cubes, soft ? ChangedCubes::kSoft : bone);
   ++shared_->version;
 }
 

@@ -144,7 +144,7 @@ struct ScopeRenderer::Impl {
   };
 
   std::array<Program, kPatterns> tissues;  ///< by TissuePattern
-  Program changed_bone;
+  Program changed_bone, changed_cartilage;
   std::array<Program, 4> lenses;      ///< kSeesWater and kSeesFog, added
   std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
   std::vector<TissuePart> parts;
@@ -163,7 +163,7 @@ struct ScopeRenderer::Impl {
   int calm = 0;  ///< pictures since the last that moved
   double gain = 0;
 
-  std::vector<ChangedCubes> own_changed;  ///< of the bones, where there is no scene
+  std::vector<ChangedCubes> own_changed;  ///< by TissuePart::model, where there is no scene
   std::uint64_t cubes = 0;                ///< how often they have been set
 
   const GpuMesh& surface(const TissuePart& part) const {
@@ -175,7 +175,7 @@ struct ScopeRenderer::Impl {
   }
   /// Where another surface stands than was prepared; null: nowhere.
   const ChangedCubes* changed(const TissuePart& part) const {
-    if (part.model >= rest_X_WB.size()) return nullptr;
+    if (part.model >= rest_X_WB.size() && part.pattern != TissuePattern::kCartilage) return nullptr;
     const ChangedCubes* all = scene                             ? &scene->changed(part.model)
                               : part.model < own_changed.size() ? &own_changed[part.model]
                                                                 : nullptr;
@@ -207,9 +207,11 @@ struct ScopeRenderer::Impl {
     const Program& program = program_of(part, depth_alone);
     const ChangedCubes* const cubes_of = changed(part);
     if (cubes_of) {
-      begin(changed_bone, half);
-      describe(changed_bone, part, X_CM);
-      cubes_of->hide(changed_bone);
+      const bool cartilage = part.pattern == TissuePattern::kCartilage;
+      const Program& old = cartilage ? changed_cartilage : changed_bone;
+      begin(old, half);
+      describe(old, part, X_CM);
+      cubes_of->hide(old);
       draw_seen(mesh, X_CM, half);
     }
     begin(program, half);
@@ -339,6 +341,9 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
   auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
   if (!changed) return tl::unexpected(changed.error());
   impl->changed_bone = std::move(*changed);
+  auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
+  if (!layer) return tl::unexpected(layer.error());
+  impl->changed_cartilage = std::move(*layer);
   for (std::size_t k = 0; k < impl->lenses.size(); ++k) {
     std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
     if ((k & kSeesFog) != 0) defines += "#define FOG\n";
@@ -388,8 +393,12 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     if (at < meshes.size()) part.surface = GpuMesh(meshes[at]);
     if (soft && at < meshes.size()) part.shades = meshes[at].shades;
   }
-  for (std::size_t k = 0; k < bones && k < prepared.bones.size(); ++k)
-    (*impl)->own_changed.emplace_back().set_base(prepared.bones[k]);
+  static const ShadedMesh nothing;
+  for (std::size_t k = 0; k < bones + the_case.softs.size(); ++k) {
+    const auto& meshes = k < bones ? prepared.bones : prepared.softs;
+    const std::size_t at = k < bones ? k : k - bones;
+    (*impl)->own_changed.emplace_back().set_base(at < meshes.size() ? meshes[at] : nothing);
+  }
   return ScopeRenderer(std::move(*impl));
 }
 
@@ -444,7 +453,8 @@ void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMe
 void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
                               std::span<const SurfaceCube> cubes) {
   if (bone.index >= impl_->own_changed.size()) return;  // the scene's own are seen
-  impl_->own_changed[bone.index].set(grid, cubes, bone.index);
+  impl_->own_changed[bone.index].set(
+      grid, cubes, bone.index < impl_->rest_X_WB.size() ? bone.index : ChangedCubes::kSoft);
   ++impl_->cubes;
 }
 

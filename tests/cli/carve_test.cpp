@@ -1,8 +1,12 @@
 // Bone removed along a path, through the command line alone.
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 
 #include "block_case.h"
 #include "run_osteon.h"
@@ -85,6 +89,69 @@ TEST_F(Carve, APathThroughNothingRemovesNothingAndSaysSo) {
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_NE(ran.output.find("nothing was removed"), std::string::npos) << ran.output;
   EXPECT_TRUE(fs::exists(file("out.stl")));
+}
+
+// Enclosed by the triangles of a binary STL file, in its unit cubed.
+double stl_volume(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(80);
+  std::uint32_t count = 0;
+  in.read(reinterpret_cast<char*>(&count), sizeof count);
+  double sum = 0;
+  std::array<char, 50> bytes{};
+  for (std::uint32_t t = 0; t < count && in.read(bytes.data(), 50); ++t) {
+    std::array<float, 12> f{};
+    std::memcpy(f.data(), bytes.data(), sizeof f);
+    const auto at = [&](std::size_t k) { return static_cast<double>(f[k]); };
+    sum += at(3) * (at(7) * at(11) - at(8) * at(10)) - at(4) * (at(6) * at(11) - at(8) * at(9)) +
+           at(5) * (at(6) * at(10) - at(7) * at(9));
+  }
+  return sum / 6;
+}
+
+// A layer of 2 mm on the block's top: a case that was made elsewhere and has cartilage.
+TEST_F(Carve, TheCartilageOfACaseIsCarvedToo) {
+  std::ofstream layer(file("case/layer.obj"));
+  for (int i = 0; i < 8; ++i)
+    layer << "v " << (i & 1 ? 0.015 : -0.015) << ' ' << (i & 2 ? 0.015 : -0.015) << ' '
+          << (i & 4 ? 0.022 : 0.020) << '\n';
+  layer << "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
+           "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
+  layer.close();
+  std::ofstream(file("case/case.toml"), std::ios::app)
+      << "\n[[soft]]\nname = \"layer\"\nfma_id = 0\ntissue = \"articular_cartilage\"\n"
+         "kind = \"cartilage\"\nmesh = \"layer.obj\"\nthickness_m = 0.002\nbones = [\"block\"]\n";
+  const Ran ran = run_osteon(arguments("burr", "4", "down.csv") + " --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto report = nlohmann::json::parse(ran.output, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << ran.output;
+  const auto& tissues = report["removed_by_tissue_mm3"];
+  const double layer_mm3 = std::numbers::pi * 4 * 2;
+  const double bone_mm3 = std::numbers::pi * (4 * 10 + 2.0 / 3 * 8);
+  EXPECT_NEAR(tissues["cartilage"].get<double>(), layer_mm3, 0.005 * layer_mm3);
+  EXPECT_NEAR(report["removed_mm3"].get<double>(), layer_mm3 + bone_mm3, 0.005 * bone_mm3);
+  EXPECT_NEAR(tissues["cortical_bone"].get<double>(), std::numbers::pi * 4 * 1.2, 0.2);
+  // What is written is the bone: a cube of 40 mm less its part, without the layer.
+  EXPECT_NEAR(stl_volume(file("out.stl")), 64000 - bone_mm3, 0.005 * 64000);
+  EXPECT_LT(stl_volume(file("out.stl")), 64000 - 0.5 * bone_mm3);
+}
+
+// Its author wrote millimetres where the case has metres.
+TEST_F(Carve, ALayerOfAMistakenUnitIsRefused) {
+  std::ofstream layer(file("case/layer.obj"));
+  for (int i = 0; i < 8; ++i)
+    layer << "v " << (i & 1 ? 15 : -15) << ' ' << (i & 2 ? 15 : -15) << ' ' << (i & 4 ? 22 : 20)
+          << '\n';
+  layer << "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\n"
+           "f 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n";
+  layer.close();
+  std::ofstream(file("case/case.toml"), std::ios::app)
+      << "\n[[soft]]\nname = \"layer\"\nfma_id = 0\ntissue = \"articular_cartilage\"\n"
+         "kind = \"cartilage\"\nmesh = \"layer.obj\"\nthickness_m = 0.002\nbones = [\"block\"]\n";
+  const Ran ran = run_osteon(arguments("burr", "4", "down.csv"));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_NE(ran.output.find("unit"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("layer"), std::string::npos) << ran.output;
 }
 
 TEST_F(Carve, AToolLargerThanTheBoneIsRefused) {

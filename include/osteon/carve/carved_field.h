@@ -42,9 +42,10 @@ struct CarveState {
 };
 
 /// A bone that is being carved: the immutable field of the bone and, in blocks from a pool that is
-/// made at load, the signed distance to all that was cut. What is left is where max(bone, -cut) is
-/// negative: both are smooth where they meet, so a hole's rim is as sharp as the two say. Distances
-/// to cuts fold by the minimum: the order of cuts does not matter, bit by bit.
+/// made at load, the signed distance to all that was cut. Cartilage on the bone belongs to it. What
+/// is left is where max(bone, -cut) is negative: both are smooth where they meet, so a hole's rim
+/// is as sharp as the two say. Distances to cuts fold by the minimum: the order of cuts does not
+/// matter, bit by bit.
 class CarvedField {
  public:
   static constexpr std::int16_t kUncut = UncutField::kFar;
@@ -81,6 +82,12 @@ class CarvedField {
   const std::int16_t* cuts(std::uint32_t block) const;
   /// Heights of the uncut bone's nodes of a block that holds a cut; null elsewhere.
   const std::int16_t* heights(std::uint32_t block) const;
+  /// The same over the bone alone, without cartilage.
+  const std::int16_t* bare_heights(std::uint32_t block) const;
+  /// Height of any node over the uncut bone, cartilage and all, and over the bone alone, m: exact
+  /// near a surface.
+  double height_m(std::uint32_t block, std::size_t node) const;
+  double bare_height_m(std::uint32_t block, std::size_t node) const;
   /// Whether the surface in that block may look different since after step `since`.
   bool surface_changed(std::uint32_t block, std::uint64_t since) const;
 
@@ -124,6 +131,7 @@ class CarvedField {
   std::vector<std::uint32_t> slot_;  ///< of each block of the grid
   std::vector<Mark> marks_;
   std::vector<Nodes> nodes_;
+  std::vector<std::array<std::int16_t, BlockGrid::kNodes>> bare_;  ///< as nodes_; or none
   std::size_t used_ = 0;
   double air_m_ = 0;
   std::uint64_t step_ = 0, epoch_ = 0;

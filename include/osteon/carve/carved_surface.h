@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -61,5 +62,10 @@ class CarvedSurface {
 
 /// What is left of the bone: closed, manifold, facing outwards. Fails when nothing is.
 Result<TriMesh> carved_mesh(const CarvedField& field);
+/// A carved field of something else on the same nodes, with these cuts; see below.
+Result<CarvedField> same_cuts(const CarvedField& cuts, std::shared_ptr<const UncutField> of);
+/// The same cuts in what has its field on the same nodes: in the bone without its cartilage
+/// (UncutField::bare), or in a layer (UncutField::make_beside). Fails when nothing is left of it.
+Result<TriMesh> carved_mesh(const CarvedField& cuts, std::shared_ptr<const UncutField> of);
 
 }  // namespace osteon

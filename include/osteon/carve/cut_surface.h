@@ -9,10 +9,11 @@
 
 namespace osteon {
 
-/// Surface of all that was cut out of the bone, in Bone, for who follows rays through it: the
-/// bone's whole surface where a cut came near, and the carved one there turned round. A ray has
-/// entered it once more than it has left it exactly where bone is gone. Outside of the blocks that
-/// cuts came near both surfaces are the same, and neither is there. Empty where nothing was cut.
+/// Surface of all that was cut out of the bone, without its cartilage, in Bone, for who follows
+/// rays through it: the bone's whole surface where a cut came near, and the carved one there turned
+/// round. A ray has entered it once more than it has left it exactly where bone is gone. Outside of
+/// the blocks that cuts came near both surfaces are the same, and neither is there. Empty where
+/// nothing was cut.
 TriMesh cut_surface(const CarvedField& field);
 
 /// Bones of a case that hold cuts, each with its place there.

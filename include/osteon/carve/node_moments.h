@@ -21,7 +21,7 @@ struct NodeMoments {
 /// Of all nodes that lie in the uncut bone.
 NodeMoments whole_nodes(const UncutField& bone);
 
-/// Of the nodes whose bone is gone.
+/// Of the nodes whose bone is gone; cartilage does not count.
 class RemovedNodes {
  public:
   explicit RemovedNodes(const CarvedField& field);

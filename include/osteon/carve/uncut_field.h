@@ -10,6 +10,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/carve/block_grid.h"
+#include "osteon/mesh/covered_surface.h"
 #include "osteon/mesh/tri_mesh.h"
 
 namespace osteon {
@@ -27,7 +28,9 @@ struct UncutFieldOptions {
 /// A bone before it is carved: signed distance to its closed mesh on the nodes of a grid, negative
 /// inside, in whole micrometres. Blocks near the surface hold all their nodes; of a block deep
 /// inside the depth of its middle is known, which is enough for what tissue lies there. Immutable.
-/// The same mesh gives the same bits from every compiler and any number of threads.
+/// The same mesh gives the same bits from every compiler and any number of threads. Of a bone under
+/// cartilage it is the field of both, and bare() that of the bone alone on the same nodes: what
+/// lies inside the first and outside the second is cartilage.
 class UncutField {
  public:
   /// Where a block lies. Every node of a deep or outer block is at least 3 cells off the surface.
@@ -38,9 +41,18 @@ class UncutField {
   /// field would take more memory than allowed.
   static Result<std::shared_ptr<const UncutField>> make(const TriMesh& mesh,
                                                         const UncutFieldOptions& options = {});
+  /// Of a bone with layers of cartilage on it; `most_bytes` counts for both fields together.
+  static Result<std::shared_ptr<const UncutField>> make(const CoveredSurface& body,
+                                                        const UncutFieldOptions& options = {});
+  /// Of another mesh on the nodes of this field, which must reach around it: of a layer, for what
+  /// is left of it after the same cuts.
+  Result<std::shared_ptr<const UncutField>> make_beside(
+      const TriMesh& mesh, const UncutFieldOptions& options = {}) const;
 
+  /// The bone without its cartilage, on the same grid; null: nothing covers it.
+  const std::shared_ptr<const UncutField>& bare() const { return bare_; }
   const BlockGrid& grid() const { return grid_; }
-  const Aabb& box() const { return box_; }  ///< of the mesh
+  const Aabb& box() const { return box_; }  ///< of the mesh, cartilage and all
   Place place(std::uint32_t block) const;
   /// Heights of a block's nodes, um; those of a deep block lie on a smooth line between middles.
   void heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::kNodes> out) const;
@@ -48,12 +60,16 @@ class UncutField {
   const std::int16_t* stored(std::uint32_t block) const;
   /// Height of a block's middle, m; of an outer block no more than that.
   double middle_m(std::uint32_t block) const { return static_cast<double>(middle_[block]); }
-  std::size_t bytes() const;
+  std::size_t bytes() const;  ///< with those of bare()
   std::size_t stored_blocks() const { return heights_.size() / BlockGrid::kNodes; }
   std::uint64_t hash() const { return hash_; }
 
  private:
   struct Maker;
+  struct Source;
+  static Result<std::shared_ptr<UncutField>> make(const Source& source,
+                                                  const UncutFieldOptions& options,
+                                                  const UncutField* same_grid);
   UncutField() = default;
   void deep_heights(std::uint32_t block, std::span<std::int16_t, BlockGrid::kNodes> out) const;
 
@@ -64,6 +80,7 @@ class UncutField {
   std::vector<std::uint32_t> slot_;  ///< of each block: kOut, kIn or its place in heights_
   std::vector<std::int16_t> heights_;
   std::uint64_t hash_ = 0;
+  std::shared_ptr<const UncutField> bare_;
 };
 
 }  // namespace osteon

@@ -8,6 +8,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/base/types.h"
+#include "osteon/mesh/covered_surface.h"
 #include "osteon/mesh/tri_mesh.h"
 
 namespace osteon {
@@ -55,6 +56,8 @@ class DistanceField {
   /// Of a closed mesh that faces outwards; the sign is that of MeshDistance. Fails when the mesh is
   /// empty, open, not finite or without size. Same bits from every compiler.
   static Result<DistanceField> make(const TriMesh& mesh, const FieldOptions& options = {});
+  /// Of a bone with layers on it.
+  static Result<DistanceField> make(const CoveredSurface& body, const FieldOptions& options = {});
   /// Takes what `data` gave; none when it does not fit together.
   static std::shared_ptr<const DistanceField> from(FieldData data);
 

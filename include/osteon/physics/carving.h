@@ -45,11 +45,19 @@ struct AimingTool {
   double length_m = 0;  ///< from that place to the bore's outer end
 };
 
+/// A layer of cartilage on a bone that is carved, for who draws it.
+struct CarvedLayer {
+  std::uint32_t soft = 0;  ///< which soft part of the case
+  Aabb box_B;              ///< in Bone
+  Pose X_WB;               ///< of its bone at rest
+};
+
 /// All that is made before a session carves. Immutable.
 struct CarvingSetup {
   std::vector<std::optional<CarvingTool>> tray;          ///< none: it removes nothing
   std::vector<std::optional<AimingTool>> aimers;         ///< as `tray`
   std::vector<std::shared_ptr<const UncutField>> bones;  ///< of the case; null: it is not carved
+  std::vector<std::vector<CarvedLayer>> layers_on;       ///< as `bones`; may end before them
   BoneLayers layers;
   DrillTable table;
   DrillTable by_hand;  ///< of what the hand turns: its edges take more with each turn

@@ -89,7 +89,7 @@ struct GhostTool {
   float opacity = 0.5f;          ///< 0..1; below 0.02, or not a number: not drawn
 };
 
-/// Cubes of a grid over a bone, x fastest, in Bone.
+/// Cubes of a grid over a bone, x fastest, in Bone; of a soft part in a frame of its own.
 struct CubeGrid {
   Vec3 lo_B = Vec3::Zero();
   double side_m = 0;
@@ -97,11 +97,12 @@ struct CubeGrid {
   /// Inside of the changed cubes the bone's own surface is left for so far from cubes beside them
   /// that have not changed: at least by what a new surface may fall short of its cube.
   double overlap_m = 0;
+  Pose X_GM = {};  ///< of the grid's frame in that of the surface
 };
 /// What of a bone's surface lies in one cube now.
 struct SurfaceCube {
   std::uint32_t cube = 0;
-  std::vector<Vec3> vertices, normals;  ///< in Bone
+  std::vector<Vec3> vertices, normals;  ///< in the surface's frame: Bone, or World at rest
   std::vector<float> depth_m;           ///< of each vertex, under the surface as it was
   std::vector<Triangle> triangles;      ///< none: nothing is left there
 };
@@ -177,7 +178,8 @@ class Renderer {
 
   /// From now on these cubes of the grid show this of a bone, in place of its own surface: of one
   /// that is being carved. Those given before stay. The bone's picking and its outline stay as they
-  /// were. Does nothing where the grid has no cubes or more than 16 million.
+  /// were. Of a soft part the same: its place behind the bones, as move_surface has it. Does
+  /// nothing where the grid has no cubes or more than 16 million.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   /// Every bone shows its own surface again.
   void clear_cubes();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct BoneDef {
   double density_kg_per_m3 = 1900;
   Material material;
   Felt felt = Felt::kPieces;
+  /// With the cartilage on it; made by cover_bones (bone_cover.h), and by build_case where it was
+  /// not.
+  std::shared_ptr<const CoveredSurface> covered;
 };
 
 /// A place where a soft part holds on to a bone.

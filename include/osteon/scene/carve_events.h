@@ -18,5 +18,6 @@ inline constexpr EventKind kPinLeft{209};      ///< a pin was let go: it stays i
 inline constexpr EventKind kPinTaken{210};     ///< and is taken out again
 inline constexpr EventKind kAimed{211};        ///< an aimer was fixed: its sleeve fixes a line
 inline constexpr EventKind kLed{212};          ///< an instrument runs along a pin or in a sleeve
+inline constexpr EventKind kCartilageEntered{213};  ///< what cuts is in cartilage
 
 }  // namespace osteon

@@ -30,9 +30,12 @@ struct Material {
 enum class Felt : std::uint8_t {
   kPieces,  ///< convex pieces that follow the mesh (osteon/hull/decompose.h)
   kHull,    ///< one convex hull
-  kField    ///< the mesh itself, as a distance field (osteon/collide/distance_field.h)
+  kField,   ///< the mesh itself, as a distance field (osteon/collide/distance_field.h)
+  kCovered  ///< the same, of the bone with the case's cartilage on it
 };
-/// "pieces", "hull", "field".
+/// Whether a distance field is felt.
+inline bool is_field(Felt felt) { return felt == Felt::kField || felt == Felt::kCovered; }
+/// "pieces", "hull", "field", "covered".
 std::string_view to_text(Felt felt);
 std::optional<Felt> felt_from_text(std::string_view text);
 
@@ -48,7 +51,9 @@ struct Bone {
   std::vector<Hull> pieces;
   std::vector<ConvexBody> bodies;              ///< one a piece, for contact queries
   std::shared_ptr<const DistanceField> field;  ///< in Bone; of a bone felt as a field alone
-  std::shared_ptr<const DistanceField> wide;   ///< of such a bone: for thick parts (wide_field.h)
+  /// In Bone; of a bone felt with its cartilage; null where the case has none on it.
+  std::shared_ptr<const CoveredSurface> covered;
+  std::shared_ptr<const DistanceField> wide;  ///< of such a bone: for thick parts (wide_field.h)
   double mass_kg = 0.005;
   Material material;
 };

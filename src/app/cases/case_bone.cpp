@@ -9,6 +9,7 @@
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
 #include "osteon/base/file.h"
+#include "osteon/scene/bone_cover.h"
 #include "osteon/scene/case_io.h"
 
 namespace osteon {
@@ -29,7 +30,7 @@ std::string unit_name(double metres) { return metres == 1 ? "m" : metres == 0.01
 
 }  // namespace
 
-Result<CaseBone> load_case_bone(const std::string& spec) {
+Result<CaseBone> load_case_bone(const std::string& spec, bool with_cartilage) {
   const std::size_t mark = spec.rfind('#');
   if (mark == std::string::npos)
     return fail("names no bone", spec, "Name one of a case: CASE#BONE, such as builtin:knee#femur");
@@ -38,11 +39,14 @@ Result<CaseBone> load_case_bone(const std::string& spec) {
   if (!choice) return tl::unexpected(choice.error());
   const auto unit = unit_of_case(choice->source);
   if (!unit) return tl::unexpected(unit.error());
-  auto def = open_case_def(source, {}, CaseParts::kFelt);
+  auto def = open_case_def(source, {}, with_cartilage ? CaseParts::kAll : CaseParts::kFelt);
   if (!def) return tl::unexpected(def.error());
   std::string names;
   for (BoneDef& bone : def->bones) {
-    if (bone.name == name) return CaseBone{std::move(bone), unit_name(*unit), *unit};
+    if (bone.name == name) {
+      auto covered = with_cartilage ? covered_bone(*def, bone) : nullptr;
+      return CaseBone{std::move(bone), std::move(covered), unit_name(*unit), *unit};
+    }
     names += (names.empty() ? "" : ", ") + bone.name;
   }
   return fail("has no bone '" + name + "'", source, "It has " + names);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/all_cores.h"
+#include "osteon/scene/bone_cover.h"
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
@@ -128,18 +129,18 @@ void prepare_cropped(const CaseDef& def, PieceCache& pieces, FieldCache& fields)
   coarse.cell_m = kCroppedCell_m;
   std::vector<const BoneDef*> bones;
   for (const BoneDef& bone : def.bones)
-    if (bone.felt == Felt::kField) bones.push_back(&bone);
+    if (is_field(bone.felt)) bones.push_back(&bone);
   std::vector<FieldCache::Field> made(bones.size());
   run_on_all_cores(
       bones.size(),
       [&](std::size_t i) {
-        if (fields.find(field_key(bones[i]->mesh))) return;
-        auto field = DistanceField::make(bones[i]->mesh, coarse);
+        if (fields.find(field_key(*bones[i]))) return;
+        auto field = make_felt_field(*bones[i], coarse);
         if (field) made[i] = std::make_shared<const DistanceField>(std::move(*field));
       },
       [](double) {});
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (made[i]) fields.put(field_key(bones[i]->mesh), made[i]);
+    if (made[i]) fields.put(field_key(*bones[i]), made[i]);
     pieces.put(piece_key(bones[i]->mesh), PieceCorners{{bones[i]->mesh.vertices}, 0, false});
   }
 }

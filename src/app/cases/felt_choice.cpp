@@ -47,8 +47,10 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
     }
     const auto felt = felt_from_text(value);
     if (!felt)
-      return fail("'" + part + "' does not set how a bone is felt or a joint is bent", spec,
-                  "Write BONE=pieces, BONE=hull, BONE=field or JOINT=DEGREES, separated by commas");
+      return fail(
+          "'" + part + "' does not set how a bone is felt or a joint is bent", spec,
+          "Write BONE=pieces, BONE=hull, BONE=field, BONE=covered or JOINT=DEGREES, separated "
+          "by commas");
     out.of_bone[all ? std::string() : part.substr(0, equals)] = *felt;
   }
   return out;

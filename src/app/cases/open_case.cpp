@@ -18,6 +18,7 @@
 #include "cases/xdg.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
+#include "osteon/scene/bone_cover.h"
 #include "osteon/scene/case_io.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
@@ -119,6 +120,16 @@ Result<CaseDef> load_folder(const std::string& source) {
   return load_case(source);
 }
 
+bool feels_cartilage(const FeltChoice& choice) {
+  return std::any_of(choice.of_bone.begin(), choice.of_bone.end(),
+                     [](const auto& bone) { return bone.second == Felt::kCovered; });
+}
+
+bool feels_cartilage(const CaseDef& def) {
+  return std::any_of(def.bones.begin(), def.bones.end(),
+                     [](const BoneDef& bone) { return bone.felt == Felt::kCovered; });
+}
+
 /// The case as saved, or grown, with its joints bent as chosen.
 Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(double)>& progress,
                           CaseParts parts) {
@@ -128,6 +139,7 @@ Result<CaseDef> open_bent(const FeltChoice& choice, const std::function<void(dou
   const CaseParts first = choice.bent.empty() ? parts : CaseParts::kFelt;
   auto def =
       builtin ? grow_builtin(source.substr(kBuiltin.size()), progress, first) : load_folder(source);
+  if (def && feels_cartilage(*def) && parts == CaseParts::kFelt) parts = CaseParts::kAll;
   for (const auto& [joint, degrees] : choice.bent) {
     if (!def) return def;
     def = bend_case(std::move(*def), joint, degrees, parts != CaseParts::kFelt, progress);
@@ -231,6 +243,7 @@ Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(
                               CaseParts parts) {
   const auto choice = parse_felt_choice(spec);
   if (!choice) return tl::unexpected(choice.error());
+  if (feels_cartilage(*choice) && parts == CaseParts::kFelt) parts = CaseParts::kAll;
   auto def = open_bent(*choice, progress, parts);
   if (!def) return def;
   colour_softs(*def);
@@ -254,6 +267,7 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
   if (!def) return tl::unexpected(def.error());
   if (parts == CaseParts::kSeen)
     for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
+  cover_bones(*def);
   const std::string source = source_without_choice(spec);
   Caches caches(source);
   if (const auto choice = parse_felt_choice(spec); choice && choice->near_mm > 0)
@@ -280,6 +294,7 @@ Result<OpenedAtOnce> open_case_at_once(const std::string& spec, const OpenProgre
   if (!choice) return tl::unexpected(choice.error());
   auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
   if (!def) return tl::unexpected(def.error());
+  cover_bones(*def);
   Caches caches(choice->source);
   OpenedAtOnce out;
   const bool coarse = feel_hulls_of_unknown(*def, caches, *choice);

@@ -13,6 +13,7 @@
 
 #include "cases/all_cores.h"
 #include "osteon/base/log.h"
+#include "osteon/scene/bone_cover.h"
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/wide_field.h"
 
@@ -65,14 +66,14 @@ class Stopping {
   std::exception_ptr why_;
 };
 
-void work_on(Task& task, const TriMesh& mesh, Stopping& stopping) {
+void work_on(Task& task, const BoneDef& bone, Stopping& stopping) {
   if (!task.field) {
     DecomposeOptions options;
     options.stop = [&] { return stopping.stopped(); };
-    task.pieces = cut_into_pieces(mesh, options);
+    task.pieces = cut_into_pieces(bone.mesh, options);
     return;
   }
-  auto made = DistanceField::make(mesh);
+  auto made = make_felt_field(bone);
   if (made) task.made_field = std::make_shared<const DistanceField>(std::move(*made));
 }
 
@@ -91,8 +92,8 @@ std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fi
     const std::uint64_t cut_key = piece_key(bone.mesh);
     if (bone.felt != Felt::kHull && !pieces.find(cut_key))
       tasks.push_back({i, cut_key, false, std::nullopt, nullptr});
-    if (bone.felt != Felt::kField) continue;
-    const std::uint64_t key = field_key(bone.mesh);
+    if (!is_field(bone.felt)) continue;
+    const std::uint64_t key = field_key(bone);
     if (!fields.find(key)) tasks.push_back({i, key, true, std::nullopt, nullptr});
   }
   // The largest first, so that no worker is left alone with it at the end.
@@ -107,8 +108,8 @@ std::vector<Task> unknown(const CaseDef& def, PieceCache& pieces, FieldCache& fi
 bool is_known(const BoneDef& bone, PieceCache& pieces, FieldCache& fields) {
   if (bone.felt == Felt::kHull) return true;
   if (!pieces.find(piece_key(bone.mesh))) return false;
-  return bone.felt != Felt::kField || (fields.find(field_key(bone.mesh)) &&
-                                       fields.find(field_key(bone.mesh, wide_field_options())));
+  return !is_field(bone.felt) ||
+         (fields.find(field_key(bone)) && fields.find(field_key(bone, wide_field_options())));
 }
 
 void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& fields,
@@ -117,8 +118,7 @@ void find_what_is_felt(const CaseDef& def, PieceCache& pieces, FieldCache& field
   if (tasks.empty()) return;
   Stopping stopping(progress);
   run_on_all_cores(
-      tasks.size(),
-      [&](std::size_t i) { work_on(tasks[i], def.bones[tasks[i].bone].mesh, stopping); },
+      tasks.size(), [&](std::size_t i) { work_on(tasks[i], def.bones[tasks[i].bone], stopping); },
       [&](double share) {
         stopping.rethrow();
         stopping.tell(share);

@@ -54,6 +54,7 @@ Result<CarvedField> CarvedField::make(std::shared_ptr<const UncutField> bone,
   made.slot_.assign(bone->grid().count(), kNone);
   made.marks_.resize(most_blocks);
   made.nodes_.resize(most_blocks);
+  if (bone->bare()) made.bare_.resize(most_blocks);
   made.bone_ = std::move(bone);
   return made;
 }
@@ -70,6 +71,7 @@ std::uint32_t CarvedField::take(std::uint32_t block) {
   marks_[slot].block = block;
   nodes_[slot].cut.fill(kUncut);
   bone_->heights(block, nodes_[slot].height);
+  if (!bare_.empty()) bone_->bare()->heights(block, bare_[slot]);
   return slot;
 }
 
@@ -79,6 +81,24 @@ const std::int16_t* CarvedField::cuts(std::uint32_t block) const {
 
 const std::int16_t* CarvedField::heights(std::uint32_t block) const {
   return slot_[block] == kNone ? nullptr : nodes_[slot_[block]].height.data();
+}
+
+const std::int16_t* CarvedField::bare_heights(std::uint32_t block) const {
+  if (bare_.empty()) return heights(block);
+  return slot_[block] == kNone ? nullptr : bare_[slot_[block]].data();
+}
+
+double CarvedField::height_m(std::uint32_t block, std::size_t node) const {
+  const std::int16_t* known = heights(block);
+  if (!known) known = bone_->stored(block);
+  return known ? 1e-6 * known[node] : bone_->middle_m(block);
+}
+
+double CarvedField::bare_height_m(std::uint32_t block, std::size_t node) const {
+  const UncutField& alone = bone_->bare() ? *bone_->bare() : *bone_;
+  const std::int16_t* known = bare_heights(block);
+  if (!known) known = alone.stored(block);
+  return known ? 1e-6 * known[node] : alone.middle_m(block);
 }
 
 bool CarvedField::surface_changed(std::uint32_t block, std::uint64_t since) const {

@@ -147,4 +147,23 @@ Result<TriMesh> carved_mesh(const CarvedField& field) {
   return mesh;
 }
 
+Result<CarvedField> same_cuts(const CarvedField& cuts, std::shared_ptr<const UncutField> of) {
+  auto same =
+      CarvedField::make(std::move(of), cuts.layers(), std::max<std::size_t>(1, cuts.block_count()));
+  if (!same) return same;
+  for (std::size_t n = 0; n < cuts.block_count(); ++n) {
+    const std::uint32_t block = cuts.block_at(n);
+    const std::span<const std::int16_t, BlockGrid::kNodes> nodes(cuts.cuts(block),
+                                                                 BlockGrid::kNodes);
+    (void)same->apply(block, nodes, 1);  // outside of it there is nothing to cut
+  }
+  return same;
+}
+
+Result<TriMesh> carved_mesh(const CarvedField& cuts, std::shared_ptr<const UncutField> of) {
+  const auto same = same_cuts(cuts, std::move(of));
+  if (!same) return tl::unexpected(same.error());
+  return carved_mesh(*same);
+}
+
 }  // namespace osteon

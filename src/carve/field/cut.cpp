@@ -80,6 +80,7 @@ struct CarvedField::Pass {
   double reach_m;
   CarveStep result = {};
   std::array<std::int64_t, kMostBoneLayers> removed{};
+  std::int64_t cartilage = 0;
   alignas(64) std::array<float, BlockGrid::kNodes> distance;
 
   explicit Pass(CarvedField& f) : field(f), reach_m(kReachCells * f.grid().cell_m) {
@@ -175,7 +176,9 @@ struct CarvedField::Pass {
       measure(placed, at, rows);
       if (slot == kWanted) slot = field.take(block);
       Nodes& nodes = field.nodes_[slot];
-      note(slot, lower_cuts(distance.data(), scale, rows, nodes.height.data(), nodes.cut.data()));
+      const std::int16_t* all = nodes.height.data();
+      const std::int16_t* bare = field.bare_.empty() ? all : field.bare_[slot].data();
+      note(slot, lower_cuts(distance.data(), scale, rows, {all, bare}, nodes.cut.data()));
     });
   }
 
@@ -190,12 +193,16 @@ struct CarvedField::Pass {
     for (std::size_t s = 0; s < 6; ++s)
       if ((lowered.sides >> s & 1) != 0) mark.side[s] = field.step_;
     for (std::size_t l = 0; l < scale.layers; ++l) removed[l] += lowered.removed[l];
+    cartilage += lowered.cartilage;
   }
 
   // Layer by layer: what lies from one on, less what lies from the next on.
   void count_removed() {
     const double share = static_cast<double>(scale.cell) * static_cast<double>(scale.cell);
     const double cell3 = std::pow(field.grid().cell_m, 3);
+    result.removed_m3[static_cast<std::size_t>(BoneTissue::kCartilage)] +=
+        static_cast<double>(cartilage) / share * cell3;
+    if (cartilage > 0) result.status |= CarveStep::kRemoved;
     for (std::size_t l = 0; l < scale.layers; ++l) {
       const std::int64_t here = removed[l] - (l + 1 < scale.layers ? removed[l + 1] : 0);
       const auto tissue = static_cast<std::size_t>(field.layers_.layers[l].tissue);

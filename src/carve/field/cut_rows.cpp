@@ -110,18 +110,24 @@ std::int32_t occupied(std::int32_t height, std::int32_t cell) {
 }
 
 // Shares of the row's cells that were taken, by layer.
-void add_removed(const std::int32_t* before, const std::int16_t* after, const std::int16_t* height,
-                 const CutScale& scale, Lowered& out) {
+void add_removed(const std::int32_t* before, const std::int16_t* after, const UncutHeights& height,
+                 int first, const CutScale& scale, Lowered& out) {
+  const std::int16_t *all = height.all + first, *bare = height.bare + first;
+  const bool covered = height.all != height.bare;
   std::int32_t taken[kRow];
   for (int i = 0; i < kRow; ++i)
     taken[i] = (occupied(after[i], scale.cell) - occupied(before[i], scale.cell)) *
-               occupied(height[i], scale.cell);
+               occupied(all[i], scale.cell);
   for (std::size_t l = 0; l < scale.layers; ++l) {
-    const std::int32_t border = l == 0 ? -32768 : scale.layer[l];
+    const std::int32_t border = l > 0 ? scale.layer[l] : covered ? 0 : -32768;
     std::int32_t sum = 0;
-    for (int i = 0; i < kRow; ++i) sum += -height[i] >= border ? taken[i] : 0;
+    for (int i = 0; i < kRow; ++i) sum += -bare[i] >= border ? taken[i] : 0;
     out.removed[l] += sum;
   }
+  if (!covered) return;
+  std::int32_t cartilage = 0;
+  for (int i = 0; i < kRow; ++i) cartilage += bare[i] > 0 ? taken[i] : 0;
+  out.cartilage += cartilage;
 }
 
 }  // namespace
@@ -158,7 +164,7 @@ void part_distances(const PlacedPart& placed, const Vec3& lo_B, double cell_m,
 }
 
 Lowered lower_cuts(const float* distance_um, const CutScale& scale, const BlockRows& rows,
-                   const std::int16_t* height, std::int16_t* cut) {
+                   const UncutHeights& height, std::int16_t* cut) {
   Lowered out;
   std::int32_t near_lane[kRow] = {};
   const float reach = static_cast<float>(scale.reach);
@@ -186,7 +192,7 @@ Lowered lower_cuts(const float* distance_um, const CutScale& scale, const BlockR
       for (int i = 0; i < kRow; ++i) near_lane[i] |= near[i];
       out.sides = static_cast<std::uint8_t>(out.sides | (j < 2 ? 4 : 0) | (j > 5 ? 8 : 0) |
                                             (k < 2 ? 16 : 0) | (k > 5 ? 32 : 0));
-      add_removed(before, c, height + first, scale, out);
+      add_removed(before, c, height, first, scale, out);
     }
   const bool low = (near_lane[0] | near_lane[1]) != 0, high = (near_lane[6] | near_lane[7]) != 0;
   out.sides = static_cast<std::uint8_t>(out.sides | (low ? 1 : 0) | (high ? 2 : 0));

@@ -36,6 +36,12 @@ struct CutScale {
   std::size_t layers = 0;
 };
 
+/// Heights of a block's nodes, um: over the bone with its cartilage, and over the bone alone. The
+/// same where nothing covers it.
+struct UncutHeights {
+  const std::int16_t *all = nullptr, *bare = nullptr;
+};
+
 /// What became of a block.
 struct Lowered {
   bool any = false;        ///< a node was lowered
@@ -43,11 +49,12 @@ struct Lowered {
   std::uint8_t sides = 0;  ///< of those: bit 2a: within the first two along axis a, 2a + 1: last
   /// Of cuts and bone by layer and all deeper ones, in cell^2 um^2: see occupied().
   std::array<std::int64_t, kMostBoneLayers> removed{};
+  std::int64_t cartilage = 0;
 };
 
 /// cut = min(cut, distance) where the distance is within reach.
 Lowered lower_cuts(const float* distance_um, const CutScale& scale, const BlockRows& rows,
-                   const std::int16_t* height, std::int16_t* cut);
+                   const UncutHeights& height, std::int16_t* cut);
 
 /// Whether a node in those rows would be written.
 bool reaches(const float* distance_um, const CutScale& scale, const BlockRows& rows);

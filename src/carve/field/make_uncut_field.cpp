@@ -41,14 +41,37 @@ tl::unexpected<Error> too_large(double needed, std::size_t allowed) {
               "carving", "Choose larger cells or allow more memory");
 }
 
+Result<void> check_options(const Aabb& box, const UncutFieldOptions& options) {
+  constexpr double kFinest_m = 2e-5, kCoarsest_m = 2e-3;
+  if (!(options.cell_m >= kFinest_m && options.cell_m <= kCoarsest_m))
+    return fail("the cell must be 0.02 to 2 mm", "carving", "0.25 mm suits most bones");
+  constexpr double kFarthest_m = 0.03;
+  if (!(options.outside_m >= 0 && options.outside_m <= kFarthest_m))
+    return fail("heights must reach 0 to 30 mm out of the bone", "carving");
+  if (!(options.room_m >= 0 && options.room_m <= kFarthest_m))
+    return fail("the grid must reach 0 to 30 mm out of the bone", "carving");
+  if (!(box.extent().maxCoeff() >= kLeastCells * options.cell_m))
+    return fail("the bone is smaller than 4 cells", "carving", "Choose a smaller cell");
+  return {};
+}
+
 }  // namespace
+
+/// What the field is made of.
+struct UncutField::Source {
+  Aabb box;
+  std::function<ClosestPoint(const Vec3& p, std::uint32_t guess)> closest;
+  /// A field on the same grid, of a surface that differs within this box alone; or none.
+  const UncutField* like = nullptr;
+  Aabb differs = {};
+};
 
 // Cubes of blocks are halved until a cube is clear of the surface by its distance, or one block.
 struct UncutField::Maker {
-  Maker(const TriMesh& bone, const UncutFieldOptions& wanted) : options(wanted), mesh(bone) {}
+  Maker(const Source& bone, const UncutFieldOptions& wanted) : options(wanted), mesh(bone) {}
 
   const UncutFieldOptions& options;
-  MeshDistance mesh;
+  const Source& mesh;
   UncutField field = {};
   std::vector<std::uint32_t> near = {};      // stored blocks, in the order of their slots
   std::vector<std::uint32_t> triangle = {};  // of each: nearest to its middle
@@ -56,8 +79,15 @@ struct UncutField::Maker {
   using Corner = std::array<int, 3>;
   double cell() const { return field.grid_.cell_m; }
 
+  void lay_out_on(const BlockGrid& grid) {
+    field.box_ = mesh.box;
+    field.grid_ = grid;
+    field.middle_.resize(grid.count());
+    field.slot_.assign(grid.count(), kOut);
+  }
+
   Result<void> lay_out() {
-    field.box_ = bounds(mesh.mesh());
+    field.box_ = mesh.box;
     const double h = options.cell_m;
     // Nodes stay off faces that lie along the axes.
     const double margin = std::max({kClear * h, options.outside_m, options.room_m}) + 1.37 * h;
@@ -134,9 +164,22 @@ struct UncutField::Maker {
     }
   }
 
+  // Nearest to any node of the block is a place that both surfaces have, and nothing is nearer to
+  // it in either: a node is no farther from the surface than the middle and the way to there.
+  bool same_as_like(std::uint32_t block) const {
+    if (!mesh.like || !mesh.like->stored(block)) return false;
+    const Vec3 middle = field.grid_.middle(field.grid_.place(block));
+    const Vec3 out_of = (mesh.differs.lo - middle).cwiseMax(middle - mesh.differs.hi).cwiseMax(0.0);
+    return out_of.norm() > std::abs(mesh.like->middle_m(block)) + 3 * field.grid_.reach_m();
+  }
+
   void fill(std::size_t slot) {
     const Corner at = field.grid_.place(near[slot]);
     std::int16_t* out = field.heights_.data() + slot * BlockGrid::kNodes;
+    if (same_as_like(near[slot])) {
+      std::copy_n(mesh.like->stored(near[slot]), BlockGrid::kNodes, out);
+      return;
+    }
     for (int part = 0; part < 8; ++part) {
       const int i = 4 * (part & 1), j = 4 * (part >> 1 & 1), k = 4 * (part >> 2);
       fill_part({8 * at[0] + i, 8 * at[1] + j, 8 * at[2] + k}, triangle[slot],
@@ -167,28 +210,71 @@ struct UncutField::Maker {
   }
 };
 
-Result<std::shared_ptr<const UncutField>> UncutField::make(const TriMesh& mesh,
-                                                           const UncutFieldOptions& options) {
-  if (auto sound = check_mesh(mesh); !sound) return tl::unexpected(sound.error());
-  constexpr double kFinest_m = 2e-5, kCoarsest_m = 2e-3;
-  if (!(options.cell_m >= kFinest_m && options.cell_m <= kCoarsest_m))
-    return fail("the cell must be 0.02 to 2 mm", "carving", "0.25 mm suits most bones");
-  constexpr double kFarthest_m = 0.03;
-  if (!(options.outside_m >= 0 && options.outside_m <= kFarthest_m))
-    return fail("heights must reach 0 to 30 mm out of the bone", "carving");
-  if (!(options.room_m >= 0 && options.room_m <= kFarthest_m))
-    return fail("the grid must reach 0 to 30 mm out of the bone", "carving");
-  if (!(bounds(mesh).extent().maxCoeff() >= kLeastCells * options.cell_m))
-    return fail("the bone is smaller than 4 cells", "carving", "Choose a smaller cell");
-  Maker maker(mesh, options);
-  if (auto made = maker.lay_out(); !made) return tl::unexpected(made.error());
+Result<std::shared_ptr<UncutField>> UncutField::make(const Source& source,
+                                                     const UncutFieldOptions& options,
+                                                     const UncutField* same_grid) {
+  Maker maker(source, options);
+  if (same_grid)
+    maker.lay_out_on(same_grid->grid());
+  else if (auto made = maker.lay_out(); !made)
+    return tl::unexpected(made.error());
   maker.classify({0, 0, 0}, maker.field.grid_.blocks, 0);
   const double bytes = 8.0 * static_cast<double>(maker.field.grid_.count()) +
-                       2.0 * BlockGrid::kNodes * static_cast<double>(maker.near.size());
+                       2.0 * BlockGrid::kNodes * static_cast<double>(maker.near.size()) +
+                       static_cast<double>(same_grid ? same_grid->bytes() : 0);
   if (bytes > static_cast<double>(options.most_bytes)) return too_large(bytes, options.most_bytes);
   maker.fill_all();
   maker.finish();
-  return std::make_shared<const UncutField>(std::move(maker.field));
+  return std::make_shared<UncutField>(std::move(maker.field));
+}
+
+Result<std::shared_ptr<const UncutField>> UncutField::make(const TriMesh& mesh,
+                                                           const UncutFieldOptions& options) {
+  if (auto sound = check_mesh(mesh); !sound) return tl::unexpected(sound.error());
+  const Aabb box = bounds(mesh);
+  if (auto sound = check_options(box, options); !sound) return tl::unexpected(sound.error());
+  const MeshDistance distance(mesh);
+  const Source source{
+      box, [&](const Vec3& p, std::uint32_t guess) { return distance.closest(p, guess); }};
+  return make(source, options, nullptr);
+}
+
+Result<std::shared_ptr<const UncutField>> UncutField::make(const CoveredSurface& body,
+                                                           const UncutFieldOptions& options) {
+  const Aabb box = bounds(body.touched());
+  if (auto sound = check_options(box, options); !sound) return tl::unexpected(sound.error());
+  const Source both{box,
+                    [&](const Vec3& p, std::uint32_t guess) { return body.closest(p, guess); }};
+  auto made = make(both, options, nullptr);
+  if (!made) return tl::unexpected(made.error());
+  const MeshDistance distance(body.bone());
+  Aabb layers;
+  for (std::size_t i = 0; i < body.layers(); ++i)
+    for (const Vec3& v : body.layer(i).vertices) layers.include(v);
+  const Source alone{bounds(body.bone()),
+                     [&](const Vec3& p, std::uint32_t guess) { return distance.closest(p, guess); },
+                     made->get(), layers};
+  auto bare = make(alone, options, made->get());
+  if (!bare) return tl::unexpected(bare.error());
+  Hasher hasher;
+  hasher.add((*made)->hash_);
+  hasher.add((*bare)->hash_);
+  (*made)->hash_ = hasher.value();
+  (*made)->bare_ = std::move(*bare);
+  return std::shared_ptr<const UncutField>(std::move(*made));
+}
+
+Result<std::shared_ptr<const UncutField>> UncutField::make_beside(
+    const TriMesh& mesh, const UncutFieldOptions& options) const {
+  if (auto sound = check_mesh(mesh); !sound) return tl::unexpected(sound.error());
+  const Aabb box = bounds(mesh);
+  if (!((box.lo - box_.lo).minCoeff() > -kClear * grid_.cell_m &&
+        (box_.hi - box.hi).minCoeff() > -kClear * grid_.cell_m))
+    return fail("the mesh reaches out of the bone", "carving");
+  const MeshDistance distance(mesh);
+  const Source source{
+      box, [&](const Vec3& p, std::uint32_t guess) { return distance.closest(p, guess); }};
+  return make(source, options, this);
 }
 
 }  // namespace osteon

@@ -53,7 +53,7 @@ const NodeMoments& RemovedNodes::of(const CarvedField& field) {
   for (std::size_t n = 0; n < field.block_count(); ++n) {
     if (!anew && field.changed_at(n) <= since_) continue;
     const std::uint32_t block = field.block_at(n);
-    const std::int16_t *cuts = field.cuts(block), *heights = field.heights(block);
+    const std::int16_t *cuts = field.cuts(block), *heights = field.bare_heights(block);
     sum_.add(blocks_[n], -1);
     blocks_[n] = moments_of_block(field.grid().place(block), [&](std::size_t node) {
       return heights[node] < 0 && cuts[node] <= 0;

@@ -54,4 +54,22 @@ void read_window(const CarvedField& field, const std::array<int, 3>& block, Node
   }
 }
 
+void read_bare(const CarvedField& field, const std::array<int, 3>& block, BareWindow& out) {
+  const BlockGrid& grid = field.grid();
+  const UncutField& bone = field.bone().bare() ? *field.bone().bare() : field.bone();
+  for (int n = 0; n < 27; ++n) {
+    const std::array<int, 3> step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    const std::array<int, 3> at{block[0] + step[0], block[1] + step[1], block[2] + step[2]};
+    const std::array<Share, 3> share{share_of(step[0]), share_of(step[1]), share_of(step[2])};
+    const std::uint32_t index = grid.holds(at) ? grid.index(at) : 0;
+    if (!grid.holds(at)) {
+      put(nullptr, kFar, share, out);
+      continue;
+    }
+    const bool deep = bone.place(index) == UncutField::Place::kDeep;
+    const std::int16_t* heights = field.bare_heights(index);
+    put(heights ? heights : bone.stored(index), deep ? -kFar : kFar, share, out);
+  }
+}
+
 }  // namespace osteon

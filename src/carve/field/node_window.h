@@ -24,7 +24,11 @@ struct NodeWindow {
   }
 };
 
+/// Heights over the bone alone, without its cartilage, at the same nodes; see NodeWindow.
+using BareWindow = std::array<std::int16_t, NodeWindow::kCount>;
+
 /// Reads them. Where nothing is known to be near, heights and cuts are the farthest.
 void read_window(const CarvedField& field, const std::array<int, 3>& block, NodeWindow& out);
+void read_bare(const CarvedField& field, const std::array<int, 3>& block, BareWindow& out);
 
 }  // namespace osteon

@@ -64,7 +64,7 @@ void UncutField::deep_heights(std::uint32_t block,
 
 std::size_t UncutField::bytes() const {
   return middle_.size() * sizeof(float) + slot_.size() * sizeof(std::uint32_t) +
-         heights_.size() * sizeof(std::int16_t);
+         heights_.size() * sizeof(std::int16_t) + (bare_ ? bare_->bytes() : 0);
 }
 
 }  // namespace osteon

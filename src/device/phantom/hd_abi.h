@@ -31,6 +31,7 @@ inline constexpr std::uint16_t kDefaultPriority = 0xFFFF / 2;
 // State.
 inline constexpr Enum kButtons = 0x2000;
 inline constexpr Enum kSafetySwitch = 0x2001;
+inline constexpr Enum kInkwellSwitch = 0x2002;
 inline constexpr Enum kVelocity = 0x2051;
 inline constexpr Enum kTransform = 0x2052;
 inline constexpr Enum kAngularVelocity = 0x2053;

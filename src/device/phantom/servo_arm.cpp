@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hd_errors.h"
+#include "osteon/device/inkwell.h"
 #include "osteon/device/safety_limits.h"
 
 namespace osteon {
@@ -52,6 +53,7 @@ struct ServoArm::Raw {
   Vec3 w_rad_per_s = Vec3::Zero();
   int buttons = 0;
   bool switch_held = true;
+  bool inkwell = false;  ///< the state of its switch
 };
 
 ServoArm::ServoArm(const HdApi& api, const ArmSetup& setup, Clock now_ns)
@@ -102,6 +104,10 @@ ServoArm::Raw ServoArm::read_raw() const {
   api_.get_integerv(hd::kButtons, &raw.buttons);
   if (setup_.has_dead_man) api_.get_booleanv(hd::kSafetySwitch, held.data());
   raw.switch_held = held[0] != 0;
+  std::array<hd::Boolean, 8> inkwell{0};
+  if (setup_.calibration_styles & hd::kStyleInkwell)
+    api_.get_booleanv(hd::kInkwellSwitch, inkwell.data());
+  raw.inkwell = inkwell[0] != 0;
   return raw;
 }
 
@@ -120,6 +126,7 @@ bool ServoArm::accept(const Raw& raw, std::int64_t now) {
   s.v_V = v;
   s.w_V = raw.w_rad_per_s;
   s.buttons = static_cast<std::uint32_t>(raw.buttons);
+  if (raw.inkwell) s.buttons |= 1u << kInkwellButton;
   s.dead_man_held = raw.switch_held;
   return true;
 }

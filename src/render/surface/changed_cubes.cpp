@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "gl/frame.h"
 #include "surface/bone_mottle.h"
 
 namespace osteon {
@@ -28,8 +29,8 @@ std::array<int, 3> place_of(const std::array<int, 3>& count, std::uint32_t cube)
 }
 
 // None: outside of the grid.
-std::optional<std::array<int, 3>> cube_at(const CubeGrid& grid, const Vec3& p_B) {
-  const Vec3 u = (p_B - grid.lo_B) / grid.side_m;
+std::optional<std::array<int, 3>> cube_at(const CubeGrid& grid, const Vec3& p) {
+  const Vec3 u = (grid.X_GM * p - grid.lo_B) / grid.side_m;
   std::array<int, 3> at{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = std::floor(u[static_cast<Eigen::Index>(k)]);
@@ -57,7 +58,7 @@ void ChangedCubes::set_base(const ShadedMesh& mesh) {
   base_ = mesh.positions;
   base_shades_ = mesh.shades;
   base_in_.clear();
-  if (!empty()) sort_base({lo_B_, side_m_, count_, overlap_m_});
+  if (!empty()) sort_base({lo_B_, side_m_, count_, overlap_m_, X_GM_});
 }
 
 void ChangedCubes::sort_base(const CubeGrid& grid) {
@@ -85,6 +86,7 @@ bool ChangedCubes::fits(const CubeGrid& grid) const {
 void ChangedCubes::begin(const CubeGrid& grid) {
   clear();
   lo_B_ = grid.lo_B;
+  X_GM_ = grid.X_GM;
   side_m_ = grid.side_m;
   count_ = grid.count;
   overlap_m_ = grid.overlap_m;
@@ -154,7 +156,8 @@ ShadedMesh ChangedCubes::shaded(const CubeGrid& grid, const SurfaceCube& cube,
     out.positions.push_back(narrowed(p_B));
     out.normals.push_back(narrowed(v < cube.normals.size() ? cube.normals[v] : Vec3::UnitZ()));
     ShadedMesh::Shade shade = shade_near(grid, p_B);
-    shade.mottle = static_cast<std::uint8_t>(std::lround(255 * bone_mottle(p_B, bone)));
+    if (bone != kSoft)
+      shade.mottle = static_cast<std::uint8_t>(std::lround(255 * bone_mottle(p_B, bone)));
     const double depth = v < cube.depth_m.size() ? static_cast<double>(cube.depth_m[v]) : 0;
     if (depth > kOnSurface_m) {
       const double open = std::clamp(1 - 0.75 * depth / kDark_m, 0.25, 1.0);
@@ -175,6 +178,7 @@ void ChangedCubes::hide(const Program& program) const {
   const Eigen::Vector3f lo = lo_B_.cast<float>();
   program.set("u_changed_from",
               Eigen::Vector4f(lo.x(), lo.y(), lo.z(), static_cast<float>(side_m_)));
+  program.set("u_changed_grid", to_matrix(X_GM_));
   program.set("u_changed_overlap", static_cast<float>(overlap_m_));
 }
 

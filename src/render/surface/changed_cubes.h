@@ -20,7 +20,8 @@ class ChangedCubes {
   /// The surface as it was prepared: new vertices near an old one take its shade over. Cubes that
   /// were given stay.
   void set_base(const ShadedMesh& mesh);
-  /// See Renderer::set_cubes. `bone` names the pattern of its colour.
+  static constexpr std::size_t kSoft = static_cast<std::size_t>(-1);
+  /// See Renderer::set_cubes. `bone` names the pattern of its colour; kSoft: it has none.
   void set(const CubeGrid& grid, std::span<const SurfaceCube> cubes, std::size_t bone);
   void clear();
 
@@ -44,6 +45,7 @@ class ChangedCubes {
   GlTexture mask_;                                   ///< of each cube: whether it has changed
   std::map<std::uint32_t, GpuMesh> surfaces_;
   Vec3 lo_B_ = Vec3::Zero();
+  Pose X_GM_;
   double side_m_ = 0, overlap_m_ = 0;
   std::array<int, 3> count_{};
 };

@@ -19,7 +19,9 @@ ViewState default_view(const Case& the_case) {
   for (const SoftPart& soft : the_case.softs) {
     BoneAppearance look;
     look.color = soft.color_srgb;
-    look.visible = false;
+    // What is felt is seen: the cartilage of a bone that is felt with it.
+    look.visible = soft.kind == "cartilage" && soft.bones.size() == 1 &&
+                   the_case.bones[soft.bones.front().index].covered != nullptr;
     if (soft.kind == "skin") look.opacity = kSkinOpacity;
     view.softs.push_back(look);
   }

@@ -9,6 +9,7 @@
 #include "case/mesh_hash.h"
 #include "case/soft_parts.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/bone_cover.h"
 #include "osteon/scene/bone_pieces.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
@@ -86,11 +87,11 @@ Result<std::vector<Hull>> build_pieces(const BoneDef& bone, PieceCache* cache) {
 
 Result<FieldCache::Field> build_field(const BoneDef& bone, const FieldOptions& options,
                                       FieldCache* cache) {
-  if (bone.felt != Felt::kField) return FieldCache::Field();
-  const std::uint64_t key = field_key(bone.mesh, options);
+  if (!is_field(bone.felt)) return FieldCache::Field();
+  const std::uint64_t key = field_key(bone, options);
   if (cache)
     if (auto known = cache->find(key)) return known;
-  auto made = DistanceField::make(bone.mesh, options);
+  auto made = make_felt_field(bone, options);
   if (!made) return fail(made.error().what, "bone '" + bone.name + "'", made.error().todo);
   auto field = std::make_shared<const DistanceField>(std::move(*made));
   if (cache) cache->put(key, field);
@@ -108,6 +109,7 @@ Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
   bone.field = std::move(*field);
   bone.wide = std::move(*wide);
   bone.felt = def.felt;
+  if (def.felt == Felt::kCovered) bone.covered = std::move(def.covered);
   bone.pieces = std::move(*pieces);
   for (const Hull& piece : bone.pieces) bone.bodies.push_back(make_convex_body(piece));
   bone.mass_kg = mass_of(def, bone.pieces);
@@ -176,6 +178,7 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
       return fail("two bones have the name '" + bone.name + "'", where, "Rename one of them");
     if (auto sound = check_bone(bone); !sound) return tl::unexpected(sound.error());
   }
+  cover_bones(def);
   Case built;
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     if (options.progress) options.progress(i, def.bones.size());

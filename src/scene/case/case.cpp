@@ -5,7 +5,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::array<std::string_view, 3> kFeltNames{"pieces", "hull", "field"};
+constexpr std::array<std::string_view, 4> kFeltNames{"pieces", "hull", "field", "covered"};
 
 constexpr std::array<std::string_view, 7> kSoftKinds{"cartilage", "ligament", "tendon", "disc",
                                                      "meniscus",  "fat",      "skin"};

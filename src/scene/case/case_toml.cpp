@@ -83,7 +83,7 @@ Pose read_pose(CaseTomlReader& reader) {
 
 Felt read_felt(CaseTomlReader& reader) {
   const auto felt = felt_from_text(reader.text_or("felt", "pieces"));
-  if (!felt) reader.set_error("'felt' must be pieces, hull or field", "felt");
+  if (!felt) reader.set_error("'felt' must be pieces, hull, field or covered", "felt");
   return felt.value_or(Felt::kPieces);
 }
 

@@ -121,14 +121,18 @@ std::vector<Sample> samples_of(const DistanceField& field) {
 }
 
 FeltDistance of_field(const Bone& bone, const MeshDistance& mesh, double spacing_m) {
+  const TriMesh& drawn = bone.covered ? bone.covered->touched() : bone.mesh;
   const DistanceField& field = *bone.field;
   const auto to_felt = [&](const Vec3& p) {
     const auto at = foot(field, p);
     return at ? (*at - p).norm() : std::abs(field.at(p).distance);
   };
-  const auto to_mesh = [&](const Vec3& p) { return mesh.closest(p).signed_distance; };
+  const auto to_mesh = [&](const Vec3& p) {
+    return bone.covered ? bone.covered->closest(p).signed_distance
+                        : mesh.closest(p).signed_distance;
+  };
   const JointEnds ends(bone.mesh);
-  return both_ways(gaps(samples_of(bone.mesh, spacing_m), ends, to_felt),
+  return both_ways(gaps(samples_of(drawn, spacing_m), ends, to_felt),
                    gaps(samples_of(field), ends, to_mesh));
 }
 

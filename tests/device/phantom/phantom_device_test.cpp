@@ -1,4 +1,5 @@
 #include "phantom/phantom_device.h"
+#include "osteon/device/inkwell.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,20 @@ TEST(PhantomDevice, TellsPoseAndVelocityInItsOwnFrame) {
   EXPECT_TRUE(s.connected && s.calibrated && s.dead_man_held);
   EXPECT_EQ(s.refusal, ForceOff::kNone);
   EXPECT_LT((arm->info().workspace_m - Vec3(0.36, 0.2, 0.12)).norm(), 1e-12);
+}
+
+TEST(PhantomDevice, TellsTheInkwellWhereTheArmHasOne) {
+  for (const bool has_one : {true, false}) {
+    StubLibrary stub;
+    if (!has_one) stub.left->calibration_style = hd::kStyleAuto;
+    const auto arm = open(stub.session(), "Left Device");
+    stub.left->buttons = 1;
+    stub.step(3);
+    EXPECT_EQ(arm->read().buttons, 1u);
+    stub.left->inkwell = true;
+    stub.step(3);
+    EXPECT_EQ(arm->read().buttons, has_one ? 1u | 1u << kInkwellButton : 1u);
+  }
 }
 
 TEST(PhantomDevice, PutsOutTheForceAndNeverMoreThanItsLimit) {

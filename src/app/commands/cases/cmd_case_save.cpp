@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "commands/support/number_check.h"
 #include "commands/support/parser.h"
 #include "osteon/carve/carved_surface.h"
+#include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
@@ -27,15 +29,42 @@ struct CaseSaveCommand {
   double at_s = 0;
 };
 
-/// Surfaces of the bones that have cuts, by their place in the case.
-using CarvedMeshes = std::vector<std::optional<Result<TriMesh>>>;
+/// Surfaces of what has cuts, by their place in the case. Of a layer of cartilage that is gone
+/// altogether an empty one.
+struct CarvedMeshes {
+  std::vector<std::optional<Result<TriMesh>>> bones, softs;
+};
+
+/// What is left of the layers on a bone, in World at rest.
+void add_layers(const CarvedField& field, const std::vector<CarvedLayer>& layers, const Case& of,
+                CarvedMeshes& out) {
+  for (const CarvedLayer& layer : layers) {
+    const Pose X_BW = layer.X_WB.inverse();
+    TriMesh mesh_B = of.softs[layer.soft].mesh_W;
+    for (Vec3& v : mesh_B.vertices) v = X_BW * v;
+    auto uncut = field.bone().make_beside(mesh_B);
+    if (!uncut) continue;  // it was left out of what is felt as well
+    const auto same = same_cuts(field, std::move(*uncut));
+    if (!same || total(removed_volume(*same)) == 0) continue;
+    auto left = carved_mesh(*same);
+    TriMesh mesh_W = left ? std::move(*left) : TriMesh{};
+    for (Vec3& v : mesh_W.vertices) v = layer.X_WB * v;
+    out.softs[layer.soft] = std::move(mesh_W);
+  }
+}
 
 CarvedMeshes meshes_of(const Session& session) {
-  CarvedMeshes meshes(session.the_case().bones.size());
+  CarvedMeshes meshes;
+  meshes.bones.resize(session.the_case().bones.size());
+  meshes.softs.resize(session.the_case().softs.size());
   const Carving* carving = session.carving();
-  for (std::size_t b = 0; carving && b < meshes.size(); ++b) {
+  for (std::size_t b = 0; carving && b < meshes.bones.size(); ++b) {
     const CarvedField* field = carving->field(b);
-    if (field && field->block_count() > 0) meshes[b] = carved_mesh(*field);
+    if (!field || field->block_count() == 0) continue;
+    const auto& bare = field->bone().bare();
+    meshes.bones[b] = bare ? carved_mesh(*field, bare) : carved_mesh(*field);
+    const auto& layers = carving->setup().layers_on;
+    if (bare && b < layers.size()) add_layers(*field, layers[b], session.the_case(), meshes);
   }
   return meshes;
 }
@@ -66,6 +95,15 @@ Result<CarvedMeshes> replay_to(RecordingReader& recording, const CaseSaveCommand
   return meshes;
 }
 
+void take_layers(CarvedMeshes& meshes, CaseDef& def) {
+  for (std::size_t s = std::min(meshes.softs.size(), def.softs.size()); s-- > 0;) {
+    if (!meshes.softs[s]) continue;
+    def.softs[s].mesh_W = std::move(**meshes.softs[s]);
+    if (def.softs[s].mesh_W.triangles.empty())
+      def.softs.erase(def.softs.begin() + static_cast<std::ptrdiff_t>(s));
+  }
+}
+
 int run_save(const CaseSaveCommand& command) {
   const auto out = plain_folder(command.out);
   if (const auto free = refuse_existing(out); !free) return report_error(free.error());
@@ -78,12 +116,14 @@ int run_save(const CaseSaveCommand& command) {
   auto def = open_case_def(*spec);
   if (!def) return report_error(def.error());
   std::size_t carved = 0;
-  for (std::size_t b = 0; b < meshes->size() && b < def->bones.size(); ++b) {
-    if (!(*meshes)[b]) continue;
-    if (!*(*meshes)[b]) return report_error((*meshes)[b]->error());
-    def->bones[b].mesh = std::move(**(*meshes)[b]);
+  for (std::size_t b = 0; b < meshes->bones.size() && b < def->bones.size(); ++b) {
+    auto& mesh = meshes->bones[b];
+    if (!mesh) continue;
+    if (!*mesh) return report_error(mesh->error());
+    def->bones[b].mesh = std::move(**mesh);
     ++carved;
   }
+  take_layers(*meshes, *def);
   if (carved > 0) def->recipe.reset();  // it could not be grown again
   const auto notes = notes_of(*spec);
   if (!notes) return report_error(notes.error());

@@ -38,7 +38,7 @@ struct Carved {
   std::size_t blocks = 0;
   double dust_m3 = 0;             ///< loose and removed, in removed_m3 too
   std::vector<double> pieces_m3;  ///< loose and larger: in the mesh beside the bone
-  TriMesh mesh;
+  TriMesh mesh;                   ///< of the bone alone, without its cartilage
 };
 
 constexpr double kTick_s = 0.001;        // the hand's
@@ -68,7 +68,8 @@ class Carver {
     picture();
     out_.removed_m3 = removed_volume(field_);
     out_.blocks = field_.block_count();
-    auto mesh = carved_mesh(field_);
+    const auto& bare = field_.bone().bare();
+    auto mesh = bare ? carved_mesh(field_, bare) : carved_mesh(field_);
     if (!mesh) return tl::unexpected(mesh.error());
     out_.mesh = std::move(*mesh);
     return std::move(out_);
@@ -136,7 +137,7 @@ class Carver {
 };
 
 /// The bone's field and what of the memory is left for cuts.
-Result<CarvedField> make_field(const BoneDef& bone, const CarveCommand& command) {
+Result<CarvedField> make_field(const CaseBone& source, const CarveCommand& command) {
   const auto layers = bone_layers(command.cortex_mm / 1000, command.marrow_mm / 1000);
   if (!layers) return tl::unexpected(layers.error());
   UncutFieldOptions options;
@@ -145,11 +146,12 @@ Result<CarvedField> make_field(const BoneDef& bone, const CarveCommand& command)
   options.run = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     run_on_all_cores(count, task, [](double) {});
   };
-  auto field = UncutField::make(bone.mesh, options);
+  auto field = source.covered ? UncutField::make(*source.covered, options)
+                              : UncutField::make(source.bone.mesh, options);
   if (!field) return tl::unexpected(field.error());
-  constexpr std::size_t kBytesOfBlock = 2304;
+  const std::size_t bytes_of_block = source.covered ? 3328 : 2304;
   const std::size_t left = options.most_bytes - std::min((*field)->bytes(), options.most_bytes);
-  const std::size_t blocks = std::min(CarvedField::kMostBlocks * 4, left / kBytesOfBlock);
+  const std::size_t blocks = std::min(CarvedField::kMostBlocks * 4, left / bytes_of_block);
   if (blocks == 0)
     return fail("there is not enough memory for cuts", command.bone, "Allow more with --memory-mb");
   return CarvedField::make(std::move(*field), *layers, blocks);
@@ -171,7 +173,7 @@ Result<Carved> carve(const CaseBone& source, const CarveCommand& command) {
   const auto path = load_path(command.path);
   if (!path) return tl::unexpected(path.error());
   if (path->samples.empty()) return fail("the path has no poses", command.path);
-  auto field = make_field(source.bone, command);
+  auto field = make_field(source, command);
   if (!field) {
     Error error = field.error();
     error.where = command.bone;
@@ -214,7 +216,7 @@ void print(const Carved& carved, const CaseBone& source, const CarveCommand& com
 }
 
 int run_carve(const CarveCommand& command) {
-  const auto source = load_case_bone(command.bone);
+  const auto source = load_case_bone(command.bone, true);
   if (!source) return report_error(source.error());
   const auto carved = carve(*source, command);
   if (!carved) return report_error(carved.error());

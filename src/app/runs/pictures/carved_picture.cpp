@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "osteon/carve/removed.h"
 
@@ -11,22 +13,54 @@ namespace {
 // Surfaces of a block may fall short of it by a cell.
 constexpr double kOverlapCells = 1.5;
 
-// How deep a point lies under the surface of the whole bone, by the nearest node.
-double depth_m(const CarvedField& field, const Vec3& p_B) {
-  const BlockGrid& grid = field.grid();
-  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
+using HeightOf = double (CarvedField::*)(std::uint32_t block, std::size_t node) const;
+
+double at_node(const CarvedField& field, const std::array<int, 3>& node, HeightOf height) {
   std::array<int, 3> at{}, in{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double x = std::floor(u[static_cast<Eigen::Index>(k)] + 0.5);
-    if (!(x >= 0 && x < BlockGrid::kSide * grid.blocks[k])) return 0;
-    at[k] = static_cast<int>(x) / BlockGrid::kSide;
-    in[k] = static_cast<int>(x) % BlockGrid::kSide;
+    at[k] = node[k] / BlockGrid::kSide;
+    in[k] = node[k] % BlockGrid::kSide;
   }
-  const std::uint32_t block = grid.index(at);
-  const std::int16_t* heights = field.heights(block);
-  if (!heights) heights = field.bone().stored(block);
-  const auto node = static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0]);
-  return std::max(0.0, heights ? -1e-6 * heights[node] : -field.bone().middle_m(block));
+  const auto n = static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0]);
+  return (field.*height)(field.grid().index(at), n);
+}
+
+bool holds(const BlockGrid& grid, const std::array<int, 3>& node) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node[k] < 0 || node[k] >= BlockGrid::kSide * grid.blocks[k]) return false;
+  return true;
+}
+
+// How deep a point lies under the surface of the whole bone, by the nearest node.
+double depth_m(const CarvedField& field, const Vec3& p_B, HeightOf height) {
+  const BlockGrid& grid = field.grid();
+  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
+  std::array<int, 3> node{};
+  for (std::size_t k = 0; k < 3; ++k)
+    node[k] = static_cast<int>(std::floor(u[static_cast<Eigen::Index>(k)] + 0.5));
+  return holds(grid, node) ? std::max(0.0, -at_node(field, node, height)) : 0;
+}
+
+// How high a point lies over the bone under its cartilage, between the nodes about it.
+double over_bone_m(const CarvedField& field, const Vec3& p_B) {
+  const BlockGrid& grid = field.grid();
+  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
+  std::array<int, 3> low{};
+  Vec3 t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    low[k] = static_cast<int>(std::floor(u[axis]));
+    t[axis] = u[axis] - low[k];
+  }
+  double sum = 0;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> node{low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2)};
+    if (!holds(grid, node)) return 0;
+    const double share = ((c & 1) ? t.x() : 1 - t.x()) * ((c & 2) ? t.y() : 1 - t.y()) *
+                         ((c & 4) ? t.z() : 1 - t.z());
+    sum += share * at_node(field, node, &CarvedField::bare_height_m);
+  }
+  return sum;
 }
 
 SurfaceCube cube_of(const CarvedField& field, std::uint32_t block, const SurfacePatch* patch) {
@@ -36,8 +70,45 @@ SurfaceCube cube_of(const CarvedField& field, std::uint32_t block, const Surface
   cube.vertices = patch->vertices;
   cube.normals = patch->normals;
   cube.triangles = patch->triangles;
-  for (const Vec3& v : cube.vertices) cube.depth_m.push_back(static_cast<float>(depth_m(field, v)));
+  for (const Vec3& v : cube.vertices)
+    cube.depth_m.push_back(static_cast<float>(depth_m(field, v, &CarvedField::bare_height_m)));
   return cube;
+}
+
+// What of a cube's surface is cartilage; the rest stays in `bone`.
+SurfaceCube take_cartilage(const CarvedField& field, SurfaceCube& bone) {
+  constexpr double kLeast_m = 0.00003;  // thinner than the fields tell
+  SurfaceCube out = bone;
+  out.triangles.clear();
+  std::vector<double> over;
+  for (const Vec3& v : bone.vertices) over.push_back(over_bone_m(field, v));
+  std::vector<Triangle> left;
+  for (const Triangle& t : bone.triangles) {
+    const bool cartilage = over[t[0]] + over[t[1]] + over[t[2]] > 3 * kLeast_m;
+    (cartilage ? out.triangles : left).push_back(t);
+  }
+  bone.triangles = std::move(left);
+  for (std::size_t v = 0; v < out.vertices.size(); ++v)
+    out.depth_m[v] = static_cast<float>(depth_m(field, out.vertices[v], &CarvedField::height_m));
+  return out;
+}
+
+// The layer that a cube's middle is nearest to.
+std::size_t layer_near(const std::vector<CarvedLayer>& layers, const Vec3& middle_B) {
+  std::size_t best = 0;
+  double least = 1e300;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const Aabb& box = layers[l].box_B;
+    const double away = (box.lo - middle_B).cwiseMax(middle_B - box.hi).cwiseMax(0.0).norm();
+    if (away < least) best = l;
+    least = std::min(least, away);
+  }
+  return best;
+}
+
+void move_to_part(const Pose& X_WB, SurfaceCube& cube) {
+  for (Vec3& v : cube.vertices) v = X_WB * v;
+  for (Vec3& n : cube.normals) n = X_WB.rotate(n);
 }
 
 }  // namespace
@@ -101,11 +172,30 @@ std::vector<CarvedPicture::Changed> CarvedPicture::changes() {
     if (!of || !of->waits) continue;
     of->waits = false;
     const BlockGrid& grid = of->field.grid();
-    Changed& changed = out.emplace_back();
-    changed.bone = BoneId{b};
-    changed.grid = {grid.lo, grid.block_m(), grid.blocks, kOverlapCells * grid.cell_m};
-    for (const std::uint32_t block : of->surface.update(of->field))
-      changed.cubes.push_back(cube_of(of->field, block, of->surface.patch(block)));
+    const CubeGrid cubes{grid.lo, grid.block_m(), grid.blocks, kOverlapCells * grid.cell_m, {}};
+    std::vector<Changed> changed{{BoneId{b}, cubes, {}}};
+    const std::vector<CarvedLayer> none;
+    const auto& layers = b < setup_->layers_on.size() ? setup_->layers_on[b] : none;
+    for (const CarvedLayer& layer : layers) {
+      Changed& of_layer = changed.emplace_back();
+      of_layer.bone = BoneId{static_cast<std::uint32_t>(setup_->bones.size()) + layer.soft};
+      of_layer.grid = cubes;
+      of_layer.grid.X_GM = layer.X_WB.inverse();
+    }
+    for (const std::uint32_t block : of->surface.update(of->field)) {
+      SurfaceCube cube = cube_of(of->field, block, of->surface.patch(block));
+      if (!layers.empty()) {
+        SurfaceCube cartilage = take_cartilage(of->field, cube);
+        const std::size_t owner = layer_near(layers, grid.middle(grid.place(block)));
+        for (std::size_t l = 0; l < layers.size(); ++l)
+          changed[1 + l].cubes.push_back(l == owner ? SurfaceCube{}
+                                                    : SurfaceCube{block, {}, {}, {}, {}});
+        move_to_part(layers[owner].X_WB, cartilage);
+        changed[1 + owner].cubes.back() = std::move(cartilage);
+      }
+      changed.front().cubes.push_back(std::move(cube));
+    }
+    std::move(changed.begin(), changed.end(), std::back_inserter(out));
   }
   return out;
 }

@@ -25,7 +25,7 @@ class CarvedPicture {
   void make_whole();
 
   struct Changed {
-    BoneId bone;
+    BoneId bone;  ///< or, beyond the bones, a layer of cartilage: a soft part of the case
     CubeGrid grid;
     std::vector<SurfaceCube> cubes;
   };

@@ -217,7 +217,7 @@ Result<void> Loader::repeat_first(LoadedReplay& replay_of) {
 
 bool has_field(const Case& the_case) {
   return std::any_of(the_case.bones.begin(), the_case.bones.end(),
-                     [](const Bone& bone) { return bone.felt == Felt::kField; });
+                     [](const Bone& bone) { return is_field(bone.felt); });
 }
 
 // A bone that cannot be carved is seen and felt all the same.

@@ -16,10 +16,11 @@ struct FeltButton {
   const char* explanation;
 };
 
-constexpr std::array<FeltButton, 3> kFeltButtons = {{
+constexpr std::array<FeltButton, 4> kFeltButtons = {{
     {Felt::kHull, "Hull", "One convex hull around the bone: the fastest, but it bridges hollows"},
     {Felt::kPieces, "Pieces", "Convex pieces that follow the bone within about 0.2 mm"},
     {Felt::kField, "Field", "The bone's own surface, smoothed over a quarter of a millimetre"},
+    {Felt::kCovered, "Cartilage", "As field, with the cartilage of the case on the bone"},
 }};
 
 // What the probe feels of the bone. A replay and a recording belong to the case as it was opened.
@@ -28,9 +29,10 @@ void draw_felt(const PanelContext& c, std::size_t i) {
   ui::text(color::kTextQuiet, "Felt as");
   ImGui::BeginDisabled(c.model.replay.on || c.model.record.on);
   const float gap = c.px(4);
-  const float w = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-  for (const FeltButton& button : kFeltButtons) {
-    if (button.felt != kFeltButtons[0].felt) ImGui::SameLine(0, gap);
+  const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  for (std::size_t k = 0; k < kFeltButtons.size(); ++k) {
+    const FeltButton& button = kFeltButtons[k];
+    if (k % 2 == 1) ImGui::SameLine(0, gap);
     const bool active = c.model.bone_felt[i] == button.felt;
     if (ui::toggle_button(button.label, active, {w, 0}) && !active)
       c.requests.felt = FeltWish{BoneId{static_cast<std::uint32_t>(i)}, button.felt};

@@ -47,6 +47,9 @@ TEST(Panels, ABoneIsFeltAsChosenInItsPopup) {
   ASSERT_TRUE(r.felt);
   EXPECT_EQ(r.felt->bone, BoneId{1});
   EXPECT_EQ(r.felt->felt, Felt::kField);
+  const UiRequests covered = ui.click(popup.c_str(), {"Cartilage"});
+  ASSERT_TRUE(covered.felt);
+  EXPECT_EQ(covered.felt->felt, Felt::kCovered);
   ui.model.record.on = true;
   EXPECT_FALSE(ui.click(popup.c_str(), {"Hull"}).felt) << "while a recording runs";
 }

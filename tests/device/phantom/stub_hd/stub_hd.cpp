@@ -449,6 +449,7 @@ void hdGetBooleanv(hd::Enum what, hd::Boolean* to) {
   const Lock lock(lib().guard);
   const Arm* arm = current();
   if (arm && what == hd::kSafetySwitch) *to = arm->state.switch_held;
+  if (arm && what == hd::kInkwellSwitch) *to = arm->state.inkwell;
 }
 
 const char* hdGetString(hd::Enum what) {

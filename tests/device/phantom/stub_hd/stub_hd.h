@@ -12,6 +12,7 @@ struct StubArm {
   double hand_mass_kg, grip_n_per_m, grip_n_s_per_m;
   int buttons;
   bool switch_held;
+  bool inkwell;  ///< the switch that feels the stylus there
   bool plugged;
   bool frozen;   ///< the arm's state is not read anew: BeginFrame leaves the last one
   int garbage;   ///< 0 none, 1 not a number, 2 a matrix that is no rotation, 3 far away

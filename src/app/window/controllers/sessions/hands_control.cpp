@@ -103,7 +103,8 @@ bool HandsControl::nudge_rested(SceneInput& input) {
   return true;
 }
 
-// The first button is the tip's; those after it page the tray. One that is the clutch does not.
+// The first button is the tip's; those after it page the tray, and so does a visit to the inkwell.
+// A button that is the clutch does not.
 void HandsControl::poll_buttons() {
   const std::uint32_t now = sight_.shown().tool.buttons;
   const std::uint32_t pressed = now & ~std::exchange(buttons_before_, now);
@@ -116,6 +117,7 @@ void HandsControl::poll_buttons() {
   if (is_pressed(1)) requests.step = 1;
   if (is_pressed(2)) requests.step = -1;
   if (is_pressed(3)) requests.next_size = true;
+  if (inkwell_.ended(now)) requests.step = 1;
   exchange(requests);
 }
 

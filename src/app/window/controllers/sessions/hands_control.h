@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "osteon/device/inkwell.h"
 #include "window/controllers/sessions/live_control.h"
 #include "window/controllers/sessions/tip_gauge.h"
 #include "window/hands_model.h"
@@ -55,6 +56,7 @@ class HandsControl {
   std::string search_;
   std::optional<std::size_t> aimed_;  ///< portal that a hand was brought to
   std::uint32_t buttons_before_ = 0;  ///< of the active hand's device
+  InkwellVisits inkwell_;             ///< of that device's stylus
   TipGauge tip_;
 };
 
