@@ -55,8 +55,8 @@ Vec3 outwards(const AclKnee& knee, const Vec3& portal_W) {
   return (portal_W - middle).normalized();
 }
 
-// With some room about the line of sight, and by the rule's own measure, a little stricter: a bump of
-// the bone right before the mark hides it.
+// With some room about the line of sight, and by the rule's own measure, a little stricter: a bump
+// of the bone right before the mark hides it.
 bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
   constexpr double kSpare_m = 0.0006;
   const Vec3 back = (eye_W - mark_W).normalized();

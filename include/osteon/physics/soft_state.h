@@ -54,7 +54,7 @@ struct SolidHandState {
 struct BandState {
   bool torn = false;
   double torn_share = 0.5;  ///< of a torn one, where: of the way from its first end to its last
-  bool lost = false;  ///< it could not be solved
+  bool lost = false;        ///< it could not be solved
 };
 
 /// All that a step of the soft parts leaves to the next: of fixed size.

@@ -39,7 +39,10 @@ std::shared_ptr<const CoveredSurface> covered_bone(const CaseDef& def, const Bon
   }
   if (layers.empty() || !is_closed(bone.mesh)) return nullptr;
   auto made = CoveredSurface::make(bone.mesh, layers);
-  return made ? std::make_shared<const CoveredSurface>(std::move(*made)) : nullptr;
+  if (made) return std::make_shared<const CoveredSurface>(std::move(*made));
+  log(LogLevel::kWarning,
+      "the cartilage on '" + bone.name + "' is neither felt nor carved: " + made.error().message());
+  return nullptr;
 }
 
 void cover_bones(CaseDef& def) {

@@ -84,7 +84,9 @@ TEST(CoveredSurface, OfASlabOnABoxTheStepIsTouched) {
     EXPECT_GT(near, 50);
     // In the slab, where the box ends, the slab's own faces are nearest: nothing lies between.
     EXPECT_NEAR(body.closest(Vec3(0, 0, 0.0061)).signed_distance, -0.0019, 0.00001) << base;
-    EXPECT_NEAR(body.closest(Vec3(0, 0, 0.0058)).signed_distance, -std::hypot(0.002, 0.0002), 0.0001) << base;
+    EXPECT_NEAR(body.closest(Vec3(0, 0, 0.0058)).signed_distance, -std::hypot(0.002, 0.0002),
+                0.0001)
+        << base;
   }
 }
 
