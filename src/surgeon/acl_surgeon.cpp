@@ -64,17 +64,41 @@ bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
          !is_hidden(knee.whole(), rest_snapshot(knee.whole()), eye_W, mark_W, kSpare_m);
 }
 
+// Whether the mark is near enough to the middle of the picture, and neither too near nor too far.
+bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
+  constexpr double kCentral = 0.4, kClosest_m = 0.005, kFarthest_m = 0.028;
+  const ScopeView view = view_through(tools.optics, X_WT);
+  const Vec3 way = mark_W - view.eye_W;
+  const double cosine = way.normalized().dot(view.along_W);
+  return way.norm() > kClosest_m && way.norm() < kFarthest_m &&
+         cosine > std::cos(kCentral * tools.optics.half_field_rad);
+}
+
 // From near what is usual outwards, upright first.
-std::optional<Gaze> gaze_at(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
-                            const Vec3& mark_W) {
+std::optional<Gaze> gaze_over(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                              const Vec3& mark_W, const Vec3& aim_W) {
   constexpr double kScopeRadius_m = 0.0025;
   for (int turn = 0; turn <= 11; ++turn)
     for (const double side : {1.0, -1.0})
-      for (const double mm : {14.0, 18.0, 11.0, 22.0, 26.0}) {
-        const Gaze gaze{mark_W, 0.001 * mm, side * turn * 15 * kAclTurn};
+      for (const double mm : {14.0, 18.0, 11.0, 22.0, 26.0, 8.0}) {
+        const Gaze gaze{aim_W, 0.001 * mm, side * turn * 15 * kAclTurn};
         const auto pose = pose_for(gaze, portal_W, tools.optics);
-        if (pose && knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))
+        if (pose && well_seen(tools, *pose, mark_W) &&
+            knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))
           return gaze;
+      }
+  return std::nullopt;
+}
+
+// At the mark itself; where a bone is in the way of that, a little beside it.
+std::optional<Gaze> gaze_at(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                            const Vec3& mark_W) {
+  if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, mark_W)) return gaze;
+  for (const double beside_m : {0.004, 0.007})
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {1.0, -1.0}) {
+        const Vec3 aim_W = mark_W + side * beside_m * Vec3::Unit(axis);
+        if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, aim_W)) return gaze;
       }
   return std::nullopt;
 }
