@@ -34,6 +34,7 @@ ReportBuilder::ReportBuilder(const Case& the_case, double tick_s, std::span<cons
       tallies_(the_case.bones.size()) {
   for (const Portal& portal : portals) portals_.push_back({portal.name, 0, 0});
   portal_ticks_.resize(portals_.size());
+  events_.resize(event_table().size());
   path_100hz_.reserve(static_cast<std::size_t>(kReservedSeconds * kPathRateHz));
 }
 
@@ -77,6 +78,12 @@ void ReportBuilder::add_portal(std::uint32_t portal) {
   portals_[portal].times_entered += entered ? 1 : 0;
 }
 
+void ReportBuilder::add(const Event& event) {
+  const auto table = event_table();
+  if (const EventKindRow* row = find_event_kind(event.kind))
+    ++events_[static_cast<std::size_t>(row - table.data())];
+}
+
 void ReportBuilder::add_position(const Vec3& p_WP) {
   if (is_finite(p_WP)) last_p_WP_ = p_WP;
   if (ticks_ % stride_ == 0) path_100hz_.push_back(last_p_WP_);
@@ -96,6 +103,8 @@ Report ReportBuilder::finish() const {
                             tally.deepest_m * 1000});
   }
   report.portals = portals_;
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (events_[i] > 0) report.events[std::string(event_table()[i].name)] = events_[i];
   const double rate_hz = 1 / (static_cast<double>(stride_) * tick_s_);
   report.path_length_mm = length(path_100hz_) * 1000;
   // The ticks after the last whole sample belong to the way, but not to an even sampling.

@@ -50,6 +50,7 @@ void add_tail(const Report& report, OrderedJson& json) {
 void add_hand(const Report& report, OrderedJson& json) {
   json["bones"] = bones_json(report);
   if (!report.portals.empty()) json["portals"] = portals_json(report);
+  if (!report.events.empty()) json["events"] = report.events;
   json["path_length_mm"] = report.path_length_mm;
   json["smoothness_sparc"] = report.smoothness_sparc;
 }

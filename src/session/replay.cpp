@@ -79,6 +79,7 @@ class Tally {
       outcome.first_different_tick = record.tick;
     }
     hand.report.add(session.tool_state(replayer.hand()));
+    for (const Event& event : session.last_events(replayer.hand())) hand.report.add(event);
     hand.durations.add_ns(replayer.last_tick_ns());
     if (static_cast<double>(replayer.last_tick_ns()) > tick_ns_) ++hand.missed_ticks;
     if (++hand.ticks == 1 && replayer.hand() == 0) outcome.first_tick = record.tick;

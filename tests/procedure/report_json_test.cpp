@@ -36,6 +36,23 @@ TEST(ReportJson, HasTheDocumentedKeys) {
   EXPECT_EQ(json.size(), 11u);
 }
 
+TEST(ReportJson, CountsTheEventsOfEachKindAndIsSilentWithoutAny) {
+  const Case the_case = testing::named_case({"radius"});
+  ReportBuilder builder(the_case);
+  EXPECT_FALSE(nlohmann::json::parse(to_json(builder.finish())).contains("events"));
+  Event event;
+  for (const EventKind kind : {EventKind::kContactBegin, EventKind::kContactEnd,
+                               EventKind::kContactBegin, EventKind::kMark, EventKind{999}}) {
+    event.kind = kind;
+    builder.add(event);
+  }
+  const auto events = nlohmann::json::parse(to_json(builder.finish()))["events"];
+  EXPECT_EQ(events.size(), 3u);
+  EXPECT_EQ(events["contact_begin"], 2);
+  EXPECT_EQ(events["contact_end"], 1);
+  EXPECT_EQ(events["mark"], 1);
+}
+
 TEST(ReportJson, KeepsTheBonesInTheCasesOrder) {
   const std::string text = to_json(sample_report());
   EXPECT_LT(text.find("radius"), text.find("lunate"));

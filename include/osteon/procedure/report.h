@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "osteon/base/percentiles.h"
 #include "osteon/base/result.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/event.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/state.h"
 
@@ -35,10 +37,11 @@ struct Report {
   std::string case_name;
   std::uint64_t case_hash = 0;
   double duration_s = 0;
-  std::vector<BoneReport> bones;      ///< all bones of the case, in its order
-  std::vector<PortalReport> portals;  ///< all that were open, in their order
-  double path_length_mm = 0;          ///< of the proxy, resampled at 100 Hz
-  double smoothness_sparc = 0;        ///< spectral arc length; 0 smoothest
+  std::vector<BoneReport> bones;                ///< all bones of the case, in its order
+  std::vector<PortalReport> portals;            ///< all that were open, in their order
+  std::map<std::string, std::uint64_t> events;  ///< how many of each kind, by its name
+  double path_length_mm = 0;                    ///< of the proxy, resampled at 100 Hz
+  double smoothness_sparc = 0;                  ///< spectral arc length; 0 smoothest
   double tick_p50_us = 0, tick_p99_us = 0, tick_p999_us = 0, tick_max_us = 0;
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;
@@ -58,6 +61,8 @@ class ReportBuilder {
   explicit ReportBuilder(const Case& the_case, double tick_s = 0.001,
                          std::span<const Portal> portals = {});
   void add(const ToolState& tool);
+  /// Of the same hand. Allocates nothing.
+  void add(const Event& event);
   Report finish() const;
 
  private:
@@ -76,6 +81,7 @@ class ReportBuilder {
   std::vector<BoneTally> tallies_;
   std::vector<PortalReport> portals_;
   std::vector<std::uint64_t> portal_ticks_;
+  std::vector<std::uint64_t> events_;  // by place in event_table()
   std::uint32_t portal_ = kNoPortal;
   std::vector<Vec3> path_100hz_;
   Vec3 last_p_WP_ = Vec3::Zero();
@@ -91,7 +97,8 @@ void set_tick_times(Report& report, const Percentiles& durations);
 ///                          "contact_time_s": 3.4, "peak_force_n": 2.1, "mean_force_n": 1.0,
 ///                          "deepest_mm": 0.8 }, ... all bones of the case ... },
 ///   "portals": { "<name>": { "time_s": 12.5, "times_entered": 2 }, ... },   (where any is open)
-///   "path_length_mm": 812.5, "smoothness_sparc": -7.1, "state_hash": "<16 hex digits>",
+///   "events": { "contact_begin": 12, ... },   (kinds that there were; left out where there was
+///   none) "path_length_mm": 812.5, "smoothness_sparc": -7.1, "state_hash": "<16 hex digits>",
 ///   "tick_us": { "p50": 9.1, "p99": 20.3, "p999": 31.0, "max": 55.7 }, "missed_ticks": 0,
 ///   "realtime_factor": 41.0 }
 /// ```

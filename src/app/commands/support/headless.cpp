@@ -101,6 +101,7 @@ class HeadlessLoop {
         hands_[h].hand->turn(moment_about(tool.X_WP.p, tool, session_.portals()));
       hands_[h].hand->feel(tool.force_W);
       hands_[h].report.add(tool);
+      for (const Event& event : session_.last_events(h)) hands_[h].report.add(event);
       torque_.see(h, tool);
     }
     if (run_.on_hands) {
