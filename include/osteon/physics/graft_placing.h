@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/acl_tunnels.h"
 #include "osteon/physics/graft_passing.h"
 #include "osteon/scene/state.h"
 
@@ -31,6 +32,18 @@ struct PlacingPlan {
   PassingWay way;
   DrawnGraft graft;
 };
+
+/// A bone of the knee, and where it was when its tunnel was measured.
+struct PlacingBone {
+  std::uint32_t bone = 0;
+  Pose X_WB;
+};
+/// The plan for two measured tunnels; `bend`: of graft_bend_at, while the graft is drawn in. A
+/// diameter of 0 is that of the thinner tunnel, a loop of 0 the shortest with which the button
+/// turns. Fails without both tunnels, and where no loop is long enough.
+Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& bend,
+                                 const PlacingBone& femur, const PlacingBone& tibia,
+                                 const DrawnGraft& graft);
 
 enum class PlacingPhase : std::uint8_t {
   kEmpty,         ///< no thread lies in the knee

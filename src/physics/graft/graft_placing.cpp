@@ -48,7 +48,34 @@ bool lies_in(const ToolState& tool, const PlacingTunnel& tunnel, const TunnelNow
   return s > 0 && (off - s * axis).norm() < tunnel.radius_m + kAside_m;
 }
 
+PlacingTunnel in_bone(const PlacingBone& bone, const Vec3& mouth_W, const Vec3& outer_W,
+                      double diameter_m) {
+  const Pose X_BW = bone.X_WB.inverse();
+  return {bone.bone, X_BW * mouth_W, X_BW * outer_W, 0.5 * diameter_m};
+}
+
 }  // namespace
+
+Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& bend,
+                                 const PlacingBone& femur, const PlacingBone& tibia,
+                                 const DrawnGraft& graft) {
+  if (!tunnels.femur || !tunnels.tibia)
+    return fail("a graft needs a tunnel in femur and tibia", "placing the graft", "Drill both");
+  const FemoralTunnel& f = *tunnels.femur;
+  const TibialTunnel& t = *tunnels.tibia;
+  PlacingPlan plan;
+  plan.femur = in_bone(femur, f.aperture_W, f.aperture_W + f.channel_m * f.inwards_W, f.diameter_m);
+  plan.tibia = in_bone(tibia, t.aperture_W, t.aperture_W + t.length_m * t.inwards_W, t.diameter_m);
+  plan.way = {t.length_m,   bend.length_m, f.channel_m,    f.drilled_m,
+              t.diameter_m, f.diameter_m,  bend.tibia_rad, bend.femur_rad};
+  plan.graft = graft;
+  if (graft.diameter_m == 0) plan.graft.diameter_m = std::min(f.diameter_m, t.diameter_m);
+  if (graft.loop_m == 0) plan.graft.loop_m = loop_for(f.channel_m, f.drilled_m);
+  if (plan.graft.loop_m == 0)
+    return fail("no loop of up to 50 mm lets the button turn", "placing the graft",
+                "Drill the femur's socket deeper");
+  return plan;
+}
 
 Result<GraftPlacing> GraftPlacing::make(PlacingPlan plan, std::vector<PlacingTool> tray,
                                         double step_s) {

@@ -210,6 +210,37 @@ TEST(GraftPlacing, OddToolsAndPlansAreRefused) {
   EXPECT_FALSE(GraftPlacing::make(odd, {}, 0.002));
 }
 
+TEST(GraftPlacing, APlanHasTheTunnelsInTheirBonesAndTheLoopThatFits) {
+  AclTunnels tunnels;
+  const PlacingBone femur{2, {Vec3(0.1, 0, 0), Quat::Identity()}};
+  const PlacingBone tibia{3, {Vec3(0, 0.2, 0), Quat::Identity()}};
+  const GraftBend bend{120, 0.028, 0.4, 0.2};
+  const DrawnGraft graft{0, 0.120, 0, 10};
+  EXPECT_FALSE(plan_placing(tunnels, bend, femur, tibia, graft));
+  tunnels.femur.emplace();
+  tunnels.femur->channel_m = 0.040;
+  tunnels.femur->drilled_m = 0.026;
+  tunnels.femur->diameter_m = 0.008;
+  tunnels.femur->through = true;
+  tunnels.tibia.emplace();
+  tunnels.tibia->length_m = 0.041;
+  tunnels.tibia->diameter_m = 0.009;
+  tunnels.tibia->inwards_W = -Vec3::UnitZ();
+  const auto plan = plan_placing(tunnels, bend, femur, tibia, graft);
+  ASSERT_TRUE(plan) << plan.error().message();
+  EXPECT_EQ(plan->femur.bone, 2u);
+  EXPECT_NEAR((plan->femur.outer_B - Vec3(-0.060, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((plan->tibia.outer_B - Vec3(0, -0.2, -0.041)).norm(), 0, 1e-12);
+  EXPECT_EQ(plan->way.between_m, 0.028);
+  EXPECT_EQ(plan->way.femur_bend_rad, 0.4);
+  EXPECT_EQ(plan->graft.diameter_m, 0.008);
+  EXPECT_EQ(plan->graft.loop_m, 0.020);
+  EXPECT_TRUE(GraftPlacing::make(*plan, {}, 0.002)->passed().turns);
+  tunnels.femur->drilled_m = 0.001;
+  tunnels.femur->channel_m = 0.080;
+  EXPECT_FALSE(plan_placing(tunnels, bend, femur, tibia, graft));
+}
+
 TEST(GraftPlacing, ARestorePointLetsGoOfWhatAHandHeld) {
   PlacingRig rig;
   rig.push_pin(0.055);
