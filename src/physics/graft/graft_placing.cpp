@@ -48,8 +48,8 @@ bool lies_in(const ToolState& tool, const PlacingTunnel& tunnel, const TunnelNow
   return s > 0 && (off - s * axis).norm() < tunnel.radius_m + kAside_m;
 }
 
-PlacingTunnel in_bone(const PlacingBone& bone, const Vec3& mouth_W, const Vec3& outer_W,
-                      double diameter_m) {
+PlacingTunnel tunnel_in_bone(const PlacingBone& bone, const Vec3& mouth_W, const Vec3& outer_W,
+                             double diameter_m) {
   const Pose X_BW = bone.X_WB.inverse();
   return {bone.bone, X_BW * mouth_W, X_BW * outer_W, 0.5 * diameter_m};
 }
@@ -64,8 +64,10 @@ Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& ben
   const FemoralTunnel& f = *tunnels.femur;
   const TibialTunnel& t = *tunnels.tibia;
   PlacingPlan plan;
-  plan.femur = in_bone(femur, f.aperture_W, f.aperture_W + f.channel_m * f.inwards_W, f.diameter_m);
-  plan.tibia = in_bone(tibia, t.aperture_W, t.aperture_W + t.length_m * t.inwards_W, t.diameter_m);
+  plan.femur =
+      tunnel_in_bone(femur, f.aperture_W, f.aperture_W + f.channel_m * f.inwards_W, f.diameter_m);
+  plan.tibia =
+      tunnel_in_bone(tibia, t.aperture_W, t.aperture_W + t.length_m * t.inwards_W, t.diameter_m);
   plan.way = {t.length_m,   bend.length_m, f.channel_m,    f.drilled_m,
               t.diameter_m, f.diameter_m,  bend.tibia_rad, bend.femur_rad};
   plan.graft = graft;
