@@ -1,0 +1,271 @@
+#include "osteon/physics/graft_placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "osteon/scene/graft.h"
+
+namespace osteon {
+namespace {
+
+using PlacingKind = PlacingTool::Kind;
+
+constexpr double kPinTakeOn_m = 0.005;  // so near its line a pin is led
+constexpr double kPinTurn = 0.82;       // least cosine between the axes then
+constexpr double kPinAhead_m = 0.010;
+constexpr double kPinOff_m = 0.003;     // drawn back so far before the mouth it is off again
+constexpr double kLeadStep = 0.02;      // a line holds within 50 steps
+constexpr double kJawReach_m = 0.010;   // jaws take a thread
+constexpr double kJawShut = 0.15;       // of the jaws' way
+constexpr double kOutOfSkin_m = 0.020;  // from the cortex to where the thread is taken hold of
+constexpr double kAside_m = 0.002;      // a clamp may lean so far beyond the tunnel's wall
+constexpr double kEndInJoint_m = 0.010;
+constexpr double kJoint_m = 0.040;  // a thread's end farther from the mouth is lost
+
+struct TunnelNow {
+  Vec3 mouth_W, outer_W, out_W;
+};
+TunnelNow tunnel_now(const PlacingTunnel& tunnel, const BoneSnapshot& bones) {
+  const Pose& X_WB = bones.bones[tunnel.bone].X_WB;
+  TunnelNow now{X_WB * tunnel.mouth_B, X_WB * tunnel.outer_B, Vec3::Zero()};
+  now.out_W = (now.outer_W - now.mouth_W).normalized();
+  return now;
+}
+
+Result<void> check_tunnel(const PlacingTunnel& tunnel, const char* name) {
+  const bool good = is_finite(tunnel.mouth_B) && is_finite(tunnel.outer_B) &&
+                    std::isfinite(tunnel.radius_m) && tunnel.radius_m > 0 &&
+                    tunnel.bone < kMaxBones && (tunnel.outer_B - tunnel.mouth_B).norm() > 1e-3;
+  if (good) return {};
+  return fail("is no tunnel of a millimetre or longer in a bone", name, "Drill it");
+}
+
+// Does the instrument lie in the tunnel: does its shaft's line pass through the outer mouth?
+bool lies_in(const ToolState& tool, const PlacingTunnel& tunnel, const TunnelNow& now) {
+  const Vec3 axis = tool.X_WP.q * Vec3::UnitZ(), off = now.outer_W - tool.X_WP.p;
+  const double s = axis.dot(off);
+  return s > 0 && (off - s * axis).norm() < tunnel.radius_m + kAside_m;
+}
+
+PlacingTunnel tunnel_in_bone(const PlacingBone& bone, const Vec3& mouth_W, const Vec3& outer_W,
+                             double diameter_m) {
+  const Pose X_BW = bone.X_WB.inverse();
+  return {bone.bone, X_BW * mouth_W, X_BW * outer_W, 0.5 * diameter_m};
+}
+
+}  // namespace
+
+Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& bend,
+                                 const PlacingBone& femur, const PlacingBone& tibia,
+                                 const DrawnGraft& graft) {
+  if (!tunnels.femur || !tunnels.tibia)
+    return fail("a graft needs a tunnel in femur and tibia", "placing the graft", "Drill both");
+  const FemoralTunnel& f = *tunnels.femur;
+  const TibialTunnel& t = *tunnels.tibia;
+  PlacingPlan plan;
+  plan.femur =
+      tunnel_in_bone(femur, f.aperture_W, f.aperture_W + f.channel_m * f.inwards_W, f.diameter_m);
+  plan.tibia =
+      tunnel_in_bone(tibia, t.aperture_W, t.aperture_W + t.length_m * t.inwards_W, t.diameter_m);
+  plan.way = {t.length_m,   bend.length_m, f.channel_m,    f.drilled_m,
+              t.diameter_m, f.diameter_m,  bend.tibia_rad, bend.femur_rad};
+  plan.graft = graft;
+  if (graft.diameter_m == 0) plan.graft.diameter_m = std::min(f.diameter_m, t.diameter_m);
+  if (graft.loop_m == 0) plan.graft.loop_m = loop_for(f.channel_m, f.drilled_m);
+  if (plan.graft.loop_m == 0)
+    return fail("no loop of up to 50 mm lets the button turn", "placing the graft",
+                "Drill the femur's socket deeper");
+  return plan;
+}
+
+Result<GraftPlacing> GraftPlacing::make(PlacingPlan plan, std::vector<PlacingTool> tray,
+                                        double step_s) {
+  if (auto ok = check_tunnel(plan.femur, "placing the graft: femur"); !ok)
+    return tl::unexpected(ok.error());
+  if (auto ok = check_tunnel(plan.tibia, "placing the graft: tibia"); !ok)
+    return tl::unexpected(ok.error());
+  if (!(step_s > 0 && step_s < 1))
+    return fail("a step is not within 0 to 1 s", "placing the graft");
+  auto passed = pass_graft(plan.way, plan.graft);
+  if (!passed) return tl::unexpected(passed.error());
+  return GraftPlacing(std::move(plan), std::move(tray), step_s, std::move(*passed));
+}
+
+GraftPlacing::GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, double step_s,
+                           PassedGraft passed)
+    : plan_(std::move(plan)), tray_(std::move(tray)), step_s_(step_s), passed_(std::move(passed)) {}
+
+GraftPlacingState GraftPlacing::begin() {
+  GraftPlacingState state;
+  state.on = true;
+  return state;
+}
+
+GraftPlacingState GraftPlacing::gone_back(const GraftPlacingState& kept) {
+  GraftPlacingState state = kept;
+  state.hands = {};
+  // A hand that comes back holds nothing: an end that it held hangs where it was taken.
+  if (state.phase == PlacingPhase::kThreadHeld) state.phase = PlacingPhase::kThreadInside;
+  state.holder = 0;
+  state.pull_n = 0;
+  return state;
+}
+
+PlacingKind GraftPlacing::held(const ToolState& tool) const {
+  return tool.instrument < tray_.size() ? tray_[tool.instrument].kind : PlacingKind::kOther;
+}
+
+double GraftPlacing::end_m(std::uint32_t line) const {
+  if (line == kPinLine) return plan_.way.channel_m + kThrough_m + kThread_m;
+  return passed_.turns ? passed_.end_m + kOverdraw_m : passed_.end_m;
+}
+
+double GraftPlacing::resistance_n(std::uint32_t line, double front_m) const {
+  if (line == kPinLine) return kPin_n;
+  double r = passing_pull_n(plan_.way, plan_.graft, front_m) / kLever;
+  const double before = passed_.end_m - front_m;
+  if (passed_.turns && before > 0 && before < kSill_m) r += kSill_n * (1 - before / kSill_m);
+  return r;
+}
+
+double GraftPlacing::go_on(std::uint32_t line, double front_m, double force_n) const {
+  const double over = force_n - resistance_n(line, front_m);
+  if (!(over > 0)) return front_m;
+  const double way = step_s_ * std::min(over / kSlow_n_s_per_m, kFastest_m_per_s);
+  return std::min(front_m + way, end_m(line));
+}
+
+// The pin takes its thread along: through, the end stays in the joint; drawn on, it is lost.
+void GraftPlacing::lead_pin(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                            GraftPlacingState& state) const {
+  PlacingHand& h = state.hands[hand];
+  const TunnelNow femur = tunnel_now(plan_.femur, bones);
+  const Vec3 off = tool.X_WP.p - femur.mouth_W;
+  const double s = femur.out_W.dot(off);
+  if (h.line == 0) {
+    const bool free = state.phase == PlacingPhase::kEmpty && state.pin_m == 0;
+    const bool along = -(tool.X_WP.q * Vec3::UnitZ()).dot(femur.out_W) > kPinTurn;
+    const bool near =
+        s > -kPinOff_m && s < kPinAhead_m && (off - s * femur.out_W).norm() < kPinTakeOn_m;
+    if (free && along && near) h = {h.instrument, 1 + kPinLine, 0, h.shut};
+    return;
+  }
+  h.grip = std::min(1.0, h.grip + kLeadStep);
+  const double wanted = femur.out_W.dot(tool.X_WD.p - femur.mouth_W);
+  const double through = plan_.way.channel_m + kThrough_m;
+  if (std::min(s, wanted) < -kPinOff_m) {
+    // Drawn back it takes the thread back with it, unless that lies in the femur already.
+    h.line = 0;
+    if (state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
+    return;
+  }
+  if (s < state.pin_m - 0.002) return;
+  state.pin_m = go_on(kPinLine, state.pin_m, std::min(-femur.out_W.dot(tool.force_W), kMostHand_n));
+  if (state.pin_m >= through && state.phase == PlacingPhase::kEmpty) {
+    state.phase = PlacingPhase::kThreadInside;
+    state.end_W = femur.mouth_W - kEndInJoint_m * femur.out_W;
+  }
+  if (state.phase == PlacingPhase::kThreadInside && state.pin_m >= end_m(kPinLine)) {
+    state.phase = PlacingPhase::kEmpty;
+    state.pin_m = 0;
+    h.line = 0;
+    ++state.lost;
+  }
+}
+
+void GraftPlacing::shut_on(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                           GraftPlacingState& state) const {
+  const Vec3& p_W = tool.X_WP.p;
+  if (state.phase == PlacingPhase::kThreadInside && (p_W - state.end_W).norm() < kJawReach_m &&
+      lies_in(tool, plan_.tibia, tunnel_now(plan_.tibia, bones))) {
+    state.phase = PlacingPhase::kThreadHeld;
+    state.holder = 1 + hand;
+    return;
+  }
+  if (state.phase != PlacingPhase::kThreadOut) return;
+  const TunnelNow femur = tunnel_now(plan_.femur, bones);
+  const Vec3 off = p_W - femur.outer_W;
+  const double s = femur.out_W.dot(off);
+  const bool near = s > kOutOfSkin_m && (off - s * femur.out_W).norm() < kJawReach_m;
+  if (near) state.hands[hand].line = 1 + kDrawLine;
+  if (near) state.hands[hand].grip = 0;
+}
+
+// An end let go beyond the tibia is out; in the joint it lies where it was; elsewhere it is lost.
+// The thread let go beyond the femur: a button that is out turns.
+void GraftPlacing::open(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                        GraftPlacingState& state) const {
+  PlacingHand& h = state.hands[hand];
+  if (state.phase == PlacingPhase::kThreadHeld && state.holder == 1 + hand) {
+    const TunnelNow tibia = tunnel_now(plan_.tibia, bones);
+    const TunnelNow femur = tunnel_now(plan_.femur, bones);
+    state.holder = 0;
+    if (tibia.out_W.dot(tool.X_WP.p - tibia.outer_W) > 0) {
+      state.phase = PlacingPhase::kThreadOut;
+    } else if ((tool.X_WP.p - femur.mouth_W).norm() < kJoint_m) {
+      state.phase = PlacingPhase::kThreadInside;
+      state.end_W = tool.X_WP.p;
+    } else {
+      state.phase = PlacingPhase::kEmpty;
+      state.pin_m = 0;
+      ++state.lost;
+    }
+    return;
+  }
+  if (h.line != 1 + kDrawLine) return;
+  h.line = 0;
+  state.pull_n = 0;
+  const double in_channel = passed_.end_m - 2 * kFlipRoom_m;
+  if (passed_.turns && state.drawn_m >= passed_.end_m) {
+    state.phase = PlacingPhase::kTurned;
+    state.gap_m = std::max(0.0, state.drawn_m - passed_.end_m - kFree_m);
+  } else if (state.drawn_m > in_channel) {
+    ++state.let_go_early;
+  }
+}
+
+void GraftPlacing::use_clamp(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                             GraftPlacingState& state) const {
+  PlacingHand& h = state.hands[hand];
+  const bool shut = tool.jaw < kJawShut;
+  if (shut && !h.shut) shut_on(hand, tool, bones, state);
+  if (!shut && h.shut) open(hand, tool, bones, state);
+  h.shut = shut;
+  if (h.line != 1 + kDrawLine) return;
+  h.grip = std::min(1.0, h.grip + kLeadStep);
+  const TunnelNow femur = tunnel_now(plan_.femur, bones);
+  const double hand_n = std::clamp(-femur.out_W.dot(tool.force_W), 0.0, kMostHand_n);
+  state.drawn_m = go_on(kDrawLine, state.drawn_m, hand_n);
+  state.pull_n = kLever * hand_n;
+  state.most_pull_n = std::max(state.most_pull_n, state.pull_n);
+}
+
+void GraftPlacing::work(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                        GraftPlacingState& state) const {
+  const PlacingKind kind = held(tool);
+  if (kind == PlacingKind::kPassingPin) lead_pin(hand, tool, bones, state);
+  if (kind == PlacingKind::kClamp) use_clamp(hand, tool, bones, state);
+}
+
+void GraftPlacing::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                        GraftPlacingState& state) const {
+  const auto count = static_cast<std::uint32_t>(std::min(tools.size(), kMaxHands));
+  for (std::uint32_t hand = 0; hand < count; ++hand) {
+    const ToolState& tool = *tools[hand];
+    PlacingHand& h = state.hands[hand];
+    const bool here = tool.epoch == bones.epoch;
+    if (h.instrument != tool.instrument || !here) {
+      if (h.line == 1 + kPinLine && state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
+      // A clamp that is put away has let go.
+      if (here && h.instrument != 0xffffffffu) open(hand, tool, bones, state);
+      h = {};
+      h.instrument = here ? tool.instrument : 0xffffffffu;
+      continue;
+    }
+    if (is_finite(tool.X_WP) && is_finite(tool.X_WD) && is_finite(tool.force_W))
+      work(hand, tool, bones, state);
+  }
+}
+
+}  // namespace osteon

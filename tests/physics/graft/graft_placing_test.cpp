@@ -1,0 +1,258 @@
+// Thread and graft are moved by a hand: the way that is right, what is felt, and each way to fail.
+#include "osteon/physics/graft_placing.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "osteon/scene/graft.h"
+
+namespace osteon {
+namespace {
+
+enum PlacingTray : std::uint32_t { kPinTool, kPlacingClamp, kPlacingHook };
+
+// A femur's tunnel along x from the joint's middle, a tibia's against it, bones elsewhere.
+PlacingPlan placing_plan() {
+  PlacingPlan plan;
+  plan.femur = {0, Vec3(0, 0, 0), Vec3(0.040, 0, 0), 0.004};
+  plan.tibia = {1, Vec3(-0.030, 0, 0), Vec3(-0.070, 0, 0), 0.004};
+  plan.way.femur_bend_rad = 0.5;
+  return plan;
+}
+
+Quat shaft_towards(const Vec3& handle_W) {
+  return Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), handle_W);
+}
+
+// The haptic half is played: a tool stands at its front with the force asked for.
+struct PlacingRig {
+  explicit PlacingRig(const PlacingPlan& plan = placing_plan()) : plan_(plan) {
+    using Kind = PlacingTool::Kind;
+    const std::vector<PlacingTool> tray{{Kind::kPassingPin}, {Kind::kClamp}, {Kind::kOther}};
+    auto made = GraftPlacing::make(plan_, tray, 0.002);
+    EXPECT_TRUE(made) << (made ? "" : made.error().message());
+    work.emplace(std::move(*made));
+    bones.count = 2;
+    state = GraftPlacing::begin();
+  }
+  void step() {
+    const ToolState* const tools[] = {&tool};
+    work->step(tools, bones, state);
+  }
+  void take(std::uint32_t instrument) {
+    tool.instrument = instrument;
+    step();
+    step();
+  }
+  void at(const Vec3& p_W, const Vec3& handle_W, double jaw) {
+    tool.X_WP = {p_W, shaft_towards(handle_W)};
+    tool.X_WD = tool.X_WP;
+    tool.jaw = jaw;
+    step();
+  }
+  // The pin in its tunnel, as far as `until` of the state says.
+  void push_pin(double to_m, double force_n = 2) {
+    if (tool.instrument != kPinTool || state.hands[0].line == 0) take(kPinTool);
+    for (int n = 0; n < 4000 && state.pin_m < to_m; ++n) {
+      tool.force_W = state.hands[0].line != 0 ? Vec3(-force_n, 0, 0) : Vec3(Vec3::Zero());
+      const std::uint32_t lost = state.lost;
+      at(Vec3(state.pin_m, 0, 0), -Vec3::UnitX(), 0);
+      if (state.lost != lost) break;
+    }
+    tool.force_W = Vec3::Zero();
+  }
+  // The clamp through the tibia takes the end, and opens at a place.
+  void fetch_end(const Vec3& to_W, const Vec3& handle_W) {
+    take(kPlacingClamp);
+    at(state.end_W, handle_W, 1);
+    at(state.end_W, handle_W, 0);
+    at(to_W, handle_W, 0);
+    at(to_W, handle_W, 1);
+  }
+  void take_thread() {
+    at(Vec3(0.065, 0, 0), Vec3::UnitX(), 1);
+    at(Vec3(0.065, 0, 0), Vec3::UnitX(), 0);
+  }
+  void draw(double force_n, double seconds) {
+    tool.force_W = Vec3(-force_n, 0, 0);
+    for (int n = 0; n < static_cast<int>(seconds / 0.002); ++n) step();
+    tool.force_W = Vec3::Zero();
+  }
+  void let_go() { at(tool.X_WP.p, Vec3::UnitX(), 1); }
+  void thread_out() {
+    push_pin(0.055);
+    fetch_end(Vec3(-0.090, 0, 0), -Vec3::UnitX());
+  }
+  PlacingPlan plan_;
+  std::optional<GraftPlacing> work;
+  BoneSnapshot bones;
+  GraftPlacingState state;
+  ToolState tool;
+};
+
+TEST(GraftPlacing, PinClampAndPullBringTheButtonOutAndItTurns) {
+  PlacingRig rig;
+  rig.push_pin(0.055);
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
+  rig.fetch_end(Vec3(-0.090, 0, 0), -Vec3::UnitX());
+  ASSERT_EQ(rig.state.phase, PlacingPhase::kThreadOut);
+  rig.take_thread();
+  while (rig.state.drawn_m < rig.work->passed().end_m + 0.001) {
+    const double before = rig.state.drawn_m;
+    rig.draw(3.5, 0.01);
+    ASSERT_GT(rig.state.drawn_m, before);
+  }
+  rig.let_go();
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kTurned);
+  EXPECT_EQ(rig.state.gap_m, 0);
+  EXPECT_EQ(rig.state.lost, 0u);
+  EXPECT_EQ(rig.state.let_go_early, 0u);
+  EXPECT_NEAR(rig.state.most_pull_n, 3.5 * GraftPlacing::kLever, 1e-9);
+}
+
+TEST(GraftPlacing, TheGraftGoesOnAboveItsResistanceOnly) {
+  PlacingRig rig;
+  rig.thread_out();
+  rig.take_thread();
+  const double r = passing_pull_n(rig.plan_.way, rig.plan_.graft, 0) / GraftPlacing::kLever;
+  EXPECT_DOUBLE_EQ(rig.work->resistance_n(GraftPlacing::kDrawLine, 0), r);
+  rig.draw(r - 0.01, 0.5);
+  EXPECT_EQ(rig.state.drawn_m, 0);
+  rig.draw(r + 0.15, 0.5);
+  EXPECT_NEAR(rig.state.drawn_m, 0.5 * 0.15 / GraftPlacing::kSlow_n_s_per_m, 1e-4);
+}
+
+// What is felt of the flip: it grows harder over a short way, and falls when the button is out.
+TEST(GraftPlacing, TheButtonIsFeltToComeOut) {
+  const PlacingRig rig;
+  const double out = rig.work->passed().end_m;
+  const auto r = [&](double drawn) {
+    return rig.work->resistance_n(GraftPlacing::kDrawLine, drawn);
+  };
+  EXPECT_GT(r(out - 1e-5), r(out - 0.002) + 0.7);
+  EXPECT_GT(r(out - 1e-5), r(out) + 0.7);
+}
+
+TEST(GraftPlacing, AThreadDrawnTooFarIsLostAndThePinGoesInAgain) {
+  PlacingRig rig;
+  rig.push_pin(1);
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kEmpty);
+  EXPECT_EQ(rig.state.lost, 1u);
+  rig.take(kPlacingHook);
+  rig.push_pin(0.055);
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
+  EXPECT_EQ(rig.state.lost, 1u);
+}
+
+TEST(GraftPlacing, AnEndIsTakenThroughTheTibiaAloneAndLostOutsideOfIt) {
+  PlacingRig rig;
+  rig.push_pin(0.055);
+  const Vec3 portal = Vec3(-0.3, 0, 1).normalized();
+  rig.fetch_end(Vec3(-0.02, 0, 0.05), portal);  // does not take it
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
+  rig.fetch_end(Vec3(-0.020, 0, 0), -Vec3::UnitX());  // lets it go in the joint
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
+  EXPECT_EQ(rig.state.end_W, Vec3(-0.020, 0, 0));
+  rig.fetch_end(Vec3(-0.060, 0, 0), -Vec3::UnitX());  // and in the tunnel
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kEmpty);
+  EXPECT_EQ(rig.state.lost, 1u);
+}
+
+TEST(GraftPlacing, LetGoTooSoonItHasNotTurnedAndDrawnTooFarTissueLiesUnderIt) {
+  PlacingRig rig;
+  rig.thread_out();
+  rig.take_thread();
+  while (rig.state.drawn_m < rig.work->passed().end_m - 0.004) rig.draw(3, 0.01);
+  rig.let_go();
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadOut);
+  EXPECT_EQ(rig.state.let_go_early, 1u);
+  rig.take_thread();
+  rig.draw(4, 3);
+  EXPECT_DOUBLE_EQ(rig.state.drawn_m, rig.work->passed().end_m + GraftPlacing::kOverdraw_m);
+  rig.let_go();
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kTurned);
+  EXPECT_NEAR(rig.state.gap_m, GraftPlacing::kOverdraw_m - GraftPlacing::kFree_m, 1e-12);
+}
+
+// With a loop too short the graft stands at the socket's end: no pull brings the button out.
+TEST(GraftPlacing, AGraftThatStandsFeelsLikeAWall) {
+  PlacingPlan plan = placing_plan();
+  plan.graft.loop_m = 0.015;
+  PlacingRig rig(plan);
+  ASSERT_FALSE(rig.work->passed().turns);
+  rig.thread_out();
+  rig.take_thread();
+  rig.draw(8, 4);
+  EXPECT_DOUBLE_EQ(rig.state.drawn_m, rig.work->passed().end_m);
+  EXPECT_NEAR(rig.state.most_pull_n, 8 * GraftPlacing::kLever, 1e-9);
+  rig.let_go();
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadOut);
+  EXPECT_EQ(rig.state.let_go_early, 1u);
+}
+
+TEST(GraftPlacing, OddToolsAndPlansAreRefused) {
+  PlacingRig rig;
+  rig.thread_out();
+  rig.take_thread();
+  rig.tool.force_W = Vec3(-std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  rig.step();
+  EXPECT_EQ(rig.state.drawn_m, 0);
+  rig.tool.force_W = Vec3(-4, 0, 0);
+  rig.tool.epoch = 1;
+  rig.step();
+  EXPECT_EQ(rig.state.drawn_m, 0);
+  PlacingPlan odd = placing_plan();
+  odd.tibia.outer_B = odd.tibia.mouth_B;
+  EXPECT_FALSE(GraftPlacing::make(odd, {}, 0.002));
+  odd = placing_plan();
+  odd.graft.diameter_m = 0.009;
+  EXPECT_FALSE(GraftPlacing::make(odd, {}, 0.002));
+}
+
+TEST(GraftPlacing, APlanHasTheTunnelsInTheirBonesAndTheLoopThatFits) {
+  AclTunnels tunnels;
+  const PlacingBone femur{2, {Vec3(0.1, 0, 0), Quat::Identity()}};
+  const PlacingBone tibia{3, {Vec3(0, 0.2, 0), Quat::Identity()}};
+  const GraftBend bend{120, 0.028, 0.4, 0.2};
+  const DrawnGraft graft{0, 0.120, 0, 10};
+  EXPECT_FALSE(plan_placing(tunnels, bend, femur, tibia, graft));
+  tunnels.femur.emplace();
+  tunnels.femur->channel_m = 0.040;
+  tunnels.femur->drilled_m = 0.026;
+  tunnels.femur->diameter_m = 0.008;
+  tunnels.femur->through = true;
+  tunnels.tibia.emplace();
+  tunnels.tibia->length_m = 0.041;
+  tunnels.tibia->diameter_m = 0.009;
+  tunnels.tibia->inwards_W = -Vec3::UnitZ();
+  const auto plan = plan_placing(tunnels, bend, femur, tibia, graft);
+  ASSERT_TRUE(plan) << plan.error().message();
+  EXPECT_EQ(plan->femur.bone, 2u);
+  EXPECT_NEAR((plan->femur.outer_B - Vec3(-0.060, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((plan->tibia.outer_B - Vec3(0, -0.2, -0.041)).norm(), 0, 1e-12);
+  EXPECT_EQ(plan->way.between_m, 0.028);
+  EXPECT_EQ(plan->way.femur_bend_rad, 0.4);
+  EXPECT_EQ(plan->graft.diameter_m, 0.008);
+  EXPECT_EQ(plan->graft.loop_m, 0.020);
+  EXPECT_TRUE(GraftPlacing::make(*plan, {}, 0.002)->passed().turns);
+  tunnels.femur->drilled_m = 0.001;
+  tunnels.femur->channel_m = 0.080;
+  EXPECT_FALSE(plan_placing(tunnels, bend, femur, tibia, graft));
+}
+
+TEST(GraftPlacing, ARestorePointLetsGoOfWhatAHandHeld) {
+  PlacingRig rig;
+  rig.push_pin(0.055);
+  rig.take(kPlacingClamp);
+  rig.at(rig.state.end_W, -Vec3::UnitX(), 1);
+  rig.at(rig.state.end_W, -Vec3::UnitX(), 0);
+  ASSERT_EQ(rig.state.phase, PlacingPhase::kThreadHeld);
+  rig.state = GraftPlacing::gone_back(rig.state);
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
+  rig.fetch_end(Vec3(-0.090, 0, 0), -Vec3::UnitX());
+  EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadOut);
+}
+
+}  // namespace
+}  // namespace osteon
