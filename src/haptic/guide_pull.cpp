@@ -24,6 +24,11 @@ GuidePull pull_of(const ToolGuide& guide, const Pose& X_WB, const Vec3& bone_v_W
   // The damper may take the spring's part away, no more.
   const double slow = hand.damping_n_s_per_m * (hand.v_W - bone_v_W).dot(aside_W);
   out.force_W = -guide.grip * std::max(0.0, force + (e > 0 ? slow : 0.0)) * aside_W;
+  const double over = off_W.dot(out.along_W) - guide.stop_m;
+  if (!guide.pulls || !(over > 0)) return out;
+  const double held = hand.damping_n_s_per_m * (hand.v_W - bone_v_W).dot(out.along_W);
+  out.p_W -= guide.grip * over * out.along_W;
+  out.force_W -= guide.grip * std::max(0.0, k * over + held) * out.along_W;
   return out;
 }
 

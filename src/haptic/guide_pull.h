@@ -12,14 +12,15 @@ namespace osteon {
 /// Symbols: e, from the line to the hand, across it; k, the coupling; g, how far a pin gives way by
 /// a newton. Both springs share e: f = e / (1/k + g), the pin bends by g f, and at most by
 /// kMostBend_m: beyond, f = k (e - kMostBend_m). f rises with e by at most k a metre: the bound of
-/// the coupling's own spring (HapticParams) holds for it.
+/// the coupling's own spring (HapticParams) holds for it. What pulls holds by the same spring along
+/// the line, beyond its place.
 struct GuidePull {
   bool in = false;
   Vec3 line_W = Vec3::Zero();  ///< a place on the line as the pin is bent
   Vec3 along_W = Vec3::UnitZ();
   Vec3 p_W = Vec3::Zero();      ///< where the hand's pull leaves the tool's origin
   Quat q_W = Quat::Identity();  ///< and how it leaves it turned
-  Vec3 force_W = Vec3::Zero();  ///< on the hand, N, across the line
+  Vec3 force_W = Vec3::Zero();  ///< on the hand, N, across the line, and along one that pulls
 };
 
 struct GuideHand {

@@ -72,6 +72,7 @@ void add_to(Hasher& hasher, const ToolGuide& guide) {
   for (const double x : {guide.grip, guide.give_m_per_n, guide.stop_m}) hasher.add(x);
   hasher.add(guide.in_hole);
   hasher.add(guide.stops);
+  if (guide.pulls) hasher.add(guide.pulls);
 }
 
 void add_to(Hasher& hasher, const GraftBenchState& bench) {
@@ -92,6 +93,22 @@ void add_to(Hasher& hasher, const GraftBenchState& bench) {
   }
   for (const double x :
        {bench.passed_m, bench.refused_m, bench.loop_m, bench.tension_n, bench.creep_s})
+    hasher.add(x);
+}
+
+void add_to(Hasher& hasher, const GraftPlacingState& placing) {
+  hasher.add(static_cast<std::uint8_t>(placing.phase));
+  for (const PlacingHand& hand : placing.hands) {
+    hasher.add(hand.instrument);
+    hasher.add(static_cast<std::uint8_t>(hand.line));
+    hasher.add(hand.grip);
+    hasher.add(hand.shut);
+    hasher.add(hand.from_m);
+  }
+  hasher.add(placing.end_W);
+  for (const std::uint32_t x : {placing.holder, placing.lost, placing.let_go_early}) hasher.add(x);
+  for (const double x :
+       {placing.pin_m, placing.drawn_m, placing.pull_n, placing.most_pull_n, placing.gap_m})
     hasher.add(x);
 }
 
@@ -117,6 +134,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
   if (leads(snapshot))
     for (const ToolGuide& guide : snapshot.guides) add_to(hasher, guide);
   if (snapshot.bench.on) add_to(hasher, snapshot.bench);
+  if (snapshot.placing.on) add_to(hasher, snapshot.placing);
   return hasher.value();
 }
 
@@ -317,6 +335,7 @@ void BoneWorld::set_guides(const std::array<ToolGuide, kMaxHands>& guides, const
 }
 
 void BoneWorld::set_bench(const GraftBenchState& bench) { impl_->snapshot.bench = bench; }
+void BoneWorld::set_placing(const GraftPlacingState& placing) { impl_->snapshot.placing = placing; }
 
 bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {

@@ -9,6 +9,7 @@
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/sight_events.h"
 #include "osteon/procedure/tip_watch.h"
+#include "placing_rules.h"
 #include "ring_rules.h"
 #include "tunnel_rules.h"
 #include "way_rules.h"
@@ -315,6 +316,7 @@ const std::vector<RuleKind>& rule_table() {
     for (const RuleRow& row : rule_rows()) all.push_back(row.kind);
     all.insert(all.end(), tunnel_rule_table().begin(), tunnel_rule_table().end());
     all.insert(all.end(), graft_rule_table().begin(), graft_rule_table().end());
+    all.insert(all.end(), placing_rule_table().begin(), placing_rule_table().end());
     return all;
   }();
   return kinds;
@@ -339,6 +341,7 @@ std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, do
   std::optional<RuleHit> tunnel_hit;
   if (step_tunnel_rule(rule, event, place, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_graft_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
+  if (step_placing_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
     const auto hit = row.step(rule, event, place, tick_s, state);

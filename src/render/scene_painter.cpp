@@ -228,6 +228,7 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     painter.shared_->rest_X_WB.push_back(bone.X_WB);
   }
   for (const SoftPart& soft : the_case.softs) painter.shared_->bones.push_back(make_soft(soft));
+  painter.shared_->placing = find_placing(the_case);
   painter.set_surfaces(prepared);
   painter.shared_->tools.push_back(make_tool_model(tool));
   painter.shared_->shaft = GpuMesh(plain_shaded(cylinder(20)));
@@ -342,6 +343,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
     for (const ToolState& other : others_) paint_tool(model_of(other), other.X_WP, steel, frame);
   }
   paint_rods(snapshot, frame);
+  paint_placing(snapshot, frame);
   paint_outlines(snapshot, view, frame, false);
   glEnable(GL_BLEND);
   // Colour is mixed; alpha stays that of a solid picture.

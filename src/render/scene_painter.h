@@ -98,6 +98,8 @@ class ScenePainter {
   static Capsule capsule_around(const Aabb& box);
   static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
   static std::vector<Capsule> rod_capsules(const RenderSnapshot& snapshot);
+  std::vector<Capsule> placing_capsules(const RenderSnapshot& snapshot) const;
+  void paint_placing(const RenderSnapshot& snapshot, const Frame& frame) const;
   static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
   double nearest_bone(const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
@@ -174,9 +176,10 @@ class ScenePainter {
   /// What all painters of a case have in common; never null.
   struct Shared {
     Program bone, changed_bone, depth, metal, mark, ground;
-    std::vector<BoneModel> bones;  ///< and soft parts
-    std::vector<Pose> rest_X_WB;   ///< of the bones
-    std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty
+    std::vector<BoneModel> bones;        ///< and soft parts
+    std::vector<Pose> rest_X_WB;         ///< of the bones
+    std::optional<PlacingPlan> placing;  ///< of a case in which a graft can be placed
+    std::vector<ToolModel> tools;        ///< by ToolState::instrument; not empty
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;
     std::uint64_t version = 1;

@@ -150,6 +150,8 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
   if (view.show_force)
     for (const Capsule& c : mark_capsules(snapshot))
       marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
+  for (const Capsule& c : placing_capsules(snapshot))
+    marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   for (const Capsule& c : rod_capsules(snapshot))
     marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   if (view.show_proxy) {

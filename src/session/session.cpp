@@ -48,6 +48,20 @@ std::vector<BenchTool> bench_tools(const Tray& tray, const SessionSettings& sett
   return tools;
 }
 
+PlacingTool::Kind placing_kind(const std::string& tray_name) {
+  const std::string name = tray_name.substr(0, tray_name.find(':'));
+  if (name == "passing_pin") return PlacingTool::Kind::kPassingPin;
+  if (name == "clamp" || name == "grasper") return PlacingTool::Kind::kClamp;
+  return PlacingTool::Kind::kOther;
+}
+
+std::vector<PlacingTool> placing_tools(const Tray& tray, const SessionSettings& settings) {
+  std::vector<PlacingTool> tools;
+  for (std::size_t i = 0; i < tray.size(); ++i)
+    tools.push_back({placing_kind(i < settings.tray.size() ? settings.tray[i] : tray[i]->name)});
+  return tools;
+}
+
 }  // namespace
 
 struct Session::Impl {
@@ -67,6 +81,7 @@ struct Session::Impl {
       hands.back()->set_sizes(sizes_mm);
     }
     world.set_bench(bench_tools(tray, settings, sizes_mm));
+    world.set_placing(placing_tools(tray, settings));
     if (softs) set_softs(settings);
     if (!carving) return;
     std::vector<FeltCuts*> felt;

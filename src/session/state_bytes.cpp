@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 10;
+constexpr std::uint64_t kVersion = 11;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -175,6 +175,9 @@ void field(A& a, ToolGuide& g) {
   field(a, g.nhat_B);
   for (double* x : {&g.grip, &g.give_m_per_n, &g.stop_m}) field(a, *x);
   for (bool* x : {&g.in_hole, &g.stops}) field(a, *x);
+  if constexpr (A::kReads)
+    if (a.version < 11) return;  // nothing pulled then
+  field(a, g.pulls);
 }
 
 template <class A>
@@ -218,6 +221,29 @@ void field(A& a, GraftBenchState& s) {
 }
 
 template <class A>
+void field(A& a, PlacingHand& h) {
+  field(a, h.instrument);
+  number(a, h.line, static_cast<std::uint64_t>(PlacingLine::kDraw));
+  field(a, h.grip);
+  field(a, h.shut);
+  field(a, h.from_m);
+}
+
+template <class A>
+void field(A& a, GraftPlacingState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 11) return;  // no graft was placed then
+  field(a, s.on);
+  if (!s.on) return;
+  number(a, s.phase, static_cast<std::uint64_t>(PlacingPhase::kTurned));
+  for (PlacingHand& hand : s.hands) field(a, hand);
+  field(a, s.end_W);
+  number(a, s.holder, kPlacingHands);
+  for (std::uint32_t* x : {&s.lost, &s.let_go_early}) field(a, *x);
+  for (double* x : {&s.pin_m, &s.drawn_m, &s.pull_n, &s.most_pull_n, &s.gap_m}) field(a, *x);
+}
+
+template <class A>
 void field(A& a, BoneSnapshot& s) {
   field(a, s.step);
   field(a, s.time_s);
@@ -228,6 +254,7 @@ void field(A& a, BoneSnapshot& s) {
   for (ToolGuide& guide : s.guides) field(a, guide);
   for (GuideRod& rod : s.rods) field(a, rod);
   field(a, s.bench);
+  field(a, s.placing);
 }
 
 template <class A>

@@ -57,6 +57,11 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
     bench_->step(tools, world_.snapshot(), bench);
     world_.set_bench(bench);
   }
+  if (placing_) {
+    GraftPlacingState placing = world_.snapshot().placing;
+    placing_->step(tools, world_.snapshot(), placing);
+    world_.set_placing(placing);
+  }
   lead();
   const BoneSnapshot& bones = world_.step(tools);
   if (carving_) {
@@ -85,14 +90,24 @@ void WorldHalf::set_bench(std::vector<BenchTool> tray) {
   world_.set_bench(GraftBenchWork::begin());
 }
 
-// A line of the bench leads before one of what is carved.
+void WorldHalf::set_placing(std::vector<PlacingTool> tray) {
+  auto plan = find_placing(*the_case_);
+  if (!plan) return;
+  auto made = GraftPlacing::make(*plan, std::move(tray), step_s_);
+  if (!made) return;
+  placing_ = std::make_unique<GraftPlacing>(std::move(*made));
+  world_.set_placing(GraftPlacing::begin());
+}
+
+// A line of the bench or of a tunnel leads before one of what is carved.
 void WorldHalf::lead() {
-  if (!carving_ && !bench_) return;
+  if (!carving_ && !bench_ && !placing_) return;
   std::array<ToolGuide, kMaxHands> guides{};
   if (carving_) guides = carving_->guides();
   if (bench_)
     for (std::size_t h = 0; h < guides.size(); ++h)
       if (bench_->guides()[h].on) guides[h] = bench_->guides()[h];
+  if (placing_) placing_->lead(world_.snapshot().placing, guides);
   world_.set_guides(guides, carving_ ? carving_->rods() : GuideRods{});
 }
 
@@ -122,6 +137,7 @@ void WorldHalf::go_back(const WorldMark& mark) {
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
   if (rings_) rings_->go_back(mark.rings);
   if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
+  if (placing_) world_.set_placing(GraftPlacing::gone_back(mark.bones.placing));
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   all_changed_ = true;
@@ -172,7 +188,7 @@ bool WorldHalf::fits(const WorldState& state) const {
     return rings_ ? rings_->fits(rings) : !rings.on;
   };
   const auto lies = [&](const BoneSnapshot& bones) {
-    return bones.bench.on == (bench_ != nullptr);
+    return bones.bench.on == (bench_ != nullptr) && bones.placing.on == (placing_ != nullptr);
   };
   if (!lies(state.bones)) return false;
   for (const WorldMark& mark : state.marks)

@@ -9,6 +9,7 @@
 #include "osteon/physics/bone_world.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/graft_bench_work.h"
+#include "osteon/physics/graft_placing.h"
 #include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
@@ -32,6 +33,8 @@ class alignas(64) WorldHalf {
   /// Before the first step. What an instrument of the tray can do at the bench, if the case has
   /// one.
   void set_bench(std::vector<BenchTool> tray);
+  /// The same of a graft that is placed, if the case has both tunnels for it.
+  void set_placing(std::vector<PlacingTool> tray);
   /// Before the first step.
   void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
   const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }
@@ -60,6 +63,7 @@ class alignas(64) WorldHalf {
   std::unique_ptr<SoftHalf> softs_;        ///< null: nothing is soft
   std::unique_ptr<LooseRings> rings_;      ///< null: none lie loose
   std::unique_ptr<GraftBenchWork> bench_;  ///< null: no graft is made
+  std::unique_ptr<GraftPlacing> placing_;  ///< null: none is placed
   std::vector<FeltCuts*> felt_;            ///< of the hands
   bool all_changed_ = false;               ///< bones came back from a restore point in this step
   double step_s_;

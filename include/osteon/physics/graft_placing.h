@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "osteon/base/result.h"
-#include "osteon/physics/acl_tunnels.h"
 #include "osteon/physics/graft_passing.h"
+#include "osteon/scene/placing.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -19,66 +18,10 @@ struct PlacingTool {
   Kind kind = Kind::kOther;
 };
 
-/// A tunnel of a bone: from its mouth in the joint to its outer mouth, in Bone.
-struct PlacingTunnel {
-  std::uint32_t bone = 0;
-  Vec3 mouth_B = Vec3::Zero(), outer_B = Vec3::UnitX();
-  double radius_m = 0.004;
-};
-
-/// Where a graft is placed, and what graft.
-struct PlacingPlan {
-  PlacingTunnel femur, tibia;  ///< the femur's: with its channel, to the far cortex
-  PassingWay way;
-  DrawnGraft graft;
-};
-
-/// A bone of the knee, and where it was when its tunnel was measured.
-struct PlacingBone {
-  std::uint32_t bone = 0;
-  Pose X_WB;
-};
-/// The plan for two measured tunnels; `bend`: of graft_bend_at, while the graft is drawn in. A
-/// diameter of 0 is that of the thinner tunnel, a loop of 0 the shortest with which the button
-/// turns. Fails without both tunnels, and where no loop is long enough.
-Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& bend,
-                                 const PlacingBone& femur, const PlacingBone& tibia,
-                                 const DrawnGraft& graft);
-
-enum class PlacingPhase : std::uint8_t {
-  kEmpty,         ///< no thread lies in the knee
-  kThreadInside,  ///< it goes through the femur; its end lies in the joint
-  kThreadHeld,    ///< a clamp has its end
-  kThreadOut,     ///< its end is out through the tibia: the graft hangs on it
-  kTurned         ///< the button was let go beyond the cortex and lies across its hole
-};
-
-/// What a hand is doing.
-struct PlacingHand {
-  std::uint32_t instrument = 0xffffffffu;  ///< that it held at the last step
-  std::uint32_t line = 0;                  ///< that leads it: 1 + GraftPlacing::Line; 0: none
-  double grip = 0;                         ///< how much of the hold there is yet
-  bool shut = true;                        ///< its jaws were
-};
-
-/// All that a step leaves to the next: of fixed size.
-struct GraftPlacingState {
-  bool on = false;
-  PlacingPhase phase = PlacingPhase::kEmpty;
-  std::array<PlacingHand, kMaxHands> hands{};
-  Vec3 end_W = Vec3::Zero();  ///< of the thread, while it lies in the joint
-  std::uint32_t holder = 0;   ///< of kThreadHeld: 1 + hand
-  std::uint32_t lost = 0;     ///< how often the thread's end was lost
-  double pin_m = 0;           ///< how far the pin has come, from the femur's mouth
-  double drawn_m = 0;         ///< of the button's leading end, from the tibia's outer mouth
-  double pull_n = 0, most_pull_n = 0;  ///< of the hand at the thread, as in the operation
-  std::uint32_t let_go_early = 0;      ///< how often in the channel, the button not out
-  double gap_m = 0;                    ///< tissue between the turned button and the cortex
-};
-
 /// Placing a graft by hand: a passing pin takes a thread through the femur, a clamp takes its end
 /// out through the tibia, a clamp at the thread beyond the femur draws the graft in, and the button
-/// turns when it is let go beyond the cortex. A function of its state and the tools' states; a step
+/// turns when it is let go beyond the cortex. In a tunnel an instrument stays on its line; a clamp
+/// that draws hangs on the thread. A function of its state and the tools' states; a step
 /// allocates nothing.
 ///
 /// Guided one-dimensional model. Symbols: s, how far a line's front is; F, what the hand does along
@@ -90,7 +33,6 @@ struct GraftPlacingState {
 /// hand. Forces, ways and times of a hand: own defaults (D).
 class GraftPlacing {
  public:
-  enum Line : std::uint32_t { kPinLine, kDrawLine };
   static constexpr double kPin_n = 0.8;
   static constexpr double kThrough_m = 0.010;  ///< beyond the cortex the thread lies in the femur
   static constexpr double kThread_m = 0.040;   ///< drawn on so far its end leaves the joint
@@ -113,30 +55,37 @@ class GraftPlacing {
   /// As it was then; what hands were doing is over.
   static GraftPlacingState gone_back(const GraftPlacingState& kept);
 
+  /// Sets the lines that lead hands; a hand that none leads keeps what it has.
+  void lead(const GraftPlacingState& state, std::array<ToolGuide, kMaxHands>& guides) const;
+
   const PlacingPlan& plan() const { return plan_; }
   /// How the graft goes if nothing is done wrong.
   const PassedGraft& passed() const { return passed_; }
   /// What the hand must overcome at a front, N.
-  double resistance_n(std::uint32_t line, double front_m) const;
+  double resistance_n(PlacingLine line, double front_m) const;
   /// How far a front can go.
-  double end_m(std::uint32_t line) const;
+  double end_m(PlacingLine line) const;
 
  private:
-  GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, double step_s, PassedGraft passed);
+  GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, double step_s);
   PlacingTool::Kind held(const ToolState& tool) const;
   void work(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
             GraftPlacingState& state) const;
   void lead_pin(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                 GraftPlacingState& state) const;
+  void follow_tibia(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                    GraftPlacingState& state) const;
   void use_clamp(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                  GraftPlacingState& state) const;
   void shut_on(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                GraftPlacingState& state) const;
   void open(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
             GraftPlacingState& state) const;
-  double go_on(std::uint32_t line, double front_m, double force_n) const;
+  double go_on(PlacingLine line, double front_m, double force_n) const;
 
   PlacingPlan plan_;
+  PassingWay way_;
+  DrawnGraft graft_;
   std::vector<PlacingTool> tray_;
   double step_s_;
   PassedGraft passed_;

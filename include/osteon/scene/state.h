@@ -8,6 +8,7 @@
 #include "osteon/base/types.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
+#include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
 
 namespace osteon {
@@ -40,9 +41,10 @@ struct BoneSnapshot {
   std::array<BoneMotion, kMaxBones> bones{};
   std::array<ToolGuide, kMaxHands> guides{};  ///< of each hand
   GuideRods rods{};
-  GraftBenchState bench{};  ///< off: the case has no bench
+  GraftBenchState bench{};      ///< off: the case has no bench
+  GraftPlacingState placing{};  ///< off: the case has no tunnels for a graft
 };
-static_assert(kBenchHands == kMaxHands);
+static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
 
 /// One place where the tool touches a bone.
 struct Contact {

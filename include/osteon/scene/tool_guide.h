@@ -37,6 +37,8 @@ struct ToolGuide {
   bool in_hole = false;         ///< that bone is felt as what the hole leaves of it
   bool stops = false;           ///< there is bone before the tip
   double stop_m = 0;            ///< the tip goes no farther, along nhat_B from p_B
+  /// It hangs on something: beyond stop_m along nhat_B the hand feels the spring of its coupling.
+  bool pulls = false;
 };
 
 }  // namespace osteon

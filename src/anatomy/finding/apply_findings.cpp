@@ -25,6 +25,7 @@ class StepWriter {
     if (auto ok = each(steps.cuts, &StepWriter::cut); !ok) return ok;
     if (auto ok = each(steps.thins, &StepWriter::thin); !ok) return ok;
     if (auto ok = each(steps.moves, &StepWriter::move); !ok) return ok;
+    if (auto ok = each(steps.marks, &StepWriter::mark); !ok) return ok;
     return each(steps.splits, &StepWriter::split);
   }
 
@@ -104,6 +105,20 @@ class StepWriter {
       split.fragments.push_back({into.name, {*bone, into.near_W}});
     }
     anatomy_.splits.push_back(std::move(split));
+    return {};
+  }
+
+  Result<void> mark(const MarkStep& step) {
+    const auto bone = bone_named(step.bone);
+    if (!bone) return tl::unexpected(bone.error());
+    for (const LandmarkDescription& other : anatomy_.landmarks)
+      if (other.name == step.name)
+        return fail("names a landmark that is there: '" + step.name + "'");
+    LandmarkDescription landmark;
+    landmark.name = step.name;
+    landmark.p_W = step.p_W;
+    landmark.bone = *bone;
+    anatomy_.landmarks.push_back(std::move(landmark));
     return {};
   }
 

@@ -53,6 +53,14 @@ SplitStep read_split(TomlReader& in) {
   return step;
 }
 
+MarkStep read_mark(TomlReader& in) {
+  MarkStep step;
+  step.name = in.text("name");
+  step.bone = in.text("bone");
+  step.p_W = in.vec3("position_mm", kPlace_mm) * kMm;
+  return step;
+}
+
 Result<FindingSteps> read_steps(TomlReader& in) {
   FindingSteps steps;
   if (auto ok = read_entries(in, "cut", read_cut, steps.cuts); !ok)
@@ -62,6 +70,8 @@ Result<FindingSteps> read_steps(TomlReader& in) {
   if (auto ok = read_entries(in, "move", read_move, steps.moves); !ok)
     return tl::unexpected(ok.error());
   if (auto ok = read_entries(in, "split", read_split, steps.splits); !ok)
+    return tl::unexpected(ok.error());
+  if (auto ok = read_entries(in, "mark", read_mark, steps.marks); !ok)
     return tl::unexpected(ok.error());
   if (steps.cuts.empty() && steps.thins.empty() && steps.moves.empty())
     in.reject("is missing, and so are 'thin' and 'move': the grade changes nothing", "cut");

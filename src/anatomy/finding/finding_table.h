@@ -44,11 +44,19 @@ struct SplitStep {
   std::vector<Into> into;
 };
 
+/// A named place that the anatomy has with the finding alone.
+struct MarkStep {
+  std::string name;
+  std::string bone;  ///< that it moves with
+  Vec3 p_W = Vec3::Zero();
+};
+
 struct FindingSteps {
   std::vector<CutStep> cuts;
   std::vector<ThinStep> thins;
   std::vector<MoveStep> moves;
   std::vector<SplitStep> splits;
+  std::vector<MarkStep> marks;
 };
 
 struct FindingRule {

@@ -128,7 +128,8 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       state_(begin_scenario(plan)),
       tells_tips_(asks_for_tip(plan)),
       rings_(the_case, tick_s),
-      graft_(the_case) {
+      graft_(the_case),
+      placing_(the_case) {
   const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
@@ -176,6 +177,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
     if (cut.hand < tools.size()) cut.watch.add(*tools[cut.hand], fresh_);
   rings_.add(tools, bones, fresh_);
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
+  if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, fresh_);
   judge_fresh();

@@ -11,6 +11,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/graft_watch.h"
+#include "osteon/procedure/placing_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tool_events.h"
@@ -58,6 +59,7 @@ class AttemptWatch {
   void watch_water(WaterSources sources);
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
+  const PlacingWatch& placing() const { return placing_; }
 
  private:
   struct HandCut {
@@ -81,6 +83,7 @@ class AttemptWatch {
   std::vector<HandCut> cuts_;
   RingWatch rings_;
   GraftWatch graft_;
+  PlacingWatch placing_;
   std::vector<AttemptPause> pauses_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;

@@ -14,14 +14,15 @@ using PlacingKind = PlacingTool::Kind;
 constexpr double kPinTakeOn_m = 0.005;  // so near its line a pin is led
 constexpr double kPinTurn = 0.82;       // least cosine between the axes then
 constexpr double kPinAhead_m = 0.010;
-constexpr double kPinOff_m = 0.003;     // drawn back so far before the mouth it is off again
-constexpr double kLeadStep = 0.02;      // a line holds within 50 steps
-constexpr double kJawReach_m = 0.010;   // jaws take a thread
-constexpr double kJawShut = 0.15;       // of the jaws' way
-constexpr double kOutOfSkin_m = 0.020;  // from the cortex to where the thread is taken hold of
-constexpr double kAside_m = 0.002;      // a clamp may lean so far beyond the tunnel's wall
-constexpr double kEndInJoint_m = 0.010;
-constexpr double kJoint_m = 0.040;  // a thread's end farther from the mouth is lost
+constexpr double kClampOff_m = 0.015;    // beyond the tibia a clamp is free again
+constexpr double kPinOff_m = 0.003;      // drawn back so far before the mouth it is off again
+constexpr double kLeadStep = 0.02;       // a line holds within 50 steps
+constexpr double kJawReach_m = 0.010;    // jaws take a thread
+constexpr double kJawShut = 0.15;        // of the jaws' way
+constexpr double kOutOfSkin_m = 0.020;   // from the cortex to where the thread is taken hold of
+constexpr double kAside_m = 0.002;       // a clamp may lean so far beyond the tunnel's wall
+constexpr double kEndInJoint_m = 0.010;  // over the tibia's mouth the thread's end comes to lie
+constexpr double kJoint_m = 0.040;       // a thread's end farther from the mouth is lost
 
 struct TunnelNow {
   Vec3 mouth_W, outer_W, out_W;
@@ -48,36 +49,24 @@ bool lies_in(const ToolState& tool, const PlacingTunnel& tunnel, const TunnelNow
   return s > 0 && (off - s * axis).norm() < tunnel.radius_m + kAside_m;
 }
 
-PlacingTunnel tunnel_in_bone(const PlacingBone& bone, const Vec3& mouth_W, const Vec3& outer_W,
-                             double diameter_m) {
-  const Pose X_BW = bone.X_WB.inverse();
-  return {bone.bone, X_BW * mouth_W, X_BW * outer_W, 0.5 * diameter_m};
+PassingWay passing_way(const PlacingPlan& p) {
+  return {p.tibia.length_m(),   p.between_m,          p.femur.length_m(), p.socket_m,
+          2 * p.tibia.radius_m, 2 * p.femur.radius_m, p.tibia_bend_rad,   p.femur_bend_rad};
+}
+
+ToolGuide line_along(const PlacingTunnel& tunnel, const PlacingHand& hand, bool joint_end,
+                     double towards) {
+  ToolGuide out;
+  out.on = true;
+  out.instrument = hand.instrument;
+  out.bone = tunnel.bone;
+  out.p_B = joint_end ? tunnel.mouth_B : tunnel.outer_B;
+  out.nhat_B = towards * (tunnel.outer_B - tunnel.mouth_B).normalized();
+  out.grip = hand.grip;
+  return out;
 }
 
 }  // namespace
-
-Result<PlacingPlan> plan_placing(const AclTunnels& tunnels, const GraftBend& bend,
-                                 const PlacingBone& femur, const PlacingBone& tibia,
-                                 const DrawnGraft& graft) {
-  if (!tunnels.femur || !tunnels.tibia)
-    return fail("a graft needs a tunnel in femur and tibia", "placing the graft", "Drill both");
-  const FemoralTunnel& f = *tunnels.femur;
-  const TibialTunnel& t = *tunnels.tibia;
-  PlacingPlan plan;
-  plan.femur =
-      tunnel_in_bone(femur, f.aperture_W, f.aperture_W + f.channel_m * f.inwards_W, f.diameter_m);
-  plan.tibia =
-      tunnel_in_bone(tibia, t.aperture_W, t.aperture_W + t.length_m * t.inwards_W, t.diameter_m);
-  plan.way = {t.length_m,   bend.length_m, f.channel_m,    f.drilled_m,
-              t.diameter_m, f.diameter_m,  bend.tibia_rad, bend.femur_rad};
-  plan.graft = graft;
-  if (graft.diameter_m == 0) plan.graft.diameter_m = std::min(f.diameter_m, t.diameter_m);
-  if (graft.loop_m == 0) plan.graft.loop_m = loop_for(f.channel_m, f.drilled_m);
-  if (plan.graft.loop_m == 0)
-    return fail("no loop of up to 50 mm lets the button turn", "placing the graft",
-                "Drill the femur's socket deeper");
-  return plan;
-}
 
 Result<GraftPlacing> GraftPlacing::make(PlacingPlan plan, std::vector<PlacingTool> tray,
                                         double step_s) {
@@ -87,14 +76,19 @@ Result<GraftPlacing> GraftPlacing::make(PlacingPlan plan, std::vector<PlacingToo
     return tl::unexpected(ok.error());
   if (!(step_s > 0 && step_s < 1))
     return fail("a step is not within 0 to 1 s", "placing the graft");
-  auto passed = pass_graft(plan.way, plan.graft);
+  GraftPlacing made(std::move(plan), std::move(tray), step_s);
+  auto passed = pass_graft(made.way_, made.graft_);
   if (!passed) return tl::unexpected(passed.error());
-  return GraftPlacing(std::move(plan), std::move(tray), step_s, std::move(*passed));
+  made.passed_ = std::move(*passed);
+  return made;
 }
 
-GraftPlacing::GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, double step_s,
-                           PassedGraft passed)
-    : plan_(std::move(plan)), tray_(std::move(tray)), step_s_(step_s), passed_(std::move(passed)) {}
+GraftPlacing::GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, double step_s)
+    : plan_(std::move(plan)),
+      way_(passing_way(plan_)),
+      graft_{plan_.graft_m, plan_.graft_length_m, plan_.loop_m, plan_.tail_n},
+      tray_(std::move(tray)),
+      step_s_(step_s) {}
 
 GraftPlacingState GraftPlacing::begin() {
   GraftPlacingState state;
@@ -105,7 +99,7 @@ GraftPlacingState GraftPlacing::begin() {
 GraftPlacingState GraftPlacing::gone_back(const GraftPlacingState& kept) {
   GraftPlacingState state = kept;
   state.hands = {};
-  // A hand that comes back holds nothing: an end that it held hangs where it was taken.
+  // A hand that comes back holds nothing: an end that it held hangs where the jaws were.
   if (state.phase == PlacingPhase::kThreadHeld) state.phase = PlacingPhase::kThreadInside;
   state.holder = 0;
   state.pull_n = 0;
@@ -116,20 +110,20 @@ PlacingKind GraftPlacing::held(const ToolState& tool) const {
   return tool.instrument < tray_.size() ? tray_[tool.instrument].kind : PlacingKind::kOther;
 }
 
-double GraftPlacing::end_m(std::uint32_t line) const {
-  if (line == kPinLine) return plan_.way.channel_m + kThrough_m + kThread_m;
+double GraftPlacing::end_m(PlacingLine line) const {
+  if (line == PlacingLine::kPin) return way_.channel_m + kThrough_m + kThread_m;
   return passed_.turns ? passed_.end_m + kOverdraw_m : passed_.end_m;
 }
 
-double GraftPlacing::resistance_n(std::uint32_t line, double front_m) const {
-  if (line == kPinLine) return kPin_n;
-  double r = passing_pull_n(plan_.way, plan_.graft, front_m) / kLever;
+double GraftPlacing::resistance_n(PlacingLine line, double front_m) const {
+  if (line == PlacingLine::kPin) return kPin_n;
+  double r = passing_pull_n(way_, graft_, front_m) / kLever;
   const double before = passed_.end_m - front_m;
   if (passed_.turns && before > 0 && before < kSill_m) r += kSill_n * (1 - before / kSill_m);
   return r;
 }
 
-double GraftPlacing::go_on(std::uint32_t line, double front_m, double force_n) const {
+double GraftPlacing::go_on(PlacingLine line, double front_m, double force_n) const {
   const double over = force_n - resistance_n(line, front_m);
   if (!(over > 0)) return front_m;
   const double way = step_s_ * std::min(over / kSlow_n_s_per_m, kFastest_m_per_s);
@@ -143,33 +137,35 @@ void GraftPlacing::lead_pin(std::uint32_t hand, const ToolState& tool, const Bon
   const TunnelNow femur = tunnel_now(plan_.femur, bones);
   const Vec3 off = tool.X_WP.p - femur.mouth_W;
   const double s = femur.out_W.dot(off);
-  if (h.line == 0) {
+  if (h.line == PlacingLine::kNone) {
     const bool free = state.phase == PlacingPhase::kEmpty && state.pin_m == 0;
     const bool along = -(tool.X_WP.q * Vec3::UnitZ()).dot(femur.out_W) > kPinTurn;
     const bool near =
         s > -kPinOff_m && s < kPinAhead_m && (off - s * femur.out_W).norm() < kPinTakeOn_m;
-    if (free && along && near) h = {h.instrument, 1 + kPinLine, 0, h.shut};
+    if (free && along && near) h = {h.instrument, PlacingLine::kPin, 0, h.shut, 0};
     return;
   }
   h.grip = std::min(1.0, h.grip + kLeadStep);
   const double wanted = femur.out_W.dot(tool.X_WD.p - femur.mouth_W);
-  const double through = plan_.way.channel_m + kThrough_m;
+  const double through = way_.channel_m + kThrough_m;
   if (std::min(s, wanted) < -kPinOff_m) {
     // Drawn back it takes the thread back with it, unless that lies in the femur already.
-    h.line = 0;
+    h.line = PlacingLine::kNone;
     if (state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
     return;
   }
   if (s < state.pin_m - 0.002) return;
-  state.pin_m = go_on(kPinLine, state.pin_m, std::min(-femur.out_W.dot(tool.force_W), kMostHand_n));
+  state.pin_m =
+      go_on(PlacingLine::kPin, state.pin_m, std::min(-femur.out_W.dot(tool.force_W), kMostHand_n));
   if (state.pin_m >= through && state.phase == PlacingPhase::kEmpty) {
     state.phase = PlacingPhase::kThreadInside;
-    state.end_W = femur.mouth_W - kEndInJoint_m * femur.out_W;
+    const Vec3 below = tunnel_now(plan_.tibia, bones).mouth_W;
+    state.end_W = below + kEndInJoint_m * (femur.mouth_W - below).normalized();
   }
-  if (state.phase == PlacingPhase::kThreadInside && state.pin_m >= end_m(kPinLine)) {
+  if (state.phase == PlacingPhase::kThreadInside && state.pin_m >= end_m(PlacingLine::kPin)) {
     state.phase = PlacingPhase::kEmpty;
     state.pin_m = 0;
-    h.line = 0;
+    h.line = PlacingLine::kNone;
     ++state.lost;
   }
 }
@@ -188,8 +184,11 @@ void GraftPlacing::shut_on(std::uint32_t hand, const ToolState& tool, const Bone
   const Vec3 off = p_W - femur.outer_W;
   const double s = femur.out_W.dot(off);
   const bool near = s > kOutOfSkin_m && (off - s * femur.out_W).norm() < kJawReach_m;
-  if (near) state.hands[hand].line = 1 + kDrawLine;
-  if (near) state.hands[hand].grip = 0;
+  if (!near) return;
+  PlacingHand& h = state.hands[hand];
+  h.line = PlacingLine::kDraw;
+  h.grip = 0;
+  h.from_m = s - state.drawn_m;
 }
 
 // An end let go beyond the tibia is out; in the joint it lies where it was; elsewhere it is lost.
@@ -213,8 +212,8 @@ void GraftPlacing::open(std::uint32_t hand, const ToolState& tool, const BoneSna
     }
     return;
   }
-  if (h.line != 1 + kDrawLine) return;
-  h.line = 0;
+  if (h.line != PlacingLine::kDraw) return;
+  h.line = PlacingLine::kNone;
   state.pull_n = 0;
   const double in_channel = passed_.end_m - 2 * kFlipRoom_m;
   if (passed_.turns && state.drawn_m >= passed_.end_m) {
@@ -225,6 +224,28 @@ void GraftPlacing::open(std::uint32_t hand, const ToolState& tool, const BoneSna
   }
 }
 
+// Jaws that come in line with the outer mouth go in; beyond it they are free again.
+void GraftPlacing::follow_tibia(std::uint32_t hand, const ToolState& tool,
+                                const BoneSnapshot& bones, GraftPlacingState& state) const {
+  PlacingHand& h = state.hands[hand];
+  const TunnelNow tibia = tunnel_now(plan_.tibia, bones);
+  const double length = plan_.tibia.length_m();
+  const Vec3 off = tool.X_WP.p - tibia.mouth_W;
+  const double s = tibia.out_W.dot(off);
+  if (h.line == PlacingLine::kTibia) {
+    h.grip = std::min(1.0, h.grip + kLeadStep);
+    if (std::max(s, tibia.out_W.dot(tool.X_WD.p - tibia.mouth_W)) > length + kClampOff_m)
+      h.line = PlacingLine::kNone;
+    return;
+  }
+  const bool along = (tool.X_WP.q * Vec3::UnitZ()).dot(tibia.out_W) > kPinTurn;
+  const bool near = s > length - kPinOff_m && s < length + kPinAhead_m &&
+                    (off - s * tibia.out_W).norm() < kPinTakeOn_m;
+  if (h.line != PlacingLine::kNone || !along || !near) return;
+  h.line = PlacingLine::kTibia;
+  h.grip = 0;
+}
+
 void GraftPlacing::use_clamp(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                              GraftPlacingState& state) const {
   PlacingHand& h = state.hands[hand];
@@ -232,11 +253,14 @@ void GraftPlacing::use_clamp(std::uint32_t hand, const ToolState& tool, const Bo
   if (shut && !h.shut) shut_on(hand, tool, bones, state);
   if (!shut && h.shut) open(hand, tool, bones, state);
   h.shut = shut;
-  if (h.line != 1 + kDrawLine) return;
+  if (state.phase == PlacingPhase::kThreadHeld && state.holder == 1 + hand)
+    state.end_W = tool.X_WP.p;
+  if (h.line != PlacingLine::kDraw) follow_tibia(hand, tool, bones, state);
+  if (h.line != PlacingLine::kDraw) return;
   h.grip = std::min(1.0, h.grip + kLeadStep);
   const TunnelNow femur = tunnel_now(plan_.femur, bones);
   const double hand_n = std::clamp(-femur.out_W.dot(tool.force_W), 0.0, kMostHand_n);
-  state.drawn_m = go_on(kDrawLine, state.drawn_m, hand_n);
+  state.drawn_m = go_on(PlacingLine::kDraw, state.drawn_m, hand_n);
   state.pull_n = kLever * hand_n;
   state.most_pull_n = std::max(state.most_pull_n, state.pull_n);
 }
@@ -248,6 +272,26 @@ void GraftPlacing::work(std::uint32_t hand, const ToolState& tool, const BoneSna
   if (kind == PlacingKind::kClamp) use_clamp(hand, tool, bones, state);
 }
 
+void GraftPlacing::lead(const GraftPlacingState& state,
+                        std::array<ToolGuide, kMaxHands>& guides) const {
+  for (std::size_t n = 0; n < kMaxHands; ++n) {
+    const PlacingHand& hand = state.hands[n];
+    if (hand.line == PlacingLine::kNone) continue;
+    ToolGuide& out = guides[n];
+    if (hand.line == PlacingLine::kDraw) {
+      out = line_along(plan_.femur, hand, false, 1);
+      out.pulls = true;
+      out.stop_m = hand.from_m + state.drawn_m;
+      continue;
+    }
+    const bool pin = hand.line == PlacingLine::kPin;
+    out = line_along(pin ? plan_.femur : plan_.tibia, hand, true, pin ? -1 : 1);
+    out.in_hole = true;
+    out.stops = pin;
+    out.stop_m = pin ? -state.pin_m : 0;
+  }
+}
+
 void GraftPlacing::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                         GraftPlacingState& state) const {
   const auto count = static_cast<std::uint32_t>(std::min(tools.size(), kMaxHands));
@@ -256,7 +300,7 @@ void GraftPlacing::step(std::span<const ToolState* const> tools, const BoneSnaps
     PlacingHand& h = state.hands[hand];
     const bool here = tool.epoch == bones.epoch;
     if (h.instrument != tool.instrument || !here) {
-      if (h.line == 1 + kPinLine && state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
+      if (h.line == PlacingLine::kPin && state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
       // A clamp that is put away has let go.
       if (here && h.instrument != 0xffffffffu) open(hand, tool, bones, state);
       h = {};

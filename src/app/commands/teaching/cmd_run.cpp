@@ -70,6 +70,7 @@ int run_command(const RunCommand& command) {
   std::fputs(to_text(done->outcome).c_str(), stdout);
   if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
   if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
+  if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
   if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;

@@ -13,6 +13,7 @@
 #include "osteon/record/recording_note.h"
 #include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/graft_surgeon.h"
+#include "osteon/surgeon/placing_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
@@ -205,9 +206,10 @@ class GoneBone {
 std::string to_json(const ScenarioOutcome& done) {
   const std::string text =
       with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
-  if (!done.graft) return text;
+  if (!done.graft && !done.placing) return text;
   auto json = nlohmann::ordered_json::parse(text);
-  json["acl"]["graft"] = to_json(*done.graft);
+  if (done.graft) json["acl"]["graft"] = to_json(*done.graft);
+  if (done.placing) json["acl"]["placing"] = to_json(*done.placing);
   return json.dump(2) + "\n";
 }
 
@@ -225,6 +227,25 @@ Result<void> plan_bench_work(const ScenarioRun& run, const Case& the_case,
   return {};
 }
 
+bool asks_about_placing(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == "thread_laid" || goal.rule.kind == "button_turned") return true;
+  return false;
+}
+
+// One hand places a graft; any other that has a portal looks on.
+Result<void> plan_placing_work(const ScenarioRun& run, const Case& the_case,
+                               std::span<const PlannedHand> hands, HeadlessRun& headless) {
+  for (const PlannedHand& hand : hands) {
+    auto way = hand.portal_W ? plan_placing_scope(the_case, *hand.portal_W, hand.instrument)
+                             : plan_graft_placing(the_case, run.skill);
+    if (!way) return tl::unexpected(way.error());
+    headless.hands.push_back({hand.name, std::move(*way)});
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -238,12 +259,14 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const bool ligament = asks_about_tunnels(*plan);
   std::vector<std::unique_ptr<HandPlayer>> players;
   const bool bench = find_graft_bench(**the_case).has_value();
-  if (!ligament && !bench)
+  const bool placing = !ligament && asks_about_placing(*plan);
+  const bool by_path = ligament || bench || placing;
+  if (!by_path)
     players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
   const auto all_done = [&] {
     return std::all_of(players.begin(), players.end(), [](const auto& p) { return p->done(); });
   };
-  if (!ligament && !bench && all_done())
+  if (!by_path && all_done())
     return fail("no target of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
@@ -261,6 +284,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   }
   if (bench)
     if (auto ok = plan_bench_work(run, **the_case, *hands, headless); !ok)
+      return tl::unexpected(ok.error());
+  if (placing)
+    if (auto ok = plan_placing_work(run, **the_case, *hands, headless); !ok)
       return tl::unexpected(ok.error());
   for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
@@ -287,6 +313,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
                        {},
                        {}};
   if (watch.graft().plan()) done.graft = GraftReport{*watch.graft().plan(), watch.graft().state()};
+  if (watch.placing().plan())
+    done.placing = PlacingReport{*watch.placing().plan(), watch.placing().state()};
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();

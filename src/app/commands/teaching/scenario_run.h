@@ -13,6 +13,7 @@
 #include "osteon/surgeon/skill.h"
 #include "runs/reports/acl_report.h"
 #include "runs/reports/graft_report.h"
+#include "runs/reports/placing_report.h"
 
 namespace osteon {
 
@@ -29,13 +30,14 @@ struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand
   std::vector<std::string> hands;
   Outcome outcome;
-  std::vector<std::string> unreachable;   ///< bones that the surgeon found no way to
-  std::optional<AclReport> acl;           ///< of a scenario that asks for tunnels
-  std::string not_measured;               ///< why they could not be measured
-  std::optional<GraftReport> graft = {};  ///< of a case with a bench
+  std::vector<std::string> unreachable;       ///< bones that the surgeon found no way to
+  std::optional<AclReport> acl;               ///< of a scenario that asks for tunnels
+  std::string not_measured;                   ///< why they could not be measured
+  std::optional<GraftReport> graft = {};      ///< of a case with a bench
+  std::optional<PlacingReport> placing = {};  ///< of a case with tunnels for a graft
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, and of a
-/// graft that was made as `acl.graft`.
+/// graft that was made as `acl.graft`, how one was placed as `acl.placing`.
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 

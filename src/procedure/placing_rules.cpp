@@ -1,0 +1,69 @@
+#include "placing_rules.h"
+
+#include <string>
+
+#include "osteon/procedure/placing_watch.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kMostGap_mm = 1000;
+
+bool placing_goal_met(const std::string& kind, const Event& event) {
+  if (kind == "thread_laid") return event.kind == kThreadLaid;
+  if (kind == "thread_out") return event.kind == kThreadOut;
+  return kind == "button_turned" && event.kind == kButtonTurned;
+}
+
+bool placing_error_made(const PlannedRule& rule, const Event& event) {
+  const std::string& kind = rule.rule.kind;
+  if (kind == "thread_lost") return event.kind == kThreadLost;
+  if (kind == "button_let_go") return event.kind == kButtonLetGo;
+  return event.kind == kButtonTurned && event.values[0] >= number_of(rule, "least_mm") &&
+         event.values[0] < number_of(rule, "most_mm");
+}
+
+}  // namespace
+
+const std::vector<RuleKind>& placing_rule_table() {
+  constexpr SubjectKind kOfNothing = SubjectKind::kNothing;
+  static const std::vector<RuleKind> table{
+      {"thread_laid",
+       "the thread goes through the femur, its end lies in the joint",
+       true,
+       {},
+       kOfNothing},
+      {"thread_out", "the thread's end is out through the tibia", true, {}, kOfNothing},
+      {"button_turned", "the button lies across its channel", true, {}, kOfNothing},
+      {"thread_lost", "the thread's end was drawn or let go out of reach", false, {}, kOfNothing},
+      {"button_let_go",
+       "the thread was let go while the button is in its channel",
+       false,
+       {},
+       kOfNothing},
+      {"tissue_under_button",
+       "the button turned with least_mm to most_mm of tissue between it and the cortex",
+       false,
+       {{"least_mm", 0, kMostGap_mm, 1}, {"most_mm", 0, kMostGap_mm, kMostGap_mm}},
+       kOfNothing},
+  };
+  return table;
+}
+
+bool step_placing_rule(const PlannedRule& rule, const Event& event, double tick_s, RuleState& state,
+                       std::optional<RuleHit>& hit) {
+  const RuleKind* kind = nullptr;
+  for (const RuleKind& row : placing_rule_table())
+    if (row.name == rule.rule.kind) kind = &row;
+  if (!kind) return false;
+  hit.reset();
+  if (kind->is_goal) {
+    if (placing_goal_met(rule.rule.kind, event)) state.holds[0].told = true;
+    state.met = state.holds[0].told;
+  } else if (placing_error_made(rule, event)) {
+    hit = RuleHit{time_of(event, tick_s)};
+  }
+  return true;
+}
+
+}  // namespace osteon
