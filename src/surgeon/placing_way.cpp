@@ -19,7 +19,8 @@ constexpr double kPassBefore_m = 0.08, kPassThread_m = 0.03;
 constexpr double kPinBeyond_m = 0.022;  // the cortex: the thread's end has come into the joint
 constexpr double kPinTooFar_m = 0.065;
 constexpr double kGrasperOut_m = 0.035;
-constexpr double kBeyondOut_m = 0.003;
+// A hand goes ahead of the thread that it draws by the pull over its coupling, 2.5 to 7 mm.
+constexpr double kBeyondOut_m = 0.0075;
 
 constexpr std::array<std::string_view, 4> kPlacingFaults{"lost_thread", "unflipped_button",
                                                          "soft_tissue", "flipped_in_muscle"};
@@ -148,9 +149,9 @@ Result<PlacingPlan> plan_in(const Case& the_case) {
 }
 
 double drawn_by(const std::string& fault, double out_m) {
-  if (fault == "unflipped_button") return out_m - 0.006;
-  if (fault == "soft_tissue") return out_m + 0.010;
-  if (fault == "flipped_in_muscle") return out_m + 0.022;
+  if (fault == "unflipped_button") return out_m - 0.002;
+  if (fault == "soft_tissue") return out_m + 0.0135;
+  if (fault == "flipped_in_muscle") return out_m + 0.026;
   return out_m + kBeyondOut_m;
 }
 

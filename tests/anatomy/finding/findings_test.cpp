@@ -116,6 +116,30 @@ TEST(Findings, UnknownOnesAndUnknownGradesListWhatThereIs) {
   EXPECT_NE(complaint({{"geissler", "2"}, {"geissler", "3"}}).find("twice"), std::string::npos);
 }
 
+TEST(Findings, AMarkIsALandmarkOfItsGradeAlone) {
+  const std::string text = R"([[finding]]
+name = "hole"
+meaning = "m"
+source = "D"
+[[finding.grade]]
+name = "one"
+meaning = "m"
+cut = [{ of = "femur", shape = "ellipsoid", center_mm = [0, 0, 0], radii_mm = [5, 5, 5] }]
+mark = [{ name = "hole_in", bone = "femur", position_mm = [1, 2, 3] }]
+)";
+  const auto table = parse_findings(text, "t");
+  ASSERT_TRUE(table) << table.error().message();
+  AnatomyDescription anatomy = description_of("knee");
+  const std::size_t before = anatomy.landmarks.size();
+  ASSERT_TRUE(apply_findings(*table, {{"hole", "one"}}, anatomy));
+  ASSERT_EQ(anatomy.landmarks.size(), before + 1);
+  EXPECT_EQ(anatomy.landmarks.back().name, "hole_in");
+  EXPECT_EQ(anatomy.bones[*anatomy.landmarks.back().bone].name, "femur");
+  const auto again = apply_findings(*table, {{"hole", "one"}}, anatomy);
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message().find("hole_in"), std::string::npos);
+}
+
 TEST(Findings, EveryFindingOfTheTablesFitsItsAnatomy) {
   for (const std::string name : {"wrist", "knee"}) {
     const auto findings = list_findings(kAnatomyAssets / (name + "_findings.toml"));

@@ -1,0 +1,145 @@
+// A graft placed in a session: a pin is led and stopped, a clamp hangs on the thread and feels it,
+// and everything repeats.
+#include <gtest/gtest.h>
+
+#include "count_allocations.h"
+#include "osteon/physics/graft_placing.h"
+#include "osteon/scene/instrument.h"
+#include "osteon/scene/tool_set.h"
+#include "osteon/session/session.h"
+#include "placing_case.h"
+
+namespace osteon {
+namespace {
+
+const std::shared_ptr<const Case>& felt_placing() {
+  static const std::shared_ptr<const Case> made = testing::placing_knee(true);
+  return made;
+}
+
+struct PlacingSession {
+  PlacingSession() {
+    settings.tray = {"passing_pin", "grasper", "clamp"};
+    const auto all = load_instruments();
+    EXPECT_TRUE(all);
+    for (const std::string& name : settings.tray) {
+      const Instrument* found = find_instrument(*all, name);
+      tray.push_back(std::make_shared<const Tool>(make_tool(*found, found->usual_size)));
+    }
+    recording.header = recording_header(*felt_placing(), settings, "test", "0", tray);
+  }
+  Session session() const { return Session(felt_placing(), settings, tray); }
+  SessionSettings settings;
+  Tray tray;
+  Recording recording;
+};
+
+// The pin comes in line with the femur's mouth and is pushed on through it and 10 mm farther.
+HandInput pin_hand(std::uint64_t n) {
+  const double t = static_cast<double>(n) * 0.001;
+  const double x = t < 0.4 ? -0.02 + 0.0475 * t : t < 0.8 ? -0.001 : -0.001 + 0.05 * (t - 0.8);
+  HandInput hand;
+  hand.input.X_WD = {Vec3(x, 0, 0),
+                     Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+  if (n == 1200) hand.command = {CommandKind::kMark, 1};
+  return hand;
+}
+
+void push_on(Session& session, std::uint64_t from, std::uint64_t to) {
+  for (std::uint64_t n = from; n <= to; ++n) {
+    const HandInput hand = pin_hand(n);
+    (void)session.tick(std::span(&hand, 1));
+  }
+}
+
+const GraftPlacingState& placed(const Session& session) { return session.bones().placing; }
+
+TEST(SessionPlacing, ThePinIsLedThroughTheFemurAndFelt) {
+  const PlacingSession rig;
+  Session session = rig.session();
+  push_on(session, 1, 1400);
+  EXPECT_GT(placed(session).pin_m, 0.01);
+  EXPECT_GT(-session.tool_state().force_W.x(), 0.5 * GraftPlacing::kPin_n);
+  const std::size_t before = testing::allocations();
+  push_on(session, 1401, 1500);
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_EQ(placed(session).phase, PlacingPhase::kEmpty);
+  push_on(session, 1501, 2200);
+  EXPECT_EQ(placed(session).phase, PlacingPhase::kThreadInside);
+}
+
+TEST(SessionPlacing, AStateInTheMiddleGoesOnWithTheSameBits) {
+  const PlacingSession rig;
+  for (const std::uint64_t stop : {700u, 1500u}) {
+    Session session = rig.session();
+    push_on(session, 1, stop);
+    const auto read = state_from_bytes(to_bytes(session.save()));
+    ASSERT_TRUE(read) << read.error().message();
+    Session other = rig.session();
+    ASSERT_TRUE(other.restore(*read));
+    EXPECT_EQ(other.state_hash(), session.state_hash());
+    push_on(session, stop + 1, 1800);
+    push_on(other, stop + 1, 1800);
+    EXPECT_EQ(other.state_hash(), session.state_hash()) << stop;
+    SessionState odd = session.save();
+    odd.world.bones.placing.on = false;
+    EXPECT_FALSE(other.restore(odd));
+  }
+}
+
+TEST(SessionPlacing, ARecordingRepeatsAndARestorePointPutsThePinBack) {
+  PlacingSession rig;
+  Session session = rig.session();
+  double marked = 0;
+  for (std::uint64_t n = 1; n <= 1800; ++n) {
+    HandInput hand = pin_hand(n);
+    if (n == 1700) hand.command = {CommandKind::kRestore, 1};
+    (void)session.tick(std::span(&hand, 1));
+    rig.recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) rig.recording.steps.push_back(session.last_step_record());
+    if (n == 1200) marked = placed(session).pin_m;
+    if (n == 1699) {
+      EXPECT_GT(placed(session).pin_m, marked + 0.01);
+    }
+    if (n == 1704) {
+      EXPECT_LE(placed(session).pin_m, marked + 0.001);
+    }
+  }
+  EXPECT_GT(marked, 0.005);
+  rig.recording.complete = true;
+  ReplayOptions options;
+  options.tray = rig.tray;
+  const auto again = replay(rig.recording, felt_placing(), options);
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_TRUE(again->identical) << again->first_different_tick;
+}
+
+// From a state with the thread out: a clamp that shuts on the thread and is drawn away hangs on it.
+TEST(SessionPlacing, AClampThatDrawsFeelsTheGraftAndStopsWhenItIsHeldStill) {
+  const PlacingSession rig;
+  Session session = rig.session();
+  SessionState state = session.save();
+  state.world.bones.placing.phase = PlacingPhase::kThreadOut;
+  ASSERT_TRUE(session.restore(state));
+  double most = 0;
+  for (std::uint64_t n = 1; n <= 2200; ++n) {
+    const double t = static_cast<double>(n) * 0.001;
+    HandInput hand;
+    const double x = 0.070 + 0.04 * std::clamp(t - 1, 0.0, 0.8);
+    hand.input.X_WD = {Vec3(x, 0, 0),
+                       Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()))};
+    if (n == 1) hand.command = {CommandKind::kTake, 2};
+    if (n == 300) hand.command = {CommandKind::kJaw, 1};
+    if (n == 600) hand.command = {CommandKind::kJaw, 0};
+    (void)session.tick(std::span(&hand, 1));
+    most = std::max(most, -session.tool_state().force_W.x());
+  }
+  EXPECT_GT(placed(session).drawn_m, 0.02);
+  EXPECT_LT(placed(session).drawn_m, 0.032);
+  EXPECT_GT(most, 0.4);
+  EXPECT_LT(most, 4);
+  EXPECT_NEAR(placed(session).pull_n, GraftPlacing::kLever * -session.tool_state().force_W.x(), 2);
+}
+
+}  // namespace
+}  // namespace osteon
