@@ -7,25 +7,25 @@
 
 namespace osteon::testing {
 
-/// Two blocks for the bones: tunnels along x, from the femur's mouth at 0 to 40 mm and from the
-/// tibia's at -30 to -70 mm; no holes, which only pictures would show. `fields`: felt as fields.
+/// Two blocks for the bones: the femur's tunnel along x from its mouth at 0 to 40 mm, the tibia's
+/// along z from -30 to -70 mm; no holes, which only pictures would show. `fields`: felt as fields.
 inline CaseDef placing_def(bool fields = false) {
   CaseDef def;
   def.name = "placing";
   def.bones.push_back(block_at("femur", {0, -0.02, -0.02}, {0.040, 0.02, 0.02}));
-  def.bones.push_back(block_at("tibia", {-0.070, -0.02, -0.02}, {-0.030, 0.02, 0.02}));
+  def.bones.push_back(block_at("tibia", {-0.02, -0.02, -0.070}, {0.02, 0.02, -0.030}));
   if (fields)
     for (BoneDef& bone : def.bones) bone.felt = Felt::kField;
-  const auto mark = [&](const char* name, double x, double y) {
-    def.landmarks.push_back({name, Vec3(0.001 * x, 0.001 * y, 0)});
+  const auto mark = [&](const char* name, double x, double y, double z = 0) {
+    def.landmarks.push_back({name, Vec3(0.001 * x, 0.001 * y, 0.001 * z)});
   };
   mark("femoral_tunnel_from", -9, 0);
   mark("femoral_tunnel_socket", 26, 0);
   mark("femoral_tunnel_to", 62, 0);
   mark("femoral_tunnel_side", -9, 4);
-  mark("tibial_tunnel_from", -80, 0);
-  mark("tibial_tunnel_to", -22, 0);
-  mark("tibial_tunnel_side", -80, 4);
+  mark("tibial_tunnel_from", 0, 0, -80);
+  mark("tibial_tunnel_to", 0, 0, -22);
+  mark("tibial_tunnel_side", 0, 4, -80);
   return def;
 }
 

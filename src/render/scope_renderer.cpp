@@ -120,6 +120,33 @@ TissuePart steel() {
   return part;
 }
 
+TissuePart placed_part(const PlacingRod& rod) {
+  constexpr int kSides = 20;
+  TissuePart part = steel();
+  const Vec3 along = rod.b_W - rod.a_W;
+  if (rod.is == PlacingRod::Is::kGraft) {
+    part.pattern = TissuePattern::kFibres;
+    part.tint = {0.90f, 0.87f, 0.78f};
+    part.fibre = along.normalized().cast<float>();
+    part.center = (0.5 * (rod.a_W + rod.b_W)).cast<float>();
+  } else if (rod.is == PlacingRod::Is::kThread) {
+    part.tint = {0.16f, 0.42f, 0.30f};
+  }
+  TriMesh mesh = cylinder(kSides);
+  const Quat q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), along);
+  for (Vec3& v : mesh.vertices)
+    v = rod.a_W + q * Vec3(rod.radius_m * v.x(), rod.radius_m * v.y(), along.norm() * v.z());
+  part.surface = GpuMesh(plain_shaded(mesh));
+  return part;
+}
+
+bool same_rods(const std::vector<PlacingRod>& a, const std::vector<PlacingRod>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const PlacingRod& x, const PlacingRod& y) {
+        return x.is == y.is && x.a_W == y.a_W && x.b_W == y.b_W && x.radius_m == y.radius_m;
+      });
+}
+
 }  // namespace
 
 constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
@@ -155,6 +182,10 @@ struct ScopeRenderer::Impl {
   TissuePart tool = steel();
   std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
   std::vector<std::pair<std::size_t, Pose>> tools;
+  std::optional<PlacingPlan> placing;  ///< of a case in which a graft can be placed
+  std::vector<PlacingRod> rods;        ///< thread, graft and button now
+  std::vector<TissuePart> placed;      ///< the same, in World
+  bool rods_changed = false;
   LightTarget flat;
   RenderTarget picture;
   GlVertexArray no_vertices;
@@ -228,6 +259,7 @@ struct ScopeRenderer::Impl {
     for (const TissuePart& part : parts)
       paint_part(part, surface(part), X_CW * part.X_WM, half, depth_alone);
     if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
+    for (const TissuePart& part : placed) paint_part(part, part.surface, X_CW, half, depth_alone);
     for (const auto& [instrument, X_WT] : tools)
       if (const GpuMesh* mesh = tool_surface(instrument))
         paint_part(tool, *mesh, X_CW * X_WT, half, depth_alone);
@@ -305,6 +337,8 @@ struct ScopeRenderer::Impl {
       now.instruments.push_back(instrument);
       now.tools.push_back(X_WT);
     }
+    for (const PlacingRod& rod : rods)
+      for (const Vec3& end : {rod.a_W, rod.b_W}) now.tools.push_back({end, Quat::Identity()});
     return now;
   }
 
@@ -321,6 +355,13 @@ struct ScopeRenderer::Impl {
   }
   static Result<std::unique_ptr<Impl>> load(const std::filesystem::path& data_dir);
   void add_parts(const Case& the_case);
+  /// With the context current.
+  void make_placed() {
+    if (!rods_changed) return;
+    rods_changed = false;
+    placed.clear();
+    for (const PlacingRod& rod : rods) placed.push_back(placed_part(rod));
+  }
 };
 
 ScopeRenderer::ScopeRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -358,6 +399,7 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
 
 /// Bones, then soft parts without the skin.
 void ScopeRenderer::Impl::add_parts(const Case& the_case) {
+  placing = find_placing(the_case);
   for (std::size_t k = 0; k < the_case.bones.size(); ++k) {
     TissuePart part;
     part.model = k;
@@ -431,6 +473,13 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   for (const ToolState& tool : tools)
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
+  if (!impl_->placing) return;
+  auto rods = placing_rods(*impl_->placing, bones);
+  std::erase_if(rods, [](const PlacingRod& rod) {
+    return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);
+  });
+  impl_->rods_changed = impl_->rods_changed || !same_rods(rods, impl_->rods);
+  impl_->rods = std::move(rods);
 }
 
 void ScopeRenderer::set_surface(BoneId part, const TriMesh& mesh) {
@@ -488,6 +537,7 @@ Image ScopeRenderer::draw_image(const ScopeCamera& camera, int width, int height
   GLint bound = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
   Image image;
+  impl_->make_placed();
   impl_->painted.reset();
   if (impl_->flat.ensure(side) && impl_->picture.ensure(viewport.width, viewport.height, 0)) {
     impl_->paint_flat(camera, half);
@@ -505,6 +555,7 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   constexpr int kSettled = 12;          // pictures after which the gain has come to rest
   const int size = std::clamp(side_px, 16, kMaxImageSide);
   const Viewport viewport{0, 0, size, size};
+  impl_->make_placed();
   Impl::Painted now = impl_->as_it_is(camera, size);
   const bool first = !impl_->painted;
   impl_->calm = !first && impl_->painted->still(now) ? impl_->calm + 1 : 0;

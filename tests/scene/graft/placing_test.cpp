@@ -15,13 +15,15 @@ using testing::placing_knee;
 TEST(FindPlacing, MeasuresTheTunnelsInTheirBones) {
   const auto plan = find_placing(*placing_knee());
   ASSERT_TRUE(plan);
-  EXPECT_NEAR((plan->femur.mouth_B - Vec3(0, 0, 0)).norm(), 0, 1e-9);
+  const Pose X_WF = placing_knee()->bones[0].X_WB, X_WT = placing_knee()->bones[1].X_WB;
+  EXPECT_NEAR((X_WF * plan->femur.mouth_B).norm(), 0, 1e-9);
   EXPECT_NEAR(plan->femur.length_m(), 0.040, 1e-9);
-  EXPECT_NEAR((plan->tibia.mouth_B - Vec3(-0.030, 0, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((X_WT * plan->tibia.mouth_B - Vec3(0, 0, -0.030)).norm(), 0, 1e-9);
   EXPECT_NEAR(plan->tibia.length_m(), 0.040, 1e-9);
   EXPECT_NEAR(plan->socket_m, 0.026, 1e-9);
   EXPECT_NEAR(plan->between_m, 0.030, 1e-9);
-  EXPECT_NEAR(plan->femur_bend_rad, 0, 1e-6);
+  EXPECT_NEAR(plan->femur_bend_rad, 1.5707963, 1e-6);
+  EXPECT_NEAR(plan->tibia_bend_rad, 0, 1e-6);
   EXPECT_NEAR(plan->graft_m, 0.008, 1e-9);
   EXPECT_NEAR(plan->loop_m, 0.020, 1e-9);
   EXPECT_NEAR(plan->button_out_m(), 0.040 + 0.030 + 0.040 + 0.012, 1e-9);
