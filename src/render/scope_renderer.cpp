@@ -263,8 +263,7 @@ struct ScopeRenderer::Impl {
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
     glViewport(0, 0, viewport.width, viewport.height);
-    const Program& lens =
-        lenses[(water.taken_per_m > 0 ? kSeesWater : 0) + (water.fog > 0 ? kSeesFog : 0)];
+    const Program& lens = lenses[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
     lens.use();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, flat.texture());
@@ -283,12 +282,25 @@ struct ScopeRenderer::Impl {
     lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
     lens.set("u_taken", static_cast<float>(water.taken_per_m));
     lens.set("u_blood", static_cast<float>(water.blood));
+    if (!water.clear()) set_plumes(lens);
     lens.set("u_fog", static_cast<float>(water.fog));
     lens.set("u_world_from_view", to_matrix(camera.X_WC()));
     glBindVertexArray(no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glBindTexture(GL_TEXTURE_2D, 0);
+  }
+
+  void set_plumes(const Program& lens) const {
+    lens.set("u_plumes", static_cast<int>(water.plume_count));
+    for (std::uint32_t k = 0; k < water.plume_count; ++k) {
+      const std::string at = "[" + std::to_string(k) + "]";
+      const BloodPlume& plume = water.plumes[k];
+      lens.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
+      lens.set(("u_plume_size" + at).c_str(),
+               Eigen::Vector2f(static_cast<float>(plume.radius_m),
+                               static_cast<float>(plume.taken_per_m)));
+    }
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
