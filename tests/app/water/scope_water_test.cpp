@@ -1,139 +1,75 @@
-#include "water/joint_water.h"
+#include "water/scope_water.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace osteon {
 namespace {
 
-ByTissue gone(double cortical_mm3, double cancellous_mm3) {
-  ByTissue out{};
-  out[static_cast<std::size_t>(BoneTissue::kCortical)] = 1e-9 * cortical_mm3;
-  out[static_cast<std::size_t>(BoneTissue::kCancellous)] = 1e-9 * cancellous_mm3;
-  return out;
+BoneSnapshot bones_in_water(double pressure_mmhg) {
+  BoneSnapshot bones;
+  bones.count = 1;
+  bones.bones[0].X_WB = Pose{Vec3(0.1, 0, 0), Quat::Identity()};
+  bones.water.on = true;
+  bones.water.pressure_pa = kPa_per_mmHg * pressure_mmhg;
+  bones.water.pump_pa = FluidDrive().pump_pa;
+  bones.water.outlet_open = FluidDrive().outlet_open;
+  return bones;
 }
 
-// From `from_s` for `for_s` at 30 pictures a second, as much gone as there is.
-void wait(JointWater& water, double from_s, double for_s, double suction, const ByTissue& removed) {
-  for (int k = 1; k <= std::lround(30 * for_s); ++k)
-    water.go_to(from_s + k / 30.0, {suction}, removed);
+TEST(ScopeWater, WithoutWaterOrWithClearWaterNothingStandsBetween) {
+  EXPECT_TRUE(scope_water(knee_fluid(), BoneSnapshot{}).clear());
+  EXPECT_EQ(scope_water(knee_fluid(), bones_in_water(45)), ScopeWater());
 }
 
-TEST(JointWater, BeginsDistendedAndClearAndStaysSo) {
-  JointWater water(knee_fluid());
-  const double rest_pa = water.state().pressure_pa;
-  // What flows in flows out: 8 (60 - p) = (2 + 0.3) p, mmHg.
-  EXPECT_NEAR(rest_pa / kPa_per_mmHg, 8 * 60 / 10.3, 0.1);
-  water.go_to(0, {0}, {});
-  wait(water, 0, 20, 0, {});
-  EXPECT_NEAR(water.state().pressure_pa, rest_pa, 1);
-  EXPECT_EQ(water.seen(), ScopeWater());
-  EXPECT_EQ(water.state().obscured_s, 0);
+TEST(ScopeWater, BloodAndDebrisTakeTheirShareOfTheLight) {
+  BoneSnapshot bones = bones_in_water(45);
+  bones.water.blood = 0.01;
+  bones.water.debris = 0.02;
+  const ScopeWater seen = scope_water(knee_fluid(), bones);
+  EXPECT_NEAR(seen.taken_per_m, 6000 * 0.01 + 3000 * 0.02, 1e-9);
+  EXPECT_NEAR(seen.blood, 0.5, 1e-12);
+  FluidState otherwise;
+  EXPECT_TRUE(scope_water(knee_fluid(), bones, &otherwise).clear());
 }
 
-TEST(JointWater, CorticalBoneGivesPaleSlurryThatTheFlowTakesAway) {
-  JointWater water(knee_fluid());
-  water.go_to(0, {0}, {});
-  wait(water, 0, 1, 0, gone(200, 0));
-  const double clouded = water.turbidity();
-  EXPECT_GT(clouded, 0.05);
-  EXPECT_EQ(water.seen().blood, 0) << "hard bone hardly bleeds";
-  // Of 80 ml, 104 ml go out each minute.
-  const double share = water.state().debris;
-  wait(water, 1, 30, 0, gone(200, 0));
-  const double flow_ml_min = 8 * (60 - water.state().pressure_pa / kPa_per_mmHg);
-  EXPECT_NEAR(water.state().debris / share, std::exp(-flow_ml_min / 80 * 0.5), 0.02);
+TEST(ScopeWater, EachWoundThatBleedsHasAPlumeWhereItsBoneIs) {
+  BoneSnapshot bones = bones_in_water(40);
+  bones.water.wounds[2] = {5, BoneId{0}, Vec3(0, 0.01, 0), 1e-4};
+  bones.water.wounds[4] = {6, BoneId{3}, Vec3::Zero(), 1e-4};  // of a bone that is not there
+  const ScopeWater seen = scope_water(knee_fluid(), bones);
+  ASSERT_EQ(seen.plume_count, 1u);
+  EXPECT_FALSE(seen.clear());
+  EXPECT_LT((seen.plumes[0].p_W - Vec3(0.1, 0.01, 0)).norm(), 1e-12);
+  // 0.15 ml/min (0.3 at no pressure, half of the vessels' 80 mmHg) through a disc of 2.5 mm at
+  // 5 mm/s.
+  const double share = 0.15 * kM3_s_per_ml_min / (std::numbers::pi * 0.0025 * 0.0025 * 0.005);
+  EXPECT_NEAR(seen.plumes[0].taken_per_m, 6000 * share, 6000 * share * 0.01);
+  bones.water.pressure_pa = knee_fluid().vessel_pa;
+  EXPECT_TRUE(scope_water(knee_fluid(), bones).clear()) << "the pressure stops it";
 }
 
-TEST(JointWater, OpenedSoftBoneBleedsLessUnderPressureAndSuctionClears) {
-  const auto after_five_minutes = [](double pump_mmhg, double suction) {
-    JointWater water(knee_fluid());
-    water.set({kPa_per_mmHg * pump_mmhg, 0.5});
-    water.go_to(0, {0}, {});
-    wait(water, 0, 300, suction, gone(0, 1500));
-    return water;
-  };
-  const JointWater usual = after_five_minutes(60, 0), high = after_five_minutes(90, 0);
-  EXPECT_GT(usual.seen().blood, 0.5);
-  EXPECT_GT(usual.turbidity(), 0.02);
-  EXPECT_LT(high.turbidity(), 0.5 * usual.turbidity());
-  EXPECT_LT(after_five_minutes(60, 0.3).turbidity(), usual.turbidity());
-  EXPECT_GT(after_five_minutes(10, 0).state().obscured_s, 30)
-      << "too little to hold the joint open";
+TEST(ScopeWater, MoreWoundsThanAPictureShowsAreLeftOut) {
+  BoneSnapshot bones = bones_in_water(0);
+  for (Wound& wound : bones.water.wounds) wound = {0, BoneId{0}, Vec3::Zero(), 1e-4};
+  EXPECT_EQ(scope_water(knee_fluid(), bones).plume_count, ScopeWater::kMostPlumes);
 }
 
-TEST(JointWater, WhereTimeOrBoneGoesBackItIsClearAgain) {
-  JointWater water(wrist_fluid());
-  const auto cloud = [&] {
-    water.go_to(10, {0}, {});
-    wait(water, 10, 1, 0, gone(50, 50));
-    EXPECT_GT(water.turbidity(), 0.05);
-  };
-  cloud();
-  water.go_to(5, {0}, gone(50, 50));
-  EXPECT_EQ(water.turbidity(), 0);
-  cloud();
-  water.go_to(11.1, {0}, gone(20, 50));
-  EXPECT_EQ(water.turbidity(), 0) << "undone";
-  cloud();
-  water.go_to(400, {0}, gone(50, 50));
-  EXPECT_EQ(water.turbidity(), 0) << "a leap";
-}
-
-TEST(JointWater, NumbersThatAreNoneChangeNothing) {
-  const double nan = std::nan("");
-  JointWater water(knee_fluid());
-  const double before_pa = water.state().pressure_pa;
-  water.set({nan, 0.5});
-  water.set({8000, 1.5});
-  EXPECT_EQ(water.settings().pump_pa, WaterSettings().pump_pa);
-  water.go_to(nan, {0}, {});
-  water.go_to(0, {nan}, gone(0, 0));
-  water.go_to(0.03, {nan}, gone(nan, nan));
-  EXPECT_NEAR(water.state().pressure_pa, before_pa, 1);
-  EXPECT_TRUE(std::isfinite(water.turbidity()));
-}
-
-TEST(JointWater, WhatToolsDoIsKnownByTheInstrumentAndItsPower) {
-  const auto which =
-      water_tools_of({"hook_probe", "shaver", "wrist_probe", "no_such_thing", "cannulated_drill"});
-  ASSERT_TRUE(which) << which.error().message();
-  EXPECT_EQ(*which,
-            WaterTools({{false, true, false, false, false}, {false, true, false, false, true}}));
-  std::array<ToolState, 3> tools{};
-  tools[0].instrument = 0;
-  tools[0].power = 1;
-  EXPECT_EQ(deeds_of(*which, tools).suction, 0);
-  EXPECT_EQ(deeds_of(*which, tools).share_into_joint, 1);
-  tools[1].instrument = 1;
-  tools[1].power = 0.4;
-  tools[1].portal = 0;
-  tools[2].instrument = 77;
-  tools[2].power = 1;
-  EXPECT_EQ(deeds_of(*which, tools).suction, 0.4);
-  tools[1].power = std::nan("");
-  EXPECT_EQ(deeds_of(*which, tools).suction, 0);
-}
-
-TEST(JointWater, ADrillFromOutsideLeavesAFifthOfItsChipsInside) {
-  const WaterTools which{{false, false}, {false, true}};
-  std::array<ToolState, 2> tools{};  // a scope in its portal and a drill
-  tools[0].power = 1;
-  tools[0].portal = 0;
-  tools[1].instrument = 1;
-  tools[1].power = 1;
-  EXPECT_EQ(deeds_of(which, tools).share_into_joint, 0.2);
-  double taken[2];
-  for (const bool inside : {false, true}) {
-    tools[1].portal = inside ? 1 : kNoPortal;
-    JointWater water(knee_fluid());
-    water.go_to(0, {}, {});
-    water.go_to(0.1, deeds_of(which, tools), gone(100, 0));
-    taken[inside] = water.state().debris;
-  }
-  EXPECT_NEAR(taken[0] / taken[1], 0.2, 0.001);
+TEST(OtherPump, FillsTheJointAsItsOwnSettingsDo) {
+  OtherPump low(knee_fluid(), {20 * kPa_per_mmHg, 0.5});
+  WaterState session = bones_in_water(45).water;
+  low.go_to(0, session);
+  EXPECT_DOUBLE_EQ(low.state().pressure_pa, session.pressure_pa) << "it begins as the session is";
+  for (int k = 1; k <= 600; ++k) low.go_to(0.1 * k, session);
+  EXPECT_NEAR(low.state().pressure_pa / kPa_per_mmHg, 8 * 20 / 10.3, 0.1);
+  session.blood = 0.01;
+  low.go_to(30, session);
+  EXPECT_DOUBLE_EQ(low.state().blood, 0.01) << "back in time: as the session is then";
+  low.go_to(std::nan(""), session);
+  low.go_to(400, session);
+  EXPECT_DOUBLE_EQ(low.state().pressure_pa, session.pressure_pa) << "a leap";
 }
 
 }  // namespace
