@@ -480,8 +480,18 @@ void ScopeRenderer::set_water(const ScopeWater& water) {
     return std::isfinite(value) ? std::clamp(value, 0.0, most) : 0;
   };
   constexpr double kMostTaken_per_m = 1e5;
-  impl_->water = {bounded(water.taken_per_m, kMostTaken_per_m), bounded(water.blood, 1),
-                  bounded(water.fog, 1)};
+  ScopeWater& now = impl_->water;
+  now = {};
+  now.taken_per_m = bounded(water.taken_per_m, kMostTaken_per_m);
+  now.blood = bounded(water.blood, 1);
+  now.fog = bounded(water.fog, 1);
+  const std::size_t count = std::min<std::size_t>(water.plume_count, ScopeWater::kMostPlumes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const BloodPlume& plume = water.plumes[k];
+    const double taken_per_m = bounded(plume.taken_per_m, kMostTaken_per_m);
+    if (is_finite(plume.p_W) && bounded(plume.radius_m, 1) > 0 && taken_per_m > 0)
+      now.plumes[now.plume_count++] = {plume.p_W, bounded(plume.radius_m, 1), taken_per_m};
+  }
 }
 
 void ScopeRenderer::set_wall(const TriMesh& wall_W) {

@@ -8,8 +8,9 @@ namespace osteon {
 namespace {
 
 constexpr double kLeap_s = 1;
-// A plume is a cloud of this radius that the water carries off so fast (D).
-constexpr double kPlume_m = 0.0025, kCarried_m_per_s = 0.005;
+// A plume is a cloud that reaches so far beyond its wound, and that the water carries off so fast
+// (D).
+constexpr double kBeyond_m = 0.0025, kCarried_m_per_s = 0.005;
 constexpr double kMostBlood = 0.2;  // share of the water in a plume's middle
 
 }  // namespace
@@ -29,10 +30,12 @@ ScopeWater scope_water(const FluidJoint& joint, const BoneSnapshot& bones,
       continue;
     const double flow_m3_s = wound_flow(joint, wound, mixture.pressure_pa);
     if (!(flow_m3_s > 0)) continue;
-    const double share = std::min(
-        flow_m3_s / (std::numbers::pi * kPlume_m * kPlume_m * kCarried_m_per_s), kMostBlood);
+    // A wound is the two ends of a part that was cut, each a disc.
+    const double radius_m = kBeyond_m + std::sqrt(0.5 * wound.open_m2 / std::numbers::pi);
+    const double across_m2 = std::numbers::pi * radius_m * radius_m;
+    const double share = std::min(flow_m3_s / (across_m2 * kCarried_m_per_s), kMostBlood);
     const Pose& X_WB = bones.bones[wound.bone.index].X_WB;
-    out.plumes[out.plume_count++] = {X_WB * wound.p_B, kPlume_m, joint.blood_per_m * share};
+    out.plumes[out.plume_count++] = {X_WB * wound.p_B, radius_m, joint.blood_per_m * share};
   }
   return out;
 }

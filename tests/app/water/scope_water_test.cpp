@@ -43,9 +43,11 @@ TEST(ScopeWater, EachWoundThatBleedsHasAPlumeWhereItsBoneIs) {
   ASSERT_EQ(seen.plume_count, 1u);
   EXPECT_FALSE(seen.clear());
   EXPECT_LT((seen.plumes[0].p_W - Vec3(0.1, 0.01, 0)).norm(), 1e-12);
-  // 0.15 ml/min (0.3 at no pressure, half of the vessels' 80 mmHg) through a disc of 2.5 mm at
-  // 5 mm/s.
-  const double share = 0.15 * kM3_s_per_ml_min / (std::numbers::pi * 0.0025 * 0.0025 * 0.005);
+  // 0.15 ml/min (0.3 at no pressure, half of the vessels' 80 mmHg) at 5 mm/s through a disc that
+  // reaches 2.5 mm beyond one of half the area.
+  const double radius_m = 0.0025 + std::sqrt(0.5e-4 / std::numbers::pi);
+  EXPECT_NEAR(seen.plumes[0].radius_m, radius_m, 1e-12);
+  const double share = 0.15 * kM3_s_per_ml_min / (std::numbers::pi * radius_m * radius_m * 0.005);
   EXPECT_NEAR(seen.plumes[0].taken_per_m, 6000 * share, 6000 * share * 0.01);
   bones.water.pressure_pa = knee_fluid().vessel_pa;
   EXPECT_TRUE(scope_water(knee_fluid(), bones).clear()) << "the pressure stops it";
