@@ -16,6 +16,9 @@ uniform float u_focus;         // sharp at this distance, metres
 uniform float u_blur_px;       // radius of blur, pixels of the flat picture, a dioptre off focus
 uniform float u_taken;         // light that the water takes, each metre
 uniform float u_blood;         // share of that which blood takes
+uniform int u_plumes;          // how many
+uniform vec3 u_plume_at[6];    // in World
+uniform vec2 u_plume_size[6];  // radius, and light that its middle takes, each metre
 uniform float u_fog;           // share of the glass that is fogged
 uniform mat4 u_world_from_view;
 
@@ -44,15 +47,32 @@ float clouds(vec3 p) {
   return 0.3 + 1.4 * (0.65 * noise(p * 170.0) + 0.35 * noise(p * 460.0 + 3.0));
 }
 
+// Light that plumes of blood take on the way, as a power of e: each falls off from its middle as a
+// bell, whose sum along a line is known (tanh stands for the error function).
+float plumes_on(vec3 eye, vec3 along, float distance_m) {
+  float sum = 0.0;
+  for (int k = 0; k < u_plumes; ++k) {
+    vec3 to = u_plume_at[k] - eye;
+    float s = u_plume_size[k].x, t = dot(to, along), off = dot(to, to) - t * t;
+    float part = 0.5 * (tanh(0.8485 * (distance_m - t) / s) + tanh(0.8485 * t / s));
+    float wisps = 0.4 + 1.2 * noise(eye * 300.0 + (t + 0.3 * s) * along * 300.0 + 5.0 * float(k));
+    sum += u_plume_size[k].y * 2.5066 * s * exp(-0.5 * off / (s * s)) * max(part, 0.0) * wisps;
+  }
+  return sum;
+}
+
 // Light through cloudy water, from the tip to the tissue and back: it falls by an exponential, and
 // what the water scatters comes back from near by as a veil. Blood takes green and blue before red.
 vec3 through_water(vec3 light, float distance_m, vec3 dir_C) {
+  const vec3 kBlood = vec3(0.55, 1.5, 1.6);
   vec3 eye = u_world_from_view[3].xyz, along = mat3(u_world_from_view) * dir_C;
   float thick = 0.0;
   for (int k = 0; k < 4; ++k) thick += 0.25 * clouds(eye + (0.125 + 0.25 * float(k)) * distance_m * along);
-  vec3 takes = u_taken * thick * mix(vec3(1.0), vec3(0.55, 1.5, 1.6), u_blood);
-  vec3 left = exp(-2.0 * takes * distance_m);
-  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), u_blood) * (0.55 + 0.45 * thick);
+  float mixed = u_taken * thick * distance_m, plumes = plumes_on(eye, along, distance_m);
+  vec3 takes = mixed * mix(vec3(1.0), kBlood, u_blood) + plumes * kBlood;
+  float red = (mixed * u_blood + plumes) / max(mixed + plumes, 1e-9);
+  vec3 left = exp(-2.0 * takes);
+  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), red) * (0.55 + 0.45 * thick);
   return light * left + veil * (1.0 - left);
 }
 

@@ -263,8 +263,7 @@ struct ScopeRenderer::Impl {
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
     glViewport(0, 0, viewport.width, viewport.height);
-    const Program& lens =
-        lenses[(water.taken_per_m > 0 ? kSeesWater : 0) + (water.fog > 0 ? kSeesFog : 0)];
+    const Program& lens = lenses[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
     lens.use();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, flat.texture());
@@ -283,12 +282,25 @@ struct ScopeRenderer::Impl {
     lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
     lens.set("u_taken", static_cast<float>(water.taken_per_m));
     lens.set("u_blood", static_cast<float>(water.blood));
+    if (!water.clear()) set_plumes(lens);
     lens.set("u_fog", static_cast<float>(water.fog));
     lens.set("u_world_from_view", to_matrix(camera.X_WC()));
     glBindVertexArray(no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glBindTexture(GL_TEXTURE_2D, 0);
+  }
+
+  void set_plumes(const Program& lens) const {
+    lens.set("u_plumes", static_cast<int>(water.plume_count));
+    for (std::uint32_t k = 0; k < water.plume_count; ++k) {
+      const std::string at = "[" + std::to_string(k) + "]";
+      const BloodPlume& plume = water.plumes[k];
+      lens.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
+      lens.set(("u_plume_size" + at).c_str(),
+               Eigen::Vector2f(static_cast<float>(plume.radius_m),
+                               static_cast<float>(plume.taken_per_m)));
+    }
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -468,8 +480,18 @@ void ScopeRenderer::set_water(const ScopeWater& water) {
     return std::isfinite(value) ? std::clamp(value, 0.0, most) : 0;
   };
   constexpr double kMostTaken_per_m = 1e5;
-  impl_->water = {bounded(water.taken_per_m, kMostTaken_per_m), bounded(water.blood, 1),
-                  bounded(water.fog, 1)};
+  ScopeWater& now = impl_->water;
+  now = {};
+  now.taken_per_m = bounded(water.taken_per_m, kMostTaken_per_m);
+  now.blood = bounded(water.blood, 1);
+  now.fog = bounded(water.fog, 1);
+  const std::size_t count = std::min<std::size_t>(water.plume_count, ScopeWater::kMostPlumes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const BloodPlume& plume = water.plumes[k];
+    const double taken_per_m = bounded(plume.taken_per_m, kMostTaken_per_m);
+    if (is_finite(plume.p_W) && bounded(plume.radius_m, 1) > 0 && taken_per_m > 0)
+      now.plumes[now.plume_count++] = {plume.p_W, bounded(plume.radius_m, 1), taken_per_m};
+  }
 }
 
 void ScopeRenderer::set_wall(const TriMesh& wall_W) {

@@ -67,6 +67,7 @@ struct Session::Impl {
       hands.back()->set_sizes(sizes_mm);
     }
     world.set_bench(bench_tools(tray, settings, sizes_mm));
+    world.set_water(tray, settings.water);
     if (softs) set_softs(settings);
     if (!carving) return;
     std::vector<FeltCuts*> felt;

@@ -9,6 +9,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
 #include "osteon/scene/tool_guide.h"
+#include "osteon/scene/water_state.h"
 
 namespace osteon {
 
@@ -41,6 +42,7 @@ struct BoneSnapshot {
   std::array<ToolGuide, kMaxHands> guides{};  ///< of each hand
   GuideRods rods{};
   GraftBenchState bench{};  ///< off: the case has no bench
+  WaterState water{};       ///< off: the case has no joint that is filled
 };
 static_assert(kBenchHands == kMaxHands);
 

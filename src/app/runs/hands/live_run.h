@@ -139,6 +139,9 @@ class LiveRun {
   Result<void> take_back(std::unique_ptr<HapticDevice> device);
 
   void set_feel(const Command& command);
+  /// The pump that fills the joint: its pressure and how far the outlet is open. False: the run
+  /// takes no command now.
+  bool set_pump(double pump_pa, double outlet_open);
   void set_force(bool on);
   /// The user's wish for the force: of the active hand alone where that one has a fault, else of
   /// all hands.
