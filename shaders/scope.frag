@@ -16,6 +16,11 @@ uniform float u_focus;         // sharp at this distance, metres
 uniform float u_blur_px;       // radius of blur, pixels of the flat picture, a dioptre off focus
 uniform float u_taken;         // light that the water takes, each metre
 uniform float u_blood;         // share of that which blood takes
+uniform sampler3D u_clouds;    // of water, repeated
+uniform float u_clouds_per_m;  // how often they are repeated
+uniform int u_plumes;          // how many
+uniform vec3 u_plume_at[6];    // in World
+uniform vec2 u_plume_size[6];  // radius, and light that its middle takes, each metre
 uniform float u_fog;           // share of the glass that is fogged
 uniform mat4 u_world_from_view;
 
@@ -38,21 +43,35 @@ float noise(vec3 p) {
   return mix(a, b, f.z);
 }
 
-// How thick the water is at a place of World, 1 on the mean: it hangs in clouds and threads.
-float clouds(vec3 p) {
-  p += 0.004 * vec3(noise(p * 150.0), noise(p * 150.0 + 9.0), noise(p * 150.0 + 21.0));
-  return 0.3 + 1.4 * (0.65 * noise(p * 170.0) + 0.35 * noise(p * 460.0 + 3.0));
+// How thick the water is at a place of World, 1 on the mean.
+float clouds(vec3 p) { return 2.0 * texture(u_clouds, p * u_clouds_per_m).r; }
+
+// Light that plumes of blood take on the way, as a power of e: each falls off from its middle as a
+// bell, whose sum along a line is known (tanh stands for the error function).
+float plumes_on(vec3 eye, vec3 along, float distance_m) {
+  float sum = 0.0;
+  for (int k = 0; k < u_plumes; ++k) {
+    vec3 to = u_plume_at[k] - eye;
+    float s = u_plume_size[k].x, t = dot(to, along), off = dot(to, to) - t * t;
+    float part = 0.5 * (tanh(0.8485 * (distance_m - t) / s) + tanh(0.8485 * t / s));
+    float wisps = 0.4 + 1.2 * noise(eye * 300.0 + (t + 0.3 * s) * along * 300.0 + 5.0 * float(k));
+    sum += u_plume_size[k].y * 2.5066 * s * exp(-0.5 * off / (s * s)) * max(part, 0.0) * wisps;
+  }
+  return sum;
 }
 
 // Light through cloudy water, from the tip to the tissue and back: it falls by an exponential, and
 // what the water scatters comes back from near by as a veil. Blood takes green and blue before red.
 vec3 through_water(vec3 light, float distance_m, vec3 dir_C) {
+  const vec3 kBlood = vec3(0.55, 1.5, 1.6);
   vec3 eye = u_world_from_view[3].xyz, along = mat3(u_world_from_view) * dir_C;
   float thick = 0.0;
-  for (int k = 0; k < 4; ++k) thick += 0.25 * clouds(eye + (0.125 + 0.25 * float(k)) * distance_m * along);
-  vec3 takes = u_taken * thick * mix(vec3(1.0), vec3(0.55, 1.5, 1.6), u_blood);
-  vec3 left = exp(-2.0 * takes * distance_m);
-  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), u_blood) * (0.55 + 0.45 * thick);
+  for (int k = 0; k < 2; ++k) thick += 0.5 * clouds(eye + (0.25 + 0.5 * float(k)) * distance_m * along);
+  float mixed = u_taken * thick * distance_m, plumes = plumes_on(eye, along, distance_m);
+  vec3 takes = mixed * mix(vec3(1.0), kBlood, u_blood) + plumes * kBlood;
+  float red = (mixed * u_blood + plumes) / max(mixed + plumes, 1e-9);
+  vec3 left = exp(-2.0 * takes);
+  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), red) * (0.55 + 0.45 * thick);
   return light * left + veil * (1.0 - left);
 }
 
@@ -70,11 +89,11 @@ vec4 flat_at(vec2 plane) {
   if (blur < 0.6) return sharp;
   vec2 texel = 1.0 / vec2(textureSize(u_flat, 0));
   vec4 sum = sharp;
-  for (int k = 0; k < 12; ++k) {
-    float a = 2.39996 * float(k), q = sqrt((float(k) + 0.7) / 12.0);
+  for (int k = 0; k < 8; ++k) {
+    float a = 2.39996 * float(k), q = sqrt((float(k) + 0.7) / 8.0);
     sum += texture(u_flat, uv + blur * q * vec2(cos(a), sin(a)) * texel);
   }
-  return sum / 13.0;
+  return sum / 9.0;
 }
 
 // Fine drops on the glass spread the light of all that is around; they leave holes where they run
@@ -83,12 +102,15 @@ vec3 through_fog(vec3 light, vec2 plane, vec2 from_center) {
   float patchy = noise(vec3(from_center * 3.0, 4.0)) + 0.25 * noise(vec3(from_center * 23.0, 8.0));
   float share = smoothstep(1.0 - u_fog, 1.25 - 0.9 * u_fog, patchy + 0.35 * u_fog) * min(1.0, 2.0 * u_fog);
   float turn = 6.2832 * hash(vec3(gl_FragCoord.xy, 1.0));
+  vec2 turned = vec2(cos(turn), sin(turn)), middle = 0.5 + 0.5 * plane / u_flat_half;
   vec3 spread = vec3(0.0);
-  for (int k = 0; k < 24; ++k) {
-    float a = turn + 2.39996 * float(k), q = 0.34 * sqrt((float(k) + 0.5) / 24.0);
-    spread += texture(u_flat, 0.5 + 0.5 * (plane + q * u_flat_half * vec2(cos(a), sin(a))) / u_flat_half).rgb;
+  for (int k = 0; k < 16; ++k) {
+    // The turn of each is known before: of the pixel's own turn there is one.
+    float a = 2.39996 * float(k), q = 0.34 * sqrt((float(k) + 0.5) / 16.0);
+    vec2 to = vec2(turned.x * cos(a) - turned.y * sin(a), turned.y * cos(a) + turned.x * sin(a));
+    spread += texture(u_flat, middle + 0.5 * q * to).rgb;
   }
-  vec3 milky = 0.75 * min(spread / 24.0, vec3(2.0)) + vec3(0.10, 0.10, 0.11) / u_exposure;
+  vec3 milky = 0.75 * min(spread / 16.0, vec3(2.0)) + vec3(0.10, 0.10, 0.11) / u_exposure;
   return mix(light, milky, 0.93 * share);
 }
 

@@ -16,12 +16,12 @@ double shaped(double stick, double dead_zone) {
   return past > 0 ? std::copysign(past / (1 - dead_zone), s) : 0;
 }
 
-Vec3 shaped(const Vec3& sticks, double dead_zone) {
+}  // namespace
+
+Vec3 past_dead_zone(const Vec3& sticks, double dead_zone) {
   return {shaped(sticks.x(), dead_zone), shaped(sticks.y(), dead_zone),
           shaped(sticks.z(), dead_zone)};
 }
-
-}  // namespace
 
 PadDevice::PadDevice(const DeviceInfo& info, const PadParams& params)
     : info_(info), params_(params) {
@@ -36,8 +36,8 @@ DeviceSample PadDevice::read() {
   const double dt_s = period_s(info_);
   DeviceSample sample;
   if (live) {
-    sample.w_V = params_.turn_rate_rad_per_s * shaped(axes.turn_V, params_.dead_zone);
-    const Vec3 v_V = params_.speed_m_per_s * shaped(axes.move_V, params_.dead_zone);
+    sample.w_V = params_.turn_rate_rad_per_s * past_dead_zone(axes.turn_V, params_.dead_zone);
+    const Vec3 v_V = params_.speed_m_per_s * past_dead_zone(axes.move_V, params_.dead_zone);
     const Vec3 half_extent = 0.5 * info_.workspace_m;
     const Vec3 moved = (X_VD_.p + dt_s * v_V).cwiseMax(-half_extent).cwiseMin(half_extent);
     sample.v_V = (moved - X_VD_.p) / dt_s;

@@ -112,6 +112,20 @@ void add_to(Hasher& hasher, const GraftPlacingState& placing) {
     hasher.add(x);
 }
 
+void add_to(Hasher& hasher, const WaterState& water) {
+  for (const double x : {water.pump_pa, water.outlet_open, water.pressure_pa, water.blood,
+                         water.debris, water.suction, water.bleeding_m3_s, water.debris_m3_s,
+                         water.removed_m3, water.vascular_m3, water.opened_m3})
+    hasher.add(x);
+  for (const Wound& wound : water.wounds) {
+    hasher.add(wound.soft);
+    if (wound.soft == kNoWound) continue;
+    hasher.add(wound.bone.index);
+    hasher.add(wound.p_B);
+    hasher.add(wound.open_m2);
+  }
+}
+
 bool leads(const BoneSnapshot& snapshot) {
   return std::any_of(snapshot.guides.begin(), snapshot.guides.end(),
                      [](const ToolGuide& guide) { return guide.on; });
@@ -135,6 +149,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
     for (const ToolGuide& guide : snapshot.guides) add_to(hasher, guide);
   if (snapshot.bench.on) add_to(hasher, snapshot.bench);
   if (snapshot.placing.on) add_to(hasher, snapshot.placing);
+  if (snapshot.water.on && snapshot.water.hashed) add_to(hasher, snapshot.water);
   return hasher.value();
 }
 
@@ -336,6 +351,8 @@ void BoneWorld::set_guides(const std::array<ToolGuide, kMaxHands>& guides, const
 
 void BoneWorld::set_bench(const GraftBenchState& bench) { impl_->snapshot.bench = bench; }
 void BoneWorld::set_placing(const GraftPlacingState& placing) { impl_->snapshot.placing = placing; }
+
+void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = water; }
 
 bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {

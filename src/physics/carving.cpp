@@ -131,6 +131,7 @@ Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
     made.field = std::move(*field);
     made.loose = std::make_unique<LoosePieces>(*made.field);
     made.removed = std::make_unique<RemovedNodes>(*made.field);
+    made.tissue_gone = std::make_unique<RemovedTissue>(*made.field);
     made.whole = whole_nodes(bone->bare() ? *bone->bare() : *bone).count;
   }
   changed_.reserve((kMaxHands + bones_.size()) * setup_->most_blocks);

@@ -68,6 +68,22 @@ void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
   }
 }
 
+GoneBone Carving::gone() {
+  GoneBone out;
+  for (Bone& bone : bones_) {
+    if (!bone.field) continue;
+    const RemovedTissue::Counts& nodes = bone.tissue_gone->of(*bone.field);
+    const double h = bone.field->grid().cell_m, each_m3 = h * h * h;
+    std::int64_t all = 0;
+    for (const std::int64_t of_tissue : nodes) all += of_tissue;
+    const std::int64_t vascular = nodes[static_cast<std::size_t>(BoneTissue::kCancellous)] +
+                                  nodes[static_cast<std::size_t>(BoneTissue::kMarrow)];
+    out.all_m3 += each_m3 * static_cast<double>(all);
+    out.vascular_m3 += each_m3 * static_cast<double>(vascular);
+  }
+  return out;
+}
+
 // Sums over nodes in whole cells, then once into metres: lo + h n.
 BoneLoss Carving::loss(std::size_t b, double mass_kg) {
   BoneLoss out;

@@ -20,6 +20,7 @@
 #include "surface/shapes.h"
 #include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
+#include "view/water_clouds.h"
 
 namespace osteon {
 namespace {
@@ -28,6 +29,23 @@ constexpr double kNear_m = 0.0003, kFar_m = 0.15;
 constexpr double kFocus_m = 0.012;
 /// Of the light that comes back, on the mean, in the picture.
 constexpr double kMeanLight = 0.30;
+
+GlTexture cloud_texture() {
+  constexpr int kSide = 64;  // three values in the smallest cell
+  GlTexture texture = make_texture();
+  const std::vector<std::uint8_t> values = water_clouds(kSide);
+  glBindTexture(GL_TEXTURE_3D, texture.get());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, kSide, kSide, kSide, 0, GL_RED, GL_UNSIGNED_BYTE,
+               values.data());
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTexParameteri(GL_TEXTURE_3D, wrap, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+  glBindTexture(GL_TEXTURE_3D, 0);
+  return texture;
+}
 
 TissuePattern pattern_of(std::string_view kind) {
   if (kind == "cartilage") return TissuePattern::kCartilage;
@@ -189,6 +207,7 @@ struct ScopeRenderer::Impl {
   LightTarget flat;
   RenderTarget picture;
   GlVertexArray no_vertices;
+  GlTexture clouds;  ///< of water
   bool software = false;
   std::optional<Painted> painted;
   int calm = 0;  ///< pictures since the last that moved
@@ -295,8 +314,7 @@ struct ScopeRenderer::Impl {
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
     glViewport(0, 0, viewport.width, viewport.height);
-    const Program& lens =
-        lenses[(water.taken_per_m > 0 ? kSeesWater : 0) + (water.fog > 0 ? kSeesFog : 0)];
+    const Program& lens = lenses[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
     lens.use();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, flat.texture());
@@ -315,12 +333,30 @@ struct ScopeRenderer::Impl {
     lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
     lens.set("u_taken", static_cast<float>(water.taken_per_m));
     lens.set("u_blood", static_cast<float>(water.blood));
+    if (!water.clear()) set_water_on(lens);
     lens.set("u_fog", static_cast<float>(water.fog));
     lens.set("u_world_from_view", to_matrix(camera.X_WC()));
     glBindVertexArray(no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glBindTexture(GL_TEXTURE_2D, 0);
+  }
+
+  void set_water_on(const Program& lens) const {
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_3D, clouds.get());
+    glActiveTexture(GL_TEXTURE0);
+    lens.set("u_clouds", 1);
+    lens.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
+    lens.set("u_plumes", static_cast<int>(water.plume_count));
+    for (std::uint32_t k = 0; k < water.plume_count; ++k) {
+      const std::string at = "[" + std::to_string(k) + "]";
+      const BloodPlume& plume = water.plumes[k];
+      lens.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
+      lens.set(("u_plume_size" + at).c_str(),
+               Eigen::Vector2f(static_cast<float>(plume.radius_m),
+                               static_cast<float>(plume.taken_per_m)));
+    }
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -393,6 +429,7 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
     impl->lenses[k] = std::move(*lens);
   }
   impl->no_vertices = make_vertex_array();
+  impl->clouds = cloud_texture();
   impl->wall.pattern = TissuePattern::kSynovium;
   return impl;
 }
@@ -517,8 +554,18 @@ void ScopeRenderer::set_water(const ScopeWater& water) {
     return std::isfinite(value) ? std::clamp(value, 0.0, most) : 0;
   };
   constexpr double kMostTaken_per_m = 1e5;
-  impl_->water = {bounded(water.taken_per_m, kMostTaken_per_m), bounded(water.blood, 1),
-                  bounded(water.fog, 1)};
+  ScopeWater& now = impl_->water;
+  now = {};
+  now.taken_per_m = bounded(water.taken_per_m, kMostTaken_per_m);
+  now.blood = bounded(water.blood, 1);
+  now.fog = bounded(water.fog, 1);
+  const std::size_t count = std::min<std::size_t>(water.plume_count, ScopeWater::kMostPlumes);
+  for (std::size_t k = 0; k < count; ++k) {
+    const BloodPlume& plume = water.plumes[k];
+    const double taken_per_m = bounded(plume.taken_per_m, kMostTaken_per_m);
+    if (is_finite(plume.p_W) && bounded(plume.radius_m, 1) > 0 && taken_per_m > 0)
+      now.plumes[now.plume_count++] = {plume.p_W, bounded(plume.radius_m, 1), taken_per_m};
+  }
 }
 
 void ScopeRenderer::set_wall(const TriMesh& wall_W) {

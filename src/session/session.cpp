@@ -82,6 +82,7 @@ struct Session::Impl {
     }
     world.set_bench(bench_tools(tray, settings, sizes_mm));
     world.set_placing(placing_tools(tray, settings));
+    world.set_water(tray, settings.water);
     if (softs) set_softs(settings);
     if (!carving) return;
     std::vector<FeltCuts*> felt;

@@ -215,6 +215,17 @@ Result<void> take_soft(Json& json, SessionSettings& settings) {
   return {};
 }
 
+// Recordings of older versions do not say it.
+Result<void> take_water(Json& json, SessionSettings& settings) {
+  const auto found = json.find("water");
+  settings.water = found != json.end();
+  if (!settings.water) return {};
+  if (!found->is_boolean()) return fail("true or false is missing", "settings, 'water'", kTodo);
+  settings.water = found->get<bool>();
+  json.erase(found);
+  return {};
+}
+
 Result<void> check_hands(const SessionSettings& settings) {
   if (settings.hands.empty() || settings.hands.size() > kMaxHands)
     return fail("a session has one to four hands", "settings, 'hands'", "Name as many");
@@ -263,6 +274,7 @@ std::string to_json(const SessionSettings& settings) {
     json["hands"].push_back({{"name", hand.name}, {"instrument", hand.instrument}});
   json["tray"] = settings.tray;
   json["portals"] = settings.portals;
+  json["water"] = settings.water;
   if (settings.carve.on) json["carve"] = carve_json(settings.carve);
   if (!settings.soft.empty()) {
     json["soft"] = settings.soft;
@@ -277,6 +289,7 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   SessionSettings settings;
   if (const auto done = take_carve(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = take_soft(*parsed, settings); !done) return tl::unexpected(done.error());
+  if (const auto done = take_water(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());
   const Json* seed = find(*parsed, "", "seed");
   if (!seed || !seed->is_number_unsigned())

@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 11;
+constexpr std::uint64_t kVersion = 12;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -232,7 +232,7 @@ void field(A& a, PlacingHand& h) {
 template <class A>
 void field(A& a, GraftPlacingState& s) {
   if constexpr (A::kReads)
-    if (a.version < 11) return;  // no graft was placed then
+    if (a.version < 12) return;  // no graft was placed then
   field(a, s.on);
   if (!s.on) return;
   number(a, s.phase, static_cast<std::uint64_t>(PlacingPhase::kTurned));
@@ -241,6 +241,28 @@ void field(A& a, GraftPlacingState& s) {
   number(a, s.holder, kPlacingHands);
   for (std::uint32_t* x : {&s.lost, &s.let_go_early}) field(a, *x);
   for (double* x : {&s.pin_m, &s.drawn_m, &s.pull_n, &s.most_pull_n, &s.gap_m}) field(a, *x);
+}
+
+template <class A>
+void field(A& a, Wound& w) {
+  field(a, w.soft);
+  if (w.soft == kNoWound) return;
+  number(a, w.bone.index, kMaxBones - 1);
+  field(a, w.p_B);
+  field(a, w.open_m2);
+}
+
+template <class A>
+void field(A& a, WaterState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 11) return;  // it was in no state then
+  field(a, s.on);
+  if (!s.on) return;
+  field(a, s.hashed);
+  for (double* x : {&s.pump_pa, &s.outlet_open, &s.pressure_pa, &s.blood, &s.debris, &s.suction,
+                    &s.bleeding_m3_s, &s.debris_m3_s, &s.removed_m3, &s.vascular_m3, &s.opened_m3})
+    field(a, *x);
+  for (Wound& wound : s.wounds) field(a, wound);
 }
 
 template <class A>
@@ -254,6 +276,7 @@ void field(A& a, BoneSnapshot& s) {
   for (ToolGuide& guide : s.guides) field(a, guide);
   for (GuideRod& rod : s.rods) field(a, rod);
   field(a, s.bench);
+  field(a, s.water);
   field(a, s.placing);
 }
 

@@ -73,6 +73,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
     place_rings();
   }
   if (softs_) softs_->step(tools, bones);
+  if (water_) let_flow(tools);
   all_changed_ = false;
   record_ = {};
   record_.step = bones.step;
@@ -97,6 +98,31 @@ void WorldHalf::set_placing(std::vector<PlacingTool> tray) {
   if (!made) return;
   placing_ = std::make_unique<GraftPlacing>(std::move(*made));
   world_.set_placing(GraftPlacing::begin());
+}
+
+void WorldHalf::set_water(std::span<const std::shared_ptr<const Tool>> tray, bool hashed) {
+  const auto joint = filled_joint(*the_case_);
+  if (!joint) return;
+  water_.emplace(*joint, tray, step_s_);
+  water_hashed_ = hashed;
+  world_.set_water(fresh_water());
+}
+
+WaterState WorldHalf::fresh_water() const {
+  WaterState water = water_->begin();
+  water.hashed = water_hashed_;
+  return water;
+}
+
+void WorldHalf::let_flow(std::span<const ToolState* const> tools) {
+  const BoneSnapshot& bones = world_.snapshot();
+  WaterState water = bones.water;
+  std::optional<GoneBone> gone;
+  if (carving_ && bones.step % JointWater::kLookEvery == 0) gone = carving_->gone();
+  const std::span<const SoftOpening> openings =
+      softs_ ? softs_->world().openings() : std::span<const SoftOpening>();
+  water_->step(tools, bones, openings, gone ? &*gone : nullptr, water);
+  world_.set_water(water);
 }
 
 // A line of the bench or of a tunnel leads before one of what is carved.
@@ -126,14 +152,24 @@ void WorldHalf::obey(const Command& command) {
   const std::uint32_t mark = mark_of(command);
   if (command.kind == CommandKind::kHoldBones && command.value >= 0 && command.value <= 1)
     world_.set_hold(command.value >= 0.5);
+  else if (water_ && (command.kind == CommandKind::kPump || command.kind == CommandKind::kOutlet))
+    turn_pump(command);
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
     keep(mark);
   else if (command.kind == CommandKind::kRestore && mark < kMaxMarks && marks_[mark].set)
     go_back(marks_[mark]);
 }
 
+void WorldHalf::turn_pump(const Command& command) {
+  WaterState water = world_.snapshot().water;
+  if (command.kind == CommandKind::kPump) set_pump(command.value, water);
+  if (command.kind == CommandKind::kOutlet) set_outlet(command.value, water);
+  world_.set_water(water);
+}
+
 void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
+  if (water_) world_.set_water(JointWater::gone_back(mark.bones.water, world_.snapshot().water));
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
   if (rings_) rings_->go_back(mark.rings);
   if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
@@ -188,7 +224,9 @@ bool WorldHalf::fits(const WorldState& state) const {
     return rings_ ? rings_->fits(rings) : !rings.on;
   };
   const auto lies = [&](const BoneSnapshot& bones) {
-    return bones.bench.on == (bench_ != nullptr) && bones.placing.on == (placing_ != nullptr);
+    const bool flows = !bones.water.on || (water_ && JointWater::fits(bones.water));
+    return bones.bench.on == (bench_ != nullptr) && bones.placing.on == (placing_ != nullptr) &&
+           flows;
   };
   if (!lies(state.bones)) return false;
   for (const WorldMark& mark : state.marks)
@@ -200,6 +238,7 @@ bool WorldHalf::fits(const WorldState& state) const {
 
 void WorldHalf::restore(const WorldState& from) {
   world_.restore(from.bones, from.hold);
+  if (water_ && !from.bones.water.on) world_.set_water(fresh_water());
   if (carving_ && from.carved) {
     carving_->restore(*from.carved);
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
@@ -208,6 +247,8 @@ void WorldHalf::restore(const WorldState& from) {
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
   if (rings_) rings_->restore(from.rings);
   marks_ = from.marks;
+  for (WorldMark& mark : marks_)
+    if (water_ && mark.set && !mark.bones.water.on) mark.bones.water = fresh_water();
   for (std::size_t i = 0; i < marks_.size(); ++i)
     mark_hashes_[i] = marks_[i].set ? hash_of(marks_[i].bones) : 0;
   record_ = {};

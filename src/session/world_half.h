@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "osteon/physics/carving.h"
 #include "osteon/physics/graft_bench_work.h"
 #include "osteon/physics/graft_placing.h"
+#include "osteon/physics/joint_water.h"
 #include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
@@ -35,6 +37,9 @@ class alignas(64) WorldHalf {
   void set_bench(std::vector<BenchTool> tray);
   /// The same of a graft that is placed, if the case has both tunnels for it.
   void set_placing(std::vector<PlacingTool> tray);
+  /// Before the first step. The joint is filled where the case has one; see
+  /// SessionSettings::water.
+  void set_water(std::span<const std::shared_ptr<const Tool>> tray, bool hashed);
   /// Before the first step.
   void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
   const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }
@@ -55,6 +60,9 @@ class alignas(64) WorldHalf {
   void place_rings();
   void lighten();
   void lead();
+  void turn_pump(const Command& command);
+  void let_flow(std::span<const ToolState* const> tools);
+  WaterState fresh_water() const;
 
   std::shared_ptr<const Case> the_case_;
   BoneWorld world_;
@@ -64,8 +72,10 @@ class alignas(64) WorldHalf {
   std::unique_ptr<LooseRings> rings_;      ///< null: none lie loose
   std::unique_ptr<GraftBenchWork> bench_;  ///< null: no graft is made
   std::unique_ptr<GraftPlacing> placing_;  ///< null: none is placed
-  std::vector<FeltCuts*> felt_;            ///< of the hands
-  bool all_changed_ = false;               ///< bones came back from a restore point in this step
+  std::optional<JointWater> water_;        ///< none: the case has no joint that is filled
+  bool water_hashed_ = true;
+  std::vector<FeltCuts*> felt_;  ///< of the hands
+  bool all_changed_ = false;     ///< bones came back from a restore point in this step
   double step_s_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};

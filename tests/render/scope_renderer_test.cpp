@@ -128,6 +128,38 @@ TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
   EXPECT_EQ(count_different(clear, drawn({std::nan(""), -1, -1}), 0), 0);
 }
 
+// A ball of 6 mm whose nearest point is 6 mm before the tip: a plume between them reddens the
+// picture where it is, one behind the ball does not.
+TEST_F(ScopePictures, APlumeOfBloodIsSeenWhereItIs) {
+  const Case the_case = lone_ball(Vec3(0, 0, -0.012), 0.006);
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  ScopeRenderer renderer = make_scope(the_case);
+  const auto drawn = [&](const BloodPlume& plume) {
+    ScopeWater water;
+    water.plume_count = 1;
+    water.plumes[0] = plume;
+    renderer.set_water(water);
+    return renderer.draw_image(camera, 160, 160, RenderQuality::kFast);
+  };
+  const auto redness = [](const Image& image, int x, int y) {
+    const auto rgb = pixel(image, x, y);
+    return static_cast<double>(rgb[0]) / (rgb[1] + 1.0);
+  };
+  renderer.set_water({});
+  const Image clear = renderer.draw_image(camera, 160, 160, RenderQuality::kFast);
+  const double radius_m = 0.0005;
+  const Image before = drawn({Vec3(0, 0, -0.004), radius_m, 1000});
+  EXPECT_GT(redness(before, 80, 80), 1.5 * redness(clear, 80, 80));
+  EXPECT_LT(redness(before, 80, 120), 1.1 * redness(clear, 80, 120)) << "beside it";
+  const Image behind = drawn({Vec3(0, 0, -0.015), radius_m, 1000});
+  EXPECT_NEAR(redness(behind, 80, 80), redness(clear, 80, 80), 0.05);
+  const double nan = std::nan("");
+  for (const BloodPlume& none :
+       {BloodPlume{Vec3(nan, 0, 0), radius_m, 1000}, BloodPlume{Vec3::Zero(), nan, 1000},
+        BloodPlume{Vec3::Zero(), 0, 1}, BloodPlume{Vec3::Zero(), radius_m, nan}})
+    EXPECT_EQ(count_different(clear, drawn(none), 0), 0);
+}
+
 // A window's picture: of surfaces that another view has, copied to a place of the screen.
 TEST_F(ScopePictures, AWindowShowsTheSamePictureOfSharedSurfaces) {
   const Case the_case = lone_ball(Vec3(0.001, 0, -0.012), 0.004);

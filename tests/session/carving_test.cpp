@@ -85,6 +85,54 @@ TEST(Carving, AStateGivesTheSameBitsAfterwards) {
   EXPECT_EQ(other.tool_state().force_W, session.tool_state().force_W);
 }
 
+// Where the bytes of a changed state first differ, and how many words that field has.
+struct Words {
+  std::size_t at = 0, count = 0;
+};
+template <class Change>
+Words words_of(SessionState state, std::size_t count, const Change& change) {
+  const std::string before = to_bytes(state);
+  CarvingState carved = *state.world.carved;
+  change(state, carved);
+  state.world.carved = std::make_shared<const CarvingState>(carved);
+  const std::string after = to_bytes(state);
+  const auto differ = std::mismatch(before.begin(), before.end(), after.begin());
+  return {static_cast<std::size_t>(differ.first - before.begin()) / 8, count};
+}
+
+// Version 8 knew no holes that drills had left, no friction on soft parts, no water and no graft
+// that is placed.
+TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
+  const Drilling with;
+  Session session = with.session();
+  run(session, 1, 2500, 1);
+  const SessionState saved = session.save();
+  ASSERT_TRUE(saved.world.carved);
+  constexpr std::size_t kHoleWords = 14, kRubWords = 4;
+  std::vector<Words> unknown = {
+      words_of(saved, 2, [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
+      words_of(saved, kRubWords,
+               [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
+      words_of(saved, kHoleWords * saved.world.carved->holes.size(),
+               [](SessionState&, CarvingState& c) { c.holes[0].bone = 3; })};
+  for (std::size_t i = 0; i < saved.world.carved->hands.size(); ++i)
+    unknown.push_back(
+        words_of(saved, 1, [i](SessionState&, CarvingState& c) { c.hands[i].loose = 1; }));
+  std::sort(unknown.begin(), unknown.end(),
+            [](const Words& a, const Words& b) { return a.at > b.at; });
+  std::string old = to_bytes(saved);
+  for (const Words& words : unknown) old.erase(8 * words.at, 8 * words.count);
+  old[0] = 8;
+  const auto back = state_from_bytes(old);
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = with.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  run(session, 2501, 3000, 1);
+  run(other, 2501, 3000, 1);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+}
+
 TEST(Carving, ARestorePointPutsTheBoneBack) {
   const Drilling with;
   Session session = with.session();

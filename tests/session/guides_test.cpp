@@ -367,6 +367,31 @@ TEST(Guides, AnOpenChuckSlidesOffItsPin) {
   EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kPin);
 }
 
+// Its chuck shut again while it is still in the hole, the pin is held by its hole as before: aside,
+// at the hole's end, and when it drills on.
+TEST(Guides, AChuckThatShutsInTheHoleHoldsItsPinAsBefore) {
+  SlantedDrilling with({"guide_pin:2.4"}, 0);
+  Session session = with.session();
+  play_pin(with, session);
+  ASSERT_TRUE(with.told(kPinLeft));
+  with.order(session, -0.007, CommandKind::kJaw, 0);
+  for (int n = 0; n < 10; ++n) with.tick(session, with.hand(-0.007));
+  ASSERT_TRUE(with.told(kPinTaken));
+  EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kNone);
+  for (int n = 0; n < 300; ++n) with.tick(session, with.hand(-0.007, 0.002));
+  EXPECT_LT(with.off_axis(session), 5e-4);
+  EXPECT_LT(session.tool_state().force_W.y(), -0.5);
+  for (int n = 0; n < 300; ++n) with.tick(session, with.hand(-0.011));
+  EXPECT_GT(with.height(session), -0.0075);
+  EXPECT_GT(session.tool_state().force_W.z(), 1);
+  const double before_mm3 = gone_mm3(session);
+  with.order(session, -0.009, CommandKind::kPower, 1);
+  with.press(session, 0.010, 8000);
+  EXPECT_LT(with.height(session), -0.0085);
+  EXPECT_LT(with.off_axis(session), 5e-4);
+  EXPECT_GT(gone_mm3(session), before_mm3 + 1);
+}
+
 // Whatever is taken within bone feels nothing and removes nothing until it has been outside.
 TEST(Guides, AToolTakenWithinBoneDoesNothingThere) {
   for (const char* name : {"drill:3.2", "microdrill:4", "kerrison_punch:3", "osteotome:8"}) {

@@ -34,4 +34,19 @@ class RemovedNodes {
   std::uint64_t since_ = 0, epoch_ = 0;
 };
 
+/// How many nodes are gone of each tissue, cartilage too: whole numbers, so that it costs a look at
+/// what changed and the order of the cuts changes no bit. See removed_volume for the volume itself.
+class RemovedTissue {
+ public:
+  using Counts = std::array<std::int64_t, kBoneTissues>;
+  explicit RemovedTissue(const CarvedField& field);
+  /// Looks at the blocks that changed since the last call. A function of the cuts alone.
+  const Counts& of(const CarvedField& field);
+
+ private:
+  std::vector<Counts> blocks_;  ///< of each block that holds a cut
+  Counts sum_{};
+  std::uint64_t since_ = 0, epoch_ = 0;
+};
+
 }  // namespace osteon

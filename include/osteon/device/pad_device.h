@@ -13,6 +13,10 @@ struct PadAxes {
   bool connected = true;
 };
 
+/// Sticks with the part of each that counts as rest cut out and what is left stretched back to
+/// [-1, 1]. A stick that is not finite counts as released. `dead_zone` in [0, 1).
+Vec3 past_dead_zone(const Vec3& sticks, double dead_zone);
+
 struct PadParams {
   double speed_m_per_s = 0.05;       ///< at full stick
   double turn_rate_rad_per_s = 1.5;  ///< at full stick

@@ -14,4 +14,10 @@ struct BoneLoss {
   }
 };
 
+/// Bone and cartilage that are gone since a session began.
+struct GoneBone {
+  double all_m3 = 0;
+  double vascular_m3 = 0;  ///< of that, soft bone and marrow
+};
+
 }  // namespace osteon

@@ -191,6 +191,8 @@ class Carving {
   /// What a bone of that mass has lost: by nodes of its field, all of one density. A function of
   /// the cuts alone.
   BoneLoss loss(std::size_t bone, double mass_kg);
+  /// Of all bones, by nodes: within a cell of each wall. A function of the cuts alone.
+  GoneBone gone();
   std::uint64_t hash();
   CarvingState save() const;
   bool fits(const CarvingState& state) const;
@@ -202,6 +204,7 @@ class Carving {
     std::optional<CarvedField> field;
     std::unique_ptr<LoosePieces> loose;
     std::unique_ptr<RemovedNodes> removed;
+    std::unique_ptr<RemovedTissue> tissue_gone;
     std::int64_t whole = 0;                           ///< nodes of the uncut bone
     std::uint64_t looked_step = 0, looked_epoch = 0;  ///< of the field, when last looked for pieces
   };

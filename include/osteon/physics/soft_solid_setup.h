@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@ struct SoftSolid {
   BoneId bone;
   std::shared_ptr<const DistanceField> field;  ///< of its surface at rest
   std::shared_ptr<const PressedSolid> body;
+  std::function<bool(const Vec3& p_B)> bleeds;  ///< whether it has vessels there; none: nowhere
 };
 std::uint64_t hash_of(std::span<const SoftSolid> solids);
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "osteon/physics/joint_water.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/event.h"
@@ -57,6 +58,10 @@ class SoftWorld {
   /// What presses the solids now, and what has bent the bands in the last step: their shape follows
   /// from it.
   SoftPushes pushes() const;
+  /// What was cut, torn or wounded in the last step, and bleeds. A blade or what removes tissue
+  /// under power wounds what it presses with its working end, the faster the harder; of a meniscus
+  /// its outer rim alone has vessels.
+  std::span<const SoftOpening> openings() const { return openings_; }
   /// Of the last step.
   std::span<const Event> events() const { return events_; }
   std::uint64_t hash() const;
@@ -72,9 +77,14 @@ class SoftWorld {
     std::array<double, kMaxBands> force_n{}, deep_m{};
     std::array<Vec3, kMaxBands> p_W{};
     std::array<bool, kMaxBands> cuts{};  ///< a blade presses it hard enough
+    bool works = false;                  ///< with an edge, or under power
   };
   bool is_felt(std::size_t band) const;
   bool is_blade(std::uint32_t instrument, std::size_t part) const;
+  bool is_working_end(std::uint32_t instrument, std::size_t part) const;
+  void wound(std::size_t band, const Vec3& p_W, double area_m2);
+  void wound_ends(std::size_t band);
+  void wound_solids(const Hand& hand, const BoneSnapshot& bones);
   bool cut(std::size_t band, std::span<const Hand> hands);
   double share_of(std::size_t band, const Vec3& p_W) const;
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
@@ -95,6 +105,7 @@ class SoftWorld {
 
   std::shared_ptr<const SoftSetup> setup_;
   std::vector<std::vector<Capsule>> tray_;
+  std::vector<ToolUse> uses_;  ///< as tray_
   double coupling_n_per_m_, limit_n_, step_s_;
   SoftState state_;
   std::uint32_t epoch_ = 0;
@@ -105,6 +116,7 @@ class SoftWorld {
   std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state
   std::array<StringBend, SoftPushes::kMostBends> bends_{};
   std::vector<Event> events_;
+  std::vector<SoftOpening> openings_;
 };
 
 }  // namespace osteon

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -15,11 +17,23 @@
 
 namespace osteon {
 
+/// Blood before a wound that bleeds: thickest in its middle, to exp(-1/2) at its radius.
+struct BloodPlume {
+  Vec3 p_W = Vec3::Zero();
+  double radius_m = 0;
+  double taken_per_m = 0;  ///< light that it takes in its middle, each metre
+  bool operator==(const BloodPlume&) const = default;
+};
+
 /// What stands between a scope and what it looks at.
 struct ScopeWater {
+  static constexpr std::size_t kMostPlumes = 6;
   double taken_per_m = 0;  ///< light that the water takes, each metre
   double blood = 0;        ///< share of that which blood takes, 0 to 1; the rest is pale debris
   double fog = 0;          ///< share of the lens that is fogged, 0 to 1
+  std::uint32_t plume_count = 0;
+  std::array<BloodPlume, kMostPlumes> plumes{};
+  bool clear() const { return !(taken_per_m > 0) && plume_count == 0; }
   bool operator==(const ScopeWater&) const = default;
 };
 

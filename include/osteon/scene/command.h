@@ -23,10 +23,12 @@ enum class CommandKind : std::uint32_t {
   kPower = 9,    ///< value: 0 (off) to 1
   kJaw = 10,     ///< value: 0 (closed) to 1 (open)
   kFault = 11,   ///< value: why the safety gate took the force off (ForceOff); for the events alone
+  kPump = 12,    ///< value: pressure of the pump that fills the joint, Pa
+  kOutlet = 13   ///< value: how far the joint's outlet is open, 0 to 1
 };
 
 /// The last of them.
-inline constexpr CommandKind kLastCommandKind = CommandKind::kFault;
+inline constexpr CommandKind kLastCommandKind = CommandKind::kOutlet;
 
 /// Restore points of a session.
 inline constexpr std::uint32_t kMaxMarks = 16;
@@ -36,11 +38,15 @@ struct Command {
   double value = 0;
 };
 
-/// Whether it concerns physics: such a command goes to physics, and all but kHoldBones to the hands
-/// as well.
+/// Whether it concerns physics and no hand.
+inline bool is_for_physics_alone(CommandKind kind) {
+  return kind == CommandKind::kHoldBones || kind == CommandKind::kPump ||
+         kind == CommandKind::kOutlet;
+}
+/// Whether it concerns physics: such a command goes to physics, and to the hands as well unless
+/// is_for_physics_alone.
 inline bool is_for_physics(CommandKind kind) {
-  return kind == CommandKind::kHoldBones || kind == CommandKind::kMark ||
-         kind == CommandKind::kRestore;
+  return is_for_physics_alone(kind) || kind == CommandKind::kMark || kind == CommandKind::kRestore;
 }
 /// The number of the restore point that it names; kMaxMarks when it names none.
 inline std::uint32_t mark_of(const Command& command) {

@@ -10,6 +10,7 @@
 #include "osteon/scene/graft_bench.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
+#include "osteon/scene/water_state.h"
 
 namespace osteon {
 
@@ -43,6 +44,7 @@ struct BoneSnapshot {
   GuideRods rods{};
   GraftBenchState bench{};      ///< off: the case has no bench
   GraftPlacingState placing{};  ///< off: the case has no tunnels for a graft
+  WaterState water{};           ///< off: the case has no joint that is filled
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
 

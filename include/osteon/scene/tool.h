@@ -11,6 +11,14 @@
 
 namespace osteon {
 
+/// What an instrument does to soft parts and to the water in a joint.
+struct ToolUse {
+  bool cuts = false;     ///< with an edge, without power
+  bool removes = false;  ///< bone or tissue, under power
+  bool burns = false;    ///< seals with heat, under power
+  bool sucks = false;    ///< under power
+};
+
 /// A hand instrument. Tool frame: origin at the middle of the tip, the shaft along +z.
 struct Tool {
   std::string name;
@@ -25,6 +33,7 @@ struct Tool {
   Capsule shaft;
   TriMesh mesh;  ///< what is drawn, in Tool
   double tip_radius_m = 0.00075;
+  ToolUse use;
 };
 
 /// Arthroscopic hook probe of the wrist: a ball-shaped tip (32 corners) on a shaft. Only the tip is

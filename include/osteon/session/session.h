@@ -51,6 +51,9 @@ struct SessionSettings {
   PortalSkin portal_skin;
   /// Soft parts that are felt, as make_soft_setup reads them; none: nothing soft is felt.
   std::vector<std::string> soft;
+  /// The joint's water counts for the state's hash. Not in recordings that were made before it was
+  /// part of the state: it flows in their replays all the same.
+  bool water = true;
   std::uint64_t soft_hash = 0;  ///< SoftSetup::hash of what was made of them; 0: not made yet
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.

@@ -179,7 +179,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
-  if (water_) water_->add(tools, fresh_);
+  if (water_) water_->add(tools, bones, fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
 }
@@ -190,8 +190,8 @@ void AttemptWatch::watch_tunnels(TunnelSources sources) {
   tunnels_.emplace(*plan_, *case_, std::move(sources), pins_, std::move(widths_m), tick_s_);
 }
 
-void AttemptWatch::watch_water(WaterSources sources) {
-  water_ = WaterWatch::of(*case_, std::move(sources), tick_s_);
+void AttemptWatch::watch_water(const std::vector<std::string>& tray) {
+  water_ = WaterWatch::of(*case_, tray, tick_s_);
 }
 
 Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindings& stated) {

@@ -56,7 +56,7 @@ class AttemptWatch {
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
   /// Follows the water in the joint, where the tray has a scope; once, before the first tick.
-  void watch_water(WaterSources sources);
+  void watch_water(const std::vector<std::string>& tray);
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
   const PlacingWatch& placing() const { return placing_; }

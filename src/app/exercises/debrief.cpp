@@ -97,7 +97,8 @@ struct JudgedAgain {
   std::function<void(std::span<const ToolState* const>, const ScenarioState&)> on_judged;
 
   Result<void> begin(const Scenario& scenario, const Case& the_case, double tick_s,
-                     std::size_t recorded_hands, TunnelSources sources, WaterSources water) {
+                     std::size_t recorded_hands, TunnelSources sources,
+                     const std::vector<std::string>& tray) {
     auto planned = plan_scenario(scenario, the_case);
     if (!planned) return tl::unexpected(planned.error());
     auto held = plan_hands(scenario, the_case);
@@ -110,7 +111,7 @@ struct JudgedAgain {
     hands = std::move(*held);
     watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
     watch->watch_tunnels(std::move(sources));
-    watch->watch_water(std::move(water));
+    watch->watch_water(tray);
     tools.resize(hands.size());
     return {};
   }
@@ -153,9 +154,8 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     return std::nullopt;
   };
   if (*scenario)
-    if (auto begun =
-            again.begin(**scenario, **the_case, tick_s, hands, {*spec, settings->tray, carved_bone},
-                        {settings->tray, [&] { return carved.removed(); }});
+    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands,
+                                 {*spec, settings->tray, carved_bone}, settings->tray);
         !begun)
       return tl::unexpected(begun.error());
   auto pauses = pauses_of(order.recording);

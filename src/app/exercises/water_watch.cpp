@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cases/scoped_case.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 
@@ -34,30 +33,20 @@ SightLost cause_of(const FluidJoint& joint, const FluidState& state) {
 
 }  // namespace
 
-bool holds_water(const Case& the_case) {
-  return the_case.find("radius").valid() || the_case.find("femur").valid();
-}
-
-WaterWatch::WaterWatch(const FluidJoint& joint, std::vector<char> looks, WaterTools which,
-                       std::function<ByTissue()> removed, double tick_s)
+WaterWatch::WaterWatch(const FluidJoint& joint, std::vector<char> looks, double tick_s)
     : joint_(joint),
-      water_(joint),
       looks_(std::move(looks)),
-      which_(std::move(which)),
-      removed_(std::move(removed)),
       tick_s_(tick_s),
       stride_(
           std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::lround(kStep_s / tick_s)))) {}
 
-std::optional<WaterWatch> WaterWatch::of(const Case& the_case, WaterSources sources,
+std::optional<WaterWatch> WaterWatch::of(const Case& the_case, const std::vector<std::string>& tray,
                                          double tick_s) {
-  if (!holds_water(the_case)) return std::nullopt;
-  auto looks = lookers_of(sources.tray);
-  auto which = water_tools_of(sources.tray);
-  if (!looks || !which || std::find(looks->begin(), looks->end(), 1) == looks->end())
-    return std::nullopt;
-  return WaterWatch(fluid_of(the_case), std::move(*looks), std::move(*which),
-                    std::move(sources.removed), tick_s);
+  const auto joint = filled_joint(the_case);
+  if (!joint) return std::nullopt;
+  auto looks = lookers_of(tray);
+  if (!looks || std::find(looks->begin(), looks->end(), 1) == looks->end()) return std::nullopt;
+  return WaterWatch(*joint, std::move(*looks), tick_s);
 }
 
 std::optional<std::size_t> WaterWatch::looking(std::span<const ToolState* const> tools) const {
@@ -66,20 +55,18 @@ std::optional<std::size_t> WaterWatch::looking(std::span<const ToolState* const>
   return std::nullopt;
 }
 
-void WaterWatch::add(std::span<const ToolState* const> tools, std::vector<Event>& out) {
-  if (tools.empty() || tools[0]->tick % stride_ != 0) return;
-  std::vector<ToolState> states;
-  for (const ToolState* tool : tools) states.push_back(*tool);
+void WaterWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                     std::vector<Event>& out) {
+  if (tools.empty() || tools[0]->tick % stride_ != 0 || !bones.water.on) return;
   const double now_s = static_cast<double>(tools[0]->tick) * tick_s_;
-  water_.go_to(now_s, deeds_of(which_, states), removed_ ? removed_() : ByTissue{});
   const auto hand = looking(tools);
   if (!hand) {
     was_obscured_ = false;
     return;
   }
-  const FluidState& state = water_.state();
+  const FluidState state = fluid_of(bones.water);
   const bool obscured = is_obscured(joint_, state);
-  count(now_s, obscured);
+  count(now_s, obscured, state);
   Event event;
   event.tick = tools[*hand]->tick;
   event.kind = kWaterLooked;
@@ -90,12 +77,11 @@ void WaterWatch::add(std::span<const ToolState* const> tools, std::vector<Event>
 }
 
 // What is seen now counts for the time until the next look.
-void WaterWatch::count(double now_s, bool obscured) {
+void WaterWatch::count(double now_s, bool obscured, const FluidState& state) {
   sight_.scope_s += kStep_s;
   if (obscured) {
     sight_.obscured_s += kStep_s;
-    if (!was_obscured_)
-      sight_.stretches.push_back({now_s, now_s, cause_of(joint_, water_.state())});
+    if (!was_obscured_) sight_.stretches.push_back({now_s, now_s, cause_of(joint_, state)});
     sight_.stretches.back().to_s = now_s + kStep_s;
   }
   was_obscured_ = obscured;

@@ -112,7 +112,7 @@ std::unique_ptr<HapticDevice> Runtime::take_device(std::size_t hand) {
 bool Runtime::send(const Command& command, std::size_t hand) {
   bool sent = true;
   if (is_for_physics(command.kind)) sent = exchange(0).to_physics.push(command);
-  if (command.kind == CommandKind::kHoldBones) return sent;
+  if (is_for_physics_alone(command.kind)) return sent;
   if (!is_for_physics(command.kind)) return exchange(hand).to_haptic.push(command);
   for (const auto& each : exchanges_) sent = each->to_haptic.push(command) && sent;
   return sent;

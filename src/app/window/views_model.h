@@ -8,7 +8,7 @@
 
 #include "osteon/base/result.h"
 #include "ui/ui_layout.h"
-#include "water/joint_water.h"
+#include "water/scope_water.h"
 
 namespace osteon {
 
@@ -73,6 +73,7 @@ struct WaterModel {
   WaterSettings settings;
   double pressure_pa = 0;  ///< in the joint
   double turbidity = 0;    ///< 0 clear to 1 nothing is seen
+  bool can_set = true;     ///< not in a replay: it shows the pump as it was
 };
 
 struct ViewsModel {

@@ -21,6 +21,19 @@ NodeMoments moments_of_block(const std::array<int, 3>& block, const Counts& coun
   return out;
 }
 
+RemovedTissue::Counts gone_of_block(const CarvedField& field, std::uint32_t block) {
+  const std::int16_t *cuts = field.cuts(block), *all = field.heights(block),
+                     *bare = field.bare_heights(block);
+  RemovedTissue::Counts out{};
+  for (std::size_t n = 0; n < BlockGrid::kNodes; ++n) {
+    if (!(all[n] < 0 && cuts[n] <= 0)) continue;
+    const BoneTissue tissue =
+        bare[n] < 0 ? field.layers().at(-1e-6 * bare[n]) : BoneTissue::kCartilage;
+    ++out[static_cast<std::size_t>(tissue)];
+  }
+  return out;
+}
+
 }  // namespace
 
 void NodeMoments::add(const NodeMoments& other, int sign) {
@@ -38,6 +51,27 @@ NodeMoments whole_nodes(const UncutField& bone) {
     sum.add(moments_of_block(bone.grid().place(block), in_bone), 1);
   }
   return sum;
+}
+
+RemovedTissue::RemovedTissue(const CarvedField& field)
+    : blocks_(field.most_blocks()), epoch_(field.epoch()) {}
+
+const RemovedTissue::Counts& RemovedTissue::of(const CarvedField& field) {
+  const bool anew = field.epoch() != epoch_;
+  if (anew) {
+    std::fill(blocks_.begin(), blocks_.end(), Counts{});
+    sum_ = {};
+  }
+  if (!anew && field.step() == since_) return sum_;
+  for (std::size_t n = 0; n < field.block_count(); ++n) {
+    if (!anew && field.changed_at(n) <= since_) continue;
+    const Counts now = gone_of_block(field, field.block_at(n));
+    for (std::size_t t = 0; t < now.size(); ++t) sum_[t] += now[t] - blocks_[n][t];
+    blocks_[n] = now;
+  }
+  since_ = field.step();
+  epoch_ = field.epoch();
+  return sum_;
 }
 
 RemovedNodes::RemovedNodes(const CarvedField& field)

@@ -19,6 +19,9 @@ constexpr const char* kSolidsWhere = "--soft";
 constexpr double kSolidCell_m = 0.0005, kSolidOutside_m = 0.0065, kSolidInside_m = 0.001;
 constexpr double kRim_m = 0.003;  // of the outer edge, what is held
 constexpr double kUnder = -0.3;
+// The outer 10 to 30 % have vessels (Arnoczky and Warren 1982, Am J Sports Med 10:90), of a width
+// of about 10 mm.
+constexpr double kVessels_m = 0.0033;
 
 Result<std::vector<std::uint32_t>> menisci_asked(const Case& the_case,
                                                  std::span<const std::string> names) {
@@ -93,6 +96,7 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
     return tl::unexpected(body.error());
   }
   out.body = std::make_shared<const PressedSolid>(std::move(*body));
+  out.bleeds = [outline](const Vec3& p_B) { return outline.inside(p_B) < kVessels_m; };
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "osteon/base/hash.h"
 #include "osteon/scene/soft_events.h"
@@ -20,6 +21,10 @@ constexpr double kDeepest_m = 0.025;
 // Two parts that press a band from one side are one push: the deeper counts.
 constexpr double kOneSide = 0.5;
 constexpr double kFarthest_m2 = 1e12;
+// A blade or teeth open so much surface each second and newton (D).
+constexpr double kWounds_m2_per_ns = 2e-6;
+constexpr double kNick_n = 0.5;  // a lighter touch wounds nothing (D)
+constexpr std::size_t kMostOpenings = 64;
 constexpr double kBlade_m = 0.03;  // from a blade's tip: so much of it is sharp at most
 
 Capsule moved(const Pose& X_WT, const Capsule& rod) {
@@ -79,8 +84,12 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
       coupling_n_per_m_(coupling_n_per_m),
       limit_n_(limit_n),
       step_s_(step_s) {
-  for (const auto& tool : tray) tray_.push_back(tool_rods(*tool));
+  for (const auto& tool : tray) {
+    tray_.push_back(tool_rods(*tool));
+    uses_.push_back(tool->use);
+  }
   state_.on = true;
+  openings_.reserve(kMostOpenings);
   events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4);
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
@@ -93,9 +102,41 @@ bool SoftWorld::is_felt(std::size_t band) const {
 
 bool SoftWorld::is_blade(std::uint32_t instrument, std::size_t part) const {
   const auto& blades = setup_->blades;
-  if (std::find(blades.begin(), blades.end(), instrument) == blades.end()) return false;
+  return std::find(blades.begin(), blades.end(), instrument) != blades.end() &&
+         is_working_end(instrument, part);
+}
+
+bool SoftWorld::is_working_end(std::uint32_t instrument, std::size_t part) const {
   const Capsule& rod = tray_[instrument][part];
   return std::max(rod.p0.norm(), rod.p1.norm()) < kBlade_m;
+}
+
+// Of a band the place goes with the bone whose end is nearer.
+void SoftWorld::wound(std::size_t b, const Vec3& p_W, double area_m2) {
+  const SoftBand& band = setup_->bands[b];
+  if (openings_.size() < openings_.capacity())
+    openings_.push_back({band.soft, share_of(b, p_W) < 0.5 ? band.from : band.to, p_W, area_m2});
+}
+
+// Both ends of a band that is in two now.
+void SoftWorld::wound_ends(std::size_t b) {
+  const double radius_m = setup_->bands[b].radius_m;
+  wound(b, spans_[b].a_W + state_.bands[b].torn_share * (spans_[b].b_W - spans_[b].a_W),
+        2 * std::numbers::pi * radius_m * radius_m);
+}
+
+void SoftWorld::wound_solids(const Hand& hand, const BoneSnapshot& bones) {
+  const SolidHandState& state = state_.solid_hands[hand.index];
+  for (std::uint32_t i = 0; i < state.count && hand.tool && hand.works; ++i) {
+    const SolidNear& near = state.near[i];
+    const SoftSolid& solid = setup_->solids[near.contact.solid];
+    if (!(near.force_n > kNick_n) || !is_working_end(state.instrument, near.contact.part)) continue;
+    if (!solid.bleeds || !solid.bleeds(near.contact.p_B)) continue;
+    if (openings_.size() < openings_.capacity())
+      openings_.push_back({solid.soft, solid.bone,
+                           bones.bones[solid.bone.index].X_WB * near.contact.p_B,
+                           kWounds_m2_per_ns * near.force_n * step_s_});
+  }
 }
 
 void SoftWorld::place_bands(const BoneSnapshot& bones) {
@@ -215,6 +256,9 @@ void SoftWorld::press(Hand& hand) {
     keep_bend(near.contact, press, part_W.radius);
     if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
       hand.cuts[b] = true;
+    if (press.force_n > kNick_n && hand.works &&
+        is_working_end(state.instrument, near.contact.part))
+      wound(b, press.p_W, kWounds_m2_per_ns * press.force_n * step_s_);
     hand.force_n[b] += press.force_n;
     hand.deep_m[b] = std::max(hand.deep_m[b], press.deep_m);
     hand.p_W[b] = press.p_W;
@@ -282,6 +326,7 @@ void SoftWorld::tear(std::span<const Hand> hands) {
       state_.bands[b].torn_share = by.tool ? share_of(b, by.p_W[b]) : 0.5;
       tell(by, kSoftTorn, b, {readout.tension_n, force_n, 0});
     }
+    if (state_.bands[b].torn) wound_ends(b);
     if (!is_felt(b)) readout = {};
   }
 }
@@ -368,6 +413,7 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
       solid_readouts_[s].deep_m[hand.index] = with.deep_m[s];
     }
     tell_solid_touches(with, hand, bones.step);
+    wound_solids(hand, bones);
   }
 }
 
@@ -392,12 +438,15 @@ void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
   if (!here) return;
   state.instrument = tool.instrument;
   hand.tool = &tool;
+  const ToolUse& use = uses_[tool.instrument];
+  hand.works = use.cuts || (use.removes && tool.power > 0);
   follow(hand);
   seek(hand);
 }
 
 void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   events_.clear();
+  openings_.clear();
   bend_count_ = 0;
   epoch_ = bones.epoch;
   place_bands(bones);
@@ -473,6 +522,7 @@ void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
   epoch_ = epoch;
   bend_count_ = 0;
   events_.clear();
+  openings_.clear();
 }
 
 void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {

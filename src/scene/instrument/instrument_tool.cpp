@@ -74,6 +74,16 @@ struct SizeCheck {
   }
 };
 
+ToolUse use_of(const Instrument& instrument) {
+  ToolUse use;
+  use.cuts =
+      instrument.can(InstrumentFunction::kCut) && !instrument.can(InstrumentFunction::kRemove);
+  use.removes = instrument.removal.has_value();
+  use.burns = instrument.can(InstrumentFunction::kBurn);
+  use.sucks = instrument.can(InstrumentFunction::kSuck);
+  return use;
+}
+
 }  // namespace
 
 Result<void> check_instrument(const Instrument& instrument) {
@@ -103,6 +113,7 @@ Tool make_tool(const Instrument& instrument, std::size_t size, double opening) {
   const double size_m = instrument.sizes_m[size];
   Tool tool;
   tool.name = instrument.name;
+  tool.use = use_of(instrument);
   tool.shaft = shaft_of(instrument, size_m);
   for (const FeltPart& part : instrument.felt)
     tool.parts.push_back(

@@ -2,16 +2,28 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 namespace osteon {
 namespace {
 
 constexpr double kTick_s = 0.001;
 
-// A tray of a scope, a shaver that sucks, and a probe; bone goes as `gone` says.
+// A tray of a scope, a shaver that sucks, and a probe; physics steps every other tick.
 struct WatchedWater {
-  explicit WatchedWater(std::function<ByTissue()> gone = {})
-      : watch(knee_fluid(), {1, 0, 0}, WaterTools{{false, true, false}, {false, true, false}},
-              std::move(gone), kTick_s) {}
+  WatchedWater()
+      : water(knee_fluid(), tray(), 2 * kTick_s), watch(knee_fluid(), {1, 0, 0}, kTick_s) {
+    bones.water = water.begin();
+  }
+  static std::vector<std::shared_ptr<const Tool>> tray() {
+    std::vector<std::shared_ptr<const Tool>> out;
+    for (const ToolUse use : {ToolUse{}, ToolUse{false, true, false, true}, ToolUse{}}) {
+      auto tool = std::make_shared<Tool>();
+      tool->use = use;
+      out.push_back(std::move(tool));
+    }
+    return out;
+  }
   // Both hands hold these for a time.
   void hold(double seconds, std::uint32_t left, std::uint32_t right, double power) {
     for (int n = 0; n < static_cast<int>(seconds / kTick_s + 0.5); ++n) {
@@ -21,14 +33,32 @@ struct WatchedWater {
       a.instrument = left;
       b.instrument = right;
       b.power = power;
+      b.portal = 0;
       const ToolState* tools[] = {&a, &b};
-      watch.add(tools, events);
+      if (tick % 2 == 0) {
+        const bool looks = ++bones.step % JointWater::kLookEvery == 0;
+        water.step(tools, bones, {}, looks ? &gone : nullptr, bones.water);
+      }
+      watch.add(tools, bones, events);
     }
   }
+  JointWater water;
   WaterWatch watch;
+  BoneSnapshot bones;
+  GoneBone gone;
   std::uint64_t tick = 0;
   std::vector<Event> events;
 };
+
+TEST(WaterWatch, ADryCaseTellsNothing) {
+  WatchedWater dry;
+  dry.bones.water = {};
+  ToolState scope;
+  scope.tick = 100;
+  const ToolState* tools[] = {&scope};
+  dry.watch.add(tools, dry.bones, dry.events);
+  EXPECT_TRUE(dry.events.empty());
+}
 
 TEST(WaterWatch, NobodyWhoLooksMeansNoTime) {
   WatchedWater clear;
@@ -55,15 +85,10 @@ TEST(WaterWatch, ClearWaterObscuresNothing) {
 TEST(WaterWatch, DebrisObscuresUntilItIsFlushedOutAndSuctionIsQuicker) {
   double obscured_s[2];
   for (const bool sucked : {false, true}) {
-    double gone_m3 = 0;
-    WatchedWater cut([&] {
-      ByTissue gone{};
-      gone[static_cast<std::size_t>(BoneTissue::kCortical)] = gone_m3;
-      return gone;
-    });
+    WatchedWater cut;
     cut.hold(1, 0, 2, 0);
     for (int i = 0; i < 20; ++i) {  // 3 cm3 in 2 s
-      gone_m3 += 1.5e-7;
+      cut.gone.all_m3 += 1.5e-7;
       cut.hold(0.1, 0, 2, 0);
     }
     cut.hold(120, 0, 1, sucked ? 0.5 : 0);

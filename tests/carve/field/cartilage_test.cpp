@@ -178,6 +178,32 @@ TEST(Cartilage, WhatIsLeftOfBoneAndLayerAreSurfacesOfTheirOwn) {
   EXPECT_FALSE(covered_box()->make_beside(box_mesh(Vec3::Constant(0.02))));
 }
 
+// By whole nodes: within half a cell of the walls of each tissue's part.
+TEST(Cartilage, TheNodesThatAreGoneFollowTheVolumesOfEachTissue) {
+  CarvedField field = fresh_covered();
+  RemovedTissue gone(field);
+  EXPECT_EQ(gone.of(field), RemovedTissue::Counts{});
+  const double h = field.grid().cell_m, cell_m3 = h * h * h;
+  const Cutter burr = cutter("burr", 4);
+  CarveState between;
+  RemovedTissue::Counts then{};
+  for (int n = 0; n < 8; ++n) {
+    Pose X;
+    X.p = {-0.002 + 0.0005 * n, 0.0002 * n, kTop};
+    field.cut(burr, X);
+    const RemovedTissue::Counts counts = gone.of(field);
+    EXPECT_EQ(counts, RemovedTissue(field).of(field)) << "what changed alone, and all anew";
+    const ByTissue volume = removed_volume(field);
+    for (std::size_t t = 0; t < counts.size(); ++t)
+      EXPECT_NEAR(cell_m3 * static_cast<double>(counts[t]), volume[t], 0.06 * total(volume)) << t;
+    if (n != 3) continue;
+    between = field.save();
+    then = counts;
+  }
+  ASSERT_TRUE(field.restore(between));
+  EXPECT_EQ(gone.of(field), then) << "as it was at the state that is put back";
+}
+
 TEST(Cartilage, TheOrderOfCutsAndAStateThatIsPutBackChangeNothing) {
   CarvedField one = fresh_covered(), two = fresh_covered();
   Pose A, B;

@@ -28,8 +28,7 @@ struct FilmCommand {
   double from_s = 0;
   std::optional<double> to_s;
   bool mute = false;
-  double pressure_mmhg = WaterSettings().pump_pa / kPa_per_mmHg;
-  WaterSettings water;
+  std::optional<double> pressure_mmhg, outlet_open;  ///< none: as recorded
 };
 
 /// A part of a recording.
@@ -147,6 +146,15 @@ class FilmMaker {
 /// Ends a replay whose film cannot go on.
 struct FilmStopped {};
 
+// Who sets the one leaves the other as it stands where nobody has set it.
+std::optional<WaterSettings> other_pump(const FilmCommand& command) {
+  if (!command.pressure_mmhg && !command.outlet_open) return std::nullopt;
+  WaterSettings water;
+  if (command.pressure_mmhg) water.pump_pa = kPa_per_mmHg * *command.pressure_mmhg;
+  if (command.outlet_open) water.outlet_open = *command.outlet_open;
+  return water;
+}
+
 Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& recording,
                              const SessionSettings& settings, const FilmSpan& span,
                              std::shared_ptr<const Case> the_case, const ReplayOptions& how) {
@@ -156,11 +164,7 @@ Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& record
   if (!scope) return tl::unexpected(scope.error());
   auto painter =
       FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
-                          {*view,
-                           size->width,
-                           size->height,
-                           command.side,
-                           {kPa_per_mmHg * command.pressure_mmhg, command.water.outlet_open}});
+                          {*view, size->width, size->height, command.side, other_pump(command)});
   if (!painter) return tl::unexpected(painter.error());
   painter->set_carving(how.carving);
   painter->set_softs(how.softs);
@@ -304,12 +308,11 @@ void add_film_commands(cli::App& app, int& exit_code) {
       ->check(cli::Range(1, 120))
       ->capture_default_str();
   sub->add_option("--pressure", command->pressure_mmhg,
-                  "of the pump that fills the joint, mmHg; seen through a scope")
-      ->check(cli::Range(0.0, 300.0))
-      ->capture_default_str();
-  sub->add_option("--outlet", command->water.outlet_open, "how far the outlet is open, 0 to 1")
-      ->check(cli::Range(0.0, 1.0))
-      ->capture_default_str();
+                  "the pump stood at so many mmHg; seen through a scope (default: as recorded)")
+      ->check(cli::Range(0.0, 300.0));
+  sub->add_option("--outlet", command->outlet_open,
+                  "the outlet stood open so far, 0 to 1 (default: as recorded)")
+      ->check(cli::Range(0.0, 1.0));
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
   sub->add_flag("--mute", command->mute, "leave out the sound");
   sub->add_option("--sound", command->sound, "write the sound as a WAV file too");

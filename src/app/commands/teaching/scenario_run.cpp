@@ -176,31 +176,6 @@ std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bon
   return field && field->block_count() > 0 ? std::optional<CarvedField>(*field) : std::nullopt;
 }
 
-// Bone that is gone; of a bone that has not changed since it was asked for last, what it was then.
-class GoneBone {
- public:
-  explicit GoneBone(std::size_t bones) : known_(bones) {}
-  ByTissue of(const Session* session) {
-    const Carving* carving = session ? session->carving() : nullptr;
-    ByTissue all{};
-    for (std::size_t b = 0; carving && b < known_.size(); ++b) {
-      const CarvedField* field = carving->field(b);
-      if (!field) continue;
-      Known& known = known_[b];
-      if (known.step != field->step()) known = {field->step(), removed_volume(*field)};
-      for (std::size_t k = 0; k < all.size(); ++k) all[k] += known.gone_m3[k];
-    }
-    return all;
-  }
-
- private:
-  struct Known {
-    std::uint64_t step = 0;
-    ByTissue gone_m3{};
-  };
-  std::vector<Known> known_;
-};
-
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
@@ -294,8 +269,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.on_session = [&](const Session& begun) { session = &begun; };
   watch.watch_tunnels({run.case_spec, tray_of_hands(headless.hands),
                        [&](std::uint32_t bone) { return carved_bone(session, bone); }});
-  GoneBone gone((*the_case)->bones.size());
-  watch.watch_water({tray_of_hands(headless.hands), [&] { return gone.of(session); }});
+  watch.watch_water(tray_of_hands(headless.hands));
   headless.done = [&] { return watch.over() || all_done(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);

@@ -143,13 +143,20 @@ void LiveRun::move_hand(const ProbeMotion& motion, const Camera& camera, const V
   hand.mouse->set_target(hand.mapping.to_device(hand.X_WD_wanted), 0);
 }
 
-void LiveRun::move_pad(const PadAxes& axes_C, const Camera& camera) {
+void LiveRun::move_pad(const PadSticks& sticks, const Camera& camera, double dt_s) {
+  if (!runtime_) return;
   PadDevice* const pad = now().pad;
-  if (!pad || !runtime_) return;
+  if (hands_.size() > 1 && (!pad || sticks.for_rested)) {
+    const RestNudge by = pad_nudge(sticks.axes_C, dt_s);
+    if (by.moves())
+      nudge((active_ + 1) % hands_.size(), by.in_m, by.about_rad, by.pitch_rad, by.yaw_rad,
+            camera.q_WC);
+  }
+  if (!pad) return;
   const Quat q_VC = now().mapping.X_WV.q.conjugate() * camera.q_WC;
-  PadAxes axes_V = axes_C;
-  axes_V.move_V = q_VC * axes_C.move_V;
-  axes_V.turn_V = q_VC * axes_C.turn_V;
+  PadAxes axes_V = sticks.for_rested ? at_rest(sticks.axes_C) : sticks.axes_C;
+  axes_V.move_V = q_VC * axes_V.move_V;
+  axes_V.turn_V = q_VC * axes_V.turn_V;
   pad->set_axes(axes_V);
 }
 

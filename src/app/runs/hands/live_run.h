@@ -9,8 +9,8 @@
 
 #include "loops/hand_share.h"
 #include "loops/runtime.h"
-#include "osteon/device/pad_device.h"
 #include "runs/hands/live_hand.h"
+#include "runs/hands/pad_nudge.h"
 #include "runs/hands/probe_drag.h"
 #include "runs/pictures/carved_picture.h"
 #include "runs/reports/run_events.h"
@@ -139,6 +139,9 @@ class LiveRun {
   Result<void> take_back(std::unique_ptr<HapticDevice> device);
 
   void set_feel(const Command& command);
+  /// The pump that fills the joint: its pressure and how far the outlet is open. False: the run
+  /// takes no command now.
+  bool set_pump(double pump_pa, double outlet_open);
   void set_force(bool on);
   /// The user's wish for the force: of the active hand alone where that one has a fault, else of
   /// all hands.
@@ -155,8 +158,9 @@ class LiveRun {
                  double dt_s, const Vec3* through_W = nullptr);
   /// Pedals and the camera, once a frame: a dead-man pedal that is not told again counts as let go.
   void tell_hand(HandWishes pedals, const Camera& camera);
-  /// The gamepad's sticks, as seen by the camera.
-  void move_pad(const PadAxes& axes_C, const Camera& camera);
+  /// A gamepad, as seen by the camera, once a picture: it moves the active hand where it is that
+  /// hand's device, else the resting hand; with its second button held, the resting hand always.
+  void move_pad(const PadSticks& sticks, const Camera& camera, double dt_s);
 
   const RenderSnapshot& snapshot() const { return now().snapshot; }
   /// Tools of the hands that are not active.

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "osteon/carve/removed.h"
 
 namespace osteon {
 namespace {
@@ -134,7 +133,6 @@ void CarvedPicture::take(const CutsPatch& patch) {
   Bone* of = bone(patch.bone);
   if (!of) return;
   of->waits = true;
-  of->counted = false;
   if (patch.clear)
     (void)of->field.restore({of->field.bone().hash(), of->field.step() + 1, {}});
   else
@@ -145,17 +143,6 @@ void CarvedPicture::make_whole() {
   CutsPatch patch;
   patch.clear = true;
   for (patch.bone = 0; patch.bone < bones_.size(); ++patch.bone) take(patch);
-}
-
-ByTissue CarvedPicture::removed() {
-  ByTissue all{};
-  for (std::optional<Bone>& of : bones_) {
-    if (!of) continue;
-    if (!of->counted) of->gone_m3 = removed_volume(of->field);
-    of->counted = true;
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] += of->gone_m3[k];
-  }
-  return all;
 }
 
 CutBones CarvedPicture::cut_bones() const {

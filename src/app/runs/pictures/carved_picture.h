@@ -31,9 +31,6 @@ class CarvedPicture {
   };
   /// What looks different since it was last asked; for Renderer::set_cubes and its like.
   std::vector<Changed> changes();
-  /// What is gone of all bones, by tissue. Looks at all cuts of each bone that has changed since it
-  /// was last asked.
-  ByTissue removed();
   /// Copies of the bones that hold cuts, for who looks through them.
   CutBones cut_bones() const;
 
@@ -41,9 +38,7 @@ class CarvedPicture {
   struct Bone {
     CarvedField field;
     CarvedSurface surface;
-    bool waits = false;    ///< changed since it was last meshed
-    bool counted = false;  ///< `gone_m3` is of the cuts as they are
-    ByTissue gone_m3{};
+    bool waits = false;  ///< changed since it was last meshed
   };
   Bone* bone(std::uint32_t index);
 

@@ -83,10 +83,10 @@ struct FilmPainter::Impl {
   void show_softs(const SoftPushes& pushes);
   void flow(const FilmMoment& moment);
   CarvedPicture carved{nullptr};
-  std::optional<JointWater> water;  ///< where a scope is drawn
-  WaterTools water_tools;
-  double counted_s = -1e9;  ///< when the bone that is gone was counted last
-  ByTissue removed_m3{};
+  std::optional<FluidJoint> joint;      ///< where a scope is drawn and the joint is filled
+  std::optional<OtherPump> other_pump;  ///< none: the recorded one
+  double obscured_s = 0;
+  std::optional<double> flowed_s;  ///< to this time
   std::optional<SoftShapes> shapes;
   std::vector<std::uint32_t> felt_softs;  ///< what gives way is seen
 };
@@ -115,8 +115,8 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
   scope.emplace(std::move(*looked));
   scope->set_tray(tray);
   room.emplace(*the_case);
-  water.emplace(fluid_of(*the_case));
-  water->set(order.water);
+  joint = filled_joint(*the_case);
+  if (joint && order.water) other_pump.emplace(*joint, *order.water);
   return {};
 }
 
@@ -124,9 +124,6 @@ Result<void> FilmPainter::Impl::open(const SessionSettings& settings, const Tray
   auto found = lenses_of(settings.tray);
   if (!found) return tl::unexpected(found.error());
   lenses = std::move(*found);
-  auto sucks = water_tools_of(settings.tray);
-  if (!sucks) return tl::unexpected(sucks.error());
-  water_tools = std::move(*sucks);
   if (auto side = panorama_camera(*the_case, order.side, 1); !side)
     return tl::unexpected(side.error());
   if (order.view == FilmView::kScope && !has_scope)
@@ -181,15 +178,14 @@ void FilmPainter::Impl::shape_room(const BoneSnapshot& bones, const Vec3& tip_W)
   room_W = tip_W;
 }
 
-// Bone that is gone is counted a few times a second: it means looking at all cuts.
 void FilmPainter::Impl::flow(const FilmMoment& moment) {
-  constexpr double kCounts_s = 0.2;
-  if (std::abs(moment.time_s - counted_s) >= kCounts_s) {
-    removed_m3 = carved.removed();
-    counted_s = moment.time_s;
-  }
-  water->go_to(moment.time_s, deeds_of(water_tools, tools(moment)), removed_m3);
-  scope->set_water(water->seen());
+  if (!joint || !moment.bones.water.on) return scope->set_water({});
+  if (other_pump) other_pump->go_to(moment.time_s, moment.bones.water);
+  const FluidState now = other_pump ? other_pump->state() : fluid_of(moment.bones.water);
+  const double passed_s = flowed_s ? moment.time_s - *flowed_s : 0;
+  if (passed_s > 0 && is_obscured(*joint, now)) obscured_s += passed_s;
+  flowed_s = moment.time_s;
+  scope->set_water(scope_water(*joint, moment.bones, &now));
 }
 
 Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int width, int height) {
@@ -235,9 +231,7 @@ Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
 }
 
 FilmPainter::FilmPainter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-double FilmPainter::obscured_s() const {
-  return impl_->water ? impl_->water->state().obscured_s : 0;
-}
+double FilmPainter::obscured_s() const { return impl_->obscured_s; }
 FilmPainter::~FilmPainter() = default;
 FilmPainter::FilmPainter(FilmPainter&&) noexcept = default;
 FilmPainter& FilmPainter::operator=(FilmPainter&&) noexcept = default;

@@ -13,7 +13,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 #include "osteon/session/session.h"
-#include "water/joint_water.h"
+#include "water/scope_water.h"
 
 namespace osteon {
 
@@ -38,7 +38,8 @@ class FilmPainter {
     FilmView view = FilmView::kOutside;
     int width = 1280, height = 720;
     std::string side = "front";  ///< of the panorama: front, top or left
-    WaterSettings water;         ///< that a scope looks through
+    /// The pump stands so; none: as it does in the recording.
+    std::optional<WaterSettings> water = {};
   };
   /// Fails where the view cannot be drawn: no OpenGL, no hand that ever holds a scope, a case that
   /// X-rays cannot go through. `scope_is_held`: some hand holds one at some time.

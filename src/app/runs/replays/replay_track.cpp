@@ -11,6 +11,7 @@ namespace {
 
 // Pictures farther apart have a missing stretch between them.
 constexpr double kLongestGap_s = 0.1;
+constexpr double kAround_s = 0.2, kBench_s = 0.05;  // hands move what lies on a bench
 
 bool same(const BoneMotion& a, const BoneMotion& b) {
   return a.X_WB.p == b.X_WB.p && a.X_WB.q.coeffs() == b.X_WB.q.coeffs();
@@ -32,6 +33,13 @@ std::size_t ReplayTrack::keep_bones(const BoneSnapshot& bones) {
   return bones_.size() - 1;
 }
 
+std::size_t ReplayTrack::keep_around(double time_s, const BoneSnapshot& bones) {
+  const double due_s = bones.bench.on ? kBench_s : kAround_s;
+  if (arounds_.empty() || time_s >= arounds_.back().time_s + due_s)
+    arounds_.push_back({time_s, bones.rods, bones.bench, bones.water});
+  return arounds_.size() - 1;
+}
+
 void ReplayTrack::add_force(const ToolState& tool) {
   peak_n_ = std::max(peak_n_, static_cast<float>(tool.force_W.norm()));
   for (std::uint32_t i = 0; i < tool.contact_count; ++i)
@@ -49,19 +57,23 @@ void ReplayTrack::add(const ToolState& tool, const BoneSnapshot& bones) {
   end_s_ = tool.time_s;
   const double due_s = static_cast<double>(frames_.size()) / kPictureHz;
   if (!frames_.empty() && tool.time_s < frames_.front().tool.time_s + due_s) return;
-  frames_.push_back({tool, keep_bones(bones)});
+  frames_.push_back({tool, keep_bones(bones), keep_around(tool.time_s, bones)});
 }
 
 void ReplayTrack::join(const ReplayTrack& stretch) {
   if (stretch.empty()) return;
-  const std::size_t bones_before = bones_.size();
+  const std::size_t bones_before = bones_.size(), arounds_before = arounds_.size();
   bones_.insert(bones_.end(), stretch.bones_.begin(), stretch.bones_.end());
+  arounds_.insert(arounds_.end(), stretch.arounds_.begin(), stretch.arounds_.end());
   const auto place =
       std::upper_bound(frames_.begin(), frames_.end(), stretch.frames_.front().tool.time_s,
                        [](double t, const Frame& frame) { return t < frame.tool.time_s; });
   const auto put = frames_.insert(place, stretch.frames_.begin(), stretch.frames_.end());
   const auto count = static_cast<std::ptrdiff_t>(stretch.frames_.size());
-  for (auto frame = put; frame != put + count; ++frame) frame->bones += bones_before;
+  for (auto frame = put; frame != put + count; ++frame) {
+    frame->bones += bones_before;
+    frame->around += arounds_before;
+  }
   const std::size_t forces = stretch.force_begin_ + stretch.force_n_.size();
   if (force_n_.size() < forces) force_n_.resize(forces, 0.0f);
   std::copy(stretch.force_n_.begin(), stretch.force_n_.end(),
@@ -91,6 +103,10 @@ RenderSnapshot ReplayTrack::at(double time_s) const {
   const std::vector<BoneMotion>& to = bones_[b.bones];
   snapshot.bones.count = static_cast<std::uint32_t>(from.size());
   snapshot.bones.time_s = time_s;
+  const Around& around = arounds_[a.around];
+  snapshot.bones.rods = around.rods;
+  snapshot.bones.bench = around.bench;
+  snapshot.bones.water = around.water;
   for (std::size_t i = 0; i < from.size(); ++i)
     snapshot.bones.bones[i].X_WB = between(from[i].X_WB, to[i].X_WB, share);
   return snapshot;

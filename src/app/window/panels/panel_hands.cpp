@@ -13,7 +13,7 @@ void draw_row(const HandRow& row) {
   ui::stat(name.c_str(), ui::shortened(what, ImGui::GetContentRegionAvail().x * 0.68f),
            row.rests ? "Rests as if an assistant held it. Alt + wheel moves it along its shaft, "
                        "Alt + Q, E turns it about its shaft (a scope's light post), Alt + W, A, S, "
-                       "D tilts it."
+                       "D tilts it. A gamepad's sticks, triggers and bumpers do the same."
                      : "The instrument that this hand holds",
            row.active ? color::kText : color::kTextQuiet);
 }

@@ -28,7 +28,7 @@ constexpr std::array<KeyLine, 13> kLook = {{
     {"Tab", "fold the panels away"},
 }};
 
-constexpr std::array<KeyLine, 13> kProbe = {{
+constexpr std::array<KeyLine, 14> kProbe = {{
     {"M", "take or release the probe"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
@@ -36,6 +36,7 @@ constexpr std::array<KeyLine, 13> kProbe = {{
     {"X", "the other hand"},
     {"G", "move it to the next portal; the wheel goes in"},
     {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},
+    {"Gamepad", "the same; hold B where it moves your hand"},
     {"T", "tray of instruments"},
     {"Page Up, Page Down, End", "previous, next instrument; next size"},
     {"V", "hold: the motor runs, the jaws close"},

@@ -123,11 +123,13 @@ void draw_water_section(const PanelContext& c) {
   ImGui::Dummy({0, c.px(2)});
   WaterSettings settings = water.settings;
   double pump_mmhg = settings.pump_pa / kPa_per_mmHg, outlet_percent = 100 * settings.outlet_open;
+  ImGui::BeginDisabled(!water.can_set);
   bool changed = ui::slider("Pump", &pump_mmhg, 0, 150, "%.0f mmHg",
                             "Pressure of the pump that fills the joint. More of it stops bleeding");
   changed |= ui::slider("Outlet", &outlet_percent, 0, 100, "%.0f %%",
                         "How far the outlet is open. More flow clears the water, but the pressure "
                         "in the joint falls");
+  ImGui::EndDisabled();
   const std::string joint = ui::number(water.pressure_pa / kPa_per_mmHg, 0) + " mmHg";
   const std::string lost = ui::number(100 * water.turbidity, 0) + " %";
   ui::text(color::kTextQuiet, ("In the joint " + joint).c_str());

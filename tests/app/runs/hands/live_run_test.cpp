@@ -191,6 +191,45 @@ TEST(LiveHands, ASecondHandByMouseComesInAndTheFirstStaysWhereItWas) {
   EXPECT_LT((live.snapshot().tool.X_WP.p - right.p).norm(), 1e-6);
 }
 
+TEST(LiveHands, AGamepadMovesTheHandThatRestsWhileTheMouseMovesTheOther) {
+  const Pose right{Vec3(0.01, -0.02, 0.2), Quat::Identity()};
+  const Pose left{Vec3(-0.03, -0.02, 0.2), Quat::Identity()};
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("mouse"), right));
+  PadSticks sticks;
+  sticks.axes_C.move_V = Vec3(0, 1, 0);
+  live.move_pad(sticks, Camera{}, 0.05);  // one hand: no hand rests, nothing moves
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - right.p).norm(), 1e-6);
+  ASSERT_TRUE(live.add_hand(left, 0));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4 && !live.others().empty(); });
+  // 20 mm/s for 0.05 s is one millimetre in along its shaft, which points along +z.
+  live.move_pad(sticks, Camera{}, 0.05);
+  run_until(live, [&] { return std::abs(live.others()[0].X_WP.p.z() - 0.199) < 1e-6; });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - left.p).norm(), 1e-6);
+}
+
+TEST(LiveHands, AGamepadsSecondButtonHandsItsSticksToTheHandThatRests) {
+  LiveRun live(test::blocks_case(), "blocks", leaping_path(), {});
+  ASSERT_TRUE(live.start(choice_named("gamepad"), {Vec3(0.01, -0.02, 0.2), Quat::Identity()}));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  ASSERT_TRUE(live.add_hand({Vec3(-0.03, -0.02, 0.2), Quat::Identity()}, 0));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4 && !live.others().empty(); });
+  ASSERT_TRUE(live.rests(0));
+  const Vec3 active = live.snapshot().tool.X_WP.p, rested = live.others()[0].X_WP.p;
+  PadSticks sticks;
+  sticks.axes_C.move_V = Vec3(0, 1, 0);
+  sticks.for_rested = true;
+  live.move_pad(sticks, Camera{}, 0.05);
+  run_until(live,
+            [&] { return std::abs(live.others()[0].X_WP.p.z() - rested.z() + 0.001) < 1e-6; });
+  EXPECT_LT((live.snapshot().tool.X_WP.p - active).norm(), 1e-6);
+  sticks.for_rested = false;  // now the stick is the active hand's
+  live.move_pad(sticks, Camera{}, 0.05);
+  run_until(live, [&] { return (live.snapshot().tool.X_WP.p - active).norm() > 0.001; });
+  EXPECT_NEAR(live.others()[0].X_WP.p.z(), rested.z() - 0.001, 1e-6);
+}
+
 TEST(LiveHands, OneDeviceServesTwoHandsByTurns) {
   ProbePath still;
   for (const double time_s : {0.0, 100.0}) {

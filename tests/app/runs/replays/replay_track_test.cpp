@@ -57,6 +57,27 @@ TEST(ReplayTrack, BonesThatMoveAreSeenToMove) {
   EXPECT_NEAR(track.at(5.1).bones.bones[1].X_WB.p.y(), 0.02, 1e-12);
 }
 
+TEST(ReplayTrack, WaterAndPinsAreSeenAsTheyWere) {
+  ReplayTrack track, later;
+  BoneSnapshot bones;
+  bones.count = 1;
+  bones.water.on = true;
+  for (std::uint64_t tick = 1; tick <= 4000; ++tick) {
+    ToolState tool;
+    tool.tick = tick;
+    tool.time_s = static_cast<double>(tick) * 0.001;
+    bones.water.blood = 0.001 * tool.time_s;
+    if (tick == 2000) bones.rods[0].kind = GuideRod::Kind::kPin;
+    (tick <= 3000 ? track : later).add(tool, bones);
+  }
+  track.join(later);
+  for (double t = 0.1; t < 4; t += 0.13)
+    EXPECT_NEAR(track.at(t).bones.water.blood, 0.001 * t, 0.00023) << t;
+  EXPECT_EQ(track.at(1.9).bones.rods[0].kind, GuideRod::Kind::kNone);
+  EXPECT_EQ(track.at(2.3).bones.rods[0].kind, GuideRod::Kind::kPin);
+  EXPECT_EQ(track.at(3.5).bones.rods[0].kind, GuideRod::Kind::kPin);
+}
+
 TEST(ReplayTrack, TouchesAndForceAreWhereTheyWere) {
   const ReplayTrack track = straight_run();
   ASSERT_EQ(track.contacts().spans().size(), 1u);

@@ -163,12 +163,8 @@ void ExerciseControl::begin() {
         if (index == bone) return field;
     return std::nullopt;
   };
-  const auto removed = [this] {
-    LiveRun* const run = live_.run();
-    return run ? run->carved().removed() : ByTissue{};
-  };
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
-                  {live_.run()->tray().names, removed});
+                  live_.run()->tray().names);
   ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });

@@ -121,14 +121,15 @@ std::vector<Vec3> ExerciseRun::places_W() const {
   return places;
 }
 
-void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources, WaterSources water) {
+void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
+                        const std::vector<std::string>& tray) {
   tick_s_ = tick_s;
   file_ = std::move(file);
   watch_ = std::make_unique<AttemptWatch>(*plan_, *case_, hands_, tick_s);
   sources.case_spec = case_spec();
   sources.in_background = true;
   watch_->watch_tunnels(std::move(sources));
-  watch_->watch_water(std::move(water));
+  watch_->watch_water(tray);
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   debrief_.reset();

@@ -40,7 +40,7 @@ class ExerciseRun {
   /// From tick 0 of a run that is recorded to `file`. `sources`: what else is known of the run,
   /// where the exercise asks for tunnels; they are measured on another thread.
   void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {},
-             WaterSources water = {});
+             const std::vector<std::string>& tray = {});
   void fail_to_begin(const std::string& why);
 
   /// One tick of one hand, in the order of that hand's ticks.

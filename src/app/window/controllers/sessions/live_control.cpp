@@ -163,9 +163,9 @@ void LiveControl::hold_probe(bool held) {
   host_.ui->take_pointer(held);
 }
 
-void LiveControl::update(bool power_key) {
+void LiveControl::update(bool power_key, double dt_s) {
   const Camera& camera = sight_.view().camera;
-  run_->move_pad(read_gamepad(), camera);
+  run_->move_pad(read_gamepad(), camera, dt_s);
   run_->tell_hand(pedals_.poll(), camera);
   run_->drive(std::max(power_key ? 1.0 : 0.0, pedals_.power()));
   run_->update();

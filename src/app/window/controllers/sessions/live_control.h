@@ -58,7 +58,7 @@ class LiveControl {
 
   /// Once a picture: tells the hands' wishes, takes in what the loops reported. `power_key`: the
   /// key for what the hand holds is down.
-  void update(bool power_key);
+  void update(bool power_key, double dt_s);
   /// `may_resume`: nothing but the user's wish keeps the force off.
   void apply_feel(const UiRequests& requests, bool may_resume);
   /// Not while a check-up may have the device.

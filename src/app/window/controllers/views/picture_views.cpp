@@ -30,9 +30,7 @@ void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& m
   shot_job_.reset();
   case_ = std::move(the_case);
   main_ = &main;
-  const WaterSettings wanted = water_ ? water_->settings() : WaterSettings();
-  water_.emplace(fluid_of(*case_));
-  water_->set(wanted);
+  joint_ = filled_joint(*case_);
   panorama_ = {};
   observer_panorama_ = {};
   observer_.reset();
@@ -55,22 +53,13 @@ Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const
   auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
   if (!found) return tl::unexpected(found.error());
   lenses_ = std::move(*found);
-  auto sucks = instruments.empty() ? water_tools_of(names)
-                                   : Result<WaterTools>(water_tools_of(names, instruments));
-  if (!sucks) return tl::unexpected(sucks.error());
-  water_tools_ = std::move(*sucks);
   return {};
-}
-
-void PictureViews::flow(const ByTissue& removed_m3) {
-  if (!water_) return;
-  water_->go_to(moment_.time_s, deeds_of(water_tools_, tools_of(moment_)), removed_m3);
-  if (scope_) scope_->set_water(water_->seen());
 }
 
 Result<void> PictureViews::set_moment(const FilmMoment& moment) {
   moment_ = moment;
   scope_painted_ = false;
+  if (scope_) scope_->set_water(joint_ ? scope_water(*joint_, moment_.bones) : ScopeWater());
   poll_wall();
   if (auto shot = poll_shot(); !shot) failure_ = shot.error();
   if (!failure_) return {};

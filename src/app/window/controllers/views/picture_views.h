@@ -12,7 +12,7 @@
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
 #include "ui/side_job.h"
-#include "water/joint_water.h"
+#include "water/scope_water.h"
 #include "window/controllers/cases/shown_image.h"
 #include "window/views_model.h"
 
@@ -37,11 +37,8 @@ class PictureViews {
   /// Shown in the panorama as well, from now on.
   void set_ghosts(const std::vector<GhostTool>& ghosts) { ghosts_ = ghosts; }
   const FilmMoment& moment() const { return moment_; }
-  /// Lets the joint's water go on to that moment. `removed_m3`: of all bones, since the begin.
-  void flow(const ByTissue& removed_m3);
-  /// Null: no case is open.
-  JointWater* water() { return water_ ? &*water_ : nullptr; }
-  const JointWater* water() const { return water_ ? &*water_ : nullptr; }
+  /// None: no case with a joint that is filled is open.
+  const std::optional<FluidJoint>& joint() const { return joint_; }
 
   /// Through which tool one looks: the active hand's, else the first other's; none: through none.
   std::optional<std::size_t> looking() const;
@@ -91,8 +88,7 @@ class PictureViews {
   Panorama panorama_, observer_panorama_;
   std::optional<ScopeRenderer> scope_;
   bool scope_failed_ = false;
-  std::optional<JointWater> water_;
-  WaterTools water_tools_;  ///< by place in the tray
+  std::optional<FluidJoint> joint_;
   Lenses lenses_;
   Tray tray_;
   FilmMoment moment_;

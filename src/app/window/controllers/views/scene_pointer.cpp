@@ -32,7 +32,7 @@ void ScenePointer::poll(double dt_s, double wheel) {
   input_.over_panels = (io.WantCaptureMouse || !over_outside) && !live_.probe_held();
   move(input_);
   if (!live_.run()) return;
-  live_.update(keys_free && glfwGetKey(window, GLFW_KEY_V) == GLFW_PRESS);
+  live_.update(keys_free && glfwGetKey(window, GLFW_KEY_V) == GLFW_PRESS, dt_s);
   hands_.poll_buttons();
 }
 

@@ -66,11 +66,12 @@ bool read_first_gamepad(GLFWgamepadstate& state) {
   return false;
 }
 
-PadAxes read_gamepad() {
-  PadAxes axes;
+PadSticks read_gamepad() {
+  PadSticks sticks;
+  PadAxes& axes = sticks.axes_C;
   GLFWgamepadstate state;
   axes.connected = read_first_gamepad(state);
-  if (!axes.connected) return axes;
+  if (!axes.connected) return sticks;
   const auto axis = [&state](int i) { return static_cast<double>(state.axes[i]); };
   const auto held = [&state](int i) { return state.buttons[i] == GLFW_PRESS ? 1.0 : 0.0; };
   // Triggers rest at -1.
@@ -82,7 +83,8 @@ PadAxes read_gamepad() {
       Vec3(axis(GLFW_GAMEPAD_AXIS_RIGHT_Y), axis(GLFW_GAMEPAD_AXIS_RIGHT_X),
            held(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER) - held(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER));
   axes.buttons = state.buttons[GLFW_GAMEPAD_BUTTON_A] == GLFW_PRESS ? 1u : 0u;
-  return axes;
+  sticks.for_rested = state.buttons[GLFW_GAMEPAD_BUTTON_B] == GLFW_PRESS;
+  return sticks;
 }
 
 }  // namespace osteon

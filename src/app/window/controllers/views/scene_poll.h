@@ -1,6 +1,6 @@
 #pragma once
 
-#include "osteon/device/pad_device.h"
+#include "runs/hands/pad_nudge.h"
 #include "runs/hands/probe_drag.h"
 #include "ui/scene_input.h"
 
@@ -26,7 +26,7 @@ class ScenePoll {
 /// The part of the input that moves a probe held by the mouse.
 ProbeMotion probe_motion(const SceneInput& input);
 
-/// Sticks of the first gamepad, in the camera's axes; `connected` is false when there is none.
-PadAxes read_gamepad();
+/// The first gamepad, in the camera's axes; `connected` is false when there is none.
+PadSticks read_gamepad();
 
 }  // namespace osteon

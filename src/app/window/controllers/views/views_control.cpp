@@ -51,15 +51,13 @@ void ViewsControl::show_softs() {
               *scene_.renderer);
 }
 
-// What is gone is counted a few times a second: it means looking at all cuts.
-void ViewsControl::let_water_flow() {
-  constexpr double kCounts_s = 0.2;
-  if (std::abs(host_.now_s - counted_s_) >= kCounts_s) {
-    CarvedPicture* const picture = carved();
-    removed_m3_ = picture ? picture->removed() : ByTissue{};
-    counted_s_ = host_.now_s;
-  }
-  scene_.views.flow(removed_m3_);
+// The pump of a session that begins anew stands as the user has set it.
+void ViewsControl::set_pump_again() {
+  LiveRun* const live = live_.run();
+  if (!live || !pump_) return;
+  const std::pair run(live_.runs_made(), live->run_number());
+  if (pump_run_ == run) return;
+  if (live->set_pump(pump_->pump_pa, pump_->outlet_open)) pump_run_ = run;
 }
 
 void ViewsControl::draw(const ViewState& looks) {
@@ -71,7 +69,7 @@ void ViewsControl::draw(const ViewState& looks) {
   views.set_ghosts(sight_.ghosts());
   if (auto ok = views.set_moment(moment()); !ok)
     host_.note(ToastKind::kError, ok.error().message());
-  let_water_flow();
+  set_pump_again();
   const std::vector<Pane> all = sight_.panes();
   int most_px = observer_.scope_px();
   for (const Pane& pane : all) {
@@ -98,7 +96,11 @@ void ViewsControl::apply(const ViewsRequests& requests) {
   if (requests.layout) sight_.set_layout(*requests.layout);
   if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);
   if (requests.toggle_observer) observer_.toggle();
-  if (requests.water && scene_.views.water()) scene_.views.water()->set(*requests.water);
+  if (requests.water) {
+    pump_ = requests.water;
+    pump_run_ = {};
+    set_pump_again();
+  }
   if (requests.shoot) {
     const CarvedPicture* const picture = carved();
     scene_.views.shoot(picture ? picture->cut_bones() : CutBones{});
@@ -123,6 +125,18 @@ std::string ViewsControl::message_on(PaneKind kind) const {
   return {};
 }
 
+std::optional<WaterModel> ViewsControl::water_model() const {
+  const auto& joint = scene_.views.joint();
+  const WaterState& water = scene_.views.moment().bones.water;
+  if (!joint || !water.on) return std::nullopt;
+  WaterModel model;
+  model.settings = live_.run() && pump_ ? *pump_ : WaterSettings{water.pump_pa, water.outlet_open};
+  model.pressure_pa = water.pressure_pa;
+  model.turbidity = turbidity(*joint, fluid_of(water));
+  model.can_set = live_.run() != nullptr;
+  return model;
+}
+
 ViewsModel ViewsControl::model() const {
   const PictureViews& views = scene_.views;
   ViewsModel model;
@@ -139,8 +153,7 @@ ViewsModel ViewsControl::model() const {
   const bool scope = std::any_of(model.panes.begin(), model.panes.end(), [](const PaneModel& pane) {
     return pane.pane.kind == PaneKind::kScope;
   });
-  if (const JointWater* const water = views.water(); water && scope)
-    model.water = {water->settings(), water->state().pressure_pa, water->turbidity()};
+  if (scope) model.water = water_model();
   return model;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -41,7 +42,8 @@ class ViewsControl {
   CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
   void show_softs();
-  void let_water_flow();
+  void set_pump_again();
+  std::optional<WaterModel> water_model() const;
   std::string message_on(PaneKind kind) const;
 
   WindowHost& host_;
@@ -55,8 +57,8 @@ class ViewsControl {
   double carved_s_ = 0;                                 ///< when they were shown last
   SoftPicture softs_;
   MovingDetail detail_;
-  double counted_s_ = 0;   ///< when what is gone was counted last
-  ByTissue removed_m3_{};  ///< as it was then
+  std::optional<WaterSettings> pump_;                 ///< as the user has set it
+  std::pair<std::uint64_t, std::uint64_t> pump_run_;  ///< that was told
 };
 
 }  // namespace osteon

@@ -1,0 +1,69 @@
+// A moving scope's picture, 720 x 720, in the notch of the built-in knee: in clear and cloudy
+// water, with blood and plumes, with a fogged lens. Needs OpenGL, without a window.
+#include <benchmark/benchmark.h>
+#include <epoxy/gl.h>
+
+#include <stdexcept>
+
+#include "cases/scoped_case.h"
+#include "osteon/render/joint_room.h"
+#include "osteon/render/prepare.h"
+#include "osteon/render/renderer.h"
+#include "osteon/render/scope_renderer.h"
+#include "osteon/scene/scope.h"
+
+namespace osteon {
+namespace {
+
+template <class T>
+T made(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message());
+  return std::move(*result);
+}
+
+struct NotchPicture {
+  OffscreenContext context = made(OffscreenContext::create());
+  Case knee = made(open_scoped_case("builtin:knee", 80));
+  ScopeDef scope = made(load_scope("knee_30"));
+  ScopeRenderer renderer = made(ScopeRenderer::create(knee, OSTEON_SOURCE_DIR, prepare_case(knee)));
+
+  NotchPicture() {
+    const auto wall = JointRoom(knee).wall(rest_snapshot(knee), Vec3(0.010, -0.010, -0.004));
+    if (wall) renderer.set_wall(*wall);
+  }
+  ScopePose pose(double along_m) const {
+    ScopePose pose;
+    pose.at_W = Vec3(0.010, -0.010 + along_m, -0.004);
+    pose.toward_W = Vec3(-0.014, -0.002, -0.012);
+    pose.post_rad = 1.5707963267948966;
+    pose.up_W = Vec3::UnitZ();
+    return pose;
+  }
+};
+
+void scope_picture(benchmark::State& state, const ScopeWater& water) {
+  static NotchPicture notch;
+  notch.renderer.set_water(water);
+  double along_m = 0;
+  for (auto _ : state) {
+    along_m = along_m > 0.002 ? 0 : along_m + 1e-4;
+    (void)notch.renderer.paint(ScopeCamera(notch.scope, notch.pose(along_m)), 720);
+    glFinish();
+  }
+}
+
+ScopeWater plumes() {
+  ScopeWater water{60, 0.5, 0};
+  water.plume_count = 2;
+  water.plumes[0] = {Vec3(-0.014, -0.002, -0.012), 0.005, 60};
+  water.plumes[1] = {Vec3(-0.010, -0.006, -0.010), 0.003, 60};
+  return water;
+}
+
+BENCHMARK_CAPTURE(scope_picture, clear, ScopeWater{})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scope_picture, cloudy, ScopeWater{60, 0, 0})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scope_picture, blood_and_two_plumes, plumes())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scope_picture, fogged, ScopeWater{0, 0, 0.4})->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace osteon
