@@ -176,7 +176,7 @@ void field(A& a, ToolGuide& g) {
   for (double* x : {&g.grip, &g.give_m_per_n, &g.stop_m}) field(a, *x);
   for (bool* x : {&g.in_hole, &g.stops}) field(a, *x);
   if constexpr (A::kReads)
-    if (a.version < 11) return;  // nothing pulled then
+    if (a.version < 12) return;  // nothing pulled then
   field(a, g.pulls);
 }
 

@@ -108,9 +108,12 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   run(session, 1, 2500, 1);
   const SessionState saved = session.save();
   ASSERT_TRUE(saved.world.carved);
+  ASSERT_TRUE(saved.world.bones.guides[0].on) << "the hole that it has begun leads the drill";
   constexpr std::size_t kHoleWords = 14, kRubWords = 4;
   std::vector<Words> unknown = {
       words_of(saved, 2, [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
+      words_of(saved, 1,
+               [](SessionState& s, CarvingState&) { s.world.bones.guides[0].pulls = true; }),
       words_of(saved, kRubWords,
                [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
       words_of(saved, kHoleWords * saved.world.carved->holes.size(),

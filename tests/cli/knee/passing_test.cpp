@@ -25,7 +25,6 @@ class PassingCommands : public CliTest {
 };
 
 TEST_F(PassingCommands, TheExpertPlacesTheGraftAndTheRecordingRepeats) {
-  if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
   const Json json = report("--seed 0 --record " + file("p.osr"), 0);
   const Json& placing = json["acl"]["placing"];
   EXPECT_TRUE(json["errors"].empty()) << json["errors"];

@@ -11,7 +11,7 @@ namespace {
 
 // Pictures farther apart have a missing stretch between them.
 constexpr double kLongestGap_s = 0.1;
-constexpr double kAround_s = 0.2, kBench_s = 0.05;  // hands move what lies on a bench
+constexpr double kAround_s = 0.2, kBench_s = 0.05;  // hands move a graft
 
 bool same(const BoneMotion& a, const BoneMotion& b) {
   return a.X_WB.p == b.X_WB.p && a.X_WB.q.coeffs() == b.X_WB.q.coeffs();
@@ -34,9 +34,9 @@ std::size_t ReplayTrack::keep_bones(const BoneSnapshot& bones) {
 }
 
 std::size_t ReplayTrack::keep_around(double time_s, const BoneSnapshot& bones) {
-  const double due_s = bones.bench.on ? kBench_s : kAround_s;
+  const double due_s = bones.bench.on || bones.placing.on ? kBench_s : kAround_s;
   if (arounds_.empty() || time_s >= arounds_.back().time_s + due_s)
-    arounds_.push_back({time_s, bones.rods, bones.bench, bones.water});
+    arounds_.push_back({time_s, bones.rods, bones.bench, bones.placing, bones.water});
   return arounds_.size() - 1;
 }
 
@@ -106,6 +106,7 @@ RenderSnapshot ReplayTrack::at(double time_s) const {
   const Around& around = arounds_[a.around];
   snapshot.bones.rods = around.rods;
   snapshot.bones.bench = around.bench;
+  snapshot.bones.placing = around.placing;
   snapshot.bones.water = around.water;
   for (std::size_t i = 0; i < from.size(); ++i)
     snapshot.bones.bones[i].X_WB = between(from[i].X_WB, to[i].X_WB, share);

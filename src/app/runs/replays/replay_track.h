@@ -36,6 +36,7 @@ class ReplayTrack {
     double time_s = 0;
     GuideRods rods{};
     GraftBenchState bench{};
+    GraftPlacingState placing{};
     WaterState water{};
   };
   std::size_t keep_bones(const BoneSnapshot& bones);
