@@ -49,7 +49,10 @@ constexpr std::array kRows = {
         kSoftOver, "soft_over", "pulls too hard on", S::kSoftPart, {"force_n", "limit_n", ""}},
     EventKindRow{kSoftTorn, "soft_torn", "tears", S::kSoftPart, {"tension_n", "force_n", ""}},
     EventKindRow{kSoftLost, "soft_lost", "can no longer feel", S::kSoftPart, {"", "", ""}},
-    EventKindRow{kSoftCut, "soft_cut", "cuts", S::kSoftPart, {"force_n", "tension_n", ""}},
+    EventKindRow{
+        kSoftCut, "soft_cut", "cuts", S::kSoftPart, {"force_n", "tension_n", "removed_mm3"}},
+    EventKindRow{
+        kSoftPiece, "soft_piece", "takes a piece off", S::kSoftPart, {"volume_mm3", "", ""}},
     EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "osteon/physics/carving.h"
+#include "osteon/physics/soft_cut_state.h"
 #include "osteon/session/session_state.h"
 
 namespace osteon {
@@ -11,7 +12,8 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 12;
+constexpr std::uint64_t kVersion = 14;
+constexpr std::uint64_t kMostCutCells = 4096, kMostCutWork = 1u << 16;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -517,6 +519,57 @@ void field(A& a, SolidNear& n) {
     field(a, *x);
   for (Vec3* x : {&c.p_B, &c.nhat_B, &n.outside_B}) field(a, *x);
   for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
+  if constexpr (A::kReads)
+    if (a.version < 14) return;  // nothing cut solids then
+  field(a, n.entered_m);
+}
+
+template <class A>
+void field(A& a, std::vector<CutCell>& cells) {
+  std::uint64_t count = cells.size();
+  number(a, count, kMostCutCells);
+  if constexpr (A::kReads) cells.resize(count);
+  for (CutCell& cell : cells) {
+    number(a, cell.count, static_cast<std::uint32_t>(CutCell::kParts));
+    for (std::uint32_t p = 0; p < cell.count && p < CutCell::kParts; ++p) {
+      field(a, cell.left[p]);
+      field(a, cell.middle[p]);
+    }
+    for (std::uint16_t& bits : cell.beyond) {
+      std::uint32_t wide = bits;
+      number(a, wide, 0xffffu);
+      bits = static_cast<std::uint16_t>(wide);
+    }
+  }
+}
+
+template <class A>
+void field(A& a, std::shared_ptr<const SoftCutState>& cut) {
+  if constexpr (A::kReads)
+    if (a.version < 14) return;  // nothing cut solids then
+  bool there = cut != nullptr;
+  field(a, there);
+  if (!there) return;
+  SoftCutState state = cut ? *cut : SoftCutState{};
+  std::uint64_t solids = state.solids.size();
+  number(a, solids, std::uint64_t{kMaxSolids});
+  if constexpr (A::kReads) state.solids.resize(solids);
+  for (SolidCutState& solid : state.solids) {
+    field(a, solid.cuts);
+    field(a, solid.felt);
+    field(a, solid.next);
+    number(a, solid.worked, kMostCutWork);
+    field(a, solid.looked);
+    field(a, solid.pieces);
+  }
+  for (SolidCutHand& hand : state.hands) {
+    field(a, hand.solid);
+    field(a, hand.jaw_open);
+    field(a, hand.due_m);
+    field(a, hand.X_BC);
+    field(a, hand.idle);
+  }
+  if constexpr (A::kReads) cut = std::make_shared<const SoftCutState>(std::move(state));
 }
 
 template <class A>
@@ -529,6 +582,7 @@ void solids_field(A& a, SoftState& s) {
     first_of(a, hand.count, hand.near);
     for (BandTouch& touch : hand.touches) field(a, touch);
   }
+  field(a, s.cut);
 }
 
 template <class A>

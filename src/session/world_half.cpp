@@ -184,7 +184,7 @@ void WorldHalf::keep(std::uint32_t mark) {
                   world_.held(),
                   world_.snapshot(),
                   carved(),
-                  softs_ ? softs_->world().state() : SoftState{},
+                  softs_ ? softs_->world().save() : SoftState{},
                   rings_ ? rings_->state() : RingsState{}};
   mark_hashes_[mark] = hash_of(marks_[mark].bones);
 }
@@ -208,7 +208,7 @@ void WorldHalf::save(WorldState& into) const {
   into.bones = world_.snapshot();
   into.hold = world_.held();
   into.carved = carved();
-  if (softs_) into.softs = softs_->world().state();
+  if (softs_) into.softs = softs_->world().save();
   if (rings_) into.rings = rings_->state();
   into.marks = marks_;
 }

@@ -8,16 +8,9 @@
 
 #include "hex/hex_stiffness.h"
 #include "osteon/base/hash.h"
+#include "pressed_solid_impl.h"
 
 namespace osteon {
-
-/// Cubes that hold some of a solid, and their corners.
-struct FilledCells {
-  double cell_m = 0;
-  std::vector<std::array<std::uint32_t, 8>> corners;  ///< of each cell, x fastest
-  std::vector<double> fill;                           ///< of each cell
-  std::vector<Vec3> nodes;
-};
 
 namespace {
 
@@ -26,7 +19,6 @@ using CellMatrix = Eigen::SparseMatrix<double>;
 constexpr double kFinest_m = 0.0005, kFiner = 1.1;
 constexpr double kLeastFill = 0.05;
 constexpr double kPatchReach = 1.75;           // of a patch, cells
-constexpr double kHolds = 1000;                // of a support: times the stiffness of a cell
 constexpr double kLifted = -0.2, kDown = 0.3;  // n . up between which a push is neither
 constexpr double kMostLifted = 2;              // times as much as when pressed
 constexpr std::size_t kLeastCells = 4;
@@ -94,7 +86,7 @@ CellMatrix stiffness_of(const FilledCells& cells, const PressedSolidDef& def, bo
             static_cast<int>(3 * cells.corners[e][static_cast<std::size_t>(a / 3)]) + a % 3,
             static_cast<int>(3 * cells.corners[e][static_cast<std::size_t>(b / 3)]) + b % 3,
             cells.fill[e] * cube(a, b));
-  const double hold = kHolds * cells.cell_m;
+  const double hold = kSupportHolds * cells.cell_m;
   for (std::size_t i = 0; i < cells.nodes.size(); ++i)
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
@@ -129,16 +121,7 @@ double lying_share(const Vec3& nhat, const Vec3& up) {
 
 }  // namespace
 
-struct PressedSolid::Impl {
-  FilledCells cells;
-  Vec3 up;
-  double stiffness_n_per_m = 0;
-  Eigen::MatrixXd lying, lifted;  // ways by forces, for a modulus of 1 Pa
-
-  double share(const SolidPush& push) const { return lying_share(push.nhat, up); }
-  double yields(const SolidPush& at, const SolidPush& push, double share) const;
-  Vec3 way(const Eigen::MatrixXd& ways, std::uint32_t node, const SolidPush& push) const;
-};
+double PressedSolid::Impl::share(const SolidPush& push) const { return lying_share(push.nhat, up); }
 
 // Of a node, for each newton of the push.
 Vec3 PressedSolid::Impl::way(const Eigen::MatrixXd& ways, std::uint32_t node,
@@ -184,11 +167,63 @@ Result<PressedSolid> PressedSolid::make(const PressedSolidDef& def) {
   impl->lifted = std::move(*lifted);
   impl->lying = std::move(*lying);
   impl->stiffness_n_per_m = def.stiffness_n_per_m;
+  impl->poisson = def.poisson;
+  for (const Vec3& p : impl->cells.nodes) {
+    impl->held.push_back(def.held(p) ? 1 : 0);
+    impl->rests.push_back(def.rests(p) ? 1 : 0);
+  }
   return PressedSolid(std::move(impl));
+}
+
+// The parts of cells that hang together with the one whose middle is nearest, two parts far: a push
+// on one side of a slit does nothing to the other side. Weights as below; where all nodes are too
+// far off, the nearest one alone.
+SolidPatch PressedSolid::Impl::patch_of_cut(const Vec3& p) const {
+  SolidPatch out;
+  std::uint32_t nearest = 0;
+  for (std::uint32_t e = 1; e < middles.size(); ++e)
+    if ((middles[e] - p).squaredNorm() < (middles[nearest] - p).squaredNorm()) nearest = e;
+  constexpr std::size_t kMostNear = 96;
+  std::array<std::uint32_t, kMostNear> near{nearest};
+  std::size_t count = 1, first = 0;
+  for (int ring = 0; ring < 2; ++ring) {
+    const std::size_t last = count;
+    for (; first < last; ++first)
+      for (const std::uint32_t to : links[near[first]])
+        if (count < kMostNear && std::find(near.begin(), near.begin() + count, to) ==
+                                     near.begin() + static_cast<std::ptrdiff_t>(count))
+          near[count++] = to;
+  }
+  const double reach = kPatchReach * cells.cell_m;
+  double sum = 0, closest = 1e9;
+  std::uint32_t closest_node = cells.corners[nearest][0];
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::uint32_t n : cells.corners[near[i]]) {
+      const double d2 = (cells.nodes[n] - p).squaredNorm(), left = 1 - d2 / (reach * reach);
+      if (i == 0 && d2 < closest) {
+        closest = d2;
+        closest_node = n;
+      }
+      const auto end = out.node.begin() + out.count;
+      if (!(left > 0) || out.count == SolidPatch::kMost ||
+          std::find(out.node.begin(), end, n) != end)
+        continue;
+      out.node[out.count] = n;
+      out.weight[out.count++] = left * left;
+      sum += left * left;
+    }
+  if (out.count == 0) {
+    out.count = 1;
+    out.node[0] = closest_node;
+    out.weight[0] = sum = 1;
+  }
+  for (std::uint32_t i = 0; i < out.count; ++i) out.weight[i] /= sum;
+  return out;
 }
 
 // w = (1 - d^2 / reach^2)^2: smooth where a node comes in.
 SolidPatch PressedSolid::patch_at(const Vec3& p) const {
+  if (impl_->whole) return impl_->patch_of_cut(p);
   SolidPatch out;
   const double reach = kPatchReach * impl_->cells.cell_m;
   const auto& nodes = impl_->cells.nodes;
@@ -208,6 +243,10 @@ SolidPatch PressedSolid::patch_at(const Vec3& p) const {
 // a lifted one it is less where c would be more than the most.
 SolidPush PressedSolid::push_at(const Vec3& p, const Vec3& nhat, double force_n) const {
   SolidPush push{patch_at(p), nhat, force_n, 1};
+  if (impl_->whole) {
+    push.gain = impl_->whole->push_at(p, nhat).gain;
+    return push;
+  }
   const double lying = impl_->yields(push, push, 1);
   const double now = impl_->yields(push, push, impl_->share(push));
   const double held_back = now > 0 ? std::min(1.0, kMostLifted * lying / now) : 1;
@@ -222,7 +261,10 @@ double PressedSolid::compliance(const SolidPush& at, const SolidPush& push) cons
     return std::sqrt(a.gain * b.gain) * impl_->yields(a, b, share);
   };
   const double both = between(at, push);
-  if (&at == &push) return both;
+  // A flap that hardly hangs on anything still is no air.
+  constexpr double kSoftest = 25;
+  if (&at == &push)
+    return impl_->whole ? std::min(both, kSoftest / impl_->stiffness_n_per_m) : both;
   // Less than what the two do to themselves: else tools on both sides would press each other on
   // without end, since shares and gains differ from one side to the other.
   constexpr double kMutual = 0.95;
@@ -251,6 +293,9 @@ Vec3 PressedSolid::node_at(std::size_t node) const { return impl_->cells.nodes[n
 std::size_t PressedSolid::nodes() const { return impl_->cells.nodes.size(); }
 std::size_t PressedSolid::cells() const { return impl_->cells.corners.size(); }
 double PressedSolid::cell_m() const { return impl_->cells.cell_m; }
+Vec3 PressedSolid::cell_lo(std::size_t cell) const {
+  return impl_->cells.nodes[impl_->cells.corners[cell][0]];
+}
 
 std::uint64_t PressedSolid::hash() const {
   Hasher h;

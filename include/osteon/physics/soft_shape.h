@@ -24,17 +24,22 @@ class SoftShapes {
     TriMesh mesh_W;
   };
   /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
-  /// under a push of a meniscus, or of a ligament's middle line. At first all are at rest. A
-  /// ligament that was cut or has torn is two stumps, at rest.
+  /// under a push of a meniscus, by a cut into it (its surface has other vertices then), or of a
+  /// ligament's middle line. At first all are at rest. A ligament that was cut or has torn is two
+  /// stumps, at rest.
   std::vector<Changed> changes(const SoftPushes& pushes);
 
  private:
   struct Shape {
-    TriMesh mesh_W;                      ///< at rest
-    Pose X_WB;                           ///< rest pose of the bone
-    std::vector<SolidPatch> patches;     ///< of each vertex
-    std::vector<SoftPushes::One> shown;  ///< pushes that it was given with
+    TriMesh mesh_W;                          ///< at rest
+    Pose X_WB;                               ///< rest pose of the bone
+    std::vector<SolidPatch> patches;         ///< of each vertex
+    std::vector<SoftPushes::One> shown;      ///< pushes that it was given with
+    TriMesh whole_W;                         ///< `mesh_W` before any cut
+    std::shared_ptr<const CarveState> cuts;  ///< that it was given with
   };
+  void cut(std::size_t solid, std::shared_ptr<const CarveState> cuts);
+  void find_patches(std::size_t solid);
   struct BandShape {
     TriMesh mesh_W;                 ///< at rest
     BandSpan rest_W;                ///< the string, with the bones at rest

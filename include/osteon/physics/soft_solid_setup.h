@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/carve/uncut_field.h"
 #include "osteon/collide/distance_field.h"
 #include "osteon/scene/case.h"
 #include "osteon/tissue/pressed_solid.h"
@@ -21,6 +22,7 @@ struct SoftSolid {
   BoneId bone;
   std::shared_ptr<const DistanceField> field;  ///< of its surface at rest
   std::shared_ptr<const PressedSolid> body;
+  std::shared_ptr<const UncutField> uncut;      ///< of its surface, for what is cut out of it
   std::function<bool(const Vec3& p_B)> bleeds;  ///< whether it has vessels there; none: nowhere
 };
 std::uint64_t hash_of(std::span<const SoftSolid> solids);

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
+
+struct SoftCutState;
 
 /// A part of a tool near a band, from step to step.
 struct NearBand {
@@ -42,6 +45,7 @@ struct SolidNear {
   bool barred = false;  ///< as of NearBand
   bool behind = false;  ///< another part of the tool presses the same place deeper
   double deep_m = 0, force_n = 0;
+  double entered_m = 0;  ///< of a blade: so far its edge has gone in
 };
 
 /// A hand on the solids: which parts are near, and for the events.
@@ -64,6 +68,7 @@ struct SoftState {
   std::array<SoftHandState, kMaxHands> hands{};
   std::array<bool, kMaxSolids> solid_lost{};  ///< it could not be solved
   std::array<SolidHandState, kMaxHands> solid_hands{};
+  std::shared_ptr<const SoftCutState> cut;  ///< of the solids; null: nothing cuts them
 };
 
 }  // namespace osteon

@@ -20,6 +20,7 @@ struct BandReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
 };
 
+class SolidCutting;
 class SolidPresses;
 struct SolidHand;
 
@@ -33,8 +34,8 @@ struct SolidReadout {
 /// to each band, how long the bands' paths are, and what tears. The hands' ticks are told which
 /// bands are near (BandContacts) and find the force by themselves, so that it has no steps of 2 ms.
 ///
-/// A step allocates, locks and logs nothing. What the bands do to the bones is not known: bones
-/// that move on springs are not drawn back by them.
+/// A step locks and logs nothing, and allocates only while solids are cut. What the bands do to the
+/// bones is not known: bones that move on springs are not drawn back by them.
 class SoftWorld {
  public:
   /// `tray`: the instruments by ToolState::instrument. `coupling_n_per_m`: the hands' stiffness.
@@ -48,7 +49,10 @@ class SoftWorld {
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
 
   const SoftSetup& setup() const { return *setup_; }
-  const SoftState& state() const { return state_; }
+  const SoftState& state() const { return state_; }  ///< but what was cut
+  SoftState save() const;                            ///< all of it
+  double removed_m3(std::size_t solid) const;        ///< by cuts; looks at all of them
+  std::uint32_t pieces(std::size_t solid) const;     ///< that came off
   /// What the hand's ticks are to know of the last step.
   BandContacts contacts(std::size_t hand) const;
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
@@ -89,6 +93,9 @@ class SoftWorld {
   double share_of(std::size_t band, const Vec3& p_W) const;
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
+  void cut_solids(std::span<const SolidHand> hands, std::uint64_t step);
+  void put(const SoftState& state, std::uint32_t epoch);
+  void restore_cuts(const SoftState& state);
   void place_bands(const BoneSnapshot& bones);
   void take(Hand& hand, const ToolState& tool, std::uint32_t epoch);
   bool is_bent_far(const SoftHandState& hand, const NearBand& but) const;
@@ -111,7 +118,8 @@ class SoftWorld {
   std::uint32_t epoch_ = 0;
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
-  std::unique_ptr<SolidPresses> solids_;  ///< null: there are none
+  std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
+  std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};
   std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state
   std::array<StringBend, SoftPushes::kMostBends> bends_{};

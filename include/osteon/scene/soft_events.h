@@ -10,6 +10,7 @@ inline constexpr EventKind kSoftEnd{101};    ///< and has let go
 inline constexpr EventKind kSoftOver{102};   ///< the force on it has gone over the session's limit
 inline constexpr EventKind kSoftTorn{103};   ///< its tension has reached its failure load
 inline constexpr EventKind kSoftLost{104};   ///< it could not be solved: it is felt no more
-inline constexpr EventKind kSoftCut{105};    ///< a blade has cut it in two
+inline constexpr EventKind kSoftCut{105};    ///< cut in two; of a solid: a cut into it begins
+inline constexpr EventKind kSoftPiece{108};  ///< a piece of a solid has come off
 
 }  // namespace osteon

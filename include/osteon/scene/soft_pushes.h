@@ -3,12 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "osteon/base/types.h"
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_solid.h"
 
 namespace osteon {
+
+struct CarveState;
 
 /// How a part of a tool bends a band now. The string goes in two straight legs from its ends to the
 /// place that is pressed.
@@ -46,6 +49,8 @@ struct SoftPushes {
   std::array<StringBend, kMostBends> bends{};
   std::uint32_t break_count = 0;
   std::array<BandBreak, kMaxBands> breaks{};
+  /// What was cut out of each solid, anew when it changed; null: nothing.
+  std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts{};
   bool operator==(const SoftPushes&) const = default;
 };
 

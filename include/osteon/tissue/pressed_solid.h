@@ -49,7 +49,7 @@ struct SolidPush {
 ///
 /// A hand that presses from above meets the wanted stiffness everywhere: the shape, what one push
 /// does elsewhere, and by how much more the solid gives where it is lifted (twice at most) are
-/// those of the elastic solid.
+/// those of the elastic solid. Of one that was cut it is as much softer as the cuts make it.
 class PressedSolid {
  public:
   /// Fails on a solid that nothing holds, or that is too small for its cells.
@@ -70,11 +70,13 @@ class PressedSolid {
 
   Vec3 node_at(std::size_t node) const;
   std::size_t nodes() const;
-  std::size_t cells() const;
+  std::size_t cells() const;  ///< of a cut one: parts of cells
   double cell_m() const;
+  Vec3 cell_lo(std::size_t cell) const;  ///< its lowest corner
   std::uint64_t hash() const;
 
  private:
+  friend class CutSolidWork;
   struct Impl;
   explicit PressedSolid(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/carve/carved_surface.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
 
@@ -53,11 +54,14 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
     : setup_(std::move(setup)) {
   if (!setup_) return;
   for (const SoftSolid& solid : setup_->solids) {
-    Shape shape{the_case.softs[solid.soft].mesh_W, the_case.bone(solid.bone).X_WB, {}, {}};
-    const Pose X_BW = shape.X_WB.inverse();
-    for (const Vec3& p : shape.mesh_W.vertices)
-      shape.patches.push_back(solid.body->patch_at(X_BW * p));
+    Shape shape{the_case.softs[solid.soft].mesh_W,
+                the_case.bone(solid.bone).X_WB,
+                {},
+                {},
+                the_case.softs[solid.soft].mesh_W,
+                {}};
     shapes_.push_back(std::move(shape));
+    find_patches(shapes_.size() - 1);
   }
   for (const SoftBand& band : setup_->bands)
     bands_.push_back(
@@ -65,6 +69,31 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
          {the_case.bone(band.from).X_WB * band.from_B, the_case.bone(band.to).X_WB * band.to_B},
          {},
          {}});
+}
+
+void SoftShapes::find_patches(std::size_t solid) {
+  Shape& shape = shapes_[solid];
+  const Pose X_BW = shape.X_WB.inverse();
+  shape.patches.clear();
+  for (const Vec3& p : shape.mesh_W.vertices)
+    shape.patches.push_back(setup_->solids[solid].body->patch_at(X_BW * p));
+}
+
+// Closed and manifold: walls of cuts are part of it.
+void SoftShapes::cut(std::size_t solid, std::shared_ptr<const CarveState> cuts) {
+  Shape& shape = shapes_[solid];
+  shape.cuts = std::move(cuts);
+  shape.mesh_W = shape.whole_W;
+  if (shape.cuts) {
+    auto field = CarvedField::make(setup_->solids[solid].uncut, {},
+                                   std::max<std::size_t>(1, shape.cuts->blocks.size()));
+    if (field && field->restore(*shape.cuts)) {
+      auto left = carved_mesh(*field);
+      shape.mesh_W = left ? std::move(*left) : TriMesh{};
+      for (Vec3& p : shape.mesh_W.vertices) p = shape.X_WB * p;
+    }
+  }
+  find_patches(solid);
 }
 
 void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) {
@@ -101,8 +130,11 @@ std::vector<SoftShapes::Changed> SoftShapes::changes(const SoftPushes& pushes) {
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
     Shape& shape = shapes_[s];
     std::vector<SoftPushes::One> now = pushes_on(s, pushes);
-    if (std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), looks_still))
+    const bool is_cut = pushes.cuts[s] != shape.cuts;
+    if (!is_cut &&
+        std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), looks_still))
       continue;
+    if (is_cut) cut(s, pushes.cuts[s]);
     const std::vector<Vec3> nodes = moved(s, now);
     shape.shown = std::move(now);
     Changed changed{setup_->solids[s].soft, shape.mesh_W};

@@ -17,6 +17,8 @@ constexpr const char* kMenisci = "menisci";
 constexpr const char* kMeniscusKind = "meniscus";
 constexpr const char* kSolidsWhere = "--soft";
 constexpr double kSolidCell_m = 0.0005, kSolidOutside_m = 0.0065, kSolidInside_m = 0.001;
+// Of the field that is cut: a blade's slit is wider, so no line of nodes leads across it.
+constexpr double kCutCell_m = 0.0003, kCutRoom_m = 0.0015;
 constexpr double kRim_m = 0.003;  // of the outer edge, what is held
 constexpr double kUnder = -0.3;
 // The outer 10 to 30 % have vessels (Arnoczky and Warren 1982, Am J Sports Med 10:90), of a width
@@ -89,6 +91,15 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
     return tl::unexpected(field.error());
   }
   out.field = std::make_shared<const DistanceField>(std::move(*field));
+  UncutFieldOptions cut_options;
+  cut_options.cell_m = kCutCell_m;
+  cut_options.room_m = kCutRoom_m;
+  auto uncut = UncutField::make(mesh_B, cut_options);
+  if (!uncut) {
+    uncut.error().where = "the meniscus '" + part.name + "'";
+    return tl::unexpected(uncut.error());
+  }
+  out.uncut = std::move(*uncut);
   const RimOutline outline(mesh_B.vertices, vertices_middle(the_case.bone(out.bone).mesh));
   auto body = PressedSolid::make(solid_def(mesh_B, outline, out.field, stiffness_n_per_m));
   if (!body) {
@@ -141,6 +152,27 @@ void add_friction(SoftSetup& setup, const SoftFriction& friction) {
   Hasher h;
   h.add(setup.hash);
   for (const double ratio : ratios) h.add(ratio);
+  setup.hash = h.value();
+}
+
+void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutters,
+                 double cutting_n) {
+  const auto cuts = [](const std::optional<SolidCutter>& cutter) { return cutter.has_value(); };
+  if (setup.solids.empty() || std::none_of(cutters.begin(), cutters.end(), cuts)) return;
+  setup.cutters = std::move(cutters);
+  setup.solid_cutting_n = cutting_n;
+  Hasher h;
+  h.add(setup.hash);
+  h.add(cutting_n);
+  for (const auto& cutter : setup.cutters) {
+    h.add(cutter.has_value());
+    if (!cutter) continue;
+    h.add(static_cast<std::uint8_t>(cutter->way));
+    h.add(std::string_view(cutter->cutter.name));
+    h.add(cutter->cutter.size_m);
+    h.add(cutter->works);
+  }
+  for (const SoftSolid& solid : setup.solids) h.add(solid.uncut->hash());
   setup.hash = h.value();
 }
 

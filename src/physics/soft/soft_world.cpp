@@ -9,6 +9,7 @@
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
 #include "soft/soft_touch.h"
+#include "soft/solid_cutting.h"
 #include "soft/solid_presses.h"
 
 namespace osteon {
@@ -62,6 +63,7 @@ void add_to(Hasher& h, const SolidNear& near) {
   for (const double x : {near.contact.along, near.contact.stiffness_n_per_m, near.contact.others_m,
                          near.deep_m, near.force_n})
     h.add(x);
+  if (near.entered_m > 0) h.add(near.entered_m);
   for (const bool x : {near.touching, near.barred, near.behind}) h.add(x);
 }
 
@@ -93,6 +95,8 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4);
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
+  if (solids_ && !setup_->cutters.empty())
+    cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_);
 }
 SoftWorld::~SoftWorld() = default;
 
@@ -403,6 +407,7 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     if (!hand.tool) continue;
     state.instrument = hand.tool->instrument;
     with.rods = tray_[state.instrument];
+    if (cutting_) with.lifted = cutting_->lifted(*hand.tool);
     solids_->follow(state, with, state_);
   }
   for (const Hand& hand : hands) {
@@ -415,6 +420,46 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     tell_solid_touches(with, hand, bones.step);
     wound_solids(hand, bones);
   }
+  if (cutting_) cut_solids(all, bones.step);
+}
+
+void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step) {
+  cutting_->step(state_, hands, step_s_, step);
+  for (const SolidCutting::News& news : cutting_->news()) {
+    constexpr double kMm3 = 1e9;
+    Event event;
+    event.hand = news.piece ? kNoHand : static_cast<std::uint8_t>(news.hand);
+    event.kind = news.piece ? kSoftPiece : kSoftCut;
+    event.subject = setup_->solids[news.solid].soft;
+    if (news.piece)
+      event.values = {kMm3 * news.volume_m3, 0, 0};
+    else
+      event.values = {news.force_n, 0, kMm3 * news.volume_m3};
+    tell(event, solids_->X_WB(news.solid) * news.p_B);
+  }
+}
+
+SoftState SoftWorld::save() const {
+  SoftState out = state_;
+  if (cutting_) out.cut = cutting_->save();
+  return out;
+}
+
+double SoftWorld::removed_m3(std::size_t solid) const {
+  return cutting_ ? cutting_->removed_m3(solid) : 0;
+}
+std::uint32_t SoftWorld::pieces(std::size_t solid) const {
+  return cutting_ ? cutting_->pieces(solid) : 0;
+}
+
+// A state from before solids could be cut has none.
+void SoftWorld::restore_cuts(const SoftState& state) {
+  state_.cut = nullptr;
+  if (!cutting_) return;
+  if (state.cut)
+    cutting_->restore(*state.cut);
+  else
+    cutting_->clear();
 }
 
 bool SoftWorld::is_asleep(std::size_t solid) const {
@@ -428,6 +473,7 @@ SoftPushes SoftWorld::pushes() const {
     if (is_felt(bends_[i].band)) out.bends[out.bend_count++] = bends_[i];
   for (std::uint32_t b = 0; b < setup_->bands.size(); ++b)
     if (state_.bands[b].torn) out.breaks[out.break_count++] = {b, state_.bands[b].torn_share};
+  if (cutting_) cutting_->show(out.cuts);
   return out;
 }
 
@@ -492,11 +538,12 @@ std::uint64_t SoftWorld::hash() const {
     for (const BandTouch& touch : hand.touches) add_to(h, touch);
   }
   if (solids_) add_solids_to(h, state_);
+  if (cutting_) h.add(cutting_->hash());
   return h.value();
 }
 
 bool SoftWorld::fits(const SoftState& state) const {
-  if (!state.on) return false;
+  if (!state.on || (state.cut && !(cutting_ && cutting_->fits(*state.cut)))) return false;
   for (const BandState& band : state.bands)
     if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
   for (const SoftHandState& hand : state.hands) {
@@ -518,6 +565,11 @@ bool SoftWorld::fits(const SoftState& state) const {
 }
 
 void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
+  put(state, epoch);
+  restore_cuts(state);
+}
+
+void SoftWorld::put(const SoftState& state, std::uint32_t epoch) {
   state_ = state;
   epoch_ = epoch;
   bend_count_ = 0;
@@ -526,7 +578,12 @@ void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
 }
 
 void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
-  restore(state, epoch);
+  put(state, epoch);
+  if (cutting_ && state.cut)
+    cutting_->go_back(*state.cut);
+  else
+    restore_cuts(state);
+  state_.cut = nullptr;
   state_.hands = {};
   state_.solid_hands = {};
 }

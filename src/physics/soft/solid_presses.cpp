@@ -68,10 +68,15 @@ Capsule SolidPresses::in_bone(std::size_t solid, const SolidHand& hand, std::siz
   return {X_BP * rod.p0, X_BP * rod.p1, rod.radius};
 }
 
+Vec3 SolidPresses::middle(const SolidNear& near, const SolidHand& hand) const {
+  return axis_middle(in_bone(near.contact.solid, hand, near.contact.part));
+}
+
 // False: the part has gone.
 bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   SolidContact& contact = near.contact;
-  const FieldView field(*solids_[contact.solid].field);
+  if (hand.lifted >> contact.part & 1) return false;
+  const FieldView field = view(contact.solid);
   const Capsule part = in_bone(contact.solid, hand, contact.part);
   Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - axis_middle(part));
   const CapsuleContact c = near.barred ? field_contact(field, part) : lead_outside(field, part, o);
@@ -81,19 +86,22 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   near.touching = near.deep_m > 0;
   near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
   near.outside_B = axis_middle(part) + o;
+  near.entered_m = std::clamp(near.entered_m, 0.0, std::max(0.0, near.deep_m));
   contact.p_B = c.p_A;
+  if (near.entered_m > 0) contact.p_B -= near.entered_m * c.nhat_AB_A;
   contact.nhat_B = c.nhat_AB_A;
   contact.along = along_of(shifted_part(part, o), c.p_axis_A);
   return true;
 }
 
 void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
-  const FieldView field(*solids_[solid].field);
+  const FieldView field = view(solid);
   for (std::size_t part = 0; part < hand.rods.size(); ++part) {
     if (state.count == kMaxSolidContacts) return;
     const auto is_it = [&](const SolidNear& near) {
       return near.contact.solid == solid && near.contact.part == part;
     };
+    if (hand.lifted >> part & 1) continue;
     if (std::any_of(state.near.begin(), state.near.begin() + state.count, is_it)) continue;
     const Capsule part_B = in_bone(solid, hand, part);
     if (!is_by(field.box(), part_B)) continue;
@@ -136,7 +144,7 @@ void SolidPresses::follow(SolidHandState& state, const SolidHand& hand,
 
 double SolidPresses::others(const SolidNear& near, const SolidPush& push,
                             const SoftState& all) const {
-  const PressedSolid& body = *solids_[near.contact.solid].body;
+  const PressedSolid& body = this->body(near.contact.solid);
   double sum = 0;
   for (const SolidHandState& hand : all.solid_hands)
     for (std::uint32_t i = 0; i < hand.count; ++i) {
@@ -155,7 +163,7 @@ void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState
     SolidContact& contact = near.contact;
     near.force_n = 0;
     if (near.barred || near.behind) continue;
-    const PressedSolid& body = *solids_[contact.solid].body;
+    const PressedSolid& body = this->body(contact.solid);
     const SolidPush push = body.push_at(contact.p_B, contact.nhat_B);
     const double compliance = body.compliance(push, push);
     contact.stiffness_n_per_m = compliance > 0 ? 1 / compliance : 0;
@@ -186,9 +194,17 @@ SoftPushes SolidPresses::pushes(const SoftState& all) const {
   for (const SolidHandState& hand : all.solid_hands)
     for (std::uint32_t i = 0; i < hand.count; ++i) {
       const SolidNear& near = hand.near[i];
-      if (near.force_n > 0)
-        out.all[out.count++] = {near.contact.solid, near.contact.p_B, near.contact.nhat_B,
-                                near.force_n};
+      const SolidContact& contact = near.contact;
+      if (!(near.force_n > 0)) continue;
+      double force_n = near.force_n;
+      if (bodies_[contact.solid]) {  // of a whole one, which is drawn, what moves it as far
+        const PressedSolid& whole = *solids_[contact.solid].body;
+        const SolidPush push = whole.push_at(contact.p_B, contact.nhat_B);
+        const double yields = whole.compliance(push, push);
+        if (yields > 0 && contact.stiffness_n_per_m > 0)
+          force_n /= yields * contact.stiffness_n_per_m;
+      }
+      out.all[out.count++] = {contact.solid, contact.p_B, contact.nhat_B, force_n};
     }
   return out;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "osteon/collide/field_view.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/soft_pushes.h"
@@ -14,6 +17,7 @@ namespace osteon {
 struct SolidHand {
   const ToolState* tool = nullptr;  ///< null: it touches nothing
   std::span<const Capsule> rods;    ///< of the tool
+  std::uint64_t lifted = 0;         ///< which of them are out of the way
   std::array<double, kMaxSolids> force_n{}, deep_m{};
   std::array<Vec3, kMaxSolids> p_W{};  ///< where it is pressed, of the last part
 };
@@ -29,6 +33,18 @@ class SolidPresses {
   SolidPresses(const std::vector<SoftSolid>& solids, double coupling_n_per_m)
       : solids_(solids), coupling_n_per_m_(coupling_n_per_m) {}
 
+  /// What cuts have left of a solid: its holes, and what it is like now. Nulls: it is whole.
+  void set_cut(std::size_t solid, const CutField* holes, std::shared_ptr<const PressedSolid> body) {
+    holes_[solid] = holes;
+    bodies_[solid] = std::move(body);
+  }
+  Pose X_WB(std::size_t solid) const { return X_WB_[solid]; }
+  /// Middle of the axis of the part that is near, where it is.
+  Vec3 middle(const SolidNear& near, const SolidHand& hand) const;
+  const PressedSolid& body(std::size_t solid) const {
+    return bodies_[solid] ? *bodies_[solid] : *solids_[solid].body;
+  }
+
   /// Follows one hand's parts. False of a solid whose bone has no pose that is a number.
   bool place(std::size_t solid, const BoneSnapshot& bones);
   void follow(SolidHandState& state, const SolidHand& hand, const SoftState& all) const;
@@ -39,6 +55,7 @@ class SolidPresses {
   SoftPushes pushes(const SoftState& all) const;
 
  private:
+  FieldView view(std::size_t solid) const { return {*solids_[solid].field, holes_[solid]}; }
   Capsule in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
   bool keep(SolidNear& near, const SolidHand& hand) const;
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
@@ -47,6 +64,8 @@ class SolidPresses {
   const std::vector<SoftSolid>& solids_;
   double coupling_n_per_m_;
   std::array<Pose, kMaxSolids> X_WB_{};
+  std::array<const CutField*, kMaxSolids> holes_{};
+  std::array<std::shared_ptr<const PressedSolid>, kMaxSolids> bodies_{};
 };
 
 }  // namespace osteon

@@ -26,12 +26,14 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
   const auto breaks = first_of(pushes.breaks, pushes.break_count);
   const Kept nothing;
   const Kept& last = kept_.empty() ? nothing : kept_.back();
-  if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks))
+  if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks) &&
+      pushes.cuts == last.cuts)
     return;
   kept_.push_back({time_s,
                    {all.begin(), all.end()},
                    {bends.begin(), bends.end()},
-                   {breaks.begin(), breaks.end()}});
+                   {breaks.begin(), breaks.end()},
+                   pushes.cuts});
 }
 
 SoftPushes PushHistory::at(double time_s) const {
@@ -43,6 +45,7 @@ SoftPushes PushHistory::at(double time_s) const {
   std::copy(kept.all.begin(), kept.all.end(), out.all.begin());
   std::copy(kept.bends.begin(), kept.bends.end(), out.bends.begin());
   std::copy(kept.breaks.begin(), kept.breaks.end(), out.breaks.begin());
+  out.cuts = kept.cuts;
   out.count = static_cast<std::uint32_t>(kept.all.size());
   out.bend_count = static_cast<std::uint32_t>(kept.bends.size());
   out.break_count = static_cast<std::uint32_t>(kept.breaks.size());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "osteon/scene/soft_pushes.h"
@@ -23,6 +25,7 @@ class PushHistory {
     std::vector<SoftPushes::One> all;
     std::vector<StringBend> bends;
     std::vector<BandBreak> breaks;
+    std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts;
   };
   std::vector<Kept> kept_;
   double due_s_ = 0;  ///< of the next that is looked at

@@ -118,13 +118,17 @@ Result<void> add_ligaments(const Case& the_case, std::span<const std::string> na
 }
 
 Result<void> add_menisci(const Case& the_case, std::span<const std::string> names,
-                         const TissueTable& tissues, SoftSetup& setup) {
+                         const TissueTable& tissues, std::span<const std::string> tray,
+                         SoftSetup& setup) {
   if (names.empty()) return {};
   const auto meniscus = tissue_named(tissues, "meniscus");
   if (!meniscus) return tl::unexpected(meniscus.error());
   auto made = make_soft_solids(the_case, names, (*meniscus)->stiffness_n_per_m.value);
   if (!made) return tl::unexpected(made.error());
   add_solids(setup, std::move(*made));
+  auto cutters = make_solid_cutters(tray);
+  if (!cutters) return tl::unexpected(cutters.error());
+  add_cutters(setup, std::move(*cutters), (*meniscus)->cutting_n.value);
   setup.friction.solid = ratios_of(**meniscus);
   return {};
 }
@@ -142,7 +146,7 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   SoftSetup setup;
   if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
-  if (auto done = add_menisci(the_case, menisci, *tissues, setup); !done)
+  if (auto done = add_menisci(the_case, menisci, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
   add_friction(setup, SoftFriction(setup.friction));
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)

@@ -38,6 +38,8 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
   SoftJson out{{"name", part.name}, {"peak_force_n", part.peak_force_n}};
   if (part.is_solid) {
     out["deepest_mm"] = part.deepest_mm;
+    out["removed_mm3"] = part.removed_mm3;
+    out["pieces"] = part.pieces;
   } else {
     out["first_tension_n"] = part.first_tension_n;
     out["peak_tension_n"] = part.peak_tension_n;
@@ -50,15 +52,17 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
 
 const char* state_of(const SoftReport::Part& part) {
   if (part.lost) return ", lost";
-  return part.whole ? "" : ", torn";
+  if (part.whole) return "";
+  return part.is_solid ? ", cut" : ", torn";
 }
 
 std::string soft_part_text(const SoftReport::Part& part) {
   char line[200];
   if (part.is_solid)
-    std::snprintf(line, sizeof line, "%-14s touched %.3f s, peak %.2f N, gave way %.2f mm%s\n",
+    std::snprintf(line, sizeof line,
+                  "%-14s touched %.3f s, peak %.2f N, gave way %.2f mm, lost %.1f mm3%s\n",
                   part.name.c_str(), part.contact_s, part.peak_force_n, part.deepest_mm,
-                  state_of(part));
+                  part.removed_mm3, state_of(part));
   else
     std::snprintf(line, sizeof line,
                   "%-14s touched %.3f s, peak %.2f N, tension %.1f to %.1f N%s\n",
@@ -139,6 +143,9 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
   for (std::size_t s = 0; s < softs->setup().solids.size(); ++s) {
     report.parts[bands + s].name = softs->setup().solids[s].name;
     report.parts[bands + s].is_solid = true;
+    report.parts[bands + s].removed_mm3 = 1e9 * softs->removed_m3(s);
+    report.parts[bands + s].pieces = softs->pieces(s);
+    report.parts[bands + s].whole = !(report.parts[bands + s].removed_mm3 > 0);
     report.parts[bands + s].lost = softs->state().solid_lost[s];
   }
   for (std::size_t b = 0; b < bands; ++b) {

@@ -18,10 +18,12 @@ struct SoftReport {
     double peak_tension_n = 0;  ///< of the whole part, by bones and hands
     double first_tension_n = 0;
     double contact_s = 0;
-    bool is_solid = false;  ///< it has no tension
-    double deepest_mm = 0;  ///< of a solid: how far it gave way
-    bool whole = true;      ///< at the end; torn by a finding or in the run: false
-    bool lost = false;      ///< it could not be solved
+    bool is_solid = false;     ///< it has no tension
+    double deepest_mm = 0;     ///< of a solid: how far it gave way
+    double removed_mm3 = 0;    ///< of a solid: by cuts
+    std::uint32_t pieces = 0;  ///< that came off
+    bool whole = true;         ///< at the end; torn by a finding or in the run: false
+    bool lost = false;         ///< it could not be solved
   };
   std::vector<Part> parts;
   std::vector<Event> events;          ///< codes 100 to 199

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/carve/cutter.h"
+#include "osteon/scene/tool.h"
+
+namespace osteon {
+
+/// What an instrument of the tray does to a soft solid.
+struct SolidCutter {
+  enum class Way : std::uint8_t {
+    kSlice,  ///< an edge: opens a slit where it is pressed hard enough, as far as it is drawn
+    kBite,   ///< jaws: take what is between them, when they shut
+    kShave   ///< under power: takes what is before its window, the faster the harder it is pressed
+  };
+  Way way = Way::kSlice;
+  Cutter cutter;
+  Vec3 flat_T = Vec3::Zero();  ///< of an edge: across the blade
+  std::uint64_t works = 0;     ///< which of tool_rods() do it, bit by bit
+  std::uint64_t lifts = 0;     ///< which are out of the way while the jaws are open
+};
+
+/// A blade's slit is at least so wide.
+inline constexpr double kLeastSlit_m = 0.00045;
+
+/// A tool with a thin part near its tip; none: it has no edge.
+std::optional<SolidCutter> slicing_with(const Tool& tool);
+/// Of each name of a tray ("scalpel_11", "shaver:4.2"); none: it does not cut. Fails where the
+/// instruments cannot be read.
+Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
+    std::span<const std::string> tray);
+
+}  // namespace osteon

@@ -1,0 +1,158 @@
+#include "osteon/physics/solid_cutter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/scene/instrument.h"
+#include "osteon/scene/tool_rods.h"
+#include "osteon/scene/tool_set.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kBladeReach_m = 0.03;  // from the tip: so much of a tool is sharp at most
+constexpr double kThin_m = 0.0005;      // half of a blade
+constexpr double kShaves_m = 0.012;     // from the tip: the window
+
+void add_box(CutterPart& part, const Pose& X_TB, const Vec3& half) {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 n = X_TB.rotate(Vec3::Unit(k));
+    part.planes.push_back({n, n.dot(X_TB.p) + half[k]});
+    part.planes.push_back({-n, -n.dot(X_TB.p) + half[k]});
+  }
+  for (int c = 0; c < 8; ++c)
+    part.box.include(X_TB * Vec3((c & 1 ? 1 : -1) * half.x(), (c & 2 ? 1 : -1) * half.y(),
+                                 (c & 4 ? 1 : -1) * half.z()));
+}
+
+std::uint64_t bit(std::size_t part) { return part < 64 ? std::uint64_t{1} << part : 0; }
+
+bool is_jaw(const FeltPart& part) {
+  return std::visit([](const auto& p) { return p.jaw != Jaw::kNone; }, part);
+}
+
+// What the jaw that turns sweeps as it shuts onto the other: as wide and as long as it is, from the
+// other's face up to where it stands wide open.
+std::optional<SolidCutter> biting_with(const Instrument& instrument, const Tool& tool,
+                                       double size_m) {
+  SolidCutter out;
+  out.way = SolidCutter::Way::kBite;
+  out.cutter.name = "bite";
+  out.cutter.size_m = size_m;
+  out.cutter.bites = true;
+  const Primitive *jaw = nullptr, *foot = nullptr;
+  for (std::size_t i = 0; i < instrument.felt.size(); ++i) {
+    const Primitive& part = tool.parts[i];
+    if (part.kind != Primitive::Kind::kBox || part.middle.norm() > kBladeReach_m) continue;
+    out.works |= bit(i);
+    if (is_jaw(instrument.felt[i])) {
+      jaw = jaw ? jaw : &part;
+      out.lifts |= bit(i);
+    } else {
+      foot = foot ? foot : &part;
+    }
+  }
+  if (!jaw || !foot || !instrument.jaws) return {};
+  const Vec3 hinge = instrument.jaws->hinge.at(size_m);
+  const Vec3 across = instrument.jaws->axis;
+  const Vec3 lifts =
+      (jaw->X_TB.p - foot->X_TB.p - across.dot(jaw->X_TB.p - foot->X_TB.p) * across).normalized();
+  // Between the jaws, from the foot's face on, behind the plane in which the jaw stands open.
+  const Vec3 along = across.cross(lifts);
+  const Mat3 axes = (Mat3() << across, lifts, along).finished();
+  const double face = support(*foot, lifts) - lifts.dot(hinge);
+  const double height = 2 * jaw->half.maxCoeff();
+  Vec3 half(std::min(support(*jaw, across) - across.dot(jaw->X_TB.p),
+                     support(*foot, across) - across.dot(foot->X_TB.p)),
+            0.5 * height, 0.5 * (support(*jaw, along) + support(*jaw, -along)));
+  Vec3 middle = jaw->X_TB.p;
+  middle += (lifts.dot(hinge) + face + 0.5 * height - lifts.dot(middle)) * lifts;
+  CutterPart part;
+  add_box(part, {middle, Quat(axes)}, half);
+  const double open =
+      std::max(std::abs(instrument.jaws->open_rad[0]), std::abs(instrument.jaws->open_rad[1]));
+  const double way = along.dot(middle - hinge) > 0 ? 1 : -1;
+  const Vec3 n = std::cos(open) * lifts - std::sin(open) * way * along;
+  part.planes.push_back({n, n.dot(hinge)});
+  out.cutter.parts = {part};
+  return out;
+}
+
+Result<std::optional<SolidCutter>> shaving_with(const Instrument& instrument, const Tool& tool,
+                                                double size_m) {
+  auto cutter = make_cutter(instrument.removal->cutter, size_m);
+  if (!cutter) return tl::unexpected(cutter.error());
+  SolidCutter out;
+  out.way = SolidCutter::Way::kShave;
+  out.cutter = std::move(*cutter);
+  const double back = instrument.removal->back_plus_m + instrument.removal->back_per_size * size_m;
+  for (CutterPart& part : out.cutter.parts) {
+    for (RoundRod& rod : part.rods) {
+      rod.p0.z() += back;
+      rod.p1.z() += back;
+    }
+    for (Plane& plane : part.planes) plane.d += back * plane.n.z();
+    part.box.lo.z() += back;
+    part.box.hi.z() += back;
+  }
+  const auto rods = tool_rods(tool);
+  for (std::size_t i = 0; i < rods.size(); ++i)
+    if (std::min(rods[i].p0.norm(), rods[i].p1.norm()) < kShaves_m) out.works |= bit(i);
+  return std::optional<SolidCutter>(std::move(out));
+}
+
+Result<std::optional<SolidCutter>> cutter_of(const Instrument& instrument, std::size_t size) {
+  const Tool tool = make_tool(instrument, size);
+  const double size_m = instrument.sizes_m[size];
+  if (instrument.removal && instrument.removal->way == RemovalWay::kBurr)
+    return shaving_with(instrument, tool, size_m);
+  if (!instrument.can(InstrumentFunction::kCut)) return std::optional<SolidCutter>();
+  if (instrument.jaws && instrument.can(InstrumentFunction::kRemove))
+    return biting_with(instrument, tool, size_m);
+  return slicing_with(tool);
+}
+
+}  // namespace
+
+std::optional<SolidCutter> slicing_with(const Tool& tool) {
+  SolidCutter out;
+  out.cutter.name = "edge";
+  for (std::size_t i = 0; i < tool.parts.size(); ++i) {
+    const Primitive& part = tool.parts[i];
+    Eigen::Index thin = 0;
+    if (part.kind != Primitive::Kind::kBox || part.half.minCoeff(&thin) > kThin_m ||
+        part.middle.norm() > kBladeReach_m)
+      continue;
+    Vec3 half = part.half;
+    half[thin] = std::max(half[thin], 0.5 * kLeastSlit_m);
+    out.cutter.size_m = std::max(out.cutter.size_m, 2 * part.half.maxCoeff());
+    out.cutter.parts.emplace_back();
+    add_box(out.cutter.parts.back(), part.X_TB, half);
+    out.flat_T = part.X_TB.rotate(Vec3::Unit(thin));
+    out.works |= bit(i);
+  }
+  if (out.works == 0) return {};
+  return out;
+}
+
+Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
+    std::span<const std::string> tray) {
+  std::vector<std::optional<SolidCutter>> out(tray.size());
+  if (tray.empty()) return out;
+  const auto instruments = load_instruments();
+  if (!instruments) return tl::unexpected(instruments.error());
+  for (std::size_t i = 0; i < tray.size(); ++i) {
+    const auto named = parse_tool_name(tray[i]);
+    const Instrument* found = find_instrument(*instruments, tray[i].substr(0, tray[i].find(':')));
+    if (!named || !found) continue;
+    const auto size = named->size_mm ? find_size(*found, *named->size_mm)
+                                     : std::optional<std::size_t>(found->usual_size);
+    if (!size) return fail("the instrument has no such size", tray[i]);
+    auto cutter = cutter_of(*found, *size);
+    if (!cutter) return tl::unexpected(cutter.error());
+    out[i] = std::move(*cutter);
+  }
+  return out;
+}
+
+}  // namespace osteon

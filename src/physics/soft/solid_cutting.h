@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "osteon/carve/carved_field.h"
+#include "osteon/carve/loose_pieces.h"
+#include "osteon/collide/cut_field.h"
+#include "osteon/physics/soft_cut_state.h"
+#include "osteon/physics/soft_setup.h"
+#include "osteon/physics/soft_state.h"
+#include "osteon/tissue/cut_solid_work.h"
+#include "soft/solid_cells.h"
+#include "soft/solid_presses.h"
+
+namespace osteon {
+
+/// Soft solids that instruments cut, at the physics' rate. What is left is a carved field: hands
+/// feel a hole in the next step. The solid's stiffness is that of the cells that are left, made
+/// anew over some hundred steps after a cut; how far that work is belongs to the state. A function
+/// of the state and of the tools, bit by bit.
+///
+/// An edge goes in where it is pressed harder than the solid's cutting force, by as much as holds
+/// the push at that force. What is between jaws is gone when they shut. A shaver's window goes on
+/// by a speed that grows with the push. Allocates in steps in which something changes, not in
+/// others.
+class SolidCutting {
+ public:
+  /// A cut into a solid, or a piece that has come off.
+  struct News {
+    std::uint32_t solid = 0;
+    std::size_t hand = 0;
+    bool piece = false;
+    double force_n = 0, volume_m3 = 0;
+    Vec3 p_B = Vec3::Zero();
+  };
+
+  SolidCutting(const SoftSetup& setup, SolidPresses& presses);
+
+  /// Parts of the tool that are out of the way.
+  std::uint64_t lifted(const ToolState& tool) const;
+  /// After all hands have pressed.
+  void step(SoftState& state, std::span<const SolidHand> hands, double step_s, std::uint64_t step);
+  std::span<const News> news() const { return news_; }
+  double removed_m3(std::size_t solid) const;
+  std::uint32_t pieces(std::size_t solid) const;
+  void show(std::array<std::shared_ptr<const CarveState>, kMaxSolids>& cuts) const;
+
+  std::uint64_t hash() const;
+  std::shared_ptr<const SoftCutState> save() const;
+  bool fits(const SoftCutState& state) const;
+  void restore(const SoftCutState& state);
+  /// As restore, but the stiffness follows in the next steps, so that it takes no time now.
+  void go_back(const SoftCutState& state);
+  void clear();
+
+ private:
+  struct Solid {
+    explicit Solid(CarvedField carved) : field(std::move(carved)) {}
+    mutable CarvedField field;  ///< it keeps the hashes of its blocks
+    std::unique_ptr<CutField> holes;
+    std::unique_ptr<LoosePieces> loose;
+    std::unique_ptr<SolidCells> cells;
+    std::shared_ptr<const PressedSolid> body;  ///< null: whole
+    std::vector<CutCell> felt, next, whole;
+    std::unique_ptr<CutSolidWork> work;
+    std::uint64_t felt_hash = 0, next_hash = 0;
+    std::uint64_t worked = 0, seen = 0, looked = 0, told = 0;
+    std::uint32_t pieces = 0;
+    std::shared_ptr<const CarveState> shown;
+  };
+  struct Stroke;
+
+  const SolidCutter* cutter(std::uint32_t instrument) const;
+  bool presses_most(const SolidHandState& state, const SolidCutter& with, std::uint32_t& at) const;
+  void cut_with(SoftState& state, std::size_t hand, const SolidHand& with, double step_s);
+  void slice(const Stroke& stroke);
+  void shave(const Stroke& stroke, double power, double step_s);
+  void bite(const Stroke& stroke);
+  double remove(std::uint32_t solid, const Cutter& cutter, const Pose& from, const Pose& to);
+  void tell(const Stroke& stroke, double volume_m3);
+  void catch_up(std::uint32_t solid);
+  void drop_pieces(std::uint32_t solid);
+  void follow_stiffness(Solid& solid, std::uint32_t index);
+  void put_cuts(std::uint32_t solid, const SolidCutState& from);
+  void feel(std::uint32_t solid);
+  static void set(std::vector<CutCell>& cells, std::uint64_t& hash, std::vector<CutCell> now);
+
+  const SoftSetup& setup_;
+  SolidPresses& presses_;
+  std::vector<Solid> solids_;
+  std::array<SolidCutHand, kMaxHands> hands_{};
+  std::vector<News> news_;
+};
+
+}  // namespace osteon

@@ -1,0 +1,296 @@
+// A meniscus that is cut in a session: a block on a bone, with the shipped punch, shaver and blade.
+#include <gtest/gtest.h>
+
+#include "osteon/base/random.h"
+#include "osteon/carve/carved_surface.h"
+#include "osteon/mesh/measure.h"
+#include "osteon/physics/soft_cut_state.h"
+#include "osteon/physics/soft_shape.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/instrument.h"
+#include "osteon/scene/soft_events.h"
+#include "soft_solid_fixtures.h"
+
+namespace osteon {
+namespace {
+
+using testing::kMeniscus_n_per_m;
+using testing::kMeniscusHalf;
+
+enum : std::uint32_t { kBall, kShaver, kPunch, kBlade };
+
+struct CutRun : testing::MeniscusRun {
+  CutRun() {
+    settings.tray = {"ball", "shaver", "basket_punch", "scalpel_11"};
+    const auto instruments = load_instruments();
+    EXPECT_TRUE(instruments);
+    for (std::size_t i = 1; i < settings.tray.size(); ++i) {
+      const Instrument* found = find_instrument(*instruments, settings.tray[i]);
+      tray.push_back(std::make_shared<const Tool>(make_tool(*found, found->usual_size)));
+    }
+    SoftSetup setup = *softs;
+    auto cutters = make_solid_cutters(settings.tray);
+    EXPECT_TRUE(cutters) << cutters.error().message();
+    if (cutters) add_cutters(setup, std::move(*cutters), 6);
+    settings.soft_hash = setup.hash;
+    softs = std::make_shared<const SoftSetup>(std::move(setup));
+  }
+};
+
+const CutRun& cut_run() {
+  static const CutRun run;
+  return run;
+}
+
+// Axes of the tool in World by columns: x, y, z.
+Quat axes(const Vec3& y_W, const Vec3& z_W) {
+  return Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
+}
+// The shaver lies with its window down, its shaft along x. The punch comes from +x, its jaw above.
+const Quat kWindowDown = axes({0, 0, -1}, {1, 0, 0}), kFromEnd = axes({0, 0, 1}, {1, 0, 0});
+// The blade stands upright and is drawn along y.
+const Quat kUpright = axes({-1, 0, 0}, {0, 0, 1});
+
+struct Hand {
+  Session& session;
+  Vec3 at = Vec3(0.022, 0, 0.012);
+  Quat q = Quat::Identity();
+  std::vector<Event> events;
+  Recording* into = nullptr;
+
+  void tick(const Command& command = {}) {
+    ToolInput input;
+    input.X_WD = {at, q};
+    (void)session.tick(input, command);
+    for (const Event& event : session.last_events()) events.push_back(event);
+    if (!into) return;
+    into->ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
+  }
+  void take(std::uint32_t instrument, const Quat& pose, const Vec3& from) {
+    at = from;
+    q = pose;
+    tick({CommandKind::kTake, static_cast<double>(instrument)});
+  }
+  void move(const Vec3& to, int ticks) {
+    const Vec3 from = at;
+    for (int n = 1; n <= ticks; ++n) {
+      at = from + n / static_cast<double>(ticks) * (to - from);
+      tick();
+    }
+  }
+  void rest(int ticks) { move(Vec3(at), ticks); }
+  std::size_t count(EventKind kind) const {
+    std::size_t sum = 0;
+    for (const Event& event : events) sum += event.kind == kind ? 1 : 0;
+    return sum;
+  }
+};
+
+double removed_mm3(const Session& session) { return 1e9 * session.softs()->removed_m3(0); }
+
+void bite(Hand& hand) {
+  hand.take(kPunch, kFromEnd, {0.022, 0, -0.0033});
+  hand.tick({CommandKind::kJaw, 1});
+  hand.move({0.007, 0, -0.0033}, 200);
+  hand.tick({CommandKind::kJaw, 0});
+  hand.rest(10);
+}
+
+// What is left, as it is drawn.
+TriMesh drawn(const CutRun& run, const Session& session) {
+  SoftShapes shapes(*run.the_case, run.softs);
+  SoftPushes pushes = session.softs()->pushes();
+  pushes.count = 0;
+  auto changed = shapes.changes(pushes);
+  return changed.empty() ? run.the_case->softs[0].mesh_W : std::move(changed[0].mesh_W);
+}
+
+TEST(SoftCut, APunchTakesWhatIsBetweenItsJaws) {
+  Session session = cut_run().session();
+  Hand hand{session};
+  bite(hand);
+  // As wide as the narrower jaw, 5 mm from the end, through the whole height.
+  const double closed_mm3 = 2 * 0.38 * 3.4 * 5 * 6;
+  EXPECT_NEAR(removed_mm3(session), closed_mm3, 0.01 * closed_mm3);
+  ASSERT_EQ(hand.count(kSoftCut), 1u);
+  const auto told = std::find_if(hand.events.begin(), hand.events.end(),
+                                 [](const Event& event) { return event.kind == kSoftCut; });
+  EXPECT_EQ(told->subject, 0u);
+  EXPECT_NEAR(told->values[2], closed_mm3, 0.05 * closed_mm3);
+  hand.move({0.022, 0, -0.0033}, 100);
+  const TriMesh mesh = drawn(cut_run(), session);
+  EXPECT_TRUE(topology(mesh).closed());
+  EXPECT_NEAR(1e9 * volume(mesh), 24 * 16 * 6 - closed_mm3, 0.01 * closed_mm3 + 2);
+  // A ball goes through the gap, and is not felt there.
+  hand.take(kBall, Quat::Identity(), {0.010, 0, 0.008});
+  hand.move({0.010, 0, -0.001}, 300);
+  EXPECT_EQ(session.tool_state().force_W, Vec3(0, 0, 0));
+}
+
+TEST(SoftCut, AJawThatStaysShutOrOpenTakesNothing) {
+  Session session = cut_run().session();
+  Hand hand{session};
+  for (const double jaw : {1.0, 0.0}) {
+    const double z = jaw > 0 ? -0.0033 : -0.006;
+    hand.take(kPunch, kFromEnd, {0.022, 0, z});
+    hand.tick({CommandKind::kJaw, jaw});
+    hand.move({0.010, 0, z}, 100);
+    hand.move({0.022, 0, z}, 100);
+  }
+  EXPECT_EQ(removed_mm3(session), 0);
+}
+
+TEST(SoftCut, AShaverGoesInWhileItRunsAndTheHandSinksIn) {
+  Session session = cut_run().session();
+  Hand hand{session};
+  const double r = 0.0021, top = kMeniscusHalf.z() + r;
+  hand.take(kShaver, kWindowDown, {0, 0, top + 0.001});
+  hand.move({0, 0, top - 0.001}, 300);
+  hand.rest(300);
+  EXPECT_EQ(removed_mm3(session), 0);
+  const double before = session.tool_state().force_W.norm();
+  EXPECT_GT(before, 0.5);
+  hand.tick({CommandKind::kPower, 1});
+  hand.rest(2500);
+  EXPECT_LT(session.tool_state().force_W.norm(), 0.2 * before);
+  EXPECT_GT(removed_mm3(session), 3);
+  EXPECT_GE(hand.count(kSoftCut), 1u);
+  const TriMesh mesh = drawn(cut_run(), session);
+  EXPECT_TRUE(topology(mesh).closed());
+  EXPECT_NEAR(1e9 * volume(mesh) + removed_mm3(session), 24 * 16 * 6, 2);
+}
+
+// Pressed by 5 mm the edge goes in until the push is a third of the table's force, and a stroke
+// opens a slit as wide as the blade.
+TEST(SoftCut, ABladeGoesInAtItsForceAndSlitsAlongItsStroke) {
+  Session session = cut_run().session();
+  Hand hand{session};
+  const double top = kMeniscusHalf.z();
+  hand.take(kBlade, kUpright, {0, -0.003, top + 0.002});
+  hand.move({0, -0.003, top - 0.005}, 400);
+  EXPECT_LT(std::abs(session.tool_state().force_W.z()), 3);
+  EXPECT_GT(std::abs(session.tool_state().force_W.z()), 1);
+  hand.move({0, 0.003, top - 0.005}, 400);
+  const double slit = removed_mm3(session);
+  EXPECT_GT(slit, 0.45 * 6 * 1);
+  EXPECT_LT(slit, 0.6 * 9 * 6);
+  EXPECT_GE(hand.count(kSoftCut), 1u);
+  EXPECT_TRUE(topology(drawn(cut_run(), session)).closed());
+}
+
+// The stiffness follows: beside a bite the block gives way more than it did.
+TEST(SoftCut, ItIsSofterBesideACut) {
+  const auto felt = [](bool cut) {
+    Session session = cut_run().session();
+    Hand hand{session};
+    if (cut) bite(hand);
+    if (cut) hand.move({0.022, 0, -0.0033}, 100);
+    const double z = testing::kBlockTop_m;
+    hand.take(kBall, Quat::Identity(), {0.009, 0.003, z + 0.004});
+    hand.move({0.009, 0.003, z - 0.001}, 1500);
+    return session.tool_state().force_W.z();
+  };
+  const double whole = felt(false), beside = felt(true);
+  EXPECT_NEAR(whole, 0.9, 0.15);
+  EXPECT_LT(beside, 0.93 * whole);
+  EXPECT_GT(beside, 0.1 * whole);
+}
+
+TEST(SoftCut, WhatIsCutOffIsGoneAndTold) {
+  Session session = cut_run().session();
+  Hand hand{session};
+  const double top = kMeniscusHalf.z();
+  hand.take(kBlade, kUpright, {0.009, -0.012, top + 0.002});
+  // Down beside the end, then across the whole block.
+  hand.move({0.009, -0.012, top - 0.009}, 300);
+  hand.move({0.009, 0.012, top - 0.009}, 2000);
+  hand.rest(100);
+  const double lost = removed_mm3(session);
+  if (hand.count(kSoftPiece) == 0) GTEST_FAIL() << "no piece; removed " << lost;
+  EXPECT_NEAR(lost, (12 - 9 + 0.25) * 16 * 6, 25);
+  EXPECT_EQ(session.softs()->pieces(0), 1u);
+}
+
+TEST(SoftCut, UndoPutsItBackAndAStateGoesOnTheSame) {
+  const CutRun& run = cut_run();
+  Session session = run.session();
+  Hand hand{session};
+  hand.rest(10);
+  hand.tick({CommandKind::kMark, 0});
+  hand.rest(10);
+  bite(hand);
+  const auto bytes = to_bytes(session.save());
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_EQ(to_bytes(*back), bytes);
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  Hand second{other, hand.at, hand.q};
+  for (Hand* h : {&hand, &second}) h->move({0.012, 0.001, -0.002}, 900);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  EXPECT_GT(removed_mm3(other), 10);
+  hand.tick({CommandKind::kRestore, 0});
+  hand.rest(10);
+  EXPECT_EQ(removed_mm3(session), 0);
+  EXPECT_EQ(session.softs()->pushes().cuts[0], nullptr);
+}
+
+// Wild hands with every instrument: the force is finite, what is drawn is closed, nothing is lost
+// but what was removed, and a replay is the same from the start and from the middle.
+TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
+  const CutRun& run = cut_run();
+  Session session = run.session();
+  Recording recording;
+  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Hand hand{session};
+  hand.into = &recording;
+  Random random(11);
+  const Quat poses[] = {kWindowDown, kFromEnd, kUpright, Quat::Identity()};
+  const auto place = [&] {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    return Vec3(0.016 * x, 0.012 * y, 0.010 * z);
+  };
+  double last = 0;
+  for (int bout = 0; bout < 40; ++bout) {
+    hand.take(static_cast<std::uint32_t>(random.next() % 4), poses[random.next() % 4], hand.at);
+    hand.tick({CommandKind::kPower, 1});
+    hand.tick({CommandKind::kJaw, 1});
+    hand.move(place(), 60);
+    hand.tick({CommandKind::kJaw, 0});
+    hand.move(place(), 60);
+    ASSERT_TRUE(is_finite(session.tool_state().force_W));
+    ASSERT_LE(session.tool_state().force_W.norm(), run.settings.haptic.max_force_n + 1e-9);
+    if (bout % 8 == 7) {
+      hand.rest(60);
+      const double removed = removed_mm3(session);
+      ASSERT_GE(removed, last - 1e-6);
+      last = removed;
+      const TriMesh mesh = drawn(run, session);
+      ASSERT_TRUE(topology(mesh).closed()) << bout;
+      ASSERT_NEAR(1e9 * volume(mesh) + removed, 24 * 16 * 6, 0.02 * removed + 3) << bout;
+    }
+    if (bout != 20) continue;
+    StoredState state;
+    state.ticks[0] = recording.ticks.size();
+    state.step = session.bones().step;
+    state.bytes = to_bytes(session.save());
+    recording.states.push_back(state);
+  }
+  recording.complete = true;
+  EXPECT_GT(last, 10);
+  ReplayOptions options;
+  options.tray = run.tray;
+  options.softs = run.softs;
+  for (const double from_s : {0.0, 1.7}) {
+    options.from_s = from_s;
+    const auto outcome = replay(recording, run.the_case, options);
+    ASSERT_TRUE(outcome) << outcome.error().message();
+    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+    EXPECT_EQ(outcome->state_hash, session.state_hash());
+  }
+}
+
+}  // namespace
+}  // namespace osteon
