@@ -565,7 +565,6 @@ void field(A& a, std::shared_ptr<const SoftCutState>& cut) {
   for (SolidCutHand& hand : state.hands) {
     field(a, hand.solid);
     field(a, hand.jaw_open);
-    field(a, hand.due_m);
     field(a, hand.X_BC);
     field(a, hand.idle);
   }

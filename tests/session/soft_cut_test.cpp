@@ -1,4 +1,4 @@
-// A meniscus that is cut in a session: a block on a bone, with the shipped punch, shaver and blade.
+// A meniscus that is cut in a session: a block on a bone, with the shipped punch and blades.
 #include <gtest/gtest.h>
 
 #include "osteon/base/random.h"
@@ -17,11 +17,11 @@ namespace {
 using testing::kMeniscus_n_per_m;
 using testing::kMeniscusHalf;
 
-enum : std::uint32_t { kBall, kShaver, kPunch, kBlade };
+enum : std::uint32_t { kBall, kRound, kPunch, kBlade };
 
 struct CutRun : testing::MeniscusRun {
   CutRun() {
-    settings.tray = {"ball", "shaver", "basket_punch", "scalpel_11"};
+    settings.tray = {"ball", "scalpel_15", "basket_punch", "scalpel_11"};
     const auto instruments = load_instruments();
     EXPECT_TRUE(instruments);
     for (std::size_t i = 1; i < settings.tray.size(); ++i) {
@@ -46,8 +46,8 @@ const CutRun& cut_run() {
 Quat axes(const Vec3& y_W, const Vec3& z_W) {
   return Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
 }
-// The shaver lies with its window down, its shaft along x. The punch comes from +x, its jaw above.
-const Quat kWindowDown = axes({0, 0, -1}, {1, 0, 0}), kFromEnd = axes({0, 0, 1}, {1, 0, 0});
+// The first lies along x. The punch comes from +x, its jaw above.
+const Quat kLying = axes({0, 0, -1}, {1, 0, 0}), kFromEnd = axes({0, 0, 1}, {1, 0, 0});
 // The blade stands upright and is drawn along y.
 const Quat kUpright = axes({-1, 0, 0}, {0, 0, 1});
 
@@ -142,27 +142,6 @@ TEST(SoftCut, AJawThatStaysShutOrOpenTakesNothing) {
   EXPECT_EQ(removed_mm3(session), 0);
 }
 
-TEST(SoftCut, AShaverGoesInWhileItRunsAndTheHandSinksIn) {
-  Session session = cut_run().session();
-  Hand hand(session);
-  const double r = 0.0021, top = kMeniscusHalf.z() + r;
-  // Its window reaches to the end of the block, so no shaft rests on it beyond.
-  hand.take(kShaver, kWindowDown, {0.006, 0, top + 0.001});
-  hand.move({0.006, 0, top - 0.001}, 300);
-  hand.rest(300);
-  EXPECT_EQ(removed_mm3(session), 0);
-  const double before = session.tool_state().force_W.norm();
-  EXPECT_GT(before, 0.5);
-  hand.tick({CommandKind::kPower, 1});
-  hand.rest(2500);
-  EXPECT_LT(session.tool_state().force_W.norm(), 0.2 * before);
-  EXPECT_GT(removed_mm3(session), 3);
-  EXPECT_GE(hand.count(kSoftCut), 1u);
-  const TriMesh mesh = drawn(cut_run(), session);
-  EXPECT_TRUE(topology(mesh).closed());
-  EXPECT_NEAR(1e9 * volume(mesh) + removed_mm3(session), 24 * 16 * 6, 4);
-}
-
 // Pressed by 5 mm the edge goes in until the push is a third of the table's force, and a stroke
 // opens a slit as wide as the blade.
 TEST(SoftCut, ABladeGoesInAtItsForceAndSlitsAlongItsStroke) {
@@ -253,13 +232,13 @@ TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
   Hand hand(session);
   hand.into = &recording;
   Random random(11);
-  const Quat poses[] = {kWindowDown, kFromEnd, kUpright, Quat::Identity()};
+  const Quat poses[] = {kLying, kFromEnd, kUpright, Quat::Identity()};
   const auto place = [&] {
     const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
     return Vec3(0.016 * x, 0.012 * y, 0.010 * z);
   };
   double last = 0;
-  for (int bout = 0; bout < 40; ++bout) {
+  for (int bout = 0; bout < 16; ++bout) {
     hand.take(static_cast<std::uint32_t>(random.next() % 4), poses[random.next() % 4], hand.at);
     hand.tick({CommandKind::kPower, 1});
     hand.tick({CommandKind::kJaw, 1});
@@ -268,7 +247,7 @@ TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
     hand.move(place(), 60);
     ASSERT_TRUE(is_finite(session.tool_state().force_W));
     ASSERT_LE(session.tool_state().force_W.norm(), run.settings.haptic.max_force_n + 1e-9);
-    if (bout % 8 == 7) {
+    if (bout % 5 == 4) {
       hand.rest(60);
       const double removed = removed_mm3(session);
       ASSERT_GE(removed, last - 1e-6);
@@ -277,7 +256,7 @@ TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
       ASSERT_TRUE(topology(mesh).closed()) << bout;
       ASSERT_NEAR(1e9 * volume(mesh) + removed, 24 * 16 * 6, 0.02 * removed + 3) << bout;
     }
-    if (bout != 20) continue;
+    if (bout != 8) continue;
     StoredState state;
     state.ticks[0] = recording.ticks.size();
     state.step = session.bones().step;
@@ -289,7 +268,7 @@ TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
   ReplayOptions options;
   options.tray = run.tray;
   options.softs = run.softs;
-  for (const double from_s : {0.0, 1.7}) {
+  for (const double from_s : {0.0, 0.9}) {
     options.from_s = from_s;
     const auto outcome = replay(recording, run.the_case, options);
     ASSERT_TRUE(outcome) << outcome.error().message();

@@ -27,7 +27,6 @@ struct SolidCutHand {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   std::uint32_t solid = kNone;  ///< that it cuts
   bool jaw_open = false;
-  double due_m = 0;        ///< shaved by the model, not yet from the field
   Pose X_BC;               ///< of the cutter, where it last cut
   std::uint32_t idle = 0;  ///< steps since it cut
 };

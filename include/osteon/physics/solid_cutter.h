@@ -16,8 +16,7 @@ namespace osteon {
 struct SolidCutter {
   enum class Way : std::uint8_t {
     kSlice,  ///< an edge: opens a slit where it is pressed hard enough, as far as it is drawn
-    kBite,   ///< jaws: take what is between them, when they shut
-    kShave   ///< under power: takes what is before its window, the faster the harder it is pressed
+    kBite    ///< jaws: take what is between them, when they shut
   };
   Way way = Way::kSlice;
   Cutter cutter;
@@ -31,8 +30,8 @@ inline constexpr double kLeastSlit_m = 0.00045;
 
 /// A tool with a thin part near its tip; none: it has no edge.
 std::optional<SolidCutter> slicing_with(const Tool& tool);
-/// Of each name of a tray ("scalpel_11", "shaver:4.2"); none: it does not cut. Fails where the
-/// instruments cannot be read.
+/// Of each name of a tray ("scalpel_11", "basket_punch:3.4"); none: it does not cut. Fails where
+/// the instruments cannot be read.
 Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
     std::span<const std::string> tray);
 

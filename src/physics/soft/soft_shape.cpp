@@ -6,6 +6,7 @@
 #include "osteon/carve/carved_surface.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
+#include "soft/solid_cutting.h"
 
 namespace osteon {
 namespace {
@@ -85,8 +86,9 @@ void SoftShapes::cut(std::size_t solid, std::shared_ptr<const CarveState> cuts) 
   shape.cuts = std::move(cuts);
   shape.mesh_W = shape.whole_W;
   if (shape.cuts) {
-    auto field = CarvedField::make(setup_->solids[solid].uncut, {},
-                                   std::max<std::size_t>(1, shape.cuts->blocks.size()));
+    auto field =
+        CarvedField::make(setup_->solids[solid].uncut, {},
+                          std::max<std::size_t>(1, shape.cuts->blocks.size()), kSolidCutAir_m);
     if (field && field->restore(*shape.cuts)) {
       auto left = carved_mesh(*field);
       shape.mesh_W = left ? std::move(*left) : TriMesh{};

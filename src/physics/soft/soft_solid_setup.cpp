@@ -9,6 +9,7 @@
 #include "osteon/physics/soft_setup.h"
 #include "osteon/scene/soft_solid.h"
 #include "soft/rim_outline.h"
+#include "soft/solid_cutting.h"
 
 namespace osteon {
 namespace {
@@ -18,7 +19,7 @@ constexpr const char* kMeniscusKind = "meniscus";
 constexpr const char* kSolidsWhere = "--soft";
 constexpr double kSolidCell_m = 0.0005, kSolidOutside_m = 0.0065, kSolidInside_m = 0.001;
 // Of the field that is cut: a blade's slit is wider, so no line of nodes leads across it.
-constexpr double kCutCell_m = 0.0003, kCutRoom_m = 0.0015;
+constexpr double kCutCell_m = 0.0003;
 constexpr double kRim_m = 0.003;  // of the outer edge, what is held
 constexpr double kUnder = -0.3;
 // The outer 10 to 30 % have vessels (Arnoczky and Warren 1982, Am J Sports Med 10:90), of a width
@@ -93,7 +94,7 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   out.field = std::make_shared<const DistanceField>(std::move(*field));
   UncutFieldOptions cut_options;
   cut_options.cell_m = kCutCell_m;
-  cut_options.room_m = kCutRoom_m;
+  cut_options.room_m = kSolidCutAir_m + 3 * kCutCell_m;
   auto uncut = UncutField::make(mesh_B, cut_options);
   if (!uncut) {
     uncut.error().where = "the meniscus '" + part.name + "'";

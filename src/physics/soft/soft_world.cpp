@@ -424,7 +424,7 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
 }
 
 void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step) {
-  cutting_->step(state_, hands, step_s_, step);
+  cutting_->step(state_, hands, step);
   for (const SolidCutting::News& news : cutting_->news()) {
     constexpr double kMm3 = 1e9;
     Event event;

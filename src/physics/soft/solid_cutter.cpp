@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "osteon/scene/instrument.h"
-#include "osteon/scene/tool_rods.h"
 #include "osteon/scene/tool_set.h"
 
 namespace osteon {
@@ -12,7 +11,6 @@ namespace {
 
 constexpr double kBladeReach_m = 0.03;  // from the tip: so much of a tool is sharp at most
 constexpr double kThin_m = 0.0005;      // half of a blade
-constexpr double kShaves_m = 0.012;     // from the tip: the window
 
 void add_box(CutterPart& part, const Pose& X_TB, const Vec3& half) {
   for (int k = 0; k < 3; ++k) {
@@ -78,35 +76,10 @@ std::optional<SolidCutter> biting_with(const Instrument& instrument, const Tool&
   return out;
 }
 
-Result<std::optional<SolidCutter>> shaving_with(const Instrument& instrument, const Tool& tool,
-                                                double size_m) {
-  auto cutter = make_cutter(instrument.removal->cutter, size_m);
-  if (!cutter) return tl::unexpected(cutter.error());
-  SolidCutter out;
-  out.way = SolidCutter::Way::kShave;
-  out.cutter = std::move(*cutter);
-  const double back = instrument.removal->back_plus_m + instrument.removal->back_per_size * size_m;
-  for (CutterPart& part : out.cutter.parts) {
-    for (RoundRod& rod : part.rods) {
-      rod.p0.z() += back;
-      rod.p1.z() += back;
-    }
-    for (Plane& plane : part.planes) plane.d += back * plane.n.z();
-    part.box.lo.z() += back;
-    part.box.hi.z() += back;
-  }
-  const auto rods = tool_rods(tool);
-  for (std::size_t i = 0; i < rods.size(); ++i)
-    if (std::min(rods[i].p0.norm(), rods[i].p1.norm()) < kShaves_m) out.works |= bit(i);
-  return std::optional<SolidCutter>(std::move(out));
-}
-
-Result<std::optional<SolidCutter>> cutter_of(const Instrument& instrument, std::size_t size) {
+std::optional<SolidCutter> cutter_of(const Instrument& instrument, std::size_t size) {
   const Tool tool = make_tool(instrument, size);
   const double size_m = instrument.sizes_m[size];
-  if (instrument.removal && instrument.removal->way == RemovalWay::kBurr)
-    return shaving_with(instrument, tool, size_m);
-  if (!instrument.can(InstrumentFunction::kCut)) return std::optional<SolidCutter>();
+  if (!instrument.can(InstrumentFunction::kCut)) return {};
   if (instrument.jaws && instrument.can(InstrumentFunction::kRemove))
     return biting_with(instrument, tool, size_m);
   return slicing_with(tool);
@@ -148,9 +121,7 @@ Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
     const auto size = named->size_mm ? find_size(*found, *named->size_mm)
                                      : std::optional<std::size_t>(found->usual_size);
     if (!size) return fail("the instrument has no such size", tray[i]);
-    auto cutter = cutter_of(*found, *size);
-    if (!cutter) return tl::unexpected(cutter.error());
-    out[i] = std::move(*cutter);
+    out[i] = cutter_of(*found, *size);
   }
   return out;
 }

@@ -12,17 +12,14 @@ namespace osteon {
 namespace {
 
 constexpr std::size_t kMostCutBlocks = 4096, kMostNews = 64;
-constexpr double kWallSlack_m = 15e-6;      // as of bone: what cut a hole moves in it
-constexpr double kShaves_m_per_ns = 0.002;  // D: 2 mm a second under 1 N
-constexpr double kLeastShave_m = 1e-5;
-constexpr double kSharp = 1.0 / 3;  // D: an edge needs so much of the table's force
+constexpr double kWallSlack_m = 15e-6;  // as of bone: what cut a hole moves in it
+constexpr double kSharp = 1.0 / 3;      // D: an edge needs so much of the table's force
 constexpr double kLightest_n = 0.05;
 constexpr double kAcross = 0.7;             // a blade that lies flat does not cut
 constexpr std::uint32_t kStrokeEnds = 100;  // steps without a cut
 constexpr double kJawOpen = 0.5, kJawShut = 0.1;
 constexpr std::uint64_t kLookForPieces = 24, kShowEvery = 20;
 constexpr double kCrumb_m3 = 0.5e-9;  // less is no piece to tell of
-constexpr double kPieceReach_m = 0.0015;
 
 CutGrid cut_grid(const BlockGrid& grid) { return {grid.cell_m, grid.lo, grid.blocks}; }
 
@@ -59,7 +56,7 @@ struct SolidCutting::Stroke {
 SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses)
     : setup_(setup), presses_(presses) {
   for (const SoftSolid& solid : setup_.solids) {
-    auto field = CarvedField::make(solid.uncut, {}, kMostCutBlocks);
+    auto field = CarvedField::make(solid.uncut, {}, kMostCutBlocks, kSolidCutAir_m);
     demand(field.has_value(), "a soft solid has no field that can be cut");
     Solid& made = solids_.emplace_back(std::move(*field));
     made.holes =
@@ -96,17 +93,14 @@ bool SolidCutting::presses_most(const SolidHandState& state, const SolidCutter& 
   return found;
 }
 
-void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, double step_s,
-                        std::uint64_t step) {
+void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std::uint64_t step) {
   news_.clear();
   for (std::size_t h = 0; h < hands.size(); ++h) {
     SolidCutHand& hand = hands_[h];
-    if (hand.solid != SolidCutHand::kNone && ++hand.idle > kStrokeEnds) {
+    if (hand.solid != SolidCutHand::kNone && ++hand.idle > kStrokeEnds)
       hand.solid = SolidCutHand::kNone;
-      hand.due_m = 0;
-    }
     if (hands[h].tool)
-      cut_with(state, h, hands[h], step_s);
+      cut_with(state, h, hands[h]);
     else
       hand = {};
   }
@@ -121,7 +115,7 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, doub
   }
 }
 
-void SolidCutting::cut_with(SoftState& state, std::size_t h, const SolidHand& of, double step_s) {
+void SolidCutting::cut_with(SoftState& state, std::size_t h, const SolidHand& of) {
   const ToolState& tool = *of.tool;
   const SolidCutter* with = cutter(tool.instrument);
   SolidCutHand& hand = hands_[h];
@@ -159,8 +153,7 @@ void SolidCutting::cut_with(SoftState& state, std::size_t h, const SolidHand& of
   }
   if (!stroke.near) return;
   place(stroke.solid);
-  if (with->way == SolidCutter::Way::kSlice) slice(stroke);
-  if (with->way == SolidCutter::Way::kShave) shave(stroke, tool.power, step_s);
+  slice(stroke);
 }
 
 void SolidCutting::bite(const Stroke& stroke) {
@@ -185,22 +178,6 @@ void SolidCutting::slice(const Stroke& stroke) {
   const bool goes_on = hand.solid == stroke.solid && hand.idle <= 2;
   const double gone = remove(stroke.solid, stroke.with.cutter, goes_on ? hand.X_BC : X, X);
   if (gone > 0 && hand.solid != stroke.solid) tell(stroke, gone);
-  hand.solid = stroke.solid;
-  hand.X_BC = X;
-  hand.idle = 0;
-}
-
-void SolidCutting::shave(const Stroke& stroke, double power, double step_s) {
-  if (!(power > 0)) return;
-  SolidCutHand& hand = stroke.hand;
-  hand.due_m += std::min(power, 1.0) * kShaves_m_per_ns * stroke.near->force_n * step_s;
-  if (hand.due_m < kLeastShave_m) return;
-  Pose X = stroke.X_BT;
-  X.p -= hand.due_m * stroke.near->contact.nhat_B;
-  hand.due_m = 0;
-  const double gone = remove(stroke.solid, stroke.with.cutter, X, X);
-  if (!(gone > 0)) return;
-  if (hand.solid != stroke.solid) tell(stroke, gone);
   hand.solid = stroke.solid;
   hand.X_BC = X;
   hand.idle = 0;
@@ -240,7 +217,7 @@ void SolidCutting::drop_pieces(std::uint32_t s) {
   if (solid.field.step() == solid.looked) return;
   const auto pieces = solid.loose->find(solid.field);
   for (const LoosePiece& piece : pieces) {
-    if (!solid.loose->take_away(solid.field, piece, kPieceReach_m)) continue;
+    if (!solid.loose->take_away(solid.field, piece, kSolidCutAir_m)) continue;
     if (piece.volume_m3 < kCrumb_m3) continue;
     ++solid.pieces;
     if (news_.size() < kMostNews)
@@ -300,7 +277,6 @@ std::uint64_t SolidCutting::hash() const {
   for (const SolidCutHand& hand : hands_) {
     h.add(hand.solid);
     h.add(hand.jaw_open);
-    h.add(hand.due_m);
     h.add(hand.X_BC);
     h.add(hand.idle);
   }

@@ -18,6 +18,10 @@
 
 namespace osteon {
 
+/// Cuts are known so far outside of a solid: further than the middle of any cutter's axis is from
+/// what it presses.
+inline constexpr double kSolidCutAir_m = 0.004;
+
 /// Soft solids that instruments cut, at the physics' rate. What is left is a carved field: hands
 /// feel a hole in the next step. The solid's stiffness is that of the cells that are left, made
 /// anew over some hundred steps after a cut; how far that work is belongs to the state. A function
@@ -43,7 +47,7 @@ class SolidCutting {
   /// Parts of the tool that are out of the way.
   std::uint64_t lifted(const ToolState& tool) const;
   /// After all hands have pressed.
-  void step(SoftState& state, std::span<const SolidHand> hands, double step_s, std::uint64_t step);
+  void step(SoftState& state, std::span<const SolidHand> hands, std::uint64_t step);
   std::span<const News> news() const { return news_; }
   double removed_m3(std::size_t solid) const;
   std::uint32_t pieces(std::size_t solid) const;
@@ -76,9 +80,8 @@ class SolidCutting {
 
   const SolidCutter* cutter(std::uint32_t instrument) const;
   bool presses_most(const SolidHandState& state, const SolidCutter& with, std::uint32_t& at) const;
-  void cut_with(SoftState& state, std::size_t hand, const SolidHand& with, double step_s);
+  void cut_with(SoftState& state, std::size_t hand, const SolidHand& with);
   void slice(const Stroke& stroke);
-  void shave(const Stroke& stroke, double power, double step_s);
   void bite(const Stroke& stroke);
   double remove(std::uint32_t solid, const Cutter& cutter, const Pose& from, const Pose& to);
   void tell(const Stroke& stroke, double volume_m3);
