@@ -189,6 +189,9 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
         if (before->stays) follow_chuck(hand, *before, chuck, bones);
         if (h.in_hole) keep_hole(h, *before);
       }
+    Push nothing;
+    nothing.tool = &tool;
+    run_smoothly(hand, nothing);
     h = {};
     h.instrument = tool.instrument;
     chuck.jaw = 0;
@@ -335,10 +338,11 @@ void Carving::rest(std::size_t hand, const Push& push) {
   CarvingHand& h = hands_[hand];
   if (h.bone == CarvingHand::kNoBone) return;
   h.drill.was_cutting = false;
-  run_smoothly(hand, push);
   const auto& with = setup_->tray[push.tool->instrument];
   if (with && goes_forward(with->way)) follow_out(hand, push);
-  if (++h.idle < kRestSteps || h.out > 0) return;
+  if (++h.idle < kRestSteps) return;
+  run_smoothly(hand, push);
+  if (h.out > 0) return;
   const double seconds = kStep_s * static_cast<double>(steps_ - h.since);
   if (h.most_torque_nm > 0 || (h.was_in && !h.in_hole))
     tell(hand, push, kCutEnd, {1000 * h.drill.depth_m, seconds, 1000 * h.most_torque_nm});
@@ -410,12 +414,12 @@ void Carving::go_on(std::size_t hand, const CarvingTool& with, const Push& push,
 
 // Told when it begins and when it has become another one.
 void Carving::shake(std::size_t hand, const CarvingTool& with, const Push& push, double rev_per_s) {
-  constexpr double kOther = 0.25;
+  constexpr double kOther = 0.5, kLeast_m = 5e-6;
   CarvingHand& h = hands_[hand];
   const double depth = cut_a_side(*bones_[h.bone].field, with.cutter, cutter_pose(h));
   const double canal = with.cutter.size_m - 2 * depth;
   const auto now = reamer_chatter(setup_->table, with.cutter.size_m, canal, rev_per_s, depth > 0);
-  if (!now) return run_smoothly(hand, push);
+  if (!now || now->amplitude_m < kLeast_m) return run_smoothly(hand, push);
   const auto alike = [](double a, double b) { return std::abs(a - b) <= kOther * b; };
   if (alike(now->amplitude_m, h.chatter.amplitude_m) &&
       alike(now->frequency_hz, h.chatter.frequency_hz))
@@ -429,7 +433,8 @@ void Carving::run_smoothly(std::size_t hand, const Push& push) {
   CarvingHand& h = hands_[hand];
   if (!(h.chatter.amplitude_m > 0)) return;
   h.chatter = {};
-  tell(hand, push, kChatterEnd, {kStep_s * static_cast<double>(steps_ - h.chatters_since), 0, 0});
+  const double seconds = kStep_s * static_cast<double>(steps_ - h.chatters_since);
+  tell_of(hand, *push.tool, kChatterEnd, h.bone, {seconds, 0, 0});
 }
 
 // A push beyond the line's resistance F(D) lets the drill go on until the hand's spring holds no
@@ -493,7 +498,11 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   readouts_[hand] = {h.bone,        h.X_BC.p, back,          0.5 * with.cutter.size_m,
                      did.advance_m, thrust,   did.torque_nm, did.cutting_w,
                      did.rubbing_w};
-  if (!(did.advance_m > 0)) return run_smoothly(hand, push);
+  if (!(did.advance_m > 0)) {
+    // Thrown back, its teeth come again; a reamer that is pressed too lightly cuts no more.
+    if (with.reams && ++h.idle >= kRestSteps) run_smoothly(hand, push);
+    return;
+  }
   if (with.reams) shake(hand, with, push, tool.speed_rev_per_s);
   h.idle = 0;
   const bool outside = was_outside(field, h.X_BC.p);

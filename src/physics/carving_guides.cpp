@@ -148,11 +148,13 @@ void Carving::come_back(std::size_t hand, const CarvingTool& with, const ToolSta
 }
 
 void Carving::end_hole(std::size_t hand, const ToolState& tool) {
+  const auto since = [&](std::uint64_t step) { return 0.002 * static_cast<double>(steps_ - step); };
   CarvingHand& h = hands_[hand];
+  if (h.chatter.amplitude_m > 0)
+    tell_of(hand, tool, kChatterEnd, h.bone, {since(h.chatters_since), 0, 0});
   if (h.most_torque_nm > 0)
     tell_of(hand, tool, kCutEnd, h.bone,
-            {1000 * h.drill.depth_m, 0.002 * static_cast<double>(steps_ - h.since),
-             1000 * h.most_torque_nm});
+            {1000 * h.drill.depth_m, since(h.since), 1000 * h.most_torque_nm});
   h = anew(h);
 }
 

@@ -174,8 +174,8 @@ TEST(Guides, APinHoldsSideways) {
   EXPECT_NEAR(with.off_axis(session), give * force, 3e-5);
 }
 
-// With one force for all bone a drill on its pin goes on until the hand's spring holds no more than
-// the sum of piecewise linear functions says at that depth, in cortex and in cancellous bone.
+// With one force for all bone a hand that goes on slowly along the pin feels the sum of piecewise
+// linear functions at the drill's depth, in cortex and in cancellous bone.
 TEST(Guides, AForceForTheWholeLineIsThatOfTheFormula) {
   SlantedDrilling with({"cannulated_drill:8"}, 0);
   with.settings.carve.guided_n = 3;
@@ -188,17 +188,17 @@ TEST(Guides, AForceForTheWholeLineIsThatOfTheFormula) {
   for (int n = 0; n < 120; ++n) with.tick(session, with.hand(0.012 - 0.0001 * n));
   const GuidedTunnel tunnel{2 * kFloor_m, 3, 20};
   double before_m = 0;
-  for (const double aim : {0.002, 0.004, 0.007, 0.0093}) {
-    for (int n = 0; n < 1500; ++n) with.tick(session, with.hand(-aim));
+  for (int n = 0; n < 5000; ++n) {
+    with.tick(session, with.hand(-0.002 * 0.001 * n));
+    if (n < 1500 || n % 500 != 0) continue;
     const CarvingHand& h = session.save().world.carved->hands[0];
     const double deep = (h.mouth_B - h.X_BC.p).dot(with.back_W);
     RbfDrillState drilled;
     EXPECT_GT(deep, before_m);
-    EXPECT_NEAR(session.tool_state().force_W.z(), rbf_drill_force(drilled, tunnel, deep), 0.15)
-        << aim;
+    EXPECT_NEAR(session.tool_state().force_W.z(), rbf_drill_force(drilled, tunnel, deep), 0.2) << n;
     before_m = deep;
   }
-  EXPECT_GT(before_m, 0.005);
+  EXPECT_GT(before_m, 0.004);
 }
 
 // Without anything that leads it, a drill that stands too slanted slides off and cuts nothing.
