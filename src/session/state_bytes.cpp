@@ -11,7 +11,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 12;
+constexpr std::uint64_t kVersion = 16;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
 // Appends words. One list of fields below serves both directions.
@@ -57,6 +57,10 @@ bool knows_guides(const In& in) { return in.version >= 6; }
 // Whether it says which holes were left.
 bool knows_holes(const Out&) { return true; }
 bool knows_holes(const In& in) { return in.version >= 9; }
+
+// Whether it says how a reamer chatters.
+bool knows_chatter(const Out&) { return true; }
+bool knows_chatter(const In& in) { return in.version >= 16; }
 
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
@@ -455,6 +459,9 @@ void field(A& a, CarvingHand& h) {
   number(a, h.rod, kMaxGuideRods);
   field(a, h.instrument);
   if (knows_holes(a)) field(a, h.loose);
+  if (!knows_chatter(a)) return;
+  for (double* x : {&h.chatter.amplitude_m, &h.chatter.frequency_hz}) field(a, *x);
+  field(a, h.chatters_since);
 }
 
 template <class A>
