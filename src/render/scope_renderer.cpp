@@ -119,7 +119,7 @@ bool in_square(const Vec3& center_C, double radius_m, double half) {
   return std::abs(center_C.x()) - edge <= reach && std::abs(center_C.y()) - edge <= reach;
 }
 
-constexpr float kGhostSeen = 0.02f, kGhostMost = 0.8f;  // opacity
+constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
 
 /// Less than a student can see: of a place, and of a turn (the sine of its half).
 constexpr double kStill_m = 2e-6, kStill_turn = 2e-5;
@@ -328,7 +328,7 @@ struct ScopeRenderer::Impl {
     for (const GhostTool& shown : ghosts) {
       const GpuMesh* const mesh = tool_surface(shown.instrument);
       if (!mesh) continue;
-      const float opacity = std::min(shown.opacity, kGhostMost);
+      const float opacity = std::min(shown.opacity, kScopeGhostMost);
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
       paint_part(ghost, *mesh, X_CW * shown.X_WT, half, true);
       glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -537,7 +537,7 @@ void ScopeRenderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) 
 void ScopeRenderer::set_ghosts(std::span<const GhostTool> ghosts) {
   impl_->ghosts.clear();
   for (const GhostTool& ghost : ghosts)
-    if (ghost.opacity >= kGhostSeen && is_finite(ghost.X_WT)) impl_->ghosts.push_back(ghost);
+    if (ghost.opacity >= kScopeGhostSeen && is_finite(ghost.X_WT)) impl_->ghosts.push_back(ghost);
 }
 
 void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools) {

@@ -23,9 +23,11 @@ struct DebriefCommand {
   bool no_pictures = false;
 };
 
-// What an expert did on the same patient; without one the pages are whole but for that.
-void add_expert_to(Debrief& debrief, const std::string& ghost) {
-  if (ghost == "off" || !debrief.scenario || (ghost == "expert" && !wants_expert(debrief))) return;
+// What an expert did on the same patient. Without the virtual one the pages are whole but for that;
+// fails where the recording that was named cannot be shown.
+Result<void> add_expert_to(Debrief& debrief, const std::string& ghost) {
+  if (ghost == "off" || (ghost == "expert" && !wants_expert(debrief))) return {};
+  if (!debrief.scenario) return fail("the recording is of no exercise", "--ghost", "Leave it out");
   const GhostWanted wanted{*debrief.scenario, debrief.case_spec, debrief.the_case->hash};
   const auto go_on = [] { return !stop_requested(); };
   if (ghost == "expert")
@@ -34,14 +36,18 @@ void add_expert_to(Debrief& debrief, const std::string& ghost) {
       ghost == "expert" ? ghost_of_expert(wanted, go_on) : ghost_of_recording(ghost, wanted);
   if (track)
     show_expert(*track, debrief);
+  else if (ghost != "expert")
+    return tl::unexpected(track.error());
   else
     std::fprintf(stderr, "osteon: no expert's paths: %s\n", track.error().message().c_str());
+  return {};
 }
 
 int run_debrief(const DebriefCommand& command) {
   auto debrief = make_debrief(command.order);
   if (!debrief) return report_error(debrief.error());
-  add_expert_to(*debrief, command.ghost);
+  if (auto added = add_expert_to(*debrief, command.ghost); !added)
+    return report_error(added.error());
   std::vector<DebriefPicture> pictures;
   if (!command.no_pictures) {
     auto drawn = draw_debrief(*debrief);
