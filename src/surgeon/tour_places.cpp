@@ -19,7 +19,7 @@ struct LookLimits {
   int turns;
 };
 constexpr LookLimits kLooks[] = {{0.0008, 0.42, 24}, {0.0004, 0.45, 48}, {0.0002, 0.47, 72}};
-constexpr double kAside_m = 0.0005;  // a tip that comes in so far aside shall meet the same bone
+constexpr double kAside_m = 0.0006;  // a tip that comes in so far aside shall meet the same bone
 constexpr double kTourOutside_m = 0.060;  // so far beyond the portal the shaft is looked after
 constexpr double kLeastRise = 0.3;  // of the shaft's direction outwards: handles stay over skin
 constexpr double kLeastInwards = 0.25;
@@ -149,23 +149,42 @@ bool way_in_is_free(const TourAround& around, const TourTool& tool, const TourPl
   return true;
 }
 
-// Of tips that come in a little aside, the share that meets the bone first.
+// Comes in along the shaft until the tip, or what reaches from it to the shaft, meets a bone.
+// Whether that is this bone, and the shaft behind leans on none.
+bool meets_alone(const TourAround& around, const TourTool& tool, const Pose& pose,
+                 std::uint32_t bone) {
+  constexpr double kBefore_m = 0.003, kBeyond_m = 0.003, kStride_m = 0.0003;
+  constexpr double kShaftFrom_m = 0.0025, kShaftTo_m = 0.012, kShaftStride_m = 0.0015;
+  const Vec3 back = pose.rotate(Vec3::UnitZ()), offset_W = pose.rotate(tool.offset_T);
+  for (double along = kBefore_m; along > -kBeyond_m; along -= kStride_m) {
+    const Vec3 tip_W = pose.p + along * back;
+    bool is_there = false;
+    for (const double beside : {0.0, 0.5, 1.0}) {
+      const auto met = around.met(tip_W + beside * offset_W, tool.tip_radius_m, bone);
+      if (met == TourAround::Met::kAnother) return false;
+      is_there = is_there || met == TourAround::Met::kIt;
+    }
+    if (!is_there) continue;
+    for (double up = kShaftFrom_m; up < kShaftTo_m; up += kShaftStride_m)
+      if (around.gap(tip_W + offset_W + up * back, tool.shaft_radius_m) < tool.shaft_radius_m)
+        return false;
+    return true;
+  }
+  return false;
+}
+
+// Of tools that come in a little aside, the share that meets the bone and nothing else.
 double share_that_meets(const TourAround& around, const TourTool& tool, const TourPlace& place,
                         std::uint32_t bone) {
-  constexpr double kBefore_m = 0.003, kBeyond_m = 0.003, kStride_m = 0.0003;
   constexpr int kAsides = 6;
   const Pose pose = pose_at(place, tool);
   const Vec3 back = pose.rotate(Vec3::UnitZ()), e1 = back.unitOrthogonal(), e2 = back.cross(e1);
   int meets = 0;
   for (int k = 0; k < kAsides; ++k) {
     const double a = 2 * std::numbers::pi * k / kAsides;
-    const Vec3 from = pose.p + kAside_m * (std::cos(a) * e1 + std::sin(a) * e2);
-    for (double along = kBefore_m; along > -kBeyond_m; along -= kStride_m) {
-      const auto met = around.met(from + along * back, tool.tip_radius_m, bone);
-      if (met == TourAround::Met::kNone) continue;
-      meets += met == TourAround::Met::kIt ? 1 : 0;
-      break;
-    }
+    Pose aside = pose;
+    aside.p += kAside_m * (std::cos(a) * e1 + std::sin(a) * e2);
+    meets += meets_alone(around, tool, aside, bone) ? 1 : 0;
   }
   return static_cast<double>(meets) / kAsides;
 }

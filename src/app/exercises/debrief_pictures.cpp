@@ -14,6 +14,7 @@ namespace {
 constexpr int kWide = 1200, kHigh = 900;
 constexpr double kWay_m = 0.00025;
 constexpr float kSeenThrough = 0.45f;
+constexpr double kWayRoom = 1.3;  // tools come from beside the bones
 constexpr double kBead_m = 0.0005, kLeastBead = 0.05;
 constexpr std::array<std::array<float, 4>, 4> kHandColors{{{0.95f, 0.62f, 0.14f, 0.95f},
                                                            {0.62f, 0.78f, 0.20f, 0.95f},
@@ -193,6 +194,7 @@ Result<std::vector<DebriefPicture>> draw_debrief_here(const Debrief& debrief) {
     if (!image.rgb.empty()) pictures.push_back({std::move(title), std::move(image)});
   };
   view.camera = preset_camera(ViewPreset::kDorsal, *debrief.the_case, aspect);
+  view.camera.distance_m *= kWayRoom;
   const std::vector<BoneAppearance> solid = view.bones;
   for (BoneAppearance& look : view.bones) look.opacity = kSeenThrough;
   renderer->set_marks(way_marks(debrief));
