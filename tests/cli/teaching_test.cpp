@@ -105,8 +105,8 @@ TEST_F(Teaching, ACourseIsWrittenForALearningManagementSystem) {
 
 TEST_F(Teaching, FiftyPatientsOfEachExerciseArePassedByTheExpert) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for all fifty patients";
-  // The tour is passed on these; of 13 to 50 it is not on 13, 16, 40 and 49 (docs/scenarios.md).
-  const std::map<std::string, int> last{{"acl", 0}, {"wrist_tour", 12}};
+  // Reconstructions have a test of their own.
+  const std::map<std::string, int> last{{"acl", 0}};
   for (const TeachJson& scenario : json_of("scenario list --json")) {
     const auto known = last.find(scenario["name"]);
     for (int seed = 1; seed <= (known == last.end() ? 50 : known->second); ++seed)

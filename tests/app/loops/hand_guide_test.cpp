@@ -104,8 +104,9 @@ TEST(HandGuide, ALineThatRestsGivesNoEnergy) {
 struct GuidedStage {
   GuidedStage()
       : loops(std::make_unique<test::FakeDevice>(
-            [](std::uint64_t) {
+            [](std::uint64_t tick) {
               DeviceSample sample;
+              sample.time_ns = static_cast<std::int64_t>(tick) * 1'000'000;
               sample.X_VD.p = Vec3(0, 0, 0.03);
               return sample;
             },
