@@ -5,7 +5,9 @@
 
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/guided_time.h"
 #include "exercises/scenario_files.h"
+#include "exercises/surface_heat.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
@@ -161,10 +163,20 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto pauses = pauses_of(order.recording);
   if (!pauses) return tl::unexpected(pauses.error());
   if (again.watch) again.watch->set_pauses(std::move(*pauses));
+  const auto guided = read_note(order.recording, "guided");
+  if (!guided) return tl::unexpected(guided.error());
+  const auto guided_s = parse_guided(*guided ? **guided : "", order.recording.string());
+  if (!guided_s) return tl::unexpected(guided_s.error());
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
+  DamageMaker damage(**the_case, hands);
+  SurfaceHeat heat(**the_case);
+  const Session* session = nullptr;
+  how.at_begin = [&](const Session& begun) { session = &begun; };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     traces[hand].add(tool);
+    damage.touch(hand, tool, bones);
+    heat.see(*session, damage);
     again.add(hand, tool, bones);
   };
   const auto replayed = replay(*recording, *the_case, how);
@@ -174,6 +186,10 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   debrief.duration_s = replayed->report.duration_s;
   debrief.identical = replayed->identical;
   debrief.reports = replayed->reports;
+  debrief.case_spec = *spec;
+  debrief.the_case = *the_case;
+  debrief.damage = damage.finish();
+  debrief.guided_s = *guided_s;
   const auto surgeon = read_note(order.recording, "surgeon");
   if (surgeon && *surgeon) debrief.surgeon = **surgeon;
   for (std::size_t h = 0; h < hands; ++h)
@@ -186,12 +202,27 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
+  if (debrief.guided_s > 0) debrief.outcome->metrics["guided_s"] = debrief.guided_s;
   if (const TunnelWatch* tunnels = again.watch->tunnels()) {
     debrief.acl = tunnels->report();
     if (tunnels->problem()) debrief.not_measured = tunnels->problem()->message();
   }
   debrief.scenario = std::move(**scenario);
   return debrief;
+}
+
+void show_expert(const GhostTrack& track, Debrief& debrief) {
+  constexpr auto kStride = static_cast<std::size_t>(kGhostHz / kTraceHz + 0.5);
+  debrief.expert.clear();
+  for (const auto& hand : track.hands) {
+    auto& way = debrief.expert.emplace_back();
+    for (std::size_t i = 0; i < hand.size(); i += kStride)
+      if (is_finite(hand[i].X_WT)) way.push_back(hand[i].X_WT.p);
+  }
+}
+
+bool wants_expert(const Debrief& debrief) {
+  return debrief.scenario && debrief.scenario->ghost && debrief.surgeon != "expert";
 }
 
 std::string report_of(const Debrief& debrief) {

@@ -19,11 +19,16 @@ enum class ExercisePage {
   kResult
 };
 
+/// What of an attempt the result shows on the bones.
+enum class DebriefView { kNothing, kWays, kForce, kScratch, kHeat };
+
 /// What the panel tells of an expert's instruments beside the learner's.
 struct GhostModel {
   bool allowed = false;  ///< by the exercise
   bool on = true, preparing = false;
-  double strength = 1;  ///< 0..1, by the learner's results
+  double strength = 1;     ///< 0..1, by the learner's results
+  bool guides = false;     ///< leads the hands too
+  bool can_guide = false;  ///< a device with motors is in use
   std::string problem;
 };
 
@@ -69,10 +74,14 @@ struct ExerciseModel {
   std::string cue;                ///< asked for; empty: not shown
   bool has_cue = false;
   int hints = 0, undone = 0;
+  double guided_s = 0;  ///< how long a hand was led
   bool paused = false;
   std::vector<Asked> asked;
   GhostModel ghost;
-  double judged = 0;  ///< 0..1, while judging
+  double judged = 0;                          ///< 0..1, while judging
+  DebriefView shown = DebriefView::kNothing;  ///< on the bones, of the result
+  std::vector<DebriefView> can_show;
+  bool shows_expert = false;  ///< the expert's ways are known
   std::string verdict;
   std::optional<double> score, score_lo, score_hi;
   bool repeats = true;  ///< the recording repeats exactly
@@ -90,10 +99,12 @@ struct ExerciseRequests {
   bool hint = false;
   bool undo = false;
   bool ghost = false;                                             ///< switched on or off
+  bool guide = false;                                             ///< likewise: leads the hands
   bool pause = false;                                             ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;
+  std::optional<DebriefView> show = {};
 };
 
 }  // namespace osteon

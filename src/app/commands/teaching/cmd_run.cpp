@@ -58,6 +58,14 @@ int run_command(const RunCommand& command) {
   if (!run) return report_error(run.error());
   const auto done = run_scenario(*run);
   if (!done) return report_error(done.error());
+  // Told before it is kept: on a full disk it would be lost.
+  std::fputs(to_text(done->outcome).c_str(), stdout);
+  if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
+  if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
+  if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
+  if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
+  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
+  std::fflush(stdout);
   const std::string report = to_json(*done);
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
@@ -67,12 +75,6 @@ int run_command(const RunCommand& command) {
     if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
     (void)send_results_in_background();
   }
-  std::fputs(to_text(done->outcome).c_str(), stdout);
-  if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
-  if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
-  if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
-  if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
-  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
 }
 

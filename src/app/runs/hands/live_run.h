@@ -158,6 +158,12 @@ class LiveRun {
                  double dt_s, const Vec3* through_W = nullptr);
   /// Pedals and the camera, once a frame: a dead-man pedal that is not told again counts as let go.
   void tell_hand(HandWishes pedals, const Camera& camera);
+  /// Where that hand shall be led from the next picture on: weakly, by a device with motors.
+  void guide(std::size_t hand, const GuideLine& line);
+  /// How long hands were led in this run, s: the longest of them.
+  double guided_s() const;
+  /// Some hand of the run has a device that can lead it.
+  bool can_guide() const;
   /// A gamepad, as seen by the camera, once a picture: it moves the active hand where it is that
   /// hand's device, else the resting hand; with its second button held, the resting hand always.
   void move_pad(const PadSticks& sticks, const Camera& camera, double dt_s);

@@ -1,10 +1,12 @@
 #include "window/controllers/sessions/exercise_control.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
 #include "cases/xdg.h"
+#include "exercises/debrief_pictures.h"
 #include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
@@ -16,6 +18,10 @@ namespace {
 
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
+constexpr std::array<std::pair<DebriefView, DamageKind>, 3> kDamageViews{
+    {{DebriefView::kForce, DamageKind::kForce},
+     {DebriefView::kScratch, DamageKind::kScratch},
+     {DebriefView::kHeat, DamageKind::kHeat}}};
 
 void switch_pause(ExerciseRun& exercise, LiveRun* live) {
   const bool begins = !exercise.paused();
@@ -39,11 +45,13 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (requests.hint) exercise_.show_cue();
     if (requests.undo && live_.run() && live_.run()->undo()) count_undo();
     if (requests.ghost) ghost_.toggle();
+    if (requests.guide) ghost_.toggle_guide();
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
   }
   if (requests.pages) save_pages();
+  if (requests.show) wanted_ = *requests.show;
   if (requests.watch) {
     exercise_.toggle();
     cases_.open({{}, exercise_.recording(), nullptr});
@@ -58,7 +66,27 @@ void ExerciseControl::count_undo() {
 ExerciseModel ExerciseControl::model() const {
   ExerciseModel model = exercise_.model();
   model.ghost = ghost_.model();
+  if (const Debrief* const debrief = exercise_.debrief()) {
+    model.shown = shown_;
+    model.shows_expert = !debrief->expert.empty();
+    model.can_show.push_back(DebriefView::kWays);
+    for (const auto& [view, kind] : kDamageViews)
+      if (shows_damage(debrief->damage, kind)) model.can_show.push_back(view);
+  }
   return model;
+}
+
+// On the case on show, while the result is open.
+void ExerciseControl::show_debrief() {
+  const Debrief* const debrief = exercise_.debrief();
+  if (!debrief) wanted_ = DebriefView::kNothing;
+  if (wanted_ == shown_ || !scene_.renderer) return;
+  shown_ = wanted_;
+  std::vector<SolidMark> marks;
+  if (shown_ == DebriefView::kWays) marks = way_marks(*debrief);
+  for (const auto& [view, kind] : kDamageViews)
+    if (shown_ == view) marks = damage_marks(*debrief, kind);
+  scene_.renderer->set_marks(marks);
 }
 
 void ExerciseControl::save_pages() {
@@ -175,7 +203,10 @@ void ExerciseControl::begin() {
 
 void ExerciseControl::poll() {
   if (!cases_.ready() && exercise_.page() != ExercisePage::kJudging) return;
+  const bool judging = exercise_.page() == ExercisePage::kJudging;
   exercise_.poll();
+  if (judging && exercise_.debrief() && ghost_.track()) exercise_.set_expert(*ghost_.track());
+  show_debrief();
   if (opening() && !cases_.loading()) exercise_.fail_to_begin("The patient could not be opened.");
   LiveRun* const run = live_.run();
   if (!running() || !run) return;
@@ -184,6 +215,7 @@ void ExerciseControl::poll() {
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) run->mark();
   ghost_.poll(exercise_);
+  exercise_.set_guided(run->guided_s());
   if (exercise_.over() || !run->recording()) end();
 }
 

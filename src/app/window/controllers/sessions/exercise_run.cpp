@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "exercises/debrief_pictures.h"
+#include "exercises/guided_time.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "osteon/procedure/attempt.h"
@@ -140,6 +142,7 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   pauses_.clear();
   stated_.clear();
   hints_ = undone_ = 0;
+  guided_s_ = 0;
   page_ = ExercisePage::kRunning;
 }
 
@@ -200,6 +203,8 @@ void ExerciseRun::state_finding(const std::string& name, const std::string& grad
 Result<void> ExerciseRun::note_what_was_said() const {
   if (!pauses_.empty())
     if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
+  if (guided_s_ > 0)
+    if (auto ok = write_note(file_, "guided", guided_text(guided_s_)); !ok) return ok;
   if (!scenario().asks.empty()) return write_note(file_, "findings", to_json(stated_));
   return {};
 }
@@ -243,7 +248,9 @@ void ExerciseRun::keep() {
 
 std::optional<Error> ExerciseRun::save_pages(const fs::path& file) const {
   if (!debrief_) return std::nullopt;
-  const auto saved = save_debrief(*debrief_, file);
+  const auto pictures = draw_debrief_here(*debrief_);
+  const auto saved =
+      save_debrief(*debrief_, file, pictures ? *pictures : std::vector<DebriefPicture>());
   return saved ? std::optional<Error>{} : saved.error();
 }
 
@@ -303,6 +310,7 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   describe_asked(model);
   model.hints = hints_;
   model.undone = undone_;
+  model.guided_s = guided_s_;
   if (state.stage >= scenario().stages.size()) return;
   const std::string& cue = scenario().stages[state.stage].cue;
   model.has_cue = !cue.empty();
@@ -360,6 +368,7 @@ void ExerciseRun::describe_result(ExerciseModel& model) const {
   model.elapsed_s = debrief_->duration_s;
   model.hints = hints_;
   model.undone = undone_;
+  model.guided_s = guided_s_;
 }
 
 }  // namespace osteon

@@ -61,6 +61,8 @@ class ExerciseRun {
   /// What the user says is wrong with the patient; an empty grade takes it back.
   void state_finding(const std::string& name, const std::string& grade);
   void count_undo() { ++undone_; }
+  /// For how long a device has led a hand so far.
+  void set_guided(double seconds) { guided_s_ = seconds; }
   std::size_t hands() const { return ticks_.size(); }
 
   /// The recording is whole: judges it on a thread of its own.
@@ -71,8 +73,17 @@ class ExerciseRun {
   void wait_for_verdict() const {
     if (judging_) judging_->wait();
   }
+  /// Draws pictures: with the window's context current.
   std::optional<Error> save_pages(const std::filesystem::path& file) const;
   const std::filesystem::path& recording() const { return file_; }
+  /// Of the result; null: there is none.
+  const Debrief* debrief() const {
+    return page_ == ExercisePage::kResult && debrief_ ? &*debrief_ : nullptr;
+  }
+  /// Puts an expert's ways beside those of the result.
+  void set_expert(const GhostTrack& track) {
+    if (debrief_ && wants_expert(*debrief_)) show_expert(track, *debrief_);
+  }
 
   ExerciseModel model() const;
 
@@ -103,6 +114,7 @@ class ExerciseRun {
   std::vector<AttemptPause> pauses_;
   StatedFindings stated_;
   int hints_ = 0, undone_ = 0;
+  double guided_s_ = 0;
   std::filesystem::path file_;
 
   std::unique_ptr<SideJob<Debrief>> judging_;
