@@ -27,6 +27,14 @@ struct GhostModel {
   std::string problem;
 };
 
+/// The knee with a placed graft in it, which is bent by the panel.
+struct BentKneeModel {
+  bool shown = false;
+  double least_deg = 0, most_deg = 0, wanted_deg = 0, tension_n = 0;
+  std::uint32_t cycles = 0;
+  std::vector<double> flexion_deg, between_mm;  ///< the graft's way, where it was bent to
+};
+
 /// What the panel for exercises shows.
 struct ExerciseModel {
   struct Card {
@@ -37,6 +45,7 @@ struct ExerciseModel {
     std::string title, instruction;
     bool done = false, live = false;
     double at_s = 0;
+    std::string restore_title = {};  ///< its start can be come back to; empty: it cannot
   };
   struct Fault {
     std::string title, severity, consequence;
@@ -72,6 +81,7 @@ struct ExerciseModel {
   bool paused = false;
   std::vector<Asked> asked;
   GhostModel ghost;
+  BentKneeModel knee;
   double judged = 0;  ///< 0..1, while judging
   std::string verdict;
   std::optional<double> score, score_lo, score_hi;
@@ -89,8 +99,10 @@ struct ExerciseRequests {
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;
-  bool ghost = false;                                             ///< switched on or off
-  bool pause = false;                                             ///< or go on
+  std::optional<std::size_t> return_to = {};            ///< to the start of that stage
+  std::optional<double> bend_deg = {}, tension_n = {};  ///< of the knee and the graft's tail
+  bool ghost = false;                                   ///< switched on or off
+  bool pause = false;                                   ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;
