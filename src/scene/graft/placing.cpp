@@ -42,7 +42,9 @@ double along_ray(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, con
   if (det == 0) return kMiss;
   const Vec3 s = p - a, q = s.cross(e1);
   const double u = s.dot(h) / det, v = d.dot(q) / det;
-  if (u < 0 || v < 0 || u + v > 1) return kMiss;
+  // A line that meets an edge meets one of its triangles whatever rounding says.
+  constexpr double kEdge = 1e-9;
+  if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge) return kMiss;
   return e2.dot(q) / det;
 }
 

@@ -288,6 +288,7 @@ TEST(GraftPlacing, AScrewKeepsTheLineOnWhichItBeganAndNeedsFiveMillimetres) {
   rig.take(kPlacingClamp);
   EXPECT_EQ(rig.state.screw.screws, 0u);
   EXPECT_FALSE(rig.state.screw.done);
+  rig.tool.power = 0;
   rig.take(ScrewRig::kScrewTool);
   rig.stand(0, aside, 1, 1.5);
   rig.turn_in(0.010, aside);
