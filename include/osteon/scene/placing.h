@@ -117,7 +117,7 @@ struct GraftPlacingState {
   std::uint32_t let_go_early = 0;      ///< how often in the channel, the button not out
   double gap_m = 0;                    ///< tissue between the turned button and the cortex
   double tension_n = 0;                ///< pull on the tail of a graft whose button has turned
-  std::uint32_t cycles_before = 0;     ///< of bending, as the tension began
+  std::uint32_t cycles_before = 0;     ///< of bending, as they were seen last
   PlacingScrew screw;
 };
 

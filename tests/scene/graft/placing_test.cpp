@@ -57,14 +57,16 @@ double length_of(const std::vector<PlacingRod>& rods, PlacingRod::Is is) {
 TEST(PlanPlacing, MeasuresFromWholeBonesAlongTheAxesOfTheHoles) {
   auto def = testing::placing_def();
   const Case knee = *build_case(std::move(def));
-  const PlacingHole tibia{Vec3(0, 0, -0.066), Vec3(0, 0, -0.034), 0.008};
-  const PlacingHole socket{Vec3(0.003, 0, 0), Vec3(0.025, 0, 0), 0.009};
+  const auto at_F = [&](double x) { return knee.bones[0].X_WB.inverse() * Vec3(x, 0, 0); };
+  const auto at_T = [&](double z) { return knee.bones[1].X_WB.inverse() * Vec3(0, 0, z); };
+  const PlacingHole tibia{at_T(-0.066), at_T(-0.034), 0.008};
+  const PlacingHole socket{at_F(0.003), at_F(0.025), 0.009};
   const auto plan = plan_placing(knee, socket, tibia);
   ASSERT_TRUE(plan);
-  EXPECT_NEAR((plan->femur.mouth_B - Vec3(0, 0, 0)).norm(), 0, 1e-9);
-  EXPECT_NEAR((plan->femur.outer_B - Vec3(0.040, 0, 0)).norm(), 0, 1e-9);
-  EXPECT_NEAR((plan->tibia.mouth_B - Vec3(0, 0, -0.030)).norm(), 0, 1e-9);
-  EXPECT_NEAR((plan->tibia.outer_B - Vec3(0, 0, -0.070)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->femur.mouth_B - at_F(0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->femur.outer_B - at_F(0.040)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->tibia.mouth_B - at_T(-0.030)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->tibia.outer_B - at_T(-0.070)).norm(), 0, 1e-9);
   EXPECT_NEAR(plan->socket_m, 0.025, 1e-9);
   EXPECT_NEAR(plan->between_m, 0.030, 1e-9);
   EXPECT_NEAR(plan->graft_m, 0.008, 1e-12);
