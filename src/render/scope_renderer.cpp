@@ -210,9 +210,8 @@ struct ScopeRenderer::Impl {
   std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
   std::vector<std::pair<std::size_t, Pose>> tools;
   std::vector<GhostTool> ghosts;
-  std::optional<PlacingPlan> placing;  ///< of a case in which a graft can be placed
-  std::vector<PlacingRod> rods;        ///< thread, graft and button now
-  std::vector<TissuePart> placed;      ///< the same, in World
+  std::vector<PlacingRod> rods;    ///< thread, graft and button now
+  std::vector<TissuePart> placed;  ///< the same, in World
   bool rods_changed = false;
   LightTarget flat;
   RenderTarget picture;
@@ -471,7 +470,6 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
 
 /// Bones, then soft parts without the skin.
 void ScopeRenderer::Impl::add_parts(const Case& the_case) {
-  placing = find_placing(the_case);
   for (std::size_t k = 0; k < the_case.bones.size(); ++k) {
     TissuePart part;
     part.model = k;
@@ -551,8 +549,7 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   for (const ToolState& tool : tools)
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
-  if (!impl_->placing) return;
-  auto rods = placing_rods(*impl_->placing, bones);
+  auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {
     return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);
   });

@@ -101,7 +101,7 @@ Words words_of(SessionState state, std::size_t count, const Change& change) {
 }
 
 // Version 8 knew no holes that drills had left, no friction on soft parts, no water, no graft that
-// is placed and no chatter.
+// is placed or ordered, no joint that is bent and no chatter.
 TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   const Drilling with;
   Session session = with.session();
@@ -111,7 +111,8 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   ASSERT_TRUE(saved.world.bones.guides[0].on) << "the hole that it has begun leads the drill";
   constexpr std::size_t kHoleWords = 14, kRubWords = 4, kChatterWords = 3;
   std::vector<Words> unknown = {
-      words_of(saved, 2, [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
+      words_of(saved, 5 + kPlacingNumbers,
+               [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
       words_of(saved, 1,
                [](SessionState& s, CarvingState&) { s.world.bones.guides[0].pulls = true; }),
       words_of(saved, kRubWords,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
@@ -60,6 +61,16 @@ Result<StatedFindings> stated_in(const std::filesystem::path& recording, const S
   if (!note) return tl::unexpected(note.error());
   if (!*note) return StatedFindings{};
   return parse_findings(**note, scenario.asks, recording.string() + " (what was stated)");
+}
+
+// The graft that was made before it was placed; none: one that fits.
+Result<std::optional<MadeGraft>> graft_in(const std::filesystem::path& recording) {
+  const auto note = read_note(recording, "graft");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return std::optional<MadeGraft>{};
+  const auto made = made_graft(**note, recording.string() + " (its graft)");
+  if (!made) return tl::unexpected(made.error());
+  return std::optional<MadeGraft>(*made);
 }
 
 // Gathers one hand's values.
@@ -155,11 +166,16 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
       if (index == bone) return field;
     return std::nullopt;
   };
-  if (*scenario)
-    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands,
-                                 {*spec, settings->tray, carved_bone}, settings->tray);
+  if (*scenario) {
+    TunnelSources sources{*spec, settings->tray, carved_bone};
+    const auto graft = graft_in(order.recording);
+    if (!graft) return tl::unexpected(graft.error());
+    sources.graft = *graft;
+    if (auto begun =
+            again.begin(**scenario, **the_case, tick_s, hands, std::move(sources), settings->tray);
         !begun)
       return tl::unexpected(begun.error());
+  }
   auto pauses = pauses_of(order.recording);
   if (!pauses) return tl::unexpected(pauses.error());
   if (again.watch) again.watch->set_pauses(std::move(*pauses));
@@ -207,6 +223,9 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     debrief.acl = tunnels->report();
     if (tunnels->problem()) debrief.not_measured = tunnels->problem()->message();
   }
+  const PlacingWatch& placing = again.watch->placing();
+  if (const auto plan = placing.plan())
+    debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
   debrief.scenario = std::move(**scenario);
   return debrief;
 }
@@ -228,8 +247,12 @@ bool wants_expert(const Debrief& debrief) {
 std::string report_of(const Debrief& debrief) {
   std::vector<std::string> names;
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
-  return with_tunnels(to_json(debrief.reports, names, *debrief.outcome), debrief.acl,
-                      debrief.not_measured);
+  const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
+                                        debrief.acl, debrief.not_measured);
+  if (!debrief.placing) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["acl"]["placing"] = to_json(*debrief.placing);
+  return json.dump(2) + "\n";
 }
 
 }  // namespace osteon

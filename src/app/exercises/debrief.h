@@ -18,6 +18,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/state.h"
 #include "runs/reports/acl_report.h"
+#include "runs/reports/placing_report.h"
 
 namespace osteon {
 
@@ -37,9 +38,10 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
   std::optional<Outcome> outcome;
-  std::optional<AclReport> acl;  ///< of an exercise that asks for tunnels
-  std::string not_measured;      ///< why they could not be measured
-  std::vector<Report> reports;   ///< of each of `hands`
+  std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
+  std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
+  std::string not_measured;                   ///< why they could not be measured
+  std::vector<Report> reports;                ///< of each of `hands`
   std::vector<HandTrace> hands;
   std::string case_spec;  ///< of the case that it was repeated on
   std::shared_ptr<const Case> the_case;

@@ -32,6 +32,14 @@ struct GhostModel {
   std::string problem;
 };
 
+/// The knee with a placed graft in it, which is bent by the panel.
+struct BentKneeModel {
+  bool shown = false;
+  double least_deg = 0, most_deg = 0, wanted_deg = 0, tension_n = 0;
+  std::uint32_t cycles = 0;
+  std::vector<double> flexion_deg, between_mm;  ///< the graft's way, where it was bent to
+};
+
 /// What the panel for exercises shows.
 struct ExerciseModel {
   struct Card {
@@ -42,6 +50,7 @@ struct ExerciseModel {
     std::string title, instruction;
     bool done = false, live = false;
     double at_s = 0;
+    std::string restore_title = {};  ///< its start can be come back to; empty: it cannot
   };
   struct Fault {
     std::string title, severity, consequence;
@@ -78,6 +87,7 @@ struct ExerciseModel {
   bool paused = false;
   std::vector<Asked> asked;
   GhostModel ghost;
+  BentKneeModel knee;
   double judged = 0;                          ///< 0..1, while judging
   DebriefView shown = DebriefView::kNothing;  ///< on the bones, of the result
   std::vector<DebriefView> can_show;
@@ -98,9 +108,11 @@ struct ExerciseRequests {
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;
-  bool ghost = false;                                             ///< switched on or off
-  bool guide = false;                                             ///< likewise: leads the hands
-  bool pause = false;                                             ///< or go on
+  std::optional<std::size_t> return_to = {};            ///< to the start of that stage
+  std::optional<double> bend_deg = {}, tension_n = {};  ///< of the knee and the graft's tail
+  bool ghost = false;                                   ///< switched on or off
+  bool guide = false;                                   ///< likewise: leads the hands
+  bool pause = false;                                   ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;

@@ -14,7 +14,7 @@ namespace osteon {
 namespace {
 
 struct RunCommand {
-  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings;
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft;
   std::string learner = "local";
   bool no_store = false;
   std::optional<std::uint64_t> seed;
@@ -41,6 +41,11 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     auto stated = parse_findings(*text, scenario->asks, command.findings);
     if (!stated) return tl::unexpected(stated.error());
     run.stated = std::move(*stated);
+  }
+  if (!command.graft.empty()) {
+    auto text = read_file(command.graft, 16u << 20);
+    if (!text) return tl::unexpected(text.error());
+    run.graft_json = std::move(*text);
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
   run.scenario = std::move(*scenario);
@@ -101,6 +106,9 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option(
       "--findings", options->findings,
       "JSON file of the findings that are stated, {\"geissler\": \"3\"}; default: the surgeon's");
+  command->add_option("--graft", options->graft,
+                      "report of a run of acl_graft: its graft is placed in acl; default: one that "
+                      "fits the tunnels");
   command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");

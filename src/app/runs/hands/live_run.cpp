@@ -317,6 +317,8 @@ void LiveRun::set_feel(const Command& command) {
   for (std::size_t i = 0; i < hands_.size(); ++i) runtime_->send(command, i);
 }
 
+bool LiveRun::say(const Command& command) { return runtime_ && runtime_->send(command); }
+
 bool LiveRun::set_pump(double pump_pa, double outlet_open) {
   return runtime_ && runtime_->send({CommandKind::kPump, pump_pa}) &&
          runtime_->send({CommandKind::kOutlet, outlet_open});

@@ -330,6 +330,48 @@ void draw_guide_switch(const PanelContext& c) {
     wrapped_text(color::kTextQuiet, "Not led: your results say that you can do without.");
 }
 
+// The knee with the graft in it: how far it is bent, how the tail is pulled, what the bending
+// showed.
+void draw_knee(const PanelContext& c) {
+  const BentKneeModel& knee = c.model.exercise.knee;
+  if (!knee.shown) return;
+  ImGui::Separator();
+  double flexion_deg = knee.wanted_deg, tension_n = knee.tension_n;
+  if (ui::slider("Knee", &flexion_deg, knee.least_deg, knee.most_deg, "%.0f degrees",
+                 "How far the knee is bent. From straight to bent and back is a cycle"))
+    c.requests.exercise.bend_deg = flexion_deg;
+  if (ui::slider("Graft's tail", &tension_n, 0, 150, "%.0f N",
+                 "The pull on the graft below the tibia, while the knee is bent and the screw goes "
+                 "in"))
+    c.requests.exercise.tension_n = tension_n;
+  ui::stat("Cycles", std::to_string(knee.cycles), "How often it was stretched out and bent");
+  if (knee.between_mm.size() < 2) return;
+  const auto [least, most] = std::minmax_element(knee.between_mm.begin(), knee.between_mm.end());
+  std::vector<float> lengths(knee.between_mm.begin(), knee.between_mm.end());
+  const auto low = static_cast<float>(*least - 1), high = static_cast<float>(*most + 1);
+  ImGui::PlotLines("##isometry", lengths.data(), static_cast<int>(lengths.size()), 0, nullptr, low,
+                   high, {-1, c.px(56)});
+  const std::string change = ui::number(*most - *least, 1) + " mm from " +
+                             ui::number(knee.flexion_deg.front(), 0) + " to " +
+                             ui::number(knee.flexion_deg.back(), 0) + " degrees";
+  ui::text(color::kTextQuiet, ("Graft's length changes by " + change).c_str());
+}
+
+void draw_return(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  const bool any = std::any_of(model.stages.begin(), model.stages.end(),
+                               [](const auto& stage) { return !stage.restore_title.empty(); });
+  if (!any) return;
+  const bool chooses = ImGui::BeginCombo("##return", "Back to the start of ...");
+  ui::tooltip("What was done since is undone; errors still count");
+  if (!chooses) return;
+  for (std::size_t i = 0; i < model.stages.size(); ++i)
+    if (!model.stages[i].restore_title.empty() &&
+        ImGui::Selectable(model.stages[i].restore_title.c_str()))
+      c.requests.exercise.return_to = i;
+  ImGui::EndCombo();
+}
+
 // Beside the scene while the exercise goes on.
 void draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
@@ -362,6 +404,7 @@ void draw_running(const PanelContext& c) {
                        (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
   }
   draw_asked(c);
+  draw_knee(c);
   ImGui::Separator();
   draw_ghost_switch(c);
   draw_guide_switch(c);
@@ -378,6 +421,7 @@ void draw_running(const PanelContext& c) {
   ImGui::SameLine();
   if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
   ui::tooltip("Ends the attempt and judges it");
+  draw_return(c);
   ImGui::PopItemWidth();
   ImGui::End();
 }

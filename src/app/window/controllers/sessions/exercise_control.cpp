@@ -44,6 +44,13 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   if (running()) {
     if (requests.hint) exercise_.show_cue();
     if (requests.undo && live_.run() && live_.run()->undo()) count_undo();
+    if (LiveRun* const run = live_.run()) {
+      const auto mark =
+          requests.return_to ? exercise_.mark_of_stage(*requests.return_to) : std::nullopt;
+      if (mark && run->go_back(*mark)) count_undo();
+      if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
+      if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
+    }
     if (requests.ghost) ghost_.toggle();
     if (requests.guide) ghost_.toggle_guide();
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
@@ -73,6 +80,7 @@ ExerciseModel ExerciseControl::model() const {
     for (const auto& [view, kind] : kDamageViews)
       if (shows_damage(debrief->damage, kind)) model.can_show.push_back(view);
   }
+  model.knee = exercise_.knee(sight_.shown().bones);
   return model;
 }
 
@@ -193,6 +201,7 @@ void ExerciseControl::begin() {
   };
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
                   live_.run()->tray().names);
+  if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
   ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
@@ -213,7 +222,9 @@ void ExerciseControl::poll() {
   ToolState tool;
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
-  if (exercise_.follow(sight_.shown().bones)) run->mark();
+  if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
+  while (const auto said = exercise_.next_order(sight_.shown().bones))
+    if (!run->say(*said)) break;
   ghost_.poll(exercise_);
   exercise_.set_guided(run->guided_s());
   if (exercise_.over() || !run->recording()) end();

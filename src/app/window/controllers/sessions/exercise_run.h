@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "exercises/attempt_watch.h"
 #include "exercises/debrief.h"
+#include "exercises/graft_order.h"
 #include "exercises/scenario_files.h"
 #include "ui/side_job.h"
 #include "window/exercise_model.h"
@@ -47,6 +49,14 @@ class ExerciseRun {
   void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
   /// Judges the ticks that all hands have done. True: a stage has begun that can be come back to.
   bool follow(const BoneSnapshot& bones);
+  /// What the tunnels that were drilled ask to be handed over; none: nothing, or not yet.
+  std::optional<Command> next_order(const BoneSnapshot& bones);
+  /// The live stage's start was kept as that restore point of the run.
+  void keep_mark(std::uint32_t number);
+  /// The restore point of a stage's start; none: it has none, or was not reached.
+  std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
+  /// The knee, where a graft lies in it; `bones`: as they are shown.
+  BentKneeModel knee(const BoneSnapshot& bones) const;
   /// How far it is; null: none has begun. `now_s`: pauses left out.
   const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
   double now_s() const { return now_s_; }
@@ -106,6 +116,8 @@ class ExerciseRun {
   std::unique_ptr<ScenarioPlan> plan_;
   std::vector<PlannedHand> hands_;
   std::unique_ptr<AttemptWatch> watch_;
+  GraftOrder order_;
+  std::map<std::size_t, std::uint32_t> stage_marks_;
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;
