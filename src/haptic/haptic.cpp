@@ -22,6 +22,7 @@ namespace {
 // Coordinates beyond the root of this are a broken reading: their squares must stay finite.
 constexpr double kFarthest_m2 = 1e12;
 constexpr double kAnyWay = 1e9;
+constexpr double kFallsOn_m = 1e-4;  // in a tick: 100 mm/s
 // A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
 constexpr double kStepInPortal_m = 0.0005;
 constexpr double kFadeTicks = HapticLoop::kFade_s / 0.001;
@@ -400,8 +401,11 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   // A proxy that has just landed has no place yet to which friction could hold it.
   // What turns under power slips already: bone that goes from before it must not have to pull it.
   const bool turns = state.tool.power > 0 && field.can_be_cut();
-  const bool rested = was_held && held.carrier.valid() && !turns;
+  const bool held_before = was_held && held.carrier.valid();
+  const bool rested = held_before && !turns;
   Friction friction{0, 0, kAnyWay};
+  // When the last of the bone before it is gone, it falls on to the hand: in a slope, not at once.
+  if (held_before && turns) friction.glide_m = glide(wanted.p) + kFallsOn_m;
   if (rested) friction = {held.static_lag, held.dynamic_lag, glide(wanted.p)};
   if (rested && line.in && guide.in_hole) friction = in_hole(friction);
   const std::span<const Vec3> path(move.path.data(), move.path_count);

@@ -78,6 +78,8 @@ void SoundSynth::drive(std::size_t voice, const VoiceDrive& drive) {
   now.power = share(now.power);
   now.load = share(now.load);
   now.full_rpm = std::isfinite(now.full_rpm) ? std::clamp(now.full_rpm, 0.0, 1e5) : 0;
+  now.judder = share(now.judder);
+  now.judder_hz = std::isfinite(now.judder_hz) ? std::clamp(now.judder_hz, 0.0, 400.0) : 0;
   // A motor that is let go still turns; another instrument begins at rest.
   if (now.kind == VoiceKind::kNone) now.kind = voices_[voice].now.kind, now.power = now.load = 0;
   if (now.kind != voices_[voice].now.kind) voices_[voice].speed = voices_[voice].load = 0;
@@ -155,9 +157,12 @@ double SoundSynth::next(Voice& v) const {
   const double edge = t.flutes > 0 ? 0.5 + 0.5 * std::sin(kTurn * whole(v.flute)) : 1;
   v.swing += t.swing_hz / kSoundHz;
   const double swing = t.swing_hz > 0 ? 0.75 + 0.25 * std::sin(kTurn * whole(v.swing)) : 1;
+  v.judder += v.now.judder_hz / kSoundHz;
+  // Thrown back it is nearly free, come back it bites twice as hard.
+  const double thrown = 1 + share(v.now.judder) * std::sin(kTurn * whole(v.judder));
   const double level = std::sqrt(std::max(v.speed, 0.0));
-  const double working = t.bite * v.load * v.rough * edge * hiss;
-  return level * swing *
+  const double working = t.bite * v.load * v.rough * edge * hiss * thrown;
+  return level * swing * thrown *
          (t.tone * (0.6 + 0.4 * v.rough * v.load + 0.4 * v.load) * tone + 3 * t.noise * hiss +
           3 * working);
 }

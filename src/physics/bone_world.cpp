@@ -110,6 +110,31 @@ void add_to(Hasher& hasher, const GraftPlacingState& placing) {
   for (const double x :
        {placing.pin_m, placing.drawn_m, placing.pull_n, placing.most_pull_n, placing.gap_m})
     hasher.add(x);
+  if (placing.tension_n == 0 && placing.cycles_before == 0 && placing.screw.screws == 0) return;
+  const PlacingScrew& screw = placing.screw;
+  for (const std::uint32_t x : {placing.cycles_before, screw.screws, screw.cycles}) hasher.add(x);
+  hasher.add(screw.p_B);
+  hasher.add(screw.out_B);
+  hasher.add(screw.done);
+  for (const double x : {placing.tension_n, screw.width_m, screw.length_m, screw.in_m,
+                         screw.tension_n, screw.flexion_deg})
+    hasher.add(x);
+}
+
+// A graft that was handed over, or is being.
+void add_order(Hasher& hasher, const GraftPlacingState& placing) {
+  hasher.add(placing.ordered);
+  hasher.add(placing.told);
+  for (const double x : placing.numbers) hasher.add(x);
+  if (placing.on)
+    for (const double x : placing_numbers(placing.plan)) hasher.add(x);
+}
+
+void add_to(Hasher& hasher, const BendState& bend) {
+  hasher.add(bend.wanted_deg);
+  hasher.add(bend.now_deg);
+  hasher.add(bend.straight);
+  hasher.add(bend.cycles);
 }
 
 void add_to(Hasher& hasher, const WaterState& water) {
@@ -149,6 +174,8 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
     for (const ToolGuide& guide : snapshot.guides) add_to(hasher, guide);
   if (snapshot.bench.on) add_to(hasher, snapshot.bench);
   if (snapshot.placing.on) add_to(hasher, snapshot.placing);
+  if (snapshot.placing.ordered || snapshot.placing.told > 0) add_order(hasher, snapshot.placing);
+  if (snapshot.bend.on) add_to(hasher, snapshot.bend);
   if (snapshot.water.on && snapshot.water.hashed) add_to(hasher, snapshot.water);
   return hasher.value();
 }
@@ -351,6 +378,8 @@ void BoneWorld::set_guides(const std::array<ToolGuide, kMaxHands>& guides, const
 
 void BoneWorld::set_bench(const GraftBenchState& bench) { impl_->snapshot.bench = bench; }
 void BoneWorld::set_placing(const GraftPlacingState& placing) { impl_->snapshot.placing = placing; }
+
+void BoneWorld::set_bend(const BendState& bend) { impl_->snapshot.bend = bend; }
 
 void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = water; }
 

@@ -7,6 +7,7 @@
 #include "cutter_front.h"
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
+#include "osteon/carve/rbf_force.h"
 #include "osteon/scene/carve_events.h"
 
 namespace osteon {
@@ -22,10 +23,11 @@ struct Carving::Push {
 
 namespace {
 
-constexpr double kSkin_m = 5e-6;          // that a proxy keeps from a field
-constexpr double kBehind_m = 0.0003;      // pulled back so far, the drill is not at the hole's end
-constexpr double kSlid_m = 0.0005;        // slid off so far sideways, it begins anew
-constexpr double kBeyond_m = 0.001;       // gone on so far through nothing, it begins anew
+constexpr double kSkin_m = 5e-6;      // that a proxy keeps from a field
+constexpr double kBehind_m = 0.0003;  // pulled back so far, the drill is not at the hole's end
+constexpr double kSlid_m = 0.0005;    // slid off so far sideways, it begins anew
+constexpr double kBeyond_m = 0.001;   // gone on so far through nothing, it begins anew
+constexpr double kStep_s = 0.002;
 constexpr std::uint32_t kRestSteps = 50;  // without a cut: it has stopped
 constexpr std::uint32_t kPlungeSteps = 250;
 constexpr double kDeepEnough_m = 0.001;  // a shallower hole has no far side
@@ -67,6 +69,10 @@ void add_to(Hasher& hasher, const CarvingHand& hand) {
   hasher.add(hand.out);
   hasher.add(hand.p_out);
   if (hand.loose > 0) hasher.add(hand.loose);
+  if (hand.chatter.amplitude_m > 0) {
+    for (const double x : {hand.chatter.amplitude_m, hand.chatter.frequency_hz}) hasher.add(x);
+    hasher.add(hand.chatters_since);
+  }
   if (!hand.in_hole && hand.rod == 0 && hand.lag_m == 0 && hand.grip == 0) return;
   for (const bool x : {hand.in_hole, hand.open}) hasher.add(x);
   for (const double x : {hand.lag_m, hand.grip}) hasher.add(x);
@@ -183,6 +189,9 @@ void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnaps
         if (before->stays) follow_chuck(hand, *before, chuck, bones);
         if (h.in_hole) keep_hole(h, *before);
       }
+    Push nothing;
+    nothing.tool = &tool;
+    run_smoothly(hand, nothing);
     h = {};
     h.instrument = tool.instrument;
     chuck.jaw = 0;
@@ -249,6 +258,7 @@ void Carving::cut_with(std::size_t hand, const ToolState& tool, const BoneSnapsh
 
 void Carving::begin(std::size_t hand, const CarvingTool& with, const Push& push) {
   CarvingHand& h = hands_[hand];
+  run_smoothly(hand, push);
   h = anew(h);
   h.bone = push.bone;
   const Vec3 back = back_of(push.X_BT);
@@ -330,8 +340,10 @@ void Carving::rest(std::size_t hand, const Push& push) {
   h.drill.was_cutting = false;
   const auto& with = setup_->tray[push.tool->instrument];
   if (with && goes_forward(with->way)) follow_out(hand, push);
-  if (++h.idle < kRestSteps || h.out > 0) return;
-  const double seconds = 0.002 * static_cast<double>(steps_ - h.since);
+  if (++h.idle < kRestSteps) return;
+  run_smoothly(hand, push);
+  if (h.out > 0) return;
+  const double seconds = kStep_s * static_cast<double>(steps_ - h.since);
   if (h.most_torque_nm > 0 || (h.was_in && !h.in_hole))
     tell(hand, push, kCutEnd, {1000 * h.drill.depth_m, seconds, 1000 * h.most_torque_nm});
   h.most_torque_nm = 0;
@@ -400,6 +412,59 @@ void Carving::go_on(std::size_t hand, const CarvingTool& with, const Push& push,
   h.due_m = 0;
 }
 
+// Told when it begins and when it has become another one.
+void Carving::shake(std::size_t hand, const CarvingTool& with, const Push& push, double rev_per_s) {
+  constexpr double kOther = 0.5, kLeast_m = 5e-6;
+  CarvingHand& h = hands_[hand];
+  const double depth = cut_a_side(*bones_[h.bone].field, with.cutter, cutter_pose(h));
+  const double canal = with.cutter.size_m - 2 * depth;
+  const auto now = reamer_chatter(setup_->table, with.cutter.size_m, canal, rev_per_s, depth > 0);
+  if (!now || now->amplitude_m < kLeast_m) return run_smoothly(hand, push);
+  const auto alike = [](double a, double b) { return std::abs(a - b) <= kOther * b; };
+  if (alike(now->amplitude_m, h.chatter.amplitude_m) &&
+      alike(now->frequency_hz, h.chatter.frequency_hz))
+    return;
+  if (!(h.chatter.amplitude_m > 0)) h.chatters_since = steps_;
+  h.chatter = *now;
+  tell(hand, push, kChatter, {1000 * now->amplitude_m, now->frequency_hz, 0});
+}
+
+void Carving::run_smoothly(std::size_t hand, const Push& push) {
+  CarvingHand& h = hands_[hand];
+  if (!(h.chatter.amplitude_m > 0)) return;
+  h.chatter = {};
+  const double seconds = kStep_s * static_cast<double>(steps_ - h.chatters_since);
+  tell_of(hand, *push.tool, kChatterEnd, h.bone, {seconds, 0, 0});
+}
+
+// A push beyond the line's resistance F(D) lets the drill go on until the hand's spring holds no
+// more than F: by a part of the spring's length at each step, since the hand learns of it two steps
+// later. Bone tells the torque alone.
+DrillStep Carving::go_guided(std::size_t hand, const CarvingTool& with,
+                             const DrillMaterial& material, double push_n, double rev_per_s,
+                             double step_s) {
+  constexpr double kGives_m_per_n = 1e-4, kFastest_m_per_s = 0.05;
+  CarvingHand& h = hands_[hand];
+  const CarvedField& field = *bones_[h.bone].field;
+  const Vec3 back = back_of(h.X_BC);
+  GuidedTunnel tunnel;
+  tunnel.length_m = std::max(way_in_bone(field, h.mouth_B, -back), field.grid().cell_m);
+  tunnel.force_n = setup_->guided_n;
+  RbfDrillState drilled;
+  DrillStep out;
+  out.resistance_n = rbf_drill_force(drilled, tunnel, back.dot(h.mouth_B - h.X_BC.p));
+  const double over = std::max(0.0, push_n - out.resistance_n);
+  out.advance_m = std::min(kGives_m_per_n * over, kFastest_m_per_s * step_s);
+  out.feed_m_per_rev = out.advance_m / (rev_per_s * step_s);
+  const double area = 0.25 * std::numbers::pi * with.cutter.size_m * with.cutter.size_m;
+  out.cutting_w = material.specific_energy_j_per_m3 * area * out.advance_m / step_s;
+  out.torque_nm = out.cutting_w / (2 * std::numbers::pi * rev_per_s);
+  h.drill.depth_m += out.advance_m;
+  h.drill.turned_rev += rev_per_s * step_s;
+  h.drill.was_cutting = out.advance_m > 0;
+  return out;
+}
+
 void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
   CarvingHand& h = hands_[hand];
   if (!stand_before(hand, with, push)) return rest(hand, push);
@@ -421,15 +486,24 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
                        slides ? 0 : with.pilot_m};
   const double thrust = setup_->thrust_scale * std::max(0.0, push.force_B.dot(back));
   const bool first = h.most_torque_nm == 0;
+  const bool guided = setup_->guided_n > 0 && h.rod != 0;
   const DrillStep did =
-      step_drill(h.drill, table, tool, {&material, by_hand ? h.angle_rad : angle}, thrust, step_s);
+      guided ? go_guided(hand, with, material, thrust / setup_->thrust_scale, tool.speed_rev_per_s,
+                         step_s)
+             : step_drill(h.drill, table, tool, {&material, by_hand ? h.angle_rad : angle}, thrust,
+                          step_s);
   if (did.skives && !h.skives)
     tell(hand, push, kSkives, {h.angle_rad * 180 / std::numbers::pi, thrust, 0});
   h.skives = did.skives;
   readouts_[hand] = {h.bone,        h.X_BC.p, back,          0.5 * with.cutter.size_m,
                      did.advance_m, thrust,   did.torque_nm, did.cutting_w,
                      did.rubbing_w};
-  if (!(did.advance_m > 0)) return;
+  if (!(did.advance_m > 0)) {
+    // Thrown back, its teeth come again; a reamer that is pressed too lightly cuts no more.
+    if (with.reams && ++h.idle >= kRestSteps) run_smoothly(hand, push);
+    return;
+  }
+  if (with.reams) shake(hand, with, push, tool.speed_rev_per_s);
   h.idle = 0;
   const bool outside = was_outside(field, h.X_BC.p);
   h.open = h.was_in && outside && front.left() == 0;

@@ -148,11 +148,13 @@ void Carving::come_back(std::size_t hand, const CarvingTool& with, const ToolSta
 }
 
 void Carving::end_hole(std::size_t hand, const ToolState& tool) {
+  const auto since = [&](std::uint64_t step) { return 0.002 * static_cast<double>(steps_ - step); };
   CarvingHand& h = hands_[hand];
+  if (h.chatter.amplitude_m > 0)
+    tell_of(hand, tool, kChatterEnd, h.bone, {since(h.chatters_since), 0, 0});
   if (h.most_torque_nm > 0)
     tell_of(hand, tool, kCutEnd, h.bone,
-            {1000 * h.drill.depth_m, 0.002 * static_cast<double>(steps_ - h.since),
-             1000 * h.most_torque_nm});
+            {1000 * h.drill.depth_m, since(h.since), 1000 * h.most_torque_nm});
   h = anew(h);
 }
 
@@ -287,6 +289,15 @@ void Carving::follow_aimer(std::size_t hand, const AimingTool& with, const ToolS
   }
 }
 
+// How far the wave that the teeth meet stands out now. Beyond what so many steps a second can tell
+// nothing is felt of it; it is still told.
+double Carving::shaken_m(const CarvingHand& h) const {
+  constexpr double kMostFelt_hz = 100;
+  if (!(h.chatter.amplitude_m > 0) || h.chatter.frequency_hz > kMostFelt_hz) return 0;
+  const double teeth = setup_->table.reamer_teeth * h.drill.turned_rev;
+  return h.chatter.amplitude_m * std::sin(2 * std::numbers::pi * (teeth - std::floor(teeth)));
+}
+
 void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
   const CarvingHand& h = hands_[hand];
   ToolGuide& out = guides_[hand];
@@ -304,7 +315,7 @@ void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapsho
   const bool on_its_pin = rod && rod->kind == GuideRod::Kind::kPin && with && with->stays;
   out.in_hole = (h.in_hole || on_its_pin) && h.bone == out.bone;
   out.stops = out.in_hole;
-  out.stop_m = out.nhat_B.dot(h.X_BC.p - out.p_B) - CarvingSetup::kSlack_m;
+  out.stop_m = out.nhat_B.dot(h.X_BC.p - out.p_B) - CarvingSetup::kSlack_m + shaken_m(h);
   if (!rod) return;
   const Pose X_BT = bones.bones[rod->bone].X_WB.inverse() * tool.X_WP;
   out.give_m_per_n = give_of(*rod, beside(*rod, X_BT).along_m);

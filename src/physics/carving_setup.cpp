@@ -69,6 +69,7 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
   if (instrument.power && instrument.power->unit == "rpm")
     tool.most_rev_per_s = instrument.power->most / 60;
   if (instrument.power && instrument.power->unit == "W") tool.most_w = instrument.power->most;
+  tool.reams = drills && removal.cutter == "reamer";
   tool.stays = tool.way == Way::kDrill && instrument.can(InstrumentFunction::kGuide);
   tool.length_m = instrument.shaft.to.at(size_m).z();
   if (tool.way == Way::kDrill) shorten(tool.cutter);
@@ -175,6 +176,7 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
   setup->by_hand.usual_feed_m_per_rev *= kFeedByHand;
   setup->by_hand.largest_feed_m_per_rev *= kFeedByHand;
   setup->thrust_scale = settings.thrust_scale;
+  setup->guided_n = settings.guided_n;
   if (auto added = add_tools(tray, *setup); !added) return tl::unexpected(added.error());
   for (const Bone& bone : the_case.bones) {
     setup->bones.emplace_back();

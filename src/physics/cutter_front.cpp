@@ -83,6 +83,19 @@ bool was_outside(const CarvedField& field, const Vec3& p_B) {
   return !node || field.height_m(node->block, node->node) >= 0;
 }
 
+double way_in_bone(const CarvedField& field, const Vec3& from_B, const Vec3& way_B) {
+  constexpr double kMost_m = 0.2, kToSurface_m = 0.003;
+  const double step = field.grid().cell_m;
+  bool in = false;
+  for (double s = 0; s < kMost_m; s += step) {
+    const bool outside = was_outside(field, from_B + s * way_B);
+    if (in && outside) return s;
+    if (!in && outside && s > kToSurface_m) return 0;
+    in = in || !outside;
+  }
+  return kMost_m;
+}
+
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
                        const Pose& X_BC) {
   const double inner2 = 0.25 * pilot_m * pilot_m, outer2 = 0.25 * cutter.size_m * cutter.size_m;
@@ -97,6 +110,24 @@ FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pi
     }
   }
   return share;
+}
+
+double cut_a_side(const CarvedField& field, const Cutter& cutter, const Pose& X_BC) {
+  constexpr std::size_t kSteps = 20;
+  constexpr double kStep_m = 1e-4;
+  const double radius = 0.5 * cutter.size_m;
+  std::size_t cortex = 0;
+  for (std::size_t i = 0; i < kAround; ++i) {
+    const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
+    for (std::size_t n = 0; n < kSteps; ++n) {
+      const double rho = radius - (static_cast<double>(n) + 0.5) * kStep_m;
+      if (!(rho > 0)) break;
+      const double z = front_z(cutter, rho) - kAheadCells * field.grid().cell_m;
+      const auto tissue = tissue_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z));
+      if (tissue == BoneTissue::kCortical) ++cortex;
+    }
+  }
+  return kStep_m * static_cast<double>(cortex) / kAround;
 }
 
 // Rings of equal width, each counted by its area.

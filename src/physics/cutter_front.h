@@ -26,9 +26,16 @@ std::optional<BoneTissue> tissue_at(const CarvedField& field, const Vec3& p_B);
 /// Whether a point lies outside of the bone as it was before any cut.
 bool was_outside(const CarvedField& field, const Vec3& p_B);
 
+/// How far a line from a place at the bone's surface goes on in the bone as it was before any cut,
+/// up to 0.2 m.
+double way_in_bone(const CarvedField& field, const Vec3& from_B, const Vec3& way_B);
+
 /// Before a cutter that is turned about its axis, a drill or a reamer, beyond its pilot's radius.
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
                        const Pose& X_BC);
+/// How wide the cortex is that stands before a reamer's rim, from the rim inwards, m: the mean of
+/// its sides, each up to 2 mm.
+double cut_a_side(const CarvedField& field, const Cutter& cutter, const Pose& X_BC);
 /// The same before a long point, an awl's: what of it is in bone decides, so it is looked at in
 /// more rings.
 FrontShare look_before_point(const CarvedField& field, const Cutter& cutter, const Pose& X_BC);

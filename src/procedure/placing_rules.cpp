@@ -9,7 +9,12 @@ namespace {
 
 constexpr double kMostGap_mm = 1000;
 
-bool placing_goal_met(const std::string& kind, const Event& event) {
+bool placing_goal_met(const PlannedRule& rule, const Event& event) {
+  const std::string& kind = rule.rule.kind;
+  if (kind == "screw_in") return event.kind == kScrewIn;
+  if (kind == "knee_cycled")
+    return event.kind == kKneeCycled && event.values[0] >= number_of(rule, "times") &&
+           event.values[1] >= number_of(rule, "tension_n");
   if (kind == "thread_laid") return event.kind == kThreadLaid;
   if (kind == "thread_out") return event.kind == kThreadOut;
   return kind == "button_turned" && event.kind == kButtonTurned;
@@ -19,6 +24,15 @@ bool placing_error_made(const PlannedRule& rule, const Event& event) {
   const std::string& kind = rule.rule.kind;
   if (kind == "thread_lost") return event.kind == kThreadLost;
   if (kind == "button_let_go") return event.kind == kButtonLetGo;
+  if (kind == "screw_diverges")
+    return event.kind == kScrewIn && event.values[1] > number_of(rule, "most_deg");
+  if (kind == "screw_shallow")
+    return event.kind == kScrewIn && event.values[0] < number_of(rule, "least_mm");
+  if (kind == "tension_outside")
+    return event.kind == kScrewIn && (event.values[2] < number_of(rule, "least_n") ||
+                                      event.values[2] > number_of(rule, "most_n"));
+  if (kind == "cycles_under")
+    return event.kind == kGraftFixed && event.values[1] < number_of(rule, "least");
   return event.kind == kButtonTurned && event.values[0] >= number_of(rule, "least_mm") &&
          event.values[0] < number_of(rule, "most_mm");
 }
@@ -35,6 +49,32 @@ const std::vector<RuleKind>& placing_rule_table() {
        kOfNothing},
       {"thread_out", "the thread's end is out through the tibia", true, {}, kOfNothing},
       {"button_turned", "the button lies across its channel", true, {}, kOfNothing},
+      {"knee_cycled",
+       "the knee was stretched out and bent so often with the graft in it, its tail pulled",
+       true,
+       {{"times", 1, 1000, 20}, {"tension_n", 0, 200, 20}},
+       kOfNothing},
+      {"screw_in", "a screw was turned in beside the graft in the tibia", true, {}, kOfNothing},
+      {"screw_diverges",
+       "between the screw and the tibial tunnel are more than most_deg",
+       false,
+       {{"most_deg", 0, 90, 15}},
+       kOfNothing},
+      {"screw_shallow",
+       "the screw was turned in less deep than least_mm",
+       false,
+       {{"least_mm", 0, 100, 20}},
+       kOfNothing},
+      {"tension_outside",
+       "the graft's tail was not pulled by least_n to most_n as the screw was let go",
+       false,
+       {{"least_n", 0, 200, 40}, {"most_n", 0, 200, 150}},
+       kOfNothing},
+      {"cycles_under",
+       "the knee was bent less than least times under tension before the screw",
+       false,
+       {{"least", 1, 1000, 20}},
+       kOfNothing},
       {"thread_lost", "the thread's end was drawn or let go out of reach", false, {}, kOfNothing},
       {"button_let_go",
        "the thread was let go while the button is in its channel",
@@ -58,7 +98,7 @@ bool step_placing_rule(const PlannedRule& rule, const Event& event, double tick_
   if (!kind) return false;
   hit.reset();
   if (kind->is_goal) {
-    if (placing_goal_met(rule.rule.kind, event)) state.holds[0].told = true;
+    if (placing_goal_met(rule, event)) state.holds[0].told = true;
     state.met = state.holds[0].told;
   } else if (placing_error_made(rule, event)) {
     hit = RuleHit{time_of(event, tick_s)};

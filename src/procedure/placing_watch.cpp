@@ -1,6 +1,8 @@
 #include "osteon/procedure/placing_watch.h"
 
-#include "osteon/scene/case.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace osteon {
 namespace {
@@ -17,12 +19,27 @@ void tell_placing(std::uint64_t tick, EventKind kind, std::array<double, 3> valu
 
 }  // namespace
 
-PlacingWatch::PlacingWatch(const Case& the_case) : plan_(find_placing(the_case)) {}
+double excursion_m(const BentGraft& bent) {
+  double least = 0, most = 0;
+  for (const double length : bent.lengths_m) {
+    if (length == 0) continue;
+    least = least == 0 ? length : std::min(least, length);
+    most = std::max(most, length);
+  }
+  return most - least;
+}
+
+std::optional<PlacingPlan> PlacingWatch::plan() const {
+  return seen_.on ? std::optional<PlacingPlan>(seen_.plan) : std::nullopt;
+}
 
 void PlacingWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
-  if (!plan_ || !bones.placing.on) return;
   const GraftPlacingState &now = bones.placing, &was = seen_;
-  const double beyond_mm = 1e3 * (now.drawn_m - plan_->button_out_m());
+  if (!now.on) {
+    seen_ = {};
+    return;
+  }
+  const double beyond_mm = 1e3 * (now.drawn_m - now.plan.button_out_m());
   if (now.lost > was.lost) tell_placing(tick, kThreadLost, {double(now.lost), 0, 0}, out);
   if (now.phase != was.phase && now.phase == PlacingPhase::kThreadInside &&
       was.phase == PlacingPhase::kEmpty)
@@ -34,7 +51,39 @@ void PlacingWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vecto
     tell_placing(tick, kButtonLetGo, {-beyond_mm, now.most_pull_n, 0}, out);
   if (now.phase != was.phase && now.phase == PlacingPhase::kTurned)
     tell_placing(tick, kButtonTurned, {1e3 * now.gap_m, now.most_pull_n, beyond_mm}, out);
+  add_fixing(tick, bones, out);
   seen_ = now;
+}
+
+// Bending with the graft in it, and the screw.
+void PlacingWatch::add_fixing(std::uint64_t tick, const BoneSnapshot& bones,
+                              std::vector<Event>& out) {
+  const GraftPlacingState& now = bones.placing;
+  if (now.phase != PlacingPhase::kTurned) {
+    bent_ = {};
+    cycles_ = bones.bend.cycles;
+    return;
+  }
+  if (bones.bend.on) {
+    const double place = bones.bend.now_deg / 10;
+    const auto n = static_cast<std::size_t>(std::clamp(std::round(place), 0.0, 13.0));
+    constexpr double kNear = 0.05;
+    if (std::abs(place - static_cast<double>(n)) < kNear)
+      bent_.lengths_m[n] = placing_between_m(now.plan, bones);
+  }
+  if (bones.bend.cycles > cycles_)
+    tell_placing(tick, kKneeCycled, {double(bones.bend.cycles), now.tension_n, 0}, out);
+  cycles_ = bones.bend.cycles;
+  const PlacingScrew& screw = now.screw;
+  if (!screw.done || seen_.screw.done) return;
+  const double cosine =
+      screw.out_B.dot((now.plan.tibia.outer_B - now.plan.tibia.mouth_B).normalized());
+  const double apart_deg = 180 / std::numbers::pi * std::acos(std::clamp(cosine, -1.0, 1.0));
+  tell_placing(tick, kScrewIn, {1e3 * screw.in_m, apart_deg, screw.tension_n}, out);
+  tell_placing(tick, kGraftFixed,
+               {screw.flexion_deg, double(screw.cycles),
+                1e3 * (screw.width_m - 2 * now.plan.tibia.radius_m)},
+               out);
 }
 
 }  // namespace osteon

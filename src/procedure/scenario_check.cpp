@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "osteon/procedure/asked_findings.h"
@@ -8,6 +9,14 @@
 
 namespace osteon {
 namespace {
+
+// "3", "2.5"
+std::string short_seconds(double seconds) {
+  char text[64];
+  const auto end =
+      std::to_chars(text, text + sizeof text, seconds, std::chars_format::general, 4).ptr;
+  return std::string(text, end);
+}
 
 // Gathers what is wrong, each with its place.
 class ScenarioChecker {
@@ -28,9 +37,9 @@ class ScenarioChecker {
       }
     }
     if (least_s > scenario_.time_limit_s)
-      say(scenario_.stages.front().line, "the goals take " + std::to_string(least_s) +
+      say(scenario_.stages.front().line, "the goals take " + short_seconds(least_s) +
                                              " s at least, and time_limit_s is " +
-                                             std::to_string(scenario_.time_limit_s));
+                                             short_seconds(scenario_.time_limit_s));
     for (const ScenarioError& error : scenario_.errors) {
       once(error.name, "error", error.rule.line);
       bones_are_there(error.rule);

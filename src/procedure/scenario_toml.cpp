@@ -45,6 +45,10 @@ ScenarioStage read_stage(TomlTable table) {
   stage.cue = table.text_or("cue", "");
   stage.picture = table.text_or("picture", "");
   stage.restore_point = table.flag_or("restore_point", false);
+  stage.restore_title = table.text_or("restore_title", "");
+  if (!stage.restore_title.empty() && !stage.restore_point)
+    table.set_error("a stage without a restore point names one", "restore_title",
+                    "Add restore_point = true");
   for (TomlTable& goal : table.tables_or_empty("goals")) {
     stage.goals.push_back(read_rule(goal, "rule", true));
     goal.refuse_others();

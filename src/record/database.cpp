@@ -6,6 +6,8 @@
 #include <cstring>
 #include <random>
 
+#include "salvage.h"
+
 namespace osteon {
 namespace {
 
@@ -56,12 +58,16 @@ void Statement::bind(int index, std::int64_t value) {
   sqlite3_bind_int64(stmt_.get(), index, value);
 }
 
+// A view of nothing may have no address, which SQLite takes for NULL.
+static const char* address_of(std::string_view bytes) { return bytes.empty() ? "" : bytes.data(); }
+
 void Statement::bind_text(int index, std::string_view text) {
-  sqlite3_bind_text64(stmt_.get(), index, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+  sqlite3_bind_text64(stmt_.get(), index, address_of(text), text.size(), SQLITE_TRANSIENT,
+                      SQLITE_UTF8);
 }
 
 void Statement::bind_blob(int index, std::string_view bytes) {
-  sqlite3_bind_blob64(stmt_.get(), index, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+  sqlite3_bind_blob64(stmt_.get(), index, address_of(bytes), bytes.size(), SQLITE_TRANSIENT);
 }
 
 Result<bool> Statement::next() {
@@ -137,6 +143,7 @@ class Database::TempCopy {
   }
 
   fs::path file() const { return folder_ / "recording.osr"; }
+  fs::path salvaged() const { return folder_ / "salvaged.osr"; }
 
  private:
   fs::path folder_;
@@ -207,6 +214,7 @@ Result<Database> Database::open(const fs::path& file) {
     return fs::is_directory(file, error)
                ? fail("is a folder", file.string(), "Give the name of a file in it")
                : fail("there is no such file", file.string(), "Check the name");
+  if (is_cut_short(file)) return open_cut(file);
   auto database = open_at(file, file.string());
   if (database && !database->needs_copy()) return database;
   if (database) return open_copy(file);
@@ -217,6 +225,18 @@ Result<Database> Database::open_copy(const fs::path& file) {
   auto copy = TempCopy::make(file);
   if (!copy) return tl::unexpected(copy.error());
   auto database = open_at((*copy)->file(), file.string());
+  if (database) database->copy_ = std::move(*copy);
+  return database;
+}
+
+Result<Database> Database::open_cut(const fs::path& file) {
+  auto copy = TempCopy::make(file);
+  if (!copy) return tl::unexpected(copy.error());
+  if (auto done = salvage((*copy)->file(), (*copy)->salvaged()); !done) {
+    done.error().where = file.string();
+    return tl::unexpected(done.error());
+  }
+  auto database = open_at((*copy)->salvaged(), file.string());
   if (database) database->copy_ = std::move(*copy);
   return database;
 }

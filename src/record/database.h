@@ -51,7 +51,8 @@ class Database {
   /// Opens a file that `create` made, to go on writing.
   static Result<Database> reopen(const std::filesystem::path& file);
   /// Opens for reading. What a killed writer left in its log is recovered, which writes to the
-  /// folder; where that is not allowed, a copy in the temporary folder is read instead.
+  /// folder; where that is not allowed, a copy in the temporary folder is read instead. Of a file
+  /// that was cut short, what its beginning still holds is read from such a copy (salvage.h).
   static Result<Database> open(const std::filesystem::path& file);
   /// Opens an image of a file (without its log).
   static Result<Database> open_memory(std::span<const std::byte> image);
@@ -74,6 +75,7 @@ class Database {
   Database();
   static Result<Database> open_at(const std::filesystem::path& file, const std::string& name);
   static Result<Database> open_copy(const std::filesystem::path& file);
+  static Result<Database> open_cut(const std::filesystem::path& file);
   Result<void> harden();
   bool needs_copy();
 

@@ -58,6 +58,14 @@ Result<void> check_format(Database& database) {
   return check_schema(database);
 }
 
+Result<void> make_tables(Database& database) {
+  const std::string marks = "PRAGMA application_id=" + std::to_string(kApplicationId) +
+                            "; PRAGMA user_version=" + std::to_string(kFormatVersion) + ";";
+  const std::string tables = std::string(kMetaSchema) + ";" + kTicksSchema + ";" + kStepsSchema +
+                             ";" + kEventsSchema + ";" + kStatesSchema + ";";
+  return database.run((marks + tables).c_str());
+}
+
 Result<RecordingMeta> read_meta(Database& database) {
   auto statement = database.prepare("SELECT key, value FROM meta");
   if (!statement) return tl::unexpected(statement.error());

@@ -16,6 +16,8 @@ inline constexpr const char* kUseAnother = "The file is damaged: use another cop
 /// The table `meta`.
 using RecordingMeta = std::map<std::string, std::string, std::less<>>;
 
+/// Makes the tables of this format in an empty database.
+Result<void> make_tables(Database& database);
 /// Whether it is a recording of this format, with its tables to the letter.
 Result<void> check_format(Database& database);
 Result<RecordingMeta> read_meta(Database& database);

@@ -8,6 +8,7 @@
 #include "format.h"
 #include "new_file.h"
 #include "osteon/record/recording.h"
+#include "recording_meta.h"
 
 namespace osteon {
 namespace {
@@ -43,14 +44,6 @@ Result<void> put_header(Database& database, const RecordingHeader& header) {
   for (const auto& [key, value] : rows)
     if (const auto done = put_meta(database, key, value); !done) return done;
   return {};
-}
-
-Result<void> make_tables(Database& database) {
-  const std::string marks = "PRAGMA application_id=" + std::to_string(kApplicationId) +
-                            "; PRAGMA user_version=" + std::to_string(kFormatVersion) + ";";
-  const std::string tables = std::string(kMetaSchema) + ";" + kTicksSchema + ";" + kStepsSchema +
-                             ";" + kEventsSchema + ";" + kStatesSchema + ";";
-  return database.run((marks + tables).c_str());
 }
 
 // A chunk fills whole pages of the file: of small ones less is left empty. Any version reads them.

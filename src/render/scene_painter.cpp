@@ -228,7 +228,6 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     painter.shared_->rest_X_WB.push_back(bone.X_WB);
   }
   for (const SoftPart& soft : the_case.softs) painter.shared_->bones.push_back(make_soft(soft));
-  painter.shared_->placing = find_placing(the_case);
   painter.set_surfaces(prepared);
   painter.shared_->tools.push_back(make_tool_model(tool));
   painter.shared_->shaft = GpuMesh(plain_shaded(cylinder(20)));

@@ -176,10 +176,9 @@ class ScenePainter {
   /// What all painters of a case have in common; never null.
   struct Shared {
     Program bone, changed_bone, depth, metal, mark, ground;
-    std::vector<BoneModel> bones;        ///< and soft parts
-    std::vector<Pose> rest_X_WB;         ///< of the bones
-    std::optional<PlacingPlan> placing;  ///< of a case in which a graft can be placed
-    std::vector<ToolModel> tools;        ///< by ToolState::instrument; not empty
+    std::vector<BoneModel> bones;  ///< and soft parts
+    std::vector<Pose> rest_X_WB;   ///< of the bones
+    std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;
     std::uint64_t version = 1;

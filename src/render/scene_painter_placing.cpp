@@ -16,15 +16,13 @@ Eigen::Vector4f placing_color(PlacingRod::Is is) {
 std::vector<ScenePainter::Capsule> ScenePainter::placing_capsules(
     const RenderSnapshot& snapshot) const {
   std::vector<Capsule> out;
-  if (!shared_->placing) return out;
-  for (const PlacingRod& rod : placing_rods(*shared_->placing, snapshot.bones))
+  for (const PlacingRod& rod : placing_rods(snapshot.bones))
     out.push_back({rod.a_W, rod.b_W, rod.radius_m});
   return out;
 }
 
 void ScenePainter::paint_placing(const RenderSnapshot& snapshot, const Frame& frame) const {
-  if (!shared_->placing) return;
-  for (const PlacingRod& rod : placing_rods(*shared_->placing, snapshot.bones)) {
+  for (const PlacingRod& rod : placing_rods(snapshot.bones)) {
     const Vec3 along_W = rod.b_W - rod.a_W;
     const double length_m = along_W.norm();
     if (!(length_m > 1e-6) || !is_finite(rod.a_W)) continue;

@@ -119,6 +119,8 @@ bool in_square(const Vec3& center_C, double radius_m, double half) {
   return std::abs(center_C.x()) - edge <= reach && std::abs(center_C.y()) - edge <= reach;
 }
 
+constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
+
 /// Less than a student can see: of a place, and of a turn (the sine of its half).
 constexpr double kStill_m = 2e-6, kStill_turn = 2e-5;
 
@@ -135,6 +137,12 @@ TissuePart steel() {
   TissuePart part;
   part.pattern = TissuePattern::kSteel;
   part.tint = {0.86f, 0.88f, 0.91f};
+  return part;
+}
+
+TissuePart ghost_part() {
+  TissuePart part = steel();
+  part.tint = {0.35f, 0.72f, 1.0f};
   return part;
 }
 
@@ -178,13 +186,14 @@ struct ScopeRenderer::Impl {
     double half_field_rad = 0, barrel = 1;
     std::vector<Pose> parts, tools;
     std::vector<std::size_t> instruments;
+    std::vector<float> ghosts;
     std::uint64_t version = 0, wall = 0;
     ScopeWater water;
     bool still(const Painted& b) const {
       return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
-             instruments == b.instruments && version == b.version && wall == b.wall &&
-             water == b.water && looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
-             looks_still(tools, b.tools);
+             instruments == b.instruments && ghosts == b.ghosts && version == b.version &&
+             wall == b.wall && water == b.water && looks_still(X_WC, b.X_WC) &&
+             looks_still(parts, b.parts) && looks_still(tools, b.tools);
     }
   };
 
@@ -197,12 +206,12 @@ struct ScopeRenderer::Impl {
   std::uint64_t walls = 0;  ///< that there have been
   ScopeWater water;
   std::vector<Pose> rest_X_WB;
-  TissuePart tool = steel();
+  TissuePart tool = steel(), ghost = ghost_part();
   std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
   std::vector<std::pair<std::size_t, Pose>> tools;
-  std::optional<PlacingPlan> placing;  ///< of a case in which a graft can be placed
-  std::vector<PlacingRod> rods;        ///< thread, graft and button now
-  std::vector<TissuePart> placed;      ///< the same, in World
+  std::vector<GhostTool> ghosts;
+  std::vector<PlacingRod> rods;    ///< thread, graft and button now
+  std::vector<TissuePart> placed;  ///< the same, in World
   bool rods_changed = false;
   LightTarget flat;
   RenderTarget picture;
@@ -307,7 +316,27 @@ struct ScopeRenderer::Impl {
     glDepthMask(GL_FALSE);
     paint_all(camera, half, false);
     glDepthMask(GL_TRUE);
+    paint_ghosts(camera, half);
     glDisable(GL_DEPTH_TEST);
+  }
+
+  /// Over what is seen, the nearest side alone. The distance under them stays: they stand in no
+  /// water and are as sharp as what is behind.
+  void paint_ghosts(const ScopeCamera& camera, double half) const {
+    const Pose X_CW = camera.X_WC().inverse();
+    for (const GhostTool& shown : ghosts) {
+      const GpuMesh* const mesh = tool_surface(shown.instrument);
+      if (!mesh) continue;
+      const float opacity = std::min(shown.opacity, kScopeGhostMost);
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      paint_part(ghost, *mesh, X_CW * shown.X_WT, half, true);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glEnable(GL_BLEND);
+      glBlendColor(0, 0, 0, opacity);
+      glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
+      paint_part(ghost, *mesh, X_CW * shown.X_WT, half, false);
+      glDisable(GL_BLEND);
+    }
   }
 
   void paint_lens(const ScopeCamera& camera, double half, double exposure,
@@ -373,6 +402,11 @@ struct ScopeRenderer::Impl {
       now.instruments.push_back(instrument);
       now.tools.push_back(X_WT);
     }
+    for (const GhostTool& shown : ghosts) {
+      now.instruments.push_back(shown.instrument);
+      now.tools.push_back(shown.X_WT);
+      now.ghosts.push_back(shown.opacity);
+    }
     for (const PlacingRod& rod : rods)
       for (const Vec3& end : {rod.a_W, rod.b_W}) now.tools.push_back({end, Quat::Identity()});
     return now;
@@ -436,7 +470,6 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
 
 /// Bones, then soft parts without the skin.
 void ScopeRenderer::Impl::add_parts(const Case& the_case) {
-  placing = find_placing(the_case);
   for (std::size_t k = 0; k < the_case.bones.size(); ++k) {
     TissuePart part;
     part.model = k;
@@ -499,6 +532,12 @@ void ScopeRenderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) 
   for (const auto& tool : tray) impl_->tray.emplace_back(plain_shaded(tool->mesh));
 }
 
+void ScopeRenderer::set_ghosts(std::span<const GhostTool> ghosts) {
+  impl_->ghosts.clear();
+  for (const GhostTool& ghost : ghosts)
+    if (ghost.opacity >= kScopeGhostSeen && is_finite(ghost.X_WT)) impl_->ghosts.push_back(ghost);
+}
+
 void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools) {
   const std::size_t count = std::min<std::size_t>(impl_->rest_X_WB.size(), bones.count);
   for (std::size_t k = 0; k < count; ++k)
@@ -510,8 +549,7 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   for (const ToolState& tool : tools)
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.emplace_back(tool.instrument, tool.X_WP);
-  if (!impl_->placing) return;
-  auto rods = placing_rods(*impl_->placing, bones);
+  auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {
     return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);
   });

@@ -82,6 +82,14 @@ Result<AttemptRow> row_from_report(const std::string& report_json, const std::st
   }
 }
 
+bool was_guided(const AttemptRow& row) {
+  const RowJson json = RowJson::parse(row.report_json, nullptr, false);
+  if (!json.is_object() || !json.contains("metrics") || !json["metrics"].is_object()) return false;
+  const RowJson& metrics = json["metrics"];
+  const auto guided = metrics.find("guided_s");
+  return guided != metrics.end() && guided->is_number() && guided->get<double>() > 0;
+}
+
 std::string to_json(const AttemptRow& row) {
   return RowJson{{"id", row.id},
                  {"learner", row.learner},

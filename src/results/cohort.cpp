@@ -22,19 +22,26 @@ CohortLearner learner_of_attempts(const std::string& id,
   CohortLearner learner;
   learner.learner = id;
   learner.attempts = attempts.size();
-  std::vector<bool> passed;
-  for (const AttemptRow* row : attempts) {
-    passed.push_back(row->verdict == "passed");
-    learner.passed += passed.back() ? 1 : 0;
+  std::vector<bool> alone;
+  std::vector<int> place;  // of those that count for the curve, among all
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const AttemptRow* const row = attempts[i];
+    const bool passed = row->verdict == "passed";
+    learner.passed += passed ? 1 : 0;
+    if (!was_guided(*row)) {
+      alone.push_back(passed);
+      place.push_back(static_cast<int>(i));
+    }
     if (!row->score) continue;
     if (!learner.first_score) learner.first_score = row->score;
     learner.last = row->score;
     learner.last_lo = row->score_lo;
     learner.last_hi = row->score_hi;
   }
-  const LcCusum curve = lc_cusum(passed, options);
-  learner.competent_at = curve.competent_at;
-  learner.relapse_at = curve.relapse_at;
+  const LcCusum curve = lc_cusum(alone, options);
+  const auto in_all = [&](int at) { return at < 0 ? at : place[static_cast<std::size_t>(at)]; };
+  learner.competent_at = in_all(curve.competent_at);
+  learner.relapse_at = in_all(curve.relapse_at);
   return learner;
 }
 

@@ -199,7 +199,10 @@ Result<void> save_cohort_pdf(const Cohort& cohort, const LearnerNames& names,
         bars.bars.push_back({shown_name(one.learner, names), *one.last,
                              one.last_lo.value_or(*one.last), one.last_hi.value_or(*one.last)});
     pages.bars(bars);
-    PdfPages::Curve curve{"Median by attempt", "attempts", "points", {}, {}, {}};
+    PdfPages::Curve curve;
+    curve.title = "Median by attempt";
+    curve.x_unit = "attempts";
+    curve.y_unit = "points";
     curve.from_zero = false;
     for (std::size_t n = 0; n < scenario.curve.size(); ++n)
       if (scenario.curve[n].learners > 0) {

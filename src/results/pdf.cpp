@@ -40,9 +40,18 @@ struct CurveBox {
 };
 
 CurveBox box_of(const PdfPages::Curve& curve) {
-  const auto [xa, xb] = std::minmax_element(curve.x.begin(), curve.x.end());
-  const auto [ya, yb] = std::minmax_element(curve.y.begin(), curve.y.end());
-  CurveBox box{*xa, *xb, curve.from_zero ? std::min(0.0, *ya) : *ya, *yb};
+  CurveBox box{curve.x[0], curve.x[0], curve.from_zero ? std::min(0.0, curve.y[0]) : curve.y[0],
+               curve.y[0]};
+  const auto include = [](const std::vector<double>& values, double& lo, double& hi) {
+    for (const double value : values) {
+      lo = std::min(lo, value);
+      hi = std::max(hi, value);
+    }
+  };
+  include(curve.x, box.x0, box.x1);
+  include(curve.beside_x, box.x0, box.x1);
+  include(curve.y, box.y0, box.y1);
+  include(curve.beside_y, box.y0, box.y1);
   if (!(box.x1 > box.x0)) box.x1 = box.x0 + 1;
   if (!(box.y1 > box.y0)) box.y1 = box.y0 + 1;
   return box;
@@ -78,7 +87,9 @@ struct PdfPages::Impl {
   }
 };
 
-PdfPages::PdfPages() : impl_(std::make_unique<Impl>()) {}
+PdfPages::PdfPages() : impl_(std::make_unique<Impl>()) {
+  HPDF_SetCompressionMode(impl_->doc, HPDF_COMP_IMAGE);
+}
 PdfPages::~PdfPages() = default;
 PdfPages::PdfPages(PdfPages&&) noexcept = default;
 
@@ -102,7 +113,9 @@ void PdfPages::row(const std::vector<std::string>& cells, bool bold) {
 }
 
 void PdfPages::curve(const Curve& curve, double height_mm) {
-  if (curve.x.empty() || curve.x.size() != curve.y.size()) return;
+  if (curve.x.empty() || curve.x.size() != curve.y.size() ||
+      curve.beside_x.size() != curve.beside_y.size())
+    return;
   const float high = static_cast<float>(height_mm) * kPointsPerMm;
   impl_->room_for(high + 34);
   impl_->text_line(curve.title, impl_->bold, 9);
@@ -130,11 +143,17 @@ void PdfPages::curve(const Curve& curve, double height_mm) {
     HPDF_Page_LineTo(impl_->page, px(mark), bottom + high);
     HPDF_Page_Stroke(impl_->page);
   }
+  const auto stroke = [&](const std::vector<double>& x, const std::vector<double>& y) {
+    HPDF_Page_MoveTo(impl_->page, px(x[0]), py(y[0]));
+    for (std::size_t i = 1; i < x.size(); ++i) HPDF_Page_LineTo(impl_->page, px(x[i]), py(y[i]));
+    HPDF_Page_Stroke(impl_->page);
+  };
+  if (!curve.beside_x.empty()) {
+    HPDF_Page_SetRGBStroke(impl_->page, 0.93f, 0.55f, 0.15f);
+    stroke(curve.beside_x, curve.beside_y);
+  }
   HPDF_Page_SetRGBStroke(impl_->page, 0.1f, 0.3f, 0.6f);
-  HPDF_Page_MoveTo(impl_->page, px(curve.x[0]), py(curve.y[0]));
-  for (std::size_t i = 1; i < curve.x.size(); ++i)
-    HPDF_Page_LineTo(impl_->page, px(curve.x[i]), py(curve.y[i]));
-  HPDF_Page_Stroke(impl_->page);
+  stroke(curve.x, curve.y);
   impl_->write(short_decimal_text(box.y1) + " " + curve.y_unit, left + 2, bottom + high - 8,
                impl_->plain, 7);
   impl_->write(short_decimal_text(box.y0), left + 2, bottom + 2, impl_->plain, 7);
@@ -142,6 +161,22 @@ void PdfPages::curve(const Curve& curve, double height_mm) {
       short_decimal_text(box.x0) + " to " + short_decimal_text(box.x1) + " " + curve.x_unit, left,
       bottom - 9, impl_->plain, 7);
   impl_->y = bottom - 12;
+}
+
+void PdfPages::picture(const std::string& title, const std::vector<std::uint8_t>& rgb, int width,
+                       int height, double wide_mm) {
+  if (width <= 0 || height <= 0 ||
+      rgb.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+    return;
+  const float wide = static_cast<float>(wide_mm) * kPointsPerMm;
+  const float high = wide * static_cast<float>(height) / static_cast<float>(width);
+  impl_->room_for(high + 30);
+  impl_->text_line(title, impl_->bold, 9);
+  impl_->y -= high + 6;
+  const HPDF_Image image =
+      HPDF_LoadRawImageFromMem(impl_->doc, rgb.data(), static_cast<HPDF_UINT>(width),
+                               static_cast<HPDF_UINT>(height), HPDF_CS_DEVICE_RGB, 8);
+  if (image) HPDF_Page_DrawImage(impl_->page, image, kMargin, impl_->y, wide, high);
 }
 
 void PdfPages::bars(const Bars& bars) {

@@ -85,6 +85,10 @@ constexpr std::array kRows = {
                  "cuts into the cartilage of",
                  S::kBone,
                  {"depth_mm", "thrust_n", ""}},
+    EventKindRow{
+        kChatter, "chatter", "chatters in", S::kBone, {"amplitude_mm", "frequency_hz", ""}},
+    EventKindRow{
+        kChatterEnd, "chatter_end", "no longer chatters in", S::kBone, {"duration_s", "", ""}},
     EventKindRow{K::kScratch,
                  "scratch",
                  "slides under force on",

@@ -147,6 +147,7 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
                                       options.softs);
   });
   if (!begun) return tl::unexpected(begun.error());
+  if (options.at_begin) options.at_begin(replayer->session());
   Tally tally(replayer->session(), settings->haptic.tick_s);
   ReplayOutcome outcome;
   Replayer::Outcome last = Replayer::Outcome::kEnd;

@@ -52,13 +52,16 @@ PlacingTool::Kind placing_kind(const std::string& tray_name) {
   const std::string name = tray_name.substr(0, tray_name.find(':'));
   if (name == "passing_pin") return PlacingTool::Kind::kPassingPin;
   if (name == "clamp" || name == "grasper") return PlacingTool::Kind::kClamp;
+  if (name == "interference_screw") return PlacingTool::Kind::kScrew;
   return PlacingTool::Kind::kOther;
 }
 
-std::vector<PlacingTool> placing_tools(const Tray& tray, const SessionSettings& settings) {
+std::vector<PlacingTool> placing_tools(const Tray& tray, const SessionSettings& settings,
+                                       const std::vector<double>& sizes_mm) {
   std::vector<PlacingTool> tools;
   for (std::size_t i = 0; i < tray.size(); ++i)
-    tools.push_back({placing_kind(i < settings.tray.size() ? settings.tray[i] : tray[i]->name)});
+    tools.push_back({placing_kind(i < settings.tray.size() ? settings.tray[i] : tray[i]->name),
+                     sizes_mm[i] / 1000});
   return tools;
 }
 
@@ -81,7 +84,7 @@ struct Session::Impl {
       hands.back()->set_sizes(sizes_mm);
     }
     world.set_bench(bench_tools(tray, settings, sizes_mm));
-    world.set_placing(placing_tools(tray, settings));
+    world.set_placing(placing_tools(tray, settings, sizes_mm));
     world.set_water(tray, settings.water);
     if (softs) set_softs(settings);
     if (!carving) return;

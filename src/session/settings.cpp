@@ -163,27 +163,33 @@ Result<void> read_flags(const Json& json, SessionSettings& settings) {
   return {};
 }
 
+constexpr double kMostGuided_n = 40;
+
 // Stands in the settings of a session that carves alone.
 Json carve_json(const CarveSettings& carve) {
-  return {{"cell_m", carve.cell_m},
-          {"cortex_m", carve.cortex_m},
-          {"marrow_m", carve.marrow_m},
-          {"thrust_scale", carve.thrust_scale}};
+  Json json{{"cell_m", carve.cell_m},
+            {"cortex_m", carve.cortex_m},
+            {"marrow_m", carve.marrow_m},
+            {"thrust_scale", carve.thrust_scale}};
+  if (carve.guided_n > 0) json["guided_n"] = carve.guided_n;
+  return json;
 }
 
 Result<void> check(const CarveSettings& carve) {
   const auto within = [](double x, double lo, double hi) { return x >= lo && x <= hi; };
   if (within(carve.cell_m, 5e-5, 2e-3) && within(carve.cortex_m, 0, 0.03) &&
-      within(carve.marrow_m, 0, 0.03) && within(carve.thrust_scale, 0.1, 200))
+      within(carve.marrow_m, 0, 0.03) && within(carve.thrust_scale, 0.1, 200) &&
+      within(carve.guided_n, 0, kMostGuided_n))
     return {};
   return fail("a value is out of range", "settings, 'carve'",
-              "Cells are 0.05 to 2 mm, layers 0 to 30 mm, the scale of thrust 0.1 to 200");
+              "Cells are 0.05 to 2 mm, layers 0 to 30 mm, the scale of thrust 0.1 to 200, "
+              "the force along a guided line 0 to 40 N");
 }
 
 Result<void> take_carve(Json& json, SessionSettings& settings) {
   const auto found = json.find("carve");
   if (found == json.end()) return {};
-  const Json carve = *found;
+  Json carve = *found;
   json.erase(found);
   settings.carve.on = true;
   const std::pair<const char*, double*> numbers[] = {
@@ -191,6 +197,11 @@ Result<void> take_carve(Json& json, SessionSettings& settings) {
       {"cortex_m", &settings.carve.cortex_m},
       {"marrow_m", &settings.carve.marrow_m},
       {"thrust_scale", &settings.carve.thrust_scale}};
+  // It stands there only where it is not 0.
+  if (carve.is_object() && carve.contains("guided_n") && carve["guided_n"].is_number()) {
+    settings.carve.guided_n = carve["guided_n"].get<double>();
+    carve.erase("guided_n");
+  }
   if (!carve.is_object() || carve.size() != std::size(numbers))
     return fail("four numbers are expected", "settings, 'carve'", kTodo);
   for (const auto& [name, value] : numbers) {

@@ -12,7 +12,7 @@ namespace {
 
 // The most pairs of pieces that a state may name: bounds what a damaged file can ask for.
 constexpr std::uint64_t kMostPairs = 4'000'000;
-constexpr std::uint64_t kVersion = 14;
+constexpr std::uint64_t kVersion = 16;
 constexpr std::uint64_t kMostCutCells = 4096, kMostCutWork = 1u << 16;
 constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
 
@@ -59,6 +59,14 @@ bool knows_guides(const In& in) { return in.version >= 6; }
 // Whether it says which holes were left.
 bool knows_holes(const Out&) { return true; }
 bool knows_holes(const In& in) { return in.version >= 9; }
+
+// Whether it says how a reamer chatters.
+bool knows_chatter(const Out&) { return true; }
+bool knows_chatter(const In& in) { return in.version >= 16; }
+
+// Whether it says what graft was handed over.
+bool knows_orders(const Out&) { return true; }
+bool knows_orders(const In& in) { return in.version >= 13; }
 
 template <class A, class T>
 void number(A& a, T& value, std::uint64_t most) {
@@ -225,10 +233,41 @@ void field(A& a, GraftBenchState& s) {
 template <class A>
 void field(A& a, PlacingHand& h) {
   field(a, h.instrument);
-  number(a, h.line, static_cast<std::uint64_t>(PlacingLine::kDraw));
+  number(a, h.line, static_cast<std::uint64_t>(PlacingLine::kScrew));
   field(a, h.grip);
   field(a, h.shut);
   field(a, h.from_m);
+}
+
+template <class A>
+void field(A& a, PlacingScrew& s) {
+  for (std::uint32_t* x : {&s.screws, &s.cycles}) field(a, *x);
+  field(a, s.p_B);
+  field(a, s.out_B);
+  for (double* x : {&s.width_m, &s.length_m, &s.in_m, &s.tension_n, &s.flexion_deg}) field(a, *x);
+  field(a, s.done);
+}
+
+template <class A>
+void field(A& a, PlacingTunnel& t) {
+  number(a, t.bone, kMaxBones - 1);
+  field(a, t.mouth_B);
+  field(a, t.outer_B);
+  field(a, t.radius_m);
+}
+
+// What was told of a graft, and the plan of one that is there.
+template <class A>
+void field_order(A& a, GraftPlacingState& s) {
+  field(a, s.ordered);
+  number(a, s.told, kPlacingNumbers);
+  for (double& x : s.numbers) field(a, x);
+  if (!s.on) return;
+  for (PlacingTunnel* t : {&s.plan.femur, &s.plan.tibia}) field(a, *t);
+  PlacingPlan& p = s.plan;
+  for (double* x : {&p.socket_m, &p.between_m, &p.tibia_bend_rad, &p.femur_bend_rad, &p.graft_m,
+                    &p.graft_length_m, &p.loop_m, &p.tail_n})
+    field(a, *x);
 }
 
 template <class A>
@@ -236,6 +275,8 @@ void field(A& a, GraftPlacingState& s) {
   if constexpr (A::kReads)
     if (a.version < 12) return;  // no graft was placed then
   field(a, s.on);
+  const bool old = !knows_orders(a);
+  if (!old) field_order(a, s);
   if (!s.on) return;
   number(a, s.phase, static_cast<std::uint64_t>(PlacingPhase::kTurned));
   for (PlacingHand& hand : s.hands) field(a, hand);
@@ -243,6 +284,21 @@ void field(A& a, GraftPlacingState& s) {
   number(a, s.holder, kPlacingHands);
   for (std::uint32_t* x : {&s.lost, &s.let_go_early}) field(a, *x);
   for (double* x : {&s.pin_m, &s.drawn_m, &s.pull_n, &s.most_pull_n, &s.gap_m}) field(a, *x);
+  if (old) return;
+  field(a, s.tension_n);
+  field(a, s.cycles_before);
+  field(a, s.screw);
+}
+
+template <class A>
+void field(A& a, BendState& s) {
+  if constexpr (A::kReads)
+    if (a.version < 13) return;  // no joint was bent then
+  field(a, s.on);
+  if (!s.on) return;
+  for (double* x : {&s.wanted_deg, &s.now_deg}) field(a, *x);
+  field(a, s.straight);
+  field(a, s.cycles);
 }
 
 template <class A>
@@ -280,6 +336,7 @@ void field(A& a, BoneSnapshot& s) {
   field(a, s.bench);
   field(a, s.water);
   field(a, s.placing);
+  field(a, s.bend);
 }
 
 template <class A>
@@ -457,6 +514,9 @@ void field(A& a, CarvingHand& h) {
   number(a, h.rod, kMaxGuideRods);
   field(a, h.instrument);
   if (knows_holes(a)) field(a, h.loose);
+  if (!knows_chatter(a)) return;
+  for (double* x : {&h.chatter.amplitude_m, &h.chatter.frequency_hz}) field(a, *x);
+  field(a, h.chatters_since);
 }
 
 template <class A>

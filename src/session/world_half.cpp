@@ -10,6 +10,8 @@ namespace {
 
 // A recording has a state to start from at least so often.
 constexpr double kKeepEvery_s = 5;
+// A joint is bent so fast; a cycle goes from straight to bent (own defaults).
+constexpr double kBend_deg_per_s = 90, kStraight_deg = 20, kBent_deg = 80;
 
 PhysicsParams physics_of(const SessionSettings& settings) {
   PhysicsParams params = settings.physics;
@@ -64,6 +66,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   }
   lead();
   const BoneSnapshot& bones = world_.step(tools);
+  bend();
   if (carving_) {
     publish(*carving_, bones.step, all_changed_, felt_);
     feed_->note(*carving_, all_changed_);
@@ -92,12 +95,90 @@ void WorldHalf::set_bench(std::vector<BenchTool> tray) {
 }
 
 void WorldHalf::set_placing(std::vector<PlacingTool> tray) {
-  auto plan = find_placing(*the_case_);
-  if (!plan) return;
-  auto made = GraftPlacing::make(*plan, std::move(tray), step_s_);
+  placing_tray_ = std::move(tray);
+  own_plan_ = find_placing(*the_case_);
+  if (!own_plan_) return;
+  auto made = GraftPlacing::make(*own_plan_, placing_tray_, step_s_);
   if (!made) return;
   placing_ = std::make_unique<GraftPlacing>(std::move(*made));
-  world_.set_placing(GraftPlacing::begin());
+  world_.set_placing(placing_->begin());
+}
+
+// Who places what a state says is there; a state of the same graft keeps him.
+void WorldHalf::make_placing(const GraftPlacingState& state) {
+  if (own_plan_) return;
+  if (!state.on) {
+    placing_.reset();
+    return;
+  }
+  if (placing_ && placing_numbers(placing_->plan()) == placing_numbers(state.plan)) return;
+  auto made = GraftPlacing::make(state.plan, placing_tray_, step_s_);
+  placing_ = made ? std::make_unique<GraftPlacing>(std::move(*made)) : nullptr;
+}
+
+// A graft for a case that has none of its own is told number by number; with the last one it is
+// there. What is no plan for this case is forgotten. Allocates with the last number alone.
+bool WorldHalf::takes_graft(const Command& command) {
+  if (command.kind != CommandKind::kGraftOrder && command.kind != CommandKind::kGraftNumber)
+    return false;
+  GraftPlacingState state = world_.snapshot().placing;
+  if (own_plan_) return true;
+  if (command.kind == CommandKind::kGraftOrder) {
+    state.told = 1;
+    state.numbers = {};
+  } else if (state.told > 0) {
+    state.numbers[state.told - 1] = command.value;
+    ++state.told;
+  }
+  if (state.told <= kPlacingNumbers) {
+    world_.set_placing(state);
+    return true;
+  }
+  state.told = 0;
+  if (const auto plan = plan_of_numbers(*the_case_, state.numbers)) {
+    GraftPlacingState fresh;
+    fresh.on = fresh.ordered = true;
+    fresh.plan = *plan;
+    make_placing(fresh);
+    if (placing_) state = fresh;
+  }
+  world_.set_placing(state);
+  return true;
+}
+
+void WorldHalf::order_bend(double degrees) {
+  if (the_case_->joints.empty() || !std::isfinite(degrees)) return;
+  const CaseJoint& joint = the_case_->joints.front();
+  BendState bend = world_.snapshot().bend;
+  if (!bend.on) bend.now_deg = joint.at_deg;
+  bend.on = true;
+  bend.wanted_deg = std::clamp(degrees, joint.min_deg(), joint.max_deg());
+  world_.set_bend(bend);
+}
+
+// The joint goes to where it is wanted, and its bones with it, however they are held.
+void WorldHalf::bend() {
+  BendState bend = world_.snapshot().bend;
+  if (!bend.on) return;
+  const CaseJoint& joint = the_case_->joints.front();
+  const double most = kBend_deg_per_s * step_s_;
+  const double before = bend.now_deg;
+  bend.now_deg += std::clamp(bend.wanted_deg - bend.now_deg, -most, most);
+  if (bend.now_deg <= kStraight_deg) bend.straight = true;
+  if (bend.straight && bend.now_deg >= kBent_deg) {
+    bend.straight = false;
+    ++bend.cycles;
+  }
+  world_.set_bend(bend);
+  const Pose& X_WF = world_.snapshot().bones[joint.fixed.index].X_WB;
+  for (const CaseJoint::Moved& moved : joint.bones) {
+    const Pose was = X_WF * pose_at(moved.X_FB, before);
+    const Pose now = X_WF * pose_at(moved.X_FB, bend.now_deg);
+    // So small a turn is twice the vector part of its quaternion.
+    const Quat turn = now.q * was.q.conjugate();
+    const double sign = turn.w() < 0 ? -2 : 2;
+    world_.place(moved.bone.index, {now, (now.p - was.p) / step_s_, sign / step_s_ * turn.vec()});
+  }
 }
 
 void WorldHalf::set_water(std::span<const std::shared_ptr<const Tool>> tray, bool hashed) {
@@ -154,10 +235,22 @@ void WorldHalf::obey(const Command& command) {
     world_.set_hold(command.value >= 0.5);
   else if (water_ && (command.kind == CommandKind::kPump || command.kind == CommandKind::kOutlet))
     turn_pump(command);
+  else if (takes_graft(command))
+    return;
+  else if (command.kind == CommandKind::kBend)
+    order_bend(command.value);
+  else if (command.kind == CommandKind::kTension)
+    pull_tail(command.value);
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
     keep(mark);
   else if (command.kind == CommandKind::kRestore && mark < kMaxMarks && marks_[mark].set)
     go_back(marks_[mark]);
+}
+
+void WorldHalf::pull_tail(double tension_n) {
+  GraftPlacingState placing = world_.snapshot().placing;
+  GraftPlacing::pull(tension_n, placing);
+  world_.set_placing(placing);
 }
 
 void WorldHalf::turn_pump(const Command& command) {
@@ -173,7 +266,11 @@ void WorldHalf::go_back(const WorldMark& mark) {
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
   if (rings_) rings_->go_back(mark.rings);
   if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
-  if (placing_) world_.set_placing(GraftPlacing::gone_back(mark.bones.placing));
+  make_placing(mark.bones.placing);
+  world_.set_placing(GraftPlacing::gone_back(mark.bones.placing));
+  BendState bend = mark.bones.bend;
+  bend.wanted_deg = bend.now_deg;
+  world_.set_bend(bend);
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   all_changed_ = true;
@@ -213,6 +310,14 @@ void WorldHalf::save(WorldState& into) const {
   into.marks = marks_;
 }
 
+bool WorldHalf::fits_placing(const GraftPlacingState& state) const {
+  if (own_plan_) return state.on == (placing_ != nullptr) && !state.ordered;
+  if (!state.on) return !state.ordered;
+  const auto bone = [&](std::uint32_t n) { return n < the_case_->bones.size(); };
+  return state.ordered && bone(state.plan.femur.bone) && bone(state.plan.tibia.bone) &&
+         GraftPlacing::make(state.plan, placing_tray_, step_s_).has_value();
+}
+
 bool WorldHalf::fits(const WorldState& state) const {
   const auto good = [&](const std::shared_ptr<const CarvingState>& carved) {
     return carving_ ? carved && carving_->fits(*carved) : !carved;
@@ -225,8 +330,8 @@ bool WorldHalf::fits(const WorldState& state) const {
   };
   const auto lies = [&](const BoneSnapshot& bones) {
     const bool flows = !bones.water.on || (water_ && JointWater::fits(bones.water));
-    return bones.bench.on == (bench_ != nullptr) && bones.placing.on == (placing_ != nullptr) &&
-           flows;
+    const bool bends = !bones.bend.on || !the_case_->joints.empty();
+    return bones.bench.on == (bench_ != nullptr) && fits_placing(bones.placing) && flows && bends;
   };
   if (!lies(state.bones)) return false;
   for (const WorldMark& mark : state.marks)
@@ -238,6 +343,13 @@ bool WorldHalf::fits(const WorldState& state) const {
 
 void WorldHalf::restore(const WorldState& from) {
   world_.restore(from.bones, from.hold);
+  make_placing(from.bones.placing);
+  // A state of an older version does not say what its case has.
+  const auto own = [&](GraftPlacingState placing) {
+    if (own_plan_) placing.plan = *own_plan_;
+    return placing;
+  };
+  world_.set_placing(own(from.bones.placing));
   if (water_ && !from.bones.water.on) world_.set_water(fresh_water());
   if (carving_ && from.carved) {
     carving_->restore(*from.carved);
@@ -247,6 +359,8 @@ void WorldHalf::restore(const WorldState& from) {
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
   if (rings_) rings_->restore(from.rings);
   marks_ = from.marks;
+  for (WorldMark& mark : marks_)
+    if (mark.set) mark.bones.placing = own(mark.bones.placing);
   for (WorldMark& mark : marks_)
     if (water_ && mark.set && !mark.bones.water.on) mark.bones.water = fresh_water();
   for (std::size_t i = 0; i < marks_.size(); ++i)

@@ -35,7 +35,8 @@ class alignas(64) WorldHalf {
   /// Before the first step. What an instrument of the tray can do at the bench, if the case has
   /// one.
   void set_bench(std::vector<BenchTool> tray);
-  /// The same of a graft that is placed, if the case has both tunnels for it.
+  /// The same of a graft that is placed: if the case has both tunnels for it, or once one is
+  /// handed over.
   void set_placing(std::vector<PlacingTool> tray);
   /// Before the first step. The joint is filled where the case has one; see
   /// SessionSettings::water.
@@ -60,6 +61,12 @@ class alignas(64) WorldHalf {
   void place_rings();
   void lighten();
   void lead();
+  bool takes_graft(const Command& command);
+  void make_placing(const GraftPlacingState& state);
+  bool fits_placing(const GraftPlacingState& state) const;
+  void order_bend(double degrees);
+  void bend();
+  void pull_tail(double tension_n);
   void turn_pump(const Command& command);
   void let_flow(std::span<const ToolState* const> tools);
   WaterState fresh_water() const;
@@ -72,7 +79,9 @@ class alignas(64) WorldHalf {
   std::unique_ptr<LooseRings> rings_;      ///< null: none lie loose
   std::unique_ptr<GraftBenchWork> bench_;  ///< null: no graft is made
   std::unique_ptr<GraftPlacing> placing_;  ///< null: none is placed
-  std::optional<JointWater> water_;        ///< none: the case has no joint that is filled
+  std::vector<PlacingTool> placing_tray_;
+  std::optional<PlacingPlan> own_plan_;  ///< of a case with both tunnels
+  std::optional<JointWater> water_;      ///< none: the case has no joint that is filled
   bool water_hashed_ = true;
   std::vector<FeltCuts*> felt_;  ///< of the hands
   bool all_changed_ = false;     ///< bones came back from a restore point in this step

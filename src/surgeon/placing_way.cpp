@@ -5,17 +5,14 @@
 #include <string_view>
 #include <utility>
 
-#include "acl_way.h"
 #include "osteon/scene/placing.h"
 #include "osteon/surgeon/placing_surgeon.h"
+#include "placing_hand_way.h"
 
 namespace osteon {
 namespace {
 
-constexpr double kPassCarry_m_per_s = 0.2, kPassNear_m_per_s = 0.03, kPassDraw_m_per_s = 0.03;
-constexpr double kPassRound_m = 0.25;  // so far from the joint's middle instruments are changed
-constexpr double kPassTaken_s = 0.5, kPassJaw_s = 0.4;
-constexpr double kPassBefore_m = 0.08, kPassThread_m = 0.03;
+constexpr double kPassDraw_m_per_s = 0.03, kPassThread_m = 0.03;
 constexpr double kPinBeyond_m = 0.022;  // the cortex: the thread's end has come into the joint
 constexpr double kPinTooFar_m = 0.065;
 constexpr double kGrasperOut_m = 0.035;
@@ -38,58 +35,6 @@ PlacesNow places_of(const Case& the_case, const PlacingPlan& plan) {
   at.t_way = (at.t_out - at.t_in).normalized();
   return at;
 }
-
-// One hand that changes instruments, far from the knee.
-class PlacingHandWay {
- public:
-  PlacingHandWay(const std::string& instrument, const Pose& X, const Vec3& middle_W, double pace)
-      : pace_(pace), middle_W_(middle_W) {
-    path_.with_instruments = true;
-    at_.X_WD = X;
-    at_.instrument = instrument;
-    path_.samples.push_back(at_);
-  }
-  void go(const Pose& X, double m_per_s) {
-    const double seconds = (X.p - at_.X_WD.p).norm() / (m_per_s * pace_);
-    at_.X_WD = X;
-    stay(std::max(seconds, 0.05));
-  }
-  void stay(double seconds) {
-    at_.time_s += seconds;
-    path_.samples.push_back(at_);
-  }
-  void jaw(double open) {
-    stay(0.02);
-    at_.jaw = open;
-    path_.samples.back().jaw = open;
-    stay(kPassJaw_s);
-  }
-  // Out, round the knee with another instrument, and in towards a place.
-  void change(const std::string& instrument, const Vec3& to_W, const Vec3& back_W) {
-    const Vec3 from = (at_.X_WD.p - middle_W_).normalized();
-    const Vec3 to = (to_W - middle_W_).normalized();
-    go({middle_W_ + kPassRound_m * from, at_.X_WD.q}, kPassCarry_m_per_s);
-    stay(0.2);
-    at_.instrument = instrument;
-    at_.jaw = 0;
-    path_.samples.back() = at_;
-    stay(0.3);
-    constexpr int kSteps = 6;
-    for (int i = 1; i <= kSteps; ++i) {
-      const double share = static_cast<double>(i) / kSteps;
-      const Vec3 way = ((1 - share) * from + share * to).normalized();
-      go(held_by_shaft(middle_W_ + kPassRound_m * way, back_W), kPassCarry_m_per_s);
-    }
-    go(held_by_shaft(to_W, back_W), kPassCarry_m_per_s);
-  }
-  const ProbePath& path() const { return path_; }
-
- private:
-  double pace_;
-  Vec3 middle_W_;
-  ProbePath path_;
-  PathSample at_;
-};
 
 void pass_pin(PlacingHandWay& way, const PlacesNow& at, double to_m) {
   const auto place = [&](double m) { return held_by_shaft(at.f_in + m * at.f_way, -at.f_way); };
@@ -148,6 +93,10 @@ Result<PlacingPlan> plan_in(const Case& the_case) {
   return *plan;
 }
 
+double passed_to(const std::string& fault, const PlacingPlan& plan) {
+  return plan.femur.length_m() + (fault == "lost_thread" ? kPinTooFar_m : kPinBeyond_m);
+}
+
 double drawn_by(const std::string& fault, double out_m) {
   if (fault == "unflipped_button") return out_m - 0.002;
   if (fault == "soft_tissue") return out_m + 0.0135;
@@ -168,10 +117,24 @@ Result<ProbePath> plan_graft_placing(const Case& the_case, const Skill& skill) {
   PlacingHandWay way("passing_pin", held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way),
                      middle, pace);
   way.stay(0.3);
-  const bool too_far = *fault == "lost_thread";
-  pass_pin(way, at, plan->femur.length_m() + (too_far ? kPinTooFar_m : kPinBeyond_m));
+  pass_pin(way, at, passed_to(*fault, *plan));
   fetch_thread(way, at);
   draw_graft(way, at, drawn_by(*fault, plan->button_out_m()));
+  return trembling(way.path(), skill.tremor_m, skill.seed + 5);
+}
+
+ProbePath plan_graft_placing(const Case& the_case, const PlacingPlan& plan, const Skill& skill,
+                             const Pose& from, const std::string& held) {
+  const std::string fault = placing_fault(skill).value_or("");
+  const PlacesNow at = places_of(the_case, plan);
+  const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
+  PlacingHandWay way(held, from, 0.5 * (at.f_in + at.t_in), pace);
+  way.go(held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way), kPassCarry_m_per_s);
+  way.take("passing_pin");
+  pass_pin(way, at, passed_to(fault, plan));
+  fetch_thread(way, at);
+  draw_graft(way, at, drawn_by(fault, plan.button_out_m()));
+  way.go(held_by_shaft(at.f_out + kPassRound_m * at.f_way, at.f_way), kPassCarry_m_per_s);
   return trembling(way.path(), skill.tremor_m, skill.seed + 5);
 }
 

@@ -12,11 +12,20 @@ namespace {
 
 constexpr double kTourRoomWanted_m = 0.0008;  // about a shaft; with more a place is no better
 constexpr double kTourRoomNeeded_m = 0.00025;
-constexpr double kTourStrayed_m = 0.0008;  // how far friction of the skin holds a tip back
-constexpr double kTourOutside_m = 0.060;   // so far beyond the portal the shaft is looked after
+// How far friction of the skin may hold a tip back, and how far from the middle of the half field a
+// mark may be: where no place bears so much, places that bear less are looked at.
+struct LookLimits {
+  double strayed_m, off_share;
+  int turns;
+};
+constexpr LookLimits kLooks[] = {{0.0008, 0.42, 24}, {0.0004, 0.45, 48}, {0.0002, 0.47, 72}};
+constexpr double kAside_m = 0.0006;  // a tip that comes in so far aside shall meet the same bone
+constexpr double kTourOutside_m = 0.060;  // so far beyond the portal the shaft is looked after
 constexpr double kLeastRise = 0.3;  // of the shaft's direction outwards: handles stay over skin
 constexpr double kLeastInwards = 0.25;
 constexpr double kSquare = 0.65;  // least cosine between push and normal
+// What it counts beside that cosine that a tip which comes in aside meets the same bone.
+constexpr double kMeetsAsWell = 0.6;
 constexpr double kHandle_m = 0.074;
 constexpr double kHandlesApart_m = 0.019, kShaftsApart_m = 0.004;
 
@@ -37,6 +46,12 @@ class TourAround {
       if ((p_W - balls_[i].center_W).norm() - balls_[i].radius_m < most_m)
         most_m = std::min(most_m, gap_to(case_.bones[i], p_W));
     return most_m;
+  }
+  /// Whether a ball there meets this bone, and none of the others.
+  enum class Met { kNone, kIt, kAnother };
+  Met met(const Vec3& p_W, double radius_m, std::uint32_t bone) const {
+    if (gap(p_W, radius_m) >= radius_m) return Met::kNone;
+    return gap_to(case_.bones[bone], p_W) < radius_m ? Met::kIt : Met::kAnother;
   }
 
  private:
@@ -70,16 +85,17 @@ double room_about(const TourAround& around, const TourPlace& place, const TourTo
   return room;
 }
 
-bool sees(const Case& the_case, const ScopeOptics& optics, const Pose& pose, const TourGaze& gaze) {
+bool sees(const Case& the_case, const ScopeOptics& optics, const Pose& pose, const TourGaze& gaze,
+          const LookLimits& limits) {
   const BoneSnapshot rest;  // of no bones: where each is at rest
   const ScopeView view = view_through(optics, pose);
   for (int k = 0; k < 7; ++k) {
     Vec3 eye_W = pose.p;
-    if (k > 0) eye_W[(k - 1) / 2] += k % 2 ? kTourStrayed_m : -kTourStrayed_m;
+    if (k > 0) eye_W[(k - 1) / 2] += k % 2 ? limits.strayed_m : -limits.strayed_m;
     const Vec3 way = gaze.at_W - eye_W;
     const double off = std::acos(std::clamp(way.normalized().dot(view.along_W), -1.0, 1.0));
-    if (off > 0.42 * optics.half_field_rad || way.norm() < gaze.near_m || way.norm() > gaze.far_m ||
-        is_hidden(the_case, rest, eye_W, gaze.at_W))
+    if (off > limits.off_share * optics.half_field_rad || way.norm() < gaze.near_m ||
+        way.norm() > gaze.far_m || is_hidden(the_case, rest, eye_W, gaze.at_W))
       return false;
   }
   return true;
@@ -133,6 +149,46 @@ bool way_in_is_free(const TourAround& around, const TourTool& tool, const TourPl
   return true;
 }
 
+// Comes in along the shaft until the tip, or what reaches from it to the shaft, meets a bone.
+// Whether that is this bone, and the shaft behind leans on none.
+bool meets_alone(const TourAround& around, const TourTool& tool, const Pose& pose,
+                 std::uint32_t bone) {
+  constexpr double kBefore_m = 0.003, kBeyond_m = 0.003, kStride_m = 0.0003;
+  constexpr double kShaftFrom_m = 0.0025, kShaftTo_m = 0.012, kShaftStride_m = 0.0015;
+  const Vec3 back = pose.rotate(Vec3::UnitZ()), offset_W = pose.rotate(tool.offset_T);
+  for (double along = kBefore_m; along > -kBeyond_m; along -= kStride_m) {
+    const Vec3 tip_W = pose.p + along * back;
+    bool is_there = false;
+    for (const double beside : {0.0, 0.5, 1.0}) {
+      const auto met = around.met(tip_W + beside * offset_W, tool.tip_radius_m, bone);
+      if (met == TourAround::Met::kAnother) return false;
+      is_there = is_there || met == TourAround::Met::kIt;
+    }
+    if (!is_there) continue;
+    for (double up = kShaftFrom_m; up < kShaftTo_m; up += kShaftStride_m)
+      if (around.gap(tip_W + offset_W + up * back, tool.shaft_radius_m) < tool.shaft_radius_m)
+        return false;
+    return true;
+  }
+  return false;
+}
+
+// Of tools that come in a little aside, the share that meets the bone and nothing else.
+double share_that_meets(const TourAround& around, const TourTool& tool, const TourPlace& place,
+                        std::uint32_t bone) {
+  constexpr int kAsides = 6;
+  const Pose pose = pose_at(place, tool);
+  const Vec3 back = pose.rotate(Vec3::UnitZ()), e1 = back.unitOrthogonal(), e2 = back.cross(e1);
+  int meets = 0;
+  for (int k = 0; k < kAsides; ++k) {
+    const double a = 2 * std::numbers::pi * k / kAsides;
+    Pose aside = pose;
+    aside.p += kAside_m * (std::cos(a) * e1 + std::sin(a) * e2);
+    meets += meets_alone(around, tool, aside, bone) ? 1 : 0;
+  }
+  return static_cast<double>(meets) / kAsides;
+}
+
 bool clear_of_all(const TourPlace& place, const std::vector<TourPlace>& others) {
   return std::all_of(others.begin(), others.end(),
                      [&](const TourPlace& other) { return clear_of(place, other); });
@@ -158,19 +214,24 @@ Pose pose_at(const TourPlace& place, const TourTool& tool) {
   return pose;
 }
 
-std::optional<TourPlace> find_look(const Case& the_case, const TourTool& tool, const Vec3& portal_W,
-                                   const TourGaze& gaze) {
+namespace {
+
+std::optional<TourPlace> find_look_within(const Case& the_case, const TourTool& tool,
+                                          const Vec3& portal_W, const TourGaze& gaze,
+                                          const LookLimits& limits) {
   const Vec3 inwards_W = inwards_at(the_case, portal_W);
   const TourAround around(the_case);
   std::optional<TourPlace> best;
   double best_room = 0;
   for (double d = gaze.near_m + 0.0015; d < gaze.far_m - 0.001; d += 0.001)
-    for (int turn = 0; turn < 24; ++turn) {
-      const double angle = (turn % 2 ? 1 : -1) * ((turn + 1) / 2) * std::numbers::pi / 12;
+    for (int turn = 0; turn < limits.turns; ++turn) {
+      const double angle =
+          (turn % 2 ? 1 : -1) * ((turn + 1) / 2) * 2 * std::numbers::pi / limits.turns;
       const auto pose = pose_for({gaze.at_W, d, angle}, portal_W, *tool.optics);
       if (!pose || !leans_well(pose->q, inwards_W)) continue;
       const TourPlace place{portal_W, pose->q, (portal_W - pose->p).norm()};
-      if (place.depth_m < kTourRest_m || !sees(the_case, *tool.optics, *pose, gaze)) continue;
+      if (place.depth_m < kTourRest_m || !sees(the_case, *tool.optics, *pose, gaze, limits))
+        continue;
       const double room = room_about(around, place, tool, tool.shaft_radius_m);
       if (room <= std::max(best_room, kTourRoomNeeded_m)) continue;
       best = place;
@@ -178,6 +239,15 @@ std::optional<TourPlace> find_look(const Case& the_case, const TourTool& tool, c
       if (room > kTourRoomWanted_m) return best;
     }
   return best;
+}
+
+}  // namespace
+
+std::optional<TourPlace> find_look(const Case& the_case, const TourTool& tool, const Vec3& portal_W,
+                                   const TourGaze& gaze) {
+  for (const LookLimits& limits : kLooks)
+    if (const auto found = find_look_within(the_case, tool, portal_W, gaze, limits)) return found;
+  return std::nullopt;
 }
 
 std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
@@ -188,7 +258,7 @@ std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
   const TourAround around(the_case);
   Random random(seed * 1000003 + bone);
   std::optional<TourPlace> best;
-  double squarest = kSquare;
+  double best_score = 0;
   for (int k = 0; k < kSpots; ++k) {
     const auto spot = spot_on(the_case.bones[bone], random);
     if (!spot || (spot->p_W - portal_W).norm() > 0.03) continue;
@@ -198,14 +268,17 @@ std::optional<TourPlace> find_touch(const Case& the_case, const TourTool& tool,
       const auto place = place_for_tip(tool, portal_W, tip_W, 2 * std::numbers::pi * turn / kTurns);
       if (!place || place->depth_m < kTourRest_m || !leans_well(place->q, inwards_W)) continue;
       const double square = (place->q * Vec3(Vec3::UnitZ())).dot(spot->n_W);
-      if (square <= squarest || (other && !clear_of(*place, *other))) continue;
+      if (square <= kSquare || square + kMeetsAsWell <= best_score) continue;
+      if (other && !clear_of(*place, *other)) continue;
       if (!way_in_is_free(around, tool, *place)) continue;
       if (room_about(around, *place, tool, 0.0018 + tool.shaft_radius_m) < kTourRoomNeeded_m)
         continue;
+      const double score = square + kMeetsAsWell * share_that_meets(around, tool, *place, bone);
+      if (score <= best_score) continue;
       best = place;
-      squarest = square;
+      best_score = score;
     }
-    if (squarest > 0.92) break;
+    if (best_score > 0.9 + kMeetsAsWell) break;
   }
   return best;
 }

@@ -91,6 +91,41 @@ TEST_F(Carve, APathThroughNothingRemovesNothingAndSaysSo) {
   EXPECT_TRUE(fs::exists(file("out.stl")));
 }
 
+// A hole drilled in a session is measured in its recording, at its end or before; a ball that the
+// drill went through keeps what lies beside the cylinder: (1 - r^2/R^2)^(3/2).
+TEST_F(Carve, ARecordingIsMeasuredAsItWasLeft) {
+  std::filesystem::remove_all(file("case"));
+  ASSERT_EQ(make_block_case(dir_, 5).exit_code, 0);
+  std::ofstream(file("drill.csv"))
+      << "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button,instrument,size,power,jaw\n"
+         "0,0,0,8,1,0,0,0,0,drill,3.2,1,0\n0.2,0,0,6,1,0,0,0,0,drill,3.2,1,0\n"
+         "9,0,0,-22,1,0,0,0,0,drill,3.2,1,0\n";
+  const Ran made = run_osteon("simulate --case '" + file("case") + "#block=field' --path " +
+                              file("drill.csv") + " --record " + file("r.osr"));
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const Ran ran = run_osteon("case measure " + file("r.osr") + " --region mid=0,0,0,2 --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto report = nlohmann::json::parse(ran.output, nullptr, false);
+  ASSERT_EQ(report["holes"].size(), 1u) << ran.output;
+  const auto& hole = report["holes"][0];
+  EXPECT_NEAR(hole["diameter_mm"].get<double>(), 3.2, 0.05);
+  EXPECT_NEAR(hole["length_mm"].get<double>(), 10, 0.3);
+  EXPECT_TRUE(hole["through"].get<bool>());
+  ASSERT_EQ(report["regions"].size(), 1u);
+  EXPECT_NEAR(report["regions"][0]["share_removed"].get<double>(), 1 - std::pow(0.36, 1.5), 0.02);
+  const Ran before = run_osteon("case measure " + file("r.osr") + " --at 0.1 --json");
+  ASSERT_EQ(before.exit_code, 0) << before.output;
+  EXPECT_TRUE(nlohmann::json::parse(before.output)["holes"].empty());
+  const std::pair<std::string, std::string> bad[] = {{file("r.osr") + " --at 99", "ends at"},
+                                                     {file("case") + " --at 1", "recording alone"},
+                                                     {file("none.osr"), "none.osr"}};
+  for (const auto& [words, why] : bad) {
+    const Ran refused = run_osteon("case measure " + words);
+    EXPECT_EQ(refused.exit_code, 2) << words << ": " << refused.output;
+    EXPECT_NE(refused.output.find(why), std::string::npos) << words << ": " << refused.output;
+  }
+}
+
 // Enclosed by the triangles of a binary STL file that is in metres, mm3.
 double stl_volume(const std::string& file) {
   std::ifstream in(file, std::ios::binary);

@@ -133,6 +133,25 @@ TEST(SoundSynth, UnderLoadADrillIsSlowerAndLouderAndRougher) {
   EXPECT_GT(between_loaded, 1.5 * between_free);
 }
 
+// A reamer that chatters grows louder and softer with each tooth.
+TEST(SoundSynth, ChatterIsHeardAtItsFrequency) {
+  const auto loudness_at = [](double judder, double hz) {
+    SoundSynth synth;
+    VoiceDrive drive{VoiceKind::kReamer, 1, 0.5, 350};
+    drive.judder = judder;
+    drive.judder_hz = 35;
+    synth.drive(0, drive);
+    (void)played(synth, 0.5);
+    std::vector<float> power = played(synth, 2);
+    double mean = 0;
+    for (float& s : power) s *= s, mean += static_cast<double>(s);
+    mean /= static_cast<double>(power.size());
+    return level_at(power, hz, kSoundHz) / mean;
+  };
+  EXPECT_GT(loudness_at(1, 35), 4 * loudness_at(0, 35));
+  EXPECT_GT(loudness_at(1, 35), 4 * loudness_at(1, 21));
+}
+
 TEST(SoundSynth, TheFluoroscopeBeepsAtOneKilohertz) {
   SoundSynth synth;
   synth.cue(CueKind::kBeep);

@@ -131,8 +131,8 @@ inline Result<void> add_tick(RecordingWriter& writer, std::uint64_t n) {
 
 /// Writes ticks 1 to `ticks` and finishes when asked to.
 inline void write_recording(const std::filesystem::path& file, std::uint64_t ticks,
-                            bool finish = true) {
-  auto writer = RecordingWriter::create(file, header());
+                            bool finish = true, const RecordingHeader& of = header()) {
+  auto writer = RecordingWriter::create(file, of);
   ASSERT_TRUE(writer) << writer.error().message();
   for (std::uint64_t n = 1; n <= ticks; ++n) {
     const auto done = add_tick(*writer, n);

@@ -45,6 +45,25 @@ std::vector<AttemptRow> a_class() {
   return rows;
 }
 
+TEST(Cohort, WhoWasLedIsNotYetCompetent) {
+  std::vector<AttemptRow> rows(60, class_row("ann", "passed", 90));
+  for (AttemptRow& row : rows) row.verdict = "passed";
+  const auto competent = [&] { return cohort_of(rows).at(0).learners.at(0).competent_at; };
+  const int alone = competent();
+  ASSERT_GT(alone, 0);
+  for (AttemptRow& row : rows) row.report_json = R"({"metrics": {"guided_s": 3.5}})";
+  EXPECT_TRUE(was_guided(rows[0]));
+  EXPECT_EQ(competent(), -1);
+  // The first five were led: competence comes five attempts later.
+  for (std::size_t i = 5; i < rows.size(); ++i) rows[i].report_json = "{}";
+  EXPECT_EQ(competent(), alone + 5);
+  for (const char* not_led : {"", "[]", R"({"metrics": {"guided_s": 0}})", R"({"metrics": 3})",
+                              R"({"metrics": {"guided_s": "x"}})"}) {
+    rows[0].report_json = not_led;
+    EXPECT_FALSE(was_guided(rows[0])) << not_led;
+  }
+}
+
 TEST(Cohort, OfNobodyIsEmptyAndStillAPage) {
   EXPECT_TRUE(cohort_of({}).empty());
   EXPECT_NE(to_html({}).find("No attempts."), std::string::npos);

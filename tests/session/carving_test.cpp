@@ -100,8 +100,8 @@ Words words_of(SessionState state, std::size_t count, const Change& change) {
   return {static_cast<std::size_t>(differ.first - before.begin()) / 8, count};
 }
 
-// Version 8 knew no holes that drills had left, no friction on soft parts, no water and no graft
-// that is placed.
+// Version 8 knew no holes that drills had left, no friction on soft parts, no water, no graft that
+// is placed or ordered, no joint that is bent and no chatter.
 TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   const Drilling with;
   Session session = with.session();
@@ -109,18 +109,23 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   const SessionState saved = session.save();
   ASSERT_TRUE(saved.world.carved);
   ASSERT_TRUE(saved.world.bones.guides[0].on) << "the hole that it has begun leads the drill";
-  constexpr std::size_t kHoleWords = 14, kRubWords = 4;
+  constexpr std::size_t kHoleWords = 14, kRubWords = 4, kChatterWords = 3;
   std::vector<Words> unknown = {
-      words_of(saved, 2, [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
+      words_of(saved, 5 + kPlacingNumbers,
+               [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
       words_of(saved, 1,
                [](SessionState& s, CarvingState&) { s.world.bones.guides[0].pulls = true; }),
       words_of(saved, kRubWords,
                [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
       words_of(saved, kHoleWords * saved.world.carved->holes.size(),
                [](SessionState&, CarvingState& c) { c.holes[0].bone = 3; })};
-  for (std::size_t i = 0; i < saved.world.carved->hands.size(); ++i)
+  for (std::size_t i = 0; i < saved.world.carved->hands.size(); ++i) {
     unknown.push_back(
         words_of(saved, 1, [i](SessionState&, CarvingState& c) { c.hands[i].loose = 1; }));
+    unknown.push_back(words_of(saved, kChatterWords, [i](SessionState&, CarvingState& c) {
+      c.hands[i].chatter.amplitude_m = 1;
+    }));
+  }
   std::sort(unknown.begin(), unknown.end(),
             [](const Words& a, const Words& b) { return a.at > b.at; });
   std::string old = to_bytes(saved);

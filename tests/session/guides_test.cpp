@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drilling.h"
+#include "osteon/carve/rbf_force.h"
 #include "osteon/carve/removed.h"
 #include "osteon/scene/carve_events.h"
 
@@ -171,6 +172,33 @@ TEST(Guides, APinHoldsSideways) {
   const double force = 0.002 / (1 / with.settings.haptic.stiffness_n_per_m + give);
   EXPECT_NEAR(session.tool_state().force_W.y(), -force, 0.02 * force);
   EXPECT_NEAR(with.off_axis(session), give * force, 3e-5);
+}
+
+// With one force for all bone a hand that goes on slowly along the pin feels the sum of piecewise
+// linear functions at the drill's depth, in cortex and in cancellous bone.
+TEST(Guides, AForceForTheWholeLineIsThatOfTheFormula) {
+  SlantedDrilling with({"cannulated_drill:8"}, 0);
+  with.settings.carve.guided_n = 3;
+  with.setup = *make_carving(*with.the_case, with.settings.tray, with.settings.carve);
+  Session session = with.session();
+  for (int n = 0; n < 5; ++n) with.tick(session, with.hand(0.012));
+  put_pin(session, with, 0.008);
+  for (int n = 0; n < 200; ++n) with.tick(session, with.hand(0.012));
+  with.order(session, 0.012, CommandKind::kPower, 1);
+  for (int n = 0; n < 120; ++n) with.tick(session, with.hand(0.012 - 0.0001 * n));
+  const GuidedTunnel tunnel{2 * kFloor_m, 3, 20};
+  double before_m = 0;
+  for (int n = 0; n < 5000; ++n) {
+    with.tick(session, with.hand(-0.002 * 0.001 * n));
+    if (n < 1500 || n % 500 != 0) continue;
+    const CarvingHand& h = session.save().world.carved->hands[0];
+    const double deep = (h.mouth_B - h.X_BC.p).dot(with.back_W);
+    RbfDrillState drilled;
+    EXPECT_GT(deep, before_m);
+    EXPECT_NEAR(session.tool_state().force_W.z(), rbf_drill_force(drilled, tunnel, deep), 0.2) << n;
+    before_m = deep;
+  }
+  EXPECT_GT(before_m, 0.004);
 }
 
 // Without anything that leads it, a drill that stands too slanted slides off and cuts nothing.

@@ -141,5 +141,123 @@ TEST(SessionPlacing, AClampThatDrawsFeelsTheGraftAndStopsWhenItIsHeldStill) {
   EXPECT_NEAR(placed(session).pull_n, GraftPlacing::kLever * -session.tool_state().force_W.x(), 2);
 }
 
+// A case without tunnels of its own, to which a graft is handed over.
+struct OrderedSession {
+  OrderedSession() {
+    CaseDef def = testing::placing_def(true);
+    const auto plan = find_placing(*felt_placing());
+    numbers = placing_numbers(*plan);
+    def.landmarks.clear();
+    JointDef knee;
+    knee.name = "flexion";
+    knee.fixed = "femur";
+    knee.at_deg = 90;
+    PoseTrack track;
+    track.first = 0;
+    track.step = 30;
+    const Pose rest = def.bones[0].X_WB.inverse() * def.bones[1].X_WB;
+    for (int n = 0; n <= 4; ++n) {
+      const Quat turn(Eigen::AngleAxisd(0.01 * (3 - n), Vec3::UnitY()));
+      track.poses.push_back(Pose{Vec3::Zero(), turn} * rest);
+    }
+    knee.bones.push_back({"tibia", track});
+    def.joints.push_back(knee);
+    auto built = build_case(std::move(def));
+    EXPECT_TRUE(built) << (built ? "" : built.error().message());
+    the_case = std::make_shared<const Case>(std::move(*built));
+    recording.header = recording_header(*the_case, base.settings, "test", "0", base.tray);
+  }
+  Session session() const { return Session(the_case, base.settings, base.tray); }
+  // Handed over from tick 11 on, one number every second tick; then the knee is bent.
+  HandInput hand(std::uint64_t n) const {
+    HandInput hand = pin_hand(n);
+    hand.command = {};
+    if (n == 10) hand.command = {CommandKind::kMark, 1};
+    if (n == 12) hand.command = {CommandKind::kGraftOrder, 0};
+    const std::uint64_t k = n / 2 - 7;
+    if (n % 2 == 0 && n >= 14 && k < kPlacingNumbers)
+      hand.command = {CommandKind::kGraftNumber, numbers[k]};
+    if (n == 100) hand.command = {CommandKind::kBend, 60};
+    if (n == 1400) hand.command = {CommandKind::kMark, 2};
+    return hand;
+  }
+  void run(Session& session, std::uint64_t from, std::uint64_t to) const {
+    for (std::uint64_t n = from; n <= to; ++n) {
+      const HandInput one = hand(n);
+      (void)session.tick(std::span(&one, 1));
+    }
+  }
+  PlacingSession base;
+  PlacingNumbers numbers{};
+  std::shared_ptr<const Case> the_case;
+  Recording recording;
+};
+
+TEST(SessionPlacing, AGraftThatIsHandedOverIsThereWithItsLastNumber) {
+  const OrderedSession rig;
+  Session session = rig.session();
+  rig.run(session, 1, 46);
+  EXPECT_FALSE(placed(session).on);
+  rig.run(session, 47, 60);
+  ASSERT_TRUE(placed(session).on);
+  EXPECT_EQ(placing_numbers(placed(session).plan), rig.numbers);
+  rig.run(session, 61, 1600);
+  EXPECT_GT(placed(session).pin_m, 0.01);
+  // Numbers that are no plan change nothing.
+  Session other = rig.session();
+  for (std::uint64_t n = 1; n <= 60; ++n) {
+    HandInput one = rig.hand(n);
+    if (n == 20) one.command.value = 1e9;
+    (void)other.tick(std::span(&one, 1));
+  }
+  EXPECT_FALSE(placed(other).on);
+  EXPECT_EQ(placed(other).told, 0u);
+}
+
+TEST(SessionPlacing, AnOrderedGraftAndABentKneeRepeatFromTheStartTheMiddleAndAMark) {
+  OrderedSession rig;
+  Session session = rig.session();
+  for (std::uint64_t n = 1; n <= 1700; ++n) {
+    HandInput one = rig.hand(n);
+    if (n == 1600) one.command = {CommandKind::kRestore, 1};
+    if (n == 1650) one.command = {CommandKind::kRestore, 2};
+    (void)session.tick(std::span(&one, 1));
+    rig.recording.ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) rig.recording.steps.push_back(session.last_step_record());
+    if (n == 1590) {
+      EXPECT_TRUE(placed(session).on);
+      EXPECT_NEAR(session.bones().bend.now_deg, 60, 1e-9);
+      EXPECT_GT((session.bones().bones[1].X_WB.p - rig.the_case->bones[1].X_WB.p).norm(), 1e-4);
+    }
+    if (n == 1610) {
+      EXPECT_FALSE(placed(session).on);
+      EXPECT_FALSE(session.bones().bend.on);
+      EXPECT_LT((session.bones().bones[1].X_WB.p - rig.the_case->bones[1].X_WB.p).norm(), 1e-12);
+    }
+    if (n == 1660) {
+      EXPECT_TRUE(placed(session).on);
+      EXPECT_NEAR(session.bones().bend.now_deg, 60, 1e-9);
+    }
+  }
+  rig.recording.complete = true;
+  ReplayOptions options;
+  options.tray = rig.base.tray;
+  const auto again = replay(rig.recording, rig.the_case, options);
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_TRUE(again->identical) << again->first_different_tick;
+  for (const std::uint64_t stop : {30u, 300u, 1300u}) {
+    Session one = rig.session();
+    rig.run(one, 1, stop);
+    const auto read = state_from_bytes(to_bytes(one.save()));
+    ASSERT_TRUE(read) << read.error().message();
+    Session two = rig.session();
+    ASSERT_TRUE(two.restore(*read));
+    EXPECT_EQ(two.state_hash(), one.state_hash());
+    rig.run(one, stop + 1, 1500);
+    rig.run(two, stop + 1, 1500);
+    EXPECT_EQ(two.state_hash(), one.state_hash()) << stop;
+  }
+}
+
 }  // namespace
 }  // namespace osteon

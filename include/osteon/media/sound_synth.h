@@ -37,6 +37,8 @@ struct VoiceDrive {
   double power = 0;       ///< 0 to 1
   double load = 0;        ///< 0: turns freely, 1: as hard as it can work
   double full_rpm = 600;  ///< turns a minute at full power, of what turns
+  double judder = 0;      ///< 0 to 1: how hard it is thrown back by each tooth
+  double judder_hz = 0;   ///< how often
 };
 
 /// The tone of a motor that turns freely: the lowest partial that it gives, Hz. What turns slowly
@@ -63,6 +65,7 @@ class SoundSynth {
     VoiceDrive now;
     double speed = 0, load = 0;              ///< follow power and load with their own delays
     double phase = 0, flute = 0, swing = 0;  ///< turns of the motor, of the edges, to and fro
+    double judder = 0;                       ///< likewise, of the teeth that are thrown back
     double low = 0, band = 0, rough = 1, rough_to = 1;
     int rough_left = 0;
     Random random{1};

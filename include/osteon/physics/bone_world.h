@@ -63,6 +63,8 @@ class BoneWorld {
   void set_bench(const GraftBenchState& bench);
   /// How far a graft is placed, for the next step's snapshot.
   void set_placing(const GraftPlacingState& placing);
+  /// How far the joint is bent, for the next step's snapshot.
+  void set_bend(const BendState& bend);
   /// How the joint's water is after a step.
   void set_water(const WaterState& water);
   /// Mass, centre and inertia of a bone from now on: those of the whole one less what it has lost,

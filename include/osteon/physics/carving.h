@@ -34,6 +34,7 @@ struct CarvingTool {
   Vec3 middle_T = Vec3::Zero();  ///< of a burr's or a scraper's ball
   bool one_sided = false;        ///< it cuts on the side of +y alone
   bool soft_only = false;        ///< bone stops it: it removes what is softer
+  bool reams = false;            ///< it widens a canal by its rim, and may chatter there
   bool stays = false;            ///< a pin: let go, it stays in the bone
   double length_m = 0;           ///< of a pin
 };
@@ -64,6 +65,9 @@ struct CarvingSetup {
   /// A desktop device gives a few newtons, a surgeon's arm a hundred: so many newtons on the drill
   /// stand for one in the hand.
   double thrust_scale = 20;
+  /// So many newtons of the hand resist a drill that a pin or a sleeve leads, whatever bone it goes
+  /// through: as a sum of piecewise linear functions along its line (rbf_force.h). 0: as bone does.
+  double guided_n = 0;
   std::size_t most_blocks = 4096;  ///< of each bone
   std::size_t channel_places = 0;  ///< for changes on their way to a hand; 0: as many as it takes
   double air_m = 0;                ///< cuts are known so far outside of a bone
@@ -92,13 +96,15 @@ struct CarvingHand {
   double plunge_m = 0;
   double twist_rad = 0;  ///< about its axis since it began, of what the hand turns
   bool jaw_open = false;
-  bool in_hole = false;         ///< its hole holds it: it goes along the hole's line alone
-  bool open = false;            ///< nothing is before its tip
-  double lag_m = 0;             ///< the cutter still stands so far behind X_BC
-  Vec3 mouth_B = Vec3::Zero();  ///< where the hole begins
-  std::uint32_t rod = 0;        ///< that leads it: 1 + its place in Carving::rods; 0: none
-  double grip = 0;              ///< of the rod, 0 to 1
-  double loose = 0;             ///< of a hole that it came back to: what it does not hold yet
+  bool in_hole = false;              ///< its hole holds it: it goes along the hole's line alone
+  bool open = false;                 ///< nothing is before its tip
+  double lag_m = 0;                  ///< the cutter still stands so far behind X_BC
+  Vec3 mouth_B = Vec3::Zero();       ///< where the hole begins
+  std::uint32_t rod = 0;             ///< that leads it: 1 + its place in Carving::rods; 0: none
+  double grip = 0;                   ///< of the rod, 0 to 1
+  double loose = 0;                  ///< of a hole that it came back to: what it does not hold yet
+  Chatter chatter;                   ///< as it was told last; no amplitude: it runs smoothly
+  std::uint64_t chatters_since = 0;  ///< step
   static constexpr std::uint32_t kAnyInstrument = 0xffffffffu;  ///< that which the hand holds
   std::uint32_t instrument = 0;                                 ///< in the tray
   friend bool operator==(const CarvingHand&, const CarvingHand&);
@@ -221,12 +227,16 @@ class Carving {
   void drill(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   bool stand_before(std::size_t hand, const CarvingTool& with, const Push& push);
   void go_on(std::size_t hand, const CarvingTool& with, const Push& push, double advance_m);
+  DrillStep go_guided(std::size_t hand, const CarvingTool& with, const DrillMaterial& material,
+                      double push_n, double rev_per_s, double step_s);
   void strike(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   double turning(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   void burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s);
   void bite(std::size_t hand, const CarvingTool& with, const ToolState& tool, const Pose& X_BT,
             std::uint32_t bone);
   void rest(std::size_t hand, const Push& push);
+  void shake(std::size_t hand, const CarvingTool& with, const Push& push, double rev_per_s);
+  void run_smoothly(std::size_t hand, const Push& push);
   void begin(std::size_t hand, const CarvingTool& with, const Push& push);
   Pose cutter_pose(const CarvingHand& h) const;
   bool slid_off(const CarvingHand& h, const Push& push) const;
@@ -243,6 +253,7 @@ class Carving {
   void keep_hole(const CarvingHand& h, const CarvingTool& with);
   void come_back(std::size_t hand, const CarvingTool& with, const ToolState& tool,
                  const BoneSnapshot& bones);
+  double shaken_m(const CarvingHand& h) const;
   void publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
   void run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT);
   GuideRod* free_rod();

@@ -20,6 +20,7 @@ struct CarveSettings {
   double cortex_m = 0.0012;  ///< tissue by depth, as `osteon carve` has it
   double marrow_m = 0;
   double thrust_scale = 20;  ///< see CarvingSetup
+  double guided_n = 0;       ///< likewise
 };
 
 /// Whether anything of a session can be carved: an instrument whose file says how it removes bone

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,18 +23,38 @@ inline constexpr EventKind kButtonLetGo{460};
 /// The button turned: {gap to the cortex mm; largest pull N; mm drawn beyond where it is out}.
 inline constexpr EventKind kButtonTurned{461};
 
+/// A screw was turned in beside the graft and let go: {how deep mm; degrees between it and the
+/// tunnel; tension N}.
+inline constexpr EventKind kScrewIn{462};
+/// The same, of the knee: {degrees of flexion; cycles of bending under tension; width of the screw
+/// less that of the tunnel, mm}.
+inline constexpr EventKind kGraftFixed{463};
+/// The knee with the graft in it was stretched out and bent again: {how often; tension N; 0}.
+inline constexpr EventKind kKneeCycled{464};
+
+/// Length of the way between both mouths by flexion, while the knee is bent with the graft in it.
+struct BentGraft {
+  static constexpr std::size_t kPlaces = 14;  ///< every 10 degrees from 0
+  std::array<double, kPlaces> lengths_m{};    ///< 0: it was never bent to there
+};
+/// Longest less shortest; 0: the knee was not bent.
+double excursion_m(const BentGraft& bent);
+
 /// Follows a graft that is placed by what snapshots say. A function of them: a replay finds the
 /// same. The hand of an event is the first.
 class PlacingWatch {
  public:
-  explicit PlacingWatch(const Case& the_case);
   void add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
-  /// None: the case has no tunnels for a graft.
-  const std::optional<PlacingPlan>& plan() const { return plan_; }
+  /// None: there were no tunnels for a graft yet.
+  std::optional<PlacingPlan> plan() const;
+  const BentGraft& bent() const { return bent_; }
   const GraftPlacingState& state() const { return seen_; }
 
  private:
-  std::optional<PlacingPlan> plan_;
+  void add_fixing(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
+
+  BentGraft bent_;
+  std::uint32_t cycles_ = 0;
   GraftPlacingState seen_;
 };
 

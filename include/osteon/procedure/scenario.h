@@ -44,6 +44,7 @@ struct ScenarioStage {
   std::string cue;             ///< a hint on demand; may be empty
   std::string picture;         ///< file beside the scenario; may be empty
   bool restore_point = false;  ///< the learner may come back to its start
+  std::string restore_title;   ///< what that restore point is called; empty: as the stage
   std::vector<Rule> goals;     ///< the stage is done once all are met
   int line = 0;
 };

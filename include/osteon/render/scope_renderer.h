@@ -64,6 +64,9 @@ class ScopeRenderer {
   /// seen, where their pose is finite. The wall stays as it is.
   void set_scene(const BoneSnapshot& bones, std::span<const ToolState> tools);
 
+  /// Instruments that are only shown, from now on, seen through; those given before are gone.
+  void set_ghosts(std::span<const GhostTool> ghosts);
+
   /// Clear until it is told otherwise.
   void set_water(const ScopeWater& water);
 

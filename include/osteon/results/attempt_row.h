@@ -25,6 +25,10 @@ struct AttemptRow {
   bool operator==(const AttemptRow&) const = default;
 };
 
+/// The attempt's hand was led along an expert's way: it shows nothing of what the learner can do
+/// alone, so learning curves leave it out.
+bool was_guided(const AttemptRow& row);
+
 /// A random UUID (version 4), lower case.
 std::string new_uuid();
 bool is_uuid(std::string_view text);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -28,10 +29,14 @@ class PdfPages {
     std::string title, x_unit, y_unit;
     std::vector<double> x, y;
     std::vector<double> marks;
-    bool from_zero = true;      ///< y begins at 0; else at the least value
-    bool equal_scales = false;  ///< x and y in one scale: a way seen from above
+    std::vector<double> beside_x, beside_y;  ///< another curve to compare with, drawn in orange
+    bool from_zero = true;                   ///< y begins at 0; else at the least value
+    bool equal_scales = false;               ///< x and y in one scale: a way seen from above
   };
   void curve(const Curve& curve, double height_mm);
+  /// A picture, 8-bit RGB, top row first, in its own shape; nothing where the bytes do not fit it.
+  void picture(const std::string& title, const std::vector<std::uint8_t>& rgb, int width,
+               int height, double wide_mm);
   /// A bar to each value, from the least number on, with its interval over it.
   struct Bar {
     std::string label;

@@ -19,5 +19,7 @@ inline constexpr EventKind kPinTaken{210};     ///< and is taken out again
 inline constexpr EventKind kAimed{211};        ///< an aimer was fixed: its sleeve fixes a line
 inline constexpr EventKind kLed{212};          ///< an instrument runs along a pin or in a sleeve
 inline constexpr EventKind kCartilageEntered{213};  ///< what cuts is in cartilage
+inline constexpr EventKind kChatter{230};     ///< a reamer shakes, or shakes otherwise than before
+inline constexpr EventKind kChatterEnd{231};  ///< and runs smoothly again
 
 }  // namespace osteon

@@ -24,11 +24,17 @@ enum class CommandKind : std::uint32_t {
   kJaw = 10,     ///< value: 0 (closed) to 1 (open)
   kFault = 11,   ///< value: why the safety gate took the force off (ForceOff); for the events alone
   kPump = 12,    ///< value: pressure of the pump that fills the joint, Pa
-  kOutlet = 13   ///< value: how far the joint's outlet is open, 0 to 1
+  kOutlet = 13,  ///< value: how far the joint's outlet is open, 0 to 1
+  /// value: 0; a graft is about to be handed over, what was told of one before is forgotten
+  kGraftOrder = 14,
+  /// value: the next of placing_numbers, m or rad; with the last of them the graft is there
+  kGraftNumber = 15,
+  kBend = 16,    ///< value: how far the case's joint is to be bent, degrees
+  kTension = 17  ///< value: pull on the tail of a graft whose button has turned, N
 };
 
 /// The last of them.
-inline constexpr CommandKind kLastCommandKind = CommandKind::kOutlet;
+inline constexpr CommandKind kLastCommandKind = CommandKind::kTension;
 
 /// Restore points of a session.
 inline constexpr std::uint32_t kMaxMarks = 16;
@@ -41,7 +47,9 @@ struct Command {
 /// Whether it concerns physics and no hand.
 inline bool is_for_physics_alone(CommandKind kind) {
   return kind == CommandKind::kHoldBones || kind == CommandKind::kPump ||
-         kind == CommandKind::kOutlet;
+         kind == CommandKind::kOutlet || kind == CommandKind::kGraftOrder ||
+         kind == CommandKind::kGraftNumber || kind == CommandKind::kBend ||
+         kind == CommandKind::kTension;
 }
 /// Whether it concerns physics: such a command goes to physics, and to the hands as well unless
 /// is_for_physics_alone.

@@ -6,6 +6,7 @@
 
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
+#include "osteon/scene/bend_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
 #include "osteon/scene/placing.h"
@@ -43,7 +44,8 @@ struct BoneSnapshot {
   std::array<ToolGuide, kMaxHands> guides{};  ///< of each hand
   GuideRods rods{};
   GraftBenchState bench{};      ///< off: the case has no bench
-  GraftPlacingState placing{};  ///< off: the case has no tunnels for a graft
+  GraftPlacingState placing{};  ///< off: there are no tunnels for a graft, or it is not there yet
+  BendState bend{};             ///< off: no joint was bent
   WaterState water{};           ///< off: the case has no joint that is filled
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);

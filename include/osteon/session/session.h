@@ -206,7 +206,8 @@ struct ReplayOptions {
   /// Sees what presses soft solids, before each tick that on_tick sees; none: nobody looks.
   std::function<void(const SoftPushes&)> on_pushes = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
-  std::function<void(const Session&)> at_end;  ///< sees the session after its last tick
+  std::function<void(const Session&)> at_begin;  ///< sees the session, which lasts to the end
+  std::function<void(const Session&)> at_end;    ///< sees the session after its last tick
 };
 
 /// Repeats a recording in one thread. Compares every tick's force, proxy position and status, and

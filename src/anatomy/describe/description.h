@@ -38,13 +38,13 @@ struct BoneDescription {
 };
 
 /// Bones that a finding or a bent joint moves rigidly once they and their cartilage have grown,
-/// about the pivot and then by the shift.
+/// about the pivot and then by the shift. Landmarks that are bound to them go along.
 struct Displacement {
   std::vector<std::size_t> bones;
   Mat3 R_W = Mat3::Identity();
   Vec3 shift_W = Vec3::Zero();  ///< metres of the finished anatomy, whatever its size
   BoundPoint pivot;
-  bool by_joint = false;  ///< skin and landmarks follow; after all that findings move
+  bool by_joint = false;  ///< the skin follows too; after all that findings move
 };
 
 /// A bone that a finding parts: what its defects leave becomes bones of their own, each named by

@@ -59,8 +59,10 @@ Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
     if (const auto moved = displacement_of(anatomy, i)) bones[i]->X_WB = *moved * bones[i]->X_WB;
     generated.bones.push_back(std::move(*bones[i]));
   }
-  for (const LandmarkDescription& landmark : anatomy.landmarks)
-    generated.landmarks.push_back({landmark.name, landmark.p_W});
+  for (const LandmarkDescription& landmark : anatomy.landmarks) {
+    const auto moved = landmark.bone ? displacement_of(anatomy, *landmark.bone) : std::nullopt;
+    generated.landmarks.push_back({landmark.name, moved ? *moved * landmark.p_W : landmark.p_W});
+  }
   return generated;
 }
 

@@ -128,8 +128,7 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       state_(begin_scenario(plan)),
       tells_tips_(asks_for_tip(plan)),
       rings_(the_case, tick_s),
-      graft_(the_case),
-      placing_(the_case) {
+      graft_(the_case) {
   const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);

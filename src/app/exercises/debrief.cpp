@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/guided_time.h"
 #include "exercises/scenario_files.h"
+#include "exercises/surface_heat.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
 #include "osteon/record/recording_note.h"
@@ -58,6 +61,16 @@ Result<StatedFindings> stated_in(const std::filesystem::path& recording, const S
   if (!note) return tl::unexpected(note.error());
   if (!*note) return StatedFindings{};
   return parse_findings(**note, scenario.asks, recording.string() + " (what was stated)");
+}
+
+// The graft that was made before it was placed; none: one that fits.
+Result<std::optional<MadeGraft>> graft_in(const std::filesystem::path& recording) {
+  const auto note = read_note(recording, "graft");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return std::optional<MadeGraft>{};
+  const auto made = made_graft(**note, recording.string() + " (its graft)");
+  if (!made) return tl::unexpected(made.error());
+  return std::optional<MadeGraft>(*made);
 }
 
 // Gathers one hand's values.
@@ -153,18 +166,33 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
       if (index == bone) return field;
     return std::nullopt;
   };
-  if (*scenario)
-    if (auto begun = again.begin(**scenario, **the_case, tick_s, hands,
-                                 {*spec, settings->tray, carved_bone}, settings->tray);
+  if (*scenario) {
+    TunnelSources sources{*spec, settings->tray, carved_bone};
+    const auto graft = graft_in(order.recording);
+    if (!graft) return tl::unexpected(graft.error());
+    sources.graft = *graft;
+    if (auto begun =
+            again.begin(**scenario, **the_case, tick_s, hands, std::move(sources), settings->tray);
         !begun)
       return tl::unexpected(begun.error());
+  }
   auto pauses = pauses_of(order.recording);
   if (!pauses) return tl::unexpected(pauses.error());
   if (again.watch) again.watch->set_pauses(std::move(*pauses));
+  const auto guided = read_note(order.recording, "guided");
+  if (!guided) return tl::unexpected(guided.error());
+  const auto guided_s = parse_guided(*guided ? **guided : "", order.recording.string());
+  if (!guided_s) return tl::unexpected(guided_s.error());
   std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
+  DamageMaker damage(**the_case, hands);
+  SurfaceHeat heat(**the_case);
+  const Session* session = nullptr;
+  how.at_begin = [&](const Session& begun) { session = &begun; };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
     traces[hand].add(tool);
+    damage.touch(hand, tool, bones);
+    heat.see(*session, damage);
     again.add(hand, tool, bones);
   };
   const auto replayed = replay(*recording, *the_case, how);
@@ -174,6 +202,10 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   debrief.duration_s = replayed->report.duration_s;
   debrief.identical = replayed->identical;
   debrief.reports = replayed->reports;
+  debrief.case_spec = *spec;
+  debrief.the_case = *the_case;
+  debrief.damage = damage.finish();
+  debrief.guided_s = *guided_s;
   const auto surgeon = read_note(order.recording, "surgeon");
   if (surgeon && *surgeon) debrief.surgeon = **surgeon;
   for (std::size_t h = 0; h < hands; ++h)
@@ -186,19 +218,41 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
+  if (debrief.guided_s > 0) debrief.outcome->metrics["guided_s"] = debrief.guided_s;
   if (const TunnelWatch* tunnels = again.watch->tunnels()) {
     debrief.acl = tunnels->report();
     if (tunnels->problem()) debrief.not_measured = tunnels->problem()->message();
   }
+  const PlacingWatch& placing = again.watch->placing();
+  if (const auto plan = placing.plan())
+    debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
   debrief.scenario = std::move(**scenario);
   return debrief;
+}
+
+void show_expert(const GhostTrack& track, Debrief& debrief) {
+  constexpr auto kStride = static_cast<std::size_t>(kGhostHz / kTraceHz + 0.5);
+  debrief.expert.clear();
+  for (const auto& hand : track.hands) {
+    auto& way = debrief.expert.emplace_back();
+    for (std::size_t i = 0; i < hand.size(); i += kStride)
+      if (is_finite(hand[i].X_WT)) way.push_back(hand[i].X_WT.p);
+  }
+}
+
+bool wants_expert(const Debrief& debrief) {
+  return debrief.scenario && debrief.scenario->ghost && debrief.surgeon != "expert";
 }
 
 std::string report_of(const Debrief& debrief) {
   std::vector<std::string> names;
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
-  return with_tunnels(to_json(debrief.reports, names, *debrief.outcome), debrief.acl,
-                      debrief.not_measured);
+  const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
+                                        debrief.acl, debrief.not_measured);
+  if (!debrief.placing) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["acl"]["placing"] = to_json(*debrief.placing);
+  return json.dump(2) + "\n";
 }
 
 }  // namespace osteon

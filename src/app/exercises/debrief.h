@@ -2,18 +2,23 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "exercises/damage_map.h"
+#include "exercises/ghost/ghost_track.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
+#include "osteon/render/renderer.h"
 #include "osteon/scene/state.h"
 #include "runs/reports/acl_report.h"
+#include "runs/reports/placing_report.h"
 
 namespace osteon {
 
@@ -33,10 +38,22 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
   std::optional<Outcome> outcome;
-  std::optional<AclReport> acl;  ///< of an exercise that asks for tunnels
-  std::string not_measured;      ///< why they could not be measured
-  std::vector<Report> reports;   ///< of each of `hands`
+  std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
+  std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
+  std::string not_measured;                   ///< why they could not be measured
+  std::vector<Report> reports;                ///< of each of `hands`
   std::vector<HandTrace> hands;
+  std::string case_spec;  ///< of the case that it was repeated on
+  std::shared_ptr<const Case> the_case;
+  DamageMap damage;                       ///< what all hands left on the surfaces
+  double guided_s = 0;                    ///< how long a hand was led along an expert's way
+  std::vector<std::vector<Vec3>> expert;  ///< an expert's tips beside `hands`; none: not known
+};
+
+/// A picture of the scene with what was done in it.
+struct DebriefPicture {
+  std::string title;
+  Image image;
 };
 
 struct DebriefOrder {
@@ -50,8 +67,16 @@ Result<Debrief> make_debrief(const DebriefOrder& order);
 /// The report of the attempt as JSON, as `osteon run` writes it.
 std::string report_of(const Debrief& debrief);
 
+/// Puts an expert's ways beside those of the hands.
+void show_expert(const GhostTrack& track, Debrief& debrief);
+/// The learner's hands may be shown an expert: the exercise allows it, and they are not the
+/// virtual expert's own.
+bool wants_expert(const Debrief& debrief);
+
 /// Pages to print: verdict and score with its interval, stages and errors on the line of time with
-/// the force, forces by structure, metrics, and each hand's way seen from above and from the side.
-Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file);
+/// the force, forces by structure, metrics, and each hand's way, an expert's beside it, seen from
+/// above and from the side. `pictures`: of draw_debrief, if any.
+Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file,
+                          std::span<const DebriefPicture> pictures = {});
 
 }  // namespace osteon

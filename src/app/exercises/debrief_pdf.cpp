@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "exercises/debrief.h"
@@ -76,17 +77,23 @@ void print_force(const Debrief& debrief, const HandTrace& hand, PdfPages& pages)
   pages.curve(force, 45);
 }
 
-void print_way(const HandTrace& hand, Eigen::Index down, const char* seen, PdfPages& pages) {
+void print_way(const HandTrace& hand, const std::vector<Vec3>& expert_W, Eigen::Index down,
+               const char* seen, PdfPages& pages) {
   if (hand.tip_W.empty()) return;
   PdfPages::Curve way;
   way.title = std::string("Path of the tip seen from ") + seen +
-              (hand.name.empty() ? "" : ", hand " + hand.name);
+              (hand.name.empty() ? "" : ", hand " + hand.name) +
+              (expert_W.empty() ? "" : "; orange: the expert's");
   way.x_unit = way.y_unit = "mm";
   way.from_zero = false;
   way.equal_scales = true;
   for (const Vec3& p_W : hand.tip_W) {
     way.x.push_back(p_W.x() * 1000);
     way.y.push_back(p_W[down] * 1000);
+  }
+  for (const Vec3& p_W : expert_W) {
+    way.beside_x.push_back(p_W.x() * 1000);
+    way.beside_y.push_back(p_W[down] * 1000);
   }
   pages.curve(way, 70);
 }
@@ -99,6 +106,30 @@ void print_structures(const HandTrace& hand, PdfPages& pages) {
     pages.row({bone.name, page_number_text(bone.peak_force_n, 2),
                page_number_text(bone.mean_force_n, 2), page_number_text(bone.contact_time_s, 1),
                page_number_text(bone.deepest_mm, 2)});
+}
+
+// A spot is about 0.5 mm wide.
+void print_damage(const Debrief& debrief, PdfPages& pages) {
+  constexpr double kSpot_mm2 = 0.25;
+  pages.heading("What the surfaces bore");
+  bool any = false;
+  for (std::size_t b = 0; b < debrief.damage.size(); ++b) {
+    double force_n = 0, scratch_nmm = 0, heat_c = 0, touched = 0;
+    for (const DamageSpot& spot : debrief.damage[b]) {
+      force_n = std::max(force_n, spot.force_n);
+      scratch_nmm += spot.scratch_nmm;
+      heat_c = std::max(heat_c, spot.heat_c);
+      touched += spot.force_n > 0 ? 1 : 0;
+    }
+    if (!(touched > 0) && !(heat_c > 0)) continue;
+    if (!any)
+      pages.row({"structure", "peak, N", "scratches, N mm", "touched, mm2", "heat, C"}, true);
+    any = true;
+    pages.row({debrief.the_case->bones[b].name, page_number_text(force_n, 2),
+               page_number_text(scratch_nmm, 1), page_number_text(kSpot_mm2 * touched, 1),
+               heat_c > 0 ? page_number_text(heat_c, 1) : "-"});
+  }
+  if (!any) pages.line("Nothing was touched.");
 }
 
 void print_metrics(const Debrief& debrief, PdfPages& pages) {
@@ -117,13 +148,17 @@ void print_metrics(const Debrief& debrief, PdfPages& pages) {
 
 }  // namespace
 
-Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file) {
+Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& file,
+                          std::span<const DebriefPicture> pictures) {
   PdfPages pages;
   pages.heading("Debrief: " + (debrief.scenario ? debrief.scenario->title : debrief.case_name));
   pages.line("Case " + debrief.case_name + ", " + page_number_text(debrief.duration_s, 1) + " s" +
              (debrief.surgeon.empty() ? "" : ", played by " + debrief.surgeon));
   if (!debrief.identical)
     pages.line("The replay on this computer differs from the recording: judge with care.");
+  if (debrief.guided_s > 0)
+    pages.line("The hand was led along an expert's path for " +
+               page_number_text(debrief.guided_s, 1) + " s.");
   if (debrief.outcome) {
     print_verdict(debrief, pages);
     print_timeline(debrief, pages);
@@ -134,9 +169,13 @@ Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& f
   for (const HandTrace& hand : debrief.hands) print_force(debrief, hand, pages);
   for (const HandTrace& hand : debrief.hands) print_structures(hand, pages);
   if (debrief.outcome) print_metrics(debrief, pages);
-  for (const HandTrace& hand : debrief.hands) {
-    print_way(hand, 1, "above", pages);
-    print_way(hand, 2, "the side", pages);
+  print_damage(debrief, pages);
+  for (const DebriefPicture& picture : pictures)
+    pages.picture(picture.title, picture.image.rgb, picture.image.width, picture.image.height, 150);
+  for (std::size_t h = 0; h < debrief.hands.size(); ++h) {
+    const auto expert_W = h < debrief.expert.size() ? debrief.expert[h] : std::vector<Vec3>();
+    print_way(debrief.hands[h], expert_W, 1, "above", pages);
+    print_way(debrief.hands[h], expert_W, 2, "the side", pages);
   }
   return pages.save(file);
 }

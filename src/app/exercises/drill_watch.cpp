@@ -121,6 +121,11 @@ bool DrillWatch::take_done(std::size_t bone) {
   return take_drilled(bone);
 }
 
+void DrillWatch::look_again(std::size_t bone) {
+  watched_[bone].drilled = true;
+  watched_[bone].busy_tick = now_;
+}
+
 bool DrillWatch::take_drilled(std::size_t bone) {
   return std::exchange(watched_[bone].drilled, false);
 }

@@ -28,6 +28,8 @@ class DrillWatch {
   /// Whether that bone was drilled since it was last taken, is free of drills for half a second
   /// and of pins: once.
   bool take_done(std::size_t bone);
+  /// It may have changed: it counts as drilled once more.
+  void look_again(std::size_t bone);
   /// Whether it was drilled since it was last taken: at the end.
   bool take_drilled(std::size_t bone);
   const MeshDistance& whole(std::size_t bone);

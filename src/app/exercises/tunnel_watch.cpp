@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -49,6 +50,32 @@ std::vector<std::pair<TunnelValue, double>> values_of(const GraftOutcome& g) {
   return {{TunnelValue::kExcursion, 1e3 * g.excursion_m},
           {TunnelValue::kLachman, 1e3 * (g.lachman.anterior_m - g.lachman_whole_m)},
           {TunnelValue::kPivot, 1e3 * (g.pivot.anterior_m - g.pivot_whole_m)}};
+}
+
+bool is_same(const std::optional<DrilledHole>& a, const std::optional<DrilledHole>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->line.from_W == b->line.from_W && a->line.to_W == b->line.to_W &&
+         a->line.diameter_m == b->line.diameter_m && a->channel_m == b->channel_m;
+}
+
+// How a graft was placed and fixed by hand.
+GraftChoices choices_of(const GraftPlacingState& placing) {
+  const PlacingPlan& plan = placing.plan;
+  const PlacingScrew& screw = placing.screw;
+  const Vec3 out_B = (plan.tibia.outer_B - plan.tibia.mouth_B).normalized();
+  GraftChoices choices;
+  choices.diameter_m =
+      std::min(plan.graft_m, 2 * std::min(plan.femur.radius_m, plan.tibia.radius_m));
+  choices.length_m = plan.graft_length_m;
+  choices.loop_m = plan.loop_m;
+  choices.button_gap_m = placing.gap_m;
+  choices.tension_n = screw.tension_n;
+  choices.flexion_deg = screw.flexion_deg;
+  choices.screw_m = screw.width_m;
+  choices.screw_length_m = std::min(screw.in_m, screw.length_m);
+  choices.divergence_rad = std::acos(std::clamp(screw.out_B.dot(out_B), -1.0, 1.0));
+  choices.cycles = screw.cycles;
+  return choices;
 }
 
 Event told(const ToolState& tool, std::size_t hand, EventKind kind, SubjectKind about,
@@ -133,21 +160,75 @@ void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
 void TunnelWatch::follow_drills(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                                 std::vector<Event>& out) {
   drills_->add(tools, bones, out);
+  if (bones.epoch != epoch_) look_again(bones);
   if (job_.valid()) return;
   for (std::size_t k = 0; k < kBones; ++k)
     if (drills_->take_done(k)) take_cuts(k);
-  if (!fresh_) return;
+  if (fresh_) measure(measured_at(), out);
+  if (!job_.valid()) follow_fixing(bones, out);
+}
+
+Event TunnelWatch::measured_at() const {
   Event at;
   at.tick = last_tick_;
   for (std::size_t h = 0; h < pins_.size(); ++h)
     if (pins_[h]) at.hand = static_cast<std::uint8_t>(h);
-  measure(at, out);
+  return at;
+}
+
+// The bones came back from a restore point: what was measured may be there no longer.
+void TunnelWatch::look_again(const BoneSnapshot& bones) {
+  epoch_ = bones.epoch;
+  at_hand_ = false;
+  for (std::size_t k = 0; k < kBones; ++k)
+    if (work_.holes[k]) drills_->look_again(k);
+}
+
+// The graft is fixed: the knee is tested with what holds it.
+void TunnelWatch::follow_fixing(const BoneSnapshot& bones, std::vector<Event>& out) {
+  const GraftPlacingState& placing = bones.placing;
+  if (!placing.on || !placing.screw.done) {
+    fixed_ = false;
+    if (work_.choices) work_.choices.reset();
+    return;
+  }
+  if (std::exchange(fixed_, true)) return;
+  work_.choices = choices_of(placing);
+  if (sources_.graft) work_.choices->pretension_s = sources_.graft->creep_s;
+  fresh_ = true;
+  measure(measured_at(), out);
+}
+
+// What was drilled is a graft's way once both bones are through.
+void TunnelWatch::plan_graft() {
+  placing_.reset();
+  at_hand_ = drills_ && measured_epoch_ == epoch_;
+  const auto &f = work_.holes[0], &t = work_.holes[1];
+  if (!f || !t || !(f->channel_m > 0) || !t->through || !case_) return;
+  const auto hole = [](const DrilledHole& found) {
+    return PlacingHole{found.line.from_W, found.line.to_W, found.line.diameter_m};
+  };
+  PlacingGraft graft;
+  if (const auto& made = sources_.graft) graft = {made->diameter_m, made->length_m, made->loop_m};
+  placing_ = plan_placing(*case_, hole(*f), hole(*t), graft);
+  if (!placing_) return;
+  constexpr double kTight_m = 0.0005;
+  const double thinner_m = std::min(f->line.diameter_m, t->line.diameter_m);
+  if (placing_->graft_m <= thinner_m + kTight_m) return;
+  placing_.reset();
+  work_.problem = Error{"the graft is thicker than the tunnels", "graft",
+                        "Drill wider ones, or make a thinner graft"};
 }
 
 void TunnelWatch::take_cuts(std::size_t k) {
   if (!sources_.carved) return;
   work_.cuts[k] = sources_.carved(bones_[k]);
-  fresh_ = fresh_ || work_.cuts[k].has_value();
+  const bool whole_again = !work_.cuts[k] && work_.holes[k].has_value();
+  if (whole_again) {
+    work_.holes[k].reset();
+    work_.lines[k] = {};
+  }
+  fresh_ = fresh_ || whole_again || work_.cuts[k].has_value();
 }
 
 void TunnelWatch::see_marks(const ToolState& tool, std::size_t hand,
@@ -233,10 +314,12 @@ void TunnelWatch::finish(std::vector<Event>& out) {
 void TunnelWatch::find_lines(Work& work) {
   for (std::size_t k = 0; k < kBones; ++k) {
     if (!work.cuts[k]) continue;
-    work.is_new[k] = true;
+    const auto before = work.holes[k];
     for (const BoneDef& bone : work.whole->bones)
       if (bone.name == work.names[k])
         work.holes[k] = find_drilled(*work.cuts[k], MeshDistance(bone.mesh));
+    // One that came back with a restore point was told before.
+    work.is_new[k] = !is_same(before, work.holes[k]);
     work.cuts[k].reset();
     if (const auto& hole = work.holes[k])
       work.lines[k] = {true, hole->line.from_W, hole->line.to_W, hole->line.diameter_m};
@@ -261,7 +344,7 @@ Result<AclReport> TunnelWatch::report_of(Work& work) {
         (k == 0 ? drilling.femur : drilling.tibia) =
             DrilledLine{bone.X_WB * line.from_B, bone.X_WB * line.to_B, line.wide_m};
   }
-  return make_acl_report(*work.whole, drilling);
+  return make_acl_report(*work.whole, drilling, work.choices);
 }
 
 TunnelWatch::Work TunnelWatch::measured(Work work) {
@@ -275,6 +358,7 @@ TunnelWatch::Work TunnelWatch::measured(Work work) {
 void TunnelWatch::measure(const Event& at, std::vector<Event>& out) {
   asked_ = at;
   if (!std::exchange(fresh_, false)) return tell_measured(at, out);
+  measured_epoch_ = epoch_;
   if (sources_.in_background) {
     job_ = std::async(std::launch::async, &TunnelWatch::measured, work_);
     for (auto& cuts : work_.cuts) cuts.reset();
@@ -307,6 +391,7 @@ void TunnelWatch::tell_measured(const Event& at, std::vector<Event>& out) {
     for (const auto& [which, value] : values_of(found))
       tell(kTunnelMeasured, {static_cast<double>(which), value, 0});
   };
+  plan_graft();
   tell_drilled(at, out);
   const AclTunnels& tunnels = work_.report.tunnels;
   std::array<bool, kBones> is_new = std::exchange(work_.is_new, {});

@@ -14,9 +14,11 @@
 #include "exercises/drill_watch.h"
 #include "osteon/carve/carved_field.h"
 #include "osteon/procedure/judge.h"
+#include "osteon/scene/placing.h"
 #include "osteon/scene/state.h"
 #include "runs/reports/acl_report.h"
 #include "runs/reports/drilled_bone.h"
+#include "runs/reports/graft_report.h"
 
 namespace osteon {
 
@@ -35,6 +37,7 @@ struct TunnelSources {
   /// Measures on another thread and tells when that is done: for who may not wait. What is told
   /// then comes at a later tick than elsewhere.
   bool in_background = false;
+  std::optional<MadeGraft> graft = {};  ///< none: one that fits, made as an expert does
 };
 
 /// Makes the events of tunnel_events.h from what hands did in a knee. The line of a tunnel is that
@@ -57,6 +60,9 @@ class TunnelWatch {
   void finish(std::vector<Event>& out);
   /// What was measured.
   const AclReport& report() const { return work_.report; }
+  /// A graft for both tunnels as they were measured last; none: there are no two, or what was
+  /// measured is no longer what there is.
+  std::optional<PlacingPlan> placing() const { return at_hand_ ? placing_ : std::nullopt; }
   /// Why tunnels could not be measured: their line misses what it must meet, for example.
   const std::optional<Error>& problem() const { return work_.problem; }
 
@@ -80,7 +86,8 @@ class TunnelWatch {
     std::array<Line, kBones> lines;
     std::array<std::optional<CarvedField>, kBones> cuts;  ///< none: the line stands
     std::array<std::optional<DrilledHole>, kBones> holes;
-    std::array<bool, kBones> is_new{};  ///< not told yet
+    std::array<bool, kBones> is_new{};    ///< not told yet
+    std::optional<GraftChoices> choices;  ///< of a graft that was fixed
     AclReport report;
     std::optional<Error> problem;
   };
@@ -103,6 +110,10 @@ class TunnelWatch {
   void follow_drills(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                      std::vector<Event>& out);
   void take_cuts(std::size_t k);
+  void look_again(const BoneSnapshot& bones);
+  void follow_fixing(const BoneSnapshot& bones, std::vector<Event>& out);
+  void plan_graft();
+  Event measured_at() const;
   void measure(const Event& at, std::vector<Event>& out);
   void tell_measured(const Event& at, std::vector<Event>& out);
   void tell_drilled(const Event& at, std::vector<Event>& out) const;
@@ -123,6 +134,11 @@ class TunnelWatch {
   std::array<bool, kBones> untold_{};  ///< measured, but not through yet
   bool over_ = false;                  ///< the attempt: what is, is judged
   std::array<bool, kBones> is_socket_{};
+  std::optional<PlacingPlan> placing_;
+  bool at_hand_ = false;              ///< what placing_ says stands in the bones
+  std::uint32_t epoch_ = 0;           ///< of the bones that were seen last
+  std::uint32_t measured_epoch_ = 0;  ///< of the bones when they were measured last
+  bool fixed_ = false;                ///< a graft is, and was tested
   Work work_;
   std::future<Work> job_;  ///< of what is measured in the background
   Event asked_;            ///< who asked for it

@@ -55,8 +55,10 @@ void HapticStage::step(double dt_s) {
   if (mapping_.released()) gate_.ramp_in_again();
   ramp_after_fade(tool);
   const double age_s = bones_age(fresh, dt_s);
+  DeviceWrench wrench = wanted(tool);
+  wrench.force_V += mapping_.force_to_device(guidance(tool, dt_s));
   const DeviceWrench given =
-      gate_.filter(wanted(tool), sample, age_s, dt_s, assist_.force(sample.v_V, dt_s));
+      gate_.filter(wrench, sample, age_s, dt_s, assist_.force(sample.v_V, dt_s));
   give(over_ ? DeviceWrench{} : given);
 
   note_fault();
@@ -116,6 +118,16 @@ DeviceWrench HapticStage::wanted(const ToolState& tool) const {
   if (device_.info().drives_rotation())
     wrench.torque_V = mapping_.force_to_device(moment_about(tool.X_WP.p, tool, session_.portals()));
   return wrench;
+}
+
+// A window that has stopped drawing leads nobody any more. The session knows nothing of it: what
+// the hand does because of it is in its input.
+Vec3 HapticStage::guidance(const ToolState& tool, double dt_s) {
+  const bool leads = wishes_.guide.on && wishes_age_s_ < kOldestPedal_s;
+  const double counted_s = std::min(dt_s, kLongestCountedTick_s);
+  const Vec3 force_W = guide_.force_W(leads ? wishes_.guide : GuideLine{}, tool.X_WD.p, counted_s);
+  if (leads && gate_.enabled() && force_W.squaredNorm() > 0) status_.guided_s += counted_s;
+  return force_W;
 }
 
 void HapticStage::give(const DeviceWrench& wrench) {

@@ -5,6 +5,7 @@
 
 #include "loops/assist.h"
 #include "loops/fault_freeze.h"
+#include "loops/hand_guide.h"
 #include "loops/hand_mapping.h"
 #include "loops/loop_exchange.h"
 #include "osteon/device/haptic_device.h"
@@ -54,6 +55,7 @@ class HapticStage {
   bool has_fault() const;
   double bones_age(bool fresh, double dt_s);
   DeviceWrench wanted(const ToolState& tool) const;
+  Vec3 guidance(const ToolState& tool, double dt_s);
   void give(const DeviceWrench& wrench);
   OtherTools read_others();
   Command next_command();
@@ -69,6 +71,7 @@ class HapticStage {
   StateKeeper* keeper_;
   HandMapping mapping_;
   Assist assist_;
+  HandGuide guide_;
   SafetyGate gate_;
   FaultFreeze freeze_;
   ToolInput last_good_;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "loops/hand_guide.h"
 #include "osteon/base/bounded_queue.h"
 #include "osteon/base/latest_value.h"
 #include "osteon/device/haptic_device.h"
@@ -33,6 +34,7 @@ struct DeviceStatus {
   bool clutched = false;                 ///< the device moves without the tool
   bool dead_man_held = true;             ///< every switch and pedal that must be held is
   DeviceHealth health;                   ///< as the device told some ticks ago
+  double guided_s = 0;                   ///< how long the hand was led along a way in this run
 };
 
 /// What the window tells the haptic loop of the user's feet and eyes; once a picture.
@@ -42,6 +44,7 @@ struct HandWishes {
   bool clutch = false;     ///< by a pedal or key, besides the device's own button
   bool turn_axes = false;  ///< tie the device's axes to `q_WV`, once nothing is touched
   Quat q_WV = Quat::Identity();
+  GuideLine guide;  ///< where the hand shall be led
 };
 
 /// The user's wish for the safety gate and the device.

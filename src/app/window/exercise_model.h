@@ -19,12 +19,25 @@ enum class ExercisePage {
   kResult
 };
 
+/// What of an attempt the result shows on the bones.
+enum class DebriefView { kNothing, kWays, kForce, kScratch, kHeat };
+
 /// What the panel tells of an expert's instruments beside the learner's.
 struct GhostModel {
   bool allowed = false;  ///< by the exercise
   bool on = true, preparing = false;
-  double strength = 1;  ///< 0..1, by the learner's results
+  double strength = 1;     ///< 0..1, by the learner's results
+  bool guides = false;     ///< leads the hands too
+  bool can_guide = false;  ///< a device with motors is in use
   std::string problem;
+};
+
+/// The knee with a placed graft in it, which is bent by the panel.
+struct BentKneeModel {
+  bool shown = false;
+  double least_deg = 0, most_deg = 0, wanted_deg = 0, tension_n = 0;
+  std::uint32_t cycles = 0;
+  std::vector<double> flexion_deg, between_mm;  ///< the graft's way, where it was bent to
 };
 
 /// What the panel for exercises shows.
@@ -37,6 +50,7 @@ struct ExerciseModel {
     std::string title, instruction;
     bool done = false, live = false;
     double at_s = 0;
+    std::string restore_title = {};  ///< its start can be come back to; empty: it cannot
   };
   struct Fault {
     std::string title, severity, consequence;
@@ -69,10 +83,15 @@ struct ExerciseModel {
   std::string cue;                ///< asked for; empty: not shown
   bool has_cue = false;
   int hints = 0, undone = 0;
+  double guided_s = 0;  ///< how long a hand was led
   bool paused = false;
   std::vector<Asked> asked;
   GhostModel ghost;
-  double judged = 0;  ///< 0..1, while judging
+  BentKneeModel knee;
+  double judged = 0;                          ///< 0..1, while judging
+  DebriefView shown = DebriefView::kNothing;  ///< on the bones, of the result
+  std::vector<DebriefView> can_show;
+  bool shows_expert = false;  ///< the expert's ways are known
   std::string verdict;
   std::optional<double> score, score_lo, score_hi;
   bool repeats = true;  ///< the recording repeats exactly
@@ -89,11 +108,15 @@ struct ExerciseRequests {
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;
-  bool ghost = false;                                             ///< switched on or off
-  bool pause = false;                                             ///< or go on
+  std::optional<std::size_t> return_to = {};            ///< to the start of that stage
+  std::optional<double> bend_deg = {}, tension_n = {};  ///< of the knee and the graft's tail
+  bool ghost = false;                                   ///< switched on or off
+  bool guide = false;                                   ///< likewise: leads the hands
+  bool pause = false;                                   ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;
+  std::optional<DebriefView> show = {};
 };
 
 }  // namespace osteon

@@ -42,6 +42,7 @@ struct WindowOrder {
   std::string exercise;             ///< whose briefing is opened; empty: none
   std::string ghost;  ///< beside an exercise: a recording's file, "off", or empty: an expert's
   std::optional<double> ghost_strength;  ///< 0..1; none: by the learner's results
+  bool guide = false;                    ///< an exercise begins with the hands led
   bool fresh = false;                    ///< neither reads nor writes the settings file
 };
 

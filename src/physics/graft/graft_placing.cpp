@@ -14,15 +14,19 @@ using PlacingKind = PlacingTool::Kind;
 constexpr double kPinTakeOn_m = 0.005;  // so near its line a pin is led
 constexpr double kPinTurn = 0.82;       // least cosine between the axes then
 constexpr double kPinAhead_m = 0.010;
-constexpr double kClampOff_m = 0.015;    // beyond the tibia a clamp is free again
-constexpr double kPinOff_m = 0.003;      // drawn back so far before the mouth it is off again
-constexpr double kLeadStep = 0.02;       // a line holds within 50 steps
-constexpr double kJawReach_m = 0.010;    // jaws take a thread
-constexpr double kJawShut = 0.15;        // of the jaws' way
-constexpr double kOutOfSkin_m = 0.020;   // from the cortex to where the thread is taken hold of
-constexpr double kAside_m = 0.002;       // a clamp may lean so far beyond the tunnel's wall
-constexpr double kEndInJoint_m = 0.010;  // over the tibia's mouth the thread's end comes to lie
-constexpr double kJoint_m = 0.040;       // a thread's end farther from the mouth is lost
+constexpr double kClampOff_m = 0.015;     // beyond the tibia a clamp is free again
+constexpr double kPinOff_m = 0.003;       // drawn back so far before the mouth it is off again
+constexpr double kLeadStep = 0.02;        // a line holds within 50 steps
+constexpr double kJawReach_m = 0.010;     // jaws take a thread
+constexpr double kJawShut = 0.15;         // of the jaws' way
+constexpr double kOutOfSkin_m = 0.020;    // from the cortex to where the thread is taken hold of
+constexpr double kAside_m = 0.002;        // a clamp may lean so far beyond the tunnel's wall
+constexpr double kEndInJoint_m = 0.010;   // over the tibia's mouth the thread's end comes to lie
+constexpr double kScrewStarts_m = 0.008;  // so near the outer mouth a screw may begin
+constexpr double kScrewAside_m = 0.003;
+constexpr double kScrewTurn = 0.77;    // 40 degrees
+constexpr double kScrewOff_m = 0.012;  // drawn back so far from where it began it is let go
+constexpr double kJoint_m = 0.040;     // a thread's end farther from the mouth is lost
 
 struct TunnelNow {
   Vec3 mouth_W, outer_W, out_W;
@@ -52,6 +56,34 @@ bool lies_in(const ToolState& tool, const PlacingTunnel& tunnel, const TunnelNow
 PassingWay passing_way(const PlacingPlan& p) {
   return {p.tibia.length_m(),   p.between_m,          p.femur.length_m(), p.socket_m,
           2 * p.tibia.radius_m, 2 * p.femur.radius_m, p.tibia_bend_rad,   p.femur_bend_rad};
+}
+
+// What is left once a screw is out: how the graft was worked.
+PlacingScrew without_screw(const PlacingScrew& screw) {
+  PlacingScrew none;
+  none.cycles = screw.cycles;
+  return none;
+}
+
+// It stays where it is, or comes out again.
+void let_go_screw(PlacingHand& h, const BoneSnapshot& bones, GraftPlacingState& state) {
+  PlacingScrew& screw = state.screw;
+  h.line = PlacingLine::kNone;
+  if (screw.in_m < GraftPlacing::kScrewHolds_m) {
+    screw = without_screw(screw);
+    return;
+  }
+  screw.done = true;
+  screw.tension_n = state.tension_n;
+  screw.flexion_deg = bones.bend.now_deg;
+}
+
+// A bend counts that was made while the tail was pulled.
+void count_cycles(const BendState& bend, GraftPlacingState& state) {
+  if (state.phase != PlacingPhase::kTurned || state.screw.done) return;
+  const bool more = bend.cycles > state.cycles_before;
+  if (more && state.tension_n >= GraftPlacing::kWorks_n) ++state.screw.cycles;
+  state.cycles_before = bend.cycles;
 }
 
 ToolGuide line_along(const PlacingTunnel& tunnel, const PlacingHand& hand, bool joint_end,
@@ -90,10 +122,17 @@ GraftPlacing::GraftPlacing(PlacingPlan plan, std::vector<PlacingTool> tray, doub
       tray_(std::move(tray)),
       step_s_(step_s) {}
 
-GraftPlacingState GraftPlacing::begin() {
+GraftPlacingState GraftPlacing::begin() const {
   GraftPlacingState state;
   state.on = true;
+  state.plan = plan_;
   return state;
+}
+
+void GraftPlacing::pull(double tension_n, GraftPlacingState& state) {
+  if (!state.on || state.phase != PlacingPhase::kTurned || state.screw.done) return;
+  if (!(tension_n >= 0 && tension_n <= kMostTension_n)) return;
+  state.tension_n = tension_n;
 }
 
 GraftPlacingState GraftPlacing::gone_back(const GraftPlacingState& kept) {
@@ -103,6 +142,10 @@ GraftPlacingState GraftPlacing::gone_back(const GraftPlacingState& kept) {
   if (state.phase == PlacingPhase::kThreadHeld) state.phase = PlacingPhase::kThreadInside;
   state.holder = 0;
   state.pull_n = 0;
+  state.told = 0;
+  // A screw that was being turned in holds or has come out.
+  const bool half_way = state.screw.screws > 0 && !state.screw.done;
+  if (half_way) state.screw = without_screw(state.screw);
   return state;
 }
 
@@ -246,6 +289,42 @@ void GraftPlacing::follow_tibia(std::uint32_t hand, const ToolState& tool,
   h.grip = 0;
 }
 
+// A screw's line is where it stood and looked as it began to turn.
+void GraftPlacing::turn_screw(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
+                              GraftPlacingState& state) const {
+  PlacingHand& h = state.hands[hand];
+  PlacingScrew& screw = state.screw;
+  const Pose X_BT = bones.bones[plan_.tibia.bone].X_WB.inverse() * tool.X_WP;
+  const Vec3 out_B = (plan_.tibia.outer_B - plan_.tibia.mouth_B).normalized();
+  if (h.line == PlacingLine::kNone) {
+    const Vec3 off = X_BT.p - plan_.tibia.outer_B, axis_B = X_BT.rotate(Vec3::UnitZ());
+    const double s = out_B.dot(off);
+    const bool there = std::abs(s) < kScrewStarts_m &&
+                       (off - s * out_B).norm() < plan_.tibia.radius_m + kScrewAside_m &&
+                       axis_B.dot(out_B) > kScrewTurn;
+    const bool may = state.phase == PlacingPhase::kTurned && !screw.done && screw.in_m == 0;
+    if (!there || !may || !(tool.power > 0)) return;
+    screw.screws = state.screw.screws + 1;
+    screw.p_B = X_BT.p;
+    screw.out_B = axis_B;
+    screw.width_m = tray_[tool.instrument].width_m;
+    screw.length_m = kScrewLength_m;
+    h.line = PlacingLine::kScrew;
+    h.grip = 0;
+    return;
+  }
+  h.grip = std::min(1.0, h.grip + kLeadStep);
+  const Pose& X_WB = bones.bones[plan_.tibia.bone].X_WB;
+  const Vec3 line_W = X_WB.rotate(screw.out_B);
+  const double at_m = line_W.dot(tool.X_WP.p - X_WB * screw.p_B);
+  if (at_m > kScrewOff_m) return let_go_screw(h, bones, state);
+  const bool turned =
+      tool.power > 0 && line_W.dot(tool.force_W) > kScrew_n && at_m < -screw.in_m + 0.002;
+  if (!turned) return;
+  const double end = std::min(screw.length_m + kScrewBeyond_m, plan_.tibia.length_m());
+  screw.in_m = std::min(end, screw.in_m + step_s_ * kScrewTurn_m_per_s * std::min(1.0, tool.power));
+}
+
 void GraftPlacing::use_clamp(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                              GraftPlacingState& state) const {
   PlacingHand& h = state.hands[hand];
@@ -270,6 +349,7 @@ void GraftPlacing::work(std::uint32_t hand, const ToolState& tool, const BoneSna
   const PlacingKind kind = held(tool);
   if (kind == PlacingKind::kPassingPin) lead_pin(hand, tool, bones, state);
   if (kind == PlacingKind::kClamp) use_clamp(hand, tool, bones, state);
+  if (kind == PlacingKind::kScrew) turn_screw(hand, tool, bones, state);
 }
 
 void GraftPlacing::lead(const GraftPlacingState& state,
@@ -284,6 +364,14 @@ void GraftPlacing::lead(const GraftPlacingState& state,
       out.stop_m = hand.from_m + state.drawn_m;
       continue;
     }
+    if (hand.line == PlacingLine::kScrew) {
+      out = line_along(plan_.tibia, hand, false, 1);
+      out.p_B = state.screw.p_B;
+      out.nhat_B = state.screw.out_B;
+      out.in_hole = out.stops = true;
+      out.stop_m = -state.screw.in_m;
+      continue;
+    }
     const bool pin = hand.line == PlacingLine::kPin;
     out = line_along(pin ? plan_.femur : plan_.tibia, hand, true, pin ? -1 : 1);
     out.in_hole = true;
@@ -294,6 +382,7 @@ void GraftPlacing::lead(const GraftPlacingState& state,
 
 void GraftPlacing::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                         GraftPlacingState& state) const {
+  count_cycles(bones.bend, state);
   const auto count = static_cast<std::uint32_t>(std::min(tools.size(), kMaxHands));
   for (std::uint32_t hand = 0; hand < count; ++hand) {
     const ToolState& tool = *tools[hand];
@@ -301,6 +390,7 @@ void GraftPlacing::step(std::span<const ToolState* const> tools, const BoneSnaps
     const bool here = tool.epoch == bones.epoch;
     if (h.instrument != tool.instrument || !here) {
       if (h.line == PlacingLine::kPin && state.phase == PlacingPhase::kEmpty) state.pin_m = 0;
+      if (h.line == PlacingLine::kScrew && here) let_go_screw(h, bones, state);
       // A clamp that is put away has let go.
       if (here && h.instrument != 0xffffffffu) open(hand, tool, bones, state);
       h = {};

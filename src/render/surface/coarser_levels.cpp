@@ -42,8 +42,10 @@ std::vector<Triangle> simplified(const ShadedMesh& mesh, double error_m) {
   constexpr std::size_t kStride = sizeof(points.front());
   const float scale = meshopt_simplifyScale(first, points.size(), kStride);
   const float relative = scale > 0 ? static_cast<float>(error_m) / scale : 0.0f;
+  // Of a closed surface borders are the two sides of a sharp edge: they must stay together.
+  const unsigned int options = mesh.closed ? meshopt_SimplifyLockBorder : 0;
   kept.resize(meshopt_simplify(kept.data(), indices.data(), count, first, points.size(), kStride, 0,
-                               relative, 0, nullptr));
+                               relative, options, nullptr));
   meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), points.size());
   std::vector<Triangle> out;
   for (std::size_t k = 0; k + 2 < kept.size(); k += 3)

@@ -8,6 +8,7 @@
 #include "osteon/scene/felt_distance.h"
 #include "surface/bone_mottle.h"
 #include "surface/coarser_levels.h"
+#include "surface/creases.h"
 #include "surface/occlusion.h"
 #include "surface/surface.h"
 
@@ -87,6 +88,7 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
   PreparedCase out;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     out.bones.push_back(shaded(surfaces[k].surface, openness[k], k));
+    split_creases(surfaces[k].surface, out.bones.back());
     const double done = static_cast<double>(k + 1) / static_cast<double>(surfaces.size());
     if (!stopped) out.bones.back().coarser = coarser_levels(out.bones.back());
     report(kOcclusionShare + (1 - kOcclusionShare) * done);
@@ -98,6 +100,7 @@ PreparedCase prepare_case(const Case& the_case, const PrepareProgress& progress)
 ShadedMesh unlit_bone(const Case& the_case, std::size_t bone) {
   const Surface surface = make_surface(the_case.bones[bone].mesh);
   ShadedMesh mesh = shaded(surface, std::vector<float>(surface.points.size(), 1.0f), bone);
+  split_creases(surface, mesh);
   mesh.coarser = coarser_levels(mesh);
   return mesh;
 }

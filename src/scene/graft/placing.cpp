@@ -42,7 +42,9 @@ double along_ray(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, con
   if (det == 0) return kMiss;
   const Vec3 s = p - a, q = s.cross(e1);
   const double u = s.dot(h) / det, v = d.dot(q) / det;
-  if (u < 0 || v < 0 || u + v > 1) return kMiss;
+  // A line that meets an edge meets one of its triangles whatever rounding says.
+  constexpr double kEdge = 1e-9;
+  if (u < -kEdge || v < -kEdge || u + v > 1 + kEdge) return kMiss;
   return e2.dot(q) / det;
 }
 
@@ -91,6 +93,66 @@ double turn_at(const Vec3& from, const Vec3& to) {
   return std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0));
 }
 
+std::optional<PlacingPlan> with_graft(const Case& the_case, const PlacingTunnel& f,
+                                      const PlacingTunnel& t, double socket_m,
+                                      const PlacingGraft& graft) {
+  const Pose &X_WF = the_case.bones[f.bone].X_WB, &X_WT = the_case.bones[t.bone].X_WB;
+  const Vec3 f_in = X_WF * f.mouth_B, f_out = X_WF * f.outer_B;
+  const Vec3 t_in = X_WT * t.mouth_B, t_out = X_WT * t.outer_B;
+  PlacingPlan plan;
+  plan.femur = f;
+  plan.tibia = t;
+  plan.socket_m = socket_m;
+  plan.between_m = (f_in - t_in).norm();
+  plan.tibia_bend_rad = turn_at(t_in - t_out, f_in - t_in);
+  plan.femur_bend_rad = turn_at(f_in - t_in, f_out - f_in);
+  plan.graft_m = graft.diameter_m > 0 ? graft.diameter_m : 2 * std::min(f.radius_m, t.radius_m);
+  plan.graft_length_m = graft.length_m;
+  plan.loop_m = graft.loop_m > 0 ? graft.loop_m : loop_for(f.length_m(), socket_m);
+  if (!(plan.loop_m > 0)) return std::nullopt;
+  return plan;
+}
+
+// Both holes run from the end that lies nearer to the other one.
+struct HoleEnds {
+  struct In {
+    std::uint32_t bone;
+    Vec3 from_B, to_B;
+    double radius_m;
+  };
+  In femur, tibia;
+};
+std::optional<HoleEnds> nearest_ends(const Case& the_case, const PlacingHole& socket,
+                                     const PlacingHole& tibia) {
+  const BoneId f = the_case.find("femur"), t = the_case.find("tibia");
+  if (!f.valid() || !t.valid()) return std::nullopt;
+  const Pose &X_WF = the_case.bone(f).X_WB, &X_WT = the_case.bone(t).X_WB;
+  HoleEnds out{{f.index, socket.from_B, socket.to_B, 0.5 * socket.diameter_m},
+               {t.index, tibia.from_B, tibia.to_B, 0.5 * tibia.diameter_m}};
+  const auto apart = [&](const Vec3& in_F, const Vec3& in_T) {
+    return (X_WF * in_F - X_WT * in_T).norm();
+  };
+  const double f0 = std::min(apart(socket.from_B, tibia.from_B), apart(socket.from_B, tibia.to_B));
+  const double f1 = std::min(apart(socket.to_B, tibia.from_B), apart(socket.to_B, tibia.to_B));
+  if (f1 < f0) std::swap(out.femur.from_B, out.femur.to_B);
+  if (apart(out.femur.from_B, tibia.to_B) < apart(out.femur.from_B, tibia.from_B))
+    std::swap(out.tibia.from_B, out.tibia.to_B);
+  return out;
+}
+
+// From the middle of a hole's wall to where its axis leaves the whole bone, both ways.
+std::optional<PlacingTunnel> tunnel_through(const Case& the_case, const HoleEnds::In& hole) {
+  constexpr double kFar_m = 0.2;
+  const TriMesh& mesh = the_case.bones[hole.bone].mesh;
+  const Vec3 way = hole.to_B - hole.from_B, middle = hole.from_B + 0.5 * way;
+  if (!(way.norm() > 0.001 && hole.radius_m > 0)) return std::nullopt;
+  const Vec3 along = way.normalized();
+  const double in = first_bone(mesh, middle, -along, kFar_m);
+  const double out = first_bone(mesh, middle, along, kFar_m);
+  if (!std::isfinite(in) || !std::isfinite(out) || !(in + out > 0.005)) return std::nullopt;
+  return PlacingTunnel{hole.bone, middle - in * along, middle + out * along, hole.radius_m};
+}
+
 }  // namespace
 
 double PlacingPlan::button_out_m() const {
@@ -110,25 +172,64 @@ std::optional<PlacingPlan> find_placing(const Case& the_case) {
     if (found == the_case.landmarks.end()) return std::nullopt;
     at[i] = found->p_W;
   }
-  PlacingPlan plan;
   const double socket_radius = (at[3] - at[0]).norm(), tibia_radius = (at[6] - at[4]).norm();
   // The channel is narrower; beside the socket's wall the cortex is met as well.
   const auto f = tunnel_of(the_case, femur, at[0], at[2], socket_radius, 0.6 * socket_radius);
   const auto t = tunnel_of(the_case, tibia, at[5], at[4], tibia_radius, tibia_radius);
   if (!f || !t) return std::nullopt;
-  plan.femur = *f;
-  plan.tibia = *t;
-  const Pose &X_WF = the_case.bone(femur).X_WB, &X_WT = the_case.bone(tibia).X_WB;
+  const Pose& X_WF = the_case.bone(femur).X_WB;
   const Vec3 f_in = X_WF * f->mouth_B, f_out = X_WF * f->outer_B;
-  const Vec3 t_in = X_WT * t->mouth_B, t_out = X_WT * t->outer_B;
-  plan.socket_m = (at[1] - f_in).dot((f_out - f_in).normalized());
-  plan.between_m = (f_in - t_in).norm();
-  plan.tibia_bend_rad = turn_at(t_in - t_out, f_in - t_in);
-  plan.femur_bend_rad = turn_at(f_in - t_in, f_out - f_in);
-  plan.graft_m = 2 * std::min(socket_radius, tibia_radius);
-  plan.loop_m = loop_for(f->length_m(), plan.socket_m);
-  if (!(plan.loop_m > 0)) return std::nullopt;
-  return plan;
+  return with_graft(the_case, *f, *t, (at[1] - f_in).dot((f_out - f_in).normalized()), {});
+}
+
+std::optional<PlacingPlan> plan_placing(const Case& the_case, const PlacingHole& socket,
+                                        const PlacingHole& tibia, const PlacingGraft& graft) {
+  const auto ends = nearest_ends(the_case, socket, tibia);
+  if (!ends) return std::nullopt;
+  const auto f = tunnel_through(the_case, ends->femur), t = tunnel_through(the_case, ends->tibia);
+  if (!f || !t) return std::nullopt;
+  const Vec3 along = (f->outer_B - f->mouth_B).normalized();
+  const double deep = (ends->femur.to_B - f->mouth_B).dot(along);
+  if (!(deep > 0 && deep < f->length_m())) return std::nullopt;
+  return with_graft(the_case, *f, *t, deep, graft);
+}
+
+PlacingNumbers placing_numbers(const PlacingPlan& plan) {
+  PlacingNumbers out{};
+  std::size_t n = 0;
+  for (const PlacingTunnel* tunnel : {&plan.femur, &plan.tibia}) {
+    for (int i = 0; i < 3; ++i) out[n++] = tunnel->mouth_B[i];
+    for (int i = 0; i < 3; ++i) out[n++] = tunnel->outer_B[i];
+    out[n++] = tunnel->radius_m;
+  }
+  for (const double x : {plan.socket_m, plan.graft_m, plan.graft_length_m, plan.loop_m})
+    out[n++] = x;
+  return out;
+}
+
+std::optional<PlacingPlan> plan_of_numbers(const Case& the_case, const PlacingNumbers& numbers) {
+  constexpr double kMost_m = 10;
+  const BoneId femur = the_case.find("femur"), tibia = the_case.find("tibia");
+  if (!femur.valid() || !tibia.valid()) return std::nullopt;
+  for (const double x : numbers)
+    if (!(std::abs(x) < kMost_m)) return std::nullopt;
+  const auto tunnel = [&](BoneId bone, std::size_t n) {
+    return PlacingTunnel{bone.index,
+                         {numbers[n], numbers[n + 1], numbers[n + 2]},
+                         {numbers[n + 3], numbers[n + 4], numbers[n + 5]},
+                         numbers[n + 6]};
+  };
+  const PlacingTunnel f = tunnel(femur, 0), t = tunnel(tibia, 7);
+  if (!(numbers[14] > 0 && numbers[15] > 0 && numbers[16] > 0 && numbers[17] > 0))
+    return std::nullopt;
+  return with_graft(the_case, f, t, numbers[14], {numbers[15], numbers[16], numbers[17]});
+}
+
+double placing_between_m(const PlacingPlan& plan, const BoneSnapshot& bones) {
+  if (plan.femur.bone >= bones.count || plan.tibia.bone >= bones.count) return 0;
+  return (bones.bones[plan.femur.bone].X_WB * plan.femur.mouth_B -
+          bones.bones[plan.tibia.bone].X_WB * plan.tibia.mouth_B)
+      .norm();
 }
 
 namespace {
@@ -172,9 +273,10 @@ void add_rods(const PlacingWay& way, double from_m, double to_m, PlacingRod::Is 
 
 }  // namespace
 
-std::vector<PlacingRod> placing_rods(const PlacingPlan& plan, const BoneSnapshot& bones) {
+std::vector<PlacingRod> placing_rods(const BoneSnapshot& bones) {
   using Is = PlacingRod::Is;
   const GraftPlacingState& s = bones.placing;
+  const PlacingPlan& plan = s.plan;
   std::vector<PlacingRod> out;
   if (!s.on || s.phase == PlacingPhase::kEmpty) return out;
   if (plan.femur.bone >= bones.count || plan.tibia.bone >= bones.count) return out;
@@ -195,6 +297,12 @@ std::vector<PlacingRod> placing_rods(const PlacingPlan& plan, const BoneSnapshot
     const Vec3 across = about(axis)[0], at = way.place(button) + kButtonRadius_m * axis;
     out.push_back(
         {Is::kButton, at - kFlipRoom_m * across, at + kFlipRoom_m * across, kButtonRadius_m});
+    const PlacingScrew& screw = s.screw;
+    if (screw.screws == 0) return out;
+    const Pose& X_WT = bones.bones[plan.tibia.bone].X_WB;
+    const Vec3 tip_W = X_WT * (screw.p_B - screw.in_m * screw.out_B);
+    out.push_back({Is::kScrew, tip_W, tip_W + screw.length_m * X_WT.rotate(screw.out_B),
+                   0.5 * screw.width_m});
     return out;
   }
   add_rods(way, button - kFlipRoom_m, button + kFlipRoom_m, Is::kButton, kButtonRadius_m, out);

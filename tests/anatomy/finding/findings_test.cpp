@@ -140,6 +140,47 @@ mark = [{ name = "hole_in", bone = "femur", position_mm = [1, 2, 3] }]
   EXPECT_NE(again.error().message().find("hole_in"), std::string::npos);
 }
 
+TEST(Findings, LandmarksGoAlongWithTheBoneThatAFindingMoves) {
+  const std::string ball =
+      "[[bone]]\nname = \"NAME\"\nfma_id = 1\nposition_mm = [0, 0, 0]\nadd = [{ shape = "
+      "\"ellipsoid\", center_mm = [0, 0, 0], radii_mm = [5, 5, 5] }]\n";
+  std::string text = "name = \"t\"\nside = \"right\"\n";
+  for (const std::string name : {"one", "other"}) {
+    std::string bone = ball;
+    text += bone.replace(bone.find("NAME"), 4, name);
+  }
+  for (const auto& [name, bone] : {std::pair<std::string, std::string>{"on_one", "one"},
+                                   {"on_other", "other"},
+                                   {"free", ""}}) {
+    text += "[[landmark]]\nname = \"" + name + "\"\nposition_mm = [5, 0, 0]\n";
+    if (!bone.empty()) text += "bone = \"" + bone + "\"\n";
+  }
+  auto anatomy = parse_description(text, "t");
+  ASSERT_TRUE(anatomy) << anatomy.error().message();
+  const auto table = parse_findings(R"([[finding]]
+name = "f"
+meaning = "m"
+source = "D"
+[[finding.grade]]
+name = "1"
+meaning = "m"
+move = [
+  { bones = ["one"], pivot_mm = [0, 0, 0], turn_deg = [0, 0, 90], mm = [0, 0, 2] },
+  { bones = ["one"], pivot_mm = [0, 0, 0], turn_deg = [0, 0, 0], mm = [1, 0, 0] },
+]
+)",
+                                    "f");
+  ASSERT_TRUE(table) << table.error().message();
+  ASSERT_TRUE(apply_findings(*table, {{"f", "1"}}, *anatomy));
+  const auto grown = grow_bones(*anatomy, {}, "t");
+  ASSERT_TRUE(grown) << grown.error().message();
+  ASSERT_EQ(grown->landmarks.size(), 3u);
+  // A quarter turn about z takes x to y; then both shifts.
+  EXPECT_NEAR((grown->landmarks[0].p_W - Vec3(0.001, 0.005, 0.002)).norm(), 0, 1e-12);
+  EXPECT_EQ(grown->landmarks[1].p_W, Vec3(0.005, 0, 0));
+  EXPECT_EQ(grown->landmarks[2].p_W, Vec3(0.005, 0, 0));
+}
+
 TEST(Findings, EveryFindingOfTheTablesFitsItsAnatomy) {
   for (const std::string name : {"wrist", "knee"}) {
     const auto findings = list_findings(kAnatomyAssets / (name + "_findings.toml"));

@@ -29,12 +29,13 @@ Quat shaft_towards(const Vec3& handle_W) {
 struct PlacingRig {
   explicit PlacingRig(const PlacingPlan& plan = placing_plan()) : plan_(plan) {
     using Kind = PlacingTool::Kind;
-    const std::vector<PlacingTool> tray{{Kind::kPassingPin}, {Kind::kClamp}, {Kind::kOther}};
+    const std::vector<PlacingTool> tray{
+        {Kind::kPassingPin}, {Kind::kClamp}, {Kind::kOther}, {Kind::kScrew, 0.009}};
     auto made = GraftPlacing::make(plan_, tray, 0.002);
     EXPECT_TRUE(made) << (made ? "" : made.error().message());
     work.emplace(std::move(*made));
     bones.count = 2;
-    state = GraftPlacing::begin();
+    state = work->begin();
   }
   void step() {
     const ToolState* const tools[] = {&tool};
@@ -222,6 +223,91 @@ TEST(GraftPlacing, ARestorePointLetsGoOfWhatAHandHeld) {
   EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadInside);
   rig.fetch_end(Vec3(-0.090, 0, 0), -Vec3::UnitX());
   EXPECT_EQ(rig.state.phase, PlacingPhase::kThreadOut);
+}
+
+// In the rig of a turned button the screw stands at the tibia's outer mouth.
+struct ScrewRig : PlacingRig {
+  static constexpr std::uint32_t kScrewTool = 3;
+  ScrewRig() {
+    state.phase = PlacingPhase::kTurned;
+    take(kScrewTool);
+  }
+  void stand(double in_m, const Vec3& handle_W, double power, double force_n) {
+    const Vec3 mouth(-0.070, 0, 0);
+    tool.power = power;
+    tool.force_W = force_n * handle_W.normalized();
+    at(mouth - in_m * handle_W.normalized(), handle_W, 0);
+  }
+  void turn_in(double to_m, const Vec3& handle_W) {
+    for (int n = 0; n < 20000 && state.screw.in_m < to_m; ++n)
+      stand(state.screw.in_m, handle_W, 1, 1.5);
+  }
+};
+
+TEST(GraftPlacing, AScrewGoesInByItsPitchAndStaysWhenTheHandTakesSomethingElse) {
+  ScrewRig rig;
+  const Vec3 out = -Vec3::UnitX();
+  rig.stand(0, out, 0, 2);  // pressed, not turned
+  EXPECT_EQ(rig.state.screw.screws, 0u);
+  GraftPlacing::pull(90, rig.state);
+  rig.bones.bend.on = true;
+  for (int n = 0; n < 22; ++n) {
+    ++rig.bones.bend.cycles;
+    rig.step();
+  }
+  GraftPlacing::pull(5, rig.state);  // too little to work the creep out
+  ++rig.bones.bend.cycles;
+  rig.step();
+  GraftPlacing::pull(90, rig.state);
+  rig.bones.bend.now_deg = 30;
+  rig.stand(0, out, 1, 1.5);
+  ASSERT_EQ(rig.state.screw.screws, 1u);
+  const int steps = static_cast<int>(2 / 0.002);
+  for (int n = 0; n < steps; ++n) rig.stand(rig.state.screw.in_m, out, 1, 1.5);
+  EXPECT_NEAR(rig.state.screw.in_m, 2 * GraftPlacing::kScrewTurn_m_per_s, 1e-5);
+  for (int n = 0; n < 100; ++n) rig.stand(rig.state.screw.in_m, out, 1, 0.2);
+  EXPECT_NEAR(rig.state.screw.in_m, 2 * GraftPlacing::kScrewTurn_m_per_s, 1e-5);
+  rig.turn_in(0.020, out);
+  rig.take(kPlacingClamp);
+  const PlacingScrew& screw = rig.state.screw;
+  EXPECT_TRUE(screw.done);
+  EXPECT_NEAR(screw.in_m, 0.020, 1e-4);
+  EXPECT_EQ(screw.width_m, 0.009);
+  EXPECT_EQ(screw.tension_n, 90);
+  EXPECT_EQ(screw.cycles, 22u);
+  EXPECT_EQ(screw.flexion_deg, 30);
+  GraftPlacing::pull(0, rig.state);
+  EXPECT_EQ(rig.state.tension_n, 90);
+}
+
+TEST(GraftPlacing, AScrewKeepsTheLineOnWhichItBeganAndNeedsFiveMillimetres) {
+  ScrewRig rig;
+  const Vec3 aside = Vec3(-std::cos(0.4), std::sin(0.4), 0);
+  rig.stand(0, aside, 1, 1.5);
+  rig.turn_in(0.003, aside);
+  rig.take(kPlacingClamp);
+  EXPECT_EQ(rig.state.screw.screws, 0u);
+  EXPECT_FALSE(rig.state.screw.done);
+  rig.tool.power = 0;
+  rig.take(ScrewRig::kScrewTool);
+  rig.stand(0, aside, 1, 1.5);
+  rig.turn_in(0.010, aside);
+  std::array<ToolGuide, kMaxHands> guides{};
+  rig.work->lead(rig.state, guides);
+  EXPECT_NEAR((guides[0].nhat_B - aside).norm(), 0, 1e-9);
+  EXPECT_NEAR(guides[0].stop_m, -rig.state.screw.in_m, 1e-12);
+  rig.take(kPlacingClamp);
+  EXPECT_NEAR(std::acos(rig.state.screw.out_B.dot(-Vec3::UnitX())), 0.4, 1e-9);
+  // Too flat along the bone it does not begin; nor before the button has turned.
+  ScrewRig flat;
+  flat.stand(0, Vec3(-0.3, 1, 0), 1, 1.5);
+  EXPECT_EQ(flat.state.screw.screws, 0u);
+  ScrewRig early;
+  early.state.phase = PlacingPhase::kThreadOut;
+  early.stand(0, -Vec3::UnitX(), 1, 1.5);
+  EXPECT_EQ(early.state.screw.screws, 0u);
+  GraftPlacing::pull(90, early.state);
+  EXPECT_EQ(early.state.tension_n, 0);
 }
 
 }  // namespace

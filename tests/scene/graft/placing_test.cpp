@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "placing_case.h"
 
 namespace osteon {
@@ -50,29 +53,81 @@ double length_of(const std::vector<PlacingRod>& rods, PlacingRod::Is is) {
   return sum;
 }
 
+// Blocks without holes: the axis leaves them where their faces are.
+TEST(PlanPlacing, MeasuresFromWholeBonesAlongTheAxesOfTheHoles) {
+  auto def = testing::placing_def();
+  const Case knee = *build_case(std::move(def));
+  const auto at_F = [&](double x) { return knee.bones[0].X_WB.inverse() * Vec3(x, 0, 0); };
+  const auto at_T = [&](double z) { return knee.bones[1].X_WB.inverse() * Vec3(0, 0, z); };
+  const PlacingHole tibia{at_T(-0.066), at_T(-0.034), 0.008};
+  const PlacingHole socket{at_F(0.003), at_F(0.025), 0.009};
+  const auto plan = plan_placing(knee, socket, tibia);
+  ASSERT_TRUE(plan);
+  EXPECT_NEAR((plan->femur.mouth_B - at_F(0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->femur.outer_B - at_F(0.040)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->tibia.mouth_B - at_T(-0.030)).norm(), 0, 1e-9);
+  EXPECT_NEAR((plan->tibia.outer_B - at_T(-0.070)).norm(), 0, 1e-9);
+  EXPECT_NEAR(plan->socket_m, 0.025, 1e-9);
+  EXPECT_NEAR(plan->between_m, 0.030, 1e-9);
+  EXPECT_NEAR(plan->graft_m, 0.008, 1e-12);
+  EXPECT_NEAR(plan->femur_bend_rad, std::acos(0.0), 1e-9);
+  EXPECT_NEAR(plan->tibia_bend_rad, 0, 1e-9);
+  // The ends of a hole come in any order.
+  const auto turned = plan_placing(knee, {socket.to_B, socket.from_B, 0.009},
+                                   {tibia.to_B, tibia.from_B, 0.008}, {0.007, 0.09, 0.025});
+  ASSERT_TRUE(turned);
+  EXPECT_NEAR((turned->femur.mouth_B - plan->femur.mouth_B).norm(), 0, 1e-12);
+  EXPECT_NEAR((turned->tibia.mouth_B - plan->tibia.mouth_B).norm(), 0, 1e-12);
+  EXPECT_EQ(turned->graft_m, 0.007);
+  EXPECT_EQ(turned->loop_m, 0.025);
+  EXPECT_FALSE(plan_placing(knee, socket, {Vec3(1, 0, 0), Vec3(1.1, 0, 0), 0.008}));
+  EXPECT_FALSE(plan_placing(knee, {Vec3::Zero(), Vec3::Zero(), 0.008}, tibia));
+}
+
+TEST(PlanPlacing, NumbersTellThePlanToTheBit) {
+  const Case knee = *build_case(testing::placing_def());
+  const auto plan = find_placing(knee);
+  ASSERT_TRUE(plan);
+  const PlacingNumbers numbers = placing_numbers(*plan);
+  const auto again = plan_of_numbers(knee, numbers);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(placing_numbers(*again), numbers);
+  EXPECT_EQ(again->between_m, plan->between_m);
+  EXPECT_EQ(again->femur_bend_rad, plan->femur_bend_rad);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e9}) {
+    PlacingNumbers odd = numbers;
+    odd[3] = bad;
+    EXPECT_FALSE(plan_of_numbers(knee, odd));
+  }
+  PlacingNumbers none = numbers;
+  none[15] = 0;
+  EXPECT_FALSE(plan_of_numbers(knee, none));
+}
+
 TEST(PlacingRods, ShowWhatLiesInTheKnee) {
   using Is = PlacingRod::Is;
   const auto plan = find_placing(*placing_knee());
   ASSERT_TRUE(plan);
   BoneSnapshot bones = rest_snapshot(*placing_knee());
-  EXPECT_TRUE(placing_rods(*plan, bones).empty());
+  EXPECT_TRUE(placing_rods(bones).empty());
   bones.placing.on = true;
-  EXPECT_TRUE(placing_rods(*plan, bones).empty());
+  bones.placing.plan = *plan;
+  EXPECT_TRUE(placing_rods(bones).empty());
   bones.placing.phase = PlacingPhase::kThreadInside;
   bones.placing.end_W = Vec3(-0.02, 0, 0);
-  auto rods = placing_rods(*plan, bones);
+  auto rods = placing_rods(bones);
   ASSERT_FALSE(rods.empty());
   EXPECT_EQ(rods[0].a_W, bones.placing.end_W);
   EXPECT_EQ(length_of(rods, Is::kGraft), 0);
   bones.placing.phase = PlacingPhase::kThreadOut;
   bones.placing.drawn_m = 0.060;
-  rods = placing_rods(*plan, bones);
+  rods = placing_rods(bones);
   EXPECT_NEAR(length_of(rods, Is::kGraft), 0.120, 1e-9);
   EXPECT_NEAR(length_of(rods, Is::kButton), 0.012, 1e-9);
   EXPECT_NEAR(length_of(rods, Is::kLoop), 0.020, 1e-9);
   bones.placing.phase = PlacingPhase::kTurned;
   bones.placing.gap_m = 0.003;
-  rods = placing_rods(*plan, bones);
+  rods = placing_rods(bones);
   const PlacingRod& button = rods.back();
   ASSERT_EQ(button.is, Is::kButton);
   EXPECT_NEAR(std::abs((button.b_W - button.a_W).normalized().x()), 0, 1e-9);

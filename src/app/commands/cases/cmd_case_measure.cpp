@@ -1,15 +1,20 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
 #include "commands/support/parser.h"
 
 #include "cases/case_bone.h"
 #include "cases/open_case.h"
+#include "commands/cases/carved_case.h"
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
+#include "commands/support/number_check.h"
 #include "commands/support/text_table.h"
 #include "osteon/carve/measure_holes.h"
 
@@ -21,6 +26,7 @@ using Json = nlohmann::ordered_json;
 struct MeasureCommand {
   std::string spec, before;
   std::vector<std::string> regions;
+  std::optional<double> at_s;
   double roundness_mm = 0.05;
   bool json = false;
 };
@@ -76,13 +82,38 @@ Json hole_json(const Hole& hole, const BoneDef& bone, const CaseDef& def) {
   return out;
 }
 
-Result<Json> regions_json(const MeasureCommand& command, const CaseDef& after) {
+bool is_recording(const std::string& spec) {
+  return std::filesystem::path(spec).extension() == ".osr";
+}
+
+/// A case, or that of a recording as it was left, with what it was before.
+struct Measured {
+  CaseDef def;
+  std::string before;  ///< empty: not known
+};
+
+Result<Measured> measured(const MeasureCommand& command) {
+  if (is_recording(command.spec)) {
+    auto carved = carved_case(command.spec, {}, command.at_s, CaseParts::kFelt);
+    if (!carved) return tl::unexpected(carved.error());
+    return Measured{std::move(carved->def), command.before.empty() ? carved->spec : command.before};
+  }
+  if (command.at_s)
+    return fail("goes with a recording alone", "--at",
+                "Give a recording (.osr) in place of a case");
+  auto def = open_case_def(command.spec, {}, CaseParts::kFelt);
+  if (!def) return tl::unexpected(def.error());
+  return Measured{std::move(*def), command.before};
+}
+
+Result<Json> regions_json(const MeasureCommand& command, const Measured& of) {
   Json out = Json::array();
   if (command.regions.empty()) return out;
-  if (command.before.empty())
+  const CaseDef& after = of.def;
+  if (of.before.empty())
     return fail("needs the case before the bone was removed", "--region",
                 "Give it with --before CASE");
-  const auto before = open_case_def(command.before, {}, CaseParts::kFelt);
+  const auto before = open_case_def(of.before, {}, CaseParts::kFelt);
   if (!before) return tl::unexpected(before.error());
   for (const std::string& text : command.regions) {
     const auto region = parse_region(text);
@@ -119,9 +150,10 @@ void print_table(const Json& holes, const Json& regions) {
 }
 
 int run_measure(const MeasureCommand& command) {
-  const auto def = open_case_def(command.spec, {}, CaseParts::kFelt);
-  if (!def) return report_error(def.error());
-  const auto regions = regions_json(command, *def);
+  const auto of = measured(command);
+  if (!of) return report_error(of.error());
+  const CaseDef* def = &of->def;
+  const auto regions = regions_json(command, *of);
   if (!regions) return report_error(regions.error());
   HoleOptions how;
   how.roundness_m = command.roundness_mm / 1000;
@@ -147,8 +179,13 @@ void add_case_measure_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<MeasureCommand>();
   cli::App* measure = app.get_subcommand("case")->add_subcommand(
       "measure", "Measure the holes in a case's bones: axis, diameter, length, walls, landmarks");
-  measure->add_option("case", command->spec, "a case folder, builtin:wrist or builtin:knee")
+  measure
+      ->add_option("case", command->spec,
+                   "a case folder, builtin:wrist or builtin:knee, or a recording (.osr)")
       ->required();
+  measure
+      ->add_option("--at", command->at_s, "seconds from a recording's start; default: at its end")
+      ->check(refuse_negative);
   measure->add_option("--before", command->before,
                       "the case before the bone was removed, for --region");
   measure->add_option("--region", command->regions,

@@ -84,6 +84,9 @@ void add_window_command(cli::App& app, int& exit_code) {
                    "How strongly it is drawn, 0 to 1; default: the weaker the more the learner's "
                    "results show")
       ->check(cli::Range(0.0, 1.0));
+  command->add_flag("--guide", order->guide,
+                    "In exercises, let a device with motors lead the hand weakly along the "
+                    "expert's path; the result says so");
   command->add_flag("--new-patient", order->new_patient,
                     "Begin with the panel that makes a patient");
   command->add_option("--screenshot", order->screenshot,

@@ -10,14 +10,54 @@
 #include "commands/teaching/scenario_run.h"
 #include "commands/teaching/skill_trial.h"
 #include "exercises/debrief.h"
+#include "exercises/debrief_pictures.h"
+#include "exercises/ghost/ghost_recording.h"
+#include "loops/stop_signal.h"
 
 namespace osteon {
 namespace {
 
-int run_debrief(const DebriefOrder& order, const std::string& out) {
-  const auto debrief = make_debrief(order);
+struct DebriefCommand {
+  DebriefOrder order;
+  std::string out, ghost = "expert";
+  bool no_pictures = false;
+};
+
+// What an expert did on the same patient. Without the virtual one the pages are whole but for that;
+// fails where the recording that was named cannot be shown.
+Result<void> add_expert_to(Debrief& debrief, const std::string& ghost) {
+  if (ghost == "off" || (ghost == "expert" && !wants_expert(debrief))) return {};
+  if (!debrief.scenario) return fail("the recording is of no exercise", "--ghost", "Leave it out");
+  const GhostWanted wanted{*debrief.scenario, debrief.case_spec, debrief.the_case->hash};
+  const auto go_on = [] { return !stop_requested(); };
+  if (ghost == "expert")
+    std::fprintf(stderr, "osteon: the virtual expert performs the exercise (--ghost off: not)\n");
+  const auto track =
+      ghost == "expert" ? ghost_of_expert(wanted, go_on) : ghost_of_recording(ghost, wanted);
+  if (track)
+    show_expert(*track, debrief);
+  else if (ghost != "expert")
+    return tl::unexpected(track.error());
+  else
+    std::fprintf(stderr, "osteon: no expert's paths: %s\n", track.error().message().c_str());
+  return {};
+}
+
+int run_debrief(const DebriefCommand& command) {
+  auto debrief = make_debrief(command.order);
   if (!debrief) return report_error(debrief.error());
-  if (auto saved = save_debrief(*debrief, out); !saved) return report_error(saved.error());
+  if (auto added = add_expert_to(*debrief, command.ghost); !added)
+    return report_error(added.error());
+  std::vector<DebriefPicture> pictures;
+  if (!command.no_pictures) {
+    auto drawn = draw_debrief(*debrief);
+    if (drawn)
+      pictures = std::move(*drawn);
+    else
+      std::fprintf(stderr, "osteon: no pictures: %s\n", drawn.error().message().c_str());
+  }
+  if (auto saved = save_debrief(*debrief, command.out, pictures); !saved)
+    return report_error(saved.error());
   if (debrief->outcome) std::fputs(to_text(*debrief->outcome).c_str(), stdout);
   if (!debrief->identical) std::printf("DIFFERENT from the recording when replayed\n");
   return debrief->identical ? kExitDone : kExitNo;
@@ -94,20 +134,27 @@ int run_skill(const SkillCommand& command) {
 }  // namespace
 
 void add_debrief_command(cli::App& app, int& exit_code) {
-  auto order = std::make_shared<DebriefOrder>();
-  auto out = std::make_shared<std::string>();
+  auto options = std::make_shared<DebriefCommand>();
+  DebriefOrder* const order = &options->order;
   cli::App* command = app.add_subcommand(
       "debrief",
       "Replay a recorded attempt, judge it again and write a report to print.\n"
       "Exit code: 0 written, 1 written, but the replay differs from the recording, 2 not written");
   command->add_option("recording", order->recording, "recording (.osr)")->required();
-  command->add_option("--out", *out, "PDF file to write")->required();
+  command->add_option("--out", options->out, "PDF file to write")->required();
+  command
+      ->add_option("--ghost", options->ghost,
+                   "whose paths to print beside the learner's: expert, the virtual expert on the "
+                   "same patient; FILE.osr, a recording of it; or off")
+      ->capture_default_str();
+  command->add_flag("--no-pictures", options->no_pictures,
+                    "leave out the pictures of paths and surfaces");
   command->add_option("--case", order->case_spec, "a case; default: the recording's own");
   command->add_option("--scenario", order->scenario,
                       "name or file; default: the one stored in the recording");
   command->add_option("--standard", order->standard,
                       "standard to judge against, TOML; default: the one that was used");
-  command->callback([order, out, &exit_code] { exit_code = run_debrief(*order, *out); });
+  command->callback([options, &exit_code] { exit_code = run_debrief(*options); });
 }
 
 void add_skill_command(cli::App& app, int& exit_code) {

@@ -75,7 +75,8 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
     return kExitNo;
   }
   if (outcome.ticks == 0) {
-    std::printf("nothing was replayed: %s\n",
+    std::printf("%snothing was replayed: %s\n",
+                outcome.complete ? "" : "incomplete: the recording is truncated; ",
                 options.from_s > 0 ? "the recording ends before" : "the recording holds no ticks");
     return outcome.complete ? kExitNo : kExitIncomplete;
   }

@@ -43,6 +43,7 @@ struct LiveOptions {
   double power = 0;
   std::string portals = "all";
   std::string soft;
+  double guided_n = 0;
   MappingSettings mapping;
 };
 
@@ -202,6 +203,7 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
   if (!softs) return tl::unexpected(softs.error());
   if (*softs) live.run.settings.soft_hash = (*softs)->hash;
   live.run.softs = std::move(*softs);
+  live.run.settings.carve.guided_n = options.guided_n;
   auto carving = carving_for(*live.run.the_case, live.run.settings);
   if (!carving) return tl::unexpected(carving.error());
   live.run.carving = std::move(*carving);
@@ -371,6 +373,7 @@ void add_live_command(cli::App& app, int& exit_code) {
       ->check(cli::Range(0, 31));
   add_portals_option(*command, options->portals);
   add_soft_option(*command, options->soft);
+  add_guided_option(*command, options->guided_n);
   command
       ->add_option("--power", options->power,
                    "power of the hands' instruments from the start, 0 to 1; a path sets its own")

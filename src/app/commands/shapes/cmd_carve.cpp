@@ -163,7 +163,7 @@ Result<void> check_size(const BoneDef& bone, const Cutter& cutter) {
   if (cutter.size_m <= box.extent().maxCoeff()) return {};
   return fail("the tool is larger than the bone", cutter.name,
               "Give its diameter in mm: " + bone.name + " measures " +
-                  std::to_string(static_cast<int>(1e3 * box.extent().maxCoeff())) + " mm");
+                  std::to_string(std::lround(1e3 * box.extent().maxCoeff())) + " mm");
 }
 
 Result<Carved> carve(const CaseBone& source, const CarveCommand& command) {

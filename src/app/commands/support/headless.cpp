@@ -92,6 +92,7 @@ class HeadlessLoop {
       Command& command = inputs_.back().command;
       if (command.kind == CommandKind::kNone) command = hand.hand->command();
     }
+    say_beside();
     const std::int64_t before = steady_now_ns();
     (void)session_.tick(inputs_);
     tick_times_.add_ns(steady_now_ns() - before);
@@ -112,6 +113,15 @@ class HeadlessLoop {
     carving_.see(session_);
     softs_.see(session_);
     if (run_.on_tick) run_.on_tick(session_.tool_state(0), session_.bones());
+  }
+  // Between two steps the newest command for physics counts: one that a hand gives goes first.
+  void say_beside() {
+    const bool steps_next = session_.last_steps() == 0;
+    if (!run_.beside || !steps_next) return;
+    for (const HandInput& input : inputs_)
+      if (is_for_physics(input.command.kind)) return;
+    if (inputs_.front().command.kind != CommandKind::kNone) return;
+    if (const auto said = run_.beside()) inputs_.front().command = *said;
   }
   std::string complaint() const {
     for (const RunningHand& hand : hands_)

@@ -43,6 +43,9 @@ struct HeadlessRun {
   std::string device;
   /// Makes whoever moves the tool instead of a path, for a tick of that length; empty: the path.
   std::function<std::unique_ptr<HandInLoop>(double tick_s)> user;
+  /// Asked in each physics step for what somebody beside the hands says; goes with a command of
+  /// the first hand where that one has none. May be empty.
+  std::function<std::optional<Command>()> beside = {};
   std::function<bool()> done;  ///< of a run by users: asked after each tick whether it is over
   double longest_s = 0;        ///< of a run by users: it ends then at the latest
   std::optional<std::filesystem::path> record_to;

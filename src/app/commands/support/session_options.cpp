@@ -27,6 +27,7 @@ void SessionOptions::add_to(cli::App& command) {
   command.add_flag("--free-bones", free_bones, "bones move on springs instead of being held");
   add_portals_option(command, portals);
   add_soft_option(command, soft);
+  add_guided_option(command, settings.carve.guided_n);
   command.add_option("--hand-mass", hand.mass_kg, "mass of the virtual hand, kg")
       ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
@@ -58,6 +59,16 @@ void add_soft_option(cli::App& command, std::string& soft) {
                      "soft parts that are felt: ligaments and menisci (all that the case has), or "
                      "some of them: acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus; default: "
                      "none");
+}
+
+void add_guided_option(cli::App& command, double& guided_n) {
+  command
+      .add_option(
+          "--guided-force", guided_n,
+          "resistance to a drill that a pin or an aimer's sleeve guides, N, the same in all "
+          "bone; 0: that of the bone")
+      ->check(cli::Range(0.0, 40.0))
+      ->capture_default_str();
 }
 
 std::vector<std::string> portals_named(const std::string& text) {

@@ -26,6 +26,8 @@ struct SessionOptions {
 void add_portals_option(cli::App& command, std::string& portals);
 /// "--soft": which soft parts are felt, as `softs_named` reads it.
 void add_soft_option(cli::App& command, std::string& soft);
+/// "--guided-force": as CarveSettings::guided_n.
+void add_guided_option(cli::App& command, double& guided_n);
 /// "all", "none", or names or titles with commas between: "3-4,4-5".
 std::vector<std::string> portals_named(const std::string& text);
 /// Opens these portals, in the tissue table's skin.

@@ -81,23 +81,30 @@ int show_result(const ResultsCommand& command) {
 // One learner's attempts at one scenario, in order.
 nlohmann::ordered_json curve_json(const std::vector<AttemptRow>& rows,
                                   const LcCusumOptions& options) {
-  std::vector<bool> passed;
+  std::vector<bool> passed, alone;
+  std::vector<int> place;  // of those that count, among all
   auto scores = nlohmann::ordered_json::array();
   for (const AttemptRow& row : rows) {
     passed.push_back(row.verdict == "passed");
+    if (!was_guided(row)) {
+      alone.push_back(passed.back());
+      place.push_back(static_cast<int>(passed.size()) - 1);
+    }
     scores.push_back(row.score ? nlohmann::ordered_json(*row.score)
                                : nlohmann::ordered_json(nullptr));
   }
-  const LcCusum curve = lc_cusum(passed, options);
+  const LcCusum curve = lc_cusum(alone, options);
+  const auto in_all = [&](int at) { return at < 0 ? at : place[static_cast<std::size_t>(at)]; };
   return {{"learner", rows[0].learner},
           {"scenario", rows[0].scenario},
           {"attempts", rows.size()},
           {"passed", passed},
           {"scores", scores},
+          {"guided", passed.size() - alone.size()},
           {"lc_cusum", curve.s},
           {"limit", options.h},
-          {"competent_at", curve.competent_at},
-          {"relapse_at", curve.relapse_at}};
+          {"competent_at", in_all(curve.competent_at)},
+          {"relapse_at", in_all(curve.relapse_at)}};
 }
 
 int show_curves(const ResultsCommand& command) {
@@ -113,7 +120,8 @@ int show_curves(const ResultsCommand& command) {
     const int competent = curve["competent_at"], relapse = curve["relapse_at"];
     std::printf(
         "%s, %s: %zu attempts, S = %.2f of %.2f, %s%s\n", key.first.c_str(), key.second.c_str(),
-        group.size(), curve["lc_cusum"].back().get<double>(), command.cusum.h,
+        group.size(), curve["lc_cusum"].empty() ? 0 : curve["lc_cusum"].back().get<double>(),
+        command.cusum.h,
         competent < 0 ? "not yet competent"
                       : ("competent since attempt " + std::to_string(competent + 1)).c_str(),
         relapse < 0 ? "" : "; RELAPSE: has failed too often since");

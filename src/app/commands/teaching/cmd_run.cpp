@@ -14,7 +14,7 @@ namespace osteon {
 namespace {
 
 struct RunCommand {
-  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings;
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft;
   std::string learner = "local";
   bool no_store = false;
   std::optional<std::uint64_t> seed;
@@ -42,6 +42,11 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     if (!stated) return tl::unexpected(stated.error());
     run.stated = std::move(*stated);
   }
+  if (!command.graft.empty()) {
+    auto text = read_file(command.graft, 16u << 20);
+    if (!text) return tl::unexpected(text.error());
+    run.graft_json = std::move(*text);
+  }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
   run.scenario = std::move(*scenario);
   run.standard = std::move(*standard);
@@ -58,6 +63,14 @@ int run_command(const RunCommand& command) {
   if (!run) return report_error(run.error());
   const auto done = run_scenario(*run);
   if (!done) return report_error(done.error());
+  // Told before it is kept: on a full disk it would be lost.
+  std::fputs(to_text(done->outcome).c_str(), stdout);
+  if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
+  if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
+  if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
+  if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
+  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
+  std::fflush(stdout);
   const std::string report = to_json(*done);
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
@@ -67,12 +80,6 @@ int run_command(const RunCommand& command) {
     if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
     (void)send_results_in_background();
   }
-  std::fputs(to_text(done->outcome).c_str(), stdout);
-  if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
-  if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
-  if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
-  if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
-  for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
 }
 
@@ -99,6 +106,9 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option(
       "--findings", options->findings,
       "JSON file of the findings that are stated, {\"geissler\": \"3\"}; default: the surgeon's");
+  command->add_option("--graft", options->graft,
+                      "report of a run of acl_graft: its graft is placed in acl; default: one that "
+                      "fits the tunnels");
   command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");

@@ -1,18 +1,22 @@
 #include "commands/teaching/scenario_run.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "cases/open_case.h"
 #include "commands/support/headless.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/graft_order.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/graft_surgeon.h"
+#include "osteon/surgeon/parts_hand.h"
 #include "osteon/surgeon/placing_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
@@ -126,10 +130,62 @@ HeadlessHand played_by(HandPlayer& player, const PlannedHand& hand, const HandPa
           }};
 }
 
-// Who reconstructs a ligament knows all his ways before he begins.
+// The bones as they are in the session; null before it begins.
+using BonesNow = std::function<const BoneSnapshot*()>;
+
+bool has_goal(const ScenarioPlan& plan, std::string_view kind) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == kind) return true;
+  return false;
+}
+
+// Whoever makes an error before the graft comes stops where it was made: his run is lost already.
+bool errs_before_the_graft(const Skill& skill) {
+  constexpr std::array<std::string_view, 11> kBefore{
+      "wrong_portal", "skipped_inspection", "scuffed",  "too_hard", "anterior_tibia",
+      "short_tibia",  "vertical_femur",     "blow_out", "no_pin",   "plunged",
+      "short_socket"};
+  return skill.name.starts_with("bad:") &&
+         std::find(kBefore.begin(), kBefore.end(), skill.name.substr(4)) != kBefore.end();
+}
+
+// The screw that a hand may take; empty: none.
+std::string screw_of(const PlannedHand& hand) {
+  for (const std::string& name : hand.also)
+    if (name.starts_with("interference_screw")) return name;
+  return {};
+}
+
+// The graft is placed when it has come, and fixed when its button has turned.
+std::vector<PartsHand::Plan> later_parts(const ScenarioPlan& plan, const PlannedHand& hand,
+                                         const Case& the_case, const Skill& skill, BonesNow bones) {
+  std::vector<PartsHand::Plan> parts;
+  if (!has_goal(plan, "button_turned") || errs_before_the_graft(skill)) return parts;
+  parts.push_back([&the_case, &skill, bones, held = hand.instrument](const Pose& from) {
+    const BoneSnapshot* now = bones();
+    std::optional<HandPart> part;
+    if (now && now->placing.on)
+      part = HandPart{plan_graft_placing(the_case, now->placing.plan, skill, from, held), {}};
+    return part;
+  });
+  const std::string screw = screw_of(hand);
+  if (!has_goal(plan, "screw_in") || screw.empty()) return parts;
+  parts.push_back([&the_case, &skill, bones, screw](const Pose& from) {
+    const BoneSnapshot* now = bones();
+    std::optional<HandPart> part;
+    if (!now || now->placing.phase != PlacingPhase::kTurned) return part;
+    auto way = plan_graft_fixing(the_case, now->placing.plan, skill, from, "clamp", screw);
+    if (way) part = std::move(*way);
+    return part;
+  });
+  return parts;
+}
+
+// Who reconstructs a ligament knows his ways up to the tunnels before he begins.
 Result<std::vector<std::string>> plan_reconstruction(
     const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
-    std::span<const PlannedHand> hands, HeadlessRun& headless,
+    std::span<const PlannedHand> hands, BonesNow bones, HeadlessRun& headless,
     std::vector<std::unique_ptr<HandPlayer>>& players) {
   AclTools tools;
   for (const PlannedHand& hand : hands) {
@@ -155,10 +211,14 @@ Result<std::vector<std::string>> plan_reconstruction(
   auto ways = plan_acl(the_case, tools, run.skill);
   if (!ways) return tl::unexpected(ways.error());
   AclDriller* driller = nullptr;
+  PartsHand* whole = nullptr;
   for (const PlannedHand& hand : hands) {
     if (hand.pin && tools.drills) {
-      auto made = std::make_unique<AclDriller>(std::move(ways->drilling), run.skill);
-      driller = made.get();
+      auto drills = std::make_unique<AclDriller>(std::move(ways->drilling), run.skill);
+      driller = drills.get();
+      auto made = std::make_unique<PartsHand>(
+          std::move(drills), later_parts(plan, hand, the_case, run.skill, std::move(bones)));
+      whole = made.get();
       headless.hands.push_back(played_by(*made, hand, headless.hand));
       players.push_back(std::move(made));
       continue;
@@ -166,7 +226,10 @@ Result<std::vector<std::string>> plan_reconstruction(
     ProbePath& way = hand.pin ? ways->pin : hand.optics ? ways->scope : ways->probe;
     headless.hands.push_back({hand.name, std::move(way)});
   }
-  if (driller) driller->set_tray(tray_of_hands(headless.hands));
+  if (!driller) return ways->unreachable;
+  const std::vector<std::string> tray = tray_of_hands(headless.hands);
+  driller->set_tray(tray);
+  whole->set_tray(tray);
   return ways->unreachable;
 }
 
@@ -202,13 +265,6 @@ Result<void> plan_bench_work(const ScenarioRun& run, const Case& the_case,
   return {};
 }
 
-bool asks_about_placing(const ScenarioPlan& plan) {
-  for (const auto& goals : plan.goals)
-    for (const PlannedRule& goal : goals)
-      if (goal.rule.kind == "thread_laid" || goal.rule.kind == "button_turned") return true;
-  return false;
-}
-
 // One hand places a graft; any other that has a portal looks on.
 Result<void> plan_placing_work(const ScenarioRun& run, const Case& the_case,
                                std::span<const PlannedHand> hands, HeadlessRun& headless) {
@@ -234,7 +290,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   const bool ligament = asks_about_tunnels(*plan);
   std::vector<std::unique_ptr<HandPlayer>> players;
   const bool bench = find_graft_bench(**the_case).has_value();
-  const bool placing = !ligament && asks_about_placing(*plan);
+  const bool placing = !ligament && asks_for_graft(*plan);
   const bool by_path = ligament || bench || placing;
   if (!by_path)
     players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
@@ -252,8 +308,11 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
   std::vector<std::string> unreachable;
+  const Session* session = nullptr;
   if (ligament) {
-    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, headless, players);
+    auto planned = plan_reconstruction(
+        run, *plan, **the_case, *hands,
+        [&session] { return session ? &session->bones() : nullptr; }, headless, players);
     if (!planned) return tl::unexpected(planned.error());
     unreachable = std::move(*planned);
   }
@@ -265,11 +324,22 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
       return tl::unexpected(ok.error());
   for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
-  const Session* session = nullptr;
   headless.on_session = [&](const Session& begun) { session = &begun; };
-  watch.watch_tunnels({run.case_spec, tray_of_hands(headless.hands),
-                       [&](std::uint32_t bone) { return carved_bone(session, bone); }});
+  TunnelSources sources{run.case_spec, tray_of_hands(headless.hands),
+                        [&](std::uint32_t bone) { return carved_bone(session, bone); }};
+  if (!run.graft_json.empty()) {
+    const auto graft = made_graft(run.graft_json, "--graft");
+    if (!graft) return tl::unexpected(graft.error());
+    sources.graft = *graft;
+  }
+  watch.watch_tunnels(std::move(sources));
   watch.watch_water(tray_of_hands(headless.hands));
+  GraftOrder order;
+  if (watch.tunnels() && asks_for_graft(*plan))
+    headless.beside = [&] {
+      order.see(watch.tunnels()->placing(), session->bones());
+      return order.take();
+    };
   headless.done = [&] { return watch.over() || all_done(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);
@@ -288,7 +358,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
                        {}};
   if (watch.graft().plan()) done.graft = GraftReport{*watch.graft().plan(), watch.graft().state()};
   if (watch.placing().plan())
-    done.placing = PlacingReport{*watch.placing().plan(), watch.placing().state()};
+    done.placing =
+        PlacingReport{*watch.placing().plan(), watch.placing().state(), watch.placing().bent()};
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();
@@ -297,6 +368,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
                             player->unreachable().end());
   if (run.record_to && !run.scenario.asks.empty())
     if (auto noted = write_note(*run.record_to, "findings", to_json(stated)); !noted)
+      return tl::unexpected(noted.error());
+  if (run.record_to && !run.graft_json.empty())
+    if (auto noted = write_note(*run.record_to, "graft", run.graft_json); !noted)
       return tl::unexpected(noted.error());
   if (run.record_to)
     if (auto noted =

@@ -24,6 +24,7 @@ struct ScenarioRun {
   std::string case_spec;
   Skill skill;
   std::optional<std::filesystem::path> record_to;
+  std::string graft_json = {};                ///< a report of making one; empty: a graft that fits
   std::optional<StatedFindings> stated = {};  ///< none: as the surgeon's skill allows
 };
 struct ScenarioOutcome {

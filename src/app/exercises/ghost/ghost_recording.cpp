@@ -193,7 +193,8 @@ double ghost_strength_of(const std::string& learner, const std::string& scenario
   const auto rows = store->list({learner, scenario});
   if (!rows) return 1;
   std::vector<bool> passed;
-  for (const AttemptRow& row : *rows) passed.push_back(row.verdict == "passed");
+  for (const AttemptRow& row : *rows)
+    if (!was_guided(row)) passed.push_back(row.verdict == "passed");
   return ghost_strength(passed);
 }
 

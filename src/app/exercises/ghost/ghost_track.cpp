@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "osteon/procedure/lc_cusum.h"
@@ -95,6 +96,50 @@ std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t 
   }
   if (!is_finite(sample.X_WT)) return std::nullopt;
   return sample;
+}
+
+namespace {
+
+using Samples = std::vector<GhostTrack::Sample>;
+
+// Goes along the way from `at` until it is `far_m` longer, or at its end `to`.
+std::size_t farther(const Samples& samples, std::size_t at, std::size_t to, double far_m) {
+  double length_m = 0;
+  while (at != to && length_m < far_m) {
+    const std::size_t next = to > at ? at + 1 : at - 1;
+    length_m += (samples[next].X_WT.p - samples[at].X_WT.p).norm();
+    at = next;
+  }
+  return at;
+}
+
+}  // namespace
+
+// A place where the expert stayed has no length, so a stay does not hold up who is led.
+GuideLine guide_along(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                      const Vec3& tip_W, std::size_t& at) {
+  constexpr double kBeside_m = 0.001, kStraight_m = 0.0005;
+  GuideLine line;
+  if (stretch >= track.stretches.size() || hand >= track.hands.size()) return line;
+  const GhostStretch& s = track.stretches[stretch];
+  const Samples& samples = track.hands[hand];
+  if (s.to >= samples.size() || s.from > s.to) return line;
+  at = std::clamp(at, s.from, s.to);
+  const std::size_t last = farther(samples, at, s.to, kGuideAhead_m);
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = farther(samples, at, s.from, kGuideBack_m); i <= last; ++i) {
+    const double far_m = (samples[i].X_WT.p - tip_W).norm();
+    if (!(far_m <= nearest_m)) continue;  // of equals the last
+    nearest_m = far_m;
+    at = i;
+  }
+  line.p_W = samples[at].X_WT.p;
+  line.on = is_finite(line.p_W) && std::isfinite(nearest_m);
+  line.strength = 1;
+  const Vec3 way_W = samples[farther(samples, at, s.to, kBeside_m)].X_WT.p -
+                     samples[farther(samples, at, s.from, kBeside_m)].X_WT.p;
+  if (way_W.norm() > kStraight_m) line.along_W = way_W.normalized();
+  return line;
 }
 
 void GhostFollower::follow(const GhostTrack& track, const ScenarioState& state, double now_s) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "loops/hand_guide.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/state.h"
 
@@ -72,6 +73,14 @@ std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioS
 /// and begins again. None: the track has no such hand or stretch, or the pose is not finite.
 std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t stretch,
                                            std::size_t hand, double since_s);
+
+/// The piece of that hand's way in a stretch along which a tip at `tip_W` shall be led, with full
+/// strength. `at`: the sample at which it was led before, which moves on: to the place nearest to
+/// the tip of those up to kGuideAhead_m farther along the way, and kGuideBack_m back. Off where the
+/// track has no such hand or stretch, and where a place on the way is not finite.
+inline constexpr double kGuideAhead_m = 0.015, kGuideBack_m = 0.005;
+GuideLine guide_along(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                      const Vec3& tip_W, std::size_t& at);
 
 /// Follows somebody's progress: the ghost begins its stretch anew whenever the next step is another
 /// one.

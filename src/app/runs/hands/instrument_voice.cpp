@@ -12,6 +12,7 @@ namespace {
 constexpr double kFullLoad_n = 15;       // a hand that presses so hard loads a motor fully
 constexpr double kCuttingLoad = 0.3;     // the least while bone goes
 constexpr double kFullKnock_m_s = 0.15;  // of the hand when metal meets bone
+constexpr double kFullJudder_mm = 0.2;
 constexpr double kSlow_rpm = 500, kFast_rpm = 20000;
 
 }  // namespace
@@ -43,10 +44,20 @@ Result<std::vector<VoiceDrive>> voices_of(const std::vector<std::string>& tray) 
   return voices;
 }
 
-VoiceDrive driven(const VoiceDrive& voice, double power, double force_n, bool cutting) {
+void HeardCut::hear(const Event& event) {
+  if (event.kind == kCutBegin) cutting = true;
+  if (event.kind == kCutEnd) *this = {};
+  if (event.kind == kChatter)
+    judder = event.values[0] / kFullJudder_mm, judder_hz = event.values[1];
+  if (event.kind == kChatterEnd) judder = judder_hz = 0;
+}
+
+VoiceDrive driven(const VoiceDrive& voice, double power, double force_n, const HeardCut& cut) {
   VoiceDrive drive = voice;
   drive.power = power;
-  drive.load = std::max(force_n / kFullLoad_n, cutting ? kCuttingLoad : 0.0);
+  drive.load = std::max(force_n / kFullLoad_n, cut.cutting ? kCuttingLoad : 0.0);
+  drive.judder = cut.judder;
+  drive.judder_hz = cut.judder_hz;
   return drive;
 }
 

@@ -38,6 +38,7 @@ struct LiveHand {
   /// By a fault in the run before: the user re-arms, no other.
   ForceOff tripped = ForceOff::kNone;
   std::optional<PathOrders> orders;  ///< of the path that it plays
+  GuideLine guide;                   ///< where it shall be led
   MouseDevice* mouse = nullptr;      ///< of the runtime, when it is one
   PadDevice* pad = nullptr;
   RenderSnapshot snapshot;

@@ -98,12 +98,18 @@ void LiveRun::drive(double pedal) {
     (void)runtime_->send({CommandKind::kJaw, 1 - wanted}, active_);
 }
 
-void LiveRun::mark() {
-  if (!runtime_) return;
+std::uint32_t LiveRun::mark() {
+  if (!runtime_) return 0;
   const std::uint32_t number = next_mark_++ % kMaxMarks;
   runtime_->send({CommandKind::kMark, static_cast<double>(number)});
   std::erase(marks_, number);
   marks_.push_back(number);
+  return number;
+}
+
+bool LiveRun::go_back(std::uint32_t number) {
+  const bool kept = std::find(marks_.begin(), marks_.end(), number) != marks_.end();
+  return runtime_ && kept && runtime_->send({CommandKind::kRestore, static_cast<double>(number)});
 }
 
 bool LiveRun::undo() {

@@ -12,6 +12,10 @@ namespace {
 constexpr double kUnfelt_n = 0.05;
 constexpr double kShownForceLimit_n = 8.0;  // of a device without motors: a teaching device's
 
+bool has_motors(const LiveHand& hand) {
+  return hand.choice.info.peak_force_n > 0 && !plays_demo(hand.choice);
+}
+
 }  // namespace
 
 SessionSettings settings_for(const DeviceInfo& info, const FeelSettings& feel, double scale) {
@@ -313,6 +317,8 @@ void LiveRun::set_feel(const Command& command) {
   for (std::size_t i = 0; i < hands_.size(); ++i) runtime_->send(command, i);
 }
 
+bool LiveRun::say(const Command& command) { return runtime_ && runtime_->send(command); }
+
 bool LiveRun::set_pump(double pump_pa, double outlet_open) {
   return runtime_ && runtime_->send({CommandKind::kPump, pump_pa}) &&
          runtime_->send({CommandKind::kOutlet, outlet_open});
@@ -339,12 +345,25 @@ void LiveRun::calibrate() {
   if (runtime_) runtime_->calibrate_device(active_);
 }
 
+void LiveRun::guide(std::size_t hand, const GuideLine& line) {
+  if (hand < hands_.size()) hands_[hand].guide = line;
+}
+
+double LiveRun::guided_s() const {
+  double longest_s = 0;
+  for (const LiveHand& hand : hands_) longest_s = std::max(longest_s, hand.status.guided_s);
+  return longest_s;
+}
+
+bool LiveRun::can_guide() const { return std::any_of(hands_.begin(), hands_.end(), has_motors); }
+
 void LiveRun::tell_hand(HandWishes pedals, const Camera& camera) {
   if (!runtime_) return;
   q_WC_ = camera.q_WC;
   pedals.q_WV = q_WC_;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    const bool real = hands_[i].choice.info.peak_force_n > 0 && !plays_demo(hands_[i].choice);
+    const bool real = has_motors(hands_[i]);
+    pedals.guide = real ? hands_[i].guide : GuideLine{};
     pedals.turn_axes = real && hands_[i].user.axes == MappingAxes::kView && !shares();
     runtime_->set_hand_wishes(pedals, i);
   }

@@ -126,8 +126,10 @@ class LiveRun {
   const SoftPushes& pushes() const { return pushes_; }
   /// A hand that the mouse moves goes there.
   void bring(const Pose& X_WD);
-  /// Keeps the state as a restore point.
-  void mark();
+  /// Keeps the state as a restore point; returns its number.
+  std::uint32_t mark();
+  /// Back to a restore point. False: it has been written over since.
+  bool go_back(std::uint32_t number);
   /// Back to the newest restore point; twice within two seconds of the run, to the one before it.
   /// False when there is none.
   bool undo();
@@ -142,6 +144,8 @@ class LiveRun {
   /// The pump that fills the joint: its pressure and how far the outlet is open. False: the run
   /// takes no command now.
   bool set_pump(double pump_pa, double outlet_open);
+  /// What somebody beside the hands says. False: the run takes no command now.
+  bool say(const Command& command);
   void set_force(bool on);
   /// The user's wish for the force: of the active hand alone where that one has a fault, else of
   /// all hands.
@@ -158,6 +162,12 @@ class LiveRun {
                  double dt_s, const Vec3* through_W = nullptr);
   /// Pedals and the camera, once a frame: a dead-man pedal that is not told again counts as let go.
   void tell_hand(HandWishes pedals, const Camera& camera);
+  /// Where that hand shall be led from the next picture on: weakly, by a device with motors.
+  void guide(std::size_t hand, const GuideLine& line);
+  /// How long hands were led in this run, s: the longest of them.
+  double guided_s() const;
+  /// Some hand of the run has a device that can lead it.
+  bool can_guide() const;
   /// A gamepad, as seen by the camera, once a picture: it moves the active hand where it is that
   /// hand's device, else the resting hand; with its second button held, the resting hand always.
   void move_pad(const PadSticks& sticks, const Camera& camera, double dt_s);

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osteon/scene/carve_events.h"
-#include "runs/hands/instrument_voice.h"
-
 namespace osteon {
 
 void SceneSound::begin(std::vector<VoiceDrive> voices) {
@@ -31,21 +28,21 @@ void SceneSound::see(std::span<const ToolState> tools) {
     if (follows && touches && !hand.touches)
       synth_.cue(CueKind::kKnock, knock_strength(tool.v_W.norm()));
     if (follows && tool.instrument != hand.instrument) synth_.cue(CueKind::kExchange);
-    const bool cutting = follows && hand.cutting && tool.instrument == hand.instrument;
-    hand = {true, touches, cutting, tool.instrument, tool.epoch, tool.time_s};
+    const bool goes_on = follows && tool.instrument == hand.instrument;
+    const HeardCut cut = goes_on ? hand.cut : HeardCut{};
+    hand = {true, touches, cut, tool.instrument, tool.epoch, tool.time_s};
     // A replay that stands still is silent.
     const bool goes = follows && passed_s > 0;
     VoiceDrive drive;
     if (goes && tool.instrument < voices_.size() && std::isfinite(tool.power))
-      drive = driven(voices_[tool.instrument], tool.power, tool.force_W.norm(), cutting);
+      drive = driven(voices_[tool.instrument], tool.power, tool.force_W.norm(), cut);
     synth_.drive(h, drive);
   }
 }
 
 void SceneSound::hear(const Event& event) {
   if (const auto cue = cue_of(event)) synth_.cue(*cue);
-  if (event.hand < hands_.size() && (event.kind == kCutBegin || event.kind == kCutEnd))
-    hands_[event.hand].cutting = event.kind == kCutBegin;
+  if (event.hand < hands_.size()) hands_[event.hand].cut.hear(event);
 }
 
 }  // namespace osteon

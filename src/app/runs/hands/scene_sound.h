@@ -7,6 +7,7 @@
 #include "osteon/media/sound_synth.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/state.h"
+#include "runs/hands/instrument_voice.h"
 
 namespace osteon {
 
@@ -27,7 +28,8 @@ class SceneSound {
 
  private:
   struct Hand {
-    bool known = false, touches = false, cutting = false;
+    bool known = false, touches = false;
+    HeardCut cut;
     std::uint32_t instrument = 0, epoch = 0;
     double time_s = 0;
   };

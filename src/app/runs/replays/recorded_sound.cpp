@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "osteon/media/film_writer.h"
-#include "osteon/scene/carve_events.h"
 #include "osteon/session/session.h"
 
 namespace osteon {
@@ -83,16 +82,16 @@ void RecordedSound::take_events(std::uint64_t until_tick, bool aloud) {
     if (event.kind == EventKind::kRestored && event.subject < kMaxMarks)
       for (std::size_t k = 0; k < hands_.size(); ++k) {
         std::tie(hands_[k].instrument, hands_[k].power) = marks_[event.subject][k];
-        hands_[k].cutting = false;
+        hands_[k].cut = {};
       }
     if (event.hand >= hands_.size()) continue;
     Hand& hand = hands_[event.hand];
     if (event.kind == EventKind::kInstrumentTaken) {
-      hand = {event.subject, 0, false, std::move(hand.ticks)};
+      hand = {event.subject, 0, {}, std::move(hand.ticks)};
     } else if (event.kind == EventKind::kPowered) {
       hand.power = event.values[0];
-    } else if (event.kind == kCutBegin || event.kind == kCutEnd) {
-      hand.cutting = event.kind == kCutBegin;
+    } else {
+      hand.cut.hear(event);
     }
   }
 }
@@ -120,7 +119,7 @@ Result<void> RecordedSound::enter_tick(std::uint64_t tick) {
     VoiceDrive drive;
     const Hand& hand = hands_[h];
     if (*record && hand.instrument < voices_.size())
-      drive = driven(voices_[hand.instrument], hand.power, (*record)->force_W.norm(), hand.cutting);
+      drive = driven(voices_[hand.instrument], hand.power, (*record)->force_W.norm(), hand.cut);
     synth_.drive(h, drive);
   }
   return {};

@@ -29,7 +29,7 @@ class RecordedSound {
   struct Hand {
     std::uint32_t instrument = 0;
     double power = 0;
-    bool cutting = false;
+    HeardCut cut;
     std::vector<TickRecord> ticks;  ///< a piece of the recording
   };
   using Held = std::array<std::pair<std::uint32_t, double>, kMaxHands>;

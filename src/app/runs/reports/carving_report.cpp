@@ -1,10 +1,8 @@
 #include "runs/reports/carving_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "osteon/scene/event.h"
 
@@ -12,9 +10,6 @@ namespace osteon {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-constexpr double kHeatCell_m = 0.0005, kHeatStep_s = 0.05;
-constexpr double kAlong_m = 0.045, kAround_m = 0.006;
 
 bool of_carving(const Event& event) {
   const int code = static_cast<int>(event.kind);
@@ -107,61 +102,19 @@ void CarvingWatch::see(const Session& session) {
     else
       report_.pieces_m3.push_back(fallen.volume_m3);
   }
-  const DrillTable& table = carving->setup().table;
-  material_ = table.heat;
-  chips_share_ = table.chips_heat_share;
-  rubbing_share_ = table.rubbing_heat_share;
-  outrun_m_per_s_ = table.outrun_m_per_s;
   const double step_s = session.bones().time_s / static_cast<double>(session.bones().step);
-  for (std::size_t h = 0; h < session.hands(); ++h) warm(carving->readout(h), step_s);
-  since_s_ += step_s;
-  if (since_s_ >= kHeatStep_s) conduct();
+  for (std::size_t h = 0; h < session.hands(); ++h)
+    warm(carving->readout(h), carving->setup().table, step_s);
+  if (heat_ && heat_->pass(step_s))
+    report_.hottest_c = std::max(report_.hottest_c, heat_->hottest_c());
 }
 
-void CarvingWatch::begin(const CarvingReadout& readout) {
-  Aabb box;
-  box.include(readout.tip_B + 0.005 * readout.axis_B);
-  box.include(readout.tip_B - kAlong_m * readout.axis_B);
-  const Vec3 room = Vec3::Constant(readout.radius_m + kAround_m);
-  box.lo -= room;
-  box.hi += room;
-  auto grid = HeatGrid::make(box, kHeatCell_m, material_);
-  bone_ = readout.bone;
-  if (grid) heat_ = std::move(*grid);
-}
-
-// Heat is let out about the tip's rim. The bone before a quick drill goes with the heat in it.
-void CarvingWatch::warm(const CarvingReadout& readout, double step_s) {
+void CarvingWatch::warm(const CarvingReadout& readout, const DrillTable& table, double step_s) {
   report_.most_thrust_n = std::max(report_.most_thrust_n, readout.thrust_n);
   report_.most_torque_nm = std::max(report_.most_torque_nm, readout.torque_nm);
-  if (!(readout.cutting_w + readout.rubbing_w > 0)) return;
-  if (bone_ == CarvingHand::kNoBone) begin(readout);
-  if (readout.bone != bone_ || !heat_) return;
-  const double stays = 1 / (1 + readout.advance_m / step_s / outrun_m_per_s_);
-  const double joules =
-      stays * (chips_share_ * readout.cutting_w + rubbing_share_ * readout.rubbing_w) * step_s;
-  const Vec3 x = readout.axis_B.unitOrthogonal(), y = readout.axis_B.cross(x);
-  constexpr int kAround = 8;
-  for (int i = 0; i < kAround; ++i) {
-    const double a = 2 * std::numbers::pi * (i + 0.5) / kAround;
-    const Vec3 rim = readout.radius_m * (std::cos(a) * x + std::sin(a) * y);
-    heat_->add_heat(readout.tip_B + rim, joules / kAround);
-  }
-  if (readout.advance_m > 0) tip_ = readout.tip_B + kHeatCell_m * readout.axis_B;
-  radius_m_ = readout.radius_m;
-}
-
-void CarvingWatch::conduct() {
-  if (heat_ && tip_) {
-    const Vec3 from = opened_.value_or(*tip_);
-    heat_->open(from, *tip_, std::max(0.0, radius_m_ - 0.5 * kHeatCell_m));
-    opened_ = tip_;
-  }
-  if (heat_) {
-    heat_->step(since_s_);
-    report_.hottest_c = std::max(report_.hottest_c, heat_->hottest_c());
-  }
-  since_s_ = 0;
+  if (!makes_heat(readout)) return;
+  if (!heat_) heat_.emplace(table, readout);
+  heat_->warm(readout, step_s);
 }
 
 std::optional<CarvingReport> CarvingWatch::finish(const Session& session) const {

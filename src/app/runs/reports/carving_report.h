@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "osteon/carve/heat.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/session/session.h"
+#include "runs/reports/bone_heat.h"
 
 namespace osteon {
 
@@ -31,7 +31,7 @@ nlohmann::ordered_json to_json(const CarvingReport& report);
 std::string to_text(const CarvingReport& report);
 
 /// Looks at a session that carves, tick by tick, and follows the heat about the first place that is
-/// cut: 45 mm along the drill, 6 mm about it, in cells of 0.5 mm, without irrigation.
+/// cut.
 class CarvingWatch {
  public:
   /// After each tick.
@@ -40,17 +40,10 @@ class CarvingWatch {
   std::optional<CarvingReport> finish(const Session& session) const;
 
  private:
-  void warm(const CarvingReadout& readout, double step_s);
-  void begin(const CarvingReadout& readout);
-  void conduct();
+  void warm(const CarvingReadout& readout, const DrillTable& table, double step_s);
 
   CarvingReport report_;
-  std::optional<HeatGrid> heat_;
-  HeatMaterial material_;
-  double chips_share_ = 0, rubbing_share_ = 0, outrun_m_per_s_ = 1;
-  std::uint32_t bone_ = CarvingHand::kNoBone;
-  std::optional<Vec3> tip_, opened_;  ///< what lies between is gone
-  double radius_m_ = 0, since_s_ = 0;
+  std::optional<BoneHeat> heat_;
 };
 
 }  // namespace osteon

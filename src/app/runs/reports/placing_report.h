@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "osteon/procedure/placing_watch.h"
 #include "osteon/scene/placing.h"
 
 namespace osteon {
@@ -11,6 +12,7 @@ namespace osteon {
 struct PlacingReport {
   PlacingPlan plan;
   GraftPlacingState state;
+  BentGraft bent{};
 };
 
 /// docs/acl.md names the keys; lengths in mm.

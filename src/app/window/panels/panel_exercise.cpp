@@ -159,10 +159,39 @@ void draw_exercise_verdict(const PanelContext& c) {
                  "The interval of your score includes the pass mark: try again.");
 }
 
+// On the bones beside the result.
+void draw_debrief_choice(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  const auto name = [&](DebriefView view) {
+    switch (view) {
+      case DebriefView::kWays:
+        return model.shows_expert ? "Paths, the expert's in blue" : "Paths";
+      case DebriefView::kForce:
+        return "Force: red from 2.7 N";
+      case DebriefView::kScratch:
+        return "Scratches: red from 2.7 N mm";
+      case DebriefView::kHeat:
+        return "Heat: red from 44 C";
+      case DebriefView::kNothing:
+        break;
+    }
+    return "Nothing";
+  };
+  quiet_heading(c, "Show on the bones");
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##shown", name(model.shown))) return;
+  if (ImGui::Selectable(name(DebriefView::kNothing), model.shown == DebriefView::kNothing))
+    c.requests.exercise.show = DebriefView::kNothing;
+  for (const DebriefView view : model.can_show)
+    if (ImGui::Selectable(name(view), model.shown == view)) c.requests.exercise.show = view;
+  ImGui::EndCombo();
+}
+
 void draw_result(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   ImGui::BeginChild("result", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
   draw_exercise_verdict(c);
+  if (!model.can_show.empty()) draw_debrief_choice(c);
   quiet_heading(c, "Stages");
   for (const ExerciseModel::Stage& stage : model.stages)
     ui::stat(stage.title.c_str(), stage.done ? ui::clock_time(stage.at_s, false) : "not done",
@@ -190,6 +219,10 @@ void draw_result(const PanelContext& c) {
   if (model.undone > 0)
     ui::stat("Steps back", std::to_string(model.undone),
              "How often you went back; errors still count");
+  if (model.guided_s > 0)
+    ui::stat(
+        "Led by the expert", ui::clock_time(model.guided_s, false),
+        "How long your hand was guided; such an attempt does not count for the learning curve");
   if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
   if (!model.repeats)
     wrapped_text(color::kAmber,
@@ -210,7 +243,13 @@ void draw_dialog(const PanelContext& c) {
   const UiRect& r = c.layout.picture;
   const ExercisePage page = c.model.exercise.page;
   const float w = std::min(c.px(440), r.w - c.px(16)), h = r.h - c.px(16);
-  ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  // Beside what it shows on the bones.
+  const bool aside =
+      page == ExercisePage::kResult && c.model.exercise.shown != DebriefView::kNothing;
+  if (aside)
+    ImGui::SetNextWindowPos({r.x + r.w - c.px(8), r.y + r.h / 2}, ImGuiCond_Always, {1, 0.5f});
+  else
+    ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({w, h});
   ImGui::Begin("##exercise", nullptr, kExerciseWindow);
   strong(c, page == ExercisePage::kCourse ? "Exercises" : c.model.exercise.title);
@@ -278,6 +317,61 @@ void draw_ghost_switch(const PanelContext& c) {
     wrapped_text(color::kTextQuiet, "Not shown: your results say that you can do without.");
 }
 
+void draw_guide_switch(const PanelContext& c) {
+  const GhostModel& ghost = c.model.exercise.ghost;
+  if (!ghost.allowed || !ghost.can_guide) return;
+  bool on = ghost.guides;
+  if (ui::switch_row("Lead my hand", &on,
+                     "The device pulls your hand weakly towards the expert's path, at most 0.8 N. "
+                     "The result says so, and the attempt does not count for the learning curve."))
+    c.requests.exercise.guide = true;
+  if (!ghost.guides) return;
+  if (ghost.strength <= 0)
+    wrapped_text(color::kTextQuiet, "Not led: your results say that you can do without.");
+}
+
+// The knee with the graft in it: how far it is bent, how the tail is pulled, what the bending
+// showed.
+void draw_knee(const PanelContext& c) {
+  const BentKneeModel& knee = c.model.exercise.knee;
+  if (!knee.shown) return;
+  ImGui::Separator();
+  double flexion_deg = knee.wanted_deg, tension_n = knee.tension_n;
+  if (ui::slider("Knee", &flexion_deg, knee.least_deg, knee.most_deg, "%.0f degrees",
+                 "How far the knee is bent. From straight to bent and back is a cycle"))
+    c.requests.exercise.bend_deg = flexion_deg;
+  if (ui::slider("Graft's tail", &tension_n, 0, 150, "%.0f N",
+                 "The pull on the graft below the tibia, while the knee is bent and the screw goes "
+                 "in"))
+    c.requests.exercise.tension_n = tension_n;
+  ui::stat("Cycles", std::to_string(knee.cycles), "How often it was stretched out and bent");
+  if (knee.between_mm.size() < 2) return;
+  const auto [least, most] = std::minmax_element(knee.between_mm.begin(), knee.between_mm.end());
+  std::vector<float> lengths(knee.between_mm.begin(), knee.between_mm.end());
+  const auto low = static_cast<float>(*least - 1), high = static_cast<float>(*most + 1);
+  ImGui::PlotLines("##isometry", lengths.data(), static_cast<int>(lengths.size()), 0, nullptr, low,
+                   high, {-1, c.px(56)});
+  const std::string change = ui::number(*most - *least, 1) + " mm from " +
+                             ui::number(knee.flexion_deg.front(), 0) + " to " +
+                             ui::number(knee.flexion_deg.back(), 0) + " degrees";
+  ui::text(color::kTextQuiet, ("Graft's length changes by " + change).c_str());
+}
+
+void draw_return(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  const bool any = std::any_of(model.stages.begin(), model.stages.end(),
+                               [](const auto& stage) { return !stage.restore_title.empty(); });
+  if (!any) return;
+  const bool chooses = ImGui::BeginCombo("##return", "Back to the start of ...");
+  ui::tooltip("What was done since is undone; errors still count");
+  if (!chooses) return;
+  for (std::size_t i = 0; i < model.stages.size(); ++i)
+    if (!model.stages[i].restore_title.empty() &&
+        ImGui::Selectable(model.stages[i].restore_title.c_str()))
+      c.requests.exercise.return_to = i;
+  ImGui::EndCombo();
+}
+
 // Beside the scene while the exercise goes on.
 void draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
@@ -310,8 +404,10 @@ void draw_running(const PanelContext& c) {
                        (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
   }
   draw_asked(c);
+  draw_knee(c);
   ImGui::Separator();
   draw_ghost_switch(c);
+  draw_guide_switch(c);
   if (ImGui::Button(model.paused ? "Resume (P)" : "Pause (P)", {-1, 0}))
     c.requests.exercise.pause = true;
   ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
@@ -325,6 +421,7 @@ void draw_running(const PanelContext& c) {
   ImGui::SameLine();
   if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
   ui::tooltip("Ends the attempt and judges it");
+  draw_return(c);
   ImGui::PopItemWidth();
   ImGui::End();
 }

@@ -53,6 +53,56 @@ TEST(GhostTrack, IsCutWhereSomethingBecameDone) {
   EXPECT_NEAR(track.hands[0][track.stretches[2].to].X_WT.p.x(), 0.500, 1e-12);
 }
 
+TEST(GhostTrack, LeadsAlongTheNearestPlaceOfItsStretch) {
+  const GhostTrack track = sample_track();
+  std::size_t at = 0;
+  GuideLine line = guide_along(track, 1, 0, Vec3(0.103, 0.004, 0), at);
+  ASSERT_TRUE(line.on);
+  EXPECT_EQ(line.strength, 1);
+  EXPECT_NEAR((line.along_W - Vec3(1, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR(line.p_W.y(), 0, 1e-12);
+  EXPECT_NEAR(line.p_W.x(), 0.103, 0.0101) << "a sample each 20 mm";
+  // Farther than it looks ahead: it goes along as it is led, not across to where the way comes by.
+  const std::size_t before = at;
+  line = guide_along(track, 1, 0, Vec3(0.290, 0, 0), at);
+  EXPECT_LE(at, before + 1);
+  EXPECT_LT(line.p_W.x(), 0.150);
+  for (int i = 0; i < 20; ++i) line = guide_along(track, 1, 0, Vec3(0.290, 0, 0), at);
+  EXPECT_NEAR(line.p_W.x(), 0.290, 0.0101);
+}
+
+TEST(GhostTrack, LeadsNobodyWhereThereIsNoWay) {
+  GhostTrack track = sample_track();
+  std::size_t at = 7;
+  EXPECT_FALSE(guide_along(GhostTrack{}, 0, 0, Vec3::Zero(), at).on);
+  EXPECT_FALSE(guide_along(track, 3, 0, Vec3::Zero(), at).on);
+  EXPECT_FALSE(guide_along(track, 0, 1, Vec3::Zero(), at).on);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(guide_along(track, 0, 0, Vec3(nan, 0, 0), at).on);
+  for (auto& sample : track.hands[0]) sample.X_WT.p.x() = nan;
+  EXPECT_FALSE(guide_along(track, 0, 0, Vec3::Zero(), at).on);
+}
+
+// An expert who stays at a place for seconds does not hold the learner there.
+TEST(GhostTrack, AStayOfTheExpertsHasNoLength) {
+  GhostTrack track;
+  track.hands.resize(1);
+  const auto add = [&](double x) { track.hands[0].push_back({{Vec3(x, 0, 0), {}}, 0}); };
+  for (int i = 0; i < 10; ++i) add(0.001 * i);
+  for (int i = 0; i < 500; ++i) add(0.009);
+  for (int i = 0; i < 10; ++i) add(0.009 + 0.001 * i);
+  track.stretches = {{0, {}, 0, track.hands[0].size() - 1}};
+  std::size_t at = 0;
+  guide_along(track, 0, 0, Vec3(0.009, 0, 0), at);
+  const GuideLine line = guide_along(track, 0, 0, Vec3(0.014, 0.001, 0), at);
+  EXPECT_NEAR(line.p_W.x(), 0.014, 1e-12);
+  // Where it only stays there is no direction: the place itself is the way.
+  track.hands[0].assign(50, {{Vec3(0.009, 0, 0), {}}, 0});
+  track.stretches = {{0, {}, 0, 49}};
+  at = 0;
+  EXPECT_EQ(guide_along(track, 0, 0, Vec3::Zero(), at).along_W, Vec3::Zero());
+}
+
 TEST(GhostTrack, TheNextStepIsTheExpertsFirstThatIsLeft) {
   const GhostTrack track = sample_track();
   EXPECT_EQ(next_stretch(track, state_at(0)), 0u);

@@ -115,13 +115,27 @@ TEST(SceneSound, EventsAreHeardAndNonsenseIsNot) {
   }
 }
 
+TEST(InstrumentVoice, AReamerThatChattersIsThrownBackUntilItRunsSmoothly) {
+  HeardCut cut;
+  Event event;
+  event.kind = kChatter;
+  event.values = {0.1, 35, 0};
+  cut.hear(event);
+  const VoiceDrive drive = driven({VoiceKind::kReamer, 0, 0, 350}, 1, 3, cut);
+  EXPECT_DOUBLE_EQ(drive.judder, 0.5);
+  EXPECT_EQ(drive.judder_hz, 35);
+  event.kind = kChatterEnd;
+  cut.hear(event);
+  EXPECT_EQ(driven({VoiceKind::kReamer, 0, 0, 350}, 1, 3, cut).judder, 0);
+}
+
 // Metal in bone works harder than in air.
 TEST(InstrumentVoice, BoneThatGoesLoadsAMotor) {
   const VoiceDrive voice{VoiceKind::kDrill, 0, 0, 900};
-  EXPECT_EQ(driven(voice, 0.5, 0, false).load, 0);
-  EXPECT_GT(driven(voice, 0.5, 0, true).load, 0);
-  EXPECT_EQ(driven(voice, 0.5, 15, true).load, 1);
-  EXPECT_EQ(driven(voice, 0.5, 15, true).power, 0.5);
+  EXPECT_EQ(driven(voice, 0.5, 0, {}).load, 0);
+  EXPECT_GT(driven(voice, 0.5, 0, {.cutting = true}).load, 0);
+  EXPECT_EQ(driven(voice, 0.5, 15, {.cutting = true}).load, 1);
+  EXPECT_EQ(driven(voice, 0.5, 15, {.cutting = true}).power, 0.5);
   EXPECT_EQ(knock_strength(std::nan("")), knock_strength(0));
   EXPECT_EQ(knock_strength(9), 1);
 }

@@ -1,10 +1,12 @@
 #include "window/controllers/sessions/exercise_control.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
 #include "cases/xdg.h"
+#include "exercises/debrief_pictures.h"
 #include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
@@ -16,6 +18,10 @@ namespace {
 
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
+constexpr std::array<std::pair<DebriefView, DamageKind>, 3> kDamageViews{
+    {{DebriefView::kForce, DamageKind::kForce},
+     {DebriefView::kScratch, DamageKind::kScratch},
+     {DebriefView::kHeat, DamageKind::kHeat}}};
 
 void switch_pause(ExerciseRun& exercise, LiveRun* live) {
   const bool begins = !exercise.paused();
@@ -38,12 +44,21 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   if (running()) {
     if (requests.hint) exercise_.show_cue();
     if (requests.undo && live_.run() && live_.run()->undo()) count_undo();
+    if (LiveRun* const run = live_.run()) {
+      const auto mark =
+          requests.return_to ? exercise_.mark_of_stage(*requests.return_to) : std::nullopt;
+      if (mark && run->go_back(*mark)) count_undo();
+      if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
+      if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
+    }
     if (requests.ghost) ghost_.toggle();
+    if (requests.guide) ghost_.toggle_guide();
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
   }
   if (requests.pages) save_pages();
+  if (requests.show) wanted_ = *requests.show;
   if (requests.watch) {
     exercise_.toggle();
     cases_.open({{}, exercise_.recording(), nullptr});
@@ -58,7 +73,28 @@ void ExerciseControl::count_undo() {
 ExerciseModel ExerciseControl::model() const {
   ExerciseModel model = exercise_.model();
   model.ghost = ghost_.model();
+  if (const Debrief* const debrief = exercise_.debrief()) {
+    model.shown = shown_;
+    model.shows_expert = !debrief->expert.empty();
+    model.can_show.push_back(DebriefView::kWays);
+    for (const auto& [view, kind] : kDamageViews)
+      if (shows_damage(debrief->damage, kind)) model.can_show.push_back(view);
+  }
+  model.knee = exercise_.knee(sight_.shown().bones);
   return model;
+}
+
+// On the case on show, while the result is open.
+void ExerciseControl::show_debrief() {
+  const Debrief* const debrief = exercise_.debrief();
+  if (!debrief) wanted_ = DebriefView::kNothing;
+  if (wanted_ == shown_ || !scene_.renderer) return;
+  shown_ = wanted_;
+  std::vector<SolidMark> marks;
+  if (shown_ == DebriefView::kWays) marks = way_marks(*debrief);
+  for (const auto& [view, kind] : kDamageViews)
+    if (shown_ == view) marks = damage_marks(*debrief, kind);
+  scene_.renderer->set_marks(marks);
 }
 
 void ExerciseControl::save_pages() {
@@ -165,6 +201,7 @@ void ExerciseControl::begin() {
   };
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
                   live_.run()->tray().names);
+  if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
   ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
@@ -175,15 +212,21 @@ void ExerciseControl::begin() {
 
 void ExerciseControl::poll() {
   if (!cases_.ready() && exercise_.page() != ExercisePage::kJudging) return;
+  const bool judging = exercise_.page() == ExercisePage::kJudging;
   exercise_.poll();
+  if (judging && exercise_.debrief() && ghost_.track()) exercise_.set_expert(*ghost_.track());
+  show_debrief();
   if (opening() && !cases_.loading()) exercise_.fail_to_begin("The patient could not be opened.");
   LiveRun* const run = live_.run();
   if (!running() || !run) return;
   ToolState tool;
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
-  if (exercise_.follow(sight_.shown().bones)) run->mark();
+  if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
+  while (const auto said = exercise_.next_order(sight_.shown().bones))
+    if (!run->say(*said)) break;
   ghost_.poll(exercise_);
+  exercise_.set_guided(run->guided_s());
   if (exercise_.over() || !run->recording()) end();
 }
 

@@ -44,6 +44,7 @@ class ExerciseControl {
   bool want_instruments(const Scenario& scenario);
   std::vector<LiveControl::PlacedHand> placed(const std::vector<PlannedHand>& hands) const;
   void save_pages();
+  void show_debrief();
   void look_at_the_box(const std::vector<PlannedHand>& hands);
 
   WindowHost& host_;
@@ -53,6 +54,7 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
+  DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 
 }  // namespace osteon

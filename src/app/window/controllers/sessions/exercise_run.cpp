@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "exercises/debrief_pictures.h"
+#include "exercises/guided_time.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "osteon/procedure/attempt.h"
@@ -132,6 +134,8 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   watch_->watch_water(tray);
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
+  order_ = {};
+  stage_marks_.clear();
   debrief_.reset();
   problem_.clear();
   now_s_ = 0;
@@ -140,7 +144,44 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   pauses_.clear();
   stated_.clear();
   hints_ = undone_ = 0;
+  guided_s_ = 0;
   page_ = ExercisePage::kRunning;
+}
+
+std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
+  if (!watch_ || !watch_->tunnels() || paused_ || !asks_for_graft(*plan_)) return std::nullopt;
+  order_.see(watch_->tunnels()->placing(), bones);
+  return order_.take();
+}
+
+void ExerciseRun::keep_mark(std::uint32_t number) {
+  if (watch_) stage_marks_[watch_->state().stage] = number;
+}
+
+std::optional<std::uint32_t> ExerciseRun::mark_of_stage(std::size_t stage) const {
+  const auto found = stage_marks_.find(stage);
+  return found == stage_marks_.end() ? std::nullopt : std::optional(found->second);
+}
+
+BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
+  BentKneeModel model;
+  const GraftPlacingState& placing = bones.placing;
+  if (!watch_ || !case_ || case_->joints.empty() || page_ != ExercisePage::kRunning) return model;
+  if (!placing.on || placing.phase != PlacingPhase::kTurned) return model;
+  const CaseJoint& joint = case_->joints.front();
+  model.shown = true;
+  model.least_deg = joint.min_deg();
+  model.most_deg = joint.max_deg();
+  model.wanted_deg = bones.bend.on ? bones.bend.wanted_deg : joint.at_deg;
+  model.tension_n = placing.tension_n;
+  model.cycles = bones.bend.cycles;
+  const BentGraft& bent = watch_->placing().bent();
+  for (std::size_t i = 0; i < bent.lengths_m.size(); ++i) {
+    if (!(bent.lengths_m[i] > 0)) continue;
+    model.flexion_deg.push_back(10.0 * static_cast<double>(i));
+    model.between_mm.push_back(1e3 * bent.lengths_m[i]);
+  }
+  return model;
 }
 
 bool ExerciseRun::follow(const BoneSnapshot& bones) {
@@ -200,6 +241,8 @@ void ExerciseRun::state_finding(const std::string& name, const std::string& grad
 Result<void> ExerciseRun::note_what_was_said() const {
   if (!pauses_.empty())
     if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
+  if (guided_s_ > 0)
+    if (auto ok = write_note(file_, "guided", guided_text(guided_s_)); !ok) return ok;
   if (!scenario().asks.empty()) return write_note(file_, "findings", to_json(stated_));
   return {};
 }
@@ -243,7 +286,9 @@ void ExerciseRun::keep() {
 
 std::optional<Error> ExerciseRun::save_pages(const fs::path& file) const {
   if (!debrief_) return std::nullopt;
-  const auto saved = save_debrief(*debrief_, file);
+  const auto pictures = draw_debrief_here(*debrief_);
+  const auto saved =
+      save_debrief(*debrief_, file, pictures ? *pictures : std::vector<DebriefPicture>());
   return saved ? std::optional<Error>{} : saved.error();
 }
 
@@ -290,7 +335,10 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   for (std::size_t i = 0; i < scenario().stages.size(); ++i) {
     const ScenarioStage& stage = scenario().stages[i];
     const double at_s = i < state.completed_s.size() ? state.completed_s[i] : -1;
-    model.stages.push_back({stage.title, stage.instruction, at_s >= 0, i == state.stage, at_s});
+    model.stages.push_back({stage.title, stage.instruction, at_s >= 0, i == state.stage, at_s, {}});
+    if (mark_of_stage(i))
+      model.stages.back().restore_title =
+          stage.restore_title.empty() ? stage.title : stage.restore_title;
   }
   for (const MadeError& made : state.errors) {
     const ScenarioError& error = scenario().errors[made.error];
@@ -303,6 +351,7 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   describe_asked(model);
   model.hints = hints_;
   model.undone = undone_;
+  model.guided_s = guided_s_;
   if (state.stage >= scenario().stages.size()) return;
   const std::string& cue = scenario().stages[state.stage].cue;
   model.has_cue = !cue.empty();
@@ -360,6 +409,7 @@ void ExerciseRun::describe_result(ExerciseModel& model) const {
   model.elapsed_s = debrief_->duration_s;
   model.hints = hints_;
   model.undone = undone_;
+  model.guided_s = guided_s_;
 }
 
 }  // namespace osteon

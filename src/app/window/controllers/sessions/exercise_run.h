@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "exercises/attempt_watch.h"
 #include "exercises/debrief.h"
+#include "exercises/graft_order.h"
 #include "exercises/scenario_files.h"
 #include "ui/side_job.h"
 #include "window/exercise_model.h"
@@ -47,6 +49,14 @@ class ExerciseRun {
   void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
   /// Judges the ticks that all hands have done. True: a stage has begun that can be come back to.
   bool follow(const BoneSnapshot& bones);
+  /// What the tunnels that were drilled ask to be handed over; none: nothing, or not yet.
+  std::optional<Command> next_order(const BoneSnapshot& bones);
+  /// The live stage's start was kept as that restore point of the run.
+  void keep_mark(std::uint32_t number);
+  /// The restore point of a stage's start; none: it has none, or was not reached.
+  std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
+  /// The knee, where a graft lies in it; `bones`: as they are shown.
+  BentKneeModel knee(const BoneSnapshot& bones) const;
   /// How far it is; null: none has begun. `now_s`: pauses left out.
   const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
   double now_s() const { return now_s_; }
@@ -61,6 +71,8 @@ class ExerciseRun {
   /// What the user says is wrong with the patient; an empty grade takes it back.
   void state_finding(const std::string& name, const std::string& grade);
   void count_undo() { ++undone_; }
+  /// For how long a device has led a hand so far.
+  void set_guided(double seconds) { guided_s_ = seconds; }
   std::size_t hands() const { return ticks_.size(); }
 
   /// The recording is whole: judges it on a thread of its own.
@@ -71,8 +83,17 @@ class ExerciseRun {
   void wait_for_verdict() const {
     if (judging_) judging_->wait();
   }
+  /// Draws pictures: with the window's context current.
   std::optional<Error> save_pages(const std::filesystem::path& file) const;
   const std::filesystem::path& recording() const { return file_; }
+  /// Of the result; null: there is none.
+  const Debrief* debrief() const {
+    return page_ == ExercisePage::kResult && debrief_ ? &*debrief_ : nullptr;
+  }
+  /// Puts an expert's ways beside those of the result.
+  void set_expert(const GhostTrack& track) {
+    if (debrief_ && wants_expert(*debrief_)) show_expert(track, *debrief_);
+  }
 
   ExerciseModel model() const;
 
@@ -95,6 +116,8 @@ class ExerciseRun {
   std::unique_ptr<ScenarioPlan> plan_;
   std::vector<PlannedHand> hands_;
   std::unique_ptr<AttemptWatch> watch_;
+  GraftOrder order_;
+  std::map<std::size_t, std::uint32_t> stage_marks_;
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;
@@ -103,6 +126,7 @@ class ExerciseRun {
   std::vector<AttemptPause> pauses_;
   StatedFindings stated_;
   int hints_ = 0, undone_ = 0;
+  double guided_s_ = 0;
   std::filesystem::path file_;
 
   std::unique_ptr<SideJob<Debrief>> judging_;

@@ -20,7 +20,11 @@ const std::string& name_in(const std::vector<std::string>& tray, std::uint32_t a
 }  // namespace
 
 GhostControl::GhostControl(WindowHost& host, SceneSight& sight, LiveControl& live)
-    : host_(host), sight_(sight), live_(live), on_(host.order.ghost != "off") {}
+    : host_(host),
+      sight_(sight),
+      live_(live),
+      on_(host.order.ghost != "off"),
+      guides_(host.order.guide) {}
 
 void GhostControl::begin(const Scenario& scenario, const std::string& case_spec,
                          const Case& the_case) {
@@ -32,7 +36,7 @@ void GhostControl::begin(const Scenario& scenario, const std::string& case_spec,
   allowed_ = scenario.ghost;
   follower_ = {};
   problem_.clear();
-  if (on_) prepare();
+  if (on_ || guides_) prepare();
 }
 
 // What is known of the same exercise on the same patient is not made again, but the learner's
@@ -62,10 +66,20 @@ void GhostControl::toggle() {
   if (on_ && !track_ && problem_.empty()) prepare();
 }
 
+void GhostControl::toggle_guide() {
+  guides_ = !guides_;
+  if (guides_ && !track_ && problem_.empty()) prepare();
+}
+
 void GhostControl::end() {
   job_.reset();
   allowed_ = false;
   sight_.set_ghosts({});
+  lead_nobody();
+}
+
+void GhostControl::lead_nobody() {
+  for (std::size_t h = 0; live_.run() && h < live_.run()->hands(); ++h) live_.run()->guide(h, {});
 }
 
 void GhostControl::take_prepared() {
@@ -101,6 +115,26 @@ void GhostControl::poll(const ExerciseRun& exercise) {
     }
   }
   sight_.set_ghosts(std::move(ghosts));
+  guide(exercise);
+}
+
+// Fades as the ghost does. In a pause nobody is led, and nobody who holds another instrument than
+// the expert did there.
+void GhostControl::guide(const ExerciseRun& exercise) {
+  LiveRun* const run = live_.run();
+  const auto stretch = follower_.stretch();
+  if (!track_ || !run) return;
+  if (!guides_ || !allowed_ || !stretch || exercise.paused()) return lead_nobody();
+  if (stretch != led_) led_to_.assign(track_->hands.size(), 0);
+  led_ = stretch;
+  for (std::size_t h = 0; h < std::min(run->hands(), led_to_.size()); ++h) {
+    const ToolState& tool = run->hand(h).snapshot.tool;
+    GuideLine line = guide_along(*track_, *stretch, h, tool.X_WP.p, led_to_[h]);
+    const auto held = line.on ? in_tray(track_->hands[h][led_to_[h]].instrument) : std::nullopt;
+    line.on = line.on && held == tool.instrument;
+    line.strength = std::clamp(strength_, 0.0, 1.0);
+    run->guide(h, line);
+  }
 }
 
 GhostModel GhostControl::model() const {
@@ -109,6 +143,8 @@ GhostModel GhostControl::model() const {
   model.on = on_;
   model.preparing = job_ != nullptr;
   model.strength = strength_;
+  model.guides = guides_;
+  model.can_guide = live_.run() && live_.run()->can_guide();
   model.problem = problem_;
   return model;
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "exercises/ghost/ghost_recording.h"
 #include "ui/side_job.h"
@@ -13,7 +14,8 @@
 namespace osteon {
 
 /// An expert's instruments beside the learner's while an exercise goes on. Prepares them beside the
-/// window, lets them follow the learner's progress, and tells the picture where they are.
+/// window, lets them follow the learner's progress, and tells the picture where they are and the
+/// hands where to go.
 class GhostControl {
  public:
   GhostControl(WindowHost& host, SceneSight& sight, LiveControl& live);
@@ -22,11 +24,15 @@ class GhostControl {
   void begin(const Scenario& scenario, const std::string& case_spec, const Case& the_case);
   void end();
   void toggle();
+  /// Whether hands are led along the expert's way, by devices with motors. Off at first.
+  void toggle_guide();
   /// The learner went back: what is shown begins again.
   void restart() { restart_ = true; }
   /// Once a picture, while an exercise runs.
   void poll(const ExerciseRun& exercise);
   GhostModel model() const;
+  /// Of the exercise that was begun last; null: not known.
+  const GhostTrack* track() const { return track_.get(); }
 
  private:
   struct Prepared {
@@ -35,12 +41,14 @@ class GhostControl {
   };
   void prepare();
   void take_prepared();
+  void guide(const ExerciseRun& exercise);
+  void lead_nobody();
   std::optional<std::uint32_t> in_tray(std::uint32_t instrument) const;
 
   WindowHost& host_;
   SceneSight& sight_;
   LiveControl& live_;
-  bool on_ = true;
+  bool on_ = true, guides_ = false;
   bool allowed_ = false, restart_ = false;
   GhostWanted wanted_;
   std::shared_ptr<const GhostTrack> track_;
@@ -48,6 +56,8 @@ class GhostControl {
   double strength_ = 1;
   std::string problem_;
   GhostFollower follower_;
+  std::optional<std::size_t> led_;   ///< the stretch along which hands are led
+  std::vector<std::size_t> led_to_;  ///< by hand: the sample
 };
 
 }  // namespace osteon

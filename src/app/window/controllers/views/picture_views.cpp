@@ -70,6 +70,14 @@ std::optional<std::size_t> PictureViews::looking() const {
   return first_looking(lenses_, tools_of(moment_));
 }
 
+// An expert's own scope would stand before the lens.
+std::vector<GhostTool> PictureViews::ghosts_through_scope() const {
+  std::vector<GhostTool> seen;
+  for (const GhostTool& ghost : ghosts_)
+    if (ghost.instrument >= lenses_.size() || !lenses_[ghost.instrument]) seen.push_back(ghost);
+  return seen;
+}
+
 std::optional<ScopeCamera> PictureViews::scope_camera() const {
   const auto hand = looking();
   if (!hand) return std::nullopt;
@@ -144,6 +152,7 @@ void PictureViews::draw_scope(const Viewport& viewport, int most_px) {
     for (std::size_t h = 0; h < moment_.hands; ++h)
       if (h != *hand) others.push_back(moment_.tools[h]);
     scope_->set_scene(moment_.bones, others);
+    scope_->set_ghosts(ghosts_through_scope());
     ask_for_wall(moment_.tools[*hand].X_WP.p);
     scope_painted_ = scope_->paint(*scope_camera(), most_px);
   }

@@ -67,6 +67,7 @@ class PictureViews {
   bool busy() const { return wall_job_ || shot_job_; }
 
  private:
+  std::vector<GhostTool> ghosts_through_scope() const;
   struct Wall {
     std::shared_ptr<const JointRoom> room;
     std::optional<TriMesh> mesh;  ///< none: the tip lies in bone

@@ -1,0 +1,42 @@
+#include "exercises/graft_order.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kOrderAgain_s = 1;
+
+bool has_come(const PlacingPlan& wanted, const GraftPlacingState& there) {
+  return there.on && placing_numbers(there.plan) == placing_numbers(wanted);
+}
+
+bool in_use(const GraftPlacingState& there) {
+  return there.on && (there.phase != PlacingPhase::kEmpty || there.pin_m > 0);
+}
+
+}  // namespace
+
+bool asks_for_graft(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == "thread_laid" || goal.rule.kind == "button_turned") return true;
+  return false;
+}
+
+void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {
+  const GraftPlacingState& there = bones.placing;
+  if (!waiting_.empty() || !wanted || has_come(*wanted, there) || in_use(there)) return;
+  if (sent_s_ && bones.time_s - *sent_s_ < kOrderAgain_s) return;
+  sent_s_ = bones.time_s;
+  waiting_.push_back({CommandKind::kGraftOrder, 0});
+  for (const double number : placing_numbers(*wanted))
+    waiting_.push_back({CommandKind::kGraftNumber, number});
+}
+
+std::optional<Command> GraftOrder::take() {
+  if (waiting_.empty()) return std::nullopt;
+  const Command next = waiting_.front();
+  waiting_.pop_front();
+  return next;
+}
+
+}  // namespace osteon

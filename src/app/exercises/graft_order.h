@@ -1,0 +1,31 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "osteon/procedure/judge.h"
+#include "osteon/scene/command.h"
+#include "osteon/scene/placing.h"
+#include "osteon/scene/state.h"
+
+namespace osteon {
+
+/// Whether a scenario has a graft placed.
+bool asks_for_graft(const ScenarioPlan& plan);
+
+/// Hands a graft over to a session whose tunnels were drilled and measured, by commands that are
+/// recorded: again where it does not come, and anew where the tunnels have changed before a thread
+/// lies in them. After a restore point from before the graft it comes once more.
+class GraftOrder {
+ public:
+  /// `wanted`: what was measured; none: there are no two tunnels, or they are not known yet.
+  void see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones);
+  /// The next command for the physics; none: there is nothing to say. One a physics step.
+  std::optional<Command> take();
+
+ private:
+  std::deque<Command> waiting_;
+  std::optional<double> sent_s_;  ///< when the last was begun
+};
+
+}  // namespace osteon

@@ -1,0 +1,65 @@
+#include "exercises/graft_order.h"
+
+#include <gtest/gtest.h>
+
+#include "../../placing_case.h"
+
+namespace osteon {
+namespace {
+
+PlacingPlan ordered_plan() { return *find_placing(*testing::placing_knee()); }
+
+std::vector<Command> all_of(GraftOrder& order) {
+  std::vector<Command> said;
+  while (const auto next = order.take()) said.push_back(*next);
+  return said;
+}
+
+TEST(GraftOrder, SaysNothingUntilTheTunnelsAreMeasured) {
+  GraftOrder order;
+  order.see(std::nullopt, BoneSnapshot{});
+  EXPECT_FALSE(order.take());
+}
+
+TEST(GraftOrder, TellsEveryNumberOnceAndAgainWhereItDoesNotCome) {
+  GraftOrder order;
+  BoneSnapshot bones;
+  const PlacingPlan plan = ordered_plan();
+  order.see(plan, bones);
+  const auto said = all_of(order);
+  ASSERT_EQ(said.size(), 1 + kPlacingNumbers);
+  EXPECT_EQ(said[0].kind, CommandKind::kGraftOrder);
+  const PlacingNumbers numbers = placing_numbers(plan);
+  for (std::size_t i = 0; i < kPlacingNumbers; ++i) {
+    EXPECT_EQ(said[i + 1].kind, CommandKind::kGraftNumber);
+    EXPECT_EQ(said[i + 1].value, numbers[i]);
+  }
+  bones.time_s = 0.5;  // it may be under way
+  order.see(plan, bones);
+  EXPECT_TRUE(all_of(order).empty());
+  bones.time_s = 1.5;
+  order.see(plan, bones);
+  EXPECT_EQ(all_of(order).size(), 1 + kPlacingNumbers);
+}
+
+TEST(GraftOrder, AGraftThatIsThereIsReplacedOnlyBeforeItIsUsed) {
+  BoneSnapshot bones;
+  const PlacingPlan plan = ordered_plan();
+  bones.placing.on = true;
+  bones.placing.plan = plan;
+  GraftOrder same;
+  same.see(plan, bones);
+  EXPECT_TRUE(all_of(same).empty());
+  PlacingPlan deeper = plan;
+  deeper.socket_m += 0.001;
+  GraftOrder other;
+  other.see(deeper, bones);
+  EXPECT_FALSE(all_of(other).empty());
+  bones.placing.phase = PlacingPhase::kThreadInside;
+  GraftOrder late;
+  late.see(deeper, bones);
+  EXPECT_TRUE(all_of(late).empty());
+}
+
+}  // namespace
+}  // namespace osteon

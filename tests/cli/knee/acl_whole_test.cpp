@@ -1,0 +1,69 @@
+// A whole reconstruction of a cruciate ligament, through the command line alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../run_osteon.h"
+
+namespace osteon::testing_cli {
+namespace {
+
+using Json = nlohmann::json;
+
+class WholeAcl : public CliTest {
+ protected:
+  Json report(const std::string& arguments, int exit_code) {
+    const Ran ran = run_osteon("run acl --no-store --report " + file("acl.json") + " " + arguments);
+    EXPECT_EQ(ran.exit_code, exit_code) << ran.output;
+    std::ifstream in(file("acl.json"));
+    return Json::parse(in, nullptr, false);
+  }
+};
+
+TEST_F(WholeAcl, TheExpertDrillsPlacesAndFixesAndTheRecordingRepeats) {
+  const Json json = report("--seed 0 --record " + file("w.osr"), 0);
+  EXPECT_TRUE(json["errors"].empty()) << json["errors"];
+  ASSERT_EQ(json["stages"].size(), 8u);
+  for (const Json& stage : json["stages"]) {
+    ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
+    EXPECT_LT(stage["completed_s"], 1500);
+  }
+  const Json& placing = json["acl"]["placing"];
+  EXPECT_TRUE(placing["button_turned"]);
+  EXPECT_NEAR(placing["tibia_mm"].get<double>(), json["acl"]["tibia"]["length_mm"].get<double>(),
+              8);
+  EXPECT_NEAR(placing["socket_mm"].get<double>(), 25, 4);
+  EXPECT_GT(placing["bent"].size(), 8u);
+  EXPECT_GE(placing["screw"]["cycles"], 20);
+  EXPECT_EQ(placing["screw"]["tension_n"], 90);
+  EXPECT_NEAR(placing["screw"]["flexion_deg"].get<double>(), 30, 1);
+  EXPECT_LT(placing["screw"]["divergence_deg"], 8);
+  EXPECT_TRUE(json["acl"]["graft"]["fixed"]);
+  // What the bent knee showed is what the case's bending says.
+  EXPECT_NEAR(placing["bent_excursion_mm"].get<double>(),
+              json["acl"]["isometry"]["excursion_mm"].get<double>(), 3);
+  EXPECT_EQ(run_osteon("replay --from 250 " + file("w.osr")).exit_code, 0);
+}
+
+TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
+  if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
+  for (const std::string name :
+       {"lost_thread", "unflipped_button", "soft_tissue", "flipped_in_muscle", "few_cycles",
+        "slack_tension", "diverging_screw", "shallow_screw"}) {
+    const Json json = report("--seed 1 --surgeon bad:" + name, 1);
+    ASSERT_EQ(json["errors"].size(), 1u) << name << json["errors"];
+    EXPECT_EQ(json["errors"][0]["name"], name);
+  }
+}
+
+TEST_F(WholeAcl, AGraftThatIsNoReportIsRefused) {
+  std::ofstream(file("no.json")) << "{\"acl\": 3}";
+  EXPECT_EQ(run_osteon("run acl --no-store --seed 0 --graft " + file("no.json")).exit_code, 2);
+  EXPECT_EQ(run_osteon("run acl --no-store --seed 0 --graft " + file("nowhere")).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace osteon::testing_cli

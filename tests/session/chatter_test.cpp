@@ -1,0 +1,178 @@
+// A reamer that cuts deep into the wall of a canal shakes: it is told and felt.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "drilling.h"
+#include "osteon/scene/carve_events.h"
+
+namespace osteon {
+namespace {
+
+using testing::Drilling;
+
+constexpr double kTopHere_m = 0.004;
+constexpr double kTeethAtFull_hz = 35;  // six teeth, 350 turns a minute
+
+// A plate of 16 x 16 x 8 mm, cortex through and through.
+std::shared_ptr<const Case> plate() {
+  CaseDef def;
+  def.name = "plate";
+  BoneDef bone;
+  bone.name = "plate";
+  bone.mesh = testing::box_mesh(Vec3(0.008, 0.008, kTopHere_m));
+  bone.felt = Felt::kField;
+  def.bones.push_back(bone);
+  auto built = build_case(std::move(def));
+  EXPECT_TRUE(built);
+  return std::make_shared<const Case>(std::move(*built));
+}
+
+Drilling reaming(double size_mm, double cortex_m = 0.02) {
+  static const std::shared_ptr<const Case> the_plate = plate();
+  Drilling with;
+  with.the_case = the_plate;
+  with.settings.tray.clear();
+  with.tray.clear();
+  with.settings.carve.cell_m = 0.0003;
+  with.settings.carve.cortex_m = cortex_m;
+  with.settings.carve.thrust_scale = 80;
+  with.also("reamer:" + std::to_string(size_mm));
+  return with;
+}
+
+// With a canal through the plate's middle as if a reamer of that size had made it.
+Session with_canal(const Drilling& with, double canal_mm) {
+  Session session = with.session();
+  Carving carving(with.setup, 1);
+  CarvedField field = *carving.field(0);
+  const auto reamer = make_cutter("reamer", 1e-3 * canal_mm);
+  EXPECT_TRUE(reamer);
+  (void)field.cut(*reamer, {Vec3(0, 0, 0.01), Quat::Identity()},
+                  {Vec3(0, 0, -0.01), Quat::Identity()});
+  auto carved = std::make_shared<CarvingState>(carving.save());
+  carved->bones[0] = field.save();
+  SessionState state = session.save();
+  state.world.carved = std::move(carved);
+  EXPECT_TRUE(session.restore(state));
+  return session;
+}
+
+struct Reamed {
+  std::vector<Event> events;
+  std::vector<double> force_n;  // of each tick
+  double deep_m = 0;
+};
+
+HandInput pressing(const Session& session, int n, double power) {
+  HandInput hand;
+  const double z = session.tool_state().X_WP.p.z();
+  hand.input.X_WD.p = {0, 0, n < 400 ? kTopHere_m + 0.002 - 1e-5 * n : z - 0.004};
+  if (n == 2) hand.command = {CommandKind::kPower, power};
+  return hand;
+}
+
+Reamed ream(Session& session, int from, int to, double power = 1) {
+  Reamed out;
+  for (int n = from; n <= to; ++n) {
+    const HandInput hand = pressing(session, n, power);
+    (void)session.tick(std::span(&hand, 1));
+    for (const Event& event : session.last_events()) out.events.push_back(event);
+    out.force_n.push_back(session.tool_state().force_W.z());
+  }
+  out.deep_m = kTopHere_m - session.tool_state().X_WP.p.z();
+  return out;
+}
+
+std::vector<Event> of_kind(const Reamed& reamed, EventKind kind) {
+  std::vector<Event> out;
+  std::copy_if(reamed.events.begin(), reamed.events.end(), std::back_inserter(out),
+               [kind](const Event& e) { return e.kind == kind; });
+  return out;
+}
+
+// Amplitude of what swings at a frequency in a part of a force's course.
+double swing_at(const std::vector<double>& force_n, std::size_t from, double hz) {
+  std::complex<double> sum = 0;
+  for (std::size_t n = from; n < force_n.size(); ++n)
+    sum += force_n[n] * std::polar(1.0, -2 * std::numbers::pi * hz * 0.001 * double(n));
+  return 2 * std::abs(sum) / double(force_n.size() - from);
+}
+
+// By (10 - 8.5) / 2 mm a side: 0.15 of what is beyond 0.4 mm.
+TEST(Chatter, OfADeepCutIsToldWithAmplitudeAndFrequency) {
+  const Drilling with = reaming(10);
+  Session session = with_canal(with, 8.5);
+  const Reamed done = ream(session, 1, 1500);
+  ASSERT_GT(done.deep_m, 0.0005);
+  const auto told = of_kind(done, kChatter);
+  ASSERT_FALSE(told.empty());
+  EXPECT_LT(told.size(), 8u) << "told anew at every step";
+  EXPECT_NEAR(told.back().values[0], 0.15 * (0.75 - 0.4), 0.03);
+  EXPECT_NEAR(told.back().values[1], kTeethAtFull_hz, 1e-9);
+}
+
+TEST(Chatter, AStepOfHalfAMillimetreRunsSmoothly) {
+  const Drilling with = reaming(9);
+  Session session = with_canal(with, 8.5);
+  const Reamed done = ream(session, 1, 1500);
+  ASSERT_GT(done.deep_m, 0.0005);
+  EXPECT_TRUE(of_kind(done, kChatter).empty());
+}
+
+TEST(Chatter, CancellousBoneAndAStillReamerDoNotShake) {
+  const Drilling soft = reaming(10, 0.0001);
+  Session session = with_canal(soft, 8.5);
+  EXPECT_TRUE(of_kind(ream(session, 1, 900), kChatter).empty());
+  const Drilling hard = reaming(10);
+  Session still = with_canal(hard, 8.5);
+  EXPECT_TRUE(of_kind(ream(still, 1, 900, 0), kChatter).empty());
+}
+
+// The hand feels the teeth, and next to nothing of it where the reamer runs smoothly.
+TEST(Chatter, IsFeltAtTheTeethsFrequency) {
+  const auto felt = [](double size_mm) {
+    const Drilling with = reaming(size_mm);
+    Session session = with_canal(with, 8.5);
+    const Reamed done = ream(session, 1, 1800);
+    for (const double force : done.force_n)
+      EXPECT_LE(std::abs(force), with.settings.haptic.max_force_n + 1e-9);
+    return std::pair(swing_at(done.force_n, 800, kTeethAtFull_hz),
+                     swing_at(done.force_n, 800, 0.6 * kTeethAtFull_hz));
+  };
+  const auto [shaken, beside] = felt(11);
+  const auto [smooth, none] = felt(9);
+  EXPECT_GT(shaken, 0.02);
+  EXPECT_GT(shaken, 5 * beside);
+  EXPECT_LT(smooth, 0.2 * shaken);
+  (void)none;
+}
+
+TEST(Chatter, AStateOnTheWayGivesTheSameBitsAndPulledBackItEnds) {
+  const Drilling with = reaming(11);
+  Session session = with_canal(with, 8.5);
+  ASSERT_FALSE(of_kind(ream(session, 1, 1000), kChatter).empty());
+  const auto back = state_from_bytes(to_bytes(session.save()));
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = with.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  (void)ream(session, 1001, 1300);
+  (void)ream(other, 1001, 1300);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  bool ended = false;
+  for (int n = 0; n < 200; ++n) {
+    HandInput hand;
+    hand.input.X_WD.p = {0, 0, kTopHere_m + 0.005};
+    (void)session.tick(std::span(&hand, 1));
+    for (const Event& event : session.last_events()) ended = ended || event.kind == kChatterEnd;
+  }
+  EXPECT_TRUE(ended);
+}
+
+}  // namespace
+}  // namespace osteon
