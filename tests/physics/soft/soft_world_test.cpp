@@ -30,6 +30,12 @@ Tool rod_along_y() {
   tool.parts.push_back(make_rod(Vec3(0, -0.02, 0), Vec3(0, 0.02, 0), 0.001));
   return tool;
 }
+std::shared_ptr<const SoftSetup> setup_of(const SoftBand& band) {
+  SoftSetup setup;
+  setup.bands = {band};
+  setup.hash = 1;
+  return std::make_shared<const SoftSetup>(std::move(setup));
+}
 
 struct World {
   std::vector<std::shared_ptr<const Tool>> tray = {std::make_shared<const Tool>(rod_along_y())};
@@ -37,9 +43,7 @@ struct World {
   BoneSnapshot bones;
   ToolState tool;
 
-  explicit World(const SoftBand& band = taut_band())
-      : softs(std::make_shared<const SoftSetup>(SoftSetup{{band}, {}, {}, 8, {}, 1}), tray, 2000, 5,
-              0.002) {
+  explicit World(const SoftBand& band = taut_band()) : softs(setup_of(band), tray, 2000, 5, 0.002) {
     bones.count = 2;
     tool.tick = 1;
   }
