@@ -167,8 +167,9 @@ TEST_F(Teaching, AnAttemptIsRecordedRepeatedAndDebriefed) {
   };
   const auto plain = bytes_with(" --ghost off --no-pictures");
   EXPECT_GT(bytes_with(" --no-pictures"), plain + 1000);
-  if (debrief.output.find("no pictures") == std::string::npos)
+  if (debrief.output.find("no pictures") == std::string::npos) {
     EXPECT_GT(bytes.size(), plain + 20'000);
+  }
   const std::string quick = " --ghost off --no-pictures --out " + pdf;
   EXPECT_EQ(run_osteon("debrief " + osr + " --ghost " + file("no.osr") + " --out " + pdf).exit_code,
             2);
