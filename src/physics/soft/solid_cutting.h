@@ -28,9 +28,8 @@ inline constexpr double kSolidCutAir_m = 0.004;
 /// of the state and of the tools, bit by bit.
 ///
 /// An edge goes in where it is pressed harder than the solid's cutting force, by as much as holds
-/// the push at that force. What is between jaws is gone when they shut. A shaver's window goes on
-/// by a speed that grows with the push. Allocates in steps in which something changes, not in
-/// others.
+/// the push at that force. What is between jaws is gone when they shut. Allocates in steps in which
+/// something changes, not in others.
 class SolidCutting {
  public:
   /// A cut into a solid, or a piece that has come off.
