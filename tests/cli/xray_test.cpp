@@ -141,6 +141,27 @@ TEST_F(XrayCli, ARecordingShowsTheProbeAtItsTime) {
   EXPECT_EQ(xray(file("r.osr") + " --at 9 --raw " + file("raw")).exit_code, 2);
 }
 
+// The first hand stands still; what the second holds moves through it.
+TEST_F(XrayCli, ARecordingShowsTheInstrumentsOfAllHands) {
+  ASSERT_EQ(make_block_case(dir_).exit_code, 0);
+  const std::string columns = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button\n";
+  std::ofstream(file("left.csv")) << columns << "0,-10,0,30,1,0,0,0,0\n0.4,-10,0,30,1,0,0,0,0\n";
+  std::ofstream(file("right.csv")) << columns << "0,10,0,30,1,0,0,0,0\n0.4,30,0,30,1,0,0,0,0\n";
+  const Ran made =
+      run_osteon("simulate --case " + file("case") + " --hand left=" + file("left.csv") +
+                 " --hand right=" + file("right.csv") + " --record " + file("r.osr"));
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  std::vector<float> last;
+  for (const std::string at : {"0.05", "0.35"}) {
+    const Ran ran =
+        xray(file("r.osr") + " --at " + at + " --view lateral --size 128x128 --raw " + file("raw"));
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+    const Raw raw = read_raw(file("raw"));
+    EXPECT_NE(raw.g_per_cm2, last);
+    last = raw.g_per_cm2;
+  }
+}
+
 /// Pearson's r over pixels that both see something in.
 double correlation(const std::vector<float>& a, const std::vector<float>& b) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;

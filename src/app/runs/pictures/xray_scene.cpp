@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
@@ -88,7 +89,8 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (!the_case) return tl::unexpected(the_case.error());
   const auto tray = tray_of(recording->header);
   if (!tray) return tl::unexpected(tray.error());
-  RenderSnapshot last;
+  BoneSnapshot bones_then;
+  std::vector<ToolState> tools;  // of each hand
   CutBones cut;
   ReplayOptions how;
   how.to_s = static_cast<double>(*ticks) * settings->haptic.tick_s;
@@ -102,19 +104,22 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   how.softs = std::move(*softs);
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
-    if (hand != 0 || tool.tick > *ticks) return;
-    last.tool = tool;
-    last.bones = bones;
+    if (tool.tick > *ticks) return;
+    if (hand >= tools.size()) tools.resize(hand + 1);
+    tools[hand] = tool;
+    bones_then = bones;
   };
   const auto replayed = replay(*recording, *the_case, how);
   if (!replayed) return tl::unexpected(replayed.error());
-  auto scene = scene_of(**the_case, last.bones, order.body);
+  auto scene = scene_of(**the_case, bones_then, order.body);
   if (!scene) return scene;
-  add_cuts(cut, last.bones, order.body.bones_hu.has_value(), scene->body);
+  add_cuts(cut, bones_then, order.body.bones_hu.has_value(), scene->body);
   if (order.body.bones_hu) return scene;
-  auto tool = steel_tool(*settings, *tray, last.tool.instrument, last.tool.X_WP);
-  if (!tool) return tl::unexpected(tool.error());
-  scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
+  for (const ToolState& held : tools) {
+    auto tool = steel_tool(*settings, *tray, held.instrument, held.X_WP);
+    if (!tool) return tl::unexpected(tool.error());
+    scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
+  }
   return scene;
 }
 
