@@ -101,11 +101,12 @@ vec4 flat_at(vec2 plane) {
 vec3 through_fog(vec3 light, vec2 plane, vec2 from_center) {
   float patchy = noise(vec3(from_center * 3.0, 4.0)) + 0.25 * noise(vec3(from_center * 23.0, 8.0));
   float share = smoothstep(1.0 - u_fog, 1.25 - 0.9 * u_fog, patchy + 0.35 * u_fog) * min(1.0, 2.0 * u_fog);
-  float turn = 6.2832 * hash(vec3(gl_FragCoord.xy, 1.0));
+  // The samples turn slowly over the picture: neighbours share them, so fog has no grain.
+  float turn = 6.2832 * noise(vec3(from_center * 2.0, 1.0));
   vec2 turned = vec2(cos(turn), sin(turn)), middle = 0.5 + 0.5 * plane / u_flat_half;
   vec3 spread = vec3(0.0);
   for (int k = 0; k < 16; ++k) {
-    // The turn of each is known before: of the pixel's own turn there is one.
+    // The turn of each is known before: of the place's own turn there is one.
     float a = 2.39996 * float(k), q = 0.34 * sqrt((float(k) + 0.5) / 16.0);
     vec2 to = vec2(turned.x * cos(a) - turned.y * sin(a), turned.y * cos(a) + turned.x * sin(a));
     spread += texture(u_flat, middle + 0.5 * q * to).rgb;
