@@ -111,12 +111,22 @@ TEST_F(BadInput, ATruncatedRecordingIsRefusedOrReplayedNeverACrash) {
   const std::string path = std::string(OSTEON_SOURCE_DIR) + "/assets/paths/wrist_tap.csv";
   ASSERT_EQ(run_osteon("simulate --path " + path + " --record " + file("r.osr")).exit_code, 0);
   const auto whole = fs::file_size(file("r.osr"));
-  for (const double share : {0.02, 0.3, 0.6, 0.95}) {
+  const auto cut_to = [&](double share) {
     fs::copy_file(file("r.osr"), file("cut.osr"), fs::copy_options::overwrite_existing);
     fs::resize_file(file("cut.osr"),
                     static_cast<std::uintmax_t>(share * static_cast<double>(whole)));
-    expect_refused("replay " + file("cut.osr"), "cut.osr");
+  };
+  // Too little for its header.
+  cut_to(0.02);
+  expect_refused("replay " + file("cut.osr"), "cut.osr");
+  // What is there is replayed, and is not taken for all of it.
+  for (const double share : {0.3, 0.6, 0.95}) {
+    cut_to(share);
+    const Ran ran = run_osteon("replay " + file("cut.osr"));
+    EXPECT_EQ(ran.exit_code, 3) << share << "\n" << ran.output;
+    EXPECT_NE(ran.output.find("incomplete"), std::string::npos) << share << "\n" << ran.output;
   }
+  EXPECT_EQ(run_osteon("replay --allow-incomplete " + file("cut.osr")).exit_code, 0);
 }
 
 TEST_F(BadInput, ARecordingIsNeverOverwritten) {
