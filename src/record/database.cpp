@@ -134,8 +134,9 @@ class Database::TempCopy {
     if (!error && fs::exists(log)) fs::copy_file(log, copy->file().string() + "-wal", error);
     if (error || copy->folder_.empty())
       return fail(
-          "the recording is in a read-only folder, and cannot be copied (" + error.message() + ")",
-          file.string(), "Copy it, with its -wal file, to a folder of your own");
+          "the recording cannot be copied to the temporary folder (" + error.message() + ")",
+          file.string(),
+          "Free some space there, or copy it, with its -wal file, to a folder of your own");
     // A copy of a write-protected file would be write-protected too.
     for (const auto& entry : fs::directory_iterator(copy->folder_, error))
       fs::permissions(entry.path(), fs::perms::owner_read | fs::perms::owner_write, error);
