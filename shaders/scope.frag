@@ -115,10 +115,12 @@ vec3 through_fog(vec3 light, vec2 plane, vec2 from_center) {
   return mix(light, milky, 0.93 * share);
 }
 
-// As a camera rolls off what is too bright.
+// As a camera rolls off what is too bright: above the knee it nears white and keeps its shades.
 vec3 shown(vec3 c) {
-  c = c * (1.0 + c / 16.0) / (1.0 + c);
-  return sqrt(clamp(1.7 * c, 0.0, 1.0));
+  const float kKnee = 0.6;
+  c = 1.7 * c * (1.0 + c / 16.0) / (1.0 + c);
+  vec3 over = max(c - kKnee, 0.0) / (1.0 - kKnee);
+  return sqrt(clamp(min(c, kKnee) + (1.0 - kKnee) * (1.0 - exp(-over)), 0.0, 1.0));
 }
 
 void main() {

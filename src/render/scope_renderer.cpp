@@ -20,6 +20,7 @@
 #include "surface/shapes.h"
 #include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
+#include "view/exposure.h"
 #include "view/water_clouds.h"
 
 namespace osteon {
@@ -28,7 +29,6 @@ namespace {
 constexpr double kNear_m = 0.0003, kFar_m = 0.15;
 constexpr double kFocus_m = 0.012;
 /// Of the light that comes back, on the mean, in the picture.
-constexpr double kMeanLight = 0.30;
 
 GlTexture cloud_texture() {
   constexpr int kSide = 64;  // three values in the smallest cell
@@ -78,25 +78,21 @@ Eigen::Matrix4f flat_projection(double half) {
   return m.cast<float>();
 }
 
-/// The camera's gain: brings the mean of what is seen to kMeanLight. Sparks count no more than
-/// their surroundings.
+/// The camera's gain for what the bound flat picture shows; its rim does not count.
 double gain_for(int side) {
   std::vector<float> rgba(4u * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, rgba.data());
-  double sum = 0, count = 0;
+  std::vector<double> light;
   const int step = std::max(1, side / 64);
   for (int y = side / 6; y < side - side / 6; y += step)
     for (int x = side / 6; x < side - side / 6; x += step) {
       const float* at =
           rgba.data() + 4u * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
                               static_cast<std::size_t>(x));
-      const double light = 0.3 * static_cast<double>(at[0]) + 0.6 * static_cast<double>(at[1]) +
-                           0.1 * static_cast<double>(at[2]);
-      sum += std::log(std::clamp(light, 1e-4, 1e2));
-      count += 1;
+      light.push_back(0.3 * static_cast<double>(at[0]) + 0.6 * static_cast<double>(at[1]) +
+                      0.1 * static_cast<double>(at[2]));
     }
-  const double mean = count > 0 ? std::exp(sum / count) : 1;
-  return std::clamp(kMeanLight / mean, 0.02, 50.0);
+  return exposure_gain(light);
 }
 
 Image read_back(int width, int height) {
