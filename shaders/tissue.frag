@@ -51,16 +51,33 @@ vec2 cells(vec3 p) {
   return sqrt(near);
 }
 
-// Branching vessels: where two slow noises cross their middle, thick ones and thin ones. 0..1.
-float vessels(vec3 p, float per_m, float width) {
-  vec3 q = p * per_m;
-  q += 0.8 * vec3(noise(0.9 * q), noise(0.9 * q + 11.0), noise(0.9 * q + 23.0));
-  float trunk = abs(noise(0.55 * q + 5.0) - 0.5);
-  float twig = abs(noise(1.9 * q + 31.0) - 0.5);
-  float patch_of = smoothstep(0.35, 0.65, noise(0.35 * q + 51.0));
-  return max(1.0 - smoothstep(0.4 * width, width, trunk),
-             0.6 * patch_of * (1.0 - smoothstep(0.4 * width, width, twig)));
+// How much of a line of half a width `half_m` is at p, 0..1: the line is where a value is none. Its
+// distance is the value over the slope along the surface, so it is as wide where the value is slow;
+// there, at saddles and tops, it breaks off.
+float line_at(float value, vec3 p, float half_m) {
+  float slope = max(abs(dFdx(value)) / max(length(dFdx(p)), 1e-9),
+                    abs(dFdy(value)) / max(length(dFdy(p)), 1e-9));
+  float off_m = abs(value) / max(slope, 1e-3);
+  return 1.0 - smoothstep(0.4 * half_m, half_m, off_m);
 }
+
+// Vessels, 0..1: thick ones where a slow noise crosses its middle, drawn out `stretch` times along a
+// direction so that they run with the tissue; a level set would close into rings, so a slower noise
+// thins them out to their ends. Thin ones leave the thick ones and fade away from them.
+float vessels(vec3 p, vec3 along, float stretch, float per_m, float half_m) {
+  vec3 q = p * per_m;
+  q -= (1.0 - 1.0 / stretch) * dot(q, along) * along;
+  q += 0.8 * vec3(noise(0.9 * q), noise(0.9 * q + 11.0), noise(0.9 * q + 23.0));
+  float trunk = noise(0.55 * q + 5.0) - 0.5;
+  float twig = noise(1.9 * q + 31.0) - 0.5;
+  float fed = smoothstep(0.30, 0.60, noise(0.45 * q + 51.0));
+  float beside = fed * (1.0 - smoothstep(0.0, 0.22, abs(trunk)));
+  return max(fed * line_at(trunk, p, half_m * (0.3 + 0.7 * fed)),
+             0.7 * beside * line_at(twig, p, 0.45 * half_m * (0.3 + 0.7 * beside)));
+}
+
+// The way that vessels of tissue without fibres run on the whole, in the part's frame.
+const vec3 kVesselWay = vec3(0.36, 0.48, 0.80);
 
 struct Look {
   vec3 albedo;
@@ -81,8 +98,6 @@ float fibres(vec3 p, vec3 along, float per_m) {
 Look bone_look(vec3 p) {
   float m = layers(p * 350.0);
   vec3 c = mix(vec3(0.80, 0.62, 0.47), vec3(0.86, 0.76, 0.62), m);
-  float v = vessels(p, 520.0, 0.022);
-  c = mix(c, vec3(0.62, 0.26, 0.20), 0.40 * v);
   return Look(c, 1.5e-4 * m, 30.0, 0.30, 0.25);
 }
 
@@ -109,8 +124,8 @@ Look ligament_look(vec3 p) {
   float f = fibres(p, u_fibre, 2200.0);
   float bundle = fibres(p, u_fibre, 480.0);
   vec3 c = mix(vec3(0.70, 0.55, 0.42), vec3(0.93, 0.86, 0.74), 0.55 * f + 0.45 * bundle);
-  float v = vessels(p + 0.3 * u_fibre * dot(p, u_fibre), 420.0, 0.03);
-  c = mix(c, vec3(0.62, 0.16, 0.13), 0.5 * v);
+  float v = vessels(p, u_fibre, 7.0, 620.0, 1.0e-4);
+  c = mix(c, vec3(0.66, 0.22, 0.17), 0.4 * v);
   return Look(c, 6e-5 * f + 2.2e-4 * bundle, 45.0, 0.40, 0.25);
 }
 
@@ -120,7 +135,7 @@ Look synovium_look(vec3 p) {
   float tuft = smoothstep(0.5, 0.75, noise(p * 120.0 + 3.0));
   vec3 c = mix(vec3(0.74, 0.38, 0.30), vec3(0.86, 0.60, 0.50), m);
   c = mix(c, vec3(0.90, 0.66, 0.54), 0.35 * tuft * (1.0 - villi.x));
-  float v = vessels(p, 240.0, 0.045);
+  float v = vessels(p, kVesselWay, 2.2, 380.0, 2.2e-4);
   c = mix(c, vec3(0.50, 0.07, 0.07), 0.75 * v);
   return Look(c, 4e-4 * m + 3.5e-4 * tuft * (1.0 - villi.x), 38.0, 0.35, 0.40);
 }
@@ -130,7 +145,7 @@ Look fat_look(vec3 p) {
   float rim = lobule.y - lobule.x;
   vec3 c = mix(vec3(0.80, 0.50, 0.26), vec3(0.93, 0.77, 0.45), smoothstep(0.0, 0.35, rim));
   c *= 0.94 + 0.12 * layers(p * 200.0);
-  float v = vessels(p, 300.0, 0.03);
+  float v = vessels(p, kVesselWay, 2.2, 420.0, 1.5e-4);
   c = mix(c, vec3(0.60, 0.12, 0.10), 0.6 * v);
   return Look(c, 5e-4 * (1.0 - lobule.x * lobule.x), 40.0, 0.45, 0.45);
 }
