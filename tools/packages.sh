@@ -10,7 +10,8 @@ packages_build=(
   libnanoflann-dev libegl-dev libgl1-mesa-dri libegl-mesa0 fonts-inter
 )
 packages_test=(
-  libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool clang clang-format libclang-rt-14-dev sqlite3
+  libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool xserver-xorg-core
+  xserver-xorg-video-dummy x11-xserver-utils clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples plastimatch
   postgresql libxml2-utils libopenal1
 )

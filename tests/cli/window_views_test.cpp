@@ -2,7 +2,10 @@
 #include <stb/stb_image.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <string>
 
 #include "../media/read_film.h"
 #include "run_osteon.h"
@@ -72,6 +75,64 @@ TEST_F(WindowViews, TheSecondWindowAndTheFilmGoBesideIt) {
   EXPECT_EQ(film.width, 800);
   EXPECT_EQ(film.height, 600);
   EXPECT_GE(film.pictures.size(), 1u);
+}
+
+bool is_missing(const std::string& program) {
+  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) != 0;
+}
+
+// Writes where the observer's window is, once it is at the wanted place. The second screen begins
+// at 1280. Without a window manager the keyboard is given to a window by hand.
+constexpr const char* kTwoScreens = R"sh(
+"$OSTEON" window --replay run.osr --size 800x600 --observer scope > out.txt 2>&1 &
+window=$!
+second="^Osteon, observer's window\$"
+place() { xdotool search --name "$second" getwindowgeometry --shell 2> /dev/null | tr '\n' ' '; }
+until_place() {
+  for i in $(seq 300); do
+    now=$(place); case "$now" in *"$1"*) echo "$2 $now"; return;; esac
+    sleep 0.2
+  done
+  echo "not $2: $now"
+}
+until_place "X=1280 Y=0 WIDTH=1024 HEIGHT=768" beside
+xrandr --output DUMMY1 --off
+until_place "X=40 Y=40" back
+xdotool search --name "$second" windowsize 700 500
+until_place "WIDTH=700 HEIGHT=500" resized
+xdotool search --name "$second" windowunmap; sleep 0.3
+xdotool search --name "$second" windowmap
+until_place "WIDTH=700 HEIGHT=500" mapped
+xdotool search --name "Osteon\$" windowfocus; sleep 0.2
+for i in $(seq 50); do xdotool key ctrl+q; sleep 0.2; kill -0 $window 2> /dev/null || break; done
+wait $window; echo "ended $?"
+)sh";
+
+class TwoScreens : public CliTest {
+ protected:
+  void SetUp() override {
+    for (const char* program : {"/usr/lib/xorg/Xorg", "xrandr", "xdotool"})
+      if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+    CliTest::SetUp();
+    const Ran ran =
+        run_osteon("run fast_periscoping --no-store --record " + (dir_ / "run.osr").string());
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  }
+};
+
+TEST_F(TwoScreens, TheObserversWindowFillsTheSecondAndComesBackWhenThatIsUnplugged) {
+  std::ofstream(file("play.sh")) << kTwoScreens;
+  const std::string command =
+      "cd " + dir_.string() + " && XDG_CONFIG_HOME=" + dir_.string() +
+      " XDG_DATA_HOME=" + dir_.string() +
+      " OSTEON=" OSTEON_EXECUTABLE " " OSTEON_SOURCE_DIR
+      "/tools/with-two-screens 1280x800 1024x768 bash play.sh > told.txt 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::ifstream told(file("told.txt"));
+  const std::string text{std::istreambuf_iterator<char>(told), {}};
+  for (const char* line : {"\nback ", "\nresized ", "\nmapped ", "\nended 0\n"})
+    EXPECT_NE(("\n" + text).find(line), std::string::npos) << line << text;
+  EXPECT_EQ(text.find("beside "), 0u) << text;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "osteon/render/scope_renderer.h"
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "gl/render_target.h"
@@ -101,6 +102,17 @@ double mean_channel(const Image& image, int channel) {
   return sum / static_cast<double>(image.rgb.size() / 3);
 }
 
+/// Five times five small balls across the view: rims that no material's pattern hides.
+Case rows_of_balls() {
+  Case made;
+  for (int row = -2; row <= 2; ++row)
+    for (int column = -2; column <= 2; ++column)
+      made.bones.push_back(make_bone("ball " + std::to_string(row) + std::to_string(column),
+                                     sphere_mesh(0.0008),
+                                     Vec3(0.0022 * column, 0.0022 * row, -0.012)));
+  return made;
+}
+
 /// How much a picture's neighbours differ: detail.
 double detail_of(const Image& image) {
   double sum = 0;
@@ -111,7 +123,7 @@ double detail_of(const Image& image) {
 }
 
 TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
-  const Case the_case = lone_ball(Vec3(0.001, 0, -0.012), 0.006);
+  const Case the_case = rows_of_balls();
   const ScopeCamera camera(wide_scope(0, 0.6), {});
   ScopeRenderer renderer = make_scope(the_case);
   const auto drawn = [&](const ScopeWater& water) {
