@@ -95,17 +95,30 @@ float fibres(vec3 p, vec3 along, float per_m) {
   return 0.6 * noise(q) + 0.4 * noise(2.7 * q + 9.0);
 }
 
+// Inside a joint bone lies under a thin skin of synovium: pink in patches, paler over knobs, with
+// the small holes by which vessels enter.
 Look bone_look(vec3 p) {
   float m = layers(p * 350.0);
-  vec3 c = mix(vec3(0.80, 0.62, 0.47), vec3(0.86, 0.76, 0.62), m);
-  return Look(c, 1.5e-4 * m, 30.0, 0.30, 0.25);
+  float pink = smoothstep(0.35, 0.68, layers(p * 130.0 + 4.0));
+  vec3 c = mix(vec3(0.77, 0.57, 0.43), vec3(0.88, 0.78, 0.64), m);
+  c = mix(c, vec3(0.80, 0.52, 0.43), 0.45 * pink);
+  vec2 pore = cells(p * 560.0);
+  float ragged = pore.x + 0.09 * noise(p * 4200.0);
+  float hole = (1.0 - smoothstep(0.06, 0.13, ragged)) * smoothstep(0.45, 0.65, noise(p * 140.0 + 61.0));
+  c = mix(c, vec3(0.50, 0.26, 0.20), 0.55 * hole);
+  float grain = layers(p * 1100.0);
+  return Look(c, 2.2e-4 * m + 4e-5 * grain - 1.2e-4 * hole, 30.0, 0.30, 0.20);
 }
 
+// Cartilage is glass-like: bluish white where it is thin over the bone, creamy where it is thick,
+// with faint clouds and a surface that is never quite even.
 Look cartilage_look(vec3 p) {
   float m = layers(p * 120.0);
+  float cloud = layers(p * 420.0 + 13.0);
   float fine = layers(p * 1400.0);
-  vec3 c = mix(vec3(0.88, 0.87, 0.81), vec3(0.96, 0.94, 0.87), m);
-  return Look(c, 1.2e-5 * fine + 6e-5 * m, 90.0, 0.55, 0.55);
+  vec3 c = mix(vec3(0.83, 0.85, 0.85), vec3(0.97, 0.93, 0.84), smoothstep(0.25, 0.75, m));
+  c *= 0.95 + 0.09 * cloud;
+  return Look(c, 2.0e-5 * fine + 1.1e-4 * cloud + 2.2e-4 * m, 80.0, 0.60, 0.30);
 }
 
 Look meniscus_look(vec3 p) {
