@@ -1,0 +1,114 @@
+#include <array>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "state/fields.h"
+
+namespace osteon::stored {
+namespace {
+
+constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 20;
+
+// The versions that say how far the hand has turned what it carves with, what leads instruments,
+// which holes were left, and how a reamer chatters.
+constexpr std::uint64_t kTwist = 4, kGuides = 6, kHoles = 9, kChatter = 16;
+
+}  // namespace
+
+// Most words of a block are alike: each stands with how often it comes.
+template <class A>
+void field(A& a, CarveState::Block& b) {
+  field(a, b.block);
+  constexpr std::size_t kWords = BlockGrid::kNodes / 4;
+  std::array<std::uint64_t, kWords> words{};
+  if constexpr (!A::kReads) std::memcpy(words.data(), b.cut.data(), sizeof words);
+  for (std::size_t n = 0; n < kWords && a.ok;) {
+    std::uint64_t count = 1;
+    if constexpr (!A::kReads)
+      while (n + count < kWords && words[n + count] == words[n]) ++count;
+    number(a, count, kWords - n);
+    if (count == 0) a.ok = false;
+    field(a, words[n]);
+    for (std::size_t i = 1; i < count; ++i) words[n + i] = words[n];
+    n += count;
+  }
+  if constexpr (A::kReads) std::memcpy(b.cut.data(), words.data(), sizeof words);
+}
+
+template <class A>
+void field(A& a, CarveState& s) {
+  field(a, s.bone);
+  field(a, s.step);
+  std::uint64_t blocks = s.blocks.size();
+  number(a, blocks, kMostCarvedBlocks);
+  for (std::uint64_t n = 0; n < blocks && a.ok; ++n) {
+    if constexpr (A::kReads) s.blocks.emplace_back();
+    field(a, s.blocks[n]);
+  }
+}
+
+template <class A>
+void field(A& a, CarvingHand& h) {
+  field(a, h.bone);
+  field(a, h.X_BC);
+  field(a, h.drill.depth_m);
+  field(a, h.drill.turned_rev);
+  field(a, h.drill.was_cutting);
+  for (double* x : {&h.due_m, &h.angle_rad, &h.most_torque_nm, &h.plunge_m}) field(a, *x);
+  field(a, h.idle);
+  field(a, h.since);
+  field(a, h.tissue);
+  if (since(a, kTwist)) field(a, h.twist_rad);
+  for (bool* x : {&h.was_in, &h.skives, &h.jaw_open}) field(a, *x);
+  field(a, h.out);
+  field(a, h.p_out);
+  if (!since(a, kGuides)) {
+    h.instrument = CarvingHand::kAnyInstrument;  // that which the hand holds
+    return;
+  }
+  for (double* x : {&h.lag_m, &h.grip}) field(a, *x);
+  field(a, h.mouth_B);
+  for (bool* x : {&h.in_hole, &h.open}) field(a, *x);
+  number(a, h.rod, kMaxGuideRods);
+  field(a, h.instrument);
+  if (since(a, kHoles)) field(a, h.loose);
+  if (!since(a, kChatter)) return;
+  for (double* x : {&h.chatter.amplitude_m, &h.chatter.frequency_hz}) field(a, *x);
+  field(a, h.chatters_since);
+}
+
+template <class A>
+void field(A& a, LeftHole& hole) {
+  field(a, hole.bone);
+  field(a, hole.X_BC);
+  field(a, hole.mouth_B);
+  for (double* x : {&hole.diameter_m, &hole.lag_m}) field(a, *x);
+  field(a, hole.open);
+}
+
+template <class A>
+void field(A& a, std::shared_ptr<const CarvingState>& carved) {
+  if (!since(a, 2)) return;  // bones could not be carved then
+  bool there = carved != nullptr;
+  field(a, there);
+  if (!there) return;
+  CarvingState state = carved ? *carved : CarvingState{};
+  std::uint64_t bones = state.bones.size();
+  number(a, bones, kMostCarvedBones);
+  if constexpr (A::kReads) state.bones.resize(bones);
+  for (CarveState& bone : state.bones) field(a, bone);
+  for (CarvingHand& hand : state.hands) field(a, hand);
+  field(a, state.steps);
+  field(a, state.full);
+  if (since(a, kGuides))
+    for (GuideRod& rod : state.rods) field(a, rod);
+  if (since(a, kHoles))
+    for (LeftHole& hole : state.holes) field(a, hole);
+  if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
+}
+
+template void field(Out&, std::shared_ptr<const CarvingState>&);
+template void field(In&, std::shared_ptr<const CarvingState>&);
+
+}  // namespace osteon::stored

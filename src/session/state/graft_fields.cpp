@@ -1,0 +1,116 @@
+#include "state/fields.h"
+
+namespace osteon::stored {
+namespace {
+
+constexpr std::uint64_t kOrders = 13;  // the version that says what graft was handed over
+
+}  // namespace
+
+template <class A>
+void field(A& a, TendonOnBench& t) {
+  number(a, t.bands_cut, (1u << kMostBands) - 1);
+  field(a, t.front_m);
+  for (bool* x : {&t.stripped, &t.amputated}) field(a, *x);
+  number(a, t.folds, 4);
+}
+
+template <class A>
+void field(A& a, BenchHand& h) {
+  field(a, h.instrument);
+  number(a, h.line, GraftBenchPlan::kLines);
+  for (double* x : {&h.grip, &h.front_m}) field(a, *x);
+  number(a, h.carries, kGraftTendons);
+  field(a, h.shut);
+  number(a, h.over, kGraftTendons * kMostBands);
+  field(a, h.from_W);
+  field(a, h.hangs);
+}
+
+template <class A>
+void field(A& a, GraftBenchState& s) {
+  if (!since(a, 8)) return;  // there was no bench then
+  field(a, s.on);
+  if (!s.on) return;
+  for (TendonOnBench& tendon : s.tendons) field(a, tendon);
+  for (BenchHand& hand : s.hands) field(a, hand);
+  for (double* x : {&s.passed_m, &s.refused_m, &s.loop_m, &s.tension_n, &s.creep_s}) field(a, *x);
+}
+
+template <class A>
+void field(A& a, PlacingHand& h) {
+  field(a, h.instrument);
+  number(a, h.line, static_cast<std::uint64_t>(PlacingLine::kScrew));
+  field(a, h.grip);
+  field(a, h.shut);
+  field(a, h.from_m);
+}
+
+template <class A>
+void field(A& a, PlacingScrew& s) {
+  for (std::uint32_t* x : {&s.screws, &s.cycles}) field(a, *x);
+  field(a, s.p_B);
+  field(a, s.out_B);
+  for (double* x : {&s.width_m, &s.length_m, &s.in_m, &s.tension_n, &s.flexion_deg}) field(a, *x);
+  field(a, s.done);
+}
+
+template <class A>
+void field(A& a, PlacingTunnel& t) {
+  number(a, t.bone, kMaxBones - 1);
+  field(a, t.mouth_B);
+  field(a, t.outer_B);
+  field(a, t.radius_m);
+}
+
+// What was told of a graft, and the plan of one that is there.
+template <class A>
+void field_order(A& a, GraftPlacingState& s) {
+  field(a, s.ordered);
+  number(a, s.told, kPlacingNumbers);
+  for (double& x : s.numbers) field(a, x);
+  if (!s.on) return;
+  for (PlacingTunnel* t : {&s.plan.femur, &s.plan.tibia}) field(a, *t);
+  PlacingPlan& p = s.plan;
+  for (double* x : {&p.socket_m, &p.between_m, &p.tibia_bend_rad, &p.femur_bend_rad, &p.graft_m,
+                    &p.graft_length_m, &p.loop_m, &p.tail_n})
+    field(a, *x);
+}
+
+template <class A>
+void field(A& a, GraftPlacingState& s) {
+  if (!since(a, 12)) return;  // no graft was placed then
+  field(a, s.on);
+  const bool old = !since(a, kOrders);
+  if (!old) field_order(a, s);
+  if (!s.on) return;
+  number(a, s.phase, static_cast<std::uint64_t>(PlacingPhase::kTurned));
+  for (PlacingHand& hand : s.hands) field(a, hand);
+  field(a, s.end_W);
+  number(a, s.holder, kPlacingHands);
+  for (std::uint32_t* x : {&s.lost, &s.let_go_early}) field(a, *x);
+  for (double* x : {&s.pin_m, &s.drawn_m, &s.pull_n, &s.most_pull_n, &s.gap_m}) field(a, *x);
+  if (old) return;
+  field(a, s.tension_n);
+  field(a, s.cycles_before);
+  field(a, s.screw);
+}
+
+template <class A>
+void field(A& a, BendState& s) {
+  if (!since(a, 13)) return;  // no joint was bent then
+  field(a, s.on);
+  if (!s.on) return;
+  for (double* x : {&s.wanted_deg, &s.now_deg}) field(a, *x);
+  field(a, s.straight);
+  field(a, s.cycles);
+}
+
+template void field(Out&, GraftBenchState&);
+template void field(In&, GraftBenchState&);
+template void field(Out&, GraftPlacingState&);
+template void field(In&, GraftPlacingState&);
+template void field(Out&, BendState&);
+template void field(In&, BendState&);
+
+}  // namespace osteon::stored

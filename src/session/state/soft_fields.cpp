@@ -1,0 +1,73 @@
+#include "state/fields.h"
+
+namespace osteon::stored {
+
+template <class A>
+void field(A& a, NearBand& n) {
+  field(a, n.contact.band);
+  field(a, n.contact.part);
+  field(a, n.contact.nhat_W);
+  field(a, n.contact.others_taken_m);
+  for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
+  field(a, n.deep_m);
+  field(a, n.taken_m);
+}
+
+template <class A>
+void field(A& a, BandTouch& t) {
+  field(a, t.on);
+  field(a, t.over);
+  field(a, t.first_step);
+  field(a, t.last_step);
+  field(a, t.peak_n);
+  field(a, t.deepest_m);
+}
+
+template <class A>
+void field(A& a, SolidNear& n) {
+  SolidContact& c = n.contact;
+  for (std::uint32_t* x : {&c.solid, &c.bone, &c.part}) field(a, *x);
+  for (double* x : {&c.along, &c.stiffness_n_per_m, &c.others_m, &n.deep_m, &n.force_n})
+    field(a, *x);
+  for (Vec3* x : {&c.p_B, &c.nhat_B, &n.outside_B}) field(a, *x);
+  for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
+  if (!since(a, 14)) return;  // nothing cut solids then
+  field(a, n.entered_m);
+}
+
+template <class A>
+void solids_field(A& a, SoftState& s) {
+  if (!since(a, 7)) return;  // no solid was soft then
+  for (bool& lost : s.solid_lost) field(a, lost);
+  for (SolidHandState& hand : s.solid_hands) {
+    field(a, hand.instrument);
+    first_of(a, hand.count, hand.near);
+    for (BandTouch& touch : hand.touches) field(a, touch);
+  }
+  field(a, s.cut);
+}
+
+template <class A>
+void field(A& a, SoftState& s) {
+  if (!since(a, 3)) return;  // nothing was soft then
+  field(a, s.on);
+  if (!s.on) return;
+  for (BandState& band : s.bands) {
+    field(a, band.torn);
+    field(a, band.lost);
+    if (!band.torn) continue;
+    if (!since(a, 10)) continue;  // where it tore was not kept then
+    field(a, band.torn_share);
+  }
+  for (SoftHandState& hand : s.hands) {
+    field(a, hand.instrument);
+    first_of(a, hand.count, hand.near);
+    for (BandTouch& touch : hand.touches) field(a, touch);
+  }
+  solids_field(a, s);
+}
+
+template void field(Out&, SoftState&);
+template void field(In&, SoftState&);
+
+}  // namespace osteon::stored
