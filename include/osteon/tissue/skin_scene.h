@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,12 +27,21 @@ struct SkinThrust {
   double depth_m = 0, speed_m_per_s = 0.02;
 };
 
+/// Where on a case's skin the piece lies.
+struct SkinPlace {
+  std::string the_case;  ///< as --case takes it
+  std::string landmark;  ///< empty: `near_W`
+  Vec3 near_W = Vec3::Zero();
+  double turn_rad = 0;  ///< of the sheet about the way out of the skin
+};
+
 /// A piece of skin and what is done to it: first it is cut, then pressed, each press by itself,
 /// then pierced.
 struct SkinScene {
   std::string name;
   double width_m = 0, height_m = 0, edge_m = 0;
   SheetMaterial material;
+  std::optional<SkinPlace> place;  ///< none: it lies by itself
   std::vector<SkinStroke> cuts;
   std::vector<SkinPress> presses;
   std::vector<SkinThrust> pierces;

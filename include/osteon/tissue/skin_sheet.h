@@ -19,7 +19,7 @@ struct SheetMaterial {
   double stretch_n_per_m = 1000;       ///< Young's modulus times thickness
   double poisson = 0.45;               ///< plane stress
   double tension_n_per_m = 80;         ///< of the whole sheet at rest, the same in all directions
-  double foundation_n_per_m3 = 1.8e6;  ///< pressure of the fat for each metre of a slight dent
+  double foundation_n_per_m3 = 2.4e6;  ///< pressure of the fat for each metre of a slight dent
   double fat_m = 0.012;                ///< a dent comes near it, never so deep: the fat stiffens
   double tether_n_per_m3 = 1e5;        ///< the same for skin that slides on its fat
   double thickness_m = 0.002;          ///< a cut less deep opens nothing

@@ -119,15 +119,13 @@ Result<SkinResult> run_skin(const SkinScene& scene) {
   SheetCuts cuts = whole_sheet(*sheet);
   for (const SkinStroke& stroke : scene.cuts) out.cuts.push_back(cut(*sheet, cuts, stroke));
   const auto balance = [&] { return SheetBalance(*sheet, split(*sheet, cuts)); };
-  std::vector<double> down;
   if (!scene.presses.empty()) {
     const SheetBalance now = balance();
     for (std::size_t i = 0; i < scene.presses.size(); ++i) {
       const SheetLoad load = load_on(now.split(), scene.presses[i].disc);
       if (load.copy.empty()) return tl::unexpected(off_sheet("press[" + std::to_string(i) + "]"));
-      SheetDent dent = now.pressed(load, scene.presses[i].force_n);
+      const SheetDent dent = now.pressed(load, scene.presses[i].force_n);
       out.presses.push_back({scene.presses[i], dent.mean_m, now.stiffness(load)});
-      down = std::move(dent.down_m);
     }
   }
   for (std::size_t i = 0; i < scene.pierces.size(); ++i) {
@@ -137,7 +135,11 @@ Result<SkinResult> run_skin(const SkinScene& scene) {
     out.pierces.push_back(pierce(*sheet, cuts, now, load, scene.pierces[i]));
   }
   const SheetBalance end = balance();
-  if (down.size() != end.split().vertex.size()) down.clear();
+  std::vector<double> down;
+  if (!scene.presses.empty())
+    down =
+        end.pressed(load_on(end.split(), scene.presses.back().disc), scene.presses.back().force_n)
+            .down_m;
   const TriMesh flat = sheet_surface(end.split(), end.ways(), {});
   out.surface = sheet_surface(end.split(), end.ways(), down);
   out.vertices = out.surface.vertices.size();

@@ -84,10 +84,26 @@ void read_sheet(SceneReader& in, const Table& t, SkinScene& scene) {
   scene.height_m = size.y();
 }
 
+SkinPlace read_place(SceneReader& in, const Table& t) {
+  constexpr double kDegree = 3.141592653589793 / 180;
+  in.only(t, {"case", "at", "near_mm", "turn_deg"});
+  SkinPlace out;
+  out.the_case = in.text(t, "case");
+  if (SceneReader::has(t, "at") == SceneReader::has(t, "near_mm"))
+    in.complain("must come alone: a landmark's name, or a point as near_mm", t, "at");
+  if (SceneReader::has(t, "at"))
+    out.landmark = in.text(t, "at");
+  else
+    out.near_W = kFromMm * in.vec3(t, "near_mm", {-1e4, 1e4});
+  out.turn_rad = kDegree * in.number_or(t, "turn_deg", {-360, 360}, 0);
+  return out;
+}
+
 SkinScene read_skin(SceneReader& in, const Table& root) {
-  in.only(root, {"sheet", "material", "cut", "press", "pierce"});
+  in.only(root, {"sheet", "place", "material", "cut", "press", "pierce"});
   SkinScene scene;
   read_sheet(in, in.table(root, "sheet"), scene);
+  if (SceneReader::has(root, "place")) scene.place = read_place(in, in.table(root, "place"));
   if (SceneReader::has(root, "material"))
     scene.material = read_skin_material(in, in.table(root, "material"));
   for (const Table& t : in.tables(root, "cut")) {

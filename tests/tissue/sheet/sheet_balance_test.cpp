@@ -57,6 +57,14 @@ TEST(SheetBalance, ADiscPressedSlightlyIsTheClosedForm) {
     }
 }
 
+// Of the tissue table: 400 N/m to the hand's 5 mm tip.
+TEST(SheetBalance, PalpatedItIsAsStiffAsTheTissueTableSays) {
+  const SkinSheet sheet = sheet_of(0.06, 0.0015, {});
+  const SheetBalance balance(sheet, split(sheet, whole_sheet(sheet)));
+  for (const SheetPoint& p : {SheetPoint(0, 0), SheetPoint(0.01, 0.004), SheetPoint(-0.015, 0.012)})
+    EXPECT_NEAR(balance.stiffness(load_on(balance.split(), {p, 0.0025})), 400, 60);
+}
+
 // So wide a disc, under so little tension, that each point bears the fat's own pressure.
 TEST(SheetBalance, PressedHardItMeetsTheFatThatStiffens) {
   SheetMaterial m;

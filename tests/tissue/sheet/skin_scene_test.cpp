@@ -37,6 +37,9 @@ TEST(SkinScene, NamesTheKeyThatIsWrong) {
   says(kSheet + "[[press]]\nat_mm = [24, 0]\nforce_n = 1\n", "press[0] is not on the sheet");
   says(kSheet + "[[pierce]]\nat_mm = [0, 90]\ndepth_mm = 9\n", "pierce[0] is not on the sheet");
   says(kSheet + "[[pierce]]\nat_mm = [0, 0]\n", "'pierce[0].depth_mm'");
+  says(kSheet + "[place]\ncase = \"x\"\n", "'place.at'");
+  says(kSheet + "[place]\ncase = \"x\"\nat = \"y\"\nnear_mm = [0, 0, 0]\n", "'place.at'");
+  says(kSheet + "[place]\nat = \"y\"\n", "'place.case'");
   says("[sheet", "x.toml, line 1");
 }
 
