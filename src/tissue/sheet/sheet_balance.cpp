@@ -45,23 +45,42 @@ std::vector<int> number(const SkinSheet& sheet, const SplitSheet& split, int& co
 std::array<double, 3> pulling(const std::array<double, 3>& n) {
   const double mean = 0.5 * (n[0] + n[1]), half = 0.5 * (n[0] - n[1]);
   const double radius = std::sqrt(half * half + n[2] * n[2]);
-  const double hi = std::max(mean + radius, 0.0), lo = std::max(mean - radius, 0.0);
-  if (mean - radius >= 0 || radius == 0) return {hi == 0 ? 0 : n[0], hi == 0 ? 0 : n[1], n[2]};
-  const double c = half / radius, s = n[2] / radius;
-  const double m = 0.5 * (hi + lo), r = 0.5 * (hi - lo);
-  return {m + r * c, m - r * c, r * s};
+  if (mean >= radius) return n;
+  if (mean <= -radius) return {0, 0, 0};
+  const double pull = 0.5 * (mean + radius);  // along one direction alone
+  return {pull * (1 + half / radius), pull * (1 - half / radius), pull * n[2] / radius};
 }
+
+/// Plane stress of the membrane: N = C : grad u.
+struct Stiffness {
+  explicit Stiffness(const SheetMaterial& m)
+      : nu(m.poisson), c(m.stretch_n_per_m / (1 - nu * nu)), g(0.5 * (1 - nu) * c) {}
+
+  /// Of two hat functions with slopes p and q, for each area.
+  Eigen::Matrix2d between(const SheetPoint& p, const SheetPoint& q) const {
+    Eigen::Matrix2d out;
+    out << c * p.x() * q.x() + g * p.y() * q.y(), c * nu * p.x() * q.y() + g * p.y() * q.x(),
+        c * nu * p.y() * q.x() + g * p.x() * q.y(), c * p.y() * q.y() + g * p.x() * q.x();
+    return out;
+  }
+  std::array<double, 3> tension(const Eigen::Matrix2d& grad) const {
+    return {c * (grad(0, 0) + nu * grad(1, 1)), c * (grad(1, 1) + nu * grad(0, 0)),
+            g * (grad(0, 1) + grad(1, 0))};
+  }
+
+  double nu, c, g;
+};
 
 }  // namespace
 
 struct SheetBalance::Impl {
-  struct Corner {
+  struct Element {
     std::array<SheetPoint, 3> slope;  // gradients of the three hat functions
     double area = 0;
   };
-  static Corner corner_of(const SplitSheet& split, const Triangle& t);
+  static Element element_of(const SplitSheet& split, const Triangle& t);
 
-  std::vector<Corner> corners;
+  std::vector<Element> elements;
   std::vector<int> at;
   int count = 0;
   Sparse across;             // grad w . N grad v
@@ -69,13 +88,13 @@ struct SheetBalance::Impl {
 
   void open(const SkinSheet& sheet, const SplitSheet& split, std::vector<SheetPoint>& ways) const;
   void carry(const SplitSheet& split, const std::vector<std::array<double, 3>>& tension);
-  Vector rest(const SheetMaterial& m, const Vector& w) const;   // what sheet and fat bear
-  Sparse slope(const SheetMaterial& m, const Vector& w) const;  // its derivative
+  Vector rest(const SheetMaterial& m, const Vector& w) const;     // what sheet and fat bear
+  Sparse tangent(const SheetMaterial& m, const Vector& w) const;  // its derivative
 };
 
-SheetBalance::Impl::Corner SheetBalance::Impl::corner_of(const SplitSheet& split,
-                                                         const Triangle& t) {
-  Corner out;
+SheetBalance::Impl::Element SheetBalance::Impl::element_of(const SplitSheet& split,
+                                                           const Triangle& t) {
+  Element out;
   const SheetPoint &a = split.point[t[0]], &b = split.point[t[1]], &c = split.point[t[2]];
   const double twice = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
   const auto slope = [twice](const SheetPoint& from, const SheetPoint& to) {
@@ -90,12 +109,12 @@ SheetBalance::Impl::Corner SheetBalance::Impl::corner_of(const SplitSheet& split
 void SheetBalance::Impl::open(const SkinSheet& sheet, const SplitSheet& split,
                               std::vector<SheetPoint>& ways) const {
   const SheetMaterial& m = sheet.material();
-  const double nu = m.poisson, c = m.stretch_n_per_m / (1 - nu * nu), g = 0.5 * (1 - nu) * c;
+  const Stiffness stiff(m);
   std::vector<Eigen::Triplet<double>> all;
   all.reserve(split.triangles.size() * 24);
   Vector load = Vector::Zero(2 * count);
-  for (std::size_t e = 0; e < corners.size(); ++e) {
-    const Corner& k = corners[e];
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Element& k = elements[e];
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = at[split.triangles[e][a]];
       if (i < 0) continue;
@@ -106,14 +125,11 @@ void SheetBalance::Impl::open(const SkinSheet& sheet, const SplitSheet& split,
       for (std::size_t b = 0; b < 3; ++b) {
         const int j = at[split.triangles[e][b]];
         if (j < 0) continue;
-        const SheetPoint& q = k.slope[b];
-        const double block[2][2] = {
-            {c * p.x() * q.x() + g * p.y() * q.y(), c * nu * p.x() * q.y() + g * p.y() * q.x()},
-            {c * nu * p.y() * q.x() + g * p.x() * q.y(), c * p.y() * q.y() + g * p.x() * q.x()}};
+        const Eigen::Matrix2d block = stiff.between(p, k.slope[b]);
         for (int r = 0; r < 2; ++r)
           for (int s = 0; s < 2; ++s)
             if (2 * i + r >= 2 * j + s)
-              all.emplace_back(2 * i + r, 2 * j + s, k.area * block[r][s]);
+              all.emplace_back(2 * i + r, 2 * j + s, k.area * block(r, s));
       }
     }
   }
@@ -130,8 +146,8 @@ void SheetBalance::Impl::carry(const SplitSheet& split,
   std::vector<Eigen::Triplet<double>> all;
   all.reserve(split.triangles.size() * 6);
   area.assign(static_cast<std::size_t>(count), 0);
-  for (std::size_t e = 0; e < corners.size(); ++e) {
-    const Corner& k = corners[e];
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Element& k = elements[e];
     const auto& n = tension[e];
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = at[split.triangles[e][a]];
@@ -158,7 +174,7 @@ Vector SheetBalance::Impl::rest(const SheetMaterial& m, const Vector& w) const {
   return out;
 }
 
-Sparse SheetBalance::Impl::slope(const SheetMaterial& m, const Vector& w) const {
+Sparse SheetBalance::Impl::tangent(const SheetMaterial& m, const Vector& w) const {
   Sparse out = across;
   for (Index i = 0; i < w.size(); ++i) {
     const double left = w[i] > 0 ? 1 - w[i] / m.fat_m : 1;
@@ -169,24 +185,21 @@ Sparse SheetBalance::Impl::slope(const SheetMaterial& m, const Vector& w) const 
 
 SheetBalance::SheetBalance(const SkinSheet& sheet, SplitSheet split)
     : sheet_(&sheet), split_(std::move(split)), impl_(std::make_unique<Impl>()) {
-  for (const Triangle& t : split_.triangles) impl_->corners.push_back(Impl::corner_of(split_, t));
+  for (const Triangle& t : split_.triangles) impl_->elements.push_back(Impl::element_of(split_, t));
   impl_->at = number(sheet, split_, impl_->count);
-  const SheetMaterial& m = sheet.material();
-  const double nu = m.poisson, c = m.stretch_n_per_m / (1 - nu * nu);
-  tension_.assign(split_.triangles.size(), {m.tension_n_per_m, m.tension_n_per_m, 0});
+  const double before = sheet.material().tension_n_per_m;
+  tension_.assign(split_.triangles.size(), {before, before, 0});
   ways_.assign(split_.vertex.size(), SheetPoint::Zero());
   // Without a lip there is nothing to open.
   if (!split_.walls.empty()) {
     impl_->open(sheet, split_, ways_);
+    const Stiffness stiff(sheet.material());
     for (std::size_t e = 0; e < tension_.size(); ++e) {
       Eigen::Matrix2d grad = Eigen::Matrix2d::Zero();
       for (std::size_t a = 0; a < 3; ++a)
-        grad += ways_[split_.triangles[e][a]] * impl_->corners[e].slope[a].transpose();
-      auto& n = tension_[e];
-      n[0] += c * (grad(0, 0) + nu * grad(1, 1));
-      n[1] += c * (grad(1, 1) + nu * grad(0, 0));
-      n[2] += 0.5 * (1 - nu) * c * (grad(0, 1) + grad(1, 0));
-      n = pulling(n);
+        grad += ways_[split_.triangles[e][a]] * impl_->elements[e].slope[a].transpose();
+      const auto more = stiff.tension(grad);
+      tension_[e] = pulling({before + more[0], before + more[1], more[2]});
     }
   }
   impl_->carry(split_, tension_);
@@ -209,7 +222,7 @@ SheetDent SheetBalance::solve(const SheetLoad& load, std::optional<double> force
   Factor factor;
   factor.analyzePattern(im.across);
   for (int step = 0; step < kMostSteps; ++step) {
-    factor.factorize(im.slope(m, w));
+    factor.factorize(im.tangent(m, w));
     const Vector rest = im.rest(m, w) - force * b;
     Vector way = factor.solve(-rest);
     bool meets = true;

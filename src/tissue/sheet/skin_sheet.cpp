@@ -19,7 +19,7 @@ Result<void> check(double width_m, double height_m, double edge_m, const SheetMa
                   "Give other sizes");
   const bool sound = within(m.stretch_n_per_m, 1e-3, 1e9) && within(m.poisson, 0, 0.4999) &&
                      within(m.tension_n_per_m, 1e-6, 1e6) &&
-                     within(m.foundation_n_per_m3, 0, 1e12) && within(m.fat_m, 1e-5, 100) &&
+                     within(m.foundation_n_per_m3, 1, 1e12) && within(m.fat_m, 1e-5, 100) &&
                      within(m.tether_n_per_m3, 1, 1e12) && within(m.thickness_m, 0, 1) &&
                      within(m.friction, 0, 100) && within(m.pierce_pa, 0, 1e12) &&
                      within(m.fat_pierce_pa, 0, 1e12);

@@ -6,10 +6,8 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
-#include "osteon/tissue/sheet_balance.h"
-#include "tissue/sheet/sheet_checks.h"
+#include "tissue/sheet/random_cuts.h"
 
 namespace osteon {
 namespace {
@@ -146,30 +144,8 @@ TEST(SkinSheet, TheGrooveHoldsTheWedgeBetweenItsLips) {
   EXPECT_NEAR(widest(open, ways), 0.002, 0.00002);
 }
 
-// Cuts across and along each other, closed ones too, to and over the rim.
 TEST(SkinSheet, StaysAManifoldOfTheSameAreaAfterEachOfManyRandomCuts) {
-  std::mt19937 random(7);
-  const auto at = [&](double size) { return size * ((random() % 10001) / 10000.0 - 0.5); };
-  const SkinSheet sheet = sheet_of(0.03, 0.03, 0.002);
-  const double least = 0.25 * 0.5 * std::sqrt(3.0) * 0.5 * 0.002 * 0.002;
-  for (int skin = 0; skin < 40; ++skin) {
-    SheetCuts cuts = whole_sheet(sheet);
-    for (int i = 0; i < 50; ++i) {
-      std::vector<SheetPoint> points;
-      for (std::size_t k = 0; k < 2 + random() % 4; ++k) points.emplace_back(at(0.034), at(0.034));
-      if (random() % 4 == 0) points.push_back(points.front());
-      stroke(sheet, cuts, points, 0.001 + 0.005 * (random() % 100) / 100.0);
-      const SplitSheet open = split(sheet, cuts);
-      ASSERT_EQ(why_no_manifold(sheet, open, sheet_surface(open, {}, {})), "") << skin << " " << i;
-      ASSERT_NEAR(sheet_area(open), 0.03 * 0.03, 1e-12);
-      for (const Triangle& t : open.triangles) ASSERT_GT(triangle_area(open, t), 0.9 * least);
-    }
-    // Even so it has a balance.
-    if (skin % 10 == 0) {
-      for (const SheetPoint& way : SheetBalance(sheet, split(sheet, cuts)).ways())
-        ASSERT_TRUE(way.allFinite());
-    }
-  }
+  expect_sound_after_random_cuts(40, 7);
 }
 
 }  // namespace
