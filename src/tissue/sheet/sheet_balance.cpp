@@ -88,6 +88,7 @@ struct SheetBalance::Impl {
 
   void open(const SkinSheet& sheet, const SplitSheet& split, std::vector<SheetPoint>& ways) const;
   void carry(const SplitSheet& split, const std::vector<std::array<double, 3>>& tension);
+  Vector weights(const SheetLoad& load) const;
   Vector rest(const SheetMaterial& m, const Vector& w) const;     // what sheet and fat bear
   Sparse tangent(const SheetMaterial& m, const Vector& w) const;  // its derivative
 };
@@ -165,6 +166,13 @@ void SheetBalance::Impl::carry(const SplitSheet& split,
   across.setFromTriplets(all.begin(), all.end());
 }
 
+Vector SheetBalance::Impl::weights(const SheetLoad& load) const {
+  Vector out = Vector::Zero(count);
+  for (std::size_t i = 0; i < load.copy.size(); ++i)
+    if (at[load.copy[i]] >= 0) out[at[load.copy[i]]] += load.weight[i];
+  return out;
+}
+
 Vector SheetBalance::Impl::rest(const SheetMaterial& m, const Vector& w) const {
   Vector out = across.selfadjointView<Eigen::Lower>() * w;
   for (Index i = 0; i < w.size(); ++i) {
@@ -212,9 +220,8 @@ SheetDent SheetBalance::solve(const SheetLoad& load, std::optional<double> force
   const Impl& im = *impl_;
   const SheetMaterial& m = sheet_->material();
   const auto n = static_cast<Index>(im.count);
-  Vector b = Vector::Zero(n), w = Vector::Zero(n);
-  for (std::size_t i = 0; i < load.copy.size(); ++i)
-    if (im.at[load.copy[i]] >= 0) b[im.at[load.copy[i]]] += load.weight[i];
+  const Vector b = im.weights(load);
+  Vector w = Vector::Zero(n);
   if (from.down_m.size() == im.at.size())
     for (std::size_t i = 0; i < im.at.size(); ++i)
       if (im.at[i] >= 0) w[im.at[i]] = from.down_m[i];
@@ -262,8 +269,9 @@ SheetDent SheetBalance::pressed_by(const SheetLoad& load, double mean_m,
 }
 
 double SheetBalance::stiffness(const SheetLoad& load) const {
-  constexpr double kSlight_n = 1e-6;
-  return kSlight_n / pressed(load, kSlight_n).mean_m;
+  const Vector b = impl_->weights(load);
+  const Factor factor(impl_->tangent(sheet_->material(), Vector::Zero(b.size())));
+  return 1 / b.dot(factor.solve(b));
 }
 
 }  // namespace osteon
