@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -47,6 +48,9 @@ class SkinSheet {
 
   const SheetMaterial& material() const { return material_; }
   double edge_m() const { return edge_m_; }
+  bool is_on(const SheetPoint& p) const {
+    return std::abs(p.x()) <= 0.5 * width_m_ && std::abs(p.y()) <= 0.5 * height_m_;
+  }
   std::span<const SheetPoint> points() const { return points_; }
   std::span<const Triangle> triangles() const { return triangles_; }
   std::span<const SheetEdge> edges() const { return edges_; }
@@ -56,7 +60,7 @@ class SkinSheet {
 
  private:
   SheetMaterial material_;
-  double edge_m_ = 0;
+  double width_m_ = 0, height_m_ = 0, edge_m_ = 0;
   std::vector<SheetPoint> points_;
   std::vector<Triangle> triangles_;
   std::vector<SheetEdge> edges_;
@@ -73,12 +77,12 @@ struct SheetCuts {
 };
 
 SheetCuts whole_sheet(const SkinSheet& sheet);
-/// Sets the blade in: the nearest vertex that may move is drawn under it. Where none inside the rim
-/// is within one and a half edges nothing happens.
+/// Sets the blade in: the nearest vertex that may move is drawn under it. Off the sheet, nothing
+/// happens.
 void begin_stroke(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p);
 /// Cuts on from where the stroke has come, towards `p`, so deep, by whole edges: it stays behind
-/// the blade by an edge at most, and ends at the rim. Returns the length that is open now and was
-/// not before, m.
+/// the blade by an edge at most. A blade that comes off the sheet is out. Returns the length that
+/// is open now and was not before, m.
 double go_on(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p, double depth_m);
 /// Takes the blade out at `p`: what is left of the stroke is cut, if it is half an edge or more.
 double end_stroke(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p, double depth_m);

@@ -96,7 +96,9 @@ std::optional<Next> next_edge(const SkinSheet& sheet, const SheetCuts& cuts, con
 
 double cut_on(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p, double depth_m,
               bool last) {
-  if (!cuts.blade_in || !p.allFinite() || !(depth_m > 0) || !std::isfinite(depth_m)) return 0;
+  if (!cuts.blade_in || !(depth_m > 0) || !std::isfinite(depth_m)) return 0;
+  cuts.blade_in = sheet.is_on(p);
+  if (!cuts.blade_in) return 0;
   double opened_m = 0;
   while (const auto next = next_edge(sheet, cuts, p, last)) {
     const SheetPoint from = cuts.points[cuts.blade_at];
@@ -139,7 +141,7 @@ SheetCuts whole_sheet(const SkinSheet& sheet) {
 
 void begin_stroke(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p) {
   cuts.blade_in = false;
-  if (!p.allFinite()) return;
+  if (!sheet.is_on(p)) return;
   double nearest = kBegins * sheet.edge_m();
   for (std::uint32_t v = 0; v < cuts.points.size(); ++v) {
     const double far = (cuts.points[v] - p).norm();
@@ -157,7 +159,7 @@ double go_on(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p, doubl
 
 double end_stroke(const SkinSheet& sheet, SheetCuts& cuts, const SheetPoint& p, double depth_m) {
   double opened_m = cut_on(sheet, cuts, p, depth_m, true);
-  if (cuts.blade_in && p.allFinite()) opened_m += stretch_end(sheet, cuts, p);
+  if (cuts.blade_in) opened_m += stretch_end(sheet, cuts, p);
   cuts.blade_in = false;
   return opened_m;
 }

@@ -29,8 +29,13 @@ SkinCutResult cut(const SkinSheet& sheet, SheetCuts& cuts, const SkinStroke& str
   for (std::size_t i = 1; i < stroke.points.size(); ++i) {
     const SheetPoint from = stroke.points[i - 1], way = stroke.points[i] - from;
     const int parts = std::max(1, static_cast<int>(std::ceil(8 * way.norm() / sheet.edge_m())));
-    for (int k = 1; k <= parts; ++k)
-      out.opened_m += go_on(sheet, cuts, from + way * (double(k) / parts), stroke.depth_m);
+    for (int k = 1; k <= parts; ++k) {
+      const SheetPoint p = from + way * (double(k) / parts);
+      if (cuts.blade_in)
+        out.opened_m += go_on(sheet, cuts, p, stroke.depth_m);
+      else
+        begin_stroke(sheet, cuts, p);  // it comes onto the sheet
+    }
     out.stroke_m += way.norm();
   }
   out.opened_m += end_stroke(sheet, cuts, stroke.points.back(), stroke.depth_m);

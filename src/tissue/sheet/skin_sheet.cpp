@@ -53,6 +53,8 @@ Result<SkinSheet> SkinSheet::make(double width_m, double height_m, double edge_m
     return tl::unexpected(sound.error());
   SkinSheet out;
   out.material_ = material;
+  out.width_m_ = width_m;
+  out.height_m_ = height_m;
   out.edge_m_ = edge_m;
   const auto nx = static_cast<std::uint32_t>(std::lround(width_m / edge_m));
   const auto ny = static_cast<std::uint32_t>(

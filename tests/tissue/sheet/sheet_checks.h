@@ -50,9 +50,13 @@ inline double stroke(const SkinSheet& sheet, SheetCuts& cuts, const std::vector<
   double opened = 0;
   begin_stroke(sheet, cuts, points.front());
   for (std::size_t i = 1; i < points.size(); ++i)
-    for (int k = 1; k <= 50; ++k)
-      opened +=
-          go_on(sheet, cuts, points[i - 1] + (points[i] - points[i - 1]) * (k / 50.0), depth_m);
+    for (int k = 1; k <= 50; ++k) {
+      const SheetPoint p = points[i - 1] + (points[i] - points[i - 1]) * (k / 50.0);
+      if (cuts.blade_in)
+        opened += go_on(sheet, cuts, p, depth_m);
+      else
+        begin_stroke(sheet, cuts, p);
+    }
   return opened + end_stroke(sheet, cuts, points.back(), depth_m);
 }
 

@@ -67,9 +67,11 @@ TEST(SkinSheet, ABladeThatIsNoNumberOrOffTheSheetCutsNothing) {
   EXPECT_EQ(go_on(sheet, cuts, {0, 0}, 0.005), 0);
   begin_stroke(sheet, cuts, {0, 0});
   EXPECT_TRUE(cuts.blade_in);
-  EXPECT_EQ(go_on(sheet, cuts, {kNan, 0}, 0.005), 0);
   EXPECT_EQ(go_on(sheet, cuts, {0.01, 0}, kNan), 0);
   EXPECT_EQ(go_on(sheet, cuts, {0.01, 0}, -1), 0);
+  EXPECT_EQ(go_on(sheet, cuts, {kNan, 0}, 0.005), 0);
+  EXPECT_FALSE(cuts.blade_in);
+  begin_stroke(sheet, cuts, {0, 0});
   EXPECT_EQ(end_stroke(sheet, cuts, {0, 0}, 0.005), 0);
   EXPECT_TRUE(split(sheet, cuts).walls.empty());
 }
@@ -104,6 +106,22 @@ TEST(SkinSheet, AStraightCutLiesOnItsStrokeInAnyDirection) {
     const SplitSheet open = split(sheet, cuts);
     EXPECT_EQ(why_no_manifold(sheet, open, sheet_surface(open, {}, {})), "") << i;
   }
+}
+
+// Onto the sheet and off it, around it and back on it elsewhere: nothing along the rim.
+TEST(SkinSheet, ABladeCutsWhereItIsOnTheSheetAlone) {
+  const SkinSheet sheet = sheet_of(0.04, 0.03, 0.002);
+  SheetCuts cuts = whole_sheet(sheet);
+  const std::vector<SheetPoint> way = {{-0.05, 0.006}, {0.05, 0.006},   {0.05, 0.05},
+                                       {-0.05, 0.05},  {-0.05, -0.006}, {0.05, -0.006}};
+  const double opened = stroke(sheet, cuts, way, 0.005);
+  EXPECT_GT(opened, 2 * (0.04 - 3 * 0.002));
+  EXPECT_LT(opened, 2 * 0.04);
+  for (std::size_t e = 0; e < sheet.edges().size(); ++e)
+    if (cuts.depth_m[e] > 0) {
+      EXPECT_NEAR(std::abs(cuts.points[sheet.edges()[e].a].y()), 0.006, 0.5 * 0.002);
+      EXPECT_NEAR(std::abs(cuts.points[sheet.edges()[e].b].y()), 0.006, 0.5 * 0.002);
+    }
 }
 
 TEST(SkinSheet, TheGrooveGrowsWithTheBladeAndStaysBehindItByAnEdge) {
