@@ -95,5 +95,59 @@ TEST_F(TissueSolve, ARopeOverAnEdgePullsByTheCapstan) {
   EXPECT_NE(whole.str().find("VECTORS moved_mm double"), std::string::npos);
 }
 
+class TissueSkin : public CliTest {};
+
+TEST_F(TissueSkin, TellsHowTheIncisionOpensAndWhatTheTrocarTakes) {
+  const Ran ran =
+      run_osteon("tissue skin " OSTEON_SOURCE_DIR "/assets/tissue/incision.toml --json --out " +
+                 file("skin.vtk"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const auto json = nlohmann::json::parse(ran.output, nullptr, false);
+  EXPECT_NEAR(double(json["cuts"][0]["opened_mm"]), double(json["cuts"][0]["stroke_mm"]), 0.6);
+  EXPECT_LT(double(json["cuts"][0]["off_mm"]), 0.3);
+  // Of an endless sheet that no fat holds: 4 T a / Eh = 4.9 mm.
+  EXPECT_GT(double(json["widest_mm"]), 2);
+  EXPECT_LT(double(json["widest_mm"]), 4.9);
+  EXPECT_GT(double(json["presses"][0]["dent_mm"]), 1);
+  EXPECT_EQ(json["pierces"][0]["pierced"], true);
+  EXPECT_NEAR(double(json["pierces"][0]["peak_n"]), 25, 0.3);
+  EXPECT_LT(double(json["pierces"][0]["deepest_n"]), 4);
+  EXPECT_GT(json["pierces"][0]["curve"].size(), 100u);
+  std::ifstream vtk(file("skin.vtk"));
+  std::string first;
+  std::getline(vtk, first);
+  EXPECT_EQ(first, "# vtk DataFile Version 3.0");
+}
+
+TEST_F(TissueSkin, BadScenesExitWithTwo) {
+  std::ofstream(file("scene.toml")) << "[sheet]\nsize_mm = [60, 0]\n";
+  const Ran flat = run_osteon("tissue skin " + file("scene.toml"));
+  EXPECT_EQ(flat.exit_code, 2);
+  EXPECT_NE(flat.output.find("side of the sheet"), std::string::npos) << flat.output;
+  const Ran none = run_osteon("tissue skin " + file("none.toml"));
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.output.find("none.toml"), std::string::npos) << none.output;
+}
+
+TEST_F(TissueSkin, LiesOnAKneeWhereTheSceneSays) {
+  const auto at = [&](const std::string& landmark) {
+    std::ofstream(file("scene.toml")) << "[sheet]\nsize_mm = [20, 20]\n[place]\n"
+                                      << "case = \"builtin:knee\"\nat = \"" << landmark
+                                      << "\"\n[[cut]]\npoints_mm = [[-4, 0], [4, 0]]\n";
+    return run_osteon("tissue skin " + file("scene.toml") + " --json --picture " + file("a.png"));
+  };
+  const Ran ran = at("portal_am");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  // The progress of growing the knee stands before it.
+  const auto json = nlohmann::json::parse(ran.output.substr(ran.output.find('{')), nullptr, false);
+  EXPECT_NEAR(double(json["place"]["at_mm"][1]), 14, 6);
+  EXPECT_GT(double(json["place"]["z"][2]), 0.5);   // out of the front of the knee
+  EXPECT_LT(double(json["place"]["y"][0]), -0.5);  // towards the trunk
+  EXPECT_TRUE(std::ifstream(file("a.png")).good());
+  const Ran none = at("portal_xy");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.output.find("no landmark 'portal_xy'"), std::string::npos) << none.output;
+}
+
 }  // namespace
 }  // namespace osteon::testing_cli

@@ -20,7 +20,7 @@ void add_anatomy_compare(cli::App& anatomy, int& exit_code);  // called by the a
 void add_mesh_commands(cli::App& app, int& exit_code);        // mesh tetrahedra, mesh quality
 void add_mesh_surface_commands(cli::App& mesh, int& exit_code);  // called by the above
 void add_hull_command(cli::App& app, int& exit_code);            // hull
-void add_tissue_commands(cli::App& app, int& exit_code);         // tissue solve
+void add_tissue_commands(cli::App& app, int& exit_code);         // tissue solve, skin
 void add_collide_command(cli::App& app, int& exit_code);         // collide
 void add_simulate_command(cli::App& app, int& exit_code);        // simulate
 void add_path_commands(cli::App& app, int& exit_code);           // path survey

@@ -1,0 +1,126 @@
+#include "osteon/tissue/skin_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace osteon {
+namespace {
+
+constexpr double kFar_m = 0.03;  // along z: skin beyond is that of the body's other side
+
+Vec3 nearest_on(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = (b - a).cross(c - a);
+  const double square = n.squaredNorm();
+  if (square > 0) {
+    const Vec3 q = p - n.dot(p - a) / square * n;
+    if (n.dot((b - a).cross(q - a)) >= 0 && n.dot((c - b).cross(q - b)) >= 0 &&
+        n.dot((a - c).cross(q - c)) >= 0)
+      return q;
+  }
+  Vec3 best = a;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const double length = (to - from).squaredNorm();
+    const double share = length > 0 ? std::clamp((p - from).dot(to - from) / length, 0.0, 1.0) : 0;
+    const Vec3 q = from + share * (to - from);
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+  }
+  return best;
+}
+
+/// The skin's triangles over the sheet's box, in its frame, facing along z.
+std::vector<std::array<Vec3, 3>> under(const TriMesh& skin_W, const Pose& X_WS, const Aabb& box) {
+  const Pose X_SW = X_WS.inverse();
+  std::vector<Vec3> p_S;
+  p_S.reserve(skin_W.vertices.size());
+  for (const Vec3& p : skin_W.vertices) p_S.push_back(X_SW * p);
+  std::vector<std::array<Vec3, 3>> out;
+  for (const Triangle& t : skin_W.triangles) {
+    const std::array<Vec3, 3> p = {p_S[t[0]], p_S[t[1]], p_S[t[2]]};
+    Aabb of;
+    for (const Vec3& q : p) of.include(q);
+    const bool over = of.lo.x() <= box.hi.x() && of.hi.x() >= box.lo.x() &&
+                      of.lo.y() <= box.hi.y() && of.hi.y() >= box.lo.y();
+    if (over && std::abs(of.lo.z()) < kFar_m && (p[1] - p[0]).cross(p[2] - p[0]).z() > 0)
+      out.push_back(p);
+  }
+  return out;
+}
+
+// The highest skin over (x, y); the sheets of an edge share it.
+std::optional<double> height_at(const std::vector<std::array<Vec3, 3>>& skin, const Vec3& p) {
+  std::optional<double> best;
+  for (const auto& [a, b, c] : skin) {
+    const auto side = [&](const Vec3& from, const Vec3& to) {
+      return (to.x() - from.x()) * (p.y() - from.y()) - (to.y() - from.y()) * (p.x() - from.x());
+    };
+    const double wc = side(a, b), wa = side(b, c), wb = side(c, a), sum = wa + wb + wc;
+    if (!(wa >= 0 && wb >= 0 && wc >= 0 && sum > 0)) continue;
+    const double z = (wa * a.z() + wb * b.z() + wc * c.z()) / sum;
+    if (!best || z > *best) best = z;
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<Pose> sheet_frame(const TriMesh& skin_W, const Vec3& near_W, const Vec3& up_W,
+                         double turn_rad, double reach_m) {
+  if (skin_W.triangles.empty())
+    return fail("the case has no skin", "skin scene", "Use another case");
+  Vec3 at = Vec3::Zero();
+  double nearest = 1e300;
+  for (const Triangle& t : skin_W.triangles) {
+    const Vec3 q =
+        nearest_on(near_W, skin_W.vertices[t[0]], skin_W.vertices[t[1]], skin_W.vertices[t[2]]);
+    if (!((q - near_W).squaredNorm() < nearest)) continue;
+    nearest = (q - near_W).squaredNorm();
+    at = q;
+  }
+  Vec3 z = Vec3::Zero();
+  for (const Triangle& t : skin_W.triangles) {
+    const Vec3 &a = skin_W.vertices[t[0]], &b = skin_W.vertices[t[1]], &c = skin_W.vertices[t[2]];
+    if (((a + b + c) / 3 - at).norm() < reach_m) z += (b - a).cross(c - a);
+  }
+  const Vec3 y = up_W - up_W.dot(z) / std::max(z.squaredNorm(), 1e-300) * z;
+  if (!(z.norm() > 0) || !(y.norm() > 0.1 * up_W.norm()))
+    return fail("the skin there has no side that looks along the limb", "skin scene",
+                "Choose another place");
+  Mat3 axes;
+  axes.col(2) = z.normalized();
+  axes.col(1) = y.normalized();
+  axes.col(0) = axes.col(1).cross(axes.col(2));
+  return Pose{at, Quat(axes) * Quat(Eigen::AngleAxisd(turn_rad, Vec3::UnitZ()))};
+}
+
+Result<TriMesh> lay_on(const TriMesh& skin_W, const Pose& X_WS, const TriMesh& surface_S) {
+  Aabb box;
+  for (const Vec3& p : surface_S.vertices) box.include(p);
+  const auto skin = under(skin_W, X_WS, box);
+  TriMesh out;
+  out.triangles = surface_S.triangles;
+  for (const Vec3& p : surface_S.vertices) {
+    const auto height = height_at(skin, p);
+    if (!height)
+      return fail("the case's skin is not under all of the sheet", "skin scene",
+                  "Make the sheet smaller, or choose a place where the skin is flatter");
+    out.vertices.push_back(X_WS * Vec3(p.x(), p.y(), p.z() + *height));
+  }
+  return out;
+}
+
+TriMesh around(const TriMesh& skin_W, const Pose& X_WS, double width_m, double height_m) {
+  const Pose X_SW = X_WS.inverse();
+  const auto inside = [&](std::uint32_t i) {
+    const Vec3 p = X_SW * skin_W.vertices[i];
+    return std::abs(p.x()) <= 0.5 * width_m && std::abs(p.y()) <= 0.5 * height_m &&
+           std::abs(p.z()) < kFar_m;
+  };
+  TriMesh out;
+  out.vertices = skin_W.vertices;
+  for (const Triangle& t : skin_W.triangles)
+    if (!(inside(t[0]) && inside(t[1]) && inside(t[2]))) out.triangles.push_back(t);
+  return out;
+}
+
+}  // namespace osteon
