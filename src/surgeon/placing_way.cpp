@@ -16,8 +16,9 @@ constexpr double kPassDraw_m_per_s = 0.03, kPassThread_m = 0.03;
 constexpr double kPinBeyond_m = 0.022;  // the cortex: the thread's end has come into the joint
 constexpr double kPinTooFar_m = 0.065;
 constexpr double kGrasperOut_m = 0.035;
-// A hand goes ahead of the thread that it draws by the pull over its coupling, 2.5 to 7 mm.
-constexpr double kBeyondOut_m = 0.0075;
+// A hand goes ahead of the thread that it draws by the pull over its coupling, 2.5 to 7 mm: the
+// button is then 2 to 6 mm beyond the place where it is out, as far as nothing comes under it.
+constexpr double kBeyondOut_m = 0.009;
 
 constexpr std::array<std::string_view, 4> kPlacingFaults{"lost_thread", "unflipped_button",
                                                          "soft_tissue", "flipped_in_muscle"};

@@ -12,7 +12,7 @@ constexpr double kLedOn_m = 0.002;  // a line ends so far outside of the bone
 constexpr double kOpens_m = 0.006;  // at most so far before the middle of its rim is no bone
 // The same where neither end has a bottom: the rim of a flat tunnel is long.
 constexpr double kOpensFlat_m = 0.010;
-constexpr double kSameLine_m = 0.001, kSameTurn = 0.9986;  // cosine of 3 degrees
+constexpr double kSameTurn = 0.9986;  // cosine of 3 degrees
 
 double volume_of(const Hole& hole) { return hole.diameter_m * hole.diameter_m * hole.length_m; }
 
@@ -24,13 +24,19 @@ bool opens(const MeshDistance& whole, const Vec3& rim_B, const Vec3& out_B,
   return false;
 }
 
-// Whether a narrower hole goes on along the axis of a wide one to the far side.
+// Whether a narrower hole goes on from the bottom of a wide one to the far side: its end lies whole
+// within that bottom. A reamer that was pushed aside stands a little beside its channel.
 bool goes_on(const Hole& wide, const Hole& other, const MeshDistance& whole) {
   if (!(other.diameter_m < 0.9 * wide.diameter_m)) return false;
   const double along = wide.axis.dot(other.axis);
-  const Vec3 off = other.entry - wide.entry;
+  const Vec3 near =
+      (other.entry - wide.entry).squaredNorm() < (other.exit - wide.entry).squaredNorm()
+          ? other.entry
+          : other.exit;
+  const Vec3 off = near - wide.entry;
+  const double aside_m = (off - off.dot(wide.axis) * wide.axis).norm();
   const bool same =
-      std::abs(along) > kSameTurn && (off - off.dot(wide.axis) * wide.axis).norm() < kSameLine_m;
+      std::abs(along) > kSameTurn && aside_m < 0.5 * (wide.diameter_m - other.diameter_m);
   return same && (opens(whole, other.exit, other.axis) || opens(whole, other.entry, -other.axis));
 }
 

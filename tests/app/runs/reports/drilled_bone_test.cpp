@@ -74,6 +74,24 @@ TEST_F(DrilledBone, ANarrowHoleBesideASocketIsNotItsChannel) {
   EXPECT_EQ(hole->channel_m, 0);
 }
 
+// A reamer of 8 mm that was pushed aside: a channel of 4.5 mm lies in its bottom up to 1.75 mm off.
+TEST_F(DrilledBone, AChannelAsideGoesOnWhileItLiesInTheSocketsBottom) {
+  drill(8, {0.025, 0.0014, 0}, {-0.001, 0.0014, 0});
+  drill(4.5, {0.025, 0, 0}, {-0.025, 0, 0});
+  const auto inside = found();
+  ASSERT_TRUE(inside);
+  EXPECT_NEAR(inside->line.diameter_m, 0.008, 0.0002);
+  EXPECT_NEAR(inside->channel_m, 0.0045, 0.0002);
+}
+
+TEST_F(DrilledBone, AChannelThatCutsTheSocketsWallIsNone) {
+  drill(8, {0.025, 0.0025, 0}, {-0.001, 0.0025, 0});
+  drill(4.5, {0.025, 0, 0}, {-0.025, 0, 0});
+  const auto hole = found();
+  ASSERT_TRUE(hole);
+  EXPECT_EQ(hole->channel_m, 0);
+}
+
 TEST_F(DrilledBone, OfTwoHolesTheOneThatHoldsMoreCounts) {
   drill(5, {0.025, -0.008, 0}, {-0.025, -0.008, 0});
   drill(9, {0.025, 0.006, 0}, {-0.025, 0.006, 0});
