@@ -35,9 +35,9 @@ double lag_of(const CarvedField& field, const CarvingTool& with, const Pose& X_B
   constexpr double kStep_m = 1e-4, kMostSizes = 2;
   const Vec3 back = back_of(X_BC);
   double lag = 0;
-  while (lag < kMostSizes * with.cutter.size_m &&
-         look_before(field, with.cutter, with.pilot_m, moved_along(X_BC, (lag + kStep_m) * back))
-                 .left() > 0)
+  while (
+      lag < kMostSizes * with.cutter.size_m &&
+      !front_is_free(field, with.cutter, with.pilot_m, moved_along(X_BC, (lag + kStep_m) * back)))
     lag += kStep_m;
   return lag;
 }
