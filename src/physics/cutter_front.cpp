@@ -30,12 +30,47 @@ std::optional<Node> nearest_node(const BlockGrid& grid, const Vec3& p_B) {
   return Node{grid.index(at), static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0])};
 }
 
+// Height over what is left of the bone, between the nodes about a place: of the uncut bone and of
+// the cuts each by itself, for both are smooth where they meet. Far outside of the grid: 1 m.
+double height_over_rest_m(const CarvedField& field, const Vec3& p_B) {
+  const BlockGrid& grid = field.grid();
+  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
+  const Vec3 low(std::floor(u.x()), std::floor(u.y()), std::floor(u.z()));
+  const Vec3 t = u - low;
+  double bone = 0, cut = 0;
+  for (int c = 0; c < 8; ++c) {
+    const Vec3 corner(c & 1, c >> 1 & 1, c >> 2);
+    const auto at = nearest_node(grid, grid.lo + grid.cell_m * (low + corner));
+    if (!at) return 1;
+    double share = 1;
+    for (Eigen::Index k = 0; k < 3; ++k) share *= corner[k] > 0 ? t[k] : 1 - t[k];
+    const std::int16_t* cuts = field.cuts(at->block);
+    bone += share * field.height_m(at->block, at->node);
+    cut += share * 1e-6 * (cuts ? cuts[at->node] : CarvedField::kUncut);
+  }
+  return std::max(bone, -cut);
+}
+
 // Height of the cutter's front over its origin at a distance from the axis.
 double front_z(const Cutter& cutter, double rho) {
   double z = -1e300;
   for (const TurnedFace& face : cutter.parts.front().faces)
     if (face.n_z < 0) z = std::max(z, (face.n_rho * rho - face.offset) / -face.n_z);
   return z;
+}
+
+// Points of equal area over the front of a cutter that is turned, beyond its pilot's radius.
+template <class Look>
+void for_front_points(const Cutter& cutter, double pilot_m, const Look& look) {
+  const double inner2 = 0.25 * pilot_m * pilot_m, outer2 = 0.25 * cutter.size_m * cutter.size_m;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    const double part = (static_cast<double>(ring) + 0.5) / kRings;
+    const double rho = std::sqrt(inner2 + part * (outer2 - inner2));
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
+      look(Vec3(rho * std::cos(a), rho * std::sin(a), front_z(cutter, rho)));
+    }
+  }
 }
 
 void look_at(const CarvedField& field, const Vec3& p_B, FrontShare& share, std::size_t counts = 1) {
@@ -98,18 +133,20 @@ double way_in_bone(const CarvedField& field, const Vec3& from_B, const Vec3& way
 
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
                        const Pose& X_BC) {
-  const double inner2 = 0.25 * pilot_m * pilot_m, outer2 = 0.25 * cutter.size_m * cutter.size_m;
+  const Vec3 ahead(0, 0, -kAheadCells * field.grid().cell_m);
   FrontShare share;
-  for (std::size_t ring = 0; ring < kRings; ++ring) {
-    const double part = (static_cast<double>(ring) + 0.5) / kRings;
-    const double rho = std::sqrt(inner2 + part * (outer2 - inner2));
-    const double z = front_z(cutter, rho) - kAheadCells * field.grid().cell_m;
-    for (std::size_t i = 0; i < kAround; ++i) {
-      const double a = 2 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kAround;
-      look_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z), share);
-    }
-  }
+  for_front_points(cutter, pilot_m,
+                   [&](const Vec3& p_C) { look_at(field, X_BC * Vec3(p_C + ahead), share); });
   return share;
+}
+
+bool front_is_free(const CarvedField& field, const Cutter& cutter, double pilot_m,
+                   const Pose& X_BC) {
+  bool free = true;
+  for_front_points(cutter, pilot_m, [&](const Vec3& p_C) {
+    free = free && height_over_rest_m(field, X_BC * p_C) >= 0;
+  });
+  return free;
 }
 
 double cut_a_side(const CarvedField& field, const Cutter& cutter, const Pose& X_BC) {

@@ -33,6 +33,9 @@ double way_in_bone(const CarvedField& field, const Vec3& from_B, const Vec3& way
 /// Before a cutter that is turned about its axis, a drill or a reamer, beyond its pilot's radius.
 FrontShare look_before(const CarvedField& field, const Cutter& cutter, double pilot_m,
                        const Pose& X_BC);
+/// Whether nothing is left where that front itself stands, between the field's nodes too.
+bool front_is_free(const CarvedField& field, const Cutter& cutter, double pilot_m,
+                   const Pose& X_BC);
 /// How wide the cortex is that stands before a reamer's rim, from the rim inwards, m: the mean of
 /// its sides, each up to 2 mm.
 double cut_a_side(const CarvedField& field, const Cutter& cutter, const Pose& X_BC);

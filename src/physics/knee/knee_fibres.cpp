@@ -7,8 +7,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kBends_deg = 120;  // to here bending alone never overstretches a fibre
-constexpr double kStep_deg = 10;
+constexpr double kFibresBend_deg = 120;  // to here bending alone never overstretches a fibre
+constexpr double kFibresStep_deg = 10;
 
 Vec3 laid_on(const MeshDistance& bone, const Vec3& p) { return bone.closest(p).point; }
 
@@ -22,7 +22,7 @@ Vec3 laid_on_moved(const KneeParts& parts, const Vec3& p) {
 /// Slack, so that the fibre has its strain where it is said, and no more than the most on the way.
 void set_slack(const LigamentBundle& bundle, const PoseTrack& X_FT, JointFibre& fibre) {
   fibre.slack_m = passive_length(fibre, X_FT, bundle.taut_deg) / (1 + bundle.strain);
-  for (double bend = 0; bend <= std::min(kBends_deg, X_FT.last()); bend += kStep_deg)
+  for (double bend = 0; bend <= std::min(kFibresBend_deg, X_FT.last()); bend += kFibresStep_deg)
     fibre.slack_m =
         std::max(fibre.slack_m, passive_length(fibre, X_FT, bend) / (1 + bundle.most_strain));
 }
