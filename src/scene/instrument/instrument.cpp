@@ -38,8 +38,10 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   if (!instrument.can(function)) return false;
   if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
   if (function == InstrumentFunction::kLook) return instrument.optics.has_value();
-  // An edge cuts ligaments that are felt; what bites does not yet.
-  if (function == InstrumentFunction::kCut) return !instrument.can(InstrumentFunction::kRemove);
+  // An edge cuts ligaments and menisci that are felt, a jaw bites menisci; what else removes does
+  // not cut yet.
+  if (function == InstrumentFunction::kCut)
+    return instrument.jaws.has_value() || !instrument.can(InstrumentFunction::kRemove);
   if (function == InstrumentFunction::kGuide)
     return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
   return function == InstrumentFunction::kProbe;

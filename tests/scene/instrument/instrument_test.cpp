@@ -115,6 +115,13 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   Instrument blade;
   blade.functions = {InstrumentFunction::kCut};
   EXPECT_TRUE(has_effect(blade, InstrumentFunction::kCut));
+  // What cuts and removes bites with its jaw.
+  Instrument punch;
+  punch.functions = {InstrumentFunction::kCut, InstrumentFunction::kRemove};
+  EXPECT_FALSE(has_effect(punch, InstrumentFunction::kCut));
+  punch.jaws.emplace();
+  EXPECT_TRUE(has_effect(punch, InstrumentFunction::kCut));
+  EXPECT_FALSE(has_effect(punch, InstrumentFunction::kRemove));
   drill.functions = {InstrumentFunction::kProbe};
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
   // A scope shows its view.
