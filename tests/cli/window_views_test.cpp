@@ -127,9 +127,12 @@ TEST_F(TwoScreens, TheObserversWindowFillsTheSecondAndComesBackWhenThatIsUnplugg
       " XDG_DATA_HOME=" + dir_.string() +
       " OSTEON=" OSTEON_EXECUTABLE " " OSTEON_SOURCE_DIR
       "/tools/with-two-screens 1280x800 1024x768 bash play.sh > told.txt 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  const int status = std::system(command.c_str());
   std::ifstream told(file("told.txt"));
   const std::string text{std::istreambuf_iterator<char>(told), {}};
+  constexpr int kNoDisplay = 3;  // of tools/with-two-screens
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoDisplay) GTEST_SKIP() << text;
+  EXPECT_EQ(status, 0) << text;
   for (const char* line : {"\nback ", "\nresized ", "\nmapped ", "\nended 0\n"})
     EXPECT_NE(("\n" + text).find(line), std::string::npos) << line << text;
   EXPECT_EQ(text.find("beside "), 0u) << text;
