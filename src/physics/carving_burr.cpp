@@ -38,7 +38,7 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
     return rest(hand, push);
   note_tissue(hand, push, front.left() == 0 ? pole : front.most());
   const DrillMaterial material = mixed(setup_->table, front);
-  const bool scrapes = with.way == Way::kScrape;
+  const bool scrapes = with.way == CarvingTool::Way::kScrape;
   const Vec3 drawn = push.X_WB.q.conjugate() * push.tool->v_W;
   const double m_per_s =
       scrapes ? (drawn - nhat * nhat.dot(drawn)).norm()
