@@ -108,6 +108,8 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
   if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
 }
 
+template void field(Out&, CarveState&);
+template void field(In&, CarveState&);
 template void field(Out&, std::shared_ptr<const CarvingState>&);
 template void field(In&, std::shared_ptr<const CarvingState>&);
 

@@ -41,6 +41,8 @@ void field(A& a, RingsState& value);
 
 // carving_fields.cpp
 template <class A>
+void field(A& a, CarveState& value);
+template <class A>
 void field(A& a, std::shared_ptr<const CarvingState>& value);
 
 // cut_fields.cpp
