@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rules.h"
+#include "rules/rules.h"
 
 namespace osteon {
 namespace {

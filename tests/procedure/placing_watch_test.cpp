@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "placing_case.h"
-#include "placing_rules.h"
+#include "rules/placing_rules.h"
 
 namespace osteon {
 namespace {

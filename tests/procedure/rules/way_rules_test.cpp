@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "../report_fixtures.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/polyline.h"
 #include "osteon/procedure/tip_watch.h"
-#include "report_fixtures.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "graft_rules.h"
+#include "rules/graft_rules.h"
 
 #include <array>
 #include <cmath>

@@ -2,10 +2,10 @@
 
 #include <array>
 
+#include "../report_fixtures.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/tunnel_events.h"
-#include "report_fixtures.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "placing_rules.h"
+#include "rules/placing_rules.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "ring_rules.h"
+#include "rules/ring_rules.h"
 
 #include <algorithm>
 #include <cmath>

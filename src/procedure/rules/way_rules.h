@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "rules.h"
+#include "rules/rules.h"
 
 namespace osteon {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "graft_rules.h"
 #include "osteon/procedure/graft_watch.h"
+#include "rules/graft_rules.h"
 
 namespace osteon {
 namespace {

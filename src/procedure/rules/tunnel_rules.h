@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rules.h"
+#include "rules/rules.h"
 
 namespace osteon {
 

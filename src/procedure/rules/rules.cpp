@@ -1,18 +1,18 @@
-#include "rules.h"
+#include "rules/rules.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "graft_rules.h"
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/sight_events.h"
 #include "osteon/procedure/tip_watch.h"
-#include "placing_rules.h"
-#include "ring_rules.h"
-#include "tunnel_rules.h"
-#include "way_rules.h"
+#include "rules/graft_rules.h"
+#include "rules/placing_rules.h"
+#include "rules/ring_rules.h"
+#include "rules/tunnel_rules.h"
+#include "rules/way_rules.h"
 
 namespace osteon {
 

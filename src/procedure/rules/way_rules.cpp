@@ -1,4 +1,4 @@
-#include "way_rules.h"
+#include "rules/way_rules.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "tunnel_rules.h"
+#include "rules/tunnel_rules.h"
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "rules.h"
+#include "rules/rules.h"
 
 namespace osteon {
 
