@@ -59,10 +59,11 @@ Vec3 outwards(const AclKnee& knee, const Vec3& portal_W) {
 
 // With some room about the line of sight, and by the rule's own measure, a little stricter: a bump
 // of the bone right before the mark hides it.
-bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W, double spare_m) {
+bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
+  constexpr double kSpare_m = 0.0006;
   const Vec3 back = (eye_W - mark_W).normalized();
-  return knee.is_free(eye_W, mark_W + 0.0025 * back, 0.7 * spare_m) &&
-         !is_hidden(knee.whole(), rest_snapshot(knee.whole()), eye_W, mark_W, spare_m);
+  return knee.is_free(eye_W, mark_W + 0.0025 * back, 0.0004) &&
+         !is_hidden(knee.whole(), rest_snapshot(knee.whole()), eye_W, mark_W, kSpare_m);
 }
 
 // Whether the mark is near enough to the middle of the picture, and neither too near nor too far.
@@ -77,7 +78,7 @@ bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
 
 // From near what is usual outwards, upright first.
 std::optional<Gaze> gaze_over(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
-                              const Vec3& mark_W, const Vec3& aim_W, double spare_m) {
+                              const Vec3& mark_W, const Vec3& aim_W) {
   constexpr double kScopeRadius_m = 0.0025;
   for (int turn = 0; turn <= 11; ++turn)
     for (const double side : {1.0, -1.0})
@@ -85,26 +86,22 @@ std::optional<Gaze> gaze_over(const AclKnee& knee, const AclTools& tools, const 
         const Gaze gaze{aim_W, 0.001 * mm, side * turn * 15 * kAclTurn};
         const auto pose = pose_for(gaze, portal_W, tools.optics);
         if (pose && well_seen(tools, *pose, mark_W) &&
-            knee.is_free(pose->p, portal_W, kScopeRadius_m) &&
-            shows(knee, pose->p, mark_W, spare_m))
+            knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))
           return gaze;
       }
   return std::nullopt;
 }
 
-// At the mark itself; where a bone is in the way of that, a little beside it; last of all with less
-// room about the line of sight.
+// At the mark itself; where a bone is in the way of that, a little beside it.
 std::optional<Gaze> gaze_at(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
                             const Vec3& mark_W) {
-  for (const double spare_m : {0.0006, 0.0002}) {
-    if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, mark_W, spare_m)) return gaze;
-    for (const double beside_m : {0.004, 0.007})
-      for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {1.0, -1.0}) {
-          const Vec3 aim_W = mark_W + side * beside_m * Vec3::Unit(axis);
-          if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, aim_W, spare_m)) return gaze;
-        }
-  }
+  if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, mark_W)) return gaze;
+  for (const double beside_m : {0.004, 0.007})
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {1.0, -1.0}) {
+        const Vec3 aim_W = mark_W + side * beside_m * Vec3::Unit(axis);
+        if (auto gaze = gaze_over(knee, tools, portal_W, mark_W, aim_W)) return gaze;
+      }
   return std::nullopt;
 }
 
