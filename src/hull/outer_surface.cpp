@@ -1,47 +1,28 @@
 #include "outer_surface.h"
 
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
+#include "osteon/base/union_find.h"
+
 namespace osteon::hull {
-namespace {
-
-// Disjoint sets with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
-
 TriMesh outer_surface(const TriMesh& mesh) {
-  Sets sets(mesh.vertices.size());
+  UnionFind sets(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     sets.join(t[0], t[1]);
     sets.join(t[1], t[2]);
   }
-  // Six times the volume of each connected part, as its root's.
+  // Six times the volume of each connected part, under the name of its set.
   std::vector<double> volume(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[sets.root(t[0])];
-    volume[sets.root(t[0])] +=
+    const Vec3& a = mesh.vertices[sets.find(t[0])];
+    volume[sets.find(t[0])] +=
         (mesh.vertices[t[0]] - a).dot((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a));
   }
   TriMesh out;
   std::vector<std::uint32_t> number(mesh.vertices.size(), 0xffffffffu);
   for (const Triangle& t : mesh.triangles) {
-    if (volume[sets.root(t[0])] < 0) continue;
+    if (volume[sets.find(t[0])] < 0) continue;
     Triangle kept{};
     for (std::size_t k = 0; k < 3; ++k) {
       if (number[t[k]] == 0xffffffffu) {

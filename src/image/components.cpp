@@ -3,38 +3,18 @@
 #include <algorithm>
 #include <numeric>
 
+#include "osteon/base/union_find.h"
 #include "runs.h"
 
 namespace osteon {
 namespace {
-
-/// Union-find in which a set's name is its lowest member.
-class Sets {
- public:
-  std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    return parent_.back();
-  }
-  std::uint32_t find(std::uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct Span {
   std::size_t begin, end;  ///< of the runs of one row
 };
 
 /// Joins the runs of two neighbouring rows that share an i.
-void join_rows(const std::vector<Run>& runs, Span a, Span b, Sets& sets) {
+void join_rows(const std::vector<Run>& runs, Span a, Span b, UnionFind& sets) {
   for (std::size_t x = a.begin, y = b.begin; x < a.end && y < b.end;) {
     if (runs[x].begin < runs[y].end && runs[y].begin < runs[x].end)
       sets.join(runs[x].part, runs[y].part);
@@ -43,7 +23,7 @@ void join_rows(const std::vector<Run>& runs, Span a, Span b, Sets& sets) {
 }
 
 void find_runs(const Mask& mask, std::uint8_t value, int j, int k, std::vector<Run>& runs,
-               Sets& sets) {
+               UnionFind& sets) {
   const int width = mask.frame.size[0];
   const std::uint8_t* row = mask.values.data() + mask.frame.index(0, j, k);
   for (int i = 0; i < width;) {
@@ -70,7 +50,7 @@ void include(RunPart& part, const Run& run, const GridFrame& frame) {
 
 Parts connected_parts(const Mask& mask, std::uint8_t value) {
   Parts out;
-  Sets sets;
+  UnionFind sets;
   const int rows = mask.frame.size[1], slices = mask.frame.size[2];
   std::vector<Span> last(static_cast<std::size_t>(rows), Span{0, 0});
   for (int k = 0; k < slices; ++k)

@@ -8,6 +8,7 @@
 #include "envelope.h"
 #include "hex/hex_stiffness.h"
 #include "osteon/base/check.h"
+#include "osteon/base/union_find.h"
 #include "pressed_solid_impl.h"
 
 namespace osteon {
@@ -16,11 +17,6 @@ namespace {
 constexpr double kLeastPart = 0.02;  // of a cell: less has no stiffness
 constexpr double kGround = 1e-4;     // holds what hangs on nothing: times the stiffness of a cell
 constexpr int kRowsAStep = 40;
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
 
 // Corners of a cell on its side beyond axis k, and those of the other cell that they fall on.
 bool is_upper(int corner, int axis) { return (corner >> axis & 1) != 0; }
@@ -60,8 +56,7 @@ void CutSolidWork::Impl::find_parts(const PressedSolid::Impl& whole,
     }
   }
   made->links.resize(from.size());
-  std::vector<std::uint32_t> parent(8 * from.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  UnionFind nodes(8 * from.size());
   std::map<std::uint32_t, std::uint32_t> by_low;  // a cell by its lowest node
   for (std::uint32_t e = 0; e < cells.size(); ++e) by_low[whole.cells.corners[e][0]] = e;
   for (std::uint32_t e = 0; e < cells.size(); ++e)
@@ -77,17 +72,14 @@ void CutSolidWork::Impl::find_parts(const PressedSolid::Impl& whole,
           made->links[p].push_back(q);
           made->links[q].push_back(p);
           for (int c = 0; c < 8; ++c)
-            if (is_upper(c, axis)) {
-              const std::uint32_t x = root_of(parent, 8 * p + static_cast<std::uint32_t>(c));
-              const std::uint32_t y =
-                  root_of(parent, 8 * q + static_cast<std::uint32_t>(c & ~(1 << axis)));
-              parent[std::max(x, y)] = std::min(x, y);
-            }
+            if (is_upper(c, axis))
+              nodes.join(8 * p + static_cast<std::uint32_t>(c),
+                         8 * q + static_cast<std::uint32_t>(c & ~(1 << axis)));
         }
     }
   out.corners.resize(from.size());
   for (std::uint32_t p = 0; p < from.size(); ++p)
-    for (std::uint32_t c = 0; c < 8; ++c) out.corners[p][c] = root_of(parent, 8 * p + c);
+    for (std::uint32_t c = 0; c < 8; ++c) out.corners[p][c] = nodes.find(8 * p + c);
   number_nodes(whole, from);
 }
 

@@ -1,29 +1,17 @@
 #include "bone/largest_piece.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "osteon/base/union_find.h"
+
 namespace osteon {
-namespace {
-
-std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-}  // namespace
 
 std::vector<std::uint32_t> piece_of_vertices(const TriMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  UnionFind pieces(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : {t[1], t[2]}) {
-      const std::uint32_t a = root(parent, t[0]), b = root(parent, v);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = root(parent, v);
-  return parent;
+    for (const std::uint32_t v : {t[1], t[2]}) pieces.join(t[0], v);
+  return pieces.names();
 }
 
 std::vector<std::uint32_t> largest_pieces(const TriMesh& mesh, std::size_t count) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "osteon/base/union_find.h"
 
 namespace osteon {
 namespace {
@@ -86,35 +87,16 @@ class RimCutter {
   std::map<Edge, std::uint32_t> made_;
 };
 
-/// Sets that grow together.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) {
-    const std::size_t a = of(i), b = of(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 double area_of(const CoveredPatch& patch, const Triangle& t) {
   const Vec3& a = patch.vertices[t[0]].p;
   return 0.5 * (patch.vertices[t[1]].p - a).cross(patch.vertices[t[2]].p - a).norm();
 }
 
 /// Triangles that share an edge belong together.
-Groups pieces_of(const CoveredPatch& patch) {
-  Groups pieces(patch.triangles.size());
-  std::map<Edge, std::size_t> seen;
-  for (std::size_t i = 0; i < patch.triangles.size(); ++i)
+UnionFind pieces_of(const CoveredPatch& patch) {
+  UnionFind pieces(patch.triangles.size());
+  std::map<Edge, std::uint32_t> seen;
+  for (std::uint32_t i = 0; i < patch.triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const Triangle& t = patch.triangles[i];
       const auto [at, first] = seen.try_emplace(sorted(t[k], t[(k + 1) % 3]), i);
@@ -124,13 +106,13 @@ Groups pieces_of(const CoveredPatch& patch) {
 }
 
 void drop_small(CoveredPatch& patch, double least_area_m2) {
-  Groups pieces = pieces_of(patch);
+  UnionFind pieces = pieces_of(patch);
   std::vector<double> area(patch.triangles.size(), 0);
-  for (std::size_t i = 0; i < patch.triangles.size(); ++i)
-    area[pieces.of(i)] += area_of(patch, patch.triangles[i]);
+  for (std::uint32_t i = 0; i < patch.triangles.size(); ++i)
+    area[pieces.find(i)] += area_of(patch, patch.triangles[i]);
   std::vector<Triangle> kept;
-  for (std::size_t i = 0; i < patch.triangles.size(); ++i)
-    if (area[pieces.of(i)] >= least_area_m2) kept.push_back(patch.triangles[i]);
+  for (std::uint32_t i = 0; i < patch.triangles.size(); ++i)
+    if (area[pieces.find(i)] >= least_area_m2) kept.push_back(patch.triangles[i]);
   patch.triangles = std::move(kept);
 }
 
@@ -138,16 +120,16 @@ void drop_small(CoveredPatch& patch, double least_area_m2) {
 std::vector<std::vector<std::size_t>> fans_at(std::uint32_t v,
                                               const std::vector<std::size_t>& around,
                                               const CoveredPatch& patch) {
-  Groups groups(around.size());
-  std::map<std::uint32_t, std::size_t> spoke;  // the other end of an edge at v
-  for (std::size_t k = 0; k < around.size(); ++k)
+  UnionFind groups(around.size());
+  std::map<std::uint32_t, std::uint32_t> spoke;  // the other end of an edge at v
+  for (std::uint32_t k = 0; k < around.size(); ++k)
     for (const std::uint32_t other : patch.triangles[around[k]]) {
       if (other == v) continue;
       const auto [at, first] = spoke.try_emplace(other, k);
       if (!first) groups.join(at->second, k);
     }
-  std::map<std::size_t, std::vector<std::size_t>> by_group;
-  for (std::size_t k = 0; k < around.size(); ++k) by_group[groups.of(k)].push_back(around[k]);
+  std::map<std::uint32_t, std::vector<std::size_t>> by_group;
+  for (std::uint32_t k = 0; k < around.size(); ++k) by_group[groups.find(k)].push_back(around[k]);
   std::vector<std::vector<std::size_t>> fans;
   for (auto& [group, fan] : by_group) fans.push_back(std::move(fan));
   return fans;

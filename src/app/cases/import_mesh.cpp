@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
 #include "cases/whole_folder.h"
+#include "osteon/base/union_find.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/hollows.h"
 #include "osteon/mesh/measure.h"
@@ -39,19 +39,10 @@ Result<std::vector<fs::path>> mesh_files(const fs::path& source) {
 
 // Number of the connected part of each vertex: the lowest vertex in it.
 std::vector<std::uint32_t> parts_of(const TriMesh& mesh) {
-  std::vector<std::uint32_t> up(mesh.vertices.size());
-  std::iota(up.begin(), up.end(), 0u);
-  const auto root = [&up](std::uint32_t v) {
-    while (up[v] != v) v = up[v] = up[up[v]];
-    return v;
-  };
+  UnionFind parts(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 1; k < 3; ++k) {
-      const std::uint32_t a = root(t[0]), b = root(t[k]);
-      up[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::uint32_t v = 0; v < up.size(); ++v) up[v] = root(v);
-  return up;
+    for (const std::uint32_t v : {t[1], t[2]}) parts.join(t[0], v);
+  return parts.names();
 }
 
 // The frame moves into the centre, the bone stays where it is in World.

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "osteon/base/union_find.h"
+
 namespace osteon {
 namespace {
 
@@ -60,27 +62,14 @@ std::vector<EdgeUse> edge_uses(const std::vector<Triangle>& triangles) {
 
 std::vector<std::uint32_t> triangle_components(const std::vector<Triangle>& triangles,
                                                const std::vector<EdgeUse>& uses) {
-  // Union-find whose root is the lowest triangle of its set.
-  std::vector<std::uint32_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&parent](std::uint32_t t) {
-    while (parent[t] != t) {
-      parent[t] = parent[parent[t]];
-      t = parent[t];
-    }
-    return t;
-  };
+  UnionFind sets(triangles.size());
   for_each_edge(uses, [&](auto first, auto last) {
-    for (auto use = first + 1; use < last; ++use) {
-      const std::uint32_t a = root(first->triangle);
-      const std::uint32_t b = root(use->triangle);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (auto use = first + 1; use < last; ++use) sets.join(first->triangle, use->triangle);
   });
   std::vector<std::uint32_t> component(triangles.size());
   std::uint32_t count = 0;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t r = root(t);
+    const std::uint32_t r = sets.find(t);
     component[t] = r == t ? count++ : component[r];
   }
   return component;

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <numeric>
 
+#include "osteon/base/union_find.h"
 #include "osteon/tissue/skin_sheet.h"
 
 namespace osteon {
@@ -10,24 +10,6 @@ std::uint32_t corner_of(const SkinSheet& sheet, std::uint32_t triangle, std::uin
   const Triangle& t = sheet.triangles()[triangle];
   return 3 * triangle + (t[0] == vertex ? 0U : t[1] == vertex ? 1U : 2U);
 }
-
-// Corners of triangles, joined where they stay one vertex. The first corner stands for all.
-class Joined {
- public:
-  explicit Joined(std::size_t n) : up_(n) { std::iota(up_.begin(), up_.end(), 0U); }
-  std::uint32_t first(std::uint32_t i) {
-    while (up_[i] != i) i = up_[i] = up_[up_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = first(i);
-    j = first(j);
-    up_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> up_;
-};
 
 void add_walls(const SkinSheet& sheet, const SheetEdge& edge, SplitSheet& out) {
   const auto copy = [&](std::size_t side, std::uint32_t vertex) {
@@ -49,7 +31,8 @@ double cross(const SheetPoint& u, const SheetPoint& v) { return u.x() * v.y() - 
 
 SplitSheet split(const SkinSheet& sheet, const SheetCuts& cuts) {
   SplitSheet out;
-  Joined corners(3 * sheet.triangles().size());
+  // Corners of triangles, joined where they stay one vertex.
+  UnionFind corners(3 * sheet.triangles().size());
   const auto is_open = [&](std::size_t e) {
     return cuts.depth_m[e] > 0 && cuts.depth_m[e] >= sheet.material().thickness_m;
   };
@@ -63,7 +46,7 @@ SplitSheet split(const SkinSheet& sheet, const SheetCuts& cuts) {
   out.groove_m.assign(sheet.points().size(), 0);
   std::vector<std::uint32_t> copy(3 * sheet.triangles().size());
   for (std::uint32_t c = 0; c < copy.size(); ++c) {
-    const std::uint32_t first = corners.first(c), vertex = sheet.triangles()[c / 3][c % 3];
+    const std::uint32_t first = corners.find(c), vertex = sheet.triangles()[c / 3][c % 3];
     if (first == c) {
       copy[c] = static_cast<std::uint32_t>(out.vertex.size());
       out.vertex.push_back(vertex);

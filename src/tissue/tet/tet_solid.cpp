@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
+#include "osteon/base/union_find.h"
 #include "tet/tet_element.h"
 
 namespace osteon {
@@ -12,24 +12,8 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// Which vertices are connected (disjoint sets, with halved paths).
-class Parts {
- public:
-  explicit Parts(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 Result<void> check_parts(const TetMesh& mesh) {
-  Parts parts(mesh.vertices.size());
+  UnionFind parts(mesh.vertices.size());
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Tetrahedron& tet : mesh.tets)
     for (const std::uint32_t v : tet) {
@@ -39,7 +23,7 @@ Result<void> check_parts(const TetMesh& mesh) {
   std::size_t roots = 0, idle = 0;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!used[v]) ++idle;
-    if (used[v] && parts.root(v) == v) ++roots;
+    if (used[v] && parts.find(v) == v) ++roots;
   }
   if (roots > 1)
     return fail("has " + std::to_string(roots) + " parts that are not connected", "mesh",
