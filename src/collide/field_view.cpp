@@ -8,11 +8,18 @@ namespace {
 // Two planes so nearly alike have no edge between them.
 constexpr double kAlike = 1e-4;
 
+Vec3 at_most_unit(const Vec3& slope) {
+  const double size = slope.norm();
+  return size > 1 ? Vec3(slope / size) : slope;
+}
+
 }  // namespace
 
 // a, b: heights over the two planes, m and n their normals, c = m.n. The edge is nearest where the
 // foot on each plane is outside of the other: a > b c and b > a c. Its distance d follows from
 // x = s m + t n with m.x = a, n.x = b, and d^2 = |x|^2 = (a^2 + b^2 - 2 a b c) / (1 - c^2).
+// In the middle of a hole the walls all round are as near as each other and the slope is none
+// wall's: a slope shorter than 1 is taken as it is, so that c, and with it d, has no jump there.
 FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
   if (asked_) ++*asked_;
   FieldSample cut;
@@ -20,15 +27,14 @@ FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
   const FieldSample& higher = cut.distance > bone.distance ? cut : bone;
   const double a = bone.distance, b = cut.distance;
   if (!(a > 0 && b > 0)) return higher;
-  const double slope_a = bone.gradient.norm(), slope_b = cut.gradient.norm();
-  if (!(slope_a > 0 && slope_b > 0)) return higher;
-  const Vec3 m = bone.gradient / slope_a, n = cut.gradient / slope_b;
+  const Vec3 m = at_most_unit(bone.gradient), n = at_most_unit(cut.gradient);
   const double c = m.dot(n), apart = 1 - c * c;
   if (!(a > b * c && b > a * c) || apart < kAlike) return higher;
   const double s = (a - b * c) / apart, t = (b - a * c) / apart;
   const Vec3 x = s * m + t * n;
-  const double d = x.norm();
-  return {d, x / d, bone.near && cut.near};
+  const double size = x.norm();
+  if (!(size > 0)) return higher;
+  return {std::sqrt((a * a + b * b - 2 * a * b * c) / apart), x / size, bone.near && cut.near};
 }
 
 }  // namespace osteon

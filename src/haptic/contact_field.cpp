@@ -6,6 +6,7 @@
 
 #include "guide_pull.h"
 #include "osteon/base/check.h"
+#include "osteon/collide/carved_contact.h"
 #include "osteon/scene/rings.h"
 #include "osteon/scene/wide_field.h"
 #include "rigid_motion.h"
@@ -245,8 +246,7 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
 }
 
 // What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
-// the fine one then tells how far the surface is along the normal found there. In the middle of a
-// hole the splines over its nodes say too little as well: there the same look at the wall mends it.
+// the fine one then tells how far the surface is.
 PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT,
                                           Looks& looks) const {
   if (guide_ && guide_->bone == ids.bone) {
@@ -261,18 +261,25 @@ PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT
   const Primitive& part = to_field_[ids.tool_piece];
   const double far = whole() ? kFarGap_m : std::numeric_limits<double>::infinity();
   const bool thin = !(part.rod.radius > thickest(uncut));
-  if (thin && (!cuts || cuts->empty())) return primitive_contact(fine, part, X_BT, far);
-  PrimitiveContact out =
-      thin ? primitive_contact(fine, part, X_BT, far)
-           : primitive_contact(FieldView(*wide_[ids.bone], cuts, &looks.asked), part, X_BT, far);
-  if (out.status != LpStatus::kOptimal || !(out.gap < kFarGap_m)) return out;
+  const bool rod = part.kind == Primitive::Kind::kRod;
+  if (thin && !(rod && fine.is_carved())) return primitive_contact(fine, part, X_BT, far);
+  const FieldView coarse = thin ? fine : FieldView(*wide_[ids.bone], cuts, &looks.asked);
+  if (!fine.is_carved()) return corrected(primitive_contact(coarse, part, X_BT, far), fine);
+  const Capsule rod_B{X_BT * part.rod.p0, X_BT * part.rod.p1, part.rod.radius};
+  const CapsuleContact met = carved_contact(coarse, fine, rod_B, kFarGap_m);
+  return {met.status, met.gap, met.nhat_AB_A, met.p_A, 0};
+}
+
+// A coarse field's contact, its place on the surface looked for along the normal.
+PrimitiveContact ContactField::corrected(PrimitiveContact found, const FieldView& fine) const {
+  if (found.status != LpStatus::kOptimal || !(found.gap < kFarGap_m)) return found;
   for (int i = 0; i < 2; ++i) {
-    const FieldSample at = fine.at(out.p_A);
+    const FieldSample at = fine.at(found.p_A);
     if (!at.near) break;
-    out.gap += at.distance;
-    out.p_A -= at.distance * out.nhat_AB_A;
+    found.gap += at.distance;
+    found.p_A -= at.distance * found.nhat_AB_A;
   }
-  return out;
+  return found;
 }
 
 bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,

@@ -121,6 +121,7 @@ class ContactField {
                      PartingPlane& out) const;
   bool part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, PartingPlane& out) const;
   PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks) const;
+  PrimitiveContact corrected(PrimitiveContact found, const FieldView& fine) const;
   double support_against(const PiecePair& ids, const Vec3& n_T) const;
   Vec3 middle_of(const PiecePair& ids) const;
 

@@ -39,15 +39,31 @@ bool FieldWalls::still_right(const Wall& wall, const PartingPlane& now, const Po
   return now.gap <= foretold + kSlack;
 }
 
+// In a hole that it just fills, a tool has walls all round at about one distance, and the slope in
+// the middle belongs to none of them alone: the plane across it may reach into the tool's end
+// though the bone is a gap away, and would hold the tool off what it does not touch.
+void FieldWalls::lay_back(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
+                          PartingPlane& plane) const {
+  constexpr double kSlack = 1e-6;
+  const FreeHalfSpace space = field_.half_space(pair, plane, X_WB, X_WT.q);
+  const double missing = plane.gap - (space.n.dot(X_WT.p) - space.c + kFieldSkin);
+  if (!(missing > kSlack)) return;
+  plane.bone_support -= missing;
+  plane.p_B -= missing * plane.nhat_BT_B;
+}
+
 bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   if (field_count_ == 0) return true;
   std::uint32_t count = 0;
   double least = std::numeric_limits<double>::infinity();
+  std::uint32_t nearest = kNoPair;
   for (const std::uint32_t pair : fields()) {
     const Pose& bone = bone_pose(pair, X_WB);
     PartingPlane now;
     if (!field_.separate_field(pair, bone, X_WT, looks_, now)) return false;
+    if (now.gap < least) nearest = pair;
     least = std::min(least, now.gap);
+    lay_back(pair, bone, X_WT, now);
     std::size_t room = kPlanesEach;
     if (now.gap < kNearGap_m) {
       if (count == kMostPlanes) return false;
@@ -63,7 +79,7 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   }
   std::copy_n(next_.begin(), count, walls_.begin());
   count_ = count;
-  keep(X_WB, X_WT, least);
+  keep(X_WB, X_WT, {least, nearest});
   return true;
 }
 
@@ -74,53 +90,63 @@ bool FieldWalls::knows(std::span<const Pose> X_WB, const Pose& X_WT) const {
   return true;
 }
 
-void FieldWalls::keep(std::span<const Pose> X_WB, const Pose& X_WT, double gap) {
+void FieldWalls::keep(std::span<const Pose> X_WB, const Pose& X_WT, const Nearest& found) {
   known_.set = true;
   known_.X_WT = X_WT;
-  known_.gap = gap;
+  known_.found = found;
   for (std::uint32_t i = 0; i < field_count_; ++i) known_.X_WB[i] = bone_pose(fields_[i], X_WB);
 }
 
-double FieldWalls::least_gap(std::span<const Pose> X_WB, const Pose& X_WT) {
-  if (knows(X_WB, X_WT)) return known_.gap;
-  double least = std::numeric_limits<double>::infinity();
+FieldWalls::Nearest FieldWalls::nearest(std::span<const Pose> X_WB, const Pose& X_WT) {
+  if (knows(X_WB, X_WT)) return known_.found;
+  Nearest least;
   for (const std::uint32_t pair : fields()) {
     const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT, looks_);
-    if (!(gap >= least)) least = gap;  // takes what is not a number as well
+    if (!(gap >= least.gap)) least = {gap, pair};  // takes what is not a number as well
   }
   keep(X_WB, X_WT, least);
   return least;
 }
 
 bool FieldWalls::clear(std::span<const Pose> X_WB, const Pose& X_WT) {
-  return least_gap(X_WB, X_WT) >= kSkin;
+  return nearest(X_WB, X_WT).gap >= kSkin;
 }
 
 Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W,
                      const Vec3& to_W) {
   const double length = (to_W - from_W).norm();
+  blocked_.by = kNoPair;
   if (field_count_ == 0 || !(length > 0)) return to_W;
   const Vec3 along = (to_W - from_W) / length;
-  double gap = least_gap(X_WB, {from_W, q_WT});
+  const auto look_at = [&](double s) { return nearest(X_WB, {from_W + s * along, q_WT}); };
+  double gap = look_at(0).gap;
   const double limit = std::min(kSkin, gap);
   double free = 0;
   for (int i = 0; i < kMostStrides && (i == 0 || !spent()); ++i) {
     const double next = std::min(length, free + std::max(kStride, kSafeShare * gap));
-    gap = least_gap(X_WB, {from_W + next * along, q_WT});
+    const Nearest there = look_at(next);
+    gap = there.gap;
     if (gap >= limit) {
       if (next == length) return to_W;
       free = next;
       continue;
     }
     double blocked = next;
+    blocked_.by = there.pair;
     const int halvings = is_carved() ? kHalvings / 2 : kHalvings;
     for (int k = 0; k < halvings && !spent(); ++k) {
       const double middle = 0.5 * (free + blocked);
-      (least_gap(X_WB, {from_W + middle * along, q_WT}) >= limit ? free : blocked) = middle;
+      (look_at(middle).gap >= limit ? free : blocked) = middle;
     }
+    blocked_.p_W = from_W + blocked * along;
     break;
   }
   return from_W + free * along;
+}
+
+bool FieldWalls::blocking(std::span<const Pose> X_WB, const Quat& q_WT, PartingPlane& out) {
+  return is_blocked() && field_.separate_field(blocked_.by, bone_pose(blocked_.by, X_WB),
+                                               {blocked_.p_W, q_WT}, looks_, out);
 }
 
 void FieldWalls::raise(std::span<const Pose> X_WB, const Quat& q_WT,

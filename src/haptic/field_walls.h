@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "contact_field.h"
@@ -31,6 +32,16 @@ class FieldWalls {
   /// Finds the planes of the fields that come near the tool at a pose. Older ones stay where bone
   /// reaches over the newer one. False when a field could not be asked, or too many are near.
   bool look(std::span<const Pose> X_WB, const Pose& X_WT);
+  /// The same a little further on, where the last way was blocked: there the bone in the way is
+  /// nearest, though at the way's end a wall beside it may be as near.
+  bool look_ahead(std::span<const Pose> X_WB, const Quat& q_WT) {
+    return look(X_WB, {blocked_.p_W, q_WT});
+  }
+  /// Whether bone ended the last way.
+  bool is_blocked() const { return blocked_.by != kNoPair; }
+  std::uint32_t blocked_by() const { return blocked_.by; }
+  /// The place of the bone that ended the last way. False: none did, or it could not be asked.
+  bool blocking(std::span<const Pose> X_WB, const Quat& q_WT, PartingPlane& out);
   /// Whether the tool has its skin's room to every field.
   bool clear(std::span<const Pose> X_WB, const Pose& X_WT);
   /// Whether this tick has looked as often as it may.
@@ -47,6 +58,7 @@ class FieldWalls {
   void raise(std::span<const Pose> X_WB, const Quat& q_WT, std::span<FreeHalfSpace> out) const;
 
  private:
+  static constexpr std::uint32_t kNoPair = 0xffffffffu;
   struct Wall {
     std::uint32_t pair = 0;
     PartingPlane plane;
@@ -55,18 +67,28 @@ class FieldWalls {
     return X_WB[field_.pairs()[pair].bone];
   }
   std::span<const std::uint32_t> fields() const { return {fields_.data(), field_count_}; }
+  struct Nearest {
+    double gap = std::numeric_limits<double>::infinity();
+    std::uint32_t pair = kNoPair;
+  };
   /// Where the least gap was found last: the same place is often asked for again.
   struct Known {
     bool set = false;
     Pose X_WT;
     std::array<Pose, kMaxFields> X_WB;  ///< of each field
-    double gap = 0;
+    Nearest found;
+  };
+  struct Blocked {
+    std::uint32_t by = kNoPair;
+    Vec3 p_W = Vec3::Zero();  ///< of the tool: the first place found without room
   };
 
-  double least_gap(std::span<const Pose> X_WB, const Pose& X_WT);
+  Nearest nearest(std::span<const Pose> X_WB, const Pose& X_WT);
   bool knows(std::span<const Pose> X_WB, const Pose& X_WT) const;
-  void keep(std::span<const Pose> X_WB, const Pose& X_WT, double gap);
+  void keep(std::span<const Pose> X_WB, const Pose& X_WT, const Nearest& found);
   bool is_carved() const { return looks_.asked > 0; }
+  /// Takes a plane that is nearer to the tool than the bone is back to its gap.
+  void lay_back(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, PartingPlane& plane) const;
   bool still_right(const Wall& wall, const PartingPlane& now, const Pose& X_WB,
                    const Pose& X_WT) const;
 
@@ -78,6 +100,7 @@ class FieldWalls {
   std::uint32_t count_ = 0;
   ContactField::Looks looks_;  ///< of this tick
   Known known_;
+  Blocked blocked_;  ///< of the last way
 };
 
 }  // namespace osteon

@@ -251,7 +251,9 @@ bool ProxySolver::look_again(Context& c, const NearestPoint& target, ProxyMove& 
       move.status |= kTickSolverLimit;
       return false;
     }
-  if (!walls_.look(task.now_WB, {move.end(), move.q_WP})) {
+  const bool looked = c.stuck ? walls_.look_ahead(task.now_WB, move.q_WP)
+                              : walls_.look(task.now_WB, {move.end(), move.q_WP});
+  if (!looked) {
     move.status |= kTickSolverLimit;
     return false;
   }
@@ -295,7 +297,7 @@ bool ProxySolver::touching(const NearestPoint& target) const {
 
 void ProxySolver::approach(Context& c, ProxyMove& move) {
   const ProxyTask& task = c.task;
-  bool looked = false;  // at the field that stops it
+  c.stuck = false;
   for (move.rounds = 1; move.rounds < ProxyMove::kMaxRounds; ++move.rounds) {
     const Vec3 from = move.end();
     NearestPoint target;
@@ -304,11 +306,28 @@ void ProxySolver::approach(Context& c, ProxyMove& move) {
     move.free = target.active_count == 0 && move.end() == task.hand_W;
     // A plane whose gap was measured before bone or tool moved is looked at again.
     const bool felt = touching(target) || move.rounds > 1;
-    const bool still = (move.end() - from).norm() < kStill && (!c.stopped || looked);
-    if (move.free || (felt && still)) break;
-    looked = c.stopped;
+    const bool still = (move.end() - from).norm() < kStill;
+    if (still && walls_.is_blocked() && (c.stuck || walls_.spent())) note_block(c, target, move);
+    if (move.free || (felt && still && (!c.stopped || c.stuck))) break;
+    // Where it stands still before bone that no plane names, the bone is looked at from nearer.
+    c.stuck = still && walls_.is_blocked();
     if (walls_.spent() || !look_again(c, target, move)) break;
   }
+}
+
+// Bone that ends the way but that no plane names, as over a hole whose rims hold the tool all
+// round, holds against the push itself: what stands still before bone must feel it.
+void ProxySolver::note_block(const Context& c, const NearestPoint& target, ProxyMove& move) {
+  const ProxyTask& task = c.task;
+  const Vec3 left = move.end() - target.x;
+  const double size = left.norm();
+  if (!(size > kTouch) || move.holding_count == move.holding.size()) return;
+  PartingPlane met;
+  if (!walls_.blocking(task.now_WB, move.q_WP, met)) return;
+  const std::uint32_t pair = walls_.blocked_by();
+  const Pose& X_WB = task.now_WB[field_.pairs()[pair].bone];
+  move.holding[move.holding_count++] = {pair, kMaxHands, Vec3(left / size),
+                                        size, size,      X_WB * met.p_B};
 }
 
 void ProxySolver::meet_tools(const ProxyTask& task) {

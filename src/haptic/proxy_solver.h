@@ -88,6 +88,7 @@ class ProxySolver {
     std::span<const Pose> raised_WB = {};
     Quat raised_q_WT = Quat::Identity();
     bool stopped = false;  ///< a field stopped the last step on its way
+    bool stuck = false;    ///< and that step led nowhere: no plane names the bone in the way
   };
 
   bool gather(Context& c);
@@ -106,6 +107,7 @@ class ProxySolver {
   bool step_towards(Context& c, ProxyMove& move, NearestPoint& target);
   bool look_again(Context& c, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
+  void note_block(const Context& c, const NearestPoint& target, ProxyMove& move);
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
   void meet_tools(const ProxyTask& task);
   bool find_start(Context& c, const Quat& q_WP, Vec3& start);

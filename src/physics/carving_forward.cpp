@@ -33,12 +33,18 @@ double twist_about(const Pose& X_BC, const Pose& X_BT) {
 // How far behind a pose a cutter's whole front is free of bone.
 double lag_of(const CarvedField& field, const CarvingTool& with, const Pose& X_BC) {
   constexpr double kStep_m = 1e-4, kMostSizes = 2;
+  constexpr int kHalvings = 4;
   const Vec3 back = back_of(X_BC);
+  const auto is_free = [&](double lag) {
+    return front_is_free(field, with.cutter, with.pilot_m, moved_along(X_BC, lag * back));
+  };
   double lag = 0;
-  while (
-      lag < kMostSizes * with.cutter.size_m &&
-      !front_is_free(field, with.cutter, with.pilot_m, moved_along(X_BC, (lag + kStep_m) * back)))
-    lag += kStep_m;
+  while (lag < kMostSizes * with.cutter.size_m && !is_free(lag + kStep_m)) lag += kStep_m;
+  double free = lag + kStep_m;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (lag + free);
+    (is_free(middle) ? free : lag) = middle;
+  }
   return lag;
 }
 

@@ -73,6 +73,17 @@ void for_front_points(const Cutter& cutter, double pilot_m, const Look& look) {
   }
 }
 
+std::optional<BoneTissue> tissue_at_node(const CarvedField& field, const Node& node) {
+  if (field.height_m(node.block, node.node) >= 0) return std::nullopt;
+  const double bare = field.bare_height_m(node.block, node.node);
+  return bare < 0 ? field.layers().at(-bare) : BoneTissue::kCartilage;
+}
+
+std::optional<BoneTissue> uncut_tissue(const CarvedField& field, const Vec3& p_B) {
+  const auto node = nearest_node(field.grid(), p_B);
+  return node ? tissue_at_node(field, *node) : std::nullopt;
+}
+
 void look_at(const CarvedField& field, const Vec3& p_B, FrontShare& share, std::size_t counts = 1) {
   share.looked += counts;
   if (const auto tissue = tissue_at(field, p_B))
@@ -107,10 +118,8 @@ std::optional<BoneTissue> tissue_at(const CarvedField& field, const Vec3& p_B) {
   const auto node = nearest_node(field.grid(), p_B);
   if (!node) return std::nullopt;
   const std::int16_t* cuts = field.cuts(node->block);
-  if ((cuts && cuts[node->node] < 0) || field.height_m(node->block, node->node) >= 0)
-    return std::nullopt;
-  const double bare = field.bare_height_m(node->block, node->node);
-  return bare < 0 ? field.layers().at(-bare) : BoneTissue::kCartilage;
+  if (cuts && cuts[node->node] < 0) return std::nullopt;
+  return tissue_at_node(field, *node);
 }
 
 bool was_outside(const CarvedField& field, const Vec3& p_B) {
@@ -160,8 +169,9 @@ double cut_a_side(const CarvedField& field, const Cutter& cutter, const Pose& X_
       const double rho = radius - (static_cast<double>(n) + 0.5) * kStep_m;
       if (!(rho > 0)) break;
       const double z = front_z(cutter, rho) - kAheadCells * field.grid().cell_m;
-      const auto tissue = tissue_at(field, X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z));
-      if (tissue == BoneTissue::kCortical) ++cortex;
+      const Vec3 p_B = X_BC * Vec3(rho * std::cos(a), rho * std::sin(a), z);
+      if (height_over_rest_m(field, p_B) < 0 && uncut_tissue(field, p_B) == BoneTissue::kCortical)
+        ++cortex;
     }
   }
   return kStep_m * static_cast<double>(cortex) / kAround;

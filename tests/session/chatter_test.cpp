@@ -178,34 +178,33 @@ TEST(Chatter, AStateOnTheWayGivesTheSameBitsAndPulledBackItEnds) {
 // What it has gone down into a flat face is gone, from its first tenth of a millimetre: what the
 // same reamer takes that is sunk in so far at once.
 TEST(Reaming, AWideReamerCutsFromItsFirstTenths) {
-  for (const double size_mm : {12.0}) {
-    for (const double cell_mm : {0.25, 0.4}) {
-      Drilling with;
-      with.the_case = plate();
-      with.settings.tray.clear();
-      with.tray.clear();
-      with.settings.carve.cell_m = 1e-3 * cell_mm;
-      with.settings.carve.cortex_m = 0.0001;  // cancellous bone: it does not shake
-      with.also("reamer:" + std::to_string(size_mm));
-      Session session = with.session();
-      double deep = 0;
-      for (int n = 1; n <= 3000 && deep < 0.0003; ++n) {
-        const HandInput hand = pressing(session, n, 1);
-        (void)session.tick(std::span(&hand, 1));
-        deep = kTopHere_m - session.tool_state().X_WP.p.z();
-      }
-      ASSERT_GE(deep, 0.0003) << size_mm << " at " << cell_mm;
-      const CarvedField& field = *session.carving()->field(0);
-      const double gone_mm3 = 1e9 * total(removed_volume(field));
-      const auto reamer = make_cutter("reamer", 1e-3 * size_mm);
-      ASSERT_TRUE(reamer);
-      Carving whole(with.setup, 1);
-      CarvedField sunk = *whole.field(0);
-      (void)sunk.cut(*reamer, {Vec3(0, 0, kTopHere_m - deep), Quat::Identity()});
-      const double front_mm3 = 1e9 * total(removed_volume(sunk));
-      EXPECT_GT(gone_mm3, 0.85 * front_mm3) << size_mm << " at " << cell_mm;
-      EXPECT_LT(gone_mm3, 1.1 * front_mm3) << size_mm << " at " << cell_mm;
+  constexpr double size_mm = 12;
+  for (const double cell_mm : {0.25, 0.4}) {
+    Drilling with;
+    with.the_case = plate();
+    with.settings.tray.clear();
+    with.tray.clear();
+    with.settings.carve.cell_m = 1e-3 * cell_mm;
+    with.settings.carve.cortex_m = 0.0001;  // cancellous bone: it does not shake
+    with.also("reamer:" + std::to_string(size_mm));
+    Session session = with.session();
+    double deep = 0;
+    for (int n = 1; n <= 3000 && deep < 0.0003; ++n) {
+      const HandInput hand = pressing(session, n, 1);
+      (void)session.tick(std::span(&hand, 1));
+      deep = kTopHere_m - session.tool_state().X_WP.p.z();
     }
+    ASSERT_GE(deep, 0.0003) << size_mm << " at " << cell_mm;
+    const CarvedField& field = *session.carving()->field(0);
+    const double gone_mm3 = 1e9 * total(removed_volume(field));
+    const auto reamer = make_cutter("reamer", 1e-3 * size_mm);
+    ASSERT_TRUE(reamer);
+    Carving whole(with.setup, 1);
+    CarvedField sunk = *whole.field(0);
+    (void)sunk.cut(*reamer, {Vec3(0, 0, kTopHere_m - deep), Quat::Identity()});
+    const double front_mm3 = 1e9 * total(removed_volume(sunk));
+    EXPECT_GT(gone_mm3, 0.85 * front_mm3) << size_mm << " at " << cell_mm;
+    EXPECT_LT(gone_mm3, 1.1 * front_mm3) << size_mm << " at " << cell_mm;
   }
 }
 

@@ -1,0 +1,142 @@
+#include "osteon/collide/carved_contact.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "osteon/collide/field_contact.h"
+
+namespace osteon {
+namespace {
+
+// Where the field rises less than this, walls on several sides are as near as each other.
+constexpr double kOneWall = 0.8;
+// A gap wider than this, m, is not measured so well: no way ends there.
+constexpr double kClose = 5e-4;
+constexpr int kRound = 8;  // directions about the axis
+
+// Two unit vectors across a unit vector and each other.
+std::array<Vec3, 2> both_across(const Vec3& u) {
+  const Vec3 other = std::abs(u.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 e = u.cross(other).normalized();
+  return {e, u.cross(e)};
+}
+
+// Symbols: x is a point of the rod's axis, r its radius, n a unit vector from bone to rod, and the
+// rod's surface is at x - r n. In the middle of a hole that a rod fills the splines of a field say
+// too little, and its slope points at no wall; at the rod's own surface, which is near a wall, they
+// say what is so. Invariant: `best_` is the lowest height found at the rod's surface, so that the
+// gap is never told as smaller than some place of the rod has. Source: point shells of McNeely,
+// Puterbaugh and Troy, SIGGRAPH 1999, here few points where the field says that walls are near.
+// Ends: a fixed number of looks.
+class SurfaceOfRod {
+ public:
+  SurfaceOfRod(const FieldView& field, const Capsule& rod_A) : field_(field), rod_(rod_A) {}
+
+  // False: the field does not reach so far.
+  bool start(const Vec3& x, const Vec3& n) {
+    best_ = look(x, n);
+    if (!best_.near) return false;
+    follow_slope();
+    return true;
+  }
+
+  void look_round(const Vec3& x) {
+    const Vec3 along = rod_.p1 - rod_.p0;
+    const double length = along.norm();
+    if (!(length > 0)) return look_over_end(x, Vec3::UnitZ());
+    const auto [e, f] = both_across(along / length);
+    for (int k = 0; k < kRound; ++k) take(look(x, turned(e, f, k)));
+    follow_slope();
+  }
+
+  // The half ball about an end of the axis; `inward` is the unit vector to the other end. First a
+  // ring halfway down, then up and down from its lowest place.
+  void look_over_end(const Vec3& x, const Vec3& inward) {
+    const auto [e, f] = both_across(inward);
+    const auto place = [&](int k, double share) {
+      const double angle = 0.5 * std::numbers::pi * share;
+      return look(x, std::cos(angle) * inward + std::sin(angle) * turned(e, f, k));
+    };
+    int k_best = 0;
+    Touch lowest = place(0, 0.5);
+    for (int k = 1; k < kRound; ++k)
+      if (const Touch there = place(k, 0.5); there.gap < lowest.gap) {
+        lowest = there;
+        k_best = k;
+      }
+    double at = 0.5;
+    for (double step = 0.25; step > 0.02; step *= 0.5)
+      for (const double way : {-step, step})
+        if (const Touch there = place(k_best, at + way); there.gap < lowest.gap) {
+          lowest = there;
+          at += way;
+          break;
+        }
+    take(lowest);
+    follow_slope();
+  }
+
+  CapsuleContact contact() const {
+    CapsuleContact out;
+    out.status = LpStatus::kOptimal;
+    out.gap = best_.gap;
+    const double slope = best_.slope.norm();
+    out.nhat_AB_A = slope > 0.5 ? Vec3(best_.slope / slope) : best_.n;
+    out.p_axis_A = best_.x;
+    out.p_A = best_.x - rod_.radius * best_.n - best_.gap * out.nhat_AB_A;
+    return out;
+  }
+  double gap() const { return best_.gap; }
+
+ private:
+  struct Touch {
+    Vec3 x = Vec3::Zero(), n = Vec3::UnitZ(), slope = Vec3::Zero();
+    double gap = 0;
+    bool near = false;
+  };
+
+  static Vec3 turned(const Vec3& e, const Vec3& f, int k) {
+    const double angle = 2 * std::numbers::pi * k / kRound;
+    return std::cos(angle) * e + std::sin(angle) * f;
+  }
+  Touch look(const Vec3& x, const Vec3& n) const {
+    const FieldSample there = field_.at(x - rod_.radius * n);
+    return {x, n, there.gradient, there.distance, there.near};
+  }
+  void take(const Touch& there) {
+    if (there.gap < best_.gap) best_ = there;
+  }
+  // What is nearest lies where the slope points along n.
+  void follow_slope() {
+    const double slope = best_.slope.norm();
+    if (slope > kOneWall) take(look(best_.x, best_.slope / slope));
+  }
+
+  const FieldView& field_;
+  const Capsule& rod_;
+  Touch best_;
+};
+
+}  // namespace
+
+CapsuleContact carved_contact(const FieldView& coarse, const FieldView& fine, const Capsule& rod_A,
+                              double far_m) {
+  const CapsuleContact found = field_contact(coarse, rod_A, far_m);
+  if (found.status != LpStatus::kOptimal || !(found.gap < far_m)) return found;
+  SurfaceOfRod surface(fine, rod_A);
+  if (!surface.start(found.p_axis_A, found.nhat_AB_A)) return found;
+  if (found.gap > kClose) return surface.contact();
+  if (fine.at(found.p_axis_A).gradient.norm() < kOneWall) surface.look_round(found.p_axis_A);
+  const Vec3 along = rod_A.p1 - rod_A.p0;
+  const double length = along.norm();
+  if (!(length > 0)) return surface.contact();
+  for (const double side : {1.0, -1.0}) {
+    const Vec3& end = side > 0 ? rod_A.p0 : rod_A.p1;
+    if (fine.at(end).distance - rod_A.radius < surface.gap())
+      surface.look_over_end(end, side / length * along);
+  }
+  return surface.contact();
+}
+
+}  // namespace osteon
