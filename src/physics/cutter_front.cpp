@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/carve/grid_nodes.h"
+
 namespace osteon {
 namespace {
 
@@ -13,40 +15,16 @@ constexpr double kAheadCells = 0.6;  // how far before the front one looks
 // A sliver that no point meets still holds a little.
 constexpr double kLeastShare = 0.02;
 
-struct Node {
-  std::uint32_t block = 0;
-  std::size_t node = 0;
-};
-
-std::optional<Node> nearest_node(const BlockGrid& grid, const Vec3& p_B) {
-  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
-  std::array<int, 3> at{}, in{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = std::floor(u[static_cast<Eigen::Index>(k)] + 0.5);
-    if (!(x >= 0 && x < BlockGrid::kSide * grid.blocks[k])) return std::nullopt;
-    at[k] = static_cast<int>(x) / BlockGrid::kSide;
-    in[k] = static_cast<int>(x) % BlockGrid::kSide;
-  }
-  return Node{grid.index(at), static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0])};
-}
-
 // Height over what is left of the bone, between the nodes about a place: of the uncut bone and of
 // the cuts each by itself, for both are smooth where they meet. Far outside of the grid: 1 m.
 double height_over_rest_m(const CarvedField& field, const Vec3& p_B) {
-  const BlockGrid& grid = field.grid();
-  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
-  const Vec3 low(std::floor(u.x()), std::floor(u.y()), std::floor(u.z()));
-  const Vec3 t = u - low;
+  const auto nodes = nodes_about(field.grid(), p_B);
+  if (!nodes) return 1;
   double bone = 0, cut = 0;
-  for (int c = 0; c < 8; ++c) {
-    const Vec3 corner(c & 1, c >> 1 & 1, c >> 2);
-    const auto at = nearest_node(grid, grid.lo + grid.cell_m * (low + corner));
-    if (!at) return 1;
-    double share = 1;
-    for (Eigen::Index k = 0; k < 3; ++k) share *= corner[k] > 0 ? t[k] : 1 - t[k];
-    const std::int16_t* cuts = field.cuts(at->block);
-    bone += share * field.height_m(at->block, at->node);
-    cut += share * 1e-6 * (cuts ? cuts[at->node] : CarvedField::kUncut);
+  for (const auto& [at, share] : *nodes) {
+    const std::int16_t* cuts = field.cuts(at.block);
+    bone += share * field.height_m(at.block, at.node);
+    cut += share * 1e-6 * (cuts ? cuts[at.node] : CarvedField::kUncut);
   }
   return std::max(bone, -cut);
 }
@@ -73,7 +51,7 @@ void for_front_points(const Cutter& cutter, double pilot_m, const Look& look) {
   }
 }
 
-std::optional<BoneTissue> tissue_at_node(const CarvedField& field, const Node& node) {
+std::optional<BoneTissue> tissue_at_node(const CarvedField& field, const GridNode& node) {
   if (field.height_m(node.block, node.node) >= 0) return std::nullopt;
   const double bare = field.bare_height_m(node.block, node.node);
   return bare < 0 ? field.layers().at(-bare) : BoneTissue::kCartilage;

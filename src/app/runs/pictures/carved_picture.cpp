@@ -1,9 +1,10 @@
 #include "runs/pictures/carved_picture.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
+
+#include "osteon/carve/grid_nodes.h"
 
 namespace osteon {
 namespace {
@@ -13,51 +14,18 @@ constexpr double kOverlapCells = 1.5;
 
 using HeightOf = double (CarvedField::*)(std::uint32_t block, std::size_t node) const;
 
-double at_node(const CarvedField& field, const std::array<int, 3>& node, HeightOf height) {
-  std::array<int, 3> at{}, in{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    at[k] = node[k] / BlockGrid::kSide;
-    in[k] = node[k] % BlockGrid::kSide;
-  }
-  const auto n = static_cast<std::size_t>((in[2] * 8 + in[1]) * 8 + in[0]);
-  return (field.*height)(field.grid().index(at), n);
-}
-
-bool holds(const BlockGrid& grid, const std::array<int, 3>& node) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (node[k] < 0 || node[k] >= BlockGrid::kSide * grid.blocks[k]) return false;
-  return true;
-}
-
 // How deep a point lies under the surface of the whole bone, by the nearest node.
 double depth_m(const CarvedField& field, const Vec3& p_B, HeightOf height) {
-  const BlockGrid& grid = field.grid();
-  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
-  std::array<int, 3> node{};
-  for (std::size_t k = 0; k < 3; ++k)
-    node[k] = static_cast<int>(std::floor(u[static_cast<Eigen::Index>(k)] + 0.5));
-  return holds(grid, node) ? std::max(0.0, -at_node(field, node, height)) : 0;
+  const auto near = nearest_node(field.grid(), p_B);
+  return near ? std::max(0.0, -(field.*height)(near->block, near->node)) : 0;
 }
 
 // How high a point lies over the bone under its cartilage, between the nodes about it.
 double over_bone_m(const CarvedField& field, const Vec3& p_B) {
-  const BlockGrid& grid = field.grid();
-  const Vec3 u = (p_B - grid.lo) / grid.cell_m;
-  std::array<int, 3> low{};
-  Vec3 t;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
-    low[k] = static_cast<int>(std::floor(u[axis]));
-    t[axis] = u[axis] - low[k];
-  }
+  const auto nodes = nodes_about(field.grid(), p_B);
+  if (!nodes) return 0;
   double sum = 0;
-  for (int c = 0; c < 8; ++c) {
-    const std::array<int, 3> node{low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2)};
-    if (!holds(grid, node)) return 0;
-    const double share = ((c & 1) ? t.x() : 1 - t.x()) * ((c & 2) ? t.y() : 1 - t.y()) *
-                         ((c & 4) ? t.z() : 1 - t.z());
-    sum += share * at_node(field, node, &CarvedField::bare_height_m);
-  }
+  for (const auto& [at, share] : *nodes) sum += share * field.bare_height_m(at.block, at.node);
   return sum;
 }
 
