@@ -16,6 +16,7 @@ constexpr double kAnswer_s = 0.15;    // how fast the force comes to what is wan
 constexpr double kSlowsAt_m = 0.004;  // before the end of a hole the hand presses less
 constexpr double kLeastPress_n = 0.35;
 constexpr double kThere_m = 0.0001;
+constexpr double kOnLine_m = 0.0001, kLeanSettles_s = 0.3;
 constexpr double kFastestTurn_rad_per_s = 1.5;
 constexpr double kTremble_Hz = 9.1;
 
@@ -76,6 +77,32 @@ void AclDriller::press(const AclMove& move, double dt_s) {
   in_move_s_ += dt_s;
 }
 
+// What stands on slanted bone slides down it as it is pressed: the hand goes against that until the
+// tip, as it is felt to be, is on the line again. Ends since time does.
+void AclDriller::lean(const AclMove& move, double dt_s) {
+  const Vec3& back = move.out_W;
+  const double felt_n = force_W_.dot(back);
+  const Vec3 off = p_W_ + kGivesWay_m_per_n * force_W_ - move.X_WT.p;
+  const Vec3 aside = off - off.dot(back) * back;
+  const bool stands =
+      aside.norm() < kOnLine_m && std::abs(felt_n - move.force_n) < 0.2 * move.force_n;
+  settled_s_ = stands ? settled_s_ + dt_s : 0;
+  const bool late = in_move_s_ > move.value;
+  if (settled_s_ > kLeanSettles_s || late) {
+    if (late) ++given_up_;
+    settled_s_ = 0;
+    return next();
+  }
+  const double share = dt_s / kAnswer_s;
+  const Vec3 wanted = (move.force_n - felt_n) * kGivesWay_m_per_n * -back - aside;
+  const double most = move.m_per_s * dt_s;
+  Vec3 step = share * wanted;
+  if (step.norm() > most) step *= most / step.norm();
+  p_W_ += step;
+  q_ = move.X_WT.q;
+  in_move_s_ += dt_s;
+}
+
 void AclDriller::move(double dt_s) {
   const AclMove& now = moves_[at_];
   switch (now.kind) {
@@ -83,6 +110,8 @@ void AclDriller::move(double dt_s) {
       return go(now, dt_s);
     case AclMove::Kind::kPress:
       return press(now, dt_s);
+    case AclMove::Kind::kLean:
+      return lean(now, dt_s);
     case AclMove::Kind::kWait:
       if (time_s_ >= now.value) next();
       return;

@@ -19,18 +19,19 @@ constexpr double kPinOut_m = 0.004;     // a pin stands out of the far side so f
 constexpr double kTibiaOut_m = 0.0065;  // of a drill of 8 mm, until its slanted rim is clear
 constexpr double kFemurOut_m = 0.005;
 constexpr double kPlunge_m = 0.016, kShortSocket_m = 0.0185, kFreeHand_m = 0.007;
+constexpr double kChannelLeft_m = 0.0075, kLeastSocket_m = 0.0215;
 constexpr double kDrive_n = 3, kGently_n = 2, kLongest_s = 60;
+constexpr double kLean_n = 1, kLongestLean_s = 6;
 
 // The tibial aimer's line stands so far from its shaft.
 constexpr double kAimerTurn_rad = 55 * kAclTurn;
 constexpr double kAimerTip_m = 0.0011;  // radius of what touches the plateau
-constexpr double kAimerPress_m = 0.0025;
 
 // How an aimer stands on the bone: its tip, its shaft, and the way by which it comes.
 struct AimerStand {
   Pose X_WT;
-  Vec3 back_W = Vec3::UnitZ();    // along its shaft
-  Vec3 press_W = -Vec3::UnitZ();  // onto the bone
+  Vec3 back_W = Vec3::UnitZ();  // along its shaft
+  Vec3 out_W = Vec3::UnitZ();   // of the bone, along the line that it shall fix
 };
 
 Pose standing(const Vec3& p_W, const Vec3& z_W, const Vec3& towards_x_W) {
@@ -50,7 +51,7 @@ AimerStand tibial_aimer(const AclKnee& knee, const AclLine& line, double length_
   const Vec3 portal = (knee.mark("portal_am") - tip).normalized();
   const Vec3 aside = (portal - portal.dot(out) * out).normalized();
   const Vec3 shaft = std::cos(kAimerTurn_rad) * out + std::sin(kAimerTurn_rad) * aside;
-  return {standing(tip, shaft, out), shaft, -up};
+  return {standing(tip, shaft, out), shaft, line.in_W};
 }
 
 // Points of the hook of the femoral aimer and of what bears it, in Tool.
@@ -102,7 +103,7 @@ AimerStand femoral_aimer(const AclKnee& knee, const AclLine& line) {
     const double off = std::abs(*before - kWanted_m) + 0.0002 * std::min(k, 24 - k);
     if (!(off < least)) continue;
     least = off;
-    best = {{line.at_W - *before * line.in_W, X.q}, back, line.in_W};
+    best = {{line.at_W - *before * line.in_W, X.q}, back, back};
   }
   return best;
 }
@@ -155,22 +156,18 @@ class LineMoves {
   void jaw(double share) { out_.push_back({Kind::kJaw, {}, 0, 0, share}); }
   // Fixes a sleeve by which a pin comes to this line.
   void aim(const std::string& aimer, const AimerStand& stand) {
-    const auto to = [&](double back_m, double press_m, double m_per_s) {
+    const auto to = [&](double back_m, double m_per_s) {
       out_.push_back(
-          {Kind::kGo,
-           {stand.X_WT.p + back_m * stand.back_W + press_m * stand.press_W, stand.X_WT.q},
-           m_per_s * pace_});
+          {Kind::kGo, {stand.X_WT.p + back_m * stand.back_W, stand.X_WT.q}, m_per_s * pace_});
     };
-    to(0.25, 0, kFast_m_per_s);
+    to(0.25, kFast_m_per_s);
     take(aimer);
     jaw(1);
-    to(kNear_m, 0, kSlow_m_per_s);
-    to(0, 0, 0.01);
-    to(0, kAimerPress_m, 0.01);
+    to(kNear_m, kSlow_m_per_s);
+    out_.push_back(
+        {Kind::kLean, stand.X_WT, 0.01, kLean_n, kLongestLean_s, {}, false, stand.out_W});
     jaw(0);
-    to(0, kAimerPress_m, 0.01);
-    to(0, 0, 0.01);
-    to(0.15, 0, kSlow_m_per_s);
+    to(0.15, kSlow_m_per_s);
   }
   // Takes an instrument out of the bone's way, and comes along the line to before its mouth.
   void come_with(const std::string& instrument) {
@@ -179,11 +176,13 @@ class LineMoves {
     go(-kNear_m, kSlow_m_per_s);
     go(-kTouch_m, kSlow_m_per_s);
   }
-  // Leaves a pin where it is for what goes over it: a hand that takes something inside of bone
-  // feels nothing until it has been free.
+  // Leaves a pin where it is, and comes with what goes over it: an open chuck slides off the pin,
+  // and is shut again where there is no pin beside it.
   void leave_for(const std::string& instrument) {
-    take(instrument);
+    jaw(1);
     go(-kStand_m, kSlow_m_per_s);
+    take(instrument);
+    jaw(0);
     go(-kNear_m, kSlow_m_per_s);
     go(-kTouch_m, kSlow_m_per_s);
   }
@@ -213,6 +212,9 @@ std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
     return knee.way_out(of_femur, line.at_W + 0.001 * line.in_W, line.in_W) + 0.001;
   };
   const double tibia_m = through(false, plan.tibia), femur_m = through(true, plan.femur);
+  // A channel is left beyond the socket's bottom.
+  const double socket_m =
+      std::clamp(femur_m - kChannelLeft_m, std::min(kLeastSocket_m, plan.socket_m), plan.socket_m);
   tibia.go(-kStand_m, kFast_m_per_s);
   moves.push_back({Kind::kWait, {}, 0, 0, begin_s});
   if (fault == "no_pin") {
@@ -241,7 +243,7 @@ std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
   femur.drill(femur_m + kFemurOut_m, kDrive_n);
   femur.draw_out();
   femur.come_with(drill_of(plan.reamed_m));
-  femur.drill(fault == "short_socket" ? kShortSocket_m : plan.socket_m, kDrive_n, true);
+  femur.drill(fault == "short_socket" ? kShortSocket_m : socket_m, kDrive_n, true);
   femur.draw_out();
   femur.take(kAclPin);
   femur.go(-kStand_m, kSlow_m_per_s);

@@ -32,6 +32,10 @@ class AclKnee {
   bool is_free(const Vec3& from_W, const Vec3& to_W, double radius_m) const;
   /// From a place inside along a unit direction to where it leaves that bone; 0: it is not inside.
   double way_out(bool of_femur, const Vec3& p_W, const Vec3& direction) const;
+  /// The place on the femur's surface next to a place.
+  Vec3 on_femur(const Vec3& p_W) const {
+    return X_WF_ * femur_.closest(X_WF_.inverse() * p_W).point;
+  }
   /// The outward normal of a bone's surface next to a place, unit.
   Vec3 normal(bool of_femur, const Vec3& p_W) const;
 

@@ -6,7 +6,11 @@ namespace osteon {
 namespace {
 
 constexpr double kPinRoom_m = 0.002;  // about its axis; a reamer with a cut-away side needs no more
+constexpr double kTight_m = 0.0036, kDrillRoom_m = 0.0041;  // about a drill of 8 mm
 constexpr double kSocket_m = 0.025, kChannel_m = 0.040;
+constexpr double kWall_m = 0.0015;  // of bone behind a socket is enough
+constexpr double kMostBehind_m = 0.01;
+constexpr double kMostOff_m = 0.0036;  // a socket stands so far from the footprint's middle at most
 
 Vec3 femoral_mouth(const AclKnee& knee, std::string_view fault) {
   const Vec3 mouth = knee.mark("acl_femur");
@@ -19,44 +23,139 @@ Vec3 femoral_mouth(const AclKnee& knee, std::string_view fault) {
 
 struct Choice {
   double worth = -1e9;
+  double given = 0;  // what is said for a line before it is looked at
   AclLine line;
 };
 
-// Least bone behind a socket: at its mouth, and about its hind third where the mouth is closed.
+// Least bone behind a socket: behind its mouth to the border of the condyle, which is not that of
+// the notch's wall, and over its hind third from where the slanted mouth is closed all round.
 double bone_behind(const AclKnee& knee, const AclLine& line, double radius) {
+  constexpr double kIntoCondyle_m = 0.006, kDeepestMouth_m = 0.0125;
   const Vec3 along =
       (knee.mark("blumensaat_anterior") - knee.mark("blumensaat_posterior")).normalized();
   const Vec3& in = line.in_W;
   const Vec3 hind = (along.dot(in) * in - along).normalized(), side = in.cross(hind);
-  const Vec3 up = knee.normal(true, line.at_W);
-  double least = knee.way_out(true, line.at_W - 0.002 * up, -along) - radius;
-  // So deep the slanted mouth is closed all round.
-  const double straight = std::clamp(-up.dot(in), 0.2, 1.0);
+  const Vec3 inside = line.at_W - kIntoCondyle_m * knee.femoral(Vec3::UnitY());
+  double least = std::min(kMostBehind_m, knee.way_out(true, inside, -along) - radius);
+  const double straight = std::clamp(-knee.normal(true, line.at_W).dot(in), 0.2, 1.0);
   const double closed = radius * std::sqrt(1 - straight * straight) / straight + 0.001;
-  const double first = std::min(closed, 0.5 * kSocket_m);
+  const double first = std::min(closed, kDeepestMouth_m);
   for (int i = 0; i <= 5; ++i)
-    for (int k = -2; k <= 2; ++k) {
-      const double at = first + (kSocket_m - first) * i / 5, a = 30 * kAclTurn * k;
+    for (int k = -3; k <= 3; ++k) {
+      const double at = first + (kSocket_m - first) * i / 5, a = 20 * kAclTurn * k;
       const Vec3 out = std::cos(a) * hind + std::sin(a) * side;
       least = std::min(least, knee.way_out(true, line.at_W + at * in, out) - radius);
     }
   return least;
 }
 
-// How near a channel is to what is wanted, where a pin has room on its way to the mouth; bone
-// behind it counts more, up to 3 mm of it; who does not look behind finds the least.
+// The least room about the way of what comes along a line, up to what an aimer needs.
+double room_before(const AclKnee& knee, const AclLine& line) {
+  constexpr double kFrom_m = 0.013, kTo_m = 0.09, kStride_m = 0.001;
+  double room = kDrillRoom_m;
+  for (double before = kFrom_m; before < kTo_m && room > kPinRoom_m;) {
+    const double gap = knee.gap_m(line.at_W - before * line.in_W);
+    room = std::min(room, gap);
+    before += std::max(kStride_m, gap - room);
+  }
+  return room;
+}
+
+double share_between(double value, double none, double all) {
+  return std::clamp((value - none) / (all - none), 0.0, 1.0);
+}
+
+// What is wanted of a socket, in this order: room for the drill on its way, bone behind it, a
+// channel in which loop and button have their place, a mouth that is not too slanted. Who does not
+// look behind finds the least bone there.
 void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool looks_behind,
                   Choice& best) {
+  constexpr double kFlattest = 0.3, kSteep = 0.55, kShort_m = 0.027, kLong_m = 0.031;
   const Vec3 &mouth = line.at_W, &in = line.in_W;
+  const double straight = -knee.normal(true, mouth).dot(in);
+  if (straight < kFlattest) return;
   const double channel = knee.way_out(true, mouth + 0.001 * in, in) + 0.001;
   if (!(channel > kSocket_m + 0.002)) return;
-  if (!knee.is_free(mouth - 0.008 * in, mouth - 0.09 * in, kPinRoom_m)) return;
-  const double most = 1 / (1 + std::abs(channel - kChannel_m) / 0.01);
-  if (most + 2 <= best.worth) return;
-  const double behind = std::clamp(bone_behind(knee, line, radius) / 0.003, -1.0, 1.0);
-  const double worth = most + (looks_behind ? 2 : -2) * behind;
-  if (worth > best.worth) best = {worth, line};
+  double worth = best.given + 4 * share_between(channel, kShort_m, kLong_m) +
+                 0.3 / (1 + std::abs(channel - kChannel_m) / 0.01) +
+                 2 * share_between(straight, kFlattest, kSteep);
+  if (worth + 8 <= best.worth) return;
+  const double room = room_before(knee, line);
+  if (room <= kPinRoom_m) return;
+  worth += 5 * share_between(room, kTight_m, kDrillRoom_m);
+  if (worth + 3 <= best.worth) return;
+  const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
+  worth += (looks_behind ? 3 : -3) * behind;
+  if (worth > best.worth) best = {worth, best.given, line};
 }
+
+// Mouths about the footprint and directions from each, coarse first and finer about the best.
+class SocketSearch {
+ public:
+  SocketSearch(const AclKnee& knee, const Vec3& aimed_W, double most_off_m, double radius_m,
+               bool looks_behind)
+      : knee_(knee),
+        aimed_W_(aimed_W),
+        most_off_m_(most_off_m),
+        radius_m_(radius_m),
+        looks_behind_(looks_behind) {
+    forward_W_ =
+        (knee.mark("blumensaat_anterior") - knee.mark("blumensaat_posterior")).normalized();
+    down_W_ = forward_W_.cross(knee.normal(true, aimed_W)).normalized();
+    if (down_W_.dot(knee.femoral(Vec3::UnitX())) < 0) down_W_ = -down_W_;
+  }
+
+  Choice best() const {
+    constexpr double kStep_m = 0.001;
+    Found found;
+    for (int f = 0; f <= 4; ++f)
+      for (int d = -2; d <= 4; ++d)
+        if (const double forward = kStep_m * f, down = kStep_m * d; is_near(forward, down))
+          for (int out = 10; out <= 65; out += 5)
+            for (int up = 0; up <= 70; up += 5) weigh({forward, down, out * 1.0, up * 1.0}, found);
+    const Place about = found.place;
+    for (int f = -1; f <= 1; ++f)
+      for (int d = -1; d <= 1; ++d)
+        for (int out = -2; out <= 2; ++out)
+          for (int up = -2; up <= 2; ++up)
+            weigh({about.forward_m + 0.5 * kStep_m * f, about.down_m + 0.5 * kStep_m * d,
+                   about.out_deg + 1.5 * out, about.up_deg + 1.5 * up},
+                  found);
+    return found.choice;
+  }
+
+ private:
+  struct Place {
+    double forward_m = 0, down_m = 0;  // of the mouth, from the footprint
+    double out_deg = 0, up_deg = 0;    // of the way in
+  };
+  struct Found {
+    Choice choice;
+    Place place;
+  };
+
+  bool is_near(double forward_m, double down_m) const {
+    return std::hypot(forward_m, down_m) <= most_off_m_;
+  }
+
+  void weigh(const Place& at, Found& found) const {
+    constexpr double kWorthPerM = 250;
+    if (!is_near(at.forward_m, at.down_m)) return;
+    const double o = at.out_deg * kAclTurn, u = at.up_deg * kAclTurn;
+    const Vec3 in =
+        knee_.femoral(Vec3(-std::cos(o) * std::cos(u), -std::sin(o), std::cos(o) * std::sin(u)));
+    const Vec3 mouth = knee_.on_femur(aimed_W_ + at.forward_m * forward_W_ + at.down_m * down_W_);
+    const double before = found.choice.worth;
+    found.choice.given = -kWorthPerM * std::hypot(at.forward_m, at.down_m);
+    weigh_socket(knee_, {mouth, in}, radius_m_, looks_behind_, found.choice);
+    if (found.choice.worth > before) found.place = at;
+  }
+
+  const AclKnee& knee_;
+  Vec3 aimed_W_, forward_W_, down_W_;
+  double most_off_m_, radius_m_;
+  bool looks_behind_;
+};
 
 // `out`: from the plateau to the front of the inner side.
 void weigh_tunnel(const AclKnee& knee, const Vec3& mouth, const Vec3& out, double wanted_m,
@@ -67,7 +166,7 @@ void weigh_tunnel(const AclKnee& knee, const Vec3& mouth, const Vec3& out, doubl
   const double length = knee.way_out(false, in + 0.001 * out, out) + 0.001;
   if (!(length > 0.01 && length < 0.08)) return;
   const double worth = -std::abs(length - wanted_m);
-  if (worth > best.worth) best = {worth, {in + length * out, -out}};
+  if (worth > best.worth) best = {worth, best.given, {in + length * out, -out}};
 }
 
 }  // namespace
@@ -95,18 +194,10 @@ Result<AclLine> femoral_line(const AclKnee& knee, std::string_view fault, const 
                              double reamed_m) {
   const Vec3 aimed = femoral_mouth(knee, fault) + miss_W;
   const bool looks_behind = fault != "blow_out";
-  Choice best;
-  for (int out_deg = 20; out_deg <= 65; out_deg += 5)
-    for (int up_deg = 0; up_deg <= 70; up_deg += 5) {
-      const double o = out_deg * kAclTurn, u = up_deg * kAclTurn;
-      const Vec3 in =
-          knee.femoral(Vec3(-std::cos(o) * std::cos(u), -std::sin(o), std::cos(o) * std::sin(u)));
-      // Onto the wall along the pin's own way.
-      Vec3 at = aimed - 0.008 * in;
-      for (int i = 0; i < 80 && knee.femur_m(at) > 0; ++i) at += 0.0002 * in;
-      if (knee.femur_m(at) <= 0 && (at - aimed).norm() < 0.004)
-        weigh_socket(knee, {at, in}, 0.5 * reamed_m, looks_behind, best);
-    }
+  // Who misses does not know how far, and stays there.
+  const bool chooses = looks_behind && fault != "vertical_femur" && miss_W.isZero();
+  const SocketSearch search(knee, aimed, chooses ? kMostOff_m : 0, 0.5 * reamed_m, looks_behind);
+  const Choice best = search.best();
   if (best.worth < -1e8) return fail("no free way to the femoral footprint was found", "the pin");
   return best.line;
 }

@@ -15,6 +15,8 @@ struct AclMove {
   enum class Kind : std::uint8_t {
     kGo,     ///< to a pose, at a speed
     kPress,  ///< along the tool's axis with a force until the tip is at the pose, or time is over
+    kLean,   ///< stand on bone with a force against `out_W`, until the tip is on the line through
+             ///< the pose along it, or time is over
     kWait,   ///< until the attempt is so old
     kTake,   ///< an instrument
     kPower,
@@ -23,10 +25,12 @@ struct AclMove {
   Kind kind = Kind::kGo;
   Pose X_WT;              ///< kGo, kPress
   double m_per_s = 0.05;  ///< kGo; kPress: the fastest
-  double force_n = 2;     ///< kPress
-  double value = 0;       ///< kWait: s; kPress: gives up after so many s; kPower, kJaw: 0 to 1
+  double force_n = 2;     ///< kPress, kLean
+  /// kWait: s; kPress, kLean: gives up after so many s; kPower, kJaw: 0 to 1
+  double value = 0;
   std::string instrument = {};  ///< kTake, as a tray names it
   bool exact = false;           ///< kPress: with less force as the end comes near
+  Vec3 out_W = Vec3::UnitZ();   ///< kLean: unit, away from the bone
 };
 
 /// Somebody who drives pins and drills: presses by what is felt, and knows where the tip is from
@@ -53,13 +57,14 @@ class AclDriller : public HandPlayer {
   void move(double dt_s);
   void go(const AclMove& move, double dt_s);
   void press(const AclMove& move, double dt_s);
+  void lean(const AclMove& move, double dt_s);
   void next();
 
   std::vector<AclMove> moves_;
   std::vector<std::string> tray_, unreachable_;
   Skill skill_;
   std::size_t at_ = 0, given_up_ = 0;
-  double time_s_ = 0, in_move_s_ = 0;
+  double time_s_ = 0, in_move_s_ = 0, settled_s_ = 0;
   Vec3 p_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
   Quat q_ = Quat::Identity(), q_from_ = Quat::Identity();
   double way_m_ = 0, turn_rad_ = 0;  ///< of the kGo that goes on
