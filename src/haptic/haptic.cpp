@@ -9,6 +9,8 @@
 #include "friction.h"
 #include "grab_force.h"
 #include "guide_pull.h"
+#include "input_checks.h"
+#include "load.h"
 #include "osteon/base/check.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/haptic/snapshot_age.h"
@@ -19,46 +21,11 @@
 namespace osteon {
 namespace {
 
-// Coordinates beyond the root of this are a broken reading: their squares must stay finite.
-constexpr double kFarthest_m2 = 1e12;
 constexpr double kAnyWay = 1e9;
 constexpr double kFallsOn_m = 1e-4;  // in a tick: 100 mm/s
 // A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
 constexpr double kStepInPortal_m = 0.0005;
 constexpr double kFadeTicks = HapticLoop::kFade_s / 0.001;
-
-// What is not a number fails every comparison.
-bool usable(const Pose& X) {
-  const double size2 = X.q.squaredNorm();
-  return X.p.squaredNorm() < kFarthest_m2 && size2 > 0.81 && size2 < 1.21;
-}
-
-bool usable(const ToolInput& input) {
-  return usable(input.X_WD) && is_finite(input.v_W) && is_finite(input.w_W);
-}
-
-bool usable(const BoneSnapshot& bones, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const BoneMotion& bone = bones.bones[i];
-    if (!usable(bone.X_WB) || !is_finite(bone.v_W) || !is_finite(bone.w_W)) return false;
-  }
-  return true;
-}
-
-// Load of the planes that hold the proxy, and the material under it.
-struct Load {
-  Vec3 stretch_W = Vec3::Zero();  // frictionless proxy - hand
-  Vec3 nhat_W = Vec3::UnitZ();
-  double sum = 0;  // of the planes' weights, m
-  double stiffness = 0;
-  double static_lag = 0;
-  double dynamic_lag = 0;
-  Vec3 v_bone_W = Vec3::Zero();
-  BoneId carrier;
-  bool by_tool = false;  // another hand's tool holds the proxy
-
-  bool holds() const { return carrier.valid() || by_tool; }
-};
 
 }  // namespace
 
@@ -110,8 +77,9 @@ struct HapticLoop::Impl {
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
   double glide(const Vec3& hand_W) const;
-  void add_tool(const HoldingPlane& plane, const HapticParams& params, Load& out) const;
-  Load load(const ProxyMove& move, const HapticParams& params) const;
+  LoadScene scene(const HapticParams& params) const {
+    return {field, motion, others, v_hand_W, params};
+  }
   void list_contacts(const ProxyMove& move);
   Load letting_go(const HapticParams& params) const;
   Friction in_hole(const Friction& on_surface) const;
@@ -289,48 +257,6 @@ double HapticLoop::Impl::glide(const Vec3& hand_W) const {
   return kCreep + 1.5 * (hand_W - state.tool.X_WD.p).norm();
 }
 
-// Steel on steel: without friction, as stiff as the coupling goes, moving as both hands do.
-void HapticLoop::Impl::add_tool(const HoldingPlane& plane, const HapticParams& params,
-                                Load& out) const {
-  const double w = plane.weight;
-  out.sum += w;
-  out.stretch_W += w * plane.nhat_BT_W;
-  out.stiffness += w * params.stiffness_n_per_m;
-  out.v_bone_W += w * 0.5 * (v_hand_W + others[plane.other].v_W);
-  out.by_tool = out.by_tool || w > 0;
-}
-
-Load HapticLoop::Impl::load(const ProxyMove& move, const HapticParams& params) const {
-  Load out;
-  double largest = 0;
-  for (std::uint32_t i = 0; i < move.holding_count; ++i) {
-    const HoldingPlane& plane = move.holding[i];
-    if (plane.other < kMaxHands) {
-      add_tool(plane, params, out);
-      continue;
-    }
-    const std::uint32_t bone = field.pairs()[plane.pair].bone;
-    const Material& material = field.bone(bone).material;
-    const double w = plane.weight;
-    out.sum += w;
-    out.stretch_W += w * plane.nhat_BT_W;
-    out.stiffness += w * std::min(params.stiffness_n_per_m, material.stiffness_n_per_m);
-    out.static_lag += w * params.friction_scale * material.static_friction;
-    out.dynamic_lag += w * params.friction_scale * material.dynamic_friction;
-    out.v_bone_W += w * velocity_at(motion[bone], plane.p_W);
-    if (w > largest) {
-      largest = w;
-      out.carrier = BoneId{bone};
-    }
-  }
-  if (!(out.sum > 0)) return out;
-  out.stiffness /= out.sum;
-  out.v_bone_W /= out.sum;
-  const double size = out.stretch_W.norm();
-  if (size > 0) out.nhat_W = out.stretch_W / size;
-  return out;
-}
-
 void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
   // The points were found with the proxy at query_W; they belong to the tool's surface.
   const Vec3 shift = state.tool.X_WP.p - move.query_W;
@@ -394,7 +320,7 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
     task.ring = &ring;
   }
   const ProxyMove move = solver.move(task, state.pairs);
-  Load held = load(move, params);
+  Load held = load_of(move, scene(params));
   const bool way_known = !(move.status & kTickSolverLimit);
   if (was_held && way_known && !held.holds()) held = letting_go(params);
 
