@@ -1,12 +1,10 @@
 #include "osteon/render/scope_renderer.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "gl/frame.h"
@@ -15,58 +13,18 @@
 #include "gl/light_target.h"
 #include "gl/render_target.h"
 #include "renderer_impl.h"
+#include "scope_lens.h"
+#include "scope_parts.h"
 #include "surface/changed_cubes.h"
 #include "surface/moved_light.h"
-#include "surface/shapes.h"
 #include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
 #include "view/exposure.h"
-#include "view/water_clouds.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kNear_m = 0.0003, kFar_m = 0.15;
-constexpr double kFocus_m = 0.012;
-/// Of the light that comes back, on the mean, in the picture.
-
-GlTexture cloud_texture() {
-  constexpr int kSide = 64;  // three values in the smallest cell
-  GlTexture texture = make_texture();
-  const std::vector<std::uint8_t> values = water_clouds(kSide);
-  glBindTexture(GL_TEXTURE_3D, texture.get());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, kSide, kSide, kSide, 0, GL_RED, GL_UNSIGNED_BYTE,
-               values.data());
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTexParameteri(GL_TEXTURE_3D, wrap, GL_REPEAT);
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
-  glBindTexture(GL_TEXTURE_3D, 0);
-  return texture;
-}
-
-TissuePattern pattern_of(std::string_view kind) {
-  if (kind == "cartilage") return TissuePattern::kCartilage;
-  if (kind == "meniscus" || kind == "disc") return TissuePattern::kMeniscus;
-  if (kind == "ligament" || kind == "tendon") return TissuePattern::kFibres;
-  return kind == "fat" ? TissuePattern::kFat : TissuePattern::kBone;
-}
-
-/// Fibres run along a band's longest axis; a meniscus lies across its shortest.
-void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue) {
-  if (vertices.empty()) return;
-  Vec3 center = Vec3::Zero();
-  for (const Vec3& v : vertices) center += v / static_cast<double>(vertices.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& v : vertices) spread += (v - center) * (v - center).transpose();
-  if (!spread.allFinite()) return;
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
-  const int column = tissue.pattern == TissuePattern::kMeniscus ? 0 : 2;
-  tissue.fibre = axes.eigenvectors().col(column).cast<float>();
-  tissue.center = center.cast<float>();
-}
 
 /// A square picture as a pinhole sees it, `half` the tangent of half its width.
 Eigen::Matrix4f flat_projection(double half) {
@@ -129,50 +87,9 @@ bool looks_still(const std::vector<Pose>& a, const std::vector<Pose>& b) {
                     [](const Pose& p, const Pose& q) { return looks_still(p, q); });
 }
 
-TissuePart steel() {
-  TissuePart part;
-  part.pattern = TissuePattern::kSteel;
-  part.tint = {0.86f, 0.88f, 0.91f};
-  return part;
-}
-
-TissuePart ghost_part() {
-  TissuePart part = steel();
-  part.tint = {0.35f, 0.72f, 1.0f};
-  return part;
-}
-
-TissuePart placed_part(const PlacingRod& rod) {
-  constexpr int kSides = 20;
-  TissuePart part = steel();
-  const Vec3 along = rod.b_W - rod.a_W;
-  if (rod.is == PlacingRod::Is::kGraft) {
-    part.pattern = TissuePattern::kFibres;
-    part.tint = {0.90f, 0.87f, 0.78f};
-    part.fibre = along.normalized().cast<float>();
-    part.center = (0.5 * (rod.a_W + rod.b_W)).cast<float>();
-  } else if (rod.is == PlacingRod::Is::kThread) {
-    part.tint = {0.16f, 0.42f, 0.30f};
-  }
-  TriMesh mesh = cylinder(kSides);
-  const Quat q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), along);
-  for (Vec3& v : mesh.vertices)
-    v = rod.a_W + q * Vec3(rod.radius_m * v.x(), rod.radius_m * v.y(), along.norm() * v.z());
-  part.surface = GpuMesh(plain_shaded(mesh));
-  return part;
-}
-
-bool same_rods(const std::vector<PlacingRod>& a, const std::vector<PlacingRod>& b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(), [](const PlacingRod& x, const PlacingRod& y) {
-        return x.is == y.is && x.a_W == y.a_W && x.b_W == y.b_W && x.radius_m == y.radius_m;
-      });
-}
-
 }  // namespace
 
 constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
-constexpr std::size_t kSeesWater = 1, kSeesFog = 2;
 
 struct ScopeRenderer::Impl {
   /// How the picture that is kept was drawn.
@@ -195,7 +112,7 @@ struct ScopeRenderer::Impl {
 
   std::array<Program, kPatterns> tissues;  ///< by TissuePattern
   Program changed_bone, changed_cartilage;
-  std::array<Program, 4> lenses;      ///< kSeesWater and kSeesFog, added
+  ScopeLens lens;
   std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
   std::vector<TissuePart> parts;
   TissuePart wall;
@@ -211,8 +128,6 @@ struct ScopeRenderer::Impl {
   bool rods_changed = false;
   LightTarget flat;
   RenderTarget picture;
-  GlVertexArray no_vertices;
-  GlTexture clouds;  ///< of water
   bool software = false;
   std::optional<Painted> painted;
   int calm = 0;  ///< pictures since the last that moved
@@ -338,50 +253,7 @@ struct ScopeRenderer::Impl {
   void paint_lens(const ScopeCamera& camera, double half, double exposure,
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
-    glViewport(0, 0, viewport.width, viewport.height);
-    const Program& lens = lenses[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
-    lens.use();
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, flat.texture());
-    lens.set("u_flat", 0);
-    lens.set("u_screen_depth", 0.0f);
-    lens.set("u_size_px", Eigen::Vector2f(static_cast<float>(viewport.width),
-                                          static_cast<float>(viewport.height)));
-    const double radius_px = ScopeCamera::radius_px(viewport);
-    lens.set("u_radius_px", static_cast<float>(radius_px));
-    lens.set("u_barrel", static_cast<float>(camera.barrel()));
-    lens.set("u_half_field", static_cast<float>(camera.half_field_rad()));
-    lens.set("u_flat_half", static_cast<float>(half));
-    lens.set("u_tipped_to", static_cast<float>(camera.tipped_to_rad()));
-    lens.set("u_exposure", static_cast<float>(exposure));
-    lens.set("u_focus", static_cast<float>(kFocus_m));
-    lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
-    lens.set("u_taken", static_cast<float>(water.taken_per_m));
-    lens.set("u_blood", static_cast<float>(water.blood));
-    if (!water.clear()) set_water_on(lens);
-    lens.set("u_fog", static_cast<float>(water.fog));
-    lens.set("u_world_from_view", to_matrix(camera.X_WC()));
-    glBindVertexArray(no_vertices.get());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindVertexArray(0);
-    glBindTexture(GL_TEXTURE_2D, 0);
-  }
-
-  void set_water_on(const Program& lens) const {
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_3D, clouds.get());
-    glActiveTexture(GL_TEXTURE0);
-    lens.set("u_clouds", 1);
-    lens.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
-    lens.set("u_plumes", static_cast<int>(water.plume_count));
-    for (std::uint32_t k = 0; k < water.plume_count; ++k) {
-      const std::string at = "[" + std::to_string(k) + "]";
-      const BloodPlume& plume = water.plumes[k];
-      lens.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
-      lens.set(("u_plume_size" + at).c_str(),
-               Eigen::Vector2f(static_cast<float>(plume.radius_m),
-                               static_cast<float>(plume.taken_per_m)));
-    }
+    lens.paint(flat, {camera, half, exposure, viewport}, water);
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -451,15 +323,9 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
   auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
   if (!layer) return tl::unexpected(layer.error());
   impl->changed_cartilage = std::move(*layer);
-  for (std::size_t k = 0; k < impl->lenses.size(); ++k) {
-    std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
-    if ((k & kSeesFog) != 0) defines += "#define FOG\n";
-    auto lens = Program::load_with(shaders, "screen", "scope", defines);
-    if (!lens) return tl::unexpected(lens.error());
-    impl->lenses[k] = std::move(*lens);
-  }
-  impl->no_vertices = make_vertex_array();
-  impl->clouds = cloud_texture();
+  auto lens = ScopeLens::load(shaders);
+  if (!lens) return tl::unexpected(lens.error());
+  impl->lens = std::move(*lens);
   impl->wall.pattern = TissuePattern::kSynovium;
   return impl;
 }

@@ -1,0 +1,70 @@
+#include "scope_parts.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "surface/shapes.h"
+
+namespace osteon {
+
+TissuePattern pattern_of(std::string_view kind) {
+  if (kind == "cartilage") return TissuePattern::kCartilage;
+  if (kind == "meniscus" || kind == "disc") return TissuePattern::kMeniscus;
+  if (kind == "ligament" || kind == "tendon") return TissuePattern::kFibres;
+  return kind == "fat" ? TissuePattern::kFat : TissuePattern::kBone;
+}
+
+void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue) {
+  if (vertices.empty()) return;
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& v : vertices) center += v / static_cast<double>(vertices.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& v : vertices) spread += (v - center) * (v - center).transpose();
+  if (!spread.allFinite()) return;
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  const int column = tissue.pattern == TissuePattern::kMeniscus ? 0 : 2;
+  tissue.fibre = axes.eigenvectors().col(column).cast<float>();
+  tissue.center = center.cast<float>();
+}
+
+TissuePart steel() {
+  TissuePart part;
+  part.pattern = TissuePattern::kSteel;
+  part.tint = {0.86f, 0.88f, 0.91f};
+  return part;
+}
+
+TissuePart ghost_part() {
+  TissuePart part = steel();
+  part.tint = {0.35f, 0.72f, 1.0f};
+  return part;
+}
+
+TissuePart placed_part(const PlacingRod& rod) {
+  constexpr int kSides = 20;
+  TissuePart part = steel();
+  const Vec3 along = rod.b_W - rod.a_W;
+  if (rod.is == PlacingRod::Is::kGraft) {
+    part.pattern = TissuePattern::kFibres;
+    part.tint = {0.90f, 0.87f, 0.78f};
+    part.fibre = along.normalized().cast<float>();
+    part.center = (0.5 * (rod.a_W + rod.b_W)).cast<float>();
+  } else if (rod.is == PlacingRod::Is::kThread) {
+    part.tint = {0.16f, 0.42f, 0.30f};
+  }
+  TriMesh mesh = cylinder(kSides);
+  const Quat q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), along);
+  for (Vec3& v : mesh.vertices)
+    v = rod.a_W + q * Vec3(rod.radius_m * v.x(), rod.radius_m * v.y(), along.norm() * v.z());
+  part.surface = GpuMesh(plain_shaded(mesh));
+  return part;
+}
+
+bool same_rods(const std::vector<PlacingRod>& a, const std::vector<PlacingRod>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const PlacingRod& x, const PlacingRod& y) {
+        return x.is == y.is && x.a_W == y.a_W && x.b_W == y.b_W && x.radius_m == y.radius_m;
+      });
+}
+
+}  // namespace osteon

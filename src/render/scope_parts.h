@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "osteon/base/types.h"
+#include "osteon/scene/placing.h"
+#include "surface/tissue_part.h"
+
+namespace osteon {
+
+/// How a soft part of a kind looks, as cases name kinds.
+TissuePattern pattern_of(std::string_view kind);
+/// Fibres run along a band's longest axis; a meniscus lies across its shortest.
+void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
+TissuePart steel();
+/// An instrument of another hand's recorded way.
+TissuePart ghost_part();
+/// Thread, graft or button, in World.
+TissuePart placed_part(const PlacingRod& rod);
+bool same_rods(const std::vector<PlacingRod>& a, const std::vector<PlacingRod>& b);
+
+}  // namespace osteon
