@@ -26,12 +26,14 @@ constexpr double kLean_n = 1, kLongestLean_s = 6;
 // The tibial aimer's line stands so far from its shaft.
 constexpr double kAimerTurn_rad = 55 * kAclTurn;
 constexpr double kAimerTip_m = 0.0011;  // radius of what touches the plateau
+constexpr double kAimerPress_m = 0.0025;
 
 // How an aimer stands on the bone: its tip, its shaft, and the way by which it comes.
 struct AimerStand {
   Pose X_WT;
   Vec3 back_W = Vec3::UnitZ();  // along its shaft
-  Vec3 out_W = Vec3::UnitZ();   // of the bone, along the line that it shall fix
+  Vec3 out_W = Vec3::UnitZ();   // of the bone
+  bool leans = false;           // on slanted bone, where it would slide off when it is pressed
 };
 
 Pose standing(const Vec3& p_W, const Vec3& z_W, const Vec3& towards_x_W) {
@@ -51,7 +53,7 @@ AimerStand tibial_aimer(const AclKnee& knee, const AclLine& line, double length_
   const Vec3 portal = (knee.mark("portal_am") - tip).normalized();
   const Vec3 aside = (portal - portal.dot(out) * out).normalized();
   const Vec3 shaft = std::cos(kAimerTurn_rad) * out + std::sin(kAimerTurn_rad) * aside;
-  return {standing(tip, shaft, out), shaft, line.in_W};
+  return {standing(tip, shaft, out), shaft, up};
 }
 
 // Points of the hook of the femoral aimer and of what bears it, in Tool.
@@ -103,7 +105,7 @@ AimerStand femoral_aimer(const AclKnee& knee, const AclLine& line) {
     const double off = std::abs(*before - kWanted_m) + 0.0002 * std::min(k, 24 - k);
     if (!(off < least)) continue;
     least = off;
-    best = {{line.at_W - *before * line.in_W, X.q}, back, back};
+    best = {{line.at_W - *before * line.in_W, X.q}, back, back, true};
   }
   return best;
 }
@@ -156,18 +158,23 @@ class LineMoves {
   void jaw(double share) { out_.push_back({Kind::kJaw, {}, 0, 0, share}); }
   // Fixes a sleeve by which a pin comes to this line.
   void aim(const std::string& aimer, const AimerStand& stand) {
-    const auto to = [&](double back_m, double m_per_s) {
-      out_.push_back(
-          {Kind::kGo, {stand.X_WT.p + back_m * stand.back_W, stand.X_WT.q}, m_per_s * pace_});
+    const auto to = [&](const Vec3& off_W, double m_per_s) {
+      out_.push_back({Kind::kGo, {stand.X_WT.p + off_W, stand.X_WT.q}, m_per_s * pace_});
     };
-    to(0.25, kFast_m_per_s);
+    to(0.25 * stand.back_W, kFast_m_per_s);
     take(aimer);
     jaw(1);
-    to(kNear_m, kSlow_m_per_s);
-    out_.push_back(
-        {Kind::kLean, stand.X_WT, 0.01, kLean_n, kLongestLean_s, {}, false, stand.out_W});
+    to(kNear_m * stand.back_W, kSlow_m_per_s);
+    if (stand.leans) {
+      out_.push_back(
+          {Kind::kLean, stand.X_WT, 0.01, kLean_n, kLongestLean_s, {}, false, stand.out_W});
+    } else {
+      to(Vec3::Zero(), 0.01);
+      to(-kAimerPress_m * stand.out_W, 0.01);
+    }
     jaw(0);
-    to(0.15, kSlow_m_per_s);
+    if (!stand.leans) to(Vec3::Zero(), 0.01);
+    to(0.15 * stand.back_W, kSlow_m_per_s);
   }
   // Takes an instrument out of the bone's way, and comes along the line to before its mouth.
   void come_with(const std::string& instrument) {
