@@ -54,18 +54,25 @@ bool has_size(const Cylinder& fit, const HoleOptions& options) {
   return 2 * fit.radius >= options.least_diameter_m && 2 * fit.radius <= options.largest_diameter_m;
 }
 
+/// A patch bends over a small part of the way round: it knows its radius to about a third.
+bool may_have_size(const Cylinder& fit, const HoleOptions& options) {
+  constexpr double kRoughly = 1.5;
+  return 2 * fit.radius * kRoughly >= options.least_diameter_m &&
+         2 * fit.radius <= kRoughly * options.largest_diameter_m;
+}
+
 std::optional<Wall> wall_at(const Faces& faces, std::uint32_t seed, const HoleOptions& options) {
   auto fit = measure::fit_cylinder(faces, smooth_patch(faces, seed));
-  if (!fit || !has_size(*fit, options) || fit->roundness > 2 * options.roundness_m)
+  if (!fit || !may_have_size(*fit, options) || fit->roundness > 2 * options.roundness_m)
     return std::nullopt;
   Wall wall;
   for (int round = 0; round < 4; ++round) {
     wall.faces = measure::grow_wall(faces, seed, *fit, 3 * options.roundness_m);
     if (wall.faces.size() < 8) return std::nullopt;
     fit = measure::fit_cylinder(faces, wall.faces);
-    if (!fit || !has_size(*fit, options)) return std::nullopt;
+    if (!fit || !may_have_size(*fit, options)) return std::nullopt;
   }
-  if (fit->roundness > options.roundness_m) return std::nullopt;
+  if (fit->roundness > options.roundness_m || !has_size(*fit, options)) return std::nullopt;
   wall.fit = *fit;
   if (measure::coverage(faces, wall.faces, *fit) < options.least_coverage_rad) return std::nullopt;
   wall.rims = measure::rims_of(faces, wall.faces, *fit);

@@ -75,7 +75,10 @@ std::optional<Cylinder> fit_cylinder(const Faces& faces, const std::vector<std::
   if (!(area > 0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(spread / area);
   const Vec3 values = solver.eigenvalues();  // ascending
-  if (values[0] > 1e-3 || values[1] < 1e-3) return std::nullopt;
+  // Of a wall that goes all round, slanted and rounded rims may be more than of a patch.
+  constexpr double kFlat = 1e-3, kFlatAllRound = 0.01;
+  if (values[0] > std::max(kFlat, kFlatAllRound * values[1]) || values[1] < kFlat)
+    return std::nullopt;
   Cylinder fit;
   fit.axis = solver.eigenvectors().col(0).normalized();
   const Vec3 x = across_axis(fit.axis), y = fit.axis.cross(x);

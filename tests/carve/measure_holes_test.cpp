@@ -112,6 +112,38 @@ TEST(FindHoles, AHoleThatCameOfAFieldIsFoundAsWell) {
   EXPECT_TRUE(holes[0].through);
 }
 
+// A socket of 8 mm, and a short channel of 4.5 mm from its bottom out of a slanted far side: as
+// much of the channel's wall belongs to its rounded rims as to the rest.
+TEST(FindHoles, AShortChannelThatLeavesThroughASlantedSideIsFound) {
+  for (const double slant_deg : {0.0, 20.0, 35.0}) {
+    const double turn = slant_deg * M_PI / 180;
+    const Vec3 far(std::sin(turn), 0, -std::cos(turn));
+    const auto field = [&](const Vec3& p) {
+      const double side = std::max(std::abs(p.x()), std::abs(p.y())) - 8 * kMm;
+      const double block = std::max({side, p.z() - 12 * kMm, far.dot(p) - 4 * kMm});
+      const double off = std::hypot(p.x() - 0.1 * kMm, p.y() + 0.07 * kMm);
+      const double socket = std::max(off - 4 * kMm, -p.z()), channel = off - 2.25 * kMm;
+      return std::max(block, -std::min(socket, channel));
+    };
+    Aabb box;
+    box.include(Vec3(-9.1, -9.1, -14.1) * kMm);
+    box.include(Vec3(9.1, 9.1, 13.1) * kMm);
+    IsosurfaceOptions options;
+    options.cell_m = 0.4 * kMm;
+    const auto mesh = isosurface(field, box, options);
+    ASSERT_TRUE(mesh) << mesh.error().message();
+    HoleOptions how;
+    how.least_diameter_m = 4 * kMm;
+    how.roundness_m = 0.3 * kMm;
+    auto holes = find_holes(*mesh, how);
+    ASSERT_EQ(holes.size(), 2u) << slant_deg;
+    if (holes[0].diameter_m > holes[1].diameter_m) std::swap(holes[0], holes[1]);
+    EXPECT_NEAR(holes[0].diameter_m, 4.5 * kMm, 0.1 * kMm) << slant_deg;
+    EXPECT_NEAR(holes[1].diameter_m, 8 * kMm, 0.1 * kMm) << slant_deg;
+    EXPECT_GT(std::abs(holes[0].axis.z()), 0.999) << slant_deg;
+  }
+}
+
 // A drill's point leaves a cone, which is a bottom as a flat end is.
 TEST(FindHoles, AHoleThatEndsInADrillsPointIsBlind) {
   const auto field = [](const Vec3& p) {
