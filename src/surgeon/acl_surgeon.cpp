@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "acl_drilling.h"
@@ -68,7 +69,7 @@ bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
 
 // Whether the mark is near enough to the middle of the picture, and neither too near nor too far.
 bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
-  constexpr double kCentral = 0.4, kClosest_m = 0.005, kFarthest_m = 0.028;
+  constexpr double kCentral = 0.45, kClosest_m = 0.005, kFarthest_m = 0.028;
   const ScopeView view = view_through(tools.optics, X_WT);
   const Vec3 way = mark_W - view.eye_W;
   const double cosine = way.normalized().dot(view.along_W);
@@ -80,10 +81,10 @@ bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
 std::optional<Gaze> gaze_over(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
                               const Vec3& mark_W, const Vec3& aim_W) {
   constexpr double kScopeRadius_m = 0.0025;
-  for (int turn = 0; turn <= 11; ++turn)
+  for (int turn = 0; turn <= 23; ++turn)
     for (const double side : {1.0, -1.0})
       for (const double mm : {14.0, 18.0, 11.0, 22.0, 26.0, 8.0}) {
-        const Gaze gaze{aim_W, 0.001 * mm, side * turn * 15 * kAclTurn};
+        const Gaze gaze{aim_W, 0.001 * mm, side * turn * 7.5 * kAclTurn};
         const auto pose = pose_for(gaze, portal_W, tools.optics);
         if (pose && well_seen(tools, *pose, mark_W) &&
             knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))
@@ -164,18 +165,40 @@ ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
   return way.path();
 }
 
+// Where a rod that comes straight through the portal gets to the bone: at the mark, or where an
+// edge of the notch is before that, as near beside it as can be.
+std::optional<Vec3> reached_from(const AclKnee& knee, const Vec3& portal_W, const Vec3& mark_W,
+                                 double radius_m) {
+  constexpr double kBefore_m = 0.006;
+  constexpr int kRound = 16;
+  const auto free = [&](const Vec3& p_W) {
+    return knee.is_free(p_W + kBefore_m * (portal_W - p_W).normalized(), portal_W, radius_m);
+  };
+  if (free(mark_W)) return mark_W;
+  const Vec3 up = knee.normal(true, mark_W), x = up.unitOrthogonal(), y = up.cross(x);
+  for (const double beside_m : {0.0015, 0.003, 0.0045, 0.006})
+    for (int k = 0; k < kRound; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kRound;
+      const Vec3 p_W =
+          knee.on_femur(mark_W + beside_m * (std::cos(angle) * x + std::sin(angle) * y));
+      if (free(p_W)) return p_W;
+    }
+  return std::nullopt;
+}
+
 // Straight through the portal onto each mark.
 void feel_marks(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
                 const AclHabits& habits, AclWay& way, std::vector<std::string>& unreachable) {
   constexpr double kProbeRadius_m = 0.0015, kBefore_m = 0.008;
   const double press_m = habits.fault == "too_hard" ? kTooHard_m : habits.press_m;
   for (const std::string& name : tools.felt) {
-    const Vec3 mark = knee.mark(name);
-    const Vec3 back = (portal_W - mark).normalized();
-    if (!knee.is_free(mark + 0.006 * back, portal_W, kProbeRadius_m)) {
+    const auto reached = reached_from(knee, portal_W, knee.mark(name), kProbeRadius_m);
+    if (!reached) {
       unreachable.push_back(name);
       continue;
     }
+    const Vec3& mark = *reached;
+    const Vec3 back = (portal_W - mark).normalized();
     way.go_at(held_by_shaft(portal_W + kOutside_m * back, back), kAir_m_per_s);
     way.go_at(held_by_shaft(mark + kBefore_m * back, back), kTravel_m_per_s);
     const Vec3 on = habits.fault == "too_hard" ? Vec3(-knee.normal(true, mark)) : Vec3(-back);

@@ -77,7 +77,7 @@ Result<HandPart> plan_graft_fixing(const Case& the_case, const PlacingPlan& plan
   const Vec3 across = straight.cross(X_WT.rotate(Vec3::UnitZ())).normalized();
   const Vec3 out = Eigen::AngleAxisd(habits.aside_rad, across) * straight;
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
-  PlacingHandWay way(held, from, inner, pace);
+  PlacingHandWay way(held, from, inner, bones_far_out(the_case, bent, inner), pace);
   way.stay(orders.now_s() + 0.5);
   const auto place = [&](double m) { return held_by_shaft(mouth + m * out, out); };
   way.change(screw, place(kPassBefore_m).p, out);

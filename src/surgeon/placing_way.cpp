@@ -116,7 +116,7 @@ Result<ProbePath> plan_graft_placing(const Case& the_case, const Skill& skill) {
   const Vec3 middle = 0.5 * (at.f_in + at.t_in);
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
   PlacingHandWay way("passing_pin", held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way),
-                     middle, pace);
+                     middle, bones_far_out(the_case, rest_snapshot(the_case), middle), pace);
   way.stay(0.3);
   pass_pin(way, at, passed_to(*fault, *plan));
   fetch_thread(way, at);
@@ -129,7 +129,9 @@ ProbePath plan_graft_placing(const Case& the_case, const PlacingPlan& plan, cons
   const std::string fault = placing_fault(skill).value_or("");
   const PlacesNow at = places_of(the_case, plan);
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
-  PlacingHandWay way(held, from, 0.5 * (at.f_in + at.t_in), pace);
+  const Vec3 middle = 0.5 * (at.f_in + at.t_in);
+  PlacingHandWay way(held, from, middle, bones_far_out(the_case, rest_snapshot(the_case), middle),
+                     pace);
   way.go(held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way), kPassCarry_m_per_s);
   way.take("passing_pin");
   pass_pin(way, at, passed_to(fault, plan));

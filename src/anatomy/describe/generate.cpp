@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bone/bone_field.h"
+#include "bone/bone_places.h"
 #include "bone/grow.h"
 #include "finding/displace.h"
 #include "joint/roll_glide.h"
@@ -79,9 +80,10 @@ Result<GeneratedAnatomy> generate_anatomy(const std::filesystem::path& descripti
   if (options.soft_parts || !anatomy->joints.empty()) placed = PlacedBones(*grown, options);
   if (auto ok = bend_joints(*anatomy, file, placed, *grown); !ok) return tl::unexpected(ok.error());
   lay_on_skin(*anatomy, *grown);
-  if (options.soft_parts)
-    if (auto ok = grow_soft_parts(*anatomy, options, file, *grown, std::move(placed)); !ok)
-      return tl::unexpected(ok.error());
+  if (!options.soft_parts)
+    lay_on_bones(*anatomy, *grown);
+  else if (auto ok = grow_soft_parts(*anatomy, options, file, *grown, std::move(placed)); !ok)
+    return tl::unexpected(ok.error());
   return grown;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bone/bone_places.h"
 #include "bone/grow.h"
 #include "bone/overlap.h"
 #include "finding/apply_findings.h"
@@ -178,11 +179,12 @@ Result<VariedAnatomy> generate_varied(const std::filesystem::path& description,
     return tl::unexpected(ok.error());
   varied.anatomy = std::move(bones->grown);
   lay_on_skin(bones->description, varied.anatomy);
-  if (options.soft_parts)
-    if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy,
-                                  std::move(bones->placed));
-        !ok)
-      return tl::unexpected(ok.error());
+  if (!options.soft_parts)
+    lay_on_bones(bones->description, varied.anatomy);
+  else if (auto ok = grow_soft_parts(bones->description, options, file, varied.anatomy,
+                                     std::move(bones->placed));
+           !ok)
+    return tl::unexpected(ok.error());
   if (auto ok = split_bones(bones->description, file, varied.anatomy); !ok)
     return tl::unexpected(ok.error());
   varied.anatomy.findings = std::move(*findings);
