@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "osteon/base/file.h"
+
 namespace osteon {
 namespace {
 
@@ -133,6 +135,20 @@ std::vector<Vec3> SceneReader::points(const Table& in, std::string_view key, Wit
   if (!list || out.size() != list->size())
     complain("must be a list of points, each of three numbers " + from_to(within), in, key);
   return out;
+}
+
+Result<toml::table> parse_scene_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& e) {
+    return fail(std::string(e.description()),
+                name + ", line " + std::to_string(e.source().begin.line), "Fix the TOML there");
+  }
+}
+
+Result<std::string> read_scene_file(const std::filesystem::path& path) {
+  constexpr std::uint64_t kLargestBytes = 1 << 24;
+  return read_file(path, kLargestBytes);
 }
 
 }  // namespace osteon

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -54,5 +55,10 @@ class SceneReader {
   std::string file_;
   std::optional<Error> error_;
 };
+
+/// The text of a scene file as TOML; `name` is how errors call the file.
+Result<toml::table> parse_scene_toml(std::string_view text, const std::string& name);
+/// The text of a scene file.
+Result<std::string> read_scene_file(const std::filesystem::path& path);
 
 }  // namespace osteon

@@ -1,6 +1,5 @@
 #include "osteon/tissue/solve_scene.h"
 
-#include "osteon/base/file.h"
 #include "osteon/mesh/tet_io.h"
 #include "scene_reader.h"
 
@@ -238,23 +237,17 @@ SolveScene read_scene(SceneReader& in, const Table& root) {
 }  // namespace
 
 Result<SolveScene> parse_solve_scene(std::string_view text, const std::string& name) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& e) {
-    return fail(std::string(e.description()),
-                name + ", line " + std::to_string(e.source().begin.line), "Fix the TOML there");
-  }
+  const auto root = parse_scene_toml(text, name);
+  if (!root) return tl::unexpected(root.error());
   SceneReader in(name);
-  SolveScene scene = read_scene(in, {&root, ""});
+  SolveScene scene = read_scene(in, {&*root, ""});
   scene.name = name;
   if (in.error()) return tl::unexpected(*in.error());
   return scene;
 }
 
 Result<SolveScene> load_solve_scene(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLargestBytes = 1 << 24;
-  const auto text = read_file(path, kLargestBytes);
+  const auto text = read_scene_file(path);
   if (!text) return tl::unexpected(text.error());
   auto scene = parse_solve_scene(*text, path.string());
   if (!scene || scene->body.vtk.empty()) return scene;

@@ -4,29 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "osteon/mesh/distance.h"
+
 namespace osteon {
 namespace {
 
 constexpr double kFar_m = 0.03;  // along z: skin beyond is that of the body's other side
-
-Vec3 nearest_on(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a);
-  const double square = n.squaredNorm();
-  if (square > 0) {
-    const Vec3 q = p - n.dot(p - a) / square * n;
-    if (n.dot((b - a).cross(q - a)) >= 0 && n.dot((c - b).cross(q - b)) >= 0 &&
-        n.dot((a - c).cross(q - c)) >= 0)
-      return q;
-  }
-  Vec3 best = a;
-  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    const double length = (to - from).squaredNorm();
-    const double share = length > 0 ? std::clamp((p - from).dot(to - from) / length, 0.0, 1.0) : 0;
-    const Vec3 q = from + share * (to - from);
-    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-  }
-  return best;
-}
 
 /// The skin's triangles over the sheet's box, in its frame, facing along z.
 std::vector<std::array<Vec3, 3>> under(const TriMesh& skin_W, const Pose& X_WS, const Aabb& box) {
@@ -68,15 +51,7 @@ Result<Pose> sheet_frame(const TriMesh& skin_W, const Vec3& near_W, const Vec3& 
                          double turn_rad, double reach_m) {
   if (skin_W.triangles.empty())
     return fail("the case has no skin", "skin scene", "Use another case");
-  Vec3 at = Vec3::Zero();
-  double nearest = 1e300;
-  for (const Triangle& t : skin_W.triangles) {
-    const Vec3 q =
-        nearest_on(near_W, skin_W.vertices[t[0]], skin_W.vertices[t[1]], skin_W.vertices[t[2]]);
-    if (!((q - near_W).squaredNorm() < nearest)) continue;
-    nearest = (q - near_W).squaredNorm();
-    at = q;
-  }
+  const Vec3 at = MeshDistance(skin_W).closest(near_W).point;
   Vec3 z = Vec3::Zero();
   for (const Triangle& t : skin_W.triangles) {
     const Vec3 &a = skin_W.vertices[t[0]], &b = skin_W.vertices[t[1]], &c = skin_W.vertices[t[2]];

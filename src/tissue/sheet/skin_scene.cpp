@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "osteon/base/file.h"
 #include "scene_reader.h"
 
 namespace osteon {
@@ -127,23 +126,17 @@ SkinScene read_skin(SceneReader& in, const Table& root) {
 }  // namespace
 
 Result<SkinScene> parse_skin_scene(std::string_view text, const std::string& name) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& e) {
-    return fail(std::string(e.description()),
-                name + ", line " + std::to_string(e.source().begin.line), "Fix the TOML there");
-  }
+  const auto root = parse_scene_toml(text, name);
+  if (!root) return tl::unexpected(root.error());
   SceneReader in(name);
-  SkinScene scene = read_skin(in, {&root, ""});
+  SkinScene scene = read_skin(in, {&*root, ""});
   scene.name = name;
   if (in.error()) return tl::unexpected(*in.error());
   return scene;
 }
 
 Result<SkinScene> load_skin_scene(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLargestBytes = 1 << 24;
-  const auto text = read_file(path, kLargestBytes);
+  const auto text = read_scene_file(path);
   if (!text) return tl::unexpected(text.error());
   return parse_skin_scene(*text, path.string());
 }
