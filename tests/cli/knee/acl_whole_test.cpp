@@ -59,6 +59,21 @@ TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
   }
 }
 
+// Left and right: a patient's side follows from the seed.
+class TwentyKnees : public WholeAcl, public ::testing::WithParamInterface<int> {};
+
+TEST_P(TwentyKnees, TheExpertPassesAndTheRecordingRepeats) {
+  if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
+  const Json json =
+      report("--seed " + std::to_string(GetParam()) + " --record " + file("w.osr"), 0);
+  EXPECT_EQ(json["verdict"], "passed");
+  EXPECT_TRUE(json["errors"].empty()) << json["errors"];
+  EXPECT_LT(json["duration_s"], 1500);
+  EXPECT_EQ(run_osteon("replay " + file("w.osr")).exit_code, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, TwentyKnees, ::testing::Range(0, 20));
+
 TEST_F(WholeAcl, AGraftThatIsNoReportIsRefused) {
   std::ofstream(file("no.json")) << "{\"acl\": 3}";
   EXPECT_EQ(run_osteon("run acl --no-store --seed 0 --graft " + file("no.json")).exit_code, 2);
