@@ -202,6 +202,38 @@ bool ProxySolver::find_start(Context& c, const Quat& q_WP, Vec3& start) {
   return false;
 }
 
+// A plane that still parts its pair may be in the way of a turn that the bone is not: one that was
+// found in a slot, above it. Such planes are found again where the tool stands, before the turn.
+// They stay only if each leaves much more room: where one bone holds the turn, new planes of the
+// others would let it go on by pushing the tool aside.
+bool ProxySolver::part_better(Context& c) {
+  constexpr double kMore_m = 1e-4;
+  std::array<std::uint32_t, kMaxCandidates> held{};
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < near_.count; ++i)
+    if (beyond(c, i, c.task.base_W)) held[count++] = i;
+  c.raised_WB = c.start_WB;
+  c.raised_q_WT = c.start_WT.q;
+  for (std::uint32_t i = 0; i < near_.count; ++i) raise(c, i);
+  bool better = count > 0;
+  std::uint32_t done = 0;
+  for (; done < count && better; ++done) {
+    const std::uint32_t i = held[done];
+    last_[done] = c.memory[i];
+    settle(c, i);
+    const double room_m = planes_[i].n.dot(c.start_WT.p) - planes_[i].c;
+    better = part(c, i, c.start_WT.p) && parting_[i].gap > 2 * room_m + kMore_m;
+  }
+  for (std::uint32_t k = 0; !better && k < done; ++k) {
+    const std::uint32_t i = held[k];
+    c.memory[i] = last_[k];
+    parting_[i] = last_[k].plane;
+    gap_known_[i] = false;
+    raise(c, i);
+  }
+  return better;
+}
+
 // Puts the start of the path at the free point nearest to the task's start.
 bool ProxySolver::enter_free_space(Context& c, const Quat& q_WP, ProxyMove& move) {
   Vec3 start;
@@ -356,7 +388,8 @@ ProxyMove ProxySolver::move(const ProxyTask& wanted, std::span<PairMemory> memor
   }
   if (task.q_WP.coeffs() != wanted.q_WP.coeffs()) move.status |= kTickRotationHeld;
   meet_tools(task);
-  if (enter_free_space(c, task.q_WP, move)) {
+  if (enter_free_space(c, task.q_WP, move) ||
+      (part_better(c) && enter_free_space(c, task.q_WP, move))) {
     approach(c, move);
   } else if (enter_free_space(c, task.X_WP.q, move)) {
     move.status |= kTickRotationHeld;

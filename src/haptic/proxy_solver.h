@@ -101,6 +101,7 @@ class ProxySolver {
   bool part(Context& c, std::uint32_t i, const Vec3& p_W);
   bool part_all(Context& c);
   void raise_planes(Context& c, const Quat& q_WT);
+  bool part_better(Context& c);
   bool enter_free_space(Context& c, const Quat& q_WP, ProxyMove& move);
   void leave_overlap(Context& c, ProxyMove& move);
   void approach(Context& c, ProxyMove& move);

@@ -252,5 +252,24 @@ TEST(HapticLoop, ATurnBetweenTwoWallsIsHeld) {
   EXPECT_TRUE(held);
 }
 
+// Once it is above the slot nothing holds the turn any more.
+TEST(HapticLoop, ATurnThatASlotHeldIsFreeAboveIt) {
+  Tool blade = test::tool_of(box_hull(Vec3(0.01, 0.001, 0.001)));
+  Rig rig({bone_of({box_hull(Vec3(0.03, 0.01, 0.01), Vec3(0, 0.0111, 0))}),
+           bone_of({box_hull(Vec3(0.03, 0.01, 0.01), Vec3(0, -0.0111, 0))})},
+          std::move(blade));
+  rig.at(Vec3::Zero());
+  const Quat across(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()));
+  for (int i = 0; i < 50; ++i) rig.at(Vec3::Zero(), across);
+  for (int i = 0; i <= 400; ++i) {
+    const ToolState& s = rig.at(Vec3(0, 0, 3.5e-5 * i), across);
+    ASSERT_GT(proxy_gap(rig, s), 0) << i;
+  }
+  const ToolState* s = nullptr;
+  for (int i = 0; i < 100; ++i) s = &rig.at(Vec3(0, 0, 0.014), across);
+  EXPECT_LT(s->X_WP.q.angularDistance(across), 0.01);
+  EXPECT_FALSE(s->status & kTickRotationHeld);
+}
+
 }  // namespace
 }  // namespace osteon
