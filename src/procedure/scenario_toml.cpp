@@ -101,9 +101,10 @@ AskedFinding read_asked(TomlTable table) {
 // One word for all bones, or what may follow the '#' of a case: "femur=field,flexion=120".
 std::string read_felt(TomlTable& table) {
   const std::string felt = table.text_or("felt", "pieces");
-  if (felt != "pieces" && felt != "hull" && felt != "field" && felt.find('=') == std::string::npos)
+  const bool one_word = felt == "pieces" || felt == "hull" || felt == "field" || felt == "covered";
+  if (!one_word && felt.find('=') == std::string::npos)
     table.set_error("'" + felt + "' is not a felt shape of a bone", "felt",
-                    "Use pieces, hull or field, or BONE=field,... as after a case's '#'");
+                    "Use pieces, hull, field or covered, or BONE=field,... as after a case's '#'");
   return felt;
 }
 

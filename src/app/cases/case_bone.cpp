@@ -53,6 +53,7 @@ Result<CaseBone> load_case_bone(const std::string& spec, bool with_cartilage) {
 }
 
 Result<Vec3> point_from_mm(const std::string& text, const std::string& option) {
+  constexpr double kFarthest_mm = 10000;
   std::array<double, 3> mm{};
   const char* at = text.data();
   const char* const end = text.data() + text.size();
@@ -62,6 +63,9 @@ Result<Vec3> point_from_mm(const std::string& text, const std::string& option) {
     if (error != std::errc{} || !ends_well || !std::isfinite(mm[k]))
       return fail("is not three numbers: '" + text + "'", option,
                   "Write it as x,y,z in mm without spaces, such as 10,-2.5,30");
+    if (std::abs(mm[k]) > kFarthest_mm)
+      return fail("lies farther than 10 m away: '" + text + "'", option,
+                  "Give three numbers from -10000 to 10000, in mm");
     at = next + 1;
   }
   return Vec3(mm[0], mm[1], mm[2]) / 1000;

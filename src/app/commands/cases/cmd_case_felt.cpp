@@ -63,8 +63,8 @@ void add_case_felt_command(cli::App& app, int& exit_code) {
   auto spec = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   felt->add_option("case", *spec,
-                   "a case folder, builtin:wrist or builtin:knee; CASE#BONE=pieces, hull or "
-                   "field chooses how a bone is felt")
+                   "a case folder, builtin:wrist or builtin:knee; CASE#BONE=pieces, hull, "
+                   "field or covered chooses how a bone is felt")
       ->required();
   felt->add_flag("--json", *json, "print JSON, lengths in millimetres");
   felt->callback([spec, json, &exit_code] {

@@ -89,7 +89,8 @@ void add_scan_command(cli::App& app, int& exit_code) {
   scan->add_option("--slice", command->slice_mm, "distance between slices, mm")
       ->capture_default_str();
   scan->add_option("--noise", command->options.noise_hu, "standard deviation of the noise, HU")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(cli::Range(0.0, 1000.0));
   scan->add_option("--psf", command->psf_mm, "point spread, full width at half maximum, mm")
       ->capture_default_str();
   scan->add_option("--cortical", command->cortical_mm, "thickness of the cortical shell, mm")
