@@ -53,10 +53,10 @@ class SurfaceOfRod {
   // The half ball about an end of the axis; `inward` is the unit vector to the other end. First a
   // ring halfway down, then up and down from its lowest place.
   void look_over_end(const Vec3& x, const Vec3& inward) {
-    const auto [e, f] = both_across(inward);
+    const std::array<Vec3, 2> side = both_across(inward);
     const auto place = [&](int k, double share) {
       const double angle = 0.5 * std::numbers::pi * share;
-      return look(x, std::cos(angle) * inward + std::sin(angle) * turned(e, f, k));
+      return look(x, std::cos(angle) * inward + std::sin(angle) * turned(side[0], side[1], k));
     };
     int k_best = 0;
     Touch lowest = place(0, 0.5);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "gl/frame.h"
 #include "view/water_clouds.h"
 
 namespace osteon {

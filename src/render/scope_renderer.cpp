@@ -17,6 +17,7 @@
 #include "scope_parts.h"
 #include "surface/changed_cubes.h"
 #include "surface/moved_light.h"
+#include "surface/shapes.h"
 #include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
 #include "view/exposure.h"
