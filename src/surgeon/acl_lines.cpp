@@ -177,9 +177,10 @@ Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const V
   // A flat way is short, but a flatter one would be no tunnel but a groove; one to a place in front
   // must be steep to be long enough.
   const bool is_short = fault == "short_tibia";
+  const int flattest = is_short ? 45 : 40;
   const int steepest = is_short ? 50 : fault == "anterior_tibia" ? 75 : 60;
   Choice best;
-  for (int steep = 40; steep <= steepest; steep += 5)
+  for (int steep = flattest; steep <= steepest; steep += 5)
     for (int inner = 20; inner <= 50; inner += 10) {
       const double s = steep * kAclTurn, i = inner * kAclTurn;
       const Vec3 out =
