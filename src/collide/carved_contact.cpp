@@ -17,8 +17,7 @@ constexpr int kRound = 8;  // directions about the axis
 
 // Two unit vectors across a unit vector and each other.
 std::array<Vec3, 2> both_across(const Vec3& u) {
-  const Vec3 other = std::abs(u.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 e = u.cross(other).normalized();
+  const Vec3 e = u.unitOrthogonal();
   return {e, u.cross(e)};
 }
 

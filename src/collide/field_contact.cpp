@@ -111,12 +111,6 @@ class LowestPoint {
   Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
 };
 
-Vec3 across(const Vec3& along) {
-  const Vec3 n =
-      along.cross(std::abs(along.x()) < std::abs(along.y()) ? Vec3::UnitX() : Vec3::UnitY());
-  return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::UnitZ());
-}
-
 bool is_usable(const Capsule& c) {
   return is_finite(c.p0) && is_finite(c.p1) && std::isfinite(c.radius) && c.radius >= 0;
 }
@@ -173,7 +167,11 @@ CapsuleContact field_contact(const FieldView& field, const Capsule& whole_A, dou
   out.status = LpStatus::kOptimal;
   out.gap = lowest.field.distance - capsule_A.radius;
   // Exactly in the middle of a hole each way across the axis is as good as the other.
-  out.nhat_AB_A = flat ? across(capsule_A.p1 - capsule_A.p0) : Vec3(lowest.field.gradient / slope);
+  const Vec3 along = capsule_A.p1 - capsule_A.p0;
+  if (flat)
+    out.nhat_AB_A = ball ? Vec3(Vec3::UnitZ()) : Vec3(along.unitOrthogonal());
+  else
+    out.nhat_AB_A = lowest.field.gradient / slope;
   out.p_axis_A = capsule_A.p0 + lowest.s * (capsule_A.p1 - capsule_A.p0);
   out.p_A = out.p_axis_A - lowest.field.distance * out.nhat_AB_A;
   // What was cut off is beyond far_m, but may be nearer than the rest.

@@ -1,5 +1,6 @@
 #include "osteon/collide/field_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osteon {
@@ -8,18 +9,19 @@ namespace {
 // Two planes so nearly alike have no edge between them.
 constexpr double kAlike = 1e-4;
 
-Vec3 at_most_unit(const Vec3& slope) {
-  const double size = slope.norm();
-  return size > 1 ? Vec3(slope / size) : slope;
-}
+// A slope shorter than this is none wall's: walls on several sides are about as near.
+constexpr double kSteep = 0.8;
+
+// Unit where there is one wall; shorter, and without a jump to nothing, where there are several.
+Vec3 normal_of(const Vec3& slope) { return slope / std::max(slope.norm(), kSteep); }
 
 }  // namespace
 
 // a, b: heights over the two planes, m and n their normals, c = m.n. The edge is nearest where the
 // foot on each plane is outside of the other: a > b c and b > a c. Its distance d follows from
 // x = s m + t n with m.x = a, n.x = b, and d^2 = |x|^2 = (a^2 + b^2 - 2 a b c) / (1 - c^2).
-// In the middle of a hole the walls all round are as near as each other and the slope is none
-// wall's: a slope shorter than 1 is taken as it is, so that c, and with it d, has no jump there.
+// In the middle of a hole the walls all round are as near as each other: there n goes to nothing,
+// so that c, and with it d, has no jump.
 FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
   if (asked_) ++*asked_;
   FieldSample cut;
@@ -27,7 +29,7 @@ FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
   const FieldSample& higher = cut.distance > bone.distance ? cut : bone;
   const double a = bone.distance, b = cut.distance;
   if (!(a > 0 && b > 0)) return higher;
-  const Vec3 m = at_most_unit(bone.gradient), n = at_most_unit(cut.gradient);
+  const Vec3 m = normal_of(bone.gradient), n = normal_of(cut.gradient);
   const double c = m.dot(n), apart = 1 - c * c;
   if (!(a > b * c && b > a * c) || apart < kAlike) return higher;
   const double s = (a - b * c) / apart, t = (b - a * c) / apart;

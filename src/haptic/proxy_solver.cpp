@@ -204,8 +204,8 @@ bool ProxySolver::find_start(Context& c, const Quat& q_WP, Vec3& start) {
 
 // A plane that still parts its pair may be in the way of a turn that the bone is not: one that was
 // found in a slot, above it. Such planes are found again where the tool stands, before the turn.
-// They stay only if each leaves much more room: where one bone holds the turn, new planes of the
-// others would let it go on by pushing the tool aside.
+// They stay only if each leaves much more room, and a tool that bone holds keeps its planes: new
+// ones would let it turn on by pushing the tool aside.
 bool ProxySolver::part_better(Context& c) {
   constexpr double kMore_m = 1e-4;
   std::array<std::uint32_t, kMaxCandidates> held{};
@@ -389,7 +389,7 @@ ProxyMove ProxySolver::move(const ProxyTask& wanted, std::span<PairMemory> memor
   if (task.q_WP.coeffs() != wanted.q_WP.coeffs()) move.status |= kTickRotationHeld;
   meet_tools(task);
   if (enter_free_space(c, task.q_WP, move) ||
-      (part_better(c) && enter_free_space(c, task.q_WP, move))) {
+      (!task.held && part_better(c) && enter_free_space(c, task.q_WP, move))) {
     approach(c, move);
   } else if (enter_free_space(c, task.X_WP.q, move)) {
     move.status |= kTickRotationHeld;

@@ -85,14 +85,10 @@ TEST(WholeToolTurn, ALongShaftAmongManyPiecesGoesOnTurning) {
   for (int i = 0; i < 200; ++i) {
     s = &rig.at(Vec3::Zero(), about_y(0.3));
     ASSERT_FALSE(s->status & kTickSolverLimit) << i;
-    // However it is pushed aside, its shaft of 2 mm stays within the rings.
-    for (const double z : {0.09, 0.1, 0.11}) {
-      const Vec3 way = s->X_WP.q * Vec3::UnitZ();
-      const Vec3 at = s->X_WP.p + (z - s->X_WP.p.z()) / way.z() * way;
-      ASSERT_LT(std::hypot(at.x(), at.y()), 0.0065 - 0.0004 - 0.002 + 1e-3) << i;
-    }
   }
-  EXPECT_GT(2 * std::asin(std::abs(s->X_WP.q.y())), 0.02);
+  const double turned = 2 * std::asin(std::abs(s->X_WP.q.y()));
+  EXPECT_GT(turned, 0.02);
+  EXPECT_LT(turned, 0.08);
 }
 
 // A handle thicker than the field's fine band stands off by its radius.
