@@ -69,7 +69,7 @@ bool shows(const AclKnee& knee, const Vec3& eye_W, const Vec3& mark_W) {
 
 // Whether the mark is near enough to the middle of the picture, and neither too near nor too far.
 bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
-  constexpr double kCentral = 0.45, kClosest_m = 0.005, kFarthest_m = 0.028;
+  constexpr double kCentral = 0.4, kClosest_m = 0.005, kFarthest_m = 0.028;
   const ScopeView view = view_through(tools.optics, X_WT);
   const Vec3 way = mark_W - view.eye_W;
   const double cosine = way.normalized().dot(view.along_W);
@@ -81,10 +81,10 @@ bool well_seen(const AclTools& tools, const Pose& X_WT, const Vec3& mark_W) {
 std::optional<Gaze> gaze_over(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
                               const Vec3& mark_W, const Vec3& aim_W) {
   constexpr double kScopeRadius_m = 0.0025;
-  for (int turn = 0; turn <= 23; ++turn)
+  for (int turn = 0; turn <= 11; ++turn)
     for (const double side : {1.0, -1.0})
       for (const double mm : {14.0, 18.0, 11.0, 22.0, 26.0, 8.0}) {
-        const Gaze gaze{aim_W, 0.001 * mm, side * turn * 7.5 * kAclTurn};
+        const Gaze gaze{aim_W, 0.001 * mm, side * turn * 15 * kAclTurn};
         const auto pose = pose_for(gaze, portal_W, tools.optics);
         if (pose && well_seen(tools, *pose, mark_W) &&
             knee.is_free(pose->p, portal_W, kScopeRadius_m) && shows(knee, pose->p, mark_W))

@@ -76,5 +76,57 @@ TEST(AclDriller, GivesUpWhereNothingLetsItThrough) {
   EXPECT_TRUE(is_finite(hand.step(0.001)));
 }
 
+// Slippery bone: z = slope x. The tip slides down it as it is pressed along z.
+struct Slope {
+  double slope = 0.6;
+  Vec3 tip_W = Vec3::Zero();
+  Vec3 force(const Vec3& wanted_W) {
+    const double give = 1.0 / 500 + 1.0 / 2000;
+    const Vec3 normal = Vec3(-slope, 0, 1).normalized();
+    const double deep = std::max(0.0, -normal.dot(wanted_W));
+    tip_W = wanted_W + deep * normal;
+    return deep / give * normal;
+  }
+};
+
+std::vector<AclMove> leaning(double at_x_m, double for_s) {
+  const Pose above{Vec3(at_x_m, 0, 0.6 * at_x_m + 0.002), Quat::Identity()};
+  AclMove lean{MoveKind::kLean, above, 0.01, 2, for_s};
+  lean.out_W = Vec3::UnitZ();
+  return {{MoveKind::kGo, above, 0.1}, lean};
+}
+
+// The slide of a hand that only presses: force times give times slope, away from the line.
+TEST(AclDriller, LeansAgainstSlantedBoneUntilTheTipIsOnTheLine) {
+  constexpr double kLine_m = 0.004;
+  AclDriller hand(leaning(kLine_m, 30), expert_skill());
+  Slope bone;
+  Vec3 force = Vec3::Zero();
+  double farthest_m = 0;
+  for (int n = 0; n < 30000 && !hand.done(); ++n) {
+    force = bone.force(hand.step(0.001).p);
+    hand.feel(force);
+    farthest_m = std::max(farthest_m, std::abs(bone.tip_W.x() - kLine_m));
+  }
+  ASSERT_TRUE(hand.done());
+  EXPECT_EQ(hand.given_up(), 0u);
+  EXPECT_GT(farthest_m, 0.0002);
+  EXPECT_NEAR(bone.tip_W.x(), kLine_m, 0.0003);
+  EXPECT_NEAR(bone.tip_W.z(), 0.6 * kLine_m, 0.0003);
+  EXPECT_NEAR(force.z(), 2, 0.5);
+}
+
+TEST(AclDriller, LeansNoLongerThanItsTimeWhereThereIsNoBone) {
+  AclDriller hand(leaning(0, 2), expert_skill());
+  int ticks = 0;
+  while (!hand.done() && ++ticks < 10000) {
+    hand.step(0.001);
+    hand.feel(Vec3::Zero());
+  }
+  ASSERT_TRUE(hand.done());
+  EXPECT_EQ(hand.given_up(), 1u);
+  EXPECT_NEAR(ticks, 2000, 20);
+}
+
 }  // namespace
 }  // namespace osteon

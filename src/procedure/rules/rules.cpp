@@ -137,13 +137,17 @@ std::optional<RuleHit> tilted(const PlannedRule& rule, const Event& event, std::
   return lasting(wrong, rule, event, tick_s, state.holds[0]);
 }
 
-// Counts from when a mark has been in the picture for the first time.
+// Out of the picture for a time, from when it has been in it for the first time.
+std::optional<RuleHit> lost(bool in_picture, const PlannedRule& rule, const Event& event,
+                            double tick_s, RuleHold& hold) {
+  hold.armed = hold.armed || in_picture;
+  return lasting(hold.armed && !in_picture, rule, event, tick_s, hold);
+}
+
 std::optional<RuleHit> nothing_seen(const PlannedRule& rule, const Event& event, std::size_t,
                                     double tick_s, RuleState& state) {
   if (event.kind != kScopeHeld) return std::nullopt;
-  RuleHold& hold = state.holds[0];
-  hold.armed = hold.armed || event.values[1] > 0;
-  return lasting(hold.armed && event.values[1] == 0, rule, event, tick_s, hold);
+  return lost(event.values[1] > 0, rule, event, tick_s, state.holds[0]);
 }
 
 // The time in which nobody looks does not count.
@@ -161,9 +165,7 @@ std::optional<RuleHit> off_portal(const PlannedRule& rule, const Event& event, s
 std::optional<RuleHit> tip_unseen(const PlannedRule& rule, const Event& event, std::size_t,
                                   double tick_s, RuleState& state) {
   if (event.kind != kTipSeen) return std::nullopt;
-  RuleHold& hold = state.holds[0];
-  hold.armed = hold.armed || event.values[0] > 0;
-  return lasting(hold.armed && event.values[0] == 0, rule, event, tick_s, hold);
+  return lost(event.values[0] > 0, rule, event, tick_s, state.holds[0]);
 }
 
 struct RuleRow {
