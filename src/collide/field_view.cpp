@@ -10,7 +10,7 @@ namespace {
 constexpr double kAlike = 1e-4;
 
 // A slope shorter than this is none wall's: walls on several sides are about as near.
-constexpr double kSteep = 0.8;
+constexpr double kSteep = 0.9;
 
 // Unit where there is one wall; shorter, and without a jump to nothing, where there are several.
 Vec3 normal_of(const Vec3& slope) { return slope / std::max(slope.norm(), kSteep); }

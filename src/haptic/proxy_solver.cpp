@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "osteon/scene/state.h"
 #include "rigid_motion.h"
@@ -256,7 +257,14 @@ void ProxySolver::leave_overlap(Context& c, ProxyMove& move) {
   move.path[0] = task.base_W;
   move.path_count = 1;
   NearestPoint target;
-  if (step_towards(c, move, target)) note_holding(task, target, move);
+  if (!step_towards(c, move, target)) return;
+  note_holding(task, target, move, kTouch);
+  const bool still = (move.end() - move.path[0]).norm() < kStill;
+  if (!still || move.holding_count > 0) return;
+  // What keeps it there may leave a gap on every side: the push is felt all the same, or a drill
+  // would stand still there for good.
+  note_holding(task, target, move, std::numeric_limits<double>::infinity());
+  if (move.holding_count == 0 && walls_.is_blocked()) note_block(c, target, move);
 }
 
 bool ProxySolver::step_towards(Context& c, ProxyMove& move, NearestPoint& target) {
@@ -301,13 +309,13 @@ bool ProxySolver::look_again(Context& c, const NearestPoint& target, ProxyMove& 
   return true;
 }
 
-void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target,
-                               ProxyMove& move) const {
+void ProxySolver::note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move,
+                               double most_gap_m) const {
   move.holding_count = 0;
   for (std::uint32_t k = 0; k < target.active_count; ++k) {
     const std::uint32_t i = target.active[k];
     if (i >= felt_planes()) continue;  // skin, which has a force of its own
-    if (gap_of(i) > kTouch && !task.held) continue;
+    if (gap_of(i) > most_gap_m && !task.held) continue;
     const double depth = planes_[i].c - planes_[i].n.dot(task.hand_W);
     HoldingPlane& plane = move.holding[move.holding_count++];
     plane = {0, kMaxHands, planes_[i].n, target.weight[k], depth, Vec3::Zero()};
@@ -334,7 +342,7 @@ void ProxySolver::approach(Context& c, ProxyMove& move) {
     const Vec3 from = move.end();
     NearestPoint target;
     if (!step_towards(c, move, target)) break;
-    note_holding(task, target, move);
+    note_holding(task, target, move, kTouch);
     move.free = target.active_count == 0 && move.end() == task.hand_W;
     // A plane whose gap was measured before bone or tool moved is looked at again.
     const bool felt = touching(target) || move.rounds > 1;

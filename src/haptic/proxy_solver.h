@@ -109,7 +109,9 @@ class ProxySolver {
   bool look_again(Context& c, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
   void note_block(const Context& c, const NearestPoint& target, ProxyMove& move);
-  void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move) const;
+  /// Of the planes that hold it, those whose gap is not more.
+  void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move,
+                    double most_gap_m) const;
   void meet_tools(const ProxyTask& task);
   bool find_start(Context& c, const Quat& q_WP, Vec3& start);
   /// Planes: those of the pieces, then those of the fields, then those of other hands' tools, then
