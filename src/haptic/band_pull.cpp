@@ -86,7 +86,7 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
 void BandPull::add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const {
   const SoftHold& hold = contacts_->hold;
   if (hold.of == SoftHold::Of::kNothing) return;
-  const double k = hand.stiffness_n_per_m;
+  const double k = std::min(hand.stiffness_n_per_m, kJawSpring_n_per_m);
   const Vec3 grip_W = hand.X_WP * hold.p_T;
   Vec3 force = Vec3::Zero();
   if (hold.of == SoftHold::Of::kSolid && hold.bone < bones.X_WB.size()) {

@@ -24,7 +24,7 @@ using testing::kBandStrain;
 using testing::kBandToe;
 
 enum : std::uint32_t { kFirst, kGrasper, kClamp, kPunch };
-constexpr double kGrasperHolds_n = 10, kCoupling_n_per_m = 2000;
+constexpr double kGrasperHolds_n = 10;
 constexpr double kInMouth_m = 0.004;  // from the tip to what is held
 
 template <class Run>
@@ -141,7 +141,7 @@ TEST(SoftGrip, OpenJawsPressNothingAndShutAboutNothingHoldNothing) {
 }
 
 // Two straight legs to the jaws, tension T = k (strain - toe): they pull with 2 T b / l. What the
-// hand is further than the string is in the coupling.
+// hand is further than the string is in the jaws.
 TEST(SoftGrip, AHeldLigamentPullsAsTwoLegs) {
   const BandRun run = band_run();
   for (const double pulled : {0.001, 0.003, -0.004}) {
@@ -157,7 +157,7 @@ TEST(SoftGrip, AHeldLigamentPullsAsTwoLegs) {
     hand.move(hand.at + Vec3(0, 0, pulled), 200);
     hand.rest(200);
     const double force = -session.tool_state().force_W.z();
-    const double bent = pulled - force / kCoupling_n_per_m;
+    const double bent = pulled - force / kJawSpring_n_per_m;
     const double leg = std::hypot(kBandGap_m / 2, bent), slack = kBandGap_m / (1 + kBandStrain);
     const double tension = kBandStiffness_n * (2 * leg / slack - 1 - kBandToe);
     EXPECT_NEAR(force, 2 * tension * bent / leg, 0.01 * std::abs(force));
@@ -183,7 +183,7 @@ TEST(SoftGrip, ShuttingJawsDrawTheLigamentBetweenThem) {
     last = force;
   }
   ASSERT_TRUE(hand.holds());
-  EXPECT_LT(session.tool_state().force_W.y(), -3);
+  EXPECT_LT(session.tool_state().force_W.y(), -2);
   EXPECT_LT(most, 0.3);
   EXPECT_NEAR(hand.grip().hold.p_T.y(), 0, 1e-9);
 }
@@ -193,7 +193,7 @@ TEST(SoftGrip, PulledTooHardItSlipsOutAndIsTakenAgainAfterOpening) {
   Session session = run.session();
   JawHand hand(session);
   hand.hold_band();
-  hand.move(hand.at + Vec3(0, 0, 0.008), 400);
+  hand.move(hand.at + Vec3(0, 0, 0.014), 700);
   ASSERT_EQ(hand.count(kSoftSlipped), 1u);
   const Event slipped = hand.first(kSoftSlipped);
   EXPECT_EQ(run.the_case->softs[slipped.subject].name, "acl");
@@ -244,7 +244,7 @@ TEST(SoftGrip, AWeakLigamentTearsBeforeTheJawsSlipAndAMarkMakesItWhole) {
   JawHand hand(session);
   hand.tick({CommandKind::kMark, 0});
   hand.hold_band();
-  hand.move(hand.at + Vec3(0, 0, 0.010), 500);
+  hand.move(hand.at + Vec3(0, 0, 0.014), 700);
   ASSERT_EQ(hand.count(kSoftTorn), 1u);
   EXPECT_EQ(hand.count(kSoftSlipped), 0u);
   const Event torn = hand.first(kSoftTorn);
@@ -289,7 +289,7 @@ TEST(SoftGrip, APunchHoldsALigamentLessHardAndAClampHarder) {
     JawHand hand(session);
     hand.hold_band(instrument, instrument == kPunch ? -0.002 : 0);
     ASSERT_TRUE(hand.holds()) << instrument;
-    hand.move(hand.at + Vec3(0, 0, 0.015), 600);
+    hand.move(hand.at + Vec3(0, 0, 0.028), 1100);
     ASSERT_EQ(hand.count(kSoftSlipped), 1u);
     EXPECT_GT(hand.first(kSoftSlipped).values[0], holds_n);
     EXPECT_LT(hand.first(kSoftSlipped).values[0], 1.05 * holds_n + 0.1);
@@ -326,7 +326,7 @@ void reach_block(JawHand& hand, std::uint32_t instrument) {
   hand.rest(150);
 }
 
-// The solid and the coupling, one behind the other: 450 to 900 N/m (lifted or lying) and 2000.
+// The solid and the jaws, one behind the other: 450 to 900 N/m (lifted or lying) and 1000.
 TEST(SoftGrip, AHeldMeniscusPullsBackAsStiffAsItIsAndSlips) {
   Session session = meniscus_run().session();
   JawHand hand(session);
@@ -340,8 +340,8 @@ TEST(SoftGrip, AHeldMeniscusPullsBackAsStiffAsItIsAndSlips) {
     hand.move({0.006, 0, lift}, 200);
     hand.rest(300);
     const double k = -session.tool_state().force_W.z() / lift;
-    EXPECT_GT(k, 1 / (2.05 / testing::kMeniscus_n_per_m + 1 / kCoupling_n_per_m));
-    EXPECT_LT(k, 1 / (0.95 / testing::kMeniscus_n_per_m + 1 / kCoupling_n_per_m));
+    EXPECT_GT(k, 1 / (2.05 / testing::kMeniscus_n_per_m + 1 / kJawSpring_n_per_m));
+    EXPECT_LT(k, 1 / (0.95 / testing::kMeniscus_n_per_m + 1 / kJawSpring_n_per_m));
     EXPECT_NEAR(session.softs()->solid_readout(0).force_n[0], k * lift, 0.02 * k * lift);
   }
   // It is drawn as it is held: a push against the way of the pull.
@@ -369,7 +369,7 @@ void wander(JawHand& hand, Random& random, int turns) {
     hand.jaws(random.uniform(0, 1) < 0.5 ? 1 : 0);
     Vec3 to = kBandMiddle + Vec3(0, 0, -kInMouth_m);
     to += Vec3(random.uniform(-0.01, 0.01), random.uniform(-0.004, 0.004),
-               random.uniform(-0.006, 0.009));
+               random.uniform(-0.006, 0.014));
     hand.move(to, 60);
   }
 }
@@ -383,7 +383,7 @@ TEST(SoftGrip, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
   hand.into = &recording;
   Random random(11);
   hand.take(kGrasper);
-  wander(hand, random, 50);
+  wander(hand, random, 80);
   recording.complete = true;
   EXPECT_GT(hand.count(kSoftHeld), 5u);
   EXPECT_GT(hand.count(kSoftSlipped) + hand.count(kSoftFreed), 5u);
@@ -416,7 +416,7 @@ TEST(SoftGrip, AStateKeepsWhatIsHeldAndAWrongOneIsRefused) {
   for (JawHand* one : {&hand, &again}) one->move(one->at + Vec3(0, 0, 0.001), 101);
   EXPECT_EQ(other.state_hash(), session.state_hash());
   EXPECT_TRUE(again.holds());
-  EXPECT_LT(other.tool_state().force_W.z(), -3);
+  EXPECT_LT(other.tool_state().force_W.z(), -2);
   for (const int wrong : {0, 1, 2}) {
     SessionState odd = *back;
     SoftHold& hold = odd.world.softs.grips[0].hold;

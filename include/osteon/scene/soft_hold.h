@@ -23,6 +23,10 @@ struct SoftHold {
   bool operator==(const SoftHold&) const = default;
 };
 
+/// How what is between jaws yields; a hand whose coupling is softer feels that. Stiffer, a heavy
+/// hand that holds loosely would swing for long.
+inline constexpr double kJawSpring_n_per_m = 1000;
+
 /// How a band is held by jaws.
 struct HeldBand {
   Vec3 force_W = Vec3::Zero();  ///< on the tool

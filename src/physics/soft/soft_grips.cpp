@@ -145,8 +145,7 @@ GripPull SoftGrips::pull_of(SoftState& state, std::size_t h, const ToolState& to
       for (std::uint32_t i = 0; i < hand.count; ++i)
         if (hand.near[i].contact.band == hold.part) others_m += hand.near[i].taken_m;
     hold.others_taken_m = others_m;
-    const HeldBand held =
-        hold_band(setup_.bands[hold.part], span, out.p_W, hold, coupling_n_per_m_);
+    const HeldBand held = hold_band(setup_.bands[hold.part], span, out.p_W, hold, spring_n_per_m_);
     out.force_n = held.force_W.norm();
     out.tension_n = held.tension_n;
     out.taken_m = std::max(0.0, held.taken_m);
@@ -168,7 +167,7 @@ GripPull SoftGrips::pull_of(SoftState& state, std::size_t h, const ToolState& to
     hold.stiffness_n_per_m =
         first ? k : hold.stiffness_n_per_m + kFollows * (k - hold.stiffness_n_per_m);
   }
-  out.force_n = hold_solid(hold, rest_W, out.p_W, coupling_n_per_m_).norm();
+  out.force_n = hold_solid(hold, rest_W, out.p_W, spring_n_per_m_).norm();
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -37,7 +38,9 @@ struct GripPull {
 class SoftGrips {
  public:
   SoftGrips(const SoftSetup& setup, double coupling_n_per_m, double step_s)
-      : setup_(setup), coupling_n_per_m_(coupling_n_per_m), step_s_(step_s) {}
+      : setup_(setup),
+        spring_n_per_m_(std::min(coupling_n_per_m, kJawSpring_n_per_m)),
+        step_s_(step_s) {}
 
   /// What soft parts look like in a step.
   struct Parts {
@@ -65,7 +68,7 @@ class SoftGrips {
                    const Parts& parts) const;
 
   const SoftSetup& setup_;
-  double coupling_n_per_m_, step_s_;
+  double spring_n_per_m_, step_s_;
 };
 
 /// By so much the jaws of all hands but one make a band's path longer.
