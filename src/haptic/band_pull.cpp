@@ -82,6 +82,26 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
       out);
 }
 
+// What jaws hold pulls every way, and is damped every way. Nothing rubs there.
+void BandPull::add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const {
+  const SoftHold& hold = contacts_->hold;
+  if (hold.of == SoftHold::Of::kNothing) return;
+  const double k = std::min(hand.stiffness_n_per_m, kJawSpring_n_per_m);
+  const Vec3 grip_W = hand.X_WP * hold.p_T;
+  Vec3 force = Vec3::Zero();
+  if (hold.of == SoftHold::Of::kSolid && hold.bone < bones.X_WB.size()) {
+    force = hold_solid(hold, bones.X_WB[hold.bone] * hold.p_B, grip_W, k);
+  } else if (hold.of == SoftHold::Of::kBand && bands_ && hold.part < bands_->size()) {
+    const SoftBand& band = (*bands_)[hold.part];
+    const BandSpan span{bones.X_WB[band.from.index] * band.from_B,
+                        bones.X_WB[band.to.index] * band.to_B};
+    force = hold_band(band, span, grip_W, hold, k).force_W;
+  }
+  const double stretched_m = force.norm() / k;
+  const double share = stretched_m / (stretched_m + kDamped_m);
+  out.force_W += force - share * hand.damping_n_s_per_m * hand.v_W;
+}
+
 BandForce BandPull::force(const PullingHand& hand, std::span<const Pose> before_WB,
                           std::span<const Pose> X_WB) const {
   BandForce sum;
@@ -92,6 +112,7 @@ BandForce BandPull::force(const PullingHand& hand, std::span<const Pose> before_
   for (std::size_t i = 0; i < count; ++i) add_band(hand, bones, contacts_->all[i], sum);
   const std::size_t solids = std::min<std::size_t>(contacts_->solid_count, kMaxSolidContacts);
   for (std::size_t i = 0; i < solids; ++i) add_solid(hand, bones, contacts_->solids[i], sum);
+  add_hold(hand, bones, sum);
   if (sum.pressed_n > 0) sum.way_W /= sum.pressed_n;
   const bool sound = is_finite(sum.force_W) && is_finite(sum.way_W);
   return sound ? sum : BandForce{};

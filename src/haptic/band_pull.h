@@ -38,7 +38,10 @@ class BandPull {
   /// Both must outlive this; null: there are no bands.
   void set(const std::vector<SoftBand>* bands, const BandContacts* contacts,
            const SoftFriction& friction);
-  bool any() const { return contacts_ && (contacts_->count > 0 || contacts_->solid_count > 0); }
+  bool any() const {
+    return contacts_ && (contacts_->count > 0 || contacts_->solid_count > 0 ||
+                         contacts_->hold.of != SoftHold::Of::kNothing);
+  }
   /// Zero where it is not finite, or where the contacts are of another instrument or epoch.
   /// `before_WB`: the bones a tick ago.
   BandForce force(const PullingHand& hand, std::span<const Pose> before_WB,
@@ -53,6 +56,7 @@ class BandPull {
                 BandForce& out) const;
   void add_solid(const PullingHand& hand, const Bones& bones, const SolidContact& contact,
                  BandForce& out) const;
+  void add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const;
   static void add(const PullingHand& hand, const Pressed& pressed, BandForce& out);
 
   std::vector<Capsule> rods_;

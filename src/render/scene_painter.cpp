@@ -238,12 +238,19 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
 }
 
 ScenePainter::ToolModel ScenePainter::make_tool_model(const Tool& tool) {
+  ToolModel model = make_tool_model(tool.mesh, tool.tip_radius_m);
+  for (const TriMesh& mesh : tool.opened)
+    model.opened.push_back(make_tool_model(mesh, tool.tip_radius_m));
+  return model;
+}
+
+ScenePainter::ToolModel ScenePainter::make_tool_model(const TriMesh& mesh, double tip_radius_m) {
   ToolModel model;
-  model.mesh = GpuMesh(plain_shaded(tool.mesh));
-  model.capsules = capsules_along_z(tool.mesh);
-  model.length_m = std::max(0.0, finite_bounds(tool.mesh).hi.z());
-  model.shaft_T = shaft_line(tool.mesh, model.length_m);
-  model.tip_radius_m = tool.tip_radius_m;
+  model.mesh = GpuMesh(plain_shaded(mesh));
+  model.capsules = capsules_along_z(mesh);
+  model.length_m = std::max(0.0, finite_bounds(mesh).hi.z());
+  model.shaft_T = shaft_line(mesh, model.length_m);
+  model.tip_radius_m = tip_radius_m;
   return model;
 }
 

@@ -28,9 +28,9 @@ class ScenePainter {
   const GpuMesh& exact_surface(std::size_t k) const;
   /// Where something else stands than that surface, of a bone.
   const ChangedCubes& changed(std::size_t bone) const { return shared_->bones[bone].changed; }
-  /// By ToolState::instrument; null: the tray has no such place.
-  const GpuMesh* tool_surface(std::uint32_t instrument) const {
-    return instrument < shared_->tools.size() ? &shared_->tools[instrument].mesh : nullptr;
+  /// By ToolState::instrument and jaw_step(); null: the tray has no such place.
+  const GpuMesh* tool_surface(std::uint32_t instrument, std::size_t jaw) const {
+    return instrument < shared_->tools.size() ? &model_at(instrument, jaw).mesh : nullptr;
   }
 
   /// Draws the bones with these surfaces from now on; of the case that it was made with.
@@ -77,16 +77,21 @@ class ScenePainter {
   };
   struct ToolModel {
     GpuMesh mesh;
+    std::vector<ToolModel> opened;  ///< as of Tool
     std::vector<Capsule> capsules;
     double length_m = 0, tip_radius_m = 0;
     Vec3 shaft_T = Vec3::Zero();  ///< the shaft runs along z through here, in Tool
   };
   static ToolModel make_tool_model(const Tool& tool);
-  const ToolModel& model_at(std::uint32_t instrument) const {
+  static ToolModel make_tool_model(const TriMesh& mesh, double tip_radius_m);
+  const ToolModel& model_at(std::uint32_t instrument, std::size_t jaw = 0) const {
     const std::vector<ToolModel>& tools = shared_->tools;
-    return tools[instrument < tools.size() ? instrument : 0];
+    const ToolModel& shut = tools[instrument < tools.size() ? instrument : 0];
+    return jaw == 0 || jaw > shut.opened.size() ? shut : shut.opened[jaw - 1];
   }
-  const ToolModel& model_of(const ToolState& tool) const { return model_at(tool.instrument); }
+  const ToolModel& model_of(const ToolState& tool) const {
+    return model_at(tool.instrument, jaw_step(tool.jaw));
+  }
   /// How far from the tool its shade falls on bone: by closeness, and as a shadow along the light.
   struct ShadeReach {
     double near_m = 0, shadow_m = 0;

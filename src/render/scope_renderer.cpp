@@ -121,8 +121,14 @@ struct ScopeRenderer::Impl {
   ScopeWater water;
   std::vector<Pose> rest_X_WB;
   TissuePart tool = steel(), ghost = ghost_part();
-  std::vector<GpuMesh> tray;  ///< by ToolState::instrument, where there is no scene
-  std::vector<std::pair<std::size_t, Pose>> tools;
+  /// By ToolState::instrument and jaw_step(), where there is no scene.
+  std::vector<std::vector<GpuMesh>> tray;
+  struct ShownTool {
+    std::uint32_t instrument = 0;
+    std::size_t jaw = 0;
+    Pose X_WT;
+  };
+  std::vector<ShownTool> tools;
   std::vector<GhostTool> ghosts;
   std::vector<PlacingRod> rods;    ///< thread, graft and button now
   std::vector<TissuePart> placed;  ///< the same, in World
@@ -140,9 +146,10 @@ struct ScopeRenderer::Impl {
   const GpuMesh& surface(const TissuePart& part) const {
     return scene ? scene->exact_surface(part.model) : part.surface;
   }
-  const GpuMesh* tool_surface(std::size_t instrument) const {
-    if (scene) return scene->tool_surface(static_cast<std::uint32_t>(instrument));
-    return instrument < tray.size() ? &tray[instrument] : nullptr;
+  const GpuMesh* tool_surface(std::uint32_t instrument, std::size_t jaw = 0) const {
+    if (scene) return scene->tool_surface(instrument, jaw);
+    if (instrument >= tray.size()) return nullptr;
+    return &tray[instrument][jaw < tray[instrument].size() ? jaw : 0];
   }
   /// Where another surface stands than was prepared; null: nowhere.
   const ChangedCubes* changed(const TissuePart& part) const {
@@ -200,9 +207,9 @@ struct ScopeRenderer::Impl {
       paint_part(part, surface(part), X_CW * part.X_WM, half, depth_alone);
     if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
     for (const TissuePart& part : placed) paint_part(part, part.surface, X_CW, half, depth_alone);
-    for (const auto& [instrument, X_WT] : tools)
-      if (const GpuMesh* mesh = tool_surface(instrument))
-        paint_part(tool, *mesh, X_CW * X_WT, half, depth_alone);
+    for (const ShownTool& shown : tools)
+      if (const GpuMesh* mesh = tool_surface(shown.instrument, shown.jaw))
+        paint_part(tool, *mesh, X_CW * shown.X_WT, half, depth_alone);
   }
 
   /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
@@ -267,9 +274,10 @@ struct ScopeRenderer::Impl {
     now.water = water;
     now.version = scene ? scene->version() : cubes;
     for (const TissuePart& part : parts) now.parts.push_back(part.X_WM);
-    for (const auto& [instrument, X_WT] : tools) {
-      now.instruments.push_back(instrument);
-      now.tools.push_back(X_WT);
+    for (const ShownTool& shown : tools) {
+      now.instruments.push_back(shown.instrument);
+      now.instruments.push_back(shown.jaw);
+      now.tools.push_back(shown.X_WT);
     }
     for (const GhostTool& shown : ghosts) {
       now.instruments.push_back(shown.instrument);
@@ -392,7 +400,11 @@ void ScopeRenderer::set_tray(std::span<const std::shared_ptr<const Tool>> tray) 
   impl_->tools.clear();
   impl_->tray.clear();
   if (impl_->scene) return;
-  for (const auto& tool : tray) impl_->tray.emplace_back(plain_shaded(tool->mesh));
+  for (const auto& tool : tray) {
+    std::vector<GpuMesh>& shapes = impl_->tray.emplace_back();
+    shapes.emplace_back(plain_shaded(tool->mesh));
+    for (const TriMesh& mesh : tool->opened) shapes.emplace_back(plain_shaded(mesh));
+  }
 }
 
 void ScopeRenderer::set_ghosts(std::span<const GhostTool> ghosts) {
@@ -411,7 +423,7 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   impl_->tools.clear();
   for (const ToolState& tool : tools)
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
-      impl_->tools.emplace_back(tool.instrument, tool.X_WP);
+      impl_->tools.push_back({tool.instrument, jaw_step(tool.jaw), tool.X_WP});
   auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {
     return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);

@@ -53,6 +53,17 @@ constexpr std::array kRows = {
         kSoftCut, "soft_cut", "cuts", S::kSoftPart, {"force_n", "tension_n", "removed_mm3"}},
     EventKindRow{
         kSoftPiece, "soft_piece", "takes a piece off", S::kSoftPart, {"volume_mm3", "", ""}},
+    EventKindRow{kSoftHeld, "soft_held", "holds", S::kSoftPart, {"holds_n", "", ""}},
+    EventKindRow{kSoftFreed,
+                 "soft_freed",
+                 "lets go of",
+                 S::kSoftPart,
+                 {"duration_s", "peak_force_n", "pulled_mm"}},
+    EventKindRow{kSoftSlipped,
+                 "soft_slipped",
+                 "is pulled off",
+                 S::kSoftPart,
+                 {"force_n", "holds_n", "pulled_mm"}},
     EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,

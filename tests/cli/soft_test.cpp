@@ -1,5 +1,6 @@
 // Ligaments felt in osteon simulate, and again in osteon replay, through the command line alone.
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "osteon/scene/build_case.h"
@@ -75,6 +76,32 @@ TEST_F(SoftSession, AnAclIsFeltAndItsRecordingReplays) {
   const Ran again = run_osteon("replay " + file("run.osr"));
   EXPECT_EQ(again.exit_code, 0) << again.output;
   EXPECT_NE(again.output.find("identical"), std::string::npos);
+}
+
+// The jaws shut about it, draw it 4 mm up, and open; then again, until it is pulled off.
+TEST_F(SoftSession, AGrasperOfAPathHoldsItAndItIsPulledOff) {
+  std::ofstream(file("press.csv"))
+      << "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,button,instrument,size,power,jaw\n"
+         "0,0,0,20,1,0,0,0,0,grasper,0,0,1\n0.5,0,0,-4,1,0,0,0,0,grasper,0,0,1\n"
+         "0.6,0,0,-4,1,0,0,0,0,grasper,0,0,0\n0.8,0,0,0,1,0,0,0,0,grasper,0,0,0\n"
+         "0.9,0,0,-4,1,0,0,0,0,grasper,0,0,1\n1,0,0,-4,1,0,0,0,0,grasper,0,0,0\n"
+         "1.6,0,0,30,1,0,0,0,0,grasper,0,0,0\n";
+  const Ran ran = press("whole", "--soft acl --hand-stiffness 2000 --record " + file("run.osr") +
+                                     " --report " + file("report.json"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const nlohmann::json soft = report()["soft"];
+  std::map<std::string, nlohmann::json> events;
+  for (const nlohmann::json& event : soft["events"]) events[event["kind"]] = event;
+  for (const char* kind : {"soft_held", "soft_freed", "soft_slipped"}) {
+    ASSERT_TRUE(events.contains(kind)) << kind;
+    EXPECT_EQ(events[kind]["part"], "acl");
+  }
+  EXPECT_GT(events["soft_freed"]["peak_force_n"], 1);
+  EXPECT_NEAR(events["soft_slipped"]["force_n"], 10, 0.5);
+  EXPECT_TRUE(soft["parts"][0]["whole"]);
+  EXPECT_NE(ran.output.find("holds acl"), std::string::npos) << ran.output;
+  const Ran again = run_osteon("replay " + file("run.osr"));
+  EXPECT_EQ(again.exit_code, 0) << again.output;
 }
 
 TEST_F(SoftSession, TheHookTestTellsATornOne) {

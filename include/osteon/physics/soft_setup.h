@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/soft_gripper.h"
 #include "osteon/physics/soft_solid_setup.h"
 #include "osteon/physics/solid_cutter.h"
 #include "osteon/scene/case.h"
@@ -20,12 +21,13 @@ namespace osteon {
 struct SoftSetup {
   std::vector<SoftBand> bands;
   std::vector<SoftSolid> solids;
-  std::vector<std::uint32_t> blades;                ///< places in the tray of what cuts bands
-  double cutting_n = 8;                             ///< force of a blade on a band that cuts it
-  std::vector<std::optional<SolidCutter>> cutters;  ///< by the tray; none: nothing cuts solids
-  double solid_cutting_n = 6;                       ///< force of an edge on a solid that opens it
-  SoftFriction friction;                            ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;                           ///< over all of it
+  std::vector<std::uint32_t> blades;                 ///< places in the tray of what cuts bands
+  double cutting_n = 8;                              ///< force of a blade on a band that cuts it
+  std::vector<std::optional<SolidCutter>> cutters;   ///< by the tray; none: nothing cuts solids
+  double solid_cutting_n = 6;                        ///< force of an edge on a solid that opens it
+  std::vector<std::optional<SoftGripper>> grippers;  ///< by the tray; none: nothing is held
+  SoftFriction friction;                             ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;                            ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -36,6 +38,8 @@ void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids);
 /// Lets instruments cut its solids, by their places in the tray. Nothing changes where none cuts.
 void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutters,
                  double cutting_n);
+/// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
+void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Over everything that is felt of the bands.
 std::uint64_t hash_of(std::span<const SoftBand> bands);
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "osteon/scene/soft_band.h"
+#include "osteon/scene/soft_hold.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -61,6 +62,18 @@ struct BandState {
   bool lost = false;        ///< it could not be solved
 };
 
+/// What a hand's jaws hold, from step to step.
+struct SoftGrip {
+  bool jaw_open = false;  ///< they have been wide open since they last shut
+  SoftHold hold;
+  std::uint64_t first_step = 0;    ///< since when they hold it
+  double force_n = 0;              ///< on the soft part in the last step
+  double taken_m = 0;              ///< of a band: by so much its path is longer
+  Vec3 against_B = Vec3::UnitZ();  ///< of a solid: unit, against the way that it is pulled
+  double peak_n = 0, most_m = 0;   ///< since then; how far the jaws have gone with it
+  bool operator==(const SoftGrip&) const = default;
+};
+
 /// All that a step of the soft parts leaves to the next: of fixed size.
 struct SoftState {
   bool on = false;  ///< the session has soft parts
@@ -68,6 +81,7 @@ struct SoftState {
   std::array<SoftHandState, kMaxHands> hands{};
   std::array<bool, kMaxSolids> solid_lost{};  ///< it could not be solved
   std::array<SolidHandState, kMaxHands> solid_hands{};
+  std::array<SoftGrip, kMaxHands> grips{};
   std::shared_ptr<const SoftCutState> cut;  ///< of the solids; null: nothing cuts them
 };
 

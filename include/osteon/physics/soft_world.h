@@ -20,8 +20,11 @@ struct BandReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
 };
 
+class SoftGrips;
 class SolidCutting;
 class SolidPresses;
+struct GripNews;
+struct GripPull;
 struct SolidHand;
 
 /// How a solid was pressed in the last step.
@@ -82,6 +85,9 @@ class SoftWorld {
     std::array<Vec3, kMaxBands> p_W{};
     std::array<bool, kMaxBands> cuts{};  ///< a blade presses it hard enough
     bool works = false;                  ///< with an edge, or under power
+    std::uint64_t lifted = 0;            ///< parts of the tool that are out of the way
+    std::array<double, kMaxSolids> pull_n{}, pull_m{};  ///< of its jaws on the solids
+    double leg_n = 0;  ///< tension of a band that its jaws hold, at most
   };
   bool is_felt(std::size_t band) const;
   bool is_blade(std::uint32_t instrument, std::size_t part) const;
@@ -99,6 +105,10 @@ class SoftWorld {
   void place_bands(const BoneSnapshot& bones);
   void take(Hand& hand, const ToolState& tool, std::uint32_t epoch);
   bool is_bent_far(const SoftHandState& hand, const NearBand& but) const;
+  bool presses(const Hand& hand, std::size_t band, std::size_t part) const;
+  void grip(Hand& hand, const BoneSnapshot& bones);
+  void tell_grip(const Hand& hand, const GripNews& news);
+  void keep_hold(const GripPull& pull);
   void follow(const Hand& hand);
   void seek(const Hand& hand);
   void choose(SoftHandState& hand) const;
@@ -118,6 +128,7 @@ class SoftWorld {
   std::uint32_t epoch_ = 0;
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
+  std::unique_ptr<SoftGrips> grips_;       ///< null: no jaws hold anything
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};

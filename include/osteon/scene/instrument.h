@@ -93,6 +93,7 @@ struct JawDef {
   SizedPoint hinge;
   Vec3 axis = Vec3::UnitX();         ///< unit
   std::array<double, 2> open_rad{};  ///< turn of the first and second jaw when wide open
+  double holds_n = 0;  ///< a soft part that is pulled harder slips out; 0: they hold none
 };
 
 /// What drives it, and by which pedal.

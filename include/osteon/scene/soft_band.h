@@ -9,6 +9,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/collide/capsule_contact.h"
+#include "osteon/scene/soft_hold.h"
 #include "osteon/scene/soft_solid.h"
 
 namespace osteon {
@@ -37,8 +38,9 @@ struct SoftBand {
   std::vector<BandFibres> fibres;
 };
 
-/// Tension at a length of the whole path, N.
+/// Tension at a length of the whole path, N, and how much it grows with that length, N/m.
 double tension_at(const SoftBand& band, double length_m);
+double tension_slope_at(const SoftBand& band, double length_m);
 
 /// A band between its ends in World.
 struct BandSpan {
@@ -77,6 +79,7 @@ struct BandContacts {
   std::array<BandContact, kMaxBandContacts> all{};
   std::uint32_t solid_count = 0;
   std::array<SolidContact, kMaxSolidContacts> solids{};
+  SoftHold hold;  ///< what its jaws hold
   bool operator==(const BandContacts&) const = default;
 };
 

@@ -41,8 +41,8 @@ struct SoftPushes {
     double force_n = 0;  ///< against the normal
     bool operator==(const One&) const = default;
   };
-  static constexpr std::size_t kMost = 4 * kMaxSolidContacts;
-  static constexpr std::size_t kMostBends = 4 * kMaxBandContacts;
+  static constexpr std::size_t kMost = 4 * (kMaxSolidContacts + 1);  // jaws, too
+  static constexpr std::size_t kMostBends = 4 * (kMaxBandContacts + 1);
   std::uint32_t count = 0;
   std::array<One, kMost> all{};
   std::uint32_t bend_count = 0;

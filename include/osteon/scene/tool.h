@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,14 @@ struct ToolUse {
   bool sucks = false;    ///< under power
 };
 
+/// Jaws are drawn in so many steps of their way.
+inline constexpr std::size_t kJawSteps = 8;
+/// The step nearest to an opening of 0 to 1; 0: shut.
+inline std::size_t jaw_step(double opening) {
+  if (!(opening > 0)) return 0;
+  return opening < 1 ? static_cast<std::size_t>(kJawSteps * opening + 0.5) : kJawSteps;
+}
+
 /// A hand instrument. Tool frame: origin at the middle of the tip, the shaft along +z.
 struct Tool {
   std::string name;
@@ -32,6 +41,9 @@ struct Tool {
   /// What passes through a portal, in Tool; no length: nothing does.
   Capsule shaft;
   TriMesh mesh;  ///< what is drawn, in Tool
+  /// The same with jaws that are open: by n / kJawSteps of their way, n = 1 to kJawSteps. None: it
+  /// has no jaws.
+  std::vector<TriMesh> opened;
   double tip_radius_m = 0.00075;
   ToolUse use;
 };

@@ -177,6 +177,25 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
   setup.hash = h.value();
 }
 
+void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {
+  const auto holds = [](const std::optional<SoftGripper>& jaws) { return jaws.has_value(); };
+  if (std::none_of(grippers.begin(), grippers.end(), holds)) return;
+  setup.grippers = std::move(grippers);
+  Hasher h;
+  h.add(setup.hash);
+  for (const auto& jaws : setup.grippers) {
+    h.add(jaws.has_value());
+    if (!jaws) continue;
+    h.add(jaws->holds_n);
+    h.add(jaws->jaws);
+    for (const Plane& plane : jaws->mouth_T) {
+      h.add(plane.n);
+      h.add(plane.d);
+    }
+  }
+  setup.hash = h.value();
+}
+
 void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids) {
   setup.solids = std::move(solids);
   Hasher h;

@@ -8,6 +8,7 @@
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
+#include "soft/soft_grips.h"
 #include "soft/soft_touch.h"
 #include "soft/solid_cutting.h"
 #include "soft/solid_presses.h"
@@ -67,6 +68,18 @@ void add_to(Hasher& h, const SolidNear& near) {
   for (const bool x : {near.touching, near.barred, near.behind}) h.add(x);
 }
 
+void add_to(Hasher& h, const SoftGrip& grip) {
+  h.add(grip.jaw_open);
+  h.add(static_cast<std::uint8_t>(grip.hold.of));
+  h.add(grip.hold.part);
+  h.add(grip.hold.bone);
+  for (const Vec3& v : {grip.hold.p_T, grip.hold.p_B, grip.against_B}) h.add(v);
+  for (const double x : {grip.hold.share, grip.hold.others_taken_m, grip.hold.stiffness_n_per_m,
+                         grip.force_n, grip.taken_m, grip.peak_n, grip.most_m})
+    h.add(x);
+  h.add(grip.first_step);
+}
+
 void add_solids_to(Hasher& h, const SoftState& state) {
   for (const bool lost : state.solid_lost) h.add(lost);
   for (const SolidHandState& hand : state.solid_hands) {
@@ -92,11 +105,13 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   }
   state_.on = true;
   openings_.reserve(kMostOpenings);
-  events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4);
+  events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands);
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
     cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_);
+  if (!setup_->grippers.empty())
+    grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
 }
 SoftWorld::~SoftWorld() = default;
 
@@ -158,7 +173,7 @@ void SoftWorld::place_bands(const BoneSnapshot& bones) {
 }
 
 double SoftWorld::taken_by_others(const NearBand& near) const {
-  double sum = 0;
+  double sum = taken_by_grips(state_, near.contact.band);
   for (const SoftHandState& hand : state_.hands)
     for (std::uint32_t i = 0; i < hand.count; ++i)
       if (&hand.near[i] != &near && hand.near[i].contact.band == near.contact.band)
@@ -174,6 +189,13 @@ bool SoftWorld::is_bent_far(const SoftHandState& hand, const NearBand& but) cons
   return std::any_of(hand.near.begin(), hand.near.begin() + hand.count, far);
 }
 
+// Jaws that stand open, and a tool whose jaws hold the band, do not press it.
+bool SoftWorld::presses(const Hand& hand, std::size_t band, std::size_t part) const {
+  const SoftHold& hold = state_.grips[hand.index].hold;
+  if (hold.of == SoftHold::Of::kBand && hold.part == band) return false;
+  return !(hand.lifted >> part & 1);
+}
+
 // Parts that were near: those that have gone, or whose band is no more, are dropped. A band that
 // one part has bent far is not where its rest place is: no other part comes to it then.
 void SoftWorld::follow(const Hand& hand) {
@@ -183,7 +205,7 @@ void SoftWorld::follow(const Hand& hand) {
   for (std::uint32_t i = 0; i < state.count; ++i) {
     NearBand near = state.near[i];
     const std::size_t b = near.contact.band;
-    if (!is_felt(b)) continue;
+    if (!is_felt(b) || !presses(hand, b, near.contact.part)) continue;
     const BandSide side =
         next_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[near.contact.part]),
                   near.contact.nhat_W);
@@ -212,7 +234,7 @@ void SoftWorld::seek(const Hand& hand) {
   for (std::size_t b = 0; b < setup_->bands.size(); ++b)
     for (std::size_t part = 0; part < rods.size() && is_felt(b); ++part) {
       if (state.count == kMaxBandContacts) return;
-      if (known(b, part)) continue;
+      if (known(b, part) || !presses(hand, b, part)) continue;
       const BandSide side =
           first_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[part]));
       if (side.gap_m > kNear_m) continue;
@@ -311,10 +333,14 @@ void SoftWorld::tear(std::span<const Hand> hands) {
     for (const SoftHandState& hand : state_.hands)
       for (std::uint32_t i = 0; i < hand.count; ++i)
         if (hand.near[i].contact.band == b) length += hand.near[i].taken_m;
+    length += taken_by_grips(state_, b);
     BandReadout& readout = readouts_[b];
     readout.tension_n = tension_at(band, length);
     std::size_t most = hands.size();
     for (const Hand& hand : hands) {
+      const SoftHold& hold = state_.grips[hand.index].hold;
+      if (hold.of == SoftHold::Of::kBand && hold.part == b)
+        readout.tension_n = std::max(readout.tension_n, hand.leg_n);
       readout.force_n[hand.index] = hand.force_n[b];
       if (hand.force_n[b] > (most < hands.size() ? hands[most].force_n[b] : 0)) most = hand.index;
     }
@@ -407,12 +433,21 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     if (!hand.tool) continue;
     state.instrument = hand.tool->instrument;
     with.rods = tray_[state.instrument];
-    if (cutting_) with.lifted = cutting_->lifted(*hand.tool);
+    with.lifted = hand.lifted;
+    if (cutting_) with.lifted |= cutting_->lifted(*hand.tool);
+    const SoftHold& hold = state_.grips[hand.index].hold;
+    if (hold.of == SoftHold::Of::kSolid) with.held = hold.part;
     solids_->follow(state, with, state_);
   }
   for (const Hand& hand : hands) {
     SolidHand& with = all[hand.index];
     if (hand.tool) solids_->press(state_.solid_hands[hand.index], with, state_);
+    for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
+      if (!(hand.pull_n[s] > 0)) continue;
+      with.force_n[s] += hand.pull_n[s];
+      with.deep_m[s] = std::max(with.deep_m[s], hand.pull_m[s]);
+      with.p_W[s] = hand.tool->X_WP * state_.grips[hand.index].hold.p_T;
+    }
     for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
       solid_readouts_[s].force_n[hand.index] = with.force_n[s];
       solid_readouts_[s].deep_m[hand.index] = with.deep_m[s];
@@ -486,8 +521,63 @@ void SoftWorld::take(Hand& hand, const ToolState& tool, std::uint32_t epoch) {
   hand.tool = &tool;
   const ToolUse& use = uses_[tool.instrument];
   hand.works = use.cuts || (use.removes && tool.power > 0);
+  if (grips_) hand.lifted = grips_->lifted(tool);
   follow(hand);
   seek(hand);
+}
+
+// What jaws hold, they pull before other parts press it in this step.
+void SoftWorld::grip(Hand& hand, const BoneSnapshot& bones) {
+  if (!grips_) return;
+  GripPull pull;
+  const std::span<const BandSpan> spans(spans_.data(), setup_->bands.size());
+  const GripNews news =
+      grips_->step(state_, hand.index, hand.tool, {spans, solids_.get()}, bones.step, pull);
+  tell_grip(hand, news);
+  if (pull.of == SoftHold::Of::kSolid) {
+    hand.pull_n[pull.part] = pull.force_n;
+    hand.pull_m[pull.part] = pull.pulled_m;
+  } else if (pull.of == SoftHold::Of::kBand) {
+    hand.force_n[pull.part] = pull.force_n;
+    hand.deep_m[pull.part] = pull.pulled_m;
+    hand.p_W[pull.part] = pull.p_W;
+    hand.leg_n = pull.tension_n;
+    keep_hold(pull);
+  }
+}
+
+void SoftWorld::tell_grip(const Hand& hand, const GripNews& news) {
+  const bool solid = news.hold.of == SoftHold::Of::kSolid;
+  if (news.hold.of == SoftHold::Of::kNothing) return;
+  Event event;
+  event.hand = static_cast<std::uint8_t>(hand.index);
+  event.subject = solid ? setup_->solids[news.hold.part].soft : setup_->bands[news.hold.part].soft;
+  const auto say = [&](bool is_so, EventKind kind, const std::array<double, 3>& values) {
+    event.kind = kind;
+    event.values = values;
+    if (is_so) tell(event, news.p_W);
+  };
+  say(news.held, kSoftHeld, {news.holds_n, 0, 0});
+  say(news.freed, kSoftFreed, {news.since_s, news.peak_n, news.pulled_mm});
+  say(news.slipped, kSoftSlipped, {news.force_n, news.holds_n, news.pulled_mm});
+}
+
+// For pictures: the string leads to the jaws.
+void SoftWorld::keep_hold(const GripPull& pull) {
+  if (bend_count_ == bends_.size()) return;
+  const BandSpan& span = spans_[pull.part];
+  const Vec3 along_W = (span.b_W - span.a_W).normalized();
+  const Vec3 off = pull.p_W - span.a_W;
+  const Vec3 aside = off - along_W.dot(off) * along_W;
+  if (!(aside.norm() > 1e-6)) return;
+  StringBend& bend = bends_[bend_count_++];
+  bend = {};
+  bend.band = static_cast<std::uint32_t>(pull.part);
+  bend.share = share_of(pull.part, pull.p_W);
+  bend.bent_m = aside.norm();
+  bend.round_m = setup_->bands[pull.part].radius_m;
+  bend.nhat_W = -aside / bend.bent_m;
+  bend.along_W = along_W;
 }
 
 void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
@@ -502,6 +592,8 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
     hands[i].index = i;
     take(hands[i], *tools[i], bones.epoch);
   }
+  for (std::size_t s = 0; s < setup_->solids.size(); ++s) (void)solids_->place(s, bones);
+  for (Hand& hand : hands) grip(hand, bones);
   for (Hand& hand : hands)
     if (hand.tool) press(hand);
   tear(hands);
@@ -519,6 +611,7 @@ BandContacts SoftWorld::contacts(std::size_t hand) const {
     if (!near.barred && !near.behind && is_felt(near.contact.band))
       out.all[out.count++] = near.contact;
   }
+  out.hold = state_.grips[hand].hold;
   if (solids_) solids_->tell(state_.solid_hands[hand], out);
   return out;
 }
@@ -537,6 +630,8 @@ std::uint64_t SoftWorld::hash() const {
     for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
     for (const BandTouch& touch : hand.touches) add_to(h, touch);
   }
+  for (const SoftGrip& grip : state_.grips)
+    if (grip != SoftGrip{}) add_to(h, grip);
   if (solids_) add_solids_to(h, state_);
   if (cutting_) h.add(cutting_->hash());
   return h.value();
@@ -561,7 +656,8 @@ bool SoftWorld::fits(const SoftState& state) const {
           hand.near[i].contact.part >= tray_[hand.instrument].size())
         return false;
   }
-  return true;
+  const auto holds = [](const SoftGrip& grip) { return grip != SoftGrip{}; };
+  return grips_ ? grips_->fits(state) : std::none_of(state.grips.begin(), state.grips.end(), holds);
 }
 
 void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
@@ -586,6 +682,7 @@ void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
   state_.cut = nullptr;
   state_.hands = {};
   state_.solid_hands = {};
+  state_.grips = {};
 }
 
 }  // namespace osteon

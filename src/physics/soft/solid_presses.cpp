@@ -75,7 +75,7 @@ Vec3 SolidPresses::middle(const SolidNear& near, const SolidHand& hand) const {
 // False: the part has gone.
 bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   SolidContact& contact = near.contact;
-  if (hand.lifted >> contact.part & 1) return false;
+  if (hand.lifted >> contact.part & 1 || hand.held == contact.solid) return false;
   const FieldView field = view(contact.solid);
   const Capsule part = in_bone(contact.solid, hand, contact.part);
   Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - axis_middle(part));
@@ -142,6 +142,14 @@ void SolidPresses::follow(SolidHandState& state, const SolidHand& hand,
   }
 }
 
+// A pull is a push against the way back.
+std::optional<SoftPushes::One> SolidPresses::pull_on(std::size_t solid,
+                                                     const SoftGrip& grip) const {
+  if (grip.hold.of != SoftHold::Of::kSolid || grip.hold.part != solid || !(grip.force_n > 0))
+    return {};
+  return SoftPushes::One{grip.hold.part, grip.hold.p_B, grip.against_B, grip.force_n};
+}
+
 double SolidPresses::others(const SolidNear& near, const SolidPush& push,
                             const SoftState& all) const {
   const PressedSolid& body = this->body(near.contact.solid);
@@ -154,6 +162,12 @@ double SolidPresses::others(const SolidNear& near, const SolidPush& push,
       const SolidPush by = body.push_at(other.contact.p_B, other.contact.nhat_B);
       sum += other.force_n * body.compliance(push, by);
     }
+  for (const SoftGrip& grip : all.grips) {
+    const auto pull = pull_on(near.contact.solid, grip);
+    if (!pull) continue;
+    const SolidPush by = body.push_at(pull->p_B, pull->nhat_B);
+    sum += pull->force_n * body.compliance(push, by);
+  }
   return sum;
 }
 
@@ -180,6 +194,8 @@ bool SolidPresses::is_asleep(std::size_t solid, const SoftState& all) const {
   for (const SolidHandState& hand : all.solid_hands)
     for (std::uint32_t i = 0; i < hand.count; ++i)
       if (hand.near[i].contact.solid == solid) return false;
+  for (const SoftGrip& grip : all.grips)
+    if (grip.hold.of == SoftHold::Of::kSolid && grip.hold.part == solid) return false;
   return true;
 }
 
@@ -206,6 +222,8 @@ SoftPushes SolidPresses::pushes(const SoftState& all) const {
       }
       out.all[out.count++] = {contact.solid, contact.p_B, contact.nhat_B, force_n};
     }
+  for (const SoftGrip& grip : all.grips)
+    if (const auto pull = pull_on(grip.hold.part, grip)) out.all[out.count++] = *pull;
   return out;
 }
 

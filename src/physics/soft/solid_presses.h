@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SolidHand {
   const ToolState* tool = nullptr;  ///< null: it touches nothing
   std::span<const Capsule> rods;    ///< of the tool
   std::uint64_t lifted = 0;         ///< which of them are out of the way
+  std::uint32_t held = kMaxSolids;  ///< which solid its jaws hold: no part presses that one
   std::array<double, kMaxSolids> force_n{}, deep_m{};
   std::array<Vec3, kMaxSolids> p_W{};  ///< where it is pressed, of the last part
 };
@@ -39,6 +41,8 @@ class SolidPresses {
     bodies_[solid] = std::move(body);
   }
   Pose X_WB(std::size_t solid) const { return X_WB_[solid]; }
+  /// Its surface as cuts have left it, in its bone.
+  FieldView view(std::size_t solid) const { return {*solids_[solid].field, holes_[solid]}; }
   /// Middle of the axis of the part that is near, where it is.
   Vec3 middle(const SolidNear& near, const SolidHand& hand) const;
   const PressedSolid& body(std::size_t solid) const {
@@ -55,10 +59,10 @@ class SolidPresses {
   SoftPushes pushes(const SoftState& all) const;
 
  private:
-  FieldView view(std::size_t solid) const { return {*solids_[solid].field, holes_[solid]}; }
   Capsule in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
   bool keep(SolidNear& near, const SolidHand& hand) const;
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
+  std::optional<SoftPushes::One> pull_on(std::size_t solid, const SoftGrip& grip) const;
   double others(const SolidNear& near, const SolidPush& push, const SoftState& all) const;
 
   const std::vector<SoftSolid>& solids_;

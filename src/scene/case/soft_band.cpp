@@ -19,6 +19,14 @@ double pull_of(const BandFibres& fibres, double length_m) {
   return fibres.stiffness_n * (strain < 2 * toe ? strain * strain / (4 * toe) : strain - toe);
 }
 
+double slope_of(const BandFibres& fibres, double length_m) {
+  const double strain = length_m / fibres.slack_m - 1;
+  if (!(strain > 0)) return 0;
+  const double toe = fibres.toe_strain;
+  const double per_strain = fibres.stiffness_n * (strain < 2 * toe ? strain / (2 * toe) : 1);
+  return per_strain / fibres.slack_m;
+}
+
 // A string bent by `bent` across its straight way, `to_a` and `to_b` from its ends.
 struct BentString {
   const SoftBand& band;
@@ -50,6 +58,12 @@ double balance(const BentString& string, double deep, double k) {
 double tension_at(const SoftBand& band, double length_m) {
   double sum = 0;
   for (const BandFibres& fibres : band.fibres) sum += pull_of(fibres, length_m);
+  return band.left * sum;
+}
+
+double tension_slope_at(const SoftBand& band, double length_m) {
+  double sum = 0;
+  for (const BandFibres& fibres : band.fibres) sum += slope_of(fibres, length_m);
   return band.left * sum;
 }
 

@@ -44,6 +44,8 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
     return instrument.jaws.has_value() || !instrument.can(InstrumentFunction::kRemove);
   if (function == InstrumentFunction::kGuide)
     return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
+  if (function == InstrumentFunction::kGrasp)
+    return instrument.jaws && instrument.jaws->holds_n > 0;
   return function == InstrumentFunction::kProbe;
 }
 

@@ -134,7 +134,7 @@ class InstrumentFile {
   }
 
   void read_jaws(InstrumentReader& in) {
-    in.allow_only({"hinge_mm", "axis", "open_deg"});
+    in.allow_only({"hinge_mm", "axis", "open_deg", "holds_n"});
     JawDef jaws;
     jaws.hinge = in.point("hinge_mm");
     const std::vector<double> axis = in.numbers("axis", 3, {-1, 1});
@@ -144,6 +144,7 @@ class InstrumentFile {
     jaws.axis = length > 1e-6 ? Vec3(jaws.axis / length) : Vec3(Vec3::UnitX());
     const std::vector<double> deg = in.numbers("open_deg", 2, {-170, 170});
     for (std::size_t i = 0; i < 2; ++i) jaws.open_rad[i] = deg[i] * std::numbers::pi / 180;
+    if (in.has("holds_n")) jaws.holds_n = in.number("holds_n", {0, 500});
     out_.jaws = jaws;
   }
 
@@ -225,6 +226,8 @@ class InstrumentFile {
     if (turns && !out_.jaws)
       in_.set_error("a part turns with a jaw, but there is no table [jaws]", "jaws");
     if (out_.jaws && !turns) in_.set_error("no part turns with the jaws", "jaws");
+    if (out_.jaws && out_.jaws->holds_n > 0 && !out_.can(InstrumentFunction::kGrasp))
+      in_.set_error("jaws that hold ('holds_n') need the function \"grasp\"", "jaws");
   }
 
   InstrumentReader in_;

@@ -120,6 +120,9 @@ Tool make_tool(const Instrument& instrument, std::size_t size, double opening) {
         std::visit([&](const auto& p) { return felt_of(instrument, p, size_m, opening); }, part));
   tool.parts.push_back(make_rod(tool.shaft.p0, tool.shaft.p1, tool.shaft.radius));
   tool.mesh = instrument_mesh(instrument, size, opening);
+  for (std::size_t n = 1; instrument.jaws && n <= kJawSteps; ++n)
+    tool.opened.push_back(
+        instrument_mesh(instrument, size, static_cast<double>(n) / double{kJawSteps}));
   const Primitive& tip = tool.parts.front();
   tool.tip_radius_m = tip.kind == Primitive::Kind::kRod ? tip.rod.radius : tip.half.minCoeff();
   return tool;

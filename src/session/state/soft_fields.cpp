@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "state/fields.h"
 
 namespace osteon::stored {
@@ -48,6 +50,29 @@ void solids_field(A& a, SoftState& s) {
 }
 
 template <class A>
+void field(A& a, SoftGrip& g) {
+  field(a, g.jaw_open);
+  SoftHold& hold = g.hold;
+  number(a, hold.of, static_cast<std::uint64_t>(SoftHold::Of::kSolid));
+  for (std::uint32_t* x : {&hold.part, &hold.bone}) field(a, *x);
+  for (Vec3* x : {&hold.p_T, &hold.p_B, &g.against_B}) field(a, *x);
+  for (double* x : {&hold.share, &hold.others_taken_m, &hold.stiffness_n_per_m, &g.force_n,
+                    &g.taken_m, &g.peak_n, &g.most_m})
+    field(a, *x);
+  field(a, g.first_step);
+}
+
+template <class A>
+void grips_field(A& a, SoftState& s) {
+  if (!since(a, 22)) return;  // jaws held nothing then
+  bool any = std::any_of(s.grips.begin(), s.grips.end(),
+                         [](const SoftGrip& grip) { return grip != SoftGrip{}; });
+  field(a, any);
+  for (SoftGrip& grip : s.grips)
+    if (any) field(a, grip);
+}
+
+template <class A>
 void field(A& a, SoftState& s) {
   if (!since(a, 3)) return;  // nothing was soft then
   field(a, s.on);
@@ -65,6 +90,7 @@ void field(A& a, SoftState& s) {
     for (BandTouch& touch : hand.touches) field(a, touch);
   }
   solids_field(a, s);
+  grips_field(a, s);
 }
 
 template void field(Out&, SoftState&);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "osteon/device/virtual_hand.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/instrument.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
@@ -113,6 +115,59 @@ TEST(SoftStability, ALigamentTautOrSlackComesToRest) {
       const Vec3 to_W = testing::shaft_at(testing::kTouch_m - 0.009).X_WD.p;
       expect_rest(press_softly(session, loop, from, to_W), loop);
     }
+  }
+}
+
+// The grasper is the last in the tray.
+template <class Run>
+void add_grasper(Run& run) {
+  const auto instruments = load_instruments();
+  ASSERT_TRUE(instruments);
+  const Instrument* grasper = find_instrument(*instruments, "grasper");
+  run.settings.tray.emplace_back("grasper");
+  run.tray.push_back(std::make_shared<const Tool>(make_tool(*grasper, grasper->usual_size)));
+  auto grippers = make_soft_grippers(run.settings.tray);
+  ASSERT_TRUE(grippers);
+  SoftSetup setup = *run.softs;
+  add_grippers(setup, std::move(*grippers));
+  run.settings.soft_hash = setup.hash;
+  run.softs = std::make_shared<const SoftSetup>(std::move(setup));
+}
+
+// Open about it, shut, and then drawn aside by a hand that is held loosely or firmly.
+void expect_rest_of_held(Session session, const SoftLoop& loop, const ToolInput& at,
+                         const Vec3& by_W, std::uint32_t grasper) {
+  (void)session.tick(at, {CommandKind::kTake, static_cast<double>(grasper)});
+  (void)session.tick(at, {CommandKind::kJaw, 1});
+  for (int n = 0; n < 50; ++n) (void)session.tick(at);
+  (void)session.tick(at, {CommandKind::kJaw, 0});
+  for (int n = 0; n < 50; ++n) (void)session.tick(at);
+  expect_rest(press_softly(session, loop, at, at.X_WD.p + by_W), loop);
+  EXPECT_NE(session.softs()->state().grips[0].hold.of, SoftHold::Of::kNothing);
+}
+
+TEST(SoftStability, AHeldLigamentDrawnAsideComesToRest) {
+  for (const double strain : {0.05, -0.01}) {
+    testing::BandRun run(testing::band_table(strain));
+    add_grasper(run);
+    for (const SoftLoop& loop : soft_loops()) {
+      run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+      ToolInput at;
+      at.X_WD.p = testing::kBandMiddle + Vec3(0, 0, -0.004);
+      expect_rest_of_held(run.session(), loop, at, {0, 0, 0.009}, 1);
+    }
+  }
+}
+
+TEST(SoftStability, AHeldMeniscusLiftedComesToRest) {
+  testing::MeniscusRun run = testing::meniscus_run();
+  add_grasper(run);
+  for (const SoftLoop& loop : soft_loops()) {
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    ToolInput at;
+    at.X_WD.p = {0.006, 0, 0};
+    at.X_WD.q = Quat((Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished());  // z to +x, y to +z
+    expect_rest_of_held(run.session(), loop, at, {0, 0, 0.009}, 1);
   }
 }
 

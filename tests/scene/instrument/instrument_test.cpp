@@ -187,7 +187,9 @@ TEST(Instrument, WhatIsWrongIsNamedWithItsLine) {
       {"jaw = \"first\"", "jaw = \"third\"", ":27", "jaw"},
       {"thickness_mm = 1", "thickness = 1", ":39", "unknown"},
       {"title = \"Test probe\"", "title = ", ":2", "TOML"},
-      {"axis = [1, 0, 0]", "axis = [0, 0, 0]", ":20", "zero"}};
+      {"axis = [1, 0, 0]", "axis = [0, 0, 0]", ":20", "zero"},
+      {"open_deg = [-90, 0]", "open_deg = [-90, 0]\nholds_n = -1", ":22", "holds_n"},
+      {"open_deg = [-90, 0]", "open_deg = [-90, 0]\nholds_n = 501", ":22", "holds_n"}};
   for (const Bad& bad : all) {
     const auto read = parse_instrument(with(bad.from, bad.to), "probe.toml");
     ASSERT_FALSE(read) << bad.to;
@@ -196,6 +198,23 @@ TEST(Instrument, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(read.error().where.find("probe.toml" + bad.line), std::string::npos)
         << bad.to << " -> " << read.error().message();
   }
+}
+
+TEST(Instrument, JawsThatHoldGrasp) {
+  const std::string jaws = "open_deg = [-90, 0]", holding = jaws + "\nholds_n = 8";
+  const auto none = parse_instrument(kProbe, "probe.toml");
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->jaws->holds_n, 0);
+  EXPECT_FALSE(has_effect(*none, InstrumentFunction::kGrasp));
+  const auto holds = parse_instrument(with(jaws, holding), "probe.toml");
+  ASSERT_TRUE(holds) << holds.error().message();
+  EXPECT_EQ(holds->jaws->holds_n, 8);
+  EXPECT_TRUE(has_effect(*holds, InstrumentFunction::kGrasp));
+  std::string text = with(jaws, holding);
+  text.replace(text.find(", \"grasp\""), 9, "");
+  const auto cannot = parse_instrument(text, "probe.toml");
+  ASSERT_FALSE(cannot);
+  EXPECT_NE(cannot.error().message().find("grasp"), std::string::npos);
 }
 
 TEST(Instrument, WhatCannotBeMadeInASizeIsRefused) {
@@ -307,6 +326,32 @@ TEST(ShippedInstruments, AreFeltWhereTheyAreSeen) {
             }
       }
     }
+  }
+}
+
+// Apart by most of what they turn, at their tips.
+TEST(ShippedInstruments, JawsStandApartWhenTheyAreOpen) {
+  for (const Instrument& instrument : shipped()) {
+    if (!instrument.can(InstrumentFunction::kGrasp) || !instrument.jaws ||
+        instrument.name == "kerrison_punch")  // its jaw slides
+      continue;
+    const auto width = [&](double opening) {
+      const Tool tool = make_tool(instrument, instrument.usual_size, opening);
+      Aabb ends;
+      for (const Vec3& p : tool.mesh.vertices)
+        if (p.z() < 0.012) ends.include(p);
+      return ends.extent().y();
+    };
+    EXPECT_GT(width(1), 1.6 * width(0)) << instrument.name;
+    const Tool open = make_tool(instrument, instrument.usual_size, 1);
+    double first = -1, other = 1;  // heights of the jaw that opens upwards and of what is below
+    for (std::size_t i = 0; i < instrument.felt.size(); ++i) {
+      if (open.parts[i].middle.z() > 0.040) continue;
+      const bool turns =
+          std::visit([](const auto& p) { return p.jaw == Jaw::kFirst; }, instrument.felt[i]);
+      (turns ? first : other) = open.parts[i].middle.y();
+    }
+    EXPECT_GT(first, other) << instrument.name;
   }
 }
 

@@ -148,6 +148,9 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
     return tl::unexpected(done.error());
   if (auto done = add_menisci(the_case, menisci, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
+  auto grippers = make_soft_grippers(settings.tray);
+  if (!grippers) return tl::unexpected(grippers.error());
+  add_grippers(setup, std::move(*grippers));
   add_friction(setup, SoftFriction(setup.friction));
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
