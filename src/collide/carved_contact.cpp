@@ -81,7 +81,7 @@ class SurfaceOfRod {
     out.status = LpStatus::kOptimal;
     out.gap = best_.gap;
     const double slope = best_.slope.norm();
-    out.nhat_AB_A = slope > 0.5 ? Vec3(best_.slope / slope) : best_.n;
+    out.nhat_AB_A = off_the_rod(slope > 0.5 ? Vec3(best_.slope / slope) : best_.n);
     out.p_axis_A = best_.x;
     out.p_A = best_.x - rod_.radius * best_.n - best_.gap * out.nhat_AB_A;
     return out;
@@ -94,6 +94,22 @@ class SurfaceOfRod {
     double gap = 0;
     bool near = false;
   };
+
+  // Of a whole rod the place nearest to a plane is an end, or its whole side. A slope that leans
+  // along the axis where the side or the other end touches is that of a place beside the nearest
+  // one: its plane would reach into the rod.
+  Vec3 off_the_rod(const Vec3& n) const {
+    constexpr double kAtEnd_m = 1e-6, kAcross = 0.1;
+    const Vec3 along = rod_.p1 - rod_.p0;
+    const double length = along.norm();
+    if (!(length > 0)) return n;
+    const double lean = n.dot(along) / length;
+    const Vec3& nearer = lean > 0 ? rod_.p0 : rod_.p1;
+    if ((best_.x - nearer).norm() < kAtEnd_m) return n;
+    const Vec3 across = n - lean / length * along;
+    const double size = across.norm();
+    return size > kAcross ? Vec3(across / size) : n;
+  }
 
   static Vec3 turned(const Vec3& e, const Vec3& f, int k) {
     const double angle = 2 * std::numbers::pi * k / kRound;

@@ -101,6 +101,30 @@ TEST(CarvedContact, TheGapHasNoJumps) {
   }
 }
 
+// A rod laid over an edge of the carved block touches with its side: the plane there leaves the
+// whole rod in front, however far it reaches beyond the edge.
+TEST(CarvedContact, ThePlaneReachesIntoNoPartOfALongRod) {
+  Random random(17);
+  const auto from_to = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  const Vec3 out = Vec3(1, 0, 1).normalized(), down = Vec3(1, 0, -1).normalized();
+  for (int i = 0; i < 200; ++i) {
+    const double yaw = from_to(-0.6, 0.6), tilt = from_to(-0.3, 0.3), radius = from_to(1e-3, 4e-3);
+    const Vec3 level = std::cos(yaw) * down + std::sin(yaw) * Vec3::UnitY();
+    const Vec3 along = std::cos(tilt) * level + std::sin(tilt) * out;
+    const Vec3 edge(kBlock, from_to(-0.005, 0.005), kBlock);
+    const Vec3 middle = edge + (radius + from_to(0, 4e-4)) * out;
+    const double before = from_to(0.004, 0.02), after = from_to(0.004, 0.02);
+    const Capsule rod{middle - before * along, middle + after * along, radius};
+    const CapsuleContact met = bored().meet(rod);
+    ASSERT_EQ(met.status, LpStatus::kOptimal);
+    ASSERT_LT(met.gap, 0.001) << i;
+    const Vec3& n = met.nhat_AB_A;
+    const double reaches = n.dot(met.p_axis_A) - std::min(n.dot(rod.p0), n.dot(rod.p1));
+    EXPECT_LT(reaches, 1e-6) << i << ": m behind the plane";
+    EXPECT_GT(n.dot(out), 0.8) << i;
+  }
+}
+
 // Far from the hole it is the plain field's contact.
 TEST(CarvedContact, FarFromTheHoleItIsThePlainContact) {
   const Capsule rod{Vec3(0.006, 0.005, 0.0095), Vec3(-0.006, 0.006, 0.0097), 0.001};
