@@ -66,7 +66,8 @@ Result<void> draw(const InstrumentOptions& options) {
   if (!found) return tl::unexpected(found.error());
   constexpr std::size_t kMostColumns = 7;
   const std::size_t columns = std::min(kMostColumns, found->size());
-  const auto image = instrument_sheet(*found, static_cast<int>(columns), size->width, size->height);
+  const auto image =
+      instrument_sheet(sheet_items(*found), static_cast<int>(columns), size->width, size->height);
   if (!image) return tl::unexpected(image.error());
   if (auto saved = save_png(*image, options.out); !saved) return saved;
   std::printf("%zu instruments -> %s, row by row:\n", found->size(), options.out.c_str());

@@ -77,12 +77,12 @@ void add_window_command(cli::App& app, int& exit_code) {
                       "Open the briefing of this exercise; see: osteon scenario list");
   command->add_option(
       "--ghost", order->ghost,
-      "Beside an exercise show: FILE.osr, a recording of it on the same patient, or "
-      "off, nothing; default: the virtual expert");
+      "What an exercise shows as the expert's movement: FILE.osr (a recording of it on the same "
+      "patient) or off; default: the virtual expert");
   command
       ->add_option("--ghost-strength", order->ghost_strength,
-                   "How strongly it is drawn, 0 to 1; default: the weaker the more the learner's "
-                   "results show")
+                   "Opacity of the expert's movement, 0 to 1; default: it fades as the learner's "
+                   "results improve")
       ->check(cli::Range(0.0, 1.0));
   command->add_flag("--guide", order->guide,
                     "In exercises, let a device with motors lead the hand weakly along the "

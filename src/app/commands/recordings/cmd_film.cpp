@@ -250,8 +250,7 @@ int run_film(const FilmCommand& command) {
   std::printf("%s view of %s, %.2f to %.2f s, %d pictures a second -> %s\n", command.view.c_str(),
               command.recording.c_str(), span->from_s, span->to_s, command.fps,
               command.out.c_str());
-  if (span->obscured_s > 0)
-    std::printf("the water let nothing be seen for %.1f s\n", span->obscured_s);
+  if (span->obscured_s > 0) std::printf("the water hid everything for %.1f s\n", span->obscured_s);
   return kExitDone;
 }
 
@@ -308,10 +307,10 @@ void add_film_commands(cli::App& app, int& exit_code) {
       ->check(cli::Range(1, 120))
       ->capture_default_str();
   sub->add_option("--pressure", command->pressure_mmhg,
-                  "the pump stood at so many mmHg; seen through a scope (default: as recorded)")
+                  "pressure of the pump in mmHg, for the scope's picture (default: as recorded)")
       ->check(cli::Range(0.0, 300.0));
   sub->add_option("--outlet", command->outlet_open,
-                  "the outlet stood open so far, 0 to 1 (default: as recorded)")
+                  "how far the outlet is open, 0 to 1 (default: as recorded)")
       ->check(cli::Range(0.0, 1.0));
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
   sub->add_flag("--mute", command->mute, "leave out the sound");

@@ -290,9 +290,9 @@ void add_results_commands(cli::App& app, int& exit_code) {
   cohort->add_option("--out", options->out, "the page to write, .html or .pdf");
   cohort->add_flag("--names", options->names, "with the names that this computer knows");
   cohort->add_flag("--json", options->json, "print the figures as JSON");
-  cli::App* compare = add("compare", "What tells two attempts apart", compare_results);
-  compare->add_option("a", options->id, "the one's id, as `results list` prints it")->required();
-  compare->add_option("b", options->other, "the other's")->required();
+  cli::App* compare = add("compare", "Compare two attempts", compare_results);
+  compare->add_option("a", options->id, "id of the first, as `results list` prints it")->required();
+  compare->add_option("b", options->other, "id of the second")->required();
   compare->add_flag("--json", options->json, "print JSON");
   add_result_sending(*group, exit_code);
   add_result_rescore(*group, exit_code);

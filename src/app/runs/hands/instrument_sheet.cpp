@@ -42,16 +42,16 @@ void put(const TriMesh& mesh, const Vec3& middle, double width, double height, T
     sheet.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
-Case sheet_case(const std::vector<Instrument>& instruments, int columns) {
+Case sheet_case(const std::vector<SheetItem>& items, int columns) {
   Case out;
   out.name = "instruments";
-  for (std::size_t i = 0; i < instruments.size(); ++i) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
     const auto column = static_cast<double>(i % static_cast<std::size_t>(columns));
     const auto row = static_cast<double>(i / static_cast<std::size_t>(columns));
     const Vec3 middle(kCell_m * column, 0, -kCell_m * row);
-    const TriMesh mesh = instrument_mesh(instruments[i], instruments[i].usual_size, 1.0);
+    const TriMesh& mesh = items[i].mesh;
     Bone bone;
-    bone.name = instruments[i].name;
+    bone.name = items[i].name;
     put(mesh, middle - Vec3(0.022, 0, 0), 0.038, 0.086, bone.mesh);
     put(tip_of(mesh), middle + Vec3(0.022, 0, 0), 0.036, 0.07, bone.mesh);
     out.bones.push_back(std::move(bone));
@@ -59,14 +59,17 @@ Case sheet_case(const std::vector<Instrument>& instruments, int columns) {
   return out;
 }
 
-ViewState sheet_view(const Case& the_case, std::size_t count, int columns) {
+// `aspect`: width of the picture over its height.
+ViewState sheet_view(const Case& the_case, std::size_t count, int columns, double aspect) {
   ViewState view = default_view(the_case);
   const auto rows = static_cast<double>((count + static_cast<std::size_t>(columns) - 1) /
                                         static_cast<std::size_t>(columns));
   view.camera.target_W = Vec3(kCell_m * (columns - 1) / 2, 0, -kCell_m * (rows - 1) / 2);
   view.camera.q_WC = look_rotation(-Vec3::UnitY(), Vec3::UnitZ());
   view.camera.orthographic = true;
-  view.camera.distance_m = 0.5 * kCell_m * rows / std::tan(0.5 * view.camera.vertical_fov_rad);
+  const double shown_rows = std::max(rows, columns / aspect);
+  view.camera.distance_m =
+      0.5 * kCell_m * shown_rows / std::tan(0.5 * view.camera.vertical_fov_rad);
   view.bones.assign(count, BoneAppearance{{0.72f, 0.75f, 0.79f}, 1, true, false});
   view.show_proxy = view.show_force = view.show_hand_ghost = false;
   view.ambient_occlusion = 0.6f;
@@ -76,22 +79,30 @@ ViewState sheet_view(const Case& the_case, std::size_t count, int columns) {
 
 }  // namespace
 
-Result<Image> instrument_sheet(const std::vector<Instrument>& instruments, int columns, int width,
+std::vector<SheetItem> sheet_items(const std::vector<Instrument>& instruments) {
+  std::vector<SheetItem> items;
+  for (const Instrument& instrument : instruments)
+    items.push_back({instrument.name, instrument_mesh(instrument, instrument.usual_size, 1.0)});
+  return items;
+}
+
+Result<Image> instrument_sheet(const std::vector<SheetItem>& items, int columns, int width,
                                int height) {
-  if (instruments.empty() || instruments.size() > kMaxBones)
+  if (items.empty() || items.size() > kMaxBones)
     return fail("a sheet holds 1 to " + std::to_string(kMaxBones) + " instruments", "the sheet",
                 "Name those to draw");
   const auto data_dir = find_data_dir();
   if (!data_dir) return tl::unexpected(data_dir.error());
   const auto context = OffscreenContext::create();
   if (!context) return tl::unexpected(context.error());
-  const Case the_case = sheet_case(instruments, columns);
+  const Case the_case = sheet_case(items, columns);
   auto renderer = Renderer::create(the_case, Tool{}, *data_dir);
   if (!renderer) return tl::unexpected(renderer.error());
   RenderSnapshot snapshot;
   snapshot.bones = rest_snapshot(the_case);
-  Image image = renderer->draw_image(snapshot, sheet_view(the_case, instruments.size(), columns),
-                                     width, height);
+  const ViewState view =
+      sheet_view(the_case, items.size(), columns, static_cast<double>(width) / height);
+  Image image = renderer->draw_image(snapshot, view, width, height);
   if (image.rgb.empty())
     return fail("the graphics driver has no memory for the picture", renderer->device_name(),
                 "Choose a smaller --size");

@@ -1,10 +1,15 @@
 #include <string>
+#include <vector>
 
+#include "ui/label_places.h"
 #include "ui/ui_widgets.h"
 #include "window/panels/panels.h"
 
 namespace osteon {
 namespace {
+
+constexpr ImU32 kNameGround = IM_COL32(0x15, 0x18, 0x1c, 0xb0);
+constexpr ImU32 kNameLine = IM_COL32(0x15, 0x18, 0x1c, 0xff);
 
 void draw_row(const HandRow& row) {
   const std::string name = row.name.empty() ? "Holds" : row.name;
@@ -61,6 +66,14 @@ void draw_tip(const PanelContext& c) {
            "From the middle of the tip to the nearest bone surface, millimetres; negative inside");
 }
 
+// From the middle of the bone to a name that had to give way.
+void draw_leader(const PanelContext& c, const NameTag& tag, const UiRect& at) {
+  const float edge = tag.y < at.y ? at.y : at.bottom();
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddLine({tag.x, tag.y}, {tag.x, edge}, kNameLine, c.px(1));
+  draw->AddCircleFilled({tag.x, tag.y}, c.px(2), kNameLine);
+}
+
 }  // namespace
 
 void draw_hands(const PanelContext& c) {
@@ -86,16 +99,25 @@ void draw_tip_line(const PanelContext& c) {
 }
 
 void draw_bone_names(const PanelContext& c) {
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ui::WithFont small(c.fonts.small);
+  std::vector<const NameTag*> tags;
+  std::vector<UiRect> wanted;
   for (const NameTag& tag : c.model.hands.names) {
     if (tag.bone.index >= c.model.bone_labels.size()) continue;
-    const std::string& name = c.model.bone_labels[tag.bone.index];
-    const ImVec2 size = ImGui::CalcTextSize(name.c_str());
-    const ImVec2 lo{tag.x - size.x / 2 - c.px(4), tag.y - size.y / 2 - c.px(1)};
-    draw->AddRectFilled(lo, {lo.x + size.x + c.px(8), lo.y + size.y + c.px(2)},
-                        IM_COL32(0x15, 0x18, 0x1c, 0xb0), c.px(3));
-    draw->AddText({lo.x + c.px(4), lo.y + c.px(1)}, color::kText, name.c_str());
+    const ImVec2 text = ImGui::CalcTextSize(c.model.bone_labels[tag.bone.index].c_str());
+    const ImVec2 size{text.x + c.px(8), text.y + c.px(2)};
+    tags.push_back(&tag);
+    wanted.push_back({tag.x - size.x / 2, tag.y - size.y / 2, size.x, size.y});
+  }
+  const std::vector<UiRect> places = spread_labels(wanted, c.px(2));
+  for (std::size_t i = 0; i < tags.size(); ++i)
+    if (places[i].y != wanted[i].y) draw_leader(c, *tags[i], places[i]);
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const UiRect& r = places[i];
+    draw->AddRectFilled({r.x, r.y}, {r.right(), r.bottom()}, kNameGround, c.px(3));
+    draw->AddText({r.x + c.px(4), r.y + c.px(1)}, color::kText,
+                  c.model.bone_labels[tags[i]->bone.index].c_str());
   }
 }
 

@@ -55,7 +55,7 @@ constexpr std::array<KeyLine, 4> kEdit = {{
 constexpr std::array<KeyLine, 13> kRun = {{
     {"R", "record, stop"},
     {"F4", "film of this window, stop"},
-    {"O", "open a case, recording, meshes or a scan"},
+    {"O, Ctrl + O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
     {"P", "play, pause a replay; pause an exercise"},
     {",  .", "slower, faster"},

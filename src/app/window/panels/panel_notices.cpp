@@ -171,8 +171,8 @@ void draw_notices(const PanelContext& c) {
   if (c.model.phase != UiPhase::kReady || c.model.help_open) return;
   if (c.model.hand.probe_in_hand)
     draw_probe_hint(c);
-  else if (c.model.first_run_hint)
-    draw_first_run_hint(c);
+  else if (c.model.first_run_hint && c.model.views.layout == PictureLayout::kOutside)
+    draw_first_run_hint(c);  // in other layouts it would cover a view that these keys do not move
   else if (c.model.replay.on && c.model.panels_open)
     draw_replay_verdict(c);
   if (!c.model.hand.probe_in_hand) draw_name_tag(c, c.model.hovered);

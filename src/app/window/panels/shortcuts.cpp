@@ -69,6 +69,7 @@ void read_shortcuts(const PanelContext& c) {
   if (c.model.phase != UiPhase::kReady) return;
   if (ImGui::GetIO().KeyCtrl) {
     if (pressed(GLFW_KEY_Z) && !c.model.edit.on) c.requests.hands.undo = true;
+    if (pressed(GLFW_KEY_O)) c.requests.browser.toggle = true;
     return;
   }
   if (!c.model.hand.probe_in_hand) read_view_keys(c);

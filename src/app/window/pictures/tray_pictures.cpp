@@ -2,7 +2,9 @@
 
 #include <epoxy/gl.h>
 
+#include "osteon/scene/tool.h"
 #include "runs/hands/instrument_sheet.h"
+#include "runs/hands/tray.h"
 #include "window/pictures/picture_texture.h"
 
 namespace osteon {
@@ -20,15 +22,17 @@ void TrayPictures::forget() {
 }
 
 void TrayPictures::want(const std::vector<Instrument>& instruments) {
-  std::vector<std::string> names;
+  std::vector<std::string> names{kWristProbe};
   for (const Instrument& instrument : instruments) names.push_back(instrument.name);
-  if (names.empty() || names == names_) return;
+  if (names == names_) return;
   forget();
   names_ = std::move(names);
-  const auto count = static_cast<int>(instruments.size());
+  const auto count = static_cast<int>(names_.size());
   rows_ = (count + kColumns - 1) / kColumns;
   job_ = std::make_unique<SideJob<Image>>([instruments, rows = rows_](const Progress&) {
-    return instrument_sheet(instruments, kColumns, kColumns * kCell_px, rows * kCell_px);
+    std::vector<SheetItem> items = sheet_items(instruments);
+    items.insert(items.begin(), SheetItem{kWristProbe, make_wrist_probe().mesh});
+    return instrument_sheet(items, kColumns, kColumns * kCell_px, rows * kCell_px);
   });
 }
 

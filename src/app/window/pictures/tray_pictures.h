@@ -20,7 +20,7 @@ class TrayPictures {
   TrayPictures(const TrayPictures&) = delete;
   TrayPictures& operator=(const TrayPictures&) = delete;
 
-  /// Draws these, unless it has done so.
+  /// Draws these after the wrist probe, unless it has done so.
   void want(const std::vector<Instrument>& instruments);
   void poll();
   /// OpenGL's texture of all pictures; 0: not ready.

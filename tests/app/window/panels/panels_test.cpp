@@ -189,6 +189,26 @@ TEST(Panels, HintsStayBetweenTheCardsHoweverNarrowTheWindow) {
   }
 }
 
+// Their keys move the outside view; over another layout's small views they would be in the way.
+TEST(Panels, TheFirstHintIsShownOverTheOutsideViewAlone) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.model.first_run_hint = true;
+  for (std::size_t i = 0; i < kPictureLayouts; ++i) {
+    ui.model.views.layout = static_cast<PictureLayout>(i);
+    for (int k = 0; k < 3; ++k) ui.draw();
+    EXPECT_EQ(ui.shown("##hint"), ui.model.views.layout == PictureLayout::kOutside)
+        << title_of(ui.model.views.layout);
+  }
+}
+
+TEST(Panels, OpensWithOAloneAndWithCtrlAsElsewhere) {
+  UiFrame ui;
+  fill(ui, small_model());
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_O).browser.toggle);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_O, false, true).browser.toggle);
+}
+
 TEST(Panels, TabAsksToFoldAndFoldedShowsThePictureAlone) {
   UiFrame ui;
   fill(ui, small_model());

@@ -123,11 +123,11 @@ std::uint32_t InstrumentTray::next_size(std::uint32_t place) const {
 
 TrayItem InstrumentTray::item(std::uint32_t place) const {
   if (place < kFirst)
-    return {kWristProbeTitle, {}, "probe: only the ball at its tip is felt", 0, -1};
+    return {kWristProbeTitle, {}, "probe: only the ball at its tip is felt", 0, 0};
   const PreparedTool& tool = set_.at(place - kFirst);
   const Instrument& instrument = set_.instruments()[tool.instrument];
-  TrayItem out{
-      instrument.title, {}, what_it_does(instrument), place, static_cast<int>(tool.instrument)};
+  const int picture = static_cast<int>(tool.instrument) + 1;  // after the wrist probe's
+  TrayItem out{instrument.title, {}, what_it_does(instrument), place, picture};
   if (instrument.sizes_m.size() > 1) out.size = in_mm(instrument.sizes_m[tool.size]);
   return out;
 }

@@ -1,0 +1,44 @@
+#include "ui/label_places.h"
+
+#include <algorithm>
+
+namespace osteon {
+namespace {
+
+constexpr float kMostHeights = 10;
+
+bool covers(const UiRect& a, const UiRect& b, float gap) {
+  return a.x < b.right() + gap && b.x < a.right() + gap && a.y < b.bottom() + gap &&
+         b.y < a.bottom() + gap;
+}
+
+const UiRect* in_the_way(std::span<const UiRect> placed, const UiRect& r, float gap) {
+  const auto found = std::find_if(placed.begin(), placed.end(),
+                                  [&](const UiRect& other) { return covers(other, r, gap); });
+  return found == placed.end() ? nullptr : &*found;
+}
+
+// Moves a label past what covers it, up or down, until nothing does. Each step leaves one of the
+// placed behind, so it ends.
+UiRect moved_clear(std::span<const UiRect> placed, UiRect r, float gap, bool up) {
+  while (const UiRect* other = in_the_way(placed, r, gap))
+    r.y = up ? other->y - gap - r.h : other->bottom() + gap;
+  return r;
+}
+
+}  // namespace
+
+std::vector<UiRect> spread_labels(std::span<const UiRect> wanted, float gap) {
+  std::vector<UiRect> placed;
+  placed.reserve(wanted.size());
+  for (const UiRect& r : wanted) {
+    const UiRect up = moved_clear(placed, r, gap, true);
+    const UiRect down = moved_clear(placed, r, gap, false);
+    const UiRect& nearest = r.y - up.y < down.y - r.y ? up : down;
+    const float moved = nearest.y < r.y ? r.y - nearest.y : nearest.y - r.y;
+    placed.push_back(moved > kMostHeights * r.h ? r : nearest);
+  }
+  return placed;
+}
+
+}  // namespace osteon
