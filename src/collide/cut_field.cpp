@@ -62,31 +62,6 @@ void gather(const std::array<const std::int16_t*, 8>& corner, const Nodes4& x, c
     }
 }
 
-struct Splines {
-  double value = 0;  // um
-  Vec3 slope = Vec3::Zero();
-};
-
-Splines weigh(const Nodes64& um, const CubicSpline& x, const CubicSpline& y, const CubicSpline& z) {
-  Splines out;
-  for (std::size_t k = 0; k < 4; ++k) {
-    double v = 0, dx = 0, dy = 0;
-    for (std::size_t j = 0; j < 4; ++j) {
-      const double* h = um.data() + 16 * k + 4 * j;
-      const double row = (x.w[0] * h[0] + x.w[1] * h[1]) + (x.w[2] * h[2] + x.w[3] * h[3]);
-      const double row_dx = (x.d[0] * h[0] + x.d[1] * h[1]) + (x.d[2] * h[2] + x.d[3] * h[3]);
-      v += y.w[j] * row;
-      dx += y.w[j] * row_dx;
-      dy += y.d[j] * row;
-    }
-    out.value += z.w[k] * v;
-    out.slope.x() += z.w[k] * dx;
-    out.slope.y() += z.w[k] * dy;
-    out.slope.z() += z.d[k] * v;
-  }
-  return out;
-}
-
 }  // namespace
 
 CutField::CutField(const CutGrid& grid, std::size_t most_blocks, double slack_m)
@@ -130,7 +105,8 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
   if (!any) return false;
   Nodes64 um;
   gather(corner, x, y, z, static_cast<std::int16_t>(farthest_um_), um);
-  const Splines found = weigh(um, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+  const auto row = [&](std::size_t j, std::size_t k) { return um.data() + 16 * k + 4 * j; };
+  const SplineSum found = sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
   out.distance = slack_m_ - 1e-6 * found.value;
   out.gradient = -1e-6 / grid_.cell_m * found.slope;
   out.near = found.value < farthest_um_;

@@ -11,34 +11,11 @@
 namespace osteon {
 namespace {
 
-// Value and gradient of a block at a cell of it, in units of height and cells.
-struct Local {
-  double value = 0;
-  Vec3 slope = Vec3::Zero();
-};
-
-Local evaluate(const std::int16_t* first, const Vec3& t) {
+// Value and slope of a block at a place of one of its cells, in units of height and cells.
+SplineSum evaluate(const std::int16_t* first, const Vec3& t) {
   constexpr std::size_t kRow = FieldData::kSpan;
-  constexpr std::size_t kLayer = kRow * kRow;
-  const CubicSpline x(t.x()), y(t.y()), z(t.z());
-  Local out;
-  for (std::size_t k = 0; k < 4; ++k) {
-    double v = 0, dx = 0, dy = 0;
-    for (std::size_t j = 0; j < 4; ++j) {
-      const std::int16_t* h = first + k * kLayer + j * kRow;
-      const double h0 = h[0], h1 = h[1], h2 = h[2], h3 = h[3];
-      const double row = (x.w[0] * h0 + x.w[1] * h1) + (x.w[2] * h2 + x.w[3] * h3);
-      const double row_dx = (x.d[0] * h0 + x.d[1] * h1) + (x.d[2] * h2 + x.d[3] * h3);
-      v += y.w[j] * row;
-      dx += y.w[j] * row_dx;
-      dy += y.d[j] * row;
-    }
-    out.value += z.w[k] * v;
-    out.slope.x() += z.w[k] * dx;
-    out.slope.y() += z.w[k] * dy;
-    out.slope.z() += z.d[k] * v;
-  }
-  return out;
+  const auto row = [&](std::size_t j, std::size_t k) { return first + (k * kRow + j) * kRow; };
+  return sum_splines(row, CubicSpline(t.x()), CubicSpline(t.y()), CubicSpline(t.z()));
 }
 
 bool fits(const FieldData& d) {
@@ -112,7 +89,7 @@ FieldSample DistanceField::at(const Vec3& p_B) const {
   if (stored == FieldData::kNone) return in_far_block(block, p_B);
   constexpr std::size_t kRow = FieldData::kSpan;
   const std::size_t first = (cell[2] * kRow + cell[1]) * kRow + cell[0];
-  const Local local = evaluate(data_.height.data() + stored * FieldData::kBlock + first, t);
+  const SplineSum local = evaluate(data_.height.data() + stored * FieldData::kBlock + first, t);
   const double distance = data_.step_m * local.value;
   const bool near = distance <= data_.outside_m && distance >= -data_.inside_m;
   // A stored block reaches out of the band: there its heights are bounds too, being cut off.

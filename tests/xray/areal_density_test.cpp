@@ -133,6 +133,51 @@ TEST(ArealDensity, AHollowHoldsNothing) {
   EXPECT_NEAR(got->total()[16 * 33 + 16], 2, 0.01);
 }
 
+// The two walls of a nail with a locking hole across it. Seen along the hole it is a perfect circle
+// within a pixel, that of the rim farthest from the source; a few degrees beside, a lens. A surgeon
+// finds the direction of the hole by this.
+struct LockingHole {
+  static constexpr double kRadius = 0.0025, kNail = 0.0055, kWall = 0.002;
+  XrayView view = view_from_above(201, 0.0001);
+  std::vector<float> total;
+
+  explicit LockingHole(double tilt_rad) {
+    view.detector_center_W = Vec3(0, 0, -0.4);
+    XrayLayer nail =
+        layer(washer(kRadius, 0.006, kNail - kWall, kNail), 4.43, XraySubstance::kTitanium);
+    nail.surfaces.push_back(
+        {std::make_shared<const TriMesh>(washer(kRadius, 0.006, -kNail, kWall - kNail)), Pose{}});
+    for (XraySurface& s : nail.surfaces)
+      s.X_WM.q = Quat(Eigen::AngleAxisd(tilt_rad, Vec3::UnitX()));
+    const auto got = areal_density({{nail}}, view);
+    EXPECT_TRUE(got);
+    if (got) total = got->total();
+  }
+  // Pixels from the middle to the first that metal darkens.
+  double reach(double angle) const {
+    for (double r = 0; r < 100; r += 0.05) {
+      const int column = static_cast<int>(std::lround(100 + r * std::cos(angle)));
+      const int row = static_cast<int>(std::lround(100 + r * std::sin(angle)));
+      if (total[static_cast<std::size_t>(row * view.width + column)] > 0) return r;
+    }
+    return 100;
+  }
+};
+
+TEST(ArealDensity, ALockingHoleIsAPerfectCircleAlongItsAxisAlone) {
+  const LockingHole along(0);
+  ASSERT_FALSE(along.total.empty());
+  const double per_m = 1.0 / (0.6 + LockingHole::kNail) / along.view.pixel_m;
+  for (int k = 0; k < 72; ++k)
+    EXPECT_NEAR(along.reach(k * std::numbers::pi / 36), LockingHole::kRadius * per_m, 1) << k;
+  const double tilt = 4 * std::numbers::pi / 180;
+  const LockingHole beside(tilt);
+  const double right = beside.reach(0) + beside.reach(std::numbers::pi);
+  const double up = beside.reach(std::numbers::pi / 2) + beside.reach(-std::numbers::pi / 2);
+  EXPECT_NEAR(right - up, 2 * LockingHole::kNail * std::sin(tilt) * per_m, 3);
+  EXPECT_GT(right - up, 8) << "told from a circle at a glance";
+}
+
 TEST(ArealDensity, NothingBeyondTheDetectorOrBehindTheSourceCounts) {
   const XrayView view = view_from_above(33);
   const auto got = areal_density({{layer(box({-0.1, -0.1, -0.5}, {0.1, 0.1, -0.3}), 1),

@@ -59,6 +59,34 @@ inline TriMesh ball(const Vec3& center, double radius, int rings = 96) {
   return mesh;
 }
 
+/// A disc with a round hole, between two heights, its corners on both circles.
+inline TriMesh washer(double hole_radius, double radius, double z_lo, double z_hi,
+                      int around = 256) {
+  TriMesh mesh;
+  for (int k = 0; k < around; ++k) {
+    const double a = 2 * std::numbers::pi * k / around;
+    const Vec3 way(std::cos(a), std::sin(a), 0);
+    for (const double z : {z_lo, z_hi})
+      for (const double r : {hole_radius, radius})
+        mesh.vertices.push_back(r * way + z * Vec3::UnitZ());
+  }
+  // Of each stretch: 0 inner low, 1 outer low, 2 inner high, 3 outer high; then those of the next.
+  const auto at = [&](int k, int corner) {
+    return static_cast<std::uint32_t>(4 * (k % around) + corner);
+  };
+  const auto quad = [&](int k, int a, int b) {
+    mesh.triangles.push_back({at(k, a), at(k + 1, a), at(k, b)});
+    mesh.triangles.push_back({at(k, b), at(k + 1, a), at(k + 1, b)});
+  };
+  for (int k = 0; k < around; ++k) {
+    quad(k, 1, 3);
+    quad(k, 3, 2);
+    quad(k, 2, 0);
+    quad(k, 0, 1);
+  }
+  return mesh;
+}
+
 inline XrayLayer layer(TriMesh mesh, double density,
                        XraySubstance substance = XraySubstance::kBone) {
   return {"phantom",

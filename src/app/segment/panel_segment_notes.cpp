@@ -4,46 +4,11 @@
 
 #include "segment/segment_panels.h"
 #include "ui/panel_ground.h"
+#include "ui/toast_card.h"
 #include "ui/ui_widgets.h"
 
 namespace osteon {
 namespace {
-
-constexpr ImGuiWindowFlags kNote = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-
-ImU32 color_of(ToastKind kind) {
-  if (kind == ToastKind::kInfo) return color::kAccent;
-  return kind == ToastKind::kWarning ? color::kAmber : color::kRed;
-}
-
-// Returns the next toast's y.
-float draw_note(const SegmentContext& c, const Toast& toast, float y) {
-  const UiRect& m = c.layout.middle;
-  ImGui::SetNextWindowPos({m.x + m.w / 2, y}, ImGuiCond_Always, {0.5f, 0});
-  ImGui::PushStyleColor(ImGuiCol_Border, color_of(toast.kind));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
-  ImGui::Begin(("##toast" + std::to_string(toast.id)).c_str(), nullptr, kNote);
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
-  {
-    const ui::WithFont strong(c.fonts.strong);
-    ui::text(color_of(toast.kind), toast.kind == ToastKind::kInfo ? "i" : "!");
-  }
-  ImGui::SameLine(0, c.px(10));
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + c.px(400));
-  ImGui::TextUnformatted(toast.text.c_str());
-  ImGui::PopTextWrapPos();
-  if (toast.kind != ToastKind::kInfo) {
-    ImGui::SameLine(0, c.px(16));
-    if (ImGui::SmallButton("Close")) c.requests.dismiss_toast = toast.id;
-  }
-  const float bottom = y + ImGui::GetWindowHeight();
-  ImGui::End();
-  return bottom + c.px(8);
-}
 
 void draw_bar(const SegmentContext& c, const LoadingModel& work) {
   ImGui::TextUnformatted(work.what.empty() ? "Starting" : work.what.c_str());
@@ -67,7 +32,7 @@ void begin_middle(const SegmentContext& c, const char* name, float up) {
   const UiRect& m = c.layout.middle;
   ImGui::SetNextWindowPos({m.x + m.w / 2, m.y + up * m.h}, ImGuiCond_Always, {0.5f, up});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(16)});
-  ImGui::Begin(name, nullptr, kNote);
+  ImGui::Begin(name, nullptr, ui::kNoteFlags);
   ImGui::PopStyleVar();
 }
 
@@ -75,12 +40,17 @@ void begin_middle(const SegmentContext& c, const char* name, float up) {
 
 void draw_segment_notes(const SegmentContext& c) {
   float y = c.layout.middle.y + c.px(32);
-  for (const Toast& toast : c.model.toasts) y = draw_note(c, toast, y);
+  const float x = c.layout.middle.x + c.layout.middle.w / 2;
+  for (const Toast& toast : c.model.toasts) {
+    bool closed = false;
+    y = ui::draw_toast_card(toast, {x, y, c.px(400), c.px(1), c.fonts.strong}, closed);
+    if (closed) c.requests.dismiss_toast = toast.id;
+  }
   if (!c.model.job) return;
   const UiRect& m = c.layout.middle;
   ImGui::SetNextWindowPos({m.x + m.w / 2, m.bottom() - c.px(24)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(12)});
-  ImGui::Begin("##job", nullptr, kNote);
+  ImGui::Begin("##job", nullptr, ui::kNoteFlags);
   ImGui::PopStyleVar();
   draw_bar(c, *c.model.job);
   ImGui::End();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "osteon/scene/instrument.h"
-#include "osteon/scene/tool_set.h"
+#include "soft/of_tray.h"
 
 namespace osteon {
 namespace {
@@ -62,20 +62,7 @@ std::optional<SoftGripper> gripper_of(const Instrument& instrument, std::size_t 
 
 Result<std::vector<std::optional<SoftGripper>>> make_soft_grippers(
     std::span<const std::string> tray) {
-  std::vector<std::optional<SoftGripper>> out(tray.size());
-  if (tray.empty()) return out;
-  const auto instruments = load_instruments();
-  if (!instruments) return tl::unexpected(instruments.error());
-  for (std::size_t i = 0; i < tray.size(); ++i) {
-    const auto named = parse_tool_name(tray[i]);
-    const Instrument* found = find_instrument(*instruments, tray[i].substr(0, tray[i].find(':')));
-    if (!named || !found) continue;
-    const auto size = named->size_mm ? find_size(*found, *named->size_mm)
-                                     : std::optional<std::size_t>(found->usual_size);
-    if (!size) return fail("the instrument has no such size", tray[i]);
-    out[i] = gripper_of(*found, *size);
-  }
-  return out;
+  return of_tray<SoftGripper>(tray, gripper_of);
 }
 
 }  // namespace osteon

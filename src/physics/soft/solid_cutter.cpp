@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "osteon/scene/instrument.h"
-#include "osteon/scene/tool_set.h"
+#include "soft/of_tray.h"
 
 namespace osteon {
 namespace {
@@ -110,20 +110,7 @@ std::optional<SolidCutter> slicing_with(const Tool& tool) {
 
 Result<std::vector<std::optional<SolidCutter>>> make_solid_cutters(
     std::span<const std::string> tray) {
-  std::vector<std::optional<SolidCutter>> out(tray.size());
-  if (tray.empty()) return out;
-  const auto instruments = load_instruments();
-  if (!instruments) return tl::unexpected(instruments.error());
-  for (std::size_t i = 0; i < tray.size(); ++i) {
-    const auto named = parse_tool_name(tray[i]);
-    const Instrument* found = find_instrument(*instruments, tray[i].substr(0, tray[i].find(':')));
-    if (!named || !found) continue;
-    const auto size = named->size_mm ? find_size(*found, *named->size_mm)
-                                     : std::optional<std::size_t>(found->usual_size);
-    if (!size) return fail("the instrument has no such size", tray[i]);
-    out[i] = cutter_of(*found, *size);
-  }
-  return out;
+  return of_tray<SolidCutter>(tray, cutter_of);
 }
 
 }  // namespace osteon

@@ -1,32 +1,12 @@
 #include <algorithm>
 #include <string>
 
+#include "ui/toast_card.h"
 #include "ui/ui_widgets.h"
 #include "window/panels/panels.h"
 
 namespace osteon {
 namespace {
-
-constexpr ImGuiWindowFlags kNote = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-
-ImU32 toast_color(ToastKind kind) {
-  switch (kind) {
-    case ToastKind::kInfo:
-      return color::kAccent;
-    case ToastKind::kWarning:
-      return color::kAmber;
-    case ToastKind::kError:
-      break;
-  }
-  return color::kRed;
-}
-
-const char* toast_sign(ToastKind kind) {
-  return kind == ToastKind::kInfo ? "i" : "!";  // the colour is not alone in telling them apart
-}
 
 /// Of the picture, what no card covers.
 struct Span {
@@ -40,37 +20,15 @@ Span between_cards(const PanelContext& c) {
   return {c.layout.left.right(), c.layout.right.x};
 }
 
-// Returns the next toast's y.
-float draw_toast(const PanelContext& c, const Toast& toast, float y) {
-  const std::string name = "##toast" + std::to_string(toast.id);
-  ImGui::SetNextWindowPos({between_cards(c).middle(), y}, ImGuiCond_Always, {0.5f, 0});
-  ImGui::PushStyleColor(ImGuiCol_Border, toast_color(toast.kind));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(12), c.px(8)});
-  ImGui::Begin(name.c_str(), nullptr, kNote);
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
-  {
-    const ui::WithFont strong(c.fonts.strong);
-    ui::text(toast_color(toast.kind), toast_sign(toast.kind));
-  }
-  ImGui::SameLine(0, c.px(10));
-  const Span free = between_cards(c);
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() +
-                         std::min(c.px(400), free.to - free.from - c.px(100)));
-  ImGui::TextUnformatted(toast.text.c_str());
-  ImGui::PopTextWrapPos();
-  if (toast.kind != ToastKind::kInfo) {
-    ImGui::SameLine(0, c.px(16));
-    if (ImGui::SmallButton("Close")) c.requests.dismiss_toast = toast.id;
-  }
-  const float bottom = y + ImGui::GetWindowHeight();
-  ImGui::End();
-  return bottom + c.px(8);
-}
-
 void draw_toasts(const PanelContext& c) {
+  const Span free = between_cards(c);
+  const float wrap = std::min(c.px(400), free.to - free.from - c.px(100));
   float y = c.layout.picture.y + c.px(16);
-  for (const Toast& toast : c.model.toasts) y = draw_toast(c, toast, y);
+  for (const Toast& toast : c.model.toasts) {
+    bool closed = false;
+    y = ui::draw_toast_card(toast, {free.middle(), y, wrap, c.px(1), c.fonts.strong}, closed);
+    if (closed) c.requests.dismiss_toast = toast.id;
+  }
 }
 
 void begin_bottom_note(const PanelContext& c, const char* name) {
@@ -79,7 +37,7 @@ void begin_bottom_note(const PanelContext& c, const char* name) {
   ImGui::SetNextWindowPos({between_cards(c).middle(), c.layout.picture.bottom() - above},
                           ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(8)});
-  ImGui::Begin(name, nullptr, kNote);
+  ImGui::Begin(name, nullptr, ui::kNoteFlags);
   ImGui::PopStyleVar();
 }
 
@@ -148,7 +106,7 @@ void draw_name_tag(const PanelContext& c, BoneId bone) {
   if (bone.index >= c.model.bone_labels.size()) return;
   ImGui::SetNextWindowPos({c.model.pointer_x + c.px(14), c.model.pointer_y + c.px(10)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(8), c.px(4)});
-  ImGui::Begin("##tag", nullptr, kNote | ImGuiWindowFlags_NoInputs);
+  ImGui::Begin("##tag", nullptr, ui::kNoteFlags | ImGuiWindowFlags_NoInputs);
   ImGui::PopStyleVar();
   ImGui::TextUnformatted(c.model.bone_labels[bone.index].c_str());
   ImGui::End();
