@@ -18,11 +18,15 @@ const UiRect* in_the_way(std::span<const UiRect> placed, const UiRect& r, float 
   return found == placed.end() ? nullptr : &*found;
 }
 
-// Moves a label past what covers it, up or down, until nothing does. Each step leaves one of the
-// placed behind, so it ends.
+// Moves a label past what covers it, up or down, until nothing does. Each step passes one of the
+// placed, and rounding may ask for one of them twice: after so many steps it stays.
 UiRect moved_clear(std::span<const UiRect> placed, UiRect r, float gap, bool up) {
-  while (const UiRect* other = in_the_way(placed, r, gap))
-    r.y = up ? other->y - gap - r.h : other->bottom() + gap;
+  constexpr float kBeyond = 0.01f;  // more than rounding
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const UiRect* other = in_the_way(placed, r, gap);
+    if (!other) break;
+    r.y = up ? other->y - gap - r.h - kBeyond : other->bottom() + gap + kBeyond;
+  }
   return r;
 }
 
