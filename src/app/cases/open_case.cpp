@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/all_cores.h"
+#include "cases/cache_room.h"
 #include "cases/colour_softs.h"
 #include "cases/crop_case.h"
 #include "cases/felt_choice.h"
@@ -51,7 +52,9 @@ std::filesystem::path cache_file(const std::string& spec, const std::string& kin
 // they hold is made anew each time.
 template <class Cache>
 void keep(Cache& cache, const std::string& spec, const std::string& kind) {
-  if (!cache.save()) (void)cache.save_as(users_cache(spec, kind));
+  const std::filesystem::path users = users_cache(spec, kind);
+  if (!cache.save()) (void)cache.save_as(users);
+  note_use(users);
 }
 
 /// "left" or "geissler=2" of "wrist:7:left:geissler=2".
@@ -279,8 +282,9 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
     say("Building the bones", kOpened + kCut + (1 - kOpened - kCut) * share);
   });
   if (!built) return tl::unexpected(built.error());
-  keep(caches.pieces, source, "pieces");
   keep(caches.fields, source, "fields");
+  keep(caches.pieces, source, "pieces");
+  keep_cache_room(cache_dir(), users_cache(source, "fields"));
   return built;
 }
 
