@@ -44,7 +44,8 @@ void add_case_pose(cli::App& group, int& exit_code) {
   cli::App* pose =
       group.add_subcommand("pose", "Bend the joint of a case and save the result as a new case");
   auto command = std::make_shared<CasePoseCommand>();
-  pose->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
+  pose->add_option("case", command->spec, "case folder of a generated knee, or builtin:knee")
+      ->required();
   pose->add_option("--flexion", command->flexion_deg, "flexion, degrees; 0 is straight")
       ->required();
   pose->add_option("--out", command->out, "the case folder to make")->required();

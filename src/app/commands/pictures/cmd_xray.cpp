@@ -144,7 +144,7 @@ void add_place_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--size", c.size, "width x height in pixels")->capture_default_str();
   xray.add_option("--at", c.scene.at_s,
                   "time in a recording, seconds from its start (default: its end)");
-  xray.add_option("--flexion", c.scene.flexion_deg, "flexion of a grown knee, degrees");
+  xray.add_option("--flexion", c.scene.flexion_deg, "flexion of a generated knee, degrees");
 }
 
 }  // namespace

@@ -161,8 +161,8 @@ void add_skill_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<SkillCommand>();
   cli::App* command = app.add_subcommand(
       "skill",
-      "How well scores separate simulated experts from simulated novices. Each is judged by a "
-      "standard\nset without it. This says nothing about people");
+      "Measure how well scores separate simulated experts from simulated novices. Each attempt is "
+      "judged\nby a standard that was set without it. This says nothing about people");
   command->add_option("scenario", options->scenarios, "names or files; default: all");
   command->add_option("--experts", options->experts, "number of simulated experts")
       ->check(cli::Range(3, 1000))

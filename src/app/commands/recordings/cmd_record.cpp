@@ -75,7 +75,7 @@ void add_record_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RecordArguments>();
   cli::App* command = app.add_subcommand("record", "Inspect and export recordings (.osr)");
   command->require_subcommand(1);
-  cli::App* info = command->add_subcommand("info", "Show what a recording holds");
+  cli::App* info = command->add_subcommand("info", "Show what a recording contains");
   info->add_option("file", options->file, "recording")->required();
   info->add_flag("--events", options->events, "print its events, one per line");
   info->add_flag("--json", options->json, "print JSON; with --events one object per line");

@@ -232,7 +232,7 @@ int run_carve(const CarveCommand& command) {
 }
 
 std::string tool_help() {
-  std::string text = "The cutting tool:";
+  std::string text = "cutting tool:";
   for (const CutterKind& kind : cutter_kinds())
     text += (text.back() == ':' ? " " : ", ") + std::string(kind.name);
   return text;

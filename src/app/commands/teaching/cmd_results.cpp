@@ -242,7 +242,7 @@ void add_cusum(cli::App& command, LcCusumOptions& cusum) {
   command.add_option("--d", cusum.d, "increase of that share that is unacceptable")
       ->check(cli::Range(0.001, 0.49))
       ->capture_default_str();
-  command.add_option("--limit", cusum.h, "S at which a learner is competent")
+  command.add_option("--limit", cusum.h, "value of S at which a learner is competent")
       ->check(cli::Range(0.01, 1000.0))
       ->capture_default_str();
 }
@@ -259,7 +259,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
     command->callback([options, run, &exit_code] { exit_code = run(*options); });
     return command;
   };
-  cli::App* list = add("list", "List all attempts, the oldest first", list_results);
+  cli::App* list = add("list", "List all attempts, oldest first", list_results);
   add_filter(*list, *options);
   list->add_flag("--json", options->json, "print JSON");
   add("show", "Show one attempt with its report, JSON", show_result)
@@ -284,11 +284,13 @@ void add_results_commands(cli::App& app, int& exit_code) {
       ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
   cli::App* cohort =
-      add("cohort", "A page of a class: who, how well, learning curves, errors", write_cohort);
+      add("cohort", "Write a page about a class: learners, results, learning curves, errors",
+          write_cohort);
   add_filter(*cohort, *options);
   add_cusum(*cohort, options->cusum);
   cohort->add_option("--out", options->out, "the page to write, .html or .pdf");
-  cohort->add_flag("--names", options->names, "with the names that this computer knows");
+  cohort->add_flag("--names", options->names,
+                   "print the learners' names that are stored on this computer");
   cohort->add_flag("--json", options->json, "print the figures as JSON");
   cli::App* compare = add("compare", "Compare two attempts", compare_results);
   compare->add_option("a", options->id, "id of the first, as `results list` prints it")->required();
