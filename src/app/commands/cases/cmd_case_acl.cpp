@@ -39,7 +39,7 @@ Result<void> read_screw(const std::string& text, GraftChoices& choices) {
   double wide = 0, length = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lfx%lf%c", &wide, &length, &rest) != 2)
-    return fail("'" + text + "' is no screw", "--screw",
+    return fail("'" + text + "' is not a screw", "--screw",
                 "Give diameter and length in mm, like 9x28");
   choices.screw_m = wide / 1000;
   choices.screw_length_m = length / 1000;

@@ -132,8 +132,8 @@ std::string sums_json(const std::vector<FaultSum>& sums) {
 
 std::string sums_text(const std::vector<FaultSum>& sums) {
   std::string text =
-      "least, median, most, mm: Lachman beyond the whole knee's; tibia ahead of it; pivot; change "
-      "of the graft's length; room under the roof\n";
+      "least, median, most, mm: Lachman more than the intact knee; tibia ahead of the intact "
+      "knee's; pivot; change of the graft's length; space under the roof\n";
   char line[320];
   for (const FaultSum& sum : sums) {
     text.append(sum.name).append(std::string(18 - std::string(sum.name).size(), ' '));

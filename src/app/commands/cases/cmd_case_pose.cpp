@@ -27,7 +27,8 @@ int run_pose(const CasePoseCommand& command) {
   if (!spec) return report_error(spec.error());
   ProgressLine line;
   const auto def = open_case_def(*spec, [say = line.callback()](double share) {
-    if (!say("Growing the bones", share)) throw std::runtime_error("stopped; nothing was written");
+    if (!say("Generating the bones", share))
+      throw std::runtime_error("stopped; nothing was written");
   });
   if (!def) return report_error(def.error());
   const auto notes = notes_of(command.spec);

@@ -107,7 +107,7 @@ void print_tunnel(const Drilled& d, const CaseBone& source, const TunnelCommand&
     return;
   }
   if (d.cut.removed_m3 == 0)
-    std::printf("%s: the drill misses the bone, nothing is removed -> %s\n",
+    std::printf("%s: the drill misses the bone, so nothing is removed -> %s\n",
                 source.bone.name.c_str(), command.out.c_str());
   else
     std::printf("%s: removed %.2f mm3, %.2f mm along the axis in bone, %s -> %s (in %s)\n",

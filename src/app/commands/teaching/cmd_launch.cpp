@@ -135,7 +135,7 @@ void say_launched(const LaunchedExercise& done) {
   std::printf("attempt       %s\n", done.attempt ? done.attempt->verdict.c_str() : "none");
   if (done.attempt && done.attempt->score)
     std::printf("score         %.1f\n", *done.attempt->score);
-  if (!done.counts) std::printf("only looked at: nothing is judged\n");
+  if (!done.counts) std::printf("opened to look at only, so nothing is judged\n");
   say_sent(done.sent);
   if (!done.return_url.empty()) std::printf("go on at      %s\n", done.return_url.c_str());
 }

@@ -124,7 +124,7 @@ int show_curves(const ResultsCommand& command) {
         command.cusum.h,
         competent < 0 ? "not yet competent"
                       : ("competent since attempt " + std::to_string(competent + 1)).c_str(),
-        relapse < 0 ? "" : "; RELAPSE: has failed too often since");
+        relapse < 0 ? "" : "; RELAPSE: too many failures since then");
   }
   if (command.json) std::printf("%s\n", all.dump(2).c_str());
   if (!command.json && groups.empty()) std::printf("no attempts\n");
@@ -203,7 +203,8 @@ void say_compared(const nlohmann::ordered_json& json) {
   };
   head("a");
   head("b");
-  if (!json["same_scenario"]) std::printf("not the same exercise: figures do not compare\n");
+  if (!json["same_scenario"])
+    std::printf("the exercises differ, so the figures cannot be compared\n");
   for (const auto& stage : json["stages"])
     std::printf("stage   %-24s %10s %10s s\n", stage["name"].get<std::string>().c_str(),
                 stage["a_s"].dump().c_str(), stage["b_s"].dump().c_str());
