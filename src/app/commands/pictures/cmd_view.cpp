@@ -249,7 +249,7 @@ void add_water_options(cli::App& sub, ViewCommand& command) {
   sub.add_option("--outlet", command.water.drive.outlet_open, "how far the outlet is open, 0 to 1")
       ->capture_default_str();
   sub.add_option("--suction", command.water.drive.suction,
-                 "suction of a shaver or a suction tube, 0 to 1")
+                 "suction of a shaver or a suction cannula, 0 to 1")
       ->capture_default_str();
   sub.add_option("--after", command.water.after_s, "time since pump and bleeding began, s")
       ->capture_default_str();
