@@ -147,7 +147,7 @@ void add_make(cli::App& anatomy, int& exit_code) {
                    "NAME=GRADE, a pathological finding; may be given several times")
       ->take_all()
       ->expected(1);
-  make->add_option("--side", command->side, "left or right (default: right)");
+  make->add_option("--side", command->side, "left or right; default: right");
   make->add_option("--out", command->out, "the case folder to make")->required();
   make->callback([command, &exit_code] { exit_code = run_make(*command); });
 }

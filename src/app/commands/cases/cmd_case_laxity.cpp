@@ -194,7 +194,7 @@ void add_laxity(cli::App& group, int& exit_code) {
       ->check(cli::IsMember({"lachman", "drawer", "pivot", "varus", "valgus", "all"}));
   laxity
       ->add_option("--flexion", command->flexion_deg,
-                   "flexion during the test, degrees (default: each test's own)")
+                   "flexion during the test, degrees; default: each test's own")
       ->check(cli::Range(0.0, 130.0));
   laxity->add_option("--without", command->without,
                      "cut this ligament first; may be given several times");

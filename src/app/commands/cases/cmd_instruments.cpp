@@ -87,7 +87,7 @@ void add_show(cli::App& group, const std::shared_ptr<InstrumentOptions>& options
 void add_draw(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
   cli::App* command =
       group.add_subcommand("render", "Draw instruments side by side, each with its tip enlarged");
-  command->add_option("names", options->names, "names (default all)");
+  command->add_option("names", options->names, "names; default: all");
   command->add_option("--size", options->size, "width x height in pixels")->capture_default_str();
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] {
@@ -104,7 +104,7 @@ void add_instruments_command(cli::App& app, int& exit_code) {
       "instruments", "List the instruments: what they do, their sizes, power and sources");
   group->add_flag("--json", options->json, "print JSON");
   group->add_option("--folder", options->folder,
-                    "folder of instrument files (default: the bundled ones)");
+                    "folder of instrument files; default: the bundled ones");
   add_show(*group, options, exit_code);
   add_draw(*group, options, exit_code);
   group->callback([options, group, &exit_code] {

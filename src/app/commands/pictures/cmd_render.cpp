@@ -142,7 +142,7 @@ void add_render_command(cli::App& app, int& exit_code) {
   command->add_option("--hide", options->hidden, "names of bones to leave out")->delimiter(',');
   command
       ->add_option("--soft", options->softs,
-                   "soft parts to draw: all, none, names, or kinds such as ligament (default none)")
+                   "soft parts to draw: all, none, names, or kinds such as ligament; default: none")
       ->delimiter(',');
   command
       ->add_option("--skin-opacity", options->skin_opacity,
@@ -153,12 +153,12 @@ void add_render_command(cli::App& app, int& exit_code) {
       "--stereo", options->stereo, "side-by-side, over-under, interlaced or anaglyph (red-cyan)");
   command
       ->add_option("--eye-distance", options->eye_distance_mm,
-                   "distance between the eyes, mm (default: a fifteenth of the screen's depth)")
+                   "distance between the eyes, mm; default: a fifteenth of the screen's depth")
       ->needs(stereo);
   command
       ->add_option(
           "--screen-depth", options->screen_depth_mm,
-          "distance at which both pictures coincide, mm (default: that of the centre of view)")
+          "distance at which both pictures coincide, mm; default: that of the centre of view")
       ->needs(stereo);
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -278,8 +278,8 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   sub->add_option(
          "--up", command->up,
-         "direction that is up in the picture: x,y,z in World (default: towards the hip, or "
-         "the fingers)")
+         "direction that is up in the picture: x,y,z in World; default: towards the hip, or "
+         "the fingers")
       ->delimiter(',')
       ->expected(3);
   sub->add_option("--flexion", command->flexion_deg, "flexion of a generated knee, degrees");
