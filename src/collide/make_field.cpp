@@ -137,7 +137,7 @@ Result<void> check(const TriMesh& mesh) {
     return fail("the mesh is not one closed surface that faces outwards", "distance field", kMend);
   if (!(volume(mesh) > 0)) return fail("the mesh is inside out", "distance field", kMend);
   if (!(bounds(mesh).extent().maxCoeff() > kLeastSize))
-    return fail("the mesh is smaller than a micrometre", "distance field", "Is the unit right?");
+    return fail("the mesh is smaller than a micrometre", "distance field", "Check its unit");
   return {};
 }
 

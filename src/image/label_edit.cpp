@@ -32,7 +32,7 @@ Result<LabelEdit> LabelEdit::begin(std::shared_ptr<const Volume> volume,
   const std::string todo = "Choose another series";
   if (!volume || volume->frame.count() == 0) return fail("has no voxels", "the scan", todo);
   if (volume->values.size() != volume->frame.count())
-    return fail("has another number of voxels than its size says", "the scan", todo);
+    return fail("has a number of voxels that does not match its size", "the scan", todo);
   if (volume->frame.count() > std::numeric_limits<std::uint32_t>::max())
     return fail("has more than 4 294 967 295 voxels", "the scan", "Crop it to the joint");
   return LabelEdit(std::move(volume), history_bytes);

@@ -143,7 +143,7 @@ Result<std::uint16_t> bone_of_both(const LabelEdit& edit, const Voxel& a, const 
   const std::uint16_t label = labels.at(a[0], a[1], a[2]);
   if (label == 0 || label != labels.at(b[0], b[1], b[2]))
     return fail("both ends must lie in the bone that is to be split", {}, todo);
-  if (a == b) return fail("both ends are one place", edit.bones().at(label).name, todo);
+  if (a == b) return fail("both ends are at the same place", edit.bones().at(label).name, todo);
   return label;
 }
 

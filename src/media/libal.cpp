@@ -41,7 +41,7 @@ Result<Libal> load_libal(const std::string& file) {
     return fail("OpenAL was not found", file, "Install the package libopenal1 to hear anything");
   Libal al;
   if (!find_all(library, al))
-    return fail("this is no OpenAL 1.1", file, "Install the package libopenal1 to hear anything");
+    return fail("this is not OpenAL 1.1", file, "Install the package libopenal1 to hear anything");
   return al;
 }
 

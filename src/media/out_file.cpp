@@ -88,7 +88,7 @@ Result<void> OutFile::keep() {
   std::error_code ec;
   if (!part_.empty()) fs::rename(part_, file_, ec);
   if (bad != 0) return tl::unexpected(write_error(bad, file_));
-  if (ec) return fail("cannot be put in its place (" + ec.message() + ")", file_.string());
+  if (ec) return fail("cannot be given its final name (" + ec.message() + ")", file_.string());
   return {};
 }
 

@@ -63,7 +63,7 @@ Result<CarvingTool> tool_of(const RemovalDef& removal, const Instrument& instrum
   const bool drills = tool.way == Way::kDrill || tool.way == Way::kTwist;
   const bool burrs = tool.way == Way::kBurr || tool.way == Way::kScrape;
   if ((drills && !turned) || (burrs && !ball))
-    return fail("its cutter '" + removal.cutter + "' does not go with the way '" +
+    return fail("its cutter '" + removal.cutter + "' does not fit the way '" +
                     std::string(to_text(tool.way)) + "'",
                 instrument.name);
   if (instrument.power && instrument.power->unit == "rpm")

@@ -50,10 +50,10 @@ Result<Json> parse_json(const std::string& text) {
 Result<void> parse_tolerance(const Json& json, const std::string& key, ExpectedRange& range) {
   const bool relative = json.contains("rel");
   if (json.size() != 2 || !json.contains("value") || (!relative && !json.contains("abs")))
-    return refuse("a range is {min, max}, {value, abs} or {value, rel}", key);
+    return refuse("a range must be {min, max}, {value, abs} or {value, rel}", key);
   const double value = json["value"];
   const double tolerance = json[relative ? "rel" : "abs"];
-  if (tolerance < 0) return refuse("a tolerance is not negative", key);
+  if (tolerance < 0) return refuse("a tolerance must not be negative", key);
   const double reach = relative ? tolerance * std::abs(value) : tolerance;
   range = {value - reach, value + reach};
   return {};
@@ -61,7 +61,7 @@ Result<void> parse_tolerance(const Json& json, const std::string& key, ExpectedR
 
 Result<ExpectedRange> parse_range(const Json& json, const std::string& key) {
   if (!json.is_object() || json.empty())
-    return refuse("a range is {min, max}, {value, abs} or {value, rel}", key);
+    return refuse("a range must be {min, max}, {value, abs} or {value, rel}", key);
   for (const auto& [name, value] : json.items())
     if (!value.is_number()) return refuse("'" + name + "' is not a number", key);
   ExpectedRange range;
@@ -72,7 +72,7 @@ Result<ExpectedRange> parse_range(const Json& json, const std::string& key) {
     return range;
   }
   if (bounds != json.size())
-    return refuse("a range is {min, max}, {value, abs} or {value, rel}", key);
+    return refuse("a range must be {min, max}, {value, abs} or {value, rel}", key);
   range.min = json.value("min", range.min);
   range.max = json.value("max", range.max);
   if (range.min > range.max) return refuse("the range is empty: min is above max", key);

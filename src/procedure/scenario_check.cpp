@@ -110,7 +110,8 @@ class ScenarioChecker {
     for (const ScenarioError& error : scenario_.errors)
       if (error.rule.kind == "slid_over" &&
           forces.insert(error.rule.numbers.at("force_n")).second && forces.size() > 1)
-        say(error.rule.line, "slides are measured above one force: give each slid_over the same");
+        say(error.rule.line,
+            "slides are measured above one force, so give every slid_over rule the same force");
   }
 
   void metrics_are_there() {

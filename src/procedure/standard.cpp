@@ -87,7 +87,7 @@ Result<Score> score_of(const Standard& standard, const Metrics& metrics, double 
     weights += m.weight;
   }
   if (!(weights > 0))
-    return fail("the standard weighs nothing", "standard of " + standard.scenario);
+    return fail("the weights of the standard are all zero", "standard of " + standard.scenario);
   const double value = 100 + kPointsPerSd * sum / weights - points;
   const double sem = standard.score_sd * std::sqrt(1 - standard.reliability);
   return Score{value, value - kTwoSided95 * sem, value + kTwoSided95 * sem};

@@ -9,8 +9,8 @@ constexpr const char* kDamaged = "The file is damaged: use another copy of it";
 
 tl::unexpected<Error> out_of_range(const std::string& kind, std::uint64_t number,
                                    const char* consumed, std::uint64_t index) {
-  return fail(kind + " " + std::to_string(number) + " says that it used " + consumed + " " +
-                  std::to_string(index) + ", which it cannot have",
+  return fail(kind + " " + std::to_string(number) + " claims to have used " + consumed + " " +
+                  std::to_string(index) + ", which is not possible",
               {}, kDamaged);
 }
 

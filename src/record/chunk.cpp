@@ -189,7 +189,7 @@ std::string compress(const std::string& bytes) {
 
 Result<std::string> decompress(std::string_view frame, std::size_t wanted) {
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != wanted)
-    return fail("the data do not have the size that their count of records asks for");
+    return fail("the size of the data does not match the count of records");
   std::string bytes(wanted, '\0');
   const std::size_t size = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
   if (ZSTD_isError(size) || size != wanted) return fail("the data do not decompress");
@@ -216,7 +216,7 @@ Result<void> decode(std::string_view frame, std::uint64_t first, std::size_t cou
     Layout<Record>::number(record, first + i);
     records.push_back(record);
   }
-  if (!visit.ok) return fail("a field holds a value that it cannot have");
+  if (!visit.ok) return fail("a field has an impossible value");
   return {};
 }
 

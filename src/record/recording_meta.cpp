@@ -27,7 +27,7 @@ Result<void> check_kind(Database& database) {
     return fail("the recording has format " + std::to_string(*version) + "; this Osteon reads " +
                     std::to_string(kFormatVersion),
                 database.name(),
-                "Open it with the version of Osteon that made it, or play what was recorded again");
+                "Open it with the version of Osteon that made it, or record the run again");
   return {};
 }
 

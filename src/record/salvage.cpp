@@ -99,7 +99,7 @@ Result<void> copy_tables(Database& from, Database& to) {
   if (!whole) return tl::unexpected(whole.error());
   if (!*whole)
     return fail("the recording is cut short, and too little of it is left to read its beginning",
-                to.name(), "Copy it anew from where it was recorded");
+                to.name(), "Copy it again from the computer that recorded it");
   const std::string insert_chunk = " VALUES(?, ?, ?, ?, ?)";
   std::vector<Copied> tables;
   for (std::size_t h = 0; h < kMaxHands; ++h)
@@ -133,7 +133,7 @@ Result<void> salvage(const fs::path& cut, const fs::path& into) {
   // read once, and the first that refers to a page beyond the end is the last.
   if (!accept_the_end(cut))
     return fail("the recording is cut short before its first page", cut.string(),
-                "Copy it anew from where it was recorded");
+                "Copy it again from the computer that recorded it");
   auto from = Database::reopen(cut);
   if (!from) return tl::unexpected(from.error());
   auto to = Database::create(into);

@@ -65,7 +65,7 @@ std::string unit_xml(const Cmi5Unit& unit, const Cmi5Course& course) {
 
 Result<std::string> cmi5_course_xml(const Cmi5Course& course) {
   if (!is_address(course.id))
-    return fail("the course's id '" + course.id + "' is no address", kCourseWhere,
+    return fail("the course's id '" + course.id + "' is not an address", kCourseWhere,
                 "Give one of your own, such as https://school.example/osteon");
   if (course.title.empty()) return fail("the course has no title", kCourseWhere, "Give it one");
   if (course.units.empty())
@@ -80,7 +80,7 @@ Result<std::string> cmi5_course_xml(const Cmi5Course& course) {
       "  </course>\n";
   for (const Cmi5Unit& unit : course.units) {
     if (unit.mastery && !std::isfinite(*unit.mastery))
-      return fail("the score to pass '" + unit.scenario + "' is no number", kCourseWhere);
+      return fail("the score to pass '" + unit.scenario + "' is not a number", kCourseWhere);
     xml += unit_xml(unit, course);
   }
   return xml + "</courseStructure>\n";

@@ -239,7 +239,7 @@ Result<void> take_water(Json& json, SessionSettings& settings) {
 
 Result<void> check_hands(const SessionSettings& settings) {
   if (settings.hands.empty() || settings.hands.size() > kMaxHands)
-    return fail("a session has one to four hands", "settings, 'hands'", "Name as many");
+    return fail("a session has one to four hands", "settings, 'hands'", "Give one to four names");
   std::set<std::string> names;
   const std::size_t instruments = std::max<std::size_t>(1, settings.tray.size());
   for (const HandSettings& hand : settings.hands) {

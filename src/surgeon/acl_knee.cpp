@@ -23,7 +23,7 @@ Result<AclKnee> AclKnee::make(const Case& the_case) {
                            "portal_al", "portal_am"})
     if (!find_landmark(the_case, name))
       return fail("it has no landmark " + std::string(name), where,
-                  "Use a knee that was grown, such as builtin:knee");
+                  "Use a generated knee, such as builtin:knee");
   return AclKnee(the_case, the_case.bone(femur), the_case.bone(tibia));
 }
 

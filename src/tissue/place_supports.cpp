@@ -25,7 +25,7 @@ Result<Chosen> in_box(const SolveScene& scene, std::span<const BodyNode> nodes, 
   }
   if (out.nodes.empty())
     return fail(
-        "'" + key + ".box_mm' holds no node of the body", scene.name,
+        "'" + key + ".box_mm' contains no node of the body", scene.name,
         "Make the box reach the body's nodes: for a grid these are the corners of its cells");
   return out;
 }

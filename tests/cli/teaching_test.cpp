@@ -212,7 +212,7 @@ TEST_F(Teaching, AnAttemptIsRecordedRepeatedAndDebriefed) {
   ASSERT_TRUE(write_note(osr, "pauses", "7 3\n"));
   const Ran damaged = run_osteon("debrief " + osr + quick);
   EXPECT_EQ(damaged.exit_code, 2);
-  EXPECT_NE(damaged.output.find("pauses are damaged"), std::string::npos) << damaged.output;
+  EXPECT_NE(damaged.output.find("list of pauses is damaged"), std::string::npos) << damaged.output;
   ASSERT_TRUE(write_note(osr, "pauses", ""));
   ASSERT_TRUE(write_note(osr, "guided", "3.5 s\n"));
   EXPECT_EQ(run_osteon("debrief " + osr + quick).exit_code, 0);

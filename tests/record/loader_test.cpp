@@ -75,7 +75,7 @@ TEST(LoadRecording, RefusesAnotherDatabase) {
 
 TEST(LoadRecording, RefusesAnotherVersionAndSaysWhatToDo) {
   expect_refused("PRAGMA user_version=1", "format 1");
-  expect_refused("PRAGMA user_version=1", "play what was recorded again");
+  expect_refused("PRAGMA user_version=1", "record the run again");
   expect_refused("PRAGMA user_version=3", "format 3");
 }
 

@@ -101,7 +101,7 @@ class StepWriter {
     split.bone = *bone;
     for (const SplitStep::Into& into : step.into) {
       if (bone_named(into.name) || soft_named(into.name))
-        return fail("names a fragment as another part: '" + into.name + "'");
+        return fail("gives a fragment the name of another part: '" + into.name + "'");
       split.fragments.push_back({into.name, {*bone, into.near_W}});
     }
     anatomy_.splits.push_back(std::move(split));
@@ -113,7 +113,7 @@ class StepWriter {
     if (!bone) return tl::unexpected(bone.error());
     for (const LandmarkDescription& other : anatomy_.landmarks)
       if (other.name == step.name)
-        return fail("names a landmark that is there: '" + step.name + "'");
+        return fail("names a landmark that already exists: '" + step.name + "'");
     LandmarkDescription landmark;
     landmark.name = step.name;
     landmark.p_W = step.p_W;

@@ -110,7 +110,7 @@ TriMesh cut_off(const TriMesh& mesh, const Vec3& n, double c) { return PlaneCut(
 
 Result<void> crop_knee(CaseDef& def, double near_m) {
   if (!def.recipe || def.recipe->anatomy != "knee")
-    return fail("only a knee that was grown can be cropped", "case '" + def.name + "'",
+    return fail("only a generated knee can be cropped", "case '" + def.name + "'",
                 "Leave out 'near'");
   for (BoneDef& bone : def.bones) {
     if (bone.name != "femur" && bone.name != "tibia") continue;

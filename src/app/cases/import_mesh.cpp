@@ -81,11 +81,11 @@ Result<void> refuse_overlap(const TriMesh& mesh,
   const std::vector<std::uint32_t> part = parts_of(mesh);
   for (const auto& [a, b] : crossings)
     if (part[mesh.triangles[a][0]] != part[mesh.triangles[b][0]])
-      return fail(
-          "has parts that pass through each other (triangles " + std::to_string(a) + " and " +
-              std::to_string(b) + " of the repaired mesh)",
-          file.string(),
-          "Merge them into one surface where you made them (a Boolean union), or give --force");
+      return fail("has parts that pass through each other (triangles " + std::to_string(a) +
+                      " and " + std::to_string(b) + " of the repaired mesh)",
+                  file.string(),
+                  "Merge them into one surface (a Boolean union) in the program that made them, or "
+                  "give --force");
   return {};
 }
 
@@ -98,7 +98,7 @@ Result<void> refuse_touch(const TriMesh& mesh, const fs::path& file, const Impor
                   (shape.non_manifold_edges == 1 ? " edge" : " edges") +
                   " with more than two triangles: parts of it touch there",
               file.string(),
-              "Merge them into one surface or part them where you made them, or give --force");
+              "Merge or separate them in the program that made them, or give --force");
 }
 
 Result<void> read_bone(const fs::path& file, const ImportOptions& options, ImportResult& result) {

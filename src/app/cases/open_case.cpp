@@ -266,7 +266,7 @@ Result<std::shared_ptr<const Case>> open_case(const std::string& spec, const Ope
   constexpr double kCut = 0.7;
   say("Opening the bones", 0);
   auto def = open_case_def(
-      spec, [&](double share) { say("Growing the bones", kOpened * share); }, parts);
+      spec, [&](double share) { say("Generating the bones", kOpened * share); }, parts);
   if (!def) return tl::unexpected(def.error());
   if (parts == CaseParts::kSeen)
     for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
@@ -296,7 +296,8 @@ Result<OpenedAtOnce> open_case_at_once(const std::string& spec, const OpenProgre
   say("Opening the bones", 0);
   auto choice = parse_felt_choice(spec);
   if (!choice) return tl::unexpected(choice.error());
-  auto def = open_case_def(spec, [&](double share) { say("Growing the bones", kOpened * share); });
+  auto def =
+      open_case_def(spec, [&](double share) { say("Generating the bones", kOpened * share); });
   if (!def) return tl::unexpected(def.error());
   cover_bones(*def);
   Caches caches(choice->source);

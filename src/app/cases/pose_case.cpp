@@ -41,7 +41,7 @@ Result<void> check_bend(const CaseDef& def, const std::string& joint, double deg
                     in_degrees(at->max_deg()) + " degrees, not to " + in_degrees(degrees),
                 "joint '" + joint + "'");
   if (!def.recipe)
-    return fail("it does not record how it was grown, so its soft parts cannot be bent", where,
+    return fail("it does not record how it was generated, so its soft parts cannot be bent", where,
                 "Make the patient with osteon anatomy make");
   return {};
 }
@@ -53,9 +53,9 @@ Result<void> take_pose(CaseDef grown, CaseDef& def) {
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     if (!same_count || grown.bones[i].name != def.bones[i].name ||
         !is_same_surface(grown.bones[i].mesh, def.bones[i].mesh))
-      return fail(
-          "bone '" + def.bones[i].name + "' was changed after it was grown, so it cannot be bent",
-          where, "Make the patient again with osteon anatomy make and bend that");
+      return fail("bone '" + def.bones[i].name +
+                      "' was changed after it was generated, so it cannot be bent",
+                  where, "Make the patient again with osteon anatomy make and bend that");
     def.bones[i].X_WB = grown.bones[i].X_WB;
   }
   def.softs = std::move(grown.softs);

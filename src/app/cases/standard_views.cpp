@@ -70,7 +70,7 @@ Result<void> add_finding(const std::string& finding, CaseDef& def) {
   if (equals == std::string::npos)
     return fail("'" + finding + "' is not a finding", "a view", "Write FINDING=GRADE");
   if (!def.recipe)
-    return fail("it does not say how it was grown, so no finding can be added",
+    return fail("it does not record how it was generated, so no finding can be added",
                 "case '" + def.name + "'", "Make the patient with osteon anatomy make");
   def.recipe->findings.emplace_back(finding.substr(0, equals), finding.substr(equals + 1));
   return {};

@@ -38,7 +38,7 @@ Result<std::vector<AttemptPause>> parse_pauses(std::string_view text, const std:
     AttemptPause pause;
     if (!take_number(text, ' ', pause.from) || !take_number(text, '\n', pause.to) ||
         pause.from < last || pause.to < pause.from)
-      return fail("its pauses are damaged", where, "Use another copy of the file");
+      return fail("its list of pauses is damaged", where, "Use another copy of the file");
     last = pause.to;
     pauses.push_back(pause);
   }

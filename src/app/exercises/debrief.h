@@ -36,7 +36,7 @@ struct Debrief {
   std::string case_name, surgeon;
   double duration_s = 0;
   bool identical = true;             ///< repeated bit by bit
-  std::optional<Scenario> scenario;  ///< none: the recording is of no exercise
+  std::optional<Scenario> scenario;  ///< none: the recording contains no exercise
   std::optional<Outcome> outcome;
   std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed

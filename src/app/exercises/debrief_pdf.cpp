@@ -111,7 +111,7 @@ void print_structures(const HandTrace& hand, PdfPages& pages) {
 // A spot is about 0.5 mm wide.
 void print_damage(const Debrief& debrief, PdfPages& pages) {
   constexpr double kSpot_mm2 = 0.25;
-  pages.heading("What the surfaces bore");
+  pages.heading("Loads on the surfaces");
   bool any = false;
   for (std::size_t b = 0; b < debrief.damage.size(); ++b) {
     double force_n = 0, scratch_nmm = 0, heat_c = 0, touched = 0;
@@ -157,14 +157,14 @@ Result<void> save_debrief(const Debrief& debrief, const std::filesystem::path& f
   if (!debrief.identical)
     pages.line("The replay on this computer differs from the recording: judge with care.");
   if (debrief.guided_s > 0)
-    pages.line("The hand was led along an expert's path for " +
+    pages.line("The device led the hand along an expert's path for " +
                page_number_text(debrief.guided_s, 1) + " s.");
   if (debrief.outcome) {
     print_verdict(debrief, pages);
     print_timeline(debrief, pages);
     print_findings(debrief, pages);
   } else {
-    pages.line("The recording holds no exercise: nothing is judged.");
+    pages.line("The recording contains no exercise, so nothing is judged.");
   }
   for (const HandTrace& hand : debrief.hands) print_force(debrief, hand, pages);
   for (const HandTrace& hand : debrief.hands) print_structures(hand, pages);

@@ -18,7 +18,7 @@ Result<double> parse_guided(std::string_view text, const std::string& where) {
   const auto [end, ec] = std::from_chars(text.data(), last, seconds);
   if (ec != std::errc() || !std::isfinite(seconds) || seconds < 0 ||
       std::string_view(end, static_cast<std::size_t>(last - end)) != " s\n")
-    return fail("what it says of guidance is damaged", where, "Use another copy of the file");
+    return fail("its note about guidance is damaged", where, "Use another copy of the file");
   return seconds;
 }
 

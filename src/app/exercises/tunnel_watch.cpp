@@ -217,7 +217,7 @@ void TunnelWatch::plan_graft() {
   if (placing_->graft_m <= thinner_m + kTight_m) return;
   placing_.reset();
   work_.problem = Error{"the graft is thicker than the tunnels", "graft",
-                        "Drill wider ones, or make a thinner graft"};
+                        "Drill wider tunnels, or make a thinner graft"};
 }
 
 void TunnelWatch::take_cuts(std::size_t k) {

@@ -149,7 +149,7 @@ constexpr std::array<HelpLine, 18> kHelp = {{
     {"Tab", "fold the panels away"},
     {"F11", "full screen"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},
-    {"Ctrl + Q", "end"},
+    {"Ctrl + Q", "quit"},
 }};
 
 }  // namespace

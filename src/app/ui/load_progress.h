@@ -5,7 +5,7 @@
 namespace osteon {
 
 struct LoadProgress {
-  std::string what;  ///< "Growing the bones"
+  std::string what;  ///< "Generating the bones"
   double fraction = 0;
   double seconds_left = -1;  ///< estimated from the pace so far; -1: too early to tell
 };

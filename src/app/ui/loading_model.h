@@ -8,7 +8,7 @@ enum class UiPhase { kLoading, kReady, kFailed };
 
 /// Work that runs beside the picture.
 struct LoadingModel {
-  std::string what;          ///< "Growing the bones"
+  std::string what;          ///< "Generating the bones"
   double fraction = 0;       ///< 0..1
   double seconds_left = -1;  ///< -1: not known yet
   std::string failure;       ///< in words, with what to do; empty unless it failed

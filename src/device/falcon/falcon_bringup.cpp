@@ -65,7 +65,7 @@ Result<void> send(UsbLink& link, std::span<const std::uint8_t> bytes) {
     if (link.out_idle() && link.out_error() == UsbError::kNone) return {};
   }
   const UsbError error = link.gone() ? UsbError::kGone : link.out_error();
-  return fail("the Falcon took no data: " +
+  return fail("the Falcon accepted no data: " +
                   std::string(describe(error == UsbError::kNone ? UsbError::kTimeout : error)),
               kWhere, "Check its power supply and its cable");
 }
@@ -134,7 +134,7 @@ Result<void> start_loading(UsbLink& link) {
   if (const auto sent = send(link, kMark); !sent) return sent;
   const Bytes got = receive(link, 1, kEcho_s);
   if (!got.empty() && got.back() == kMark[0]) return {};
-  return fail("the Falcon's boot loader did not take its speed", kWhere,
+  return fail("the Falcon's boot loader did not accept the speed of the connection", kWhere,
               "Switch its power supply off and on, then try again");
 }
 
@@ -199,8 +199,8 @@ Result<void> bring_up_falcon(UsbLink& link, const std::string& firmware) {
   if (const auto loaded = load(link, {bytes, firmware.size()}); !loaded) return loaded;
   if (const auto normal = enter_normal_mode(link); !normal) return normal;
   if (firmware_runs(link)) return {};
-  return fail("the Falcon took its firmware but does not run it", falcon_firmware_file().string(),
-              "Check that the file is the Falcon's firmware");
+  return fail("the Falcon accepted its firmware but does not run it",
+              falcon_firmware_file().string(), "Check that the file is the Falcon's firmware");
 }
 
 }  // namespace osteon

@@ -48,7 +48,7 @@ Result<void> JoystickDevice::wait_until_ready() {
   }
   if (ready()) return {};
   return fail(link_->gone() ? "the joystick was unplugged" : "the joystick sends no valid report",
-              profile_.info.name, "Plug it in again; is the profile the right one?");
+              profile_.info.name, "Plug it in again, and check that this is its profile");
 }
 
 void JoystickDevice::take_packets() {

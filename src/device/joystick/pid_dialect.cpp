@@ -184,7 +184,8 @@ void PidDialect::finish(const UsbControlResult& result, std::int64_t now_ns) {
 
 void PidDialect::finish_pool(std::span<const std::uint8_t> data) {
   if (layout_->get(data, HidReport::kFeature, pid::kPool, pid::kDeviceManaged, 0) != 1)
-    return fail_with("the joystick leaves its effect memory to the host, which Osteon does not do");
+    return fail_with(
+        "the joystick expects the host to manage its effect memory, which Osteon does not do");
   if (layout_->get(data, HidReport::kFeature, pid::kPool, pid::kSimultaneousMax, 3) < 3)
     return fail_with("the joystick plays fewer than three effects at once");
   step_ = Step::kReset;
@@ -194,7 +195,7 @@ void PidDialect::finish_block_load(std::span<const std::uint8_t> data) {
   if (layout_->names(data, HidReport::kFeature, pid::kBlockLoad, pid::kLoadSuccess)) {
     const auto index =
         layout_->get(data, HidReport::kFeature, pid::kBlockLoad, pid::kBlockIndex, 0);
-    if (index < 1 || index > 255) return fail_with("the joystick gives an effect no number");
+    if (index < 1 || index > 255) return fail_with("the joystick gave an effect no number");
     blocks_[axis_] = static_cast<std::uint8_t>(index);
     step_ = Step::kSetEffect;
   } else if (layout_->names(data, HidReport::kFeature, pid::kBlockLoad, pid::kLoadFull)) {

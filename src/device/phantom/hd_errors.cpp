@@ -54,7 +54,7 @@ const char* describe_hd_error(hd::ErrorCode code) {
       return "OpenHaptics refused a frame: another program may be using the arm";
     case hd::kInvalidPriority:
     case hd::kSchedulerFull:
-      return "OpenHaptics took no more work for its servo loop";
+      return "OpenHaptics accepted no more work for its servo loop";
     case hd::kInvalidLicense:
       return "OpenHaptics has no valid licence: install the maker's licence";
     case hd::kInvalidEnum:

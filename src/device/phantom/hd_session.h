@@ -67,7 +67,8 @@ template <class Describe>
 Result<ServoArm*> HdSession::add(const std::string& config_name, const Describe& describe) {
   const std::lock_guard lock(changing_);
   const std::size_t slot = free_slot();
-  if (slot == kMostArms) return fail("no more arms fit", config_name, "Close another one");
+  if (slot == kMostArms)
+    return fail("no more arms can be opened", config_name, "Close another one");
   stop();
   const auto handle = init(config_name);
   if (!handle) {

@@ -15,7 +15,7 @@ const char* describe(UsbError error) {
     case UsbError::kOverflow:
       return "the device sent more than was asked for";
     case UsbError::kShort:
-      return "the device took less than was sent";
+      return "the device accepted less than was sent";
     case UsbError::kOther:
       return "the system refused the transfer";
   }

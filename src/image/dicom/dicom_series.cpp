@@ -90,10 +90,10 @@ Result<DicomSeries> choose_series(const std::vector<DicomSeries>& all, const std
   if (fitting.size() == 1) return *fitting.front();
   if (all.empty()) return fail("holds no series of slices", where, "Choose another folder");
   if (fitting.empty() && wanted.empty())
-    return fail("holds no CT series but: " + list, where,
+    return fail("holds no CT series, only: " + list, where,
                 "CT is needed, because bone is found by its Hounsfield units");
   if (fitting.empty())
-    return fail("has no series '" + wanted + "' but: " + list, where, "Choose one with --series");
+    return fail("has no series '" + wanted + "', only: " + list, where, "Choose one with --series");
   return fail("holds several series: " + list, where, "Choose one with --series NUMBER or UID");
 }
 

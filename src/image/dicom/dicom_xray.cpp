@@ -100,7 +100,7 @@ Result<void> write_dicom_xray(const XrayFilm& film, const std::filesystem::path&
   if (film.width < 1 || film.height < 1 || film.width > kMost || film.height > kMost ||
       film.grey.size() !=
           static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height))
-    return fail("the picture is empty or its size is not that of its pixels", file.string());
+    return fail("the picture is empty, or its size does not match its pixels", file.string());
   gdcm::Writer writer;
   gdcm::DataSet& data = writer.GetFile().GetDataSet();
   put_film_identity(data, hash_of_film(film), film, options);

@@ -38,7 +38,7 @@ Result<void> check_closed(const TriMesh& mesh, const std::string& what) {
   Aabb box;
   for (const Vec3& v : mesh.vertices) box.include(v);
   if (box.extent().maxCoeff() > kLargest_m)
-    return fail("it is more than a metre long", what, "Look whether its unit is right");
+    return fail("it is more than a metre long", what, "Check its unit");
   return {};
 }
 

@@ -41,7 +41,7 @@ Result<void> check_passing(const PassingWay& w, const DrawnGraft& g) {
   const double room = std::min(w.tibia_diameter_m, w.socket_diameter_m) + kMostSqueeze_m;
   if (g.diameter_m > room + 1e-9)
     return fail("the graft is more than 0.5 mm thicker than a tunnel", "passing the graft",
-                "Drill wider, or make a thinner graft");
+                "Drill wider tunnels, or make a thinner graft");
   return {};
 }
 

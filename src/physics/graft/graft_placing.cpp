@@ -43,7 +43,7 @@ Result<void> check_tunnel(const PlacingTunnel& tunnel, const char* name) {
                     std::isfinite(tunnel.radius_m) && tunnel.radius_m > 0 &&
                     tunnel.bone < kMaxBones && (tunnel.outer_B - tunnel.mouth_B).norm() > 1e-3;
   if (good) return {};
-  return fail("is no tunnel of a millimetre or longer in a bone", name, "Drill it");
+  return fail("is not a tunnel of a millimetre or longer in a bone", name, "Drill it");
 }
 
 // Does the instrument lie in the tunnel: does its shaft's line pass through the outer mouth?

@@ -118,7 +118,7 @@ Result<void> check_fits(double diameter_m, const AclTunnels& tunnels) {
   if (diameter_m <= room + kSqueeze_m) return {};
   return fail("a graft of " + std::to_string(1e3 * diameter_m) + " mm does not pass a tunnel of " +
                   std::to_string(1e3 * room) + " mm",
-              "graft", "Drill wider, or make a thinner graft");
+              "graft", "Drill wider tunnels, or make a thinner graft");
 }
 
 bool bears(const FixedGraft& fixed, const KneeLaxity& test) {

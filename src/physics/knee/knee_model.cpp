@@ -146,7 +146,7 @@ Result<void> check_held(const CaseDef& def, const LigamentTable& table, const Kn
   return fail("nothing holds the tibia", "case '" + def.name + "'",
               bare
                   ? "The case has no ligaments as soft parts; make it with osteon anatomy make knee"
-                  : "Leave at least one ligament whole, or put in a graft");
+                  : "Leave at least one ligament intact, or put in a graft");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ std::vector<RuleKind> make_table() {
         {"depth_mm", 0, 200, 0},
         {"reamed_mm", 1, 20, 8}}},
       {"graft_tested",
-       "a graft between both tunnels is tested, and the Lachman is that of the whole knee or "
+       "a graft between both tunnels is tested, and its Lachman is that of the intact knee, or "
        "nearly",
        true,
        {{"most_difference_mm", 0, 100, 3}},

@@ -50,7 +50,7 @@ void check_size(const BoneDef& bone, Findings& found) {
   if (const std::string complaint = size_complaint(bone.name, size); !complaint.empty())
     found.add(bone.name, complaint);
   else if (size < any.least_m || size > any.most_m)
-    found.add(bone.name, "is " + in_mm(size) + " long; is the unit right?");
+    found.add(bone.name, "is " + in_mm(size) + " long, so the unit may be wrong");
 }
 
 void check_material(const BoneDef& bone, Findings& found) {

@@ -64,7 +64,7 @@ Result<void> check(const HeldJoint& joint, const JointLoad& load, const JointPos
   if (!is_sound(start)) return fail("is not finite", "pose to start from");
   if (!held)
     return fail("nothing holds the tibia", "ligaments",
-                "Leave at least one ligament whole, or put in a graft");
+                "Leave at least one ligament intact, or put in a graft");
   return {};
 }
 

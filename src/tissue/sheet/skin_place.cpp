@@ -77,7 +77,7 @@ Result<TriMesh> lay_on(const TriMesh& skin_W, const Pose& X_WS, const TriMesh& s
   for (const Vec3& p : surface_S.vertices) {
     const auto height = height_at(skin, p);
     if (!height)
-      return fail("the case's skin is not under all of the sheet", "skin scene",
+      return fail("the sheet reaches beyond the case's skin", "skin scene",
                   "Make the sheet smaller, or choose a place where the skin is flatter");
     out.vertices.push_back(X_WS * Vec3(p.x(), p.y(), p.z() + *height));
   }

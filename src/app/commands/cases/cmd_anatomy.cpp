@@ -70,7 +70,8 @@ int run_make(const MakeCommand& command) {
   if (!order) return report_error(order.error());
   ProgressLine line;
   const auto made = make_patient(*order, out, [say = line.callback()](double share) {
-    if (!say("Growing the bones", share)) throw std::runtime_error("stopped; nothing was written");
+    if (!say("Generating the bones", share))
+      throw std::runtime_error("stopped; nothing was written");
   });
   if (!made) return report_error(made.error());
   for (const auto& [name, value] : made->values) std::printf("%s = %g\n", name.c_str(), value);
@@ -146,7 +147,7 @@ void add_make(cli::App& anatomy, int& exit_code) {
                    "NAME=GRADE, a pathological finding; may be given several times")
       ->take_all()
       ->expected(1);
-  make->add_option("--side", command->side, "left or right (default: right)");
+  make->add_option("--side", command->side, "left or right; default: right");
   make->add_option("--out", command->out, "the case folder to make")->required();
   make->callback([command, &exit_code] { exit_code = run_make(*command); });
 }

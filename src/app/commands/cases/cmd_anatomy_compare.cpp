@@ -163,7 +163,7 @@ void add_anatomy_compare(cli::App& anatomy, int& exit_code) {
       ->required();
   sub->add_option("--reference", command->reference, "a case, or a folder of meshes")->required();
   auto unit = std::make_shared<std::string>("m");
-  sub->add_option("--unit", *unit, "unit of a reference folder's meshes (default: m)")
+  sub->add_option("--unit", *unit, "unit of a reference folder's meshes; default: m")
       ->check(cli::IsMember({"m", "cm", "mm"}));
   sub->add_flag("--json", command->json, "print JSON");
   sub->callback([command, unit, &exit_code] {

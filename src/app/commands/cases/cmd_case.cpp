@@ -321,9 +321,11 @@ void add_import(cli::App& app, int& exit_code) {
   mesh->add_option("--side", options->side, "left or right")
       ->check(cli::IsMember({"left", "right"}));
   mesh->add_flag("--keep-hollows", options->keep_hollows,
-                 "do not close a thin shell whose holes are too small for a ball of 2 mm");
+                 "keep the hollow inside a thin shell whose holes are too small for a ball of 2 "
+                 "mm; default: it is filled");
   mesh->add_flag("--force", options->force,
-                 "accept bones three times as large or small as usual, and parts that overlap");
+                 "accept bones that are more than three times larger or smaller than usual, and "
+                 "parts that overlap or touch");
   mesh->callback([options, unit, &exit_code] {
     options->metres_per_unit = metres_per_unit(*unit);
     exit_code = run_import(*options);

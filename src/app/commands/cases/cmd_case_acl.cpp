@@ -39,7 +39,7 @@ Result<void> read_screw(const std::string& text, GraftChoices& choices) {
   double wide = 0, length = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lfx%lf%c", &wide, &length, &rest) != 2)
-    return fail("'" + text + "' is no screw", "--screw",
+    return fail("'" + text + "' is not a screw", "--screw",
                 "Give diameter and length in mm, like 9x28");
   choices.screw_m = wide / 1000;
   choices.screw_length_m = length / 1000;
@@ -160,21 +160,30 @@ void add_acl_graft_options(cli::App& acl, AclCommand& c) {
   acl.add_option(
       "--graft", c.graft_file,
       "report of a run of acl_graft: diameter, length, loop and pretension of its graft");
-  number("--graft-diameter", c.graft_diameter_mm, "of the graft, mm (the thinner tunnel's)", 4, 14);
-  number("--graft-length", c.graft_length_mm, "of the folded graft, mm (long enough)", 5, 300);
-  number("--loop", c.loop_mm, "length of the button's loop, mm (the shortest that lets it turn)", 5,
-         60);
+  number("--graft-diameter", c.graft_diameter_mm,
+         "diameter of the graft, mm; default: that of the thinner tunnel", 4, 14);
+  number("--graft-length", c.graft_length_mm,
+         "length of the folded graft, mm; default: long enough for both tunnels", 5, 300);
+  number("--loop", c.loop_mm,
+         "length of the button's loop, mm; default: the shortest that lets the button turn", 5, 60);
   number("--passing-flexion", c.passing_flexion_deg,
-         "flexion while the graft is drawn in, degrees (90)", 0, 130);
-  number("--tail", c.tail_n, "pull on the graft's tail then, N (10)", 0, 200);
-  number("--tension", c.tension_n, "tension while the graft is fixed, N (90)", 1, 500);
-  number("--tension-flexion", c.tension_flexion_deg, "flexion then, degrees (30)", 0, 130);
-  number("--pretension", c.pretension_s, "seconds at 80 N on the bench (600)", 0, 1e6);
-  number("--cycles", c.cycles, "cycles of bending before the screw (25)", 0, 1e5);
-  acl.add_option("--screw", c.screw,
-                 "DIAMETERxLENGTH of the interference screw, mm (tunnel + 1, 28)");
-  number("--screw-divergence", c.divergence_deg, "between screw and tunnel, degrees (0)", 0, 60);
-  number("--button-gap", c.button_gap_mm, "soft tissue under the button, mm (0)", 0, 30);
+         "flexion while the graft is drawn in, degrees; default: 90", 0, 130);
+  number("--tail", c.tail_n, "pull on the graft's tail while it is drawn in, N; default: 10", 0,
+         200);
+  number("--tension", c.tension_n, "tension while the graft is fixed, N; default: 90", 1, 500);
+  number("--tension-flexion", c.tension_flexion_deg,
+         "flexion while the graft is fixed, degrees; default: 30", 0, 130);
+  number("--pretension", c.pretension_s,
+         "how long the bench stretched the graft with 80 N, s; default: 600", 0, 1e6);
+  number("--cycles", c.cycles, "how often the knee is bent before the screw goes in; default: 25",
+         0, 1e5);
+  acl.add_option(
+      "--screw", c.screw,
+      "DIAMETERxLENGTH of the interference screw, mm; default: the tunnel's diameter + 1, and 28");
+  number("--screw-divergence", c.divergence_deg,
+         "angle between screw and tunnel, degrees; default: 0", 0, 60);
+  number("--button-gap", c.button_gap_mm,
+         "thickness of the soft tissue under the button, mm; default: 0", 0, 30);
 }
 
 }  // namespace
@@ -185,15 +194,19 @@ void add_case_acl_command(cli::App& app, int& exit_code) {
       "acl",
       "Measure the tunnels of an ACL reconstruction: position, length, back wall, roof, and the "
       "knee's behaviour with a graft between them");
-  acl->add_option("case", command->spec, "the knee before drilling, grown, or builtin:knee")
+  acl->add_option("case", command->spec,
+                  "the knee before drilling: the case folder of a generated knee, or builtin:knee")
       ->required();
-  acl->add_option("--drilled", command->drilled, "the same case drilled: its holes are measured");
-  acl->add_option("--femur-from", command->femur_from,
-                  "x,y,z in mm, World: start of a drill line, instead of --drilled");
-  acl->add_option("--femur-to", command->femur_to, "x,y,z in mm, World: end of the drill line");
-  acl->add_option("--tibia-from", command->tibia_from, "x,y,z in mm, World");
-  acl->add_option("--tibia-to", command->tibia_to, "x,y,z in mm, World");
-  acl->add_option("--diameter", command->diameter_mm, "diameter of a given drill line, mm")
+  acl->add_option("--drilled", command->drilled,
+                  "the same case after drilling; its holes are measured");
+  acl->add_option(
+      "--femur-from", command->femur_from,
+      "x,y,z in mm, World: start of the line of the femur's drill, instead of --drilled");
+  acl->add_option("--femur-to", command->femur_to, "x,y,z in mm, World: end of that line");
+  acl->add_option("--tibia-from", command->tibia_from,
+                  "x,y,z in mm, World: start of the line of the tibia's drill");
+  acl->add_option("--tibia-to", command->tibia_to, "x,y,z in mm, World: end of that line");
+  acl->add_option("--diameter", command->diameter_mm, "diameter of the drill along such a line, mm")
       ->check(cli::Range(1.0, 20.0))
       ->capture_default_str();
   acl->add_option("--roundness", command->roundness_mm,

@@ -132,8 +132,8 @@ std::string sums_json(const std::vector<FaultSum>& sums) {
 
 std::string sums_text(const std::vector<FaultSum>& sums) {
   std::string text =
-      "least, median, most, mm: Lachman beyond the whole knee's; tibia ahead of it; pivot; change "
-      "of the graft's length; room under the roof\n";
+      "least, median, most, mm: Lachman more than the intact knee; tibia ahead of the intact "
+      "knee's; pivot; change of the graft's length; space under the roof\n";
   char line[320];
   for (const FaultSum& sum : sums) {
     text.append(sum.name).append(std::string(18 - std::string(sum.name).size(), ' '));
@@ -176,8 +176,8 @@ void add_case_acl_faults_command(cli::App& app, int& exit_code) {
   auto command = std::make_shared<FaultsCommand>();
   cli::App* faults = app.get_subcommand("case")->add_subcommand(
       "acl-faults",
-      "What classic faults of an ACL reconstruction cost: laxity and isometry over random knees "
-      "with tunnels as the virtual surgeon sets them");
+      "Show what classic faults of an ACL reconstruction do: laxity and isometry of random knees "
+      "in which the virtual surgeon has placed the tunnels");
   faults->add_option("--knees", command->knees, "how many random knees, seeds from 0")
       ->check(cli::Range(1, 100))
       ->capture_default_str();

@@ -165,15 +165,17 @@ void add_graft_options(cli::App& laxity, LaxityCommand& command) {
       ->needs(graft);
   laxity
       .add_option("--graft-tension", command.graft_tension_n,
-                  "tension while the graft is fixed, N (90)")
+                  "tension while the graft is fixed, N; default: 90")
       ->check(cli::Range(1.0, 500.0))
       ->needs(graft);
   laxity
       .add_option("--graft-flexion", command.graft_flexion_deg,
-                  "flexion while the graft is fixed, degrees (30)")
+                  "flexion while the graft is fixed, degrees; default: 30")
       ->check(cli::Range(0.0, 130.0))
       ->needs(graft);
-  laxity.add_option("--graft-diameter", command.graft_diameter_mm, "diameter of the graft, mm (8)")
+  laxity
+      .add_option("--graft-diameter", command.graft_diameter_mm,
+                  "diameter of the graft, mm; default: 8")
       ->check(cli::Range(1.0, 20.0))
       ->needs(graft);
 }
@@ -184,13 +186,15 @@ void add_laxity(cli::App& group, int& exit_code) {
       group.add_subcommand("laxity",
                            "Laxity of a knee in the manual stability tests, mm and degrees, and "
                            "the tension of its ligaments. Exits 1 when no equilibrium is found");
-  laxity->add_option("case", command->spec, "case folder of a grown knee, or builtin:knee")
+  laxity->add_option("case", command->spec, "case folder of a generated knee, or builtin:knee")
       ->required();
-  laxity->add_option("--test", command->test, "lachman, drawer, pivot, varus, valgus or all (all)")
+  laxity
+      ->add_option("--test", command->test,
+                   "lachman, drawer, pivot, varus, valgus or all; default: all")
       ->check(cli::IsMember({"lachman", "drawer", "pivot", "varus", "valgus", "all"}));
   laxity
       ->add_option("--flexion", command->flexion_deg,
-                   "flexion during the test, degrees (default: each test's own)")
+                   "flexion during the test, degrees; default: each test's own")
       ->check(cli::Range(0.0, 130.0));
   laxity->add_option("--without", command->without,
                      "cut this ligament first; may be given several times");
@@ -209,7 +213,7 @@ void add_case_laxity_commands(cli::App& app, int& exit_code) {
   auto command = std::make_shared<IsometryCommand>();
   cli::App* isometry = group->add_subcommand(
       "isometry", "How the length of a line from femur to tibia changes while the knee bends");
-  isometry->add_option("case", command->spec, "case folder of a grown knee, or builtin:knee")
+  isometry->add_option("case", command->spec, "case folder of a generated knee, or builtin:knee")
       ->required();
   isometry->add_option("--from", command->from, "end on the femur: x,y,z in World, mm")->required();
   isometry->add_option("--to", command->to, "end on the tibia: x,y,z in World, mm")->required();

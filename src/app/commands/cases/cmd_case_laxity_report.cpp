@@ -92,7 +92,7 @@ std::string laxity_json(const std::string& case_name, const std::string& side,
 }
 
 std::string laxity_text(const std::vector<LaxityReport>& reports) {
-  TextTable table({"test", "bent deg", "load", "forwards mm", "if whole mm", "inwards deg",
+  TextTable table({"test", "bent deg", "load", "forwards mm", "if intact mm", "inwards deg",
                    "varus deg", "contact N", "at rest"});
   for (const LaxityReport& report : reports)
     table.add({report.test.name, fixed(report.test.flexion_deg, 0), load_text(report.test),

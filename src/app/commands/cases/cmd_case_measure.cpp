@@ -99,8 +99,7 @@ Result<Measured> measured(const MeasureCommand& command) {
     return Measured{std::move(carved->def), command.before.empty() ? carved->spec : command.before};
   }
   if (command.at_s)
-    return fail("goes with a recording alone", "--at",
-                "Give a recording (.osr) in place of a case");
+    return fail("is for recordings only", "--at", "Give a recording (.osr) in place of a case");
   auto def = open_case_def(command.spec, {}, CaseParts::kFelt);
   if (!def) return tl::unexpected(def.error());
   return Measured{std::move(*def), command.before};

@@ -86,7 +86,7 @@ void check_words(const CaseNoteCommand& command) {
   if (removes) return;
   if (command.text.empty()) cli::refuse("--text", "give the text of the note, or --remove");
   if (command.bone.empty() && command.at.empty())
-    cli::refuse("--on", "name a bone, or give a place with --at, or both");
+    cli::refuse("--on", "name a bone, or give a position with --at, or both");
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ int run_pose(const CasePoseCommand& command) {
   if (!spec) return report_error(spec.error());
   ProgressLine line;
   const auto def = open_case_def(*spec, [say = line.callback()](double share) {
-    if (!say("Growing the bones", share)) throw std::runtime_error("stopped; nothing was written");
+    if (!say("Generating the bones", share))
+      throw std::runtime_error("stopped; nothing was written");
   });
   if (!def) return report_error(def.error());
   const auto notes = notes_of(command.spec);
@@ -44,7 +45,8 @@ void add_case_pose(cli::App& group, int& exit_code) {
   cli::App* pose =
       group.add_subcommand("pose", "Bend the joint of a case and save the result as a new case");
   auto command = std::make_shared<CasePoseCommand>();
-  pose->add_option("case", command->spec, "a case of a grown knee, or builtin:knee")->required();
+  pose->add_option("case", command->spec, "case folder of a generated knee, or builtin:knee")
+      ->required();
   pose->add_option("--flexion", command->flexion_deg, "flexion, degrees; 0 is straight")
       ->required();
   pose->add_option("--out", command->out, "the case folder to make")->required();

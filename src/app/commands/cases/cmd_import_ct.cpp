@@ -117,7 +117,8 @@ void add_import_ct_command(cli::App& app, int& exit_code) {
       ->required();
   ct->add_option("--out", command->out, "the case folder to make")->required();
   ct->add_option("--name", command->options.name, "name of the case; default: the folder's name");
-  ct->add_option("--side", command->options.side, "left or right; default: as recognised")
+  ct->add_option("--side", command->options.side,
+                 "left or right; default: the side that is recognised")
       ->check(cli::IsMember({"left", "right"}));
   ct->add_option("--series", command->options.series,
                  "number or UID of the series, where a folder has several");

@@ -79,7 +79,7 @@ Result<void> draw(const InstrumentOptions& options) {
 
 void add_show(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
   cli::App* command = group.add_subcommand("show", "Describe instruments in full");
-  command->add_option("names", options->names, "Names")->required();
+  command->add_option("names", options->names, "names")->required();
   command->add_flag("--json", options->json, "print JSON");
   command->callback([options, &exit_code] { exit_code = show(*options); });
 }
@@ -87,8 +87,8 @@ void add_show(cli::App& group, const std::shared_ptr<InstrumentOptions>& options
 void add_draw(cli::App& group, const std::shared_ptr<InstrumentOptions>& options, int& exit_code) {
   cli::App* command =
       group.add_subcommand("render", "Draw instruments side by side, each with its tip enlarged");
-  command->add_option("names", options->names, "Names (default all)");
-  command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
+  command->add_option("names", options->names, "names; default: all");
+  command->add_option("--size", options->size, "width x height in pixels")->capture_default_str();
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] {
     const auto done = draw(*options);
@@ -104,7 +104,7 @@ void add_instruments_command(cli::App& app, int& exit_code) {
       "instruments", "List the instruments: what they do, their sizes, power and sources");
   group->add_flag("--json", options->json, "print JSON");
   group->add_option("--folder", options->folder,
-                    "Folder of instrument files (default: the bundled ones)");
+                    "folder of instrument files; default: the bundled ones");
   add_show(*group, options, exit_code);
   add_draw(*group, options, exit_code);
   group->callback([options, group, &exit_code] {

@@ -125,24 +125,24 @@ int run(const RenderOptions& options) {
 void add_render_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
   cli::App* command = app.add_subcommand("render", "Draw a picture of a case, without a window");
-  command->add_option("--case", options->case_spec, "Case folder, builtin:wrist or builtin:knee")
+  command->add_option("--case", options->case_spec, "case folder, builtin:wrist or builtin:knee")
       ->required();
   command
       ->add_option(
           "--view", options->view,
           "dorsal, palmar, radial, ulnar, ap or lateral; for a knee front, back, outer, inner")
       ->capture_default_str();
-  command->add_flag("--joint", options->joint, "Close up: the carpal bones, or the knee's joint");
-  command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
-  command->add_flag("--hulls", options->hulls, "Draw the convex pieces that the probe feels");
+  command->add_flag("--joint", options->joint, "close up: the carpal bones, or the knee's joint");
+  command->add_option("--size", options->size, "width x height in pixels")->capture_default_str();
+  command->add_flag("--hulls", options->hulls, "draw the convex pieces that the probe feels");
   command->add_flag("--felt", options->felt,
-                    "Colour the bones by the distance of the felt surface from the visible one: "
+                    "colour the bones by the distance of the felt surface from the visible one: "
                     "orange 0.5 mm above it, blue 0.5 mm below it");
-  command->add_option("--flexion", options->flexion_deg, "Flexion of a grown knee, degrees");
-  command->add_option("--hide", options->hidden, "Names of bones to leave out")->delimiter(',');
+  command->add_option("--flexion", options->flexion_deg, "flexion of a generated knee, degrees");
+  command->add_option("--hide", options->hidden, "names of bones to leave out")->delimiter(',');
   command
       ->add_option("--soft", options->softs,
-                   "Soft parts to draw: all, none, names, or kinds such as ligament (default none)")
+                   "soft parts to draw: all, none, names, or kinds such as ligament; default: none")
       ->delimiter(',');
   command
       ->add_option("--skin-opacity", options->skin_opacity,
@@ -153,12 +153,12 @@ void add_render_command(cli::App& app, int& exit_code) {
       "--stereo", options->stereo, "side-by-side, over-under, interlaced or anaglyph (red-cyan)");
   command
       ->add_option("--eye-distance", options->eye_distance_mm,
-                   "distance between the eyes, mm (default: a fifteenth of the screen's depth)")
+                   "distance between the eyes, mm; default: a fifteenth of the screen's depth")
       ->needs(stereo);
   command
       ->add_option(
           "--screen-depth", options->screen_depth_mm,
-          "distance at which both pictures coincide, mm (default: that of the centre of view)")
+          "distance at which both pictures coincide, mm; default: that of the centre of view")
       ->needs(stereo);
   command->add_option("--out", options->out, "PNG file to write")->required();
   command->callback([options, &exit_code] { exit_code = run(*options); });

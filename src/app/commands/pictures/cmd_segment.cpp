@@ -41,19 +41,19 @@ void add_segment_command(cli::App& app, int& exit_code) {
       ->delimiter(',')
       ->expected(3);
   command->add_flag("--suggest", order->suggest,
-                    "Begin with the bones that `osteon import ct` finds by itself");
+                    "begin with the bones that `osteon import ct` finds by itself");
   command->add_option("--choose", order->choose,
-                      "Begin with this bone selected, one of those that --suggest finds");
-  command->add_option("--size", *size, "Size of the window in pixels, e.g. 1280x720");
+                      "begin with this bone selected, one of those that --suggest finds");
+  command->add_option("--size", *size, "size of the window in pixels, e.g. 1280x720");
   command
       ->add_option("--ui-scale", order->interface_scale,
-                   "Scale of the interface; default: the display's")
+                   "scale of the interface; default: the display's")
       ->check(cli::Range(0.5, 4.0));
   command->add_option("--screenshot", order->screenshot,
-                      "Save a picture of the window (PNG), then exit");
+                      "save a picture of the window (PNG), then exit");
   command
       ->add_option("--frames", order->frames,
-                   "Draw this many pictures, print their timing, then exit")
+                   "draw this many pictures, print their timing, then exit")
       ->check(cli::Range(1, 1000000));
   command->callback([order, size, spacing_mm, &exit_code] {
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))

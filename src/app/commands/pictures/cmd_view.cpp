@@ -233,23 +233,25 @@ int run_view(const ViewCommand& command) {
 
 void add_water_options(cli::App& sub, ViewCommand& command) {
   sub.add_option("--turbidity", command.water.turbidity,
-                 "share of the light that pale debris takes on the way to tissue 10 mm away and "
-                 "back, 0 to 1")
+                 "share of the light that pale debris absorbs between the scope and tissue 10 mm "
+                 "away, there and back, 0 to 1")
       ->capture_default_str();
   sub.add_option("--fog", command.water.fog, "share of the lens that is fogged, 0 to 1")
       ->capture_default_str();
   sub.add_option("--flush", command.water.flushed_s,
-                 "s for which water was then flushed over the lens: the fog goes")
+                 "time for which water then flushes the fog off the lens, s")
       ->capture_default_str();
   sub.add_option("--bleeding", command.bleeding_ml_min,
-                 "blood that flows into a joint without pressure, ml/min")
+                 "blood that flows into the joint while the water has no pressure, ml/min")
       ->capture_default_str();
-  sub.add_option("--pressure", command.pressure_mmhg, "of the pump, mmHg")->capture_default_str();
-  sub.add_option("--outlet", command.water.drive.outlet_open, "how far it is open, 0 to 1")
+  sub.add_option("--pressure", command.pressure_mmhg, "pressure of the pump, mmHg")
       ->capture_default_str();
-  sub.add_option("--suction", command.water.drive.suction, "of a shaver or sucker, 0 to 1")
+  sub.add_option("--outlet", command.water.drive.outlet_open, "how far the outlet is open, 0 to 1")
       ->capture_default_str();
-  sub.add_option("--after", command.water.after_s, "s since pump and bleeding began")
+  sub.add_option("--suction", command.water.drive.suction,
+                 "suction of a shaver or a suction cannula, 0 to 1")
+      ->capture_default_str();
+  sub.add_option("--after", command.water.after_s, "time since pump and bleeding began, s")
       ->capture_default_str();
 }
 
@@ -276,11 +278,11 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   sub->add_option(
          "--up", command->up,
-         "direction that is up in the picture: x,y,z in World (default: towards the hip, or "
-         "the fingers)")
+         "direction that is up in the picture: x,y,z in World; default: towards the hip, or "
+         "the fingers")
       ->delimiter(',')
       ->expected(3);
-  sub->add_option("--flexion", command->flexion_deg, "flexion of a grown knee, degrees");
+  sub->add_option("--flexion", command->flexion_deg, "flexion of a generated knee, degrees");
   add_water_options(*sub, *command);
   sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
   sub->add_option("--out", command->out, "PNG file to write");
@@ -288,10 +290,11 @@ void add_view_command(cli::App& app, int& exit_code) {
                   "folder for the standard views of a knee or a wrist, one picture each; takes the "
                   "place of --at, --toward and --out");
   sub->add_flag("--list", command->list,
-                "tell what each standard view shows, or the one given; exit code 1 where something "
-                "is missing");
-  sub->add_option("--views", command->views,
-                  "table of other views than the standard ones (assets/views/knee.csv is one)");
+                "list what each standard view shows, or only that of --only; exits 1 when a view "
+                "lacks something");
+  sub->add_option(
+      "--views", command->views,
+      "table of views to use instead of the standard ones (like assets/views/knee.csv)");
   sub->add_option("--only", command->only, "one standard view, by its name");
   sub->callback([command, &exit_code] {
     if (!command->is_standard() && !command->is_single())

@@ -117,7 +117,7 @@ int run_xray(XrayCommand& command) {
 void add_beam_options(cli::App& xray, XrayCommand& c) {
   xray.add_option("--kv", c.shot.kv, "voltage of the tube, 40 to 120 kV")->capture_default_str();
   xray.add_option("--mas", c.shot.mas,
-                  "tube current times exposure time of a shot, mAs (default: automatic)");
+                  "tube current times exposure time of a shot, mAs; default: automatic");
   xray.add_option("--shots", c.shot.shots, "number of shots or pulses, for the dose")
       ->capture_default_str();
   xray.add_option("--pulse", c.pulse_ms, "length of each shot or pulse, ms")->capture_default_str();
@@ -138,13 +138,13 @@ void add_place_options(cli::App& xray, XrayCommand& c) {
       "distance= (source to detector), source= (source to isocentre), field= (width of "
       "the detector)");
   xray.add_option("--isocenter", c.isocenter_mm,
-                  "point that the C-arm turns about: x,y,z in World, mm (default: the joint)")
+                  "point that the C-arm turns about: x,y,z in World, mm; default: the joint")
       ->delimiter(',')
       ->expected(3);
   xray.add_option("--size", c.size, "width x height in pixels")->capture_default_str();
   xray.add_option("--at", c.scene.at_s,
-                  "time in a recording, seconds from its start (default: its end)");
-  xray.add_option("--flexion", c.scene.flexion_deg, "flexion of a grown knee, degrees");
+                  "time in a recording, seconds from its start; default: its end");
+  xray.add_option("--flexion", c.scene.flexion_deg, "flexion of a generated knee, degrees");
 }
 
 }  // namespace

@@ -27,11 +27,13 @@ struct DebriefCommand {
 // fails where the recording that was named cannot be shown.
 Result<void> add_expert_to(Debrief& debrief, const std::string& ghost) {
   if (ghost == "off" || (ghost == "expert" && !wants_expert(debrief))) return {};
-  if (!debrief.scenario) return fail("the recording is of no exercise", "--ghost", "Leave it out");
+  if (!debrief.scenario)
+    return fail("the recording contains no exercise", "--ghost", "Leave it out");
   const GhostWanted wanted{*debrief.scenario, debrief.case_spec, debrief.the_case->hash};
   const auto go_on = [] { return !stop_requested(); };
   if (ghost == "expert")
-    std::fprintf(stderr, "osteon: the virtual expert performs the exercise (--ghost off: not)\n");
+    std::fprintf(
+        stderr, "osteon: the virtual expert performs the exercise (--ghost off leaves this out)\n");
   const auto track =
       ghost == "expert" ? ghost_of_expert(wanted, go_on) : ghost_of_recording(ghost, wanted);
   if (track)
@@ -95,14 +97,14 @@ void print_trial(const std::string& name, const SkillTrial& trial) {
               s.reliability);
   if (2 * static_cast<std::size_t>(s.without_mark) >= all) {
     std::printf(
-        "none\n%-18s for %d of %zu persons the others set no mark: all of a group have the "
-        "same score,\n%-18s the lowest that there is\n",
+        "none\n%-18s for %d of %zu persons the scores of the others give no mark:\n%-18s all "
+        "scores of a group are the lowest possible\n",
         "", s.without_mark, all, "");
     return;
   }
   std::printf("%.1f\n", s.mark);
   std::printf(
-      "%-18s by the score alone: %d of %zu experts fail, %d of %zu novices pass; with "
+      "%-18s judged by the score alone: %d of %zu experts fail, %d of %zu novices pass; also by "
       "stages and errors: %d and %d\n",
       "", s.experts_failed, s.expert_scores.size(), s.novices_passed, s.novice_scores.size(),
       trial.experts_not_passed, trial.novices_passed);
@@ -161,8 +163,8 @@ void add_skill_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<SkillCommand>();
   cli::App* command = app.add_subcommand(
       "skill",
-      "How well scores separate simulated experts from simulated novices. Each is judged by a "
-      "standard\nset without it. This says nothing about people");
+      "Measure how well scores separate simulated experts from simulated novices. Each attempt is "
+      "judged\nby a standard that was set without it. This says nothing about people");
   command->add_option("scenario", options->scenarios, "names or files; default: all");
   command->add_option("--experts", options->experts, "number of simulated experts")
       ->check(cli::Range(3, 1000))

@@ -278,7 +278,7 @@ void add_span_options(cli::App& sub, FilmCommand& command) {
   sub.add_option("--from", command.from_s, "start of the part, s from the recording's start")
       ->check(cli::Range(0.0, 4 * 3600.0))
       ->capture_default_str();
-  sub.add_option("--to", command.to_s, "end of the part, s (default: the recording's end)")
+  sub.add_option("--to", command.to_s, "end of the part, s; default: the recording's end")
       ->check(cli::Range(0.0, 4 * 3600.0));
 }
 
@@ -307,10 +307,10 @@ void add_film_commands(cli::App& app, int& exit_code) {
       ->check(cli::Range(1, 120))
       ->capture_default_str();
   sub->add_option("--pressure", command->pressure_mmhg,
-                  "pressure of the pump in mmHg, for the scope's picture (default: as recorded)")
+                  "pressure of the pump in mmHg, for the scope's picture; default: as recorded")
       ->check(cli::Range(0.0, 300.0));
   sub->add_option("--outlet", command->outlet_open,
-                  "how far the outlet is open, 0 to 1 (default: as recorded)")
+                  "how far the outlet is open, 0 to 1; default: as recorded")
       ->check(cli::Range(0.0, 1.0));
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
   sub->add_flag("--mute", command->mute, "leave out the sound");

@@ -75,14 +75,14 @@ void add_record_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<RecordArguments>();
   cli::App* command = app.add_subcommand("record", "Inspect and export recordings (.osr)");
   command->require_subcommand(1);
-  cli::App* info = command->add_subcommand("info", "Show what a recording holds");
+  cli::App* info = command->add_subcommand("info", "Show what a recording contains");
   info->add_option("file", options->file, "recording")->required();
   info->add_flag("--events", options->events, "print its events, one per line");
   info->add_flag("--json", options->json, "print JSON; with --events one object per line");
   info->add_flag("--torque", options->torque,
                  "replay the run and report the moment about each grip");
   info->add_option("--case", options->case_spec,
-                   "for --torque: the case (default: the recording's own)");
+                   "for --torque: the case; default: the recording's own");
   info->callback([options, &exit_code] { exit_code = run_info(*options); });
   cli::App* exported = command->add_subcommand(
       "export", "Write ticks, poses, forces and events as tables, for pandas or MATLAB");
@@ -95,7 +95,7 @@ void add_record_command(cli::App& app, int& exit_code) {
                      "replay the run and add the moment about each grip: torque_<hand>.csv, or in "
                      "HDF5 a dataset per hand");
   exported->add_option("--case", options->case_spec,
-                       "for --torque: the case (default: the recording's own)");
+                       "for --torque: the case; default: the recording's own");
   exported->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 

@@ -203,8 +203,8 @@ void add_replay_command(cli::App& app, int& exit_code) {
       "Exit code: 0 identical and as expected, 1 not, 2 a bad file, 3 a truncated recording");
   command->add_option("file", options->file, "recording or probe path")->required();
   command->add_option("--case", options->case_spec,
-                      "a case folder, builtin:wrist or builtin:knee (default: the recording's own; "
-                      "for a path builtin:wrist)");
+                      "a case folder, builtin:wrist or builtin:knee; default: the recording's own; "
+                      "for a path builtin:wrist");
   command->add_option("--expect", options->expect, "expected contacts and forces, JSON");
   command->add_option("--report", options->report, "write the report as JSON");
   command->add_option("--frames", options->frames, "write a picture every 1/30 s into this folder");

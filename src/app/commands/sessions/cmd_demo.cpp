@@ -45,7 +45,7 @@ int run_demo(const fs::path& out) {
   if (ec) return report_error({"cannot be made (" + ec.message() + ")", out.string(), ""});
   auto data = find_data_dir();
   if (!data) return report_error(data.error());
-  std::printf("growing the built-in wrist ...\n");
+  std::printf("generating the built-in wrist ...\n");
   auto the_case = open_and_show_progress("builtin:wrist", CaseParts::kFelt);
   if (!the_case) return report_error(the_case.error());
   auto path = load_path(*data / "assets/paths/wrist_survey.csv");

@@ -172,7 +172,8 @@ void add_drill_commands(cli::App& app, int& exit_code) {
       ->capture_default_str();
   trial->add_option("--drop-n", command->drop_n, "reduction of the thrust in the last layer, N")
       ->capture_default_str();
-  trial->add_option("--diameter", command->diameter_mm, "mm")->capture_default_str();
+  trial->add_option("--diameter", command->diameter_mm, "diameter of the drill, mm")
+      ->capture_default_str();
   trial->add_option("--speed-rpm", command->speed_rpm, "speed, rpm; negative: backwards")
       ->capture_default_str();
   trial->add_option("--pilot", command->pilot_mm, "diameter of a pilot hole, mm; 0: none")

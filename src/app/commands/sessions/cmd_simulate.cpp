@@ -45,7 +45,8 @@ Result<HeadlessRun> run_of(const SimulateOptions& options) {
   if (run.hands.size() > kMaxHands)
     return fail("a session has at most four hands", "--hand", "Give fewer");
   if (!run.hands.empty() && !options.device.empty())
-    return fail("--device plays one path, not hands", "--device", "Leave out one of them");
+    return fail("cannot be combined with --hand: a device plays one path", "--device",
+                "Leave out one of them");
   if (run.hands.empty()) {
     auto path = load_path(options.path);
     if (!path) return tl::unexpected(path.error());

@@ -207,7 +207,8 @@ void print(const Carved& carved, const CaseBone& source, const CarveCommand& com
       std::printf("  %-16s %.2f mm^3\n", std::string(to_text(static_cast<BoneTissue>(t))).c_str(),
                   1e9 * carved.removed_m3[t]);
   if (carved.dust_m3 > 0)
-    std::printf("  %.2f mm^3 of it hung on nothing and fell off as dust\n", 1e9 * carved.dust_m3);
+    std::printf("  %.2f mm^3 of it was no longer connected and fell off as dust\n",
+                1e9 * carved.dust_m3);
   for (const double piece : carved.pieces_m3)
     std::printf("  a piece of %.2f mm^3 is cut off; it stays in the file\n", 1e9 * piece);
   std::printf("  a step           %.1f us (median), %.1f us (p99.9)\n",
@@ -232,7 +233,7 @@ int run_carve(const CarveCommand& command) {
 }
 
 std::string tool_help() {
-  std::string text = "The cutting tool:";
+  std::string text = "cutting tool:";
   for (const CutterKind& kind : cutter_kinds())
     text += (text.back() == ':' ? " " : ", ") + std::string(kind.name);
   return text;

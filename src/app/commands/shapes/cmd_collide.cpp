@@ -58,14 +58,14 @@ int run(const CollideOptions& options) {
 }
 
 constexpr const char* kFooter =
-    "POSES.csv: x_mm,y_mm,z_mm,qw,qx,qy,qz, one pose of B in the frame of A each line.\n"
-    "OUT.csv: hit,depth_mm,nx,ny,nz,px_mm,py_mm,pz_mm,pivots,ns, one line each pose.\n"
+    "POSES.csv: x_mm,y_mm,z_mm,qw,qx,qy,qz, one pose of B in the frame of A per line.\n"
+    "OUT.csv: hit,depth_mm,nx,ny,nz,px_mm,py_mm,pz_mm,pivots,ns, one line per pose.\n"
     "  hit       1: the convex hulls of A and B share a point (touching counts)\n"
     "  depth_mm  how far B must move along n to separate from A; 0 without a hit\n"
     "  n         unit normal from A to B, in the frame of A\n"
     "  p         centre of the largest ball inside both, or, without a hit, of the smallest\n"
     "            ball that reaches the planes of both; in the frame of A\n"
-    "  pivots    simplex pivots of the two linear programs, warm-started from the line before\n"
+    "  pivots    simplex pivots of the two linear programs, warm-started from the previous line\n"
     "  ns        solution time of the two linear programs";
 
 }  // namespace
@@ -75,9 +75,9 @@ void add_collide_command(cli::App& app, int& exit_code) {
   cli::App* command = app.add_subcommand(
       "collide", "Test the convex hulls of two meshes for contact, pose by pose");
   command->footer(kFooter);
-  command->add_option("A", options->a, "Mesh that stays in place")->required();
-  command->add_option("B", options->b, "Mesh that is moved")->required();
-  command->add_option("--unit", options->unit, "Unit of both meshes: m, cm or mm")
+  command->add_option("A", options->a, "mesh that stays in place")->required();
+  command->add_option("B", options->b, "mesh that is moved")->required();
+  command->add_option("--unit", options->unit, "unit of both meshes: m, cm or mm")
       ->required()
       ->check(cli::IsMember({"m", "cm", "mm"}));
   command->add_option("--poses", options->poses, "CSV file of poses of B in A")->required();

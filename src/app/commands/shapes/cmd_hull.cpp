@@ -105,12 +105,12 @@ void add_hull_command(cli::App& app, int& exit_code) {
   cli::App* command =
       app.add_subcommand("hull", "Convex hulls of meshes, by QuickHull and wrapping");
   command->add_option("MESH", options->meshes, "STL, OBJ, PLY, VTK, VTP or glTF files")->required();
-  command->add_option("--unit", options->unit, "Unit of the meshes: m, cm or mm")
+  command->add_option("--unit", options->unit, "unit of the meshes: m, cm or mm")
       ->capture_default_str()
       ->check(cli::IsMember({"m", "cm", "mm"}));
   command->add_option("--out", options->out,
-                      "Write the hull as STL, in the mesh's unit (one mesh)");
-  command->add_flag("--json", options->json, "Print JSON: an array, one object a mesh");
+                      "write the hull as STL, in the mesh's unit (one mesh)");
+  command->add_flag("--json", options->json, "print JSON: an array with one object per mesh");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -50,7 +50,7 @@ void add_tetrahedra(cli::App& mesh, int& exit_code) {
   cli::App* command = mesh.add_subcommand(
       "tetrahedra",
       "Fill a closed surface with tetrahedra of good shape; exits 1 with a warning when the cell "
-      "is too coarse, the volume misses by 1 % or an angle lies below 15 degrees");
+      "is too coarse, the volume is off by 1 % or more, or an angle is below 15 degrees");
   auto options = std::make_shared<TetrahedraCommand>();
   command
       ->add_option("SOURCE", options->source,
@@ -60,8 +60,8 @@ void add_tetrahedra(cli::App& mesh, int& exit_code) {
       ->check(cli::IsMember({"m", "cm", "mm"}));
   command
       ->add_option("--cell-mm", options->cell_mm,
-                   "edge of the lattice's cubes, mm; default: chosen by the thinnest part, reduced "
-                   "until the volume fits")
+                   "edge of the lattice's cubes, mm; default: chosen from the thinnest part and "
+                   "reduced until the volume fits")
       ->check(refuse_not_positive);
   command
       ->add_option("--goal-deg", options->options.goal_deg,

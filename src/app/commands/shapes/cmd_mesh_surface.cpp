@@ -102,7 +102,9 @@ void add_decimate(cli::App& mesh, int& exit_code) {
   cli::App* decimate =
       mesh.add_subcommand("decimate", "Reduce the triangles of a surface (quadric error)");
   add_source(*decimate, *command);
-  decimate->add_option("--error-mm", command->error_mm, "how far the surface may move, about, mm")
+  decimate
+      ->add_option("--error-mm", command->error_mm,
+                   "how far the surface may move, mm, approximately")
       ->capture_default_str()
       ->check(refuse_not_positive);
   decimate->callback([command, &exit_code] { exit_code = run_decimate(*command); });

@@ -50,7 +50,7 @@ void add_path_commands(cli::App& app, int& exit_code) {
       "Make a path that visits every bone in reach: press along the normal, stroke, retreat");
   command->add_option("--case", survey->case_spec, "a case folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
-  command->add_option("--seed", survey->options.seed, "seed of the choice of places")
+  command->add_option("--seed", survey->options.seed, "seed for choosing the places")
       ->capture_default_str();
   command->add_option("--force", survey->options.press_n, "target force, N")
       ->check(cli::Range(0.1, 20.0))

@@ -107,7 +107,7 @@ void print_tunnel(const Drilled& d, const CaseBone& source, const TunnelCommand&
     return;
   }
   if (d.cut.removed_m3 == 0)
-    std::printf("%s: the drill misses the bone, nothing is removed -> %s\n",
+    std::printf("%s: the drill misses the bone, so nothing is removed -> %s\n",
                 source.bone.name.c_str(), command.out.c_str());
   else
     std::printf("%s: removed %.2f mm3, %.2f mm along the axis in bone, %s -> %s (in %s)\n",
@@ -139,7 +139,7 @@ int run_tunnel(const TunnelCommand& command) {
 
 void add_tunnel_command(cli::App& app, int& exit_code) {
   cli::App* tunnel = app.add_subcommand(
-      "tunnel", "Drill a straight tunnel into a bone, exactly; exits 1 where the line misses it");
+      "tunnel", "Drill a straight tunnel into a bone, exactly; exits 1 when the line misses it");
   auto command = std::make_shared<TunnelCommand>();
   tunnel->add_option("bone", command->bone, "CASE#BONE, such as builtin:knee#femur")->required();
   tunnel->add_option("--from", command->from, "x,y,z in mm, World: start of the drill")->required();

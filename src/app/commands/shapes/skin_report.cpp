@@ -70,12 +70,15 @@ std::string skin_report_text(const SkinResult& result, const std::optional<Pose>
     out += printed("cut: stroke of %.1f mm, open over %.1f mm, at most %.2f mm beside the stroke\n",
                    kMm * cut.stroke_m, kMm * cut.opened_m, kMm * cut.off_m);
   if (result.groove_triangles > 0)
-    out += printed("lips: %.1f mm apart at most, %.1f mm2 between them; grooves hold %.0f mm3\n",
-                   kMm * result.widest_m, kMm2 * result.opening_m2, kMm3 * result.groove_m3);
+    out += printed(
+        "lips: %.1f mm apart at most, %.1f mm2 between them; volume of the grooves %.0f mm3\n",
+        kMm * result.widest_m, kMm2 * result.opening_m2, kMm3 * result.groove_m3);
   for (const SkinPressResult& press : result.presses)
-    out += printed("press at (%.1f, %.1f) mm with %.3g N: dent of %.2f mm; slightly: %.0f N/m\n",
-                   kMm * press.press.disc.p.x(), kMm * press.press.disc.p.y(), press.press.force_n,
-                   kMm * press.dent_m, press.stiffness_n_per_m);
+    out += printed(
+        "press at (%.1f, %.1f) mm with %.3g N: dent of %.2f mm; stiffness under a light press: "
+        "%.0f N/m\n",
+        kMm * press.press.disc.p.x(), kMm * press.press.disc.p.y(), press.press.force_n,
+        kMm * press.dent_m, press.stiffness_n_per_m);
   for (const SkinPierceResult& pierce : result.pierces) {
     const SheetPoint p = kMm * pierce.thrust.disc.p;
     if (!pierce.pierced)
@@ -83,7 +86,8 @@ std::string skin_report_text(const SkinResult& result, const std::optional<Pose>
                      pierce.peak_n);
     else
       out += printed(
-          "pierce at (%.1f, %.1f) mm: peak %.1f N at %.1f mm, %.1f N at the deepest, %.1f N back\n",
+          "pierce at (%.1f, %.1f) mm: peak %.1f N at %.1f mm, %.1f N at the deepest point, %.1f N "
+          "on the way back\n",
           p.x(), p.y(), pierce.peak_n, kMm * pierce.peak_depth_m, pierce.deepest_n, pierce.pull_n);
   }
   return out;

@@ -224,7 +224,8 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   if (*writer)
     if (auto ok = (*writer)->finish(); !ok) return tl::unexpected(ok.error());
   if (const std::string why = loop->complaint(); !why.empty())
-    return fail(why, run.device, "The run up to there is in the recording, if you asked for one");
+    return fail(why, run.device,
+                "If you asked for a recording, it contains the run up to this moment");
   HeadlessOutcome outcome;
   for (const HeadlessHand& hand : hands) outcome.names.push_back(hand.name);
   outcome.reports = loop->reports(steady_now_ns() - started);

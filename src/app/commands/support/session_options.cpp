@@ -50,7 +50,7 @@ void add_portals_option(cli::App& command, std::string& portals) {
   command
       .add_option("--portals", portals,
                   "holes in the skin that shafts pass through: all, none, or some of those that "
-                  "`osteon case info` lists: 3-4,4-5")
+                  "`osteon case info` lists, such as 3-4,4-5")
       ->capture_default_str();
 }
 
@@ -63,10 +63,9 @@ void add_soft_option(cli::App& command, std::string& soft) {
 
 void add_guided_option(cli::App& command, double& guided_n) {
   command
-      .add_option(
-          "--guided-force", guided_n,
-          "resistance to a drill that a pin or an aimer's sleeve guides, N, the same in all "
-          "bone; 0: that of the bone")
+      .add_option("--guided-force", guided_n,
+                  "resistance to a drill that a pin or an aimer's sleeve guides, N, the same in "
+                  "all bone; 0: the resistance of the bone itself")
       ->check(cli::Range(0.0, 40.0))
       ->capture_default_str();
 }

@@ -135,7 +135,7 @@ void say_launched(const LaunchedExercise& done) {
   std::printf("attempt       %s\n", done.attempt ? done.attempt->verdict.c_str() : "none");
   if (done.attempt && done.attempt->score)
     std::printf("score         %.1f\n", *done.attempt->score);
-  if (!done.counts) std::printf("only looked at: nothing is judged\n");
+  if (!done.counts) std::printf("opened to look at only, so nothing is judged\n");
   say_sent(done.sent);
   if (!done.return_url.empty()) std::printf("go on at      %s\n", done.return_url.c_str());
 }
@@ -176,16 +176,16 @@ void add_launch_command(cli::App& app, int& exit_code) {
   auto options = std::make_shared<LaunchCommand>();
   cli::App* command = app.add_subcommand(
       "launch",
-      "Do the exercise that a learning management system launches (cmi5), and tell it the result.\n"
-      "Exit code: 0 passed and told, 1 not passed or not told, 2 could not be done");
+      "Do the exercise that a learning management system launches (cmi5), and report the result to "
+      "it.\nExit code: 0 passed and reported, 1 not passed or not reported, 2 could not be done");
   command->add_option("address", options->address,
                       "osteon://launch/SCENARIO?endpoint=...&fetch=...&actor=...&registration=...&"
                       "activityId=...");
-  command->add_option(
-      "--surgeon", options->surgeon,
-      "who does it without a window, as in `osteon run`; default: you, in the window");
+  command->add_option("--surgeon", options->surgeon,
+                      "virtual surgeon who does it without a window, as in `osteon run`; default: "
+                      "you do it, in the window");
   command->add_flag("--waiting", options->waiting,
-                    "instead: send what earlier launches could not send");
+                    "only send the results that earlier launches could not send");
   command->add_option("--certificates", options->certificates,
                       "PEM file of trusted certificate authorities; default: the system's");
   command->add_option("--timeout", options->timeout_s, "time limit of one request, s")

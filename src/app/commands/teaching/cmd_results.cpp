@@ -124,7 +124,7 @@ int show_curves(const ResultsCommand& command) {
         command.cusum.h,
         competent < 0 ? "not yet competent"
                       : ("competent since attempt " + std::to_string(competent + 1)).c_str(),
-        relapse < 0 ? "" : "; RELAPSE: has failed too often since");
+        relapse < 0 ? "" : "; RELAPSE: too many failures since then");
   }
   if (command.json) std::printf("%s\n", all.dump(2).c_str());
   if (!command.json && groups.empty()) std::printf("no attempts\n");
@@ -203,7 +203,8 @@ void say_compared(const nlohmann::ordered_json& json) {
   };
   head("a");
   head("b");
-  if (!json["same_scenario"]) std::printf("not the same exercise: figures do not compare\n");
+  if (!json["same_scenario"])
+    std::printf("the exercises differ, so the figures cannot be compared\n");
   for (const auto& stage : json["stages"])
     std::printf("stage   %-24s %10s %10s s\n", stage["name"].get<std::string>().c_str(),
                 stage["a_s"].dump().c_str(), stage["b_s"].dump().c_str());
@@ -242,7 +243,7 @@ void add_cusum(cli::App& command, LcCusumOptions& cusum) {
   command.add_option("--d", cusum.d, "increase of that share that is unacceptable")
       ->check(cli::Range(0.001, 0.49))
       ->capture_default_str();
-  command.add_option("--limit", cusum.h, "S at which a learner is competent")
+  command.add_option("--limit", cusum.h, "value of S at which a learner is competent")
       ->check(cli::Range(0.01, 1000.0))
       ->capture_default_str();
 }
@@ -259,7 +260,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
     command->callback([options, run, &exit_code] { exit_code = run(*options); });
     return command;
   };
-  cli::App* list = add("list", "List all attempts, the oldest first", list_results);
+  cli::App* list = add("list", "List all attempts, oldest first", list_results);
   add_filter(*list, *options);
   list->add_flag("--json", options->json, "print JSON");
   add("show", "Show one attempt with its report, JSON", show_result)
@@ -284,11 +285,13 @@ void add_results_commands(cli::App& app, int& exit_code) {
       ->check(cli::IsMember({"csv", "xapi", "pdf"}));
   write->add_option("--out", options->out, "file to write")->required();
   cli::App* cohort =
-      add("cohort", "A page of a class: who, how well, learning curves, errors", write_cohort);
+      add("cohort", "Write a page about a class: learners, results, learning curves, errors",
+          write_cohort);
   add_filter(*cohort, *options);
   add_cusum(*cohort, options->cusum);
   cohort->add_option("--out", options->out, "the page to write, .html or .pdf");
-  cohort->add_flag("--names", options->names, "with the names that this computer knows");
+  cohort->add_flag("--names", options->names,
+                   "print the learners' names that are stored on this computer");
   cohort->add_flag("--json", options->json, "print the figures as JSON");
   cli::App* compare = add("compare", "Compare two attempts", compare_results);
   compare->add_option("a", options->id, "id of the first, as `results list` prints it")->required();

@@ -103,9 +103,9 @@ void add_run_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--standard", options->standard,
                       "standard to judge against, TOML; default: the bundled one");
-  command->add_option(
-      "--findings", options->findings,
-      "JSON file of the findings that are stated, {\"geissler\": \"3\"}; default: the surgeon's");
+  command->add_option("--findings", options->findings,
+                      "JSON file with the findings to report, such as {\"geissler\": \"3\"}; "
+                      "default: the surgeon's own");
   command->add_option("--graft", options->graft,
                       "report of a run of acl_graft: its graft is placed in acl; default: one that "
                       "fits the tunnels");

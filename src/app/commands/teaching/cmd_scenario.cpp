@@ -189,10 +189,11 @@ void add_course_command(cli::App* group, int& exit_code) {
       ->add_option("--id", order->id,
                    "the course's own address, such as https://school.example/osteon")
       ->required();
-  course->add_option("--title", order->title, "what the system calls it; default: Osteon");
+  course->add_option("--title", order->title, "title of the course; default: Osteon");
   course->add_option("--seed", order->seed,
-                     "seed of a random patient, every unit's; default: the one described");
-  course->add_option("--out", order->out, "the file, cmi5.xml")->required();
+                     "seed of a random patient, the same for every unit; default: the patient that "
+                     "the exercise describes");
+  course->add_option("--out", order->out, "file to write, cmi5.xml")->required();
   course->callback([order, &exit_code] { exit_code = write_course(*order); });
 }
 

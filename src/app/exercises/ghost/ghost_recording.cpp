@@ -34,7 +34,7 @@ Result<RecordingHeader> header_for_ghost(const fs::path& recording, const GhostW
   if (!note) return tl::unexpected(note.error());
   const std::string record_again =
       "Record one with: osteon run " + wanted.scenario.name + " --surgeon expert --record FILE.osr";
-  if (!*note) return fail("the recording is of no exercise", recording.string(), record_again);
+  if (!*note) return fail("the recording contains no exercise", recording.string(), record_again);
   const auto scenario = parse_scenario(**note, recording.string() + " (its exercise)");
   if (!scenario) return tl::unexpected(scenario.error());
   if (scenario->name != wanted.scenario.name)
@@ -90,7 +90,7 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
                            const std::function<bool()>& go_on, fs::path program) {
   std::error_code ec;
   if (program.empty()) program = fs::read_symlink("/proc/self/exe", ec);
-  if (ec) return fail("this program does not find itself: " + ec.message());
+  if (ec) return fail("the program's own file was not found: " + ec.message());
   fs::create_directories(file.parent_path(), ec);
   if (ec) return fail("the folder could not be made: " + ec.message(), file.parent_path().string());
   // Two windows may record the same expert at a time; the name is only given to a whole recording.

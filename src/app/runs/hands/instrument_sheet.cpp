@@ -90,7 +90,7 @@ Result<Image> instrument_sheet(const std::vector<SheetItem>& items, int columns,
                                int height) {
   if (items.empty() || items.size() > kMaxBones)
     return fail("a sheet holds 1 to " + std::to_string(kMaxBones) + " instruments", "the sheet",
-                "Name those to draw");
+                "Name the instruments to draw");
   const auto data_dir = find_data_dir();
   if (!data_dir) return tl::unexpected(data_dir.error());
   const auto context = OffscreenContext::create();

@@ -178,7 +178,7 @@ std::string to_text(const AclReport& report) {
   if (!report.graft) return text;
   const GraftOutcome& graft = *report.graft;
   add_line(text, "graft: length changes by", 1e3 * graft.excursion_m, "mm over flexion");
-  add_line(text, "graft: room under the roof", 1e3 * graft.roof_gap_m,
+  add_line(text, "graft: space under the roof", 1e3 * graft.roof_gap_m,
            graft.roof_gap_m < 0 ? "mm, the roof impinges on it" : "mm");
   add_line(text, "graft: turns at the femoral mouth by", most_bent_deg(graft), "degrees at most");
   if (graft.passed) {
@@ -193,10 +193,10 @@ std::string to_text(const AclReport& report) {
     add_line(text, "graft: slack", 1e3 * graft.fixed->slack_m, "mm");
     if (!graft.fixed->held) text += "graft: not fixed, " + graft.fixed->why + "\n";
   }
-  add_line(text, "Lachman: more than when whole",
+  add_line(text, "Lachman: more than the intact knee",
            1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m), "mm");
-  add_line(text, "Lachman: tibia ahead of the whole knee's", 1e3 * graft.lachman_ahead_m, "mm");
-  add_line(text, "pivot: more than when whole",
+  add_line(text, "Lachman: tibia ahead of the intact knee's", 1e3 * graft.lachman_ahead_m, "mm");
+  add_line(text, "pivot: more than the intact knee",
            1e3 * (graft.pivot.anterior_m - graft.pivot_whole_m), "mm");
   return text;
 }

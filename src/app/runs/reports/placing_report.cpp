@@ -100,11 +100,11 @@ std::string to_text(const PlacingReport& report) {
   const PlacingScrew& screw = report.state.screw;
   if (!screw.done) return text;
   add("screw: width", 1e3 * screw.width_m, "mm");
-  add("screw: how deep", 1e3 * screw.in_m, "mm");
-  add("screw: apart from the tunnel", divergence_deg(report), "degrees");
-  add("screw: tension as it was let go", screw.tension_n, "N");
-  add("screw: flexion then", screw.flexion_deg, "degrees");
-  add("screw: cycles under tension before", screw.cycles, "");
+  add("screw: depth", 1e3 * screw.in_m, "mm");
+  add("screw: angle to the tunnel", divergence_deg(report), "degrees");
+  add("screw: tension when released", screw.tension_n, "N");
+  add("screw: flexion when released", screw.flexion_deg, "degrees");
+  add("screw: cycles under tension before it", screw.cycles, "");
   return text;
 }
 

@@ -140,7 +140,7 @@ Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
 
 Result<void> Loader::soften(Loaded& loaded) {
   if (order_.softs.empty() || !loaded.tray) return {};
-  say("Preparing what gives way", 0.7);
+  say("Preparing ligaments and menisci", 0.7);
   loaded.softs = prepare_softs(*loaded.the_case, loaded.tray->tray, order_.softs);
   if (order_.needs_softs && !loaded.softs.problem.empty()) return fail(loaded.softs.problem);
   return {};

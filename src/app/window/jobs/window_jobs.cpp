@@ -74,7 +74,7 @@ SideJob<SavedPatient>::Work save_patient(PatientOrder order, std::filesystem::pa
   return [order = std::move(order), out](const Progress& tell) -> Result<SavedPatient> {
     try {
       auto made = make_patient(order, out, [&](double share) {
-        if (!goes_on(tell, "Growing the bones", share)) throw StoppedWork{};
+        if (!goes_on(tell, "Generating the bones", share)) throw StoppedWork{};
       });
       if (!made) return tl::unexpected(made.error());
       return SavedPatient{out, std::move(*made)};

@@ -93,8 +93,8 @@ void draw_patient_choice(const PanelContext& c) {
   const auto& seed = c.model.exercise.seed;
   bool random = seed.has_value();
   if (ui::switch_row("Another patient", &random,
-                     "The number determines side, measures and findings. A new patient takes a "
-                     "minute to grow."))
+                     "The number determines side, measures and findings. Generating a new patient "
+                     "takes a minute."))
     c.requests.exercise.seed =
         random ? std::optional<std::uint64_t>(1) : std::optional<std::uint64_t>();
   if (!seed) return;

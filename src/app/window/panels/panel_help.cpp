@@ -60,12 +60,12 @@ constexpr std::array<KeyLine, 13> kRun = {{
     {"P", "play, pause a replay; pause an exercise"},
     {",  .", "slower, faster"},
     {"F2", "check this computer and its devices"},
-    {"J, I", "exercises, end of one; a hint"},
+    {"J, I", "exercises, or end one; a hint"},
     {"F11", "full screen"},
     {"F12, Shift + F12", "picture of the window, of the scene alone"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},
     {"Ctrl + Tab", "reach the panels by keyboard"},
-    {"Ctrl + Q", "end"},
+    {"Ctrl + Q", "quit"},
 }};
 
 template <std::size_t N>

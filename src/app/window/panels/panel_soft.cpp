@@ -52,7 +52,9 @@ void draw_all(const PanelContext& c, ViewState& view) {
 void draw_soft_section(const PanelContext& c) {
   if (c.model.soft_labels.empty() || !ui::section(c.fonts, "Soft parts", false)) return;
   ViewState view = c.model.view;
-  ui::text(color::kTextQuiet, "Visible, not felt yet");
+  ImGui::PushTextWrapPos(0);
+  ui::text(color::kTextQuiet, "Felt only if an exercise or --soft says so");
+  ImGui::PopTextWrapPos();
   ImGui::PushID("soft");  // the bones' rows have numbers too
   draw_all(c, view);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.px(8), c.px(1)});

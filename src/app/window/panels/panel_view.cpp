@@ -89,7 +89,7 @@ bool draw_switches(ViewState& view) {
       "Colours each bone by the distance of the felt surface above or below the visible one");
   changed |= ui::switch_row("Force arrow", &view.show_force,
                             "The force on the hand as an arrow at the probe's tip");
-  changed |= ui::switch_row("Hand's place", &view.show_hand_ghost,
+  changed |= ui::switch_row("Hand's position", &view.show_hand_ghost,
                             "Position of the hand, when bone keeps the probe from following it");
   bool shaded = view.ambient_occlusion > 0;
   if (ui::switch_row("Soft shadows", &shaded, "Darkens the gaps between bones")) {

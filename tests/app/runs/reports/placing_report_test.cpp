@@ -37,7 +37,7 @@ TEST(PlacingReports, SayWhatBecameOfThreadAndButton) {
   EXPECT_NEAR(fixed["screw"]["deep_mm"].get<double>(), 24, 1e-9);
   EXPECT_NEAR(fixed["screw"]["divergence_deg"].get<double>(), 0, 1e-4);
   EXPECT_EQ(fixed["screw"]["cycles"], 25);
-  EXPECT_NE(to_text(report).find("screw: how deep"), std::string::npos);
+  EXPECT_NE(to_text(report).find("screw: depth"), std::string::npos);
 }
 
 }  // namespace

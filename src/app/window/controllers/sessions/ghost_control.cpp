@@ -88,7 +88,7 @@ void GhostControl::take_prepared() {
   job_.reset();
   if (!prepared) {
     problem_ = prepared.error().message();
-    host_.note(ToastKind::kWarning, "No expert's ghost: " + problem_);
+    host_.note(ToastKind::kWarning, "The expert is not shown: " + problem_);
     return;
   }
   track_ = prepared->track;

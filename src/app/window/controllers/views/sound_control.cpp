@@ -35,7 +35,7 @@ void SoundControl::open_output() {
   }
   if (output_ && output_->lost()) {
     output_.reset();
-    problem_ = "The sound device was taken away.";
+    problem_ = "The sound device was disconnected.";
   }
 }
 
