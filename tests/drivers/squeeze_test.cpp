@@ -205,7 +205,8 @@ void expect_energy_bound(const SqueezeRun& run) {
   EXPECT_TRUE(run.motors_W(1).isZero(1e-9));
 }
 
-// In the last quarter second before they leave.
+// In the last quarter second before they leave: but for a step or two of a device's position.
+constexpr double kStep_n = 0.02;
 void expect_calm(
     SqueezeRun& run, const std::function<void()>& each = [] {}) {
   const double left_n = run.motors_W(0).x(), right_n = run.motors_W(1).x();
