@@ -9,8 +9,8 @@
 namespace osteon::testing_cli {
 namespace {
 
-bool is_missing(const char* program) {
-  return std::system(("command -v " + std::string(program) + " > /dev/null 2>&1").c_str()) != 0;
+bool no_program(const std::string& name) {
+  return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) != 0;
 }
 
 // G brings the hand before the next portal, M takes it, the wheel goes in (4) and out (5).
@@ -67,7 +67,7 @@ class WindowByMouse : public CliTest {
 
 TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
   for (const char* program : {"Xvfb", "xdotool"})
-    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+    if (no_program(program)) GTEST_SKIP() << program << " is not installed";
   ASSERT_EQ(play(kExercise), 0);
   std::ifstream list(file("list.json"));
   const std::string kept{std::istreambuf_iterator<char>(list), {}};
@@ -83,7 +83,7 @@ TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
 
 TEST_F(WindowByMouse, AScopeAndAProbeAreLedThroughPortalsAndTheLunateIsTouched) {
   for (const char* program : {"Xvfb", "xdotool"})
-    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+    if (no_program(program)) GTEST_SKIP() << program << " is not installed";
   ASSERT_EQ(play(kScript), 0);
   const Ran told = run_osteon("record info " + file("run.osr") + " --events");
   ASSERT_EQ(told.exit_code, 0) << told.output;
