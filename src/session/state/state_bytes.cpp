@@ -3,6 +3,8 @@
 namespace osteon {
 namespace stored {
 
+constexpr std::uint64_t kSights = 23;  // the version that says what a scope has seen
+
 template <class A>
 void field(A& a, WatchState& w) {
   field(a, w.touched);
@@ -16,6 +18,8 @@ void field(A& a, WatchState& w) {
   }
   field(a, w.over_since);
   field(a, w.over_bone);
+  if (since(a, kSights))
+    for (std::uint64_t& tick : w.seen) field(a, tick);
 }
 
 template <class A>
