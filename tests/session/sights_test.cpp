@@ -119,11 +119,11 @@ TEST(Sights, ARunWithoutThemIsAsItWasBeforeThereWereAny) {
   Session session(testing::two_box_case(), settings, probe_and_scope());
   EXPECT_TRUE(look(session, kOverLeft, 200).empty());
   EXPECT_EQ(session.save().hands[0].watch.seen, (std::array<std::uint64_t, kMaxBones>{}));
-  const std::string json = to_json(settings);
-  EXPECT_FALSE(parse_settings(json)->sights);
-  const std::size_t from = json.find("  \"sights\"");
+  const std::string text = to_json(settings);
+  EXPECT_FALSE(parse_settings(text)->sights);
+  const std::size_t from = text.find("  \"sights\"");
   ASSERT_NE(from, std::string::npos);
-  const std::string older = json.substr(0, from) + json.substr(json.find('\n', from) + 1);
+  const std::string older = text.substr(0, from) + text.substr(text.find('\n', from) + 1);
   EXPECT_FALSE(parse_settings(older)->sights);
   settings.sights = true;
   EXPECT_TRUE(parse_settings(to_json(settings))->sights);
@@ -155,28 +155,31 @@ TEST(ScopeGaze, TheNearestBoneIsThatOfASlowSearch) {
   Random random(4);
   bones.bones[0].X_WB = {Vec3(0.01, 0, 0), random.rotation()};
   bones.bones[1].X_WB = {Vec3(-0.015, 0.01, 0), random.rotation()};
-  int hits = 0;
-  for (int i = 0; i < 2000; ++i) {
+  int hits = 0, grazes = 0;
+  for (int i = 0; i < 1200; ++i) {
     ScopeView view;
     view.eye_W = 0.05 * random.direction();
     view.along_W = (0.02 * random.direction() - view.eye_W).normalized();
     std::uint32_t bone = kNoSubject;
     double at = 0;
-    for (; at < ScopeGaze::kFarthest_m && bone == kNoSubject; at += 2e-5)
+    for (; at < ScopeGaze::kFarthest_m && bone == kNoSubject; at += 5e-5)
       for (std::uint32_t b = 0; b < 2; ++b) {
         const Vec3 p_B = bones.bones[b].X_WB.inverse() * Vec3(view.eye_W + at * view.along_W);
         if ((p_B.cwiseAbs() - kBoxHalf).maxCoeff() < 0) bone = b;
       }
     const ScopeGaze::Seen seen = gaze.middle_of(view, bones);
     if (seen.bone == kNoSubject && bone == kNoSubject) continue;
-    if (seen.bone != bone) {  // it grazes an edge, between two steps
-      ASSERT_EQ(bone, kNoSubject) << i;
+    if (seen.bone != bone) {  // it grazes an edge before, between two steps
+      ASSERT_NE(seen.bone, kNoSubject) << i;
+      ASSERT_LT(seen.distance_m, at) << i;
+      ++grazes;
       continue;
     }
     ++hits;
-    ASSERT_NEAR(seen.distance_m, at, 5e-5) << i;
+    ASSERT_NEAR(seen.distance_m, at, 1.1e-4) << i;
   }
-  EXPECT_GT(hits, 1000);
+  EXPECT_GT(hits, 600);
+  EXPECT_LT(grazes, 10);
 }
 
 }  // namespace
