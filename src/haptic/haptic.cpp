@@ -74,6 +74,7 @@ struct HapticLoop::Impl {
   Vec3 pull_of_bands(const Pose& before_WP, const HapticParams& params);
   void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
   void pass_portals(const Pose& X_WD, bool start);
+  PortalHold still_in(std::uint32_t portal) const;
   Vec3 carried_base() const;
   double reach(const Vec3& base_W, const Vec3& hand_W, double turn_rad) const;
   double glide(const Vec3& hand_W) const;
@@ -136,8 +137,10 @@ GuidePull HapticLoop::Impl::led(const ToolInput& input, const Pose& X_WD,
 void HapticLoop::Impl::place(const Pose& X_WD) {
   constexpr double kNear = 0.001;
   constexpr double kFar = 0.020;
-  ProxyTask task{X_WD,  X_WD.p, X_WD.p,  X_WD.q,  kNear,  false,
-                 now(), now(),  &others, &others, nullptr};
+  Pose at = X_WD;
+  if (state.portal.portal != kNoPortal)
+    at.q = through_portal(portals[state.portal.portal], tool->shaft, at.p, at.q);
+  ProxyTask task{at, at.p, at.p, at.q, kNear, false, now(), now(), &others, &others, nullptr};
   ProxyMove move = solver.move(task, state.pairs);
   if (move.status & kTickProxyBlocked) {
     task.reach_m = kFar;
@@ -159,6 +162,15 @@ void HapticLoop::Impl::pass_portals(const Pose& X_WD, bool start) {
     follow_portals(portals, tool->shaft, state.tool.X_WP, X_WD, start, state.portal);
   if (state.portal.portal != kNoPortal || !(state.portal.grip > 0))
     state.tool.portal = state.portal.portal;
+}
+
+// A hand that begins anew where it is, with this instrument or another, is in the portal that it
+// was in: how its device turns the shaft says nothing of that. The skin closes about the shaft
+// again.
+PortalHold HapticLoop::Impl::still_in(std::uint32_t portal) const {
+  PortalHold hold;
+  if (portal < portals.size() && tool->shaft.radius > 0) hold.portal = portal;
+  return hold;
 }
 
 PortalPivot HapticLoop::Impl::pivot(const ToolInput& input, const Pose& X_WD,
@@ -474,7 +486,7 @@ void HapticLoop::begin_anew(const ToolState& last) noexcept {
   s.tool.tool_contact_count = 0;
   s.armed = s.sliding = s.grabbing = false;
   s.carrier = {};
-  s.portal = {};
+  s.portal = impl_->still_in(last.portal);
   s.rub = {};
   s.tool.portal = kNoPortal;
   s.p_WG.setZero();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "osteon/collide/segments.h"
+#include "osteon/collide/round_box.h"
 #include "osteon/scene/tool_rods.h"
 
 namespace osteon {
@@ -11,23 +11,26 @@ namespace {
 // Tools farther apart than both hands may bring them together in a tick, and this, do not meet, m.
 constexpr double kRoom_m = 0.002;
 
-Capsule placed(const Pose& X_WT, const Capsule& rod) {
-  return {X_WT * rod.p0, X_WT * rod.p1, rod.radius};
-}
-
-double highest(const Capsule& rod, const Vec3& n) {
-  return std::max(n.dot(rod.p0), n.dot(rod.p1)) + rod.radius;
-}
-
-double lowest(const Capsule& rod, const Vec3& n) {
-  return std::min(n.dot(rod.p0), n.dot(rod.p1)) - rod.radius;
+// Whether the balls about two parts are farther apart than that.
+bool are_apart(const RoundBox& a, const RoundBox& b, double far_m) {
+  const double reach = reach_of(a) + reach_of(b) + far_m;
+  return (middle_of(a) - middle_of(b)).squaredNorm() > reach * reach;
 }
 
 }  // namespace
 
+// What only its tip is felt of are balls.
+std::vector<RoundBox> ToolWalls::parts_of(const Tool& tool) {
+  std::vector<RoundBox> parts;
+  for (const Primitive& part : tool.parts) parts.push_back(round_box(part));
+  if (!parts.empty()) return parts;
+  for (const Capsule& rod : tool_rods(tool)) parts.push_back(round_box(rod));
+  return parts;
+}
+
 ToolWalls::ToolWalls(const Tool& own, std::span<const std::shared_ptr<const Tool>> tray)
-    : own_(tool_rods(own)) {
-  for (const auto& tool : tray) tray_.push_back(tool_rods(*tool));
+    : own_(parts_of(own)) {
+  for (const auto& tool : tray) tray_.push_back(parts_of(*tool));
 }
 
 void ToolWalls::start(const OtherTools& before, const OtherTools& now, const Pose& X_WT,
@@ -50,27 +53,28 @@ void ToolWalls::find(const OtherTools& line_from, const OtherTools& now, const P
   }
 }
 
-// Along n, the unit vector from the other's rod to this one: where the two hands want the rods'
+// Along n, the unit vector from the other's part to this one: where the two hands want the parts'
 // surfaces is `mine` and `theirs`, and the wall stands between the two.
 void ToolWalls::meet(std::uint32_t hand, const OtherTool& line_from, const OtherTool& now,
                      const Pose& X_WT, const Vec3& to_hand_W) {
   const Vec3 to_their_hand_W = now.p_WD - now.X_WP.p;
   const double nearby = to_hand_W.norm() + to_their_hand_W.norm() + kRoom_m;
   for (std::uint32_t r = 0; r < own_.size(); ++r) {
-    const Capsule mine_W = placed(X_WT, own_[r]);
-    for (const Capsule& rod : tray_[now.instrument]) {
-      const AxisPoints line = nearest_on_axes(mine_W, placed(line_from.X_WP, rod));
+    const RoundBox mine_W = placed(X_WT, own_[r]);
+    for (const RoundBox& part : tray_[now.instrument]) {
+      const RoundBox theirs_W = placed(now.X_WP, part);
+      if (are_apart(mine_W, theirs_W, nearby)) continue;
+      const AxisPoints line = nearest_on_cores(mine_W, placed(line_from.X_WP, part));
       const Vec3 apart = line.a - line.b;
       const double distance = apart.norm();
       if (!(distance > 0)) continue;
       const Vec3 n = apart / distance;
-      const Capsule theirs_W = placed(now.X_WP, rod);
       const double low = lowest(mine_W, n);
       const double high = highest(theirs_W, n);
       if (low - high > nearby) continue;
       const double mine = low + n.dot(to_hand_W);
       const double theirs = high + n.dot(to_their_hand_W);
-      keep({hand, r, low - high, 0.5 * (mine + theirs), n, line.a - mine_W.radius * n});
+      keep({hand, r, low - high, 0.5 * (mine + theirs), n, line.a - mine_W.rod.radius * n});
     }
   }
 }
@@ -89,7 +93,7 @@ void ToolWalls::raise(const Quat& q_WT, std::span<FreeHalfSpace> out) const {
   for (std::uint32_t i = 0; i < count_; ++i) {
     const Wall& wall = walls_[i];
     const Vec3 n_T = q_WT.conjugate() * wall.n_W;
-    out[i] = {wall.n_W, wall.level - lowest(own_[wall.rod], n_T)};
+    out[i] = {wall.n_W, wall.level - lowest(own_[wall.part], n_T)};
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nearest_point.h"
+#include "osteon/collide/round_box.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
 
@@ -15,10 +16,10 @@ namespace osteon {
 /// The tools of the other hands near this one, in one tick.
 ///
 /// Two proxies that were walls for each other could not share a push: each would stand still for
-/// its own hand alone. So the wall between two rods stands in the middle between where both hands
-/// want them, along the line that parts the proxies. Each hand's spring is then stretched by half
-/// of the overlap, and the two forces are equal and opposite but for the tick by which each knows
-/// the other late.
+/// its own hand alone. So the wall between two parts stands in the middle between where both hands
+/// want them, along the line that parts the proxies: of balls, rods and boxes alike. Each hand's
+/// spring is then stretched by half of the overlap, and the two forces are equal and opposite but
+/// for the tick by which each knows the other late.
 class ToolWalls {
  public:
   static constexpr std::size_t kMostPlanes = 6;
@@ -43,9 +44,9 @@ class ToolWalls {
  private:
   struct Wall {
     std::uint32_t hand = 0;
-    std::uint32_t rod = 0;  // of this tool
-    double gap = 0;         // between the proxies, m
-    double level = 0;       // of the wall along n_W, m
+    std::uint32_t part = 0;  // of this tool
+    double gap = 0;          // between the proxies, m
+    double level = 0;        // of the wall along n_W, m
     Vec3 n_W = Vec3::UnitZ();
     Vec3 p_W = Vec3::Zero();
   };
@@ -55,8 +56,10 @@ class ToolWalls {
             const Vec3& to_hand_W);
   void keep(const Wall& wall);
 
-  std::vector<Capsule> own_;
-  std::vector<std::vector<Capsule>> tray_;
+  static std::vector<RoundBox> parts_of(const Tool& tool);
+
+  std::vector<RoundBox> own_;
+  std::vector<std::vector<RoundBox>> tray_;
   std::array<Wall, kMostPlanes> walls_{};
   std::uint32_t count_ = 0;
 };

@@ -23,6 +23,11 @@ void add_to(Hasher& hasher, const WatchState& watch) {
   }
   hasher.add(watch.over_since);
   hasher.add(watch.over_bone);
+  for (std::size_t i = 0; i < watch.seen.size(); ++i) {
+    if (watch.seen[i] == 0) continue;
+    hasher.add(i);
+    hasher.add(watch.seen[i]);
+  }
 }
 
 void add_to(Hasher& hasher, std::span<const HandMark> marks) {
@@ -43,7 +48,9 @@ HandHalf::HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
     : hand_(hand),
       portal_count_(static_cast<std::uint32_t>(portals.size())),
       params_(settings.haptic),
-      events_of_(static_cast<std::uint8_t>(hand), settings.haptic.tick_s, settings.force_limit_n) {
+      events_of_(static_cast<std::uint8_t>(hand), settings.haptic.tick_s, settings.force_limit_n),
+      gaze_(*the_case),
+      sights_(settings.sights) {
   for (const auto& tool : tray) {
     loops_.emplace_back(the_case, tool, tray);
     loops_.back().set_portals(portals);
@@ -81,6 +88,7 @@ const ToolState& HandHalf::tick(const ToolInput& input, const BoneSnapshot& bone
   const ToolState& tool = loop().tick(input, bones, age_s, params_, around);
   events_of_.see(tool, watch_, events_);
   tell_portals(before_.portal, tool.portal);
+  if (sights_) tell_sights(bones);
   keep_record(input, bones, around, command);
   return tool;
 }
@@ -109,6 +117,29 @@ void HandHalf::tell_portals(std::uint32_t before, std::uint32_t now) {
   if (now != kNoPortal)
     tell(EventKind::kPortalEntered, SubjectKind::kPortal, now,
          loop().state().portal.tip_depth_m * 1e3);
+}
+
+// Twenty times a second. A bone that was in the middle a moment ago is not seen anew.
+void HandHalf::tell_sights(const BoneSnapshot& bones) {
+  constexpr std::uint64_t kEvery = 50, kAnew = 2000;  // ticks
+  if ((record_.tick + kEvery / kMaxHands * hand_) % kEvery != 0) return;
+  const std::optional<ToolOptics>& optics = tool().optics;
+  const ToolState& state = tool_state();
+  if (!optics || !is_finite(state.X_WP)) return;
+  const ScopeView view = view_through({optics->angle_rad, optics->half_field_rad}, state.X_WP);
+  const ScopeGaze::Seen seen = gaze_.middle_of(view, bones);
+  if (seen.bone >= kMaxBones) return;
+  std::uint64_t& last = watch_.seen[seen.bone];
+  const bool anew = last == 0 || record_.tick - last > kAnew;
+  last = record_.tick;
+  if (!anew) return;
+  events_.add({record_.tick,
+               EventKind::kStructureSeen,
+               static_cast<std::uint8_t>(hand_),
+               SubjectKind::kBone,
+               seen.bone,
+               seen.p_W,
+               {seen.distance_m * 1e3, 0, 0}});
 }
 
 void HandHalf::tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value) {

@@ -12,6 +12,7 @@
 #include "felt_cuts.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
+#include "scope_gaze.h"
 
 namespace osteon {
 
@@ -53,6 +54,7 @@ class alignas(64) HandHalf {
   void take(std::uint32_t instrument, double power, double jaw, bool even_the_same);
   void go_back(std::uint32_t mark);
   void tell_portals(std::uint32_t before, std::uint32_t now);
+  void tell_sights(const BoneSnapshot& bones);
   void tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value = 0);
   void keep_record(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                    const Command& command);
@@ -67,6 +69,8 @@ class alignas(64) HandHalf {
   HapticParams params_;
   BonesAge age_;
   EventWatch events_of_;
+  ScopeGaze gaze_;
+  bool sights_;
   WatchState watch_;
   std::array<HandMark, kMaxMarks> marks_{};
   ToolState before_;

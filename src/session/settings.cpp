@@ -227,12 +227,13 @@ Result<void> take_soft(Json& json, SessionSettings& settings) {
 }
 
 // Recordings of older versions do not say it.
-Result<void> take_water(Json& json, SessionSettings& settings) {
-  const auto found = json.find("water");
-  settings.water = found != json.end();
-  if (!settings.water) return {};
-  if (!found->is_boolean()) return fail("true or false is missing", "settings, 'water'", kTodo);
-  settings.water = found->get<bool>();
+Result<void> take_new(Json& json, const char* name, bool& value) {
+  const auto found = json.find(name);
+  value = found != json.end();
+  if (!value) return {};
+  if (!found->is_boolean())
+    return fail("true or false is missing", "settings, '" + std::string(name) + "'", kTodo);
+  value = found->get<bool>();
   json.erase(found);
   return {};
 }
@@ -286,6 +287,7 @@ std::string to_json(const SessionSettings& settings) {
   json["tray"] = settings.tray;
   json["portals"] = settings.portals;
   json["water"] = settings.water;
+  json["sights"] = settings.sights;
   if (settings.carve.on) json["carve"] = carve_json(settings.carve);
   if (!settings.soft.empty()) {
     json["soft"] = settings.soft;
@@ -300,7 +302,10 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   SessionSettings settings;
   if (const auto done = take_carve(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = take_soft(*parsed, settings); !done) return tl::unexpected(done.error());
-  if (const auto done = take_water(*parsed, settings); !done) return tl::unexpected(done.error());
+  for (const auto& [name, value] :
+       {std::pair{"water", &settings.water}, std::pair{"sights", &settings.sights}})
+    if (const auto done = take_new(*parsed, name, *value); !done)
+      return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());
   const Json* seed = find(*parsed, "", "seed");
   if (!seed || !seed->is_number_unsigned())

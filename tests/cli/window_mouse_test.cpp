@@ -3,30 +3,36 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "run_osteon.h"
 
 namespace osteon::testing_cli {
 namespace {
 
-bool is_missing(const char* program) {
-  return std::system(("command -v " + std::string(program) + " > /dev/null 2>&1").c_str()) != 0;
+bool no_program(const std::string& name) {
+  return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) != 0;
 }
 
-// G brings the hand before the next portal, M takes it, the wheel goes in (4) and out (5).
+// G brings the hand before the next portal (3-4, 4-5, 6R, MCR, MCU), M takes it, the wheel goes in
+// (4) and out (5). The probe is put into 4-5, withdrawn, and put into MCU, where it meets the
+// lunate.
 constexpr const char* kScript = R"sh(
-"$OSTEON" window --case 'builtin:wrist#hull' --size 800x600 \
-  --device mouse:left=wrist_arthroscope_2_7 --device mouse:right=wrist_hook_probe \
+"$OSTEON" window --case builtin:wrist --size 800x600 \
+  --device mouse:left=wrist_arthroscope_1_9 --device mouse:right=wrist_hook_probe \
   --record run.osr > out.txt 2>&1 &
 window=$!
 for i in $(seq 600); do [ -f run.osr ] && break; sleep 0.2; done
 sleep 1
 k() { for key in "$@"; do xdotool key "$key"; sleep 0.3; done; sleep 0.4; }
 wheel() { for i in $(seq "$2"); do xdotool click "$1"; sleep 0.03; done; sleep 0.5; }
+move() { for i in $(seq "$3"); do xdotool mousemove_relative -- "$1" "$2"; sleep 0.03; done; sleep 0.5; }
 xdotool mousemove 400 300
-k g g m; wheel 4 12; k m
-k x g g g m; wheel 4 20; wheel 5 20; k m
-k g m; wheel 4 20; k m
+k g m; move 0 -1 8; wheel 4 12; k m
+k x g g m; wheel 4 16; wheel 5 20; k m
+k g g g m; move 0 1 6; wheel 4 16; k m
 k k Next; k u
 xdotool key ctrl+q
 wait $window
@@ -67,7 +73,7 @@ class WindowByMouse : public CliTest {
 
 TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
   for (const char* program : {"Xvfb", "xdotool"})
-    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+    if (no_program(program)) GTEST_SKIP() << program << " is not installed";
   ASSERT_EQ(play(kExercise), 0);
   std::ifstream list(file("list.json"));
   const std::string kept{std::istreambuf_iterator<char>(list), {}};
@@ -81,21 +87,41 @@ TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
   EXPECT_NE(debrief.output.find("not_passed"), std::string::npos) << debrief.output;
 }
 
+// What happened, in order.
+std::vector<nlohmann::json> events_of(const std::string& recording) {
+  const Ran told = run_osteon("record info " + recording + " --events --json");
+  EXPECT_EQ(told.exit_code, 0) << told.output;
+  std::vector<nlohmann::json> events;
+  std::istringstream lines(told.output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with('{')) events.push_back(nlohmann::json::parse(line));
+  return events;
+}
+
 TEST_F(WindowByMouse, AScopeAndAProbeAreLedThroughPortalsAndTheLunateIsTouched) {
   for (const char* program : {"Xvfb", "xdotool"})
-    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+    if (no_program(program)) GTEST_SKIP() << program << " is not installed";
   ASSERT_EQ(play(kScript), 0);
-  const Ran told = run_osteon("record info " + file("run.osr") + " --events");
-  ASSERT_EQ(told.exit_code, 0) << told.output;
-  const auto tells = [&](const std::string& what) {
-    return told.output.find(what) != std::string::npos;
-  };
-  EXPECT_TRUE(tells("left  portal_entered")) << told.output;
-  EXPECT_TRUE(tells("right  portal_entered"));
-  EXPECT_TRUE(tells("right  contact_begin  bone lunate"));
-  EXPECT_TRUE(tells("right  instrument_taken"));
-  EXPECT_TRUE(tells("mark  restore point 1"));
-  EXPECT_TRUE(tells("restored  restore point 1"));
+  std::string all, scope_in, probe_in;
+  double lunate_n = 0;
+  int taken = 0, marks = 0, restored = 0;
+  for (const nlohmann::json& event : events_of(file("run.osr"))) {
+    all += event.dump() + "\n";
+    const bool right = event["hand"] == "right";
+    const std::string kind = event["kind"], subject = event.value("subject", "");
+    if (kind == "portal_entered") (right ? probe_in : scope_in) += subject + " ";
+    if (kind == "contact_end" && right && subject == "lunate")
+      lunate_n = std::max(lunate_n, event["peak_force_n"].get<double>());
+    taken += kind == "instrument_taken" && right ? 1 : 0;
+    marks += kind == "mark" && subject == "1" ? 1 : 0;
+    restored += kind == "restored" && subject == "1" ? 1 : 0;
+  }
+  EXPECT_EQ(scope_in, "portal_3_4 ") << "and stays there over undo\n" << all;
+  EXPECT_TRUE(probe_in.starts_with("portal_4_5 portal_mcu ")) << all;
+  EXPECT_GT(lunate_n, 1) << all;
+  EXPECT_EQ(taken, 2) << "another one, and by undo the first again\n" << all;
+  EXPECT_EQ(marks, 1) << all;
+  EXPECT_EQ(restored, 1) << all;
 }
 
 }  // namespace

@@ -170,6 +170,7 @@ std::vector<Fault> faults_of(LedArm& arm) {
        [&] { left.calibration = hd::kCalibrationOk; }},
       {"its own fault", {ForceOff::kDeviceFault}, 1, [&] { left.raise = hd::kDeviceFault; }},
       {"let go", {ForceOff::kDeadMan}, 1, [&] { left.switch_held = false; }},
+      {"closed", {ForceOff::kDisconnect}, 0, [&] { arm.device->close(); }},
   };
 }
 
@@ -280,6 +281,7 @@ std::vector<Fault> faults_of(LedJoystick& joystick) {
        100,
        [&] { joystick.torn = true; },
        [&] { joystick.torn = false; }},
+      {"closed", {ForceOff::kDisconnect}, 0, [&] { rig.device->close(); }},
   };
 }
 
@@ -303,16 +305,27 @@ std::vector<Fault> told_by(JoystickRig& rig) {
              {ForceOff::kDeviceFault},
              5,
              bit(VectorState::kFault, true),
-             bit(VectorState::kFault, false)}};
+             bit(VectorState::kFault, false)},
+            {"let go",
+             {ForceOff::kDeadMan},
+             5,
+             bit(VectorState::kDeadManOpen, true),
+             bit(VectorState::kDeadManOpen, false)}};
   return {{"its supply fails",
            {ForceOff::kDeviceFault},
            5,
            [&] { rig.pid->set_switches(true, false); },
+           [&] { rig.pid->set_switches(true, true); }},
+          {"let go",
+           {ForceOff::kDeadMan},
+           5,
+           [&] { rig.pid->set_switches(false, true); },
            [&] { rig.pid->set_switches(true, true); }}};
 }
 
 TEST(FaultOfOneHand, AJoysticksLeavesTheOtherHandsForceAsItWas) {
-  for (const testing::JoystickKind& kind : {testing::kVectorKind, testing::kPidKind})
+  for (const testing::JoystickKind& kind :
+       {testing::kVectorKind, testing::kPidKind, testing::kPidByControlKind})
     expect_other_untouched<LedJoystick>([&] { return std::make_unique<LedJoystick>(kind); },
                                         [](LedJoystick& joystick) {
                                           std::vector<Fault> all = faults_of(joystick);
@@ -392,7 +405,13 @@ std::vector<Fault> faults_of(LedFalcon& held) {
        [&] { held.torn = false; }},
       {"lost homing", {ForceOff::kCalibration}, 3, [&] { rig.falcon->lose_homing(); }},
       {"power lost", {ForceOff::kDisconnect}, 15, [&] { rig.falcon->switch_off_and_on(); }},
+      {"closed", {ForceOff::kDisconnect}, 0, [&] { held.device->close(); }},
   };
+}
+
+TEST(FaultOfOneHand, AFalconsLeavesTheOtherHandsForceAsItWas) {
+  expect_other_untouched<LedFalcon>([] { return std::make_unique<LedFalcon>(); },
+                                    [](LedFalcon& falcon) { return faults_of(falcon); });
 }
 
 TEST_F(FaultRecording, OfAFalcon) {

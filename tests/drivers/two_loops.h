@@ -10,9 +10,10 @@ namespace osteon::testing {
 /// Two devices in one world, each with its own loop, mapping and gate, in one thread and without a
 /// clock.
 struct TwoLoops {
+  /// `tray`: what the left and the right hand hold; empty: two probes.
   TwoLoops(std::shared_ptr<const Case> the_case, SessionSettings settings, HapticDevice& left,
-           HapticDevice& right)
-      : session(std::move(the_case), of_two(std::move(settings))),
+           HapticDevice& right, Tray tray = {})
+      : session(std::move(the_case), of_two(std::move(settings), tray.size()), tray),
         left_exchange(session.bones()),
         right_exchange(session.bones()),
         left_hand(session, left, options(0, right_exchange), left_exchange, nullptr),
@@ -36,8 +37,9 @@ struct TwoLoops {
   PhysicsStage physics;
 
  private:
-  static SessionSettings of_two(SessionSettings settings) {
-    settings.hands = {{"left", 0}, {"right", 0}};
+  static SessionSettings of_two(SessionSettings settings, std::size_t tools) {
+    settings.hands = {{"left", 0}, {"right", tools > 1 ? 1u : 0u}};
+    if (tools > 1) settings.tray = {"left's", "right's"};
     return settings;
   }
   static HapticStageOptions options(std::size_t hand, LoopExchange& other) {

@@ -101,7 +101,7 @@ Words words_of(SessionState state, std::size_t count, const Change& change) {
 }
 
 // Version 8 knew no holes that drills had left, no friction on soft parts, no water, no graft that
-// is placed or ordered, no joint that is bent and no chatter.
+// is placed or ordered, no joint that is bent, no chatter and nothing that a scope had seen.
 TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   const Drilling with;
   Session session = with.session();
@@ -115,6 +115,7 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
                [](SessionState& s, CarvingState&) { s.world.bones.water.on = true; }),
       words_of(saved, 1,
                [](SessionState& s, CarvingState&) { s.world.bones.guides[0].pulls = true; }),
+      words_of(saved, 1, [](SessionState& s, CarvingState&) { s.hands[0].watch.seen[0] = 1; }),
       words_of(saved, kRubWords,
                [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
       words_of(saved, kHoleWords * saved.world.carved->holes.size(),

@@ -179,6 +179,63 @@ TEST(SessionPortals, AReplayFromAnyStateHasTheSameBits) {
   }
 }
 
+// Two portals 10 mm apart.
+std::shared_ptr<const Case> box_under_near_portals() {
+  CaseDef def;
+  def.name = "box under near portals";
+  BoneDef bone;
+  bone.name = "block";
+  bone.mesh = testing::box_mesh(kBoxHalf);
+  def.bones.push_back(bone);
+  def.landmarks.push_back({"portal_a", {0.005, 0, kSkin_m}});
+  def.landmarks.push_back({"portal_b", {-0.005, 0, kSkin_m}});
+  auto built = build_case(std::move(def));
+  return std::make_shared<const Case>(std::move(*built));
+}
+
+// Down through portal a; then the tip goes to between both, and the device turns so that the shaft,
+// if it went as the device is turned, would pass portal b.
+ToolInput turned_towards_b(std::uint64_t n) {
+  const double t = static_cast<double>(n) * 0.001;
+  const double down = std::clamp(t / 0.4, 0.0, 1.0), over = std::clamp((t - 0.4) / 0.4, 0.0, 1.0);
+  ToolInput input;
+  input.X_WD.p = {(1 - over) * 0.005, 0, 0.04 - 0.024 * down};
+  const Vec3 to_b = Vec3(-0.005, 0, kSkin_m) - input.X_WD.p;
+  input.X_WD.q = Quat::Identity().slerp(over, Quat::FromTwoVectors(Vec3::UnitZ(), to_b));
+  return input;
+}
+
+// Undo, another instrument, the same again: the shaft is where it was, in portal a, and turned so
+// that it passes there, however the device is turned.
+TEST(SessionPortals, AShaftStaysInItsPortalOverUndoAndExchange) {
+  const Tray tray = {std::make_shared<const Tool>(shaft(0.001)),
+                     std::make_shared<const Tool>(shaft(0.0015))};
+  SessionSettings settings = testing::moving_bones();
+  settings.tray = {"thin", "thick"};
+  Session session(box_under_near_portals(), settings, tray);
+  std::vector<Event> events;
+  double worst_m = 0;
+  for (std::uint64_t n = 1; n <= 1600; ++n) {
+    Command command;
+    if (n == 850) command = {CommandKind::kMark, 0};
+    if (n == 900) command = {CommandKind::kRestore, 0};
+    if (n == 1100) command = {CommandKind::kTake, 1};
+    if (n == 1300) command = {CommandKind::kTake, 0};
+    const ToolState& tool = session.tick(turned_towards_b(n), command);
+    for (const Event& event : session.last_events())
+      if (event.subject_kind == SubjectKind::kPortal) events.push_back(event);
+    if (n < 850) continue;
+    ASSERT_EQ(tool.portal, 0u) << n;
+    const Vec3 along_W = tool.X_WP.rotate(Vec3::UnitZ());
+    const Vec3 to_W = session.portals()[0].p_W - tool.X_WP.p;
+    const double off_m = (to_W - to_W.dot(along_W) * along_W).norm();
+    worst_m = std::max(worst_m, off_m);
+  }
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::kPortalEntered);
+  EXPECT_LT(worst_m, 0.001);
+}
+
 TEST(SessionPortals, AReplayNeedsTheSameInstrumentsAndPortals) {
   const auto the_case = box_under_portal();
   Recording recording = record(the_case, 100);

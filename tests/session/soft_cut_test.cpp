@@ -17,7 +17,7 @@ namespace {
 using testing::kMeniscus_n_per_m;
 using testing::kMeniscusHalf;
 
-enum : std::uint32_t { kBall, kRound, kPunch, kBlade };
+enum : std::uint32_t { kBall, kRound, kBasket, kBlade };
 
 struct CutRun : testing::MeniscusRun {
   CutRun() {
@@ -91,7 +91,7 @@ struct Hand {
 double removed_mm3(const Session& session) { return 1e9 * session.softs()->removed_m3(0); }
 
 void bite(Hand& hand) {
-  hand.take(kPunch, kFromEnd, {0.022, 0, -0.0033});
+  hand.take(kBasket, kFromEnd, {0.022, 0, -0.0033});
   hand.tick({CommandKind::kJaw, 1});
   hand.move({0.007, 0, -0.0033}, 200);
   hand.tick({CommandKind::kJaw, 0});
@@ -134,7 +134,7 @@ TEST(SoftCut, AJawThatStaysShutOrOpenTakesNothing) {
   Hand hand(session);
   for (const double jaw : {1.0, 0.0}) {
     const double z = jaw > 0 ? -0.0033 : -0.006;
-    hand.take(kPunch, kFromEnd, {0.022, 0, z});
+    hand.take(kBasket, kFromEnd, {0.022, 0, z});
     hand.tick({CommandKind::kJaw, jaw});
     hand.move({0.010, 0, z}, 100);
     hand.move({0.022, 0, z}, 100);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct ToolUse {
   bool removes = false;  ///< bone or tissue, under power
   bool burns = false;    ///< seals with heat, under power
   bool sucks = false;    ///< under power
+};
+
+/// How a scope looks: the middle of its view leans from the shaft towards +y of Tool.
+struct ToolOptics {
+  double angle_rad = 0;
+  double half_field_rad = 0.9;
 };
 
 /// Jaws are drawn in so many steps of their way.
@@ -46,6 +53,7 @@ struct Tool {
   std::vector<TriMesh> opened;
   double tip_radius_m = 0.00075;
   ToolUse use;
+  std::optional<ToolOptics> optics;  ///< of a scope
 };
 
 /// Arthroscopic hook probe of the wrist: a ball-shaped tip (32 corners) on a shaft. Only the tip is

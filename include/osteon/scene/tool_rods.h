@@ -7,7 +7,7 @@
 
 namespace osteon {
 
-/// The whole tool as rods and balls, in Tool: what meets other tools and soft bands. A box counts
+/// The whole tool as rods and balls, in Tool: what meets soft parts. A box counts
 /// as the rod along its longest side, as thick as the mean of the others.
 std::vector<Capsule> tool_rods(const Tool& tool);
 

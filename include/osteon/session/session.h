@@ -54,6 +54,9 @@ struct SessionSettings {
   /// The joint's water counts for the state's hash. Not in recordings that were made before it was
   /// part of the state: it flows in their replays all the same.
   bool water = true;
+  /// What lies in the middle of a scope's picture is an event. Not in recordings that were made
+  /// before there were such.
+  bool sights = true;
   std::uint64_t soft_hash = 0;  ///< SoftSetup::hash of what was made of them; 0: not made yet
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.

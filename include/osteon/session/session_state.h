@@ -42,6 +42,8 @@ struct WatchState {
   std::array<Touch, kMaxBones> touches{};
   std::uint64_t over_since = 0;  ///< tick; 0: the force is within its limit
   std::uint32_t over_bone = kNoSubject;
+  std::array<std::uint64_t, kMaxBones>
+      seen{};  ///< tick, of each bone: in the middle of its scope's picture; 0: never
 };
 
 /// All that one hand's ticks leave to the next.

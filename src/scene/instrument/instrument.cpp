@@ -30,23 +30,32 @@ const FunctionRow& row_of(InstrumentFunction function) {
   return kFunctions[static_cast<std::size_t>(function)];
 }
 
+// A session finds by name what makes, places and fixes the graft of a knee.
+bool works_on_grafts(std::string_view name) {
+  constexpr std::array<std::string_view, 4> kNames{"endobutton", "graft_sizer",
+                                                   "interference_screw", "passing_pin"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
 }  // namespace
 
 std::string_view to_text(InstrumentFunction function) { return row_of(function).name; }
 
 bool has_effect(const Instrument& instrument, InstrumentFunction function) {
+  using enum InstrumentFunction;
   if (!instrument.can(function)) return false;
-  if (function == InstrumentFunction::kRemove) return instrument.removal.has_value();
-  if (function == InstrumentFunction::kLook) return instrument.optics.has_value();
+  // Of the water in a joint, and of wounds that bleed into it.
+  if (function == kSuck || function == kBurn) return instrument.power.has_value();
+  if (works_on_grafts(instrument.name)) return true;
+  if (function == kRemove) return instrument.removal.has_value();
+  if (function == kLook) return instrument.optics.has_value();
   // An edge cuts ligaments and menisci that are felt, a jaw bites menisci; what else removes does
   // not cut yet.
-  if (function == InstrumentFunction::kCut)
-    return instrument.jaws.has_value() || !instrument.can(InstrumentFunction::kRemove);
-  if (function == InstrumentFunction::kGuide)
+  if (function == kCut) return instrument.jaws.has_value() || !instrument.can(kRemove);
+  if (function == kGuide)
     return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
-  if (function == InstrumentFunction::kGrasp)
-    return instrument.jaws && instrument.jaws->holds_n > 0;
-  return function == InstrumentFunction::kProbe;
+  if (function == kGrasp) return instrument.jaws && instrument.jaws->holds_n > 0;
+  return function == kProbe;
 }
 
 std::string_view to_text(RemovalWay way) { return kWays[static_cast<std::size_t>(way)]; }

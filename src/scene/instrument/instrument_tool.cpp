@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "instrument/instrument_look.h"
@@ -84,6 +85,11 @@ ToolUse use_of(const Instrument& instrument) {
   return use;
 }
 
+ToolOptics optics_of(const OpticsDef& optics) {
+  constexpr double kRadOfDegrees = std::numbers::pi / 180;
+  return {optics.angle_deg * kRadOfDegrees, 0.5 * optics.field_deg * kRadOfDegrees};
+}
+
 }  // namespace
 
 Result<void> check_instrument(const Instrument& instrument) {
@@ -114,6 +120,7 @@ Tool make_tool(const Instrument& instrument, std::size_t size, double opening) {
   Tool tool;
   tool.name = instrument.name;
   tool.use = use_of(instrument);
+  if (instrument.optics) tool.optics = optics_of(*instrument.optics);
   tool.shaft = shaft_of(instrument, size_m);
   for (const FeltPart& part : instrument.felt)
     tool.parts.push_back(

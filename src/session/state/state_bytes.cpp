@@ -3,6 +3,20 @@
 namespace osteon {
 namespace stored {
 
+constexpr std::uint64_t kSights = 23;  // the version that says what a scope has seen
+
+// Which bones, bit by bit, and the ticks of those.
+template <class A>
+void seen_field(A& a, std::array<std::uint64_t, kMaxBones>& seen) {
+  static_assert(kMaxBones <= 64);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i] != 0) bits |= std::uint64_t{1} << i;
+  field(a, bits);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if ((bits >> i & 1u) != 0) field(a, seen[i]);
+}
+
 template <class A>
 void field(A& a, WatchState& w) {
   field(a, w.touched);
@@ -16,6 +30,7 @@ void field(A& a, WatchState& w) {
   }
   field(a, w.over_since);
   field(a, w.over_bone);
+  if (since(a, kSights)) seen_field(a, w.seen);
 }
 
 template <class A>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -40,9 +41,10 @@ std::vector<HandPlan> two_devices(const FakeDevice::Script& left, const FakeDevi
   return hands;
 }
 
-std::unique_ptr<RecordFeed> feed_of_two(const std::filesystem::path& file, const RunPlan& plan) {
+std::unique_ptr<RecordFeed> feed_of_two(const std::filesystem::path& file, const RunPlan& plan,
+                                        const Tray& tray = {}) {
   auto writer = RecordingWriter::create(
-      file, recording_header(*plan.the_case, plan.settings, "test", "test"));
+      file, recording_header(*plan.the_case, plan.settings, "test", "test", tray));
   EXPECT_TRUE(writer);
   return std::make_unique<RecordFeed>(std::move(*writer), 8.0, 2);
 }
@@ -238,16 +240,24 @@ TEST(RuntimeTwoHands, OneRecordingHoldsBothTheirFaultsAndTheirRestorePoints) {
 }
 
 // For the thread sanitizer: both hands, physics, writer and the window at once, with restore
-// points.
+// points and exchanges of instruments.
 TEST(RuntimeTwoHands, OnThreadsExchangeCleanlyAndReplayFromAnyState) {
   constexpr int kMany = 800;
   const TemporaryFile file("threads.osr");
   DeviceLog left, right;
   RunPlan plan = plan_of_two();
   plan.settings.physics.hold_bones = false;
+  plan.settings.tray = {"thin", "thick"};
+  const Tray tray = {std::make_shared<const Tool>(make_wrist_probe(0.00075)),
+                     std::make_shared<const Tool>(make_wrist_probe(0.0015))};
+  const auto faulty = [](std::uint64_t tick) {
+    DeviceSample sample = test::press_and_slide(tick);
+    sample.connected = tick < 400 || tick >= 420;
+    return sample;
+  };
   {
-    Runtime runtime(plan, two_devices(test::press_and_slide, test::press_and_slide, left, right),
-                    feed_of_two(file.path(), plan));
+    Runtime runtime(plan, two_devices(test::press_and_slide, faulty, left, right),
+                    feed_of_two(file.path(), plan, tray), tray);
     std::vector<std::thread> threads;
     for (std::size_t h = 0; h < 2; ++h)
       threads.emplace_back([&runtime, h] {
@@ -262,6 +272,9 @@ TEST(RuntimeTwoHands, OnThreadsExchangeCleanlyAndReplayFromAnyState) {
     for (int i = 0; i < 40; ++i) {
       const double mark = i % 4;
       runtime.send({i % 3 == 2 ? CommandKind::kRestore : CommandKind::kMark, mark});
+      runtime.send({CommandKind::kTake, static_cast<double>(i / 2 % 2)}, i % 2);
+      runtime.send({CommandKind::kPower, 0.25 * (i % 5)}, (i + 1) % 2);
+      if (i % 8 == 7) runtime.set_force_enabled(true, 1);
       runtime.snapshot(0);
       runtime.snapshot(1);
       std::this_thread::yield();
@@ -275,10 +288,19 @@ TEST(RuntimeTwoHands, OnThreadsExchangeCleanlyAndReplayFromAnyState) {
   ASSERT_TRUE(states);
   std::uint64_t hash = 0;
   ReplayOptions options;
+  options.tray = tray;
+  std::map<EventKind, int> seen;
+  options.on_tick = [&](std::size_t, const ToolState&, const BoneSnapshot&,
+                        std::span<const Event> events) {
+    for (const Event& event : events) ++seen[event.kind];
+  };
   const auto whole = replay(*reader, plan.the_case, options);
   ASSERT_TRUE(whole) << whole.error().message();
   EXPECT_TRUE(whole->identical) << whole->first_different_hand << " "
                                 << whole->first_different_tick;
+  for (const EventKind kind : {EventKind::kMark, EventKind::kRestored, EventKind::kInstrumentTaken,
+                               EventKind::kPowered, EventKind::kFault})
+    EXPECT_GT(seen[kind], 0) << find_event_kind(kind)->name;
   hash = whole->state_hash;
   for (const StoredState& state : *states) {
     options.from_s = static_cast<double>(state.ticks[0]) * 0.001;

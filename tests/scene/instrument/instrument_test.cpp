@@ -124,6 +124,20 @@ TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
   EXPECT_FALSE(has_effect(punch, InstrumentFunction::kRemove));
   drill.functions = {InstrumentFunction::kProbe};
   EXPECT_FALSE(has_effect(drill, InstrumentFunction::kRemove));
+  // Water is sucked and a wound is burnt by what has power.
+  Instrument ablator;
+  ablator.functions = {InstrumentFunction::kBurn, InstrumentFunction::kSuck};
+  EXPECT_FALSE(has_effect(ablator, InstrumentFunction::kSuck));
+  ablator.power.emplace();
+  EXPECT_TRUE(has_effect(ablator, InstrumentFunction::kSuck));
+  EXPECT_TRUE(has_effect(ablator, InstrumentFunction::kBurn));
+  // What fixes a graft drives and is placed; another screw does not yet.
+  Instrument screw;
+  screw.functions = {InstrumentFunction::kDrive, InstrumentFunction::kPlace};
+  EXPECT_FALSE(has_effect(screw, InstrumentFunction::kDrive));
+  screw.name = "interference_screw";
+  EXPECT_TRUE(has_effect(screw, InstrumentFunction::kDrive));
+  EXPECT_TRUE(has_effect(screw, InstrumentFunction::kPlace));
   // A scope shows its view.
   Instrument scope;
   scope.functions = {InstrumentFunction::kProbe, InstrumentFunction::kLook};
