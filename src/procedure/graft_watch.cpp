@@ -59,14 +59,35 @@ void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
     told_creep_s_ = now.creep_s;
     tell(tick, kGraftTensioned, {now.creep_s, now.tension_n, 0}, out);
   }
-  if (now.loop_m == seen_.loop_m || !(now.loop_m > 0)) return;
+  tell_loop(tick, *graft, now, out);
+}
+
+// Once for each loop that is hung, when its channel is known.
+void GraftWatch::tell_loop(std::uint64_t tick, const Graft& graft, const GraftBenchState& now,
+                           std::vector<Event>& out) {
+  if (!(now.loop_m > 0)) told_loop_m_ = 0;  // also a restore point
+  if (now.loop_m == told_loop_m_ || (drilled_ && !room_)) return;
+  told_loop_m_ = now.loop_m;
   const LoopFit fit = fit_loop(plan_->channel_m, plan_->socket_m, now.loop_m);
   const std::array<double, kGraftValueNames.size()> values{
-      1e3 * graft->sized_m, 1e3 * graft->length_m, static_cast<double>(graft->strands),
-      1e3 * fit.in_socket_m, 100 * creep_left(now.creep_s)};
-  for (std::size_t i = 0; i < values.size(); ++i)
+      1e3 * graft.sized_m,
+      1e3 * graft.length_m,
+      static_cast<double>(graft.strands),
+      1e3 * fit.in_socket_m,
+      100 * creep_left(now.creep_s),
+      room_ ? 1e3 * (room_->wide_m - graft.sized_m) : 0};
+  const std::size_t count = values.size() - (room_ ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i)
     tell(tick, kGraftMeasured, {static_cast<double>(i), values[i], 0}, out);
   tell(tick, kLoopHung, {1e3 * now.loop_m, 1e3 * fit.in_socket_m, fit.flips ? 1.0 : 0.0}, out);
+}
+
+void GraftWatch::set_room(const std::optional<GraftRoom>& room) {
+  drilled_ = true;
+  room_ = room;
+  if (!plan_) return;
+  plan_->channel_m = room ? room->channel_m : 0;
+  plan_->socket_m = room ? room->socket_m : 0;
 }
 
 void GraftWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {

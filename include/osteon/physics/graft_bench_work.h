@@ -26,7 +26,8 @@ struct BenchTool {
 /// front s: over R the front goes on with (F - R) / kSlow, at most kFastest. So the hand feels R.
 /// R of a tendon grows towards its muscle and peaks at a band that is not cut; pushed beyond the
 /// peak the stripper cuts the tendon off there. R of a sizer grows with its tightness; R of the
-/// board is a spring's, kLever times less than the tension that it keeps. Forces are a fraction of
+/// board is a spring's, kLever times less than the tension that it keeps; open jaws let its slide
+/// back. A graft that hangs on the thread in a knee has left the bench. Forces are a fraction of
 /// those of the operation, so that devices can show them: own defaults.
 class GraftBenchWork {
  public:
@@ -73,6 +74,7 @@ class GraftBenchWork {
   GraftBenchPlan plan_;
   std::vector<BenchTool> tray_;
   double step_s_;
+  bool in_knee_ = false;  ///< in this step: the graft hangs on the thread in the knee
   std::array<ToolGuide, kMaxHands> guides_{};
 };
 

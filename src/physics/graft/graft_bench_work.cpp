@@ -52,7 +52,7 @@ const BenchTool& GraftBenchWork::held(const ToolState& tool) const {
 bool GraftBenchWork::may_lead(const GraftBenchState& state, std::uint32_t line,
                               const BenchTool& tool) const {
   if (is_tendon(line)) return tool.kind == BenchKind::kStripper && !state.tendons[line].stripped;
-  const bool folded = graft_on(plan_, state).has_value();
+  const bool folded = !in_knee_ && graft_on(plan_, state).has_value();
   if (line == GraftBenchPlan::kGraft) return tool.kind == BenchKind::kSizer && folded;
   return tool.kind == BenchKind::kClamp && folded;
 }
@@ -171,6 +171,8 @@ void GraftBenchWork::push(std::size_t hand, const ToolState& tool, GraftBenchSta
   const double over = force - resistance_n(state, line, front, held(tool));
   if (s > front - 0.002 && over > 0)
     front += step_s_ * std::min(over / kSlow_n_s_per_m, kFastest_m_per_s);
+  // The board's slide does not go back by itself: open jaws let it follow them.
+  if (line == GraftBenchPlan::kBoard && tool.jaw >= kShut) front = std::clamp(s, 0.0, front);
   reach(hand, held(tool), state);
 }
 
@@ -203,10 +205,11 @@ void GraftBenchWork::draw_blade(std::size_t hand, const ToolState& tool,
 // folded as the post says.
 void GraftBenchWork::carry(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
   BenchHand& h = state.hands[hand];
+  if (in_knee_) h.carries = 0;
   const bool shut = tool.jaw < kShut;
   const bool shuts = shut && !h.shut, opens = !shut && h.shut;
   h.shut = shut;
-  if (shuts)
+  if (shuts && !in_knee_)
     for (std::uint32_t t = 0; t < kGraftTendons; ++t)
       if (state.tendons[t].stripped && (tool.X_WP.p - plan_.tendons[t].free_W).norm() < kNearEnd_m)
         h.carries = 1 + t;
@@ -221,7 +224,8 @@ void GraftBenchWork::hang(std::size_t hand, const ToolState& tool, GraftBenchSta
   BenchHand& h = state.hands[hand];
   const bool near = (tool.X_WP.p - plan_.hook_W).norm() < kNearHook_m;
   h.hangs = near ? std::min(h.hangs + 1, kHangSteps) : 0;
-  if (h.hangs == kHangSteps && graft_on(plan_, state)) state.loop_m = held(tool).size_m;
+  if (h.hangs == kHangSteps && !in_knee_ && graft_on(plan_, state))
+    state.loop_m = held(tool).size_m;
 }
 
 void GraftBenchWork::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
@@ -246,6 +250,8 @@ void GraftBenchWork::publish(std::size_t hand, const ToolState& tool, const Bone
 
 void GraftBenchWork::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                           GraftBenchState& state) {
+  in_knee_ = bones.placing.on && bones.placing.phase >= PlacingPhase::kThreadOut;
+  if (in_knee_) state.tension_n = 0;
   for (std::size_t hand = 0; hand < std::min(tools.size(), kMaxHands); ++hand) {
     const ToolState& tool = *tools[hand];
     BenchHand& h = state.hands[hand];
