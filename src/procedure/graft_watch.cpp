@@ -1,6 +1,8 @@
 #include "osteon/procedure/graft_watch.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "osteon/scene/graft.h"
 
@@ -16,6 +18,16 @@ std::uint32_t bands_left(const GraftBenchPlan& plan, const GraftBenchState& stat
             static_cast<std::uint32_t>(std::popcount(state.tendons[t].bands_cut));
   return left;
 }
+
+// Of the tendon that has more of it; `folded`: of those alone that are in the graft.
+double most_muscle(const GraftBenchState& state, bool folded) {
+  double most = 0;
+  for (const TendonOnBench& tendon : state.tendons)
+    if (!folded || tendon.folds > 0) most = std::max(most, tendon.muscle_left());
+  return most;
+}
+
+double tenths(double share) { return std::floor(10 * share + 1e-9); }
 
 }  // namespace
 
@@ -48,6 +60,20 @@ void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
   }
 }
 
+void GraftWatch::tell_table_work(std::uint64_t tick, const GraftBenchState& now,
+                                 std::vector<Event>& out) const {
+  bool scraped = false, stitched = false;
+  std::uint32_t fewest = kMostStitches;
+  for (std::size_t t = 0; t < kGraftTendons; ++t) {
+    const TendonOnBench &is = now.tendons[t], &was = seen_.tendons[t];
+    scraped = scraped || tenths(is.muscle_left()) != tenths(was.muscle_left());
+    stitched = stitched || is.stitches != was.stitches;
+    fewest = std::min(fewest, is.passes());
+  }
+  if (scraped) tell(tick, kMuscleScraped, {100 * most_muscle(now, false), 0, 0}, out);
+  if (stitched) tell(tick, kTendonStitched, {static_cast<double>(fewest), 0, 0}, out);
+}
+
 void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
                             std::vector<Event>& out) {
   const auto graft = graft_on(*plan_, now);
@@ -75,6 +101,8 @@ void GraftWatch::tell_loop(std::uint64_t tick, const Graft& graft, const GraftBe
       static_cast<double>(graft.strands),
       1e3 * fit.in_socket_m,
       100 * creep_left(now.creep_s),
+      100 * most_muscle(now, true),
+      static_cast<double>(fewest_passes(now)),
       room_ ? 1e3 * (room_->wide_m - graft.sized_m) : 0};
   const std::size_t count = values.size() - (room_ ? 0 : 1);
   for (std::size_t i = 0; i < count; ++i)
@@ -93,6 +121,7 @@ void GraftWatch::set_room(const std::optional<GraftRoom>& room) {
 void GraftWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
   if (!plan_ || !bones.bench.on) return;
   tell_tendons(tick, bones.bench, out);
+  tell_table_work(tick, bones.bench, out);
   tell_graft(tick, bones.bench, out);
   seen_ = bones.bench;
 }

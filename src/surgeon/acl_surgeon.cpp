@@ -27,12 +27,13 @@ constexpr double kPress_s = 0.6;
 constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on, and for how long
 constexpr double kTooHard_m = 0.012;
 
-constexpr std::array<std::string_view, 24> kFaults{
+constexpr std::array<std::string_view, 26> kFaults{
     "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",     "anterior_tibia",
     "short_tibia",  "vertical_femur",     "blow_out",         "no_pin",       "plunged",
     "short_socket", "lost_thread",        "unflipped_button", "soft_tissue",  "flipped_in_muscle",
     "few_cycles",   "slack_tension",      "diverging_screw",  "shallow_screw",
-    "amputated_tendon", "slack_graft", "short_loop", "long_loop", "wide_tunnel"};
+    "amputated_tendon", "muscle_left", "few_stitches", "slack_graft", "short_loop", "long_loop",
+    "wide_tunnel"};
 
 // How somebody does it.
 struct AclHabits {

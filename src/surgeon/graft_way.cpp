@@ -21,8 +21,13 @@ constexpr double kOn_m = 0.012;        // beyond a line's end, against its resis
 constexpr double kAgainst_m = 0.016;   // into a sizer that does not go on
 constexpr double kSlideLag_m = 0.010;  // a hand at a slide that resists with 3 N lags so far
 constexpr double kLongEnough_m = 0.0755, kThickEnough_m = 0.008;
+constexpr double kTableUnder_m = 0.012;  // a free end
+constexpr double kStrokeFrom_m = 0.006, kStrokeTo_m = 0.026, kStroke_m_per_s = 0.06;
+constexpr int kStrokes = 2;  // and back
+constexpr std::uint32_t kPasses = 5, kTooFewPasses = 2;
 constexpr double kHang_s = 1.5, kTooWide_m = 0.001;
 const Vec3 kHandBegins(-0.03, 0.16, 0.06);  // from where the graft begins
+const Vec3 kComes(-0.03, 0.16, 0.25);       // high over all that lies there
 const Vec3 kUpright = Vec3(-0.4, 0, 0.9).normalized();
 constexpr double kBoardClock = 20, kPretensionFor_s = 640, kTooShortFor_s = 100;
 
@@ -41,11 +46,12 @@ struct GraftHabits {
   double size_m = 0;
 };
 
-constexpr std::array<std::string_view, 4> kGraftFaults{"amputated_tendon", "unflipped_button",
-                                                       "long_loop", "slack_graft"};
+constexpr std::array<std::string_view, 6> kGraftFaults{
+    "amputated_tendon", "unflipped_button", "long_loop", "slack_graft", "muscle_left", "few_stitches"};
 // Of a whole reconstruction.
-constexpr std::array<std::string_view, 5> kFaultsInKnee{
-    "amputated_tendon", "slack_graft", "short_loop", "long_loop", "wide_tunnel"};
+constexpr std::array<std::string_view, 7> kFaultsInKnee{"amputated_tendon", "muscle_left", "few_stitches",
+                                                        "slack_graft",      "short_loop",  "long_loop",
+                                                        "wide_tunnel"};
 
 // As few strands as make it thick enough; of those that are long enough.
 GraftHabits graft_habits(const GraftBenchPlan& plan, const std::string& fault) {
@@ -53,7 +59,10 @@ GraftHabits graft_habits(const GraftBenchPlan& plan, const std::string& fault) {
   habits.fault = fault;
   GraftBenchState done;
   done.on = true;
-  for (TendonOnBench& tendon : done.tendons) tendon.stripped = true;
+  for (TendonOnBench& tendon : done.tendons) {
+    tendon.stripped = true;
+    tendon.scraped_m = fault == "muscle_left" ? 0 : kScrapedClean_m;
+  }
   constexpr std::uint32_t kWays[][2] = {{2, 2}, {3, 2}, {3, 3}};
   for (const auto& folds : kWays) {
     for (std::size_t t = 0; t < kGraftTendons; ++t) done.tendons[t].folds = folds[t];
@@ -120,6 +129,47 @@ void harvest(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits
     push_along(way, plan, t, length_of(plan, t) + kOn_m, 0.04);
 }
 
+// Strokes of the blade beside the free end, pressed on the table.
+void scrape_muscle(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon) {
+  const GraftBenchPlan::Tendon& is = plan.tendons[tendon];
+  const auto at = [&](double along, double up) {
+    return held_by_shaft(is.free_W + along * is.lies_W + Vec3(0, 0, up), kUpright);
+  };
+  over(way, plan, at(kStrokeFrom_m, 0).p, kUpright);
+  way.go(at(kStrokeFrom_m, -kTableUnder_m + 0.005), kHandCarry_m_per_s);
+  way.go(at(kStrokeFrom_m, -kTableUnder_m - kBladeIn_m), kHandNear_m_per_s);
+  for (int i = 0; i < kStrokes; ++i) {
+    way.go(at(kStrokeTo_m, -kTableUnder_m - kBladeIn_m), kStroke_m_per_s);
+    way.go(at(kStrokeFrom_m, -kTableUnder_m - kBladeIn_m), kStroke_m_per_s);
+  }
+  way.go(at(kStrokeFrom_m, -kTableUnder_m + 0.010), kHandNear_m_per_s);
+}
+
+void stitch_end(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon, std::uint32_t passes) {
+  over(way, plan, stitch_W(plan, tendon, 0), kUpright);
+  way.jaw(1);
+  for (std::uint32_t k = 0; k < passes; ++k) {
+    way.go(held_by_shaft(stitch_W(plan, tendon, k), kUpright), kHandNear_m_per_s);
+    way.jaw(0);
+    way.jaw(1);
+  }
+  over(way, plan, stitch_W(plan, tendon, 0), kUpright);
+  way.jaw(0);
+}
+
+// Muscle off, thread through the ends.
+void prepare_tendons(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits) {
+  if (habits.fault != "muscle_left") {
+    over(way, plan, plan.tendons[0].free_W, kUpright);
+    way.take("scalpel_15");
+    for (std::size_t t = 0; t < kGraftTendons; ++t) scrape_muscle(way, plan, t);
+  }
+  over(way, plan, plan.tendons[0].free_W, kUpright);
+  way.take("needle_holder");
+  for (std::size_t t = 0; t < kGraftTendons; ++t)
+    stitch_end(way, plan, t, habits.fault == "few_stitches" ? kTooFewPasses : kPasses);
+}
+
 void size_graft(HandWay& way, const GraftBenchPlan& plan, double size_m) {
   constexpr std::uint32_t kLine = GraftBenchPlan::kGraft;
   const double on = length_of(plan, kLine) + kOn_m;
@@ -134,6 +184,7 @@ void size_graft(HandWay& way, const GraftBenchPlan& plan, double size_m) {
 // Tendons out, folded, sized.
 void make_graft(HandWay& way, const GraftBenchPlan& plan, const GraftHabits& habits) {
   harvest(way, plan, habits);
+  prepare_tendons(way, plan, habits);
   over(way, plan, plan.tendons[0].free_W, kUpright);
   way.take("clamp");
   for (std::size_t t = 0; t < kGraftTendons; ++t) fold_tendon(way, plan, t, habits.folds[t]);
@@ -182,6 +233,14 @@ Result<GraftBenchPlan> bench_in(const Case& the_case) {
   if (!plan)
     return fail("the case has no bench for a graft", the_case.name, "Use builtin:graft_bench");
   return *plan;
+}
+
+// Up, and back to the knee with what was held there.
+void leave_bench(HandWay& way, const GraftBenchPlan& plan, const RoundJoint& knee, const Pose& to,
+                 const std::string& held) {
+  over(way, plan, plan.graft_from_W + kHandBegins, kUpright);
+  way.go(held_by_shaft(plan.graft_from_W + kComes, kUpright), kHandCarry_m_per_s);
+  change_round(way, knee, held, to.p, to.rotate(Vec3::UnitZ()));
 }
 
 RoundJoint round_knee(const Case& the_case) {
@@ -233,13 +292,12 @@ Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, dou
   HandWay way(held, from, pace_of(skill));
   way.stay(begin_s);
   const RoundJoint knee = round_knee(the_case);
-  change_round(way, knee, "scalpel_15", plan->graft_from_W + kHandBegins, kUpright);
+  change_round(way, knee, "scalpel_15", plan->graft_from_W + kComes, kUpright);
   make_graft(way, *plan, habits);
   stretch(way, *plan);
   way.stay(kTooShortFor_s / kBoardClock);
   if (fault == "slack_graft") slacken(way, *plan);
-  over(way, *plan, plan->graft_from_W + kHandBegins, Vec3(-1, 0, 0));
-  change_round(way, knee, held, from.p, from.rotate(Vec3::UnitZ()));
+  leave_bench(way, *plan, knee, from, held);
   way.stay(0.5);
   return trembling(way.path(), skill.tremor_m, skill.seed + 3);
 }
@@ -252,10 +310,9 @@ Result<ProbePath> plan_loop_stage(const Case& the_case, const Skill& skill, doub
   if (!(loop_m > 0)) return fail("no loop is long enough for the channel", "graft");
   HandWay way(held, from, pace_of(skill));
   const RoundJoint knee = round_knee(the_case);
-  change_round(way, knee, held, plan->graft_from_W + kHandBegins, kUpright);
+  change_round(way, knee, held, plan->graft_from_W + kComes, kUpright);
   hang_loop(way, *plan, loop_m);
-  over(way, *plan, plan->graft_from_W + kHandBegins, Vec3(-1, 0, 0));
-  change_round(way, knee, held, from.p, from.rotate(Vec3::UnitZ()));
+  leave_bench(way, *plan, knee, from, held);
   return trembling(way.path(), skill.tremor_m, skill.seed + 4);
 }
 

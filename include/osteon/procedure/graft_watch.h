@@ -29,6 +29,12 @@ inline constexpr EventKind kLoopHung{455};
 /// What was measured when the loop was hung: {a GraftValue; the value; 0}.
 inline constexpr EventKind kGraftMeasured{456};
 
+/// Muscle was scraped off a tendon, in steps of a tenth: {what is left, of the tendon that has more
+/// of it, %; 0; 0}.
+inline constexpr EventKind kMuscleScraped{465};
+/// Thread went through a tendon's end: {passes, of the tendon that has fewer; 0; 0}.
+inline constexpr EventKind kTendonStitched{466};
+
 /// What is measured of a graft.
 enum class GraftValue : std::uint8_t {
   kDiameter,
@@ -36,12 +42,14 @@ enum class GraftValue : std::uint8_t {
   kStrands,
   kInSocket,
   kCreepLeft,
+  kMuscleLeft,  ///< of the tendon that has more of it
+  kStitches,    ///< passes of thread, of the tendon that has fewer
   kTunnelOver  ///< how much wider than its sizer the wider tunnel is; only in a knee
 };
 /// By GraftValue: names with their units, each of a rule `outside_NAME` for errors.
-inline constexpr std::array<std::string_view, 6> kGraftValueNames{
-    "graft_diameter_mm",  "graft_length_mm",      "graft_strands",
-    "graft_in_socket_mm", "graft_creep_left_pct", "tunnel_over_graft_mm"};
+inline constexpr std::array<std::string_view, 8> kGraftValueNames{
+    "graft_diameter_mm",    "graft_length_mm",       "graft_strands",   "graft_in_socket_mm",
+    "graft_creep_left_pct", "graft_muscle_left_pct", "graft_stitches", "tunnel_over_graft_mm"};
 
 /// The tunnels that a graft is for, as they were measured in a knee.
 struct GraftRoom {
@@ -66,6 +74,8 @@ class GraftWatch {
   void tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
             std::vector<Event>& out) const;
   void tell_tendons(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
+  void tell_table_work(std::uint64_t tick, const GraftBenchState& now,
+                       std::vector<Event>& out) const;
   void tell_graft(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out);
 
   void tell_loop(std::uint64_t tick, const Graft& graft, const GraftBenchState& now,

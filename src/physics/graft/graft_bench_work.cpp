@@ -18,6 +18,8 @@ constexpr double kGripStep = 0.02;     // a line holds within 50 steps
 constexpr double kNearBand_m = 0.006;  // a blade meets a band
 constexpr double kDrawn_m = 0.004;     // it is through when drawn so far
 constexpr double kPressed_n = 0.15;    // with so much force
+constexpr double kBeforeEnd_m = 0.002, kMuscle_m = 0.034, kBeside_m = 0.016;  // where muscle is
+constexpr double kNearStitch_m = 0.003;
 constexpr double kNearEnd_m = 0.010;   // jaws take a tendon's end
 constexpr double kNearPost_m = 0.012;  // and leave it at a post
 constexpr double kNearHook_m = 0.006;
@@ -146,7 +148,8 @@ void GraftBenchWork::reach(std::size_t hand, const BenchTool& tool, GraftBenchSt
   }
   front = std::min(front, way);
   if (line == GraftBenchPlan::kBoard) {
-    state.tension_n = 1.5 * kPretension_n * front / way;
+    const double holds_n = kStitchHolds_n * fewest_passes(state);
+    state.tension_n = std::min(1.5 * kPretension_n * front / way, holds_n);
     return;
   }
   const auto graft = graft_on(plan_, state);
@@ -199,6 +202,42 @@ void GraftBenchWork::draw_blade(std::size_t hand, const ToolState& tool,
       if (h.over == name && (tool.X_WP.p - h.from_W).norm() > kDrawn_m)
         state.tendons[t].bands_cut |= 1u << b;
     }
+}
+
+// A blade that is pressed on beside a stripped tendon's free end, and drawn.
+void GraftBenchWork::scrape(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
+  BenchHand& h = state.hands[hand];
+  const std::uint32_t before = std::exchange(h.scrapes, 0);
+  if (tool.contact_count == 0 || !is_finite(tool.force_W) || tool.force_W.norm() < kPressed_n)
+    return;
+  for (std::uint32_t t = 0; t < kGraftTendons; ++t) {
+    TendonOnBench& tendon = state.tendons[t];
+    const GraftBenchPlan::Tendon& lies = plan_.tendons[t];
+    if (!tendon.stripped || tendon.folds > 0) continue;
+    const Vec3 off = tool.X_WP.p - lies.free_W;
+    const double along = off.dot(lies.lies_W);
+    if (along < -kBeforeEnd_m || along > kMuscle_m || (off - along * lies.lies_W).norm() > kBeside_m)
+      continue;
+    h.scrapes = t + 1;
+    if (before == h.scrapes)
+      tendon.scraped_m += std::min(kFastest_m_per_s * step_s_, (tool.X_WP.p - h.from_W).norm());
+    h.from_W = tool.X_WP.p;
+    return;
+  }
+}
+
+// A needle holder that shuts at a place of a tendon's end has put thread through it.
+void GraftBenchWork::stitch(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
+  BenchHand& h = state.hands[hand];
+  const bool shut = tool.jaw < kShut, shuts = shut && !h.shut;
+  h.shut = shut;
+  if (!shuts) return;
+  for (std::uint32_t t = 0; t < kGraftTendons; ++t) {
+    if (!state.tendons[t].stripped || state.tendons[t].folds > 0) continue;
+    for (std::uint32_t k = 0; k < kMostStitches; ++k)
+      if ((tool.X_WP.p - stitch_W(plan_, t, k)).norm() < kNearStitch_m)
+        state.tendons[t].stitches |= 1u << k;
+  }
 }
 
 // Jaws shut about the free end of a stripped tendon take it; opened at a post they leave it there,
@@ -264,7 +303,11 @@ void GraftBenchWork::step(std::span<const ToolState* const> tools, const BoneSna
     follow_line(hand, tool, bones, state);
     if (h.line != 0) push(hand, tool, state);
     const BenchKind kind = held(tool).kind;
-    if (kind == BenchKind::kBlade) draw_blade(hand, tool, state);
+    if (kind == BenchKind::kBlade) {
+      draw_blade(hand, tool, state);
+      if (state.hands[hand].over == 0) scrape(hand, tool, state);
+    }
+    if (kind == BenchKind::kNeedle) stitch(hand, tool, state);
     if (kind == BenchKind::kClamp) carry(hand, tool, state);
     if (kind == BenchKind::kButton) hang(hand, tool, state);
     publish(hand, tool, bones, state);

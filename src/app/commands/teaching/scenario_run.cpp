@@ -176,6 +176,9 @@ std::string screw_of(const PlannedHand& hand, double tunnel_m) {
   return best;
 }
 
+// The narrowest drill of the exercise for a tunnel.
+constexpr double kLeastDrill_m = 0.008;
+
 // What the third hand's later parts go by.
 struct LaterWork {
   BonesNow bones;
@@ -268,6 +271,11 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
       if (goal.rule.kind == "seen") tools.tour.insert(tools.tour.end(), marks.begin(), marks.end());
       if (goal.rule.kind == "felt") tools.felt.insert(tools.felt.end(), marks.begin(), marks.end());
     }
+  if (!run.graft_json.empty()) {
+    const auto graft = made_graft(run.graft_json, "--graft");
+    if (!graft) return tl::unexpected(graft.error());
+    tools.reamed_m = std::max(kLeastDrill_m, sizer_for(graft->diameter_m));
+  }
   if (!has_goal(plan, "loop_hung") || errs_before_the_graft(run.skill)) return tools;
   const auto drilled_m = drilled_for_graft(the_case, run.skill);
   if (!drilled_m) return tl::unexpected(drilled_m.error());
