@@ -51,11 +51,15 @@ inline std::shared_ptr<const Case> bench_case(CaseDef def = bench_def()) {
   return std::make_shared<const Case>(std::move(*built));
 }
 
-/// Both tendons stripped whole and folded.
+/// Both tendons stripped whole, clean, stitched and folded.
 inline GraftBenchState folded_bench(std::uint32_t st, std::uint32_t gr) {
   GraftBenchState state;
   state.on = true;
-  for (TendonOnBench& tendon : state.tendons) tendon.stripped = true;
+  for (TendonOnBench& tendon : state.tendons) {
+    tendon.stripped = true;
+    tendon.scraped_m = kScrapedClean_m;
+    tendon.stitches = 0b11111;
+  }
   state.tendons[0].folds = st;
   state.tendons[1].folds = gr;
   return state;

@@ -82,9 +82,12 @@ void add_to(Hasher& hasher, const GraftBenchState& bench) {
     hasher.add(tendon.stripped);
     hasher.add(tendon.amputated);
     hasher.add(tendon.folds);
+    hasher.add(tendon.scraped_m);
+    hasher.add(tendon.stitches);
   }
   for (const BenchHand& hand : bench.hands) {
-    for (const std::uint32_t x : {hand.instrument, hand.line, hand.carries, hand.over, hand.hangs})
+    for (const std::uint32_t x : {hand.instrument, hand.line, hand.carries, hand.over, hand.hangs,
+                                  hand.scrapes})
       hasher.add(x);
     hasher.add(hand.grip);
     hasher.add(hand.front_m);

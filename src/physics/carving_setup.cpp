@@ -150,7 +150,7 @@ std::vector<CarvedLayer> layers_on(const Case& the_case, const Bone& bone) {
 
 bool can_carve(const Case& the_case, std::span<const std::string> tray) {
   const bool has_field = std::any_of(the_case.bones.begin(), the_case.bones.end(),
-                                     [](const Bone& bone) { return is_field(bone.felt); });
+                                     [](const Bone& bone) { return is_field(bone.felt) && !bone.beside; });
   if (!has_field || tray.empty()) return false;
   const auto instruments = load_instruments();
   return instruments && std::any_of(tray.begin(), tray.end(), [&](const std::string& name) {
@@ -181,7 +181,7 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
   for (const Bone& bone : the_case.bones) {
     setup->bones.emplace_back();
     setup->layers_on.push_back(layers_on(the_case, bone));
-    if (!is_field(bone.felt)) continue;
+    if (!is_field(bone.felt) || bone.beside) continue;
     UncutFieldOptions options;
     options.cell_m = cell_for(bone, settings.cell_m);
     options.run = run;

@@ -1,6 +1,8 @@
 #include "osteon/procedure/graft_watch.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "osteon/scene/graft.h"
 
@@ -16,6 +18,16 @@ std::uint32_t bands_left(const GraftBenchPlan& plan, const GraftBenchState& stat
             static_cast<std::uint32_t>(std::popcount(state.tendons[t].bands_cut));
   return left;
 }
+
+// Of the tendon that has more of it; `folded`: of those alone that are in the graft.
+double most_muscle(const GraftBenchState& state, bool folded) {
+  double most = 0;
+  for (const TendonOnBench& tendon : state.tendons)
+    if (!folded || tendon.folds > 0) most = std::max(most, tendon.muscle_left());
+  return most;
+}
+
+double tenths(double share) { return std::floor(10 * share + 1e-9); }
 
 }  // namespace
 
@@ -48,6 +60,20 @@ void GraftWatch::tell_tendons(std::uint64_t tick, const GraftBenchState& now,
   }
 }
 
+void GraftWatch::tell_table_work(std::uint64_t tick, const GraftBenchState& now,
+                                 std::vector<Event>& out) const {
+  bool scraped = false, stitched = false;
+  std::uint32_t fewest = kMostStitches;
+  for (std::size_t t = 0; t < kGraftTendons; ++t) {
+    const TendonOnBench &is = now.tendons[t], &was = seen_.tendons[t];
+    scraped = scraped || tenths(is.muscle_left()) != tenths(was.muscle_left());
+    stitched = stitched || is.stitches != was.stitches;
+    fewest = std::min(fewest, is.passes());
+  }
+  if (scraped) tell(tick, kMuscleScraped, {100 * most_muscle(now, false), 0, 0}, out);
+  if (stitched) tell(tick, kTendonStitched, {static_cast<double>(fewest), 0, 0}, out);
+}
+
 void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
                             std::vector<Event>& out) {
   const auto graft = graft_on(*plan_, now);
@@ -59,19 +85,43 @@ void GraftWatch::tell_graft(std::uint64_t tick, const GraftBenchState& now,
     told_creep_s_ = now.creep_s;
     tell(tick, kGraftTensioned, {now.creep_s, now.tension_n, 0}, out);
   }
-  if (now.loop_m == seen_.loop_m || !(now.loop_m > 0)) return;
+  tell_loop(tick, *graft, now, out);
+}
+
+// Once for each loop that is hung, when its channel is known.
+void GraftWatch::tell_loop(std::uint64_t tick, const Graft& graft, const GraftBenchState& now,
+                           std::vector<Event>& out) {
+  if (!(now.loop_m > 0)) told_loop_m_ = 0;  // also a restore point
+  if (now.loop_m == told_loop_m_ || (drilled_ && !room_)) return;
+  told_loop_m_ = now.loop_m;
   const LoopFit fit = fit_loop(plan_->channel_m, plan_->socket_m, now.loop_m);
   const std::array<double, kGraftValueNames.size()> values{
-      1e3 * graft->sized_m, 1e3 * graft->length_m, static_cast<double>(graft->strands),
-      1e3 * fit.in_socket_m, 100 * creep_left(now.creep_s)};
-  for (std::size_t i = 0; i < values.size(); ++i)
+      1e3 * graft.sized_m,
+      1e3 * graft.length_m,
+      static_cast<double>(graft.strands),
+      1e3 * fit.in_socket_m,
+      100 * creep_left(now.creep_s),
+      100 * most_muscle(now, true),
+      static_cast<double>(fewest_passes(now)),
+      room_ ? 1e3 * (room_->wide_m - graft.sized_m) : 0};
+  const std::size_t count = values.size() - (room_ ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i)
     tell(tick, kGraftMeasured, {static_cast<double>(i), values[i], 0}, out);
   tell(tick, kLoopHung, {1e3 * now.loop_m, 1e3 * fit.in_socket_m, fit.flips ? 1.0 : 0.0}, out);
+}
+
+void GraftWatch::set_room(const std::optional<GraftRoom>& room) {
+  drilled_ = true;
+  room_ = room;
+  if (!plan_) return;
+  plan_->channel_m = room ? room->channel_m : 0;
+  plan_->socket_m = room ? room->socket_m : 0;
 }
 
 void GraftWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
   if (!plan_ || !bones.bench.on) return;
   tell_tendons(tick, bones.bench, out);
+  tell_table_work(tick, bones.bench, out);
   tell_graft(tick, bones.bench, out);
   seen_ = bones.bench;
 }

@@ -36,6 +36,7 @@ BenchTool::Kind bench_kind(const std::string& tray_name) {
   if (name == "graft_sizer") return BenchTool::Kind::kSizer;
   if (name == "endobutton") return BenchTool::Kind::kButton;
   if (name == "clamp") return BenchTool::Kind::kClamp;
+  if (name == "needle_holder") return BenchTool::Kind::kNeedle;
   return BenchTool::Kind::kOther;
 }
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "hand_way.h"
 #include "osteon/scene/state.h"
 #include "osteon/surgeon/placing_surgeon.h"
-#include "placing_hand_way.h"
 
 namespace osteon {
 namespace {
@@ -77,18 +77,18 @@ Result<HandPart> plan_graft_fixing(const Case& the_case, const PlacingPlan& plan
   const Vec3 across = straight.cross(X_WT.rotate(Vec3::UnitZ())).normalized();
   const Vec3 out = Eigen::AngleAxisd(habits.aside_rad, across) * straight;
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
-  PlacingHandWay way(held, from, inner, bones_far_out(the_case, bent, inner), pace);
+  HandWay way(held, from, pace);
   way.stay(orders.now_s() + 0.5);
   const auto place = [&](double m) { return held_by_shaft(mouth + m * out, out); };
-  way.change(screw, place(kPassBefore_m).p, out);
-  way.go(place(0.0005), kPassNear_m_per_s);
+  change_round(way, round_joint(the_case, bent, inner), screw, place(kHandBefore_m).p, out);
+  way.go(place(0.0005), kHandNear_m_per_s);
   way.power(1);
-  way.stay(kPassTaken_s);
+  way.stay(kHandTaken_s);
   way.go(place(-habits.deep_m - kScrewLead_m), kScrew_m_per_s / pace);
   way.stay(2);
   way.power(0);
   way.take(held);
-  way.go(place(kPassBefore_m), kPassCarry_m_per_s);
+  way.go(place(kHandBefore_m), kHandCarry_m_per_s);
   way.stay(0.5);
   return HandPart{trembling(way.path(), skill.tremor_m, skill.seed + 6), orders.take()};
 }

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "hand_way.h"
 #include "osteon/scene/placing.h"
 #include "osteon/surgeon/placing_surgeon.h"
-#include "placing_hand_way.h"
 
 namespace osteon {
 namespace {
@@ -37,39 +36,43 @@ PlacesNow places_of(const Case& the_case, const PlacingPlan& plan) {
   return at;
 }
 
-void pass_pin(PlacingHandWay& way, const PlacesNow& at, double to_m) {
-  const auto place = [&](double m) { return held_by_shaft(at.f_in + m * at.f_way, -at.f_way); };
-  way.go(place(-0.010), kPassCarry_m_per_s);
-  way.go(place(-0.001), kPassNear_m_per_s);
-  way.stay(kPassTaken_s);
-  way.go(place(to_m), kPassNear_m_per_s);
-  way.stay(1);
-  way.go(place(-0.020), 3 * kPassNear_m_per_s);
-  way.go(place(-kPassBefore_m), kPassCarry_m_per_s);
+RoundJoint knee_of(const Case& the_case, const PlacesNow& at) {
+  return round_joint(the_case, rest_snapshot(the_case), 0.5 * (at.f_in + at.t_in));
 }
 
-void fetch_thread(PlacingHandWay& way, const PlacesNow& at) {
+void pass_pin(HandWay& way, const PlacesNow& at, double to_m) {
+  const auto place = [&](double m) { return held_by_shaft(at.f_in + m * at.f_way, -at.f_way); };
+  way.go(place(-0.010), kHandCarry_m_per_s);
+  way.go(place(-0.001), kHandNear_m_per_s);
+  way.stay(kHandTaken_s);
+  way.go(place(to_m), kHandNear_m_per_s);
+  way.stay(1);
+  way.go(place(-0.020), 3 * kHandNear_m_per_s);
+  way.go(place(-kHandBefore_m), kHandCarry_m_per_s);
+}
+
+void fetch_thread(HandWay& way, const RoundJoint& knee, const PlacesNow& at) {
   const double length = (at.t_out - at.t_in).norm();
   const auto place = [&](double m) { return held_by_shaft(at.t_in + m * at.t_way, at.t_way); };
   // The thread's end lies over the mouth, towards the femur's.
   const Vec3 end = at.t_in + 0.010 * (at.f_in - at.t_in).normalized();
-  way.change("grasper", at.t_out + kPassBefore_m * at.t_way, at.t_way);
-  way.go(place(length + 0.002), kPassNear_m_per_s);
-  way.stay(kPassTaken_s);
-  way.go(place(at.t_way.dot(end - at.t_in)), kPassNear_m_per_s);
+  change_round(way, knee, "grasper", at.t_out + kHandBefore_m * at.t_way, at.t_way);
+  way.go(place(length + 0.002), kHandNear_m_per_s);
+  way.stay(kHandTaken_s);
+  way.go(place(at.t_way.dot(end - at.t_in)), kHandNear_m_per_s);
   way.jaw(1);
   way.jaw(0);
-  way.go(place(length + kGrasperOut_m), kPassNear_m_per_s);
+  way.go(place(length + kGrasperOut_m), kHandNear_m_per_s);
   way.jaw(1);
   way.jaw(0);
-  way.go(place(length + kPassBefore_m), kPassCarry_m_per_s);
+  way.go(place(length + kHandBefore_m), kHandCarry_m_per_s);
 }
 
-void draw_graft(PlacingHandWay& way, const PlacesNow& at, double drawn_m) {
+void draw_graft(HandWay& way, const RoundJoint& knee, const PlacesNow& at, double drawn_m) {
   const auto place = [&](double m) { return held_by_shaft(at.f_out + m * at.f_way, at.f_way); };
-  way.change("clamp", at.f_out + kPassBefore_m * at.f_way, at.f_way);
+  change_round(way, knee, "clamp", at.f_out + kHandBefore_m * at.f_way, at.f_way);
   way.jaw(1);
-  way.go(place(kPassThread_m), kPassNear_m_per_s);
+  way.go(place(kPassThread_m), kHandNear_m_per_s);
   way.jaw(0);
   way.go(place(kPassThread_m + drawn_m), kPassDraw_m_per_s);
   way.stay(1.5);
@@ -113,14 +116,13 @@ Result<ProbePath> plan_graft_placing(const Case& the_case, const Skill& skill) {
   const auto fault = placing_fault(skill);
   if (!fault) return tl::unexpected(fault.error());
   const PlacesNow at = places_of(the_case, *plan);
-  const Vec3 middle = 0.5 * (at.f_in + at.t_in);
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
-  PlacingHandWay way("passing_pin", held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way),
-                     middle, bones_far_out(the_case, rest_snapshot(the_case), middle), pace);
+  const RoundJoint knee = knee_of(the_case, at);
+  HandWay way("passing_pin", held_by_shaft(at.f_in - kHandBefore_m * at.f_way, -at.f_way), pace);
   way.stay(0.3);
   pass_pin(way, at, passed_to(*fault, *plan));
-  fetch_thread(way, at);
-  draw_graft(way, at, drawn_by(*fault, plan->button_out_m()));
+  fetch_thread(way, knee, at);
+  draw_graft(way, knee, at, drawn_by(*fault, plan->button_out_m()));
   return trembling(way.path(), skill.tremor_m, skill.seed + 5);
 }
 
@@ -129,15 +131,14 @@ ProbePath plan_graft_placing(const Case& the_case, const PlacingPlan& plan, cons
   const std::string fault = placing_fault(skill).value_or("");
   const PlacesNow at = places_of(the_case, plan);
   const double pace = skill.travel_m_per_s / Skill{}.travel_m_per_s;
-  const Vec3 middle = 0.5 * (at.f_in + at.t_in);
-  PlacingHandWay way(held, from, middle, bones_far_out(the_case, rest_snapshot(the_case), middle),
-                     pace);
-  way.go(held_by_shaft(at.f_in - kPassBefore_m * at.f_way, -at.f_way), kPassCarry_m_per_s);
+  const RoundJoint knee = knee_of(the_case, at);
+  HandWay way(held, from, pace);
+  way.go(held_by_shaft(at.f_in - kHandBefore_m * at.f_way, -at.f_way), kHandCarry_m_per_s);
   way.take("passing_pin");
   pass_pin(way, at, passed_to(fault, plan));
-  fetch_thread(way, at);
-  draw_graft(way, at, drawn_by(fault, plan.button_out_m()));
-  way.go(held_by_shaft(at.f_out + kPassRound_m * at.f_way, at.f_way), kPassCarry_m_per_s);
+  fetch_thread(way, knee, at);
+  draw_graft(way, knee, at, drawn_by(fault, plan.button_out_m()));
+  way.go(held_by_shaft(at.f_out + kRound_m * at.f_way, at.f_way), kHandCarry_m_per_s);
   return trembling(way.path(), skill.tremor_m, skill.seed + 5);
 }
 
@@ -151,7 +152,7 @@ Result<ProbePath> plan_placing_scope(const Case& the_case, const Vec3& portal_W,
   const Vec3 in = look.normalized();
   const double deep = std::max(0.005, look.norm() - kOff_m);
   AclWay way(instrument, 0, held_by_shaft(portal_W - 0.03 * in, -in), 1);
-  way.go_at(held_by_shaft(portal_W + deep * in, -in), kPassNear_m_per_s);
+  way.go_at(held_by_shaft(portal_W + deep * in, -in), kHandNear_m_per_s);
   way.stay(1);
   return way.path();
 }

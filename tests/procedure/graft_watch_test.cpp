@@ -44,7 +44,8 @@ TEST(GraftWatch, MeasuresWhenTheLoopIsHung) {
   state.loop_m = 0.015;
   state.creep_s = 240;
   const auto told = told_of(watch, state);
-  ASSERT_EQ(told.size(), 2 + kGraftValueNames.size());  // the tension's time as well
+  // The tension's time as well; but for what a knee's tunnels have to do with it.
+  ASSERT_EQ(told.size(), 1 + kGraftValueNames.size());
   EXPECT_EQ(told.back().kind, kLoopHung);
   EXPECT_EQ(told.back().values[2], 0);  // the button cannot turn
   EXPECT_NEAR(told.back().values[1], 25, 1e-9);
@@ -52,6 +53,58 @@ TEST(GraftWatch, MeasuresWhenTheLoopIsHung) {
   EXPECT_EQ(told[1].kind, kGraftMeasured);
   EXPECT_NEAR(told[1].values[1], 8, 1e-9);
   EXPECT_NEAR(told[5].values[1], 100 * creep_left(240), 1e-9);
+}
+
+TEST(GraftWatch, TellsOfMuscleInTenthsAndOfThread) {
+  GraftWatch watch(*bench_case());
+  GraftBenchState state;
+  state.on = true;
+  (void)told_of(watch, state);
+  state.tendons[0].stripped = state.tendons[1].stripped = true;
+  (void)told_of(watch, state);
+  state.tendons[0].scraped_m = 0.05 * kScrapedClean_m;
+  auto told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kMuscleScraped);
+  EXPECT_EQ(told[0].values[0], 100);  // of the other
+  state.tendons[0].scraped_m = 0.06 * kScrapedClean_m;
+  EXPECT_TRUE(told_of(watch, state).empty());
+  for (TendonOnBench& tendon : state.tendons) tendon.scraped_m = kScrapedClean_m;
+  told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].values[0], 0);
+  state.tendons[0].stitches = 0b1111;
+  state.tendons[1].stitches = 0b11;
+  told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kTendonStitched);
+  EXPECT_EQ(told[0].values[0], 2);
+}
+
+// In a knee the channel is what was drilled there.
+TEST(GraftWatch, ALoopIsJudgedOnceTheTunnelsAreMeasured) {
+  GraftWatch watch(*bench_case());
+  watch.set_room(std::nullopt);
+  GraftBenchState state = folded_bench(2, 2);
+  (void)told_of(watch, state);
+  state.loop_m = 0.015;
+  EXPECT_TRUE(told_of(watch, state).empty());
+  watch.set_room(GraftRoom{0.033, 0.025, 0.0085, 0.009});
+  auto told = told_of(watch, state);
+  ASSERT_EQ(told.size(), 1 + kGraftValueNames.size());
+  EXPECT_EQ(told.back().kind, kLoopHung);
+  EXPECT_NEAR(told.back().values[1], 18, 1e-9);
+  EXPECT_EQ(told.back().values[2], 1);
+  const Event& over = told[told.size() - 2];
+  EXPECT_EQ(kGraftValueNames[static_cast<std::size_t>(over.values[0])], "tunnel_over_graft_mm");
+  EXPECT_NEAR(over.values[1], 1, 1e-6);  // a graft that passes 8 mm
+  EXPECT_TRUE(told_of(watch, state).empty());
+  state.loop_m = 0.020;  // another one is told again, and one after a restore point
+  EXPECT_FALSE(told_of(watch, state).empty());
+  state.loop_m = 0;
+  EXPECT_TRUE(told_of(watch, state).empty());
+  state.loop_m = 0.020;
+  EXPECT_FALSE(told_of(watch, state).empty());
 }
 
 TEST(GraftWatch, IsSilentWithoutABench) {

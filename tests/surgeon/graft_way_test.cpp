@@ -47,6 +47,51 @@ TEST(GraftWay, EachFaultChangesWhatItNames) {
   EXPECT_LT(forgets->duration_s(), good->duration_s());
 }
 
+std::size_t shut_with(const ProbePath& path, const std::string& instrument) {
+  std::size_t shut = 0;
+  for (std::size_t i = 1; i < path.samples.size(); ++i)
+    if (path.samples[i].instrument == instrument && path.samples[i].jaw == 0 &&
+        path.samples[i - 1].jaw == 1)
+      ++shut;
+  return shut;
+}
+
+TEST(GraftWay, ScrapesAndStitchesBothTendonsOrForgetsTo) {
+  const auto good = plan_graft(*bench_case(), expert_skill());
+  const auto dirty = plan_graft(*bench_case(), graft_fault("muscle_left"));
+  const auto loose = plan_graft(*bench_case(), graft_fault("few_stitches"));
+  ASSERT_TRUE(good && dirty && loose);
+  EXPECT_LT(dirty->duration_s(), good->duration_s());
+  // Each pass, and the jaws once more at the end of each tendon.
+  EXPECT_EQ(shut_with(*good, "needle_holder"), 2 * 5u + 2);
+  EXPECT_EQ(shut_with(*loose, "needle_holder"), 2 * 2u + 2);
+  // The graft that has muscle on it measures thicker.
+  EXPECT_FALSE(taken(*dirty).contains({"graft_sizer", 7.5}));
+}
+
+// From and back to where the hand is held, with what it held.
+TEST(GraftWay, TheStageOfAReconstructionBeginsAndEndsAtTheKnee) {
+  const Pose from{Vec3(0.05, -0.02, -0.04), Quat::Identity()};
+  const auto way = plan_graft_stage(*bench_case(), expert_skill(), 20, from, "guide_pin");
+  ASSERT_TRUE(way);
+  EXPECT_EQ(way->samples.front().instrument, "guide_pin");
+  EXPECT_EQ(way->samples.back().instrument, "guide_pin");
+  EXPECT_LT((way->samples.front().X_WD.p - from.p).norm(), 1e-3);
+  EXPECT_LT((way->samples.back().X_WD.p - from.p).norm(), 1e-3);
+  for (std::size_t i = 1; i < way->samples.size(); ++i)
+    ASSERT_GT(way->samples[i].time_s, way->samples[i - 1].time_s);
+  EXPECT_FALSE(taken(*way).contains({"endobutton", 20.0}));  // once the channel is known
+  const auto hung = plan_loop_stage(*bench_case(), expert_skill(), 0.040, 0.026, from, "guide_pin");
+  const auto tight =
+      plan_loop_stage(*bench_case(), graft_fault("short_loop"), 0.040, 0.026, from, "guide_pin");
+  ASSERT_TRUE(hung && tight);
+  EXPECT_TRUE(taken(*hung).contains({"endobutton", 20.0}));
+  EXPECT_TRUE(taken(*tight).contains({"endobutton", 15.0}));
+  EXPECT_FALSE(plan_loop_stage(*bench_case(), expert_skill(), 0.2, 0.026, from, "guide_pin"));
+  EXPECT_NEAR(drilled_for_graft(*bench_case(), expert_skill()).value(), 0.008, 1e-9);
+  EXPECT_GT(drilled_for_graft(*bench_case(), graft_fault("wide_tunnel")).value(), 0.0085);
+}
+
 TEST(GraftWay, AnotherFaultOrACaseWithoutABenchIsRefused) {
   EXPECT_FALSE(plan_graft(*bench_case(), graft_fault("blow_out")));
   EXPECT_FALSE(plan_graft(*testing::ring_box(), expert_skill()));

@@ -72,6 +72,20 @@ TEST(PartsHand, GivesUpWhatCannotBePlanned) {
   EXPECT_EQ(later, 0);
 }
 
+TEST(PartsHand, PlaysTheFirstOnesOneAfterTheOther) {
+  std::vector<std::unique_ptr<HandPlayer>> first;
+  auto path = std::make_unique<PathHand>(part_from({Vec3(0.01, 0, 0), Quat::Identity()}));
+  path->set_tray({"pin", "clamp"});
+  first.push_back(std::move(path));
+  first.push_back(one_move());
+  PartsHand hand(std::move(first), {});
+  EXPECT_EQ(hand.start().p.x(), 0.01);
+  const auto said = played(hand, 2);
+  EXPECT_TRUE(hand.done());
+  EXPECT_EQ(said.size(), 4u);
+  EXPECT_NEAR(hand.tip_W().x(), 0.01, 1e-9);
+}
+
 // A knee of two blocks whose tibia turns a little.
 std::shared_ptr<const Case> bending_blocks() {
   CaseDef def = testing::placing_def();

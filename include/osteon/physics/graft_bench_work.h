@@ -12,13 +12,14 @@ namespace osteon {
 
 /// What an instrument of a tray can do at a bench.
 struct BenchTool {
-  enum class Kind : std::uint8_t { kOther, kBlade, kStripper, kSizer, kButton, kClamp };
+  enum class Kind : std::uint8_t { kOther, kBlade, kStripper, kSizer, kButton, kClamp, kNeedle };
   Kind kind = Kind::kOther;
   double size_m = 0;  ///< bore of a sizer, length of a loop
 };
 
 /// Making a graft at a bench: bands are cut by a blade that is drawn over them, tendons stripped,
-/// carried and folded by a clamp, sized, pulled on a board and hung on a button. A function of its
+/// their muscle scraped off by a blade's strokes over the table beside their free ends, thread put
+/// through those by a needle holder that shuts there, tendons carried and folded by a clamp, sized, pulled on a board and hung on a button. A function of its
 /// state and the tools' states; a step allocates nothing.
 ///
 /// Guided one-dimensional model. An instrument that is pushed along a line stays on it, as in a
@@ -26,7 +27,9 @@ struct BenchTool {
 /// front s: over R the front goes on with (F - R) / kSlow, at most kFastest. So the hand feels R.
 /// R of a tendon grows towards its muscle and peaks at a band that is not cut; pushed beyond the
 /// peak the stripper cuts the tendon off there. R of a sizer grows with its tightness; R of the
-/// board is a spring's, kLever times less than the tension that it keeps. Forces are a fraction of
+/// board is a spring's, kLever times less than the tension that it keeps, which is no more than what
+/// the fewest passes of thread through a folded tendon hold; open jaws let its slide
+/// back. A graft that hangs on the thread in a knee has left the bench. Forces are a fraction of
 /// those of the operation, so that devices can show them: own defaults.
 class GraftBenchWork {
  public:
@@ -65,6 +68,8 @@ class GraftBenchWork {
   void push(std::size_t hand, const ToolState& tool, GraftBenchState& state);
   void reach(std::size_t hand, const BenchTool& tool, GraftBenchState& state) const;
   void draw_blade(std::size_t hand, const ToolState& tool, GraftBenchState& state) const;
+  void scrape(std::size_t hand, const ToolState& tool, GraftBenchState& state) const;
+  void stitch(std::size_t hand, const ToolState& tool, GraftBenchState& state) const;
   void carry(std::size_t hand, const ToolState& tool, GraftBenchState& state) const;
   void hang(std::size_t hand, const ToolState& tool, GraftBenchState& state) const;
   void publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
@@ -73,6 +78,7 @@ class GraftBenchWork {
   GraftBenchPlan plan_;
   std::vector<BenchTool> tray_;
   double step_s_;
+  bool in_knee_ = false;  ///< in this step: the graft hangs on the thread in the knee
   std::array<ToolGuide, kMaxHands> guides_{};
 };
 

@@ -29,18 +29,42 @@ inline constexpr EventKind kLoopHung{455};
 /// What was measured when the loop was hung: {a GraftValue; the value; 0}.
 inline constexpr EventKind kGraftMeasured{456};
 
+/// Muscle was scraped off a tendon, in steps of a tenth: {what is left, of the tendon that has more
+/// of it, %; 0; 0}.
+inline constexpr EventKind kMuscleScraped{465};
+/// Thread went through a tendon's end: {passes, of the tendon that has fewer; 0; 0}.
+inline constexpr EventKind kTendonStitched{466};
+
 /// What is measured of a graft.
-enum class GraftValue : std::uint8_t { kDiameter, kLength, kStrands, kInSocket, kCreepLeft };
+enum class GraftValue : std::uint8_t {
+  kDiameter,
+  kLength,
+  kStrands,
+  kInSocket,
+  kCreepLeft,
+  kMuscleLeft,  ///< of the tendon that has more of it
+  kStitches,    ///< passes of thread, of the tendon that has fewer
+  kTunnelOver  ///< how much wider than its sizer the wider tunnel is; only in a knee
+};
 /// By GraftValue: names with their units, each of a rule `outside_NAME` for errors.
-inline constexpr std::array<std::string_view, 5> kGraftValueNames{
-    "graft_diameter_mm", "graft_length_mm", "graft_strands", "graft_in_socket_mm",
-    "graft_creep_left_pct"};
+inline constexpr std::array<std::string_view, 8> kGraftValueNames{
+    "graft_diameter_mm",    "graft_length_mm",       "graft_strands",   "graft_in_socket_mm",
+    "graft_creep_left_pct", "graft_muscle_left_pct", "graft_stitches", "tunnel_over_graft_mm"};
+
+/// The tunnels that a graft is for, as they were measured in a knee.
+struct GraftRoom {
+  double channel_m = 0, socket_m = 0;  ///< of the femur
+  double narrow_m = 0, wide_m = 0;     ///< the narrower and the wider of both tunnels
+};
 
 /// Follows a bench's graft by what snapshots say. A function of them: a replay finds the same. The
 /// hand of an event is the first.
 class GraftWatch {
  public:
   explicit GraftWatch(const Case& the_case);
+  /// The graft is for tunnels that are drilled and measured, not for the bench's own channel: its
+  /// loop is judged once they are known. None: they are not, or no longer.
+  void set_room(const std::optional<GraftRoom>& room);
   void add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
   /// The bench as last seen; none: the case has none.
   const std::optional<GraftBenchPlan>& plan() const { return plan_; }
@@ -50,11 +74,18 @@ class GraftWatch {
   void tell(std::uint64_t tick, EventKind kind, std::array<double, 3> values,
             std::vector<Event>& out) const;
   void tell_tendons(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out) const;
+  void tell_table_work(std::uint64_t tick, const GraftBenchState& now,
+                       std::vector<Event>& out) const;
   void tell_graft(std::uint64_t tick, const GraftBenchState& now, std::vector<Event>& out);
+
+  void tell_loop(std::uint64_t tick, const Graft& graft, const GraftBenchState& now,
+                 std::vector<Event>& out);
 
   std::optional<GraftBenchPlan> plan_;
   GraftBenchState seen_;
-  double told_creep_s_ = 0;
+  std::optional<GraftRoom> room_;
+  bool drilled_ = false;  ///< the tunnels are: without a room nothing fits or does not
+  double told_creep_s_ = 0, told_loop_m_ = 0;
 };
 
 }  // namespace osteon

@@ -22,6 +22,7 @@ struct BoneDef {
   double density_kg_per_m3 = 1900;
   Material material;
   Felt felt = Felt::kPieces;
+  bool beside = false;  ///< see Bone
   /// With the cartilage on it; made by cover_bones (bone_cover.h), and by build_case where it was
   /// not.
   std::shared_ptr<const CoveredSurface> covered;

@@ -56,6 +56,8 @@ struct Bone {
   std::shared_ptr<const DistanceField> wide;  ///< of such a bone: for thick parts (wide_field.h)
   double mass_kg = 0.005;
   Material material;
+  /// A thing that lies beside the patient: no view is framed by it, and nothing carves it.
+  bool beside = false;
 };
 
 /// A place where a soft part holds on to a bone.
@@ -111,7 +113,7 @@ struct Case {
   std::uint64_t hash = 0;  ///< over everything that is felt
   BoneId find(std::string_view bone_name) const;
   const Bone& bone(BoneId id) const { return bones[id.index]; }
-  /// Of the bones: the skin may reach farther.
+  /// Of the patient's bones: the skin may reach farther, and what lies beside the patient.
   Aabb bounds_W() const;
 };
 

@@ -34,12 +34,23 @@ struct TendonMeasures {
 /// Tuman 2007). A function of the height and the seed. Fails on a height outside of 1.2 to 2.2 m.
 Result<std::array<TendonMeasures, kGraftTendons>> tendons_of(double height_m, std::uint64_t seed);
 
+/// A stripped tendon's muscle is off when a blade has scraped over it so far, all strokes together.
+inline constexpr double kScrapedClean_m = 0.060;
+/// Places along a tendon's end where a whipstitch can go through it, and so far apart.
+inline constexpr std::uint32_t kMostStitches = 6;
+inline constexpr double kStitchApart_m = 0.004;
+/// What one pass of thread holds of the pull on a graft's tail (own estimate: five hold what a board
+/// pulls).
+inline constexpr double kStitchHolds_n = 25;
+
 /// What a stripper brought out.
 struct HarvestedTendon {
   double length_m = 0;
-  double area_m2 = 0;
+  double area_m2 = 0;  ///< with the muscle that is left on it
   bool amputated = false;
 };
+/// The same with a share of its muscle left on it, 1: all: a third thicker then (own estimate).
+HarvestedTendon with_muscle(HarvestedTendon tendon, double left);
 /// `cut`: bit b: band b was cut before the stripper came. Pushed through a band that was not, it
 /// cuts the tendon off there.
 HarvestedTendon strip(const TendonMeasures& tendon, std::uint32_t cut);

@@ -22,6 +22,11 @@ struct TendonOnBench {
   bool stripped = false;        ///< to its end
   bool amputated = false;       ///< at the band that the stripper was pushed through
   std::uint32_t folds = 0;      ///< strands that it was folded to; 0: it lies open
+  double scraped_m = 0;         ///< over its muscle, all strokes together
+  std::uint32_t stitches = 0;   ///< bit k: thread goes through it at the place k from its free end
+  /// What of its muscle is left, 0 to 1.
+  double muscle_left() const;
+  std::uint32_t passes() const;  ///< of thread
 };
 
 /// What a hand is doing at the bench.
@@ -33,7 +38,8 @@ struct BenchHand {
   std::uint32_t carries = 0;               ///< 1 + tendon whose end is in its jaws; 0: none
   bool shut = true;                        ///< its jaws were
   std::uint32_t over = 0;                  ///< 1 + band over which its blade is drawn; 0: none
-  Vec3 from_W = Vec3::Zero();              ///< where the blade came on
+  Vec3 from_W = Vec3::Zero();              ///< where the blade came on; was last, scraping
+  std::uint32_t scrapes = 0;               ///< 1 + tendon whose muscle its blade is on; 0: none
   std::uint32_t hangs = 0;                 ///< steps for which a loop has been held on the graft
 };
 
@@ -56,7 +62,8 @@ struct GraftBenchPlan {
   struct Tendon {
     Vec3 insertion_W = Vec3::Zero(), along_W = Vec3::UnitX();  ///< to its muscle
     TendonMeasures measures;
-    Vec3 free_W = Vec3::Zero();   ///< its free end on the table, once stripped
+    Vec3 free_W = Vec3::Zero();   ///< its free end over the table, once stripped
+    Vec3 lies_W = Vec3::UnitX();  ///< unit, from there along it
     std::vector<Vec3> bands_W{};  ///< where a blade meets them
   };
   std::array<Tendon, kGraftTendons> tendons;
@@ -78,6 +85,10 @@ std::optional<GraftBenchPlan> find_graft_bench(const Case& the_case);
 /// The tendon as it was harvested; nothing: it was not, or lies in the patient still.
 std::optional<HarvestedTendon> harvested(const GraftBenchPlan& plan, const GraftBenchState& state,
                                          std::size_t tendon);
+/// A place of the whipstitch of a tendon that lies on the table.
+Vec3 stitch_W(const GraftBenchPlan& plan, std::size_t tendon, std::uint32_t place);
+/// The fewest passes of thread through a tendon that is folded; 0 also where none is.
+std::uint32_t fewest_passes(const GraftBenchState& state);
 /// What has been made of the tendons; none: nothing is folded.
 std::optional<Graft> graft_on(const GraftBenchPlan& plan, const GraftBenchState& state);
 

@@ -21,6 +21,7 @@ struct AclTools {
   double reamed_m = 0.008;        ///< so wide the tunnels will be
   bool drills = false;            ///< both tunnels are drilled, not located alone
   double socket_m = 0.025;        ///< so deep the femur's is drilled
+  bool after_graft = false;       ///< the hand that drills makes a graft before that
   std::vector<std::string> tour;  ///< landmarks that are looked at
   std::vector<std::string> felt;  ///< and those that the probe presses next to
 };
@@ -29,6 +30,8 @@ struct AclTools {
 struct AclWays {
   ProbePath scope, probe, pin;
   std::vector<AclMove> drilling;         ///< in place of `pin`, where tunnels are drilled
+  double third_begin_s = 0;              ///< when that hand, or the pin's, begins
+  bool after_graft = false;              ///< `drilling` begins when a graft has been made
   std::vector<std::string> unreachable;  ///< landmarks that no free way leads to
 };
 

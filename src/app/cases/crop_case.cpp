@@ -129,7 +129,7 @@ void prepare_cropped(const CaseDef& def, PieceCache& pieces, FieldCache& fields)
   coarse.cell_m = kCroppedCell_m;
   std::vector<const BoneDef*> bones;
   for (const BoneDef& bone : def.bones)
-    if (is_field(bone.felt)) bones.push_back(&bone);
+    if (is_field(bone.felt) && !bone.beside) bones.push_back(&bone);
   std::vector<FieldCache::Field> made(bones.size());
   run_on_all_cores(
       bones.size(),

@@ -38,6 +38,10 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
     const std::size_t equals = part.find('=');
     const bool all = equals == std::string::npos;
     const std::string value = all ? part : part.substr(equals + 1);
+    if (!all && part.substr(0, equals) == "beside") {
+      out.beside = value;
+      continue;
+    }
     if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
       const bool near = part.substr(0, equals) == "near";
       if (near && !(*degrees >= kLeastNear_mm && *degrees <= kMostNear_mm))
@@ -67,6 +71,8 @@ std::string to_text(const FeltChoice& choice) {
     out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
   if (choice.near_mm > 0)
     out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
+  if (!choice.beside.empty())
+    out.append(out.empty() ? "#" : ",").append("beside=" + choice.beside);
   return choice.source + out;
 }
 

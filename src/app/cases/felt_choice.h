@@ -11,12 +11,13 @@ namespace osteon {
 /// What of the bones is felt, and how far joints are bent, chosen otherwise than the case says:
 /// part of how a user names a case, so that a recording knows it too.
 /// "wrist_folder#lunate=hull,capitate=field", or "#field" for all; "knee_folder#flexion=70";
-/// "builtin:knee#near=80".
+/// "builtin:knee#near=80"; "builtin:knee#beside=graft_bench".
 struct FeltChoice {
   std::string source;                       ///< the case without the choice
   std::map<std::string, Felt> of_bone;      ///< by name; "" stands for all others
   std::map<std::string, double> bent = {};  ///< degrees, by the joint's name
   double near_mm = 0;  ///< femur and tibia of a knee end so far from the joint; 0: they are whole
+  std::string beside = {};  ///< a built-in anatomy that lies beside it (beside_case.h)
 };
 
 /// Splits at the last '#', unless a file of the whole name is there. Fails when what follows it is

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/all_cores.h"
+#include "cases/beside_case.h"
 #include "cases/cache_room.h"
 #include "cases/colour_softs.h"
 #include "cases/crop_case.h"
@@ -250,6 +251,7 @@ Result<CaseDef> open_case_def(const std::string& spec, const std::function<void(
   auto def = open_bent(*choice, progress, parts);
   if (!def) return def;
   colour_softs(*def);
+  if (auto laid = lay_beside(choice->beside, *def); !laid) return tl::unexpected(laid.error());
   if (auto applied = apply(*choice, *def); !applied) return tl::unexpected(applied.error());
   if (choice->near_mm > 0)
     if (auto cut = crop_knee(*def, choice->near_mm / 1000); !cut)

@@ -175,6 +175,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   for (HandCut& cut : cuts_)
     if (cut.hand < tools.size()) cut.watch.add(*tools[cut.hand], fresh_);
   rings_.add(tools, bones, fresh_);
+  if (tunnels_) graft_.set_room(tunnels_->room());
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);

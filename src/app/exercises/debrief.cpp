@@ -6,6 +6,7 @@
 
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/graft_order.h"
 #include "exercises/guided_time.h"
 #include "exercises/scenario_files.h"
 #include "exercises/surface_heat.h"
@@ -170,6 +171,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     TunnelSources sources{*spec, settings->tray, carved_bone};
     const auto graft = graft_in(order.recording);
     if (!graft) return tl::unexpected(graft.error());
+    if (*graft) leave_out_bench_stages(**scenario);
     sources.graft = *graft;
     if (auto begun =
             again.begin(**scenario, **the_case, tick_s, hands, std::move(sources), settings->tray);

@@ -1,5 +1,9 @@
 #include "exercises/graft_order.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace osteon {
 namespace {
 
@@ -20,6 +24,18 @@ bool asks_for_graft(const ScenarioPlan& plan) {
     for (const PlannedRule& goal : goals)
       if (goal.rule.kind == "thread_laid" || goal.rule.kind == "button_turned") return true;
   return false;
+}
+
+void leave_out_bench_stages(Scenario& scenario) {
+  constexpr std::array<std::string_view, 7> kOfBench{
+      "tendons_stripped", "muscle_off",      "tendons_stitched", "graft_folded",
+      "graft_sized",      "graft_tensioned", "loop_hung"};
+  const auto is_of_bench = [&](const Rule& goal) {
+    return std::find(kOfBench.begin(), kOfBench.end(), goal.kind) != kOfBench.end();
+  };
+  std::erase_if(scenario.stages, [&](const ScenarioStage& stage) {
+    return std::any_of(stage.goals.begin(), stage.goals.end(), is_of_bench);
+  });
 }
 
 void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {

@@ -13,6 +13,9 @@ namespace osteon {
 /// Whether a scenario has a graft placed.
 bool asks_for_graft(const ScenarioPlan& plan);
 
+/// Leaves out the stages in which a graft is made at a bench: for one that was made before.
+void leave_out_bench_stages(Scenario& scenario);
+
 /// Hands a graft over to a session whose tunnels were drilled and measured, by commands that are
 /// recorded: again where it does not come, and anew where the tunnels have changed before a thread
 /// lies in them. After a restore point from before the graft it comes once more.

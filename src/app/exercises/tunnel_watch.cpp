@@ -113,6 +113,7 @@ TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelS
           1, static_cast<std::uint64_t>(1 / (kTunnelWatchHz * tick_s) + 0.5))),
       holds_(pins_.size()) {
   work_.spec = sources_.case_spec;
+  if (!sources_.graft) bench_ = find_graft_bench(the_case);
   DrillWatch::Bones drilled{kNoSubject, kNoSubject};
   for (std::size_t k = 0; k < kBones; ++k) {
     work_.names[k] = kTunnelBones[k];
@@ -161,6 +162,7 @@ void TunnelWatch::follow_drills(std::span<const ToolState* const> tools, const B
                                 std::vector<Event>& out) {
   drills_->add(tools, bones, out);
   if (bones.epoch != epoch_) look_again(bones);
+  if (bench_) follow_bench(bones.bench);
   if (job_.valid()) return;
   for (std::size_t k = 0; k < kBones; ++k)
     if (drills_->take_done(k)) take_cuts(k);
@@ -194,30 +196,49 @@ void TunnelWatch::follow_fixing(const BoneSnapshot& bones, std::vector<Event>& o
   }
   if (std::exchange(fixed_, true)) return;
   work_.choices = choices_of(placing);
-  if (sources_.graft) work_.choices->pretension_s = sources_.graft->creep_s;
+  if (const auto& made = bench_ ? made_ : sources_.graft)
+    work_.choices->pretension_s = made->creep_s;
   fresh_ = true;
   measure(measured_at(), out);
+}
+
+// A graft is ready when its button hangs on it. What the board does to it is counted until then.
+void TunnelWatch::follow_bench(const GraftBenchState& bench) {
+  const auto graft = bench.loop_m > 0 ? graft_on(*bench_, bench) : std::nullopt;
+  const bool same = graft.has_value() == made_.has_value() &&
+                    (!graft || (graft->diameter_m == made_->diameter_m &&
+                                graft->length_m == made_->length_m && bench.loop_m == made_->loop_m));
+  if (made_) made_->creep_s = bench.creep_s;
+  if (same) return;
+  made_.reset();
+  if (graft) made_ = {graft->length_m, graft->diameter_m, bench.loop_m, bench.creep_s};
+  plan_graft();
 }
 
 // What was drilled is a graft's way once both bones are through.
 void TunnelWatch::plan_graft() {
   placing_.reset();
+  room_.reset();
+  refused_.reset();
   at_hand_ = drills_ && measured_epoch_ == epoch_;
   const auto &f = work_.holes[0], &t = work_.holes[1];
   if (!f || !t || !(f->channel_m > 0) || !t->through || !case_) return;
   const auto hole = [](const DrilledHole& found) {
     return PlacingHole{found.line.from_W, found.line.to_W, found.line.diameter_m};
   };
+  const auto& made = bench_ ? made_ : sources_.graft;
   PlacingGraft graft;
-  if (const auto& made = sources_.graft) graft = {made->diameter_m, made->length_m, made->loop_m};
+  if (made) graft = {made->diameter_m, made->length_m, made->loop_m};
   placing_ = plan_placing(*case_, hole(*f), hole(*t), graft);
   if (!placing_) return;
+  const auto [narrow_m, wide_m] = std::minmax(f->line.diameter_m, t->line.diameter_m);
+  room_ = {placing_->femur.length_m(), placing_->socket_m, narrow_m, wide_m};
+  if (bench_ && !made_) placing_.reset();  // it is still being made
   constexpr double kTight_m = 0.0005;
-  const double thinner_m = std::min(f->line.diameter_m, t->line.diameter_m);
-  if (placing_->graft_m <= thinner_m + kTight_m) return;
+  if (!placing_ || placing_->graft_m <= narrow_m + kTight_m) return;
   placing_.reset();
-  work_.problem = Error{"the graft is thicker than the tunnels", "graft",
-                        "Drill wider tunnels, or make a thinner graft"};
+  refused_ = Error{"the graft is thicker than the tunnels", "graft",
+                   "Drill wider tunnels, or make a thinner graft"};
 }
 
 void TunnelWatch::take_cuts(std::size_t k) {

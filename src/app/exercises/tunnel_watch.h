@@ -13,6 +13,7 @@
 
 #include "exercises/drill_watch.h"
 #include "osteon/carve/carved_field.h"
+#include "osteon/procedure/graft_watch.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/state.h"
@@ -61,10 +62,12 @@ class TunnelWatch {
   /// What was measured.
   const AclReport& report() const { return work_.report; }
   /// A graft for both tunnels as they were measured last; none: there are no two, or what was
-  /// measured is no longer what there is.
+  /// measured is no longer what there is, or the graft is still being made at a bench.
   std::optional<PlacingPlan> placing() const { return at_hand_ ? placing_ : std::nullopt; }
+  /// What there is for a graft, whether one has been made or not.
+  std::optional<GraftRoom> room() const { return at_hand_ ? room_ : std::nullopt; }
   /// Why tunnels could not be measured: their line misses what it must meet, for example.
-  const std::optional<Error>& problem() const { return work_.problem; }
+  const std::optional<Error>& problem() const { return refused_ ? refused_ : work_.problem; }
 
  private:
   static constexpr std::size_t kBones = 2;  ///< femur, tibia
@@ -113,6 +116,7 @@ class TunnelWatch {
   void look_again(const BoneSnapshot& bones);
   void follow_fixing(const BoneSnapshot& bones, std::vector<Event>& out);
   void plan_graft();
+  void follow_bench(const GraftBenchState& bench);
   Event measured_at() const;
   void measure(const Event& at, std::vector<Event>& out);
   void tell_measured(const Event& at, std::vector<Event>& out);
@@ -135,6 +139,10 @@ class TunnelWatch {
   bool over_ = false;                  ///< the attempt: what is, is judged
   std::array<bool, kBones> is_socket_{};
   std::optional<PlacingPlan> placing_;
+  std::optional<GraftRoom> room_;
+  std::optional<GraftBenchPlan> bench_;  ///< none: the graft is made elsewhere
+  std::optional<Error> refused_;         ///< why the graft does not go into the tunnels
+  std::optional<MadeGraft> made_;        ///< of the bench; none: no button hangs on it
   bool at_hand_ = false;              ///< what placing_ says stands in the bones
   std::uint32_t epoch_ = 0;           ///< of the bones that were seen last
   std::uint32_t measured_epoch_ = 0;  ///< of the bones when they were measured last

@@ -80,6 +80,11 @@ struct ExerciseModel {
   double elapsed_s = 0, limit_s = 0;
   std::vector<std::string> left;  ///< what the live stage still asks for
   std::size_t goals = 0;          ///< of the live stage, those left counted
+  /// What was found out and is needed: "Femoral channel", "32.7 mm", where it comes from.
+  struct Told {
+    std::string name, value, meaning;
+  };
+  std::vector<Told> told;
   std::string cue;                ///< asked for; empty: not shown
   bool has_cue = false;
   int hints = 0, undone = 0;

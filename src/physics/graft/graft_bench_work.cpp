@@ -18,6 +18,8 @@ constexpr double kGripStep = 0.02;     // a line holds within 50 steps
 constexpr double kNearBand_m = 0.006;  // a blade meets a band
 constexpr double kDrawn_m = 0.004;     // it is through when drawn so far
 constexpr double kPressed_n = 0.15;    // with so much force
+constexpr double kBeforeEnd_m = 0.002, kMuscle_m = 0.034, kBeside_m = 0.016;  // where muscle is
+constexpr double kNearStitch_m = 0.003;
 constexpr double kNearEnd_m = 0.010;   // jaws take a tendon's end
 constexpr double kNearPost_m = 0.012;  // and leave it at a post
 constexpr double kNearHook_m = 0.006;
@@ -52,7 +54,7 @@ const BenchTool& GraftBenchWork::held(const ToolState& tool) const {
 bool GraftBenchWork::may_lead(const GraftBenchState& state, std::uint32_t line,
                               const BenchTool& tool) const {
   if (is_tendon(line)) return tool.kind == BenchKind::kStripper && !state.tendons[line].stripped;
-  const bool folded = graft_on(plan_, state).has_value();
+  const bool folded = !in_knee_ && graft_on(plan_, state).has_value();
   if (line == GraftBenchPlan::kGraft) return tool.kind == BenchKind::kSizer && folded;
   return tool.kind == BenchKind::kClamp && folded;
 }
@@ -146,7 +148,8 @@ void GraftBenchWork::reach(std::size_t hand, const BenchTool& tool, GraftBenchSt
   }
   front = std::min(front, way);
   if (line == GraftBenchPlan::kBoard) {
-    state.tension_n = 1.5 * kPretension_n * front / way;
+    const double holds_n = kStitchHolds_n * fewest_passes(state);
+    state.tension_n = std::min(1.5 * kPretension_n * front / way, holds_n);
     return;
   }
   const auto graft = graft_on(plan_, state);
@@ -171,6 +174,8 @@ void GraftBenchWork::push(std::size_t hand, const ToolState& tool, GraftBenchSta
   const double over = force - resistance_n(state, line, front, held(tool));
   if (s > front - 0.002 && over > 0)
     front += step_s_ * std::min(over / kSlow_n_s_per_m, kFastest_m_per_s);
+  // The board's slide does not go back by itself: open jaws let it follow them.
+  if (line == GraftBenchPlan::kBoard && tool.jaw >= kShut) front = std::clamp(s, 0.0, front);
   reach(hand, held(tool), state);
 }
 
@@ -199,14 +204,51 @@ void GraftBenchWork::draw_blade(std::size_t hand, const ToolState& tool,
     }
 }
 
+// A blade that is pressed on beside a stripped tendon's free end, and drawn.
+void GraftBenchWork::scrape(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
+  BenchHand& h = state.hands[hand];
+  const std::uint32_t before = std::exchange(h.scrapes, 0);
+  if (tool.contact_count == 0 || !is_finite(tool.force_W) || tool.force_W.norm() < kPressed_n)
+    return;
+  for (std::uint32_t t = 0; t < kGraftTendons; ++t) {
+    TendonOnBench& tendon = state.tendons[t];
+    const GraftBenchPlan::Tendon& lies = plan_.tendons[t];
+    if (!tendon.stripped || tendon.folds > 0) continue;
+    const Vec3 off = tool.X_WP.p - lies.free_W;
+    const double along = off.dot(lies.lies_W);
+    if (along < -kBeforeEnd_m || along > kMuscle_m || (off - along * lies.lies_W).norm() > kBeside_m)
+      continue;
+    h.scrapes = t + 1;
+    if (before == h.scrapes)
+      tendon.scraped_m += std::min(kFastest_m_per_s * step_s_, (tool.X_WP.p - h.from_W).norm());
+    h.from_W = tool.X_WP.p;
+    return;
+  }
+}
+
+// A needle holder that shuts at a place of a tendon's end has put thread through it.
+void GraftBenchWork::stitch(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
+  BenchHand& h = state.hands[hand];
+  const bool shut = tool.jaw < kShut, shuts = shut && !h.shut;
+  h.shut = shut;
+  if (!shuts) return;
+  for (std::uint32_t t = 0; t < kGraftTendons; ++t) {
+    if (!state.tendons[t].stripped || state.tendons[t].folds > 0) continue;
+    for (std::uint32_t k = 0; k < kMostStitches; ++k)
+      if ((tool.X_WP.p - stitch_W(plan_, t, k)).norm() < kNearStitch_m)
+        state.tendons[t].stitches |= 1u << k;
+  }
+}
+
 // Jaws shut about the free end of a stripped tendon take it; opened at a post they leave it there,
 // folded as the post says.
 void GraftBenchWork::carry(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
   BenchHand& h = state.hands[hand];
+  if (in_knee_) h.carries = 0;
   const bool shut = tool.jaw < kShut;
   const bool shuts = shut && !h.shut, opens = !shut && h.shut;
   h.shut = shut;
-  if (shuts)
+  if (shuts && !in_knee_)
     for (std::uint32_t t = 0; t < kGraftTendons; ++t)
       if (state.tendons[t].stripped && (tool.X_WP.p - plan_.tendons[t].free_W).norm() < kNearEnd_m)
         h.carries = 1 + t;
@@ -221,7 +263,8 @@ void GraftBenchWork::hang(std::size_t hand, const ToolState& tool, GraftBenchSta
   BenchHand& h = state.hands[hand];
   const bool near = (tool.X_WP.p - plan_.hook_W).norm() < kNearHook_m;
   h.hangs = near ? std::min(h.hangs + 1, kHangSteps) : 0;
-  if (h.hangs == kHangSteps && graft_on(plan_, state)) state.loop_m = held(tool).size_m;
+  if (h.hangs == kHangSteps && !in_knee_ && graft_on(plan_, state))
+    state.loop_m = held(tool).size_m;
 }
 
 void GraftBenchWork::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
@@ -246,6 +289,8 @@ void GraftBenchWork::publish(std::size_t hand, const ToolState& tool, const Bone
 
 void GraftBenchWork::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                           GraftBenchState& state) {
+  in_knee_ = bones.placing.on && bones.placing.phase >= PlacingPhase::kThreadOut;
+  if (in_knee_) state.tension_n = 0;
   for (std::size_t hand = 0; hand < std::min(tools.size(), kMaxHands); ++hand) {
     const ToolState& tool = *tools[hand];
     BenchHand& h = state.hands[hand];
@@ -258,7 +303,11 @@ void GraftBenchWork::step(std::span<const ToolState* const> tools, const BoneSna
     follow_line(hand, tool, bones, state);
     if (h.line != 0) push(hand, tool, state);
     const BenchKind kind = held(tool).kind;
-    if (kind == BenchKind::kBlade) draw_blade(hand, tool, state);
+    if (kind == BenchKind::kBlade) {
+      draw_blade(hand, tool, state);
+      if (state.hands[hand].over == 0) scrape(hand, tool, state);
+    }
+    if (kind == BenchKind::kNeedle) stitch(hand, tool, state);
     if (kind == BenchKind::kClamp) carry(hand, tool, state);
     if (kind == BenchKind::kButton) hang(hand, tool, state);
     publish(hand, tool, bones, state);

@@ -9,7 +9,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kGraftFixedKinds = 7;
+constexpr std::size_t kGraftFixedKinds = 9;
 constexpr double kGraftMost = 1000;
 constexpr double kLeastSizer_mm = 1e3 * kLeastSizer_m, kStep_mm = 1e3 * kSizerStep_m;
 
@@ -31,6 +31,16 @@ std::vector<RuleKind> make_graft_table() {
        "the given number of tendons has been stripped, whole or not",
        true,
        {{"least", 1, 2, 2}},
+       kOfNothing},
+      {"muscle_off",
+       "at most that share of its muscle is left on either tendon",
+       true,
+       {{"most_left_pct", 0, 100, 10}},
+       kOfNothing},
+      {"tendons_stitched",
+       "thread goes through the end of each tendon at least that often",
+       true,
+       {{"least", 1, kMostStitches, 5}},
        kOfNothing},
       {"graft_folded",
        "the graft has the given number of strands",
@@ -74,6 +84,10 @@ bool is_sized(const PlannedRule& rule, const Event& event) {
 }
 
 bool goal_holds(const std::string& kind, const PlannedRule& rule, const Event& event) {
+  if (kind == "muscle_off")
+    return event.kind == kMuscleScraped && event.values[0] <= number_of(rule, "most_left_pct");
+  if (kind == "tendons_stitched")
+    return event.kind == kTendonStitched && event.values[0] >= number_of(rule, "least");
   if (kind == "graft_folded")
     return event.kind == kTendonFolded && event.values[0] >= number_of(rule, "least");
   if (kind == "graft_sized") return event.kind == kGraftSized && is_sized(rule, event);

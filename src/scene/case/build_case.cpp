@@ -109,6 +109,7 @@ Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
   bone.field = std::move(*field);
   bone.wide = std::move(*wide);
   bone.felt = def.felt;
+  bone.beside = def.beside;
   if (def.felt == Felt::kCovered) bone.covered = std::move(def.covered);
   bone.pieces = std::move(*pieces);
   for (const Hull& piece : bone.pieces) bone.bodies.push_back(make_convex_body(piece));
@@ -136,6 +137,7 @@ void hash_bone(Hasher& hasher, const Bone& bone) {
   hasher.add(bone.fma_id);
   hasher.add(bone.X_WB);
   hasher.add(static_cast<std::uint8_t>(bone.felt));
+  if (bone.beside) hasher.add(std::string_view("beside"));  // a case without keeps its hash
   add_mesh(hasher, bone.mesh);
   hasher.add(static_cast<std::uint64_t>(bone.pieces.size()));
   for (const Hull& piece : bone.pieces) hash_piece(hasher, piece);

@@ -31,7 +31,8 @@ BoneId Case::find(std::string_view bone_name) const {
 Aabb Case::bounds_W() const {
   Aabb box;
   for (const Bone& bone : bones)
-    for (const Vec3& p_B : bone.mesh.vertices) box.include(bone.X_WB * p_B);
+    if (!bone.beside)
+      for (const Vec3& p_B : bone.mesh.vertices) box.include(bone.X_WB * p_B);
   return box;
 }
 

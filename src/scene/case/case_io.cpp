@@ -85,6 +85,7 @@ std::string bone_text(const BoneDef& bone, const std::string& mesh_file) {
          "\nmesh = " + quoted(mesh_file) + "\nposition_m = " + bracketed(bone.X_WB.p) +
          "\nrotation_wxyz = " + bracketed({q.w(), q.x(), q.y(), q.z()}) +
          "\nfelt = " + quoted(std::string(to_text(bone.felt))) +
+         (bone.beside ? "\nbeside = true" : "") +
          "\ndensity_kg_per_m3 = " + format_number(bone.density_kg_per_m3) +
          "\nmaterial = { stiffness_n_per_m = " + format_number(m.stiffness_n_per_m) +
          ", static_friction = " + format_number(m.static_friction) +

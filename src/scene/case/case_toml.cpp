@@ -107,13 +107,14 @@ void read_bone(const toml::table& table, const std::string& where, CaseText& out
   const std::string title = "bone " + std::to_string(out.def.bones.size() + 1);
   CaseTomlReader reader(table, where, title);
   reader.allow_only({"name", "fma_id", "mesh", "position_m", "rotation_wxyz", "felt",
-                     "density_kg_per_m3", "material"});
+                     "beside", "density_kg_per_m3", "material"});
   BoneDef bone;
   bone.name = read_name(reader);
   bone.fma_id = reader.integer_or("fma_id", {0, 10'000'000}, fma_id_of(bone.name));
   out.mesh_files.push_back(read_mesh_file(reader));
   bone.X_WB = read_pose(reader);
   bone.felt = read_felt(reader);
+  bone.beside = reader.flag_or("beside", false);
   bone.density_kg_per_m3 =
       reader.number_or("density_kg_per_m3", {1, 25'000}, bone.density_kg_per_m3);
   bone.material = read_material(reader, where, title);

@@ -59,6 +59,14 @@ std::string CaseTomlReader::text_or(std::string_view key, std::string fallback) 
   return has(key) ? text(key) : fallback;
 }
 
+bool CaseTomlReader::flag_or(std::string_view key, bool fallback) {
+  const toml::node* node = has(key) ? find(key) : nullptr;
+  if (!node) return fallback;
+  const auto* flag = node->as_boolean();
+  if (!flag) set_error(named(key) + " must be true or false", key);
+  return flag ? flag->get() : fallback;
+}
+
 double CaseTomlReader::as_number(const toml::node& node, std::string_view key, NumberRange range) {
   double value = 0;
   if (const auto* floating = node.as_floating_point()) {

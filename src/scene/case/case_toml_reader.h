@@ -31,6 +31,7 @@ class CaseTomlReader {
 
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string fallback);
+  bool flag_or(std::string_view key, bool fallback);
   double number(std::string_view key, NumberRange range);
   double number_or(std::string_view key, NumberRange range, double fallback);
   int integer_or(std::string_view key, NumberRange range, int fallback);

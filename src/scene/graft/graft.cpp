@@ -60,6 +60,12 @@ HarvestedTendon strip(const TendonMeasures& tendon, std::uint32_t cut) {
   return {tendon.length_m, tendon.area_m2, false};
 }
 
+HarvestedTendon with_muscle(HarvestedTendon tendon, double left) {
+  constexpr double kThicker = 1.0 / 3;
+  tendon.area_m2 *= 1 + kThicker * std::clamp(left, 0.0, 1.0);
+  return tendon;
+}
+
 Result<Graft> fold_graft(std::span<const std::optional<HarvestedTendon>> tendons,
                          std::span<const std::uint32_t> folds) {
   Graft graft;

@@ -1,5 +1,7 @@
 #include "osteon/scene/graft_bench.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -91,7 +93,29 @@ std::optional<HarvestedTendon> harvested(const GraftBenchPlan& plan, const Graft
                                          std::size_t tendon) {
   if (!state.on || tendon >= kGraftTendons || !state.tendons[tendon].stripped) return std::nullopt;
   const TendonOnBench& is = state.tendons[tendon];
-  return strip(plan.tendons[tendon].measures, is.amputated ? is.bands_cut : ~0u);
+  return with_muscle(strip(plan.tendons[tendon].measures, is.amputated ? is.bands_cut : ~0u),
+                     is.muscle_left());
+}
+
+double TendonOnBench::muscle_left() const {
+  return std::clamp(1 - scraped_m / kScrapedClean_m, 0.0, 1.0);
+}
+
+std::uint32_t TendonOnBench::passes() const {
+  return static_cast<std::uint32_t>(std::popcount(stitches));
+}
+
+Vec3 stitch_W(const GraftBenchPlan& plan, std::size_t tendon, std::uint32_t place) {
+  constexpr double kFirst_m = 0.006;
+  const GraftBenchPlan::Tendon& is = plan.tendons[tendon];
+  return is.free_W + (kFirst_m + kStitchApart_m * place) * is.lies_W;
+}
+
+std::uint32_t fewest_passes(const GraftBenchState& state) {
+  std::uint32_t least = kMostStitches + 1;
+  for (const TendonOnBench& tendon : state.tendons)
+    if (tendon.folds > 0) least = std::min(least, tendon.passes());
+  return least > kMostStitches ? 0 : least;
 }
 
 std::optional<Graft> graft_on(const GraftBenchPlan& plan, const GraftBenchState& state) {

@@ -3,6 +3,7 @@
 namespace osteon::stored {
 namespace {
 
+constexpr std::uint64_t kTableWork = 25;  // that of muscle and thread on tendons
 constexpr std::uint64_t kOrders = 13;  // the version that says what graft was handed over
 
 }  // namespace
@@ -13,6 +14,13 @@ void field(A& a, TendonOnBench& t) {
   field(a, t.front_m);
   for (bool* x : {&t.stripped, &t.amputated}) field(a, *x);
   number(a, t.folds, 4);
+  if (!since(a, kTableWork)) {  // every tendon was clean and stitched then
+    t.scraped_m = kScrapedClean_m;
+    t.stitches = (1u << kMostStitches) - 1;
+    return;
+  }
+  field(a, t.scraped_m);
+  number(a, t.stitches, (1u << kMostStitches) - 1);
 }
 
 template <class A>
@@ -25,6 +33,7 @@ void field(A& a, BenchHand& h) {
   number(a, h.over, kGraftTendons * kMostBands);
   field(a, h.from_W);
   field(a, h.hangs);
+  if (since(a, kTableWork)) number(a, h.scrapes, kGraftTendons);
 }
 
 template <class A>

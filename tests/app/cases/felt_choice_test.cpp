@@ -50,6 +50,13 @@ TEST(FeltChoice, AKneeMayEndNearItsJoint) {
   EXPECT_FALSE(parse_felt_choice("builtin:knee#near=500"));
 }
 
+TEST(FeltChoice, SomethingMayLieBesideIt) {
+  const auto choice = parse_felt_choice("builtin:knee#femur=field,near=100,beside=graft_bench");
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->beside, "graft_bench");
+  EXPECT_EQ(to_text(*choice), "builtin:knee#femur=field,near=100,beside=graft_bench");
+}
+
 TEST(FeltChoice, AJointIsBentBesideWhatIsFelt) {
   const auto choice = parse_felt_choice("knee#hull,flexion=72.5");
   ASSERT_TRUE(choice);

@@ -15,6 +15,22 @@ std::vector<Command> all_of(GraftOrder& order) {
   return said;
 }
 
+TEST(GraftOrder, StagesAtTheBenchAreLeftOutWhereTheGraftIsMade) {
+  Scenario scenario;
+  for (const char* kind : {"seen", "tendons_stripped", "graft_sized", "socket_drilled", "loop_hung",
+                           "thread_laid"}) {
+    scenario.stages.emplace_back();
+    scenario.stages.back().name = kind;
+    scenario.stages.back().goals.emplace_back();
+    scenario.stages.back().goals.back().kind = kind;
+  }
+  leave_out_bench_stages(scenario);
+  ASSERT_EQ(scenario.stages.size(), 3u);
+  EXPECT_EQ(scenario.stages[0].name, "seen");
+  EXPECT_EQ(scenario.stages[1].name, "socket_drilled");
+  EXPECT_EQ(scenario.stages[2].name, "thread_laid");
+}
+
 TEST(GraftOrder, SaysNothingUntilTheTunnelsAreMeasured) {
   GraftOrder order;
   order.see(std::nullopt, BoneSnapshot{});

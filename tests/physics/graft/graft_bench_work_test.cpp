@@ -16,13 +16,15 @@ enum BenchTray : std::uint32_t {
   kSizer8,
   kSizer75,
   kButton20,
-  kClampTool
+  kClampTool,
+  kNeedleTool
 };
 
 std::vector<BenchTool> bench_tray() {
   using Kind = BenchTool::Kind;
   return {{Kind::kBlade, 0.024},  {Kind::kStripper, 0.006}, {Kind::kSizer, 0.008},
-          {Kind::kSizer, 0.0075}, {Kind::kButton, 0.020},   {Kind::kClamp, 0.140}};
+          {Kind::kSizer, 0.0075}, {Kind::kButton, 0.020},   {Kind::kClamp, 0.140},
+          {Kind::kNeedle, 0.150}};
 }
 
 // A hand at a bench of which the haptic half is played: a tool that is pushed stands at its front,
@@ -178,6 +180,112 @@ TEST(GraftBenchWork, ALoopIsHungOnWhatIsFolded) {
   EXPECT_EQ(rig.state.loop_m, 0);
   for (int n = 0; n < 300; ++n) rig.at(rig.work.plan().hook_W);
   EXPECT_NEAR(rig.state.loop_m, 0.020, 1e-12);
+}
+
+// Strokes of 20 mm beside the free end, on the table 12 mm under it.
+void stroke(BenchRig& rig, std::size_t tendon, int strokes, double force_n) {
+  const Vec3 free = rig.work.plan().tendons[tendon].free_W - Vec3(0, 0, 0.012);
+  rig.hold(kBladeTool);
+  rig.tool.contact_count = 1;
+  rig.tool.force_W = Vec3(0, 0, force_n);
+  rig.at(free + Vec3(0.006, 0, 0));
+  for (int i = 0; i < strokes; ++i)
+    for (int n = 1; n <= 100; ++n) {
+      const double there = 0.0002 * (i % 2 == 0 ? n : 100 - n);
+      rig.at(free + Vec3(0.006 + there, 0, 0));
+    }
+}
+
+TEST(GraftBenchWork, StrokesOfThePressedBladeScrapeTheMuscleOff) {
+  BenchRig rig;
+  stroke(rig, 0, 3, 0.5);
+  EXPECT_EQ(rig.state.tendons[0].scraped_m, 0);  // in the patient still
+  rig.state.tendons[0].stripped = rig.state.tendons[1].stripped = true;
+  EXPECT_EQ(rig.state.tendons[0].muscle_left(), 1);
+  stroke(rig, 0, 3, 0.05);
+  EXPECT_EQ(rig.state.tendons[0].scraped_m, 0);
+  stroke(rig, 0, 2, 0.5);
+  EXPECT_NEAR(rig.state.tendons[0].scraped_m, 0.040, 1e-9);
+  EXPECT_NEAR(rig.state.tendons[0].muscle_left(), 1.0 / 3, 1e-6);
+  EXPECT_EQ(rig.state.tendons[1].scraped_m, 0);
+  // Lifted and set down elsewhere it has scraped nothing on the way.
+  stroke(rig, 1, 1, 0.5);
+  EXPECT_NEAR(rig.state.tendons[1].scraped_m, 0.020, 1e-9);
+  stroke(rig, 0, 2, 0.5);
+  EXPECT_EQ(rig.state.tendons[0].muscle_left(), 0);
+}
+
+TEST(GraftBenchWork, ANeedleHolderThatShutsAtAPlacePutsThreadThrough) {
+  BenchRig rig;
+  rig.state.tendons[0].stripped = true;
+  rig.hold(kNeedleTool);
+  const auto shut_at = [&](const Vec3& p_W) {
+    rig.tool.jaw = 1;
+    rig.at(p_W);
+    rig.tool.jaw = 0;
+    rig.at(p_W);
+  };
+  const GraftBenchPlan& plan = rig.work.plan();
+  shut_at(stitch_W(plan, 1, 0));  // still in the patient
+  EXPECT_EQ(rig.state.tendons[1].passes(), 0u);
+  shut_at(stitch_W(plan, 0, 0));
+  shut_at(stitch_W(plan, 0, 0));
+  EXPECT_EQ(rig.state.tendons[0].passes(), 1u);
+  shut_at(stitch_W(plan, 0, 2) + Vec3(0, 0.02, 0));
+  EXPECT_EQ(rig.state.tendons[0].passes(), 1u);
+  shut_at(stitch_W(plan, 0, 2));
+  EXPECT_EQ(rig.state.tendons[0].stitches, 0b101u);
+  rig.state.tendons[0].folds = 2;  // it lies open no longer
+  shut_at(stitch_W(plan, 0, 3));
+  EXPECT_EQ(rig.state.tendons[0].passes(), 2u);
+}
+
+TEST(GraftBenchWork, TheBoardPullsNoHarderThanTheThreadHolds) {
+  BenchRig rig;
+  rig.state = folded_bench(2, 2);
+  rig.state.tendons[1].stitches = 0b11;
+  rig.hold(kClampTool);
+  rig.push(GraftBenchPlan::kBoard, 80 / GraftBenchWork::kLever, 5);
+  EXPECT_NEAR(rig.state.tension_n, 2 * kStitchHolds_n, 1e-9);
+  rig.state.tendons[1].stitches = 0;
+  rig.push(GraftBenchPlan::kBoard, 80 / GraftBenchWork::kLever, 0.1);
+  EXPECT_EQ(rig.state.tension_n, 0);
+}
+
+TEST(GraftBenchWork, OpenJawsLetTheSlideBackAndShutOnesDoNot) {
+  BenchRig rig;
+  rig.state = folded_bench(2, 2);
+  rig.hold(kClampTool);
+  rig.push(GraftBenchPlan::kBoard, 80 / GraftBenchWork::kLever, 5);
+  const double front = rig.state.hands[0].front_m;
+  const Vec3 from = rig.work.plan().board_from_W;
+  rig.at(from + Vec3(0.5 * front, 0, 0));
+  EXPECT_NEAR(rig.state.tension_n, 80, 2);
+  rig.tool.jaw = 1;
+  rig.at(from + Vec3(0.5 * front, 0, 0));
+  EXPECT_NEAR(rig.state.tension_n, 40, 1);
+  rig.at(from);
+  EXPECT_EQ(rig.state.tension_n, 0);
+}
+
+TEST(GraftBenchWork, AGraftThatHangsInTheKneeHasLeftTheBench) {
+  BenchRig rig;
+  rig.state = folded_bench(2, 2);
+  rig.state.tension_n = 80;
+  rig.bones.placing.on = true;
+  rig.bones.placing.phase = PlacingPhase::kThreadHeld;
+  rig.step();
+  EXPECT_GT(rig.state.creep_s, 0);
+  rig.bones.placing.phase = PlacingPhase::kThreadOut;
+  rig.step();
+  const double crept = rig.state.creep_s;
+  rig.hold(kButton20);
+  for (int n = 0; n < 400; ++n) rig.at(rig.work.plan().hook_W);
+  EXPECT_EQ(rig.state.creep_s, crept);
+  EXPECT_EQ(rig.state.loop_m, 0);
+  rig.hold(kSizer8);
+  rig.at(rig.work.plan().graft_from_W);
+  EXPECT_FALSE(rig.work.guides()[0].on);
 }
 
 TEST(GraftBenchWork, AToolOfAnotherEpochOrThatIsNoNumberDoesNothing) {

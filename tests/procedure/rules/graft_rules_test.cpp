@@ -43,6 +43,19 @@ TEST(GraftRules, BothTendonsAreCounted) {
   EXPECT_TRUE(rig.state.met);
 }
 
+TEST(GraftRules, MuscleAndThreadOfBothTendons) {
+  GraftRuleRig muscle("muscle_off");
+  muscle.hit(kMuscleScraped, {50, 0, 0});
+  EXPECT_FALSE(muscle.state.met);
+  muscle.hit(kMuscleScraped, {10, 0, 0});
+  EXPECT_TRUE(muscle.state.met);
+  GraftRuleRig thread("tendons_stitched");
+  thread.hit(kTendonStitched, {4, 0, 0});
+  EXPECT_FALSE(thread.state.met);
+  thread.hit(kTendonStitched, {5, 0, 0});
+  EXPECT_TRUE(thread.state.met);
+}
+
 TEST(GraftRules, AGraftIsSizedOnceTheNextSmallerCylinderIsRefused) {
   GraftRuleRig rig("graft_sized");
   rig.hit(kGraftSized, {8.5, 0, 125});

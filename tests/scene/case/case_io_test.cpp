@@ -215,6 +215,7 @@ void expect_same(const CaseDef& a, const CaseDef& b) {
     EXPECT_EQ(x.X_WB.q.coeffs(), y.X_WB.q.coeffs());
     EXPECT_TRUE(x.mesh.vertices == y.mesh.vertices) << x.name;
     EXPECT_TRUE(x.mesh.triangles == y.mesh.triangles) << x.name;
+    EXPECT_EQ(x.beside, y.beside);
     EXPECT_EQ(x.density_kg_per_m3, y.density_kg_per_m3);
     EXPECT_EQ(x.material.stiffness_n_per_m, y.material.stiffness_n_per_m);
     EXPECT_EQ(x.material.static_friction, y.material.static_friction);
@@ -235,7 +236,8 @@ void expect_same(const CaseDef& a, const CaseDef& b) {
 
 TEST(CaseIo, WhatWasLoadedIsSavedBitByBit) {
   const fs::path dir = test::fresh_folder("case_round");
-  const CaseDef def = sample_case();
+  CaseDef def = sample_case();
+  def.bones.back().beside = true;
   ASSERT_TRUE(save_case(def, dir / "a"));
   const auto once = load_case(dir / "a");
   ASSERT_TRUE(once) << once.error().message();
@@ -243,6 +245,7 @@ TEST(CaseIo, WhatWasLoadedIsSavedBitByBit) {
   const auto twice = load_case(dir / "b");
   ASSERT_TRUE(twice);
   expect_same(*once, *twice);
+  EXPECT_TRUE(once->bones.back().beside);
   expect_same_joints(def, *once);
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     EXPECT_EQ(once->bones[i].mesh.vertices.size(), def.bones[i].mesh.vertices.size());

@@ -51,5 +51,26 @@ TEST(GraftBench, GivesWhatWasHarvestedAndFolded) {
   EXPECT_FALSE(harvested(*plan, GraftBenchState{}, 0));
 }
 
+TEST(GraftBench, MuscleThatIsLeftMakesTheGraftThicker) {
+  const auto plan = find_graft_bench(*testing::bench_case());
+  ASSERT_TRUE(plan);
+  GraftBenchState clean = testing::folded_bench(2, 2), left = clean;
+  for (TendonOnBench& tendon : left.tendons) tendon.scraped_m = 0;
+  const double ratio = graft_on(*plan, left)->diameter_m / graft_on(*plan, clean)->diameter_m;
+  EXPECT_NEAR(ratio * ratio, 4.0 / 3, 1e-9);
+  EXPECT_EQ(graft_on(*plan, left)->length_m, graft_on(*plan, clean)->length_m);
+}
+
+TEST(GraftBench, TheFewestPassesAreThoseOfWhatIsFolded) {
+  GraftBenchState state;
+  EXPECT_EQ(fewest_passes(state), 0u);
+  state.tendons[0].stitches = 0b111;
+  EXPECT_EQ(fewest_passes(state), 0u);
+  state.tendons[0].folds = 2;
+  EXPECT_EQ(fewest_passes(state), 3u);
+  state.tendons[1].folds = 2;
+  EXPECT_EQ(fewest_passes(state), 0u);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -286,6 +286,7 @@ TEST(ShippedInstruments, HaveTheNamesThatCasesAndLessonsUse) {
                            "basket_punch",
                            "grasper",
                            "clamp",
+                           "needle_holder",
                            "tendon_stripper",
                            "tibial_aimer",
                            "femoral_offset_aimer",

@@ -6,6 +6,7 @@
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
+#include "exercises/graft_order.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "osteon/base/file.h"
@@ -46,6 +47,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     auto text = read_file(command.graft, 16u << 20);
     if (!text) return tl::unexpected(text.error());
     run.graft_json = std::move(*text);
+    leave_out_bench_stages(*scenario);
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
   run.scenario = std::move(*scenario);
@@ -107,8 +109,8 @@ void add_run_command(cli::App& app, int& exit_code) {
                       "JSON file with the findings to report, such as {\"geissler\": \"3\"}; "
                       "default: the surgeon's own");
   command->add_option("--graft", options->graft,
-                      "report of a run of acl_graft: its graft is placed in acl; default: one that "
-                      "fits the tunnels");
+                      "report of a run of acl_graft: its graft is placed in acl, and the stages at "
+                      "the bench are left out");
   command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");

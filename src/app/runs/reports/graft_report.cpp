@@ -19,8 +19,10 @@ GraftJson tendon_json(const GraftReport& report, std::size_t t) {
   const auto out = harvested(report.plan, report.state, t);
   GraftJson json{{"name", kTendonTitles[t]},           {"length_mm", 1e3 * measures.length_m},
                  {"area_mm2", 1e6 * measures.area_m2}, {"harvested_mm", nullptr},
-                 {"amputated", is.amputated},          {"strands", is.folds}};
+                 {"amputated", is.amputated},          {"strands", is.folds},
+                 {"muscle_left_pct", nullptr},         {"stitches", is.passes()}};
   if (out) json["harvested_mm"] = 1e3 * out->length_m;
+  if (out) json["muscle_left_pct"] = 100 * is.muscle_left();
   return json;
 }
 
@@ -80,6 +82,7 @@ std::string to_text(const GraftReport& report) {
   add("graft: strands", graft->strands, "");
   add("graft: length", 1e3 * graft->length_m, "mm");
   add("graft: passes a cylinder of", 1e3 * graft->sized_m, "mm");
+  add("graft: passes of thread, in the tendon with fewer", fewest_passes(report.state), "");
   add("graft: creep left", 100 * creep_left(report.state.creep_s), "%");
   if (!(report.state.loop_m > 0)) return text;
   const LoopFit fit = fit_loop(report.plan.channel_m, report.plan.socket_m, report.state.loop_m);

@@ -394,6 +394,8 @@ void draw_running(const PanelContext& c) {
     wrapped_text(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
   ImGui::Separator();
   draw_live_stage(c);
+  for (const ExerciseModel::Told& told : model.told)
+    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
   if (!model.cue.empty()) wrapped_text(color::kText, "Hint: " + model.cue);
   if (!model.faults.empty()) {
     ImGui::Separator();

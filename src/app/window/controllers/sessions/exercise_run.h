@@ -102,6 +102,7 @@ class ExerciseRun {
   void describe_run(ExerciseModel& model) const;
   void describe_result(ExerciseModel& model) const;
   void describe_asked(ExerciseModel& model) const;
+  void describe_graft(ExerciseModel& model) const;
   void keep();
   Result<void> note_what_was_said() const;
 

@@ -1,4 +1,4 @@
-#include "placing_hand_way.h"
+#include "hand_way.h"
 
 #include <gtest/gtest.h>
 

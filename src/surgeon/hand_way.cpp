@@ -1,4 +1,4 @@
-#include "placing_hand_way.h"
+#include "hand_way.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,8 @@ namespace osteon {
 namespace {
 
 constexpr int kSteps = 6;  // of each part of a way round
+// A command comes at the end of what was done before it.
+constexpr double kSaid_s = 0.02, kJaw_s = 0.4;
 
 // Over the great circle, the last of them `to`.
 void lead_on(const Vec3& from, const Vec3& to, std::vector<Vec3>& out) {
@@ -28,16 +30,16 @@ double nearness(const std::vector<Vec3>& way, const std::vector<Vec3>& bones) {
 
 }  // namespace
 
-std::vector<Vec3> bones_far_out(const Case& the_case, const BoneSnapshot& bones,
-                                const Vec3& middle_W) {
+RoundJoint round_joint(const Case& the_case, const BoneSnapshot& bones, const Vec3& middle_W) {
   constexpr double kFar_m = 0.15;
   constexpr std::size_t kEach = 20;  // of the vertices
-  std::vector<Vec3> out;
+  RoundJoint out{middle_W, {}};
   for (std::size_t b = 0; b < the_case.bones.size() && b < bones.count; ++b) {
+    if (the_case.bones[b].beside) continue;
     const std::vector<Vec3>& vertices = the_case.bones[b].mesh.vertices;
     for (std::size_t v = 0; v < vertices.size(); v += kEach) {
       const Vec3 way = bones.bones[b].X_WB * vertices[v] - middle_W;
-      if (way.norm() > kFar_m) out.push_back(way.normalized());
+      if (way.norm() > kFar_m) out.bones.push_back(way.normalized());
     }
   }
   return out;
@@ -67,56 +69,56 @@ std::vector<Vec3> way_round(const Vec3& from, const Vec3& to, const std::vector<
   return best;
 }
 
-PlacingHandWay::PlacingHandWay(const std::string& instrument, const Pose& X, const Vec3& middle_W,
-                               std::vector<Vec3> bones, double pace)
-    : pace_(pace), middle_W_(middle_W), bones_(std::move(bones)) {
+HandWay::HandWay(const std::string& instrument, const Pose& X, double pace) : pace_(pace) {
   path_.with_instruments = true;
   at_.X_WD = X;
   at_.instrument = instrument;
   path_.samples.push_back(at_);
 }
 
-void PlacingHandWay::go(const Pose& X, double m_per_s) {
+void HandWay::go(const Pose& X, double m_per_s) {
   const double seconds = (X.p - at_.X_WD.p).norm() / (m_per_s * pace_);
   at_.X_WD = X;
   stay(std::max(seconds, 0.05));
 }
 
-void PlacingHandWay::stay(double seconds) {
+void HandWay::stay(double seconds) {
   at_.time_s += seconds;
   path_.samples.push_back(at_);
 }
 
-void PlacingHandWay::take(const std::string& instrument) {
+void HandWay::take(const std::string& instrument, double size_mm) {
   stay(0.2);
   at_.instrument = instrument;
+  at_.size_mm = size_mm;
   at_.jaw = at_.power = 0;
   path_.samples.back() = at_;
   stay(0.3);
 }
 
-void PlacingHandWay::power(double share) {
-  stay(0.02);
+void HandWay::power(double share) {
+  stay(kSaid_s);
   at_.power = share;
   path_.samples.back().power = share;
   stay(0.2);
 }
 
-void PlacingHandWay::jaw(double open) {
-  stay(0.02);
+void HandWay::jaw(double open) {
+  stay(kSaid_s);
   at_.jaw = open;
   path_.samples.back().jaw = open;
-  stay(kPassJaw_s);
+  stay(kJaw_s);
 }
 
-void PlacingHandWay::change(const std::string& instrument, const Vec3& to_W, const Vec3& back_W) {
-  const Vec3 from = (at_.X_WD.p - middle_W_).normalized();
-  const Vec3 to = (to_W - middle_W_).normalized();
-  go({middle_W_ + kPassRound_m * from, at_.X_WD.q}, kPassCarry_m_per_s);
-  take(instrument);
-  for (const Vec3& way : way_round(from, to, bones_))
-    go(held_by_shaft(middle_W_ + kPassRound_m * way, way), kPassCarry_m_per_s);
-  go(held_by_shaft(to_W, back_W), kPassCarry_m_per_s);
+void change_round(HandWay& way, const RoundJoint& joint, const std::string& instrument,
+                  const Vec3& to_W, const Vec3& back_W) {
+  const Vec3 from = (way.pose().p - joint.middle_W).normalized();
+  const Vec3 to = (to_W - joint.middle_W).normalized();
+  way.go({joint.middle_W + kRound_m * from, way.pose().q}, kHandCarry_m_per_s);
+  way.take(instrument);
+  for (const Vec3& out : way_round(from, to, joint.bones))
+    way.go(held_by_shaft(joint.middle_W + kRound_m * out, out), kHandCarry_m_per_s);
+  way.go(held_by_shaft(to_W, back_W), kHandCarry_m_per_s);
 }
 
 }  // namespace osteon
