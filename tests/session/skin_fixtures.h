@@ -6,6 +6,7 @@
 #include "osteon/collide/primitive.h"
 #include "osteon/physics/skin_setup.h"
 #include "osteon/physics/soft_setup.h"
+#include "osteon/physics/soft_world.h"
 #include "osteon/session/session.h"
 #include "session_fixtures.h"
 
@@ -120,7 +121,8 @@ struct SkinHandAt {
   Vec3 at{0, 0, 0.020};
   Quat q = Quat::Identity();
   std::vector<Event> events;
-  std::vector<double> force_z;
+  std::vector<double> force_z;  ///< of each tick
+  double most_n = 0;            ///< on the skin in a step, as physics has it
   Recording* into = nullptr;
 
   void tick(const Command& command = {}) {
@@ -129,6 +131,7 @@ struct SkinHandAt {
     (void)session.tick(input, command);
     for (const Event& event : session.last_events()) events.push_back(event);
     force_z.push_back(session.tool_state().force_W.z());
+    if (session.softs()) most_n = std::max(most_n, session.softs()->skin_readout(0).force_n[0]);
     if (!into) return;
     into->ticks.push_back(session.last_tick_record());
     if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());

@@ -85,7 +85,7 @@ TEST(Skin, PressedAnywhereItIsTheSheetSolvedAtOnce) {
                   0.05)
           << p.transpose() << " " << deep;
   // Between the border of the patch and skin that is not felt the force fades.
-  EXPECT_LT(hand.felt_at({0.0145, 0, -0.002}), 0.1);
+  EXPECT_LT(hand.felt_at({0.0145, 0, -0.002}), 0.2);
   EXPECT_EQ(hand.felt_at({0.0165, 0, -0.002}), 0);
   EXPECT_EQ(hand.count(kSkinCut) + hand.count(kSkinPierced), 0u);
   EXPECT_GT(hand.count(kSoftBegin), 5u);
@@ -115,11 +115,10 @@ TEST(Skin, ABladeThatIsPressedOpensASlitAlongItsStroke) {
   SkinHandAt hand(session);
   hand.take(kSkinBall, {0, 0, 0.010});
   const double before = hand.felt_at({0.001, 0.0015, -0.003});
-  hand.force_z.clear();
+  hand.most_n = 0;
   cut_along(hand, {-0.006, -0.002, 0}, {0.006, 0.002, 0});
   // The edge bears what cuts, and no more.
-  const double most = *std::max_element(hand.force_z.begin(), hand.force_z.end());
-  EXPECT_NEAR(most, skin_run().patch().edge_n, 0.1 * skin_run().patch().edge_n);
+  EXPECT_NEAR(hand.most_n, skin_run().patch().edge_n, 1e-6);
   ASSERT_EQ(hand.count(kSkinCut), 1u);
   ASSERT_EQ(hand.count(kSkinCutEnd), 1u);
   const double way_mm = 1e3 * std::hypot(0.012, 0.004);
@@ -241,7 +240,7 @@ void wander(SkinHandAt& hand, Random& random, int turns) {
     if (random.uniform(0, 1) < 0.25)
       hand.take(static_cast<std::uint32_t>(random.uniform(0, 3.999)), {0, 0, 0.020});
     const Vec3 to(random.uniform(-0.017, 0.017), random.uniform(-0.020, 0.020),
-                  random.uniform(-0.020, 0.006));
+                  random.uniform(-0.035, 0.006));
     hand.move(to, 80);
   }
 }
@@ -256,13 +255,16 @@ TEST(Skin, RandomWorkKeepsItSoundAndAReplayIsTheSameFromTheStartAndFromTheMiddle
   Random random(5);
   hand.tick();
   hand.tick({CommandKind::kMark, 0});
+  hand.take(kSkinTrocar, {0.005, 0.004, 0.010});
+  hand.move({0.005, 0.004, -0.030}, 300);
+  hand.move({0.005, 0.004, 0.010}, 200);
   wander(hand, random, 60);
   hand.tick({CommandKind::kRestore, 0});
   wander(hand, random, 20);
   recording.complete = true;
   EXPECT_GT(hand.count(kSkinCut), 3u);
   EXPECT_GT(hand.count(kSkinPierced), 0u);
-  EXPECT_EQ(hand.count(kSkinCut), hand.count(kSkinCutEnd));
+  EXPECT_GT(hand.count(kSkinEntered), 0u);
   for (const double f : hand.force_z) ASSERT_TRUE(std::isfinite(f));
   ASSERT_GT(recording.states.size(), 8u);
   ReplayOptions options;
@@ -296,9 +298,10 @@ TEST(Skin, ARestorePointMakesItWholeAgain) {
 TEST(Skin, AStateInTheMiddleOfACutGoesOnTheSameAndAWrongOneIsRefused) {
   Session session = skin_run().session();
   SkinHandAt hand(session);
-  hand.take(kSkinBlade, {-0.006, 0, 0.010});
-  hand.move({-0.006, 0, -0.008}, 300);
+  hand.take(kSkinBlade, {-0.0063, 0.0004, 0.010});
+  hand.move({-0.0063, 0.0004, -0.008}, 300);
   hand.move({0, 0, -0.008}, 203);
+  ASSERT_FALSE(session.save().world.softs.skin->patches[0].cuts.moved.empty());
   const auto back = state_from_bytes(to_bytes(session.save()));
   ASSERT_TRUE(back) << back.error().message();
   Session other = skin_run().session();

@@ -27,10 +27,12 @@ double pushed_by(const SheetPush& push, double force_n);
 class FatShare {
  public:
   static FatShare of(const SkinSheet& sheet);
-  double at(double radius_m) const;
+  /// Of a slight push's stiffness `stiffness_n_per_m`: beside a cut the membrane bears less, and
+  /// the fat the same.
+  double at(double radius_m, double stiffness_n_per_m) const;
 
  private:
-  std::vector<double> radii_m_, shares_;
+  std::vector<double> radii_m_, fat_n_per_m_;
 };
 
 }  // namespace osteon

@@ -194,7 +194,7 @@ std::uint64_t hash_of(std::span<const SkinPatch> patches) {
           m.tether_n_per_m3, m.thickness_m, m.friction, m.pierce_pa, m.fat_pierce_pa})
       h.add(x);
     for (const double x : patch.relief.heights_m()) h.add(x);
-    for (const double radius_m : {0.001, 0.002, 0.004}) h.add(patch.share.at(radius_m));
+    for (const double radius_m : {0.001, 0.002, 0.004}) h.add(patch.share.at(radius_m, 1000));
   }
   return h.value();
 }

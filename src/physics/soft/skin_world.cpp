@@ -230,9 +230,10 @@ void SkinWorld::press(const At& at) {
     return;
   }
   const double radius_m = use.pierces ? use.through_m : at.now->rods[c.part].radius;
-  const SheetPush push{hand.yields_n_per_m,
-                       patch.share.at(std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m)),
-                       patch.sheet->material().fat_m, coupling_n_per_m_};
+  const SheetPush push{
+      hand.yields_n_per_m,
+      patch.share.at(std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m), hand.yields_n_per_m),
+      patch.sheet->material().fat_m, coupling_n_per_m_};
   if (use.through_m > 0)
     pass(at, push);
   else

@@ -61,23 +61,23 @@ FatShare FatShare::of(const SkinSheet& sheet) {
   for (const double radius_m : kRadii_m) {
     const SheetLoad load = load_on(balance.split(), {SheetPoint::Zero(), radius_m});
     if (load.copy.empty()) break;  // the sheet is smaller
-    const double ratio =
-        balance.pressed_by(load, deep_m).force_n / (balance.stiffness(load) * deep_m);
+    const double k = balance.stiffness(load);
+    const double ratio = balance.pressed_by(load, deep_m).force_n / (k * deep_m);
     out.radii_m_.push_back(radius_m);
-    out.shares_.push_back(std::clamp((ratio - 1) * (1 - kAt) / kAt, 0.0, 1.0));
+    out.fat_n_per_m_.push_back(k * std::clamp((ratio - 1) * (1 - kAt) / kAt, 0.0, 1.0));
   }
   return out;
 }
 
-double FatShare::at(double radius_m) const {
-  if (radii_m_.empty()) return 0;
-  if (!(radius_m > radii_m_.front())) return shares_.front();
+double FatShare::at(double radius_m, double stiffness_n_per_m) const {
+  if (radii_m_.empty() || !(stiffness_n_per_m > 0)) return 0;
+  double fat = radius_m > radii_m_.front() ? fat_n_per_m_.back() : fat_n_per_m_.front();
   for (std::size_t i = 1; i < radii_m_.size(); ++i)
-    if (radius_m < radii_m_[i]) {
+    if (radius_m > radii_m_[i - 1] && radius_m <= radii_m_[i]) {
       const double along = (radius_m - radii_m_[i - 1]) / (radii_m_[i] - radii_m_[i - 1]);
-      return shares_[i - 1] + along * (shares_[i] - shares_[i - 1]);
+      fat = fat_n_per_m_[i - 1] + along * (fat_n_per_m_[i] - fat_n_per_m_[i - 1]);
     }
-  return shares_.back();
+  return std::min(1.0, fat / stiffness_n_per_m);
 }
 
 }  // namespace osteon

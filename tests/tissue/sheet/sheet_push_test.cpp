@@ -24,12 +24,32 @@ TEST(SheetPush, IsTheBalanceOfTheSheetAtEveryDepth) {
   const FatShare share = FatShare::of(sheet);
   for (const double radius : {0.001, 0.0017, 0.0027, 0.0045}) {
     const SheetLoad load = load_on(balance.split(), {{0.0003, 0.0004}, radius});
-    const SheetPush push{balance.stiffness(load), share.at(radius), sheet.material().fat_m, 1e9};
+    const double k = balance.stiffness(load);
+    const SheetPush push{k, share.at(radius, k), sheet.material().fat_m, 1e9};
     SheetDent dent;
     for (const double deep : {0.001, 0.003, 0.006, 0.009, 0.0105}) {
       dent = balance.pressed_by(load, deep, dent);
-      EXPECT_NEAR(push_sheet(push, deep).force_n / dent.force_n, 1, 0.05) << radius << " " << deep;
+      EXPECT_NEAR(push_sheet(push, deep).force_n / dent.force_n, 1, deep < 0.010 ? 0.05 : 0.1)
+          << radius << " " << deep;
     }
+  }
+}
+
+// Where less of the sheet is under tension, the fat below is as it was.
+TEST(SheetPush, BesideACutItIsTheBalanceToo) {
+  const SkinSheet sheet = std::move(*SkinSheet::make(0.04, 0.04, 0.00125, {}));
+  SheetCuts cuts = whole_sheet(sheet);
+  begin_stroke(sheet, cuts, {-0.007, 0});
+  (void)end_stroke(sheet, cuts, {0.007, 0.001}, 0.006);
+  const SheetBalance balance(sheet, split(sheet, cuts));
+  const FatShare share = FatShare::of(sheet);
+  for (const SheetPoint& p : {SheetPoint(0, 0.0035), SheetPoint(0.004, -0.006)}) {
+    const SheetLoad load = load_on(balance.split(), {p, 0.0025});
+    const double k = balance.stiffness(load);
+    const SheetPush push{k, share.at(0.0025, k), sheet.material().fat_m, 1e9};
+    for (const double deep : {0.001, 0.003, 0.006})
+      EXPECT_NEAR(push_sheet(push, deep).force_n / balance.pressed_by(load, deep).force_n, 1, 0.06)
+          << p.transpose() << " " << deep;
   }
 }
 
