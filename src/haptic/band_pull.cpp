@@ -82,6 +82,27 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
       out);
 }
 
+// A shaft in its hole is damped every way and does not rub: the hole's friction is in the force.
+void BandPull::add_skin(const PullingHand& hand, const Bones& bones, const SkinContact& contact,
+                        BandForce& out) const {
+  if (contact.bone >= bones.X_WB.size() || contact.part >= rods_.size()) return;
+  const Pose& X = bones.X_WB[contact.bone];
+  const Pose X_BP = X.inverse() * hand.X_WP;
+  const Capsule& rod = rods_[contact.part];
+  const SkinPushed press = press_skin(contact, {X_BP * rod.p0, X_BP * rod.p1, rod.radius}, X_BP);
+  const Vec3 nhat_W = X.q * contact.nhat_B, p_W = X * press.p_B;
+  if (contact.through) {
+    const double share = press.deep_m > 0 ? press.deep_m / (press.deep_m + kDamped_m) : 0;
+    out.force_W +=
+        press.force_n * nhat_W + X.q * press.aside_B - share * hand.damping_n_s_per_m * hand.v_W;
+  } else if (press.force_n > 0) {
+    add(hand,
+        {nhat_W, p_W, press.force_n, press.deep_m, way_with(bones.before_WB[contact.bone], X, p_W),
+         friction_.skin},
+        out);
+  }
+}
+
 // What jaws hold pulls every way, and is damped every way. Nothing rubs there.
 void BandPull::add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const {
   const SoftHold& hold = contacts_->hold;
@@ -112,6 +133,8 @@ BandForce BandPull::force(const PullingHand& hand, std::span<const Pose> before_
   for (std::size_t i = 0; i < count; ++i) add_band(hand, bones, contacts_->all[i], sum);
   const std::size_t solids = std::min<std::size_t>(contacts_->solid_count, kMaxSolidContacts);
   for (std::size_t i = 0; i < solids; ++i) add_solid(hand, bones, contacts_->solids[i], sum);
+  const std::size_t skins = std::min<std::size_t>(contacts_->skin_count, kMaxSkins);
+  for (std::size_t i = 0; i < skins; ++i) add_skin(hand, bones, contacts_->skins[i], sum);
   add_hold(hand, bones, sum);
   if (sum.pressed_n > 0) sum.way_W /= sum.pressed_n;
   const bool sound = is_finite(sum.force_W) && is_finite(sum.way_W);

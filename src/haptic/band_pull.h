@@ -22,7 +22,7 @@ struct PullingHand {
   double damping_n_s_per_m = 0;
 };
 
-/// What all bands and solids do with a tool in a tick.
+/// What all bands, solids and skin do with a tool in a tick.
 struct BandForce {
   Vec3 force_W = Vec3::Zero();          ///< on the hand, along the normals, with the damper's
   Vec3 rests_W = Vec3::Zero();          ///< the same without it
@@ -31,7 +31,7 @@ struct BandForce {
   Vec3 way_W = Vec3::Zero();  ///< of the tool over them since the tick before: their mean by force
 };
 
-/// What bands and solids do with a tool in a tick. Allocates, locks and logs nothing.
+/// What bands, solids and skin do with a tool in a tick. Allocates, locks and logs nothing.
 class BandPull {
  public:
   explicit BandPull(const Tool& tool);
@@ -40,7 +40,7 @@ class BandPull {
            const SoftFriction& friction);
   bool any() const {
     return contacts_ && (contacts_->count > 0 || contacts_->solid_count > 0 ||
-                         contacts_->hold.of != SoftHold::Of::kNothing);
+                         contacts_->skin_count > 0 || contacts_->hold.of != SoftHold::Of::kNothing);
   }
   /// Zero where it is not finite, or where the contacts are of another instrument or epoch.
   /// `before_WB`: the bones a tick ago.
@@ -56,6 +56,8 @@ class BandPull {
                 BandForce& out) const;
   void add_solid(const PullingHand& hand, const Bones& bones, const SolidContact& contact,
                  BandForce& out) const;
+  void add_skin(const PullingHand& hand, const Bones& bones, const SkinContact& contact,
+                BandForce& out) const;
   void add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const;
   static void add(const PullingHand& hand, const Pressed& pressed, BandForce& out);
 

@@ -254,8 +254,9 @@ void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
   impl_->kept.reset();
 }
 
-void Renderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W) {
-  impl_->painter.move_surface(part.index, rest_W, moved_W);
+void Renderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W,
+                            std::span<const float> depth_m) {
+  impl_->painter.move_surface(part.index, rest_W, moved_W, depth_m);
   impl_->kept.reset();
 }
 

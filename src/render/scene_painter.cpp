@@ -144,9 +144,12 @@ void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
   set_extent(model, mesh_B);
 }
 
-void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W) {
+void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W,
+                                std::span<const float> depth_m) {
   if (k >= shared_->bones.size()) return;
-  const ShadedMesh lit = moved_light(rest_W, shared_->bones[k].shades, moved_W);
+  const std::vector<ShadedMesh::Shade>& baked = shared_->bones[k].shades;
+  const ShadedMesh lit = depth_m.empty() ? moved_light(rest_W, baked, moved_W)
+                                         : opened_light(rest_W, baked, moved_W, depth_m);
   if (lit.positions.empty()) return set_surface(k, moved_W);
   ++shared_->version;
   BoneModel& model = shared_->bones[k];

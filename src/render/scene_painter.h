@@ -38,7 +38,8 @@ class ScenePainter {
   void set_pieces(const Case& the_case);
   /// The model's surface has given way to another: it keeps the light of each vertex. `rest_W` is
   /// what the surfaces were prepared of.
-  void move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W);
+  void move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W,
+                    std::span<const float> depth_m);
   /// Another surface for a model from now on, without its coarser levels and its baked light.
   void set_surface(std::size_t k, const TriMesh& mesh_B);
   void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);

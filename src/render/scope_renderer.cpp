@@ -439,7 +439,9 @@ void ScopeRenderer::set_surface(BoneId part, const TriMesh& mesh) {
   ++impl_->cubes;
 }
 
-void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W) {
+// Of what a scope shows, nothing has grooves: skin is none of it.
+void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W,
+                                 std::span<const float>) {
   if (impl_->scene) return;
   for (TissuePart& own : impl_->parts) {
     if (own.model != part.index) continue;

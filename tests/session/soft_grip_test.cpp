@@ -23,7 +23,7 @@ using testing::kBandStiffness_n;
 using testing::kBandStrain;
 using testing::kBandToe;
 
-enum : std::uint32_t { kFirst, kGrasper, kClamp, kPunch };
+enum : std::uint32_t { kFirst, kGrasper, kClamp, kGripPunch };
 constexpr double kGrasperHolds_n = 10;
 constexpr double kInMouth_m = 0.004;  // from the tip to what is held
 
@@ -283,11 +283,11 @@ TEST(SoftGrip, ARestorePointMadeWhileItWasHeldIsComeBackToWithEmptyJaws) {
 
 // Of a size and kind of its own: what it holds is its file's.
 TEST(SoftGrip, APunchHoldsALigamentLessHardAndAClampHarder) {
-  for (const auto& [instrument, holds_n] : {std::pair{kPunch, 6.0}, std::pair{kClamp, 20.0}}) {
+  for (const auto& [instrument, holds_n] : {std::pair{kGripPunch, 6.0}, std::pair{kClamp, 20.0}}) {
     const BandRun run = band_run();
     Session session = run.session();
     JawHand hand(session);
-    hand.hold_band(instrument, instrument == kPunch ? -0.002 : 0);
+    hand.hold_band(instrument, instrument == kGripPunch ? -0.002 : 0);
     ASSERT_TRUE(hand.holds()) << instrument;
     hand.move(hand.at + Vec3(0, 0, 0.028), 1100);
     ASSERT_EQ(hand.count(kSoftSlipped), 1u);
@@ -317,7 +317,7 @@ TEST(SoftGrip, AStepWithHeldJawsAllocatesNothing) {
 void reach_block(JawHand& hand, std::uint32_t instrument) {
   const Vec3 y_W(0, 0, 1), z_W(1, 0, 0);
   hand.q = Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
-  const double up = instrument == kPunch ? -0.0033 : 0;
+  const double up = instrument == kGripPunch ? -0.0033 : 0;
   hand.at = {0.030, 0, up};
   hand.take(instrument);
   hand.jaws(1);
@@ -359,7 +359,7 @@ TEST(SoftGrip, AHeldMeniscusPullsBackAsStiffAsItIsAndSlips) {
 TEST(SoftGrip, APunchBitesAMeniscusAndDoesNotHoldIt) {
   Session session = meniscus_run().session();
   JawHand hand(session);
-  reach_block(hand, kPunch);
+  reach_block(hand, kGripPunch);
   EXPECT_FALSE(hand.holds());
   EXPECT_GT(session.softs()->removed_m3(0), 20e-9);
 }

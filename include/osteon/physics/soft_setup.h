@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/skin_setup.h"
 #include "osteon/physics/soft_gripper.h"
 #include "osteon/physics/soft_solid_setup.h"
 #include "osteon/physics/solid_cutter.h"
@@ -26,8 +27,10 @@ struct SoftSetup {
   std::vector<std::optional<SolidCutter>> cutters;   ///< by the tray; none: nothing cuts solids
   double solid_cutting_n = 6;                        ///< force of an edge on a solid that opens it
   std::vector<std::optional<SoftGripper>> grippers;  ///< by the tray; none: nothing is held
-  SoftFriction friction;                             ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;                            ///< over all of it
+  std::vector<SkinPatch> skins;
+  std::vector<SkinTool> skin_tools;  ///< by the tray; of skin alone
+  SoftFriction friction;             ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;            ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -40,6 +43,8 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
                  double cutting_n);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
+/// Adds patches of skin, and what instruments do to them, by their places in the tray.
+void add_skins(SoftSetup& setup, std::vector<SkinPatch> patches, std::vector<SkinTool> tools);
 /// Over everything that is felt of the bands.
 std::uint64_t hash_of(std::span<const SoftBand> bands);
 

@@ -12,16 +12,23 @@
 
 namespace osteon {
 
-/// Surfaces of soft solids and bands as they are under pushes, for pictures.
+class SkinShape;
+
+/// Surfaces of soft solids, bands and skin as they are under pushes, for pictures.
 class SoftShapes {
  public:
   /// `setup` may be null: nothing is soft then.
   SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> setup);
+  ~SoftShapes();
+  SoftShapes(SoftShapes&&) noexcept;
 
   /// The surface of a soft part with its bone at rest.
   struct Changed {
     std::uint32_t soft = 0;  ///< in Case::softs
     TriMesh mesh_W;
+    /// Of skin that is cut or pressed: of each vertex how deep it lies in a groove, 0 outside. The
+    /// first vertices are those of the case's skin.
+    std::vector<float> depth_m;
   };
   /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
   /// under a push of a meniscus, by a cut into it (its surface has other vertices then), or of a
@@ -52,6 +59,7 @@ class SoftShapes {
   std::shared_ptr<const SoftSetup> setup_;
   std::vector<Shape> shapes_;
   std::vector<BandShape> bands_;
+  std::unique_ptr<SkinShape> skin_;  ///< null: no patch of skin is felt
 };
 
 }  // namespace osteon

@@ -11,6 +11,7 @@
 namespace osteon {
 
 struct SoftCutState;
+struct SkinState;
 
 /// A part of a tool near a band, from step to step.
 struct NearBand {
@@ -83,6 +84,7 @@ struct SoftState {
   std::array<SolidHandState, kMaxHands> solid_hands{};
   std::array<SoftGrip, kMaxHands> grips{};
   std::shared_ptr<const SoftCutState> cut;  ///< of the solids; null: nothing cuts them
+  std::shared_ptr<const SkinState> skin;    ///< null: no patch of skin is felt
 };
 
 }  // namespace osteon

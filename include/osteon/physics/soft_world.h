@@ -20,6 +20,7 @@ struct BandReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
 };
 
+class SkinWorld;
 class SoftGrips;
 class SolidCutting;
 class SolidPresses;
@@ -31,6 +32,14 @@ struct SolidHand;
 struct SolidReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
   std::array<double, kMaxHands> deep_m{};
+};
+
+/// How a patch of skin was pressed in the last step, and what has been done to it so far.
+struct SkinReadout {
+  std::array<double, kMaxHands> force_n{};  ///< of each hand on it
+  std::array<double, kMaxHands> deep_m{};
+  double cut_m = 0;         ///< length that is open
+  std::uint32_t holes = 0;  ///< that trocars have made
 };
 
 /// The soft parts of a session at the physics' rate: it follows from which side each tool has come
@@ -60,6 +69,7 @@ class SoftWorld {
   BandContacts contacts(std::size_t hand) const;
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
   const SolidReadout& solid_readout(std::size_t solid) const { return solid_readouts_[solid]; }
+  SkinReadout skin_readout(std::size_t patch) const;
   /// No tool is near it: nothing is done for it.
   bool is_asleep(std::size_t solid) const;
   /// What presses the solids now, and what has bent the bands in the last step: their shape follows
@@ -100,6 +110,7 @@ class SoftWorld {
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
   void cut_solids(std::span<const SolidHand> hands, std::uint64_t step);
+  void step_skins(std::span<const Hand> hands, const BoneSnapshot& bones);
   void put(const SoftState& state, std::uint32_t epoch);
   void restore_cuts(const SoftState& state);
   void place_bands(const BoneSnapshot& bones);
@@ -131,6 +142,7 @@ class SoftWorld {
   std::unique_ptr<SoftGrips> grips_;       ///< null: no jaws hold anything
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them
+  std::unique_ptr<SkinWorld> skins_;       ///< null: no patch of skin is felt
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};
   std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state
   std::array<StringBend, SoftPushes::kMostBends> bends_{};

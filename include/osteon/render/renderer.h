@@ -174,7 +174,10 @@ class Renderer {
   /// A soft part has given way: it is drawn so from now on, and keeps at each vertex the light that
   /// was worked out for it at rest. `part`: its place behind the bones; both meshes in World with
   /// the bones at rest, `rest_W` the one of the case. See set_soft_surface.
-  void move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W);
+  /// `depth_m`: of one that was cut open, of each vertex how deep it lies in a cut; its first
+  /// vertices are those of `rest_W`. None: it has the vertices of `rest_W` alone.
+  void move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W,
+                    std::span<const float> depth_m = {});
 
   /// From now on these cubes of the grid show this of a bone, in place of its own surface: of one
   /// that is being carved. Those given before stay. The bone's picking and its outline stay as they

@@ -73,7 +73,8 @@ class ScopeRenderer {
   /// As Renderer has it, of a bone or a soft part; where a scene is drawn, its surfaces are seen.
   void set_surface(BoneId part, const TriMesh& mesh);
   /// As Renderer has it; where a scene is drawn, its surfaces are seen.
-  void move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W);
+  void move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W,
+                    std::span<const float> depth_m = {});
   /// As Renderer has them.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   void clear_cubes();

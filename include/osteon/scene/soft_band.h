@@ -9,6 +9,7 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/collide/capsule_contact.h"
+#include "osteon/scene/skin_contact.h"
 #include "osteon/scene/soft_hold.h"
 #include "osteon/scene/soft_solid.h"
 
@@ -70,8 +71,8 @@ struct BandContact {
 inline constexpr std::size_t kMaxBands = 8;
 inline constexpr std::size_t kMaxBandContacts = 6;
 
-/// Physics -> one hand: the bands and solids that its tool is near to. What the tick feels follows
-/// from it and from where the tool and the bones are then.
+/// Physics -> one hand: the bands, solids and patches of skin that its tool is near to. What the
+/// tick feels follows from it and from where the tool and the bones are then.
 struct BandContacts {
   std::uint32_t instrument = 0;  ///< that they are contacts of
   std::uint32_t epoch = 0;       ///< of the world
@@ -80,6 +81,8 @@ struct BandContacts {
   std::uint32_t solid_count = 0;
   std::array<SolidContact, kMaxSolidContacts> solids{};
   SoftHold hold;  ///< what its jaws hold
+  std::uint32_t skin_count = 0;
+  std::array<SkinContact, kMaxSkins> skins{};
   bool operator==(const BandContacts&) const = default;
 };
 

@@ -15,5 +15,10 @@ inline constexpr EventKind kSoftPiece{108};  ///< a piece of a solid has come of
 inline constexpr EventKind kSoftHeld{109};   ///< jaws shut about it and hold it
 inline constexpr EventKind kSoftFreed{110};  ///< the jaws that held it have opened
 inline constexpr EventKind kSoftSlipped{111};  ///< it was pulled out of the jaws that held it
+inline constexpr EventKind kSkinCut{112};      ///< an edge goes into skin: a stroke begins
+inline constexpr EventKind kSkinCutEnd{113};   ///< and has come out
+inline constexpr EventKind kSkinPierced{114};  ///< a tool has broken through skin
+inline constexpr EventKind kSkinEntered{115};  ///< a tool has gone in where skin was open
+inline constexpr EventKind kSkinLeft{116};     ///< and is out again
 
 }  // namespace osteon

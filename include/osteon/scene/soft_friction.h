@@ -10,7 +10,7 @@ struct FrictionRatios {
 
 /// By kind of part, as the tissue table has it.
 struct SoftFriction {
-  FrictionRatios band, solid;
+  FrictionRatios band, solid, skin{};
 };
 
 }  // namespace osteon

@@ -12,6 +12,15 @@
 namespace osteon {
 
 struct CarveState;
+struct SkinCuts;
+
+/// A dent of a patch of skin, where a tip presses it.
+struct SkinDent {
+  std::uint32_t patch = 0;
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();  ///< in the sheet at rest
+  double deep_m = 0;
+  bool operator==(const SkinDent&) const = default;
+};
 
 /// How a part of a tool bends a band now. The string goes in two straight legs from its ends to the
 /// place that is pressed.
@@ -51,6 +60,10 @@ struct SoftPushes {
   std::array<BandBreak, kMaxBands> breaks{};
   /// What was cut out of each solid, anew when it changed; null: nothing.
   std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts{};
+  /// Of each patch of skin, anew when it changed; null: none is felt.
+  std::array<std::shared_ptr<const SkinCuts>, kMaxSkins> skin_cuts{};
+  std::uint32_t skin_count = 0;
+  std::array<SkinDent, 4 * kMaxSkins> skin_dents{};
   bool operator==(const SoftPushes&) const = default;
 };
 

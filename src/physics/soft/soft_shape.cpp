@@ -6,6 +6,7 @@
 #include "osteon/carve/carved_surface.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
+#include "soft/skin_shape.h"
 #include "soft/solid_cutting.h"
 
 namespace osteon {
@@ -70,7 +71,11 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
          {the_case.bone(band.from).X_WB * band.from_B, the_case.bone(band.to).X_WB * band.to_B},
          {},
          {}});
+  if (!setup_->skins.empty()) skin_ = std::make_unique<SkinShape>(the_case, *setup_);
 }
+
+SoftShapes::~SoftShapes() = default;
+SoftShapes::SoftShapes(SoftShapes&&) noexcept = default;
 
 void SoftShapes::find_patches(std::size_t solid) {
   Shape& shape = shapes_[solid];
@@ -106,7 +111,7 @@ void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) 
     if (broken == shape.broken &&
         std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), bends_alike))
       continue;
-    out.push_back({setup_->bands[b].soft, shape.mesh_W});
+    out.push_back({setup_->bands[b].soft, shape.mesh_W, {}});
     TriMesh& mesh_W = out.back().mesh_W;
     if (broken)
       mesh_W.vertices = stump_points(shape.mesh_W, shape.rest_W, *broken,
@@ -129,6 +134,8 @@ std::vector<Vec3> SoftShapes::moved(std::size_t solid,
 
 std::vector<SoftShapes::Changed> SoftShapes::changes(const SoftPushes& pushes) {
   std::vector<Changed> out;
+  if (skin_)
+    if (auto skin = skin_->change(pushes)) out.push_back(std::move(*skin));
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
     Shape& shape = shapes_[s];
     std::vector<SoftPushes::One> now = pushes_on(s, pushes);
@@ -139,7 +146,7 @@ std::vector<SoftShapes::Changed> SoftShapes::changes(const SoftPushes& pushes) {
     if (is_cut) cut(s, pushes.cuts[s]);
     const std::vector<Vec3> nodes = moved(s, now);
     shape.shown = std::move(now);
-    Changed changed{setup_->solids[s].soft, shape.mesh_W};
+    Changed changed{setup_->solids[s].soft, shape.mesh_W, {}};
     for (std::size_t v = 0; v < shape.patches.size(); ++v)
       changed.mesh_W.vertices[v] +=
           shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));

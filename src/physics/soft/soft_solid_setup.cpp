@@ -145,8 +145,10 @@ void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutt
 }
 
 void add_friction(SoftSetup& setup, const SoftFriction& friction) {
-  const double ratios[] = {friction.band.resting, friction.band.sliding, friction.solid.resting,
-                           friction.solid.sliding};
+  std::vector<double> ratios = {friction.band.resting, friction.band.sliding,
+                                friction.solid.resting, friction.solid.sliding};
+  if (!setup.skins.empty())
+    ratios.insert(ratios.end(), {friction.skin.resting, friction.skin.sliding});
   if (std::all_of(std::begin(ratios), std::end(ratios), [](double ratio) { return ratio == 0; }))
     return;
   setup.friction = friction;

@@ -8,6 +8,7 @@
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
+#include "soft/skin_world.h"
 #include "soft/soft_grips.h"
 #include "soft/soft_touch.h"
 #include "soft/solid_cutting.h"
@@ -105,13 +106,16 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   }
   state_.on = true;
   openings_.reserve(kMostOpenings);
-  events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands);
+  events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands +
+                  (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 6));
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
     cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_);
   if (!setup_->grippers.empty())
     grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
+  if (!setup_->skins.empty())
+    skins_ = std::make_unique<SkinWorld>(*setup_, coupling_n_per_m_, limit_n_, step_s_);
 }
 SoftWorld::~SoftWorld() = default;
 
@@ -477,6 +481,7 @@ void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step)
 SoftState SoftWorld::save() const {
   SoftState out = state_;
   if (cutting_) out.cut = cutting_->save();
+  if (skins_) out.skin = skins_->save();
   return out;
 }
 
@@ -509,6 +514,7 @@ SoftPushes SoftWorld::pushes() const {
   for (std::uint32_t b = 0; b < setup_->bands.size(); ++b)
     if (state_.bands[b].torn) out.breaks[out.break_count++] = {b, state_.bands[b].torn_share};
   if (cutting_) cutting_->show(out.cuts);
+  if (skins_) skins_->show(out);
   return out;
 }
 
@@ -599,7 +605,18 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
   tear(hands);
   for (const Hand& hand : hands) tell_touches(hand, bones.step);
   if (solids_) step_solids(hands, bones);
+  if (skins_) step_skins(hands, bones);
 }
+
+void SoftWorld::step_skins(std::span<const Hand> hands, const BoneSnapshot& bones) {
+  std::array<SkinToolNow, kMaxHands> now{};
+  for (const Hand& hand : hands)
+    if (hand.tool) now[hand.index] = {hand.tool, tray_[hand.tool->instrument]};
+  skins_->step(std::span(now).first(hands.size()), bones);
+  for (const Event& event : skins_->events()) tell(event, event.p_W);
+}
+
+SkinReadout SoftWorld::skin_readout(std::size_t patch) const { return skins_->readout(patch); }
 
 BandContacts SoftWorld::contacts(std::size_t hand) const {
   const SoftHandState& state = state_.hands[hand];
@@ -613,6 +630,7 @@ BandContacts SoftWorld::contacts(std::size_t hand) const {
   }
   out.hold = state_.grips[hand].hold;
   if (solids_) solids_->tell(state_.solid_hands[hand], out);
+  if (skins_) skins_->tell(hand, out);
   return out;
 }
 
@@ -634,11 +652,13 @@ std::uint64_t SoftWorld::hash() const {
     if (grip != SoftGrip{}) add_to(h, grip);
   if (solids_) add_solids_to(h, state_);
   if (cutting_) h.add(cutting_->hash());
+  if (skins_) h.add(skins_->hash());
   return h.value();
 }
 
 bool SoftWorld::fits(const SoftState& state) const {
   if (!state.on || (state.cut && !(cutting_ && cutting_->fits(*state.cut)))) return false;
+  if (state.skin && !(skins_ && skins_->fits(*state.skin, tray_))) return false;
   for (const BandState& band : state.bands)
     if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
   for (const SoftHandState& hand : state.hands) {
@@ -663,6 +683,12 @@ bool SoftWorld::fits(const SoftState& state) const {
 void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
   put(state, epoch);
   restore_cuts(state);
+  state_.skin = nullptr;
+  if (!skins_) return;
+  if (state.skin)
+    skins_->restore(*state.skin);
+  else
+    skins_->clear();
 }
 
 void SoftWorld::put(const SoftState& state, std::uint32_t epoch) {
@@ -679,7 +705,9 @@ void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
     cutting_->go_back(*state.cut);
   else
     restore_cuts(state);
+  if (skins_ && state.skin) skins_->go_back(*state.skin);
   state_.cut = nullptr;
+  state_.skin = nullptr;
   state_.hands = {};
   state_.solid_hands = {};
   state_.grips = {};

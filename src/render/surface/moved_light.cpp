@@ -1,5 +1,9 @@
 #include "surface/moved_light.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "surface/surface.h"
 
 namespace osteon {
@@ -8,6 +12,46 @@ namespace {
 std::array<float, 3> as_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
+
+constexpr double kLightReach_m = 0.008;  // as far apart as vertices of skin are, and more
+constexpr double kDarkest_m = 0.006;     // so deep in a cut it is as dark as it gets
+constexpr std::uint8_t kRaw = 40;        // of the cavity in a cut: its colour is deeper
+
+// The mean of the light near a place, the nearer the more.
+class LightNear {
+ public:
+  LightNear(const TriMesh& rest, const Aabb& box) {
+    for (std::uint32_t v = 0; v < rest.vertices.size(); ++v)
+      if (((rest.vertices[v] - box.lo).array() > -kLightReach_m).all() &&
+          ((box.hi - rest.vertices[v]).array() > -kLightReach_m).all())
+        near_.push_back(v);
+  }
+  ShadedMesh::Shade at(const TriMesh& rest, const std::vector<std::uint32_t>& place,
+                       const std::vector<ShadedMesh::Shade>& baked, const Vec3& p) const {
+    std::array<double, 3> sum{};
+    double weights = 0;
+    for (const std::uint32_t v : near_) {
+      const double share =
+          1 - (rest.vertices[v] - p).squaredNorm() / (kLightReach_m * kLightReach_m);
+      if (!(share > 0) || place[v] >= baked.size()) continue;
+      const ShadedMesh::Shade& shade = baked[place[v]];
+      const double weight = share * share;
+      sum[0] += weight * shade.openness;
+      sum[1] += weight * shade.cavity;
+      sum[2] += weight * shade.mottle;
+      weights += weight;
+    }
+    ShadedMesh::Shade out{255, 128, 128, 128};
+    if (!(weights > 0)) return out;
+    out.openness = static_cast<std::uint8_t>(std::lround(sum[0] / weights));
+    out.cavity = static_cast<std::uint8_t>(std::lround(sum[1] / weights));
+    out.mottle = static_cast<std::uint8_t>(std::lround(sum[2] / weights));
+    return out;
+  }
+
+ private:
+  std::vector<std::uint32_t> near_;
+};
 
 }  // namespace
 
@@ -30,6 +74,42 @@ ShadedMesh moved_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>
   for (std::size_t v = 0; v < moved_place.size(); ++v)
     if (moved_place[v] < s.points.size() && rest_place[v] < baked.size())
       out.shades[moved_place[v]] = baked[rest_place[v]];
+  return out;
+}
+
+ShadedMesh opened_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
+                        const TriMesh& opened, std::span<const float> depth_m) {
+  ShadedMesh out;
+  std::vector<std::uint32_t> rest_place, place;
+  if (opened.vertices.size() != depth_m.size() || opened.vertices.size() < rest.vertices.size())
+    return out;
+  if (make_surface(rest, &rest_place).points.size() != baked.size()) return out;
+  const Surface s = make_surface(opened, &place);
+  out.closed = false;
+  out.triangles = s.triangles;
+  out.shades.assign(s.points.size(), {255, 128, 128, 128});
+  for (std::size_t k = 0; k < s.points.size(); ++k) {
+    out.positions.push_back(as_floats(s.points[k]));
+    out.normals.push_back(as_floats(s.normals[k]));
+  }
+  Aabb box;
+  for (std::size_t v = rest.vertices.size(); v < opened.vertices.size(); ++v)
+    box.include(opened.vertices[v]);
+  const LightNear near(rest, box);
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] >= s.points.size()) continue;
+    ShadedMesh::Shade& shade = out.shades[place[v]];
+    if (v < rest.vertices.size()) {
+      if (rest_place[v] < baked.size()) shade = baked[rest_place[v]];
+      continue;
+    }
+    shade = near.at(rest, rest_place, baked, opened.vertices[v]);
+    const double depth = static_cast<double>(depth_m[v]);
+    if (!(depth > 0)) continue;
+    shade.openness = static_cast<std::uint8_t>(
+        std::lround(255 * std::clamp(0.75 - 0.45 * depth / kDarkest_m, 0.3, 0.75)));
+    shade.cavity = kRaw;
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "osteon/mesh/tri_mesh.h"
@@ -12,5 +13,10 @@ namespace osteon {
 /// `moved` has not as many vertices as `rest`, or the shades are of another surface.
 ShadedMesh moved_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
                        const TriMesh& moved);
+/// A soft surface that was cut open: its first vertices are those of `rest` and keep their light;
+/// others take it from near them, and are the darker the deeper they lie in a cut. `depth_m`: of
+/// each vertex of `opened`, 0 outside of cuts.
+ShadedMesh opened_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
+                        const TriMesh& opened, std::span<const float> depth_m);
 
 }  // namespace osteon

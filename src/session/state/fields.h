@@ -49,6 +49,10 @@ void field(A& a, std::shared_ptr<const CarvingState>& value);
 template <class A>
 void field(A& a, std::shared_ptr<const SoftCutState>& value);
 
+// skin_fields.cpp
+template <class A>
+void field(A& a, std::shared_ptr<const SkinState>& value);
+
 // soft_fields.cpp
 template <class A>
 void field(A& a, SoftState& value);

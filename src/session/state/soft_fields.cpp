@@ -91,6 +91,7 @@ void field(A& a, SoftState& s) {
   }
   solids_field(a, s);
   grips_field(a, s);
+  field(a, s.skin);
 }
 
 template void field(Out&, SoftState&);

@@ -21,6 +21,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sheet/membrane.h"
+
 namespace osteon {
 namespace {
 
@@ -41,46 +43,10 @@ std::vector<int> number(const SkinSheet& sheet, const SplitSheet& split, int& co
   return out;
 }
 
-// Of xx, yy, xy: the part that pulls.
-std::array<double, 3> pulling(const std::array<double, 3>& n) {
-  const double mean = 0.5 * (n[0] + n[1]), half = 0.5 * (n[0] - n[1]);
-  const double radius = std::sqrt(half * half + n[2] * n[2]);
-  if (mean >= radius) return n;
-  if (mean <= -radius) return {0, 0, 0};
-  const double pull = 0.5 * (mean + radius);  // along one direction alone
-  return {pull * (1 + half / radius), pull * (1 - half / radius), pull * n[2] / radius};
-}
-
-/// Plane stress of the membrane: N = C : grad u.
-struct Stiffness {
-  explicit Stiffness(const SheetMaterial& m)
-      : nu(m.poisson), c(m.stretch_n_per_m / (1 - nu * nu)), g(0.5 * (1 - nu) * c) {}
-
-  /// Of two hat functions with slopes p and q, for each area.
-  Eigen::Matrix2d between(const SheetPoint& p, const SheetPoint& q) const {
-    Eigen::Matrix2d out;
-    out << c * p.x() * q.x() + g * p.y() * q.y(), c * nu * p.x() * q.y() + g * p.y() * q.x(),
-        c * nu * p.y() * q.x() + g * p.x() * q.y(), c * p.y() * q.y() + g * p.x() * q.x();
-    return out;
-  }
-  std::array<double, 3> tension(const Eigen::Matrix2d& grad) const {
-    return {c * (grad(0, 0) + nu * grad(1, 1)), c * (grad(1, 1) + nu * grad(0, 0)),
-            g * (grad(0, 1) + grad(1, 0))};
-  }
-
-  double nu, c, g;
-};
-
 }  // namespace
 
 struct SheetBalance::Impl {
-  struct Element {
-    std::array<SheetPoint, 3> slope;  // gradients of the three hat functions
-    double area = 0;
-  };
-  static Element element_of(const SplitSheet& split, const Triangle& t);
-
-  std::vector<Element> elements;
+  std::vector<SheetElement> elements;
   std::vector<int> at;
   int count = 0;
   Sparse across;             // grad w . N grad v
@@ -93,29 +59,15 @@ struct SheetBalance::Impl {
   Sparse tangent(const SheetMaterial& m, const Vector& w) const;  // its derivative
 };
 
-SheetBalance::Impl::Element SheetBalance::Impl::element_of(const SplitSheet& split,
-                                                           const Triangle& t) {
-  Element out;
-  const SheetPoint &a = split.point[t[0]], &b = split.point[t[1]], &c = split.point[t[2]];
-  const double twice = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-  const auto slope = [twice](const SheetPoint& from, const SheetPoint& to) {
-    const SheetPoint way = to - from;
-    return SheetPoint(-way.y() / twice, way.x() / twice);
-  };
-  out.slope = {slope(b, c), slope(c, a), slope(a, b)};
-  out.area = 0.5 * twice;
-  return out;
-}
-
 void SheetBalance::Impl::open(const SkinSheet& sheet, const SplitSheet& split,
                               std::vector<SheetPoint>& ways) const {
   const SheetMaterial& m = sheet.material();
-  const Stiffness stiff(m);
+  const MembraneStiffness stiff(m);
   std::vector<Eigen::Triplet<double>> all;
   all.reserve(split.triangles.size() * 24);
   Vector load = Vector::Zero(2 * count);
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    const Element& k = elements[e];
+    const SheetElement& k = elements[e];
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = at[split.triangles[e][a]];
       if (i < 0) continue;
@@ -148,7 +100,7 @@ void SheetBalance::Impl::carry(const SplitSheet& split,
   all.reserve(split.triangles.size() * 6);
   area.assign(static_cast<std::size_t>(count), 0);
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    const Element& k = elements[e];
+    const SheetElement& k = elements[e];
     const auto& n = tension[e];
     for (std::size_t a = 0; a < 3; ++a) {
       const int i = at[split.triangles[e][a]];
@@ -193,7 +145,7 @@ Sparse SheetBalance::Impl::tangent(const SheetMaterial& m, const Vector& w) cons
 
 SheetBalance::SheetBalance(const SkinSheet& sheet, SplitSheet split)
     : sheet_(&sheet), split_(std::move(split)), impl_(std::make_unique<Impl>()) {
-  for (const Triangle& t : split_.triangles) impl_->elements.push_back(Impl::element_of(split_, t));
+  for (const Triangle& t : split_.triangles) impl_->elements.push_back(element_of(split_, t));
   impl_->at = number(sheet, split_, impl_->count);
   const double before = sheet.material().tension_n_per_m;
   tension_.assign(split_.triangles.size(), {before, before, 0});
@@ -201,13 +153,13 @@ SheetBalance::SheetBalance(const SkinSheet& sheet, SplitSheet split)
   // Without a lip there is nothing to open.
   if (!split_.walls.empty()) {
     impl_->open(sheet, split_, ways_);
-    const Stiffness stiff(sheet.material());
+    const MembraneStiffness stiff(sheet.material());
     for (std::size_t e = 0; e < tension_.size(); ++e) {
       Eigen::Matrix2d grad = Eigen::Matrix2d::Zero();
       for (std::size_t a = 0; a < 3; ++a)
         grad += ways_[split_.triangles[e][a]] * impl_->elements[e].slope[a].transpose();
       const auto more = stiff.tension(grad);
-      tension_[e] = pulling({before + more[0], before + more[1], more[2]});
+      tension_[e] = pulling_part({before + more[0], before + more[1], more[2]});
     }
   }
   impl_->carry(split_, tension_);

@@ -63,12 +63,15 @@ Result<HeadlessRun> run_of(const SimulateOptions& options) {
 }
 
 int print_hands(const HeadlessOutcome& outcome, const std::string& report_file) {
+  std::string text =
+      with_torque(to_json(outcome.reports, outcome.names), outcome.torques, outcome.names);
+  if (outcome.softs) {
+    auto json = nlohmann::ordered_json::parse(text);
+    json["soft"] = to_json(*outcome.softs);
+    text = json.dump(2) + "\n";
+  }
   if (!report_file.empty())
-    if (auto ok = write_file_atomic(
-            report_file,
-            with_torque(to_json(outcome.reports, outcome.names), outcome.torques, outcome.names));
-        !ok)
-      return report_error(ok.error());
+    if (auto ok = write_file_atomic(report_file, text); !ok) return report_error(ok.error());
   for (std::size_t h = 0; h < outcome.reports.size(); ++h)
     std::printf("hand           %s\n%s%s\n", outcome.names[h].c_str(),
                 h < outcome.torques.size() ? to_text(outcome.torques[h]).c_str() : "",

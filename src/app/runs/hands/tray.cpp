@@ -8,6 +8,7 @@
 #include "osteon/base/file.h"
 #include "osteon/image/tissue.h"
 #include "osteon/physics/soft_setup.h"
+#include "osteon/render/anatomical_view.h"
 #include "osteon/scene/instrument.h"
 
 namespace osteon {
@@ -133,6 +134,22 @@ Result<void> add_menisci(const Case& the_case, std::span<const std::string> name
   return {};
 }
 
+Result<void> add_skin(const Case& the_case, std::span<const std::string> names,
+                      const TissueTable& tissues, std::span<const std::string> tray,
+                      SoftSetup& setup) {
+  if (names.empty()) return {};
+  const auto skin = tissue_named(tissues, "skin");
+  if (!skin) return tl::unexpected(skin.error());
+  auto made = make_skin_patches(the_case, names, anatomical_frame(the_case).distal_W,
+                                {(*skin)->stiffness_n_per_m.value, (*skin)->cutting_n.value});
+  if (!made) return tl::unexpected(made.error());
+  auto tools = make_skin_tools(tray);
+  if (!tools) return tl::unexpected(tools.error());
+  add_skins(setup, std::move(*made), std::move(*tools));
+  setup.friction.skin = ratios_of(**skin);
+  return {};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
@@ -140,13 +157,15 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
   const auto tissues = load_default_tissues();
   if (!tissues) return tl::unexpected(tissues.error());
-  std::vector<std::string> ligaments, menisci;
+  std::vector<std::string> ligaments, menisci, skin;
   for (const std::string& name : settings.soft)
-    (names_solids(the_case, name) ? menisci : ligaments).push_back(name);
+    (names_skin(name) ? skin : names_solids(the_case, name) ? menisci : ligaments).push_back(name);
   SoftSetup setup;
   if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
   if (auto done = add_menisci(the_case, menisci, *tissues, settings.tray, setup); !done)
+    return tl::unexpected(done.error());
+  if (auto done = add_skin(the_case, skin, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
   auto grippers = make_soft_grippers(settings.tray);
   if (!grippers) return tl::unexpected(grippers.error());

@@ -88,7 +88,8 @@ struct FilmPainter::Impl {
   double obscured_s = 0;
   std::optional<double> flowed_s;  ///< to this time
   std::optional<SoftShapes> shapes;
-  std::vector<std::uint32_t> felt_softs;  ///< what gives way is seen
+  std::vector<std::uint32_t> felt_softs;   ///< what gives way is seen
+  std::optional<std::uint32_t> felt_skin;  ///< seen from outside, and not through
 };
 
 std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
@@ -158,7 +159,12 @@ Result<Image> FilmPainter::Impl::scene(const FilmMoment& moment, const ViewState
 
 Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
   renderer->set_marks({});
-  return scene(moment, plain_view(static_cast<double>(width) / height), width, height);
+  ViewState view = plain_view(static_cast<double>(width) / height);
+  if (felt_skin) {
+    view.softs[*felt_skin].visible = true;
+    view.softs[*felt_skin].opacity = 1;
+  }
+  return scene(moment, view, width, height);
 }
 
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
@@ -256,9 +262,11 @@ void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
 
 void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
   impl_->felt_softs.clear();
+  impl_->felt_skin.reset();
   if (setup) {
     for (const SoftBand& band : setup->bands) impl_->felt_softs.push_back(band.soft);
     for (const SoftSolid& solid : setup->solids) impl_->felt_softs.push_back(solid.soft);
+    if (!setup->skins.empty()) impl_->felt_skin = setup->skins[0].soft;
   }
   impl_->shapes.emplace(*impl_->the_case, std::move(setup));
 }
@@ -275,8 +283,9 @@ void FilmPainter::Impl::show_carved() {
 void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {
   if (!shapes || !(renderer || scope)) return;
   for (const SoftShapes::Changed& changed : shapes->changes(pushes)) {
-    if (renderer) set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W);
-    if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W);
+    if (renderer)
+      set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
+    if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
   }
 }
 

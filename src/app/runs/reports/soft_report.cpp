@@ -36,7 +36,11 @@ SoftJson soft_event_json(const Event& event, const SoftReport& report) {
 
 SoftJson soft_part_json(const SoftReport::Part& part) {
   SoftJson out{{"name", part.name}, {"peak_force_n", part.peak_force_n}};
-  if (part.is_solid) {
+  if (part.is_skin) {
+    out["deepest_mm"] = part.deepest_mm;
+    out["cut_mm"] = part.cut_mm;
+    out["holes"] = part.holes;
+  } else if (part.is_solid) {
     out["deepest_mm"] = part.deepest_mm;
     out["removed_mm3"] = part.removed_mm3;
     out["pieces"] = part.pieces;
@@ -53,12 +57,17 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
 const char* state_of(const SoftReport::Part& part) {
   if (part.lost) return ", lost";
   if (part.whole) return "";
-  return part.is_solid ? ", cut" : ", torn";
+  return part.is_solid || part.is_skin ? ", cut" : ", torn";
 }
 
 std::string soft_part_text(const SoftReport::Part& part) {
   char line[200];
-  if (part.is_solid)
+  if (part.is_skin)
+    std::snprintf(line, sizeof line,
+                  "%-14s touched %.3f s, peak %.2f N, deepest %.2f mm, cut %.1f mm, %u hole%s%s\n",
+                  part.name.c_str(), part.contact_s, part.peak_force_n, part.deepest_mm,
+                  part.cut_mm, part.holes, part.holes == 1 ? "" : "s", state_of(part));
+  else if (part.is_solid)
     std::snprintf(line, sizeof line,
                   "%-14s touched %.3f s, peak %.2f N, gave way %.2f mm, lost %.1f mm3%s\n",
                   part.name.c_str(), part.contact_s, part.peak_force_n, part.deepest_mm,
@@ -105,7 +114,8 @@ void SoftWatch::see_step(const Session& session) {
   const SoftWorld& softs = *session.softs();
   const bool first = report_.parts.empty();
   const std::size_t bands = softs.setup().bands.size();
-  report_.parts.resize(bands + softs.setup().solids.size());
+  const std::size_t solids = softs.setup().solids.size();
+  report_.parts.resize(bands + solids + softs.setup().skins.size());
   const double step_s = session.bones().time_s / static_cast<double>(session.bones().step);
   for (std::size_t s = 0; s < softs.setup().solids.size(); ++s) {
     SoftReport::Part& part = report_.parts[bands + s];
@@ -114,6 +124,15 @@ void SoftWatch::see_step(const Session& session) {
     if (!(force_n > 0)) continue;
     part.contact_s += step_s;
     part.deepest_mm = std::max(part.deepest_mm, 1e3 * most_of(softs.solid_readout(s).deep_m));
+  }
+  for (std::size_t s = 0; s < softs.setup().skins.size(); ++s) {
+    SoftReport::Part& part = report_.parts[bands + solids + s];
+    const SkinReadout readout = softs.skin_readout(s);
+    const double force_n = most_of(readout.force_n);
+    part.peak_force_n = std::max(part.peak_force_n, force_n);
+    if (!(force_n > 0)) continue;
+    part.contact_s += step_s;
+    part.deepest_mm = std::max(part.deepest_mm, 1e3 * most_of(readout.deep_m));
   }
   for (std::size_t b = 0; b < bands; ++b) {
     SoftReport::Part& part = report_.parts[b];
@@ -139,7 +158,17 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
   if (!softs) return std::nullopt;
   SoftReport report = report_;
   const std::size_t bands = softs->setup().bands.size();
-  report.parts.resize(bands + softs->setup().solids.size());
+  const std::size_t solids = softs->setup().solids.size();
+  report.parts.resize(bands + solids + softs->setup().skins.size());
+  for (std::size_t s = 0; s < softs->setup().skins.size(); ++s) {
+    SoftReport::Part& part = report.parts[bands + solids + s];
+    const SkinReadout readout = softs->skin_readout(s);
+    part.name = softs->setup().skins[s].name;
+    part.is_skin = true;
+    part.cut_mm = 1e3 * readout.cut_m;
+    part.holes = readout.holes;
+    part.whole = !(readout.cut_m > 0) && readout.holes == 0;
+  }
   for (std::size_t s = 0; s < softs->setup().solids.size(); ++s) {
     report.parts[bands + s].name = softs->setup().solids[s].name;
     report.parts[bands + s].is_solid = true;

@@ -37,6 +37,9 @@ void SceneSight::show_what_gives_way(const SoftSetup* setup) {
   };
   for (std::size_t i = 0; setup && i < setup->solids.size(); ++i) show(setup->solids[i].soft);
   for (std::size_t i = 0; setup && i < setup->bands.size(); ++i) show(setup->bands[i].soft);
+  if (!setup || setup->skins.empty() || setup->skins[0].soft >= view_.softs.size()) return;
+  show(setup->skins[0].soft);
+  view_.softs[setup->skins[0].soft].opacity = 1;  // its cuts are seen, not through it
 }
 
 void SceneSight::recall() {

@@ -12,7 +12,7 @@ constexpr double kShapesApart_s = 0.1;
 bool SoftPicture::put(const SoftPushes& pushes, Renderer& renderer) {
   const auto changes = shapes_->changes(pushes);
   for (const SoftShapes::Changed& changed : changes)
-    set_soft_surface(renderer, *case_, changed.soft, changed.mesh_W);
+    set_soft_surface(renderer, *case_, changed.soft, changed.mesh_W, changed.depth_m);
   return !changes.empty();
 }
 

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osteon/base/result.h"
+#include "osteon/scene/case.h"
+#include "osteon/scene/tool.h"
+#include "osteon/tissue/sheet_push.h"
+#include "osteon/tissue/sheet_work.h"
+
+namespace osteon {
+
+/// How the skin at rest rises over a sheet's plane: smooth, so that its normal has no steps.
+class SkinRelief {
+ public:
+  struct Place {
+    double height_m = 0;
+    SheetPoint slope = SheetPoint::Zero();
+  };
+  SkinRelief() = default;
+  /// Heights on a grid of `nx` columns, rows one after another, centred on the sheet's middle.
+  SkinRelief(double cell_m, std::size_t nx, std::vector<double> heights_m);
+  /// Off the grid it goes on as at its border.
+  Place at(const SheetPoint& p) const;
+  double lowest_m() const { return lowest_m_; }
+  double highest_m() const { return highest_m_; }
+  std::span<const double> heights_m() const { return heights_m_; }
+
+ private:
+  double node(long i, long j) const;
+
+  double cell_m_ = 1;
+  long nx_ = 0, ny_ = 0;
+  double lowest_m_ = 0, highest_m_ = 0;
+  std::vector<double> heights_m_;
+};
+
+/// A patch of skin on its fat that is felt, cut and pierced: a sheet laid on the case's skin.
+struct SkinPatch {
+  std::string name;        ///< "skin:portal_al"
+  std::uint32_t soft = 0;  ///< the skin, in Case::softs
+  BoneId bone;             ///< that it goes with
+  Pose X_BS;               ///< of the sheet's frame at rest: z out of the skin
+  double width_m = 0, height_m = 0;
+  std::shared_ptr<const SkinSheet> sheet;
+  SkinRelief relief;
+  FatShare share;
+  std::shared_ptr<const SheetYield> whole;  ///< before any cut
+  double edge_n = 1;                        ///< push at which an edge goes in
+};
+std::uint64_t hash_of(std::span<const SkinPatch> patches);
+
+/// What an instrument of the tray does to skin.
+struct SkinTool {
+  std::uint64_t edge = 0;      ///< which of tool_rods() is an edge, bit by bit
+  Vec3 flat_T = Vec3::Zero();  ///< across the blade
+  double through_m = 0;        ///< radius of the shaft that goes through a hole; 0: none
+  bool pierces = false;        ///< it makes the hole itself
+};
+/// `pierces`: it is a trocar.
+SkinTool skin_tool(const Tool& tool, bool pierces);
+/// Of each name of a tray. Fails where the instruments cannot be read.
+Result<std::vector<SkinTool>> make_skin_tools(std::span<const std::string> tray);
+
+/// How skin answers, of the tissue table.
+struct SkinNumbers {
+  double stiffness_n_per_m = 400;  ///< to a tip of 5 mm
+  double cutting_n = 25;           ///< on a trocar of 5 mm
+};
+
+/// Whether a name of --soft means skin: "skin", or "skin:PLACE".
+bool names_skin(std::string_view name);
+
+/// Lays patches on the case's skin. `names`: "skin:PLACE" for the landmark or attachment PLACE;
+/// "skin": at portal_al, portal_am and pes_anserinus, as far as the case has them. `up_W`: along
+/// the limb. Fails, and says what there is, where the case has no such place, or where the skin
+/// there is too bent for a patch, or patches overlap.
+Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,
+                                                 std::span<const std::string> names,
+                                                 const Vec3& up_W, const SkinNumbers& numbers);
+
+}  // namespace osteon

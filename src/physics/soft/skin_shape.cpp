@@ -1,0 +1,126 @@
+#include "soft/skin_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/tissue/skin_place.h"
+
+namespace osteon {
+namespace {
+
+// So much less a dent looks as before.
+constexpr double kSkinStill_m = 5e-5;
+// The wall of a groove begins so far under the lip: it has a colour of its own there.
+constexpr double kUnderLip_m = 1e-5;
+constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn
+constexpr double kMostDent = 0.95;       // of the fat's thickness
+
+bool looks_pressed_alike(const SkinDent& a, const SkinDent& b) {
+  return a.patch == b.patch && (a.p - b.p).norm() < kSkinStill_m &&
+         std::abs(a.deep_m - b.deep_m) < kSkinStill_m;
+}
+
+std::shared_ptr<const SheetYield> yields_of(const SkinPatch& patch,
+                                            const std::shared_ptr<const SkinCuts>& cuts) {
+  if (!cuts || *cuts == SkinCuts{}) return patch.whole;
+  SheetWork work(*patch.sheet, kept_cuts(*patch.sheet, *cuts));
+  while (!work.step()) {
+  }
+  return work.take();
+}
+
+// The shape of a slight dent, as deep as the tip is.
+void add_dent(const SheetYield& yields, const SkinDent& dent, double fat_m,
+              std::vector<double>& down) {
+  const SheetDisc disc{dent.p, kDentRadius_m};
+  SheetScratch scratch;
+  const double per_m = yields.stiffness(disc, scratch);
+  const std::vector<double> shape = yields.dent(disc);
+  for (std::size_t i = 0; i < down.size(); ++i)
+    down[i] = std::min(down[i] + dent.deep_m * per_m * shape[i], kMostDent * fat_m);
+}
+
+}  // namespace
+
+SkinShape::SkinShape(const Case& the_case, const SoftSetup& setup)
+    : setup_(setup), whole_W_(the_case.softs[setup.skins[0].soft].mesh_W), around_W_(whole_W_) {
+  for (const SkinPatch& patch : setup_.skins) {
+    Patch mine;
+    mine.X_WS = the_case.bone(patch.bone).X_WB * patch.X_BS;
+    mine.yields = patch.whole;
+    around_W_ = around(around_W_, mine.X_WS, patch.width_m, patch.height_m);
+    patches_.push_back(std::move(mine));
+  }
+}
+
+// Walls of grooves hang on vertices of their own, with how deep they lie.
+void SkinShape::add(std::size_t s, SoftShapes::Changed& to) const {
+  const SkinPatch& patch = setup_.skins[s];
+  const Patch& mine = patches_[s];
+  const SplitSheet& split = mine.yields->split();
+  std::vector<double> down(split.vertex.size(), 0);
+  for (const SkinDent& dent : mine.dents)
+    add_dent(*mine.yields, dent, patch.sheet->material().fat_m, down);
+  const TriMesh sheet = sheet_surface(split, mine.yields->ways(), down);
+  const std::size_t walls = split.triangles.size();
+  const auto place = [&](const Vec3& p) {
+    const double height_m = patch.relief.at(p.head<2>()).height_m;
+    return Vec3(mine.X_WS * Vec3(p.x(), p.y(), p.z() + height_m));
+  };
+  const auto first = static_cast<std::uint32_t>(to.mesh_W.vertices.size());
+  to.depth_m.resize(first, 0.0f);
+  for (const Vec3& p : sheet.vertices) {
+    to.mesh_W.vertices.push_back(place(p));
+    to.depth_m.push_back(0);
+  }
+  for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+    Triangle triangle = sheet.triangles[t];
+    for (std::uint32_t& v : triangle) {
+      if (t < walls) {
+        v += first;
+        continue;
+      }
+      const bool lip = v < split.vertex.size();
+      const Vec3 p = sheet.vertices[v] - (lip ? kUnderLip_m : 0) * Vec3::UnitZ();
+      to.mesh_W.vertices.push_back(place(p));
+      to.depth_m.push_back(
+          static_cast<float>(std::max(patch.sheet->material().thickness_m, lip ? 0.0 : -p.z())));
+      v = static_cast<std::uint32_t>(to.mesh_W.vertices.size() - 1);
+    }
+    to.mesh_W.triangles.push_back(triangle);
+  }
+}
+
+std::optional<SoftShapes::Changed> SkinShape::change(const SoftPushes& pushes) {
+  bool other = false, at_rest = true;
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    Patch& mine = patches_[s];
+    std::vector<SkinDent> dents;
+    for (std::uint32_t i = 0; i < pushes.skin_count; ++i)
+      if (pushes.skin_dents[i].patch == s) dents.push_back(pushes.skin_dents[i]);
+    if (!std::equal(dents.begin(), dents.end(), mine.dents.begin(), mine.dents.end(),
+                    looks_pressed_alike)) {
+      mine.dents = std::move(dents);
+      other = true;
+    }
+    if (pushes.skin_cuts[s] != mine.cuts) {
+      const SkinCuts none;
+      const SkinCuts& was = mine.cuts ? *mine.cuts : none;
+      const SkinCuts& now = pushes.skin_cuts[s] ? *pushes.skin_cuts[s] : none;
+      if (was.cut != now.cut || was.moved != now.moved) {
+        mine.yields = yields_of(setup_.skins[s], pushes.skin_cuts[s]);
+        other = true;
+      }
+      mine.cuts = pushes.skin_cuts[s];
+    }
+    at_rest = at_rest && mine.dents.empty() && mine.yields->split().walls.empty();
+  }
+  if (!other) return {};
+  SoftShapes::Changed out;
+  out.soft = setup_.skins[0].soft;
+  out.mesh_W = at_rest ? whole_W_ : around_W_;
+  for (std::size_t s = 0; !at_rest && s < patches_.size(); ++s) add(s, out);
+  return out;
+}
+
+}  // namespace osteon

@@ -1,0 +1,577 @@
+#include "soft/skin_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "osteon/base/hash.h"
+#include "osteon/scene/soft_events.h"
+#include "soft/soft_touch.h"
+
+namespace osteon {
+namespace {
+
+// A part so near may touch before physics has looked again, even at 1 m/s.
+constexpr double kSkinNear_m = 0.006;
+constexpr double kSkinDeepest_m = 0.08;  // what is deeper is on the limb's other side
+constexpr double kSkinBorder_m = 0.003;  // over it the patch fades into skin that is not felt
+constexpr double kSkinThinnest_m = 0.0003, kSkinThickest_m = 0.006;  // of a tip that presses
+constexpr double kSkinFollows_s = 0.02;    // the stiffness that is felt follows the sheet's
+constexpr double kSkinAcross = 0.7;        // a blade that lies flat does not cut
+constexpr double kSkinScratch_m = 0.0002;  // an edge that is in by less opens nothing
+constexpr double kSkinInGroove_m = 0.0006;
+constexpr double kSkinDrops_m_per_s = 0.1;  // an edge falls so fast into an open groove
+constexpr double kSkinGrooveShare = 2.5;    // of the thickness: how deep a hole's slit is
+constexpr int kSkinSamples = 8;
+constexpr std::uint64_t kSkinStill = 0;
+
+void add_to(Hasher& h, const SheetPoint& p) {
+  h.add(p.x());
+  h.add(p.y());
+}
+
+std::uint64_t hash_of_cuts(const SheetCuts& cuts) {
+  Hasher h;
+  for (const SheetPoint& p : cuts.points) add_to(h, p);
+  for (const double depth : cuts.depth_m) h.add(depth);
+  return h.value();
+}
+
+void add_to(Hasher& h, const SkinHand& hand) {
+  h.add(hand.near);
+  if (hand.near) {
+    h.add(hand.barred);
+    h.add(hand.instrument);
+    const SkinContact& c = hand.contact;
+    for (const std::uint32_t x : {c.patch, c.bone, c.part}) h.add(x);
+    for (const Vec3& v : {c.p_B, c.nhat_B, c.hole_B}) h.add(v);
+    for (const double x :
+         {c.along, c.deep_m, c.force_n, c.stiffness_n_per_m, c.aside_n_per_m, hand.yields_n_per_m,
+          hand.entered_m, hand.stroke_m, hand.deepest_m, hand.pierce.force_n, hand.pierce.excess_n,
+          hand.pierce.depth_m, hand.slit_m, hand.pull_n})
+      h.add(x);
+    for (const bool x : {c.through, hand.cutting, hand.pierce.through}) h.add(x);
+    add_to(h, hand.p);
+    add_to(h, hand.hole);
+    h.add(hand.since_step);
+  }
+  h.add(hand.touch.on);
+  if (!hand.touch.on) return;
+  h.add(hand.touch.over);
+  h.add(hand.touch.first_step);
+  h.add(hand.touch.last_step);
+  h.add(hand.touch.peak_n);
+  h.add(hand.touch.deepest_m);
+}
+
+double smooth(double x) {
+  const double s = std::clamp(x, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+bool usable_tool(const ToolState& tool) {
+  return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < 1e12;
+}
+
+}  // namespace
+
+/// Where a tool is deepest in a patch.
+struct SkinWorld::Place {
+  std::uint32_t part = 0;
+  double along = 0, radius_m = 0, deep_m = 0;
+  Vec3 p_S = Vec3::Zero();  ///< on the skin
+  Vec3 n_S = Vec3::UnitZ();
+};
+
+/// One hand on one patch in a step.
+struct SkinWorld::At {
+  std::size_t hand = 0, patch = 0;
+  const SkinToolNow* now = nullptr;
+  SkinHand* state = nullptr;
+};
+
+SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s)
+    : setup_(setup), coupling_n_per_m_(coupling_n_per_m), limit_n_(limit_n), step_s_(step_s) {
+  patches_.resize(setup_.skins.size());
+  clear();
+  events_.reserve(kMaxHands * kMaxSkins * 6);
+  scratch_.near.reserve(1024);
+  for (const SkinPatch& patch : setup_.skins) (void)patch.whole->stiffness({}, scratch_);
+}
+SkinWorld::~SkinWorld() = default;
+
+// Of a tray without names its tools press, and nothing more.
+const SkinTool& SkinWorld::use_of(std::uint32_t instrument) const {
+  static const SkinTool presses;
+  return instrument < setup_.skin_tools.size() ? setup_.skin_tools[instrument] : presses;
+}
+
+void SkinWorld::clear() {
+  for (std::size_t s = 0; s < patches_.size(); ++s) put(s, {});
+  hands_ = {};
+}
+
+// The height of the axis over the skin, across it, along the part: of samples where the patch is
+// under it the deepest, and between its neighbours the top of their parabola.
+std::optional<SkinWorld::Place> SkinWorld::deepest(std::size_t s, const SkinToolNow& now,
+                                                   double most_m) const {
+  const SkinPatch& patch = setup_.skins[s];
+  const Pose X_ST = patches_[s].X_WS.inverse() * now.tool->X_WP;
+  const double half[2] = {0.5 * patch.width_m, 0.5 * patch.height_m};
+  std::optional<Place> best;
+  for (std::uint32_t part = 0; part < now.rods.size(); ++part) {
+    const Capsule& rod = now.rods[part];
+    const Vec3 a = X_ST * rod.p0, way = X_ST * rod.p1 - a;
+    const double reach = patch.relief.highest_m() + rod.radius + kSkinNear_m;
+    if (std::min(a.z(), a.z() + way.z()) > reach) continue;
+    double from = 0, to = 1;
+    for (int k = 0; k < 2; ++k) {
+      if (std::abs(way[k]) < 1e-12) {
+        if (std::abs(a[k]) > half[k]) to = -1;
+        continue;
+      }
+      const double t0 = (-half[k] - a[k]) / way[k], t1 = (half[k] - a[k]) / way[k];
+      from = std::max(from, std::min(t0, t1));
+      to = std::min(to, std::max(t0, t1));
+    }
+    if (!(from <= to)) continue;
+    const auto look = [&](double t) {
+      const Vec3 q = a + t * way;
+      const SkinRelief::Place here = patch.relief.at(q.head<2>());
+      Place place;
+      place.part = part;
+      place.along = t;
+      place.radius_m = rod.radius;
+      place.n_S = Vec3(-here.slope.x(), -here.slope.y(), 1).normalized();
+      place.p_S = {q.x(), q.y(), here.height_m};
+      place.deep_m = rod.radius - (q.z() - here.height_m) * place.n_S.z();
+      return place;
+    };
+    const auto take = [&](const Place& place) {
+      if (place.deep_m < most_m && (!best || place.deep_m > best->deep_m)) best = place;
+    };
+    const bool is_ball = way.squaredNorm() < 1e-14;
+    std::array<double, kSkinSamples + 1> deep{};
+    int top = 0;
+    for (int i = 0; i <= (is_ball ? 0 : kSkinSamples); ++i) {
+      const Place place = look(from + (to - from) * i / kSkinSamples);
+      deep[static_cast<std::size_t>(i)] = place.deep_m;
+      if (place.deep_m > deep[static_cast<std::size_t>(top)]) top = i;
+      take(place);
+    }
+    if (top == 0 || top == kSkinSamples) continue;
+    const auto at = static_cast<std::size_t>(top);
+    const double bend = deep[at - 1] - 2 * deep[at] + deep[at + 1];
+    if (!(bend < 0)) continue;
+    const double off = std::clamp(0.5 * (deep[at - 1] - deep[at + 1]) / bend, -0.5, 0.5);
+    take(look(from + (to - from) * (top + off) / kSkinSamples));
+  }
+  return best;
+}
+
+void SkinWorld::let_go(const At& at) {
+  SkinHand& hand = *at.state;
+  if (hand.cutting) end_stroke_of(at);
+  if (hand.pierce.through)
+    tell_event(at, kSkinLeft,
+               {static_cast<double>(step_ - hand.since_step) * step_s_, 1e3 * hand.deepest_m,
+                hand.pull_n});
+  const BandTouch touch = hand.touch;
+  hand = {};
+  hand.touch = touch;
+}
+
+void SkinWorld::follow(const At& at) {
+  SkinHand& hand = *at.state;
+  const SkinPatch& patch = setup_.skins[at.patch];
+  const ToolState* tool = at.now->tool;
+  if (hand.near && (!tool || tool->instrument != hand.instrument)) let_go(at);
+  if (!tool) return;
+  const auto place = deepest(at.patch, *at.now, kSkinDeepest_m);
+  if (!place || place->deep_m < -kSkinNear_m) {
+    if (hand.near) let_go(at);
+    return;
+  }
+  const bool begins = !hand.near;
+  hand.near = true;
+  hand.instrument = tool->instrument;
+  SkinContact& c = hand.contact;
+  c.patch = static_cast<std::uint32_t>(at.patch);
+  c.bone = patch.bone.index;
+  c.part = place->part;
+  c.along = place->along;
+  c.deep_m = place->deep_m;
+  c.p_B = patch.X_BS * place->p_S;
+  c.nhat_B = patch.X_BS.rotate(place->n_S);
+  hand.p = place->p_S.head<2>();
+  const SkinTool& use = use_of(tool->instrument);
+  const double radius_m = use.pierces ? use.through_m : place->radius_m;
+  const double yields = patches_[at.patch].yields->stiffness(
+      {hand.p, std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m)}, scratch_);
+  if (begins) {
+    hand.yields_n_per_m = yields;
+    hand.barred = c.deep_m > 0;
+  }
+  hand.yields_n_per_m += std::min(1.0, step_s_ / kSkinFollows_s) * (yields - hand.yields_n_per_m);
+  // What a portal lets through does not press the skin about it.
+  if (tool->portal != kNoPortal && !hand.pierce.through && !hand.cutting) hand.barred = true;
+  if (!(c.deep_m > 0)) hand.barred = false;
+  press(at);
+}
+
+void SkinWorld::press(const At& at) {
+  SkinHand& hand = *at.state;
+  SkinContact& c = hand.contact;
+  const SkinPatch& patch = setup_.skins[at.patch];
+  const SkinTool& use = use_of(hand.instrument);
+  c.force_n = c.stiffness_n_per_m = 0;
+  if (hand.barred) {
+    if (hand.cutting) end_stroke_of(at);
+    return;
+  }
+  const double radius_m = use.pierces ? use.through_m : at.now->rods[c.part].radius;
+  const SheetPush push{
+      hand.yields_n_per_m,
+      patch.share.at(std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m), hand.yields_n_per_m),
+      patch.sheet->material().fat_m, coupling_n_per_m_};
+  if (use.through_m > 0)
+    pass(at, push);
+  else
+    slice(at, push);
+  if (c.through) return;
+  const double inside = std::min(0.5 * patch.width_m - std::abs(hand.p.x()),
+                                 0.5 * patch.height_m - std::abs(hand.p.y()));
+  const double share = smooth(inside / kSkinBorder_m);
+  c.force_n *= share;
+  c.stiffness_n_per_m *= share;
+}
+
+// F(d - e), with e how far the edge is in: where F is above what the skin bears, e grows until it
+// is not.
+void SkinWorld::slice(const At& at, const SheetPush& push) {
+  SkinHand& hand = *at.state;
+  SkinContact& c = hand.contact;
+  const SkinPatch& patch = setup_.skins[at.patch];
+  const SkinTool& use = use_of(hand.instrument);
+  Patch& mine = patches_[at.patch];
+  const Vec3 flat_B =
+      patch.X_BS.rotate((mine.X_WS.inverse() * at.now->tool->X_WP).rotate(use.flat_T));
+  const bool edge = (use.edge >> c.part & 1) && !(std::abs(flat_B.dot(c.nhat_B)) > kSkinAcross);
+  hand.entered_m = std::clamp(hand.entered_m, 0.0, std::max(0.0, c.deep_m));
+  if (edge && c.deep_m > 0) {
+    const double groove = mine.slits.near(hand.p, kSkinInGroove_m).depth_m;
+    if (groove > hand.entered_m)
+      hand.entered_m = std::min({c.deep_m, groove, hand.entered_m + kSkinDrops_m_per_s * step_s_});
+  }
+  SheetTouch touch = push_sheet(push, c.deep_m - hand.entered_m);
+  const bool cuts = edge && touch.force_n > patch.edge_n;
+  if (cuts) {
+    hand.entered_m = c.deep_m - pushed_by(push, patch.edge_n);
+    touch = push_sheet(push, c.deep_m - hand.entered_m);
+  }
+  c.force_n = touch.force_n;
+  c.stiffness_n_per_m = touch.stiffness_n_per_m;
+  if (cuts && !hand.cutting && hand.entered_m > kSkinScratch_m) begin_to_cut(at, touch.force_n);
+  if (!hand.cutting) return;
+  if (!(hand.entered_m > kSkinScratch_m)) return end_stroke_of(at);
+  hand.deepest_m = std::max(hand.deepest_m, hand.entered_m);
+  const std::uint32_t was = mine.cuts.blade_at;
+  const double opened_m = go_on(*patch.sheet, mine.cuts, hand.p, hand.entered_m);
+  hand.stroke_m += opened_m;
+  mine.cut_m += opened_m;
+  if (mine.cuts.blade_at != was) changed(at.patch);
+  if (!mine.cuts.blade_in) end_stroke_of(at);
+}
+
+// One blade at a time is in a sheet.
+void SkinWorld::begin_to_cut(const At& at, double force_n) {
+  SkinHand& hand = *at.state;
+  Patch& mine = patches_[at.patch];
+  if (mine.cuts.blade_in) return;
+  begin_stroke(*setup_.skins[at.patch].sheet, mine.cuts, hand.p);
+  if (!mine.cuts.blade_in) return;
+  hand.cutting = true;
+  hand.since_step = step_;
+  hand.stroke_m = hand.deepest_m = 0;
+  tell_event(at, kSkinCut, {force_n, 1e3 * hand.entered_m, 0});
+  changed(at.patch);
+}
+
+void SkinWorld::end_stroke_of(const At& at) {
+  SkinHand& hand = *at.state;
+  Patch& mine = patches_[at.patch];
+  const double opened_m =
+      end_stroke(*setup_.skins[at.patch].sheet, mine.cuts, hand.p, hand.deepest_m);
+  hand.stroke_m += opened_m;
+  mine.cut_m += opened_m;
+  hand.cutting = false;
+  tell_event(at, kSkinCutEnd,
+             {1e3 * hand.stroke_m, 1e3 * hand.deepest_m,
+              static_cast<double>(step_ - hand.since_step) * step_s_});
+  changed(at.patch);
+}
+
+// Elastic until it breaks or a slit lets it in; then the hole's rim holds the shaft, and the fat
+// the tip.
+void SkinWorld::pass(const At& at, const SheetPush& push) {
+  SkinHand& hand = *at.state;
+  SkinContact& c = hand.contact;
+  const SkinPatch& patch = setup_.skins[at.patch];
+  const SkinTool& use = use_of(hand.instrument);
+  const SheetTouch touch = push_sheet(push, c.deep_m);
+  if (!hand.pierce.through) {
+    c.through = false;
+    c.force_n = touch.force_n;
+    c.stiffness_n_per_m = touch.stiffness_n_per_m;
+    const double slit_m = patches_[at.patch].slits.near(hand.p, use.through_m).length_m;
+    const PierceLaw law =
+        pierce_law(patch.sheet->material(), use.through_m, slit_m, hand.yields_n_per_m);
+    const bool may = use.pierces || !(law.peak_n > 0);
+    if (!may || !(c.deep_m > 0)) return;
+    if (!pierce_step(hand.pierce, law, c.deep_m, touch.force_n, step_s_)) return;
+    hand.slit_m = slit_m;
+    hand.hole = hand.p;
+    hand.since_step = step_;
+    hand.deepest_m = c.deep_m;
+    hand.pull_n = 0;
+    if (law.peak_n > 0) {
+      tell_event(at, kSkinPierced, {touch.force_n, 1e3 * c.deep_m, 2e3 * law.hole_m});
+      make_hole(at, law.hole_m);
+    } else {
+      tell_event(at, kSkinEntered, {1e3 * slit_m, 0, 0});
+    }
+  } else {
+    const PierceLaw law =
+        pierce_law(patch.sheet->material(), use.through_m, hand.slit_m, hand.yields_n_per_m);
+    (void)pierce_step(hand.pierce, law, c.deep_m, touch.force_n, step_s_);
+    const double held = hand.pierce.force_n - hand.pierce.excess_n;
+    const bool sticks = held > -law.grip_n && held < law.grip_n + law.resist_n;
+    c.force_n = hand.pierce.force_n;
+    c.stiffness_n_per_m = sticks ? std::min(law.stick_n_per_m, coupling_n_per_m_) : 0;
+    hand.deepest_m = std::max(hand.deepest_m, c.deep_m);
+    hand.pull_n = std::max(hand.pull_n, -c.force_n);
+  }
+  c.through = true;
+  const SkinRelief::Place here = patch.relief.at(hand.hole);
+  c.hole_B = patch.X_BS * Vec3(hand.hole.x(), hand.hole.y(), here.height_m);
+  c.aside_n_per_m = std::min(hand.yields_n_per_m, coupling_n_per_m_);
+  if (c.deep_m > 0) return;
+  tell_event(
+      at, kSkinLeft,
+      {static_cast<double>(step_ - hand.since_step) * step_s_, 1e3 * hand.deepest_m, hand.pull_n});
+  hand.pierce = {};
+  hand.slit_m = 0;
+  c.through = false;
+  c.force_n = c.stiffness_n_per_m = 0;
+}
+
+// A slit along x, as long as half of the hole's circumference.
+void SkinWorld::make_hole(const At& at, double radius_m) {
+  Patch& mine = patches_[at.patch];
+  const SkinSheet& sheet = *setup_.skins[at.patch].sheet;
+  ++mine.holes;
+  if (mine.cuts.blade_in) return;  // another hand cuts here: its stroke goes on
+  const SheetPoint half(0.5 * std::numbers::pi * radius_m, 0);
+  const double depth_m = kSkinGrooveShare * sheet.material().thickness_m;
+  begin_stroke(sheet, mine.cuts, at.state->p - half);
+  mine.cut_m += end_stroke(sheet, mine.cuts, at.state->p + half, depth_m);
+  changed(at.patch);
+}
+
+void SkinWorld::changed(std::size_t s) {
+  Patch& mine = patches_[s];
+  mine.cuts_hash = hash_of_cuts(mine.cuts);
+  mine.slits.find(*setup_.skins[s].sheet, mine.cuts);
+  mine.shown = std::make_shared<const SkinCuts>(cuts_to_keep(*setup_.skins[s].sheet, mine.cuts));
+}
+
+void SkinWorld::follow_stiffness(std::size_t s) {
+  Patch& mine = patches_[s];
+  const SkinSheet& sheet = *setup_.skins[s].sheet;
+  if (!mine.work) {
+    if (mine.cuts_hash == mine.felt_hash) return;
+    mine.next = cuts_to_keep(sheet, mine.cuts);
+    mine.next_hash = mine.cuts_hash;
+    mine.worked = 0;
+    mine.work = std::make_unique<SheetWork>(sheet, mine.cuts);
+    return;
+  }
+  ++mine.worked;
+  if (!mine.work->step()) return;
+  mine.yields = mine.work->take();
+  mine.work = nullptr;
+  mine.felt = std::move(mine.next);
+  mine.felt_hash = mine.next_hash;
+  mine.next = {};
+  mine.next_hash = kSkinStill;
+  mine.worked = 0;
+}
+
+void SkinWorld::tell_touch(const At& at, std::uint64_t step) {
+  SkinHand& hand = *at.state;
+  const bool felt = hand.near && !hand.barred && hand.contact.deep_m > 0;
+  const double force_n = felt ? std::abs(hand.contact.force_n) : 0;
+  const double deep_m = felt ? hand.contact.deep_m : 0;
+  readouts_[at.patch].force_n[at.hand] = force_n;
+  readouts_[at.patch].deep_m[at.hand] = deep_m;
+  const TouchNews news = follow_touch(hand.touch, {true, force_n, deep_m}, limit_n_, step, step_s_);
+  if (news.begins) tell_event(at, kSoftBegin, {});
+  if (news.over) tell_event(at, kSoftOver, {force_n, limit_n_, 0});
+  if (news.ends) tell_event(at, kSoftEnd, {news.since_s, news.peak_n, news.deepest_mm});
+}
+
+void SkinWorld::tell_event(const At& at, EventKind kind, const std::array<double, 3>& values) {
+  if (events_.size() == events_.capacity()) return;
+  const SkinHand& hand = *at.state;
+  Event event;
+  event.kind = kind;
+  event.hand = static_cast<std::uint8_t>(at.hand);
+  event.subject_kind = SubjectKind::kSoftPart;
+  event.subject = setup_.skins[at.patch].soft;
+  event.values = values;
+  const double h = setup_.skins[at.patch].relief.at(hand.p).height_m;
+  event.p_W = patches_[at.patch].X_WS * Vec3(hand.p.x(), hand.p.y(), h);
+  events_.push_back(event);
+}
+
+void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones) {
+  events_.clear();
+  step_ = bones.step;
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    const Pose& X_WB = bones.bones[setup_.skins[s].bone.index].X_WB;
+    const bool lies = is_finite(X_WB);
+    if (lies) patches_[s].X_WS = X_WB * setup_.skins[s].X_BS;
+    readouts_[s] = {};
+    for (std::size_t h = 0; h < hands.size(); ++h) {
+      SkinToolNow now = hands[h];
+      if (now.tool && (!lies || !usable_tool(*now.tool))) now.tool = nullptr;
+      const At at{h, s, &now, &hands_[h][s]};
+      follow(at);
+      tell_touch(at, bones.step);
+    }
+    follow_stiffness(s);
+  }
+}
+
+void SkinWorld::tell(std::size_t hand, BandContacts& contacts) const {
+  for (std::size_t s = 0; s < patches_.size(); ++s)
+    if (hands_[hand][s].near && !hands_[hand][s].barred)
+      contacts.skins[contacts.skin_count++] = hands_[hand][s].contact;
+}
+
+void SkinWorld::show(SoftPushes& pushes) const {
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    pushes.skin_cuts[s] = patches_[s].shown;
+    for (std::size_t h = 0; h < kMaxHands; ++h) {
+      const SkinHand& hand = hands_[h][s];
+      const double dent_m = hand.contact.deep_m - hand.entered_m;
+      if (!hand.near || hand.barred || hand.contact.through || !(dent_m > 0)) continue;
+      pushes.skin_dents[pushes.skin_count++] = {static_cast<std::uint32_t>(s), hand.p, dent_m};
+    }
+  }
+}
+
+SkinReadout SkinWorld::readout(std::size_t patch) const {
+  SkinReadout out = readouts_[patch];
+  out.cut_m = patches_[patch].cut_m;
+  out.holes = patches_[patch].holes;
+  return out;
+}
+
+std::uint64_t SkinWorld::hash() const {
+  Hasher h;
+  for (const Patch& patch : patches_) {
+    h.add(patch.cuts_hash);
+    h.add(patch.cuts.blade_in);
+    h.add(patch.cuts.blade_at);
+    h.add(patch.felt_hash);
+    h.add(patch.next_hash);
+    h.add(patch.worked);
+    h.add(patch.cut_m);
+    h.add(patch.holes);
+  }
+  for (const auto& hands : hands_)
+    for (std::size_t s = 0; s < patches_.size(); ++s) add_to(h, hands[s]);
+  return h.value();
+}
+
+std::shared_ptr<const SkinState> SkinWorld::save() const {
+  auto out = std::make_shared<SkinState>();
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    const Patch& from = patches_[s];
+    out->patches.push_back({cuts_to_keep(*setup_.skins[s].sheet, from.cuts), from.felt,
+                            from.work != nullptr, from.next, from.worked, from.cut_m, from.holes});
+  }
+  out->hands = hands_;
+  return out;
+}
+
+bool SkinWorld::fits(const SkinState& state, std::span<const std::vector<Capsule>> tray) const {
+  if (state.patches.size() != patches_.size()) return false;
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    const SkinSheet& sheet = *setup_.skins[s].sheet;
+    const SkinPatchState& patch = state.patches[s];
+    for (const SkinCuts* cuts : {&patch.cuts, &patch.felt, &patch.next})
+      if (!osteon::fits(sheet, *cuts)) return false;
+    for (const auto& hands : state.hands)
+      if (hands[s].near &&
+          (hands[s].instrument >= tray.size() ||
+           hands[s].contact.part >= tray[hands[s].instrument].size() ||
+           hands[s].contact.patch != s || hands[s].contact.bone != setup_.skins[s].bone.index))
+        return false;
+  }
+  return true;
+}
+
+void SkinWorld::put(std::size_t s, const SkinPatchState& from) {
+  const SkinSheet& sheet = *setup_.skins[s].sheet;
+  Patch& mine = patches_[s];
+  mine.cuts = kept_cuts(sheet, from.cuts);
+  mine.cut_m = from.cut_m;
+  mine.holes = from.holes;
+  mine.felt = from.felt;
+  const SheetCuts felt = kept_cuts(sheet, from.felt);
+  mine.felt_hash = hash_of_cuts(felt);
+  if (from.felt == SkinCuts{}) {
+    mine.yields = setup_.skins[s].whole;
+  } else {
+    SheetWork work(sheet, felt);
+    while (!work.step()) {
+    }
+    mine.yields = work.take();
+  }
+  mine.work = nullptr;
+  mine.next = {};
+  mine.next_hash = kSkinStill;
+  mine.worked = 0;
+  if (from.working) {
+    const SheetCuts next = kept_cuts(sheet, from.next);
+    mine.next = from.next;
+    mine.next_hash = hash_of_cuts(next);
+    mine.work = std::make_unique<SheetWork>(sheet, next);
+    for (; mine.worked < from.worked; ++mine.worked)
+      if (mine.work->step()) break;
+  }
+  changed(s);
+}
+
+void SkinWorld::restore(const SkinState& state) {
+  for (std::size_t s = 0; s < patches_.size(); ++s) put(s, state.patches[s]);
+  hands_ = state.hands;
+  events_.clear();
+}
+
+void SkinWorld::go_back(const SkinState& state) {
+  for (std::size_t s = 0; s < patches_.size(); ++s) {
+    Patch& mine = patches_[s];
+    mine.cuts = kept_cuts(*setup_.skins[s].sheet, state.patches[s].cuts);
+    mine.cuts.blade_in = false;
+    mine.cut_m = state.patches[s].cut_m;
+    mine.holes = state.patches[s].holes;
+    changed(s);
+  }
+  hands_ = {};
+  events_.clear();
+}
+
+}  // namespace osteon

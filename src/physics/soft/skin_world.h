@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "osteon/physics/skin_state.h"
+#include "osteon/physics/soft_setup.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/event.h"
+#include "osteon/scene/soft_band.h"
+#include "osteon/scene/soft_pushes.h"
+#include "osteon/scene/tool.h"
+#include "soft/skin_slits.h"
+
+namespace osteon {
+
+/// A hand's tool in a step of the skin.
+struct SkinToolNow {
+  const ToolState* tool = nullptr;  ///< null: it touches nothing
+  std::span<const Capsule> rods;    ///< of the tool
+};
+
+/// The patches of skin of a session at the physics' rate. Of each tool the part that is deepest in
+/// a patch presses it, as a round tip of that part's radius presses the sheet where it is; an edge
+/// that is pressed hard enough goes in and cuts along its way; a trocar breaks through; what is
+/// round goes in where a slit is wide enough. After a cut the sheet's stiffness is made anew in
+/// pieces, one a step. A function of the state and of the tools, bit by bit. Allocates in steps in
+/// which something is cut, not in others.
+class SkinWorld {
+ public:
+  /// `setup` must outlive it.
+  SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s);
+  ~SkinWorld();
+
+  void step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones);
+  std::span<const Event> events() const { return events_; }
+  void tell(std::size_t hand, BandContacts& contacts) const;
+  void show(SoftPushes& pushes) const;
+  SkinReadout readout(std::size_t patch) const;
+
+  std::uint64_t hash() const;
+  std::shared_ptr<const SkinState> save() const;
+  bool fits(const SkinState& state, std::span<const std::vector<Capsule>> tray) const;
+  void restore(const SkinState& state);
+  /// As restore, but no tool is near, and the stiffness follows in the next steps.
+  void go_back(const SkinState& state);
+  void clear();
+
+ private:
+  struct Patch {
+    SheetCuts cuts;
+    std::uint64_t cuts_hash = 0, felt_hash = 0, next_hash = 0;
+    SkinCuts felt, next;
+    std::shared_ptr<const SheetYield> yields;
+    std::unique_ptr<SheetWork> work;
+    std::uint64_t worked = 0;
+    SkinSlits slits;
+    double cut_m = 0;
+    std::uint32_t holes = 0;
+    Pose X_WS;
+    std::shared_ptr<const SkinCuts> shown;  ///< for pictures: no part of the state
+  };
+  struct Place;
+  struct At;
+
+  const SkinTool& use_of(std::uint32_t instrument) const;
+  std::optional<Place> deepest(std::size_t patch, const SkinToolNow& now, double most_m) const;
+  void follow(const At& at);
+  void press(const At& at);
+  void slice(const At& at, const SheetPush& push);
+  void pass(const At& at, const SheetPush& push);
+  void begin_to_cut(const At& at, double force_n);
+  void end_stroke_of(const At& at);
+  void let_go(const At& at);
+  void make_hole(const At& at, double radius_m);
+  void changed(std::size_t patch);
+  void follow_stiffness(std::size_t patch);
+  void tell_touch(const At& at, std::uint64_t step);
+  void tell_event(const At& at, EventKind kind, const std::array<double, 3>& values);
+  void put(std::size_t patch, const SkinPatchState& from);
+
+  const SoftSetup& setup_;
+  double coupling_n_per_m_, limit_n_, step_s_;
+  std::uint64_t step_ = 0;
+  std::vector<Patch> patches_;
+  std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands_{};
+  std::array<SkinReadout, kMaxSkins> readouts_{};
+  mutable SheetScratch scratch_;
+  std::vector<Event> events_;
+};
+
+}  // namespace osteon
