@@ -234,8 +234,8 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
   ThirdHand out;
   auto drills = std::make_unique<AclDriller>(std::move(ways.drilling), skill);
   if (ways.after_graft) {
-    auto way = plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(),
-                                hand.instrument);
+    auto way =
+        plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
     if (!way) return tl::unexpected(way.error());
     auto maker = std::make_unique<PathHand>(HandPart{std::move(*way), {}});
     out.maker = maker.get();
@@ -402,8 +402,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     work.room = [&watch] {
       return watch.tunnels() ? watch.tunnels()->room() : std::optional<GraftRoom>();
     };
-    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, std::move(work), headless,
-                                       players);
+    auto planned =
+        plan_reconstruction(run, *plan, **the_case, *hands, std::move(work), headless, players);
     if (!planned) return tl::unexpected(planned.error());
     unreachable = std::move(*planned);
   }

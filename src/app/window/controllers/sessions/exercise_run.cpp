@@ -380,10 +380,12 @@ void ExerciseRun::describe_graft(ExerciseModel& model) const {
   };
   const GraftBenchState& bench = graft.state();
   if (bench.passed_m > 0)
-    model.told.push_back({"Graft's cylinder", mm(bench.passed_m),
-                          "The smallest one that went over the graft: so wide the tunnels should be"});
+    model.told.push_back(
+        {"Graft's cylinder", mm(bench.passed_m),
+         "The smallest one that went over the graft: so wide the tunnels should be"});
   if (bench.tension_n > 0)
-    model.told.push_back({"Graft stretched", std::to_string(std::lround(bench.creep_s / 60)) + " min",
+    model.told.push_back({"Graft stretched",
+                          std::to_string(std::lround(bench.creep_s / 60)) + " min",
                           "As if by 80 N; 10 minutes are right"});
   if (!(graft.plan()->channel_m > 0)) return;
   model.told.push_back({"Femoral channel", mm(graft.plan()->channel_m),
