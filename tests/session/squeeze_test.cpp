@@ -17,6 +17,7 @@ namespace {
 constexpr double kTick_s = 0.001;
 constexpr double kRod_m = 0.001;
 constexpr double kBox_m = 0.0015;  // half of the thickness of the plates that meet
+constexpr double kPressed_m = 0.0015;
 constexpr double kPressed_s = 3, kEnd_s = 5;
 
 std::shared_ptr<const Case> one_box(double below_m) {
@@ -74,7 +75,7 @@ SessionSettings settings_for(const Thing& thing) {
 double wanted(double t, double touch_m) {
   const double in = std::clamp((t - 0.2) / 0.6, 0.0, 1.0);
   const double out = std::clamp((t - kPressed_s) / 0.6, 0.0, 1.0);
-  return touch_m + 0.003 - 0.0045 * (in - out);
+  return touch_m + 0.003 - (0.003 + kPressed_m) * (in - out);
 }
 
 /// One run of two hands.
@@ -136,7 +137,7 @@ TEST(SqueezeLoop, GivesOutNoEnergyAndComesToRestWithOppositeForces) {
       SCOPED_TRACE(std::string(thing.name) + ", " + name(pair[0]) + ", " + name(pair[1]));
       SqueezeLoop loop(thing, pair);
       std::array<Vec3, 2> rest{Vec3::Zero(), Vec3::Zero()};
-      double swing_m = 0;
+      double swing_m = 0, rest_n = 0;
       for (double t = 0; t < kEnd_s; t += kTick_s) {
         loop.tick(t);
         ASSERT_GT(loop.put_in_j, -loop.late_j - 1e-9) << t;
@@ -151,6 +152,14 @@ TEST(SqueezeLoop, GivesOutNoEnergyAndComesToRestWithOppositeForces) {
             settings.physics.spring_n_per_m * loop.session.bones().bones[0].X_WB.p.x();
         ASSERT_NEAR(sum_n, -spring_n, 0.02) << t;
         ASSERT_GT(loop.force(1).x(), 0.05) << t;
+        rest_n = loop.force(1).x();
+      }
+      // Two alike share the way past the touch: grip and coupling are two springs in a row.
+      const double grip = pair[0].grip_stiffness_n_per_m;
+      if (grip == pair[1].grip_stiffness_n_per_m) {
+        const double coupling = settings_for(thing).haptic.stiffness_n_per_m;
+        const double wanted_n = kPressed_m / (1 / grip + 1 / coupling);
+        EXPECT_NEAR(rest_n, wanted_n, 0.05 * wanted_n);
       }
       EXPECT_LT(swing_m, 3e-5);
       EXPECT_GT(loop.most_j, 5e-6);

@@ -1,6 +1,7 @@
 // Two devices in one world: the fault of one is its own, and the recording holds both.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -258,26 +259,41 @@ TEST(RuntimeTwoHands, OnThreadsExchangeCleanlyAndReplayFromAnyState) {
   {
     Runtime runtime(plan, two_devices(test::press_and_slide, faulty, left, right),
                     feed_of_two(file.path(), plan, tray), tray);
+    // The window wishes something every 20 ticks; no loop outruns it.
+    constexpr int kWishes = 40;
+    std::atomic<int> allowed{0};
+    const auto wait_for = [&allowed](int tick) {
+      while (allowed.load() <= tick) std::this_thread::yield();
+    };
     std::vector<std::thread> threads;
     for (std::size_t h = 0; h < 2; ++h)
-      threads.emplace_back([&runtime, h] {
-        for (int i = 0; i < kMany; ++i) runtime.step_haptic_once(h);
+      threads.emplace_back([&runtime, &wait_for, h] {
+        for (int i = 0; i < kMany; ++i) {
+          wait_for(i);
+          runtime.step_haptic_once(h);
+        }
       });
-    threads.emplace_back([&runtime] {
-      for (int i = 0; i < kMany / 2; ++i) runtime.step_physics_once();
+    threads.emplace_back([&runtime, &wait_for] {
+      for (int i = 0; i < kMany; i += 2) {
+        wait_for(i);
+        runtime.step_physics_once();
+      }
     });
-    threads.emplace_back([&runtime] {
-      for (int i = 0; i < kMany; ++i) runtime.drain_records_once();
+    threads.emplace_back([&runtime, &wait_for] {
+      for (int i = 0; i < kMany; ++i) {
+        wait_for(i);
+        runtime.drain_records_once();
+      }
     });
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < kWishes; ++i) {
       const double mark = i % 4;
       runtime.send({i % 3 == 2 ? CommandKind::kRestore : CommandKind::kMark, mark});
       runtime.send({CommandKind::kTake, static_cast<double>(i / 2 % 2)}, i % 2);
       runtime.send({CommandKind::kPower, 0.25 * (i % 5)}, (i + 1) % 2);
       if (i % 8 == 7) runtime.set_force_enabled(true, 1);
+      allowed += kMany / kWishes;
       runtime.snapshot(0);
       runtime.snapshot(1);
-      std::this_thread::yield();
     }
     for (std::thread& thread : threads) thread.join();
     ASSERT_TRUE(runtime.stop());

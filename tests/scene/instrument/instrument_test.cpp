@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 
 #include "osteon/mesh/measure.h"
@@ -100,6 +101,21 @@ TEST(Instrument, AJawTurnsAboutItsHinge) {
   const Tool half = make_tool(*read, 1, 0.5);
   const double d = 0.010 * std::sqrt(0.5);
   EXPECT_NEAR((half.parts[0].rod.p0 - Vec3(0, -d, 0.010 - d)).norm(), 0, 1e-15);
+}
+
+// The page's table says of each instrument what it can do, in brackets what has no effect yet.
+TEST(Instrument, ThePageSaysWhatEachCanDo) {
+  std::ifstream page(fs::path(OSTEON_SOURCE_DIR) / "docs/instruments.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  for (const Instrument& instrument : shipped()) {
+    std::string row = "| `" + instrument.name + "` | " + instrument.title + " | ";
+    for (std::size_t i = 0; i < instrument.functions.size(); ++i) {
+      const std::string word(to_text(instrument.functions[i]));
+      row += i == 0 ? "" : ", ";
+      row += has_effect(instrument, instrument.functions[i]) ? word : "(" + word + ")";
+    }
+    EXPECT_NE(text.find(row + " |"), std::string::npos) << row;
+  }
 }
 
 TEST(Instrument, AFunctionWithoutEffectIsSaidSo) {
