@@ -24,16 +24,19 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
   const auto all = first_of(pushes.all, pushes.count);
   const auto bends = first_of(pushes.bends, pushes.bend_count);
   const auto breaks = first_of(pushes.breaks, pushes.break_count);
+  const auto dents = first_of(pushes.skin_dents, pushes.skin_count);
   const Kept nothing;
   const Kept& last = kept_.empty() ? nothing : kept_.back();
   if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks) &&
-      pushes.cuts == last.cuts)
+      pushes.cuts == last.cuts && are_same(dents, last.dents) && pushes.skin_cuts == last.skin_cuts)
     return;
   kept_.push_back({time_s,
                    {all.begin(), all.end()},
                    {bends.begin(), bends.end()},
                    {breaks.begin(), breaks.end()},
-                   pushes.cuts});
+                   pushes.cuts,
+                   {dents.begin(), dents.end()},
+                   pushes.skin_cuts});
 }
 
 SoftPushes PushHistory::at(double time_s) const {
@@ -45,7 +48,10 @@ SoftPushes PushHistory::at(double time_s) const {
   std::copy(kept.all.begin(), kept.all.end(), out.all.begin());
   std::copy(kept.bends.begin(), kept.bends.end(), out.bends.begin());
   std::copy(kept.breaks.begin(), kept.breaks.end(), out.breaks.begin());
+  std::copy(kept.dents.begin(), kept.dents.end(), out.skin_dents.begin());
   out.cuts = kept.cuts;
+  out.skin_cuts = kept.skin_cuts;
+  out.skin_count = static_cast<std::uint32_t>(kept.dents.size());
   out.count = static_cast<std::uint32_t>(kept.all.size());
   out.bend_count = static_cast<std::uint32_t>(kept.bends.size());
   out.break_count = static_cast<std::uint32_t>(kept.breaks.size());

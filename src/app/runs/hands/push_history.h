@@ -26,6 +26,8 @@ class PushHistory {
     std::vector<StringBend> bends;
     std::vector<BandBreak> breaks;
     std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts;
+    std::vector<SkinDent> dents;
+    std::array<std::shared_ptr<const SkinCuts>, kMaxSkins> skin_cuts;
   };
   std::vector<Kept> kept_;
   double due_s_ = 0;  ///< of the next that is looked at

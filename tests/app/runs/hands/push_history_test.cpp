@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "osteon/physics/skin_state.h"
+
 namespace osteon {
 namespace {
 
@@ -62,6 +64,21 @@ TEST(PushHistory, KeepsWhichLigamentsAreInTwo) {
   EXPECT_EQ(history.at(0.05), SoftPushes{});
   EXPECT_EQ(history.at(0.29), cut);
   EXPECT_EQ(history.kept(), 1u);
+}
+
+TEST(PushHistory, KeepsDentsAndCutsOfSkin) {
+  PushHistory history;
+  SoftPushes pressed;
+  pressed.skin_count = 1;
+  pressed.skin_dents[0] = {1, {0.002, 0.003}, 0.004};
+  SoftPushes cut;
+  cut.skin_cuts[1] = std::make_shared<const SkinCuts>();
+  for (int tick = 1; tick <= 300; ++tick)
+    history.add(tick <= 100 ? SoftPushes{} : tick <= 200 ? pressed : cut, tick * 0.001);
+  EXPECT_EQ(history.at(0.05), SoftPushes{});
+  EXPECT_EQ(history.at(0.19), pressed);
+  EXPECT_EQ(history.at(0.29), cut);
+  EXPECT_EQ(history.kept(), 2u);
 }
 
 }  // namespace
