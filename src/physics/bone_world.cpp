@@ -86,8 +86,8 @@ void add_to(Hasher& hasher, const GraftBenchState& bench) {
     hasher.add(tendon.stitches);
   }
   for (const BenchHand& hand : bench.hands) {
-    for (const std::uint32_t x : {hand.instrument, hand.line, hand.carries, hand.over, hand.hangs,
-                                  hand.scrapes})
+    for (const std::uint32_t x :
+         {hand.instrument, hand.line, hand.carries, hand.over, hand.hangs, hand.scrapes})
       hasher.add(x);
     hasher.add(hand.grip);
     hasher.add(hand.front_m);

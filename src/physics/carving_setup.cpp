@@ -149,8 +149,9 @@ std::vector<CarvedLayer> layers_on(const Case& the_case, const Bone& bone) {
 }  // namespace
 
 bool can_carve(const Case& the_case, std::span<const std::string> tray) {
-  const bool has_field = std::any_of(the_case.bones.begin(), the_case.bones.end(),
-                                     [](const Bone& bone) { return is_field(bone.felt) && !bone.beside; });
+  const bool has_field =
+      std::any_of(the_case.bones.begin(), the_case.bones.end(),
+                  [](const Bone& bone) { return is_field(bone.felt) && !bone.beside; });
   if (!has_field || tray.empty()) return false;
   const auto instruments = load_instruments();
   return instruments && std::any_of(tray.begin(), tray.end(), [&](const std::string& name) {

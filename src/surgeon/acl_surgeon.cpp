@@ -28,11 +28,11 @@ constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on,
 constexpr double kTooHard_m = 0.012;
 
 constexpr std::array<std::string_view, 26> kFaults{
-    "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",     "anterior_tibia",
-    "short_tibia",  "vertical_femur",     "blow_out",         "no_pin",       "plunged",
-    "short_socket", "lost_thread",        "unflipped_button", "soft_tissue",  "flipped_in_muscle",
-    "few_cycles",   "slack_tension",      "diverging_screw",  "shallow_screw",
-    "amputated_tendon", "muscle_left", "few_stitches", "slack_graft", "short_loop", "long_loop",
+    "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",      "anterior_tibia",
+    "short_tibia",  "vertical_femur",     "blow_out",         "no_pin",        "plunged",
+    "short_socket", "lost_thread",        "unflipped_button", "soft_tissue",   "flipped_in_muscle",
+    "few_cycles",   "slack_tension",      "diverging_screw",  "shallow_screw", "amputated_tendon",
+    "muscle_left",  "few_stitches",       "slack_graft",      "short_loop",    "long_loop",
     "wide_tunnel"};
 
 // How somebody does it.
@@ -269,8 +269,9 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   ways.third_begin_s = probe.now_s() + 0.5;
   ways.after_graft = tools.drills && tools.after_graft;
   if (tools.drills)
-    ways.drilling = drill_both(*knee, {*tibia, *femur, tools.reamed_m, 0.0045, tools.socket_m},
-                               habits.fault, ways.after_graft ? 0 : ways.third_begin_s, habits.pace);
+    ways.drilling =
+        drill_both(*knee, {*tibia, *femur, tools.reamed_m, 0.0045, tools.socket_m}, habits.fault,
+                   ways.after_graft ? 0 : ways.third_begin_s, habits.pace);
   const AclWay pin = pin_way(*knee, tools, *tibia, *femur, ways.third_begin_s, habits.pace);
   ways.scope = trembling(scope, skill.tremor_m, skill.seed);
   ways.probe = trembling(probe.path(), skill.tremor_m, skill.seed + 1);

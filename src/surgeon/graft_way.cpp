@@ -46,12 +46,13 @@ struct GraftHabits {
   double size_m = 0;
 };
 
-constexpr std::array<std::string_view, 6> kGraftFaults{
-    "amputated_tendon", "unflipped_button", "long_loop", "slack_graft", "muscle_left", "few_stitches"};
+constexpr std::array<std::string_view, 6> kGraftFaults{"amputated_tendon", "unflipped_button",
+                                                       "long_loop",        "slack_graft",
+                                                       "muscle_left",      "few_stitches"};
 // Of a whole reconstruction.
-constexpr std::array<std::string_view, 7> kFaultsInKnee{"amputated_tendon", "muscle_left", "few_stitches",
-                                                        "slack_graft",      "short_loop",  "long_loop",
-                                                        "wide_tunnel"};
+constexpr std::array<std::string_view, 7> kFaultsInKnee{
+    "amputated_tendon", "muscle_left", "few_stitches", "slack_graft",
+    "short_loop",       "long_loop",   "wide_tunnel"};
 
 // As few strands as make it thick enough; of those that are long enough.
 GraftHabits graft_habits(const GraftBenchPlan& plan, const std::string& fault) {
@@ -145,7 +146,8 @@ void scrape_muscle(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon)
   way.go(at(kStrokeFrom_m, -kTableUnder_m + 0.010), kHandNear_m_per_s);
 }
 
-void stitch_end(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon, std::uint32_t passes) {
+void stitch_end(HandWay& way, const GraftBenchPlan& plan, std::size_t tendon,
+                std::uint32_t passes) {
   over(way, plan, stitch_W(plan, tendon, 0), kUpright);
   way.jaw(1);
   for (std::uint32_t k = 0; k < passes; ++k) {
@@ -265,7 +267,8 @@ Result<ProbePath> plan_graft(const Case& the_case, const Skill& skill) {
   if (!fault.empty() &&
       std::find(kGraftFaults.begin(), kGraftFaults.end(), fault) == kGraftFaults.end())
     return fail("no virtual surgeon can make the error '" + fault + "'", "surgeon");
-  HandWay way("scalpel_15", held_by_shaft(plan->graft_from_W + kHandBegins, kUpright), pace_of(skill));
+  HandWay way("scalpel_15", held_by_shaft(plan->graft_from_W + kHandBegins, kUpright),
+              pace_of(skill));
   way.stay(0.3);
   make_graft(way, *plan, graft_habits(*plan, fault));
   stretch(way, *plan);
@@ -284,7 +287,7 @@ Result<double> drilled_for_graft(const Case& the_case, const Skill& skill) {
 }
 
 Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, double begin_s,
-                                    const Pose& from, const std::string& held) {
+                                   const Pose& from, const std::string& held) {
   const auto plan = bench_in(the_case);
   if (!plan) return tl::unexpected(plan.error());
   const std::string fault = fault_of(skill);
@@ -295,7 +298,6 @@ Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, dou
   change_round(way, knee, "scalpel_15", plan->graft_from_W + kComes, kUpright);
   make_graft(way, *plan, habits);
   stretch(way, *plan);
-  way.stay(kTooShortFor_s / kBoardClock);
   if (fault == "slack_graft") slacken(way, *plan);
   leave_bench(way, *plan, knee, from, held);
   way.stay(0.5);

@@ -11,7 +11,7 @@
 namespace osteon {
 
 inline constexpr double kHandCarry_m_per_s = 0.2, kHandNear_m_per_s = 0.03;
-inline constexpr double kHandTaken_s = 0.5;   ///< until a line has taken on what is pushed along it
+inline constexpr double kHandTaken_s = 0.5;  ///< until a line has taken on what is pushed along it
 inline constexpr double kHandBefore_m = 0.08;  ///< a mouth
 
 /// One hand that changes instruments: what it does, one thing after the other.

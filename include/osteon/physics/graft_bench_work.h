@@ -19,18 +19,19 @@ struct BenchTool {
 
 /// Making a graft at a bench: bands are cut by a blade that is drawn over them, tendons stripped,
 /// their muscle scraped off by a blade's strokes over the table beside their free ends, thread put
-/// through those by a needle holder that shuts there, tendons carried and folded by a clamp, sized, pulled on a board and hung on a button. A function of its
-/// state and the tools' states; a step allocates nothing.
+/// through those by a needle holder that shuts there, tendons carried and folded by a clamp, sized,
+/// pulled on a board and hung on a button. A function of its state and the tools' states; a step
+/// allocates nothing.
 ///
 /// Guided one-dimensional model. An instrument that is pushed along a line stays on it, as in a
 /// hole, and the line's front stops it. F, its push along the line; R(s), the resistance at the
 /// front s: over R the front goes on with (F - R) / kSlow, at most kFastest. So the hand feels R.
 /// R of a tendon grows towards its muscle and peaks at a band that is not cut; pushed beyond the
 /// peak the stripper cuts the tendon off there. R of a sizer grows with its tightness; R of the
-/// board is a spring's, kLever times less than the tension that it keeps, which is no more than what
-/// the fewest passes of thread through a folded tendon hold; open jaws let its slide
-/// back. A graft that hangs on the thread in a knee has left the bench. Forces are a fraction of
-/// those of the operation, so that devices can show them: own defaults.
+/// board is a spring's, kLever times less than the tension that it keeps, which is no more than
+/// what the fewest passes of thread through a folded tendon hold; open jaws let its slide back. A
+/// graft that hangs on the thread in a knee has left the bench. Forces are a fraction of those of
+/// the operation, so that devices can show them: own defaults.
 class GraftBenchWork {
  public:
   static constexpr double kStrip_n = 1.2, kMuscle_n = 2.2;  ///< at the insertion, at the muscle

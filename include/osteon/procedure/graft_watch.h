@@ -44,11 +44,11 @@ enum class GraftValue : std::uint8_t {
   kCreepLeft,
   kMuscleLeft,  ///< of the tendon that has more of it
   kStitches,    ///< passes of thread, of the tendon that has fewer
-  kTunnelOver  ///< how much wider than its sizer the wider tunnel is; only in a knee
+  kTunnelOver   ///< how much wider than its sizer the wider tunnel is; only in a knee
 };
 /// By GraftValue: names with their units, each of a rule `outside_NAME` for errors.
 inline constexpr std::array<std::string_view, 8> kGraftValueNames{
-    "graft_diameter_mm",    "graft_length_mm",       "graft_strands",   "graft_in_socket_mm",
+    "graft_diameter_mm",    "graft_length_mm",       "graft_strands",  "graft_in_socket_mm",
     "graft_creep_left_pct", "graft_muscle_left_pct", "graft_stitches", "tunnel_over_graft_mm"};
 
 /// The tunnels that a graft is for, as they were measured in a knee.

@@ -39,8 +39,8 @@ inline constexpr double kScrapedClean_m = 0.060;
 /// Places along a tendon's end where a whipstitch can go through it, and so far apart.
 inline constexpr std::uint32_t kMostStitches = 6;
 inline constexpr double kStitchApart_m = 0.004;
-/// What one pass of thread holds of the pull on a graft's tail (own estimate: five hold what a board
-/// pulls).
+/// What one pass of thread holds of the pull on a graft's tail (own estimate: five hold what a
+/// board pulls).
 inline constexpr double kStitchHolds_n = 25;
 
 /// What a stripper brought out.

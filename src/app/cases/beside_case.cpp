@@ -51,8 +51,7 @@ Result<void> lay_beside(const std::string& anatomy, CaseDef& def) {
   for (BoneDef& bone : bench->bones) {
     if (std::find(kMarksOfItsOwn.begin(), kMarksOfItsOwn.end(), bone.name) != kMarksOfItsOwn.end())
       continue;
-    if (has_bone(def, bone.name))
-      return fail("it has a bone '" + bone.name + "' already", where);
+    if (has_bone(def, bone.name)) return fail("it has a bone '" + bone.name + "' already", where);
     bone.X_WB.p += at_W;
     bone.felt = Felt::kHull;
     bone.beside = true;

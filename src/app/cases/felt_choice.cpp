@@ -71,8 +71,7 @@ std::string to_text(const FeltChoice& choice) {
     out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
   if (choice.near_mm > 0)
     out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
-  if (!choice.beside.empty())
-    out.append(out.empty() ? "#" : ",").append("beside=" + choice.beside);
+  if (!choice.beside.empty()) out.append(out.empty() ? "#" : ",").append("beside=" + choice.beside);
   return choice.source + out;
 }
 

@@ -205,9 +205,10 @@ void TunnelWatch::follow_fixing(const BoneSnapshot& bones, std::vector<Event>& o
 // A graft is ready when its button hangs on it. What the board does to it is counted until then.
 void TunnelWatch::follow_bench(const GraftBenchState& bench) {
   const auto graft = bench.loop_m > 0 ? graft_on(*bench_, bench) : std::nullopt;
-  const bool same = graft.has_value() == made_.has_value() &&
-                    (!graft || (graft->diameter_m == made_->diameter_m &&
-                                graft->length_m == made_->length_m && bench.loop_m == made_->loop_m));
+  const bool same =
+      graft.has_value() == made_.has_value() &&
+      (!graft || (graft->diameter_m == made_->diameter_m && graft->length_m == made_->length_m &&
+                  bench.loop_m == made_->loop_m));
   if (made_) made_->creep_s = bench.creep_s;
   if (same) return;
   made_.reset();

@@ -143,10 +143,10 @@ class TunnelWatch {
   std::optional<GraftBenchPlan> bench_;  ///< none: the graft is made elsewhere
   std::optional<Error> refused_;         ///< why the graft does not go into the tunnels
   std::optional<MadeGraft> made_;        ///< of the bench; none: no button hangs on it
-  bool at_hand_ = false;              ///< what placing_ says stands in the bones
-  std::uint32_t epoch_ = 0;           ///< of the bones that were seen last
-  std::uint32_t measured_epoch_ = 0;  ///< of the bones when they were measured last
-  bool fixed_ = false;                ///< a graft is, and was tested
+  bool at_hand_ = false;                 ///< what placing_ says stands in the bones
+  std::uint32_t epoch_ = 0;              ///< of the bones that were seen last
+  std::uint32_t measured_epoch_ = 0;     ///< of the bones when they were measured last
+  bool fixed_ = false;                   ///< a graft is, and was tested
   Work work_;
   std::future<Work> job_;  ///< of what is measured in the background
   Event asked_;            ///< who asked for it

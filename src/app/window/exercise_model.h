@@ -85,7 +85,7 @@ struct ExerciseModel {
     std::string name, value, meaning;
   };
   std::vector<Told> told;
-  std::string cue;                ///< asked for; empty: not shown
+  std::string cue;  ///< asked for; empty: not shown
   bool has_cue = false;
   int hints = 0, undone = 0;
   double guided_s = 0;  ///< how long a hand was led

@@ -216,7 +216,8 @@ void GraftBenchWork::scrape(std::size_t hand, const ToolState& tool, GraftBenchS
     if (!tendon.stripped || tendon.folds > 0) continue;
     const Vec3 off = tool.X_WP.p - lies.free_W;
     const double along = off.dot(lies.lies_W);
-    if (along < -kBeforeEnd_m || along > kMuscle_m || (off - along * lies.lies_W).norm() > kBeside_m)
+    if (along < -kBeforeEnd_m || along > kMuscle_m ||
+        (off - along * lies.lies_W).norm() > kBeside_m)
       continue;
     h.scrapes = t + 1;
     if (before == h.scrapes)

@@ -106,8 +106,8 @@ void read_bone(const toml::table& table, const std::string& where, CaseText& out
                CaseTomlReader& file) {
   const std::string title = "bone " + std::to_string(out.def.bones.size() + 1);
   CaseTomlReader reader(table, where, title);
-  reader.allow_only({"name", "fma_id", "mesh", "position_m", "rotation_wxyz", "felt",
-                     "beside", "density_kg_per_m3", "material"});
+  reader.allow_only({"name", "fma_id", "mesh", "position_m", "rotation_wxyz", "felt", "beside",
+                     "density_kg_per_m3", "material"});
   BoneDef bone;
   bone.name = read_name(reader);
   bone.fma_id = reader.integer_or("fma_id", {0, 10'000'000}, fma_id_of(bone.name));

@@ -4,7 +4,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kTableWork = 25;  // that of muscle and thread on tendons
-constexpr std::uint64_t kOrders = 13;  // the version that says what graft was handed over
+constexpr std::uint64_t kOrders = 13;     // the version that says what graft was handed over
 
 }  // namespace
 

@@ -178,6 +178,7 @@ std::string screw_of(const PlannedHand& hand, double tunnel_m) {
 
 // The narrowest drill of the exercise for a tunnel.
 constexpr double kLeastDrill_m = 0.008;
+constexpr double kShallowSocket_m = 0.0215;
 
 // What the third hand's later parts go by.
 struct LaterWork {
@@ -234,8 +235,8 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
   ThirdHand out;
   auto drills = std::make_unique<AclDriller>(std::move(ways.drilling), skill);
   if (ways.after_graft) {
-    auto way = plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(),
-                                hand.instrument);
+    auto way =
+        plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
     if (!way) return tl::unexpected(way.error());
     auto maker = std::make_unique<PathHand>(HandPart{std::move(*way), {}});
     out.maker = maker.get();
@@ -280,6 +281,8 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   const auto drilled_m = drilled_for_graft(the_case, run.skill);
   if (!drilled_m) return tl::unexpected(drilled_m.error());
   tools.reamed_m = *drilled_m;
+  // The shortest loop that there is would fit most sockets of the usual depth.
+  if (run.skill.name == "bad:short_loop") tools.socket_m = kShallowSocket_m;
   tools.after_graft = true;
   return tools;
 }
@@ -402,8 +405,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     work.room = [&watch] {
       return watch.tunnels() ? watch.tunnels()->room() : std::optional<GraftRoom>();
     };
-    auto planned = plan_reconstruction(run, *plan, **the_case, *hands, std::move(work), headless,
-                                       players);
+    auto planned =
+        plan_reconstruction(run, *plan, **the_case, *hands, std::move(work), headless, players);
     if (!planned) return tl::unexpected(planned.error());
     unreachable = std::move(*planned);
   }

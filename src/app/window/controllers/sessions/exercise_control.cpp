@@ -10,6 +10,7 @@
 #include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
+#include "osteon/scene/graft_bench.h"
 #include "runs/hands/tray.h"
 #include "window/controllers/sessions/exercise_camera.h"
 
@@ -207,7 +208,29 @@ void ExerciseControl::begin() {
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
   look_at_the_box(*hands);
+  camera_before_bench_.reset();
   host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
+}
+
+// The bench is another place than the joint: picture and hand go there with the stage, and back.
+void ExerciseControl::go_with_stage() {
+  const bool at_bench = exercise_.at_bench();
+  if (at_bench == camera_before_bench_.has_value()) return;
+  Camera& camera = sight_.view().camera;
+  if (!at_bench) {
+    camera = *camera_before_bench_;
+    camera_before_bench_.reset();
+    if (hand_before_bench_) live_.run()->bring(*hand_before_bench_);
+    return;
+  }
+  const auto bench = find_graft_bench(*scene_.the_case);
+  if (!bench) return;
+  camera_before_bench_ = camera;
+  camera = bench_camera(camera, *bench, sight_.viewport().aspect());
+  hand_before_bench_.reset();
+  if (!live_.run()->by_mouse()) return;
+  hand_before_bench_ = sight_.shown().tool.X_WD;
+  live_.run()->bring(beside_bench(*bench));
 }
 
 void ExerciseControl::poll() {
@@ -223,6 +246,7 @@ void ExerciseControl::poll() {
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
+  go_with_stage();
   while (const auto said = exercise_.next_order(sight_.shown().bones))
     if (!run->say(*said)) break;
   ghost_.poll(exercise_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class ExerciseControl {
   void save_pages();
   void show_debrief();
   void look_at_the_box(const std::vector<PlannedHand>& hands);
+  void go_with_stage();
 
   WindowHost& host_;
   ShownCase& scene_;
@@ -54,6 +56,8 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
+  std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
+  std::optional<Pose> hand_before_bench_;
   DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 
