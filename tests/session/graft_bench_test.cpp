@@ -1,6 +1,11 @@
 // A bench in a session: a stripper is led and stopped, the hand feels it, and everything repeats.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "count_allocations.h"
 #include "graft_bench_case.h"
 #include "osteon/scene/instrument.h"
@@ -86,6 +91,43 @@ TEST(SessionBench, AStateInTheMiddleGoesOnWithTheSameBits) {
     odd.world.bones.bench.on = false;
     EXPECT_FALSE(other.restore(odd));
   }
+}
+
+// Where the bytes of a state differ first once its bench was changed.
+std::size_t word_of(const SessionState& state,
+                    const std::function<void(GraftBenchState&)>& change) {
+  SessionState odd = state;
+  change(odd.world.bones.bench);
+  const std::string a = to_bytes(state), b = to_bytes(odd);
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin()) /
+         8 * 8;
+}
+
+// Before muscle and thread were known every tendon was clean and stitched.
+TEST(SessionBench, AStateFromBeforeTableWorkIsReadAsClean) {
+  const BenchSession rig;
+  Session session = rig.session();
+  strip_on(session, 1, 700);
+  SessionState state = session.save();
+  for (TendonOnBench& tendon : state.world.bones.bench.tendons) {
+    tendon.scraped_m = kScrapedClean_m;
+    tendon.stitches = (1u << kMostStitches) - 1;
+  }
+  std::vector<std::size_t> words;
+  for (std::size_t t = 0; t < kGraftTendons; ++t) {
+    words.push_back(word_of(state, [&](auto& bench) { bench.tendons[t].scraped_m = 0; }));
+    words.push_back(word_of(state, [&](auto& bench) { bench.tendons[t].stitches = 0; }));
+  }
+  for (std::size_t h = 0; h < kBenchHands; ++h)
+    words.push_back(word_of(state, [&](auto& bench) { bench.hands[h].scrapes = 1; }));
+  std::sort(words.rbegin(), words.rend());
+  std::string old = to_bytes(state);
+  for (const std::size_t at : words) old.erase(at, 8);
+  ASSERT_EQ(old[0], 25);
+  old[0] = 24;
+  const auto read = state_from_bytes(old);
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(to_bytes(*read), to_bytes(state));
 }
 
 TEST(SessionBench, ARecordingRepeatsAndARestorePointPutsTheFrontBack) {

@@ -26,17 +26,16 @@ bool asks_for_graft(const ScenarioPlan& plan) {
   return false;
 }
 
-void leave_out_bench_stages(Scenario& scenario) {
+bool is_at_bench(const ScenarioStage& stage) {
   constexpr std::array<std::string_view, 7> kOfBench{
       "tendons_stripped", "muscle_off",      "tendons_stitched", "graft_folded",
       "graft_sized",      "graft_tensioned", "loop_hung"};
-  const auto is_of_bench = [&](const Rule& goal) {
+  return std::any_of(stage.goals.begin(), stage.goals.end(), [&](const Rule& goal) {
     return std::find(kOfBench.begin(), kOfBench.end(), goal.kind) != kOfBench.end();
-  };
-  std::erase_if(scenario.stages, [&](const ScenarioStage& stage) {
-    return std::any_of(stage.goals.begin(), stage.goals.end(), is_of_bench);
   });
 }
+
+void leave_out_bench_stages(Scenario& scenario) { std::erase_if(scenario.stages, is_at_bench); }
 
 void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {
   const GraftPlacingState& there = bones.placing;

@@ -13,6 +13,8 @@ namespace osteon {
 /// Whether a scenario has a graft placed.
 bool asks_for_graft(const ScenarioPlan& plan);
 
+/// Whether the goals of a stage are about a graft that is made at a bench.
+bool is_at_bench(const ScenarioStage& stage);
 /// Leaves out the stages in which a graft is made at a bench: for one that was made before.
 void leave_out_bench_stages(Scenario& scenario);
 

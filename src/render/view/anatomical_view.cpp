@@ -119,7 +119,8 @@ void add_points_W(const Bone& bone, std::vector<Vec3>& points) {
 
 std::vector<Vec3> all_points_W(const Case& the_case) {
   std::vector<Vec3> points;
-  for (const Bone& bone : the_case.bones) add_points_W(bone, points);
+  for (const Bone& bone : the_case.bones)
+    if (!bone.beside) add_points_W(bone, points);
   return points;
 }
 

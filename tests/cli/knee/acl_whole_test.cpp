@@ -23,10 +23,10 @@ class WholeAcl : public CliTest {
   }
 };
 
-TEST_F(WholeAcl, TheExpertDrillsPlacesAndFixesAndTheRecordingRepeats) {
+TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   const Json json = report("--seed 0 --record " + file("w.osr"), 0);
   EXPECT_TRUE(json["errors"].empty()) << json["errors"];
-  ASSERT_EQ(json["stages"].size(), 8u);
+  ASSERT_EQ(json["stages"].size(), 14u);
   for (const Json& stage : json["stages"]) {
     ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
     EXPECT_LT(stage["completed_s"], 1500);
@@ -45,14 +45,26 @@ TEST_F(WholeAcl, TheExpertDrillsPlacesAndFixesAndTheRecordingRepeats) {
   // What the bent knee showed is what the case's bending says.
   EXPECT_NEAR(placing["bent_excursion_mm"].get<double>(),
               json["acl"]["isometry"]["excursion_mm"].get<double>(), 3);
-  EXPECT_EQ(run_osteon("replay --from 250 " + file("w.osr")).exit_code, 0);
+  // What was made at the bench is what was drilled for, placed and fixed.
+  const Json& made = json["acl"]["made"];
+  const double sizer_mm = made["sizer_mm"];
+  EXPECT_NEAR(made["sizer_found_mm"].get<double>(), sizer_mm, 1e-6);
+  EXPECT_NEAR(placing["screw"]["tunnel_mm"].get<double>(), sizer_mm, 0.3);
+  EXPECT_NEAR(placing["graft_mm"].get<double>(), made["diameter_mm"].get<double>(), 1e-6);
+  EXPECT_EQ(placing["loop_mm"], made["loop_mm"]);
+  EXPECT_NEAR(placing["channel_mm"].get<double>(), made["channel_mm"].get<double>(), 1e-6);
+  EXPECT_NEAR(placing["in_socket_mm"].get<double>(), made["in_socket_mm"].get<double>(), 0.1);
+  EXPECT_TRUE(made["button_turns"]);
+  EXPECT_GT(made["pretension_s"], 600);
+  EXPECT_EQ(run_osteon("replay --from 350 " + file("w.osr")).exit_code, 0);
 }
 
 TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
   for (const std::string name :
-       {"lost_thread", "unflipped_button", "soft_tissue", "flipped_in_muscle", "few_cycles",
-        "slack_tension", "diverging_screw", "shallow_screw"}) {
+       {"amputated_tendon", "muscle_left", "few_stitches", "slack_graft", "short_loop", "long_loop",
+        "wide_tunnel", "lost_thread", "unflipped_button", "soft_tissue", "flipped_in_muscle",
+        "few_cycles", "slack_tension", "diverging_screw", "shallow_screw"}) {
     const Json json = report("--seed 1 --surgeon bad:" + name, 1);
     ASSERT_EQ(json["errors"].size(), 1u) << name << json["errors"];
     EXPECT_EQ(json["errors"][0]["name"], name);

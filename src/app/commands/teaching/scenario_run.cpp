@@ -178,6 +178,7 @@ std::string screw_of(const PlannedHand& hand, double tunnel_m) {
 
 // The narrowest drill of the exercise for a tunnel.
 constexpr double kLeastDrill_m = 0.008;
+constexpr double kShallowSocket_m = 0.0215;
 
 // What the third hand's later parts go by.
 struct LaterWork {
@@ -280,6 +281,8 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   const auto drilled_m = drilled_for_graft(the_case, run.skill);
   if (!drilled_m) return tl::unexpected(drilled_m.error());
   tools.reamed_m = *drilled_m;
+  // The shortest loop that there is would fit most sockets of the usual depth.
+  if (run.skill.name == "bad:short_loop") tools.socket_m = kShallowSocket_m;
   tools.after_graft = true;
   return tools;
 }

@@ -95,7 +95,8 @@ std::string to_text(const GraftReport& report) {
 Result<MadeGraft> made_graft(const std::string& json_text, const std::string& where) {
   auto json = nlohmann::json::parse(json_text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) return fail("is not a JSON object", where);
-  for (const char* key : {"acl", "graft"})
+  // In the report of a whole reconstruction `acl.graft` is what holds it.
+  for (const char* key : {"acl", "made", "graft"})
     if (json.contains(key) && json[key].is_object()) json = nlohmann::json(json[key]);
   MadeGraft made;
   const struct {

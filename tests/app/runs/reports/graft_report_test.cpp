@@ -31,6 +31,14 @@ TEST(GraftReports, WhatWasMadeReadsBack) {
   EXPECT_NE(to_text(report).find("graft in the socket"), std::string::npos);
 }
 
+TEST(GraftReports, OfAWholeReconstructionWhatWasMadeIsRead) {
+  const nlohmann::ordered_json whole{
+      {"acl", {{"made", to_json(hung_graft())}, {"graft", {{"holds", true}}}}}};
+  const auto made = made_graft(whole.dump(), "here");
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_NEAR(made->length_m, 0.125, 1e-9);
+}
+
 TEST(GraftReports, WhatIsMissingOrOutOfRangeIsNamed) {
   EXPECT_FALSE(made_graft("[", "here"));
   EXPECT_FALSE(made_graft("[1]", "here"));

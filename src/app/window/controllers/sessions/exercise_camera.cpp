@@ -3,18 +3,37 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace osteon {
 namespace {
 
 constexpr double kAside_rad = 100 * std::numbers::pi / 180;  // shafts come in from the left
 constexpr double kUp_rad = 35 * std::numbers::pi / 180;
+constexpr double kBenchUp_rad = 55 * std::numbers::pi / 180;
 constexpr double kAround_m = 0.02;  // of each point, for instruments and posts
 
 Vec3 mean_of_points(std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
   return sum / static_cast<double>(points.size());
+}
+
+// So near that all of the points are in the picture from there.
+Camera look_from(Camera camera, const Vec3& view_from_W, std::span<const Vec3> points_W,
+                 double aspect) {
+  Vec3 lo = points_W.front(), hi = lo;
+  for (const Vec3& p : points_W) {
+    lo = lo.cwiseMin(p);
+    hi = hi.cwiseMax(p);
+  }
+  camera.orthographic = false;
+  camera.target_W = 0.5 * (lo + hi);
+  camera.q_WC = look_rotation(view_from_W, Vec3::UnitZ());
+  const double radius_m = 0.5 * (hi - lo).norm() + kAround_m;
+  const double half = std::atan(std::tan(0.5 * camera.vertical_fov_rad) * std::min(1.0, aspect));
+  camera.distance_m = radius_m / std::sin(half);
+  return camera;
 }
 
 }  // namespace
@@ -27,20 +46,33 @@ Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
   if (!is_finite(back) || back.norm() < 1e-4) back = -Vec3::UnitX();
   back = Eigen::AngleAxisd(kAside_rad, Vec3::UnitZ()) * back.normalized();
   const Vec3 view_from = std::cos(kUp_rad) * back + std::sin(kUp_rad) * Vec3::UnitZ();
-  Vec3 lo = places_W.front(), hi = lo;
-  for (const auto& points : {portals_W, places_W})
-    for (const Vec3& p : points) {
-      lo = lo.cwiseMin(p);
-      hi = hi.cwiseMax(p);
-    }
-  Camera camera = from;
-  camera.orthographic = false;
-  camera.target_W = 0.5 * (lo + hi);
-  camera.q_WC = look_rotation(view_from, Vec3::UnitZ());
-  const double radius_m = 0.5 * (hi - lo).norm() + kAround_m;
-  const double half = std::atan(std::tan(0.5 * camera.vertical_fov_rad) * std::min(1.0, aspect));
-  camera.distance_m = radius_m / std::sin(half);
-  return camera;
+  std::vector<Vec3> points(portals_W.begin(), portals_W.end());
+  points.insert(points.end(), places_W.begin(), places_W.end());
+  return look_from(from, view_from, points, aspect);
+}
+
+Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect) {
+  if (!(aspect > 0)) return from;
+  std::vector<Vec3> points{bench.graft_from_W, bench.graft_to_W, bench.board_from_W,
+                           bench.board_to_W, bench.hook_W};
+  points.insert(points.end(), bench.posts_W.begin(), bench.posts_W.end());
+  for (const GraftBenchPlan::Tendon& tendon : bench.tendons) {
+    points.push_back(tendon.insertion_W);
+    points.push_back(tendon.free_W);
+    points.insert(points.end(), tendon.bands_W.begin(), tendon.bands_W.end());
+  }
+  // Tendons run away from who works there.
+  Vec3 back = -bench.tendons[0].along_W;
+  back.z() = 0;
+  if (!is_finite(back) || back.norm() < 1e-4) back = -Vec3::UnitX();
+  const Vec3 view_from =
+      std::cos(kBenchUp_rad) * back.normalized() + std::sin(kBenchUp_rad) * Vec3::UnitZ();
+  return look_from(from, view_from, points, aspect);
+}
+
+Pose beside_bench(const GraftBenchPlan& bench) {
+  const Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
+  return {above_W, Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
 }
 
 }  // namespace osteon

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "osteon/render/camera.h"
+#include "osteon/scene/graft_bench.h"
 
 namespace osteon {
 
@@ -12,5 +13,11 @@ namespace osteon {
 /// there is no portal or no place.
 Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
                    std::span<const Vec3> places_W, double aspect);
+
+/// A look from above at the table of a bench and at the bands before it, as who works there sees
+/// it.
+Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect);
+/// Where a hand begins that comes to the bench.
+Pose beside_bench(const GraftBenchPlan& bench);
 
 }  // namespace osteon

@@ -10,6 +10,7 @@
 #include "exercises/pause_force.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
+#include "osteon/scene/graft_bench.h"
 #include "runs/hands/tray.h"
 #include "window/controllers/sessions/exercise_camera.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kHandsApart_m = 0.025;
 constexpr double kBeforePortal_m = 0.012;
+constexpr double kArrived_m = 0.005, kHighOver_m = 0.2;
 constexpr std::array<std::pair<DebriefView, DamageKind>, 3> kDamageViews{
     {{DebriefView::kForce, DamageKind::kForce},
      {DebriefView::kScratch, DamageKind::kScratch},
@@ -207,7 +209,47 @@ void ExerciseControl::begin() {
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
   look_at_the_box(*hands);
+  camera_before_bench_.reset();
+  hand_before_bench_.reset();
+  ways_.clear();
   host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
+}
+
+// The bench is another place than the joint: the picture goes there with the stage, and back.
+void ExerciseControl::go_with_stage() {
+  const bool at_bench = exercise_.at_bench();
+  bring_to_bench(at_bench);
+  if (at_bench == camera_before_bench_.has_value()) return;
+  Camera& camera = sight_.view().camera;
+  if (!at_bench) {
+    camera = *camera_before_bench_;
+    camera_before_bench_.reset();
+    return;
+  }
+  const auto bench = find_graft_bench(*scene_.the_case);
+  if (!bench) return;
+  camera_before_bench_ = camera;
+  camera = bench_camera(camera, *bench, sight_.viewport().aspect());
+}
+
+// So does the hand that works there, if the mouse moves it: over the bench, clear of what lies on
+// it.
+void ExerciseControl::bring_to_bench(bool at_bench) {
+  LiveRun& run = *live_.run();
+  const Pose at = sight_.shown().tool.X_WP;
+  if (!ways_.empty() && run.by_mouse() && (at.p - ways_.front().p).norm() < kArrived_m) {
+    ways_.pop_front();
+    if (!ways_.empty()) run.bring(ways_.front());
+  }
+  const bool may = run.by_mouse() && exercise_.works_at_bench(run.active());
+  if (at_bench == hand_before_bench_.has_value() || !may) return;
+  const auto bench = find_graft_bench(*scene_.the_case);
+  if (!bench) return;
+  const Pose low = beside_bench(*bench);
+  const Pose high{low.p + Vec3(0, 0, kHighOver_m), low.q};
+  ways_ = {high, at_bench ? low : *hand_before_bench_};
+  hand_before_bench_ = at_bench ? std::optional<Pose>(at) : std::nullopt;
+  run.bring(high);
 }
 
 void ExerciseControl::poll() {
@@ -223,6 +265,7 @@ void ExerciseControl::poll() {
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
+  go_with_stage();
   while (const auto said = exercise_.next_order(sight_.shown().bones))
     if (!run->say(*said)) break;
   ghost_.poll(exercise_);

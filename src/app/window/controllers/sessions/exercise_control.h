@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,8 @@ class ExerciseControl {
   void save_pages();
   void show_debrief();
   void look_at_the_box(const std::vector<PlannedHand>& hands);
+  void go_with_stage();
+  void bring_to_bench(bool at_bench);
 
   WindowHost& host_;
   ShownCase& scene_;
@@ -54,6 +58,9 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
+  std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
+  std::optional<Pose> hand_before_bench_;      ///< likewise, of the hand that was brought there
+  std::deque<Pose> ways_;                      ///< by which it goes on
   DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 

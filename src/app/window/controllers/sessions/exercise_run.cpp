@@ -49,6 +49,12 @@ std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_c
   return at < the_case.bones.size() ? label_of(the_case.bones[at].name) : "";
 }
 
+// A case that is a bench and nothing else is on show as it is.
+bool is_practice_bench(const Case& the_case) {
+  return std::none_of(the_case.bones.begin(), the_case.bones.end(),
+                      [](const Bone& bone) { return bone.beside; });
+}
+
 }  // namespace
 
 void ExerciseRun::close_page() {
@@ -154,6 +160,12 @@ std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
   if (!watch_ || !watch_->tunnels() || paused_ || !asks_for_graft(*plan_)) return std::nullopt;
   order_.see(watch_->tunnels()->placing(), bones);
   return order_.take();
+}
+
+bool ExerciseRun::at_bench() const {
+  const auto& stages = scenario().stages;
+  return watch_ && case_ && !is_practice_bench(*case_) && watch_->state().stage < stages.size() &&
+         is_at_bench(stages[watch_->state().stage]);
 }
 
 void ExerciseRun::keep_mark(std::uint32_t number) {

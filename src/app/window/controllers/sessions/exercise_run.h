@@ -51,6 +51,12 @@ class ExerciseRun {
   bool follow(const BoneSnapshot& bones);
   /// What the tunnels that were drilled ask to be handed over; none: nothing, or not yet.
   std::optional<Command> next_order(const BoneSnapshot& bones);
+  /// Whether what the live stage asks for is done at a bench.
+  bool at_bench() const;
+  /// Whether a hand may take what is used there.
+  bool works_at_bench(std::size_t hand) const {
+    return hand < hands_.size() && !hands_[hand].also.empty();
+  }
   /// The live stage's start was kept as that restore point of the run.
   void keep_mark(std::uint32_t number);
   /// The restore point of a stage's start; none: it has none, or was not reached.

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "../../../../graft_bench_case.h"
+
 namespace osteon {
 namespace {
 
@@ -35,6 +37,30 @@ TEST(ExerciseCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
       EXPECT_GT(camera.eye_W().z(), 0.05) << "from above";
       EXPECT_GT((camera.q_WC * Vec3::UnitY()).z(), 0.5) << "upright";
     }
+}
+
+TEST(ExerciseCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
+  const auto bench = find_graft_bench(*testing::bench_case());
+  ASSERT_TRUE(bench);
+  for (const double aspect : {0.6, 1.0, 1.8}) {
+    const Camera camera = bench_camera({}, *bench, aspect);
+    const Pose X_CW = camera.X_WC().inverse();
+    const double half_tan = std::tan(0.5 * camera.vertical_fov_rad);
+    for (const Vec3& p_W :
+         {bench->hook_W, bench->board_to_W, bench->posts_W[2], bench->tendons[0].bands_W[1],
+          bench->tendons[0].insertion_W, beside_bench(*bench).p}) {
+      const Vec3 p_C = X_CW * p_W;
+      ASSERT_LT(p_C.z(), 0);
+      EXPECT_LT(std::abs(p_C.y() / -p_C.z()), half_tan) << aspect;
+      EXPECT_LT(std::abs(p_C.x() / -p_C.z()), aspect * half_tan) << aspect;
+    }
+    EXPECT_GT(camera.eye_W().z(), 0.1);
+    // Farther along the tendon is higher in the picture.
+    EXPECT_GT((X_CW * bench->tendons[0].bands_W[1]).y(),
+              (X_CW * bench->tendons[0].insertion_W).y());
+  }
+  Camera camera;
+  EXPECT_EQ(bench_camera(camera, *bench, 0), camera);
 }
 
 TEST(ExerciseCamera, WithoutPortalsOrWorkItStays) {
