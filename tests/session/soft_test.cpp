@@ -217,8 +217,8 @@ constexpr std::size_t kWordsAfterSofts = 1 + kMaxMarks + 2;  // rings, marks, co
 
 // Versions before 11 knew no water: its words, of which the first says that there is any. Behind it
 // stand those of versions 12 and 13: no graft is placed or was ordered, no joint is bent. Versions
-// 14 and 22 have one more each, behind all that is soft: nothing was cut, and no jaws hold
-// anything.
+// 14, 22 and 24 have one more each, behind all that is soft: nothing was cut, no jaws hold
+// anything, and no skin is felt.
 std::string without_water(SessionState saved) {
   const std::string with = to_bytes(saved);
   saved.world.bones.water = {};
@@ -226,7 +226,7 @@ std::string without_water(SessionState saved) {
   const auto differ = std::mismatch(bytes.begin(), bytes.end(), with.begin());
   bytes.erase(static_cast<std::size_t>(differ.first - bytes.begin()) / 8 * 8,
               8 * (5 + kPlacingNumbers));
-  bytes.erase(bytes.size() - 8 * (kWordsAfterSofts + 2), 16);
+  bytes.erase(bytes.size() - 8 * (kWordsAfterSofts + 3), 24);
   return bytes;
 }
 
@@ -247,7 +247,7 @@ TEST(Soft, AStateFromBeforeFrictionIsReadWithoutIt) {
   Session session = run.session();
   press_to(session, 1, 301, 0.006);
   std::string bytes = without_water(session.save());
-  ASSERT_EQ(bytes[0], 22);
+  ASSERT_EQ(bytes[0], 24);
   bytes[0] = 8;
   erase_rub(bytes, session.save());
   const auto back = state_from_bytes(bytes);
@@ -269,7 +269,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   const std::string with_bench = without_water(saved);
   constexpr std::size_t kWord = 8, kTouch = 6;
   constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
-  ASSERT_EQ(bytes[0], 22);
+  ASSERT_EQ(bytes[0], 24);
   bytes[0] = 6;
   bytes.erase(bytes.size() - (kWordsAfterSofts + kSolids) * kWord, kSolids * kWord);
   // Nor was there a bench: the word that says so is where the two differ first.
