@@ -5,7 +5,6 @@
 #include "count_allocations.h"
 #include "osteon/base/random.h"
 #include "osteon/physics/skin_state.h"
-#include "osteon/physics/soft_shape.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/tissue/sheet_balance.h"
@@ -341,63 +340,6 @@ TEST(Skin, PressingItAllocatesNothing) {
   hand.move({0.005, 0.003, -0.004}, 300);
   EXPECT_EQ(testing::allocations(), before);
   EXPECT_GT(session.tool_state().force_W.z(), 1);
-}
-
-double area_of(const TriMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    sum += 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]])
-                     .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]])
-                     .norm();
-  return sum;
-}
-
-// A cut that opens, a dent under a ball, and the skin as it was.
-TEST(Skin, IsDrawnDentedAndOpenAndWholeAgain) {
-  Session session = skin_run().session();
-  SkinHandAt hand(session);
-  SoftShapes shapes(*skin_run().the_case, skin_run().softs);
-  hand.rest(4);
-  EXPECT_TRUE(shapes.changes(session.softs()->pushes()).empty());
-  hand.tick({CommandKind::kMark, 0});
-  hand.take(kSkinBall, {0.003, 0.002, 0.010});
-  hand.move({0.003, 0.002, -0.004}, 200);
-  const TriMesh& whole = skin_run().the_case->softs[0].mesh_W;
-  auto pressed = shapes.changes(session.softs()->pushes());
-  ASSERT_EQ(pressed.size(), 1u);
-  ASSERT_EQ(pressed[0].depth_m.size(), pressed[0].mesh_W.vertices.size());
-  double deepest = 0;
-  for (const Vec3& p : pressed[0].mesh_W.vertices) deepest = std::min(deepest, p.z());
-  EXPECT_NEAR(deepest, -0.004, 0.001);
-  hand.move({0.003, 0.002, 0.020}, 200);
-  auto rests = shapes.changes(session.softs()->pushes());
-  ASSERT_EQ(rests.size(), 1u);
-  EXPECT_EQ(rests[0].mesh_W.triangles.size(), whole.triangles.size());
-  cut_along(hand, {-0.006, -0.002, 0}, {0.006, 0.002, 0});
-  auto open = shapes.changes(session.softs()->pushes());
-  ASSERT_EQ(open.size(), 1u);
-  // All of the skin is there once, less what has gone between the lips, and the walls stand in it.
-  double flat_m2 = 0, walls = 0;
-  const TriMesh& mesh = open[0].mesh_W;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 n = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
-                       .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-    if (open[0].depth_m[t[0]] > 0)
-      ++walls;
-    else
-      flat_m2 += 0.5 * n.z();
-  }
-  const SkinSheet& sheet = *skin_run().patch().sheet;
-  const SheetBalance balance(sheet, split(sheet, cuts_of(session)));
-  EXPECT_NEAR(1e6 * (area_of(whole) - flat_m2), 1e6 * open_area(balance.split(), balance.ways()),
-              0.05);
-  EXPECT_GT(1e6 * (area_of(whole) - flat_m2), 3);
-  EXPECT_GT(walls, 20);
-  hand.tick({CommandKind::kRestore, 0});
-  hand.rest(100);
-  auto back = shapes.changes(session.softs()->pushes());
-  ASSERT_EQ(back.size(), 1u);
-  EXPECT_EQ(back[0].mesh_W.triangles.size(), whole.triangles.size());
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "osteon/tissue/skin_place.h"
 
 namespace osteon {
 namespace {
@@ -39,57 +40,6 @@ void add_dent(const SheetYield& yields, const SkinDent& dent, double fat_m,
     down[i] = std::min(down[i] + dent.deep_m * per_m * shape[i], kMostDent * fat_m);
 }
 
-using Polygon = std::vector<Vec3>;
-
-// What of it lies where n.p >= d, and what does not.
-std::pair<Polygon, Polygon> parted(const Polygon& polygon, const Vec3& n, double d) {
-  std::pair<Polygon, Polygon> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double da = n.dot(a) - d, db = n.dot(b) - d;
-    (da >= 0 ? out.first : out.second).push_back(a);
-    if ((da >= 0) == (db >= 0)) continue;
-    const Vec3 between = a + da / (da - db) * (b - a);
-    out.first.push_back(between);
-    out.second.push_back(between);
-  }
-  return out;
-}
-
-// The skin without what lies under the patch, cut along its rim. Its first vertices stay.
-TriMesh outside_of(const SkinPatch& patch, const TriMesh& skin_W, const Pose& X_WS) {
-  constexpr double kOtherSide_m = 0.03;  // from there on it is skin of the limb's other side
-  const Pose X_SW = X_WS.inverse();
-  const double half[2] = {0.5 * patch.width_m, 0.5 * patch.height_m};
-  TriMesh out;
-  out.vertices = skin_W.vertices;
-  for (const Triangle& t : skin_W.triangles) {
-    Polygon left;
-    Aabb box;
-    for (const std::uint32_t v : t) {
-      left.push_back(X_SW * skin_W.vertices[v]);
-      box.include(left.back());
-    }
-    const bool over = box.lo.x() < half[0] && box.hi.x() > -half[0] && box.lo.y() < half[1] &&
-                      box.hi.y() > -half[1] && std::abs(box.lo.z()) < kOtherSide_m &&
-                      (left[1] - left[0]).cross(left[2] - left[0]).z() > 0;
-    if (!over) {
-      out.triangles.push_back(t);
-      continue;
-    }
-    for (const int axis : {0, 1})
-      for (const double sign : {1.0, -1.0}) {
-        auto [beyond, within] = parted(left, sign * Vec3::Unit(axis), half[axis]);
-        const auto first = static_cast<std::uint32_t>(out.vertices.size());
-        for (const Vec3& p : beyond) out.vertices.push_back(X_WS * p);
-        for (std::uint32_t i = 2; i < beyond.size(); ++i)
-          out.triangles.push_back({first, first + i - 1, first + i});
-        left = std::move(within);
-      }
-  }
-  return out;
-}
-
 }  // namespace
 
 SkinShape::SkinShape(const Case& the_case, const SoftSetup& setup)
@@ -98,7 +48,7 @@ SkinShape::SkinShape(const Case& the_case, const SoftSetup& setup)
     Patch mine;
     mine.X_WS = the_case.bone(patch.bone).X_WB * patch.X_BS;
     mine.yields = patch.whole;
-    around_W_ = outside_of(patch, around_W_, mine.X_WS);
+    around_W_ = around(around_W_, mine.X_WS, patch.width_m, patch.height_m);
     patches_.push_back(std::move(mine));
   }
 }
