@@ -226,8 +226,12 @@ std::string without_water(SessionState saved) {
   const auto differ = std::mismatch(bytes.begin(), bytes.end(), with.begin());
   bytes.erase(static_cast<std::size_t>(differ.first - bytes.begin()) / 8 * 8,
               8 * (5 + kPlacingNumbers));
-  // 14, 22 and 24 have one more each, behind all that is soft: nothing was cut, no jaws hold
-  // anything, and no skin is felt. Version 23 has one in the hand: no scope has seen anything.
+  bytes.erase(bytes.size() - 8 * (kWordsAfterSofts + 3), 24);
+  const std::string blind = to_bytes(saved);
+  saved.hands[0].watch.seen[0] = 1;
+  const std::string looked = to_bytes(saved);
+  const auto sees = std::mismatch(blind.begin(), blind.end(), looked.begin()).first;
+  bytes.erase(static_cast<std::size_t>(sees - blind.begin()) / 8 * 8, 8);
   return bytes;
 }
 
