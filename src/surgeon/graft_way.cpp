@@ -298,6 +298,7 @@ Result<ProbePath> plan_graft_stage(const Case& the_case, const Skill& skill, dou
   change_round(way, knee, "scalpel_15", plan->graft_from_W + kComes, kUpright);
   make_graft(way, *plan, habits);
   stretch(way, *plan);
+  way.stay(kTooShortFor_s / kBoardClock);
   if (fault == "slack_graft") slacken(way, *plan);
   leave_bench(way, *plan, knee, from, held);
   way.stay(0.5);
