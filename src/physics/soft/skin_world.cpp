@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "osteon/base/hash.h"
 #include "osteon/scene/soft_events.h"
 #include "soft/soft_touch.h"
 
@@ -23,46 +22,6 @@ constexpr double kSkinInGroove_m = 0.0006;
 constexpr double kSkinDrops_m_per_s = 0.1;  // an edge falls so fast into an open groove
 constexpr double kSkinGrooveShare = 2.5;    // of the thickness: how deep a hole's slit is
 constexpr int kSkinSamples = 8;
-constexpr std::uint64_t kSkinStill = 0;
-
-void add_to(Hasher& h, const SheetPoint& p) {
-  h.add(p.x());
-  h.add(p.y());
-}
-
-std::uint64_t hash_of_cuts(const SheetCuts& cuts) {
-  Hasher h;
-  for (const SheetPoint& p : cuts.points) add_to(h, p);
-  for (const double depth : cuts.depth_m) h.add(depth);
-  return h.value();
-}
-
-void add_to(Hasher& h, const SkinHand& hand) {
-  h.add(hand.near);
-  if (hand.near) {
-    h.add(hand.barred);
-    h.add(hand.instrument);
-    const SkinContact& c = hand.contact;
-    for (const std::uint32_t x : {c.patch, c.bone, c.part}) h.add(x);
-    for (const Vec3& v : {c.p_B, c.nhat_B, c.hole_B}) h.add(v);
-    for (const double x :
-         {c.along, c.deep_m, c.force_n, c.stiffness_n_per_m, c.aside_n_per_m, hand.yields_n_per_m,
-          hand.entered_m, hand.stroke_m, hand.deepest_m, hand.pierce.force_n, hand.pierce.excess_n,
-          hand.pierce.depth_m, hand.slit_m, hand.pull_n})
-      h.add(x);
-    for (const bool x : {c.through, hand.cutting, hand.pierce.through}) h.add(x);
-    add_to(h, hand.p);
-    add_to(h, hand.hole);
-    h.add(hand.since_step);
-  }
-  h.add(hand.touch.on);
-  if (!hand.touch.on) return;
-  h.add(hand.touch.over);
-  h.add(hand.touch.first_step);
-  h.add(hand.touch.last_step);
-  h.add(hand.touch.peak_n);
-  h.add(hand.touch.deepest_m);
-}
 
 double smooth(double x) {
   const double s = std::clamp(x, 0.0, 1.0);
@@ -378,13 +337,6 @@ void SkinWorld::make_hole(const At& at, double radius_m) {
   changed(at.patch);
 }
 
-void SkinWorld::changed(std::size_t s) {
-  Patch& mine = patches_[s];
-  mine.cuts_hash = hash_of_cuts(mine.cuts);
-  mine.slits.find(*setup_.skins[s].sheet, mine.cuts);
-  mine.shown = std::make_shared<const SkinCuts>(cuts_to_keep(*setup_.skins[s].sheet, mine.cuts));
-}
-
 void SkinWorld::follow_stiffness(std::size_t s) {
   Patch& mine = patches_[s];
   const SkinSheet& sheet = *setup_.skins[s].sheet;
@@ -476,102 +428,6 @@ SkinReadout SkinWorld::readout(std::size_t patch) const {
   out.cut_m = patches_[patch].cut_m;
   out.holes = patches_[patch].holes;
   return out;
-}
-
-std::uint64_t SkinWorld::hash() const {
-  Hasher h;
-  for (const Patch& patch : patches_) {
-    h.add(patch.cuts_hash);
-    h.add(patch.cuts.blade_in);
-    h.add(patch.cuts.blade_at);
-    h.add(patch.felt_hash);
-    h.add(patch.next_hash);
-    h.add(patch.worked);
-    h.add(patch.cut_m);
-    h.add(patch.holes);
-  }
-  for (const auto& hands : hands_)
-    for (std::size_t s = 0; s < patches_.size(); ++s) add_to(h, hands[s]);
-  return h.value();
-}
-
-std::shared_ptr<const SkinState> SkinWorld::save() const {
-  auto out = std::make_shared<SkinState>();
-  for (std::size_t s = 0; s < patches_.size(); ++s) {
-    const Patch& from = patches_[s];
-    out->patches.push_back({cuts_to_keep(*setup_.skins[s].sheet, from.cuts), from.felt,
-                            from.work != nullptr, from.next, from.worked, from.cut_m, from.holes});
-  }
-  out->hands = hands_;
-  return out;
-}
-
-bool SkinWorld::fits(const SkinState& state, std::span<const std::vector<Capsule>> tray) const {
-  if (state.patches.size() != patches_.size()) return false;
-  for (std::size_t s = 0; s < patches_.size(); ++s) {
-    const SkinSheet& sheet = *setup_.skins[s].sheet;
-    const SkinPatchState& patch = state.patches[s];
-    for (const SkinCuts* cuts : {&patch.cuts, &patch.felt, &patch.next})
-      if (!osteon::fits(sheet, *cuts)) return false;
-    for (const auto& hands : state.hands)
-      if (hands[s].near &&
-          (hands[s].instrument >= tray.size() ||
-           hands[s].contact.part >= tray[hands[s].instrument].size() ||
-           hands[s].contact.patch != s || hands[s].contact.bone != setup_.skins[s].bone.index))
-        return false;
-  }
-  return true;
-}
-
-void SkinWorld::put(std::size_t s, const SkinPatchState& from) {
-  const SkinSheet& sheet = *setup_.skins[s].sheet;
-  Patch& mine = patches_[s];
-  mine.cuts = kept_cuts(sheet, from.cuts);
-  mine.cut_m = from.cut_m;
-  mine.holes = from.holes;
-  mine.felt = from.felt;
-  const SheetCuts felt = kept_cuts(sheet, from.felt);
-  mine.felt_hash = hash_of_cuts(felt);
-  if (from.felt == SkinCuts{}) {
-    mine.yields = setup_.skins[s].whole;
-  } else {
-    SheetWork work(sheet, felt);
-    while (!work.step()) {
-    }
-    mine.yields = work.take();
-  }
-  mine.work = nullptr;
-  mine.next = {};
-  mine.next_hash = kSkinStill;
-  mine.worked = 0;
-  if (from.working) {
-    const SheetCuts next = kept_cuts(sheet, from.next);
-    mine.next = from.next;
-    mine.next_hash = hash_of_cuts(next);
-    mine.work = std::make_unique<SheetWork>(sheet, next);
-    for (; mine.worked < from.worked; ++mine.worked)
-      if (mine.work->step()) break;
-  }
-  changed(s);
-}
-
-void SkinWorld::restore(const SkinState& state) {
-  for (std::size_t s = 0; s < patches_.size(); ++s) put(s, state.patches[s]);
-  hands_ = state.hands;
-  events_.clear();
-}
-
-void SkinWorld::go_back(const SkinState& state) {
-  for (std::size_t s = 0; s < patches_.size(); ++s) {
-    Patch& mine = patches_[s];
-    mine.cuts = kept_cuts(*setup_.skins[s].sheet, state.patches[s].cuts);
-    mine.cuts.blade_in = false;
-    mine.cut_m = state.patches[s].cut_m;
-    mine.holes = state.patches[s].holes;
-    changed(s);
-  }
-  hands_ = {};
-  events_.clear();
 }
 
 }  // namespace osteon

@@ -50,6 +50,7 @@ class SkinWorld {
   void clear();
 
  private:
+  static constexpr std::uint64_t kSkinStill = 0;  ///< next_hash: nothing is being solved
   struct Patch {
     SheetCuts cuts;
     std::uint64_t cuts_hash = 0, felt_hash = 0, next_hash = 0;

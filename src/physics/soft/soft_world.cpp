@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "osteon/base/hash.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
@@ -36,59 +35,6 @@ Capsule moved(const Pose& X_WT, const Capsule& rod) {
 
 bool usable(const ToolState& tool) {
   return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < kFarthest_m2;
-}
-
-void add_to(Hasher& h, const NearBand& near) {
-  h.add(near.contact.band);
-  h.add(near.contact.part);
-  h.add(near.contact.nhat_W);
-  h.add(near.contact.others_taken_m);
-  h.add(near.touching);
-  h.add(near.barred);
-  h.add(near.behind);
-  h.add(near.deep_m);
-  h.add(near.taken_m);
-}
-
-void add_to(Hasher& h, const BandTouch& touch) {
-  h.add(touch.on);
-  h.add(touch.over);
-  h.add(touch.first_step);
-  h.add(touch.last_step);
-  h.add(touch.peak_n);
-  h.add(touch.deepest_m);
-}
-
-void add_to(Hasher& h, const SolidNear& near) {
-  for (const std::uint32_t x : {near.contact.solid, near.contact.bone, near.contact.part}) h.add(x);
-  for (const Vec3& v : {near.contact.p_B, near.contact.nhat_B, near.outside_B}) h.add(v);
-  for (const double x : {near.contact.along, near.contact.stiffness_n_per_m, near.contact.others_m,
-                         near.deep_m, near.force_n})
-    h.add(x);
-  if (near.entered_m > 0) h.add(near.entered_m);
-  for (const bool x : {near.touching, near.barred, near.behind}) h.add(x);
-}
-
-void add_to(Hasher& h, const SoftGrip& grip) {
-  h.add(grip.jaw_open);
-  h.add(static_cast<std::uint8_t>(grip.hold.of));
-  h.add(grip.hold.part);
-  h.add(grip.hold.bone);
-  for (const Vec3& v : {grip.hold.p_T, grip.hold.p_B, grip.against_B}) h.add(v);
-  for (const double x : {grip.hold.share, grip.hold.others_taken_m, grip.hold.stiffness_n_per_m,
-                         grip.force_n, grip.taken_m, grip.peak_n, grip.most_m})
-    h.add(x);
-  h.add(grip.first_step);
-}
-
-void add_solids_to(Hasher& h, const SoftState& state) {
-  for (const bool lost : state.solid_lost) h.add(lost);
-  for (const SolidHandState& hand : state.solid_hands) {
-    h.add(hand.instrument);
-    h.add(hand.count);
-    for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
-    for (const BandTouch& touch : hand.touches) add_to(h, touch);
-  }
 }
 
 }  // namespace
@@ -365,58 +311,6 @@ void SoftWorld::tear(std::span<const Hand> hands) {
   }
 }
 
-void SoftWorld::tell_touches(const Hand& hand, std::uint64_t step) {
-  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
-    const TouchNews news =
-        follow_touch(state_.hands[hand.index].touches[b],
-                     {is_felt(b), hand.force_n[b], hand.deep_m[b]}, limit_n_, step, step_s_);
-    if (news.begins) tell(hand, kSoftBegin, b, {readouts_[b].tension_n, 0, 0});
-    if (news.over) tell(hand, kSoftOver, b, {hand.force_n[b], limit_n_, 0});
-    if (news.ends) tell(hand, kSoftEnd, b, {news.since_s, news.peak_n, news.deepest_mm});
-  }
-}
-
-void SoftWorld::tell(const Hand& hand, EventKind kind, std::size_t band,
-                     std::array<double, 3> values) {
-  const Vec3 p_W = !hand.tool               ? Vec3(0.5 * (spans_[band].a_W + spans_[band].b_W))
-                   : hand.force_n[band] > 0 ? hand.p_W[band]
-                                            : hand.tool->X_WP.p;
-  Event event;
-  event.kind = kind;
-  if (hand.tool || kind == kSoftEnd) event.hand = static_cast<std::uint8_t>(hand.index);
-  event.subject = setup_->bands[band].soft;
-  event.values = values;
-  tell(event, p_W);
-}
-
-void SoftWorld::tell(Event event, const Vec3& p_W) {
-  event.subject_kind = SubjectKind::kSoftPart;
-  event.p_W = is_finite(p_W) ? p_W : Vec3(Vec3::Zero());
-  if (events_.size() < events_.capacity()) events_.push_back(event);
-}
-
-void SoftWorld::tell_solid_touches(const SolidHand& solid_hand, const Hand& hand,
-                                   std::uint64_t step) {
-  for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
-    const double force_n = solid_hand.force_n[s];
-    const TouchNews news = follow_touch(state_.solid_hands[hand.index].touches[s],
-                                        {!state_.solid_lost[s], force_n, solid_hand.deep_m[s]},
-                                        limit_n_, step, step_s_);
-    const Vec3 p_W = force_n > 0 ? solid_hand.p_W[s] : hand.tool ? hand.tool->X_WP.p : Vec3::Zero();
-    Event event;
-    event.hand = static_cast<std::uint8_t>(hand.index);
-    event.subject = setup_->solids[s].soft;
-    const auto say = [&](bool is_so, EventKind kind, const std::array<double, 3>& values) {
-      event.kind = kind;
-      event.values = values;
-      if (is_so) tell(event, p_W);
-    };
-    say(news.begins, kSoftBegin, {});
-    say(news.over, kSoftOver, {force_n, limit_n_, 0});
-    say(news.ends, kSoftEnd, {news.since_s, news.peak_n, news.deepest_mm});
-  }
-}
-
 // Parts are followed for all hands first: what one presses away another one meets.
 void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bones) {
   for (std::size_t s = 0; s < setup_->solids.size(); ++s) {
@@ -478,28 +372,11 @@ void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step)
   }
 }
 
-SoftState SoftWorld::save() const {
-  SoftState out = state_;
-  if (cutting_) out.cut = cutting_->save();
-  if (skins_) out.skin = skins_->save();
-  return out;
-}
-
 double SoftWorld::removed_m3(std::size_t solid) const {
   return cutting_ ? cutting_->removed_m3(solid) : 0;
 }
 std::uint32_t SoftWorld::pieces(std::size_t solid) const {
   return cutting_ ? cutting_->pieces(solid) : 0;
-}
-
-// A state from before solids could be cut has none.
-void SoftWorld::restore_cuts(const SoftState& state) {
-  state_.cut = nullptr;
-  if (!cutting_) return;
-  if (state.cut)
-    cutting_->restore(*state.cut);
-  else
-    cutting_->clear();
 }
 
 bool SoftWorld::is_asleep(std::size_t solid) const {
@@ -550,22 +427,6 @@ void SoftWorld::grip(Hand& hand, const BoneSnapshot& bones) {
     hand.leg_n = pull.tension_n;
     keep_hold(pull);
   }
-}
-
-void SoftWorld::tell_grip(const Hand& hand, const GripNews& news) {
-  const bool solid = news.hold.of == SoftHold::Of::kSolid;
-  if (news.hold.of == SoftHold::Of::kNothing) return;
-  Event event;
-  event.hand = static_cast<std::uint8_t>(hand.index);
-  event.subject = solid ? setup_->solids[news.hold.part].soft : setup_->bands[news.hold.part].soft;
-  const auto say = [&](bool is_so, EventKind kind, const std::array<double, 3>& values) {
-    event.kind = kind;
-    event.values = values;
-    if (is_so) tell(event, news.p_W);
-  };
-  say(news.held, kSoftHeld, {news.holds_n, 0, 0});
-  say(news.freed, kSoftFreed, {news.since_s, news.peak_n, news.pulled_mm});
-  say(news.slipped, kSoftSlipped, {news.force_n, news.holds_n, news.pulled_mm});
 }
 
 // For pictures: the string leads to the jaws.
@@ -632,85 +493,6 @@ BandContacts SoftWorld::contacts(std::size_t hand) const {
   if (solids_) solids_->tell(state_.solid_hands[hand], out);
   if (skins_) skins_->tell(hand, out);
   return out;
-}
-
-std::uint64_t SoftWorld::hash() const {
-  Hasher h;
-  h.add(setup_->hash);
-  for (const BandState& band : state_.bands) {
-    h.add(band.torn);
-    h.add(band.lost);
-    if (band.torn) h.add(band.torn_share);
-  }
-  for (const SoftHandState& hand : state_.hands) {
-    h.add(hand.instrument);
-    h.add(hand.count);
-    for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
-    for (const BandTouch& touch : hand.touches) add_to(h, touch);
-  }
-  for (const SoftGrip& grip : state_.grips)
-    if (grip != SoftGrip{}) add_to(h, grip);
-  if (solids_) add_solids_to(h, state_);
-  if (cutting_) h.add(cutting_->hash());
-  if (skins_) h.add(skins_->hash());
-  return h.value();
-}
-
-bool SoftWorld::fits(const SoftState& state) const {
-  if (!state.on || (state.cut && !(cutting_ && cutting_->fits(*state.cut)))) return false;
-  if (state.skin && !(skins_ && skins_->fits(*state.skin, tray_))) return false;
-  for (const BandState& band : state.bands)
-    if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
-  for (const SoftHandState& hand : state.hands) {
-    if (hand.count > kMaxBandContacts || hand.instrument >= tray_.size()) return false;
-    for (std::uint32_t i = 0; i < hand.count; ++i)
-      if (hand.near[i].contact.band >= setup_->bands.size() ||
-          hand.near[i].contact.part >= tray_[hand.instrument].size())
-        return false;
-  }
-  for (const SolidHandState& hand : state.solid_hands) {
-    if (hand.count > kMaxSolidContacts || hand.instrument >= tray_.size()) return false;
-    for (std::uint32_t i = 0; i < hand.count; ++i)
-      if (hand.near[i].contact.solid >= setup_->solids.size() ||
-          hand.near[i].contact.bone != setup_->solids[hand.near[i].contact.solid].bone.index ||
-          hand.near[i].contact.part >= tray_[hand.instrument].size())
-        return false;
-  }
-  const auto holds = [](const SoftGrip& grip) { return grip != SoftGrip{}; };
-  return grips_ ? grips_->fits(state) : std::none_of(state.grips.begin(), state.grips.end(), holds);
-}
-
-void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
-  put(state, epoch);
-  restore_cuts(state);
-  state_.skin = nullptr;
-  if (!skins_) return;
-  if (state.skin)
-    skins_->restore(*state.skin);
-  else
-    skins_->clear();
-}
-
-void SoftWorld::put(const SoftState& state, std::uint32_t epoch) {
-  state_ = state;
-  epoch_ = epoch;
-  bend_count_ = 0;
-  events_.clear();
-  openings_.clear();
-}
-
-void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
-  put(state, epoch);
-  if (cutting_ && state.cut)
-    cutting_->go_back(*state.cut);
-  else
-    restore_cuts(state);
-  if (skins_ && state.skin) skins_->go_back(*state.skin);
-  state_.cut = nullptr;
-  state_.skin = nullptr;
-  state_.hands = {};
-  state_.solid_hands = {};
-  state_.grips = {};
 }
 
 }  // namespace osteon
