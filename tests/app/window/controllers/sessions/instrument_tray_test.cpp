@@ -59,8 +59,9 @@ TEST(InstrumentTray, OfWhatWasNeverTakenTheUsualSizeComesFirst) {
   std::size_t with_sizes = 0;
   for (const TrayItem& item : tray->items()) {
     EXPECT_TRUE(places.insert(item.place).second);
-    if (item.picture < 0 || !met.insert(item.title).second) continue;
-    const Instrument& instrument = tray->instruments()[static_cast<std::size_t>(item.picture)];
+    // The wrist probe's picture comes first.
+    if (item.picture < 1 || !met.insert(item.title).second) continue;
+    const Instrument& instrument = tray->instruments()[static_cast<std::size_t>(item.picture - 1)];
     EXPECT_EQ(tray->find(instrument.name), item.place);
     with_sizes += !item.size.empty();
   }
