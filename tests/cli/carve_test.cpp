@@ -117,7 +117,7 @@ TEST_F(Carve, ARecordingIsMeasuredAsItWasLeft) {
   ASSERT_EQ(before.exit_code, 0) << before.output;
   EXPECT_TRUE(nlohmann::json::parse(before.output)["holes"].empty());
   const std::pair<std::string, std::string> bad[] = {{file("r.osr") + " --at 99", "ends at"},
-                                                     {file("case") + " --at 1", "recording alone"},
+                                                     {file("case") + " --at 1", "recordings only"},
                                                      {file("none.osr"), "none.osr"}};
   for (const auto& [words, why] : bad) {
     const Ran refused = run_osteon("case measure " + words);

@@ -74,7 +74,7 @@ TEST(PartsHand, GivesUpWhatCannotBePlanned) {
 
 TEST(PartsHand, PlaysTheFirstOnesOneAfterTheOther) {
   std::vector<std::unique_ptr<HandPlayer>> first;
-  auto path = std::make_unique<PathHand>(part_from({Vec3(0.01, 0, 0), Quat::Identity()}));
+  auto path = std::make_unique<ScriptedHand>(part_from({Vec3(0.01, 0, 0), Quat::Identity()}));
   path->set_tray({"pin", "clamp"});
   first.push_back(std::move(path));
   first.push_back(one_move());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "osteon/surgeon/path_hand.h"
+#include "osteon/surgeon/scripted_hand.h"
 
 namespace osteon {
 
@@ -39,7 +39,7 @@ class PartsHand : public HandPlayer {
   std::vector<std::unique_ptr<HandPlayer>> first_;
   std::vector<Plan> parts_;
   std::vector<std::string> tray_;
-  std::optional<PathHand> part_;
+  std::optional<ScriptedHand> part_;
   std::size_t now_ = 0, at_ = 0;  ///< of those that are played first, and of the parts
   double waited_s_ = 0;
   Pose X_;

@@ -35,7 +35,7 @@ TEST(PoseCase, SaysWhyItCannotBend) {
 TEST(PoseCase, BonesThatWereChangedAreNotReplaced) {
   CaseDef def = two_bones_joined();
   def.recipe = CaseRecipe{"knee", {}, {}, {}, {}};
-  EXPECT_NE(refusal(def, "flexion", 10).find("bone 'femur' was changed after it was grown"),
+  EXPECT_NE(refusal(def, "flexion", 10).find("bone 'femur' was changed after it was generated"),
             std::string::npos);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include "commands/support/parser.h"
 
+#include "cases/felt_choice.h"
 #include "cases/open_case.h"
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
@@ -121,14 +122,22 @@ int show_scenario(const ScenarioCommand& command) {
   return kExitDone;
 }
 
+// Which bones and landmarks there are does not depend on what is felt: hulls cost nothing.
+Result<std::string> with_hulls(const std::string& spec) {
+  auto choice = parse_felt_choice(spec);
+  if (!choice) return tl::unexpected(choice.error());
+  choice->of_bone = {{std::string(), Felt::kHull}};
+  choice->near_mm = 0;
+  return to_text(*choice);
+}
+
 int check_one(const ScenarioCommand& command) {
   const auto scenario = open_scenario(command.scenario);
   if (!scenario) return report_error(scenario.error());
-  // Which bones and landmarks there are does not depend on what is felt: hulls cost nothing.
-  Scenario plain = *scenario;
-  plain.felt = "hull";
-  const auto the_case =
-      open_felt_case(command.case_spec.empty() ? case_spec_of(plain, "", {}) : command.case_spec);
+  auto spec = Result<std::string>(command.case_spec);
+  if (command.case_spec.empty()) spec = with_hulls(case_spec_of(*scenario, "", {}));
+  if (!spec) return report_error(spec.error());
+  const auto the_case = open_felt_case(*spec);
   if (!the_case) return report_error(the_case.error());
   const auto lines = check_scenario(*scenario, **the_case);
   for (const std::string& line : lines) std::printf("%s\n", line.c_str());

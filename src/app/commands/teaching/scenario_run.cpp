@@ -228,7 +228,7 @@ std::vector<PartsHand::Plan> later_parts(const ScenarioPlan& plan, const Planned
 struct ThirdHand {
   std::vector<std::unique_ptr<HandPlayer>> first;
   AclDriller* driller = nullptr;  ///< null: he does not come to drill
-  PathHand* maker = nullptr;      ///< null: he makes no graft
+  ScriptedHand* maker = nullptr;  ///< null: he makes no graft
 };
 Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand, const Skill& skill,
                                   AclWays& ways) {
@@ -238,7 +238,7 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
     auto way =
         plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
     if (!way) return tl::unexpected(way.error());
-    auto maker = std::make_unique<PathHand>(HandPart{std::move(*way), {}});
+    auto maker = std::make_unique<ScriptedHand>(HandPart{std::move(*way), {}});
     out.maker = maker.get();
     out.first.push_back(std::move(maker));
     // Without a graft nothing is drilled for it.

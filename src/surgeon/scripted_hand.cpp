@@ -1,4 +1,4 @@
-#include "osteon/surgeon/path_hand.h"
+#include "osteon/surgeon/scripted_hand.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,19 +17,19 @@ std::string held_by(const PathSample& sample) {
 
 }  // namespace
 
-PathHand::PathHand(HandPart part) : part_(std::move(part)), X_(start()) {
+ScriptedHand::ScriptedHand(HandPart part) : part_(std::move(part)), X_(start()) {
   if (!part_.path.samples.empty()) held_ = held_by(part_.path.samples.front());
 }
 
-Pose PathHand::start() const {
+Pose ScriptedHand::start() const {
   return part_.path.samples.empty() ? Pose{} : part_.path.samples.front().X_WD;
 }
 
-bool PathHand::done() const {
+bool ScriptedHand::done() const {
   return time_s_ > part_.path.duration_s() && order_ >= part_.orders.size();
 }
 
-Command PathHand::said() {
+Command ScriptedHand::said() {
   const PathSample sample = part_.path.at(time_s_);
   if (const std::string name = held_by(sample); !name.empty() && name != held_) {
     held_ = name;
@@ -50,7 +50,7 @@ Command PathHand::said() {
   return part_.orders[order_++].command;
 }
 
-Pose PathHand::step(double dt_s) {
+Pose ScriptedHand::step(double dt_s) {
   next_ = {};
   if (done()) return X_;
   time_s_ += dt_s;

@@ -21,10 +21,10 @@ struct HandPart {
 
 /// A hand that follows a path: one command a tick; what is asked for beside it waits while the hand
 /// itself does something.
-class PathHand : public HandPlayer {
+class ScriptedHand : public HandPlayer {
  public:
   /// The hand holds what the path begins with, unpowered, its jaws shut.
-  explicit PathHand(HandPart part);
+  explicit ScriptedHand(HandPart part);
   /// `tray`: names of the session's instruments; one that is not among them is not taken.
   void set_tray(std::vector<std::string> tray) { tray_ = std::move(tray); }
 
