@@ -6,7 +6,8 @@ namespace osteon {
 namespace {
 
 constexpr double kPinRoom_m = 0.002;  // about its axis; a reamer with a cut-away side needs no more
-constexpr double kTight_m = 0.0036, kDrillRoom_m = 0.0041;  // about a drill of 8 mm
+// About the axis of a drill, beyond its radius: what it needs, and what it may lack at worst.
+constexpr double kDrillRoom_m = 0.0001, kTight_m = -0.0004;
 constexpr double kSocket_m = 0.025, kChannel_m = 0.040;
 constexpr double kWall_m = 0.0015;  // of bone behind a socket is enough
 constexpr double kMostBehind_m = 0.01;
@@ -49,10 +50,10 @@ double bone_behind(const AclKnee& knee, const AclLine& line, double radius) {
   return least;
 }
 
-// The least room about the way of what comes along a line, up to what an aimer needs.
-double room_before(const AclKnee& knee, const AclLine& line) {
+// The least room about the way of what comes along a line, up to what is enough.
+double room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   constexpr double kFrom_m = 0.013, kTo_m = 0.09, kStride_m = 0.001;
-  double room = kDrillRoom_m;
+  double room = enough_m;
   for (double before = kFrom_m; before < kTo_m && room > kPinRoom_m;) {
     const double gap = knee.gap_m(line.at_W - before * line.in_W);
     room = std::min(room, gap);
@@ -80,9 +81,9 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool 
                  0.3 / (1 + std::abs(channel - kChannel_m) / 0.01) +
                  2 * share_between(straight, kFlattest, kSteep);
   if (worth + 8 <= best.worth) return;
-  const double room = room_before(knee, line);
+  const double room = room_before(knee, line, radius + kDrillRoom_m);
   if (room <= kPinRoom_m) return;
-  worth += 5 * share_between(room, kTight_m, kDrillRoom_m);
+  worth += 5 * share_between(room, radius + kTight_m, radius + kDrillRoom_m);
   if (worth + 3 <= best.worth) return;
   const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
   worth += (looks_behind ? 3 : -3) * behind;
