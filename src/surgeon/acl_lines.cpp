@@ -11,7 +11,10 @@ constexpr double kDrillRoom_m = 0.0001, kTight_m = -0.0004;
 constexpr double kSocket_m = 0.025, kChannel_m = 0.040;
 constexpr double kWall_m = 0.0015;  // of bone behind a socket is enough
 constexpr double kMostBehind_m = 0.01;
-constexpr double kMostOff_m = 0.0036;  // a socket stands so far from the footprint's middle at most
+// A socket stands so far from the footprint's middle at most; farther where it would be open
+// behind.
+constexpr double kMostOff_m = 0.0036, kFarthestOff_m = 0.0048;
+constexpr double kOpenWall_m = 0.0003;
 
 Vec3 femoral_mouth(const AclKnee& knee, std::string_view fault) {
   const Vec3 mouth = knee.mark("acl_femur");
@@ -109,7 +112,7 @@ class SocketSearch {
   Choice best() const {
     constexpr double kStep_m = 0.001;
     Found found;
-    for (int f = 0; f <= 4; ++f)
+    for (int f = 0; f <= 5; ++f)
       for (int d = -2; d <= 4; ++d)
         if (const double forward = kStep_m * f, down = kStep_m * d; is_near(forward, down))
           for (int out = 10; out <= 65; out += 5)
@@ -198,8 +201,14 @@ Result<AclLine> femoral_line(const AclKnee& knee, std::string_view fault, const 
   const bool looks_behind = fault != "blow_out";
   // Who misses does not know how far, and stays there.
   const bool chooses = looks_behind && fault != "vertical_femur" && miss_W.isZero();
-  const SocketSearch search(knee, aimed, chooses ? kMostOff_m : 0, 0.5 * reamed_m, looks_behind);
-  const Choice best = search.best();
+  const double radius = 0.5 * reamed_m;
+  const auto within = [&](double most_off_m) {
+    return SocketSearch(knee, aimed, most_off_m, radius, looks_behind).best();
+  };
+  Choice best = within(chooses ? kMostOff_m : 0);
+  const bool found = best.worth > -1e8;
+  if (chooses && (!found || bone_behind(knee, best.line, radius) < kOpenWall_m))
+    if (const Choice farther = within(kFarthestOff_m); farther.worth > best.worth) best = farther;
   if (best.worth < -1e8) return fail("no free way to the femoral footprint was found", "the pin");
   return best.line;
 }
