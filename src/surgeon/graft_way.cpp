@@ -309,7 +309,9 @@ Result<ProbePath> plan_loop_stage(const Case& the_case, const Skill& skill, doub
                                   double socket_m, const Pose& from, const std::string& held) {
   const auto plan = bench_in(the_case);
   if (!plan) return tl::unexpected(plan.error());
-  const double loop_m = loop_by(fault_of(skill), channel_m, socket_m);
+  // Whose button stays unturned in a whole operation takes the right loop, and lets go too early.
+  const std::string fault = fault_of(skill) == "unflipped_button" ? "" : fault_of(skill);
+  const double loop_m = loop_by(fault, channel_m, socket_m);
   if (!(loop_m > 0)) return fail("no loop is long enough for the channel", "graft");
   HandWay way(held, from, pace_of(skill));
   const RoundJoint knee = round_knee(the_case);
