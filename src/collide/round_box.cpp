@@ -112,8 +112,9 @@ AxisPoints nearest_on_cores(const RoundBox& a, const RoundBox& b) {
   if (!a.is_box && !b.is_box) return nearest_on_axes(a.rod, b.rod);
   if (!a.is_box) return nearest({a.rod.p0, a.rod.p1}, b);
   if (!b.is_box) return swapped(nearest({b.rod.p0, b.rod.p1}, a));
-  AxisPoints best = nearest(edges_of(a)[0], b);
-  for (const Segment& edge : edges_of(a))
+  const std::array<Segment, 12> edges_a = edges_of(a);
+  AxisPoints best = nearest(edges_a[0], b);
+  for (const Segment& edge : edges_a)
     if (const AxisPoints points = nearest(edge, b); squared(points) < squared(best)) best = points;
   for (const Segment& edge : edges_of(b))
     if (const AxisPoints points = swapped(nearest(edge, a)); squared(points) < squared(best))

@@ -254,7 +254,7 @@ RoundJoint round_knee(const Case& the_case) {
 
 double loop_by(const std::string& fault, double channel_m, double socket_m) {
   const double right_m = loop_for(channel_m, socket_m);
-  if (fault == "unflipped_button" || fault == "short_loop") return right_m - 0.005;
+  if (fault == "short_loop") return right_m - 0.005;
   return fault == "long_loop" ? right_m + 0.010 : right_m;
 }
 
@@ -273,7 +273,9 @@ Result<ProbePath> plan_graft(const Case& the_case, const Skill& skill) {
   make_graft(way, *plan, graft_habits(*plan, fault));
   stretch(way, *plan);
   way.stay((fault == "slack_graft" ? kTooShortFor_s : kPretensionFor_s) / kBoardClock);
-  hang_loop(way, *plan, loop_by(fault, plan->channel_m, plan->socket_m));
+  // On the bench alone it is the loop that keeps a button from turning.
+  const std::string of_loop = fault == "unflipped_button" ? "short_loop" : fault;
+  hang_loop(way, *plan, loop_by(of_loop, plan->channel_m, plan->socket_m));
   return trembling(way.path(), skill.tremor_m, skill.seed + 3);
 }
 
@@ -309,9 +311,7 @@ Result<ProbePath> plan_loop_stage(const Case& the_case, const Skill& skill, doub
                                   double socket_m, const Pose& from, const std::string& held) {
   const auto plan = bench_in(the_case);
   if (!plan) return tl::unexpected(plan.error());
-  // Whose button stays unturned in a whole operation takes the right loop, and lets go too early.
-  const std::string fault = fault_of(skill) == "unflipped_button" ? "" : fault_of(skill);
-  const double loop_m = loop_by(fault, channel_m, socket_m);
+  const double loop_m = loop_by(fault_of(skill), channel_m, socket_m);
   if (!(loop_m > 0)) return fail("no loop is long enough for the channel", "graft");
   HandWay way(held, from, pace_of(skill));
   const RoundJoint knee = round_knee(the_case);

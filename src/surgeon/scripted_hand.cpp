@@ -33,19 +33,12 @@ Command ScriptedHand::said() {
   const PathSample sample = part_.path.at(time_s_);
   if (const std::string name = held_by(sample); !name.empty() && name != held_) {
     held_ = name;
-    power_ = jaw_ = 0;  // as one takes it
+    drive_.took();
     const auto found = std::find(tray_.begin(), tray_.end(), held_);
     if (found != tray_.end())
       return {CommandKind::kTake, static_cast<double>(found - tray_.begin())};
   }
-  if (sample.power != power_) {
-    power_ = sample.power;
-    return {CommandKind::kPower, power_};
-  }
-  if (sample.jaw != jaw_) {
-    jaw_ = sample.jaw;
-    return {CommandKind::kJaw, jaw_};
-  }
+  if (const Command driven = drive_.next(sample); driven.kind != CommandKind::kNone) return driven;
   if (order_ >= part_.orders.size() || part_.orders[order_].at_s > time_s_) return {};
   return part_.orders[order_++].command;
 }

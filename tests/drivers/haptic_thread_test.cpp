@@ -32,13 +32,7 @@ DeviceSample press(std::uint64_t tick, double x_m) {
 /// Keeps only the newest force.
 class QuietDevice : public HapticDevice {
  public:
-  explicit QuietDevice(test::FakeDevice::Script script) : script_(std::move(script)) {
-    info_.name = "quiet";
-    info_.peak_force_n = 8;
-    info_.continuous_force_n = 8;
-    info_.max_stiffness_n_per_m = 3000;
-    info_.workspace_m = Vec3::Constant(0.4);
-  }
+  explicit QuietDevice(test::FakeDevice::Script script) : script_(std::move(script)) {}
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read() override { return script_(tick_++); }
   void write_force(const Vec3& force_V) override { force_V_ = force_V; }
@@ -46,7 +40,7 @@ class QuietDevice : public HapticDevice {
 
  private:
   test::FakeDevice::Script script_;
-  DeviceInfo info_;
+  DeviceInfo info_ = test::fake_device_info("quiet");
   Vec3 force_V_ = Vec3::Zero();
   std::uint64_t tick_ = 0;
 };

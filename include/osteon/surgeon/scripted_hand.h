@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "osteon/scene/path.h"
+#include "osteon/scene/path_drive.h"
 #include "osteon/surgeon/hand_player.h"
 
 namespace osteon {
@@ -42,7 +42,8 @@ class ScriptedHand : public HandPlayer {
   HandPart part_;
   std::vector<std::string> tray_, none_;
   std::size_t order_ = 0;
-  double time_s_ = 0, power_ = 0, jaw_ = 0;
+  double time_s_ = 0;
+  PathDrive drive_;
   std::string held_;
   Pose X_;
   Command next_;

@@ -5,8 +5,8 @@
 
 namespace osteon {
 
-/// What pieces and fields of generated patients may take in the user's cache, bytes: about fifty
-/// patients. They are made again when one is opened anew.
+/// What pieces and fields of generated patients may take in the user's cache, bytes. They are made
+/// again when a patient is opened anew.
 inline constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{2} << 30;
 
 /// Says that a file of the cache was used now. One that is not there is not made.

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,17 +18,21 @@ struct DeviceLog {
   bool closed = false;
 };
 
+inline DeviceInfo fake_device_info(std::string name) {
+  DeviceInfo info;
+  info.name = std::move(name);
+  info.peak_force_n = 8;
+  info.continuous_force_n = 8;
+  info.max_stiffness_n_per_m = 3000;
+  info.workspace_m = Vec3::Constant(0.4);
+  return info;
+}
+
 /// A device whose readings a function of the tick gives.
 class FakeDevice : public HapticDevice {
  public:
   using Script = std::function<DeviceSample(std::uint64_t tick)>;
-  FakeDevice(Script script, DeviceLog& log) : script_(std::move(script)), log_(log) {
-    info_.name = "fake";
-    info_.peak_force_n = 8;
-    info_.continuous_force_n = 8;
-    info_.max_stiffness_n_per_m = 3000;
-    info_.workspace_m = Vec3::Constant(0.4);
-  }
+  FakeDevice(Script script, DeviceLog& log) : script_(std::move(script)), log_(log) {}
   const DeviceInfo& info() const override { return info_; }
   DeviceSample read() override { return script_(tick_++); }
   void write_force(const Vec3& force_V) override { log_.forces_V.push_back(force_V); }
@@ -36,7 +41,7 @@ class FakeDevice : public HapticDevice {
  private:
   Script script_;
   DeviceLog& log_;
-  DeviceInfo info_;
+  DeviceInfo info_ = fake_device_info("fake");
   std::uint64_t tick_ = 0;
 };
 

@@ -7,7 +7,7 @@
 
 namespace osteon {
 
-/// A table for a person, a line an instrument; functions without effect yet are in brackets.
+/// A table for a person, a line an instrument; functions that have no effect are in brackets.
 std::string instruments_table(const std::vector<Instrument>& instruments);
 
 /// All of one instrument in words.

@@ -37,8 +37,9 @@ struct ScenarioOutcome {
   std::optional<GraftReport> graft = {};      ///< of a case with a bench
   std::optional<PlacingReport> placing = {};  ///< of a case with tunnels for a graft
 };
-/// The report as JSON, with what was measured of its tunnels as `acl`, and of a
-/// graft that was made as `acl.graft`, how one was placed as `acl.placing`.
+/// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
+/// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as
+/// `acl.placing`.
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 

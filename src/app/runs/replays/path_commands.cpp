@@ -60,18 +60,10 @@ Command PathCommands::at(double time_s) {
   const PathSample sample = path_.at(time_s);
   if (const std::uint32_t wanted = place_of(sample); wanted != held_) {
     held_ = wanted;
-    power_ = jaw_ = 0;  // as one takes it
+    drive_.took();
     return {CommandKind::kTake, static_cast<double>(wanted)};
   }
-  if (sample.power != power_) {
-    power_ = sample.power;
-    return {CommandKind::kPower, power_};
-  }
-  if (sample.jaw != jaw_) {
-    jaw_ = sample.jaw;
-    return {CommandKind::kJaw, jaw_};
-  }
-  return {};
+  return drive_.next(sample);
 }
 
 }  // namespace osteon

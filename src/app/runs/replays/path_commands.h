@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "osteon/scene/command.h"
-#include "osteon/scene/path.h"
+#include "osteon/scene/path_drive.h"
 
 namespace osteon {
 
@@ -30,8 +30,7 @@ class PathCommands {
   const ProbePath path_;
   std::vector<std::string> tray_;
   std::uint32_t held_ = 0;
-  double power_ = 0;
-  double jaw_ = 0;
+  PathDrive drive_;
 };
 
 }  // namespace osteon

@@ -1,0 +1,203 @@
+#include "commands/teaching/reconstruction_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "commands/teaching/played_hand.h"
+#include "exercises/graft_order.h"
+#include "osteon/scene/tool_set.h"
+#include "osteon/surgeon/acl_surgeon.h"
+#include "osteon/surgeon/graft_surgeon.h"
+#include "osteon/surgeon/parts_hand.h"
+#include "osteon/surgeon/placing_surgeon.h"
+#include "runs/hands/tray.h"
+
+namespace osteon {
+namespace {
+
+bool has_goal(const ScenarioPlan& plan, std::string_view kind) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == kind) return true;
+  return false;
+}
+
+// Whoever makes an error before the graft comes stops where it was made: his run is lost already.
+bool errs_before_the_graft(const Skill& skill) {
+  constexpr std::array<std::string_view, 11> kBefore{
+      "wrong_portal", "skipped_inspection", "scuffed",  "too_hard", "anterior_tibia",
+      "short_tibia",  "vertical_femur",     "blow_out", "no_pin",   "plunged",
+      "short_socket"};
+  return skill.name.starts_with("bad:") &&
+         std::find(kBefore.begin(), kBefore.end(), skill.name.substr(4)) != kBefore.end();
+}
+
+// The same of who makes it.
+bool errs_with_the_graft(const Skill& skill) {
+  const auto faults = graft_faults_in_knee();
+  return skill.name.starts_with("bad:") &&
+         std::find(faults.begin(), faults.end(), skill.name.substr(4)) != faults.end();
+}
+
+// Of the screws that a hand may take the one that is nearest to 1 mm wider than the tunnel; empty:
+// there is none.
+std::string screw_of(const PlannedHand& hand, double tunnel_m) {
+  std::string best;
+  double least = 1;
+  for (const std::string& name : hand.also) {
+    const auto tool = parse_tool_name(name);
+    if (!tool || tool->name != "interference_screw" || !tool->size_mm) continue;
+    const double off_m = std::abs(1e-3 * *tool->size_mm - tunnel_m - 0.001);
+    if (off_m > least - 1e-6 && !best.empty()) continue;
+    best = name;
+    least = off_m;
+  }
+  return best;
+}
+
+// The narrowest drill of the exercise for a tunnel.
+constexpr double kLeastDrill_m = 0.008;
+constexpr double kShallowSocket_m = 0.0215;
+
+// A graft that is made is hung on its button when the tunnels are measured, placed when it has
+// come, and fixed when its button has turned.
+std::vector<PartsHand::Plan> later_parts(const ScenarioPlan& plan, const PlannedHand& hand,
+                                         const Case& the_case, const Skill& skill,
+                                         const LaterWork& work) {
+  std::vector<PartsHand::Plan> parts;
+  if (!has_goal(plan, "button_turned") || errs_before_the_graft(skill)) return parts;
+  if (work.made)
+    parts.push_back([&the_case, &skill, work, held = hand.instrument](const Pose& from) {
+      const auto room = work.room();
+      std::optional<HandPart> part;
+      if (!room) return part;
+      auto way = plan_loop_stage(the_case, skill, room->channel_m, room->socket_m, from, held);
+      if (way) part = HandPart{std::move(*way), {}};
+      return part;
+    });
+  if (errs_with_the_graft(skill)) return parts;
+  parts.push_back([&the_case, &skill, work, held = hand.instrument](const Pose& from) {
+    const BoneSnapshot* now = work.bones();
+    std::optional<HandPart> part;
+    if (now && now->placing.on)
+      part = HandPart{plan_graft_placing(the_case, now->placing.plan, skill, from, held), {}};
+    return part;
+  });
+  if (!has_goal(plan, "screw_in") || screw_of(hand, 0.008).empty()) return parts;
+  parts.push_back([&the_case, &skill, &hand, work](const Pose& from) {
+    const BoneSnapshot* now = work.bones();
+    std::optional<HandPart> part;
+    if (!now || now->placing.phase != PlacingPhase::kTurned) return part;
+    const std::string screw = screw_of(hand, 2 * now->placing.plan.tibia.radius_m);
+    auto way = plan_graft_fixing(the_case, now->placing.plan, skill, from, "clamp", screw);
+    if (way) part = std::move(*way);
+    return part;
+  });
+  return parts;
+}
+
+// The third hand: a graft as far as it is made before the tunnels, then those and the rest.
+struct ThirdHand {
+  std::vector<std::unique_ptr<HandPlayer>> first;
+  AclDriller* driller = nullptr;  ///< null: he does not come to drill
+  ScriptedHand* maker = nullptr;  ///< null: he makes no graft
+};
+Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand, const Skill& skill,
+                                  AclWays& ways) {
+  ThirdHand out;
+  auto drills = std::make_unique<AclDriller>(std::move(ways.drilling), skill);
+  if (ways.after_graft) {
+    auto way =
+        plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
+    if (!way) return tl::unexpected(way.error());
+    auto maker = std::make_unique<ScriptedHand>(HandPart{std::move(*way), {}});
+    out.maker = maker.get();
+    out.first.push_back(std::move(maker));
+    // Without a graft nothing is drilled for it.
+    if (skill.name == "bad:amputated_tendon") return out;
+  }
+  out.driller = drills.get();
+  out.first.push_back(std::move(drills));
+  return out;
+}
+
+Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
+                          std::span<const PlannedHand> hands) {
+  AclTools tools;
+  for (const PlannedHand& hand : hands) {
+    if (hand.pin) {
+      tools.pin = hand.instrument;
+      tools.drills = !hand.also.empty();
+    } else if (hand.optics) {
+      tools.scope = hand.instrument;
+      tools.optics = *hand.optics;
+    } else {
+      tools.probe = hand.instrument;
+    }
+  }
+  if (tools.pin.empty() || tools.scope.empty() || tools.probe.empty())
+    return fail("needs a hand with a scope, one with a probe and one with a guide pin",
+                run.scenario.where);
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals) {
+      const auto& marks = goal.rule.marks;
+      if (goal.rule.kind == "seen") tools.tour.insert(tools.tour.end(), marks.begin(), marks.end());
+      if (goal.rule.kind == "felt") tools.felt.insert(tools.felt.end(), marks.begin(), marks.end());
+    }
+  if (!run.graft_json.empty()) {
+    const auto graft = made_graft(run.graft_json, "--graft");
+    if (!graft) return tl::unexpected(graft.error());
+    tools.reamed_m = std::max(kLeastDrill_m, sizer_for(graft->diameter_m));
+  }
+  if (!has_goal(plan, "loop_hung") || errs_before_the_graft(run.skill)) return tools;
+  const auto drilled_m = drilled_for_graft(the_case, run.skill);
+  if (!drilled_m) return tl::unexpected(drilled_m.error());
+  tools.reamed_m = *drilled_m;
+  // The shortest loop that there is would fit most sockets of the usual depth.
+  if (run.skill.name == "bad:short_loop") tools.socket_m = kShallowSocket_m;
+  tools.after_graft = true;
+  return tools;
+}
+
+}  // namespace
+
+// The ways up to the tunnels are known before it begins.
+Result<std::vector<std::string>> plan_reconstruction(
+    const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
+    std::span<const PlannedHand> hands, LaterWork work, HeadlessRun& headless,
+    std::vector<std::unique_ptr<HandPlayer>>& players) {
+  const auto tools = tools_of(run, plan, the_case, hands);
+  if (!tools) return tl::unexpected(tools.error());
+  auto ways = plan_acl(the_case, *tools, run.skill);
+  if (!ways) return tl::unexpected(ways.error());
+  work.made = ways->after_graft;
+  ThirdHand third;
+  PartsHand* whole = nullptr;
+  for (const PlannedHand& hand : hands) {
+    if (hand.pin && tools->drills) {
+      auto planned = plan_third_hand(the_case, hand, run.skill, *ways);
+      if (!planned) return tl::unexpected(planned.error());
+      third = std::move(*planned);
+      auto parts = third.driller ? later_parts(plan, hand, the_case, run.skill, work)
+                                 : std::vector<PartsHand::Plan>();
+      auto made = std::make_unique<PartsHand>(std::move(third.first), std::move(parts));
+      whole = made.get();
+      headless.hands.push_back(played_by(*made, hand, headless.hand));
+      players.push_back(std::move(made));
+      continue;
+    }
+    ProbePath& way = hand.pin ? ways->pin : hand.optics ? ways->scope : ways->probe;
+    headless.hands.push_back({hand.name, std::move(way)});
+  }
+  if (!whole) return ways->unreachable;
+  const std::vector<std::string> tray = tray_of_hands(headless.hands);
+  if (third.driller) third.driller->set_tray(tray);
+  if (third.maker) third.maker->set_tray(tray);
+  whole->set_tray(tray);
+  return ways->unreachable;
+}
+
+}  // namespace osteon
