@@ -386,6 +386,8 @@ void BoneWorld::set_bend(const BendState& bend) { impl_->snapshot.bend = bend; }
 
 void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = water; }
 
+void BoneWorld::set_loose(const LooseBones& loose) { impl_->snapshot.loose = loose; }
+
 bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {
   impl_->snapshot.bones[bone] = motion;

@@ -33,6 +33,8 @@ Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
     made.tissue_gone = std::make_unique<RemovedTissue>(*made.field);
     made.whole = whole_nodes(bone->bare() ? *bone->bare() : *bone).count;
   }
+  for (const Bone& bone : bones_) carved_fields_.push_back(bone.field ? &*bone.field : nullptr);
+  if (setup_->pieces) pieces_.emplace(setup_->pieces);
   changed_.reserve((kMaxHands + bones_.size()) * setup_->most_blocks);
   events_.reserve(kMostEvents);
 }
@@ -59,7 +61,8 @@ void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& 
   ++steps_;
   for (std::size_t h = 0; h < std::min(tools.size(), count_); ++h)
     step_hand(h, *tools[h], bones, step_s);
-  if (steps_ % kLookEvery == 0) drop_pieces(tools);
+  if (steps_ % kLookEvery == 0) drop_pieces(tools, bones);
+  if (pieces_) step_pieces(tools, bones, step_s);
 }
 
 void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,

@@ -1,4 +1,4 @@
-// Bone that hangs on nothing any more is gone, and what is lost has no mass.
+// Bone that hangs on nothing any more falls off, and what is lost has no mass.
 #include <algorithm>
 
 #include "osteon/physics/carving.h"
@@ -7,32 +7,43 @@
 namespace osteon {
 
 // Where a state was put back all is looked at again: with the same cuts nothing more is found.
-void Carving::drop_pieces(std::span<const ToolState* const> tools) {
+void Carving::drop_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   for (std::uint32_t b = 0; b < bones_.size(); ++b) {
     Bone& bone = bones_[b];
     if (!bone.field || bone.field->block_count() == 0) continue;
     if (bone.field->step() == bone.looked_step && bone.field->epoch() == bone.looked_epoch)
       continue;
-    drop_pieces_of(b, tools);
+    drop_pieces_of(b, tools, b < bones.count ? bones.bones[b].X_WB : Pose{});
     bone.looked_step = bone.field->step();
     bone.looked_epoch = bone.field->epoch();
   }
 }
 
-void Carving::drop_pieces_of(std::uint32_t b, std::span<const ToolState* const> tools) {
+// Of a piece that is larger than dust a body is made, before it is gone from the bone.
+bool Carving::drop_piece(std::uint32_t b, const LoosePiece& piece, const Pose& X_WB) {
+  Bone& bone = bones_[b];
+  const bool dust = piece.volume_m3 < kDust_m3;
+  auto shape = dust || !pieces_ ? nullptr : PieceShape::of(*bone.field, *bone.loose, piece, b);
+  if (!bone.loose->take_away(*bone.field, piece, setup_->air_m)) return false;
+  if (shape && !pieces_->add(shape, X_WB)) shape = nullptr;
+  fallen_.push_back({b, piece.volume_m3, dust, std::move(shape)});
+  return true;
+}
+
+void Carving::drop_pieces_of(std::uint32_t b, std::span<const ToolState* const> tools,
+                             const Pose& X_WB) {
   Bone& bone = bones_[b];
   std::size_t hand = 0;  // that cut it
   while (hand < count_ && hands_[hand].bone != b) ++hand;
   if (hand >= tools.size() || hand >= count_) hand = 0;
   const std::uint64_t before = bone.field->step();
   for (const LoosePiece& piece : bone.loose->find(*bone.field)) {
-    if (!bone.loose->take_away(*bone.field, piece, setup_->air_m)) {
+    if (!drop_piece(b, piece, X_WB)) {
       if (!full_ && !tools.empty()) tell_of(hand, *tools[hand], kCarvingFull, b, {});
       full_ = true;
       continue;
     }
-    const bool dust = piece.volume_m3 < kDust_m3;
-    fallen_.push_back({b, piece.volume_m3, dust});
+    const bool dust = fallen_.back().dust;
     if (!dust) let_go_of(piece, b, tools);
     if (!dust && !tools.empty())
       tell_of(hand, *tools[hand], kPieceOff, b, {1e9 * piece.volume_m3, 0, 0});
@@ -66,6 +77,49 @@ void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
     if (rod.kind == GuideRod::Kind::kPin && rod.bone == bone && inside(rod.X_BR.p) && inside(mouth))
       drop_rod(r);
   }
+}
+
+// What rests on bone falls on when bone is cut or moves.
+void Carving::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                          double step_s) {
+  bool stirred = !changed_.empty();
+  for (std::uint32_t b = 0; b < bones.count && !stirred; ++b)
+    stirred = !bones.bones[b].v_W.isZero(0) || !bones.bones[b].w_W.isZero(0);
+  pieces_->step(tools, bones, carved_fields_, stirred, step_s);
+  for (const PieceNews& news : pieces_->news()) {
+    using Is = PieceNews::Is;
+    const EventKind kind = news.is == Is::kHeld     ? kPieceHeld
+                           : news.is == Is::kLetGo  ? kPieceLetGo
+                           : news.is == Is::kSucked ? kPieceSucked
+                                                    : kPieceOut;
+    const std::size_t hand = news.hand < tools.size() ? news.hand : 0;
+    if (tools.empty()) continue;
+    tell_of(hand, *tools[hand], kind, news.bone, {1e9 * news.volume_m3, 0, 0});
+    if (!events_.empty()) events_.back().p_W = news.p_W;
+  }
+}
+
+std::span<const FallenPiece> Carving::pieces() const {
+  return pieces_ ? std::span<const FallenPiece>(pieces_->state().pieces)
+                 : std::span<const FallenPiece>();
+}
+
+std::span<const PieceNews> Carving::piece_news() const {
+  return pieces_ ? pieces_->news() : std::span<const PieceNews>();
+}
+
+double Carving::mass_kg(const FallenPiece& piece, double bone_mass_kg) const {
+  const std::size_t b = piece.shape->grid().bone;
+  if (b >= bones_.size() || !bones_[b].field || bones_[b].whole == 0) return 0;
+  const double h = bones_[b].field->grid().cell_m;
+  return bone_mass_kg * piece.shape->volume_m3() /
+         (h * h * h * static_cast<double>(bones_[b].whole));
+}
+
+LooseBones Carving::loose() const { return pieces_ ? pieces_->shown() : LooseBones{}; }
+
+void Carving::let_pieces_go() {
+  if (pieces_) pieces_->let_all_go();
 }
 
 GoneBone Carving::gone() {

@@ -5,6 +5,7 @@
 
 #include "osteon/base/file.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/pieces_setup.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 
@@ -196,6 +197,9 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
     }
     setup->bones.back() = std::move(*field);
   }
+  auto pieces = make_pieces(the_case, tray);
+  if (!pieces) return tl::unexpected(pieces.error());
+  setup->pieces = std::make_shared<const PiecesSetup>(std::move(*pieces));
   return std::shared_ptr<const CarvingSetup>(std::move(setup));
 }
 

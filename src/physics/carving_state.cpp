@@ -78,6 +78,7 @@ std::uint64_t Carving::hash() {
     if (rod.kind != GuideRod::Kind::kNone) add_to(hasher, rod);
   for (const LeftHole& hole : holes_)
     if (hole.bone != CarvingHand::kNoBone) add_to(hasher, hole);
+  if (pieces_ && !pieces_->empty()) hasher.add(pieces_->hash());
   return hasher.value();
 }
 
@@ -90,6 +91,7 @@ CarvingState Carving::save() const {
   state.full = full_;
   state.rods = rods_;
   state.holes = holes_;
+  if (pieces_) state.pieces = pieces_->state();
   return state;
 }
 
@@ -107,7 +109,8 @@ bool Carving::fits(const CarvingState& state) const {
     if (rod.kind != GuideRod::Kind::kNone && !is_carved(rod.bone)) return false;
   for (const LeftHole& hole : state.holes)
     if (hole.bone != CarvingHand::kNoBone && !is_carved(hole.bone)) return false;
-  return true;
+  if (!pieces_) return state.pieces.pieces.empty();
+  return FallenPieces::fits(state.pieces, bones_.size());
 }
 
 void Carving::restore(const CarvingState& state) {
@@ -118,6 +121,7 @@ void Carving::restore(const CarvingState& state) {
   full_ = state.full;
   rods_ = state.rods;
   holes_ = state.holes;
+  if (pieces_) pieces_->restore(state.pieces);
   guides_ = {};
   changed_.clear();
   fallen_.clear();

@@ -15,7 +15,7 @@ constexpr int kSmoothingReach_px = 6;  // of the edge smoothing about a pixel
 constexpr int kCoarseWhileResting = 4;
 
 ViewState without_tool(ViewState view) {
-  view.show_proxy = view.show_force = view.show_hand_ghost = false;
+  view.show_proxy = view.show_force = view.show_hand_ghost = view.show_loose = false;
   return view;
 }
 
@@ -27,6 +27,14 @@ bool looks_the_same(const ToolState& a, const ToolState& b) {
   const std::size_t count = std::min<std::size_t>(a.contact_count, kMaxContacts);
   for (std::size_t k = 0; k < count; ++k)
     if (a.contacts[k].p_W != b.contacts[k].p_W) return false;
+  return true;
+}
+
+bool looks_the_same(const LooseBones& a, const LooseBones& b) {
+  if (a.count != b.count) return false;
+  for (std::size_t k = 0; k < std::min<std::size_t>(a.count, kMaxLooseBones); ++k)
+    if (a.bones[k].shape != b.bones[k].shape || !same(a.bones[k].X_WB, b.bones[k].X_WB))
+      return false;
   return true;
 }
 
@@ -128,6 +136,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
   }
   changed = std::move(tiles);
   composed = snapshot.tool;
+  composed_loose = snapshot.bones.loose;
   composed_others.assign(painter.others().begin(), painter.others().end());
   composed_ghosts.assign(painter.ghosts().begin(), painter.ghosts().end());
   return true;
@@ -164,6 +173,7 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
   };
   const bool shown =
       composed && composed_view == view && looks_the_same(*composed, snapshot.tool) &&
+      looks_the_same(composed_loose, snapshot.bones.loose) &&
       all_alike(composed_others, painter.others()) && all_alike(composed_ghosts, painter.ghosts());
   if (!shown && !compose(snapshot, view, width, height)) return draw_all();
   composed_view = view;

@@ -265,6 +265,11 @@ void Renderer::set_cubes(BoneId bone, const CubeGrid& grid, std::span<const Surf
   impl_->kept.reset();
 }
 
+void Renderer::set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface) {
+  impl_->painter.set_loose(shape, bone.index, surface);
+  impl_->kept.reset();
+}
+
 void Renderer::clear_cubes() {
   impl_->painter.clear_cubes();
   impl_->kept.reset();

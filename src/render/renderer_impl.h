@@ -41,6 +41,7 @@ struct Renderer::Impl {
   bool kept_ready = false;
   TileMask changed{};                   ///< where `full.resolved` is not `kept_picture`
   std::optional<ToolState> composed{};  ///< the tool that `full.resolved` shows over `kept_picture`
+  LooseBones composed_loose{};
   std::vector<ToolState> composed_others{};
   std::vector<GhostTool> composed_ghosts{};
   ViewState composed_view{};

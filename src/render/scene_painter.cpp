@@ -289,6 +289,10 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
     include(ghost.X_WT.p, 2 * tool.tip_radius_m);
     include(ghost.X_WT * Vec3(0, 0, tool.length_m), 0.01);
   }
+  for (const Capsule& c : loose_capsules(snapshot, view)) {
+    include(c.a, c.radius_m);
+    include(c.b, c.radius_m);
+  }
   if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
     include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
   for (const Solid& solid : solids_) {
@@ -346,6 +350,7 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
   paint_opaque_bones(snapshot, view, frame);
+  paint_loose(snapshot, view, frame);
   if (view.show_proxy) {
     const Color steel = with_alpha(kSteel, 1);
     paint_tool(model_of(snapshot.tool), snapshot.tool.X_WP, steel, frame);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gl/frame.h"
@@ -44,6 +46,10 @@ class ScenePainter {
   void set_surface(std::size_t k, const TriMesh& mesh_B);
   void set_cubes(std::size_t bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   void clear_cubes();
+  /// The surface of a piece of that bone that was cut off, in Bone; drawn where a snapshot has it.
+  void set_loose(std::uint64_t shape, std::size_t bone, const SurfaceCube& surface);
+  /// Null: it is not known.
+  const GpuMesh* loose_surface(std::uint64_t shape) const;
   /// What hands may hold, by ToolState::instrument; not empty.
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands.
@@ -106,6 +112,14 @@ class ScenePainter {
   static std::vector<Capsule> rod_capsules(const RenderSnapshot& snapshot);
   std::vector<Capsule> placing_capsules(const RenderSnapshot& snapshot) const;
   void paint_placing(const RenderSnapshot& snapshot, const Frame& frame) const;
+  struct LooseModel {
+    GpuMesh mesh;
+    Capsule around;  ///< in Bone
+  };
+  std::vector<std::pair<const LooseModel*, const LooseBone*>> loose_of(
+      const RenderSnapshot& snapshot, const ViewState& view) const;
+  std::vector<Capsule> loose_capsules(const RenderSnapshot& snapshot, const ViewState& view) const;
+  void paint_loose(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame) const;
   static bool shows_hand(const RenderSnapshot& snapshot, const ViewState& view);
   double nearest_bone(const RenderSnapshot& snapshot, const ViewState& view,
                       const Frame& frame) const;
@@ -185,6 +199,7 @@ class ScenePainter {
     std::vector<BoneModel> bones;  ///< and soft parts
     std::vector<Pose> rest_X_WB;   ///< of the bones
     std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty
+    std::map<std::uint64_t, LooseModel> loose;
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;
     std::uint64_t version = 1;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 
 #include "surface/shapes.h"
 
@@ -31,6 +33,12 @@ TissuePart steel() {
   TissuePart part;
   part.pattern = TissuePattern::kSteel;
   part.tint = {0.86f, 0.88f, 0.91f};
+  return part;
+}
+
+TissuePart loose_part() {
+  TissuePart part;
+  part.model = std::numeric_limits<std::size_t>::max();
   return part;
 }
 

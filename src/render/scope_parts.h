@@ -14,6 +14,8 @@ TissuePattern pattern_of(std::string_view kind);
 /// Fibres run along a band's longest axis; a meniscus lies across its shortest.
 void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
 TissuePart steel();
+/// A piece of bone that was cut off: none of the case's own surfaces.
+TissuePart loose_part();
 /// An instrument of another hand's recorded way.
 TissuePart ghost_part();
 /// Thread, graft or button, in World.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -16,6 +18,7 @@
 #include "scope_lens.h"
 #include "scope_parts.h"
 #include "surface/changed_cubes.h"
+#include "surface/loose_surface.h"
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/soft_motion.h"
@@ -130,6 +133,9 @@ struct ScopeRenderer::Impl {
   };
   std::vector<ShownTool> tools;
   std::vector<GhostTool> ghosts;
+  std::map<std::uint64_t, GpuMesh> own_loose;  ///< by shape, where there is no scene
+  std::vector<LooseBone> loose;
+  TissuePart piece = loose_part();
   std::vector<PlacingRod> rods;    ///< thread, graft and button now
   std::vector<TissuePart> placed;  ///< the same, in World
   bool rods_changed = false;
@@ -150,6 +156,11 @@ struct ScopeRenderer::Impl {
     if (scene) return scene->tool_surface(instrument, jaw);
     if (instrument >= tray.size()) return nullptr;
     return &tray[instrument][jaw < tray[instrument].size() ? jaw : 0];
+  }
+  const GpuMesh* loose_surface(std::uint64_t shape) const {
+    if (scene) return scene->loose_surface(shape);
+    const auto found = own_loose.find(shape);
+    return found == own_loose.end() ? nullptr : &found->second;
   }
   /// Where another surface stands than was prepared; null: nowhere.
   const ChangedCubes* changed(const TissuePart& part) const {
@@ -206,6 +217,9 @@ struct ScopeRenderer::Impl {
     for (const TissuePart& part : parts)
       paint_part(part, surface(part), X_CW * part.X_WM, half, depth_alone);
     if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
+    for (const LooseBone& shown : loose)
+      if (const GpuMesh* mesh = loose_surface(shown.shape))
+        paint_part(piece, *mesh, X_CW * shown.X_WB, half, depth_alone);
     for (const TissuePart& part : placed) paint_part(part, part.surface, X_CW, half, depth_alone);
     for (const ShownTool& shown : tools)
       if (const GpuMesh* mesh = tool_surface(shown.instrument, shown.jaw))
@@ -284,6 +298,7 @@ struct ScopeRenderer::Impl {
       now.tools.push_back(shown.X_WT);
       now.ghosts.push_back(shown.opacity);
     }
+    for (const LooseBone& shown : loose) now.tools.push_back(shown.X_WB);
     for (const PlacingRod& rod : rods)
       for (const Vec3& end : {rod.a_W, rod.b_W}) now.tools.push_back({end, Quat::Identity()});
     return now;
@@ -424,6 +439,9 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   for (const ToolState& tool : tools)
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.push_back({tool.instrument, jaw_step(tool.jaw), tool.X_WP});
+  impl_->loose.clear();
+  for (std::size_t i = 0; i < std::min<std::size_t>(bones.loose.count, kMaxLooseBones); ++i)
+    if (is_finite(bones.loose.bones[i].X_WB)) impl_->loose.push_back(bones.loose.bones[i]);
   auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {
     return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);
@@ -456,6 +474,12 @@ void ScopeRenderer::set_cubes(BoneId bone, const CubeGrid& grid,
   if (bone.index >= impl_->own_changed.size()) return;  // the scene's own are seen
   impl_->own_changed[bone.index].set(
       grid, cubes, bone.index < impl_->rest_X_WB.size() ? bone.index : ChangedCubes::kSoft);
+  ++impl_->cubes;
+}
+
+void ScopeRenderer::set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface) {
+  if (impl_->scene) return;
+  impl_->own_loose.insert_or_assign(shape, GpuMesh(loose_shaded(surface, bone.index)));
   ++impl_->cubes;
 }
 

@@ -35,6 +35,8 @@ void CutsFeed::add(std::uint32_t bone, std::uint32_t block) {
 }
 
 void CutsFeed::add_all(const Carving& carving) {
+  pieces_.clear();
+  for (const FallenPiece& piece : carving.pieces()) pieces_.push_back(piece.shape);
   for (std::uint32_t b = 0; b < bones_.size(); ++b) {
     const CarvedField* field = carving.field(b);
     if (!bones_[b].carved || !field) continue;
@@ -63,7 +65,18 @@ bool CutsFeed::send_bone(const Carving& carving, std::uint32_t bone) {
   return true;
 }
 
+bool CutsFeed::send_pieces() {
+  CutsPatch patch;
+  while (!pieces_.empty()) {
+    patch.piece = pieces_.back();
+    if (!queue_.push(patch)) return false;
+    pieces_.pop_back();
+  }
+  return true;
+}
+
 void CutsFeed::send(const Carving& carving) {
+  if (!send_pieces()) return;
   for (std::uint32_t b = 0; b < bones_.size(); ++b)
     if (bones_[b].carved && !send_bone(carving, b)) return;
 }
@@ -72,6 +85,9 @@ void CutsFeed::note(const Carving& carving, bool all) {
   if (all) add_all(carving);
   if (!all)
     for (const Carving::Changed& changed : carving.changed()) add(changed.bone, changed.block);
+  if (!all)
+    for (const Carving::Fallen& fallen : carving.fallen())
+      if (fallen.lies) pieces_.push_back(fallen.lies);
   if (++notes_ % kEvery == 0) send(carving);
 }
 

@@ -53,6 +53,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) {
     carving_->step(tools, world_.snapshot(), step_s_);
     if (!world_.held()) lighten();
+    world_.set_loose(carving_->loose());
   }
   if (bench_) {
     GraftBenchState bench = world_.snapshot().bench;
@@ -273,6 +274,7 @@ void WorldHalf::go_back(const WorldMark& mark) {
   world_.set_bend(bend);
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
+  carving_->let_pieces_go();
   all_changed_ = true;
 }
 
@@ -353,6 +355,7 @@ void WorldHalf::restore(const WorldState& from) {
   if (water_ && !from.bones.water.on) world_.set_water(fresh_water());
   if (carving_ && from.carved) {
     carving_->restore(*from.carved);
+    world_.set_loose(carving_->loose());
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
     feed_->note_all(*carving_);
   }

@@ -49,6 +49,7 @@ TEST(CarvedPieces, WhatIsSawnOffFallsOffAndIsTold) {
   const Drilling with;
   Session session = with.session();
   put_carved(session, sawn_through(with, 0.002));
+  EXPECT_EQ(session.bones().loose.count, 0u);
   const double sawn = 1e9 * total(removed_volume(*session.carving()->field(0)));
   const auto events = rest_above(session, 300);
   const auto told = std::find_if(events.begin(), events.end(),
@@ -59,6 +60,14 @@ TEST(CarvedPieces, WhatIsSawnOffFallsOffAndIsTold) {
   EXPECT_EQ(std::count_if(events.begin(), events.end(),
                           [](const Event& e) { return e.kind == kPieceOff; }),
             1);
+  // It lies on what is left, as far under its old place as the burr was wide.
+  ASSERT_EQ(session.bones().loose.count, 1u);
+  ASSERT_EQ(session.carving()->pieces().size(), 1u);
+  const FallenPiece& piece = session.carving()->pieces()[0];
+  EXPECT_NEAR(1e9 * piece.shape->volume_m3(), 150, 35);
+  EXPECT_NEAR(piece.X_WB.p.z(), -0.001, 3e-4);
+  EXPECT_LT(piece.X_WB.p.head<2>().norm(), 3e-4);
+  EXPECT_NEAR(session.carving()->mass_kg(piece, 0.01), 0.01 * 1.5 / 8, 0.0005);
   // A hand meets what is left, 2.5 mm under where the top was.
   for (int n = 1; n <= 500; ++n) {
     HandInput hand = testing::down_at(static_cast<std::uint64_t>(n), 0, 0.02, 0.004);
@@ -86,6 +95,40 @@ TEST(CarvedPieces, FromAStateOnTheWayTheSameFalls) {
   rest_above(session, 200);
   rest_above(other, 200);
   EXPECT_EQ(other.state_hash(), session.state_hash());
+}
+
+TEST(CarvedPieces, ARestorePointPutsAPieceBack) {
+  const Drilling with;
+  Session session = with.session();
+  put_carved(session, sawn_through(with, 0.002));
+  HandInput hand = testing::down_at(0, 0);
+  hand.command = {CommandKind::kMark, 1};
+  (void)session.tick(std::span(&hand, 1));
+  rest_above(session, 300);
+  ASSERT_EQ(session.bones().loose.count, 1u);
+  hand.command = {CommandKind::kRestore, 1};
+  (void)session.tick(std::span(&hand, 1));
+  rest_above(session, 3);
+  EXPECT_EQ(session.bones().loose.count, 0u);
+  rest_above(session, 300);
+  EXPECT_EQ(session.bones().loose.count, 1u);
+}
+
+// The stored bytes hold the piece's shape; damaged ones are refused.
+TEST(CarvedPieces, AStoredStateHoldsThePiece) {
+  const Drilling with;
+  Session session = with.session();
+  put_carved(session, sawn_through(with, 0.002));
+  rest_above(session, 150);
+  const std::string bytes = to_bytes(session.save());
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  const auto& pieces = back->world.carved->pieces.pieces;
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(pieces[0].shape->hash(), session.carving()->pieces()[0].shape->hash());
+  EXPECT_EQ(to_bytes(*back), bytes);
+  for (std::size_t cut = 8; cut < bytes.size(); cut += bytes.size() / 97)
+    EXPECT_FALSE(state_from_bytes(std::string_view(bytes).substr(0, cut))) << cut;
 }
 
 // Half of the block sawn off along its lower half's top: mass and centre are those of the rest.

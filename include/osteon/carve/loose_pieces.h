@@ -41,6 +41,13 @@ class LoosePieces {
   /// for so many blocks, or the piece is larger than 2^24 nodes; nothing was done.
   bool take_away(CarvedField& field, const LoosePiece& piece, double reach_m) const;
 
+  /// Heights over the surface of a piece that the last search found, by itself, um: of the nodes
+  /// from `first` to `last` of the grid, x fastest; air and bone that is not of it are positive.
+  /// Empty for a piece that is larger than 2^24 nodes.
+  std::vector<std::int16_t> heights_of(const CarvedField& field, const LoosePiece& piece,
+                                       const std::array<int, 3>& first,
+                                       const std::array<int, 3>& last, int stride) const;
+
  private:
   /// Connected parts of one block's bone, labels from 1; 0: no bone.
   struct Labels {

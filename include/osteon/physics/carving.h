@@ -15,6 +15,7 @@
 #include "osteon/carve/node_moments.h"
 #include "osteon/carve/thrust.h"
 #include "osteon/physics/bone_loss.h"
+#include "osteon/physics/fallen_pieces.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/removal.h"
@@ -68,7 +69,8 @@ struct CarvingSetup {
   /// So many newtons of the hand resist a drill that a pin or a sleeve leads, whatever bone it goes
   /// through: as a sum of piecewise linear functions along its line (rbf_force.h). 0: as bone does.
   double guided_n = 0;
-  std::size_t most_blocks = 4096;  ///< of each bone
+  std::shared_ptr<const PiecesSetup> pieces;  ///< null: what is cut off is gone
+  std::size_t most_blocks = 4096;             ///< of each bone
   std::size_t channel_places = 0;  ///< for changes on their way to a hand; 0: as many as it takes
   double air_m = 0;                ///< cuts are known so far outside of a bone
   /// Walls are felt so far behind where they were cut.
@@ -133,6 +135,7 @@ struct CarvingState {
   bool full = false;
   GuideRods rods{};
   LeftHoles holes{};  ///< from the newest
+  FallenPiecesState pieces;
 };
 
 /// What a hand's instrument did in one step, for heat and sound.
@@ -159,9 +162,9 @@ struct CarvingReadout {
 /// line alone. So does a hole that a drill has left, when one as thick is put to its mouth again. A
 /// burr removes where it is pressed: P = c F v at its rim, over the specific energy of what lies
 /// there, is a volume in time, and that over half its cross-section is how fast it goes in. A piece
-/// that hangs on nothing any more is gone with the next look for such pieces. Of a scraper v is how
-/// fast the hand draws it along. A blade goes in by the power of the blows on it, over the specific
-/// energy and its cross-section, and where the push alone is more than both.
+/// that hangs on nothing any more falls off with the next look for such pieces. Of a scraper v is
+/// how fast the hand draws it along. A blade goes in by the power of the blows on it, over the
+/// specific energy and its cross-section, and where the push alone is more than both.
 class Carving {
  public:
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
@@ -178,7 +181,8 @@ class Carving {
   struct Fallen {
     std::uint32_t bone = 0;
     double volume_m3 = 0;
-    bool dust = false;  ///< too small for an event
+    bool dust = false;                       ///< too small for an event
+    std::shared_ptr<const PieceShape> lies;  ///< as a loose piece; null: it is gone
   };
   /// Of the last step; looked for in every kLookEvery-th.
   std::span<const Fallen> fallen() const { return fallen_; }
@@ -189,6 +193,15 @@ class Carving {
   const std::array<ToolGuide, kMaxHands>& guides() const { return guides_; }
   /// Pins in the bones and sleeves before them.
   const GuideRods& rods() const { return rods_; }
+  /// Pieces that were cut off and lie loose.
+  std::span<const FallenPiece> pieces() const;
+  LooseBones loose() const;
+  /// Of a piece whose bone has that mass: all of one density.
+  double mass_kg(const FallenPiece& piece, double bone_mass_kg) const;
+  /// What became of them in the last step.
+  std::span<const PieceNews> piece_news() const;
+  /// The hands that held pieces are elsewhere now.
+  void let_pieces_go();
   const CarvingReadout& readout(std::size_t hand) const { return readouts_[hand]; }
 
   const CarvingSetup& setup() const { return *setup_; }
@@ -216,8 +229,12 @@ class Carving {
   };
   struct Push;
 
-  void drop_pieces(std::span<const ToolState* const> tools);
-  void drop_pieces_of(std::uint32_t bone, std::span<const ToolState* const> tools);
+  void drop_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  void drop_pieces_of(std::uint32_t bone, std::span<const ToolState* const> tools,
+                      const Pose& X_WB);
+  bool drop_piece(std::uint32_t bone, const LoosePiece& piece, const Pose& X_WB);
+  void step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                   double step_s);
   void let_go_of(const LoosePiece& piece, std::uint32_t bone,
                  std::span<const ToolState* const> tools);
   void end_hole(std::size_t hand, const ToolState& tool);
@@ -276,6 +293,8 @@ class Carving {
   LeftHoles holes_{};
   std::vector<Changed> changed_;
   std::vector<Fallen> fallen_;
+  std::optional<FallenPieces> pieces_;             ///< none: what is cut off is gone
+  std::vector<const CarvedField*> carved_fields_;  ///< of each bone; null: it is not carved
   std::vector<Event> events_;
   std::uint64_t steps_ = 0;
   bool full_ = false;

@@ -43,6 +43,7 @@ struct ViewState {
   bool show_felt = false;
   bool show_proxy = true;
   bool show_force = true;
+  bool show_loose = true;           ///< pieces of bone that were cut off
   bool show_hand_ghost = true;      ///< the hand's own pose when it differs from the proxy's
   double light_azimuth_rad = -0.7;  ///< of the key light, relative to the camera; negative: left
   double light_elevation_rad = 0.8;
@@ -184,6 +185,9 @@ class Renderer {
   /// were. Of a soft part the same: its place behind the bones, as move_surface has it. Does
   /// nothing where the grid has no cubes or more than 16 million.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
+  /// A piece of a bone that was cut off, in Bone before it fell: drawn where a snapshot has a loose
+  /// bone of that shape.
+  void set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface);
   /// Every bone shows its own surface again.
   void clear_cubes();
 

@@ -77,6 +77,8 @@ class ScopeRenderer {
                     std::span<const float> depth_m = {});
   /// As Renderer has them.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
+  /// As of Renderer; does nothing where the surfaces are a renderer's.
+  void set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface);
   void clear_cubes();
 
   /// Sides are clamped to 1..kMaxImageSide. Empty when the driver has no memory for it.

@@ -9,6 +9,7 @@
 #include "osteon/scene/bend_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
+#include "osteon/scene/loose_bone.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
 #include "osteon/scene/water_state.h"
@@ -47,6 +48,7 @@ struct BoneSnapshot {
   GraftPlacingState placing{};  ///< off: there are no tunnels for a graft, or it is not there yet
   BendState bend{};             ///< off: no joint was bent
   WaterState water{};           ///< off: the case has no joint that is filled
+  LooseBones loose{};           ///< pieces of bone that were cut off
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
 

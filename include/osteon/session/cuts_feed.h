@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "osteon/base/bounded_queue.h"
@@ -10,20 +11,24 @@
 namespace osteon {
 
 class Carving;
+class PieceShape;
 struct CarvingSetup;
 
 /// What a picture must know of a carved bone: the cuts of one block as they are now, or that the
-/// bone is whole again (`clear`), after which its blocks follow.
+/// bone is whole again (`clear`), after which its blocks follow; or the shape of a piece that was
+/// cut off (`piece`): where it is, a snapshot tells.
 struct CutsPatch {
   static constexpr std::size_t kNodes = 512;  ///< of a block
   std::uint32_t bone = 0, block = 0;
   bool clear = false;
-  std::array<std::int16_t, kNodes> cut{};  ///< um, see CarvedField::cuts
+  std::array<std::int16_t, kNodes> cut{};   ///< um, see CarvedField::cuts
+  std::shared_ptr<const PieceShape> piece;  ///< null: it is about a block or a bone
 };
 
 /// From physics to one thread that draws. Of a block that changed often the reader gets the newest
 /// state alone; while it reads nothing, what it has to learn waits with physics in places made
-/// beforehand. Nobody waits for the other, and nothing is allocated after the making.
+/// beforehand. Nobody waits for the other, and nothing is allocated after the making but by what
+/// was cut off.
 class CutsFeed {
  public:
   explicit CutsFeed(const CarvingSetup& setup);
@@ -49,8 +54,10 @@ class CutsFeed {
   void add_all(const Carving& carving);
   void send(const Carving& carving);
   bool send_bone(const Carving& carving, std::uint32_t bone);
+  bool send_pieces();
 
   std::vector<Bone> bones_;
+  std::vector<std::shared_ptr<const PieceShape>> pieces_;  ///< that wait
   std::uint32_t notes_ = 0;
   CutsPatch patch_;
   BoundedQueue<CutsPatch> queue_;

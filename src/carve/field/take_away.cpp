@@ -211,4 +211,39 @@ bool LoosePieces::take_away(CarvedField& field, const LoosePiece& piece, double 
   return true;
 }
 
+// A node of the piece is inside even where a cut grazes it; what else is there is outside.
+std::vector<std::int16_t> LoosePieces::heights_of(const CarvedField& field, const LoosePiece& piece,
+                                                  const std::array<int, 3>& first,
+                                                  const std::array<int, 3>& last,
+                                                  int stride) const {
+  Local local(field, piece, 0);
+  if (local.count() > kMostNodes) return {};
+  local.read(*this, piece);
+  const auto beyond = static_cast<std::int16_t>(std::min(32767.0, local.cell_um));
+  std::vector<std::int16_t> out;
+  std::array<int, 3> at{};
+  for (at[2] = first[2]; at[2] <= last[2]; at[2] += stride)
+    for (at[1] = first[1]; at[1] <= last[1]; at[1] += stride)
+      for (at[0] = first[0]; at[0] <= last[0]; at[0] += stride) {
+        std::array<int, 3> in{};
+        bool known = true;
+        for (std::size_t a = 0; a < 3; ++a) {
+          in[a] = at[a] - local.lo[a];
+          known = known && in[a] >= 0 && in[a] < local.size[a];
+        }
+        if (!known) {
+          out.push_back(beyond);
+          continue;
+        }
+        const auto n =
+            static_cast<std::size_t>((in[2] * local.size[1] + in[1]) * local.size[0] + in[0]);
+        const std::int16_t level = local.level[n];
+        if (local.loose[n] != 0)
+          out.push_back(std::min<std::int16_t>(level, -1));
+        else
+          out.push_back(level < 0 ? beyond : std::max<std::int16_t>(level, 1));
+      }
+  return out;
+}
+
 }  // namespace osteon

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "state/fields.h"
 
@@ -13,6 +15,8 @@ constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 
 // The versions that say how far the hand has turned what it carves with, what leads instruments,
 // which holes were left, and how a reamer chatters.
 constexpr std::uint64_t kTwist = 4, kGuides = 6, kHoles = 9, kChatter = 16;
+
+constexpr std::uint64_t kLoose = 28;  // the version that says what lies loose
 
 }  // namespace
 
@@ -87,6 +91,71 @@ void field(A& a, LeftHole& hole) {
   field(a, hole.open);
 }
 
+// Four heights make a word, and each word stands with how often it comes.
+template <class A>
+void heights_field(A& a, std::vector<std::int16_t>& heights) {
+  std::uint64_t count = heights.size();
+  number(a, count, PieceShape::kMostNodes);
+  if constexpr (A::kReads) heights.assign(a.ok ? count : 0, 0);
+  const auto word_at = [&](std::size_t n) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &heights[n], std::min<std::size_t>(4, heights.size() - n) * 2);
+    return word;
+  };
+  for (std::size_t n = 0; n < heights.size() && a.ok;) {
+    std::uint64_t times = 1, word = 0;
+    if constexpr (!A::kReads) {
+      word = word_at(n);
+      while (n + 4 * times < heights.size() && word_at(n + 4 * times) == word) ++times;
+    }
+    number(a, times, PieceShape::kMostNodes);
+    field(a, word);
+    if (times == 0) a.ok = false;
+    for (; times > 0 && n < heights.size(); --times, n += 4)
+      if constexpr (A::kReads)
+        std::memcpy(&heights[n], &word, std::min<std::size_t>(4, heights.size() - n) * 2);
+  }
+}
+
+template <class A>
+void field(A& a, std::shared_ptr<const PieceShape>& shape) {
+  PieceGrid grid;
+  if constexpr (!A::kReads) grid = shape->grid();
+  field(a, grid.bone);
+  field(a, grid.cell_m);
+  field(a, grid.lo_B);
+  for (int& n : grid.nodes) number(a, n, PieceShape::kMostNodes);
+  heights_field(a, grid.heights);
+  if constexpr (A::kReads) {
+    if (a.ok) shape = PieceShape::from(std::move(grid));
+    a.ok = a.ok && shape;
+  }
+}
+
+template <class A>
+void field(A& a, FallenPiece& piece) {
+  field(a, piece.shape);
+  auto is = static_cast<std::uint8_t>(piece.is);
+  number(a, is, static_cast<std::uint64_t>(FallenPiece::Is::kHeld));
+  piece.is = static_cast<FallenPiece::Is>(is);
+  for (Pose* X : {&piece.X_WB, &piece.X_PB}) field(a, *X);
+  for (Vec3* v : {&piece.v_W, &piece.w_W}) field(a, *v);
+  field(a, piece.hand);
+  field(a, piece.drawn);
+  field(a, piece.still);
+}
+
+template <class A>
+void field(A& a, FallenPiecesState& s) {
+  std::uint64_t count = s.pieces.size();
+  number(a, count, kMaxLooseBones);
+  if constexpr (A::kReads) s.pieces.resize(a.ok ? count : 0);
+  for (FallenPiece& piece : s.pieces)
+    if (a.ok) field(a, piece);
+  for (bool& open : s.open) field(a, open);
+  for (std::uint32_t& instrument : s.instrument) field(a, instrument);
+}
+
 template <class A>
 void field(A& a, std::shared_ptr<const CarvingState>& carved) {
   if (!since(a, 2)) return;  // bones could not be carved then
@@ -105,6 +174,7 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
     for (GuideRod& rod : state.rods) field(a, rod);
   if (since(a, kHoles))
     for (LeftHole& hole : state.holes) field(a, hole);
+  if (since(a, kLoose)) field(a, state.pieces);
   if constexpr (A::kReads) carved = std::make_shared<const CarvingState>(std::move(state));
 }
 

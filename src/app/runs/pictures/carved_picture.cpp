@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "osteon/carve/grid_nodes.h"
+#include "osteon/carve/piece_shape.h"
+#include "osteon/mesh/measure.h"
 
 namespace osteon {
 namespace {
@@ -94,7 +96,29 @@ CarvedPicture::Bone* CarvedPicture::bone(std::uint32_t index) {
   return &*of;
 }
 
+// Its whole surface; what was inside of the bone lies deep.
+void CarvedPicture::take_piece(const PieceShape& shape) {
+  if (!known_pieces_.insert(shape.hash()).second) return;
+  const Bone* const of = bone(shape.grid().bone);
+  const auto mesh = shape.surface();
+  if (!of || !mesh) return;
+  Piece& piece = new_pieces_.emplace_back();
+  piece.shape = shape.hash();
+  piece.bone = shape.grid().bone;
+  piece.surface.vertices = mesh->vertices;
+  piece.surface.triangles = mesh->triangles;
+  piece.surface.normals = vertex_normals(*mesh);
+  for (const Vec3& v : mesh->vertices)
+    piece.surface.depth_m.push_back(
+        static_cast<float>(depth_m(of->field, v, &CarvedField::bare_height_m)));
+}
+
+std::vector<CarvedPicture::Piece> CarvedPicture::new_pieces() {
+  return std::exchange(new_pieces_, {});
+}
+
 void CarvedPicture::take(const CutsPatch& patch) {
+  if (patch.piece) return take_piece(*patch.piece);
   const bool known = patch.bone < bones_.size() && bones_[patch.bone].has_value();
   if (patch.clear && !known) return;  // whole as it is
   Bone* of = bone(patch.bone);

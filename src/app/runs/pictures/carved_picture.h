@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "osteon/carve/carved_surface.h"
@@ -31,6 +32,14 @@ class CarvedPicture {
   };
   /// What looks different since it was last asked; for Renderer::set_cubes and its like.
   std::vector<Changed> changes();
+  /// A piece that was cut off, for Renderer::set_loose and its like.
+  struct Piece {
+    std::uint64_t shape = 0;  ///< as LooseBone has it
+    std::uint32_t bone = 0;
+    SurfaceCube surface;  ///< in Bone before it fell
+  };
+  /// Those that were told since it was last asked.
+  std::vector<Piece> new_pieces();
   /// Copies of the bones that hold cuts, for who looks through them.
   CutBones cut_bones() const;
 
@@ -41,9 +50,12 @@ class CarvedPicture {
     bool waits = false;  ///< changed since it was last meshed
   };
   Bone* bone(std::uint32_t index);
+  void take_piece(const PieceShape& shape);
 
   std::shared_ptr<const CarvingSetup> setup_;
   std::vector<std::optional<Bone>> bones_;  ///< made when their first cut comes
+  std::set<std::uint64_t> known_pieces_;
+  std::vector<Piece> new_pieces_;
 };
 
 }  // namespace osteon

@@ -278,6 +278,10 @@ void FilmPainter::Impl::show_carved() {
     if (renderer) renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
     if (scope) scope->set_cubes(changed.bone, changed.grid, changed.cubes);
   }
+  for (const CarvedPicture::Piece& piece : carved.new_pieces()) {
+    if (renderer) renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+    if (scope) scope->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+  }
 }
 
 void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {

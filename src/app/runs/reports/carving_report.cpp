@@ -27,6 +27,30 @@ OrderedJson event_json(const Event& event, const CarvingReport& report) {
   return out;
 }
 
+OrderedJson loose_json(const CarvingReport& report) {
+  OrderedJson out = OrderedJson::array();
+  for (const CarvingReport::Loose& piece : report.loose) {
+    const Vec3 mm = 1000 * piece.p_W;
+    out.push_back({{"bone", report.bones[piece.bone]},
+                   {"volume_mm3", 1e9 * piece.volume_m3},
+                   {"mass_mg", 1e6 * piece.mass_kg},
+                   {"at_mm", {mm.x(), mm.y(), mm.z()}},
+                   {"held", piece.held}});
+  }
+  return out;
+}
+
+std::vector<CarvingReport::Loose> loose_in(const Session& session) {
+  std::vector<CarvingReport::Loose> out;
+  const std::vector<Bone>& bones = session.the_case().bones;
+  for (const FallenPiece& piece : session.carving()->pieces()) {
+    const std::uint32_t b = piece.shape->grid().bone;
+    out.push_back({b, piece.shape->volume_m3(), session.carving()->mass_kg(piece, bones[b].mass_kg),
+                   piece.X_WB * piece.shape->middle_B(), piece.is == FallenPiece::Is::kHeld});
+  }
+  return out;
+}
+
 ByTissue sum_of(const std::vector<ByTissue>& all) {
   ByTissue sum{};
   for (const ByTissue& one : all)
@@ -51,6 +75,7 @@ OrderedJson to_json(const CarvingReport& report) {
   out["dust_mm3"] = 1e9 * report.dust_m3;
   out["pieces_mm3"] = OrderedJson::array();
   for (const double piece : report.pieces_m3) out["pieces_mm3"].push_back(1e9 * piece);
+  out["loose"] = loose_json(report);
   out["most_thrust_n"] = report.most_thrust_n;
   out["most_torque_nmm"] = 1000 * report.most_torque_nm;
   out["heat"] = {{"hottest_c", report.hottest_c},
@@ -121,6 +146,7 @@ std::optional<CarvingReport> CarvingWatch::finish(const Session& session) const 
   const Carving* carving = session.carving();
   if (!carving) return std::nullopt;
   CarvingReport report = report_;
+  report.loose = loose_in(session);
   for (std::size_t b = 0; b < session.the_case().bones.size(); ++b) {
     report.bones.push_back(session.the_case().bones[b].name);
     const CarvedField* field = carving->field(b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -25,6 +26,14 @@ struct CarvingReport {
   std::array<double, 2> necrosis_m3{};
   double dust_m3 = 0;             ///< hung on nothing and fell off, too small for an event
   std::vector<double> pieces_m3;  ///< the same, each with its event
+  /// A piece that lies loose, or is held, at the end.
+  struct Loose {
+    std::uint32_t bone = 0;
+    double volume_m3 = 0, mass_kg = 0;
+    Vec3 p_W = Vec3::Zero();  ///< of its middle
+    bool held = false;
+  };
+  std::vector<Loose> loose;
 };
 /// "removed_mm3", "removed_by_tissue_mm3", "removed_by_bone_mm3", "heat", "events" ...
 nlohmann::ordered_json to_json(const CarvingReport& report);

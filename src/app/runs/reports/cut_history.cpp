@@ -7,7 +7,7 @@ namespace osteon {
 void CutHistory::add(const CutsPatch& patch, double time_s) {
   constexpr double kApart_s = 0.1;
   if (patch.clear) newest_.clear();
-  if (!patch.clear) {
+  if (!patch.clear && !patch.piece) {
     const auto [at, is_new] = newest_.try_emplace({patch.bone, patch.block}, kept_.size());
     if (!is_new && time_s - kept_[at->second].time_s < kApart_s) {
       kept_[at->second].patch = patch;

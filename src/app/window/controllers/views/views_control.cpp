@@ -41,6 +41,8 @@ void ViewsControl::show_carved() {
     scene_.renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
     carved_s_ = host_.now_s;
   }
+  for (const CarvedPicture::Piece& piece : picture->new_pieces())
+    scene_.renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
 }
 
 // While a run begins anew nothing presses.

@@ -1,0 +1,259 @@
+#include "osteon/physics/fallen_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/base/hash.h"
+#include "pieces/piece_motion.h"
+#include "pieces/piece_surroundings.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kOpenJaws = 0.5, kShutJaws = 0.15;  // of their way
+constexpr double kSlip_m = 0.002;      // what is held slips out where it stands so deep in bone
+constexpr double kReach_m = 0.006;     // before a bore: how far it draws
+constexpr double kPull_m_per_s2 = 60;  // at the bore, with full power
+constexpr double kTouches_m = 0.0005;  // a piece so near to the bore sticks to it
+constexpr double kLeastSuction = 0.05;
+constexpr double kFarOut_m = 0.05;  // beyond all bones: nobody looks for it there
+constexpr std::uint32_t kNotKnown = 0xffffffffu;
+
+bool is_sound(const FallenPiece& piece, std::size_t bones) {
+  const bool held = piece.is == FallenPiece::Is::kHeld;
+  return piece.shape && piece.shape->grid().bone < bones && piece.is <= FallenPiece::Is::kHeld &&
+         is_finite(piece.X_WB) && is_finite(piece.v_W) && is_finite(piece.w_W) &&
+         is_finite(piece.X_PB) && held == (piece.hand < kMaxHands);
+}
+
+}  // namespace
+
+FallenPieces::FallenPieces(std::shared_ptr<const PiecesSetup> setup) : setup_(std::move(setup)) {
+  state_.instrument.fill(kNotKnown);
+}
+
+bool FallenPieces::add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB) {
+  if (!shape || state_.pieces.size() == kMaxLooseBones || !is_finite(X_WB)) return false;
+  FallenPiece piece;
+  piece.shape = std::move(shape);
+  piece.X_WB = X_WB;
+  state_.pieces.push_back(std::move(piece));
+  return true;
+}
+
+void FallenPieces::tell(PieceNews::Is is, const FallenPiece& piece, std::uint8_t hand) {
+  news_.push_back({is, piece.shape->grid().bone, hand, piece.shape->volume_m3(),
+                   piece.X_WB * piece.shape->middle_B()});
+}
+
+const PieceTool* FallenPieces::tool_of(const ToolState& tool) const {
+  return tool.instrument < setup_->tray.size() ? &setup_->tray[tool.instrument] : nullptr;
+}
+
+void FallenPieces::begin_to_fall(FallenPiece& piece) {
+  piece.is = FallenPiece::Is::kMoving;
+  piece.v_W = piece.w_W = Vec3::Zero();
+  piece.hand = kNoHand;
+  piece.drawn = false;
+  piece.still = 0;
+}
+
+void FallenPieces::let_go(std::uint8_t hand, bool drawn) {
+  for (FallenPiece& piece : state_.pieces) {
+    if (piece.is != FallenPiece::Is::kHeld || piece.hand != hand || piece.drawn != drawn) continue;
+    tell(PieceNews::Is::kLetGo, piece, hand);
+    begin_to_fall(piece);
+  }
+}
+
+void FallenPieces::let_all_go() {
+  for (FallenPiece& piece : state_.pieces)
+    if (piece.is == FallenPiece::Is::kHeld) begin_to_fall(piece);
+  state_.open.fill(false);
+  state_.instrument.fill(kNotKnown);
+}
+
+// The piece with most of its points in the mouth that the jaws sweep when they shut.
+void FallenPieces::take(std::uint8_t hand, const ToolState& tool, const SoftGripper& jaws) {
+  FallenPiece* best = nullptr;
+  std::ptrdiff_t most = 0;
+  const Pose X_TW = tool.X_WP.inverse();
+  for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
+    FallenPiece& piece = state_.pieces[i];
+    if (piece.is == FallenPiece::Is::kHeld || gone_[i] != 0) continue;
+    const Pose X_TB = X_TW * piece.X_WB;
+    const auto& points = piece.shape->points_B();
+    const auto inside = std::count_if(points.begin(), points.end(), [&](const Vec3& p_B) {
+      const Vec3 p_T = X_TB * p_B;
+      return std::all_of(jaws.mouth_T.begin(), jaws.mouth_T.end(),
+                         [&](const Plane& plane) { return plane.signed_distance(p_T) <= 0; });
+    });
+    if (inside <= most) continue;
+    most = inside;
+    best = &piece;
+  }
+  if (!best) return;
+  best->is = FallenPiece::Is::kHeld;
+  best->hand = hand;
+  best->X_PB = X_TW * best->X_WB;
+  best->v_W = best->w_W = Vec3::Zero();
+  tell(PieceNews::Is::kHeld, *best, hand);
+}
+
+// Jaws must have been open before they can shut; who takes another instrument lets go.
+void FallenPieces::heed_jaws(std::uint8_t hand, const ToolState& tool) {
+  const bool same = state_.instrument[hand] == tool.instrument;
+  state_.instrument[hand] = tool.instrument;
+  const PieceTool* const with = tool_of(tool);
+  if (!same || !with || !with->jaws) {
+    let_go(hand, false);
+    state_.open[hand] = false;
+    return;
+  }
+  if (tool.jaw > kOpenJaws) {
+    let_go(hand, false);
+    state_.open[hand] = true;
+  }
+  if (tool.jaw < kShutJaws && state_.open[hand]) {
+    state_.open[hand] = false;
+    take(hand, tool, *with->jaws);
+  }
+}
+
+// A small piece goes through the bore, a larger one sticks to it.
+void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double step_s) {
+  const PieceTool* const with = tool_of(tool);
+  if (!with || !(with->bore_m > 0) || !(tool.power > kLeastSuction)) return let_go(hand, true);
+  for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
+    FallenPiece& piece = state_.pieces[i];
+    if (piece.is == FallenPiece::Is::kHeld || gone_[i] != 0) continue;
+    const Vec3 middle_W = piece.X_WB * piece.shape->middle_B();
+    const Vec3 to_bore = tool.X_WP.p - middle_W;
+    const double gap = to_bore.norm() - piece.shape->reach_m();
+    if (gap > kReach_m) continue;
+    if (gap < kTouches_m && 2 * piece.shape->reach_m() <= with->bore_m) {
+      tell(PieceNews::Is::kSucked, piece, hand);
+      gone_[i] = 1;
+    } else if (nearest_point_m(piece, tool.X_WP.p) < kTouches_m + 0.5 * with->bore_m) {
+      piece.is = FallenPiece::Is::kHeld;
+      piece.hand = hand;
+      piece.drawn = true;
+      piece.X_PB = tool.X_WP.inverse() * piece.X_WB;
+      piece.v_W = piece.w_W = Vec3::Zero();
+      tell(PieceNews::Is::kHeld, piece, hand);
+    } else if (to_bore.norm() > 1e-9) {
+      const double share = 1 - std::max(gap, 0.0) / kReach_m;
+      piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();
+      if (piece.is == FallenPiece::Is::kResting) piece.is = FallenPiece::Is::kMoving;
+      piece.still = 0;
+    }
+  }
+}
+
+void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
+                         const PieceSurroundings& around) {
+  piece.X_WB = tool.X_WP * piece.X_PB;
+  double deepest = 0;
+  for (const Vec3& p_B : piece.shape->points_B())
+    deepest = std::max(deepest, around.in_bone(piece.X_WB * p_B).depth_m);
+  if (!(deepest > kSlip_m)) return;
+  tell(PieceNews::Is::kLetGo, piece, piece.hand);
+  begin_to_fall(piece);
+}
+
+bool FallenPieces::is_touched(const FallenPiece& piece, const PieceSurroundings& around) const {
+  const Vec3 middle_W = piece.X_WB * piece.shape->middle_B();
+  if (!around.tool_near(middle_W, piece.shape->reach_m())) return false;
+  const auto& points = piece.shape->points_B();
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Vec3& p_B) { return around.in_tool(piece.X_WB * p_B).depth_m > 0; });
+}
+
+void FallenPieces::move(FallenPiece& piece, const PieceSurroundings& around, double step_s) const {
+  const PieceStep did = move_piece(piece, around, step_s);
+  piece.still = did.touches && did.slow ? piece.still + 1 : 0;
+  if (piece.still < kRestAfterSteps) return;
+  piece.is = FallenPiece::Is::kResting;
+  piece.v_W = piece.w_W = Vec3::Zero();
+}
+
+void FallenPieces::drop_gone() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
+    if (gone_[i] != 0) continue;
+    if (kept != i) state_.pieces[kept] = std::move(state_.pieces[i]);
+    ++kept;
+  }
+  state_.pieces.resize(kept);
+}
+
+void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                        std::span<const CarvedField* const> carved, bool stirred, double step_s) {
+  news_.clear();
+  const std::size_t hands = std::min<std::size_t>(tools.size(), kMaxHands);
+  gone_.assign(state_.pieces.size(), 0);
+  for (std::size_t h = 0; h < hands; ++h) {
+    if (tools[h]->epoch != bones.epoch || !is_finite(tools[h]->X_WP)) continue;
+    heed_jaws(static_cast<std::uint8_t>(h), *tools[h]);
+    heed_suction(static_cast<std::uint8_t>(h), *tools[h], step_s);
+  }
+  if (state_.pieces.empty()) return;
+  const PieceSurroundings around{*setup_, tools.first(hands), bones, carved};
+  const Aabb seen = setup_->box_W.grown(kFarOut_m);
+  for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
+    FallenPiece& piece = state_.pieces[i];
+    if (gone_[i] != 0) continue;
+    if (piece.is == FallenPiece::Is::kHeld) {
+      const bool there = piece.hand < hands && is_finite(tools[piece.hand]->X_WP);
+      if (there) carry(piece, *tools[piece.hand], around);
+      continue;
+    }
+    if (piece.is == FallenPiece::Is::kResting) {
+      if (!stirred && !is_touched(piece, around)) continue;
+      begin_to_fall(piece);
+    }
+    move(piece, around, step_s);
+    const Vec3 middle_W = piece.X_WB * piece.shape->middle_B();
+    if (((middle_W - seen.lo).array() >= 0).all() && ((seen.hi - middle_W).array() >= 0).all())
+      continue;
+    tell(PieceNews::Is::kOut, piece, kNoHand);
+    gone_[i] = 1;
+  }
+  drop_gone();
+}
+
+LooseBones FallenPieces::shown() const {
+  LooseBones out;
+  for (const FallenPiece& piece : state_.pieces)
+    out.bones[out.count++] = {piece.shape->hash(), piece.shape->grid().bone, piece.X_WB};
+  return out;
+}
+
+std::uint64_t FallenPieces::hash() const {
+  Hasher hasher;
+  for (const FallenPiece& piece : state_.pieces) {
+    hasher.add(piece.shape->hash());
+    hasher.add(static_cast<std::uint8_t>(piece.is));
+    hasher.add(piece.X_WB);
+    hasher.add(piece.v_W);
+    hasher.add(piece.w_W);
+    hasher.add(piece.hand);
+    hasher.add(piece.drawn);
+    hasher.add(piece.X_PB);
+    hasher.add(piece.still);
+  }
+  return hasher.value();
+}
+
+bool FallenPieces::fits(const FallenPiecesState& state, std::size_t bones) {
+  return state.pieces.size() <= kMaxLooseBones &&
+         std::all_of(state.pieces.begin(), state.pieces.end(),
+                     [&](const FallenPiece& piece) { return is_sound(piece, bones); });
+}
+
+void FallenPieces::restore(const FallenPiecesState& state) {
+  state_ = state;
+  news_.clear();
+}
+
+}  // namespace osteon

@@ -1,0 +1,107 @@
+// Symbols: c, q middle and turn of the piece; r a point of its surface from there; J its inertia by
+// unit mass. A correction along n at r moves the middle by n / (1 + (r x n) J^-1 (r x n)) of it and
+// turns the piece by the rest (Mueller and others 2020, equations 2 to 9, with one body that no
+// contact moves). Mass cancels: gravity and drag are accelerations. It ends: the rounds are
+// counted.
+#include "pieces/piece_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osteon {
+namespace {
+
+constexpr double kGravity_m_per_s2 = 9.81;
+constexpr double kInWater = 0.45;     // of its weight is left: bone of 1800 kg/m3 in water
+constexpr double kDragAir_per_s = 1;  // own defaults; in water it sinks with 0.15 m/s
+constexpr double kDragWater_per_s = 30;
+constexpr double kFastest_m_per_s = 0.5;
+constexpr double kSlow_m_per_s = 0.003;
+constexpr double kMostOut_m = 1e-4, kMostByTool_m = 1e-3;  // of one correction
+constexpr int kRounds = 4;
+
+Quat turned(const Quat& q, const Vec3& by) {
+  const Quat turn(0, by.x(), by.y(), by.z());
+  Quat out = q;
+  out.coeffs() += 0.5 * (turn * q).coeffs();
+  return out.normalized();
+}
+
+struct Moving {
+  Vec3 c, c0;
+  Quat q, q0;
+  Mat3 inverse_J_B;
+
+  Vec3 spun(const Vec3& moment) const { return q * (inverse_J_B * (q.conjugate() * moment)); }
+  void correct(const Vec3& r, const Vec3& n, double by_m) {
+    const Vec3 arm = r.cross(n);
+    const double share = by_m / (1 + arm.dot(spun(arm)));
+    c += share * n;
+    q = turned(q, share * spun(arm));
+  }
+};
+
+// Out of what the point stands in; friction takes back of its way along the surface what it can.
+bool push_out(Moving& at, const Vec3& p_M, const PieceSurroundings& around) {
+  Vec3 r = at.q * p_M;
+  PiecePush push = around.in_bone(at.c + r);
+  double by_m = std::min(push.depth_m, kMostOut_m);
+  const PiecePush tool = around.in_tool(at.c + r);
+  if (tool.depth_m > push.depth_m) {
+    push = tool;
+    by_m = std::min(push.depth_m, kMostByTool_m);
+  }
+  if (!(push.depth_m > 0)) return false;
+  at.correct(r, push.out_W, by_m);
+  r = at.q * p_M;
+  const Vec3 moved = at.c + r - (at.c0 + at.q0 * p_M);
+  const Vec3 slid = moved - moved.dot(push.out_W) * push.out_W;
+  const double way = slid.norm();
+  if (way > 1e-12) at.correct(r, -slid / way, std::min(way, FallenPieces::kFriction * by_m));
+  return true;
+}
+
+}  // namespace
+
+double nearest_point_m(const FallenPiece& piece, const Vec3& p_W) {
+  const Vec3 p_B = piece.X_WB.inverse() * p_W;
+  double best = 1e300;
+  for (const Vec3& point : piece.shape->points_B()) best = std::min(best, (point - p_B).norm());
+  return best;
+}
+
+PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double step_s) {
+  const PieceShape& shape = *piece.shape;
+  const bool wet = around.bones.water.on;
+  const double slowed = 1 / (1 + step_s * (wet ? kDragWater_per_s : kDragAir_per_s));
+  piece.v_W.z() -= step_s * kGravity_m_per_s2 * (wet ? kInWater : 1);
+  piece.v_W *= slowed;
+  piece.w_W *= slowed;
+  const Mat3 J = shape.spread_m2().trace() * Mat3::Identity() - shape.spread_m2();
+  Moving at;
+  at.c0 = piece.X_WB * shape.middle_B();
+  at.q0 = piece.X_WB.q;
+  at.c = at.c0 + step_s * piece.v_W;
+  at.q = turned(at.q0, step_s * piece.w_W);
+  at.inverse_J_B = J.inverse();
+  PieceStep did;
+  for (int round = 0; round < kRounds; ++round)
+    for (const Vec3& p_B : shape.points_B())
+      did.touches = push_out(at, p_B - shape.middle_B(), around) || did.touches;
+  if (!is_finite(at.c) || !at.q.coeffs().allFinite()) {
+    piece.v_W = piece.w_W = Vec3::Zero();
+    return did;
+  }
+  piece.v_W = (at.c - at.c0) / step_s;
+  const Quat turn = at.q * at.q0.conjugate();
+  piece.w_W = (turn.w() < 0 ? -2.0 : 2.0) / step_s * turn.vec();
+  const double speed = piece.v_W.norm(), rim = piece.w_W.norm() * shape.reach_m();
+  if (speed > kFastest_m_per_s) piece.v_W *= kFastest_m_per_s / speed;
+  if (rim > kFastest_m_per_s) piece.w_W *= kFastest_m_per_s / rim;
+  did.slow = speed < kSlow_m_per_s && rim < kSlow_m_per_s;
+  piece.X_WB.q = at.q;
+  piece.X_WB.p = at.c - at.q * shape.middle_B();
+  return did;
+}
+
+}  // namespace osteon

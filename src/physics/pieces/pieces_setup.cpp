@@ -1,0 +1,49 @@
+#include "osteon/physics/pieces_setup.h"
+
+#include "osteon/scene/instrument.h"
+#include "soft/of_tray.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kBoreOfOuter = 0.75;  // of a cannula's outer diameter; own default
+
+PieceTool piece_tool(const Instrument& instrument, std::size_t size) {
+  PieceTool out;
+  out.parts = make_tool(instrument, size).parts;
+  out.jaws = gripper_of(instrument, size);
+  if (instrument.can(InstrumentFunction::kSuck))
+    out.bore_m = kBoreOfOuter * instrument.sizes_m.at(size);
+  return out;
+}
+
+PieceObstacle obstacle_of(const Bone& bone) {
+  PieceObstacle out;
+  for (const Hull& hull : bone.pieces) {
+    PieceObstacle::Part part;
+    for (const Vec3& v : hull.vertices) part.box_B.include(v);
+    part.planes_B = hull.planes;
+    if (part.box_B.empty()) continue;
+    out.box_B.include(part.box_B.lo);
+    out.box_B.include(part.box_B.hi);
+    out.parts.push_back(std::move(part));
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<PiecesSetup> make_pieces(const Case& the_case, std::span<const std::string> tray) {
+  PiecesSetup out;
+  auto tools = of_tray<PieceTool>(tray, piece_tool);
+  if (!tools) return tl::unexpected(tools.error());
+  for (std::optional<PieceTool>& tool : *tools)
+    out.tray.push_back(tool ? std::move(*tool) : PieceTool{});
+  for (const Bone& bone : the_case.bones) {
+    out.bones.push_back(obstacle_of(bone));
+    for (const Vec3& v : bone.mesh.vertices) out.box_W.include(bone.X_WB * v);
+  }
+  return out;
+}
+
+}  // namespace osteon
