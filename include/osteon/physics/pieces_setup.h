@@ -17,7 +17,8 @@ namespace osteon {
 struct PieceTool {
   std::vector<Primitive> parts;  ///< in Tool
   std::optional<SoftGripper> jaws;
-  double bore_m = 0;  ///< diameter; 0: it does not suck
+  double bore_m = 0;           ///< diameter; 0: it does not suck
+  Vec3 bore_T = Vec3::Zero();  ///< its middle, at the front of what is felt of the instrument
 };
 
 /// A bone as pieces of another one meet it, where it is not carved.

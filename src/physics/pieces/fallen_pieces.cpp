@@ -10,14 +10,13 @@
 namespace osteon {
 namespace {
 
-constexpr double kOpenJaws = 0.5, kShutJaws = 0.15;  // of their way
-constexpr double kSlip_m = 0.002;      // what is held slips out where it stands so deep in bone
-constexpr double kReach_m = 0.006;     // before a bore: how far it draws
-constexpr double kPull_m_per_s2 = 60;  // at the bore, with full power
-constexpr double kTouches_m = 0.0005;  // a piece so near to the bore sticks to it
+constexpr double kOpenForPiece = 0.5, kShutOnPiece = 0.15;  // of their way
+constexpr double kPieceSlips_m = 0.002;    // what is held slips out where it stands so deep in bone
+constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
+constexpr double kPull_m_per_s2 = 60;      // at the bore, with full power
 constexpr double kLeastSuction = 0.05;
 constexpr double kFarOut_m = 0.05;  // beyond all bones: nobody looks for it there
-constexpr std::uint32_t kNotKnown = 0xffffffffu;
+constexpr std::uint32_t kNoInstrument = 0xffffffffu;
 
 bool is_sound(const FallenPiece& piece, std::size_t bones) {
   const bool held = piece.is == FallenPiece::Is::kHeld;
@@ -29,7 +28,7 @@ bool is_sound(const FallenPiece& piece, std::size_t bones) {
 }  // namespace
 
 FallenPieces::FallenPieces(std::shared_ptr<const PiecesSetup> setup) : setup_(std::move(setup)) {
-  state_.instrument.fill(kNotKnown);
+  state_.instrument.fill(kNoInstrument);
 }
 
 bool FallenPieces::add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB) {
@@ -70,7 +69,7 @@ void FallenPieces::let_all_go() {
   for (FallenPiece& piece : state_.pieces)
     if (piece.is == FallenPiece::Is::kHeld) begin_to_fall(piece);
   state_.open.fill(false);
-  state_.instrument.fill(kNotKnown);
+  state_.instrument.fill(kNoInstrument);
 }
 
 // The piece with most of its points in the mouth that the jaws sweep when they shut.
@@ -110,11 +109,11 @@ void FallenPieces::heed_jaws(std::uint8_t hand, const ToolState& tool) {
     state_.open[hand] = false;
     return;
   }
-  if (tool.jaw > kOpenJaws) {
+  if (tool.jaw > kOpenForPiece) {
     let_go(hand, false);
     state_.open[hand] = true;
   }
-  if (tool.jaw < kShutJaws && state_.open[hand]) {
+  if (tool.jaw < kShutOnPiece && state_.open[hand]) {
     state_.open[hand] = false;
     take(hand, tool, *with->jaws);
   }
@@ -124,17 +123,19 @@ void FallenPieces::heed_jaws(std::uint8_t hand, const ToolState& tool) {
 void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double step_s) {
   const PieceTool* const with = tool_of(tool);
   if (!with || !(with->bore_m > 0) || !(tool.power > kLeastSuction)) return let_go(hand, true);
+  const Vec3 bore_W = tool.X_WP * with->bore_T;
   for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
     FallenPiece& piece = state_.pieces[i];
     if (piece.is == FallenPiece::Is::kHeld || gone_[i] != 0) continue;
     const Vec3 middle_W = piece.X_WB * piece.shape->middle_B();
-    const Vec3 to_bore = tool.X_WP.p - middle_W;
+    const Vec3 to_bore = bore_W - middle_W;
     const double gap = to_bore.norm() - piece.shape->reach_m();
-    if (gap > kReach_m) continue;
-    if (gap < kTouches_m && 2 * piece.shape->reach_m() <= with->bore_m) {
+    if (gap > kSuctionReach_m) continue;
+    const bool fits = 2 * piece.shape->reach_m() <= with->bore_m;
+    if (fits && gap < 0.5 * with->bore_m) {
       tell(PieceNews::Is::kSucked, piece, hand);
       gone_[i] = 1;
-    } else if (nearest_point_m(piece, tool.X_WP.p) < kTouches_m + 0.5 * with->bore_m) {
+    } else if (!fits && nearest_point_m(piece, bore_W) < 0.5 * with->bore_m) {
       piece.is = FallenPiece::Is::kHeld;
       piece.hand = hand;
       piece.drawn = true;
@@ -142,7 +143,7 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double
       piece.v_W = piece.w_W = Vec3::Zero();
       tell(PieceNews::Is::kHeld, piece, hand);
     } else if (to_bore.norm() > 1e-9) {
-      const double share = 1 - std::max(gap, 0.0) / kReach_m;
+      const double share = 1 - std::max(gap, 0.0) / kSuctionReach_m;
       piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();
       if (piece.is == FallenPiece::Is::kResting) piece.is = FallenPiece::Is::kMoving;
       piece.still = 0;
@@ -156,7 +157,7 @@ void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
   double deepest = 0;
   for (const Vec3& p_B : piece.shape->points_B())
     deepest = std::max(deepest, around.in_bone(piece.X_WB * p_B).depth_m);
-  if (!(deepest > kSlip_m)) return;
+  if (!(deepest > kPieceSlips_m)) return;
   tell(PieceNews::Is::kLetGo, piece, piece.hand);
   begin_to_fall(piece);
 }

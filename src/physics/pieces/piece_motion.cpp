@@ -6,19 +6,20 @@
 #include "pieces/piece_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace osteon {
 namespace {
 
-constexpr double kGravity_m_per_s2 = 9.81;
+constexpr double kPieceFalls_m_per_s2 = 9.81;
 constexpr double kInWater = 0.45;     // of its weight is left: bone of 1800 kg/m3 in water
 constexpr double kDragAir_per_s = 1;  // own defaults; in water it sinks with 0.15 m/s
 constexpr double kDragWater_per_s = 30;
-constexpr double kFastest_m_per_s = 0.5;
-constexpr double kSlow_m_per_s = 0.003;
+constexpr double kPieceFastest_m_per_s = 0.5;
+constexpr double kPieceSlow_m_per_s = 0.008;               // for a tenth of a second: it rests
 constexpr double kMostOut_m = 1e-4, kMostByTool_m = 1e-3;  // of one correction
-constexpr int kRounds = 4;
+constexpr int kPieceRounds = 4;
 
 Quat turned(const Quat& q, const Vec3& by) {
   const Quat turn(0, by.x(), by.y(), by.z());
@@ -41,9 +42,15 @@ struct Moving {
   }
 };
 
-// Out of what the point stands in; friction takes back of its way along the surface what it can.
-bool push_out(Moving& at, const Vec3& p_M, const PieceSurroundings& around) {
-  Vec3 r = at.q * p_M;
+// What a point of the surface met in a step.
+struct PointContact {
+  Vec3 out_W = Vec3::UnitZ();
+  double pushed_m = 0, held_m = 0;  ///< along the normal, and against its way by friction
+};
+
+// Out of what the point stands in.
+bool push_out(Moving& at, const Vec3& p_M, const PieceSurroundings& around, PointContact& contact) {
+  const Vec3 r = at.q * p_M;
   PiecePush push = around.in_bone(at.c + r);
   double by_m = std::min(push.depth_m, kMostOut_m);
   const PiecePush tool = around.in_tool(at.c + r);
@@ -53,12 +60,22 @@ bool push_out(Moving& at, const Vec3& p_M, const PieceSurroundings& around) {
   }
   if (!(push.depth_m > 0)) return false;
   at.correct(r, push.out_W, by_m);
-  r = at.q * p_M;
-  const Vec3 moved = at.c + r - (at.c0 + at.q0 * p_M);
-  const Vec3 slid = moved - moved.dot(push.out_W) * push.out_W;
-  const double way = slid.norm();
-  if (way > 1e-12) at.correct(r, -slid / way, std::min(way, FallenPieces::kFriction * by_m));
+  contact.out_W = push.out_W;
+  contact.pushed_m += by_m;
   return true;
+}
+
+// Friction takes back of the point's way along the surface what its share of the push allows.
+void hold_back(Moving& at, const Vec3& p_M, PointContact& contact) {
+  const Vec3 r = at.q * p_M;
+  const Vec3 moved = at.c + r - (at.c0 + at.q0 * p_M);
+  const Vec3 slid = moved - moved.dot(contact.out_W) * contact.out_W;
+  const double way = slid.norm();
+  const double can = FallenPieces::kFriction * contact.pushed_m - contact.held_m;
+  if (!(way > 1e-12) || !(can > 0)) return;
+  const double by_m = std::min(way, can);
+  at.correct(r, -slid / way, by_m);
+  contact.held_m += by_m;
 }
 
 }  // namespace
@@ -74,7 +91,7 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   const PieceShape& shape = *piece.shape;
   const bool wet = around.bones.water.on;
   const double slowed = 1 / (1 + step_s * (wet ? kDragWater_per_s : kDragAir_per_s));
-  piece.v_W.z() -= step_s * kGravity_m_per_s2 * (wet ? kInWater : 1);
+  piece.v_W.z() -= step_s * kPieceFalls_m_per_s2 * (wet ? kInWater : 1);
   piece.v_W *= slowed;
   piece.w_W *= slowed;
   const Mat3 J = shape.spread_m2().trace() * Mat3::Identity() - shape.spread_m2();
@@ -85,9 +102,15 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   at.q = turned(at.q0, step_s * piece.w_W);
   at.inverse_J_B = J.inverse();
   PieceStep did;
-  for (int round = 0; round < kRounds; ++round)
-    for (const Vec3& p_B : shape.points_B())
-      did.touches = push_out(at, p_B - shape.middle_B(), around) || did.touches;
+  std::array<PointContact, PieceShape::kMostPoints> contacts{};
+  for (int round = 0; round < kPieceRounds; ++round)
+    for (std::size_t n = 0; n < shape.points_B().size(); ++n) {
+      // To and fro: one order alone would turn what rests on a slope a little in each step.
+      const std::size_t i = round % 2 == 0 ? n : shape.points_B().size() - 1 - n;
+      const Vec3 p_M = shape.points_B()[i] - shape.middle_B();
+      did.touches = push_out(at, p_M, around, contacts[i]) || did.touches;
+      if (contacts[i].pushed_m > 0) hold_back(at, p_M, contacts[i]);
+    }
   if (!is_finite(at.c) || !at.q.coeffs().allFinite()) {
     piece.v_W = piece.w_W = Vec3::Zero();
     return did;
@@ -96,9 +119,9 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   const Quat turn = at.q * at.q0.conjugate();
   piece.w_W = (turn.w() < 0 ? -2.0 : 2.0) / step_s * turn.vec();
   const double speed = piece.v_W.norm(), rim = piece.w_W.norm() * shape.reach_m();
-  if (speed > kFastest_m_per_s) piece.v_W *= kFastest_m_per_s / speed;
-  if (rim > kFastest_m_per_s) piece.w_W *= kFastest_m_per_s / rim;
-  did.slow = speed < kSlow_m_per_s && rim < kSlow_m_per_s;
+  if (speed > kPieceFastest_m_per_s) piece.v_W *= kPieceFastest_m_per_s / speed;
+  if (rim > kPieceFastest_m_per_s) piece.w_W *= kPieceFastest_m_per_s / rim;
+  did.slow = speed < kPieceSlow_m_per_s && rim < kPieceSlow_m_per_s;
   piece.X_WB.q = at.q;
   piece.X_WB.p = at.c - at.q * shape.middle_B();
   return did;

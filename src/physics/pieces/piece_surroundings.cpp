@@ -10,7 +10,7 @@
 namespace osteon {
 namespace {
 
-constexpr double kShutJaws = 0.15;  // of their way: open ones push nothing
+constexpr double kPieceJawsShut = 0.15;  // of their way: open ones push nothing
 
 double level_m(const CarvedField& field, const GridNode& at) {
   const double height = field.height_m(at.block, at.node);
@@ -70,7 +70,7 @@ PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B) {
 }
 
 bool is_lifted(const PieceTool& tool, std::size_t part, double jaw) {
-  return tool.jaws && jaw > kShutJaws && part < 64 && (tool.jaws->jaws >> part & 1) != 0;
+  return tool.jaws && jaw > kPieceJawsShut && part < 64 && (tool.jaws->jaws >> part & 1) != 0;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "osteon/physics/pieces_setup.h"
 
+#include <algorithm>
+
 #include "osteon/scene/instrument.h"
 #include "soft/of_tray.h"
 
@@ -14,6 +16,8 @@ PieceTool piece_tool(const Instrument& instrument, std::size_t size) {
   out.jaws = gripper_of(instrument, size);
   if (instrument.can(InstrumentFunction::kSuck))
     out.bore_m = kBoreOfOuter * instrument.sizes_m.at(size);
+  for (const Primitive& part : out.parts)
+    out.bore_T.z() = std::min(out.bore_T.z(), -support(part, -Vec3::UnitZ()));
   return out;
 }
 

@@ -13,7 +13,7 @@ constexpr double kSkinStill_m = 5e-5;
 // The wall of a groove begins so far under the lip: it has a colour of its own there.
 constexpr double kUnderLip_m = 1e-5;
 constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn
-constexpr double kMostDent = 0.95;       // of the fat's thickness
+constexpr double kDeepestDent = 0.95;    // of the fat's thickness
 
 bool looks_pressed_alike(const SkinDent& a, const SkinDent& b) {
   return a.patch == b.patch && (a.p - b.p).norm() < kSkinStill_m &&
@@ -37,7 +37,7 @@ void add_dent(const SheetYield& yields, const SkinDent& dent, double fat_m,
   const double per_m = yields.stiffness(disc, scratch);
   const std::vector<double> shape = yields.dent(disc);
   for (std::size_t i = 0; i < down.size(); ++i)
-    down[i] = std::min(down[i] + dent.deep_m * per_m * shape[i], kMostDent * fat_m);
+    down[i] = std::min(down[i] + dent.deep_m * per_m * shape[i], kDeepestDent * fat_m);
 }
 
 }  // namespace

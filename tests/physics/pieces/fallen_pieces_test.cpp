@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "../physics_fixtures.h"
+#include "physics/physics_fixtures.h"
 
 namespace osteon {
 namespace {
