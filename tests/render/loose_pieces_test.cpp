@@ -42,15 +42,15 @@ class LoosePiecesPicture : public GlTest {
 TEST_F(LoosePiecesPicture, OneIsSeenWhereItIsAndAsLargeAsItIs) {
   const Case the_case = hidden_ball();
   Renderer renderer = make_renderer(the_case);
-  const double radius = 0.012;
+  const double radius = 0.03;
   renderer.set_loose(kPieceShape, BoneId{0}, ball_surface(radius));
   const Image none = renderer.draw_image(at_rest(the_case), plain(), 300, 200);
-  const Vec3 at(0.02, 0.01, 0);
+  const Vec3 at(0.006, 0.004, 0);
   const Image with = renderer.draw_image(with_piece(the_case, at), plain(), 300, 200);
   const double d = plain().camera.distance_m;
   const double per_m = 100 / std::tan(0.5 * plain().camera.vertical_fov_rad) / d;
-  const double area = 3.14159265 * std::pow(radius * per_m, 2);
-  EXPECT_NEAR(count_different(none, with, 30), area, 0.06 * area);
+  const double area = 3.14159265 * std::pow(radius * per_m, 2) / (1 - std::pow(radius / d, 2));
+  EXPECT_NEAR(count_different(none, with, 40), area, 0.04 * area);
   const int x = 150 + static_cast<int>(std::lround(at.x() * per_m));
   const int y = 100 - static_cast<int>(std::lround(at.y() * per_m));
   EXPECT_GT(brightness(with, x, y), brightness(none, x, y) + 60);

@@ -101,7 +101,8 @@ Words words_of(SessionState state, std::size_t count, const Change& change) {
 }
 
 // Version 8 knew no holes that drills had left, no friction on soft parts, no water, no graft that
-// is placed or ordered, no joint that is bent, no chatter and nothing that a scope had seen.
+// is placed or ordered, no joint that is bent, no chatter, nothing that a scope had seen and no
+// loose pieces.
 TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
   const Drilling with;
   Session session = with.session();
@@ -120,6 +121,11 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
                [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
       words_of(saved, kHoleWords * saved.world.carved->holes.size(),
                [](SessionState&, CarvingState& c) { c.holes[0].bone = 3; })};
+  // Of pieces the count stands first.
+  unknown.push_back(words_of(saved, 1 + 2 * kMaxHands, [](SessionState&, CarvingState& c) {
+    c.pieces.open[0] = !c.pieces.open[0];
+  }));
+  --unknown.back().at;
   for (std::size_t i = 0; i < saved.world.carved->hands.size(); ++i) {
     unknown.push_back(
         words_of(saved, 1, [i](SessionState&, CarvingState& c) { c.hands[i].loose = 1; }));

@@ -48,10 +48,10 @@ struct PieceNews {
   Vec3 p_W = Vec3::Zero();  ///< of its middle
 };
 
-/// Pieces of bone that lie loose: they fall (slowly where a joint is full of water), come to rest
-/// on bone, are pushed by instruments, held by jaws and drawn by suction. A function of its state
-/// and of what is given to it. No hand feels a piece: one of a cubic centimetre weighs 20 mN.
-/// Pieces do not meet each other, nor soft parts.
+/// Pieces of bone that lie loose: under the skin soft parts hold them where they are, in air they
+/// fall and come to rest on bone; instruments push them, jaws hold them, suction draws them. A
+/// function of its state and of what is given to it. No hand feels a piece: one of a cubic
+/// centimetre weighs 20 mN. Pieces do not meet each other, nor soft parts.
 ///
 /// Each step moves a piece freely and then out of what it stands in, point by point of its surface,
 /// with friction; its speed follows from where it has come to (position based dynamics of rigid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,8 @@
 #include "osteon/scene/case.h"
 
 namespace osteon {
+
+class MeshDistance;
 
 /// What an instrument does to loose pieces of bone: its parts push them, its jaws hold them, its
 /// bore draws them in.
@@ -36,6 +39,7 @@ struct PiecesSetup {
   std::vector<PieceTool> tray;
   std::vector<PieceObstacle> bones;  ///< of the case
   Aabb box_W;                        ///< of all bones at rest, with what lies beside the patient
+  std::shared_ptr<const MeshDistance> skin_W;  ///< at rest; null: the case has none
 };
 
 /// Of an instrument's name in a tray ("grasper:2.7"). Fails where the instruments cannot be read or

@@ -13,9 +13,7 @@ namespace osteon {
 namespace {
 
 constexpr double kPieceFalls_m_per_s2 = 9.81;
-constexpr double kInWater = 0.45;     // of its weight is left: bone of 1800 kg/m3 in water
-constexpr double kDragAir_per_s = 1;  // own defaults; in water it sinks with 0.15 m/s
-constexpr double kDragWater_per_s = 30;
+constexpr double kDragAir_per_s = 1, kDragInTissue_per_s = 200;  // own defaults
 constexpr double kPieceFastest_m_per_s = 0.5;
 constexpr double kPieceSlow_m_per_s = 0.008;               // for a tenth of a second: it rests
 constexpr double kMostOut_m = 1e-4, kMostByTool_m = 1e-3;  // of one correction
@@ -89,9 +87,10 @@ double nearest_point_m(const FallenPiece& piece, const Vec3& p_W) {
 
 PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double step_s) {
   const PieceShape& shape = *piece.shape;
-  const bool wet = around.bones.water.on;
-  const double slowed = 1 / (1 + step_s * (wet ? kDragWater_per_s : kDragAir_per_s));
-  piece.v_W.z() -= step_s * kPieceFalls_m_per_s2 * (wet ? kInWater : 1);
+  // Soft parts hold a piece where it was cut off, or pushed to; only in air does it fall.
+  const bool held = around.in_tissue(piece.X_WB * shape.middle_B());
+  const double slowed = 1 / (1 + step_s * (held ? kDragInTissue_per_s : kDragAir_per_s));
+  if (!held) piece.v_W.z() -= step_s * kPieceFalls_m_per_s2;
   piece.v_W *= slowed;
   piece.w_W *= slowed;
   const Mat3 J = shape.spread_m2().trace() * Mat3::Identity() - shape.spread_m2();
@@ -102,6 +101,7 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   at.q = turned(at.q0, step_s * piece.w_W);
   at.inverse_J_B = J.inverse();
   PieceStep did;
+  did.touches = held;
   std::array<PointContact, PieceShape::kMostPoints> contacts{};
   for (int round = 0; round < kPieceRounds; ++round)
     for (std::size_t n = 0; n < shape.points_B().size(); ++n) {

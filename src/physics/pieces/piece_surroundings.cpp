@@ -6,6 +6,7 @@
 
 #include "osteon/carve/carved_field.h"
 #include "osteon/carve/grid_nodes.h"
+#include "osteon/mesh/distance.h"
 
 namespace osteon {
 namespace {
@@ -123,6 +124,10 @@ PiecePush PieceSurroundings::in_tool(const Vec3& p_W) const {
     }
   }
   return out;
+}
+
+bool PieceSurroundings::in_tissue(const Vec3& p_W) const {
+  return setup.skin_W && setup.skin_W->closest(p_W).signed_distance < 0;
 }
 
 bool PieceSurroundings::tool_near(const Vec3& center_W, double radius_m) const {

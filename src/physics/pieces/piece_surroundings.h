@@ -24,6 +24,8 @@ struct PieceSurroundings {
   PiecePush in_bone(const Vec3& p_W) const;
   /// The deepest of all instruments that are where the bones are.
   PiecePush in_tool(const Vec3& p_W) const;
+  /// Whether soft parts are about a point: it lies under the skin.
+  bool in_tissue(const Vec3& p_W) const;
   /// Whether any instrument comes into that ball.
   bool tool_near(const Vec3& center_W, double radius_m) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "osteon/mesh/distance.h"
 #include "osteon/scene/instrument.h"
 #include "soft/of_tray.h"
 
@@ -47,6 +48,9 @@ Result<PiecesSetup> make_pieces(const Case& the_case, std::span<const std::strin
     out.bones.push_back(obstacle_of(bone));
     for (const Vec3& v : bone.mesh.vertices) out.box_W.include(bone.X_WB * v);
   }
+  for (const SoftPart& soft : the_case.softs)
+    if (soft.kind == "skin" && !soft.mesh_W.triangles.empty() && !out.skin_W)
+      out.skin_W = std::make_shared<const MeshDistance>(soft.mesh_W);
   return out;
 }
 

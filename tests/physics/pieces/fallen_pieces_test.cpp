@@ -130,17 +130,37 @@ TEST(FallenPieces, NoMoreThanThereIsRoomFor) {
   EXPECT_FALSE(rig.pieces.add(shape, {Vec3(0, 0, 0.01), Quat::Identity()}));
 }
 
-// In air with drag k: v = (g / k) (1 - exp(-k t)); in water it comes to 0.45 g / 30 = 0.147 m/s.
-TEST(FallenPieces, ItFallsThroughAirAndSinksInWater) {
+// In air with drag k: v = (g / k) (1 - exp(-k t)).
+TEST(FallenPieces, ItFallsThroughAir) {
   PieceRig rig(table());
   rig.add(ball_piece(0.002), Vec3(0, 0, 0.04));
   rig.step(15);
   EXPECT_NEAR(rig.piece().v_W.z(), -9.81 * (1 - std::exp(-0.03)), 0.01 * 0.29);
-  PieceRig wet(table());
-  wet.bones.water.on = true;
-  wet.add(ball_piece(0.002), Vec3(0, 0, 0.045));
-  wet.step(120);
-  EXPECT_NEAR(wet.piece().v_W.z(), -0.147, 0.006);
+}
+
+// Skin is a box of 80 mm about the table.
+TEST(FallenPieces, UnderTheSkinSoftPartsHoldIt) {
+  Case with_skin = *table();
+  SoftPart skin;
+  skin.name = skin.kind = "skin";
+  skin.mesh_W = to_mesh(testing::box_hull(Vec3::Zero(), Vec3::Constant(0.04)));
+  with_skin.softs.push_back(skin);
+  PieceRig rig(std::make_shared<const Case>(with_skin), {"hook_probe"});
+  rig.add(cube_piece(0.002), Vec3(0, 0, 0.02));
+  rig.add(cube_piece(0.002), Vec3(0, 0, 0.045));  // outside it falls until it is under the skin
+  rig.step(300);
+  EXPECT_EQ(rig.piece(0).is, FallenPiece::Is::kResting);
+  EXPECT_EQ(rig.middle(0), Vec3(0, 0, 0.02));
+  EXPECT_NEAR(rig.middle(1).z(), 0.04, 0.005);
+  EXPECT_LT(rig.middle(1).z(), 0.04);
+  // An instrument pushes it aside, and there it stays.
+  rig.tool.X_WP.p = Vec3(-0.012, 0, 0.02);
+  rig.go(Vec3(0.003, 0, 0.02));
+  const Vec3 pushed = rig.middle(0);
+  EXPECT_GT(pushed.x(), 0.003);
+  rig.tool.X_WP.p = Vec3(0, 0, 1);
+  rig.step(300);
+  EXPECT_LT((rig.middle(0) - pushed).norm(), 0.002);
 }
 
 TEST(FallenPieces, ItComesToRestOnATable) {
