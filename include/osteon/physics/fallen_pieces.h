@@ -48,7 +48,7 @@ struct PieceNews {
   Vec3 p_W = Vec3::Zero();  ///< of its middle
 };
 
-/// Pieces of bone that lie loose: under the skin soft parts hold them where they are, in air they
+/// Pieces of bone that lie loose: in a limb soft parts hold them where they are, in air they
 /// fall and come to rest on bone; instruments push them, jaws hold them, suction draws them. A
 /// function of its state and of what is given to it. No hand feels a piece: one of a cubic
 /// centimetre weighs 20 mN. Pieces do not meet each other, nor soft parts.

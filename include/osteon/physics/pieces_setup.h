@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,8 +11,6 @@
 #include "osteon/scene/case.h"
 
 namespace osteon {
-
-class MeshDistance;
 
 /// What an instrument does to loose pieces of bone: its parts push them, its jaws hold them, its
 /// bore draws them in.
@@ -39,7 +36,9 @@ struct PiecesSetup {
   std::vector<PieceTool> tray;
   std::vector<PieceObstacle> bones;  ///< of the case
   Aabb box_W;                        ///< of all bones at rest, with what lies beside the patient
-  std::shared_ptr<const MeshDistance> skin_W;  ///< at rest; null: the case has none
+  /// About the bones of a patient (those with a number of the Foundational Model of Anatomy) with
+  /// what covers them; empty: the case has none. Most sessions know no skin.
+  Aabb limb_W;
 };
 
 /// Of an instrument's name in a tray ("grasper:2.7"). Fails where the instruments cannot be read or

@@ -6,7 +6,6 @@
 
 #include "osteon/carve/carved_field.h"
 #include "osteon/carve/grid_nodes.h"
-#include "osteon/mesh/distance.h"
 
 namespace osteon {
 namespace {
@@ -126,9 +125,7 @@ PiecePush PieceSurroundings::in_tool(const Vec3& p_W) const {
   return out;
 }
 
-bool PieceSurroundings::in_tissue(const Vec3& p_W) const {
-  return setup.skin_W && setup.skin_W->closest(p_W).signed_distance < 0;
-}
+bool PieceSurroundings::in_tissue(const Vec3& p_W) const { return in_box(setup.limb_W, p_W); }
 
 bool PieceSurroundings::tool_near(const Vec3& center_W, double radius_m) const {
   for (const ToolState* const tool : tools) {

@@ -24,7 +24,7 @@ struct PieceSurroundings {
   PiecePush in_bone(const Vec3& p_W) const;
   /// The deepest of all instruments that are where the bones are.
   PiecePush in_tool(const Vec3& p_W) const;
-  /// Whether soft parts are about a point: it lies under the skin.
+  /// Whether soft parts are about a point: it lies in the limb.
   bool in_tissue(const Vec3& p_W) const;
   /// Whether any instrument comes into that ball.
   bool tool_near(const Vec3& center_W, double radius_m) const;

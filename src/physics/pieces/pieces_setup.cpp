@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "osteon/mesh/distance.h"
 #include "osteon/scene/instrument.h"
 #include "soft/of_tray.h"
 
 namespace osteon {
 namespace {
 
+constexpr double kCovered_m = 0.015;   // soft parts over the outermost bone; own default
 constexpr double kBoreOfOuter = 0.75;  // of a cannula's outer diameter; own default
 
 PieceTool piece_tool(const Instrument& instrument, std::size_t size) {
@@ -46,11 +46,13 @@ Result<PiecesSetup> make_pieces(const Case& the_case, std::span<const std::strin
     out.tray.push_back(tool ? std::move(*tool) : PieceTool{});
   for (const Bone& bone : the_case.bones) {
     out.bones.push_back(obstacle_of(bone));
-    for (const Vec3& v : bone.mesh.vertices) out.box_W.include(bone.X_WB * v);
+    for (const Vec3& v : bone.mesh.vertices) {
+      const Vec3 v_W = bone.X_WB * v;
+      out.box_W.include(v_W);
+      if (bone.fma_id != 0) out.limb_W.include(v_W);
+    }
   }
-  for (const SoftPart& soft : the_case.softs)
-    if (soft.kind == "skin" && !soft.mesh_W.triangles.empty() && !out.skin_W)
-      out.skin_W = std::make_shared<const MeshDistance>(soft.mesh_W);
+  if (!out.limb_W.empty()) out.limb_W = out.limb_W.grown(kCovered_m);
   return out;
 }
 
