@@ -17,6 +17,10 @@ bool same(const BoneMotion& a, const BoneMotion& b) {
   return a.X_WB.p == b.X_WB.p && a.X_WB.q.coeffs() == b.X_WB.q.coeffs();
 }
 
+bool same_piece(const LooseBone& a, const LooseBone& b) {
+  return a.shape == b.shape && a.X_WB.p == b.X_WB.p && a.X_WB.q.coeffs() == b.X_WB.q.coeffs();
+}
+
 Pose between(const Pose& a, const Pose& b, double share) {
   return {a.p + share * (b.p - a.p), a.q.slerp(share, b.q)};
 }
@@ -40,6 +44,15 @@ std::size_t ReplayTrack::keep_around(double time_s, const BoneSnapshot& bones) {
   return arounds_.size() - 1;
 }
 
+std::size_t ReplayTrack::keep_loose(const LooseBones& loose) {
+  const auto begin = loose.bones.begin();
+  const auto end = begin + std::min<std::ptrdiff_t>(loose.count, kMaxLooseBones);
+  const bool moved = loose_.empty() || !std::equal(loose_.back().begin(), loose_.back().end(),
+                                                   begin, end, same_piece);
+  if (moved) loose_.emplace_back(begin, end);
+  return loose_.size() - 1;
+}
+
 void ReplayTrack::add_force(const ToolState& tool) {
   peak_n_ = std::max(peak_n_, static_cast<float>(tool.force_W.norm()));
   for (std::uint32_t i = 0; i < tool.contact_count; ++i)
@@ -57,12 +70,15 @@ void ReplayTrack::add(const ToolState& tool, const BoneSnapshot& bones) {
   end_s_ = tool.time_s;
   const double due_s = static_cast<double>(frames_.size()) / kPictureHz;
   if (!frames_.empty() && tool.time_s < frames_.front().tool.time_s + due_s) return;
-  frames_.push_back({tool, keep_bones(bones), keep_around(tool.time_s, bones)});
+  frames_.push_back(
+      {tool, keep_bones(bones), keep_around(tool.time_s, bones), keep_loose(bones.loose)});
 }
 
 void ReplayTrack::join(const ReplayTrack& stretch) {
   if (stretch.empty()) return;
   const std::size_t bones_before = bones_.size(), arounds_before = arounds_.size();
+  const std::size_t loose_before = loose_.size();
+  loose_.insert(loose_.end(), stretch.loose_.begin(), stretch.loose_.end());
   bones_.insert(bones_.end(), stretch.bones_.begin(), stretch.bones_.end());
   arounds_.insert(arounds_.end(), stretch.arounds_.begin(), stretch.arounds_.end());
   const auto place =
@@ -73,6 +89,7 @@ void ReplayTrack::join(const ReplayTrack& stretch) {
   for (auto frame = put; frame != put + count; ++frame) {
     frame->bones += bones_before;
     frame->around += arounds_before;
+    frame->loose += loose_before;
   }
   const std::size_t forces = stretch.force_begin_ + stretch.force_n_.size();
   if (force_n_.size() < forces) force_n_.resize(forces, 0.0f);
@@ -108,6 +125,15 @@ RenderSnapshot ReplayTrack::at(double time_s) const {
   snapshot.bones.bench = around.bench;
   snapshot.bones.placing = around.placing;
   snapshot.bones.water = around.water;
+  const std::vector<LooseBone>& pieces = loose_[a.loose];
+  const std::vector<LooseBone>& later_pieces = loose_[b.loose];
+  snapshot.bones.loose.count = static_cast<std::uint32_t>(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    LooseBone& shown = snapshot.bones.loose.bones[i];
+    shown = pieces[i];
+    if (i < later_pieces.size() && later_pieces[i].shape == shown.shape)
+      shown.X_WB = between(shown.X_WB, later_pieces[i].X_WB, share);
+  }
   for (std::size_t i = 0; i < from.size(); ++i)
     snapshot.bones.bones[i].X_WB = between(from[i].X_WB, to[i].X_WB, share);
   return snapshot;

@@ -30,6 +30,7 @@ class ReplayTrack {
     ToolState tool;
     std::size_t bones = 0;
     std::size_t around = 0;
+    std::size_t loose = 0;
   };
   /// What lies, flows and is held about the bones. Kept a few times a second: it changes slowly.
   struct Around {
@@ -41,11 +42,13 @@ class ReplayTrack {
   };
   std::size_t keep_bones(const BoneSnapshot& bones);
   std::size_t keep_around(double time_s, const BoneSnapshot& bones);
+  std::size_t keep_loose(const LooseBones& loose);
   void add_force(const ToolState& tool);
 
   std::vector<Frame> frames_;
   std::vector<std::vector<BoneMotion>> bones_;  ///< kept once while they do not move
   std::vector<Around> arounds_;
+  std::vector<std::vector<LooseBone>> loose_;  ///< pieces of bone; as bones_
   std::vector<float> force_n_;
   std::size_t force_begin_ = 0;  ///< place of the first of them in the whole run
   ContactTimeline contacts_;

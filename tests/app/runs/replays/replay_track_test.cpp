@@ -57,6 +57,37 @@ TEST(ReplayTrack, BonesThatMoveAreSeenToMove) {
   EXPECT_NEAR(track.at(5.1).bones.bones[1].X_WB.p.y(), 0.02, 1e-12);
 }
 
+// A piece comes off after half a second, moves evenly for half a second and is gone after one.
+ReplayTrack run_with_a_piece(std::uint64_t from, std::uint64_t to) {
+  ReplayTrack track;
+  for (std::uint64_t tick = from; tick < to; ++tick) {
+    BoneSnapshot bones;
+    ToolState tool;
+    tool.tick = tick;
+    tool.time_s = 0.001 * static_cast<double>(tick);
+    if (tick >= 500 && tick < 1000) {
+      bones.loose.count = 1;
+      bones.loose.bones[0] = {42, 0, {Vec3(0.01 * (tool.time_s - 0.5), 0, 0), Quat::Identity()}};
+    }
+    track.add(tool, bones);
+  }
+  return track;
+}
+
+TEST(ReplayTrack, ALoosePieceIsSeenWhereItIsAndNoLonger) {
+  ReplayTrack joined = run_with_a_piece(1, 700);
+  joined.join(run_with_a_piece(700, 1400));
+  for (const ReplayTrack& track : {run_with_a_piece(1, 1400), joined}) {
+    EXPECT_EQ(track.at(0.4).bones.loose.count, 0u);
+    for (double t = 0.53; t < 0.95; t += 0.0137) {
+      ASSERT_EQ(track.at(t).bones.loose.count, 1u) << t;
+      EXPECT_EQ(track.at(t).bones.loose.bones[0].shape, 42u);
+      EXPECT_NEAR(track.at(t).bones.loose.bones[0].X_WB.p.x(), 0.01 * (t - 0.5), 2e-5) << t;
+    }
+    EXPECT_EQ(track.at(1.2).bones.loose.count, 0u);
+  }
+}
+
 TEST(ReplayTrack, WaterAndPinsAreSeenAsTheyWere) {
   ReplayTrack track, later;
   BoneSnapshot bones;
