@@ -1,5 +1,5 @@
 // Headers that most sources read, parsed once for builds with OSTEON_PCH. Sources include what they
-// use all the same: the bench preset has no precompiled header and so checks it.
+// use all the same: -DOSTEON_PCH=OFF builds without.
 #include <algorithm>
 #include <array>
 #include <cmath>

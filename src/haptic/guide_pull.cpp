@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 
 GuidePull pull_of(const ToolGuide& guide, const Pose& X_WB, const Vec3& bone_v_W,
@@ -19,7 +21,7 @@ GuidePull pull_of(const ToolGuide& guide, const Pose& X_WB, const Vec3& bone_v_W
   out.line_W += bent * aside_W;
   out.p_W -= guide.grip * (force / k) * aside_W;
   const Vec3 axis_W = hand.X_WD.q * Vec3::UnitZ();
-  const Quat along = Quat::FromTwoVectors(axis_W, out.along_W) * hand.X_WD.q;
+  const Quat along = turn_between(axis_W, out.along_W) * hand.X_WD.q;
   out.q_W = hand.X_WD.q.slerp(guide.grip, along).normalized();
   // The damper may take the spring's part away, no more.
   const double slow = hand.damping_n_s_per_m * (hand.v_W - bone_v_W).dot(aside_W);

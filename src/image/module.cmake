@@ -19,7 +19,6 @@ target_include_directories(osteon_image SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
 # Scans are large; a debug build works through them with the same bits, only sooner.
 foreach(file components fill distance_map watershed gaussian volume)
   if(EXISTS "${CMAKE_SOURCE_DIR}/src/image/${file}.cpp")
-    set_source_files_properties("${CMAKE_SOURCE_DIR}/src/image/${file}.cpp"
-      PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+    osteon_optimise_in_debug("${CMAKE_SOURCE_DIR}/src/image/${file}.cpp")
   endif()
 endforeach()

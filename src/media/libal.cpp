@@ -31,6 +31,17 @@ bool find_all(void* l, Libal& al) {
          find_al(l, "alSourceRewind", al.alSourceRewind) && find_al(l, "alGetError", al.alGetError);
 }
 
+// OpenAL tries every way to a loudspeaker, and ALSA's library writes on the terminal, in ten lines,
+// why one of them fails. The window says in words when there is no sound.
+void tell_nothing(const char*, int, const char*, int, const char*, ...) {}
+void silence_alsa() {
+  using Tell = void (*)(const char* file, int line, const char* function, int error,
+                        const char* format, ...);
+  void* alsa = ::dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);
+  int (*set_tell)(Tell) = nullptr;
+  if (alsa && find_al(alsa, "snd_lib_error_set_handler", set_tell)) set_tell(&tell_nothing);
+}
+
 }  // namespace
 
 std::string libal_file() { return "libopenal.so.1"; }
@@ -42,6 +53,7 @@ Result<Libal> load_libal(const std::string& file) {
   Libal al;
   if (!find_all(library, al))
     return fail("this is not OpenAL 1.1", file, "Install the package libopenal1 to hear anything");
+  silence_alsa();
   return al;
 }
 

@@ -2,20 +2,18 @@
 find_package(assimp REQUIRED)
 osteon_link_system(osteon_mesh assimp::assimp)
 # Surface extraction runs when a case is loaded; a debug build gets the same bits, only sooner.
-set_source_files_properties("${CMAKE_SOURCE_DIR}/src/mesh/surface/isosurface.cpp"
+osteon_optimise_in_debug("${CMAKE_SOURCE_DIR}/src/mesh/surface/isosurface.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/surface/isosurface_grid.cpp"
-  "${CMAKE_SOURCE_DIR}/src/mesh/surface/surface_relax.cpp"
-  PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+  "${CMAKE_SOURCE_DIR}/src/mesh/surface/surface_relax.cpp")
 find_package(ZLIB REQUIRED)
 osteon_link_system(osteon_mesh ZLIB::ZLIB)
 find_package(meshoptimizer REQUIRED)
 osteon_link_system(osteon_mesh meshoptimizer::meshoptimizer)
 # Tetrahedra likewise.
-set_source_files_properties("${CMAKE_SOURCE_DIR}/src/mesh/tet/bcc_lattice.cpp"
+osteon_optimise_in_debug("${CMAKE_SOURCE_DIR}/src/mesh/tet/bcc_lattice.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/surface/distance.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/tet/lattice_cuts.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/tet/stuffing.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/tet/tet_flips.cpp"
   "${CMAKE_SOURCE_DIR}/src/mesh/tet/tet_smooth.cpp"
-  "${CMAKE_SOURCE_DIR}/src/mesh/tet/tet_work.cpp"
-  PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Debug>:-O2>" SKIP_PRECOMPILE_HEADERS ON)
+  "${CMAKE_SOURCE_DIR}/src/mesh/tet/tet_work.cpp")

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "osteon/base/file.h"
+#include "osteon/base/turn.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/pieces_setup.h"
 #include "osteon/scene/instrument.h"
@@ -92,9 +93,8 @@ std::optional<AimingTool> aimer_of(std::span<const Instrument> instruments,
   const Instrument* found = find_instrument(instruments, tray_name.substr(0, tray_name.find(':')));
   if (!found || !found->aims) return std::nullopt;
   const Vec3 out = found->aims->mouth_m - found->aims->at_m;
-  return AimingTool{{found->aims->at_m, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), out)},
-                    found->aims->bore_m,
-                    out.norm()};
+  return AimingTool{
+      {found->aims->at_m, turn_between(Vec3::UnitZ(), out)}, found->aims->bore_m, out.norm()};
 }
 
 Result<double> size_of(const Instrument& instrument, const std::string& tray_name) {

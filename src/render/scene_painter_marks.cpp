@@ -1,6 +1,7 @@
 // What is drawn over the scene: force, contacts, the hand beside its tool, solid marks.
 #include <algorithm>
 #include <cmath>
+#include "osteon/base/turn.h"
 #include "osteon/render/felt_colors.h"
 #include "scene_painter.h"
 
@@ -28,7 +29,7 @@ bool hand_is_apart(const ToolState& tool) {
 }
 
 /// Turns +z to the unit vector n; any rotation about n will do.
-Quat z_towards(const Vec3& n) { return Quat::FromTwoVectors(Vec3::UnitZ(), n); }
+Quat z_towards(const Vec3& n) { return turn_between(Vec3::UnitZ(), n); }
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 // The thread, the graft and its button while a graft is placed.
 #include "scene_painter.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -26,7 +28,7 @@ void ScenePainter::paint_placing(const RenderSnapshot& snapshot, const Frame& fr
     const Vec3 along_W = rod.b_W - rod.a_W;
     const double length_m = along_W.norm();
     if (!(length_m > 1e-6) || !is_finite(rod.a_W)) continue;
-    const Pose X_WR{rod.a_W, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), along_W)};
+    const Pose X_WR{rod.a_W, turn_between(Vec3::UnitZ(), along_W)};
     shared_->metal.use();
     shared_->metal.set("u_view_from_model", scaled(frame.X_CW * X_WR, rod.radius_m, length_m));
     shared_->metal.set("u_color", placing_color(rod.is));

@@ -7,6 +7,8 @@
 
 #include "surface/shapes.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 
 TissuePattern pattern_of(std::string_view kind) {
@@ -61,7 +63,7 @@ TissuePart placed_part(const PlacingRod& rod) {
     part.tint = {0.16f, 0.42f, 0.30f};
   }
   TriMesh mesh = cylinder(kSides);
-  const Quat q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), along);
+  const Quat q = turn_between(Vec3::UnitZ(), along);
   for (Vec3& v : mesh.vertices)
     v = rod.a_W + q * Vec3(rod.radius_m * v.x(), rod.radius_m * v.y(), along.norm() * v.z());
   part.surface = GpuMesh(plain_shaded(mesh));

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "osteon/scene/path.h"
 
 namespace osteon {
 
 /// A tool whose tip is at p and whose shaft leads back.
 inline Pose held_by_shaft(const Vec3& p_W, const Vec3& back_W) {
-  return {p_W, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), back_W).normalized()};
+  return {p_W, turn_between(Vec3::UnitZ(), back_W).normalized()};
 }
 
 /// A path as somebody thinks of it: there by then, stay.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -91,7 +93,7 @@ void ProbeSurgeon::lifted() {
 
 Pose ProbeSurgeon::through_portal(const Vec3& tip_W) const {
   const Vec3 back = (portal_W_ - tip_W).normalized();
-  return {tip_W, Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), back))};
+  return {tip_W, turn_between(Vec3::UnitZ(), back)};
 }
 
 Pose ProbeSurgeon::step(double dt_s) {

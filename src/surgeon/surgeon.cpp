@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -89,9 +91,7 @@ Vec3 Surgeon::outside(const Target& t) const {
   return t.way.p_W + t.way.n_W * (-b + std::sqrt(std::max(0.0, b * b - c)));
 }
 
-Quat Surgeon::facing(const Target& t) const {
-  return Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), t.way.n_W));
-}
+Quat Surgeon::facing(const Target& t) const { return turn_between(Vec3::UnitZ(), t.way.n_W); }
 
 Pose Surgeon::start() const { return {aim_W_, q_}; }
 

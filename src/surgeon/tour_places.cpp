@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "osteon/scene/portal.h"
 #include "osteon/surgeon/approach.h"
 #include "osteon/surgeon/tour_surgeon.h"
@@ -130,7 +131,7 @@ std::optional<TourPlace> place_for_tip(const TourTool& tool, const Vec3& portal_
   const double depth = std::sqrt(far * far - aside * aside);
   const Vec3 own = (tool.offset_T + depth * Vec3::UnitZ()) / far;
   const Eigen::AngleAxisd turned(turn_rad, to / far);
-  const Eigen::Quaterniond least = Eigen::Quaterniond::FromTwoVectors(own, Vec3(to / far));
+  const Eigen::Quaterniond least(turn_between(own, to / far));
   return TourPlace{portal_W, Quat(Eigen::Quaterniond(turned) * least).normalized(), depth};
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 
 namespace osteon {
 namespace {
@@ -37,7 +38,7 @@ WaySurgeon::WaySurgeon(std::vector<WayLeg> way, const Skill& skill, const Vec3& 
 Pose WaySurgeon::through_portal(const Vec3& tip_W) const {
   const Vec3 back = (portal_W_ - tip_W).normalized();
   if (!way_.empty() && way_.front().level) return {tip_W, level_jaws(back)};
-  return {tip_W, Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), back))};
+  return {tip_W, turn_between(Vec3::UnitZ(), back)};
 }
 
 void WaySurgeon::begin_leg() {

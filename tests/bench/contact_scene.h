@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "osteon/base/turn.h"
 #include "osteon/collide/convex_body.h"
 #include "osteon/hull/hull.h"
 
@@ -41,7 +42,7 @@ struct Scene {
       const Vec3 u(c * std::cos(0.3 * s), c * std::sin(0.3 * s), std::sin(0.13 * s));
       const Vec3 n = u.cwiseQuotient(kBoneHalf).normalized();
       const double depth = 0.0002 + 0.0003 * std::sin(2 * s);
-      const Quat q = Quat::FromTwoVectors(Vec3::UnitZ(), n);
+      const Quat q = turn_between(Vec3::UnitZ(), n);
       path.push_back({u.cwiseProduct(kBoneHalf) + (kProbeHalf - depth) * n, q});
     }
   }

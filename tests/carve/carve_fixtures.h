@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "osteon/carve/carved_field.h"
 #include "osteon/mesh/tri_mesh.h"
 
@@ -43,7 +44,7 @@ inline Cutter cutter(const std::string& name, double size_mm) {
 inline Pose pose_along(const Vec3& p, const Vec3& up) {
   Pose X;
   X.p = p;
-  X.q = Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up));
+  X.q = turn_between(Vec3::UnitZ(), up);
   return X;
 }
 

@@ -38,15 +38,17 @@ xdotool key ctrl+q
 wait $window
 )sh";
 
-// The briefing is begun by Enter; M takes the probe, J ends the attempt, which is judged then.
+// The window is told no size. The briefing is begun by Enter; M takes the probe, J ends the
+// attempt, which is judged then.
 constexpr const char* kExercise = R"sh(
-"$OSTEON" window --case 'builtin:wrist#hull' --exercise touch_bones --size 800x600 > out.txt 2>&1 &
+"$OSTEON" window --case 'builtin:wrist#hull' --exercise touch_bones > out.txt 2>&1 &
 window=$!
 sleep 1
 for i in $(seq 600); do
   ls osteon/recordings/touch_bones*.osr > found 2> /dev/null && break
   xdotool key Return; sleep 0.3
 done
+xdotool search --name Osteon getwindowgeometry > size.txt
 xdotool mousemove 400 300
 xdotool key m; sleep 0.3
 for i in $(seq 15); do xdotool click 4; sleep 0.03; done
@@ -69,14 +71,19 @@ class WindowByMouse : public CliTest {
                         "/tools/with-display 800x600 bash play.sh")
                            .c_str());
   }
+  std::string text_of(const char* name) const {
+    std::ifstream in(file(name));
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
 };
 
 TEST_F(WindowByMouse, AnExerciseIsBegunPlayedEndedJudgedAndKept) {
   for (const char* program : {"Xvfb", "xdotool"})
     if (no_program(program)) GTEST_SKIP() << program << " is not installed";
   ASSERT_EQ(play(kExercise), 0);
-  std::ifstream list(file("list.json"));
-  const std::string kept{std::istreambuf_iterator<char>(list), {}};
+  EXPECT_NE(text_of("size.txt").find("Geometry: 800x600"), std::string::npos)
+      << "no larger than the screen: " << text_of("size.txt");
+  const std::string kept = text_of("list.json");
   EXPECT_NE(kept.find("\"scenario\": \"touch_bones\""), std::string::npos) << kept;
   EXPECT_NE(kept.find("\"verdict\": \"not_passed\""), std::string::npos) << kept;
   std::ifstream found(file("found"));

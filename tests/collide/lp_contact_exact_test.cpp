@@ -9,6 +9,7 @@
 
 #include "collide/exact_programme.h"
 #include "collide/shapes.h"
+#include "osteon/base/turn.h"
 #include "osteon/collide/lp_contact.h"
 
 namespace osteon {
@@ -104,7 +105,7 @@ Pose adversarial_pose(Random& random, const Sample& a, const Sample& b, Touch to
   Vec3 n_A, n_B, p_A, p_B;
   const Vec3 on_a = facet(a, random, n_A);
   const Vec3 on_b = facet(b, random, n_B);
-  const Quat facing = Quat::FromTwoVectors(n_B, -n_A);
+  const Quat facing = turn_between(n_B, -n_A);
   const Vec3& corner_a = a.hull.vertices[random.next() % a.hull.vertices.size()];
   const Vec3& corner_b = b.hull.vertices[random.next() % b.hull.vertices.size()];
   switch (touch) {
@@ -115,12 +116,11 @@ Pose adversarial_pose(Random& random, const Sample& a, const Sample& b, Touch to
     case Touch::kEdges:
       edge(a, random, p_A);
       edge(b, random, p_B);
-      return brought_together(p_A, p_B, Quat::FromTwoVectors(p_B, -p_A), p_A.normalized(), apart);
+      return brought_together(p_A, p_B, turn_between(p_B, -p_A), p_A.normalized(), apart);
     case Touch::kParallelEdges: {
       const Vec3 along_a = edge(a, random, p_A);
       const Vec3 along_b = edge(b, random, p_B);
-      return brought_together(p_A, p_B, Quat::FromTwoVectors(along_b, along_a), p_A.normalized(),
-                              apart);
+      return brought_together(p_A, p_B, turn_between(along_b, along_a), p_A.normalized(), apart);
     }
     case Touch::kFacets:
       return brought_together(on_a, on_b, facing, n_A, apart);

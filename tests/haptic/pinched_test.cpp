@@ -6,6 +6,7 @@
 
 #include "mesh/shapes.h"
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "test_scene.h"
 
 namespace osteon {
@@ -91,7 +92,7 @@ TEST(Pinched, WhatStandsStillFeelsThePush) {
     std::vector<Bone> bones;
     for (const Vec3& from : sides) {
       Bone bone = round % 2 == 0 ? of_field : of_pieces;
-      bone.X_WB.q = Quat::FromTwoVectors(Vec3::UnitZ(), from);
+      bone.X_WB.q = turn_between(Vec3::UnitZ(), from);
       bone.X_WB.p = (kHalf + kTip + random.uniform(3e-5, 3e-4)) * from;
       bones.push_back(std::move(bone));
     }

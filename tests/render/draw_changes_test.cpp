@@ -4,6 +4,7 @@
 
 #include "gl_fixture.h"
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 
 namespace osteon {
 namespace {
@@ -69,7 +70,7 @@ void place_tool(Random& random, RenderSnapshot& snapshot) {
   const double x = random.uniform(-0.05, 0.05), y = random.uniform(-0.04, 0.04);
   tool.X_WP.p = Vec3(x, y, random.uniform(0, 0.04));
   const Vec3 tilt = random.direction();
-  tool.X_WP.q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.8 * tilt));
+  tool.X_WP.q = turn_between(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.8 * tilt));
   tool.X_WD = tool.X_WP;
   tool.X_WD.p += random.uniform(0, 0.004) * random.direction();
   tool.force_W = random.uniform(0, 3) * random.direction();
@@ -81,8 +82,7 @@ ViewState any_look(Random& random) {
   ViewState view;
   view.camera.distance_m = random.uniform(0.15, 0.4);
   view.camera.orthographic = random.uniform(0, 1) < 0.3;
-  view.camera.q_WC =
-      Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.5 * random.direction()));
+  view.camera.q_WC = turn_between(Vec3::UnitZ(), Vec3(Vec3::UnitZ() + 0.5 * random.direction()));
   view.light_azimuth_rad = random.uniform(-1.5, 1.5);
   view.show_hulls = random.uniform(0, 1) < 0.3;
   view.bones.resize(2);

@@ -4,6 +4,8 @@
 
 #include "gl_fixture.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -11,9 +13,9 @@ class GhostTools : public GlTest {
  protected:
   /// Beside the bone, across the picture.
   static GhostTool beside(float opacity) {
-    return {Pose{Vec3(0.02, -0.01, 0.03),
-                 Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(1, 0, 0.2).normalized())},
-            0, opacity};
+    return {
+        Pose{Vec3(0.02, -0.01, 0.03), turn_between(Vec3::UnitZ(), Vec3(1, 0, 0.2).normalized())}, 0,
+        opacity};
   }
   static RenderSnapshot without_tool(const Case& the_case) {
     RenderSnapshot snapshot = at_rest(the_case);

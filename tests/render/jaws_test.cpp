@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "gl_fixture.h"
+#include "osteon/base/turn.h"
 #include "osteon/render/scope_renderer.h"
 #include "osteon/scene/instrument.h"
 
@@ -25,8 +26,7 @@ class OpenJaws : public GlTest {
     RenderSnapshot snapshot = at_rest(the_case);
     snapshot.tool.tick = 1;
     snapshot.tool.jaw = jaw;
-    snapshot.tool.X_WP = {Vec3(-0.006, -0.006, 0.010),
-                          Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX())};
+    snapshot.tool.X_WP = {Vec3(-0.006, -0.006, 0.010), turn_between(Vec3::UnitZ(), Vec3::UnitX())};
     snapshot.tool.X_WD = snapshot.tool.X_WP;
     return snapshot;
   }
@@ -85,8 +85,8 @@ TEST_F(OpenJaws, AreSeenOpenThroughAScope) {
   const ScopeCamera camera(def, {});
   const auto picture = [&](double jaw) {
     RenderSnapshot snapshot = holding(ball, jaw);
-    snapshot.tool.X_WP = camera.X_WC() * Pose{Vec3(-0.006, 0, -0.02),
-                                              Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX())};
+    snapshot.tool.X_WP =
+        camera.X_WC() * Pose{Vec3(-0.006, 0, -0.02), turn_between(Vec3::UnitZ(), Vec3::UnitX())};
     scope->set_scene(snapshot.bones, {&snapshot.tool, 1});
     return scope->draw_image(camera, 160, 160, RenderQuality::kFast);
   };

@@ -6,6 +6,8 @@
 
 #include "gl_fixture.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -65,7 +67,7 @@ TEST_F(RendererTest, APinAndItsLineAreDrawnInTheBone) {
   // Out of the ball to the right, its inner end in the middle.
   GuideRod& pin = snapshot.bones.rods[0];
   pin = {GuideRod::Kind::kPin, 0, {}, 0.002, 0.06, 0.03};
-  pin.X_BR.q = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()));
+  pin.X_BR.q = turn_between(Vec3::UnitZ(), Vec3(Vec3::UnitX()));
   const Image with = renderer.draw_image(snapshot, front_view(), 200, 200);
   const auto changed = [&](double x_m) {
     // The middle is at 100; the ball's outline tells how far a metre reaches.

@@ -9,6 +9,7 @@
 
 #include "drilling.h"
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 #include "osteon/carve/carved_surface.h"
 #include "osteon/carve/removed.h"
 #include "osteon/mesh/measure.h"
@@ -59,7 +60,7 @@ class WildHand {
     spin_ = 0.006 * std::pow(random_.uniform(0, 1), 3);
     // Half of the time it stands as one that means to cut, and turns about its shaft.
     if (random_.uniform(0, 1) < 0.5) return;
-    q_ = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(some(0.6) + Vec3::UnitZ()));
+    q_ = turn_between(Vec3::UnitZ(), Vec3(some(0.6) + Vec3::UnitZ()));
     axis_ = q_ * Vec3::UnitZ();
     aim_.z() = kTop_m - std::abs(aim_.z());
     speed_ = std::min(speed_, 2e-5);

@@ -8,6 +8,7 @@
 
 #include "count_allocations.h"
 #include "graft_bench_case.h"
+#include "osteon/base/turn.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/session/session.h"
@@ -40,8 +41,7 @@ HandInput strip_hand(std::uint64_t n) {
   const double t = static_cast<double>(n) * 0.001;
   const double x = t < 0.6 ? -0.02 + 0.03 * t : t < 1 ? -0.002 : -0.002 + 0.08 * (t - 1);
   HandInput hand;
-  hand.input.X_WD = {Vec3(x, -0.012, -0.008),
-                     Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+  hand.input.X_WD = {Vec3(x, -0.012, -0.008), turn_between(Vec3::UnitZ(), Vec3(-Vec3::UnitX()))};
   if (n == 1400) hand.command = {CommandKind::kMark, 1};
   return hand;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drilling.h"
+#include "osteon/base/turn.h"
 #include "osteon/carve/rbf_force.h"
 #include "osteon/carve/removed.h"
 #include "osteon/scene/carve_events.h"
@@ -65,7 +66,7 @@ struct SlantedDrilling {
     setup = *made;
     const double a = slant_deg * kDegree;
     back_W = {std::sin(a), 0, std::cos(a)};
-    q_WT = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), back_W);
+    q_WT = turn_between(Vec3::UnitZ(), back_W);
   }
   Session session() const { return Session(the_case, settings, tray, setup); }
   // On the axis through the middle of the top, `height` before it; off it sideways.
@@ -556,7 +557,7 @@ TEST(Guides, ATibialAimersLineComesThroughTheBoneToItsTip) {
   EXPECT_LT((out - Vec3(std::sin(120 * kDegree), 0, std::cos(120 * kDegree))).norm(), 2e-3);
   EXPECT_LT((sleeve.X_BR.p - session.tool_state().X_WP.p).norm(), 1e-4);
   // The pin is slipped into the sleeve outside of the bone and drilled to 8 mm before the tip.
-  const Quat along = Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), out);
+  const Quat along = turn_between(Vec3::UnitZ(), out);
   const auto on_line = [&](double from_tip) { return Vec3(sleeve.X_BR.p + from_tip * out); };
   with.tick(session, hand_at(on_line(0.05), along, CommandKind::kTake, 1));
   for (int n = 0; n < 200; ++n) with.tick(session, hand_at(on_line(0.05), along));

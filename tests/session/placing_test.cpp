@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "count_allocations.h"
+#include "osteon/base/turn.h"
 #include "osteon/physics/graft_placing.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
@@ -39,8 +40,7 @@ HandInput pin_hand(std::uint64_t n) {
   const double t = static_cast<double>(n) * 0.001;
   const double x = t < 0.4 ? -0.02 + 0.0475 * t : t < 0.8 ? -0.001 : -0.001 + 0.05 * (t - 0.8);
   HandInput hand;
-  hand.input.X_WD = {Vec3(x, 0, 0),
-                     Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+  hand.input.X_WD = {Vec3(x, 0, 0), turn_between(Vec3::UnitZ(), Vec3(-Vec3::UnitX()))};
   if (n == 1200) hand.command = {CommandKind::kMark, 1};
   return hand;
 }
@@ -126,8 +126,7 @@ TEST(SessionPlacing, AClampThatDrawsFeelsTheGraftAndStopsWhenItIsHeldStill) {
     const double t = static_cast<double>(n) * 0.001;
     HandInput hand;
     const double x = 0.070 + 0.04 * std::clamp(t - 1, 0.0, 0.8);
-    hand.input.X_WD = {Vec3(x, 0, 0),
-                       Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()))};
+    hand.input.X_WD = {Vec3(x, 0, 0), turn_between(Vec3::UnitZ(), Vec3(Vec3::UnitX()))};
     if (n == 1) hand.command = {CommandKind::kTake, 2};
     if (n == 300) hand.command = {CommandKind::kJaw, 1};
     if (n == 600) hand.command = {CommandKind::kJaw, 0};

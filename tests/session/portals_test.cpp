@@ -6,6 +6,8 @@
 #include "count_allocations.h"
 #include "session_fixtures.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -201,7 +203,7 @@ ToolInput turned_towards_b(std::uint64_t n) {
   ToolInput input;
   input.X_WD.p = {(1 - over) * 0.005, 0, 0.04 - 0.024 * down};
   const Vec3 to_b = Vec3(-0.005, 0, kSkin_m) - input.X_WD.p;
-  input.X_WD.q = Quat::Identity().slerp(over, Quat::FromTwoVectors(Vec3::UnitZ(), to_b));
+  input.X_WD.q = Quat::Identity().slerp(over, turn_between(Vec3::UnitZ(), to_b));
   return input;
 }
 

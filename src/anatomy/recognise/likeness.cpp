@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bone/surface_samples.h"
+#include "osteon/base/turn.h"
 #include "osteon/mesh/distance.h"
 #include "recognise/align.h"
 
@@ -142,7 +143,7 @@ std::vector<ModelFit> end_guesses(const Samples& samples, const Surfaces& surfac
     LikenessOptions there = options;
     there.towards_end_B = sign * axis_R;
     const auto end_R = kept(samples.reference_R, region_of(samples.reference_R, there));
-    const Quat along = Quat::FromTwoVectors(surfaces.region_B.direction, sign * axis_R);
+    const Quat along = turn_between(surfaces.region_B.direction, sign * axis_R);
     for (int turn = 0; turn < kTurns; ++turn) {
       const Mat3 R = Eigen::AngleAxisd(turn * kStep, sign * axis_R) * along.toRotationMatrix();
       guesses.push_back(guess(samples.bone_B, end_R, R));

@@ -50,6 +50,7 @@ Result<std::unique_ptr<SegmentApp>> SegmentApp::create(const SegmentOrder& order
   options.width = order.width > 0 ? order.width : app->settings_.window_width;
   options.height = order.height > 0 ? order.height : app->settings_.window_height;
   options.title = "Osteon segmentation";
+  options.within_screen = order.width == 0 && !order.fresh;
   options.wait_for_display = order.frames == 0;
   auto window = GlWindow::create(options);
   if (!window) return tl::unexpected(window.error());

@@ -26,7 +26,7 @@ struct AppSettings {
   int window_width = 1280, window_height = 720;
   double interface_zoom = 1;  ///< on top of the display's own scale; 0.75 to 2.5
   bool panels_open = true;
-  double left_card = 152;           ///< width of the left card, units of the interface
+  double left_card = 0;  ///< width of the left card, units of the interface; 0: not dragged
   std::vector<std::string> recent;  ///< cases and recordings opened, the last one first
   bool hint_dismissed = false;
   bool show_hulls = false;

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace osteon {
@@ -33,6 +34,18 @@ void set_hints() {
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
+// Makes a size fit what the first screen leaves for windows. A size is for 96 dots an inch.
+void fit_screen(int& width, int& height) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return;
+  int x = 0, y = 0, room_w = 0, room_h = 0;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &room_w, &room_h);
+  float scale_x = 1, scale_y = 1;
+  glfwGetMonitorContentScale(monitor, &scale_x, &scale_y);
+  if (room_w > 0 && scale_x > 0) width = std::min(width, static_cast<int>(room_w / scale_x));
+  if (room_h > 0 && scale_y > 0) height = std::min(height, static_cast<int>(room_h / scale_y));
+}
+
 }  // namespace
 
 Result<GlWindow> GlWindow::create(const WindowOptions& options) {
@@ -41,8 +54,9 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
                 "Run it on a desktop, or use `osteon demo`, which needs no display");
   set_hints();
   GlWindow made;
-  made.window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr,
-                                  options.beside);
+  int width = options.width, height = options.height;
+  if (options.within_screen) fit_screen(width, height);
+  made.window_ = glfwCreateWindow(width, height, options.title.c_str(), nullptr, options.beside);
   made.beside_ = options.beside != nullptr;
   if (!made.window_) {
     const std::string why = last_glfw_error();

@@ -14,6 +14,7 @@ namespace osteon {
 struct WindowOptions {
   int width = 1280, height = 720;
   std::string title = "Osteon";
+  bool within_screen = false;    ///< smaller where the first screen is
   bool wait_for_display = true;  ///< at most one picture a display refresh
   /// A window that is open: the new one shares its textures and buffers, and must end before it.
   GLFWwindow* beside = nullptr;

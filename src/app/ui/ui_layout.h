@@ -15,12 +15,12 @@ struct UiLayout {
   UiRect top, left, right, bottom, picture;
 };
 
-/// The left card's width in units: usual, least and most.
-inline constexpr float kLeftCard = 152, kLeastLeftCard = 136, kMostLeftCard = 360;
+/// The left card's width in units, when it is dragged.
+inline constexpr float kLeastLeftCard = 136, kMostLeftCard = 360;
 
-/// On an 8-pixel grid times `scale`. Folded: the picture is the whole window. The left card is
-/// never wider than a third of it.
-UiLayout make_layout(float width, float height, float scale, bool panels_open,
-                     float left_card = kLeftCard);
+/// On an 8-pixel grid times `scale`. Folded: the picture is the whole window. `left_card`: width of
+/// the left card in units; 0: wide enough for most names where the window has room. It is never
+/// wider than a third of the window.
+UiLayout make_layout(float width, float height, float scale, bool panels_open, float left_card = 0);
 
 }  // namespace osteon

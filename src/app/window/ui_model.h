@@ -114,7 +114,7 @@ struct JointModel {
 struct UiModel {
   float width = 1280, height = 720;  ///< framebuffer, pixels
   float scale = 1;                   ///< of the interface: 1 is 96 dots an inch
-  float left_card = 152;             ///< width, units
+  float left_card = 0;               ///< width, units; 0: not dragged
   UiPhase phase = UiPhase::kReady;
   LoadingModel loading;
 

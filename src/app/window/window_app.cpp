@@ -41,6 +41,7 @@ Result<std::unique_ptr<WindowApp>> WindowApp::create(const WindowOrder& order) {
   WindowOptions options;
   options.width = order.width > 0 ? order.width : host.settings.window_width;
   options.height = order.height > 0 ? order.height : host.settings.window_height;
+  options.within_screen = order.width == 0 && !order.fresh;
   options.wait_for_display = order.frames == 0;
   auto window = GlWindow::create(options);
   if (!window) return tl::unexpected(window.error());

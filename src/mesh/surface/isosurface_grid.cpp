@@ -6,7 +6,7 @@
 namespace osteon {
 namespace {
 
-constexpr double kMostNodes = 2e8;
+constexpr double kMostGridNodes = 2e8;
 constexpr int kSmallestBlock = 4;
 
 }  // namespace
@@ -66,7 +66,7 @@ Result<IsosurfaceGrid> IsosurfaceGrid::sample(const LocalField& field, const Aab
   if (box.empty() || !is_finite(box.lo) || !is_finite(box.hi))
     return fail("the box is empty or not finite", "isosurface");
   const Vec3 nodes = (box.extent() / cell).array().ceil() + 3;
-  if (nodes.x() * nodes.y() * nodes.z() > kMostNodes)
+  if (nodes.x() * nodes.y() * nodes.z() > kMostGridNodes)
     return fail("the grid would have more than 200 million points", "isosurface",
                 "Choose a larger cell");
   IsosurfaceGrid grid;

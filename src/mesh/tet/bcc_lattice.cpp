@@ -7,7 +7,7 @@ namespace osteon {
 namespace {
 
 constexpr double kMostCubes = 6e7;
-constexpr int kSmallestBlock = 4;
+constexpr int kSmallestLatticeBlock = 4;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void BccLattice::fill(const ScalarField& field, const StuffingOptions& options,
   std::size_t widest = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (hi[k] - lo[k] > hi[widest] - lo[widest]) widest = k;
-  if (hi[widest] - lo[widest] <= kSmallestBlock) return sample_points(field, lo, hi);
+  if (hi[widest] - lo[widest] <= kSmallestLatticeBlock) return sample_points(field, lo, hi);
   const Vec3 a = place(corner(lo[0], lo[1], lo[2]));
   const Vec3 b = place(center(hi[0] - 1, hi[1] - 1, hi[2] - 1));
   const double at_center = field(0.5 * (a + b));

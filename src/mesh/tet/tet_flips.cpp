@@ -8,7 +8,7 @@ namespace osteon {
 namespace {
 
 constexpr std::size_t kMostCorners = 9;
-constexpr double kBetter = 1e-9;
+constexpr double kBetterFlip = 1e-9;
 
 /// The vertices around edge ab, each with the next in one element, in the sense in which (a, b,
 /// ring[k], ring[k + 1]) is upright.
@@ -140,7 +140,7 @@ bool remove_edge(TetWork& work, std::uint32_t a, std::uint32_t b, const Distance
   double worth = 2;
   for (const std::uint32_t t : old) worth = std::min(worth, work.worth(t));
   const RingTriangulation made(work, a, b, ring->corner);
-  if (made.worth() <= worth + kBetter) return false;
+  if (made.worth() <= worth + kBetterFlip) return false;
   if (!ring->closed &&
       !boundary_may_flip(work, a, b, ring->corner.front(), ring->corner.back(), distance, slack_m))
     return false;
@@ -169,7 +169,7 @@ bool remove_face(TetWork& work, std::uint32_t t, std::size_t face) {
   std::array<Tetrahedron, 3> made{};
   for (std::size_t k = 0; k < 3; ++k) {
     made[k] = {apex, far, f[k], f[(k + 1) % 3]};
-    if (work.worth_of(made[k]) <= worth + kBetter) return false;
+    if (work.worth_of(made[k]) <= worth + kBetterFlip) return false;
   }
   work.remove(t);
   work.remove(other);

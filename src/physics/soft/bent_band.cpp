@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -35,7 +37,7 @@ struct SectionBend {
     corner = kCornerShare * round;
     // As the bones stand the string may have turned from where it is at rest.
     const Vec3 along = way / length;
-    const Vec3 n = Quat::FromTwoVectors(from.along_W, along) * from.nhat_W;
+    const Vec3 n = turn_between(from.along_W, along) * from.nhat_W;
     nhat = (n - n.dot(along) * along).normalized();
   }
   SectionCourse at(double x) const {

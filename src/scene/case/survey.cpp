@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "osteon/base/random.h"
+#include "osteon/base/turn.h"
 
 namespace osteon {
 namespace {
@@ -211,7 +212,7 @@ class Surveyor {
     const Vec3& p0 = site.stroke_p_W.front();
     const Vec3& n0 = site.stroke_n_W.front();
     const Vec3& n = site.n_W;
-    const Quat q = Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), n));
+    const Quat q = turn_between(Vec3::UnitZ(), n);
     const Vec3 touch = p0 + n0 * tool_.tip_radius_m;
     travel_to(outside(touch, n), q);
     line_to(touch + n * kSlowZone, q, kTransitSpeed);

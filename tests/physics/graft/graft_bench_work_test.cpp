@@ -4,6 +4,8 @@
 
 #include "graft_bench_case.h"
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -45,7 +47,7 @@ struct BenchRig {
     step();
   }
   void at(const Vec3& p_W) {
-    tool.X_WP = {p_W, Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitX()))};
+    tool.X_WP = {p_W, turn_between(Vec3::UnitZ(), Vec3(-Vec3::UnitX()))};
     tool.X_WD = tool.X_WP;
     step();
   }

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "osteon/base/turn.h"
 #include "osteon/scene/graft.h"
 
 namespace osteon {
@@ -21,9 +22,7 @@ PlacingPlan placing_plan() {
   return plan;
 }
 
-Quat shaft_towards(const Vec3& handle_W) {
-  return Quat::FromTwoVectors(Vec3(Vec3::UnitZ()), handle_W);
-}
+Quat shaft_towards(const Vec3& handle_W) { return turn_between(Vec3::UnitZ(), handle_W); }
 
 // The haptic half is played: a tool stands at its front with the force asked for.
 struct PlacingRig {

@@ -80,15 +80,14 @@ int judge(const ReplayArguments& options, const ReplayOutcome& outcome) {
                 options.from_s > 0 ? "the recording ends before" : "the recording holds no ticks");
     return outcome.complete ? kExitNo : kExitIncomplete;
   }
-  std::printf("identical: every state hash of %llu ticks agrees",
+  std::printf(outcome.complete ? "identical: every state hash of %llu ticks agrees"
+                               : "incomplete: the recording is truncated; every state hash of the "
+                                 "%llu ticks that it has agrees",
               static_cast<unsigned long long>(outcome.ticks));
   if (outcome.first_tick > 1)
     std::printf(" (from %.3f s)", static_cast<double>(outcome.first_tick - 1) * 1e-3);
   std::printf("\n");
-  if (!outcome.complete) {
-    std::printf("incomplete: the recording is truncated; the saved part was replayed\n");
-    if (!options.allow_incomplete) return kExitIncomplete;
-  }
+  if (!outcome.complete && !options.allow_incomplete) return kExitIncomplete;
   return options.expect.empty() ? kExitDone : print_deviations(outcome.report, options.expect);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/base/turn.h"
 #include "osteon/device/mouse_device.h"
 #include "runs/hands/live_run.h"
 
@@ -22,7 +23,7 @@ Pose slid_through(Pose X_WD, const Vec3& hole_W, double wheel) {
   const Vec3 shaft_W = X_WD.q * Vec3::UnitZ();
   const Vec3 back_W = hole_W - X_WD.p;
   if (back_W.dot(shaft_W) < 0.003) return X_WD;
-  X_WD.q = (Quat::FromTwoVectors(shaft_W, back_W) * X_WD.q).normalized();
+  X_WD.q = (turn_between(shaft_W, back_W) * X_WD.q).normalized();
   return X_WD;
 }
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -72,7 +74,7 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
 
 Pose beside_bench(const GraftBenchPlan& bench) {
   const Vec3 above_W = bench.graft_from_W + Vec3(-0.03, 0.16, 0.06);
-  return {above_W, Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
+  return {above_W, turn_between(Vec3::UnitZ(), Vec3(-0.4, 0, 0.9).normalized())};
 }
 
 }  // namespace osteon

@@ -8,6 +8,7 @@
 #include "cases/xdg.h"
 #include "exercises/debrief_pictures.h"
 #include "exercises/pause_force.h"
+#include "osteon/base/turn.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/graft_bench.h"
@@ -165,7 +166,7 @@ std::vector<LiveControl::PlacedHand> ExerciseControl::placed(
     for (const Portal& portal : scene_.portals)
       if (hands[i].portal_W && (portal.p_W - *hands[i].portal_W).norm() < 1e-6)
         X = {portal.p_W - kBeforePortal_m * portal.nhat_W,
-             Quat::FromTwoVectors(Vec3::UnitZ(), -portal.nhat_W).normalized()};
+             turn_between(Vec3::UnitZ(), -portal.nhat_W).normalized()};
     const bool plain = hands[i].instrument == kWristProbe;
     placed.push_back({hands[i].name, plain ? std::string() : hands[i].instrument, X});
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -74,8 +76,8 @@ void HandsControl::change_hands() {
 void HandsControl::bring_to(std::size_t portal) {
   if (portal >= scene_.portals.size() || !live_.run()->by_mouse()) return;
   const Portal& to = scene_.portals[portal];
-  live_.run()->bring({to.p_W - kBefore_m * to.nhat_W,
-                      Quat::FromTwoVectors(Vec3::UnitZ(), -to.nhat_W).normalized()});
+  live_.run()->bring(
+      {to.p_W - kBefore_m * to.nhat_W, turn_between(Vec3::UnitZ(), -to.nhat_W).normalized()});
   aimed_ = portal;
 }
 

@@ -1,0 +1,7 @@
+#include "osteon/base/turn.h"
+
+namespace osteon {
+
+Quat turn_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
+
+}  // namespace osteon
