@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "osteon/carve/carved_surface.h"
 #include "osteon/carve/cut_surface.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/heat_pulse.h"
 #include "osteon/render/renderer.h"
 #include "osteon/session/cuts_feed.h"
 
@@ -31,6 +33,18 @@ class CarvedPicture {
   };
   /// What looks different since it was last asked; for Renderer::set_cubes and its like.
   std::vector<Changed> changes();
+
+  /// How many pulses of heat it was given since all was whole.
+  std::size_t pulses() const { return pulses_.size(); }
+  /// Works out how warm the bones became: as many pulses further as `most` says. Pulses that were
+  /// given before anybody asked count too. True when it has come to the last one.
+  bool follow_heat(std::size_t most = std::numeric_limits<std::size_t>::max());
+  struct Warmed {
+    BoneId bone;
+    HeatVolume volume;
+  };
+  /// Of the bones whose temperatures went on since it was last asked; for Renderer::set_heat.
+  std::vector<Warmed> warmed();
   /// Copies of the bones that hold cuts, for who looks through them.
   CutBones cut_bones() const;
 
@@ -41,9 +55,14 @@ class CarvedPicture {
     bool waits = false;  ///< changed since it was last meshed
   };
   Bone* bone(std::uint32_t index);
+  void forget_heat();
 
   std::shared_ptr<const CarvingSetup> setup_;
   std::vector<std::optional<Bone>> bones_;  ///< made when their first cut comes
+  std::vector<HeatPulse> pulses_;
+  std::size_t followed_ = 0;         ///< of them
+  std::optional<HeatOfBones> heat_;  ///< after these
+  bool heat_waits_ = false;          ///< it changed since it was last shown
 };
 
 }  // namespace osteon

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runs/pictures/heat_picture.h"
+
 namespace osteon {
 
 std::vector<ToolState> ViewsControl::others() const {
@@ -40,6 +42,19 @@ void ViewsControl::show_carved() {
   for (const CarvedPicture::Changed& changed : picture->changes()) {
     scene_.renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
     carved_s_ = host_.now_s;
+  }
+  if (sight_.view().show_heat) show_heat(*picture);
+}
+
+// Two seconds of a run in a picture: what passed before anybody asked is soon worked out.
+void ViewsControl::show_heat(CarvedPicture& picture) {
+  constexpr std::size_t kPulses = 40;
+  constexpr double kHeatRest_s = 0.25;
+  const bool newest = picture.follow_heat(kPulses);
+  if (newest && host_.now_s - heat_s_ < kHeatRest_s) return;
+  for (const CarvedPicture::Warmed& warmed : picture.warmed()) {
+    scene_.renderer->set_heat(warmed.bone, heat_cells(warmed.volume));
+    heat_s_ = host_.now_s;
   }
 }
 
