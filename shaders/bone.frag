@@ -1,7 +1,7 @@
 // Bone: key light over the left shoulder, cool fill from the lower right, rim from behind, sky and
 // ground through the baked occlusion, and the shade that the probe throws.
 in vec3 v_position;
-#ifdef CHANGED
+#if defined(CHANGED) || defined(HEATED)
 in vec3 v_model;
 #endif
 in vec3 v_normal;
@@ -17,7 +17,34 @@ uniform vec3 u_tool_start;  // axis of the shaft
 uniform vec3 u_tool_end;
 uniform vec2 u_tool_reach;  // no shade further than this: of its closeness, of its shadow; metres
 
+#ifdef HEATED
+uniform sampler3D u_heat;       // of cells of the bone: its hottest temperature, whether it is dead
+uniform vec4 u_heat_from;       // middle of the first cell in Model, and the side of a cell
+uniform vec2 u_heat_range;      // temperatures that 0 and 1 stand for, C
+uniform float u_heat_stops[5];  // where these colours stand
+uniform vec3 u_heat_colors[5];
+uniform vec3 u_heat_dead;
+#endif
+
 out vec4 o_color;
+
+#ifdef HEATED
+// Cooler than the first stop bone keeps its own colour; up to there nothing jumps.
+vec3 heated(vec3 albedo, vec3 model) {
+  const float kBlend = 1.0;  // degrees over which the first colour comes
+  vec3 place = (model - u_heat_from.xyz) / u_heat_from.w + 0.5;
+  vec2 heat = texture(u_heat, place / vec3(textureSize(u_heat, 0))).rg;
+  float celsius = mix(u_heat_range.x, u_heat_range.y, heat.r);
+  vec3 color = u_heat_colors[0];
+  for (int k = 1; k < 5; ++k) {
+    float way = (celsius - u_heat_stops[k - 1]) / (u_heat_stops[k] - u_heat_stops[k - 1]);
+    color = mix(color, u_heat_colors[k], clamp(way, 0.0, 1.0));
+  }
+  color = mix(color, u_heat_dead, smoothstep(0.35, 0.65, heat.g));
+  float shown = clamp((celsius - u_heat_stops[0]) / kBlend, 0.0, 1.0);
+  return mix(albedo, to_linear(color), shown);
+}
+#endif
 
 // Share of the sky that a ball hides from a surface point: to_ball leads to its centre.
 float hidden_by_ball(vec3 to_ball, vec3 n, float radius) {
@@ -65,6 +92,9 @@ void main() {
     float height = clamp((v_shade.w * 255.0 - 128.0) / 127.0, -1.0, 1.0);
     albedo = to_linear(mix(u_felt_none, height < 0.0 ? u_felt_low : u_felt_high, abs(height)));
   }
+#ifdef HEATED
+  albedo = heated(albedo, v_model);
+#endif
   float cavity = v_shade.y * 2.0 - 1.0;
   albedo *= 1.0 + vec3(0.38, 0.44, 0.52) * clamp(cavity, -1.0, 0.55);
 

@@ -123,13 +123,20 @@ void Carving::cut_with(std::size_t hand, const ToolState& tool, const BoneSnapsh
   double most = 0;
   for (std::uint32_t b = 0; b < bones_.size() && b < bones.count; ++b) {
     if (!bones_[b].field) continue;
-    Vec3 force_W = Vec3::Zero();
-    for (std::uint32_t i = 0; i < tool.contact_count; ++i)
-      if (tool.contacts[i].bone.index == b) force_W += tool.contacts[i].force_on_tool_W;
+    Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
+    double sum = 0;
+    for (std::uint32_t i = 0; i < tool.contact_count; ++i) {
+      if (tool.contacts[i].bone.index != b) continue;
+      const double share = tool.contacts[i].force_on_tool_W.norm();
+      force_W += tool.contacts[i].force_on_tool_W;
+      moment_W += share * tool.contacts[i].p_W;
+      sum += share;
+    }
     if (!(force_W.norm() > most)) continue;
     most = force_W.norm();
     push.bone = b;
     push.force_B = bones.bones[b].X_WB.q.conjugate() * force_W;
+    push.at_B = bones.bones[b].X_WB.inverse() * Vec3(moment_W / sum);
   }
   const std::uint32_t at = push.bone == CarvingHand::kNoBone ? h.bone : push.bone;
   if (at < bones.count) {

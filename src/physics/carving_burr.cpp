@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "carving_push.h"
 #include "cutter_front.h"
@@ -19,20 +20,35 @@ constexpr double kBurrLead_m = 1e-4;
 
 }  // namespace
 
+// The middle of the ball that cuts where the tool presses, in Tool: of a tube it lies on its axis
+// along the window. None: it presses beside what cuts.
+std::optional<Vec3> cutting_middle(const CarvingTool& with, const Vec3& at_T) {
+  const RoundRod& rod = with.cutter.parts.front().rods.front();
+  const Vec3 along = rod.p1 - rod.p0;
+  const double length = along.norm(), reach = with.cutter.size_m / 4;
+  if (!(length > 0)) return with.middle_T;
+  const double on = (at_T - rod.p0).dot(along) / length;
+  if (on < reach) return with.middle_T;  // at its round end
+  if (on > length) return std::nullopt;
+  return Vec3(rod.p0 + on / length * along);
+}
+
 // Of what scrapes, its speed is that of the hand along the bone.
 void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, double step_s) {
   CarvingHand& h = hands_[hand];
   const double press = push.force_B.norm(), radius = 0.5 * with.cutter.size_m;
   const Vec3 nhat = push.force_B / press;
+  const auto middle_T = cutting_middle(with, push.X_BT.inverse() * push.at_B);
+  if (!middle_T) return rest(hand, push);
   if (with.one_sided && (push.X_BT.q * Vec3::UnitY()).dot(nhat) > -kLeastFacing)
     return rest(hand, push);
   if (h.bone != push.bone) begin(hand, with, push);
   const CarvedField& field = *bones_[h.bone].field;
-  const FrontShare front = look_under_ball(field, radius, push.X_BT * with.middle_T, nhat);
+  const FrontShare front = look_under_ball(field, radius, push.X_BT * *middle_T, nhat);
   // The points over its half lie beside the pole, which touches: a shaver asks there too.
   const double ahead = radius + 0.6 * field.grid().cell_m;
   const auto pole =
-      with.soft_only ? tissue_at(field, push.X_BT * with.middle_T - ahead * nhat) : std::nullopt;
+      with.soft_only ? tissue_at(field, push.X_BT * *middle_T - ahead * nhat) : std::nullopt;
   const bool hard = pole == BoneTissue::kCortical || pole == BoneTissue::kCancellous;
   if (with.soft_only && ((front.left() == 0 && !pole) || front.meets_bone() || hard))
     return rest(hand, push);
@@ -50,10 +66,11 @@ void Carving::burr(std::size_t hand, const CarvingTool& with, const Push& push, 
   const double advance = std::min(rate, kBurrFastest_m_per_s) * step_s;
   const bool first = h.most_torque_nm == 0;
   const double torque = force * radius;
-  readouts_[hand] = {
-      h.bone,  push.X_BT.p, nhat,   radius,
-      advance, press,       torque, advance * area * material.specific_energy_j_per_m3 / step_s,
-      0};
+  readouts_[hand] = {h.bone,  push.X_BT * *middle_T,
+                     nhat,    radius,
+                     advance, press,
+                     torque,  advance * area * material.specific_energy_j_per_m3 / step_s,
+                     0,       true};
   if (!(advance > 0)) return;
   h.idle = 0;
   h.was_in = true;

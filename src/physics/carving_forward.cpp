@@ -217,7 +217,7 @@ void Carving::drill(std::size_t hand, const CarvingTool& with, const Push& push,
   h.skives = did.skives;
   readouts_[hand] = {h.bone,        h.X_BC.p, back,          0.5 * with.cutter.size_m,
                      did.advance_m, thrust,   did.torque_nm, did.cutting_w,
-                     did.rubbing_w};
+                     did.rubbing_w, false};
   if (!(did.advance_m > 0)) {
     // Thrown back, its teeth come again; a reamer that is pressed too lightly cuts no more.
     if (with.reams && ++h.idle >= kRestSteps) run_smoothly(hand, push);
@@ -253,8 +253,8 @@ void Carving::strike(std::size_t hand, const CarvingTool& with, const Push& push
   const double speed =
       std::min(blows_w / needed + more * kBladeFastest_m_per_s, kBladeFastest_m_per_s);
   const bool first = h.most_torque_nm == 0;
-  readouts_[hand] = {h.bone, h.X_BC.p, back, 0.5 * with.cutter.size_m, speed * step_s, thrust,
-                     0,      0,        0};
+  readouts_[hand] = {h.bone, h.X_BC.p, back, 0.5 * with.cutter.size_m, speed * step_s, thrust, 0,
+                     0,      0,        false};
   if (!(speed > 0)) return;
   h.idle = 0;
   const bool outside = was_outside(field, h.X_BC.p);

@@ -12,6 +12,7 @@ struct Carving::Push {
   std::uint32_t bone = CarvingHand::kNoBone;  ///< that it presses most; kNoBone: it touches none
   Pose X_WB, X_BT;
   Vec3 force_B = Vec3::Zero();  ///< on the tool
+  Vec3 at_B = Vec3::Zero();     ///< where it presses: the mean over its contacts, by their force
   std::uint64_t tick = 0;       ///< of the first hand
 };
 

@@ -7,6 +7,7 @@
 #include "osteon/base/turn.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/pieces_setup.h"
+#include "osteon/physics/joint_fluid.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 
@@ -179,6 +180,7 @@ Result<std::shared_ptr<const CarvingSetup>> make_carving(const Case& the_case,
   setup->by_hand.largest_feed_m_per_rev *= kFeedByHand;
   setup->thrust_scale = settings.thrust_scale;
   setup->guided_n = settings.guided_n;
+  setup->irrigation_m3_s = settings.irrigation_ml_per_min * kM3_s_per_ml_min;
   if (auto added = add_tools(tray, *setup); !added) return tl::unexpected(added.error());
   for (const Bone& bone : the_case.bones) {
     setup->bones.emplace_back();

@@ -132,6 +132,8 @@ Scenario read_scenario(TomlTable& table) {
   scenario.felt = read_felt(table);
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
+  scenario.irrigation_ml_per_min =
+      table.number_or("irrigation_ml_per_min", 0, 2000, scenario.irrigation_ml_per_min);
   scenario.time_limit_s = table.number_or("time_limit_s", 1, 36000, scenario.time_limit_s);
   scenario.ghost = table.flag_or("ghost", scenario.ghost);
   scenario.sides = table.texts_or_empty("sides");

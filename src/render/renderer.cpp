@@ -262,6 +262,12 @@ void Renderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& m
 
 void Renderer::set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes) {
   impl_->painter.set_cubes(bone.index, grid, cubes);
+  impl_->picker->set_cubes(bone.index, grid, cubes);
+  impl_->kept.reset();
+}
+
+void Renderer::set_heat(BoneId bone, const HeatCells& heat) {
+  impl_->painter.set_heat(bone.index, heat);
   impl_->kept.reset();
 }
 
@@ -272,6 +278,7 @@ void Renderer::set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& su
 
 void Renderer::clear_cubes() {
   impl_->painter.clear_cubes();
+  impl_->picker->clear_cubes();
   impl_->kept.reset();
 }
 

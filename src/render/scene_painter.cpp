@@ -168,8 +168,22 @@ void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
 }
 
 void ScenePainter::clear_cubes() {
-  for (BoneModel& bone : shared_->bones) bone.changed.clear();
+  for (BoneModel& bone : shared_->bones) {
+    bone.changed.clear();
+    bone.heat.set({});
+  }
   ++shared_->version;
+}
+
+void ScenePainter::set_heat(std::size_t bone, const HeatCells& heat) {
+  if (bone >= shared_->rest_X_WB.size()) return;
+  shared_->bones[bone].heat.set(heat);
+  ++shared_->version;
+}
+
+bool ScenePainter::any_heat(const ViewState& view) const {
+  return view.show_heat && std::any_of(shared_->bones.begin(), shared_->bones.end(),
+                                       [](const BoneModel& bone) { return !bone.heat.empty(); });
 }
 
 bool ScenePainter::any_changed() const {
@@ -226,6 +240,12 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
   auto changed = Program::load_changed(shader_dir, "surface", "bone");
   if (!changed) return tl::unexpected(changed.error());
   painter.shared_->changed_bone = std::move(*changed);
+  for (const bool is_changed : {false, true}) {
+    auto heated = Program::load_with(shader_dir, "surface", "bone", "#define HEATED\n", is_changed);
+    if (!heated) return tl::unexpected(heated.error());
+    (is_changed ? painter.shared_->changed_heated_bone : painter.shared_->heated_bone) =
+        std::move(*heated);
+  }
   for (const Bone& bone : the_case.bones) {
     painter.shared_->bones.push_back(make_bone(bone));
     painter.shared_->rest_X_WB.push_back(bone.X_WB);
@@ -341,6 +361,12 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
     set_shared(shared_->changed_bone, view, frame);
     set_tool_shade(shared_->changed_bone, snapshot, view, frame);
   }
+  if (any_heat(view))
+    for (const Program* p : {&shared_->heated_bone, &shared_->changed_heated_bone}) {
+      set_shared(*p, view, frame);
+      set_tool_shade(*p, snapshot, view, frame);
+      HeatTexture::set_colors(*p);
+    }
   for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->depth, &shared_->bone})
     set_shared(*p, view, frame);
   set_tool_shade(shared_->bone, snapshot, view, frame);
@@ -430,18 +456,23 @@ void ScenePainter::draw_changed(std::size_t k, const RenderSnapshot& snapshot,
 void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                               const Frame& frame) const {
   const BoneAppearance& look = look_of(view, k);
+  const HeatTexture& heat = shared_->bones[k].heat;
+  const bool heated = view.show_heat && !heat.empty();
+  const Program& bone = heated ? shared_->heated_bone : shared_->bone;
+  const Program& changed_bone = heated ? shared_->changed_heated_bone : shared_->changed_bone;
   const auto begin = [&](const Program& program) {
     program.use();
+    if (heated) heat.show(program);
     program.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     program.set("u_color", with_alpha(look.color, is_clear(look) ? look.opacity : 1.0f));
   };
   const ChangedCubes& changed = shared_->bones[k].changed;
   if (!changed.empty()) {
-    begin(shared_->changed_bone);
-    changed.hide(shared_->changed_bone);
+    begin(changed_bone);
+    changed.hide(changed_bone);
     draw_surface(k, snapshot, view, frame);
   }
-  begin(shared_->bone);
+  begin(bone);
   if (changed.empty()) return draw_surface(k, snapshot, view, frame);
   draw_changed(k, snapshot, frame);
 }
@@ -455,7 +486,8 @@ void ScenePainter::paint_depth(std::size_t k, const RenderSnapshot& snapshot, co
 
 void ScenePainter::set_felt_colors(const ViewState& view) const {
   const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
-  for (const Program* program : {&shared_->changed_bone, &shared_->bone}) {
+  for (const Program* program : {&shared_->changed_heated_bone, &shared_->heated_bone,
+                                 &shared_->changed_bone, &shared_->bone}) {
     program->use();
     for (std::size_t k = 0; k < kFeltColors.size(); ++k)
       program->set(names[k],

@@ -12,6 +12,7 @@
 #include "gl/tile_mask.h"
 #include "osteon/render/renderer.h"
 #include "surface/changed_cubes.h"
+#include "surface/heat_texture.h"
 
 namespace osteon {
 
@@ -50,6 +51,7 @@ class ScenePainter {
   void set_loose(std::uint64_t shape, std::size_t bone, const SurfaceCube& surface);
   /// Null: it is not known.
   const GpuMesh* loose_surface(std::uint64_t shape) const;
+  void set_heat(std::size_t bone, const HeatCells& heat);
   /// What hands may hold, by ToolState::instrument; not empty.
   void set_tray(std::span<const std::shared_ptr<const Tool>> tray);
   /// Tools of the other hands.
@@ -137,6 +139,7 @@ class ScenePainter {
   struct BoneModel {
     std::vector<Level> levels;  ///< the finest, exact one first
     ChangedCubes changed;       ///< of a bone
+    HeatTexture heat;           ///< likewise
     std::vector<Piece> pieces;
     Vec3 center_B = Vec3::Zero();
     double radius_m = 0;  ///< of a ball about the centre that holds the bone
@@ -161,6 +164,7 @@ class ScenePainter {
                       const Frame& frame) const;
   void set_felt_colors(const ViewState& view) const;
   bool any_changed() const;
+  bool any_heat(const ViewState& view) const;
   static void set_extent(BoneModel& model, const TriMesh& mesh);
   static BoneModel make_bone(const Bone& bone);
   static void make_pieces(BoneModel& model, const Bone& bone);
@@ -196,6 +200,7 @@ class ScenePainter {
   /// What all painters of a case have in common; never null.
   struct Shared {
     Program bone, changed_bone, depth, metal, mark, ground;
+    Program heated_bone, changed_heated_bone;
     std::vector<BoneModel> bones;  ///< and soft parts
     std::vector<Pose> rest_X_WB;   ///< of the bones
     std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty

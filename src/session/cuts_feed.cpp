@@ -1,6 +1,7 @@
 #include "osteon/session/cuts_feed.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "osteon/physics/carving.h"
 
@@ -16,7 +17,8 @@ constexpr std::uint32_t kEvery = 8;
 
 }  // namespace
 
-CutsFeed::CutsFeed(const CarvingSetup& setup) : queue_(kPlaces) {
+CutsFeed::CutsFeed(const CarvingSetup& setup, std::optional<FluidJoint> joint)
+    : heat_(setup, std::move(joint)), queue_(kPlaces) {
   for (const auto& bone : setup.bones) {
     Bone& of = bones_.emplace_back();
     of.carved = bone != nullptr;
@@ -89,6 +91,18 @@ void CutsFeed::note(const Carving& carving, bool all) {
     for (const Carving::Fallen& fallen : carving.fallen())
       if (fallen.lies) pieces_.push_back(fallen.lies);
   if (++notes_ % kEvery == 0) send(carving);
+}
+
+// While the queue is full heat gathers in the pulse that waits.
+void CutsFeed::note_heat(const Carving& carving, const BoneSnapshot& bones, const Command& command,
+                         double step_s) {
+  heat_.add(carving, bones, command, step_s);
+  CutsPatch patch;
+  while (const HeatPulse* const pulse = heat_.due()) {
+    patch.heat = *pulse;
+    if (!queue_.push(patch)) return;
+    heat_.pop();
+  }
 }
 
 void CutsFeed::note_all(const Carving& carving) {

@@ -163,7 +163,7 @@ Result<void> read_flags(const Json& json, SessionSettings& settings) {
   return {};
 }
 
-constexpr double kMostGuided_n = 40;
+constexpr double kMostGuided_n = 40, kMostIrrigation_ml_per_min = 2000;
 
 // Stands in the settings of a session that carves alone.
 Json carve_json(const CarveSettings& carve) {
@@ -172,6 +172,7 @@ Json carve_json(const CarveSettings& carve) {
             {"marrow_m", carve.marrow_m},
             {"thrust_scale", carve.thrust_scale}};
   if (carve.guided_n > 0) json["guided_n"] = carve.guided_n;
+  if (carve.irrigation_ml_per_min > 0) json["irrigation_ml_per_min"] = carve.irrigation_ml_per_min;
   return json;
 }
 
@@ -179,11 +180,12 @@ Result<void> check(const CarveSettings& carve) {
   const auto within = [](double x, double lo, double hi) { return x >= lo && x <= hi; };
   if (within(carve.cell_m, 5e-5, 2e-3) && within(carve.cortex_m, 0, 0.03) &&
       within(carve.marrow_m, 0, 0.03) && within(carve.thrust_scale, 0.1, 200) &&
-      within(carve.guided_n, 0, kMostGuided_n))
+      within(carve.guided_n, 0, kMostGuided_n) &&
+      within(carve.irrigation_ml_per_min, 0, kMostIrrigation_ml_per_min))
     return {};
   return fail("a value is out of range", "settings, 'carve'",
               "Cells are 0.05 to 2 mm, layers 0 to 30 mm, the scale of thrust 0.1 to 200, "
-              "the force along a guided line 0 to 40 N");
+              "the force along a guided line 0 to 40 N, irrigation 0 to 2000 ml/min");
 }
 
 Result<void> take_carve(Json& json, SessionSettings& settings) {
@@ -197,10 +199,14 @@ Result<void> take_carve(Json& json, SessionSettings& settings) {
       {"cortex_m", &settings.carve.cortex_m},
       {"marrow_m", &settings.carve.marrow_m},
       {"thrust_scale", &settings.carve.thrust_scale}};
-  // It stands there only where it is not 0.
-  if (carve.is_object() && carve.contains("guided_n") && carve["guided_n"].is_number()) {
-    settings.carve.guided_n = carve["guided_n"].get<double>();
-    carve.erase("guided_n");
+  // These stand there only where they are not 0.
+  const std::pair<const char*, double*> others[] = {
+      {"guided_n", &settings.carve.guided_n},
+      {"irrigation_ml_per_min", &settings.carve.irrigation_ml_per_min}};
+  for (const auto& [name, value] : others) {
+    if (!carve.is_object() || !carve.contains(name) || !carve[name].is_number()) continue;
+    *value = carve[name].get<double>();
+    carve.erase(name);
   }
   if (!carve.is_object() || carve.size() != std::size(numbers))
     return fail("four numbers are expected", "settings, 'carve'", kTodo);

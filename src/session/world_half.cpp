@@ -38,7 +38,7 @@ void WorldHalf::place_rings() {
 
 void WorldHalf::set_carving(std::shared_ptr<const CarvingSetup> setup,
                             std::vector<FeltCuts*> hands) {
-  feed_ = std::make_unique<CutsFeed>(*setup);
+  feed_ = std::make_unique<CutsFeed>(*setup, filled_joint(*the_case_));
   carving_ = std::make_unique<Carving>(std::move(setup), hands.size());
   felt_ = std::move(hands);
 }
@@ -71,6 +71,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) {
     publish(*carving_, bones.step, all_changed_, felt_);
     feed_->note(*carving_, all_changed_);
+    feed_->note_heat(*carving_, bones, command, step_s_);
   }
   if (rings_) {
     rings_->step(tools, bones.epoch);

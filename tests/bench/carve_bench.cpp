@@ -2,10 +2,16 @@
 // level sets (CSG and meshing) and plain deletion of voxels on the same cuts: a burr of 4 mm that
 // goes 0.05 mm a step through a block of 30 mm at cells of 0.25 mm, in and out of a wavy line.
 //   p50_us, p999_us   of the steps
+//   cpu_p999_us, cpu_max_us   of the time that this thread's core worked on them: on a busy machine
+//                             the rest is waiting for a core
+//   blocks_*, taken_*         blocks that a step changed, and took from the pool: its work,
+//   whatever
+//                             the machine
 //   removed_mm3       what was removed in all; of a voxel that is deleted, whole
 // And a shaft of 28 mm reamed along 350 mm with 9, 11 and 13 mm, at 50 mm/s and the session's cells
 // of 0.5 mm: 0.1 mm a step of physics, a picture every eighth.
-//   step_ms, picture_ms   the longest step, the longest new surface for a picture
+//   step_ms, picture_ms   the longest step, the longest new surface for a picture; *_cpu_ms: of the
+//                         time that this thread had a core
 //   look_ms               the longest search for pieces that hang on nothing, every 64th step
 //   bone_mb, cuts_mb      the bone's field; the pool of its cuts, of which used_mb hold some
 #include <benchmark/benchmark.h>
@@ -15,10 +21,14 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "carve/carve_fixtures.h"
@@ -60,6 +70,17 @@ void report(benchmark::State& state, const Percentiles& times, double removed_mm
   state.counters["removed_mm3"] = removed_mm3;
 }
 
+std::int64_t thread_cpu_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
+
+/// What passed, and what of it this thread had a core.
+struct Times {
+  Percentiles wall, cpu;
+};
+
 template <class Work>
 void time_one(Percentiles& times, const Work& work) {
   const std::int64_t before = steady_now_ns();
@@ -67,17 +88,43 @@ void time_one(Percentiles& times, const Work& work) {
   times.add_ns(steady_now_ns() - before);
 }
 
+template <class Work>
+void time_one(Times& times, const Work& work) {
+  const std::int64_t before = thread_cpu_ns();
+  time_one(times.wall, work);
+  times.cpu.add_ns(thread_cpu_ns() - before);
+}
+
+std::size_t at_share(std::vector<std::size_t>& sorted, double share) {
+  std::sort(sorted.begin(), sorted.end());
+  const auto n = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
+  return sorted.empty() ? 0 : sorted[std::min(n, sorted.size() - 1)];
+}
+
 void carve_step(benchmark::State& state) {
   const Cutter burr = test::cutter("burr", kBurr_mm);
-  Percentiles times;
+  Times times;
+  std::vector<std::size_t> changed, taken;
   double removed = 0;
   for (auto _ : state) {
     CarvedField field = test::value(CarvedField::make(block()));
-    for (int s = 0; s < kSteps; ++s)
-      time_one(times, [&] { field.cut(burr, pose(s), pose(s + 1)); });
+    for (int s = 0; s < kSteps; ++s) {
+      const std::size_t held = field.block_count();
+      CarveStep did;
+      time_one(times, [&] { did = field.cut(burr, pose(s), pose(s + 1)); });
+      changed.push_back(did.blocks);
+      taken.push_back(field.block_count() - held);
+    }
     removed = 1e9 * total(removed_volume(field));
   }
-  report(state, times, removed);
+  report(state, times.wall, removed);
+  state.counters["cpu_p999_us"] = 1e-3 * times.cpu.quantile_ns(0.999);
+  state.counters["cpu_max_us"] = 1e-3 * times.cpu.max_ns();
+  state.counters["blocks_p50"] = static_cast<double>(at_share(changed, 0.5));
+  state.counters["blocks_p999"] = static_cast<double>(at_share(changed, 0.999));
+  state.counters["blocks_max"] = static_cast<double>(at_share(changed, 1));
+  state.counters["taken_p999"] = static_cast<double>(at_share(taken, 0.999));
+  state.counters["taken_max"] = static_cast<double>(at_share(taken, 1));
 }
 
 void carve_surface_of_a_picture(benchmark::State& state) {
@@ -114,8 +161,6 @@ TriMesh shaft_mesh(double radius_m, double length_m) {
   return mesh;
 }
 
-double longest_ms(const Percentiles& times) { return 1e-6 * times.max_ns(); }
-
 void carve_reaming_350_mm(benchmark::State& state) {
   constexpr double kMb = 1.0 / (1 << 20), kWay_m = 0.35, kStep_m = 1e-4;
   constexpr std::size_t kPool = 4096, kBlockBytes = 2304;  // as a session has it
@@ -123,7 +168,7 @@ void carve_reaming_350_mm(benchmark::State& state) {
   options.cell_m = 0.0005;
   options.room_m = 0.009;
   const auto bone = test::value(UncutField::make(shaft_mesh(0.014, 0.37), options));
-  Percentiles steps, pictures, looks;
+  Times steps, pictures, looks;
   for (auto _ : state) {
     CarvedField field = test::value(CarvedField::make(bone, {}, kPool, 0.0075));
     CarvedSurface surface(field);
@@ -147,11 +192,14 @@ void carve_reaming_350_mm(benchmark::State& state) {
     state.counters["used_mb"] = kMb * kBlockBytes * static_cast<double>(field.block_count());
     state.counters["removed_mm3"] = 1e9 * total(removed_volume(field));
   }
-  state.counters["p50_us"] = 1e-3 * steps.quantile_ns(0.5);
-  state.counters["p999_us"] = 1e-3 * steps.quantile_ns(0.999);
-  state.counters["step_ms"] = longest_ms(steps);
-  state.counters["picture_ms"] = longest_ms(pictures);
-  state.counters["look_ms"] = longest_ms(looks);
+  state.counters["p50_us"] = 1e-3 * steps.wall.quantile_ns(0.5);
+  state.counters["p999_us"] = 1e-3 * steps.wall.quantile_ns(0.999);
+  const std::pair<const char*, const Times*> all[] = {
+      {"step", &steps}, {"picture", &pictures}, {"look", &looks}};
+  for (const auto& [name, times] : all) {
+    state.counters[std::string(name) + "_ms"] = 1e-6 * times->wall.max_ns();
+    state.counters[std::string(name) + "_cpu_ms"] = 1e-6 * times->cpu.max_ns();
+  }
   state.counters["bone_mb"] = kMb * static_cast<double>(bone->bytes());
   state.counters["cuts_mb"] = kMb * kBlockBytes * kPool;
 }

@@ -167,6 +167,93 @@ TEST_F(RendererTest, ChangedCubesShowInPlaceOfTheSurface) {
   EXPECT_EQ(picture(view).rgb, whole.rgb);
 }
 
+// A pointer meets what is left of a carved bone.
+TEST_F(RendererTest, ACarvedBoneIsPickedAtItsCutSurface) {
+  const Case ball_case = one_ball(0.03);
+  Renderer renderer = make_renderer(ball_case);
+  const ViewState view = front_view();
+  const RenderSnapshot snapshot = at_rest(ball_case);
+  const auto depth = [&](double x, double y) {
+    const SurfacePoint p = renderer.pick_point(snapshot, view, {0, 0, 200, 200}, x, y);
+    return p.bone.valid() ? p.p_W.norm() : 0;
+  };
+  EXPECT_NEAR(depth(100, 100), 0.03, 1e-4);
+  const CubeGrid grid{Vec3::Constant(-0.04), 0.08, {1, 1, 1}, 0};
+  SurfaceCube cube;
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  EXPECT_EQ(depth(100, 100), 0);  // nothing is left
+  const TriMesh smaller = sphere_mesh(0.015);
+  cube.vertices = smaller.vertices;
+  cube.triangles = smaller.triangles;
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  EXPECT_NEAR(depth(100, 100), 0.015, 1e-4);
+  // Half of the grid's cubes: beyond them the bone is as it was.
+  renderer.clear_cubes();
+  EXPECT_NEAR(depth(100, 100), 0.03, 1e-4);
+  renderer.set_cubes(BoneId{0}, {Vec3(1, 1, 1), 0.08, {1, 1, 1}, 0}, {&cube, 1});
+  EXPECT_GT(depth(100, 100), 0.014);
+  renderer.clear_cubes();
+  renderer.set_cubes(BoneId{7}, grid, {&cube, 1});
+  renderer.set_cubes(BoneId{0}, {Vec3::Constant(-0.04), -1, {1, 1, 1}, 0}, {&cube, 1});
+  EXPECT_NEAR(depth(100, 100), 0.03, 1e-4);
+}
+
+// Bone is coloured where it was warm, and only where that is asked for.
+TEST_F(RendererTest, WarmBoneIsColouredByItsHottestTemperature) {
+  const Case ball_case = one_ball(0.03);
+  Renderer renderer = make_renderer(ball_case);
+  ViewState view = front_view();
+  view.show_proxy = false;
+  const RenderSnapshot snapshot = at_rest(ball_case);
+  const auto picture = [&] { return renderer.draw_image(snapshot, view, 200, 200); };
+  const Image plain = picture();
+  view.show_heat = true;
+  EXPECT_EQ(picture().rgb, plain.rgb);  // nothing was warm
+  HeatCells heat{Vec3::Constant(-0.035), 0.01, {8, 8, 8}, {}};
+  heat.cells.assign(512, {0, 0});
+  renderer.set_heat(BoneId{0}, heat);
+  EXPECT_EQ(picture().rgb, plain.rgb);
+  const auto byte = [](double celsius) {
+    return static_cast<std::uint8_t>(255 * (celsius - HeatCells::kFrom_c) /
+                                     (HeatCells::kTo_c - HeatCells::kFrom_c));
+  };
+  // Of the pixel in the middle: how much redder, and how much bluer, than it is green.
+  const auto tint = [&](const Image& image) {
+    const std::size_t at = 3 * (100 * 200 + 100);
+    return std::pair(image.rgb[at] - image.rgb[at + 1], image.rgb[at + 2] - image.rgb[at + 1]);
+  };
+  heat.cells.assign(512, {byte(50), 0});
+  renderer.set_heat(BoneId{0}, heat);
+  const Image hot = picture();
+  EXPECT_GT(tint(hot).first, tint(plain).first + 60);
+  heat.cells.assign(512, {byte(50), 255});
+  renderer.set_heat(BoneId{0}, heat);
+  EXPECT_GT(tint(picture()).second, tint(hot).second + 20);  // dead bone is violet
+  // What was cut is coloured too, and the rest of the surface still left out.
+  const CubeGrid grid{Vec3::Constant(-0.04), 0.08, {1, 1, 1}, 0};
+  SurfaceCube cube;
+  const TriMesh smaller = sphere_mesh(0.015);
+  cube.vertices = smaller.vertices;
+  for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
+  cube.depth_m.assign(cube.vertices.size(), 0);
+  cube.triangles = smaller.triangles;
+  renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
+  EXPECT_GT(tint(picture()).second, tint(hot).second + 20);
+  view.show_heat = false;
+  const Image carved = picture();
+  view.show_heat = true;
+  EXPECT_GT(count_different(picture(), carved, 20), 500);
+  // Nonsense is as if it was never warm; so is a run that begins anew.
+  heat.cell_m = -1;
+  renderer.set_heat(BoneId{0}, heat);
+  EXPECT_EQ(picture().rgb, carved.rgb);
+  heat.cell_m = 0.01;
+  renderer.set_heat(BoneId{0}, heat);
+  renderer.set_heat(BoneId{7}, heat);
+  renderer.clear_cubes();
+  EXPECT_EQ(picture().rgb, plain.rgb);
+}
+
 TEST_F(RendererTest, FormReads) {
   const Case ball_case = one_ball(0.03);
   Renderer renderer = make_renderer(ball_case);

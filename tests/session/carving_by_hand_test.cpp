@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "drilling.h"
+#include "mesh/shapes.h"
 #include "osteon/carve/removed.h"
 #include "osteon/scene/carve_events.h"
 
@@ -148,6 +149,52 @@ TEST(CarvingByHand, AShaverTakesCartilageAndStopsAtBone) {
   EXPECT_GT(gone_by_hand("microdrill:3", {.power = 1}), 1);
   hand.lean_rad = kLeant;
   EXPECT_EQ(total(tissues_gone(on_cartilage("shaver:3.5"), hand)), 0);
+}
+
+// A condyle of 10 mm under 1 mm of cartilage, and a tube laid flat on its top, the shaft along x:
+// it touches so far behind its tip.
+ByTissue gone_beside_the_tip(double behind_tip_m, bool window_down) {
+  constexpr double kRound_m = 0.010, kTube_m = 0.00175;
+  Drilling with("shaver:3.5");
+  CaseDef def;
+  def.name = "condyle";
+  BoneDef bone;
+  bone.name = "condyle";
+  bone.mesh = test::sphere(kRound_m, 24);
+  bone.felt = Felt::kField;
+  def.bones.push_back(bone);
+  auto built = build_case(std::move(def));
+  EXPECT_TRUE(built);
+  with.the_case = std::make_shared<const Case>(std::move(*built));
+  auto made = make_carving(*with.the_case, with.settings.tray, with.settings.carve);
+  EXPECT_TRUE(made);
+  with.setup = *made;
+  with.with([](CarvingSetup& setup) {
+    setup.layers.layers = {{0, BoneTissue::kCartilage}, {0.001, BoneTissue::kCortical}};
+  });
+  Mat3 R_WT;
+  const Vec3 y_T(0, 0, window_down ? -1 : 1), z_T = Vec3::UnitX();
+  R_WT << y_T.cross(z_T), y_T, z_T;
+  Session session = with.session();
+  for (int n = 1; n <= 1200; ++n) {
+    HandInput input;
+    const double z = std::max(0.001 - 0.02 * 0.001 * n, -0.0015);
+    input.input.X_WD = {Vec3(-behind_tip_m, 0, kRound_m + kTube_m + z), Quat(R_WT)};
+    if (n == 2) input.command = {CommandKind::kPower, 1.0};
+    (void)session.tick(std::span(&input, 1));
+  }
+  EXPECT_GT(session.tool_state().force_W.z(), 0.3);  // it is pressed on it
+  ByTissue gone = removed_volume(*session.carving()->field(0));
+  for (double& volume : gone) volume *= 1e9;
+  return gone;
+}
+
+TEST(CarvingByHand, AShaverCutsAlongItsWindowAndNotBesideIt) {
+  const ByTissue gone = gone_beside_the_tip(0.005, true);
+  EXPECT_GT(share_of(gone, BoneTissue::kCartilage), 0.3);
+  EXPECT_EQ(share_of(gone, BoneTissue::kCortical), 0);
+  EXPECT_EQ(total(gone_beside_the_tip(0.005, false)), 0);  // its back
+  EXPECT_EQ(total(gone_beside_the_tip(0.012, true)), 0);   // its tube, behind the window
 }
 
 // What it does not cut it does not enter.

@@ -9,9 +9,9 @@
 
 namespace osteon {
 
-/// Surface of all that was cut out of the bone, without its cartilage, in Bone, for who follows
-/// rays through it: the bone's whole surface where a cut came near, and the carved one there turned
-/// round. A ray has entered it once more than it has left it exactly where bone is gone. Outside of
+/// Surface of all that was cut out of the bone and its cartilage, in Bone, for who follows rays
+/// through it: their whole surface where a cut came near, and the carved one there turned round. A
+/// ray has entered it once more than it has left it exactly where something is gone. Outside of
 /// the blocks that cuts came near both surfaces are the same, and neither is there. Empty where
 /// nothing was cut.
 TriMesh cut_surface(const CarvedField& field);

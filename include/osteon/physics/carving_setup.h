@@ -19,8 +19,9 @@ struct CarveSettings {
   double cell_m = 0.00025;   ///< of the fields; twice as much for a bone longer than 200 mm
   double cortex_m = 0.0012;  ///< tissue by depth, as `osteon carve` has it
   double marrow_m = 0;
-  double thrust_scale = 20;  ///< see CarvingSetup
-  double guided_n = 0;       ///< likewise
+  double thrust_scale = 20;          ///< see CarvingSetup
+  double guided_n = 0;               ///< likewise
+  double irrigation_ml_per_min = 0;  ///< of water over the bone that is cut
 };
 
 /// Whether anything of a session can be carved: an instrument whose file says how it removes bone

@@ -41,6 +41,8 @@ struct ViewState {
   bool show_hulls = false;
   /// Bones by the height of what is felt over them (felt_colors.h), where prepare_felt told it.
   bool show_felt = false;
+  /// Bones by the hottest temperature that they had (heat_colors.h), where set_heat told it.
+  bool show_heat = false;
   bool show_proxy = true;
   bool show_force = true;
   bool show_loose = true;           ///< pieces of bone that were cut off
@@ -106,6 +108,15 @@ struct SurfaceCube {
   std::vector<Vec3> vertices, normals;  ///< in the surface's frame: Bone, or World at rest
   std::vector<float> depth_m;           ///< of each vertex, under the surface as it was
   std::vector<Triangle> triangles;      ///< none: nothing is left there
+};
+
+/// How warm a bone became, on cells of a box, x fastest.
+struct HeatCells {
+  static constexpr double kFrom_c = 37, kTo_c = 69;  ///< that bytes 0 and 255 stand for
+  Vec3 lo_B = Vec3::Zero();                          ///< middle of the first cell
+  double cell_m = 0;
+  std::array<int, 3> count{};
+  std::vector<std::array<std::uint8_t, 2>> cells;  ///< the hottest so far; 255 where it is dead
 };
 
 /// Draws a snapshot with OpenGL 3.3. Needs a current context in every call and in the destructor,
@@ -181,15 +192,17 @@ class Renderer {
                     std::span<const float> depth_m = {});
 
   /// From now on these cubes of the grid show this of a bone, in place of its own surface: of one
-  /// that is being carved. Those given before stay. The bone's picking and its outline stay as they
-  /// were. Of a soft part the same: its place behind the bones, as move_surface has it. Does
+  /// that is being carved, and are picked so. Those given before stay. The bone's outline stays as
+  /// it was. Of a soft part the same: its place behind the bones, as move_surface has it. Does
   /// nothing where the grid has no cubes or more than 16 million.
   void set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes);
   /// A piece of a bone that was cut off, in Bone before it fell: drawn where a snapshot has a loose
   /// bone of that shape.
   void set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface);
-  /// Every bone shows its own surface again.
+  /// Every bone shows its own surface again, and was never warm.
   void clear_cubes();
+  /// How warm a bone became, for ViewState::show_heat; with no cells it was never warm.
+  void set_heat(BoneId bone, const HeatCells& heat);
 
   /// "llvmpipe (LLVM 15.0.6, 256 bits)": OpenGL's own name of what draws.
   std::string device_name() const;

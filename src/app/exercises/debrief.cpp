@@ -194,11 +194,12 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
                     std::span<const Event>) {
     traces[hand].add(tool);
     damage.touch(hand, tool, bones);
-    heat.see(*session, damage);
+    heat.see(*session);
     again.add(hand, tool, bones);
   };
   const auto replayed = replay(*recording, *the_case, how);
   if (!replayed) return tl::unexpected(replayed.error());
+  heat.finish(damage);
   Debrief debrief;
   debrief.case_name = (*the_case)->name;
   debrief.duration_s = replayed->report.duration_s;

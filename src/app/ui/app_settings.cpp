@@ -89,6 +89,7 @@ std::string to_json(const AppSettings& s) {
                      {"hint_dismissed", s.hint_dismissed},
                      {"show_hulls", s.show_hulls},
                      {"show_felt", s.show_felt},
+                     {"show_heat", s.show_heat},
                      {"show_force", s.show_force},
                      {"show_hand_ghost", s.show_hand_ghost},
                      {"light_azimuth_rad", s.light_azimuth_rad},
@@ -122,6 +123,7 @@ Result<AppSettings> parse_app_settings(const std::string& text) {
   take(json, "hint_dismissed", s.hint_dismissed);
   take(json, "show_hulls", s.show_hulls);
   take(json, "show_felt", s.show_felt);
+  take(json, "show_heat", s.show_heat);
   take(json, "show_force", s.show_force);
   take(json, "show_hand_ghost", s.show_hand_ghost);
   take(json, "light_azimuth_rad", s.light_azimuth_rad, -3.15, 3.15);

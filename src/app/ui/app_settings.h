@@ -31,6 +31,7 @@ struct AppSettings {
   bool hint_dismissed = false;
   bool show_hulls = false;
   bool show_felt = false;
+  bool show_heat = false;
   bool show_force = true;
   bool show_hand_ghost = true;
   double light_azimuth_rad = -0.7;

@@ -24,6 +24,7 @@ struct WindowOrder {
   bool sound = true;                      ///< through the loudspeaker
   std::filesystem::path film;             ///< of the window, from the first picture on; empty: none
   bool felt = false;                      ///< begins with bones coloured by what is felt
+  bool heat = false;                      ///< begins with bones coloured by how warm they became
   bool softs = false;                     ///< begins with the soft parts shown
   std::vector<std::string> give_way;      ///< soft parts that do in live runs, as `--soft` names
                                           ///< them; begins with these shown

@@ -25,11 +25,6 @@ void append(const SurfacePatch* patch, bool turned, TriMesh& mesh) {
 TriMesh cut_surface(const CarvedField& field) {
   TriMesh mesh;
   if (field.block_count() == 0) return mesh;
-  if (field.bone().bare()) {
-    const auto alone = same_cuts(field, field.bone().bare());
-    demand(alone.has_value(), "a bone under cartilage cannot be cut like both");
-    return cut_surface(*alone);
-  }
   const auto whole = CarvedField::make(field.shared_bone(), field.layers(), 1);
   demand(whole.has_value(), "a bone that was carved cannot be made whole");
   CarvedSurface before(*whole), left(field);

@@ -33,6 +33,7 @@ AppSettings unusual() {
   s.hint_dismissed = true;
   s.show_hulls = true;
   s.show_felt = true;
+  s.show_heat = true;
   s.show_force = false;
   s.show_hand_ghost = false;
   s.light_azimuth_rad = 0.3;

@@ -52,6 +52,8 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_flag(
       "--felt", order->felt,
       "begin with the bones coloured by the distance of the felt surface from the visible one");
+  command->add_flag("--heat", order->heat,
+                    "begin with carved bones coloured by the hottest temperature that they had");
   const auto soft = std::make_shared<std::string>();
   cli::Option* const softs = command->add_option(
       "--soft", *soft,

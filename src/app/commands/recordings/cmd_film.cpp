@@ -28,6 +28,7 @@ struct FilmCommand {
   double from_s = 0;
   std::optional<double> to_s;
   bool mute = false;
+  bool heat = false;
   std::optional<double> pressure_mmhg, outlet_open;  ///< none: as recorded
 };
 
@@ -162,9 +163,9 @@ Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& record
   const auto view = parse_film_view(command.view);
   const auto scope = holds_a_scope(recording, settings);
   if (!scope) return tl::unexpected(scope.error());
-  auto painter =
-      FilmPainter::create(std::move(the_case), settings, how.tray, *scope,
-                          {*view, size->width, size->height, command.side, other_pump(command)});
+  auto painter = FilmPainter::create(
+      std::move(the_case), settings, how.tray, *scope,
+      {*view, size->width, size->height, command.side, other_pump(command), command.heat});
   if (!painter) return tl::unexpected(painter.error());
   painter->set_carving(how.carving);
   painter->set_softs(how.softs);
@@ -179,10 +180,10 @@ Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& record
 
 Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
                          std::shared_ptr<const Case> the_case, ReplayOptions how,
-                         const FilmSpan& span) {
+                         const FilmSpan& span, bool heat) {
   ProgressLine line;
   const auto tell = line.stopping();
-  how.from_s = span.from_s;
+  how.from_s = heat ? 0 : span.from_s;  // how warm it is now tells of all that was cut before
   how.to_s = span.to_s;
   how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
   how.on_pushes = [&](const SoftPushes& pushes) { maker.take(pushes); };
@@ -236,7 +237,8 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
     return tl::unexpected(ok.error());
   auto maker = film_maker(command, *recording, *settings, *span, *the_case, how);
   if (!maker) return tl::unexpected(maker.error());
-  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span); !ok)
+  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span, command.heat);
+      !ok)
     return tl::unexpected(ok.error());
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)
@@ -314,6 +316,8 @@ void add_film_commands(cli::App& app, int& exit_code) {
       ->check(cli::Range(0.0, 1.0));
   sub->add_option("--case", command->case_spec, "a case; default: the recording's own");
   sub->add_flag("--mute", command->mute, "leave out the sound");
+  sub->add_flag("--heat", command->heat,
+                "colour carved bones by the hottest temperature that they had (outside, panorama)");
   sub->add_option("--sound", command->sound, "write the sound as a WAV file too");
   sub->add_option("--out", command->out, "WebM file to write")->required();
   sub->callback([command, &exit_code] { exit_code = run_film(*command); });

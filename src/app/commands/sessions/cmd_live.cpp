@@ -43,7 +43,7 @@ struct LiveOptions {
   double power = 0;
   std::string portals = "all";
   std::string soft;
-  double guided_n = 0;
+  double guided_n = 0, irrigation_ml_per_min = 0;
   MappingSettings mapping;
 };
 
@@ -204,6 +204,7 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
   if (*softs) live.run.settings.soft_hash = (*softs)->hash;
   live.run.softs = std::move(*softs);
   live.run.settings.carve.guided_n = options.guided_n;
+  live.run.settings.carve.irrigation_ml_per_min = options.irrigation_ml_per_min;
   auto carving = carving_for(*live.run.the_case, live.run.settings);
   if (!carving) return tl::unexpected(carving.error());
   live.run.carving = std::move(*carving);
@@ -374,6 +375,7 @@ void add_live_command(cli::App& app, int& exit_code) {
   add_portals_option(*command, options->portals);
   add_soft_option(*command, options->soft);
   add_guided_option(*command, options->guided_n);
+  add_irrigation_option(*command, options->irrigation_ml_per_min);
   command
       ->add_option("--power", options->power,
                    "power of the hands' instruments from the start, 0 to 1; a path sets its own")

@@ -28,6 +28,7 @@ void SessionOptions::add_to(cli::App& command) {
   add_portals_option(command, portals);
   add_soft_option(command, soft);
   add_guided_option(command, settings.carve.guided_n);
+  add_irrigation_option(command, settings.carve.irrigation_ml_per_min);
   command.add_option("--hand-mass", hand.mass_kg, "mass of the virtual hand, kg")
       ->check(cli::Range(0.02, 2.0))
       ->capture_default_str();
@@ -67,6 +68,15 @@ void add_guided_option(cli::App& command, double& guided_n) {
                   "resistance to a drill that a pin or an aimer's sleeve guides, N, the same in "
                   "all bone; 0: the resistance of the bone itself")
       ->check(cli::Range(0.0, 40.0))
+      ->capture_default_str();
+}
+
+void add_irrigation_option(cli::App& command, double& irrigation_ml_per_min) {
+  command
+      .add_option("--irrigation", irrigation_ml_per_min,
+                  "water over the bone that is cut, ml/min; it cools the bone, in the report and "
+                  "in pictures of its temperature. A joint that a pump fills is rinsed as well")
+      ->check(cli::Range(0.0, 2000.0))
       ->capture_default_str();
 }
 

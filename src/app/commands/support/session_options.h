@@ -26,6 +26,8 @@ struct SessionOptions {
 void add_portals_option(cli::App& command, std::string& portals);
 /// "--soft": which soft parts are felt, as `softs_named` reads it.
 void add_soft_option(cli::App& command, std::string& soft);
+/// "--irrigation": as CarveSettings::irrigation_ml_per_min.
+void add_irrigation_option(cli::App& command, double& irrigation_ml_per_min);
 /// "--guided-force": as CarveSettings::guided_n.
 void add_guided_option(cli::App& command, double& guided_n);
 /// "all", "none", or names or titles with commas between: "3-4,4-5".

@@ -119,6 +119,10 @@ std::vector<CarvedPicture::Piece> CarvedPicture::new_pieces() {
 
 void CarvedPicture::take(const CutsPatch& patch) {
   if (patch.piece) return take_piece(*patch.piece);
+  if (patch.heat) {
+    pulses_.push_back(*patch.heat);
+    return;
+  }
   const bool known = patch.bone < bones_.size() && bones_[patch.bone].has_value();
   if (patch.clear && !known) return;  // whole as it is
   Bone* of = bone(patch.bone);
@@ -134,6 +138,39 @@ void CarvedPicture::make_whole() {
   CutsPatch patch;
   patch.clear = true;
   for (patch.bone = 0; patch.bone < bones_.size(); ++patch.bone) take(patch);
+  pulses_.clear();
+  forget_heat();
+}
+
+void CarvedPicture::forget_heat() {
+  followed_ = 0;
+  heat_waits_ = heat_.has_value();
+  heat_.reset();
+}
+
+bool CarvedPicture::follow_heat(std::size_t most) {
+  if (!setup_) return true;
+  if (!heat_ && !pulses_.empty()) heat_.emplace(setup_->table.heat, setup_->table.water);
+  const HeatOfBones::FieldOf field_of = [&](std::uint32_t index) -> const CarvedField* {
+    Bone* const of = bone(index);
+    return of ? &of->field : nullptr;
+  };
+  for (; most > 0 && followed_ < pulses_.size(); --most, ++followed_) {
+    heat_->take(pulses_[followed_], field_of);
+    heat_waits_ = true;
+  }
+  return followed_ == pulses_.size();
+}
+
+std::vector<CarvedPicture::Warmed> CarvedPicture::warmed() {
+  std::vector<Warmed> out;
+  if (!heat_waits_) return out;
+  heat_waits_ = false;
+  for (std::uint32_t b = 0; b < bones_.size(); ++b) {
+    const BoneHeat* const of = heat_ ? heat_->bone(b) : nullptr;
+    if (of || bones_[b]) out.push_back({BoneId{b}, of ? of->volume() : HeatVolume{}});
+  }
+  return out;
 }
 
 CutBones CarvedPicture::cut_bones() const {

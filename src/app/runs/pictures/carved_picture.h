@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include "osteon/carve/carved_surface.h"
 #include "osteon/carve/cut_surface.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/heat_pulse.h"
 #include "osteon/render/renderer.h"
 #include "osteon/session/cuts_feed.h"
 
@@ -40,6 +42,18 @@ class CarvedPicture {
   };
   /// Those that were told since it was last asked.
   std::vector<Piece> new_pieces();
+
+  /// How many pulses of heat it was given since all was whole.
+  std::size_t pulses() const { return pulses_.size(); }
+  /// Works out how warm the bones became: as many pulses further as `most` says. Pulses that were
+  /// given before anybody asked count too. True when it has come to the last one.
+  bool follow_heat(std::size_t most = std::numeric_limits<std::size_t>::max());
+  struct Warmed {
+    BoneId bone;
+    HeatVolume volume;
+  };
+  /// Of the bones whose temperatures went on since it was last asked; for Renderer::set_heat.
+  std::vector<Warmed> warmed();
   /// Copies of the bones that hold cuts, for who looks through them.
   CutBones cut_bones() const;
 
@@ -51,11 +65,16 @@ class CarvedPicture {
   };
   Bone* bone(std::uint32_t index);
   void take_piece(const PieceShape& shape);
+  void forget_heat();
 
   std::shared_ptr<const CarvingSetup> setup_;
   std::vector<std::optional<Bone>> bones_;  ///< made when their first cut comes
   std::set<std::uint64_t> known_pieces_;
   std::vector<Piece> new_pieces_;
+  std::vector<HeatPulse> pulses_;
+  std::size_t followed_ = 0;         ///< of them
+  std::optional<HeatOfBones> heat_;  ///< after these
+  bool heat_waits_ = false;          ///< it changed since it was last shown
 };
 
 }  // namespace osteon

@@ -12,6 +12,7 @@
 #include "osteon/render/soft_surface.h"
 #include "runs/pictures/carved_picture.h"
 #include "runs/pictures/film_fluoro.h"
+#include "runs/pictures/heat_picture.h"
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
 
@@ -143,6 +144,7 @@ ViewState FilmPainter::Impl::plain_view(double aspect) const {
   ViewState view = default_view(*the_case);
   view.camera = preset_camera(ViewPreset::kDorsal, *the_case, aspect);
   view.show_hand_ghost = false;
+  view.show_heat = order.heat;
   return view;
 }
 
@@ -282,6 +284,10 @@ void FilmPainter::Impl::show_carved() {
     if (renderer) renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
     if (scope) scope->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
   }
+  if (!order.heat || !renderer) return;
+  (void)carved.follow_heat();
+  for (const CarvedPicture::Warmed& warmed : carved.warmed())
+    renderer->set_heat(warmed.bone, heat_cells(warmed.volume));
 }
 
 void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {

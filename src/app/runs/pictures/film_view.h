@@ -40,6 +40,7 @@ class FilmPainter {
     std::string side = "front";  ///< of the panorama: front, top or left
     /// The pump stands so; none: as it does in the recording.
     std::optional<WaterSettings> water = {};
+    bool heat = false;  ///< carved bones are coloured by how warm they became
   };
   /// Fails where the view cannot be drawn: no OpenGL, no hand that ever holds a scope, a case that
   /// X-rays cannot go through. `scope_is_held`: some hand holds one at some time.

@@ -31,8 +31,8 @@ struct XraySceneOrder {
 };
 Result<XrayScene> open_xray_scene(const XraySceneOrder& order);
 
-/// What was cut out of bones stands before them: water, about phantoms nothing. `bones`: where they
-/// are.
+/// What was cut out of bones and their cartilage stands before both: water, about phantoms nothing.
+/// `bones`: where they are.
 void add_cuts(const CutBones& cut, const BoneSnapshot& bones, bool phantom, XrayBody& body);
 
 struct XrayShotOrder {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "osteon/physics/joint_water.h"
 #include "osteon/scene/event.h"
 
 namespace osteon {
@@ -80,7 +81,14 @@ OrderedJson to_json(const CarvingReport& report) {
   out["most_torque_nmm"] = 1000 * report.most_torque_nm;
   out["heat"] = {{"hottest_c", report.hottest_c},
                  {"necrosis_47c_60s_mm3", 1e9 * report.necrosis_m3[0]},
-                 {"necrosis_50c_30s_mm3", 1e9 * report.necrosis_m3[1]}};
+                 {"necrosis_50c_30s_mm3", 1e9 * report.necrosis_m3[1]},
+                 {"water_ml", 1e6 * report.water_m3}};
+  out["heat"]["by_bone"] = OrderedJson::object();
+  for (std::size_t b = 0; b < std::min(report.bones.size(), report.necrosis_by_bone_m3.size()); ++b)
+    if (total(report.removed_m3[b]) > 0)
+      out["heat"]["by_bone"][report.bones[b]] = {
+          {"necrosis_47c_60s_mm3", 1e9 * report.necrosis_by_bone_m3[b][0]},
+          {"necrosis_50c_30s_mm3", 1e9 * report.necrosis_by_bone_m3[b][1]}};
   out["events"] = OrderedJson::array();
   for (const Event& event : report.events) out["events"].push_back(event_json(event, report));
   return out;
@@ -127,19 +135,29 @@ void CarvingWatch::see(const Session& session) {
     else
       report_.pieces_m3.push_back(fallen.volume_m3);
   }
-  const double step_s = session.bones().time_s / static_cast<double>(session.bones().step);
-  for (std::size_t h = 0; h < session.hands(); ++h)
-    warm(carving->readout(h), carving->setup().table, step_s);
-  if (heat_ && heat_->pass(step_s))
-    report_.hottest_c = std::max(report_.hottest_c, heat_->hottest_c());
+  for (std::size_t h = 0; h < session.hands(); ++h) {
+    report_.most_thrust_n = std::max(report_.most_thrust_n, carving->readout(h).thrust_n);
+    report_.most_torque_nm = std::max(report_.most_torque_nm, carving->readout(h).torque_nm);
+  }
+  heat_.see(session);
 }
 
-void CarvingWatch::warm(const CarvingReadout& readout, const DrillTable& table, double step_s) {
-  report_.most_thrust_n = std::max(report_.most_thrust_n, readout.thrust_n);
-  report_.most_torque_nm = std::max(report_.most_torque_nm, readout.torque_nm);
-  if (!makes_heat(readout)) return;
-  if (!heat_) heat_.emplace(table, readout);
-  heat_->warm(readout, step_s);
+void SessionHeat::see(const Session& session) {
+  const Carving* const carving = session.carving();
+  const BoneSnapshot& bones = session.bones();
+  if (!carving || bones.step == step_ || bones.step == 0) return;
+  step_ = bones.step;
+  if (!pulses_) {
+    pulses_.emplace(carving->setup(), filled_joint(session.the_case()));
+    heat_.emplace(carving->setup().table.heat, carving->setup().table.water);
+  }
+  const double step_s = bones.time_s / static_cast<double>(bones.step);
+  pulses_->add(*carving, bones, session.last_step_record().command, step_s);
+  while (const HeatPulse* const pulse = pulses_->due()) {
+    heat_->take(*pulse, [&](std::uint32_t bone) { return carving->field(bone); });
+    water_m3_ += pulse->dt_s * pulse->flow_m3_s;
+    pulses_->pop();
+  }
 }
 
 std::optional<CarvingReport> CarvingWatch::finish(const Session& session) const {
@@ -152,7 +170,16 @@ std::optional<CarvingReport> CarvingWatch::finish(const Session& session) const 
     const CarvedField* field = carving->field(b);
     report.removed_m3.push_back(field ? removed_volume(*field) : ByTissue{});
   }
-  for (std::size_t r = 0; heat_ && r < 2; ++r) report.necrosis_m3[r] = heat_->necrosis_m3(r);
+  report.water_m3 = heat_.water_m3();
+  if (!heat_.bones()) return report;
+  report.hottest_c = heat_.bones()->hottest_c();
+  report.necrosis_by_bone_m3.resize(report.bones.size());
+  for (std::size_t r = 0; r < 2; ++r) {
+    report.necrosis_m3[r] = heat_.bones()->necrosis_m3(r);
+    for (std::uint32_t b = 0; b < report.bones.size(); ++b)
+      if (const BoneHeat* const bone = heat_.bones()->bone(b))
+        report.necrosis_by_bone_m3[b][r] = bone->necrosis_m3(r);
+  }
   return report;
 }
 

@@ -10,8 +10,8 @@
 
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/heat_pulse.h"
 #include "osteon/session/session.h"
-#include "runs/reports/bone_heat.h"
 
 namespace osteon {
 
@@ -24,6 +24,8 @@ struct CarvingReport {
   double most_thrust_n = 0, most_torque_nm = 0;
   double hottest_c = 37;
   std::array<double, 2> necrosis_m3{};
+  std::vector<std::array<double, 2>> necrosis_by_bone_m3;  ///< as `bones`; none: nothing was warm
+  double water_m3 = 0;            ///< that flowed over the bones while heat was followed
   double dust_m3 = 0;             ///< hung on nothing and fell off, too small for an event
   std::vector<double> pieces_m3;  ///< the same, each with its event
   /// A piece that lies loose, or is held, at the end.
@@ -39,8 +41,23 @@ struct CarvingReport {
 nlohmann::ordered_json to_json(const CarvingReport& report);
 std::string to_text(const CarvingReport& report);
 
-/// Looks at a session that carves, tick by tick, and follows the heat about the first place that is
-/// cut.
+/// Follows the heat in the bones of a session, tick by tick.
+class SessionHeat {
+ public:
+  /// After each tick.
+  void see(const Session& session);
+  /// None: nothing can be carved in that session.
+  const std::optional<HeatOfBones>& bones() const { return heat_; }
+  double water_m3() const { return water_m3_; }
+
+ private:
+  std::optional<HeatPulses> pulses_;
+  std::optional<HeatOfBones> heat_;
+  double water_m3_ = 0;
+  std::uint64_t step_ = 0;
+};
+
+/// Looks at a session that carves, tick by tick, and follows the heat in the bones that are cut.
 class CarvingWatch {
  public:
   /// After each tick.
@@ -49,10 +66,8 @@ class CarvingWatch {
   std::optional<CarvingReport> finish(const Session& session) const;
 
  private:
-  void warm(const CarvingReadout& readout, const DrillTable& table, double step_s);
-
   CarvingReport report_;
-  std::optional<BoneHeat> heat_;
+  SessionHeat heat_;
 };
 
 }  // namespace osteon

@@ -28,7 +28,12 @@ class CutHistory {
     double time_s = 0;
     CutsPatch patch;
   };
+  struct Warmed {
+    double time_s = 0;
+    HeatPulse pulse;
+  };
   std::vector<Kept> kept_;
+  std::vector<Warmed> heat_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> newest_;  ///< of a bone's block
 };
 

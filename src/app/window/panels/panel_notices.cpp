@@ -33,7 +33,8 @@ void draw_toasts(const PanelContext& c) {
 
 void begin_bottom_note(const PanelContext& c, const char* name) {
   // Over the legend where there is one.
-  const float above = c.model.view.show_felt ? c.px(108) : c.px(16);
+  const bool felt = c.model.view.show_felt, heat = c.model.view.show_heat;
+  const float above = c.px(16 + (felt ? 92 : 0) + (heat ? 112 : 0));
   ImGui::SetNextWindowPos({between_cards(c).middle(), c.layout.picture.bottom() - above},
                           ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(16), c.px(8)});

@@ -87,6 +87,10 @@ bool draw_switches(ViewState& view) {
   changed |= ui::switch_row(
       "Felt against seen", &view.show_felt,
       "Colours each bone by the distance of the felt surface above or below the visible one");
+  changed |= ui::switch_row(
+      "Temperature", &view.show_heat,
+      "Colours bone that is drilled or burred by the hottest temperature that it had, and marks "
+      "what died of it");
   changed |= ui::switch_row("Force arrow", &view.show_force,
                             "The force on the hand as an arrow at the probe's tip");
   changed |= ui::switch_row("Hand's position", &view.show_hand_ghost,

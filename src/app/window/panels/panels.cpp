@@ -22,6 +22,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   if (ready) draw_bone_names(c);
   if (ready) draw_notes(c);
   if (ready) draw_felt_legend(c);
+  if (ready) draw_heat_legend(c);
   if (ready) draw_edit(c);
   if (!ready) draw_loading(c);
   draw_notices(c);

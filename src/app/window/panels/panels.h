@@ -28,6 +28,7 @@ void draw_notes_section(const PanelContext& c);
 void draw_notes(const PanelContext& c);  // in the picture
 void draw_view_section(const PanelContext& c);
 void draw_picture_section(const PanelContext& c);  // its light, and what is drawn beside bones
+void draw_heat_legend(const PanelContext& c);      // where they are by how warm they became
 void draw_felt_legend(const PanelContext& c);      // where bones are coloured by what is felt
 void draw_hand_card(const PanelContext& c);
 void draw_hands(const PanelContext& c);       // who holds what, within the hand card

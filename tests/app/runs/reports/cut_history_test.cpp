@@ -88,6 +88,41 @@ TEST(CutHistory, OfWhatGoesOnChangingATenthOfASecondIsKept) {
   EXPECT_EQ(lowest(a[0]), lowest(b[0]));
 }
 
+TEST(CutHistory, TemperaturesGoForwardAndBackToo) {
+  const Burred with;
+  CutHistory history = with.history;
+  for (int n = 0; n < 40; ++n) {
+    CutsPatch patch;
+    patch.heat.emplace();
+    patch.heat->dt_s = 0.05;
+    patch.heat->sources[0].bone = 0;
+    patch.heat->sources[0].heat.joules = 0.1;
+    patch.heat->sources[0].heat.ball = true;
+    patch.heat->sources[0].heat.radius_m = 0.001;
+    history.add(patch, 0.05 * n);
+  }
+  const auto hottest = [](CarvedPicture& picture) {
+    std::uint8_t most = 0;
+    for (const CarvedPicture::Warmed& warmed : picture.warmed())
+      for (const auto& cell : warmed.volume.cells) most = std::max(most, cell[0]);
+    return most;
+  };
+  CarvedPicture picture(with.setup);
+  std::size_t place = history.show(0.31, 0, picture);
+  EXPECT_EQ(picture.pulses(), 7u);
+  EXPECT_TRUE(picture.warmed().empty());  // nobody has asked for it yet
+  EXPECT_FALSE(picture.follow_heat(3));
+  EXPECT_TRUE(picture.follow_heat());
+  const std::uint8_t early = hottest(picture);
+  EXPECT_GT(early, 0);
+  place = history.show(1.2, place, picture);
+  EXPECT_TRUE(picture.follow_heat());
+  EXPECT_GT(hottest(picture), early);
+  place = history.show(0.31, place, picture);
+  EXPECT_TRUE(picture.follow_heat());
+  EXPECT_EQ(hottest(picture), early);
+}
+
 TEST(CutHistory, NothingCarvedShowsNothing) {
   const CutHistory none;
   CarvedPicture picture(nullptr);

@@ -107,6 +107,18 @@ TEST(Panels, TheLegendStandsWhereBonesAreColouredByWhatIsFelt) {
   EXPECT_LT(ui.rect("##felt_legend").h, legend.h);
 }
 
+TEST(Panels, TheLegendOfTemperaturesStandsOverTheOther) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.draw();
+  EXPECT_FALSE(ui.shown("##heat_legend"));
+  ui.model.view.show_heat = ui.model.view.show_felt = true;
+  for (int i = 0; i < 3; ++i) ui.draw();
+  ASSERT_TRUE(ui.shown("##heat_legend"));
+  EXPECT_LE(ui.rect("##heat_legend").bottom(), ui.rect("##felt_legend").y);
+  EXPECT_GT(ui.rect("##heat_legend").x, ui.rect("##case").right());
+}
+
 TEST(Panels, DrawsWithNoBonesAndNoDevice) {
   UiFrame ui;
   ui.model.hand.devices.clear();

@@ -17,6 +17,7 @@ template <class Settings, class View, class Copy>
 void each_light(Settings& kept, View& shown, Copy copy) {
   copy(kept.show_hulls, shown.show_hulls);
   copy(kept.show_felt, shown.show_felt);
+  copy(kept.show_heat, shown.show_heat);
   copy(kept.show_force, shown.show_force);
   copy(kept.show_hand_ghost, shown.show_hand_ghost);
   copy(kept.light_azimuth_rad, shown.light_azimuth_rad);

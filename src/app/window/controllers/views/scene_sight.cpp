@@ -49,6 +49,7 @@ void SceneSight::recall() {
   recall_looks(host_.settings, scene_.source, the_case, view_);
   recall_light(host_.settings, view_);
   view_.show_felt = view_.show_felt || host_.order.felt;
+  view_.show_heat = view_.show_heat || host_.order.heat;
   if (host_.order.softs)
     for (BoneAppearance& look : view_.softs) look.visible = true;
   show_what_gives_way(scene_.softs.setup.get());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runs/pictures/heat_picture.h"
+
 namespace osteon {
 
 std::vector<ToolState> ViewsControl::others() const {
@@ -43,6 +45,19 @@ void ViewsControl::show_carved() {
   }
   for (const CarvedPicture::Piece& piece : picture->new_pieces())
     scene_.renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+  if (sight_.view().show_heat) show_heat(*picture);
+}
+
+// Two seconds of a run in a picture: what passed before anybody asked is soon worked out.
+void ViewsControl::show_heat(CarvedPicture& picture) {
+  constexpr std::size_t kPulses = 40;
+  constexpr double kHeatRest_s = 0.25;
+  const bool newest = picture.follow_heat(kPulses);
+  if (newest && host_.now_s - heat_s_ < kHeatRest_s) return;
+  for (const CarvedPicture::Warmed& warmed : picture.warmed()) {
+    scene_.renderer->set_heat(warmed.bone, heat_cells(warmed.volume));
+    heat_s_ = host_.now_s;
+  }
 }
 
 // While a run begins anew nothing presses.

@@ -41,6 +41,7 @@ class ViewsControl {
   std::vector<ToolState> others() const;
   CarvedPicture* carved();  ///< null: nothing is carved
   void show_carved();
+  void show_heat(CarvedPicture& picture);
   void show_softs();
   void set_pump_again();
   std::optional<WaterModel> water_model() const;
@@ -55,6 +56,7 @@ class ViewsControl {
   ObserverControl& observer_;
   std::pair<std::uint64_t, std::uint64_t> carved_run_;  ///< whose cuts the renderer shows
   double carved_s_ = 0;                                 ///< when they were shown last
+  double heat_s_ = 0;                                   ///< likewise of temperatures
   SoftPicture softs_;
   MovingDetail detail_;
   std::optional<WaterSettings> pump_;                 ///< as the user has set it
