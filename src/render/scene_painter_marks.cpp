@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include "osteon/render/felt_colors.h"
+#include "osteon/scene/soft_motion.h"
 #include "scene_painter.h"
 
 #include "force_arrow.h"
 #include "surface/shapes.h"
-#include "surface/soft_motion.h"
 
 namespace osteon {
 namespace {

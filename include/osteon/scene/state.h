@@ -9,6 +9,7 @@
 #include "osteon/scene/bend_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
+#include "osteon/scene/inside.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
 #include "osteon/scene/water_state.h"
@@ -47,6 +48,7 @@ struct BoneSnapshot {
   GraftPlacingState placing{};  ///< off: there are no tunnels for a graft, or it is not there yet
   BendState bend{};             ///< off: no joint was bent
   WaterState water{};           ///< off: the case has no joint that is filled
+  std::array<InsideList, kMaxHands> inside{};  ///< what the tip of each hand's instrument is in
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
 
