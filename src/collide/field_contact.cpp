@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "field_box.h"
+
 namespace osteon {
 namespace {
 
@@ -177,6 +179,22 @@ CapsuleContact field_contact(const FieldView& field, const Capsule& whole_A, dou
   // What was cut off is beyond far_m, but may be nearer than the rest.
   const bool is_cut = capsule_A.p0 != whole_A.p0 || capsule_A.p1 != whole_A.p1;
   if (is_cut && out.gap > far_m) out.gap = far_m;
+  return out;
+}
+
+CapsuleContact round_contact(const FieldView& field, const RoundBox& box_A, double far_m) {
+  if (!box_A.is_box) return field_contact(field, box_A.rod, far_m);
+  CapsuleContact out;
+  if (!is_finite(box_A.X)) return out;
+  const double radius = box_A.rod.radius;
+  const BoxLowest lowest = lowest_of_box(field, box_A.X, box_A.half, far_m + radius);
+  const double slope = lowest.field.gradient.norm();
+  if (!(slope > 1e-6) || !std::isfinite(slope)) return out;
+  out.status = LpStatus::kOptimal;
+  out.gap = lowest.field.distance - radius;
+  out.nhat_AB_A = lowest.field.gradient / slope;
+  out.p_axis_A = lowest.p;
+  out.p_A = lowest.p - lowest.field.distance * out.nhat_AB_A;
   return out;
 }
 

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace osteon {
 namespace {
 
 constexpr double kRoundest_m = 0.0005;
+constexpr double kNearly_m = 0.0001;  // so much higher counts a quarter as much
 
 struct Segment {
   Vec3 p0 = Vec3::Zero(), p1 = Vec3::Zero();
@@ -74,6 +77,29 @@ std::array<Segment, 12> edges_of(const RoundBox& box) {
   return edges;
 }
 
+struct PlanePoint {
+  double along = 0, height = 0;
+};
+
+// The corners of the core's section with the plane through `a` across `side`.
+std::size_t section_of(const RoundBox& box, const Vec3& a, const Vec3& along, const Vec3& n,
+                       std::array<PlanePoint, 24>& out) {
+  const Vec3 side = along.cross(n);
+  std::size_t count = 0;
+  for (const Segment& edge : edges_of(box)) {
+    const double from = side.dot(edge.p0 - a), to = side.dot(edge.p1 - a);
+    if ((from > 0 && to > 0) || (from < 0 && to < 0)) continue;
+    const double t = from != to ? from / (from - to) : 0;
+    const Vec3 p = edge.p0 + t * (edge.p1 - edge.p0) - a;
+    out[count++] = {along.dot(p), n.dot(p)};
+    if (from == to) {  // the whole edge lies in the plane
+      const Vec3 q = edge.p1 - a;
+      out[count++] = {along.dot(q), n.dot(q)};
+    }
+  }
+  return count;
+}
+
 AxisPoints swapped(const AxisPoints& points) { return {points.b, points.a}; }
 
 }  // namespace
@@ -105,6 +131,46 @@ double highest(const RoundBox& box, const Vec3& n) {
 }
 
 double lowest(const RoundBox& box, const Vec3& n) { return -highest(box, -n); }
+
+// Symbols: the section's corners p_i at (along_i, height_i); what of the section lies over the line
+// has its lowest place at a corner over the line, or where the section's border passes an end of
+// the line, which is on the segment between two corners. The share is the mean of these places,
+// each by 1 / (1 + what it is higher / kNearly_m)^2: none of them counts of a sudden.
+OverLine lowest_over(const RoundBox& box, const Vec3& a, const Vec3& b, const Vec3& n) {
+  OverLine out;
+  const double length = (b - a).norm();
+  const Vec3 along = (b - a) / length;
+  std::array<PlanePoint, 24> corners{};
+  const std::size_t count = section_of(box, a, along, n, corners);
+  std::array<PlanePoint, 24> places{};
+  std::size_t found = 0;
+  const auto is_over = [&](const PlanePoint& p) { return p.along >= 0 && p.along <= length; };
+  for (std::size_t i = 0; i < count; ++i)
+    if (is_over(corners[i])) places[found++] = corners[i];
+  for (const double end : {0.0, length}) {
+    PlanePoint low{end, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j) {
+        const PlanePoint &p = corners[i], &q = corners[j];
+        if (!(p.along < end && q.along > end)) continue;
+        const double t = (end - p.along) / (q.along - p.along);
+        low.height = std::min(low.height, p.height + t * (q.height - p.height));
+      }
+    if (std::isfinite(low.height) && found < places.size()) places[found++] = low;
+  }
+  if (found == 0) return out;
+  out.meets = true;
+  out.height = places[0].height;
+  for (std::size_t i = 1; i < found; ++i) out.height = std::min(out.height, places[i].height);
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < found; ++i) {
+    const double near = 1 + (places[i].height - out.height) / kNearly_m;
+    sum += places[i].along / (near * near);
+    weights += 1 / (near * near);
+  }
+  out.share = std::clamp(sum / weights / length, 0.0, 1.0);
+  return out;
+}
 
 // Of two polyhedra that do not meet, one of the nearest points lies on an edge, at least: a face's
 // inner point is nearest to a corner, or to an edge beside it as well.

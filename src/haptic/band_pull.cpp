@@ -17,7 +17,7 @@ Vec3 way_with(const Pose& before_WB, const Pose& X_WB, const Vec3& p_W) {
 
 }  // namespace
 
-BandPull::BandPull(const Tool& tool) : rods_(tool_rods(tool)) {}
+BandPull::BandPull(const Tool& tool) : rods_(tool_rods(tool)), shapes_(soft_shapes(tool)) {}
 
 struct BandPull::Pressed {
   Vec3 nhat_W, p_W;
@@ -51,10 +51,9 @@ void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandC
                         BandForce& out) const {
   if (contact.band >= bands_->size() || contact.part >= rods_.size()) return;
   const SoftBand& band = (*bands_)[contact.band];
-  const Capsule& rod = rods_[contact.part];
   const Pose &from = bones.X_WB[band.from.index], &to = bones.X_WB[band.to.index];
   const BandSpan span{from * band.from_B, to * band.to_B};
-  const Capsule part_W{hand.X_WP * rod.p0, hand.X_WP * rod.p1, rod.radius};
+  const RoundBox part_W = placed(hand.X_WP, shapes_[contact.part]);
   const double k = std::min(hand.stiffness_n_per_m, band.surface_n_per_m);
   const BandPress press = press_band(band, span, part_W, contact, k);
   if (!press.presses || !(press.force_n > 0)) return;
@@ -69,13 +68,10 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
                          BandForce& out) const {
   if (contact.bone >= bones.X_WB.size() || contact.part >= rods_.size()) return;
   const Pose& X = bones.X_WB[contact.bone];
-  const Pose X_BP = X.inverse() * hand.X_WP;
-  const Capsule& rod = rods_[contact.part];
-  const Capsule part_B{X_BP * rod.p0, X_BP * rod.p1, rod.radius};
+  const RoundBox part_B = placed(X.inverse() * hand.X_WP, shapes_[contact.part]);
   const SolidPress press = press_solid(contact, part_B, hand.stiffness_n_per_m);
   if (!(press.force_n > 0)) return;
-  const Vec3 axis_B = part_B.p0 + contact.along * (part_B.p1 - part_B.p0);
-  const Vec3 p_W = X * Vec3(axis_B - rod.radius * contact.nhat_B);
+  const Vec3 p_W = X * Vec3(pressed_place(contact, part_B) - part_B.rod.radius * contact.nhat_B);
   add(hand,
       {X.q * contact.nhat_B, p_W, press.force_n, press.deep_m,
        way_with(bones.before_WB[contact.bone], X, p_W), friction_.solid},

@@ -62,6 +62,7 @@ class BandPull {
   static void add(const PullingHand& hand, const Pressed& pressed, BandForce& out);
 
   std::vector<Capsule> rods_;
+  std::vector<RoundBox> shapes_;  ///< the same parts
   const std::vector<SoftBand>* bands_ = nullptr;
   const BandContacts* contacts_ = nullptr;
   SoftFriction friction_;

@@ -19,18 +19,9 @@ bool are_apart(const RoundBox& a, const RoundBox& b, double far_m) {
 
 }  // namespace
 
-// What only its tip is felt of are balls.
-std::vector<RoundBox> ToolWalls::parts_of(const Tool& tool) {
-  std::vector<RoundBox> parts;
-  for (const Primitive& part : tool.parts) parts.push_back(round_box(part));
-  if (!parts.empty()) return parts;
-  for (const Capsule& rod : tool_rods(tool)) parts.push_back(round_box(rod));
-  return parts;
-}
-
 ToolWalls::ToolWalls(const Tool& own, std::span<const std::shared_ptr<const Tool>> tray)
-    : own_(parts_of(own)) {
-  for (const auto& tool : tray) tray_.push_back(parts_of(*tool));
+    : own_(tool_shapes(own)) {
+  for (const auto& tool : tray) tray_.push_back(tool_shapes(*tool));
 }
 
 void ToolWalls::start(const OtherTools& before, const OtherTools& now, const Pose& X_WT,

@@ -56,8 +56,6 @@ class ToolWalls {
             const Vec3& to_hand_W);
   void keep(const Wall& wall);
 
-  static std::vector<RoundBox> parts_of(const Tool& tool);
-
   std::vector<RoundBox> own_;
   std::vector<std::vector<RoundBox>> tray_;
   std::array<Wall, kMostPlanes> walls_{};

@@ -154,6 +154,21 @@ void add_to(Hasher& hasher, const WaterState& water) {
   }
 }
 
+// A place in a list counts: which is the next that is free follows from it.
+void add_to(Hasher& hasher, std::size_t hand, const InsideList& list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Inside& one = list[i];
+    if (one.kind == SubjectKind::kNothing) continue;
+    hasher.add(hand);
+    hasher.add(i);
+    hasher.add(static_cast<std::uint8_t>(one.kind));
+    hasher.add(one.subject);
+    hasher.add(one.first_step);
+    hasher.add(one.last_step);
+    hasher.add(one.deepest_m);
+  }
+}
+
 bool leads(const BoneSnapshot& snapshot) {
   return std::any_of(snapshot.guides.begin(), snapshot.guides.end(),
                      [](const ToolGuide& guide) { return guide.on; });
@@ -180,6 +195,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
   if (snapshot.placing.ordered || snapshot.placing.told > 0) add_order(hasher, snapshot.placing);
   if (snapshot.bend.on) add_to(hasher, snapshot.bend);
   if (snapshot.water.on && snapshot.water.hashed) add_to(hasher, snapshot.water);
+  for (std::size_t h = 0; h < snapshot.inside.size(); ++h) add_to(hasher, h, snapshot.inside[h]);
   return hasher.value();
 }
 
@@ -387,6 +403,10 @@ void BoneWorld::set_bend(const BendState& bend) { impl_->snapshot.bend = bend; }
 void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = water; }
 
 void BoneWorld::set_loose(const LooseBones& loose) { impl_->snapshot.loose = loose; }
+
+void BoneWorld::set_inside(std::size_t hand, const InsideList& list) {
+  impl_->snapshot.inside[hand] = list;
+}
 
 bool BoneWorld::held() const { return impl_->hold; }
 void BoneWorld::place(std::size_t bone, const BoneMotion& motion) {

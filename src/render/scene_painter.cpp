@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "osteon/render/felt_colors.h"
+#include "osteon/scene/soft_motion.h"
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
-#include "surface/soft_motion.h"
 
 namespace osteon {
 namespace {

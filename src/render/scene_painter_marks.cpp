@@ -3,11 +3,11 @@
 #include <cmath>
 #include "osteon/base/turn.h"
 #include "osteon/render/felt_colors.h"
+#include "osteon/scene/soft_motion.h"
 #include "scene_painter.h"
 
 #include "force_arrow.h"
 #include "surface/shapes.h"
-#include "surface/soft_motion.h"
 
 namespace osteon {
 namespace {

@@ -14,6 +14,7 @@
 #include "gl/gpu_mesh.h"
 #include "gl/light_target.h"
 #include "gl/render_target.h"
+#include "osteon/scene/soft_motion.h"
 #include "renderer_impl.h"
 #include "scope_lens.h"
 #include "scope_parts.h"
@@ -21,7 +22,6 @@
 #include "surface/loose_surface.h"
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
-#include "surface/soft_motion.h"
 #include "surface/tissue_part.h"
 #include "view/exposure.h"
 

@@ -27,8 +27,11 @@ constexpr std::array kRows = {
                  {"force_n", "limit_n", "duration_s"}},
     EventKindRow{K::kStructureSeen, "structure_seen", "sees", S::kBone, {"distance_mm", "", ""}},
     EventKindRow{K::kStructureEntered, "structure_entered", "enters", S::kSoftPart, {"", "", ""}},
-    EventKindRow{
-        K::kStructureLeft, "structure_left", "is out of", S::kSoftPart, {"duration_s", "", ""}},
+    EventKindRow{K::kStructureLeft,
+                 "structure_left",
+                 "is out of",
+                 S::kSoftPart,
+                 {"duration_s", "deepest_mm", ""}},
     EventKindRow{
         K::kInstrumentTaken, "instrument_taken", "takes", S::kInstrument, {"size", "", ""}},
     EventKindRow{

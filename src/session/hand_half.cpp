@@ -5,6 +5,7 @@
 #include "osteon/base/hash.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/scene/portal.h"
+#include "structure_watch.h"
 
 namespace osteon {
 namespace {
@@ -28,6 +29,15 @@ void add_to(Hasher& hasher, const WatchState& watch) {
     hasher.add(i);
     hasher.add(watch.seen[i]);
   }
+  for (std::size_t i = 0; i < watch.inside.size(); ++i) {
+    const Inside& one = watch.inside[i];
+    if (one.kind == SubjectKind::kNothing) continue;
+    hasher.add(i);
+    hasher.add(static_cast<std::uint8_t>(one.kind));
+    hasher.add(one.subject);
+    hasher.add(one.first_step);
+    hasher.add(one.last_step);
+  }
 }
 
 void add_to(Hasher& hasher, std::span<const HandMark> marks) {
@@ -50,7 +60,8 @@ HandHalf::HandHalf(std::shared_ptr<const Case> the_case, const Tray& tray,
       params_(settings.haptic),
       events_of_(static_cast<std::uint8_t>(hand), settings.haptic.tick_s, settings.force_limit_n),
       gaze_(*the_case),
-      sights_(settings.sights) {
+      sights_(settings.sights),
+      step_s_(settings.physics.step_s) {
   for (const auto& tool : tray) {
     loops_.emplace_back(the_case, tool, tray);
     loops_.back().set_portals(portals);
@@ -89,6 +100,7 @@ const ToolState& HandHalf::tick(const ToolInput& input, const BoneSnapshot& bone
   events_of_.see(tool, watch_, events_);
   tell_portals(before_.portal, tool.portal);
   if (sights_) tell_sights(bones);
+  tell_structures(bones);
   keep_record(input, bones, around, command);
   return tool;
 }
@@ -140,6 +152,19 @@ void HandHalf::tell_sights(const BoneSnapshot& bones) {
                seen.bone,
                seen.p_W,
                {seen.distance_m * 1e3, 0, 0}});
+}
+
+// Physics finds out where the tip is; a list says the same until the next step.
+void HandHalf::tell_structures(const BoneSnapshot& bones) {
+  if (bones.inside[hand_] == watch_.inside) return;
+  tell_changes(bones.inside[hand_], watch_.inside, [this](EventKind kind, const Inside& one) {
+    Event event{record_.tick,        kind, static_cast<std::uint8_t>(hand_), one.kind, one.subject,
+                tool_state().X_WP.p, {}};
+    if (kind == EventKind::kStructureLeft)
+      event.values = {static_cast<double>(one.last_step - one.first_step) * step_s_,
+                      one.deepest_m * 1e3, 0};
+    events_.add(event);
+  });
 }
 
 void HandHalf::tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value) {

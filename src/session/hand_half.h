@@ -55,6 +55,7 @@ class alignas(64) HandHalf {
   void go_back(std::uint32_t mark);
   void tell_portals(std::uint32_t before, std::uint32_t now);
   void tell_sights(const BoneSnapshot& bones);
+  void tell_structures(const BoneSnapshot& bones);
   void tell(EventKind kind, SubjectKind subject_kind, std::uint32_t subject, double value = 0);
   void keep_record(const ToolInput& input, const BoneSnapshot& bones, const OtherTools& others,
                    const Command& command);
@@ -71,6 +72,7 @@ class alignas(64) HandHalf {
   EventWatch events_of_;
   ScopeGaze gaze_;
   bool sights_;
+  double step_s_;  ///< of physics
   WatchState watch_;
   std::array<HandMark, kMaxMarks> marks_{};
   ToolState before_;

@@ -88,10 +88,8 @@ struct Session::Impl {
     world.set_placing(placing_tools(tray, settings, sizes_mm));
     world.set_water(tray, settings.water);
     if (softs) set_softs(settings);
-    if (!carving) return;
-    std::vector<FeltCuts*> felt;
-    for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));
-    world.set_carving(carving, std::move(felt));
+    if (carving) set_carving(carving);
+    if (settings.structures) world.set_structures();
   }
 
   std::shared_ptr<const Case> the_case;
@@ -109,6 +107,11 @@ struct Session::Impl {
   void step_if_due(std::uint64_t tick);
 
  private:
+  void set_carving(const std::shared_ptr<const CarvingSetup>& carving) {
+    std::vector<FeltCuts*> felt;
+    for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));
+    world.set_carving(carving, std::move(felt));
+  }
   void set_softs(const SessionSettings& settings) {
     std::vector<FeltBands*> felt;
     for (const auto& hand : hands) felt.push_back(&hand->set_bands(softs->bands, softs->friction));

@@ -294,6 +294,7 @@ std::string to_json(const SessionSettings& settings) {
   json["portals"] = settings.portals;
   json["water"] = settings.water;
   json["sights"] = settings.sights;
+  json["structures"] = settings.structures;
   if (settings.carve.on) json["carve"] = carve_json(settings.carve);
   if (!settings.soft.empty()) {
     json["soft"] = settings.soft;
@@ -309,7 +310,8 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   if (const auto done = take_carve(*parsed, settings); !done) return tl::unexpected(done.error());
   if (const auto done = take_soft(*parsed, settings); !done) return tl::unexpected(done.error());
   for (const auto& [name, value] :
-       {std::pair{"water", &settings.water}, std::pair{"sights", &settings.sights}})
+       {std::pair{"water", &settings.water}, std::pair{"sights", &settings.sights},
+        std::pair{"structures", &settings.structures}})
     if (const auto done = take_new(*parsed, name, *value); !done)
       return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());

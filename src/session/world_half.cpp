@@ -79,6 +79,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   }
   if (softs_) softs_->step(tools, bones);
   if (water_) let_flow(tools);
+  if (structures_) look_inside(tools);
   all_changed_ = false;
   record_ = {};
   record_.step = bones.step;
@@ -206,6 +207,30 @@ void WorldHalf::let_flow(std::span<const ToolState* const> tools) {
       softs_ ? softs_->world().openings() : std::span<const SoftOpening>();
   water_->step(tools, bones, openings, gone ? &*gone : nullptr, water);
   world_.set_water(water);
+}
+
+void WorldHalf::set_structures() {
+  std::vector<std::uint32_t> felt;
+  if (softs_) {
+    const SoftSetup& setup = softs_->world().setup();
+    for (const SoftBand& band : setup.bands) felt.push_back(band.soft);
+    for (const SoftSolid& solid : setup.solids) felt.push_back(solid.soft);
+    for (const SkinPatch& patch : setup.skins) felt.push_back(patch.soft);
+  }
+  auto watch = std::make_unique<StructureWatch>(*the_case_);
+  watch->add_softs(*the_case_, felt);
+  for (std::uint32_t b = 0; carving_ && b < the_case_->bones.size(); ++b)
+    if (carving_->field(b)) watch->add_bone(*the_case_, b);
+  if (watch->count() > 0) structures_ = std::move(watch);
+}
+
+void WorldHalf::look_inside(std::span<const ToolState* const> tools) {
+  const BoneSnapshot& bones = world_.snapshot();
+  for (std::size_t h = 0; h < tools.size(); ++h) {
+    InsideList list = bones.inside[h];
+    structures_->look(*tools[h], bones, list);
+    world_.set_inside(h, list);
+  }
 }
 
 // A line of the bench or of a tunnel leads before one of what is carved.

@@ -15,6 +15,7 @@
 #include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
+#include "structure_watch.h"
 
 namespace osteon {
 
@@ -41,6 +42,8 @@ class alignas(64) WorldHalf {
   /// Before the first step. The joint is filled where the case has one; see
   /// SessionSettings::water.
   void set_water(std::span<const std::shared_ptr<const Tool>> tray, bool hashed);
+  /// Before the first step, after softs and carving: what the tips of instruments can be in.
+  void set_structures();
   /// Before the first step.
   void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
   const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }
@@ -69,16 +72,18 @@ class alignas(64) WorldHalf {
   void pull_tail(double tension_n);
   void turn_pump(const Command& command);
   void let_flow(std::span<const ToolState* const> tools);
+  void look_inside(std::span<const ToolState* const> tools);
   WaterState fresh_water() const;
 
   std::shared_ptr<const Case> the_case_;
   BoneWorld world_;
   std::unique_ptr<Carving> carving_;  ///< null: no bone is carved
   std::unique_ptr<CutsFeed> feed_;
-  std::unique_ptr<SoftHalf> softs_;        ///< null: nothing is soft
-  std::unique_ptr<LooseRings> rings_;      ///< null: none lie loose
-  std::unique_ptr<GraftBenchWork> bench_;  ///< null: no graft is made
-  std::unique_ptr<GraftPlacing> placing_;  ///< null: none is placed
+  std::unique_ptr<StructureWatch> structures_;  ///< null: nothing is entered
+  std::unique_ptr<SoftHalf> softs_;             ///< null: nothing is soft
+  std::unique_ptr<LooseRings> rings_;           ///< null: none lie loose
+  std::unique_ptr<GraftBenchWork> bench_;       ///< null: no graft is made
+  std::unique_ptr<GraftPlacing> placing_;       ///< null: none is placed
   std::vector<PlacingTool> placing_tray_;
   std::optional<PlacingPlan> own_plan_;  ///< of a case with both tunnels
   std::optional<JointWater> water_;      ///< none: the case has no joint that is filled

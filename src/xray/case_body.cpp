@@ -8,6 +8,7 @@
 #include "offset_surface.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/soft_motion.h"
 
 namespace osteon {
 namespace {
@@ -154,22 +155,9 @@ Result<CaseBody> CaseBody::create(const Case& the_case, const TissueTable& tissu
   return Builder{the_case, tissues, options}.build();
 }
 
-/// A soft part follows the mean motion of its bones away from rest.
 Pose CaseBody::pose_of(const Part& part, const BoneSnapshot& bones) const {
   if (!part.soft) return bones.bones[part.bone].X_WB;
-  Vec3 center_W = Vec3::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-  double count = 0;
-  for (const std::size_t bone : part.on) {
-    const Pose moved = bones.bones[bone].X_WB * rest_X_WB_[bone].inverse();
-    const Eigen::Vector4d q = moved.q.coeffs();
-    turn += q.dot(turn) < 0 ? Eigen::Vector4d(-q) : q;
-    center_W += moved * part.center;
-    count += 1;
-  }
-  if (count == 0 || turn.norm() < 1e-6) return {};
-  const Quat q(turn / turn.norm());
-  return {center_W / count - q * part.center, q};
+  return mean_motion(bones, rest_X_WB_, part.on, part.center);
 }
 
 XrayBody CaseBody::posed(const BoneSnapshot& bones) const {

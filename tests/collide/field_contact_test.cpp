@@ -44,6 +44,23 @@ TEST(FieldContact, ABallStandsOffByItsRadius) {
   }
 }
 
+TEST(FieldContact, ABoxStandsOffByItsFaceAndARodAsItsCapsule) {
+  const Vec3 half(0.01, 0.006, 0.00075);
+  const RoundBox flat = placed({Vec3(0.001, 0, kBallRadius + 0.001), Quat::Identity()},
+                               round_box(make_box({}, half)));
+  const CapsuleContact c = round_contact(felt_ball(), flat);
+  ASSERT_EQ(c.status, LpStatus::kOptimal);
+  EXPECT_NEAR(c.gap, 0.001 - half.z(), 1e-5);
+  EXPECT_GT(c.nhat_AB_A.z(), 0.998);
+  EXPECT_LT((c.p_A - Vec3(0, 0, kBallRadius)).norm(), 1e-4);
+  EXPECT_NEAR(c.p_axis_A.z(), kBallRadius + 0.001 - half.z() + flat.rod.radius, 1e-12);
+  const Capsule rod{Vec3(0.004, 0, 0.004), Vec3(-0.004, 0.001, 0.0045), 0.0005};
+  EXPECT_EQ(round_contact(felt_ball(), round_box(rod)).gap, field_contact(felt_ball(), rod).gap);
+  RoundBox lost = flat;
+  lost.X.p.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(round_contact(felt_ball(), lost).status, LpStatus::kOptimal);
+}
+
 TEST(FieldContact, FarAwayTheGapIsABound) {
   const Vec3 p(0.05, 0.02, 0);
   const CapsuleContact c = field_contact(felt_ball(), {p, p, 0.001});

@@ -119,5 +119,50 @@ TEST(RoundBox, NearestPointsAreThoseOfASlowSearch) {
   EXPECT_GT(apart, 1500);
 }
 
+// A core of 2 x 4 x 6 about `middle`; the line goes along x from 0 to 10, and up is z.
+OverLine over(const Vec3& middle, const Quat& q = Quat::Identity()) {
+  RoundBox box = round_box(make_box({middle, q}, Vec3(1, 2, 3)));
+  box.half = Vec3(1, 2, 3);
+  return lowest_over(box, Vec3::Zero(), Vec3(10, 0, 0), Vec3::UnitZ());
+}
+
+TEST(OverLine, ABoxBesideItsPlaneOrBeyondItsEndsDoesNotMeetIt) {
+  EXPECT_FALSE(over(Vec3(5, 2.01, 7)).meets);
+  EXPECT_FALSE(over(Vec3(-1.01, 0, 7)).meets);
+  EXPECT_FALSE(over(Vec3(11.01, 0, 7)).meets);
+  EXPECT_TRUE(over(Vec3(5, 1.99, 7)).meets);
+}
+
+TEST(OverLine, TheHeightIsThatOfTheLowestPlaceAboveAndUnderTheLine) {
+  for (const double z : {7.0, 3.0, 0.0, -9.0}) {
+    const OverLine flat = over(Vec3(4, 1, z));
+    ASSERT_TRUE(flat.meets);
+    EXPECT_NEAR(flat.height, z - 3, 1e-12);
+    EXPECT_NEAR(flat.share, 0.4, 1e-9) << "the middle of the face";
+  }
+}
+
+// Turned by 45 degrees about the line's plane's normal, on a corner: (1 + 3) / sqrt 2 down, and
+// (3 - 1) / sqrt 2 aside.
+TEST(OverLine, ABoxOnItsCornerIsLowestThere) {
+  const Quat turn(Eigen::AngleAxisd(3.14159265358979 / 4, Vec3::UnitY()));
+  const OverLine corner = over(Vec3(5, 0, 7), turn);
+  ASSERT_TRUE(corner.meets);
+  EXPECT_NEAR(corner.height, 7 - 4 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(std::abs(corner.share - 0.5), 2 / std::sqrt(2.0) / 10, 1e-4);
+}
+
+// The corner hangs out beyond the line's end: the lowest place over the line is on the way up.
+TEST(OverLine, WhatHangsOutBeyondTheEndDoesNotCount) {
+  const Quat turn(Eigen::AngleAxisd(3.14159265358979 / 4, Vec3::UnitY()));
+  const double aside = 2 * (over(Vec3(5, 0, 7), turn).share - 0.5) * 5;  // of the lowest corner
+  const double end = aside > 0 ? 10 : 0, beyond = 0.25;
+  const double x = end - aside + (aside > 0 ? beyond : -beyond);
+  const OverLine cut = over(Vec3(x, 0, 7), turn);
+  ASSERT_TRUE(cut.meets);
+  EXPECT_NEAR(cut.height, 7 - 4 / std::sqrt(2.0) + beyond, 1e-3);
+  EXPECT_NEAR(cut.share, end / 10, 1e-3);
+}
+
 }  // namespace
 }  // namespace osteon

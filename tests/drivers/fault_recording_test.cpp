@@ -33,7 +33,19 @@ struct Fault {
   int bound_ms;                  ///< until the motors are at zero
   std::function<void()> come;
   std::function<void()> heal = [] {};
+  std::function<void(LoopExchange&)> from_above = [](LoopExchange&) {};
 };
+
+// Along a line so long that the pull across it is no number, the layers above wish for one.
+Fault not_a_number(int bound_ms) {
+  Fault fault{"NaN from the layers above", {ForceOff::kNotFinite}, bound_ms, [] {}};
+  fault.from_above = [](LoopExchange& exchange) {
+    HandWishes wishes;
+    wishes.guide = {true, Vec3::Zero(), Vec3(1e200, 0, 0), 1};
+    exchange.hand_wishes.publish(wishes);
+  };
+  return fault;
+}
 
 /// A device in a hand.
 struct Held {
@@ -65,8 +77,12 @@ Left run(const std::shared_ptr<const Case>& the_case, const Held& held, const Fa
     if (tick == kFaultTick) {
       left.force_before_n = held.motors().norm();
       fault.come();
+      fault.from_above(loop.exchange);
     }
-    if (tick == kHealedTick) fault.heal();
+    if (tick == kHealedTick) {
+      fault.heal();
+      loop.exchange.hand_wishes.publish({});
+    }
     if (tick == kResumedTick) {
       left.cause = loop.status().cause;
       loop.exchange.to_gate.push(GateWish::kEnable);
@@ -168,6 +184,7 @@ std::vector<Fault> faults_of(LedArm& arm) {
        11,
        [&] { left.calibration = hd::kCalibrationNeedsManualInput; },
        [&] { left.calibration = hd::kCalibrationOk; }},
+      not_a_number(2),
       {"its own fault", {ForceOff::kDeviceFault}, 1, [&] { left.raise = hd::kDeviceFault; }},
       {"let go", {ForceOff::kDeadMan}, 1, [&] { left.switch_held = false; }},
       {"closed", {ForceOff::kDisconnect}, 0, [&] { arm.device->close(); }},
@@ -187,8 +204,12 @@ std::vector<Vec3> felt_beside(const Held& held, const Fault* fault) {
     if (fault && tick == kFaultTick) {
       on = held.motors().norm() > 0.5;
       fault->come();
+      fault->from_above(loops.exchange(0));
     }
-    if (fault && tick == kHealedTick) fault->heal();
+    if (fault && tick == kHealedTick) {
+      fault->heal();
+      loops.exchange(0).hand_wishes.publish({});
+    }
     held.lead(testing::wanted_in_V(leaning_path(), 1e-3 * tick));
     const testing::WantedInV wanted = testing::wanted_in_V(beside, 1e-3 * tick);
     hand.set_target(wanted.X_VD, wanted.v_V, 0);
@@ -281,6 +302,7 @@ std::vector<Fault> faults_of(LedJoystick& joystick) {
        100,
        [&] { joystick.torn = true; },
        [&] { joystick.torn = false; }},
+      not_a_number(5),
       {"closed", {ForceOff::kDisconnect}, 0, [&] { rig.device->close(); }},
   };
 }
@@ -403,6 +425,7 @@ std::vector<Fault> faults_of(LedFalcon& held) {
        40,
        [&] { held.torn = true; },
        [&] { held.torn = false; }},
+      not_a_number(2),
       {"lost homing", {ForceOff::kCalibration}, 3, [&] { rig.falcon->lose_homing(); }},
       {"power lost", {ForceOff::kDisconnect}, 15, [&] { rig.falcon->switch_off_and_on(); }},
       {"closed", {ForceOff::kDisconnect}, 0, [&] { held.device->close(); }},

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "collide/stepped_hole.h"
 #include "mesh/shapes.h"
 #include "osteon/base/random.h"
 #include "osteon/base/turn.h"
@@ -110,6 +112,37 @@ TEST(Pinched, WhatStandsStillFeelsThePush) {
   }
   std::printf("%d blocked, %d stand still\n", blocked, still);
   EXPECT_GT(still, 5);
+}
+
+// A drill fills a hole that has become 20 um too narrow for it, over a still narrower one. The
+// walls beside it name planes along its way alone, so none of them holds it down there: the rim
+// that does is met on the way, and the push on it is felt.
+TEST(Pinched, ADrillInTooNarrowAHoleFeelsTheRimThatStopsIt) {
+  constexpr double kDrill = 0.00215, kTooWide = 2e-5, kPush = 0.001;
+  test::SteppedHole hole;
+  const CutField roomy = hole.cuts();
+  hole.wide_m = kDrill - kTooWide;
+  const CutField tight = hole.cuts();
+  Tool drill;
+  drill.parts = {make_rod(Vec3(0, 0, kDrill), Vec3(0, 0, 0.05), kDrill)};
+  Rig rig({test::field_bone(test::cube(0.008))}, drill);
+  const CutField* cuts[] = {&roomy};
+  rig.loop.set_cuts(cuts);
+  const double rests =
+      hole.step_m + std::sqrt(kDrill * kDrill - hole.narrow_m * hole.narrow_m) - kDrill;
+  (void)rig.at(Vec3(0, 0, 0.02));
+  (void)test::go(rig, Vec3(0, 0, 0.02), Vec3(0, 0, rests + 1e-4), 500);
+  ASSERT_FALSE(rig.at(Vec3(0, 0, rests + 1e-4)).status & kTickProxyBlocked);
+  const CutField* narrower[] = {&tight};
+  rig.loop.set_cuts(narrower);
+  double z = rests + 1e-4;
+  for (int tick = 0; tick < 20; ++tick) z = rig.at(Vec3(0, 0, rests - kPush)).X_WP.p.z();
+  const ToolState& s = rig.at(Vec3(0, 0, rests - kPush));
+  EXPECT_TRUE(s.status & kTickProxyBlocked);
+  EXPECT_EQ(s.X_WP.p.z(), z) << "it stands still";
+  EXPECT_GT(z, rests - 2.5e-4) << "splines over cells of 0.4 mm round the rim";
+  ASSERT_EQ(s.contact_count, 1u);
+  EXPECT_NEAR(s.force_W.z(), kStiffness * (z - (rests - kPush)), 1e-3);
 }
 
 }  // namespace

@@ -93,11 +93,10 @@ TEST(SessionBench, AStateInTheMiddleGoesOnWithTheSameBits) {
   }
 }
 
-// Where the bytes of a state differ first once its bench was changed.
-std::size_t word_of(const SessionState& state,
-                    const std::function<void(GraftBenchState&)>& change) {
+// Where the bytes of a state differ first once it was changed.
+std::size_t word_of(const SessionState& state, const std::function<void(SessionState&)>& change) {
   SessionState odd = state;
-  change(odd.world.bones.bench);
+  change(odd);
   const std::string a = to_bytes(state), b = to_bytes(odd);
   return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin()) /
          8 * 8;
@@ -113,13 +112,21 @@ TEST(SessionBench, AStateFromBeforeTableWorkIsReadAsClean) {
     tendon.scraped_m = kScrapedClean_m;
     tendon.stitches = (1u << kMostStitches) - 1;
   }
+  // Nor was any tip known to be in anything.
+  state.world.bones.inside = {};
+  state.hands[0].watch.inside = {};
+  const Inside fat{SubjectKind::kSoftPart, 0, 1, 1, 0};
   std::vector<std::size_t> words;
+  const auto note = [&](const auto& change) { words.push_back(word_of(state, change)); };
   for (std::size_t t = 0; t < kGraftTendons; ++t) {
-    words.push_back(word_of(state, [&](auto& bench) { bench.tendons[t].scraped_m = 0; }));
-    words.push_back(word_of(state, [&](auto& bench) { bench.tendons[t].stitches = 0; }));
+    note([&](SessionState& s) { s.world.bones.bench.tendons[t].scraped_m = 0; });
+    note([&](SessionState& s) { s.world.bones.bench.tendons[t].stitches = 0; });
   }
-  for (std::size_t h = 0; h < kBenchHands; ++h)
-    words.push_back(word_of(state, [&](auto& bench) { bench.hands[h].scrapes = 1; }));
+  for (std::size_t h = 0; h < kBenchHands; ++h) {
+    note([&](SessionState& s) { s.world.bones.bench.hands[h].scrapes = 1; });
+    note([&](SessionState& s) { s.world.bones.inside[h][0] = fat; });
+  }
+  note([&](SessionState& s) { s.hands[0].watch.inside[0] = fat; });
   std::sort(words.rbegin(), words.rend());
   std::string old = to_bytes(state);
   for (const std::size_t at : words) old.erase(at, 8);

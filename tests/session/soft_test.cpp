@@ -218,20 +218,21 @@ constexpr std::size_t kWordsAfterSofts = 1 + kMaxMarks + 2;  // rings, marks, co
 // Versions before 11 knew no water: its words, of which the first says that there is any. Behind it
 // stand those of versions 12 and 13: no graft is placed or was ordered, no joint is bent. Versions
 // 14, 22 and 24 have one more each, behind all that is soft: nothing was cut, no jaws hold
-// anything, and no skin is felt. Version 23 has one in the hand: no scope has seen anything.
+// anything, and no skin is felt. Version 23 has one in the hand: no scope has seen anything; and
+// version 26 one behind it, and one for each hand behind the joint: no tip is in anything.
 std::string without_water(SessionState saved) {
   const std::string with = to_bytes(saved);
   saved.world.bones.water = {};
   std::string bytes = to_bytes(saved);
   const auto differ = std::mismatch(bytes.begin(), bytes.end(), with.begin());
   bytes.erase(static_cast<std::size_t>(differ.first - bytes.begin()) / 8 * 8,
-              8 * (5 + kPlacingNumbers));
+              8 * (5 + kPlacingNumbers + kMaxHands));
   bytes.erase(bytes.size() - 8 * (kWordsAfterSofts + 3), 24);
   const std::string blind = to_bytes(saved);
   saved.hands[0].watch.seen[0] = 1;
   const std::string looked = to_bytes(saved);
   const auto sees = std::mismatch(blind.begin(), blind.end(), looked.begin()).first;
-  bytes.erase(static_cast<std::size_t>(sees - blind.begin()) / 8 * 8, 8);
+  bytes.erase(static_cast<std::size_t>(sees - blind.begin()) / 8 * 8, 16);
   return bytes;
 }
 

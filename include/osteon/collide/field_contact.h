@@ -4,6 +4,7 @@
 
 #include "osteon/collide/capsule_contact.h"
 #include "osteon/collide/field_view.h"
+#include "osteon/collide/round_box.h"
 
 namespace osteon {
 
@@ -14,6 +15,11 @@ namespace osteon {
 /// nothing. Not finite: kNumerical. A gap above `far_m` may be told as a bound below it, which is
 /// quicker.
 CapsuleContact field_contact(const FieldView& field, const Capsule& capsule_A,
+                             double far_m = std::numeric_limits<double>::infinity());
+
+/// The same of a box with round edges; of a ball or rod it is that of its capsule. `p_axis_A` lies
+/// on the box's core.
+CapsuleContact round_contact(const FieldView& field, const RoundBox& box_A,
                              double far_m = std::numeric_limits<double>::infinity());
 
 }  // namespace osteon

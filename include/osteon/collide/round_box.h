@@ -31,6 +31,17 @@ double reach_of(const RoundBox& box);
 double highest(const RoundBox& box, const Vec3& n);
 double lowest(const RoundBox& box, const Vec3& n);
 
+/// Where a core lies over a line, in the plane of the line and a direction across it.
+struct OverLine {
+  bool meets = false;  ///< the core has a point in that plane, over the line from its first end on
+  double height = 0;   ///< of its lowest point over the line, m; negative: under it
+  double share = 0;    ///< of the line, 0 to 1: over which place, with all that is nearly as low
+};
+/// Of a box. `n`: unit, across the line from a to b, which have some way between them. The height
+/// is continuous in the box's pose as long as it meets the plane; so is the share, which lies
+/// between the ends of a face that lies along the line.
+OverLine lowest_over(const RoundBox& box, const Vec3& a, const Vec3& b, const Vec3& n);
+
 /// Nearest points of two cores. Where more than one pair is as near, any of them: what lies between
 /// them is the same. Cores that meet: two points at one place.
 AxisPoints nearest_on_cores(const RoundBox& a, const RoundBox& b);

@@ -22,7 +22,7 @@ enum class EventKind : std::uint16_t {
   kForceOver = 3,   ///< the force on the hand has gone over its limit
   kForceUnder = 4,  ///< and is back under it
   kStructureSeen = 10,
-  kStructureEntered = 11,
+  kStructureEntered = 11,  ///< by the tip of the instrument; a soft part, or a bone
   kStructureLeft = 12,
   kInstrumentTaken = 20,
   kPowered = 21,  ///< power or intensity has changed

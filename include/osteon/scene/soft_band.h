@@ -9,6 +9,8 @@
 #include "osteon/base/id.h"
 #include "osteon/base/types.h"
 #include "osteon/collide/capsule_contact.h"
+#include "osteon/collide/round_box.h"
+#include "osteon/collide/segments.h"
 #include "osteon/scene/skin_contact.h"
 #include "osteon/scene/soft_hold.h"
 #include "osteon/scene/soft_solid.h"
@@ -89,7 +91,12 @@ struct BandContacts {
 /// The string of two straight legs about the part, in balance: its surface yields by
 /// surface x (deep - bent), the string by tension (bent / leg + bent / other leg), and both forces
 /// are one. `surface_n_per_m`: the softer of the band's surface and the hand's coupling.
-BandPress press_band(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox& part_W,
                      const BandContact& contact, double surface_n_per_m);
+
+/// Places of a band's middle line and of a part's core between which the part presses along
+/// `nhat_W`: the nearest of both; of a box over the band its lowest place there, however far it has
+/// come through the band's rest place.
+AxisPoints pressed_between(const BandSpan& span, const RoundBox& part_W, const Vec3& nhat_W);
 
 }  // namespace osteon

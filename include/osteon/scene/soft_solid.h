@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "osteon/base/types.h"
-#include "osteon/collide/capsule_contact.h"
+#include "osteon/collide/round_box.h"
 
 namespace osteon {
 
@@ -16,6 +16,7 @@ struct SolidContact {
   std::uint32_t bone = 0;        ///< that the solid goes with
   std::uint32_t part = 0;        ///< of tool_rods() of the instrument
   double along = 0;              ///< 0 to 1: the place on the part's axis that is pressed
+  Vec3 core = Vec3::Zero();      ///< of a box: the place on its core, in the box's axes
   Vec3 p_B = Vec3::Zero();       ///< of the surface at rest
   Vec3 nhat_B = Vec3::UnitZ();   ///< unit, out of the solid, on the side where the part came
   double stiffness_n_per_m = 0;  ///< of the solid there
@@ -32,13 +33,19 @@ struct SolidPress {
   double force_n = 0;  ///< on the tool, along the contact's normal; never negative
 };
 
+/// On the core of the part that is pressed, in the frame of `part_B`.
+inline Vec3 pressed_place(const SolidContact& contact, const RoundBox& part_B) {
+  if (part_B.is_box) return part_B.X * contact.core;
+  return part_B.rod.p0 + contact.along * (part_B.rod.p1 - part_B.rod.p0);
+}
+
 /// `part_B`: in the frame of the solid's bone. `coupling_n_per_m`: of the hand, which is not to
 /// meet anything stiffer.
-inline SolidPress press_solid(const SolidContact& contact, const Capsule& part_B,
+inline SolidPress press_solid(const SolidContact& contact, const RoundBox& part_B,
                               double coupling_n_per_m) {
   SolidPress out;
-  const Vec3 axis = part_B.p0 + contact.along * (part_B.p1 - part_B.p0);
-  out.deep_m = part_B.radius - contact.nhat_B.dot(axis - contact.p_B);
+  const Vec3 core = pressed_place(contact, part_B);
+  out.deep_m = part_B.rod.radius - contact.nhat_B.dot(core - contact.p_B);
   const double k =
       contact.stiffness_n_per_m < coupling_n_per_m ? contact.stiffness_n_per_m : coupling_n_per_m;
   const double pressed = out.deep_m - contact.others_m;

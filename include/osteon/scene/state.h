@@ -9,6 +9,7 @@
 #include "osteon/scene/bend_state.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
+#include "osteon/scene/inside.h"
 #include "osteon/scene/loose_bone.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
@@ -49,6 +50,7 @@ struct BoneSnapshot {
   BendState bend{};             ///< off: no joint was bent
   WaterState water{};           ///< off: the case has no joint that is filled
   LooseBones loose{};           ///< pieces of bone that were cut off
+  std::array<InsideList, kMaxHands> inside{};  ///< what the tip of each hand's instrument is in
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);
 

@@ -57,6 +57,9 @@ struct SessionSettings {
   /// What lies in the middle of a scope's picture is an event. Not in recordings that were made
   /// before there were such.
   bool sights = true;
+  /// What the tip of an instrument goes into and comes out of is an event. Not in recordings that
+  /// were made before there were such.
+  bool structures = true;
   std::uint64_t soft_hash = 0;  ///< SoftSetup::hash of what was made of them; 0: not made yet
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.

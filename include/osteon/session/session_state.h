@@ -14,6 +14,7 @@
 #include "osteon/physics/soft_state.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/event.h"
+#include "osteon/scene/inside.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -43,7 +44,8 @@ struct WatchState {
   std::uint64_t over_since = 0;  ///< tick; 0: the force is within its limit
   std::uint32_t over_bone = kNoSubject;
   std::array<std::uint64_t, kMaxBones>
-      seen{};  ///< tick, of each bone: in the middle of its scope's picture; 0: never
+      seen{};           ///< tick, of each bone: in the middle of its scope's picture; 0: never
+  InsideList inside{};  ///< what its tip was in, as the last snapshot said
 };
 
 /// All that one hand's ticks leave to the next.

@@ -26,12 +26,13 @@ bool within(const Vec3& p, const Vec3& from, const Vec3& to) {
   return share > 1e-9 * way.squaredNorm() && share < (1 - 1e-9) * way.squaredNorm();
 }
 
-Meeting meet(const BandSpan& span, const Capsule& part) {
+Meeting meet(const BandSpan& span, const RoundBox& shape) {
   Meeting out;
-  const AxisPoints pair = nearest_on_axes({span.a_W, span.b_W, 0}, part);
+  const AxisPoints pair = nearest_on_cores(round_box(Capsule{span.a_W, span.b_W, 0}), shape);
   out.q_W = pair.b - pair.a;
   out.along_W = (span.b_W - span.a_W).normalized();
-  if (within(pair.a, span.a_W, span.b_W) && within(pair.b, part.p0, part.p1)) {
+  const Capsule& part = shape.rod;
+  if (!shape.is_box && within(pair.a, span.a_W, span.b_W) && within(pair.b, part.p0, part.p1)) {
     const Vec3 cross = out.along_W.cross((part.p1 - part.p0).normalized());
     if (cross.norm() > kCrossing) out.across_W = cross.normalized();
   }
@@ -54,19 +55,19 @@ Vec3 turned(const Vec3& n, const Vec3& target) {
 
 }  // namespace
 
-BandSide first_side(const SoftBand& band, const BandSpan& span, const Capsule& part_W) {
+BandSide first_side(const SoftBand& band, const BandSpan& span, const RoundBox& part_W) {
   const Meeting met = meet(span, part_W);
   const double apart = met.q_W.norm();
   BandSide out;
   out.nhat_W = apart > 1e-9 ? Vec3(met.q_W / apart) : met.along_W.unitOrthogonal();
-  out.gap_m = apart - band.radius_m - part_W.radius;
+  out.gap_m = apart - band.radius_m - part_W.rod.radius;
   return out;
 }
 
-BandSide next_side(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+BandSide next_side(const SoftBand& band, const BandSpan& span, const RoundBox& part_W,
                    const Vec3& nhat_W) {
   const Meeting met = meet(span, part_W);
-  const double apart = met.q_W.norm(), radii = band.radius_m + part_W.radius;
+  const double apart = met.q_W.norm(), radii = band.radius_m + part_W.rod.radius;
   BandSide out;
   out.beyond = met.q_W.dot(nhat_W) < kBehind * apart;
   const bool clear = !out.beyond && apart >= radii;
@@ -77,7 +78,8 @@ BandSide next_side(const SoftBand& band, const BandSpan& span, const Capsule& pa
     target = (out.beyond ? -1 : 1) / apart * met.q_W;
   if (clear && apart > 0) target = met.q_W / apart;
   out.nhat_W = clear ? target : turned(nhat_W, across(target, met.along_W, nhat_W));
-  out.gap_m = out.nhat_W.dot(met.q_W) - radii;
+  const AxisPoints pressed = pressed_between(span, part_W, out.nhat_W);
+  out.gap_m = out.nhat_W.dot(pressed.b - pressed.a) - radii;
   return out;
 }
 

@@ -12,12 +12,12 @@ struct BandSide {
 };
 
 /// Of a part that has just come near.
-BandSide first_side(const SoftBand& band, const BandSpan& span, const Capsule& part_W);
+BandSide first_side(const SoftBand& band, const BandSpan& span, const RoundBox& part_W);
 
 /// Of one that was at `nhat_W` a step ago: it keeps its side when it goes through the band's rest
 /// place, and is followed round the band when it slides off. The side turns by 0.1 rad a step at
 /// most.
-BandSide next_side(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+BandSide next_side(const SoftBand& band, const BandSpan& span, const RoundBox& part_W,
                    const Vec3& nhat_W);
 
 }  // namespace osteon

@@ -29,10 +29,6 @@ constexpr double kNick_n = 0.5;  // a lighter touch wounds nothing (D)
 constexpr std::size_t kMostOpenings = 64;
 constexpr double kBlade_m = 0.03;  // from a blade's tip: so much of it is sharp at most
 
-Capsule moved(const Pose& X_WT, const Capsule& rod) {
-  return {X_WT * rod.p0, X_WT * rod.p1, rod.radius};
-}
-
 bool usable(const ToolState& tool) {
   return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < kFarthest_m2;
 }
@@ -48,6 +44,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
       step_s_(step_s) {
   for (const auto& tool : tray) {
     tray_.push_back(tool_rods(*tool));
+    shapes_.push_back(soft_shapes(*tool));
     uses_.push_back(tool->use);
   }
   state_.on = true;
@@ -150,14 +147,14 @@ bool SoftWorld::presses(const Hand& hand, std::size_t band, std::size_t part) co
 // one part has bent far is not where its rest place is: no other part comes to it then.
 void SoftWorld::follow(const Hand& hand) {
   SoftHandState& state = state_.hands[hand.index];
-  const std::vector<Capsule>& rods = tray_[state.instrument];
+  const std::vector<RoundBox>& parts = shapes_[state.instrument];
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < state.count; ++i) {
     NearBand near = state.near[i];
     const std::size_t b = near.contact.band;
     if (!is_felt(b) || !presses(hand, b, near.contact.part)) continue;
     const BandSide side =
-        next_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[near.contact.part]),
+        next_side(setup_->bands[b], spans_[b], placed(hand.tool->X_WP, parts[near.contact.part]),
                   near.contact.nhat_W);
     if (side.gap_m > kNear_m) continue;
     const bool begins = side.gap_m < 0 && !near.touching;
@@ -174,7 +171,7 @@ void SoftWorld::follow(const Hand& hand) {
 // Parts that have come near since. Where there is no room, those that touch stay.
 void SoftWorld::seek(const Hand& hand) {
   SoftHandState& state = state_.hands[hand.index];
-  const std::vector<Capsule>& rods = tray_[state.instrument];
+  const std::vector<RoundBox>& parts = shapes_[state.instrument];
   const auto known = [&](std::size_t band, std::size_t part) {
     return std::any_of(state.near.begin(), state.near.begin() + state.count,
                        [&](const NearBand& near) {
@@ -182,11 +179,11 @@ void SoftWorld::seek(const Hand& hand) {
                        });
   };
   for (std::size_t b = 0; b < setup_->bands.size(); ++b)
-    for (std::size_t part = 0; part < rods.size() && is_felt(b); ++part) {
+    for (std::size_t part = 0; part < parts.size() && is_felt(b); ++part) {
       if (state.count == kMaxBandContacts) return;
       if (known(b, part) || !presses(hand, b, part)) continue;
       const BandSide side =
-          first_side(setup_->bands[b], spans_[b], moved(hand.tool->X_WP, rods[part]));
+          first_side(setup_->bands[b], spans_[b], placed(hand.tool->X_WP, parts[part]));
       if (side.gap_m > kNear_m) continue;
       NearBand near;
       near.contact = {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(part), side.nhat_W,
@@ -224,12 +221,12 @@ void SoftWorld::press(Hand& hand) {
     near.taken_m = 0;
     near.contact.others_taken_m = taken_by_others(near);
     if (near.barred || near.behind) continue;
-    const Capsule part_W = moved(hand.tool->X_WP, tray_[state.instrument][near.contact.part]);
+    const RoundBox part_W = placed(hand.tool->X_WP, shapes_[state.instrument][near.contact.part]);
     const BandPress press = press_band(band, spans_[b], part_W, near.contact,
                                        std::min(coupling_n_per_m_, band.surface_n_per_m));
     if (!press.presses) continue;
     near.taken_m = press.taken_m;
-    keep_bend(near.contact, press, part_W.radius);
+    keep_bend(near.contact, press, part_W.rod.radius);
     if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
       hand.cuts[b] = true;
     if (press.force_n > kNick_n && hand.works &&
@@ -330,7 +327,7 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     if (!hand.tool || hand.tool->instrument != state.instrument) state.count = 0;
     if (!hand.tool) continue;
     state.instrument = hand.tool->instrument;
-    with.rods = tray_[state.instrument];
+    with.parts = shapes_[state.instrument];
     with.lifted = hand.lifted;
     if (cutting_) with.lifted |= cutting_->lifted(*hand.tool);
     const SoftHold& hold = state_.grips[hand.index].hold;

@@ -17,16 +17,18 @@ constexpr int kStrides = 24;
 // Parts of one tool that press so near to one another are one push: the deeper counts.
 constexpr double kOnePush_m = 0.004, kOneWay = 0.5;
 
-Capsule shifted_part(const Capsule& part, const Vec3& by) {
-  return {part.p0 + by, part.p1 + by, part.radius};
+RoundBox shifted_part(const RoundBox& part, const Vec3& by) {
+  RoundBox out = part;
+  out.rod.p0 += by;
+  out.rod.p1 += by;
+  out.X.p += by;
+  return out;
 }
-Vec3 axis_middle(const Capsule& part) { return 0.5 * (part.p0 + part.p1); }
 
-bool is_by(const Aabb& box, const Capsule& part) {
-  const double reach = part.radius + kSolidNear_m;
+bool is_by(const Aabb& box, const RoundBox& part) {
   for (Eigen::Index k = 0; k < 3; ++k)
-    if (std::min(part.p0[k], part.p1[k]) > box.hi[k] + reach ||
-        std::max(part.p0[k], part.p1[k]) < box.lo[k] - reach)
+    if (lowest(part, Vec3::Unit(k)) > box.hi[k] + kSolidNear_m ||
+        highest(part, Vec3::Unit(k)) < box.lo[k] - kSolidNear_m)
       return false;
   return true;
 }
@@ -35,8 +37,8 @@ bool is_by(const Aabb& box, const Capsule& part) {
 // surface there allows every o' with n.o' >= n.o - g. Each stride goes towards the shortest such
 // o', by no more than the gap and a little: less than the part's place could pass through an edge
 // by. Ends at the shortest o of one plane, or after so many strides on the way to it.
-CapsuleContact lead_outside(const FieldView& field, const Capsule& part, Vec3& o) {
-  CapsuleContact c = field_contact(field, shifted_part(part, o));
+CapsuleContact lead_outside(const FieldView& field, const RoundBox& part, Vec3& o) {
+  CapsuleContact c = round_contact(field, shifted_part(part, o));
   for (int i = 0; i < kStrides && c.status == LpStatus::kOptimal; ++i) {
     const Vec3& n = c.nhat_AB_A;
     const Vec3 shortest = std::max(0.0, n.dot(o) - c.gap) * n;
@@ -44,7 +46,7 @@ CapsuleContact lead_outside(const FieldView& field, const Capsule& part, Vec3& o
     const double length = way.norm(), stride = std::max(c.gap, 0.0) + kStride_m;
     if (length < 1e-7) break;
     o += std::min(1.0, stride / length) * way;
-    c = field_contact(field, shifted_part(part, o));
+    c = round_contact(field, shifted_part(part, o));
   }
   return c;
 }
@@ -62,14 +64,12 @@ bool SolidPresses::place(std::size_t solid, const BoneSnapshot& bones) {
   return is_finite(X_WB_[solid]);
 }
 
-Capsule SolidPresses::in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const {
-  const Pose X_BP = X_WB_[solid].inverse() * hand.tool->X_WP;
-  const Capsule& rod = hand.rods[part];
-  return {X_BP * rod.p0, X_BP * rod.p1, rod.radius};
+RoundBox SolidPresses::in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const {
+  return placed(X_WB_[solid].inverse() * hand.tool->X_WP, hand.parts[part]);
 }
 
 Vec3 SolidPresses::middle(const SolidNear& near, const SolidHand& hand) const {
-  return axis_middle(in_bone(near.contact.solid, hand, near.contact.part));
+  return middle_of(in_bone(near.contact.solid, hand, near.contact.part));
 }
 
 // False: the part has gone.
@@ -77,42 +77,46 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   SolidContact& contact = near.contact;
   if (hand.lifted >> contact.part & 1 || hand.held == contact.solid) return false;
   const FieldView field = view(contact.solid);
-  const Capsule part = in_bone(contact.solid, hand, contact.part);
-  Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - axis_middle(part));
-  const CapsuleContact c = near.barred ? field_contact(field, part) : lead_outside(field, part, o);
+  const RoundBox part = in_bone(contact.solid, hand, contact.part);
+  Vec3 o = near.barred ? Vec3(Vec3::Zero()) : Vec3(near.outside_B - middle_of(part));
+  const CapsuleContact c = near.barred ? round_contact(field, part) : lead_outside(field, part, o);
   if (c.status != LpStatus::kOptimal) return false;
   near.deep_m = c.nhat_AB_A.dot(o) - c.gap;
   if (near.deep_m < -kSolidNear_m) return false;
   near.touching = near.deep_m > 0;
   near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
-  near.outside_B = axis_middle(part) + o;
+  near.outside_B = middle_of(part) + o;
   near.entered_m = std::clamp(near.entered_m, 0.0, std::max(0.0, near.deep_m));
   contact.p_B = c.p_A;
   if (near.entered_m > 0) contact.p_B -= near.entered_m * c.nhat_AB_A;
   contact.nhat_B = c.nhat_AB_A;
-  contact.along = along_of(shifted_part(part, o), c.p_axis_A);
+  const RoundBox there = shifted_part(part, o);
+  if (part.is_box)
+    contact.core = there.X.inverse() * c.p_axis_A;
+  else
+    contact.along = along_of(there.rod, c.p_axis_A);
   return true;
 }
 
 void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
   const FieldView field = view(solid);
-  for (std::size_t part = 0; part < hand.rods.size(); ++part) {
+  for (std::size_t part = 0; part < hand.parts.size(); ++part) {
     if (state.count == kMaxSolidContacts) return;
     const auto is_it = [&](const SolidNear& near) {
       return near.contact.solid == solid && near.contact.part == part;
     };
     if (hand.lifted >> part & 1) continue;
     if (std::any_of(state.near.begin(), state.near.begin() + state.count, is_it)) continue;
-    const Capsule part_B = in_bone(solid, hand, part);
+    const RoundBox part_B = in_bone(solid, hand, part);
     if (!is_by(field.box(), part_B)) continue;
-    const CapsuleContact c = field_contact(field, part_B, kSolidNear_m);
+    const CapsuleContact c = round_contact(field, part_B, kSolidNear_m);
     if (c.status != LpStatus::kOptimal || c.gap > kSolidNear_m) continue;
     SolidNear near;
     near.contact.solid = static_cast<std::uint32_t>(solid);
     near.contact.bone = solids_[solid].bone.index;
     near.contact.part = static_cast<std::uint32_t>(part);
     near.barred = c.gap < 0;
-    near.outside_B = axis_middle(part_B);
+    near.outside_B = middle_of(part_B);
     if (keep(near, hand)) state.near[state.count++] = near;
   }
 }
@@ -182,7 +186,7 @@ void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState
     const double compliance = body.compliance(push, push);
     contact.stiffness_n_per_m = compliance > 0 ? 1 / compliance : 0;
     contact.others_m = others(near, push, all);
-    const Capsule part = in_bone(contact.solid, hand, contact.part);
+    const RoundBox part = in_bone(contact.solid, hand, contact.part);
     near.force_n = press_solid(contact, part, coupling_n_per_m_).force_n;
     hand.force_n[contact.solid] += near.force_n;
     hand.deep_m[contact.solid] = std::max(hand.deep_m[contact.solid], near.deep_m);

@@ -17,7 +17,7 @@ namespace osteon {
 /// A hand's tool in a step, for solids.
 struct SolidHand {
   const ToolState* tool = nullptr;  ///< null: it touches nothing
-  std::span<const Capsule> rods;    ///< of the tool
+  std::span<const RoundBox> parts;  ///< of the tool
   std::uint64_t lifted = 0;         ///< which of them are out of the way
   std::uint32_t held = kMaxSolids;  ///< which solid its jaws hold: no part presses that one
   std::array<double, kMaxSolids> force_n{}, deep_m{};
@@ -59,7 +59,7 @@ class SolidPresses {
   SoftPushes pushes(const SoftState& all) const;
 
  private:
-  Capsule in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
+  RoundBox in_bone(std::size_t solid, const SolidHand& hand, std::size_t part) const;
   bool keep(SolidNear& near, const SolidHand& hand) const;
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
   std::optional<SoftPushes::One> pull_on(std::size_t solid, const SoftGrip& grip) const;

@@ -67,15 +67,30 @@ double tension_slope_at(const SoftBand& band, double length_m) {
   return band.left * sum;
 }
 
+AxisPoints pressed_between(const BandSpan& span, const RoundBox& part_W, const Vec3& nhat_W) {
+  const AxisPoints nearest = nearest_on_cores(round_box(Capsule{span.a_W, span.b_W, 0}), part_W);
+  if (!part_W.is_box) return nearest;
+  const Vec3 way = span.b_W - span.a_W;
+  const double length = way.norm();
+  const Vec3 across = nhat_W - nhat_W.dot(way) / (length * length) * way;
+  const double size = across.norm();
+  if (!(length > 0) || !(size > 0)) return nearest;
+  const Vec3 n = across / size;
+  const OverLine over = lowest_over(part_W, span.a_W, span.b_W, n);
+  if (!over.meets) return nearest;
+  const Vec3 on_band = span.a_W + over.share * way;
+  return {on_band, on_band + over.height * n};
+}
+
 // Symbols: n, from the band to the part; q, from the straight band to the part's middle line where
 // the two are nearest; the part has come deep = r + R - q.n over the surface.
-BandPress press_band(const SoftBand& band, const BandSpan& span, const Capsule& part_W,
+BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox& part_W,
                      const BandContact& contact, double surface_n_per_m) {
   BandPress out;
-  const AxisPoints pair = nearest_on_axes({span.a_W, span.b_W, 0}, part_W);
   const Vec3& n = contact.nhat_W;
-  out.p_W = pair.b - part_W.radius * n;
-  out.deep_m = band.radius_m + part_W.radius - n.dot(pair.b - pair.a);
+  const AxisPoints pair = pressed_between(span, part_W, n);
+  out.p_W = pair.b - part_W.rod.radius * n;
+  out.deep_m = band.radius_m + part_W.rod.radius - n.dot(pair.b - pair.a);
   const double to_a = (pair.a - span.a_W).norm(), to_b = (pair.a - span.b_W).norm();
   const double at_end = std::min(1.0, std::min(to_a, to_b) / (kEndShare * (to_a + to_b)));
   if (!(out.deep_m > 0) || !(at_end > 0) || !std::isfinite(to_a + to_b)) return out;

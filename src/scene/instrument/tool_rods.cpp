@@ -26,4 +26,19 @@ std::vector<Capsule> tool_rods(const Tool& tool) {
   return rods;
 }
 
+std::vector<RoundBox> tool_shapes(const Tool& tool) {
+  std::vector<RoundBox> shapes;
+  for (const Primitive& part : tool.parts) shapes.push_back(round_box(part));
+  if (!shapes.empty()) return shapes;
+  for (const Capsule& rod : tool_rods(tool)) shapes.push_back(round_box(rod));
+  return shapes;
+}
+
+std::vector<RoundBox> soft_shapes(const Tool& tool) {
+  if (!tool.use.cuts) return tool_shapes(tool);
+  std::vector<RoundBox> shapes;
+  for (const Capsule& rod : tool_rods(tool)) shapes.push_back(round_box(rod));
+  return shapes;
+}
+
 }  // namespace osteon

@@ -53,6 +53,25 @@ void field(A& a, WaterState& s) {
   for (Wound& wound : s.wounds) field(a, wound);
 }
 
+// Which places are taken, bit by bit, and those.
+template <class A>
+void field(A& a, InsideList& list) {
+  if (!since(a, 26)) return;  // nothing was entered then
+  std::uint64_t taken = 0;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].kind != SubjectKind::kNothing) taken |= std::uint64_t{1} << i;
+  number(a, taken, (std::uint64_t{1} << kMostInside) - 1);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if ((taken >> i & 1u) == 0) continue;
+    Inside& one = list[i];
+    number(a, one.kind, static_cast<std::uint64_t>(SubjectKind::kSoftPart));
+    number(a, one.subject, kMaxSofts - 1);
+    field(a, one.first_step);
+    field(a, one.last_step);
+    field(a, one.deepest_m);
+  }
+}
+
 template <class A>
 void field(A& a, BoneSnapshot& s) {
   field(a, s.step);
@@ -67,6 +86,7 @@ void field(A& a, BoneSnapshot& s) {
   field(a, s.water);
   field(a, s.placing);
   field(a, s.bend);
+  for (InsideList& list : s.inside) field(a, list);
 }
 
 template <class A>
@@ -91,6 +111,8 @@ void field(A& a, RingsState& s) {
 
 template void field(Out&, GuideRod&);
 template void field(In&, GuideRod&);
+template void field(Out&, InsideList&);
+template void field(In&, InsideList&);
 template void field(Out&, BoneSnapshot&);
 template void field(In&, BoneSnapshot&);
 template void field(Out&, RingsState&);

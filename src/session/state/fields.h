@@ -35,6 +35,8 @@ void field(A& a, BendState& value);
 template <class A>
 void field(A& a, GuideRod& value);
 template <class A>
+void field(A& a, InsideList& value);
+template <class A>
 void field(A& a, BoneSnapshot& value);
 template <class A>
 void field(A& a, RingsState& value);

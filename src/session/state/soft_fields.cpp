@@ -35,6 +35,8 @@ void field(A& a, SolidNear& n) {
   for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
   if (!since(a, 14)) return;  // nothing cut solids then
   field(a, n.entered_m);
+  if (!since(a, 26)) return;  // a box was a rod then
+  field(a, c.core);
 }
 
 template <class A>

@@ -31,6 +31,7 @@ void field(A& a, WatchState& w) {
   field(a, w.over_since);
   field(a, w.over_bone);
   if (since(a, kSights)) seen_field(a, w.seen);
+  field(a, w.inside);
 }
 
 template <class A>

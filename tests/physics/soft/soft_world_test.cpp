@@ -38,12 +38,13 @@ std::shared_ptr<const SoftSetup> setup_of(const SoftBand& band) {
 }
 
 struct World {
-  std::vector<std::shared_ptr<const Tool>> tray = {std::make_shared<const Tool>(rod_along_y())};
+  std::vector<std::shared_ptr<const Tool>> tray;
   SoftWorld softs;
   BoneSnapshot bones;
   ToolState tool;
 
-  explicit World(const SoftBand& band = taut_band()) : softs(setup_of(band), tray, 2000, 5, 0.002) {
+  explicit World(const SoftBand& band = taut_band(), const Tool& held = rod_along_y())
+      : tray{std::make_shared<const Tool>(held)}, softs(setup_of(band), tray, 2000, 5, 0.002) {
     bones.count = 2;
     tool.tick = 1;
   }
@@ -116,6 +117,46 @@ TEST(SoftWorld, AStateOfAnotherKindDoesNotFit) {
   EXPECT_FALSE(world.softs.fits(odd));
 }
 
+// A plate that lies flat, 20 mm wide across the band and `along_m` along it, 1.5 mm thick.
+Tool plate(double along_m) {
+  Tool tool;
+  tool.parts.push_back(make_box({}, Vec3(along_m / 2, 0.01, 0.00075)));
+  return tool;
+}
+
+// The rod that a box was taken for is 5.4 mm thick all round.
+TEST(SoftWorld, APlateIsFeltWhereItsFaceIs) {
+  World world(taut_band(), plate(0.0015));
+  const double touch_m = taut_band().radius_m + 0.00075;
+  for (double z = 0.008; z > touch_m; z -= 0.0002) world.step(z);
+  EXPECT_EQ(world.softs.readout(0).force_n[0], 0);
+  world.step(touch_m - 0.0002);
+  EXPECT_GT(world.softs.readout(0).force_n[0], 0);
+}
+
+// Its face is as narrow as the rod is thick: the string is bent by the same.
+TEST(SoftWorld, ANarrowPlateOnItsFacePressesAsARodAcross) {
+  World narrow(taut_band(), plate(0.001)), rod;
+  const double lower = 0.001 - 0.00075;  // the rod's surface is so much farther from its middle
+  for (double z = 0.008; z > -0.004; z -= 0.0002) {
+    rod.step(z + lower);
+    narrow.step(z);
+    const double force_n = rod.softs.readout(0).force_n[0];
+    ASSERT_NEAR(narrow.softs.readout(0).force_n[0], force_n, 1e-9 + 1e-6 * force_n) << z;
+  }
+  EXPECT_GT(rod.softs.readout(0).force_n[0], 5) << "far through the band's rest place";
+}
+
+TEST(SoftWorld, APlateThatGoesByBesideABandDoesNotPressIt) {
+  Tool tool;
+  tool.parts.push_back(make_box({Vec3(0, 0.02, 0), Quat::Identity()}, Vec3(0.001, 0.01, 0.00075)));
+  World world(taut_band(), tool);
+  for (double z = 0.008; z > -0.008; z -= 0.0002) {
+    world.step(z);
+    ASSERT_EQ(world.softs.readout(0).force_n[0], 0) << z;
+  }
+}
+
 // The same string as an elastic rod of 20 segments, thin in bending, that hangs on two grips drawn
 // apart and is loaded in the middle: how far it gives way there.
 double rod_bends(double force_n) {
@@ -153,7 +194,7 @@ TEST(SoftWorld, GivesWayAsAnElasticRodOfManySegments) {
   for (const double bent : {0.001, 0.003, 0.005}) {
     const double z = band.radius_m + 0.001 - bent;
     const Capsule shaft{Vec3(0.01575, -0.02, z), Vec3(0.01575, 0.02, z), 0.001};
-    const BandPress press = press_band(band, span, shaft, contact, band.surface_n_per_m);
+    const BandPress press = press_band(band, span, round_box(shaft), contact, band.surface_n_per_m);
     ASSERT_NEAR(press.bent_m, bent, 1e-6);
     EXPECT_NEAR(rod_bends(press.force_n), bent, 0.02 * bent);
   }

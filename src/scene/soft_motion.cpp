@@ -1,4 +1,4 @@
-#include "surface/soft_motion.h"
+#include "osteon/scene/soft_motion.h"
 
 namespace osteon {
 
