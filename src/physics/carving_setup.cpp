@@ -6,8 +6,8 @@
 #include "osteon/base/file.h"
 #include "osteon/base/turn.h"
 #include "osteon/physics/carving.h"
-#include "osteon/physics/pieces_setup.h"
 #include "osteon/physics/joint_fluid.h"
+#include "osteon/physics/pieces_setup.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 

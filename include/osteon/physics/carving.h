@@ -70,8 +70,8 @@ struct CarvingSetup {
   /// through: as a sum of piecewise linear functions along its line (rbf_force.h). 0: as bone does.
   double guided_n = 0;
   std::shared_ptr<const PiecesSetup> pieces;  ///< null: what is cut off is gone
-  double irrigation_m3_s = 0;      ///< of water over the bone that is cut; 0: it is dry
-  std::size_t most_blocks = 4096;  ///< of each bone
+  double irrigation_m3_s = 0;                 ///< of water over the bone that is cut; 0: it is dry
+  std::size_t most_blocks = 4096;             ///< of each bone
   std::size_t channel_places = 0;  ///< for changes on their way to a hand; 0: as many as it takes
   double air_m = 0;                ///< cuts are known so far outside of a bone
   /// Walls are felt so far behind where they were cut.

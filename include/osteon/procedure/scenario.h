@@ -80,10 +80,10 @@ struct AskedFinding {
 struct Scenario {
   std::string name, title, text;
   int version = 1;
-  std::string anatomy;              ///< "wrist" or "knee": what grows its patients
-  std::string felt;                 ///< "pieces", "hull" or "field": what of the bones is felt
-  std::vector<std::string> fields;  ///< bones felt as fields all the same: they can be carved
-  double cortex_mm = 1.2;           ///< of bones that are carved: how thick their hard shell is
+  std::string anatomy;               ///< "wrist" or "knee": what grows its patients
+  std::string felt;                  ///< "pieces", "hull" or "field": what of the bones is felt
+  std::vector<std::string> fields;   ///< bones felt as fields all the same: they can be carved
+  double cortex_mm = 1.2;            ///< of bones that are carved: how thick their hard shell is
   double irrigation_ml_per_min = 0;  ///< water over the bone that is cut
   double time_limit_s = 600;
   bool ghost = true;                  ///< an expert's instruments may be shown beside the learner's
