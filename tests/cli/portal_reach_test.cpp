@@ -34,8 +34,9 @@ TEST_F(CliTest, AProbeThroughPortalFourFiveTouchesTheLunate) {
     if (!line.starts_with('{')) continue;
     const nlohmann::json event = nlohmann::json::parse(line);
     const std::string kind = event["kind"], subject = event.value("subject", "");
-    if (kind == "contact_end" && subject == "lunate")
+    if (kind == "contact_end" && subject == "lunate") {
       EXPECT_GT(event["duration_s"].get<double>(), 0.9);
+    }
     if (subject == "lunate" || subject == "portal_4_5" || subject == "skin")
       order += kind + " " + subject + "\n";
   }
