@@ -89,7 +89,7 @@ struct Session::Impl {
     world.set_water(tray, settings.water);
     if (softs) set_softs(settings);
     if (carving) set_carving(carving);
-    if (settings.structures) world.set_structures();
+    if (settings.structures) world.set_structures(settings.soft_structures);
   }
 
   std::shared_ptr<const Case> the_case;

@@ -295,6 +295,7 @@ std::string to_json(const SessionSettings& settings) {
   json["water"] = settings.water;
   json["sights"] = settings.sights;
   json["structures"] = settings.structures;
+  json["soft_structures"] = settings.soft_structures;
   if (settings.carve.on) json["carve"] = carve_json(settings.carve);
   if (!settings.soft.empty()) {
     json["soft"] = settings.soft;
@@ -311,7 +312,8 @@ Result<SessionSettings> parse_settings(const std::string& json) {
   if (const auto done = take_soft(*parsed, settings); !done) return tl::unexpected(done.error());
   for (const auto& [name, value] :
        {std::pair{"water", &settings.water}, std::pair{"sights", &settings.sights},
-        std::pair{"structures", &settings.structures}})
+        std::pair{"structures", &settings.structures},
+        std::pair{"soft_structures", &settings.soft_structures}})
     if (const auto done = take_new(*parsed, name, *value); !done)
       return tl::unexpected(done.error());
   if (const auto done = check_keys(*parsed); !done) return tl::unexpected(done.error());

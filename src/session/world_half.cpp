@@ -209,7 +209,7 @@ void WorldHalf::let_flow(std::span<const ToolState* const> tools) {
   world_.set_water(water);
 }
 
-void WorldHalf::set_structures() {
+void WorldHalf::set_structures(bool softs) {
   std::vector<std::uint32_t> felt;
   if (softs_) {
     const SoftSetup& setup = softs_->world().setup();
@@ -218,7 +218,7 @@ void WorldHalf::set_structures() {
     for (const SkinPatch& patch : setup.skins) felt.push_back(patch.soft);
   }
   auto watch = std::make_unique<StructureWatch>(*the_case_);
-  watch->add_softs(*the_case_, felt);
+  if (softs) watch->add_softs(*the_case_, felt);
   for (std::uint32_t b = 0; carving_ && b < the_case_->bones.size(); ++b)
     if (carving_->field(b)) watch->add_bone(*the_case_, b);
   if (watch->count() > 0) structures_ = std::move(watch);

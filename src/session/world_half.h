@@ -43,7 +43,7 @@ class alignas(64) WorldHalf {
   /// SessionSettings::water.
   void set_water(std::span<const std::shared_ptr<const Tool>> tray, bool hashed);
   /// Before the first step, after softs and carving: what the tips of instruments can be in.
-  void set_structures();
+  void set_structures(bool softs);
   /// Before the first step.
   void set_softs(std::unique_ptr<SoftHalf> softs) { softs_ = std::move(softs); }
   const SoftWorld* softs() const { return softs_ ? &softs_->world() : nullptr; }

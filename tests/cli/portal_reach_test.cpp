@@ -23,8 +23,9 @@ constexpr const char* kOnTheLunate =
 
 TEST_F(CliTest, AProbeThroughPortalFourFiveTouchesTheLunate) {
   std::ofstream(file("p.csv")) << kOnTheLunate;
-  const Ran ran = run_osteon("simulate --case builtin:wrist --hand right=" + file("p.csv") +
-                             " --record " + file("r.osr"));
+  const Ran ran =
+      run_osteon("simulate --case builtin:wrist --structures --hand right=" + file("p.csv") +
+                 " --record " + file("r.osr"));
   ASSERT_EQ(ran.exit_code, 0) << ran.output;
   const Ran told = run_osteon("record info " + file("r.osr") + " --events --json");
   ASSERT_EQ(told.exit_code, 0) << told.output;

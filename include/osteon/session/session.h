@@ -60,6 +60,9 @@ struct SessionSettings {
   /// What the tip of an instrument goes into and comes out of is an event. Not in recordings that
   /// were made before there were such.
   bool structures = true;
+  /// Those of the case's soft parts too. False for a case that was opened without them, and in
+  /// recordings that were made before there were such: a replay that has them does not look.
+  bool soft_structures = true;
   std::uint64_t soft_hash = 0;  ///< SoftSetup::hash of what was made of them; 0: not made yet
 };
 /// Says which setting is out of its range, or that a physics step is not a whole number of ticks.

@@ -43,6 +43,7 @@ struct LiveOptions {
   double power = 0;
   std::string portals = "all";
   std::string soft;
+  bool structures = false;
   double guided_n = 0, irrigation_ml_per_min = 0;
   MappingSettings mapping;
 };
@@ -199,6 +200,7 @@ Result<LiveHands> make_hands(const LiveOptions& options, std::shared_ptr<const C
   if (auto portals = open_portals(*live.run.the_case, live.run.settings); !portals)
     return tl::unexpected(portals.error());
   live.run.settings.soft = softs_named(options.soft);
+  live.run.settings.soft_structures = !live.run.the_case->softs.empty();
   auto softs = softs_for(*live.run.the_case, live.run.settings);
   if (!softs) return tl::unexpected(softs.error());
   if (*softs) live.run.settings.soft_hash = (*softs)->hash;
@@ -324,8 +326,9 @@ Result<ProbePath> path_of(const LiveOptions& options, const Case& the_case) {
 int run_live(LiveOptions options) {
   const StopSignals signals;
   options.mapping.axes = MappingAxes::kPatient;
-  auto the_case = open_and_show_progress(options.case_spec,
-                                         options.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
+  auto the_case = open_and_show_progress(
+      options.case_spec,
+      options.soft.empty() && !options.structures ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   const auto path = path_of(options, **the_case);
   if (!path) return report_error(path.error());
@@ -374,6 +377,7 @@ void add_live_command(cli::App& app, int& exit_code) {
       ->check(cli::Range(0, 31));
   add_portals_option(*command, options->portals);
   add_soft_option(*command, options->soft);
+  add_structures_option(*command, options->structures);
   add_guided_option(*command, options->guided_n);
   add_irrigation_option(*command, options->irrigation_ml_per_min);
   command

@@ -22,6 +22,7 @@ struct SimulateOptions {
   std::string record;
   std::string report;
   std::string device;
+  bool structures = false;
   SessionOptions session;
 };
 
@@ -98,7 +99,8 @@ int run_simulate(const SimulateOptions& options) {
   auto run = run_of(options);
   if (!run) return report_error(run.error());
   auto the_case = open_and_show_progress(
-      options.case_spec, options.session.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
+      options.case_spec,
+      options.session.soft.empty() && !options.structures ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
   run->the_case = *the_case;
   const auto outcome = simulate_hands(*run);
@@ -130,6 +132,7 @@ void add_simulate_command(cli::App& app, int& exit_code) {
                       "play the path on a virtual device, through its driver and the safety gate: "
                       "virtual-usb-vector, virtual-usb-torque, virtual-usb-pid, virtual");
   options->session.add_to(*command);
+  add_structures_option(*command, options->structures);
   command->callback([options, &exit_code] { exit_code = run_simulate(*options); });
 }
 

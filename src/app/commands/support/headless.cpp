@@ -177,6 +177,7 @@ Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessH
                        ReportBuilder(*run.the_case, settings.haptic.tick_s, *portals)});
   }
   settings.carve.on = can_carve(*run.the_case, settings.tray);
+  settings.soft_structures = !run.the_case->softs.empty();
   if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
   auto carving = carving_for(*run.the_case, settings);
   if (!carving) return tl::unexpected(carving.error());

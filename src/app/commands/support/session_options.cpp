@@ -71,6 +71,11 @@ void add_guided_option(cli::App& command, double& guided_n) {
       ->capture_default_str();
 }
 
+void add_structures_option(cli::App& command, bool& structures) {
+  command.add_flag("--structures", structures,
+                   "open the case with its soft parts, and record when a tip goes into one");
+}
+
 void add_irrigation_option(cli::App& command, double& irrigation_ml_per_min) {
   command
       .add_option("--irrigation", irrigation_ml_per_min,

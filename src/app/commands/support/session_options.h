@@ -26,6 +26,9 @@ struct SessionOptions {
 void add_portals_option(cli::App& command, std::string& portals);
 /// "--soft": which soft parts are felt, as `softs_named` reads it.
 void add_soft_option(cli::App& command, std::string& soft);
+/// "--structures": the case is opened with its soft parts, so that events tell when a tip goes into
+/// one.
+void add_structures_option(cli::App& command, bool& structures);
 /// "--irrigation": as CarveSettings::irrigation_ml_per_min.
 void add_irrigation_option(cli::App& command, double& irrigation_ml_per_min);
 /// "--guided-force": as CarveSettings::guided_n.

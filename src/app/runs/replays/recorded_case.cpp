@@ -29,7 +29,8 @@ Result<std::string> recorded_case_spec(const fs::path& recording, const std::str
 
 CaseParts parts_of(const RecordingHeader& header) {
   const auto settings = parse_settings(header.settings_json);
-  return settings && !settings->soft.empty() ? CaseParts::kAll : CaseParts::kFelt;
+  const bool needed = settings && (!settings->soft.empty() || settings->soft_structures);
+  return needed ? CaseParts::kAll : CaseParts::kFelt;
 }
 
 }  // namespace osteon
