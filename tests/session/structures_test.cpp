@@ -15,7 +15,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kTick_s = 0.001, kLook_s = 2 * StructureWatch::kEvery * kTick_s;
+constexpr double kStructureTick_s = 0.001,
+                 kStructureLook_s = 2 * StructureWatch::kEvery * kStructureTick_s;
 const Vec3 kFatHalf(0.006, 0.005, 0.004);
 const Vec3 kFatMiddle(0, 0, 0.03);
 constexpr double kBallRadius = 0.005;
@@ -71,7 +72,7 @@ std::vector<Event> go(Session& session, const Vec3& from_W, const Vec3& to_W, in
   return told;
 }
 
-const Vec3 kAcross(0.02, 0, 0);
+const Vec3 kAcrossFat(0.02, 0, 0);
 
 TEST(Structures, FarFromAllOfThemNothingIsTold) {
   Session session(fat_case(), {});
@@ -81,7 +82,8 @@ TEST(Structures, FarFromAllOfThemNothingIsTold) {
 // 20 mm/s along x through a box of 12 mm: in at 0.7 s, out at 1.3 s, 4 mm under the nearest side.
 TEST(Structures, ABoxIsEnteredAndLeftWhereTheTipPassesItsSides) {
   Session session(fat_case(), {});
-  const std::vector<Event> told = go(session, kFatMiddle - kAcross, kFatMiddle + kAcross, 2000);
+  const std::vector<Event> told =
+      go(session, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 2000);
   ASSERT_EQ(told.size(), 2u);
   const double speed = 0.02, in_s = (0.02 - kFatHalf.x()) / speed,
                out_s = (0.02 + kFatHalf.x()) / speed;
@@ -89,16 +91,18 @@ TEST(Structures, ABoxIsEnteredAndLeftWhereTheTipPassesItsSides) {
   EXPECT_EQ(told[0].subject_kind, SubjectKind::kSoftPart);
   EXPECT_EQ(told[0].subject, 0u);
   EXPECT_EQ(told[0].hand, 0);
-  const double entered_s = static_cast<double>(told[0].tick) * kTick_s;
+  const double entered_s = static_cast<double>(told[0].tick) * kStructureTick_s;
   EXPECT_GE(entered_s, in_s);
-  EXPECT_LE(entered_s, in_s + StructureWatch::kIn_m / speed + kLook_s + 3 * kTick_s);
+  EXPECT_LE(entered_s,
+            in_s + StructureWatch::kIn_m / speed + kStructureLook_s + 3 * kStructureTick_s);
   EXPECT_NEAR(told[0].p_W.x(), kFatMiddle.x() - kFatHalf.x(), 3e-4);
   EXPECT_EQ(told[1].kind, EventKind::kStructureLeft);
   EXPECT_EQ(told[1].subject, 0u);
-  const double left_s = static_cast<double>(told[1].tick) * kTick_s;
-  const double wait_s = 2 * kTick_s * StructureWatch::kOutSteps;
-  EXPECT_NEAR(left_s, out_s + wait_s, kLook_s + 3 * kTick_s);
-  EXPECT_NEAR(told[1].values[0], out_s - in_s, StructureWatch::kIn_m / speed + 2 * kLook_s);
+  const double left_s = static_cast<double>(told[1].tick) * kStructureTick_s;
+  const double wait_s = 2 * kStructureTick_s * StructureWatch::kOutSteps;
+  EXPECT_NEAR(left_s, out_s + wait_s, kStructureLook_s + 3 * kStructureTick_s);
+  EXPECT_NEAR(told[1].values[0], out_s - in_s,
+              StructureWatch::kIn_m / speed + 2 * kStructureLook_s);
   EXPECT_NEAR(told[1].values[1], kFatHalf.z() * 1e3, 1e-6);
 }
 
@@ -106,13 +110,13 @@ TEST(Structures, ABoxIsEnteredAndLeftWhereTheTipPassesItsSides) {
 TEST(Structures, OfABallItIsTheChord) {
   Session session(fat_case(), {});
   const Vec3 off = kBallMiddle + Vec3(0, 0.003, 0);
-  const std::vector<Event> told = go(session, off - kAcross, off + kAcross, 4000);
+  const std::vector<Event> told = go(session, off - kAcrossFat, off + kAcrossFat, 4000);
   ASSERT_EQ(told.size(), 2u);
   EXPECT_EQ(told[0].subject, 1u);
   const double speed = 0.01;
   const double in_s = (0.02 - 0.004) / speed;
   // Entered once it is kIn_m deep: the slope of the depth along the chord is 4/5 there.
-  EXPECT_NEAR(static_cast<double>(told[0].tick) * kTick_s,
+  EXPECT_NEAR(static_cast<double>(told[0].tick) * kStructureTick_s,
               in_s + StructureWatch::kIn_m / 0.8 / speed, 0.012);
   EXPECT_NEAR(told[1].values[0], 0.008 / speed, 0.03);
   EXPECT_NEAR(told[1].values[1], 2, 0.02);
@@ -133,9 +137,9 @@ TEST(Structures, ATipOnASurfaceTellsNothingAndAShortWayOutIsNone) {
 
 TEST(Structures, CartilageAndWhatHasNoInsideAreNotEntered) {
   Session cartilage(fat_case("cartilage"), {});
-  EXPECT_TRUE(go(cartilage, kFatMiddle - kAcross, kFatMiddle + kAcross, 500).empty());
+  EXPECT_TRUE(go(cartilage, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 500).empty());
   Session open(fat_case("fat", true), {});
-  EXPECT_TRUE(go(open, kFatMiddle - kAcross, kFatMiddle + kAcross, 500).empty());
+  EXPECT_TRUE(go(open, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 500).empty());
 }
 
 TEST(Structures, WhatIsFeltHasEventsOfItsOwn) {
@@ -243,7 +247,7 @@ TEST(Structures, ARunWithoutThemIsAsItWasBeforeThereWereAny) {
   SessionSettings settings;
   settings.structures = false;
   Session session(fat_case(), settings);
-  EXPECT_TRUE(go(session, kFatMiddle - kAcross, kFatMiddle + kAcross, 500).empty());
+  EXPECT_TRUE(go(session, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 500).empty());
   EXPECT_EQ(session.save().hands[0].watch.inside, InsideList{});
   const std::string text = to_json(settings);
   EXPECT_FALSE(parse_settings(text)->structures);
@@ -258,7 +262,7 @@ TEST(Structures, ARunWithoutThemIsAsItWasBeforeThereWereAny) {
 // A state in the middle of a passage: what was entered is left later, once, and by both.
 TEST(Structures, AStateGoesOnAsItWasAndATickAllocatesNothing) {
   Session session(fat_case(), {});
-  EXPECT_EQ(go(session, kFatMiddle - kAcross, kFatMiddle, 1000).size(), 1u);
+  EXPECT_EQ(go(session, kFatMiddle - kAcrossFat, kFatMiddle, 1000).size(), 1u);
   Session other(fat_case(), {});
   const auto state = state_from_bytes(to_bytes(session.save()));
   ASSERT_TRUE(state);
@@ -268,8 +272,8 @@ TEST(Structures, AStateGoesOnAsItWasAndATickAllocatesNothing) {
   for (int n = 0; n < 100; ++n) (void)session.tick(tip_at(kFatMiddle));
   EXPECT_EQ(testing::allocations(), before);
   for (int n = 0; n < 100; ++n) (void)other.tick(tip_at(kFatMiddle));
-  const auto first = go(session, kFatMiddle, kFatMiddle + kAcross, 1000);
-  const auto second = go(other, kFatMiddle, kFatMiddle + kAcross, 1000);
+  const auto first = go(session, kFatMiddle, kFatMiddle + kAcrossFat, 1000);
+  const auto second = go(other, kFatMiddle, kFatMiddle + kAcrossFat, 1000);
   ASSERT_EQ(first.size(), 1u);
   EXPECT_EQ(first, second);
   EXPECT_EQ(first[0].kind, EventKind::kStructureLeft);
@@ -292,7 +296,7 @@ TEST(Structures, AReplayFindsTheSame) {
   recording.header = recording_header(*the_case, {}, "test", "0");
   std::size_t told = 0;
   for (int n = 1; n <= 2000; ++n) {
-    (void)session.tick(tip_at(kFatMiddle + (n / 1000.0 - 1) * kAcross));
+    (void)session.tick(tip_at(kFatMiddle + (n / 1000.0 - 1) * kAcrossFat));
     recording.ticks.push_back(session.last_tick_record());
     if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
     for (const Event& event : session.last_events()) told += is_told(event) ? 1 : 0;

@@ -122,7 +122,7 @@ SessionSettings LiveRun::settings_now() const {
   for (const LiveHand& hand : hands_) settings.hands.push_back({hand.name, hand.instrument});
   settings.tray = tray_.names;
   settings.carve.on = tray_.carving != nullptr;
-  settings.soft_structures = !the_case_->softs.empty();
+  settings.soft_structures = !case_->softs.empty();
   if (tray_.softs.setup) {
     settings.soft = tray_.softs.names;
     settings.soft_hash = tray_.softs.setup->hash;
