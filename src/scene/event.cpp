@@ -106,13 +106,6 @@ constexpr std::array kRows = {
     EventKindRow{kPlunge, "plunge", "plunges beyond", S::kBone, {"plunge_mm", "", ""}},
     EventKindRow{kSkives, "skives", "slides off", S::kBone, {"angle_deg", "thrust_n", ""}},
     EventKindRow{kPieceOff, "piece_off", "cuts a piece off", S::kBone, {"volume_mm3", "", ""}},
-    EventKindRow{kPieceHeld, "piece_held", "holds a piece of", S::kBone, {"volume_mm3", "", ""}},
-    EventKindRow{
-        kPieceLetGo, "piece_let_go", "lets go a piece of", S::kBone, {"volume_mm3", "", ""}},
-    EventKindRow{
-        kPieceSucked, "piece_sucked", "sucks away a piece of", S::kBone, {"volume_mm3", "", ""}},
-    EventKindRow{
-        kPieceOut, "piece_out", "has lost sight of a piece of", S::kBone, {"volume_mm3", "", ""}},
     EventKindRow{kCarvingFull, "carving_full", "can no longer cut", S::kBone, {"", "", ""}},
     EventKindRow{
         kPinLeft, "pin_left", "leaves a pin in", S::kBone, {"depth_mm", "diameter_mm", ""}},
@@ -124,6 +117,13 @@ constexpr std::array kRows = {
                  "cuts into the cartilage of",
                  S::kBone,
                  {"depth_mm", "thrust_n", ""}},
+    EventKindRow{kPieceHeld, "piece_held", "holds a piece of", S::kBone, {"volume_mm3", "", ""}},
+    EventKindRow{
+        kPieceLetGo, "piece_let_go", "lets go a piece of", S::kBone, {"volume_mm3", "", ""}},
+    EventKindRow{
+        kPieceSucked, "piece_sucked", "sucks away a piece of", S::kBone, {"volume_mm3", "", ""}},
+    EventKindRow{
+        kPieceOut, "piece_out", "has lost sight of a piece of", S::kBone, {"volume_mm3", "", ""}},
     EventKindRow{
         kChatter, "chatter", "chatters in", S::kBone, {"amplitude_mm", "frequency_hz", ""}},
     EventKindRow{

@@ -104,7 +104,8 @@ Words words_of(SessionState state, std::size_t count, const Change& change) {
 // is placed or ordered, no joint that is bent, no chatter, nothing that a scope had seen and no
 // loose pieces.
 TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
-  const Drilling with;
+  Drilling with;
+  with.settings.structures = false;  // as its recording's settings were
   Session session = with.session();
   run(session, 1, 2500, 1);
   const SessionState saved = session.save();
@@ -121,6 +122,12 @@ TEST(Carving, AStateOfVersion8IsReadAndGoesOn) {
                [](SessionState& s, CarvingState&) { s.hands[0].haptic.rub.lag_W.setConstant(1); }),
       words_of(saved, kHoleWords * saved.world.carved->holes.size(),
                [](SessionState&, CarvingState& c) { c.holes[0].bone = 3; })};
+  const Inside in_bone{SubjectKind::kBone, 0, 1, 1, 0};
+  for (std::size_t h = 0; h < kMaxHands; ++h)
+    unknown.push_back(words_of(
+        saved, 1, [&](SessionState& s, CarvingState&) { s.world.bones.inside[h][0] = in_bone; }));
+  unknown.push_back(words_of(
+      saved, 1, [&](SessionState& s, CarvingState&) { s.hands[0].watch.inside[0] = in_bone; }));
   // Of pieces the count stands first.
   unknown.push_back(words_of(saved, 1 + 2 * kMaxHands, [](SessionState&, CarvingState& c) {
     c.pieces.open[0] = !c.pieces.open[0];

@@ -425,7 +425,7 @@ TEST(Soft, TheSettingsComeBackAndStayAsTheyWereWithoutSoftParts) {
   ASSERT_TRUE(back) << back.error().message();
   EXPECT_EQ(back->soft, run.settings.soft);
   EXPECT_EQ(back->soft_hash, run.settings.soft_hash);
-  EXPECT_EQ(to_json(SessionSettings{}).find("soft"), std::string::npos);
+  EXPECT_EQ(to_json(SessionSettings{}).find("\"soft\""), std::string::npos);
   EXPECT_FALSE(parse_settings(R"({"soft": ["acl"]})"));
 }
 
