@@ -5,7 +5,7 @@
 #include "osteon/base/hash.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/scene/portal.h"
-#include "structure_watch.h"
+#include "osteon/physics/structure_watch.h"
 
 namespace osteon {
 namespace {

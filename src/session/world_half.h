@@ -15,7 +15,7 @@
 #include "osteon/physics/loose_rings.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
-#include "structure_watch.h"
+#include "osteon/physics/structure_watch.h"
 
 namespace osteon {
 

@@ -41,7 +41,7 @@ Fault not_a_number(int bound_ms) {
   Fault fault{"NaN from the layers above", {ForceOff::kNotFinite}, bound_ms, [] {}};
   fault.from_above = [](LoopExchange& exchange) {
     HandWishes wishes;
-    wishes.guide = {true, Vec3::Zero(), Vec3(1e200, 0, 0), 1};
+    wishes.guide = {true, Vec3::Zero(), Vec3::Constant(1e200), 1};
     exchange.hand_wishes.publish(wishes);
   };
   return fault;

@@ -10,7 +10,7 @@
 #include "mesh/shapes.h"
 #include "session_fixtures.h"
 #include "soft_fixtures.h"
-#include "structure_watch.h"
+#include "osteon/physics/structure_watch.h"
 
 namespace osteon {
 namespace {

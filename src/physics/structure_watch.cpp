@@ -1,4 +1,4 @@
-#include "structure_watch.h"
+#include "osteon/physics/structure_watch.h"
 
 #include <algorithm>
 #include <utility>
