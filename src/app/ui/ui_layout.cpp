@@ -11,7 +11,7 @@ constexpr float kBottom = 6.5f * kGrid;
 constexpr float kRight = 25 * kGrid;
 constexpr float kMargin = kGrid;
 // The left card that nobody has dragged: a share of the window.
-constexpr float kLeftShare = 0.15625f, kLeftSmall = 19 * kGrid, kLeftLarge = kRight;
+constexpr float kLeftShare = 0.134375f, kLeftSmall = 19 * kGrid, kLeftLarge = kRight;
 }  // namespace
 
 UiLayout make_layout(float width, float height, float scale, bool panels_open, float left_card) {

@@ -15,8 +15,8 @@ TEST(UiLayout, FoldedThePictureIsTheWholeWindow) {
 TEST(UiLayout, TheLeftCardThatNobodyDraggedIsAsWideAsTheWindowAllows) {
   EXPECT_EQ(make_layout(640, 400, 1, true).left.w, 152);
   EXPECT_EQ(make_layout(800, 600, 1, true).left.w, 152);
-  EXPECT_EQ(make_layout(1280, 720, 1, true).left.w, 200);
-  EXPECT_EQ(make_layout(2560, 1440, 2, true).left.w, 400) << "in units the same";
+  EXPECT_EQ(make_layout(1280, 720, 1, true).left.w, 172);
+  EXPECT_EQ(make_layout(2560, 1440, 2, true).left.w, 344) << "in units the same";
   EXPECT_EQ(make_layout(3840, 2160, 1, true).left.w, 200);
 }
 
