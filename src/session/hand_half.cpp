@@ -4,8 +4,8 @@
 #include "osteon/base/check.h"
 #include "osteon/base/hash.h"
 #include "osteon/physics/bone_world.h"
-#include "osteon/scene/portal.h"
 #include "osteon/physics/structure_watch.h"
+#include "osteon/scene/portal.h"
 
 namespace osteon {
 namespace {

@@ -13,9 +13,9 @@
 #include "osteon/physics/graft_placing.h"
 #include "osteon/physics/joint_water.h"
 #include "osteon/physics/loose_rings.h"
+#include "osteon/physics/structure_watch.h"
 #include "osteon/record/recording.h"
 #include "osteon/session/session.h"
-#include "osteon/physics/structure_watch.h"
 
 namespace osteon {
 

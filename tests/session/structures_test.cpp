@@ -8,9 +8,9 @@
 #include "count_allocations.h"
 #include "drilling.h"
 #include "mesh/shapes.h"
+#include "osteon/physics/structure_watch.h"
 #include "session_fixtures.h"
 #include "soft_fixtures.h"
-#include "osteon/physics/structure_watch.h"
 
 namespace osteon {
 namespace {
@@ -257,6 +257,20 @@ TEST(Structures, ARunWithoutThemIsAsItWasBeforeThereWereAny) {
   EXPECT_FALSE(parse_settings(older)->structures);
   settings.structures = true;
   EXPECT_TRUE(parse_settings(to_json(settings))->structures);
+}
+
+// A recording of a case that was opened without its soft parts, repeated with them.
+TEST(Structures, ARunThatKnewNoSoftPartsTellsNoneInAReplayThatHasThem) {
+  SessionSettings settings;
+  settings.soft_structures = false;
+  Session session(fat_case(), settings);
+  EXPECT_TRUE(go(session, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 500).empty());
+  Case bare = *fat_case();
+  bare.softs.clear();
+  Session without(std::make_shared<const Case>(bare), settings);
+  (void)go(without, kFatMiddle - kAcrossFat, kFatMiddle + kAcrossFat, 500);
+  EXPECT_EQ(session.state_hash(), without.state_hash());
+  EXPECT_FALSE(parse_settings(to_json(settings))->soft_structures);
 }
 
 // A state in the middle of a passage: what was entered is left later, once, and by both.
