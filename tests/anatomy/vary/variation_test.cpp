@@ -1,6 +1,7 @@
 #include "osteon/anatomy/variation.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <limits>
@@ -249,7 +250,8 @@ scale = [{ bones = ["*"], center_mm = [0, 0, 0], percent = 1 }]
 )"));
   }
   void TearDown() override { std::filesystem::remove(path_); }
-  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "wild_table.toml";
+  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
+                                ("wild_table_" + std::to_string(::getpid()) + ".toml");
 };
 
 TEST_F(WildTable, BonesThatWereSetToMeetAreAnErrorThatNamesThem) {

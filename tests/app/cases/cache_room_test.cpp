@@ -1,6 +1,7 @@
 #include "cases/cache_room.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -27,7 +28,8 @@ class CacheRoom : public ::testing::Test {
     return file;
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "osteon_cache_room";
+  fs::path folder_ =
+      fs::path(::testing::TempDir()) / ("osteon_cache_room_" + std::to_string(::getpid()));
 };
 
 TEST_F(CacheRoom, AFolderThatIsNotThereIsNoError) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -368,7 +369,8 @@ TEST(JoystickProfile, RefusesAndNamesEveryBrokenKey) {
       {"about = \"z\"", "about = \"w\"", "'about'"},
       {"driver = \"joystick\"", "driver = \"mouse\"", "'joystick'"},
   };
-  const auto path = std::filesystem::path(::testing::TempDir()) / "osteon_joystick_profile.toml";
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    ("osteon_joystick_" + std::to_string(::getpid()) + ".toml");
   for (const auto& c : cases) {
     std::string text = *source;
     const auto at = text.find(c.from);

@@ -1,5 +1,6 @@
 // A joystick whose rotation has a motor: every torque goes through the report's bytes.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <string>
@@ -87,7 +88,8 @@ std::string with_changed(std::string text, const std::string& from, const std::s
 }
 
 TEST(JoystickTorque, AProfileSaysItsLimitsAndPidDrivesNone) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "osteon_torque_profile.toml";
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("osteon_torque_" + std::to_string(::getpid()) + ".toml");
   const auto complaint = [&](const std::string& text) {
     EXPECT_TRUE(write_file_atomic(file, text));
     const auto profile = load_joystick_profile(file);

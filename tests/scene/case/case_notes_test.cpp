@@ -1,6 +1,7 @@
 #include "osteon/scene/case_notes.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -49,7 +50,8 @@ TEST(CaseNotes, RefusesWhatIsNoNote) {
 }
 
 TEST(CaseNotes, WhatIsSavedReadsBackTheSame) {
-  const auto folder = std::filesystem::temp_directory_path() / "osteon_case_notes_test";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("osteon_case_notes_" + std::to_string(::getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   ASSERT_TRUE(load_notes(folder));
