@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,5 +22,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const TriMes
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const TriMesh& mesh,
                                                                     const std::vector<bool>& marked,
                                                                     std::size_t most = 1000);
+
+/// The first of these pairs whose triangles belong to parts that no edge or corner joins: such
+/// parts overlap, so the mesh bounds no single solid.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_parts(
+    const TriMesh& mesh, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings);
 
 }  // namespace osteon

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cases/whole_folder.h"
-#include "osteon/base/union_find.h"
 #include "osteon/hull/hull.h"
 #include "osteon/mesh/hollows.h"
 #include "osteon/mesh/measure.h"
@@ -37,14 +36,6 @@ Result<std::vector<fs::path>> mesh_files(const fs::path& source) {
   return files;
 }
 
-// Number of the connected part of each vertex: the lowest vertex in it.
-std::vector<std::uint32_t> parts_of(const TriMesh& mesh) {
-  UnionFind parts(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : {t[1], t[2]}) parts.join(t[0], v);
-  return parts.names();
-}
-
 // The frame moves into the centre, the bone stays where it is in World.
 BoneDef center_bone(std::string name, TriMesh mesh) {
   BoneDef bone;
@@ -60,8 +51,10 @@ BoneDef center_bone(std::string name, TriMesh mesh) {
 Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const fs::path& file,
                             const ImportOptions& options) {
   if (!build_hull(mesh.vertices).hull)
-    return fail("has no volume: its " + std::to_string(mesh.triangles.size()) +
-                    " triangles lie in one plane",
+    return fail(mesh.triangles.size() == 1
+                    ? "has no volume: it is one triangle"
+                    : "has no volume: its " + std::to_string(mesh.triangles.size()) +
+                          " triangles lie in one plane",
                 file.string(), "Export the bone as a closed surface");
   const double exact_m = bounds(mesh).extent().maxCoeff();
   const double length_m = exact_m < 1e-3 ? exact_m : std::round(1e4 * exact_m) / 1e4;
@@ -77,16 +70,14 @@ Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const 
 Result<void> refuse_overlap(const TriMesh& mesh,
                             const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings,
                             const fs::path& file, const ImportOptions& options) {
-  if (options.force || crossings.empty()) return {};
-  const std::vector<std::uint32_t> part = parts_of(mesh);
-  for (const auto& [a, b] : crossings)
-    if (part[mesh.triangles[a][0]] != part[mesh.triangles[b][0]])
-      return fail("has parts that pass through each other (triangles " + std::to_string(a) +
-                      " and " + std::to_string(b) + " of the repaired mesh)",
-                  file.string(),
-                  "Merge them into one surface (a Boolean union) in the program that made them, or "
-                  "give --force");
-  return {};
+  if (options.force) return {};
+  const auto pair = crossing_parts(mesh, crossings);
+  if (!pair) return {};
+  return fail("has parts that pass through each other (triangles " + std::to_string(pair->first) +
+                  " and " + std::to_string(pair->second) + " of the repaired mesh)",
+              file.string(),
+              "Merge them into one surface (a Boolean union) in the program that made them, or "
+              "give --force");
 }
 
 // Parts that only touch, along edges or faces, are not one solid either. An open surface is felt as

@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "osteon/base/union_find.h"
 #include "repair/triangle_cross.h"
 
 namespace osteon {
@@ -103,6 +104,17 @@ std::vector<Pair> self_crossings(const TriMesh& mesh, const std::vector<bool>& m
 
 std::vector<Pair> self_crossings(const TriMesh& mesh, std::size_t most) {
   return self_crossings(mesh, std::vector<bool>(mesh.triangles.size(), true), most);
+}
+
+std::optional<Pair> crossing_parts(const TriMesh& mesh, const std::vector<Pair>& crossings) {
+  if (crossings.empty()) return std::nullopt;
+  UnionFind parts(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : {t[1], t[2]}) parts.join(t[0], v);
+  const std::vector<std::uint32_t> part = parts.names();
+  for (const Pair& pair : crossings)
+    if (part[mesh.triangles[pair.first][0]] != part[mesh.triangles[pair.second][0]]) return pair;
+  return std::nullopt;
 }
 
 }  // namespace osteon

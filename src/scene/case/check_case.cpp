@@ -5,6 +5,7 @@
 #include "case/soft_parts.h"
 #include "numbers.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/mesh/self_crossing.h"
 #include "osteon/scene/bone_size.h"
 #include "osteon/scene/case_io.h"
 
@@ -40,6 +41,16 @@ void check_mesh(const BoneDef& bone, Findings& found) {
     found.add(bone.name,
               "triangles face both ways at " + std::to_string(shape.misoriented_edges) + " edges");
   if (shape.closed() && !(volume(bone.mesh) > 0)) found.add(bone.name, "the mesh is inside out");
+}
+
+// What an import refuses unless it is forced: volume and mass count the common room twice.
+void check_parts(const BoneDef& bone, Findings& found) {
+  const auto pair = crossing_parts(bone.mesh, self_crossings(bone.mesh));
+  if (!pair) return;
+  found.add(bone.name, "parts of the mesh pass through each other (triangles " +
+                           std::to_string(pair->first) + " and " + std::to_string(pair->second) +
+                           "), so its volume and mass are wrong. Merge them into one surface and "
+                           "import it again");
 }
 
 void check_size(const BoneDef& bone, Findings& found) {
@@ -97,6 +108,7 @@ std::vector<std::string> check_case(const CaseDef& def) {
     if (!names.insert(bone.name).second) found.add(bone.name, "the name is used twice");
     check_pose(bone, found);
     check_mesh(bone, found);
+    check_parts(bone, found);
     check_size(bone, found);
     check_material(bone, found);
   }

@@ -66,7 +66,8 @@ TEST(ImportMesh, RefusesWhatIsNoBone) {
   one.triangles = {{0, 1, 2}};
   ASSERT_TRUE(save_stl(one, dir / "in/lunate.stl", 0.001));
   options.force = true;
-  EXPECT_NE(complaint(options).find("has no volume"), std::string::npos) << complaint(options);
+  EXPECT_NE(complaint(options).find("has no volume: it is one triangle"), std::string::npos)
+      << complaint(options);
 }
 
 TEST(ImportMesh, RefusesAWrongUnitAndSuggestsTheRightOne) {
@@ -101,6 +102,9 @@ TEST(ImportMesh, RefusesPartsThatOverlap) {
   ASSERT_TRUE(taken) << taken.error().message();
   EXPECT_EQ(taken->bones[0].triangles, 24u);
   EXPECT_GT(taken->bones[0].crossings, 0u);
+  const std::vector<std::string> found = check_case(taken->def);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("pass through each other"), std::string::npos) << found[0];
 }
 
 // Boxes on a common diagonal, on a common face and on a common edge.

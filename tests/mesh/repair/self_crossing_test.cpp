@@ -96,5 +96,15 @@ TEST(SelfCrossing, AgreesWithExactPredicates) {
   EXPECT_EQ(self_crossings(m, 100000), wanted);
 }
 
+TEST(SelfCrossing, PartsThatOverlapAreToldFromOnePartThatCrossesItself) {
+  const TriMesh one = test::cube(1);
+  EXPECT_FALSE(crossing_parts(one, {{0, 1}}));
+  const TriMesh two = test::joined(one, test::cube(1, Vec3(1.1, 0.7, 0.3)));
+  const auto found = crossing_parts(two, self_crossings(two));
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->first, 12u);
+  EXPECT_GE(found->second, 12u);
+}
+
 }  // namespace
 }  // namespace osteon
