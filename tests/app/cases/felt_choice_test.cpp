@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/shapes.h"
+
 namespace osteon {
 namespace {
 
@@ -19,6 +21,14 @@ TEST(FeltChoice, ACaseWithoutOneIsLeftAlone) {
   EXPECT_EQ(choice->source, "builtin:wrist");
   EXPECT_TRUE(choice->of_bone.empty());
   EXPECT_EQ(to_text(*choice), "builtin:wrist");
+}
+
+TEST(FeltChoice, AnOpenMeshIsFeltAsItsHull) {
+  TriMesh mesh = test::cube(0.01);
+  EXPECT_EQ(felt_as(mesh, Felt::kPieces), Felt::kPieces);
+  mesh.triangles.pop_back();
+  EXPECT_EQ(felt_as(mesh, Felt::kPieces), Felt::kHull);
+  EXPECT_EQ(felt_as(mesh, Felt::kField), Felt::kField);
 }
 
 TEST(FeltChoice, NonsenseIsAnError) {

@@ -6,6 +6,7 @@
 #include <vector>
 #include "commands/support/parser.h"
 
+#include "cases/felt_choice.h"
 #include "cases/import_mesh.h"
 #include "cases/noted_case.h"
 #include "cases/open_case.h"
@@ -69,8 +70,8 @@ int run_import(const ImportOptions& options) {
 }
 
 std::string felt_text(const Bone& bone) {
-  return bone.felt == Felt::kPieces ? plural(bone.pieces.size(), "piece")
-                                    : std::string(to_text(bone.felt));
+  const Felt felt = felt_as(bone.mesh, bone.felt);
+  return felt == Felt::kPieces ? plural(bone.pieces.size(), "piece") : std::string(to_text(felt));
 }
 
 // Memory that the bone's distance field takes.
@@ -219,7 +220,7 @@ int info_without_pieces(const std::string& spec, bool json) {
   if (!notes) return report_error(notes.error());
   if (auto known = check_notes(*notes, *def); !known) return report_error(known.error());
   std::vector<Felt> felt;
-  for (const BoneDef& bone : def->bones) felt.push_back(bone.felt);
+  for (const BoneDef& bone : def->bones) felt.push_back(felt_as(bone.mesh, bone.felt));
   for (BoneDef& bone : def->bones) bone.felt = Felt::kHull;
   const auto built = build_case(std::move(*def));
   if (!built) return report_error(built.error());
