@@ -52,15 +52,18 @@ constexpr std::array<KeyLine, 4> kEdit = {{
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 
-constexpr std::array<KeyLine, 13> kRun = {{
+constexpr std::array<KeyLine, 7> kRun = {{
     {"R", "record, stop"},
     {"F4", "film of this window, stop"},
     {"O, Ctrl + O", "open a case, recording, meshes or a scan"},
     {"N", "make a new patient"},
+    {"J, I", "exercises, or end one; a hint"},
     {"P", "play, pause a replay; pause an exercise"},
     {",  .", "slower, faster"},
+}};
+
+constexpr std::array<KeyLine, 6> kProgram = {{
     {"F2", "check this computer and its devices"},
-    {"J, I", "exercises, or end one; a hint"},
     {"F11", "full screen"},
     {"F12, Shift + F12", "picture of the window, of the scene alone"},
     {"Ctrl + and Ctrl -", "larger, smaller interface"},
@@ -92,10 +95,11 @@ void draw_keys(const PanelContext& c, const char* title, const std::array<KeyLin
 
 void draw_help(const PanelContext& c) {
   const UiRect& r = c.layout.picture;
-  // Two columns where there is room, else one that scrolls; Close stays in sight.
+  // Two columns of about the same length where there is room, else one that scrolls; Close stays
+  // in sight.
   const bool wide = r.w > c.px(1000);
   const float w = std::min(wide ? c.px(980) : c.px(520), r.w - c.px(16));
-  const float h = std::min(wide ? c.px(520) : c.px(680), r.h - c.px(16));
+  const float h = std::min(wide ? c.px(600) : c.px(680), r.h - c.px(16));
   ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({w, h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(24), c.px(16)});
@@ -108,9 +112,9 @@ void draw_help(const PanelContext& c) {
   if (wide) ImGui::Columns(2, nullptr, false);
   draw_keys(c, "Look", kLook);
   draw_keys(c, "Edit", kEdit);
+  draw_keys(c, "Program", kProgram);
   if (wide) ImGui::NextColumn();
   draw_keys(c, "Probe and hands", kProbe);
-  if (wide) ImGui::NextColumn();
   draw_keys(c, "Run", kRun);
   if (wide) ImGui::Columns(1);
   ImGui::EndChild();
