@@ -115,7 +115,7 @@ Result<AVCodecContext*> FilmWriter::Impl::encoder(const char* name) const {
   const AVCodec* codec = av.avcodec_find_encoder_by_name(name);
   if (codec == nullptr)
     return fail("the installed FFmpeg has no encoder '" + std::string(name) + "'", "films",
-                "install one that has it, such as Debian's libavcodec" +
+                "Install one that has it, such as Debian's libavcodec" +
                     std::to_string(LIBAVCODEC_VERSION_MAJOR));
   AVCodecContext* context = av.avcodec_alloc_context3(codec);
   if (context == nullptr) return fail("there is not enough memory", "films");

@@ -24,7 +24,7 @@ Result<OutFile> OutFile::create(const fs::path& file) {
   out.file_ = file;
   std::error_code ec;
   const fs::file_status there = fs::status(file, ec);
-  if (fs::is_directory(there)) return fail("is a folder", file.string(), "name a file");
+  if (fs::is_directory(there)) return fail("is a folder", file.string(), "Name a file");
   const bool special = fs::exists(there) && !fs::is_regular_file(there);
   fs::path target = file;
   if (!special && fs::is_symlink(fs::symlink_status(file, ec))) target = fs::canonical(file, ec);

@@ -55,7 +55,7 @@ WavWriter& WavWriter::operator=(WavWriter&&) noexcept = default;
 
 Result<WavWriter> WavWriter::create(const std::filesystem::path& file, std::uint64_t samples) {
   if (samples > (0xffffffffu - kHeadBytes) / kSampleBytes)
-    return fail("is too long for a WAV file", file.string(), "choose a part of it");
+    return fail("is too long for a WAV file", file.string(), "Choose a part of it");
   auto out = OutFile::create(file);
   if (!out) return tl::unexpected(out.error());
   auto impl = std::make_unique<Impl>(Impl{std::move(*out), samples});

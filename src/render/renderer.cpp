@@ -127,7 +127,7 @@ Result<Renderer> Renderer::create(const Case& the_case, const Tool& tool,
   constexpr int kOpenGl33 = 33;
   if (epoxy_gl_version() < kOpenGl33)
     return fail("the graphics driver is older than OpenGL 3.3", gl_text(GL_RENDERER),
-                "update the driver, or set LIBGL_ALWAYS_SOFTWARE=1");
+                "Update the driver, or set LIBGL_ALWAYS_SOFTWARE=1");
   const std::filesystem::path shader_dir = data_dir / "shaders";
   auto painter = ScenePainter::create(the_case, tool, shader_dir, prepared);
   if (!painter) return tl::unexpected(painter.error());

@@ -23,7 +23,7 @@ Result<void> ScopedCase::draw(const ScopeDef& scope, const ScopePose& pose, int 
   const Image image = renderer_.draw_image(ScopeCamera(scope, pose), width, height);
   if (image.rgb.empty())
     return fail("the graphics driver has no memory for the picture", out.string(),
-                "choose a smaller --size");
+                "Choose a smaller --size");
   return save_png(image, out);
 }
 

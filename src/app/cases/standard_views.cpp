@@ -87,7 +87,7 @@ Result<std::vector<StandardView>> parse_standard_views(std::string_view text,
     const std::string here = where + ", line " + std::to_string(number);
     if (number == 1 && line != kViewsHeader)
       return fail("is not the header of a table of views", here,
-                  "it must be " + std::string(kViewsHeader));
+                  "It must be " + std::string(kViewsHeader));
     if (number == 1 || line.empty()) continue;
     auto view = parse_view_line(line, here);
     if (!view) return tl::unexpected(view.error());

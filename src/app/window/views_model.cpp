@@ -58,7 +58,7 @@ Result<PictureLayout> parse_picture_layout(const std::string& text) {
   for (const LayoutName& known : kNames)
     if (text == known.name) return known.layout;
   return fail("\"" + text + "\" is not a layout of the window", "--layout",
-              "choose outside, scope, panorama, layout or fluoro");
+              "Choose outside, scope, panorama, layout or fluoro");
 }
 
 const char* title_of(PictureLayout layout) {

@@ -27,13 +27,13 @@ Result<void> save_png(const Image& image, const std::filesystem::path& file) {
   if (!positive || image.rgb.size() != 3u * static_cast<std::size_t>(image.width) *
                                            static_cast<std::size_t>(image.height))
     return fail("the picture is empty", file.string(),
-                "give it a width and a height of at least one pixel");
+                "Give it a width and a height of at least one pixel");
   png_image head = head_of(image);
   png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(head);
   std::string png(bytes, '\0');
   if (!png_image_write_to_memory(&head, png.data(), &bytes, 0, image.rgb.data(), 0, nullptr))
     return fail(std::string("the picture cannot be encoded as PNG: ") + head.message, file.string(),
-                "try a smaller picture");
+                "Try a smaller picture");
   return write_file_atomic(file, std::string_view(png).substr(0, bytes));
 }
 

@@ -62,7 +62,7 @@ Result<StereoLayout> parse_stereo_layout(std::string_view text) {
                                      {"anaglyph", StereoLayout::kAnaglyph}})
     if (text == name) return layout;
   return fail("\"" + std::string(text) + "\" is not a stereo format", "--stereo",
-              "choose side-by-side, over-under, interlaced or anaglyph");
+              "Choose side-by-side, over-under, interlaced or anaglyph");
 }
 
 Result<void> check(const StereoEyes& eyes, const Camera& camera) {
@@ -72,7 +72,7 @@ Result<void> check(const StereoEyes& eyes, const Camera& camera) {
     return fail("must be above 0", "the depth of the screen");
   if (camera.orthographic)
     return fail("is a parallel projection, in which both eyes see the same", "the view",
-                "choose one in perspective");
+                "Choose one in perspective");
   return {};
 }
 

@@ -109,7 +109,7 @@ Result<void> render(const RenderOptions& options) {
   if (!image) return tl::unexpected(image.error());
   if (image->rgb.empty())
     return fail("the graphics driver has no memory for the picture", renderer->device_name(),
-                "choose a smaller --size");
+                "Choose a smaller --size");
   return save_png(*image, options.out);
 }
 

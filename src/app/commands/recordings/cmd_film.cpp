@@ -53,9 +53,9 @@ Result<FilmSpan> span_of(const FilmCommand& command, const RecordingReader& reco
   const FilmSpan span{command.from_s, std::min(command.to_s.value_or(end_s), end_s), 0};
   if (!(span.from_s >= 0 && span.from_s < end_s))
     return fail("has no data at " + std::to_string(command.from_s) + " s", command.recording,
-                "choose a time between 0 and " + std::to_string(end_s) + " s");
+                "Choose a time between 0 and " + std::to_string(end_s) + " s");
   if (!(span.to_s > span.from_s))
-    return fail("ends before it begins", "--from and --to", "choose --to after --from");
+    return fail("ends before it begins", "--from and --to", "Choose --to after --from");
   return span;
 }
 
@@ -211,12 +211,12 @@ Result<void> check_film(const FilmCommand& command, RecordingReader& recording,
   if (!view) return tl::unexpected(view.error());
   const std::filesystem::path out = command.out;
   if (out.has_extension() && out.extension() != ".webm")
-    return fail("must end in .webm", command.out, "films are WebM files");
+    return fail("must end in .webm", command.out, "Films are WebM files");
   const auto scope = holds_a_scope(recording, settings);
   if (!scope) return tl::unexpected(scope.error());
   if (*view == FilmView::kScope && !*scope)
     return fail("no hand of the recording holds a scope", command.recording,
-                "choose --view outside, panorama, fluoro or layout");
+                "Choose --view outside, panorama, fluoro or layout");
   return {};
 }
 

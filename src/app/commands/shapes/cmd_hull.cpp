@@ -33,7 +33,7 @@ Result<MeshHull> hull_of(const std::string& file, double unit_m) {
   HullOutcome outcome = build_hull(mesh->vertices, &stats);
   if (!outcome.hull) {
     return fail("the mesh has no convex hull: " + std::string(describe(outcome.failure)), file,
-                "give a mesh with at least four vertices that are not in one plane");
+                "Give a mesh with at least four vertices that are not in one plane");
   }
   return MeshHull{file, std::move(*outcome.hull), stats};
 }

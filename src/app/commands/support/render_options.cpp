@@ -29,7 +29,7 @@ Result<PictureSize> parse_picture_size(const std::string& text) {
   good = good && take_side(rest, size.height) && rest.empty();
   if (good) return size;
   return fail("\"" + text + "\" is not the size of a picture", "--size",
-              "give width x height in pixels, such as 1280x720, each at most " +
+              "Give width x height in pixels, such as 1280x720, each at most " +
                   std::to_string(kMaxImageSide));
 }
 
@@ -43,7 +43,7 @@ Result<ViewPreset> parse_view_preset(const std::string& text) {
   for (const auto& [name, preset] : presets)
     if (text == name) return preset;
   return fail("\"" + text + "\" is not a view", "--view",
-              "choose dorsal, palmar, radial, ulnar, ap or lateral; for a knee front, back, outer "
+              "Choose dorsal, palmar, radial, ulnar, ap or lateral; for a knee front, back, outer "
               "or inner");
 }
 
@@ -54,7 +54,7 @@ Result<void> hide_bones(const Case& the_case, const std::vector<std::string>& na
     const BoneId id = the_case.find(name);
     if (!id.valid())
       return fail("the case has no bone \"" + name + "\"", "--hide",
-                  "it has " + names_of_bones(the_case));
+                  "It has " + names_of_bones(the_case));
     view.bones[id.index].visible = false;
   }
   return {};
@@ -74,7 +74,7 @@ Result<void> show_softs(const Case& the_case, const std::vector<std::string>& na
     }
     if (!found)
       return fail("the case has no soft part, and no kind of soft part, named \"" + name + "\"",
-                  "--soft", "osteon case info lists them");
+                  "--soft", "`osteon case info` lists them");
   }
   return {};
 }

@@ -37,7 +37,7 @@ Image black(int width, int height) {
 
 tl::unexpected<Error> no_memory() {
   return fail("the graphics driver has no memory for the picture", "the film",
-              "choose a smaller --size");
+              "Choose a smaller --size");
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Result<FilmView> parse_film_view(const std::string& text) {
   for (const auto& [name, view] : views)
     if (text == name) return view;
   return fail("\"" + text + "\" is not a view of a film", "--view",
-              "choose scope, outside, panorama, fluoro or layout");
+              "Choose scope, outside, panorama, fluoro or layout");
 }
 
 struct FilmPainter::Impl {
@@ -130,7 +130,7 @@ Result<void> FilmPainter::Impl::open(const SessionSettings& settings, const Tray
     return tl::unexpected(side.error());
   if (order.view == FilmView::kScope && !has_scope)
     return fail("no hand of the recording holds a scope", "--view scope",
-                "choose outside, panorama, fluoro or layout");
+                "Choose outside, panorama, fluoro or layout");
   if (uses(FilmView::kFluoro)) {
     auto made = FilmFluoro::create(*the_case, tray);
     if (!made) return tl::unexpected(made.error());

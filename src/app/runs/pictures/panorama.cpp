@@ -19,7 +19,7 @@ Result<Camera> panorama_camera(const Case& the_case, const std::string& side, do
   else if (side == "left")
     camera.q_WC = look_rotation(-frame.distal_W.cross(frame.dorsal_W), frame.distal_W);
   else
-    return fail("'" + side + "' is not a side", "the panorama", "choose front, top or left");
+    return fail("'" + side + "' is not a side", "the panorama", "Choose front, top or left");
   camera.target_W = the_case.bounds_W().empty() ? Vec3::Zero() : the_case.bounds_W().center();
   return camera;
 }
