@@ -75,24 +75,26 @@ struct BoneHeat::Around {
         std::copy_n(&block.gone[heat_cell(0, j, k)], kHeatSide, &gone[wide_cell(0, j, k)]);
       }
     for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const int side : {-1, 1}) take_side(heat, here, axis, side);
+      for (const int side : {-1, 1}) take_side(heat, block, here, axis, side);
   }
 
-  // The cells of the block beside it that touch it.
-  void take_side(const BoneHeat& heat, std::array<int, 3> place, std::size_t axis, int side) {
+  // The cells of the block beside it that touch it. Where none is made yet its own cells look at
+  // themselves: no heat passes there, so none is lost.
+  void take_side(const BoneHeat& heat, const Block& own, std::array<int, 3> place, std::size_t axis,
+                 int side) {
     place[axis] += side;
-    const Block* const beside = heat.at(place);
-    if (!beside) return;
+    const Block* const made = heat.at(place);
+    const Block* const beside = made ? made : &own;
     constexpr std::array<std::size_t, 3> kCells{1, kHeatSide, kHeatSide * kHeatSide};
     constexpr std::array<std::size_t, 3> kWides{1, kHeatWide, kHeatWide * kHeatWide};
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const std::size_t from = side > 0 ? 0 : (kHeatSide - 1) * kCells[axis];
+    const std::size_t from = (side > 0) == (made != nullptr) ? 0 : (kHeatSide - 1) * kCells[axis];
     const std::size_t to = kWides[u] + kWides[v] + (side > 0 ? (kHeatWide - 1) * kWides[axis] : 0);
     for (std::size_t a = 0; a < kHeatSide; ++a)
       for (std::size_t b = 0; b < kHeatSide; ++b) {
         const std::size_t cell = from + a * kCells[u] + b * kCells[v];
         above[to + a * kWides[u] + b * kWides[v]] = beside->above[cell];
-        gone[to + a * kWides[u] + b * kWides[v]] = beside->gone[cell];
+        gone[to + a * kWides[u] + b * kWides[v]] = made ? made->gone[cell] : 0;
       }
   }
 };

@@ -39,7 +39,7 @@ struct HeatVolume {
 /// every compiler.
 class BoneHeat {
  public:
-  /// Beyond so many blocks none is made: what would reach it is lost to a body that stays warm.
+  /// Beyond so many blocks none is made: heat that comes to their rim stays within it.
   static constexpr std::size_t kMostBlocks = 4096;  ///< 15 kB each
 
   /// Cells are twice those of the field.
