@@ -11,7 +11,7 @@ namespace osteon {
 namespace {
 
 constexpr const char* kTodo =
-    "install Mesa's libegl1 and libgl1-mesa-dri, or a graphics driver with EGL";
+    "Install Mesa's libegl1 and libgl1-mesa-dri, or a graphics driver with EGL";
 
 bool has_extension(const char* list, const char* name) {
   return list != nullptr && std::strstr(list, name) != nullptr;
