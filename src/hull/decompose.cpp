@@ -290,11 +290,13 @@ class Decomposer {
 
 }  // namespace
 
+bool can_decompose(const TriMesh& mesh) { return topology(mesh).closed(); }
+
 std::optional<Decomposition> decompose(const TriMesh& mesh, const DecomposeOptions& options) {
   assert(options.max_pieces > 0);
   HullOutcome whole = build_hull(mesh.vertices);
   if (!whole.hull) return std::nullopt;
-  if (options.max_pieces == 1 || !topology(mesh).closed())
+  if (options.max_pieces == 1 || !can_decompose(mesh))
     return Decomposition{{std::move(*whole.hull)}, 0};
   return Decomposer(hull::outer_surface(mesh), options).run();
 }

@@ -31,6 +31,9 @@ struct Decomposition {
   bool coarser = false;  ///< the work was spent before the wanted concavity or count was reached
 };
 
+/// Whether a mesh has an inside that can be cut into pieces: it is closed.
+bool can_decompose(const TriMesh& mesh);
+
 /// Convex pieces whose union follows a closed, outward mesh: approximate convex decomposition by
 /// planes through the deepest concave place, the worst piece first, and merging of what needs no
 /// cut. After Lien and Amato, "Approximate convex decomposition of polyhedra" (2007) for the cut at

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "osteon/mesh/measure.h"
+#include "osteon/hull/decompose.h"
 
 namespace osteon {
 namespace {
@@ -78,7 +78,7 @@ std::string to_text(const FeltChoice& choice) {
 }
 
 Felt felt_as(const TriMesh& mesh, Felt chosen) {
-  return chosen == Felt::kPieces && !topology(mesh).closed() ? Felt::kHull : chosen;
+  return chosen == Felt::kPieces && !can_decompose(mesh) ? Felt::kHull : chosen;
 }
 
 Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees) {

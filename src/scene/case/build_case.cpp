@@ -7,6 +7,7 @@
 
 #include "case/build_joints.h"
 #include "case/mesh_hash.h"
+#include "case/mesh_indices.h"
 #include "case/soft_parts.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/bone_cover.h"
@@ -23,13 +24,6 @@ bool is_sound(const Material& m) {
                       std::isfinite(m.dynamic_friction);
   return finite && m.stiffness_n_per_m > 0 && m.dynamic_friction >= 0 &&
          m.dynamic_friction <= m.static_friction;
-}
-
-bool indices_fit(const TriMesh& mesh) {
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t)
-      if (v >= mesh.vertices.size()) return false;
-  return true;
 }
 
 Result<void> check_bone(const BoneDef& def) {

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "case/hull_height.h"
+#include "case/mesh_indices.h"
 #include "case/soft_parts.h"
 #include "numbers.h"
 #include "osteon/mesh/measure.h"
@@ -107,8 +108,12 @@ std::vector<std::string> check_case(const CaseDef& def) {
   for (const BoneDef& bone : def.bones) {
     if (!names.insert(bone.name).second) found.add(bone.name, "the name is used twice");
     check_pose(bone, found);
-    check_mesh(bone, found);
-    check_parts(bone, found);
+    if (indices_fit(bone.mesh)) {
+      check_mesh(bone, found);
+      check_parts(bone, found);
+    } else {
+      found.add(bone.name, "a triangle refers to a vertex that does not exist");
+    }
     check_size(bone, found);
     check_material(bone, found);
   }

@@ -335,6 +335,8 @@ TEST(CheckCase, FindsWhatIsWrong) {
   EXPECT_TRUE(has(finding([](CaseDef& d) { d.side = "up"; }), "side"));
   EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones[1].name = d.bones[0].name; }), "twice"));
   EXPECT_TRUE(has(finding([](CaseDef& d) { d.bones[0].mesh.triangles.pop_back(); }), "open"));
+  EXPECT_TRUE(
+      has(finding([](CaseDef& d) { d.bones[0].mesh.triangles[0][0] = 1u << 30; }), "not exist"));
   EXPECT_TRUE(has(finding([](CaseDef& d) { test::flip(d.bones[0].mesh.triangles[4]); }), "face"));
   EXPECT_TRUE(has(finding([](CaseDef& d) {
                     for (Triangle& t : d.bones[2].mesh.triangles) test::flip(t);
