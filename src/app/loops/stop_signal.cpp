@@ -25,13 +25,17 @@ extern "C" void request_stop(int number) {
   signal(number, SIG_DFL);  // the second one kills
 }
 
-// The loops see the request within a tick; 50 ms are many, but not on a busy machine. Half a second
-// is for the loop that died itself. Nothing but what a signal handler may do.
+// Loops of the thread itself: when it dies, nobody else ends those.
+thread_local int t_own_loops = 0;
+
+// The loops see the request within a tick; 50 ms are many, but not on a busy machine. Three seconds
+// end the wait for a device that never closes. Nothing but what a signal handler may do.
 void let_loops_end() {
-  constexpr int kAtLeast = 10, kAtMost = 100;
+  constexpr int kAtLeast = 10, kAtMost = 600;
   g_requested.store(kDying);
   const timespec moment{0, 5'000'000};
-  for (int k = 0; k < kAtLeast || (k < kAtMost && g_loops_to_end.load() > 0); ++k)
+  const int ends_never = t_own_loops;
+  for (int k = 0; k < kAtLeast || (k < kAtMost && g_loops_to_end.load() > ends_never); ++k)
     nanosleep(&moment, nullptr);
 }
 
@@ -77,8 +81,14 @@ StopSignals::~StopSignals() {
   std::set_terminate(std::abort);
 }
 
-LoopToEnd::LoopToEnd() { ++g_loops_to_end; }
-LoopToEnd::~LoopToEnd() { --g_loops_to_end; }
+LoopToEnd::LoopToEnd() {
+  ++g_loops_to_end;
+  ++t_own_loops;
+}
+LoopToEnd::~LoopToEnd() {
+  --g_loops_to_end;
+  --t_own_loops;
+}
 
 bool stop_requested() { return g_requested.load(std::memory_order_relaxed) != 0; }
 

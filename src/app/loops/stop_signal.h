@@ -14,8 +14,9 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 };
 
-/// A loop that has a device to leave at zero holds one. A dying program waits for it, half a second
-/// at most; for anything else only a moment.
+/// A loop that has a device to leave at zero holds one, made and ended on the loop's own thread. A
+/// dying program waits for those of other threads, three seconds at most; for anything else only a
+/// moment.
 class LoopToEnd {
  public:
   LoopToEnd();

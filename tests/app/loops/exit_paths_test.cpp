@@ -67,9 +67,10 @@ void press_and(const std::function<void()>& end, const std::filesystem::path& lo
   if (!played) std::_Exit(3);
   std::unique_ptr<HapticDevice> device = std::move(*played);
   if (slow_to_close) device = std::make_unique<SlowToClose>(std::move(device));
+  constexpr double kLogged_s = 2;  // it is written while the program dies
   RunPlan plan;
   plan.the_case = test::blocks_case();
-  Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(device), 20, log_file));
+  Runtime runtime(plan, std::make_unique<DeviceLog>(std::move(device), kLogged_s, log_file));
   runtime.start();
   if (!wait_until_pressed(runtime)) {
     std::fprintf(stderr, "never pressed: %s\n", describe(runtime.device_status().cause));
