@@ -89,11 +89,6 @@ struct MovedChord {
   }
 };
 
-void move_rigidly(const Pose& X, Primitive& primitive) {
-  const Mat3 R = X.q.toRotationMatrix();
-  std::visit(RigidMover{R, X.p}, primitive);
-}
-
 using Displaced = std::vector<std::optional<Pose>>;
 
 /// Parts of volumes that go along with bands, with their primitives moved.
@@ -121,6 +116,11 @@ std::vector<std::pair<Part*, Primitive>> moved_along_bands(AnatomyDescription& a
 }
 
 }  // namespace
+
+void move_rigidly(const Pose& X, Primitive& primitive) {
+  const Mat3 R = X.q.toRotationMatrix();
+  std::visit(RigidMover{R, X.p}, primitive);
+}
 
 Pose rest_pose(const BoneDescription& bone) { return {bone.p_WB, Quat(bone.R_WB)}; }
 

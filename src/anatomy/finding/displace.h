@@ -14,6 +14,9 @@ std::optional<Pose> displacement_of(const AnatomyDescription& anatomy, std::size
 /// The same, of bent joints alone.
 std::optional<Pose> bend_of(const AnatomyDescription& anatomy, std::size_t bone);
 
+/// Moves a primitive of World by X.
+void move_rigidly(const Pose& X, Primitive& primitive);
+
 /// Moves what is bound to displaced bones along with them: points and parts of soft parts, and
 /// landmarks that are bound. Bones themselves and cartilage stay in the description.
 void move_bound_along(AnatomyDescription& anatomy);

@@ -181,9 +181,9 @@ std::vector<BandSection> sections_of(const std::vector<Station>& stations,
   return sections;
 }
 
-/// Ends that are attached go on into their bones.
-void insert_ends(const BandDescription& band, const GroundView& ground,
-                 std::vector<Station>& stations) {
+/// Ends that are attached go on into their bones. Returns how many stations come before the first.
+std::size_t insert_ends(const BandDescription& band, const GroundView& ground,
+                        std::vector<Station>& stations) {
   const auto onward = [&](std::size_t end, std::size_t before) {
     return unit_or(stations[end].p - stations[before].p, Vec3::Zero());
   };
@@ -196,6 +196,7 @@ void insert_ends(const BandDescription& band, const GroundView& ground,
          insertion(stations.back(), onward(last, last - 1), *ground[band.path.back().at.bone]))
       stations.push_back(s);
   stations.insert(stations.begin(), root.rbegin(), root.rend());
+  return root.size();
 }
 
 }  // namespace
@@ -215,7 +216,9 @@ LaidBand lay_band(const BandDescription& band, const GroundView& ground, const B
   pull_over_bone(band, ground, stations);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
     laid.length += (stations[i + 1].p - stations[i].p).norm();
-  insert_ends(band, ground, stations);
+  const std::size_t spans = stations.size() - 1;
+  laid.first = insert_ends(band, ground, stations);
+  laid.last = laid.first + spans;
   const std::vector<Vec3> flats =
       flats_between(stations, bend.R_first * band.flat_W, bend.R_last * band.flat_W);
   laid.sections = sections_of(stations, turned_flat_on_bone(stations, flats, ground));

@@ -16,8 +16,9 @@ struct BandSection {
 /// A band laid over the bones.
 struct LaidBand {
   std::vector<BandSection> sections;
-  std::vector<Vec3> attachments;  ///< of the points that are attached, in their order; on bone
-  double length = 0;              ///< from end to end along the middle, outside bone, metres
+  std::size_t first = 0, last = 0;  ///< sections of the path's ends; beyond them lie insertions
+  std::vector<Vec3> attachments;    ///< of the points that are attached, in their order; on bone
+  double length = 0;                ///< from end to end along the middle, outside bone, metres
 };
 
 /// How the bones of a band stand that a joint has bent apart.

@@ -8,10 +8,24 @@
 #include "bone/grow.h"
 #include "finding/displace.h"
 #include "osteon/mesh/measure.h"
+#include "soft/band_course.h"
 #include "soft/soft_field.h"
 
 namespace osteon {
 namespace {
+
+/// A band as it lies before anything moves it, and its defects there.
+struct RestingBand {
+  LaidBand laid;
+  std::vector<BoundPart> defects;
+};
+
+/// A place that a defect belongs to: its middle; of one without end, a point of its plane.
+Vec3 place_of(const Primitive& defect) {
+  if (const auto* crack = std::get_if<Crack>(&defect)) return crack->point;
+  if (const auto* half = std::get_if<HalfSpace>(&defect)) return half->point;
+  return bounds(defect).center();
+}
 
 /// Grows one description's soft parts, those that others give way to first.
 class SoftGrower {
@@ -23,11 +37,13 @@ class SoftGrower {
         file_(file),
         grown_(grown),
         placed_(std::move(placed)),
+        resting_(anatomy.softs.size()),
         surfaces_(anatomy.softs.size()) {}
 
   Result<void> run() {
     if (auto ok = grow_whole_bones(); !ok) return ok;
     make_grounds();
+    lay_resting_bands();
     grown_.softs.resize(anatomy_.softs.size());
     if (auto ok = grow_round(Round::kCartilage); !ok) return ok;
     displace();
@@ -86,6 +102,27 @@ class SoftGrower {
           surface_W ? make_ground(std::move(*surface_W)) : ground_of(healthy_mesh(i), X_WB);
     });
     for (const auto& ground : grounds_) all_ground_.push_back(&*ground);
+  }
+
+  /// Defects of a band that a joint bends go along with its course: they are given for this one.
+  void lay_resting_bands() {
+    for (std::size_t i = 0; i < anatomy_.softs.size(); ++i) {
+      const SoftDescription& soft = anatomy_.softs[i];
+      const auto* band = std::get_if<BandDescription>(&soft.shape);
+      if (band && !soft.defects.empty() && is_bent(*band))
+        resting_[i] = RestingBand{lay_band(*band, all_ground_), soft.defects};
+    }
+  }
+
+  std::vector<BoundPart> defects_on(const LaidBand& laid, std::size_t soft) const {
+    const auto& resting = resting_[soft];
+    if (!resting) return anatomy_.softs[soft].defects;
+    std::vector<BoundPart> defects = resting->defects;
+    for (BoundPart& defect : defects) {
+      Primitive& part = defect.part.primitive;
+      move_rigidly(motion_along(resting->laid, laid, place_of(part)), part);
+    }
+    return defects;
   }
 
   const TriMesh& healthy_mesh(std::size_t bone) const {
@@ -205,18 +242,29 @@ class SoftGrower {
       if (std::find(out.bones.begin(), out.bones.end(), bone) == out.bones.end())
         out.bones.push_back(bone);
     }
-    return grow_band(laid, band.sink, soft, obstacles_);
+    SoftDescription cut = soft;
+    cut.defects = defects_on(laid, static_cast<std::size_t>(&soft - anatomy_.softs.data()));
+    return grow_band(laid, band.sink, cut, obstacles_);
+  }
+
+  /// How joints turn the bones of a band's ends.
+  std::pair<Quat, Quat> turns_of_ends(const BandDescription& band) const {
+    return {bend_of(anatomy_, band.path.front().at.bone).value_or(Pose{}).q,
+            bend_of(anatomy_, band.path.back().at.bone).value_or(Pose{}).q};
+  }
+  bool is_bent(const BandDescription& band) const {
+    const auto [first, last] = turns_of_ends(band);
+    return first.coeffs() != last.coeffs();
   }
 
   /// Bands between bones that a joint has bent apart are taut from kTaut_deg on.
   BandBend bend_of_band(const BandDescription& band) const {
     constexpr double kTaut_deg = 20;
     BandBend bend;
-    const Pose first = bend_of(anatomy_, band.path.front().at.bone).value_or(Pose{});
-    const Pose last = bend_of(anatomy_, band.path.back().at.bone).value_or(Pose{});
-    if (first.q.coeffs() == last.q.coeffs()) return bend;
-    bend.R_first = first.q.toRotationMatrix();
-    bend.R_last = last.q.toRotationMatrix();
+    if (!is_bent(band)) return bend;
+    const auto [first, last] = turns_of_ends(band);
+    bend.R_first = first.toRotationMatrix();
+    bend.R_last = last.toRotationMatrix();
     for (const RollingJoint& joint : anatomy_.joints) {
       const double t = std::min(joint.at_deg / kTaut_deg, 1.0);
       bend.taut = std::max(bend.taut, t * t * (3 - 2 * t));
@@ -280,6 +328,7 @@ class SoftGrower {
   std::vector<std::optional<SoftGround>> grounds_;
   GroundView all_ground_;
   std::vector<Obstacle> obstacles_;
+  std::vector<std::optional<RestingBand>> resting_;    ///< of bent bands with defects
   std::vector<std::optional<MeshDistance>> surfaces_;  ///< of finished soft parts, if asked for
 };
 
