@@ -13,12 +13,12 @@ constexpr double kRounding = 1e-9;
 
 bool same_pose(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
 
-struct Segment {
+struct Stretch {
   Vec3 from;
   Vec3 along;
 };
 
-double distance_squared(const Segment& s, const Vec3& p) {
+double distance_squared(const Stretch& s, const Vec3& p) {
   const double length2 = s.along.squaredNorm();
   const double share =
       length2 > 0 ? std::clamp((p - s.from).dot(s.along) / length2, 0.0, 1.0) : 0.0;
@@ -27,7 +27,7 @@ double distance_squared(const Segment& s, const Vec3& p) {
 
 // Separating axes of a segment and a box: the box's own axes and their crosses with the segment
 // (Ericson, Real-Time Collision Detection, section 5.3.3).
-bool meets_box(const Segment& s, const Vec3& center, const Vec3& half) {
+bool meets_box(const Stretch& s, const Vec3& center, const Vec3& half) {
   const Vec3 h = 0.5 * s.along;
   const Vec3 m = s.from + h - center;
   const Vec3 a = h.cwiseAbs();
@@ -81,7 +81,7 @@ bool BroadPhase::out_of_reach(std::uint32_t bone, const Pose& X_WB, const SweptS
   const Vec3 center_W = X_WB * bones_[bone].center_B;
   const double room = ball.radius + margin + bones_[bone].radius +
                       kRounding * (2 + ball.p_from_W.norm() + center_W.norm());
-  const Segment path_W{ball.p_from_W, ball.p_to_W - ball.p_from_W};
+  const Stretch path_W{ball.p_from_W, ball.p_to_W - ball.p_from_W};
   return distance_squared(path_W, center_W) > room * room;
 }
 
@@ -98,7 +98,7 @@ BroadPhase::BallOfBone BroadPhase::in_bone(const Pose& X_WB, const SweptSphere& 
 }
 
 bool BroadPhase::meets(const Bounds& piece, const BallOfBone& ball) {
-  const Segment path{ball.from_B, ball.along_B};
+  const Stretch path{ball.from_B, ball.along_B};
   const double apart = ball.reach + piece.radius;
   return distance_squared(path, piece.center_B) <= apart * apart &&
          meets_box(path, piece.box_center_B, piece.box_half + Vec3::Constant(ball.reach));

@@ -15,16 +15,16 @@ namespace {
 
 using hull::WrappedFacets;
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kUnnumbered = 0xffffffffu;
 
 /// Vertex number of each input point. Corners are in the order of the input, so that the result
 /// does not depend on the path taken.
 std::vector<std::uint32_t> number_vertices(std::size_t points, const WrappedFacets& facets) {
-  std::vector<std::uint32_t> number(points, kNone);
+  std::vector<std::uint32_t> number(points, kUnnumbered);
   for (const std::uint32_t s : facets.corners) number[s] = 0;
   std::uint32_t count = 0;
   for (std::uint32_t& n : number) {
-    if (n != kNone) n = count++;
+    if (n != kUnnumbered) n = count++;
   }
   return number;
 }
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> number_vertices(std::size_t points, const WrappedFace
 void fill_vertices(Hull& result, std::span<const Vec3> points,
                    std::span<const std::uint32_t> number) {
   for (std::uint32_t s = 0; s < points.size(); ++s) {
-    if (number[s] == kNone) continue;
+    if (number[s] == kUnnumbered) continue;
     result.source.push_back(s);
     result.vertices.push_back(points[s]);
   }

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "osteon/procedure/path_metrics.h"
+#include "path_units.h"
 
 namespace osteon {
 namespace {
-
-constexpr double kPathRateHz = 100;
 
 bool is_grave(const Outcome::Error& error) { return error.severity != Severity::kMinor; }
 

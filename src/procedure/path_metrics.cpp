@@ -5,13 +5,12 @@
 #include <numbers>
 
 #include "osteon/procedure/report.h"
+#include "path_units.h"
 
 namespace osteon {
 namespace {
 
-constexpr double kMmPerM = 1000;
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr double kTipRateHz = 100;
 constexpr double kActionSpeed_mm_s = 50;
 constexpr double kActionTurn_deg_s = 50;
 constexpr double kActionTime_s = 0.2;
@@ -83,8 +82,8 @@ std::optional<double> smoothness_of(const Samples& s) {
 std::optional<double> sparc_of(const std::vector<Vec3>& tip) {
   std::vector<double> speed;
   for (std::size_t i = 1; i < tip.size(); ++i)
-    speed.push_back((tip[i] - tip[i - 1]).norm() * kTipRateHz);
-  const double value = sparc(speed, kTipRateHz);
+    speed.push_back((tip[i] - tip[i - 1]).norm() * kPathRateHz);
+  const double value = sparc(speed, kPathRateHz);
   return value < 0 ? std::optional<double>(value) : std::nullopt;
 }
 
@@ -162,9 +161,9 @@ Result<PathMetrics> path_metrics(const ProbePath& path, const PathMetricsOptions
   m.elapsed_s = path.duration_s();
   add_motion(path.samples, options, m);
   m.smoothness = smoothness_of(path.samples);
-  const std::vector<Vec3> tip = resampled_tip(path, kTipRateHz);
+  const std::vector<Vec3> tip = resampled_tip(path, kPathRateHz);
   m.sparc = sparc_of(tip);
-  m.ldlj = ldlj(tip, kTipRateHz);
+  m.ldlj = ldlj(tip, kPathRateHz);
   if (options.tissue_W) add_tissue(path.samples, options, m);
   return m;
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_units.h"
+
 namespace osteon {
 namespace {
 
-constexpr double kPathRateHz = 100;
 constexpr double kReservedSeconds = 600;
 
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }

@@ -14,6 +14,9 @@
 
 namespace osteon {
 
+/// Metres of a millimetre, in which scene files give lengths.
+constexpr double kMm = 1e-3;
+
 /// Bounds of a number, both allowed.
 struct Within {
   double lo, hi;

@@ -10,7 +10,6 @@ using Table = SceneReader::Table;
 
 constexpr Within kPlace_mm{-1e5, 1e5};
 constexpr Within kTime_s{0, 1e4};
-constexpr double kMm = 1e-3;
 
 HexGrid read_grid(SceneReader& in, const Table& grid) {
   in.only(grid, {"cells", "cell_mm", "origin_mm"});

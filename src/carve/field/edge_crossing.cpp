@@ -7,15 +7,15 @@ namespace {
 
 using Values = std::array<std::int16_t, NodeWindow::kCount>;
 
-constexpr int kRow = NodeWindow::kSpan, kLayer = NodeWindow::kSpan * NodeWindow::kSpan;
+constexpr int kNodeRow = NodeWindow::kSpan, kNodeLayer = NodeWindow::kSpan * NodeWindow::kSpan;
 
 /// Central differences of a node, of values that are cut off where they are only bounds.
 Vec3 slope(const Values& values, double most, int node) {
   const auto at = [&](int n) {
     return std::clamp(static_cast<double>(values[static_cast<std::size_t>(n)]), -most, most);
   };
-  return {at(node + 1) - at(node - 1), at(node + kRow) - at(node - kRow),
-          at(node + kLayer) - at(node - kLayer)};
+  return {at(node + 1) - at(node - 1), at(node + kNodeRow) - at(node - kNodeRow),
+          at(node + kNodeLayer) - at(node - kNodeLayer)};
 }
 
 /// Share of the way from a node inside, at which a value that rises from `in` to `out` is 0; more

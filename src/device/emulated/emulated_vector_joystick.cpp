@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.h"
 #include "joystick_descriptors.h"
 
 namespace osteon {
 namespace {
-
-constexpr double kTurn_rad = 6.283185307179586;
 
 // Bit by bit as a small firmware would: the check value of "123456789" is 0x29B1.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes) {

@@ -4,19 +4,17 @@
 #include <utility>
 
 #include "falcon_kinematics.h"
+#include "link_times.h"
 
 namespace osteon {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kSilence_ns = 10 * kMs;
-constexpr std::int64_t kOrderLife_ns = 20 * kMs;
 constexpr std::int64_t kShortestPeriod_ns = kMs / 2;
 constexpr std::int64_t kTalk_ns = 4 * kMs;
-constexpr std::int64_t kFaultHold_ns = 50 * kMs;
 constexpr std::int64_t kBetweenRestarts_ns = 20 * kMs;
 constexpr double kPulledOut_m = 0.170;
-constexpr double kFarthest_m = 0.120;  // from the middle; the legs reach no further
+constexpr double kLegReach_m = 0.120;  // from the middle
 constexpr int kZerosAtEnd = 5;
 constexpr int kBusyWrites = 50;
 
@@ -55,7 +53,7 @@ DeviceSample FalconDevice::read() {
 // A reading comes for a command alone: who only looks (while homing, say) must be heard too.
 void FalconDevice::keep_talking(std::int64_t now) {
   if (unanswered_ns_ >= 0 || now - last_sent_ns_ < kTalk_ns) return;
-  const bool ordered = last_write_ns_ >= 0 && now - last_write_ns_ <= kOrderLife_ns;
+  const bool ordered = last_write_ns_ >= 0 && now - last_write_ns_ <= link_times::kOrderLife_ns;
   send(ordered ? allowed(ordered_V_) : Vec3::Zero());
 }
 
@@ -83,7 +81,7 @@ void FalconDevice::accept(const FalconReport& report, std::int64_t time_ns) {
     return;
   }
   const auto p = falcon::grip_position(falcon::angles_of(report.encoders), p_F_);
-  if (!p || (*p - falcon::kCentre_F).norm() > kFarthest_m) {
+  if (!p || (*p - falcon::kCentre_F).norm() > kLegReach_m) {
     ++health_.bad_reports;
     return;
   }
@@ -112,21 +110,22 @@ void FalconDevice::follow_homing(const FalconReport& report) {
 
 // Silence counts while somebody listens: what came in a pause of the program may be lost.
 void FalconDevice::listen(std::int64_t now) {
-  const bool paused = now - last_listened_ns_ > kSilence_ns / 2;
+  const bool paused = now - last_listened_ns_ > link_times::kSilence_ns / 2;
   if (paused && unanswered_ns_ >= 0) unanswered_ns_ = now;
-  if (paused) last_good_ns_ = std::max(last_good_ns_, now - kSilence_ns / 2);
+  if (paused) last_good_ns_ = std::max(last_good_ns_, now - link_times::kSilence_ns / 2);
   last_listened_ns_ = now;
 }
 
 void FalconDevice::watch(std::int64_t now) {
   watch_link(now);
-  if (unanswered_ns_ >= 0 && now - unanswered_ns_ > kSilence_ns)
+  if (unanswered_ns_ >= 0 && now - unanswered_ns_ > link_times::kSilence_ns)
     raise(ForceOff::kDisconnect, "The Falcon does not answer: check its power and its cable", now);
-  else if (unanswered_ns_ < 0 && now - last_good_ns_ > kSilence_ns &&
+  else if (unanswered_ns_ < 0 && now - last_good_ns_ > link_times::kSilence_ns &&
            last_write_ns_ > last_good_ns_)
     raise(ForceOff::kDeviceFault, "The Falcon's readings make no sense: switch it off and on", now);
   // An order that came too late has left the motors with the one before; zero may stay.
-  if (last_write_ns_ >= 0 && now - last_write_ns_ > kOrderLife_ns && !ordered_V_.isZero(0))
+  if (last_write_ns_ >= 0 && now - last_write_ns_ > link_times::kOrderLife_ns &&
+      !ordered_V_.isZero(0))
     raise(ForceOff::kWatchdog, "Osteon was too late with its force", now);
   settle(now);
 }
@@ -160,7 +159,7 @@ void FalconDevice::raise(ForceOff cause, const char* words, std::int64_t now) {
 
 void FalconDevice::settle(std::int64_t now) {
   if (sample_.refusal == ForceOff::kNone || !sample_.connected) return;
-  if (now - fault_seen_ns_ < kFaultHold_ns || !ordered_V_.isZero(0)) return;
+  if (now - fault_seen_ns_ < link_times::kFaultHold_ns || !ordered_V_.isZero(0)) return;
   sample_.refusal = ForceOff::kNone;
   fault_words_ = "";
 }

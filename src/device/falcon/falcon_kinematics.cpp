@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "angles.h"
 
 namespace osteon::falcon {
 namespace {
@@ -17,7 +18,6 @@ constexpr double kF = -0.025;    // grip's middle to the leg, along v
 constexpr double kR = 0.0400;    // frame's origin to the driven joint, along u
 constexpr double kS = -0.02309;  // the same along v
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kZeroAngle_deg = 35;
 // 360 degrees / (320 slots x 4 edges) x shaft 14.25 mm / arm wheel 110 mm
 constexpr double kDegPerCount = 360.0 / (320 * 4) * (0.01425 / 0.110);

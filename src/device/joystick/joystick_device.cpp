@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "angles.h"
 #include "pid_dialect.h"
 #include "vector_dialect.h"
 
 namespace osteon {
 namespace {
-
-constexpr double kTurn_rad = 6.283185307179586;
 
 std::unique_ptr<JoystickDialect> make_dialect(const JoystickProfile& profile) {
   if (profile.dialect == JoystickDialectKind::kPid) return std::make_unique<PidDialect>(profile);

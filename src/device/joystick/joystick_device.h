@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "joystick_dialect.h"
+#include "link_times.h"
 #include "velocity_estimator.h"
 
 namespace osteon {
@@ -14,8 +15,9 @@ namespace osteon {
 /// firmware: the next reading says so.
 class JoystickDevice : public HapticDevice {
  public:
-  static constexpr std::int64_t kSilence_ns = 10'000'000;
-  static constexpr std::int64_t kOrderLife_ns = 20'000'000;  ///< of a force, in its firmware
+  static constexpr std::int64_t kSilence_ns = link_times::kSilence_ns;
+  static constexpr std::int64_t kOrderLife_ns =
+      link_times::kOrderLife_ns;                     ///< of a force, in its firmware
   static constexpr double kImpossible_m_per_s = 10;  ///< a reading that leaps so is a false one
 
   /// Takes an open link and brings the joystick up; waits for that, at most a second.

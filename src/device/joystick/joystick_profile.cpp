@@ -1,9 +1,9 @@
 #include "joystick_profile.h"
 
+#include "angles.h"
+
 namespace osteon {
 namespace {
-
-constexpr double kRadPerDeg = 0.017453292519943295;
 
 void read_usb(ProfileReader& in, const toml::table& joystick, JoystickProfile& p) {
   const toml::table& usb = in.table(joystick, "usb");

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.h"
+
 namespace osteon {
 namespace {
-
-constexpr double kTurn_rad = 6.283185307179586;
 
 void put_u16(std::uint8_t* at, std::uint16_t value) {
   at[0] = static_cast<std::uint8_t>(value);

@@ -5,20 +5,18 @@
 #include <cmath>
 
 #include "hd_errors.h"
+#include "link_times.h"
 #include "osteon/device/inkwell.h"
 #include "osteon/device/safety_limits.h"
 
 namespace osteon {
 namespace {
 
-constexpr std::int64_t kOrderLife_ns = 20'000'000;
-constexpr std::int64_t kSilence_ns = 10'000'000;
 constexpr int kFewestBad = 3;
-constexpr std::int64_t kFaultHold_ns = 50'000'000;
 constexpr std::uint64_t kSlowChecks = 10;  // passes between looks at heat and calibration
 constexpr double kHot = 1.0;               // of the library's scale from 0 to 1
 constexpr double kCooledDown = 0.8;
-constexpr double kFarthest_m = 2.0;  // no arm of this class reaches so far
+constexpr double kArmReach_m = 2.0;  // longer than any arm of this class
 constexpr double kFastest_m_per_s = 20.0;
 constexpr int kErrorsAPass = 16;  // that a broken library cannot hold the loop
 constexpr double kMmPerMetre = 1000;
@@ -118,7 +116,7 @@ bool ServoArm::accept(const Raw& raw, std::int64_t now) {
   const Vec3 p = X.topRightCorner<3, 1>() / kMmPerMetre - setup_.centre_m;
   const Vec3 v = raw.v_mm_per_s / kMmPerMetre;
   const bool finite = X.array().isFinite().all() && is_finite(v) && is_finite(raw.w_rad_per_s);
-  if (!finite || !is_rotation(R) || p.norm() > kFarthest_m || v.norm() > kFastest_m_per_s)
+  if (!finite || !is_rotation(R) || p.norm() > kArmReach_m || v.norm() > kFastest_m_per_s)
     return false;
   DeviceSample& s = state_.sample;
   s.time_ns = now;
@@ -149,7 +147,7 @@ void ServoArm::watch_readings(bool good, std::int64_t now) {
   }
   ++state_.health.bad_reports;
   // A single one after a loop that was late is the lateness' matter.
-  if (++bad_in_a_row_ >= kFewestBad && now - last_good_ns_ > kSilence_ns)
+  if (++bad_in_a_row_ >= kFewestBad && now - last_good_ns_ > link_times::kSilence_ns)
     raise(ForceOff::kDeviceFault, "The arm's readings make no sense: switch it off and on", now);
 }
 
@@ -160,7 +158,7 @@ void ServoArm::watch_orders(const ForceOrder& order, std::int64_t now) {
     last_order_ = order.number;
   }
   // Zero may stay for as long as nobody orders anything.
-  if (now - order.time_ns > kOrderLife_ns && !order.is_zero())
+  if (now - order.time_ns > link_times::kOrderLife_ns && !order.is_zero())
     raise(ForceOff::kWatchdog, "Osteon was too late with its force", now);
 }
 
@@ -219,7 +217,7 @@ void ServoArm::raise(ForceOff cause, const char* words, std::int64_t now) {
 void ServoArm::settle(const ForceOrder& order, std::int64_t now) {
   DeviceSample& s = state_.sample;
   if (s.refusal == ForceOff::kNone || s.refusal == ForceOff::kDisconnect) return;
-  if (now - fault_seen_ns_ < kFaultHold_ns || !order.is_zero()) return;
+  if (now - fault_seen_ns_ < link_times::kFaultHold_ns || !order.is_zero()) return;
   s.refusal = ForceOff::kNone;
   fault_words_ = "";
   // The library itself may have switched its force off.

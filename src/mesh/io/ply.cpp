@@ -128,12 +128,12 @@ bool as_corners(const std::vector<double>& list, std::vector<std::uint32_t>& cor
   return true;
 }
 
-struct Face {
+struct PlyFace {
   std::vector<std::uint32_t> corners;
   bool sound = true;
 };
 
-bool read_face(PlyValues& values, const PlyElement& element, Face& face) {
+bool read_face(PlyValues& values, const PlyElement& element, PlyFace& face) {
   std::vector<double> list;
   for (const PlyProperty& property : element.properties) {
     double value = 0;
@@ -170,7 +170,7 @@ Result<TriMesh> parse_ply(std::string_view bytes, const std::string& where) {
     const bool is_vertex = element.name == "vertex";
     if (is_vertex && !has_position(element)) return fail("its vertices lack x, y or z", where);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      Face face;
+      PlyFace face;
       if (is_vertex ? !read_vertex(values, element, mesh) : !read_face(values, element, face))
         return truncated(element.name, i, where);
       if (element.name != "face") continue;

@@ -8,10 +8,10 @@
 namespace osteon {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 struct Neighbour {
-  std::uint32_t triangle = kNone;
+  std::uint32_t triangle = kNoTriangle;
   bool alike = true;
 };
 
@@ -38,8 +38,8 @@ Patch walk(const Neighbours& neighbours, std::uint32_t start, std::vector<char>&
   seen[start] = 1;
   for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
     for (const Neighbour& n : neighbours.of[patch.triangles[i]]) {
-      patch.closed = patch.closed && n.triangle != kNone && n.alike;
-      if (n.triangle == kNone || seen[n.triangle]) continue;
+      patch.closed = patch.closed && n.triangle != kNoTriangle && n.alike;
+      if (n.triangle == kNoTriangle || seen[n.triangle]) continue;
       seen[n.triangle] = 1;
       patch.triangles.push_back(n.triangle);
       patch.against.push_back(static_cast<char>(patch.against[i] ^ (n.alike ? 0 : 1)));

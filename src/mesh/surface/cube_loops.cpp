@@ -3,12 +3,12 @@
 namespace osteon {
 namespace {
 
-struct Face {
+struct CubeFace {
   std::array<int, 4> corners;  ///< around the face
   std::array<int, 4> edges;    ///< edge k joins corners k and k + 1
 };
 
-Face cube_face(int face) {
+CubeFace cube_face(int face) {
   const int axis = face / 2, side = face % 2;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const int base = side << axis;
@@ -31,7 +31,7 @@ void join(std::array<int, 12>& parent, int a, int b) {
   parent[static_cast<std::size_t>(ra > rb ? ra : rb)] = ra > rb ? rb : ra;
 }
 
-void join_edges_of_face(std::uint8_t inside, const Face& f, bool joined,
+void join_edges_of_face(std::uint8_t inside, const CubeFace& f, bool joined,
                         std::array<int, 12>& parent) {
   int crossed[4], n = 0;
   for (std::size_t k = 0; k < 4; ++k)
@@ -71,14 +71,14 @@ CubeLoops cube_loops(std::uint8_t inside, std::uint8_t joined_faces) {
 }
 
 bool face_is_ambiguous(std::uint8_t inside, int face) {
-  const Face f = cube_face(face);
+  const CubeFace f = cube_face(face);
   const bool a = is_inside(inside, f.corners[0]);
   return is_inside(inside, f.corners[1]) != a && is_inside(inside, f.corners[2]) == a &&
          is_inside(inside, f.corners[3]) != a;
 }
 
 bool one_loop_takes_face(const CubeLoops& loops, int face) {
-  const Face f = cube_face(face);
+  const CubeFace f = cube_face(face);
   const auto loop = loops.of_edge[static_cast<std::size_t>(f.edges[0])];
   for (const int e : f.edges)
     if (loops.of_edge[static_cast<std::size_t>(e)] != loop) return false;

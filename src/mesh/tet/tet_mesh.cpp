@@ -9,7 +9,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kUnnumbered = std::numeric_limits<std::uint32_t>::max();
 
 /// The two corners of each edge, then the two others.
 constexpr std::array<std::array<std::size_t, 4>, 6> kEdgesAndRest = {
@@ -80,12 +80,12 @@ double volume(const TetMesh& mesh) {
 
 TetBoundary boundary(const TetMesh& mesh) {
   TetBoundary out;
-  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> renamed(mesh.vertices.size(), kUnnumbered);
   for (const FaceUse& use : lone_faces(mesh.tets)) {
     Triangle triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.tets[use.tet][kTetFaces[use.face][k]];
-      if (renamed[v] == kNone) {
+      if (renamed[v] == kUnnumbered) {
         renamed[v] = static_cast<std::uint32_t>(out.vertex_of.size());
         out.vertex_of.push_back(v);
         out.surface.vertices.push_back(mesh.vertices[v]);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "jaws.h"
+
 namespace osteon {
 namespace {
 
@@ -24,7 +26,6 @@ constexpr double kNearEnd_m = 0.010;   // jaws take a tendon's end
 constexpr double kNearPost_m = 0.012;  // and leave it at a post
 constexpr double kNearHook_m = 0.006;
 constexpr std::uint32_t kHangSteps = 250;
-constexpr double kShut = 0.15;  // of the jaws' way
 constexpr double kPassed_m = 0.001, kRefused_m = 0.0006;
 
 bool is_tendon(std::uint32_t line) { return line <= GraftBenchPlan::kGracilis; }
@@ -175,7 +176,7 @@ void GraftBenchWork::push(std::size_t hand, const ToolState& tool, GraftBenchSta
   if (s > front - 0.002 && over > 0)
     front += step_s_ * std::min(over / kSlow_n_s_per_m, kFastest_m_per_s);
   // The board's slide does not go back by itself: open jaws let it follow them.
-  if (line == GraftBenchPlan::kBoard && tool.jaw >= kShut) front = std::clamp(s, 0.0, front);
+  if (line == GraftBenchPlan::kBoard && tool.jaw >= kJawsShut) front = std::clamp(s, 0.0, front);
   reach(hand, held(tool), state);
 }
 
@@ -230,7 +231,7 @@ void GraftBenchWork::scrape(std::size_t hand, const ToolState& tool, GraftBenchS
 // A needle holder that shuts at a place of a tendon's end has put thread through it.
 void GraftBenchWork::stitch(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
   BenchHand& h = state.hands[hand];
-  const bool shut = tool.jaw < kShut, shuts = shut && !h.shut;
+  const bool shut = tool.jaw < kJawsShut, shuts = shut && !h.shut;
   h.shut = shut;
   if (!shuts) return;
   for (std::uint32_t t = 0; t < kGraftTendons; ++t) {
@@ -246,7 +247,7 @@ void GraftBenchWork::stitch(std::size_t hand, const ToolState& tool, GraftBenchS
 void GraftBenchWork::carry(std::size_t hand, const ToolState& tool, GraftBenchState& state) const {
   BenchHand& h = state.hands[hand];
   if (in_knee_) h.carries = 0;
-  const bool shut = tool.jaw < kShut;
+  const bool shut = tool.jaw < kJawsShut;
   const bool shuts = shut && !h.shut, opens = !shut && h.shut;
   h.shut = shut;
   if (shuts && !in_knee_)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "jaws.h"
 #include "osteon/scene/graft.h"
 
 namespace osteon {
@@ -18,7 +19,6 @@ constexpr double kClampOff_m = 0.015;     // beyond the tibia a clamp is free ag
 constexpr double kPinOff_m = 0.003;       // drawn back so far before the mouth it is off again
 constexpr double kLeadStep = 0.02;        // a line holds within 50 steps
 constexpr double kJawReach_m = 0.010;     // jaws take a thread
-constexpr double kJawShut = 0.15;         // of the jaws' way
 constexpr double kOutOfSkin_m = 0.020;    // from the cortex to where the thread is taken hold of
 constexpr double kAside_m = 0.002;        // a clamp may lean so far beyond the tunnel's wall
 constexpr double kEndInJoint_m = 0.010;   // over the tibia's mouth the thread's end comes to lie
@@ -328,7 +328,7 @@ void GraftPlacing::turn_screw(std::uint32_t hand, const ToolState& tool, const B
 void GraftPlacing::use_clamp(std::uint32_t hand, const ToolState& tool, const BoneSnapshot& bones,
                              GraftPlacingState& state) const {
   PlacingHand& h = state.hands[hand];
-  const bool shut = tool.jaw < kJawShut;
+  const bool shut = tool.jaw < kJawsShut;
   if (shut && !h.shut) shut_on(hand, tool, bones, state);
   if (!shut && h.shut) open(hand, tool, bones, state);
   h.shut = shut;

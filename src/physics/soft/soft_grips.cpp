@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jaws.h"
+
 namespace osteon {
 namespace {
 
-constexpr double kOpen = 0.5, kShut = 0.15;  // of the jaws' way
-constexpr double kDraws_m_per_s = 0.05;      // how fast shutting jaws draw a place between them
-constexpr double kEnd = 0.03;                // of a band's length: what is bone, and is not held
-constexpr double kFarthest_m = 0.025;        // a solid that was drawn so far has slipped
+constexpr double kDraws_m_per_s = 0.05;  // how fast shutting jaws draw a place between them
+constexpr double kEnd = 0.03;            // of a band's length: what is bone, and is not held
+constexpr double kFarthest_m = 0.025;    // a solid that was drawn so far has slipped
 constexpr int kSideways = 3, kTurns = 9, kOutwards = 8;  // places of the mouth that are looked at
 constexpr double kFollows = 0.05;  // of the way that a solid's stiffness goes in a step
 constexpr double kDirection_m = 1e-4;
@@ -45,7 +46,7 @@ const SoftGripper* SoftGrips::gripper(std::uint32_t instrument) const {
 
 std::uint64_t SoftGrips::lifted(const ToolState& tool) const {
   const SoftGripper* jaws = gripper(tool.instrument);
-  return jaws && tool.jaw > kShut ? jaws->jaws : 0;
+  return jaws && tool.jaw > kJawsShut ? jaws->jaws : 0;
 }
 
 // Jaws that bite a solid do not hold it.
@@ -192,9 +193,9 @@ GripNews SoftGrips::step(SoftState& state, std::size_t h, const ToolState* tool,
     return news;
   }
   if (gone) grip = {};
-  const bool shuts = grip.jaw_open && tool->jaw <= kShut;
-  const bool open = tool->jaw > kOpen || (grip.jaw_open && tool->jaw > kShut);
-  if (grip.hold.of != SoftHold::Of::kNothing && tool->jaw > kShut) {
+  const bool shuts = grip.jaw_open && tool->jaw <= kJawsShut;
+  const bool open = tool->jaw > kJawsOpen || (grip.jaw_open && tool->jaw > kJawsShut);
+  if (grip.hold.of != SoftHold::Of::kNothing && tool->jaw > kJawsShut) {
     news.freed = true;
     leave();
   }

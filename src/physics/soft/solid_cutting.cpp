@@ -15,9 +15,9 @@ constexpr std::size_t kMostCutBlocks = 4096, kMostNews = 64;
 constexpr double kWallSlack_m = 15e-6;  // as of bone: what cut a hole moves in it
 constexpr double kSharp = 1.0 / 3;      // D: an edge needs so much of the table's force
 constexpr double kLightest_n = 0.05;
-constexpr double kAcross = 0.7;             // a blade that lies flat does not cut
-constexpr std::uint32_t kStrokeEnds = 100;  // steps without a cut
-constexpr double kJawOpen = 0.5, kJawShut = 0.1;
+constexpr double kAcross = 0.7;                         // a blade that lies flat does not cut
+constexpr std::uint32_t kStrokeEnds = 100;              // steps without a cut
+constexpr double kBladesOpen = 0.5, kBladesShut = 0.1;  // of the blades' way
 constexpr std::uint64_t kLookForPieces = 24, kShowEvery = 20;
 constexpr double kCrumb_m3 = 0.5e-9;  // less is no piece to tell of
 
@@ -75,7 +75,7 @@ const SolidCutter* SolidCutting::cutter(std::uint32_t instrument) const {
 
 std::uint64_t SolidCutting::lifted(const ToolState& tool) const {
   const SolidCutter* with = cutter(tool.instrument);
-  return with && tool.jaw > kJawShut ? with->lifts : 0;
+  return with && tool.jaw > kBladesShut ? with->lifts : 0;
 }
 
 // Of the parts that do the work.
@@ -130,8 +130,8 @@ void SolidCutting::cut_with(SoftState& state, std::size_t h, const SolidHand& of
     stroke.near = &all.near[at];
     stroke.solid = stroke.near->contact.solid;
   }
-  const bool shuts = hand.jaw_open && tool.jaw <= kJawShut;
-  hand.jaw_open = tool.jaw > kJawOpen || (hand.jaw_open && tool.jaw > kJawShut);
+  const bool shuts = hand.jaw_open && tool.jaw <= kBladesShut;
+  hand.jaw_open = tool.jaw > kBladesOpen || (hand.jaw_open && tool.jaw > kBladesShut);
   const auto place = [&](std::uint32_t solid) {
     stroke.X_BT = presses_.X_WB(solid).inverse() * tool.X_WP;
     if (!stroke.near) return;

@@ -4,11 +4,10 @@
 #include <span>
 
 #include "osteon/procedure/polyline.h"
+#include "path_units.h"
 
 namespace osteon {
 namespace {
-
-constexpr double kMmPerM = 1000;
 
 // The first pair that is not done yet; as many as there are pairs: none.
 std::size_t first_open_pair(const RuleState& state) {

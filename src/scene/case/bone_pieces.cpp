@@ -11,7 +11,7 @@ namespace osteon {
 namespace {
 
 // Counts up with every change of the algorithm that changes its pieces.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kPiecesVersion = 2;
 constexpr double kLeastLength = 1e-6;  // m; below this nothing is a bone
 // A long bone is searched on coarser cells: their count grows with the cube of its length.
 constexpr double kLong = 0.25;  // m
@@ -35,7 +35,7 @@ DecomposeOptions search_for(const TriMesh& mesh, DecomposeOptions options) {
 
 std::uint64_t piece_key(const TriMesh& mesh, const DecomposeOptions& options) {
   Hasher hasher;
-  hasher.add(kVersion);
+  hasher.add(kPiecesVersion);
   hasher.add(options.concavity_m);
   hasher.add(static_cast<std::uint64_t>(options.max_pieces));
   hasher.add(search_for(mesh, options).search_cell_m);

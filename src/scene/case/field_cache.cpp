@@ -15,7 +15,7 @@ using cache::Reader;
 using cache::write;
 
 // Counts up with every change of the field's making that changes its bits.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kFieldVersion = 1;
 constexpr std::string_view kMagic = "OSTNFLD1";
 constexpr std::uint64_t kMostBytes = 1ull << 32;
 
@@ -69,7 +69,7 @@ FieldData read_field(Reader& reader) {
 
 std::uint64_t field_key(const TriMesh& mesh, const FieldOptions& options) {
   Hasher hasher;
-  hasher.add(kVersion);
+  hasher.add(kFieldVersion);
   for (const double x : {options.cell_m, options.outside_m, options.inside_m}) hasher.add(x);
   hasher.add(static_cast<std::uint64_t>(options.most_blocks));
   add_mesh(hasher, mesh);

@@ -8,7 +8,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kMm = 1e-3;
 using Keys = SceneReader::Table;
 
 std::vector<Vec3> places(SceneReader& in, const Keys& keys, std::string_view key) {

@@ -8,7 +8,6 @@ namespace osteon {
 namespace {
 
 using Table = SceneReader::Table;
-constexpr double kFromMm = 1e-3;
 
 std::optional<SheetPoint> two(const toml::node* node) {
   const toml::array* list = node ? node->as_array() : nullptr;
@@ -18,7 +17,7 @@ std::optional<SheetPoint> two(const toml::node* node) {
     const toml::node* one = list->get(i);
     const auto value = one->is_number() ? one->value<double>() : std::nullopt;
     if (!value || !(std::abs(*value) <= 1e4)) return {};
-    out[static_cast<Eigen::Index>(i)] = kFromMm * *value;
+    out[static_cast<Eigen::Index>(i)] = kMm * *value;
   }
   return out;
 }
@@ -49,14 +48,14 @@ SheetMaterial read_skin_material(SceneReader& in, const Table& t) {
   in.only(t, {"young_kpa", "thickness_mm", "poisson", "tension_n_per_m", "fat_kpa_per_mm", "fat_mm",
               "tether_kpa_per_mm", "friction", "pierce_kpa", "fat_pierce_kpa"});
   SheetMaterial m;
-  m.thickness_m = kFromMm * in.number_or(t, "thickness_mm", {0.1, 100}, m.thickness_m / kFromMm);
+  m.thickness_m = kMm * in.number_or(t, "thickness_mm", {0.1, 100}, m.thickness_m / kMm);
   m.stretch_n_per_m = m.thickness_m * 1000 * in.number_or(t, "young_kpa", {0.1, 1e7}, 500);
   m.poisson = in.number_or(t, "poisson", {0, 0.4999}, m.poisson);
   m.tension_n_per_m = in.number_or(t, "tension_n_per_m", {1e-3, 1e5}, m.tension_n_per_m);
   constexpr double kPerMm = 1e6;  // kPa/mm in Pa/m
   m.foundation_n_per_m3 =
       kPerMm * in.number_or(t, "fat_kpa_per_mm", {0.001, 1e4}, m.foundation_n_per_m3 / kPerMm);
-  m.fat_m = kFromMm * in.number_or(t, "fat_mm", {0.1, 1e4}, m.fat_m / kFromMm);
+  m.fat_m = kMm * in.number_or(t, "fat_mm", {0.1, 1e4}, m.fat_m / kMm);
   m.tether_n_per_m3 =
       kPerMm * in.number_or(t, "tether_kpa_per_mm", {1e-5, 1e4}, m.tether_n_per_m3 / kPerMm);
   m.friction = in.number_or(t, "friction", {0, 10}, m.friction);
@@ -71,14 +70,14 @@ SheetMaterial read_skin_material(SceneReader& in, const Table& t) {
 SheetDisc read_disc(SceneReader& in, const Table& t) {
   SheetDisc out;
   out.p = read_point(in, t, "at_mm");
-  out.radius_m = kFromMm * in.number_or(t, "radius_mm", {0.05, 100}, out.radius_m / kFromMm);
+  out.radius_m = kMm * in.number_or(t, "radius_mm", {0.05, 100}, out.radius_m / kMm);
   return out;
 }
 
 void read_sheet(SceneReader& in, const Table& t, SkinScene& scene) {
   in.only(t, {"size_mm", "edge_mm"});
   const SheetPoint size = read_point(in, t, "size_mm");
-  scene.edge_m = kFromMm * in.number_or(t, "edge_mm", {0.05, 100}, 1.5);
+  scene.edge_m = kMm * in.number_or(t, "edge_mm", {0.05, 100}, 1.5);
   scene.width_m = size.x();
   scene.height_m = size.y();
 }
@@ -93,7 +92,7 @@ SkinPlace read_place(SceneReader& in, const Table& t) {
   if (SceneReader::has(t, "at"))
     out.landmark = in.text(t, "at");
   else
-    out.near_W = kFromMm * in.vec3(t, "near_mm", {-1e4, 1e4});
+    out.near_W = kMm * in.vec3(t, "near_mm", {-1e4, 1e4});
   out.turn_rad = kDegree * in.number_or(t, "turn_deg", {-360, 360}, 0);
   return out;
 }
@@ -107,9 +106,9 @@ SkinScene read_skin(SceneReader& in, const Table& root) {
     scene.material = read_skin_material(in, in.table(root, "material"));
   for (const Table& t : in.tables(root, "cut")) {
     in.only(t, {"points_mm", "depth_mm"});
-    scene.cuts.push_back({read_skin_stroke(in, t, "points_mm"),
-                          kFromMm * in.number_or(t, "depth_mm", {0.01, 1000},
-                                                 2.5 * scene.material.thickness_m / kFromMm)});
+    scene.cuts.push_back(
+        {read_skin_stroke(in, t, "points_mm"),
+         kMm * in.number_or(t, "depth_mm", {0.01, 1000}, 2.5 * scene.material.thickness_m / kMm)});
   }
   for (const Table& t : in.tables(root, "press")) {
     in.only(t, {"at_mm", "radius_mm", "force_n"});
@@ -117,8 +116,8 @@ SkinScene read_skin(SceneReader& in, const Table& root) {
   }
   for (const Table& t : in.tables(root, "pierce")) {
     in.only(t, {"at_mm", "radius_mm", "depth_mm", "speed_mm_per_s"});
-    scene.pierces.push_back({read_disc(in, t), kFromMm * in.number(t, "depth_mm", {0.1, 1000}),
-                             kFromMm * in.number_or(t, "speed_mm_per_s", {0.1, 1000}, 20)});
+    scene.pierces.push_back({read_disc(in, t), kMm * in.number(t, "depth_mm", {0.1, 1000}),
+                             kMm * in.number_or(t, "speed_mm_per_s", {0.1, 1000}, 20)});
   }
   return scene;
 }
