@@ -8,8 +8,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "osteon/hull/decompose.h"
-
 namespace osteon {
 namespace {
 
@@ -75,10 +73,6 @@ std::string to_text(const FeltChoice& choice) {
     out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
   if (!choice.beside.empty()) out.append(out.empty() ? "#" : ",").append("beside=" + choice.beside);
   return choice.source + out;
-}
-
-Felt felt_as(const TriMesh& mesh, Felt chosen) {
-  return chosen == Felt::kPieces && !can_decompose(mesh) ? Felt::kHull : chosen;
 }
 
 Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees) {

@@ -29,9 +29,6 @@ std::string to_text(const FeltChoice& choice);
 Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees);
 /// The case alone, whatever follows it.
 std::string source_without_choice(const std::string& spec);
-/// How a bone is really felt: an open mesh has no inside that could be cut into pieces, so it is
-/// felt as its hull.
-Felt felt_as(const TriMesh& mesh, Felt chosen);
 /// Puts what is felt into the case; fails when it names a bone that is not there.
 Result<void> apply(const FeltChoice& choice, CaseDef& def);
 

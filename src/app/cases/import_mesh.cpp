@@ -67,11 +67,10 @@ Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const 
 }
 
 // Parts that overlap are not one solid: what is felt and filled with tetrahedra would be wrong.
-Result<void> refuse_overlap(const TriMesh& mesh,
-                            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings,
-                            const fs::path& file, const ImportOptions& options) {
+Result<void> refuse_overlap(const TriMesh& mesh, const fs::path& file,
+                            const ImportOptions& options) {
   if (options.force) return {};
-  const auto pair = crossing_parts(mesh, crossings);
+  const auto pair = crossing_parts(mesh);
   if (!pair) return {};
   return fail("has parts that pass through each other (triangles " + std::to_string(pair->first) +
                   " and " + std::to_string(pair->second) + " of the repaired mesh)",
@@ -102,12 +101,11 @@ Result<void> read_bone(const fs::path& file, const ImportOptions& options, Impor
     return fail("holds no triangle with an area", file.string(), "Check the unit and the file");
   const std::string name = canonical_bone_name(file.stem().string());
   if (auto may = refuse_no_bone(name, *mesh, file, options); !may) return may;
-  const auto crossings = self_crossings(*mesh);
-  imported.crossings = crossings.size();
-  if (auto may = refuse_overlap(*mesh, crossings, file, options); !may) return may;
+  imported.crossings = self_crossings(*mesh).size();
+  if (auto may = refuse_overlap(*mesh, file, options); !may) return may;
   if (auto may = refuse_touch(*mesh, file, options); !may) return may;
   // Which side of a surface is inside is not certain where it crosses itself.
-  if (!options.keep_hollows && crossings.empty()) imported.hollows = fill_hollows(*mesh);
+  if (!options.keep_hollows && imported.crossings == 0) imported.hollows = fill_hollows(*mesh);
   imported.triangles = mesh->triangles.size();
   imported.closed = topology(*mesh).closed();
   for (std::size_t i = 0; i < result.def.bones.size(); ++i)

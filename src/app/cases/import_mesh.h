@@ -30,7 +30,8 @@ struct ImportedBone {
   bool closed = false;
   RepairReport repair;
   std::size_t hollows = 0;    ///< walled up
-  std::size_t crossings = 0;  ///< pairs of triangles that pass through each other
+  std::size_t crossings = 0;  ///< pairs of triangles that pass through each other, the first
+                              ///< kListedCrossings
 };
 
 struct ImportResult {

@@ -80,6 +80,14 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
+// The part of each vertex: what edges or corners join has one name.
+std::vector<std::uint32_t> parts_of(const TriMesh& mesh) {
+  UnionFind parts(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : {t[1], t[2]}) parts.join(t[0], v);
+  return parts.names();
+}
+
 }  // namespace
 
 std::vector<Pair> self_crossings(const TriMesh& mesh, const std::vector<bool>& marked,
@@ -106,14 +114,23 @@ std::vector<Pair> self_crossings(const TriMesh& mesh, std::size_t most) {
   return self_crossings(mesh, std::vector<bool>(mesh.triangles.size(), true), most);
 }
 
-std::optional<Pair> crossing_parts(const TriMesh& mesh, const std::vector<Pair>& crossings) {
-  if (crossings.empty()) return std::nullopt;
-  UnionFind parts(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : {t[1], t[2]}) parts.join(t[0], v);
-  const std::vector<std::uint32_t> part = parts.names();
-  for (const Pair& pair : crossings)
-    if (part[mesh.triangles[pair.first][0]] != part[mesh.triangles[pair.second][0]]) return pair;
+std::optional<Pair> crossing_parts(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return std::nullopt;
+  const std::vector<std::uint32_t> part = parts_of(mesh);
+  const auto of = [&](std::uint32_t t) { return part[mesh.triangles[t][0]]; };
+  if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                  [&](const Triangle& t) { return part[t[0]] == of(0); }))
+    return std::nullopt;
+  const BoxTree tree(mesh);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::uint32_t least = t;
+    tree.overlapping(tree.box(t), [&](std::uint32_t other) {
+      if (other > t && (least == t || other < least) && of(other) != of(t) &&
+          triangles_cross(mesh.vertices, mesh.triangles[t], mesh.triangles[other]))
+        least = other;
+    });
+    if (least != t) return Pair{t, least};
+  }
   return std::nullopt;
 }
 

@@ -67,7 +67,8 @@ Result<void> check_surface(const TriMesh& surface) {
   const Vec3 at_mm = 1000 * surface.vertices[surface.triangles[a][0]];
   char place[96];
   std::snprintf(place, sizeof place, "(%.2f, %.2f, %.2f) mm", at_mm.x(), at_mm.y(), at_mm.z());
-  return fail("the surface intersects itself: " + counted(crossings.size(), "pair") +
+  const std::string more = crossings.size() < kListedCrossings ? "" : "at least ";
+  return fail("the surface intersects itself: " + more + counted(crossings.size(), "pair") +
                   " of triangles, the first " + std::to_string(a) + " and " + std::to_string(b) +
                   " near " + place,
               kWhere, "Edit or rebuild the surface there, so that it bounds one solid");

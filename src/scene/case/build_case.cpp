@@ -12,6 +12,7 @@
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/bone_cover.h"
 #include "osteon/scene/bone_pieces.h"
+#include "osteon/scene/felt_as.h"
 #include "osteon/scene/field_cache.h"
 #include "osteon/scene/piece_cache.h"
 #include "osteon/scene/wide_field.h"
@@ -102,7 +103,7 @@ Result<Bone> build_bone(BoneDef def, const BuildOptions& options) {
   Bone bone;
   bone.field = std::move(*field);
   bone.wide = std::move(*wide);
-  bone.felt = def.felt;
+  bone.felt = felt_as(def.mesh, def.felt);
   bone.beside = def.beside;
   if (def.felt == Felt::kCovered) bone.covered = std::move(def.covered);
   bone.pieces = std::move(*pieces);
@@ -126,11 +127,12 @@ void hash_piece(Hasher& hasher, const Hull& piece) {
   }
 }
 
-void hash_bone(Hasher& hasher, const Bone& bone) {
+// `chosen`: as the case says, so that a recording of an open bone still finds its case.
+void hash_bone(Hasher& hasher, const Bone& bone, Felt chosen) {
   hasher.add(std::string_view(bone.name));
   hasher.add(bone.fma_id);
   hasher.add(bone.X_WB);
-  hasher.add(static_cast<std::uint8_t>(bone.felt));
+  hasher.add(static_cast<std::uint8_t>(chosen));
   if (bone.beside) hasher.add(std::string_view("beside"));  // a case without keeps its hash
   add_mesh(hasher, bone.mesh);
   hasher.add(static_cast<std::uint64_t>(bone.pieces.size()));
@@ -144,10 +146,10 @@ void hash_bone(Hasher& hasher, const Bone& bone) {
 
 // What is felt, and nothing else: a case that was renamed, or has other soft parts to look at,
 // replays the same, and a run without a window need not make what only a picture shows.
-std::uint64_t hash_of(const Case& the_case) {
+std::uint64_t hash_of(const Case& the_case, const std::vector<Felt>& chosen) {
   Hasher hasher;
   hasher.add(static_cast<std::uint64_t>(the_case.bones.size()));
-  for (const Bone& bone : the_case.bones) hash_bone(hasher, bone);
+  for (std::size_t i = 0; i < chosen.size(); ++i) hash_bone(hasher, the_case.bones[i], chosen[i]);
   return hasher.value();
 }
 
@@ -175,6 +177,8 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
     if (auto sound = check_bone(bone); !sound) return tl::unexpected(sound.error());
   }
   cover_bones(def);
+  std::vector<Felt> chosen;
+  for (const BoneDef& bone : def.bones) chosen.push_back(bone.felt);
   Case built;
   for (std::size_t i = 0; i < def.bones.size(); ++i) {
     if (options.progress) options.progress(i, def.bones.size());
@@ -192,7 +196,7 @@ Result<Case> build_case(CaseDef def, const BuildOptions& options) {
   built.side = std::move(def.side);
   built.landmarks = std::move(def.landmarks);
   built.findings = std::move(def.findings);
-  built.hash = hash_of(built);
+  built.hash = hash_of(built, chosen);
   return built;
 }
 

@@ -46,7 +46,7 @@ void check_mesh(const BoneDef& bone, Findings& found) {
 
 // What an import refuses unless it is forced: volume and mass count the common room twice.
 void check_parts(const BoneDef& bone, Findings& found) {
-  const auto pair = crossing_parts(bone.mesh, self_crossings(bone.mesh));
+  const auto pair = crossing_parts(bone.mesh);
   if (!pair) return;
   found.add(bone.name, "parts of the mesh pass through each other (triangles " +
                            std::to_string(pair->first) + " and " + std::to_string(pair->second) +

@@ -23,14 +23,6 @@ TEST(FeltChoice, ACaseWithoutOneIsLeftAlone) {
   EXPECT_EQ(to_text(*choice), "builtin:wrist");
 }
 
-TEST(FeltChoice, AnOpenMeshIsFeltAsItsHull) {
-  TriMesh mesh = test::cube(0.01);
-  EXPECT_EQ(felt_as(mesh, Felt::kPieces), Felt::kPieces);
-  mesh.triangles.pop_back();
-  EXPECT_EQ(felt_as(mesh, Felt::kPieces), Felt::kHull);
-  EXPECT_EQ(felt_as(mesh, Felt::kField), Felt::kField);
-}
-
 TEST(FeltChoice, NonsenseIsAnError) {
   EXPECT_FALSE(parse_felt_choice("x#soft"));
   EXPECT_FALSE(parse_felt_choice("x#lunate="));

@@ -16,7 +16,9 @@
 #include "commands/support/progress_line.h"
 #include "commands/support/text_table.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/mesh/self_crossing.h"
 #include "osteon/scene/case_io.h"
+#include "osteon/scene/felt_as.h"
 #include "osteon/scene/portal.h"
 
 namespace osteon {
@@ -44,7 +46,9 @@ std::string plural(std::size_t count, const std::string& one) {
 std::string mended_text(const ImportedBone& bone) {
   std::string text = bone.repair.summary();
   if (bone.hollows > 0) text += ", closed " + plural(bone.hollows, "hollow");
-  if (bone.crossings > 0) text += ", left " + plural(bone.crossings, "crossing") + " of triangles";
+  const std::string more = bone.crossings < kListedCrossings ? "" : "at least ";
+  if (bone.crossings > 0)
+    text += ", left " + more + plural(bone.crossings, "crossing") + " of triangles";
   return text;
 }
 
@@ -70,8 +74,8 @@ int run_import(const ImportOptions& options) {
 }
 
 std::string felt_text(const Bone& bone) {
-  const Felt felt = felt_as(bone.mesh, bone.felt);
-  return felt == Felt::kPieces ? plural(bone.pieces.size(), "piece") : std::string(to_text(felt));
+  return bone.felt == Felt::kPieces ? plural(bone.pieces.size(), "piece")
+                                    : std::string(to_text(bone.felt));
 }
 
 // Memory that the bone's distance field takes.

@@ -21,7 +21,7 @@ nlohmann::ordered_json json_of(const SurfaceGap& gap) {
 
 nlohmann::ordered_json json_of(const Bone& bone, const FeltDistance& d) {
   nlohmann::ordered_json out;
-  out["felt"] = std::string(to_text(felt_as(bone.mesh, bone.felt)));
+  out["felt"] = std::string(to_text(bone.felt));
   out["pieces"] = bone.pieces.size();
   if (bone.field) {
     out["field_bytes"] = bone.field->bytes();
@@ -47,10 +47,9 @@ void print_table(const Case& c) {
   for (const Bone& bone : c.bones) {
     const FeltDistance d = felt_distance(bone);
     const double megabytes = bone.field ? 1e-6 * static_cast<double>(bone.field->bytes()) : 0;
-    table.add({bone.name, std::string(to_text(felt_as(bone.mesh, bone.felt))),
-               std::to_string(bone.pieces.size()), in_mm(d.mesh_to_felt.mean),
-               in_mm(d.mesh_to_felt.p95), in_mm(d.mesh_to_felt.max), in_mm(d.felt_to_mesh.mean),
-               in_mm(d.felt_to_mesh.p95), in_mm(d.felt_to_mesh.max),
+    table.add({bone.name, std::string(to_text(bone.felt)), std::to_string(bone.pieces.size()),
+               in_mm(d.mesh_to_felt.mean), in_mm(d.mesh_to_felt.p95), in_mm(d.mesh_to_felt.max),
+               in_mm(d.felt_to_mesh.mean), in_mm(d.felt_to_mesh.p95), in_mm(d.felt_to_mesh.max),
                in_mm(d.felt_to_mesh_at_ends.max), bone.field ? fixed(megabytes, 1) : "-"});
   }
   std::fputs(table.text().c_str(), stdout);
