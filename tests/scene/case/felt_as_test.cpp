@@ -8,13 +8,13 @@
 namespace osteon {
 namespace {
 
-TriMesh open_cube() {
+TriMesh cube_with_a_gap() {
   TriMesh mesh = test::cube(0.01);
   mesh.triangles.pop_back();
   return mesh;
 }
 
-CaseDef one_bone(TriMesh mesh) {
+CaseDef lone_bone(TriMesh mesh) {
   CaseDef def;
   def.bones.resize(1);
   def.bones[0].name = "lunate";
@@ -24,15 +24,15 @@ CaseDef one_bone(TriMesh mesh) {
 
 TEST(FeltAs, AnOpenMeshIsFeltAsItsHull) {
   EXPECT_EQ(felt_as(test::cube(0.01), Felt::kPieces), Felt::kPieces);
-  EXPECT_EQ(felt_as(open_cube(), Felt::kPieces), Felt::kHull);
-  EXPECT_EQ(felt_as(open_cube(), Felt::kField), Felt::kField);
+  EXPECT_EQ(felt_as(cube_with_a_gap(), Felt::kPieces), Felt::kHull);
+  EXPECT_EQ(felt_as(cube_with_a_gap(), Felt::kField), Felt::kField);
 }
 
 TEST(FeltAs, ABuiltBoneSaysHowItIsFelt) {
-  const auto closed = build_case(one_bone(test::cube(0.01)));
+  const auto closed = build_case(lone_bone(test::cube(0.01)));
   ASSERT_TRUE(closed);
   EXPECT_EQ(closed->bones[0].felt, Felt::kPieces);
-  const auto open = build_case(one_bone(open_cube()));
+  const auto open = build_case(lone_bone(cube_with_a_gap()));
   ASSERT_TRUE(open);
   EXPECT_EQ(open->bones[0].felt, Felt::kHull);
   EXPECT_EQ(open->bones[0].pieces.size(), 1u);
@@ -41,9 +41,10 @@ TEST(FeltAs, ABuiltBoneSaysHowItIsFelt) {
 // A recording names its case by the hash: one that was made while such bones were called pieces
 // still finds it.
 TEST(FeltAs, TheHashKeepsWhatWasChosen) {
-  CaseDef hull = one_bone(open_cube());
+  CaseDef hull = lone_bone(cube_with_a_gap());
   hull.bones[0].felt = Felt::kHull;
-  const auto as_pieces = build_case(one_bone(open_cube())), as_hull = build_case(std::move(hull));
+  const auto as_pieces = build_case(lone_bone(cube_with_a_gap())),
+             as_hull = build_case(std::move(hull));
   ASSERT_TRUE(as_pieces && as_hull);
   EXPECT_NE(as_pieces->hash, as_hull->hash);
 }
