@@ -70,15 +70,19 @@ void find_types(std::istream& text, const std::string& where, Places& places) {
 }
 
 // Types and constants of unnamed namespaces by their names, functions with their parameters too.
+// A name that only stands for a type may be given twice, for the same one: of it the type is kept.
 void find_hidden(std::istream& text, const std::string& where, Places& places) {
   static const std::regex constant(R"(\b(k[A-Z]\w*)(?:\[[^\]]*\])*(?: = |\{))");
   static const std::regex function(R"(^[\w:<>,&* ]*[ &*>](\w+\([^{}]*\))(?: const)? (?:\{|:))");
+  static const std::regex alias(R"(^using (\w+) = (.*);)");
   for (const Line& line : top_lines(text)) {
     if (!line.nameless) continue;
     std::smatch match;
     if (std::regex_search(line.text, match, a_type()) ||
         std::regex_search(line.text, match, function)) {
       places[line.scope + match[1].str()].insert(where);
+    } else if (std::regex_search(line.text, match, alias)) {
+      places[line.scope + match[1].str() + " ="].insert(match[2].str());
     } else if (line.text.starts_with("const")) {
       for (std::sregex_iterator i(line.text.begin(), line.text.end(), constant), end; i != end; ++i)
         places[line.scope + (*i)[1].str()].insert(where);
@@ -128,7 +132,7 @@ TEST(TypeNames, NoTwoSourcesDefineTheSame) {
 
 TEST(HiddenNames, TheSearchSeesWhatItShould) {
   std::istringstream text(
-      "namespace a {\nconstexpr int kSeen = 1;\nnamespace {\nstruct One {\n};\n"
+      "namespace a {\nconstexpr int kSeen = 1;\nnamespace {\nstruct One {\n};\nusing Two = One;\n"
       "constexpr double kTwo = 2, kThree = kTwo,\n    kFour{4};\n"
       "const Table& five(int x,\n             int y) {\n    kNone = x;\n}\n"
       "int six(int x) { return x; }\n}  // namespace\nint seven() { return 7; }\n}  // namespace "
@@ -137,8 +141,9 @@ TEST(HiddenNames, TheSearchSeesWhatItShould) {
   find_hidden(text, "x.cpp", places);
   std::set<std::string> found;
   for (const auto& [name, where] : places) found.insert(name);
-  EXPECT_EQ(found, (std::set<std::string>{" a  One", " a  kTwo", " a  kThree", " a  kFour",
-                                          " a  five(int x, int y)", " a  six(int x)"}));
+  EXPECT_EQ(found,
+            (std::set<std::string>{" a  One", " a  Two =", " a  kTwo", " a  kThree", " a  kFour",
+                                   " a  five(int x, int y)", " a  six(int x)"}));
 }
 
 // Of a module, and of each folder of app, which joins its sources by folders.
@@ -159,7 +164,7 @@ TEST(HiddenNames, NoTwoSourcesOfAModuleHideTheSame) {
   for (const auto& [module, places] : modules) {
     names += places.size();
     for (const auto& [name, where] : places)
-      EXPECT_EQ(where.size(), 1u) << name << " is hidden in" << all_of(where);
+      EXPECT_EQ(where.size(), 1u) << name << " means or is hidden in" << all_of(where);
   }
   EXPECT_GT(names, 4000u);
 }

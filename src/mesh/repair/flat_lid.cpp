@@ -17,7 +17,7 @@ Vec3 newell(const std::vector<Vec3>& corners) {
   return sum;
 }
 
-bool is_flat(const std::vector<Vec3>& corners, const Vec3& normal) {
+bool lie_flat(const std::vector<Vec3>& corners, const Vec3& normal) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& c : corners) middle += c / static_cast<double>(corners.size());
   double stray = 0, width = 0;
@@ -98,7 +98,7 @@ std::vector<Triangle> flat_lid(const std::vector<Vec3>& vertices,
   std::vector<Vec3> corners;
   for (const std::uint32_t v : loop) corners.push_back(vertices[v]);
   const Vec3 area = newell(corners);
-  if (!(area.norm() > 0) || !is_flat(corners, area.normalized())) return {};
+  if (!(area.norm() > 0) || !lie_flat(corners, area.normalized())) return {};
   EarClipping clipping(corners, area.normalized());
   if (!clipping.run([&](std::size_t a, std::size_t b) { return may_join(loop[a], loop[b]); }))
     return {};

@@ -50,23 +50,23 @@ double mass_of(const BoneDef& def, const std::vector<Hull>& pieces) {
   return enclosed * def.density_kg_per_m3;
 }
 
-// Corners of the pieces of a bone, in Bone; none when no hull can be made.
-using Corners = std::vector<std::vector<Vec3>>;
+// Corners of each piece of a bone, in Bone; none when no hull can be made.
+using CornerLists = std::vector<std::vector<Vec3>>;
 
-Corners piece_corners(const TriMesh& mesh, PieceCache* cache) {
+CornerLists piece_corners(const TriMesh& mesh, PieceCache* cache) {
   const std::uint64_t key = piece_key(mesh);
   if (cache)
     if (const PieceCorners* known = cache->find(key)) return known->pieces;
   auto made = cut_into_pieces(mesh);
   if (!made) return {};
-  Corners corners = made->pieces;
+  CornerLists corners = made->pieces;
   if (cache) cache->put(key, std::move(*made));
   return corners;
 }
 
 // Hulls are always built from corners alone, so that cached pieces give the same bits.
 Result<std::vector<Hull>> build_pieces(const BoneDef& bone, PieceCache* cache) {
-  Corners corners;
+  CornerLists corners;
   if (bone.felt != Felt::kHull) corners = piece_corners(bone.mesh, cache);
   if (corners.empty()) corners.push_back(bone.mesh.vertices);
   std::vector<Hull> pieces;
