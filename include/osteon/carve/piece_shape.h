@@ -52,7 +52,7 @@ class PieceShape {
  private:
   PieceShape() = default;
   double height_m(const std::array<int, 3>& node) const;
-  double height_at(const Vec3& p_B) const;
+  double height_at(const Vec3& p_B, double most_m) const;
   bool measure();
   void find_points();
 

@@ -12,6 +12,8 @@ namespace {
 
 // Room about a piece in which its surface closes.
 constexpr int kRoomNodes = 2;
+// As far from its surface heights are asked for.
+constexpr double kAskedCells = 3;
 
 std::size_t count_of(const std::array<int, 3>& nodes) {
   return static_cast<std::size_t>(nodes[0]) * static_cast<std::size_t>(nodes[1]) *
@@ -73,8 +75,8 @@ double PieceShape::height_m(const std::array<int, 3>& at) const {
   return 1e-6 * grid_.heights[index];
 }
 
-// Linear between nodes.
-double PieceShape::height_at(const Vec3& p_B) const {
+// Linear between nodes, whose heights are no larger than `most_m`.
+double PieceShape::height_at(const Vec3& p_B, double most_m) const {
   std::array<int, 3> low{};
   std::array<double, 3> share{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -92,7 +94,7 @@ double PieceShape::height_at(const Vec3& p_B) const {
       weight *= up[a] != 0 ? share[a] : 1 - share[a];
       at[a] += up[a];
     }
-    sum += weight * height_m(at);
+    sum += weight * std::clamp(height_m(at), -most_m, most_m);
   }
   return sum;
 }
@@ -163,10 +165,10 @@ Result<TriMesh> PieceShape::surface() const {
   IsosurfaceOptions options;
   options.cell_m = grid_.cell_m;
   options.relax_steps = 1;
-  // Heights are kept in whole micrometres to 32 mm; between nodes they rise by up to sqrt(3).
-  options.stretch = 1.8;
-  options.slack_m = grid_.cell_m;
-  return isosurface([this](const Vec3& p) { return height_at(p); }, box, options);
+  // Of a node deep inside it is not known how deep: heights say nothing beyond a few cells.
+  const double known = kAskedCells * grid_.cell_m;
+  options.slack_m = known;
+  return isosurface([&](const Vec3& p) { return height_at(p, known); }, box, options);
 }
 
 }  // namespace osteon

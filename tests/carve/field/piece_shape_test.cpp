@@ -79,5 +79,20 @@ TEST(PieceShape, ItsSurfaceIsClosedAndTheBalls) {
   EXPECT_NEAR(osteon::volume(*mesh), volume, 0.01 * volume);
 }
 
+// Of nodes deep inside a field knows no more than that: their heights are the lowest that there
+// are.
+TEST(PieceShape, ItsSurfaceNeedsNoDepths) {
+  const double r = 0.008;
+  PieceGrid grid = ball_grid(r, 0.00025, Vec3::Zero());
+  for (std::int16_t& height : grid.heights)
+    if (height < -1000) height = -32767;
+  const auto shape = PieceShape::from(std::move(grid));
+  ASSERT_NE(shape, nullptr);
+  const auto mesh = shape->surface();
+  ASSERT_TRUE(mesh) << mesh.error().message();
+  for (const Vec3& v : mesh->vertices) EXPECT_NEAR(v.norm(), r, 3e-5);
+  EXPECT_TRUE(topology(*mesh).closed());
+}
+
 }  // namespace
 }  // namespace osteon
