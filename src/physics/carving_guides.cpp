@@ -73,16 +73,17 @@ void Carving::drop_rod(std::size_t place) {
 
 // Beyond the far side nothing stops a drill: its hole goes on, up to the next bone before it.
 void Carving::run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT) {
-  constexpr int kMostStrides = 16;
-  constexpr double kAhead_m = 0.003;
+  const bool blade = with.way == CarvingTool::Way::kStrike;
+  // A blade cuts as it goes on, so its end stays near it.
+  const int most_strides = blade ? 2 : 16;
+  const double ahead_m = blade ? 0.0003 : 0.003;
   const CarvedField& field = *bones_[h.bone].field;
   const Vec3 back = outwards(h.X_BC);
-  for (int i = 0; i < kMostStrides && back.dot(h.X_BC.p - X_BT.p) > -kAhead_m; ++i) {
+  for (int i = 0; i < most_strides && back.dot(h.X_BC.p - X_BT.p) > -ahead_m; ++i) {
     const Pose next{h.X_BC.p - 0.5 * field.grid().cell_m * back, h.X_BC.q};
     // A blade has an edge and no faces.
-    const FrontShare front = with.way == CarvingTool::Way::kStrike
-                                 ? look_before_edge(field, with.cutter.size_m, next)
-                                 : look_before(field, with.cutter, with.pilot_m, next);
+    const FrontShare front = blade ? look_before_edge(field, with.cutter.size_m, next)
+                                   : look_before(field, with.cutter, with.pilot_m, next);
     if (front.left() > 0) {
       h.open = false;
       return;
@@ -96,7 +97,11 @@ void Carving::leave_hole(std::size_t hand, const CarvingTool& with, const ToolSt
   CarvingHand& h = hands_[hand];
   if (!h.in_hole || h.bone >= bones.count) return;
   const Pose X_BT = bones.bones[h.bone].X_WB.inverse() * tool.X_WP;
+  const Pose X_BC_before = h.X_BC;
   if (h.open) run_free(h, with, X_BT);
+  // Its edge is out, its faces are not: the slot grows as wide as the blade.
+  if (with.way == CarvingTool::Way::kStrike && h.X_BC.p != X_BC_before.p)
+    (void)remove(hand, with.cutter, X_BC_before, h.X_BC);
   const Vec3 out = outwards(h.X_BC), off = X_BT.p - h.X_BC.p;
   // Put back into its hole by a restore point while the hand is elsewhere, it is not drawn there.
   const bool elsewhere = (off - off.dot(out) * out).norm() > kCapture_m;

@@ -76,6 +76,30 @@ TEST(CarvedPieces, WhatIsSawnOffFallsOffAndIsTold) {
   EXPECT_NEAR(session.tool_state().X_WP.p.z(), kTop_m - 0.0025, 2e-4);
 }
 
+// An osteotome of 12 mm goes down through the block, which is 10 mm wide. Its edge is thinner than
+// the field's cells: only where the whole blade went through is the block in two.
+TEST(CarvedPieces, ABladeThatComesOutBelowHasCutTheBlockInTwo) {
+  const Drilling with("osteotome:12");
+  Session session = with.session();
+  std::vector<Event> events;
+  for (std::uint64_t n = 0; n < 9000; ++n) {
+    const HandInput hand = testing::down_at(n, 1, 0.004, 0.020);
+    (void)session.tick(std::span(&hand, 1));
+    for (const Event& event : session.last_events()) events.push_back(event);
+  }
+  const auto count = [&](EventKind kind) {
+    return std::count_if(events.begin(), events.end(),
+                         [&](const Event& e) { return e.kind == kind; });
+  };
+  EXPECT_EQ(count(kBreached), 1);
+  ASSERT_EQ(count(kPieceOff), 1);
+  EXPECT_LT(session.tool_state().X_WP.p.z(), -0.010);
+  // The blade is 2 mm thick and stands off the middle by 0.2 mm: 3.8 mm are left on one side.
+  const auto off = std::find_if(events.begin(), events.end(),
+                                [](const Event& e) { return e.kind == kPieceOff; });
+  EXPECT_NEAR(off->values[0], 10 * 3.8 * 8, 40);
+}
+
 // The look for pieces comes with certain steps: from a state between two of them it is the same.
 TEST(CarvedPieces, FromAStateOnTheWayTheSameFalls) {
   const Drilling with;
