@@ -1,6 +1,7 @@
 #include "commands/cases/carved_case.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "cases/open_case.h"
 #include "commands/support/cli_support.h"
 #include "osteon/carve/carved_surface.h"
+#include "osteon/carve/piece_below.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
@@ -18,10 +20,18 @@
 namespace osteon {
 namespace {
 
-/// Surfaces of what has cuts, by their place in the case. Of a layer of cartilage that is gone
-/// altogether an empty one.
+/// A piece of bone that lies loose, without its cartilage.
+struct LoosePart {
+  std::uint32_t bone = 0;  ///< that it was part of
+  TriMesh mesh_B;          ///< before it fell
+  Pose X_BP;               ///< from there to where it lies, as that bone sees it
+};
+
+/// Surfaces of what has cuts, by their place in the case, and of loose pieces. Of a layer of
+/// cartilage that is gone altogether an empty one.
 struct CarvedMeshes {
   std::vector<std::optional<Result<TriMesh>>> bones, softs;
+  std::vector<LoosePart> pieces;
 };
 
 /// What is left of the layers on a bone, in World at rest.
@@ -42,6 +52,22 @@ void add_layers(const CarvedField& field, const std::vector<CarvedLayer>& layers
   }
 }
 
+// What is thinner than a cell has no surface and is left out.
+void add_pieces(const Session& session, CarvedMeshes& out) {
+  for (const FallenPiece& piece : session.carving()->pieces()) {
+    const std::uint32_t b = piece.shape->grid().bone;
+    const CarvedField* field = session.carving()->field(b);
+    if (!field || b >= session.bones().count) continue;
+    const auto bare =
+        field->bone().bare() ? piece_below(*piece.shape, field->bone(), 0) : piece.shape;
+    if (!bare) continue;
+    auto mesh = bare->surface();
+    if (mesh)
+      out.pieces.push_back(
+          {b, std::move(*mesh), session.bones().bones[b].X_WB.inverse() * piece.X_WB});
+  }
+}
+
 CarvedMeshes meshes_of(const Session& session) {
   CarvedMeshes meshes;
   meshes.bones.resize(session.the_case().bones.size());
@@ -55,6 +81,7 @@ CarvedMeshes meshes_of(const Session& session) {
     const auto& layers = carving->setup().layers_on;
     if (bare && b < layers.size()) add_layers(*field, layers[b], session.the_case(), meshes);
   }
+  if (carving) add_pieces(session, meshes);
   return meshes;
 }
 
@@ -93,6 +120,38 @@ void take_layers(CarvedMeshes& meshes, CaseDef& def) {
   }
 }
 
+/// "ulna_piece", where that is taken "ulna_piece_2" and so on.
+std::string free_piece_name(const CaseDef& def, const std::string& bone) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(def.bones.begin(), def.bones.end(),
+                       [&](const BoneDef& b) { return b.name == name; });
+  };
+  std::string name = bone + "_piece";
+  for (int n = 2; taken(name); ++n) name = bone + "_piece_" + std::to_string(n);
+  return name;
+}
+
+// A piece lies as it lay about its bone, which is put back to its rest.
+Result<void> take_pieces(std::vector<LoosePart>& pieces, CarvedCase& out) {
+  if (out.def.bones.size() + pieces.size() > kMaxBones)
+    return fail("has " + std::to_string(out.def.bones.size()) + " bones and " +
+                    std::to_string(pieces.size()) + " loose pieces; a case has no more than " +
+                    std::to_string(kMaxBones) + " bones",
+                "case '" + out.def.name + "'");
+  for (LoosePart& piece : pieces) {
+    BoneDef bone;
+    const BoneDef& from = out.def.bones[piece.bone];
+    bone.name = free_piece_name(out.def, from.name);
+    bone.X_WB = from.X_WB * piece.X_BP;
+    bone.mesh = std::move(piece.mesh_B);
+    bone.density_kg_per_m3 = from.density_kg_per_m3;
+    bone.material = from.material;
+    out.def.bones.push_back(std::move(bone));
+    ++out.pieces;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<CarvedCase> carved_case(const std::string& recording_file, const std::string& case_spec,
@@ -105,7 +164,7 @@ Result<CarvedCase> carved_case(const std::string& recording_file, const std::str
   if (!meshes) return tl::unexpected(meshes.error());
   auto def = open_case_def(*spec, {}, parts);
   if (!def) return tl::unexpected(def.error());
-  CarvedCase out{std::move(*def), *spec, 0};
+  CarvedCase out{std::move(*def), *spec};
   for (std::size_t b = 0; b < meshes->bones.size() && b < out.def.bones.size(); ++b) {
     auto& mesh = meshes->bones[b];
     if (!mesh) continue;
@@ -113,6 +172,7 @@ Result<CarvedCase> carved_case(const std::string& recording_file, const std::str
     out.def.bones[b].mesh = std::move(**mesh);
     ++out.carved;
   }
+  if (auto ok = take_pieces(meshes->pieces, out); !ok) return tl::unexpected(ok.error());
   take_layers(*meshes, out.def);
   if (out.carved > 0) out.def.recipe.reset();  // it could not be grown again
   return out;

@@ -10,11 +10,14 @@
 
 namespace osteon {
 
-/// A recording's case with its bones as they were at some moment, in their places at rest.
+/// A recording's case with its bones as they were at some moment, in their places at rest. Pieces
+/// that were cut off and lay loose are bones of their own, after the others: "ulna_piece",
+/// "ulna_piece_2" and so on, where they lay about the bone that they were part of.
 struct CarvedCase {
   CaseDef def;
   std::string spec;        ///< of the case before anything was removed
   std::size_t carved = 0;  ///< bones that something was removed from
+  std::size_t pieces = 0;  ///< that are bones of their own
 };
 
 /// Repeats a recording (.osr) up to `at_s`, or to its end. `case_spec`: where its case is; empty:

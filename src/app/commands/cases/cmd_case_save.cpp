@@ -27,8 +27,12 @@ int run_save(const CaseSaveCommand& command) {
   if (!notes) return report_error(notes.error());
   const auto saved = save_noted_case(carved->def, *notes, out);
   if (!saved) return report_error(saved.error());
-  std::printf("%zu carved bone%s at %g s -> %s\n", carved->carved, carved->carved == 1 ? "" : "s",
-              command.at_s, out.string().c_str());
+  std::string what =
+      std::to_string(carved->carved) + " carved bone" + (carved->carved == 1 ? "" : "s");
+  if (carved->pieces > 0)
+    what += " and " + std::to_string(carved->pieces) + " loose piece" +
+            (carved->pieces == 1 ? "" : "s");
+  std::printf("%s at %g s -> %s\n", what.c_str(), command.at_s, out.string().c_str());
   return kExitDone;
 }
 

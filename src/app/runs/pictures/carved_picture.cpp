@@ -97,8 +97,9 @@ CarvedPicture::Bone* CarvedPicture::bone(std::uint32_t index) {
 }
 
 // Its whole surface; what was inside of the bone lies deep.
-void CarvedPicture::take_piece(const PieceShape& shape) {
-  if (!known_pieces_.insert(shape.hash()).second) return;
+void CarvedPicture::take_piece(const std::shared_ptr<const PieceShape>& taken) {
+  const PieceShape& shape = *taken;
+  if (!known_pieces_.emplace(shape.hash(), taken).second) return;
   const Bone* const of = bone(shape.grid().bone);
   const auto mesh = shape.surface();
   if (!of || !mesh) return;
@@ -118,7 +119,7 @@ std::vector<CarvedPicture::Piece> CarvedPicture::new_pieces() {
 }
 
 void CarvedPicture::take(const CutsPatch& patch) {
-  if (patch.piece) return take_piece(*patch.piece);
+  if (patch.piece) return take_piece(patch.piece);
   if (patch.heat) {
     pulses_.push_back(*patch.heat);
     return;
@@ -177,6 +178,12 @@ CutBones CarvedPicture::cut_bones() const {
   CutBones out;
   for (std::uint32_t b = 0; b < bones_.size(); ++b)
     if (bones_[b] && bones_[b]->field.block_count() > 0) out.emplace_back(b, bones_[b]->field);
+  return out;
+}
+
+std::vector<std::shared_ptr<const PieceShape>> CarvedPicture::shapes_of_pieces() const {
+  std::vector<std::shared_ptr<const PieceShape>> out;
+  for (const auto& [hash, shape] : known_pieces_) out.push_back(shape);
   return out;
 }
 

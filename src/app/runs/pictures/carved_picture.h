@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "osteon/carve/carved_surface.h"
@@ -13,6 +13,7 @@
 #include "osteon/physics/heat_pulse.h"
 #include "osteon/render/renderer.h"
 #include "osteon/session/cuts_feed.h"
+#include "runs/pictures/xray_cuts.h"
 
 namespace osteon {
 
@@ -54,8 +55,10 @@ class CarvedPicture {
   };
   /// Of the bones whose temperatures went on since it was last asked; for Renderer::set_heat.
   std::vector<Warmed> warmed();
-  /// Copies of the bones that hold cuts, for who looks through them.
+  /// Copies of the bones that hold cuts.
   CutBones cut_bones() const;
+  /// The same with all pieces, for who looks through them.
+  CutScene cut_scene() const { return {cut_bones(), shapes_of_pieces()}; }
 
  private:
   struct Bone {
@@ -64,12 +67,13 @@ class CarvedPicture {
     bool waits = false;  ///< changed since it was last meshed
   };
   Bone* bone(std::uint32_t index);
-  void take_piece(const PieceShape& shape);
+  void take_piece(const std::shared_ptr<const PieceShape>& taken);
+  std::vector<std::shared_ptr<const PieceShape>> shapes_of_pieces() const;
   void forget_heat();
 
   std::shared_ptr<const CarvingSetup> setup_;
   std::vector<std::optional<Bone>> bones_;  ///< made when their first cut comes
-  std::set<std::uint64_t> known_pieces_;
+  std::map<std::uint64_t, std::shared_ptr<const PieceShape>> known_pieces_;  ///< by hash
   std::vector<Piece> new_pieces_;
   std::vector<HeatPulse> pulses_;
   std::size_t followed_ = 0;         ///< of them

@@ -32,7 +32,9 @@ Result<FilmFluoro> FilmFluoro::create(const Case& the_case, const Tray& tray) {
   if (!tissues) return tl::unexpected(tissues.error());
   auto body = CaseBody::create(the_case, *tissues);
   if (!body) return tl::unexpected(body.error());
-  FilmFluoro fluoro(std::move(*body));
+  auto cuts = XrayCuts::create();
+  if (!cuts) return tl::unexpected(cuts.error());
+  FilmFluoro fluoro(std::move(*body), std::move(*cuts));
   for (const auto& tool : tray) {
     auto mesh = xray_surface(tool->mesh, "the instrument '" + tool->name + "'");
     if (!mesh) return tl::unexpected(mesh.error());
@@ -47,7 +49,7 @@ Result<FilmFluoro> FilmFluoro::create(const Case& the_case, const Tray& tray) {
 
 Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side, const AskCuts& cuts) {
   scene_.body = body_.posed(moment.bones);
-  if (cuts) add_cuts(cuts(), moment.bones, false, scene_.body);
+  if (cuts) cuts_.add_to(scene_.body, cuts(), moment.bones);
   XrayLayer steel{"instruments", kSteel, {}};
   for (std::size_t h = 0; h < moment.hands; ++h) {
     const ToolState& tool = moment.tools[h];

@@ -10,6 +10,7 @@
 #include "osteon/session/session.h"
 #include "osteon/xray/case_body.h"
 #include "runs/pictures/film_view.h"
+#include "runs/pictures/xray_cuts.h"
 #include "runs/pictures/xray_shot.h"
 
 namespace osteon {
@@ -22,16 +23,17 @@ class FilmFluoro {
 
   /// Fails as CaseBody::create does, and on an instrument that is not closed.
   static Result<FilmFluoro> create(const Case& the_case, const Tray& tray);
-  /// Asked where a picture is taken: what was cut out of the bones.
-  using AskCuts = std::function<CutBones()>;
+  /// Asked where a picture is taken.
+  using AskCuts = std::function<CutScene()>;
   /// A square picture in the middle of one of this size, black around it.
   Result<Image> draw(const FilmMoment& moment, int width, int height, const AskCuts& cuts = {});
 
  private:
-  explicit FilmFluoro(CaseBody body) : body_(std::move(body)) {}
+  FilmFluoro(CaseBody body, XrayCuts cuts) : body_(std::move(body)), cuts_(std::move(cuts)) {}
   Result<void> pulse(const FilmMoment& moment, int side, const AskCuts& cuts);
 
   CaseBody body_;
+  XrayCuts cuts_;
   std::vector<std::shared_ptr<const TriMesh>> steel_;  ///< by place in the tray
   XrayScene scene_;
   std::int64_t pulse_ = -1;

@@ -213,7 +213,7 @@ Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int wid
 }
 
 Result<Image> FilmPainter::Impl::through_beam(const FilmMoment& moment, int width, int height) {
-  return fluoro->draw(moment, width, height, [this] { return carved.cut_bones(); });
+  return fluoro->draw(moment, width, height, [this] { return carved.cut_scene(); });
 }
 
 /// Large: the scope where there is one, else the outside. Beside it three small ones.

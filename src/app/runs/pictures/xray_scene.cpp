@@ -7,12 +7,12 @@
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
-#include "osteon/physics/carving.h"
 #include "osteon/record/recording.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/session/session.h"
 #include "runs/hands/tray.h"
+#include "runs/pictures/xray_cuts.h"
 #include "runs/pictures/xray_shot.h"
 
 namespace osteon {
@@ -66,15 +66,6 @@ Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
   return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
 }
 
-CutBones cut_bones_of(const Session& session) {
-  CutBones out;
-  const Carving* carving = session.carving();
-  for (std::uint32_t b = 0; carving && b < session.the_case().bones.size(); ++b)
-    if (const CarvedField* field = carving->field(b); field && field->block_count() > 0)
-      out.emplace_back(b, *field);
-  return out;
-}
-
 Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (order.flexion_deg)
     return fail("is shown as it was recorded and cannot be bent", order.source,
@@ -91,10 +82,10 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (!tray) return tl::unexpected(tray.error());
   BoneSnapshot bones_then;
   std::vector<ToolState> tools;  // of each hand
-  CutBones cut;
+  CutScene cut;
   ReplayOptions how;
   how.to_s = static_cast<double>(*ticks) * settings->haptic.tick_s;
-  how.at_end = [&](const Session& session) { cut = cut_bones_of(session); };
+  how.at_end = [&](const Session& session) { cut = cut_scene(session); };
   how.tray = *tray;
   auto carving = carving_for(**the_case, *settings);
   if (!carving) return tl::unexpected(carving.error());
@@ -113,7 +104,9 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (!replayed) return tl::unexpected(replayed.error());
   auto scene = scene_of(**the_case, bones_then, order.body);
   if (!scene) return scene;
-  add_cuts(cut, bones_then, order.body.bones_hu.has_value(), scene->body);
+  auto cuts = XrayCuts::create(order.body);
+  if (!cuts) return tl::unexpected(cuts.error());
+  cuts->add_to(scene->body, cut, bones_then);
   if (order.body.bones_hu) return scene;
   for (const ToolState& held : tools) {
     auto tool = steel_tool(*settings, *tray, held.instrument, held.X_WP);

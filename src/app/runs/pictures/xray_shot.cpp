@@ -79,17 +79,6 @@ void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& tas
 
 }  // namespace
 
-void add_cuts(const CutBones& cut, const BoneSnapshot& bones, bool phantom, XrayBody& body) {
-  XrayLayer layer{"cut away", material_of_hu(0), {}};
-  if (phantom) layer.material.density_g_per_cm3 = 0;
-  for (const auto& [bone, field] : cut) {
-    auto surface = std::make_shared<const TriMesh>(cut_surface(field));
-    if (bone < bones.count && !surface->triangles.empty())
-      layer.surfaces.push_back({std::move(surface), bones.bones[bone].X_WB});
-  }
-  if (!layer.surfaces.empty()) body.layers.insert(body.layers.begin(), std::move(layer));
-}
-
 Result<CArm> parse_c_arm(const std::string& text, CArm arm) {
   std::istringstream items(text);
   for (std::string item; std::getline(items, item, ',');)

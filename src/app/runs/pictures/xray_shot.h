@@ -6,9 +6,6 @@
 #include <vector>
 
 #include "osteon/base/result.h"
-#include "osteon/carve/cut_surface.h"
-#include "osteon/scene/case.h"
-#include "osteon/scene/state.h"
 #include "osteon/xray/case_body.h"
 #include "osteon/xray/dose.h"
 #include "osteon/xray/picture.h"
@@ -30,10 +27,6 @@ struct XraySceneOrder {
   CaseBodyOptions body;
 };
 Result<XrayScene> open_xray_scene(const XraySceneOrder& order);
-
-/// What was cut out of bones and their cartilage stands before both: water, about phantoms nothing.
-/// `bones`: where they are.
-void add_cuts(const CutBones& cut, const BoneSnapshot& bones, bool phantom, XrayBody& body);
 
 struct XrayShotOrder {
   CArm arm;

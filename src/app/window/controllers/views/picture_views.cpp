@@ -199,7 +199,7 @@ void PictureViews::draw_fluoro(const Viewport& viewport) const {
 }
 
 // The fluoroscope belongs to the thread that makes the picture until that is done.
-void PictureViews::shoot(CutBones cut) {
+void PictureViews::shoot(CutScene cut) {
   if (shot_job_ || !case_ || moment_.hands == 0) return;
   if (!fluoro_) fluoro_ = std::make_shared<std::optional<FilmFluoro>>();
   shot_job_ = std::make_unique<SideJob<Image>>(

@@ -58,9 +58,8 @@ class PictureViews {
   void draw_outside(const Viewport& viewport, const ViewState& view);
   void draw_fluoro(const Viewport& viewport) const;
 
-  /// Takes an X-ray picture of the scene as it stands; while one is made, nothing. `cut`: bones
-  /// that hold cuts.
-  void shoot(CutBones cut);
+  /// Takes an X-ray picture of the scene as it stands; while one is made, nothing.
+  void shoot(CutScene cut);
   bool shooting() const { return shot_job_ != nullptr; }
   bool has_shot() const { return !shot_.empty(); }
   /// Something is being made that will change the picture.

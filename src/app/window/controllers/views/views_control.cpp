@@ -120,7 +120,7 @@ void ViewsControl::apply(const ViewsRequests& requests) {
   }
   if (requests.shoot) {
     const CarvedPicture* const picture = carved();
-    scene_.views.shoot(picture ? picture->cut_bones() : CutBones{});
+    scene_.views.shoot(picture ? picture->cut_scene() : CutScene{});
     if (sight_.layout() != PictureLayout::kAll) sight_.set_layout(PictureLayout::kFluoro);
   }
   if (!requests.take_scope || !live_.run()) return;
