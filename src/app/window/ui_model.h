@@ -125,6 +125,7 @@ struct UiModel {
   double time_s = 0;       ///< simulated
   std::vector<std::string> bone_labels;
   std::vector<Felt> bone_felt;  ///< as bone_labels
+  std::vector<bool> bone_open;  ///< as bone_labels: its surface is open
   std::vector<std::string> soft_labels;
   std::vector<JointModel> joints;
   bool can_bend =

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,22 @@ void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 std::string fma_text(int fma_id) { return fma_id == 0 ? "-" : std::to_string(fma_id); }
 std::string yes_no(bool yes) { return yes ? "yes" : "no"; }
+
+// An open surface encloses none.
+std::optional<double> volume_cm3(const TriMesh& mesh) {
+  if (!topology(mesh).closed()) return std::nullopt;
+  return 1e6 * volume(mesh);
+}
+
+std::string volume_text(const TriMesh& mesh) {
+  const auto cm3 = volume_cm3(mesh);
+  return cm3 ? fixed(*cm3, 3) : "-";
+}
+
+nlohmann::ordered_json volume_json(const TriMesh& mesh) {
+  const auto cm3 = volume_cm3(mesh);
+  return cm3 ? nlohmann::ordered_json(*cm3) : nlohmann::ordered_json();
+}
 
 std::string size_text_mm(const TriMesh& mesh) {
   const Vec3 size_mm = bounds(mesh).extent() * 1000;
@@ -99,7 +116,7 @@ void print_softs(const Case& c) {
                    "thickness mm", "size mm", "attachments"});
   for (const SoftPart& soft : c.softs)
     table.add({soft.name, soft.kind, soft.tissue, std::to_string(soft.mesh_W.triangles.size()),
-               yes_no(topology(soft.mesh_W).closed()), fixed(volume(soft.mesh_W) * 1e6, 3),
+               yes_no(topology(soft.mesh_W).closed()), volume_text(soft.mesh_W),
                soft.thickness_m > 0 ? fixed(soft.thickness_m * 1e3, 2) : "-",
                size_text_mm(soft.mesh_W), attachments_text(c, soft)});
   print("\n" + table.text());
@@ -153,7 +170,7 @@ std::vector<std::string> bone_row(const Bone& bone) {
           fma_text(bone.fma_id),
           std::to_string(bone.mesh.triangles.size()),
           yes_no(topology(bone.mesh).closed()),
-          fixed(volume(bone.mesh) * 1e6, 3),
+          volume_text(bone.mesh),
           fixed(bone.mass_kg * 1e3, 2),
           size_text_mm(bone.mesh)};
 }
@@ -187,7 +204,7 @@ nlohmann::ordered_json bones_json(const Case& c, const std::vector<Felt>& felt) 
     list.push_back({{"name", c.bones[i].name},
                     {"fma_id", c.bones[i].fma_id},
                     {"triangles", c.bones[i].mesh.triangles.size()},
-                    {"volume_cm3", 1e6 * volume(c.bones[i].mesh)},
+                    {"volume_cm3", volume_json(c.bones[i].mesh)},
                     {"mass_g", 1e3 * c.bones[i].mass_kg},
                     {"felt", std::string(to_text(felt[i]))}});
   return list;

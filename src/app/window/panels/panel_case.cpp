@@ -27,7 +27,8 @@ constexpr std::array<FeltButton, 4> kFeltButtons = {{
 void draw_felt(const PanelContext& c, std::size_t i) {
   if (i >= c.model.bone_felt.size()) return;
   ui::text(color::kTextQuiet, "Felt as");
-  ImGui::BeginDisabled(c.model.replay.on || c.model.record.on);
+  const bool open = i < c.model.bone_open.size() && c.model.bone_open[i];
+  ImGui::BeginDisabled(c.model.replay.on || c.model.record.on || open);
   const float gap = c.px(4);
   const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
   for (std::size_t k = 0; k < kFeltButtons.size(); ++k) {
@@ -39,7 +40,8 @@ void draw_felt(const PanelContext& c, std::size_t i) {
     ui::tooltip(button.explanation);
   }
   ImGui::EndDisabled();
-  ui::text(color::kTextQuiet, "A change reopens the case");
+  ui::text(color::kTextQuiet,
+           open ? "Its surface is open: its hull is felt" : "A change reopens the case");
 }
 
 void draw_appearance_popup(const PanelContext& c, std::size_t i, ViewState& view) {

@@ -22,8 +22,11 @@ Span between_cards(const PanelContext& c) {
 
 void draw_toasts(const PanelContext& c) {
   const Span free = between_cards(c);
-  const float wrap = std::min(c.px(400), free.to - free.from - c.px(100));
+  const float wrap = std::min(c.px(400), free.to - free.from - c.px(116));
   float y = c.layout.picture.y + c.px(16);
+  // Below the button that begins an edit, where there is no room beside it.
+  const float beside = free.from + c.px(150), widest = wrap + c.px(116);
+  if (c.model.edit.can_begin && free.middle() - 0.5f * widest < beside) y += c.px(40);
   for (const Toast& toast : c.model.toasts) {
     bool closed = false;
     y = ui::draw_toast_card(toast, {free.middle(), y, wrap, c.px(1), c.fonts.strong}, closed);

@@ -54,6 +54,18 @@ TEST(Panels, ABoneIsFeltAsChosenInItsPopup) {
   EXPECT_FALSE(ui.click(popup.c_str(), {"Hull"}).felt) << "while a recording runs";
 }
 
+TEST(Panels, AnOpenBoneIsFeltAsItsHullAndInNoOtherWay) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.model.bone_open = {false, true, false};
+  ui.click("##case", {1, "##swatch"});
+  ui.draw();
+  const std::string popup = ui.popup();
+  ASSERT_FALSE(popup.empty());
+  EXPECT_FALSE(ui.click(popup.c_str(), {"Field"}).felt);
+  EXPECT_FALSE(ui.click(popup.c_str(), {"Hull"}).felt);
+}
+
 UiModel model_with_soft_parts() {
   UiModel model = small_model();
   model.soft_labels = {"Disc", "Triangular fibrocartilage of the wrist", "Skin"};
@@ -392,6 +404,24 @@ TEST(Panels, ErrorsStayUntilClosed) {
   const UiRequests r = ui.click("##toast7", {"Close"});
   ASSERT_TRUE(r.dismiss_toast);
   EXPECT_EQ(*r.dismiss_toast, 7u);
+}
+
+TEST(Panels, NoMessageLiesUnderTheButtonThatBeginsAnEdit) {
+  for (const ImVec2 size : {ImVec2(800, 600), ImVec2(1280, 720)}) {
+    UiFrame ui(size.x, size.y);
+    fill(ui, small_model());
+    ui.model.edit.can_begin = true;
+    const std::vector<Toast> toasts = {{7, ToastKind::kError,
+                                        "This computer was too busy for a moment: a device with "
+                                        "motors would have switched its force off.",
+                                        0}};
+    ui.model.toasts = toasts;
+    for (int i = 0; i < 3; ++i) ui.draw();
+    const UiRect edit = ui.rect("##edit"), toast = ui.rect("##toast7");
+    ASSERT_GT(edit.w, 0);
+    ASSERT_GT(toast.w, 0);
+    EXPECT_TRUE(edit.right() <= toast.x || edit.bottom() <= toast.y) << size.x;
+  }
 }
 
 TEST(Panels, PictureKeysDoNotActWhileTheProbeIsTurnedByKeys) {

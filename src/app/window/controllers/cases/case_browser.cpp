@@ -37,7 +37,7 @@ const char* about(OpenKind kind) {
     case OpenKind::kRecording:
       return "recording";
     case OpenKind::kMeshes:
-      return "meshes, imported as a case";
+      return "meshes to import";
     case OpenKind::kScan:
       return "scan, opened for segmentation";
     case OpenKind::kNothing:

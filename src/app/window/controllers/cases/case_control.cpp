@@ -6,6 +6,7 @@
 #include "cases/felt_choice.h"
 #include "osteon/base/file.h"
 #include "window/controllers/cases/case_browser.h"
+#include "window/controllers/cases/open_bones.h"
 #include "window/ui_model.h"
 
 namespace osteon {
@@ -95,6 +96,10 @@ bool CaseControl::show(Loaded& loaded) {
     prepared_ = std::move(loaded.prepared);
     if (!loaded.carving.problem.empty()) host_.note(ToastKind::kWarning, loaded.carving.problem);
     if (!loaded.softs.problem.empty()) host_.note(ToastKind::kWarning, loaded.softs.problem);
+    open_bones_ = open_bones(*scene_.the_case);
+    if (const std::string notice = open_bones_notice(*scene_.the_case);
+        !notice.empty() && !same_case)
+      host_.note(ToastKind::kWarning, notice);
     if (loaded.tray) live_.take_tray(std::move(*loaded.tray));
     begin_finer(loaded);
     sight_.begin_case(same_case);
@@ -217,6 +222,7 @@ void CaseControl::describe_loading(UiModel& model) const {
 }
 
 void CaseControl::describe(UiModel& model) const {
+  model.bone_open = open_bones_;
   if (felt_job_) model.felt_measured = felt_job_->progress().fraction;
   if (refining_ || lighting_) model.felt_measured = 0;
   if (refining_ && live_.run() && !live_.recording())

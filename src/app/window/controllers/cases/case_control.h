@@ -66,6 +66,7 @@ class CaseControl {
   std::string failure_;
   std::unique_ptr<SideJob<FinerCase>> refining_;
   std::unique_ptr<SideJob<PreparedCase>> lighting_;
+  std::vector<bool> open_bones_;          ///< of the case on show, as its bones
   std::optional<PreparedCase> prepared_;  ///< of the case, until what is felt was measured over it
   std::unique_ptr<SideJob<PreparedCase>> felt_job_;  ///< while that is under way
   bool felt_known_ = false;
