@@ -1,6 +1,7 @@
 #include "ui/label_places.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace osteon {
 namespace {
@@ -32,9 +33,10 @@ UiRect moved_clear(std::span<const UiRect> placed, UiRect r, float gap, bool up)
 
 }  // namespace
 
-std::vector<UiRect> spread_labels(std::span<const UiRect> wanted, float gap) {
-  std::vector<UiRect> placed;
-  placed.reserve(wanted.size());
+std::vector<UiRect> spread_labels(std::span<const UiRect> wanted, float gap,
+                                  std::vector<UiRect> taken) {
+  std::vector<UiRect> placed = std::move(taken);
+  const auto before = static_cast<std::ptrdiff_t>(placed.size());
   for (const UiRect& r : wanted) {
     const UiRect up = moved_clear(placed, r, gap, true);
     const UiRect down = moved_clear(placed, r, gap, false);
@@ -42,7 +44,7 @@ std::vector<UiRect> spread_labels(std::span<const UiRect> wanted, float gap) {
     const float moved = nearest.y < r.y ? r.y - nearest.y : nearest.y - r.y;
     placed.push_back(moved > kMostHeights * r.h ? r : nearest);
   }
-  return placed;
+  return {placed.begin() + before, placed.end()};
 }
 
 }  // namespace osteon

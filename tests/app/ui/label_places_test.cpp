@@ -29,6 +29,13 @@ TEST(LabelPlaces, TheSecondOfTwoMovesToTheNearerSide) {
   EXPECT_EQ(placed[1].x, 30) << "labels move up and down alone";
 }
 
+TEST(LabelPlaces, TheyKeepOffWhatIsTaken) {
+  const std::vector<UiRect> placed =
+      spread_labels(std::vector<UiRect>{{0, 100, 50, 12}}, 2, {{10, 90, 20, 20}});
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_FALSE(covers(placed[0], {10, 90, 20, 20}));
+}
+
 TEST(LabelPlaces, OfACrowdNoneCoversAnother) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> at(0, 120), width(20, 60);

@@ -1,9 +1,9 @@
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "ui/label_places.h"
 #include "ui/ui_widgets.h"
-#include "window/panels/panels.h"
+#include "window/panels/picture_words.h"
 
 namespace osteon {
 namespace {
@@ -91,33 +91,27 @@ void draw_tip_line(const PanelContext& c) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->AddLine({tip.x0, tip.y0}, {tip.x1, tip.y1}, IM_COL32(0xff, 0xff, 0xff, 0x90), c.px(1));
   draw->AddCircle({tip.x1, tip.y1}, c.px(3), IM_COL32(0xff, 0xff, 0xff, 0xb0), 12, c.px(1));
-  const std::string text = ui::number(tip.distance_mm, 1) + " mm";
-  const ImVec2 at{tip.x1 + c.px(8), tip.y1 + c.px(4)};
+  const PictureWords words = tip_words(c);
+  const ImVec2 at{words.at.x, words.at.y};
   const ui::WithFont small(c.fonts.small);
-  draw->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 0xc0), text.c_str());
-  draw->AddText(at, color::kText, text.c_str());
+  draw->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 0xc0), words.text.c_str());
+  draw->AddText(at, color::kText, words.text.c_str());
 }
 
 void draw_bone_names(const PanelContext& c) {
   const ui::WithFont small(c.fonts.small);
-  std::vector<const NameTag*> tags;
-  std::vector<UiRect> wanted;
-  for (const NameTag& tag : c.model.hands.names) {
-    if (tag.bone.index >= c.model.bone_labels.size()) continue;
-    const ImVec2 text = ImGui::CalcTextSize(c.model.bone_labels[tag.bone.index].c_str());
-    const ImVec2 size{text.x + c.px(8), text.y + c.px(2)};
-    tags.push_back(&tag);
-    wanted.push_back({tag.x - size.x / 2, tag.y - size.y / 2, size.x, size.y});
-  }
-  const std::vector<UiRect> places = spread_labels(wanted, c.px(2));
-  for (std::size_t i = 0; i < tags.size(); ++i)
-    if (places[i].y != wanted[i].y) draw_leader(c, *tags[i], places[i]);
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  const std::vector<NameTag>& tags = c.model.hands.names;
+  const std::vector<PictureWords> words = name_words(c);
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    const UiRect& r = places[i];
+    const UiRect& r = words[i].at;
+    if (std::abs(r.y + r.h / 2 - tags[i].y) > c.px(1)) draw_leader(c, tags[i], r);
+  }
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  for (const PictureWords& each : words) {
+    if (each.text.empty()) continue;
+    const UiRect& r = each.at;
     draw->AddRectFilled({r.x, r.y}, {r.right(), r.bottom()}, kNameGround, c.px(3));
-    draw->AddText({r.x + c.px(4), r.y + c.px(1)}, color::kText,
-                  c.model.bone_labels[tags[i]->bone.index].c_str());
+    draw->AddText({r.x + c.px(4), r.y + c.px(1)}, color::kText, each.text.c_str());
   }
 }
 

@@ -4,13 +4,12 @@
 #include <string>
 
 #include "ui/ui_widgets.h"
-#include "window/panels/panels.h"
+#include "window/panels/picture_words.h"
 
 namespace osteon {
 namespace {
 
 constexpr std::size_t kNoteBytes = 501;  // with the end
-constexpr float kWidestTag = 180;        // units
 
 void edit_text(const PanelContext& c, const NoteRow& row) {
   static_assert(kNoteBytes > 1);
@@ -95,17 +94,18 @@ void draw_notes_section(const PanelContext& c) {
 void draw_notes(const PanelContext& c) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const ui::WithFont small(c.fonts.small);
+  const std::vector<PictureWords> words = note_words(c);
+  std::size_t next = 0;
   for (const NoteRow& row : c.model.notes.rows) {
     if (!row.drawn) continue;
-    const std::string words = ui::shortened(row.text, c.px(kWidestTag));
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    const ImVec2 lo{row.x + c.px(12), row.y - size.y / 2 - c.px(3)};
-    const ImVec2 hi{lo.x + size.x + c.px(12), lo.y + size.y + c.px(6)};
-    draw->AddLine({row.x, row.y}, {lo.x, row.y}, color::kAccent, c.px(1));
+    const PictureWords& each = words[next++];
+    const UiRect& r = each.at;
+    draw->AddLine({row.x, row.y}, {r.x, r.y + r.h / 2}, color::kAccent, c.px(1));
     draw->AddCircleFilled({row.x, row.y}, c.px(3.5f), color::kAccent);
     draw->AddCircle({row.x, row.y}, c.px(3.5f), IM_COL32(0x15, 0x18, 0x1c, 0xff), 0, c.px(1));
-    draw->AddRectFilled(lo, hi, IM_COL32(0x15, 0x18, 0x1c, 0xd8), c.px(3));
-    draw->AddText({lo.x + c.px(6), lo.y + c.px(3)}, color::kText, words.c_str());
+    draw->AddRectFilled({r.x, r.y}, {r.right(), r.bottom()}, IM_COL32(0x15, 0x18, 0x1c, 0xd8),
+                        c.px(3));
+    draw->AddText({r.x + c.px(6), r.y + c.px(3)}, color::kText, each.text.c_str());
   }
 }
 

@@ -1,0 +1,65 @@
+#include "window/panels/picture_words.h"
+
+#include "ui/label_places.h"
+#include "ui/ui_widgets.h"
+
+namespace osteon {
+namespace {
+
+constexpr float kWidestNote = 180;  // units
+constexpr float kDot = 4;           // of a note, units
+
+// Moves them apart, and away from `taken`.
+void spread(std::vector<PictureWords>& words, std::vector<UiRect> taken, float gap) {
+  std::vector<UiRect> wanted;
+  for (const PictureWords& each : words) wanted.push_back(each.at);
+  const std::vector<UiRect> places = spread_labels(wanted, gap, std::move(taken));
+  for (std::size_t i = 0; i < words.size(); ++i) words[i].at = places[i];
+}
+
+}  // namespace
+
+std::vector<PictureWords> note_words(const PanelContext& c) {
+  const ui::WithFont small(c.fonts.small);
+  std::vector<PictureWords> words;
+  for (const NoteRow& row : c.model.notes.rows) {
+    if (!row.drawn) continue;
+    const std::string text = ui::shortened(row.text, c.px(kWidestNote));
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    words.push_back(
+        {text,
+         {row.x + c.px(12), row.y - size.y / 2 - c.px(3), size.x + c.px(12), size.y + c.px(6)}});
+  }
+  spread(words, {}, c.px(2));
+  return words;
+}
+
+PictureWords tip_words(const PanelContext& c) {
+  const ui::WithFont small(c.fonts.small);
+  const TipModel& tip = c.model.hands.tip;
+  const std::string text = ui::number(tip.distance_mm, 1) + " mm";
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  return {text, {tip.x1 + c.px(8), tip.y1 + c.px(4), size.x, size.y}};
+}
+
+std::vector<PictureWords> name_words(const PanelContext& c) {
+  std::vector<UiRect> taken;
+  for (const PictureWords& note : note_words(c)) taken.push_back(note.at);
+  for (const NoteRow& row : c.model.notes.rows)
+    if (row.drawn)
+      taken.push_back({row.x - c.px(kDot), row.y - c.px(kDot), c.px(2 * kDot), c.px(2 * kDot)});
+  if (c.model.hands.tip.drawn) taken.push_back(tip_words(c).at);
+  const ui::WithFont small(c.fonts.small);
+  std::vector<PictureWords> words;
+  for (const NameTag& tag : c.model.hands.names) {
+    const bool known = tag.bone.index < c.model.bone_labels.size();
+    const std::string text = known ? c.model.bone_labels[tag.bone.index] : std::string();
+    const ImVec2 ink = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 size{ink.x + c.px(8), ink.y + c.px(2)};
+    words.push_back({text, {tag.x - size.x / 2, tag.y - size.y / 2, size.x, size.y}});
+  }
+  spread(words, std::move(taken), c.px(2));
+  return words;
+}
+
+}  // namespace osteon
