@@ -1,6 +1,8 @@
 // Tetrahedra and edited surfaces, through the command line alone.
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "block_case.h"
 #include "run_osteon.h"
@@ -94,6 +96,40 @@ TEST_F(Mesh, SmoothingAndDecimatingWriteASurface) {
     EXPECT_EQ(ran.exit_code, 0) << ran.output;
     EXPECT_GT(fs::file_size(file(what + ".stl")), 1000u);
   }
+}
+
+// A strip with one side alone: no lid makes a solid of it.
+void write_moebius_strip(const std::string& file) {
+  constexpr int kAround = 40;
+  std::ofstream out(file);
+  for (int i = 0; i < kAround; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kAround;
+    for (const double w : {-6.0, 6.0}) {
+      const double r = 10 + w * std::cos(turn / 2);
+      out << "v " << r * std::cos(turn) << ' ' << r * std::sin(turn) << ' '
+          << w * std::sin(turn / 2) << '\n';
+    }
+  }
+  for (int i = 1; i <= kAround; ++i) {
+    const int a = 2 * i - 1, b = 2 * i, c = i < kAround ? a + 2 : 2, d = i < kAround ? b + 2 : 1;
+    out << "f " << a << ' ' << b << ' ' << c << "\nf " << b << ' ' << d << ' ' << c << '\n';
+  }
+}
+
+TEST_F(Mesh, AnOpenBoneIsFeltAsItsHullAndHasNoVolume) {
+  fs::create_directories(dir_ / "strip");
+  write_moebius_strip(file("strip/capitate.obj"));
+  const std::string open = file("open_case");
+  ASSERT_EQ(run_osteon("import mesh " + file("strip") + " --unit mm --out " + open).exit_code, 0);
+  const Ran info = run_osteon("case info " + open);
+  EXPECT_NE(info.output.find("hull\n"), std::string::npos) << info.output;
+  EXPECT_EQ(info.output.find("0.000"), std::string::npos) << info.output;
+  const auto json = nlohmann::json::parse(run_osteon("case info --json " + open).output);
+  EXPECT_TRUE(json["bones"][0]["volume_cm3"].is_null());
+  EXPECT_EQ(json["bones"][0]["felt"], "hull");
+  const Ran check = run_osteon("case check " + open);
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.output.find("felt as its convex hull"), std::string::npos) << check.output;
 }
 
 }  // namespace
