@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/ui_frame.h"
+#include "app/ui/ui_frame.h"
 
 namespace osteon {
 namespace {
