@@ -104,6 +104,7 @@ void draw_bone_names(const PanelContext& c) {
   const std::vector<PictureWords> words = name_words(c);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const UiRect& r = words[i].at;
+    if (words[i].text.empty()) continue;
     if (std::abs(r.y + r.h / 2 - tags[i].y) > c.px(1)) draw_leader(c, tags[i], r);
   }
   ImDrawList* draw = ImGui::GetBackgroundDrawList();

@@ -99,8 +99,10 @@ void draw_notes(const PanelContext& c) {
   for (const NoteRow& row : c.model.notes.rows) {
     if (!row.drawn) continue;
     const PictureWords& each = words[next++];
+    if (each.text.empty()) continue;
     const UiRect& r = each.at;
-    draw->AddLine({row.x, row.y}, {r.x, r.y + r.h / 2}, color::kAccent, c.px(1));
+    draw->AddLine({row.x, row.y}, {r.x > row.x ? r.x : r.right(), r.y + r.h / 2}, color::kAccent,
+                  c.px(1));
     draw->AddCircleFilled({row.x, row.y}, c.px(3.5f), color::kAccent);
     draw->AddCircle({row.x, row.y}, c.px(3.5f), IM_COL32(0x15, 0x18, 0x1c, 0xff), 0, c.px(1));
     draw->AddRectFilled({r.x, r.y}, {r.right(), r.bottom()}, IM_COL32(0x15, 0x18, 0x1c, 0xd8),

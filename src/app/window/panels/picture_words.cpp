@@ -9,6 +9,24 @@ namespace {
 constexpr float kWidestNote = 180;  // units
 constexpr float kDot = 4;           // of a note, units
 
+/// What of the picture no card covers, from left to right.
+struct Free {
+  float from = 0, to = 0;
+  bool holds(const UiRect& r) const { return r.x >= from && r.right() <= to; }
+};
+
+Free free_of_cards(const PanelContext& c) {
+  const UiRect& picture = c.layout.picture;
+  if (!c.model.panels_open) return {picture.x, picture.right()};
+  return {c.layout.left.right(), c.layout.right.x};
+}
+
+void drop_what_is_covered(const PanelContext& c, std::vector<PictureWords>& words) {
+  const Free free = free_of_cards(c);
+  for (PictureWords& each : words)
+    if (!free.holds(each.at)) each.text.clear();
+}
+
 // Moves them apart, and away from `taken`.
 void spread(std::vector<PictureWords>& words, std::vector<UiRect> taken, float gap) {
   std::vector<UiRect> wanted;
@@ -26,11 +44,12 @@ std::vector<PictureWords> note_words(const PanelContext& c) {
     if (!row.drawn) continue;
     const std::string text = ui::shortened(row.text, c.px(kWidestNote));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    words.push_back(
-        {text,
-         {row.x + c.px(12), row.y - size.y / 2 - c.px(3), size.x + c.px(12), size.y + c.px(6)}});
+    UiRect at{row.x + c.px(12), row.y - size.y / 2 - c.px(3), size.x + c.px(12), size.y + c.px(6)};
+    if (at.right() > free_of_cards(c).to) at.x = row.x - c.px(12) - at.w;
+    words.push_back({text, at});
   }
   spread(words, {}, c.px(2));
+  drop_what_is_covered(c, words);
   return words;
 }
 
@@ -59,6 +78,7 @@ std::vector<PictureWords> name_words(const PanelContext& c) {
     words.push_back({text, {tag.x - size.x / 2, tag.y - size.y / 2, size.x, size.y}});
   }
   spread(words, std::move(taken), c.px(2));
+  drop_what_is_covered(c, words);
   return words;
 }
 

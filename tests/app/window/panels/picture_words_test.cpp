@@ -58,5 +58,27 @@ TEST(PictureWords, NamesKeepOffNotesAndTheDistanceAtTheTip) {
   }
 }
 
+TEST(PictureWords, NoneIsDrawnUnderACard) {
+  test::UiFrame ui;
+  ui.model = three_bones();
+  const float edge = make_layout(1280, 720, 1, true).right.x;
+  ui.model.notes.rows = {{"At the right", "", true, edge - 20, 300}, {"Under", "", true, 30, 300}};
+  ui.model.hands.names = {{BoneId{0}, 20, 300}, {BoneId{1}, 600, 300}, {BoneId{2}, edge, 200}};
+  {
+    const Words words(ui);
+    const auto notes = note_words(words.c), names = name_words(words.c);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].text, "At the right");
+    EXPECT_LT(notes[0].at.right(), edge - 20) << "on the other side of its dot";
+    EXPECT_EQ(notes[1].text, "");
+    EXPECT_EQ(names[0].text, "");
+    EXPECT_EQ(names[1].text, "Lunate");
+    EXPECT_EQ(names[2].text, "");
+  }
+  ui.model.panels_open = false;
+  const Words words(ui);
+  EXPECT_EQ(name_words(words.c)[2].text, "Capitate") << "the cards are folded away";
+}
+
 }  // namespace
 }  // namespace osteon
