@@ -17,7 +17,7 @@ Vec3 way_with(const Pose& before_WB, const Pose& X_WB, const Vec3& p_W) {
 
 }  // namespace
 
-BandPull::BandPull(const Tool& tool) : rods_(tool_rods(tool)), shapes_(soft_shapes(tool)) {}
+BandPull::BandPull(const Tool& tool) : shapes_(soft_shapes(tool)), on_skin_(tool_shapes(tool)) {}
 
 struct BandPull::Pressed {
   Vec3 nhat_W, p_W;
@@ -49,7 +49,7 @@ void BandPull::add(const PullingHand& hand, const Pressed& pressed, BandForce& o
 // A band goes along with both of its bones, each as near as it is.
 void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandContact& contact,
                         BandForce& out) const {
-  if (contact.band >= bands_->size() || contact.part >= rods_.size()) return;
+  if (contact.band >= bands_->size() || contact.part >= shapes_.size()) return;
   const SoftBand& band = (*bands_)[contact.band];
   const Pose &from = bones.X_WB[band.from.index], &to = bones.X_WB[band.to.index];
   const BandSpan span{from * band.from_B, to * band.to_B};
@@ -66,7 +66,7 @@ void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandC
 
 void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const SolidContact& contact,
                          BandForce& out) const {
-  if (contact.bone >= bones.X_WB.size() || contact.part >= rods_.size()) return;
+  if (contact.bone >= bones.X_WB.size() || contact.part >= shapes_.size()) return;
   const Pose& X = bones.X_WB[contact.bone];
   const RoundBox part_B = placed(X.inverse() * hand.X_WP, shapes_[contact.part]);
   const SolidPress press = press_solid(contact, part_B, hand.stiffness_n_per_m);
@@ -81,11 +81,10 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
 // A shaft in its hole is damped every way and does not rub: the hole's friction is in the force.
 void BandPull::add_skin(const PullingHand& hand, const Bones& bones, const SkinContact& contact,
                         BandForce& out) const {
-  if (contact.bone >= bones.X_WB.size() || contact.part >= rods_.size()) return;
+  if (contact.bone >= bones.X_WB.size() || contact.part >= on_skin_.size()) return;
   const Pose& X = bones.X_WB[contact.bone];
   const Pose X_BP = X.inverse() * hand.X_WP;
-  const Capsule& rod = rods_[contact.part];
-  const SkinPushed press = press_skin(contact, {X_BP * rod.p0, X_BP * rod.p1, rod.radius}, X_BP);
+  const SkinPushed press = press_skin(contact, placed(X_BP, on_skin_[contact.part]), X_BP);
   const Vec3 nhat_W = X.q * contact.nhat_B, p_W = X * press.p_B;
   if (contact.through) {
     const double share = press.deep_m > 0 ? press.deep_m / (press.deep_m + kDamped_m) : 0;

@@ -61,8 +61,8 @@ class BandPull {
   void add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const;
   static void add(const PullingHand& hand, const Pressed& pressed, BandForce& out);
 
-  std::vector<Capsule> rods_;
-  std::vector<RoundBox> shapes_;  ///< the same parts
+  std::vector<RoundBox> shapes_;   ///< as they meet bands and solids
+  std::vector<RoundBox> on_skin_;  ///< the same parts as they meet skin
   const std::vector<SoftBand>* bands_ = nullptr;
   const BandContacts* contacts_ = nullptr;
   SoftFriction friction_;

@@ -13,7 +13,9 @@
 namespace osteon::testing {
 
 inline constexpr double kBallTip_m = 0.0025, kTrocar_m = 0.00275;
-inline constexpr std::uint32_t kSkinBall = 0, kSkinBlade = 1, kSkinTrocar = 2, kSkinScope = 3;
+inline constexpr std::uint32_t kSkinBall = 0, kSkinBlade = 1, kSkinTrocar = 2, kSkinScope = 3,
+                               kSkinPlate = 4;
+inline const Vec3 kPlateHalf(0.006, 0.004, 0.0005);
 
 // Skin at z = 0, or over a limb along y of that radius.
 inline TriMesh skin_mesh(double limb_m = 0) {
@@ -60,7 +62,8 @@ inline Tool tool_with(const char* name, Primitive part) {
   return tool;
 }
 
-// A ball; a blade in the plane of x and z, its tip down; a trocar and a scope of one width.
+// A ball; a blade in the plane of x and z, its tip down; a trocar and a scope of one width; a plate
+// that lies flat, the tip in the middle of its lower face.
 inline std::vector<Tool> skin_tools() {
   std::vector<Tool> out;
   const auto rod = [](double from, double to, double radius) {
@@ -75,6 +78,8 @@ inline std::vector<Tool> skin_tools() {
     out.back().shaft = {Vec3(0, 0, kTrocar_m), Vec3(0, 0, 0.150), kTrocar_m};
     out.back().parts.push_back(make_rod(out.back().shaft.p0, out.back().shaft.p1, kTrocar_m));
   }
+  out.push_back(
+      tool_with("plate", make_box({Vec3(0, 0, kPlateHalf.z()), Quat::Identity()}, kPlateHalf)));
   return out;
 }
 

@@ -53,6 +53,7 @@ struct SkinHand {
   std::uint32_t instrument = 0;
   SkinContact contact;                 ///< of the part that is deepest
   SheetPoint p = SheetPoint::Zero();   ///< where it presses, in the sheet at rest
+  double radius_m = 0;                 ///< of the round tip as which it presses
   double yields_n_per_m = 0;           ///< of a slight push there; follows what is cut in 20 ms
   double entered_m = 0;                ///< of an edge: so far it has gone in
   bool cutting = false;                ///< the stroke in the sheet is this hand's

@@ -132,9 +132,10 @@ class SoftWorld {
   void tell(Event event, const Vec3& p_W);
 
   std::shared_ptr<const SoftSetup> setup_;
-  std::vector<std::vector<Capsule>> tray_;     ///< rods: for skin, and where their ends are
-  std::vector<std::vector<RoundBox>> shapes_;  ///< as tray_
-  std::vector<ToolUse> uses_;                  ///< as tray_
+  std::vector<std::vector<Capsule>> tray_;      ///< rods: where their ends are
+  std::vector<std::vector<RoundBox>> shapes_;   ///< as tray_
+  std::vector<std::vector<RoundBox>> on_skin_;  ///< the same as they meet skin
+  std::vector<ToolUse> uses_;                   ///< as tray_
   double coupling_n_per_m_, limit_n_, step_s_;
   SoftState state_;
   std::uint32_t epoch_ = 0;

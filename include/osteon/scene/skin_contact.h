@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "osteon/base/types.h"
-#include "osteon/collide/capsule_contact.h"
+#include "osteon/collide/round_box.h"
 
 namespace osteon {
 
@@ -15,6 +15,7 @@ struct SkinContact {
   std::uint32_t bone = 0;        ///< that the patch goes with
   std::uint32_t part = 0;        ///< of tool_rods() of the instrument
   double along = 0;              ///< 0 to 1: the place on the part's axis that is deepest
+  Vec3 core = Vec3::Zero();      ///< of a box: the place on its core, in the box's axes
   Vec3 p_B = Vec3::Zero();       ///< of the skin at rest
   Vec3 nhat_B = Vec3::UnitZ();   ///< unit, out of the skin
   double deep_m = 0;             ///< of the part in the last step
@@ -38,11 +39,13 @@ struct SkinPushed {
 };
 
 /// `part_B`: in the frame of the patch's bone; `X_BT`: the tool there, whose shaft goes along z.
-inline SkinPushed press_skin(const SkinContact& contact, const Capsule& part_B, const Pose& X_BT) {
+inline SkinPushed press_skin(const SkinContact& contact, const RoundBox& part_B, const Pose& X_BT) {
   SkinPushed out;
   const Vec3& n = contact.nhat_B;
-  const Vec3 axis = part_B.p0 + contact.along * (part_B.p1 - part_B.p0);
-  out.p_B = axis - part_B.radius * n;
+  const Vec3 axis = part_B.is_box
+                        ? part_B.X * contact.core
+                        : Vec3(part_B.rod.p0 + contact.along * (part_B.rod.p1 - part_B.rod.p0));
+  out.p_B = axis - part_B.rod.radius * n;
   out.deep_m = n.dot(contact.p_B - out.p_B);
   if (!(out.deep_m > 0)) return out;
   const double force_n =

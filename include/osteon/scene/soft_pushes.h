@@ -14,11 +14,12 @@ namespace osteon {
 struct CarveState;
 struct SkinCuts;
 
-/// A dent of a patch of skin, where a tip presses it.
+/// A dent of a patch of skin, where a part of a tool presses it.
 struct SkinDent {
   std::uint32_t patch = 0;
   Eigen::Vector2d p = Eigen::Vector2d::Zero();  ///< in the sheet at rest
   double deep_m = 0;
+  double radius_m = 0;  ///< of the round tip as which it presses
   bool operator==(const SkinDent&) const = default;
 };
 

@@ -8,12 +8,12 @@
 
 namespace osteon {
 
-/// The whole tool as rods and balls, in Tool: what meets skin. A box counts
-/// as the rod along its longest side, as thick as the mean of the others.
+/// The whole tool as rods and balls, in Tool. A box counts as the rod along its longest side, as
+/// thick as the mean of the others.
 std::vector<Capsule> tool_rods(const Tool& tool);
 
-/// The same parts in the same order, boxes as they are but for round edges: what meets the tools of
-/// other hands.
+/// The same parts in the same order, boxes as they are but for round edges: what meets skin and the
+/// tools of other hands.
 std::vector<RoundBox> tool_shapes(const Tool& tool);
 
 /// The same as they meet ligaments and menisci. Of a tool that cuts, boxes count as rods: how hard

@@ -10,14 +10,16 @@ namespace {
 
 // So much less a dent looks as before.
 constexpr double kSkinStill_m = 5e-5;
+constexpr double kDentAlike_m = 2e-4;  // the same of its radius
 // The wall of a groove begins so far under the lip: it has a colour of its own there.
 constexpr double kUnderLip_m = 1e-5;
-constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn
+constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn, at least
 constexpr double kDeepestDent = 0.95;    // of the fat's thickness
 
 bool looks_pressed_alike(const SkinDent& a, const SkinDent& b) {
   return a.patch == b.patch && (a.p - b.p).norm() < kSkinStill_m &&
-         std::abs(a.deep_m - b.deep_m) < kSkinStill_m;
+         std::abs(a.deep_m - b.deep_m) < kSkinStill_m &&
+         std::abs(a.radius_m - b.radius_m) < kDentAlike_m;
 }
 
 std::shared_ptr<const SheetYield> yields_of(const SkinPatch& patch,
@@ -32,7 +34,7 @@ std::shared_ptr<const SheetYield> yields_of(const SkinPatch& patch,
 // The shape of a slight dent, as deep as the tip is.
 void add_dent(const SheetYield& yields, const SkinDent& dent, double fat_m,
               std::vector<double>& down) {
-  const SheetDisc disc{dent.p, kDentRadius_m};
+  const SheetDisc disc{dent.p, std::max(kDentRadius_m, dent.radius_m)};
   SheetScratch scratch;
   const double per_m = yields.stiffness(disc, scratch);
   const std::vector<double> shape = yields.dent(disc);

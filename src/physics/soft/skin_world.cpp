@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "osteon/scene/soft_events.h"
+#include "soft/skin_box.h"
 #include "soft/soft_touch.h"
 
 namespace osteon {
@@ -13,8 +14,8 @@ namespace {
 // A part so near may touch before physics has looked again, even at 1 m/s.
 constexpr double kSkinNear_m = 0.006;
 constexpr double kSkinDeepest_m = 0.08;  // what is deeper is on the limb's other side
-constexpr double kSkinBorder_m = 0.003;  // over it the patch fades into skin that is not felt
 constexpr double kSkinThinnest_m = 0.0003, kSkinThickest_m = 0.006;  // of a tip that presses
+constexpr double kSkinWidest_m = 0.012;    // the same of a disc that a box presses like
 constexpr double kSkinFollows_s = 0.02;    // the stiffness that is felt follows the sheet's
 constexpr double kSkinAcross = 0.7;        // a blade that lies flat does not cut
 constexpr double kSkinScratch_m = 0.0002;  // an edge that is in by less opens nothing
@@ -22,11 +23,6 @@ constexpr double kSkinInGroove_m = 0.0006;
 constexpr double kSkinDrops_m_per_s = 0.1;  // an edge falls so fast into an open groove
 constexpr double kSkinGrooveShare = 2.5;    // of the thickness: how deep a hole's slit is
 constexpr int kSkinSamples = 8;
-
-double smooth(double x) {
-  const double s = std::clamp(x, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
-}
 
 bool usable_tool(const ToolState& tool) {
   return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < 1e12;
@@ -38,6 +34,7 @@ bool usable_tool(const ToolState& tool) {
 struct SkinWorld::Place {
   std::uint32_t part = 0;
   double along = 0, radius_m = 0, deep_m = 0;
+  Vec3 core = Vec3::Zero();
   Vec3 p_S = Vec3::Zero();  ///< on the skin
   Vec3 n_S = Vec3::UnitZ();
 };
@@ -70,6 +67,24 @@ void SkinWorld::clear() {
   hands_ = {};
 }
 
+std::optional<SkinWorld::Place> SkinWorld::deepest_box(std::size_t s, const RoundBox& box_S) const {
+  const SkinPatch& patch = setup_.skins[s];
+  if (lowest(box_S, Vec3::UnitZ()) > patch.relief.highest_m() + kSkinNear_m) return {};
+  for (int k = 0; k < 2; ++k) {
+    const double half = 0.5 * (k == 0 ? patch.width_m : patch.height_m);
+    if (lowest(box_S, Vec3::Unit(k)) > half || highest(box_S, Vec3::Unit(k)) < -half) return {};
+  }
+  const auto on = box_on_skin(patch, box_S);
+  if (!on) return {};
+  Place place;
+  place.radius_m = std::clamp(on->radius_m, kSkinThinnest_m, kSkinWidest_m);
+  place.deep_m = on->deep_m;
+  place.core = on->core;
+  place.p_S = on->p_S;
+  place.n_S = on->n_S;
+  return place;
+}
+
 // The height of the axis over the skin, across it, along the part: of samples where the patch is
 // under it the deepest, and between its neighbours the top of their parabola.
 std::optional<SkinWorld::Place> SkinWorld::deepest(std::size_t s, const SkinToolNow& now,
@@ -78,8 +93,21 @@ std::optional<SkinWorld::Place> SkinWorld::deepest(std::size_t s, const SkinTool
   const Pose X_ST = patches_[s].X_WS.inverse() * now.tool->X_WP;
   const double half[2] = {0.5 * patch.width_m, 0.5 * patch.height_m};
   std::optional<Place> best;
-  for (std::uint32_t part = 0; part < now.rods.size(); ++part) {
-    const Capsule& rod = now.rods[part];
+  const auto take = [&](const Place& place) {
+    if (place.deep_m < most_m && (!best || place.deep_m > best->deep_m)) best = place;
+  };
+  for (std::uint32_t part = 0; part < now.parts.size(); ++part) {
+    if (now.parts[part].is_box) {
+      const RoundBox box_S = placed(X_ST, now.parts[part]);
+      const double most = patch.relief.highest_m() - lowest(box_S, Vec3::UnitZ());
+      if (best && best->deep_m > 0 && most < best->deep_m) continue;  // another is deeper
+      if (auto place = deepest_box(s, box_S)) {
+        place->part = part;
+        take(*place);
+      }
+      continue;
+    }
+    const Capsule& rod = now.parts[part].rod;
     const Vec3 a = X_ST * rod.p0, way = X_ST * rod.p1 - a;
     const double reach = patch.relief.highest_m() + rod.radius + kSkinNear_m;
     if (std::min(a.z(), a.z() + way.z()) > reach) continue;
@@ -100,14 +128,11 @@ std::optional<SkinWorld::Place> SkinWorld::deepest(std::size_t s, const SkinTool
       Place place;
       place.part = part;
       place.along = t;
-      place.radius_m = rod.radius;
+      place.radius_m = std::clamp(rod.radius, kSkinThinnest_m, kSkinThickest_m);
       place.n_S = Vec3(-here.slope.x(), -here.slope.y(), 1).normalized();
       place.p_S = {q.x(), q.y(), here.height_m};
       place.deep_m = rod.radius - (q.z() - here.height_m) * place.n_S.z();
       return place;
-    };
-    const auto take = [&](const Place& place) {
-      if (place.deep_m < most_m && (!best || place.deep_m > best->deep_m)) best = place;
     };
     const bool is_ball = way.squaredNorm() < 1e-14;
     std::array<double, kSkinSamples + 1> deep{};
@@ -159,14 +184,20 @@ void SkinWorld::follow(const At& at) {
   c.bone = patch.bone.index;
   c.part = place->part;
   c.along = place->along;
+  c.core = place->core;
   c.deep_m = place->deep_m;
   c.p_B = patch.X_BS * place->p_S;
   c.nhat_B = patch.X_BS.rotate(place->n_S);
   hand.p = place->p_S.head<2>();
   const SkinTool& use = use_of(tool->instrument);
-  const double radius_m = use.pierces ? use.through_m : place->radius_m;
-  const double yields = patches_[at.patch].yields->stiffness(
-      {hand.p, std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m)}, scratch_);
+  const double radius_m =
+      use.pierces ? std::clamp(use.through_m, kSkinThinnest_m, kSkinThickest_m) : place->radius_m;
+  // What of a box presses changes as it tilts: that is to be felt without a step.
+  if (at.now->parts[c.part].is_box && !begins)
+    hand.radius_m += std::min(1.0, step_s_ / kSkinFollows_s) * (radius_m - hand.radius_m);
+  else
+    hand.radius_m = radius_m;
+  const double yields = patches_[at.patch].yields->stiffness({hand.p, hand.radius_m}, scratch_);
   if (begins) {
     hand.yields_n_per_m = yields;
     hand.barred = c.deep_m > 0;
@@ -188,19 +219,14 @@ void SkinWorld::press(const At& at) {
     if (hand.cutting) end_stroke_of(at);
     return;
   }
-  const double radius_m = use.pierces ? use.through_m : at.now->rods[c.part].radius;
-  const SheetPush push{
-      hand.yields_n_per_m,
-      patch.share.at(std::clamp(radius_m, kSkinThinnest_m, kSkinThickest_m), hand.yields_n_per_m),
-      patch.sheet->material().fat_m, coupling_n_per_m_};
+  const SheetPush push{hand.yields_n_per_m, patch.share.at(hand.radius_m, hand.yields_n_per_m),
+                       patch.sheet->material().fat_m, coupling_n_per_m_};
   if (use.through_m > 0)
     pass(at, push);
   else
     slice(at, push);
   if (c.through) return;
-  const double inside = std::min(0.5 * patch.width_m - std::abs(hand.p.x()),
-                                 0.5 * patch.height_m - std::abs(hand.p.y()));
-  const double share = smooth(inside / kSkinBorder_m);
+  const double share = felt_share(patch, hand.p);
   c.force_n *= share;
   c.stiffness_n_per_m *= share;
 }
@@ -418,7 +444,8 @@ void SkinWorld::show(SoftPushes& pushes) const {
       const SkinHand& hand = hands_[h][s];
       const double dent_m = hand.contact.deep_m - hand.entered_m;
       if (!hand.near || hand.barred || hand.contact.through || !(dent_m > 0)) continue;
-      pushes.skin_dents[pushes.skin_count++] = {static_cast<std::uint32_t>(s), hand.p, dent_m};
+      pushes.skin_dents[pushes.skin_count++] = {static_cast<std::uint32_t>(s), hand.p, dent_m,
+                                                hand.radius_m};
     }
   }
 }

@@ -20,15 +20,16 @@ namespace osteon {
 /// A hand's tool in a step of the skin.
 struct SkinToolNow {
   const ToolState* tool = nullptr;  ///< null: it touches nothing
-  std::span<const Capsule> rods;    ///< of the tool
+  std::span<const RoundBox> parts;  ///< of the tool
 };
 
 /// The patches of skin of a session at the physics' rate. Of each tool the part that is deepest in
-/// a patch presses it, as a round tip of that part's radius presses the sheet where it is; an edge
-/// that is pressed hard enough goes in and cuts along its way; a trocar breaks through; what is
-/// round goes in where a slit is wide enough. After a cut the sheet's stiffness is made anew in
-/// pieces, one a step. A function of the state and of the tools, bit by bit. Allocates in steps in
-/// which something is cut, not in others.
+/// a patch presses it: a ball or rod as a round tip of its radius presses the sheet where it is, a
+/// box as a disc as large as what of it presses (skin_box.h). An edge that is pressed hard enough
+/// goes in and cuts along its way; a trocar breaks through; what is round goes in where a slit is
+/// wide enough. After a cut the sheet's stiffness is made anew in pieces, one a step. A function of
+/// the state and of the tools, bit by bit. Allocates in steps in which something is cut, not in
+/// others.
 class SkinWorld {
  public:
   /// `setup` must outlive it.
@@ -71,6 +72,7 @@ class SkinWorld {
   std::optional<Place> deepest(std::size_t patch, const SkinToolNow& now, double most_m) const;
   void follow(const At& at);
   void press(const At& at);
+  std::optional<Place> deepest_box(std::size_t patch, const RoundBox& box_S) const;
   void slice(const At& at, const SheetPush& push);
   void pass(const At& at, const SheetPush& push);
   void begin_to_cut(const At& at, double force_n);

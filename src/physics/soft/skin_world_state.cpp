@@ -27,11 +27,11 @@ void add_to(Hasher& h, const SkinHand& hand) {
     h.add(hand.instrument);
     const SkinContact& c = hand.contact;
     for (const std::uint32_t x : {c.patch, c.bone, c.part}) h.add(x);
-    for (const Vec3& v : {c.p_B, c.nhat_B, c.hole_B}) h.add(v);
+    for (const Vec3& v : {c.core, c.p_B, c.nhat_B, c.hole_B}) h.add(v);
     for (const double x :
-         {c.along, c.deep_m, c.force_n, c.stiffness_n_per_m, c.aside_n_per_m, hand.yields_n_per_m,
-          hand.entered_m, hand.stroke_m, hand.deepest_m, hand.pierce.force_n, hand.pierce.excess_n,
-          hand.pierce.depth_m, hand.slit_m, hand.pull_n})
+         {c.along, c.deep_m, c.force_n, c.stiffness_n_per_m, c.aside_n_per_m, hand.radius_m,
+          hand.yields_n_per_m, hand.entered_m, hand.stroke_m, hand.deepest_m, hand.pierce.force_n,
+          hand.pierce.excess_n, hand.pierce.depth_m, hand.slit_m, hand.pull_n})
       h.add(x);
     for (const bool x : {c.through, hand.cutting, hand.pierce.through}) h.add(x);
     add_to(h, hand.p);

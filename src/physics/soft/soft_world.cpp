@@ -45,6 +45,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   for (const auto& tool : tray) {
     tray_.push_back(tool_rods(*tool));
     shapes_.push_back(soft_shapes(*tool));
+    on_skin_.push_back(tool_shapes(*tool));
     uses_.push_back(tool->use);
   }
   state_.on = true;
@@ -469,7 +470,7 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
 void SoftWorld::step_skins(std::span<const Hand> hands, const BoneSnapshot& bones) {
   std::array<SkinToolNow, kMaxHands> now{};
   for (const Hand& hand : hands)
-    if (hand.tool) now[hand.index] = {hand.tool, tray_[hand.tool->instrument]};
+    if (hand.tool) now[hand.index] = {hand.tool, on_skin_[hand.tool->instrument]};
   skins_->step(std::span(now).first(hands.size()), bones);
   for (const Event& event : skins_->events()) tell(event, event.p_W);
 }

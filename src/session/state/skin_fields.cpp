@@ -8,6 +8,7 @@
 namespace osteon::stored {
 namespace {
 
+constexpr std::uint64_t kBoxOnSkin = 29;         // the version before which a box was a rod on skin
 constexpr std::uint64_t kMostOfSkin = 1u << 20;  // vertices or edges of a sheet, more than it has
 
 }  // namespace
@@ -49,6 +50,8 @@ void field(A& a, SkinContact& c) {
   for (double* x : {&c.along, &c.deep_m, &c.force_n, &c.stiffness_n_per_m, &c.aside_n_per_m})
     field(a, *x);
   field(a, c.through);
+  if (!since(a, kBoxOnSkin)) return;
+  field(a, c.core);
 }
 
 template <class A>
@@ -65,6 +68,7 @@ void field(A& a, SkinHand& h) {
     for (bool* x : {&h.cutting, &h.pierce.through}) field(a, *x);
     field(a, h.since_step);
     field(a, h.hole);
+    if (since(a, kBoxOnSkin)) field(a, h.radius_m);
   }
   BandTouch& t = h.touch;
   field(a, t.on);

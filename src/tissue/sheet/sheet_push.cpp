@@ -53,7 +53,7 @@ double pushed_by(const SheetPush& push, double force_n) {
 }
 
 FatShare FatShare::of(const SkinSheet& sheet) {
-  constexpr std::array kRadii_m{0.0005, 0.001, 0.0015, 0.002, 0.003, 0.004, 0.006};
+  constexpr std::array kRadii_m{0.0005, 0.001, 0.0015, 0.002, 0.003, 0.004, 0.006, 0.009, 0.012};
   constexpr double kAt = 2.0 / 3;  // of the fat's thickness: where the law is exact
   const SheetBalance balance(sheet, split(sheet, whole_sheet(sheet)));
   const double fat_m = sheet.material().fat_m, deep_m = kAt * fat_m;
