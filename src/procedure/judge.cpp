@@ -30,6 +30,7 @@ Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const 
   const RuleKind* kind = find_rule_kind(rule.kind);
   PlannedRule planned{rule, {}, kind ? kind->about : SubjectKind::kBone, kNoHand};
   if (kind) planned.heeds = kind->heeds;
+  if (kind) planned.heeds_too = kind->heeds_too;
   for (std::size_t h = 0; h < scenario.hands.size(); ++h)
     if (scenario.hands[h].name == rule.hand) planned.hand = static_cast<std::uint8_t>(h);
   if (!rule.hand.empty() && planned.hand == kNoHand)

@@ -130,6 +130,7 @@ Scenario read_scenario(TomlTable& table) {
       table.word("anatomy", {"wrist", "knee", "fast_box", "fast_maze", "fast_meniscus", "fast_ring",
                              "fast_suture", "graft_bench"});
   scenario.felt = read_felt(table);
+  scenario.soft = table.texts_or_empty("soft");
   scenario.fields = table.texts_or_empty("fields");
   scenario.cortex_mm = table.number_or("cortex_mm", 0, 30, scenario.cortex_mm);
   scenario.irrigation_ml_per_min =

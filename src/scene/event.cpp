@@ -86,6 +86,8 @@ constexpr std::array kRows = {
                  S::kSoftPart,
                  {"duration_s", "deepest_mm", "pull_n"}},
     EventKindRow{
+        kSoftCleared, "soft_cleared", "clears", S::kSoftPart, {"percent", "all_percent", ""}},
+    EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,
                  "cut_end",

@@ -78,6 +78,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
     place_rings();
   }
   if (softs_) softs_->step(tools, bones);
+  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
   if (water_) let_flow(tools);
   if (structures_) look_inside(tools);
   all_changed_ = false;
@@ -291,6 +292,7 @@ void WorldHalf::go_back(const WorldMark& mark) {
   world_.go_back(mark.bones, mark.hold);
   if (water_) world_.set_water(JointWater::gone_back(mark.bones.water, world_.snapshot().water));
   if (softs_) softs_->go_back(mark.softs, world_.snapshot().epoch);
+  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
   if (rings_) rings_->go_back(mark.rings);
   if (bench_) world_.set_bench(GraftBenchWork::gone_back(mark.bones.bench));
   make_placing(mark.bones.placing);
@@ -386,6 +388,7 @@ void WorldHalf::restore(const WorldState& from) {
     feed_->note_all(*carving_);
   }
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
+  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
   if (rings_) rings_->restore(from.rings);
   marks_ = from.marks;
   for (WorldMark& mark : marks_)

@@ -11,7 +11,9 @@
 #include "acl_lines.h"
 #include "acl_way.h"
 #include "osteon/base/random.h"
+#include "osteon/scene/stumps.h"
 #include "osteon/surgeon/scope_reach.h"
+#include "stump_way.h"
 
 namespace osteon {
 namespace {
@@ -26,6 +28,7 @@ constexpr double kGrip_n_per_m = 500, kYields_m = 0.0012;  // of the hand, and o
 constexpr double kPress_s = 0.6;
 constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on, and for how long
 constexpr double kTooHard_m = 0.012;
+constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 
 constexpr std::array<std::string_view, 26> kFaults{
     "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",      "anterior_tibia",
@@ -169,12 +172,14 @@ ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
 
 // Where a rod that comes straight through the portal gets to the bone: at the mark, or where an
 // edge of the notch is before that, as near beside it as can be.
-std::optional<Vec3> reached_from(const AclKnee& knee, const Vec3& portal_W, const Vec3& mark_W,
-                                 double radius_m) {
-  constexpr double kBefore_m = 0.006;
+std::optional<Vec3> reached_from(const AclKnee& knee, const StumpsAsObstacles* stumps,
+                                 const Vec3& portal_W, const Vec3& mark_W, double radius_m) {
+  constexpr double kBefore_m = 0.006, kPast_m = 0.012;
   constexpr int kRound = 16;
   const auto free = [&](const Vec3& p_W) {
-    return knee.is_free(p_W + kBefore_m * (portal_W - p_W).normalized(), portal_W, radius_m);
+    const Vec3 back = (portal_W - p_W).normalized();
+    return knee.is_free(p_W + kBefore_m * back, portal_W, radius_m) &&
+           (!stumps || stumps->is_free(p_W, p_W + kPast_m * back, radius_m));
   };
   if (free(mark_W)) return mark_W;
   const Vec3 up = knee.normal(true, mark_W), x = up.unitOrthogonal(), y = up.cross(x);
@@ -188,15 +193,19 @@ std::optional<Vec3> reached_from(const AclKnee& knee, const Vec3& portal_W, cons
   return std::nullopt;
 }
 
-// Straight through the portal onto each mark.
-void feel_marks(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
-                const AclHabits& habits, AclWay& way, std::vector<std::string>& unreachable) {
+// Straight through the portal onto each mark. Stumps would draw the hook aside: a mark that no way
+// beside them leads to waits. Returns those that do; without `stumps` none does.
+std::vector<std::string> feel_marks(const AclKnee& knee, const std::vector<std::string>& marks,
+                                    const StumpsAsObstacles* stumps, const Vec3& portal_W,
+                                    const AclHabits& habits, AclWay& way,
+                                    std::vector<std::string>& unreachable) {
   constexpr double kProbeRadius_m = 0.0015, kBefore_m = 0.008;
+  std::vector<std::string> waiting;
   const double press_m = habits.fault == "too_hard" ? kTooHard_m : habits.press_m;
-  for (const std::string& name : tools.felt) {
-    const auto reached = reached_from(knee, portal_W, knee.mark(name), kProbeRadius_m);
+  for (const std::string& name : marks) {
+    const auto reached = reached_from(knee, stumps, portal_W, knee.mark(name), kProbeRadius_m);
     if (!reached) {
-      unreachable.push_back(name);
+      (stumps ? waiting : unreachable).push_back(name);
       continue;
     }
     const Vec3& mark = *reached;
@@ -209,6 +218,14 @@ void feel_marks(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W
     way.go(held_by_shaft(mark + kBefore_m * back, back), 0.5);
     way.go_at(held_by_shaft(portal_W + kOutside_m * back, back), kTravel_m_per_s);
   }
+  return waiting;
+}
+
+// With the shaver, and out again.
+void clear(const AclKnee& knee, const std::string& shaver, const Vec3& portal_W, AclWay& way) {
+  const Vec3 out = outwards(knee, portal_W);
+  clear_stumps(knee, torn_stumps(knee.whole()), {shaver, 0, kShaverRadius_m, portal_W}, way);
+  way.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
 }
 
 // Comes along its axis, is pressed on straight into the bone, and goes back.
@@ -264,8 +281,17 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   const Vec3 out = outwards(*knee, am);
   AclWay probe(tools.probe, 0, held_by_shaft(am + kAway_m * out, out), habits.pace);
   probe.wait_until(scope.duration_s() + 0.5);
-  feel_marks(*knee, tools, am, habits, probe, ways.unreachable);
+  const bool clears = !tools.shaver.empty();
+  const StumpsAsObstacles stumps(the_case,
+                                 clears ? torn_stumps(the_case) : std::vector<TornStump>());
+  const auto waiting = feel_marks(*knee, tools.felt, &stumps, am, habits, probe, ways.unreachable);
   probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
+  if (clears) clear(*knee, tools.shaver, am, probe);
+  if (!waiting.empty()) {
+    if (clears) probe.take(tools.probe, 0);
+    feel_marks(*knee, waiting, nullptr, am, habits, probe, ways.unreachable);
+    probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
+  }
   ways.third_begin_s = probe.now_s() + 0.5;
   ways.after_graft = tools.drills && tools.after_graft;
   if (tools.drills)

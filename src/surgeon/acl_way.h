@@ -38,11 +38,22 @@ class AclWay {
     at_.time_s += seconds;
     path_.samples.push_back(at_);
   }
+  /// Another instrument in the hand, where it is.
+  void take(const std::string& instrument, double size_mm) {
+    at_.instrument = instrument;
+    at_.size_mm = size_mm;
+    stay(kTaken_s);
+  }
+  void power(double share) {
+    at_.power = share;
+    stay(kSaid_s);
+  }
   void wait_until(double time_s) { stay(time_s - at_.time_s); }
   double now_s() const { return at_.time_s; }
   const ProbePath& path() const { return path_; }
 
  private:
+  static constexpr double kTaken_s = 0.6, kSaid_s = 0.05;
   double pace_;
   ProbePath path_;
   PathSample at_;

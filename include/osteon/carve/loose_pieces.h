@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "osteon/carve/carved_field.h"
@@ -26,12 +27,18 @@ struct LoosePiece {
 /// connected before any cut the largest part stays the bone; all others are loose. What was not
 /// connected to it before (a second shell of the mesh) is looked at by itself.
 ///
+/// Where nodes are told that the bone hangs on (hang()), what holds one of them stays, and all else
+/// is loose: how large it is does not matter.
+///
 /// A block without cuts whose bone is one part counts as one; of the others each part is known. A
 /// search looks at the nodes of blocks that changed since the last one alone.
 class LoosePieces {
  public:
   /// Looks at the whole bone once: some 50 ns a node of the blocks near its surface.
   explicit LoosePieces(const CarvedField& field);
+
+  /// Nodes of the uncut bone for which `holds` is true hang on something.
+  void hang(const CarvedField& field, const std::function<bool(const Vec3& p_B)>& holds);
 
   /// Pieces by the place of their first block. Allocates nothing where there are none.
   const std::vector<LoosePiece>& find(const CarvedField& field);
@@ -73,6 +80,8 @@ class LoosePieces {
   std::uint32_t root(std::uint32_t part);
   void unite(std::uint32_t a, std::uint32_t b);
   bool weigh(const CarvedField& field);
+  void find_hanging(const CarvedField& field);
+  bool is_loose(std::uint32_t root) const;
   void collect(const CarvedField& field);
   void add_part(const CarvedField& field, std::uint32_t block, std::uint8_t label,
                 LoosePiece& piece) const;
@@ -82,6 +91,14 @@ class LoosePieces {
   std::vector<std::uint32_t> many_;  ///< of each block: its uncut bone's place in many_labels_
   std::vector<Labels> many_labels_;
   std::vector<std::uint8_t> touches_;  ///< bits 0 to 2: uncut, it goes on beyond x+, y+, z+
+  /// A node that the bone hangs on.
+  struct Held {
+    std::uint32_t block = 0;
+    std::uint16_t node = 0;
+  };
+  std::vector<Held> held_;
+  bool hangs_ = false;  ///< hang() was called
+
   std::vector<std::uint32_t> whole_first_, whole_root_;  ///< parts of the uncut bone
 
   std::vector<std::uint32_t> slot_;  ///< of each block: its place in carved_
@@ -94,6 +111,7 @@ class LoosePieces {
   std::vector<std::uint64_t> weight_;    ///< of each root: nodes
   std::vector<std::uint32_t> home_;      ///< of each root: root of the uncut bone it was part of
   std::vector<std::uint32_t> heaviest_;  ///< of each root of the uncut bone: a root
+  std::vector<std::uint8_t> hanging_;    ///< of each root, where held_ counts
   std::vector<LoosePiece> pieces_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "osteon/mesh/tri_mesh.h"
 
@@ -27,5 +28,9 @@ struct Topology {
   }
 };
 Topology topology(const TriMesh& mesh);
+
+/// The components by themselves, in the order of their first triangles; without the vertices that
+/// no triangle has.
+std::vector<TriMesh> connected_parts(const TriMesh& mesh);
 
 }  // namespace osteon

@@ -16,10 +16,11 @@ struct SolidCutState {
   /// Its stiffness is that of these cells; none: of the whole solid. It follows the cuts, made
   /// anew over some hundred steps.
   std::vector<CutCell> felt;
-  std::vector<CutCell> next;  ///< of these it is being made; none: of nothing
-  std::uint64_t worked = 0;   ///< steps of that work that are done
-  std::uint64_t looked = 0;   ///< step of the cuts at which pieces were last looked for
-  std::uint32_t pieces = 0;   ///< that came off
+  std::vector<CutCell> next;       ///< of these it is being made; none: of nothing
+  std::uint64_t worked = 0;        ///< steps of that work that are done
+  std::uint64_t looked = 0;        ///< step of the cuts at which pieces were last looked for
+  std::uint32_t pieces = 0;        ///< that came off
+  std::uint32_t told_percent = 0;  ///< of a stump: the last that an event told to be cleared
 };
 
 /// What a hand's instrument does to solids.

@@ -44,9 +44,12 @@ class SoftShapes {
     std::vector<SoftPushes::One> shown;      ///< pushes that it was given with
     TriMesh whole_W;                         ///< `mesh_W` before any cut
     std::shared_ptr<const CarveState> cuts;  ///< that it was given with
+    TriMesh drawn_W;                         ///< as it was given
   };
   void cut(std::size_t solid, std::shared_ptr<const CarveState> cuts);
   void find_patches(std::size_t solid);
+  bool take(std::size_t solid, const SoftPushes& pushes);
+  TriMesh drawn(std::uint32_t soft) const;
   struct BandShape {
     TriMesh mesh_W;                 ///< at rest
     BandSpan rest_W;                ///< the string, with the bones at rest

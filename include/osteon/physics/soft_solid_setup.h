@@ -15,7 +15,8 @@
 
 namespace osteon {
 
-/// A meniscus that is felt. All of it is in the frame of the bone that it lies on.
+/// A meniscus, or the stump of a torn ligament, that is felt. All of it is in the frame of the bone
+/// that it lies on.
 struct SoftSolid {
   std::string name;        ///< of the soft part
   std::uint32_t soft = 0;  ///< in Case::softs
@@ -24,6 +25,11 @@ struct SoftSolid {
   std::shared_ptr<const PressedSolid> body;
   std::shared_ptr<const UncutField> uncut;      ///< of its surface, for what is cut out of it
   std::function<bool(const Vec3& p_B)> bleeds;  ///< whether it has vessels there; none: nowhere
+  /// Of a stump: whether it hangs on its bone there, whatever is cut, and whether what is there
+  /// counts as remains that are to be cleared. None: the largest part stays, nothing is to go.
+  std::function<bool(const Vec3&p_B)> hangs, to_clear;
+  std::shared_ptr<const TriMesh> surface_B;  ///< of a stump; none: all of the soft part
+  double cutting_n = 0;  ///< force of an edge that opens it; 0: as SoftSetup says
 };
 std::uint64_t hash_of(std::span<const SoftSolid> solids);
 

@@ -65,6 +65,9 @@ class SoftWorld {
   SoftState save() const;                            ///< all of it
   double removed_m3(std::size_t solid) const;        ///< by cuts; looks at all of them
   std::uint32_t pieces(std::size_t solid) const;     ///< that came off
+  /// Of a stump, how much of what is to be cleared is gone; 0 of other solids.
+  double cleared_percent(std::size_t solid) const;
+  double all_cleared_percent() const;  ///< of all stumps together; -1: there are none
   /// What the hand's ticks are to know of the last step.
   BandContacts contacts(std::size_t hand) const;
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }

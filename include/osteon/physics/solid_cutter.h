@@ -16,17 +16,23 @@ namespace osteon {
 struct SolidCutter {
   enum class Way : std::uint8_t {
     kSlice,  ///< an edge: opens a slit where it is pressed hard enough, as far as it is drawn
-    kBite    ///< jaws: take what is between them, when they shut
+    kBite,   ///< jaws: take what is between them, when they shut
+    kClear   ///< takes what it presses, while it runs
   };
   Way way = Way::kSlice;
   Cutter cutter;
   Vec3 flat_T = Vec3::Zero();  ///< of an edge: across the blade
   std::uint64_t works = 0;     ///< which of tool_rods() do it, bit by bit
   std::uint64_t lifts = 0;     ///< which are out of the way while the jaws are open
+  /// Of what clears: the line of its rod, and the half of space to which it does (zero: all round).
+  Vec3 from_T = Vec3::Zero(), to_T = Vec3::Zero(), face_T = Vec3::Zero();
+  double speed_m_per_s = 0;  ///< at full power
 };
 
 /// A blade's slit is at least so wide.
 inline constexpr double kLeastSlit_m = 0.00045;
+/// What clears is by so much thicker than its file says, so that the hand can follow it.
+inline constexpr double kClearRoom_m = 0.00005;
 
 /// A tool with a thin part near its tip; none: it has no edge.
 std::optional<SolidCutter> slicing_with(const Tool& tool);

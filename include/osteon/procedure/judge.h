@@ -20,6 +20,7 @@ struct PlannedRule {
   std::uint8_t hand = kNoHand;         ///< kNoHand: any
   EventKind heeds = EventKind::kNone;  ///< see RuleKind
   std::vector<Vec3> places_W = {};     ///< of landmarks: where they are
+  EventKind heeds_too = EventKind::kNone;
 };
 /// A scenario on one case: what judging needs, and nothing that changes.
 struct ScenarioPlan {

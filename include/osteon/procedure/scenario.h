@@ -82,6 +82,7 @@ struct Scenario {
   int version = 1;
   std::string anatomy;               ///< "wrist" or "knee": what grows its patients
   std::string felt;                  ///< "pieces", "hull" or "field": what of the bones is felt
+  std::vector<std::string> soft;     ///< soft parts that give way, as `--soft` names them
   std::vector<std::string> fields;   ///< bones felt as fields all the same: they can be carved
   double cortex_mm = 1.2;            ///< of bones that are carved: how thick their hard shell is
   double irrigation_ml_per_min = 0;  ///< water over the bone that is cut
@@ -114,6 +115,8 @@ struct RuleKind {
   /// The one kind of event that it reads, whatever its subject; kNone: all about its subjects.
   EventKind heeds = EventKind::kNone;
   bool with_bone = false;  ///< of a kind about landmarks: names the bone that they lie on as well
+  /// A second kind of event that it reads; kNone: none.
+  EventKind heeds_too = EventKind::kNone;
 };
 const std::vector<RuleKind>& rule_table();
 const RuleKind* find_rule_kind(std::string_view name);

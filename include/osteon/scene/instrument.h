@@ -110,6 +110,15 @@ struct OpticsDef {
   double field_deg = 0;  ///< whole width of the view
 };
 
+/// How an instrument takes soft tissue away while it runs: where a rod of it presses, by so much a
+/// second at full power. In Tool.
+struct ClearsDef {
+  SizedPoint from, to;  ///< of the rod that clears
+  SizedLength radius;
+  Vec3 face = Vec3::Zero();  ///< unit: it clears to this half of space; zero: all round
+  double speed_m_per_s = 0;
+};
+
 /// The bore of an aimer's sleeve, in Tool.
 struct AimsDef {
   Vec3 at_m = Vec3::Zero(), mouth_m = Vec3::UnitZ();  ///< what it aims at, and its outer end
@@ -139,6 +148,7 @@ struct Instrument {
   std::optional<PowerDef> power;
   std::optional<OpticsDef> optics;
   std::optional<RemovalDef> removal;  ///< none: it removes no bone
+  std::optional<ClearsDef> clears;    ///< none: it takes no soft tissue away
   std::optional<AimsDef> aims;        ///< none: it fixes no line
   std::vector<std::string> sources;   ///< "[74] 4 mm, field 105 degrees": each begins with its mark
 

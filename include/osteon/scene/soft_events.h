@@ -20,5 +20,8 @@ inline constexpr EventKind kSkinCutEnd{113};   ///< and has come out
 inline constexpr EventKind kSkinPierced{114};  ///< a tool has broken through skin
 inline constexpr EventKind kSkinEntered{115};  ///< a tool has gone in where skin was open
 inline constexpr EventKind kSkinLeft{116};     ///< and is out again
+/// So much of a torn ligament's stump is gone: {of this stump, of all together, %}. By whole
+/// percents of the stump.
+inline constexpr EventKind kSoftCleared{117};
 
 }  // namespace osteon

@@ -50,6 +50,7 @@ struct BoneSnapshot {
   BendState bend{};             ///< off: no joint was bent
   WaterState water{};           ///< off: the case has no joint that is filled
   LooseBones loose{};           ///< pieces of bone that were cut off
+  double cleared_percent = -1;  ///< of stumps of torn ligaments, all together; -1: there are none
   std::array<InsideList, kMaxHands> inside{};  ///< what the tip of each hand's instrument is in
 };
 static_assert(kBenchHands == kMaxHands && kPlacingHands == kMaxHands);

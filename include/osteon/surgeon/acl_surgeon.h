@@ -24,6 +24,7 @@ struct AclTools {
   bool after_graft = false;       ///< the hand that drills makes a graft before that
   std::vector<std::string> tour;  ///< landmarks that are looked at
   std::vector<std::string> felt;  ///< and those that the probe presses next to
+  std::string shaver;             ///< that clears the stumps after that; empty: they stay
 };
 
 /// Ways of three hands through a reconstruction.

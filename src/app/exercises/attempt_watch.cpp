@@ -178,6 +178,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (tunnels_) graft_.set_room(tunnels_->room());
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
+  if (!tools.empty()) stumps_.add(tools[0]->tick, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
   judge_fresh();

@@ -14,6 +14,7 @@
 #include "osteon/procedure/placing_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/stump_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
 
@@ -84,6 +85,7 @@ class AttemptWatch {
   RingWatch rings_;
   GraftWatch graft_;
   PlacingWatch placing_;
+  StumpWatch stumps_;
   std::vector<AttemptPause> pauses_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;

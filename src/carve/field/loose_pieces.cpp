@@ -69,6 +69,7 @@ LoosePieces::LoosePieces(const CarvedField& field)
   weight_.reserve(parent_.capacity());
   home_.reserve(parent_.capacity());
   heaviest_.reserve(whole_root_.size());
+  hanging_.reserve(parent_.capacity());
 }
 
 void LoosePieces::label_whole(const CarvedField& field, std::uint32_t block) {
@@ -139,6 +140,34 @@ std::uint32_t LoosePieces::nodes_of(std::uint32_t block, std::uint8_t label) con
   return known ? known->nodes[label] : whole_nodes_[block];
 }
 
+void LoosePieces::hang(const CarvedField& field,
+                       const std::function<bool(const Vec3& p_B)>& holds) {
+  const BlockGrid& grid = field.grid();
+  hangs_ = true;
+  held_.clear();
+  for (std::uint32_t block = 0; block < whole_nodes_.size(); ++block) {
+    if (whole_nodes_[block] == 0) continue;
+    const auto at = grid.place(block);
+    for (int n = 0; n < static_cast<int>(BlockGrid::kNodes); ++n) {
+      const auto node = static_cast<std::size_t>(n);
+      const Vec3 p_B = grid.node(8 * at[0] + n % 8, 8 * at[1] + n / 8 % 8, 8 * at[2] + n / 64);
+      if (whole_label(field, block, node) != 0 && holds(p_B))
+        held_.push_back({block, static_cast<std::uint16_t>(n)});
+    }
+  }
+}
+
+void LoosePieces::find_hanging(const CarvedField& field) {
+  hanging_.assign(parent_.size(), 0);
+  for (const Held& held : held_)
+    if (const std::uint8_t label = label_at(field, held.block, held.node); label != 0)
+      hanging_[root(first_[held.block] + label - 1u)] = 1;
+}
+
+bool LoosePieces::is_loose(std::uint32_t at) const {
+  return hangs_ ? hanging_[at] == 0 : heaviest_[home_[at]] != at;
+}
+
 void LoosePieces::label_carved(const CarvedField& field) {
   const bool anew = !looked_ || field.epoch() != epoch_;
   if (anew) std::fill(slot_.begin(), slot_.end(), kNone);
@@ -203,7 +232,8 @@ void LoosePieces::connect(const CarvedField& field) {
   }
 }
 
-// Of the roots of one uncut bone the heaviest stays, of equals the first. True: there are others.
+// Of the roots of one uncut bone the heaviest stays, of equals the first; where something hangs,
+// all that hang. True: there are others.
 bool LoosePieces::weigh(const CarvedField& field) {
   weight_.assign(parent_.size(), 0);
   home_.assign(parent_.size(), kNone);
@@ -219,14 +249,15 @@ bool LoosePieces::weigh(const CarvedField& field) {
       const std::uint8_t whole = whole_label(field, block, node);
       home_[at] = whole_root_[whole_first_[block] + whole - 1u];
     }
-  bool any = false;
+  if (hangs_) find_hanging(field);
   for (std::uint32_t part = 0; part < parent_.size(); ++part) {
     if (home_[part] == kNone) continue;
     std::uint32_t& best = heaviest_[home_[part]];
-    any = any || best != kNone;
     if (best == kNone || weight_[part] > weight_[best]) best = part;
   }
-  return any;
+  for (std::uint32_t part = 0; part < parent_.size(); ++part)
+    if (home_[part] != kNone && is_loose(part)) return true;
+  return false;
 }
 
 void LoosePieces::add_part(const CarvedField& field, std::uint32_t block, std::uint8_t label,
@@ -253,7 +284,7 @@ void LoosePieces::collect(const CarvedField& field) {
     for (std::size_t l = 1; l <= parts_of(block); ++l) {
       const auto label = static_cast<std::uint8_t>(l);
       const std::uint32_t at = root(first_[block] + label - 1u);
-      if (heaviest_[home_[at]] == at) continue;
+      if (!is_loose(at)) continue;
       if (piece_of[at] == kNone) {
         piece_of[at] = static_cast<std::uint32_t>(pieces_.size());
         LoosePiece& made = pieces_.emplace_back();

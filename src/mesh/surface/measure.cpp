@@ -91,4 +91,33 @@ Topology topology(const TriMesh& mesh) {
   return found;
 }
 
+std::vector<TriMesh> connected_parts(const TriMesh& mesh) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  const auto component = triangle_components(mesh.triangles, edge_uses(mesh.triangles));
+  std::vector<std::vector<std::uint32_t>> members;
+  for (std::uint32_t t = 0; t < component.size(); ++t) {
+    if (component[t] == members.size()) members.emplace_back();
+    members[component[t]].push_back(t);
+  }
+  std::vector<TriMesh> parts;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kNone);
+  for (const auto& triangles : members) {
+    TriMesh& part = parts.emplace_back();
+    for (const std::uint32_t t : triangles) {
+      Triangle& triangle = part.triangles.emplace_back(mesh.triangles[t]);
+      for (std::uint32_t& corner : triangle) {
+        std::uint32_t& at = place[corner];
+        if (at == kNone) {
+          at = static_cast<std::uint32_t>(part.vertices.size());
+          part.vertices.push_back(mesh.vertices[corner]);
+        }
+        corner = at;
+      }
+    }
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t corner : mesh.triangles[t]) place[corner] = kNone;
+  }
+  return parts;
+}
+
 }  // namespace osteon

@@ -56,12 +56,14 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
     : setup_(std::move(setup)) {
   if (!setup_) return;
   for (const SoftSolid& solid : setup_->solids) {
-    Shape shape{the_case.softs[solid.soft].mesh_W,
-                the_case.bone(solid.bone).X_WB,
-                {},
-                {},
-                the_case.softs[solid.soft].mesh_W,
-                {}};
+    Shape shape;
+    shape.X_WB = the_case.bone(solid.bone).X_WB;
+    shape.mesh_W = the_case.softs[solid.soft].mesh_W;
+    if (solid.surface_B) {
+      shape.mesh_W = *solid.surface_B;
+      for (Vec3& p : shape.mesh_W.vertices) p = shape.X_WB * p;
+    }
+    shape.whole_W = shape.drawn_W = shape.mesh_W;
     shapes_.push_back(std::move(shape));
     find_patches(shapes_.size() - 1);
   }
@@ -132,26 +134,48 @@ std::vector<Vec3> SoftShapes::moved(std::size_t solid,
   return body.moved(here);
 }
 
+// False: it looks as it did.
+bool SoftShapes::take(std::size_t solid, const SoftPushes& pushes) {
+  Shape& shape = shapes_[solid];
+  std::vector<SoftPushes::One> now = pushes_on(solid, pushes);
+  const bool is_cut = pushes.cuts[solid] != shape.cuts;
+  if (!is_cut &&
+      std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), looks_still))
+    return false;
+  if (is_cut) cut(solid, pushes.cuts[solid]);
+  const std::vector<Vec3> nodes = moved(solid, now);
+  shape.shown = std::move(now);
+  shape.drawn_W = shape.mesh_W;
+  for (std::size_t v = 0; v < shape.patches.size(); ++v)
+    shape.drawn_W.vertices[v] += shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));
+  return true;
+}
+
+// Stumps of one ligament are one part.
+TriMesh SoftShapes::drawn(std::uint32_t soft) const {
+  TriMesh out;
+  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+    if (setup_->solids[s].soft != soft) continue;
+    const TriMesh& mesh = shapes_[s].drawn_W;
+    const auto first = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.insert(out.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const Triangle& t : mesh.triangles)
+      out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return out;
+}
+
 std::vector<SoftShapes::Changed> SoftShapes::changes(const SoftPushes& pushes) {
   std::vector<Changed> out;
   if (skin_)
     if (auto skin = skin_->change(pushes)) out.push_back(std::move(*skin));
+  std::vector<std::uint32_t> changed;
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
-    Shape& shape = shapes_[s];
-    std::vector<SoftPushes::One> now = pushes_on(s, pushes);
-    const bool is_cut = pushes.cuts[s] != shape.cuts;
-    if (!is_cut &&
-        std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), looks_still))
-      continue;
-    if (is_cut) cut(s, pushes.cuts[s]);
-    const std::vector<Vec3> nodes = moved(s, now);
-    shape.shown = std::move(now);
-    Changed changed{setup_->solids[s].soft, shape.mesh_W, {}};
-    for (std::size_t v = 0; v < shape.patches.size(); ++v)
-      changed.mesh_W.vertices[v] +=
-          shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));
-    out.push_back(std::move(changed));
+    const std::uint32_t soft = setup_->solids[s].soft;
+    if (take(s, pushes) && std::find(changed.begin(), changed.end(), soft) == changed.end())
+      changed.push_back(soft);
   }
+  for (const std::uint32_t soft : changed) out.push_back({soft, drawn(soft), {}});
   add_bands(pushes, out);
   return out;
 }

@@ -9,7 +9,7 @@
 #include "osteon/physics/soft_setup.h"
 #include "osteon/scene/soft_solid.h"
 #include "soft/rim_outline.h"
-#include "soft/solid_cutting.h"
+#include "soft/solid_fields.h"
 
 namespace osteon {
 namespace {
@@ -17,9 +17,6 @@ namespace {
 constexpr const char* kMenisci = "menisci";
 constexpr const char* kMeniscusKind = "meniscus";
 constexpr const char* kSolidsWhere = "--soft";
-constexpr double kSolidCell_m = 0.0005, kSolidOutside_m = 0.0065, kSolidInside_m = 0.001;
-// Of the field that is cut: a blade's slit is wider, so no line of nodes leads across it.
-constexpr double kCutCell_m = 0.0003;
 constexpr double kRim_m = 0.003;  // of the outer edge, what is held
 constexpr double kUnder = -0.3;
 // The outer 10 to 30 % have vessels (Arnoczky and Warren 1982, Am J Sports Med 10:90), of a width
@@ -85,26 +82,12 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   out.bone = part.bones.front();
   TriMesh mesh_B = part.mesh_W;
   mesh_B.vertices = in_bone(the_case, part, out.bone);
-  FieldOptions options{kSolidCell_m, kSolidOutside_m, kSolidInside_m};
-  auto field = DistanceField::make(mesh_B, options);
-  if (!field) {
-    field.error().where = "the meniscus '" + part.name + "'";
-    return tl::unexpected(field.error());
-  }
-  out.field = std::make_shared<const DistanceField>(std::move(*field));
-  UncutFieldOptions cut_options;
-  cut_options.cell_m = kCutCell_m;
-  cut_options.room_m = kSolidCutAir_m + 3 * kCutCell_m;
-  auto uncut = UncutField::make(mesh_B, cut_options);
-  if (!uncut) {
-    uncut.error().where = "the meniscus '" + part.name + "'";
-    return tl::unexpected(uncut.error());
-  }
-  out.uncut = std::move(*uncut);
+  const std::string what = "the meniscus '" + part.name + "'";
+  if (auto made = make_solid_fields(mesh_B, what, out); !made) return tl::unexpected(made.error());
   const RimOutline outline(mesh_B.vertices, vertices_middle(the_case.bone(out.bone).mesh));
   auto body = PressedSolid::make(solid_def(mesh_B, outline, out.field, stiffness_n_per_m));
   if (!body) {
-    body.error().where = "the meniscus '" + part.name + "'";
+    body.error().where = what;
     return tl::unexpected(body.error());
   }
   out.body = std::make_shared<const PressedSolid>(std::move(*body));
@@ -174,6 +157,9 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
     h.add(std::string_view(cutter->cutter.name));
     h.add(cutter->cutter.size_m);
     h.add(cutter->works);
+    if (cutter->way != SolidCutter::Way::kClear) continue;
+    for (const Vec3& v : {cutter->from_T, cutter->to_T, cutter->face_T}) h.add(v);
+    h.add(cutter->speed_m_per_s);
   }
   for (const SoftSolid& solid : setup.solids) h.add(solid.uncut->hash());
   setup.hash = h.value();

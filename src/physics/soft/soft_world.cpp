@@ -55,7 +55,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
-    cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_);
+    cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_, step_s_);
   if (!setup_->grippers.empty())
     grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
   if (!setup_->skins.empty())
@@ -359,10 +359,12 @@ void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step)
   for (const SolidCutting::News& news : cutting_->news()) {
     constexpr double kMm3 = 1e9;
     Event event;
-    event.hand = news.piece ? kNoHand : static_cast<std::uint8_t>(news.hand);
-    event.kind = news.piece ? kSoftPiece : kSoftCut;
+    event.hand = news.piece || news.cleared ? kNoHand : static_cast<std::uint8_t>(news.hand);
+    event.kind = news.cleared ? kSoftCleared : news.piece ? kSoftPiece : kSoftCut;
     event.subject = setup_->solids[news.solid].soft;
-    if (news.piece)
+    if (news.cleared)
+      event.values = {cutting_->cleared_percent(news.solid), cutting_->all_cleared_percent(), 0};
+    else if (news.piece)
       event.values = {kMm3 * news.volume_m3, 0, 0};
     else
       event.values = {news.force_n, 0, kMm3 * news.volume_m3};
@@ -375,6 +377,14 @@ double SoftWorld::removed_m3(std::size_t solid) const {
 }
 std::uint32_t SoftWorld::pieces(std::size_t solid) const {
   return cutting_ ? cutting_->pieces(solid) : 0;
+}
+
+double SoftWorld::cleared_percent(std::size_t solid) const {
+  return cutting_ ? cutting_->cleared_percent(solid) : 0;
+}
+
+double SoftWorld::all_cleared_percent() const {
+  return cutting_ ? cutting_->all_cleared_percent() : -1;
 }
 
 bool SoftWorld::is_asleep(std::size_t solid) const {

@@ -76,9 +76,33 @@ std::optional<SolidCutter> biting_with(const Instrument& instrument, const Tool&
   return out;
 }
 
+// What clears is by so much thicker than what is felt of it, so that the hand can follow.
+SolidCutter clearing_with(const ClearsDef& clears, const Tool& tool, double size_m) {
+  SolidCutter out;
+  out.way = SolidCutter::Way::kClear;
+  out.cutter.name = "clear";
+  out.cutter.size_m = size_m;
+  out.from_T = clears.from.at(size_m);
+  out.to_T = clears.to.at(size_m);
+  out.face_T = clears.face;
+  out.speed_m_per_s = clears.speed_m_per_s;
+  const double radius = clears.radius.at(size_m) + kClearRoom_m;
+  CutterPart part;
+  part.rods.push_back({out.from_T, out.to_T, radius});
+  for (const Vec3& p : {out.from_T, out.to_T}) {
+    part.box.include(p - Vec3::Constant(radius));
+    part.box.include(p + Vec3::Constant(radius));
+  }
+  out.cutter.parts = {part};
+  for (std::size_t i = 0; i < tool.parts.size(); ++i)
+    if (tool.parts[i].middle.norm() - tool.parts[i].radius < kBladeReach_m) out.works |= bit(i);
+  return out;
+}
+
 std::optional<SolidCutter> cutter_of(const Instrument& instrument, std::size_t size) {
   const Tool tool = make_tool(instrument, size);
   const double size_m = instrument.sizes_m[size];
+  if (instrument.clears) return clearing_with(*instrument.clears, tool, size_m);
   if (!instrument.can(InstrumentFunction::kCut)) return {};
   if (instrument.jaws && instrument.can(InstrumentFunction::kRemove))
     return biting_with(instrument, tool, size_m);

@@ -53,8 +53,8 @@ struct SolidCutting::Stroke {
   Vec3 nhat_T = Vec3::UnitZ();
 };
 
-SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses)
-    : setup_(setup), presses_(presses) {
+SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses, double step_s)
+    : setup_(setup), presses_(presses), step_s_(step_s) {
   for (const SoftSolid& solid : setup_.solids) {
     auto field = CarvedField::make(solid.uncut, {}, kMostCutBlocks, kSolidCutAir_m);
     demand(field.has_value(), "a soft solid has no field that can be cut");
@@ -62,6 +62,8 @@ SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses)
     made.holes =
         std::make_unique<CutField>(cut_grid(made.field.grid()), kMostCutBlocks, kWallSlack_m);
     made.loose = std::make_unique<LoosePieces>(made.field);
+    if (solid.hangs) made.loose->hang(made.field, solid.hangs);
+    if (solid.to_clear) find_to_clear(made, solid);
     made.cells = std::make_unique<SolidCells>(made.field, *solid.body);
     made.whole = made.cells->cells();
   }
@@ -105,7 +107,10 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std:
       hand = {};
   }
   for (std::uint32_t s = 0; s < solids_.size(); ++s) {
-    if (step % kLookForPieces == 0) drop_pieces(s);
+    if (step % kLookForPieces == 0) {
+      drop_pieces(s);
+      tell_cleared(s);
+    }
     follow_stiffness(solids_[s], s);
     Solid& solid = solids_[s];
     if (step % kShowEvery == 0 && solid.field.step() != solid.told) {
@@ -139,6 +144,7 @@ void SolidCutting::cut_with(SoftState& state, std::size_t h, const SolidHand& of
     stroke.nhat_T = stroke.X_BT.q.conjugate() * contact.nhat_B;
     stroke.X_BT.p += stroke.near->outside_B - presses_.middle(*stroke.near, of);
   };
+  if (with->way == SolidCutter::Way::kClear) return clear_away(state, h, of, *with);
   if (with->way == SolidCutter::Way::kBite) {
     if (!shuts) return;
     const std::uint32_t first = stroke.near ? stroke.solid : 0;
@@ -165,7 +171,8 @@ void SolidCutting::bite(const Stroke& stroke) {
 // d - f / k. The slit is what the blade passes from where it was in the last step.
 void SolidCutting::slice(const Stroke& stroke) {
   SolidNear& near = *stroke.near;
-  const double over = near.force_n - kSharp * setup_.solid_cutting_n;
+  const double own_n = setup_.solids[stroke.solid].cutting_n;
+  const double over = near.force_n - kSharp * (own_n > 0 ? own_n : setup_.solid_cutting_n);
   const bool flat = std::abs(stroke.with.flat_T.dot(stroke.nhat_T)) > kAcross;
   if (over > 0 && !flat && near.force_n > 0) {
     const double pressed = near.deep_m - near.entered_m - near.contact.others_m;
@@ -181,6 +188,128 @@ void SolidCutting::slice(const Stroke& stroke) {
   hand.solid = stroke.solid;
   hand.X_BC = X;
   hand.idle = 0;
+}
+
+// The place of the part that is pressed must lie by the rod that clears, on the side that does.
+bool SolidCutting::clears_at(const SolidNear& near, const SolidHand& of,
+                             const SolidCutter& with) const {
+  constexpr double kBeside_m = 0.0015;
+  // Teeth and current take what hardly resists, and what another part presses deeper.
+  constexpr double kLeast_m = 20e-6;
+  if (!(with.works >> near.contact.part & 1) || near.barred || !(near.deep_m > kLeast_m))
+    return false;
+  const Vec3 at_T = pressed_place(near.contact, of.parts[near.contact.part]);
+  const Vec3 way = with.to_T - with.from_T;
+  const double square = way.squaredNorm();
+  const double along =
+      square > 0 ? std::clamp((at_T - with.from_T).dot(way) / square, 0.0, 1.0) : 0;
+  if ((at_T - with.from_T - along * way).norm() > kBeside_m) return false;
+  const Pose X_BT = presses_.X_WB(near.contact.solid).inverse() * of.tool->X_WP;
+  const Vec3 nhat_T = X_BT.q.conjugate() * near.contact.nhat_B;
+  return with.face_T.isZero() || with.face_T.dot(nhat_T) < 0;
+}
+
+// The tool's place c that is cleared begins where the tool touches, were the solid rigid, less what
+// its rod and a cut wall are felt farther out, so that a new beginning gains nothing. It follows
+// the hand's place straight, by a step's way at most: what it passes is gone, of every solid. While
+// nothing presses it does not move, and the next push begins anew.
+void SolidCutting::clear_away(SoftState& state, std::size_t h, const SolidHand& of,
+                              const SolidCutter& with) {
+  SolidHandState& all = state.solid_hands[h];
+  SolidNear* near = nullptr;
+  for (std::uint32_t i = 0; i < all.count && of.tool->power > 0; ++i)
+    if (clears_at(all.near[i], of, with) && (!near || all.near[i].deep_m > near->deep_m))
+      near = &all.near[i];
+  if (!near) return;
+  SolidCutHand& hand = hands_[h];
+  const Pose& X_WT = of.tool->X_WP;
+  const bool goes_on = hand.solid != SolidCutHand::kNone && hand.idle <= 2;
+  const Vec3 from_W =
+      goes_on ? Vec3(presses_.X_WB(hand.solid) * hand.X_BC.p) : touching_W(*near, of);
+  const Vec3 way_W = X_WT.p - from_W;
+  const double length = way_W.norm();
+  const double most = with.speed_m_per_s * std::min(of.tool->power, 1.0) * step_s_;
+  if (!(length > 0) || with.face_T.dot(X_WT.q.conjugate() * way_W) < 0) return;
+  const Pose X_WC{from_W + std::min(1.0, most / length) * way_W, X_WT.q};
+  Stroke stroke(hand, with, h);
+  stroke.near = near;
+  for (std::uint32_t s = 0; s < solids_.size(); ++s) {
+    if (state.solid_lost[s]) continue;
+    stroke.solid = s;
+    stroke.X_BT = presses_.X_WB(s).inverse() * X_WC;
+    const double gone = remove(s, with.cutter, stroke.X_BT, stroke.X_BT);
+    if (gone > 0 && s == near->contact.solid && hand.solid == SolidCutHand::kNone)
+      tell(stroke, gone);
+  }
+  hand.solid = near->contact.solid;
+  hand.X_BC = presses_.X_WB(hand.solid).inverse() * X_WC;
+  hand.idle = 0;
+}
+
+// Where the tool is outside of what it presses. It may have been led a stride deep into a wall
+// beside it: it is led out of that.
+Vec3 SolidCutting::touching_W(const SolidNear& near, const SolidHand& of) const {
+  const Vec3 o = near.outside_B - presses_.middle(near, of);
+  const Vec3& n = near.contact.nhat_B;
+  Vec3 back = o - (n.dot(o) - near.deep_m) * n;
+  back += (kClearRoom_m + kWallSlack_m) * back.normalized();
+  return of.tool->X_WP.p + presses_.X_WB(near.contact.solid).rotate(back);
+}
+
+void SolidCutting::find_to_clear(Solid& solid, const SoftSolid& of) const {
+  const BlockGrid& grid = solid.field.grid();
+  solid.to_clear.assign(grid.count(), ClearBits{});
+  solid.gone.assign(grid.count(), 0);
+  std::array<std::int16_t, BlockGrid::kNodes> heights{};
+  for (std::uint32_t b = 0; b < grid.count(); ++b) {
+    solid.field.bone().heights(b, heights);
+    const auto at = grid.place(b);
+    for (int n = 0; n < static_cast<int>(BlockGrid::kNodes); ++n) {
+      const auto node = static_cast<std::size_t>(n);
+      const Vec3 p_B = grid.node(8 * at[0] + n % 8, 8 * at[1] + n / 8 % 8, 8 * at[2] + n / 64);
+      if (heights[node] >= 0 || !of.to_clear(p_B)) continue;
+      solid.to_clear[b][node / 64] |= std::uint64_t{1} << (node % 64);
+      ++solid.to_clear_nodes;
+    }
+  }
+}
+
+void SolidCutting::count_gone(Solid& solid, std::uint32_t block) const {
+  if (solid.to_clear.empty()) return;
+  std::uint16_t gone = 0;
+  if (const std::int16_t* cuts = solid.field.cuts(block))
+    for (std::size_t n = 0; n < BlockGrid::kNodes; ++n)
+      if (cuts[n] <= 0 && (solid.to_clear[block][n / 64] >> (n % 64) & 1) != 0) ++gone;
+  solid.gone_nodes = solid.gone_nodes + gone - solid.gone[block];
+  solid.gone[block] = gone;
+}
+
+double SolidCutting::cleared_percent(std::size_t s) const {
+  const Solid& solid = solids_[s];
+  if (solid.to_clear_nodes == 0) return 0;
+  return 100 * static_cast<double>(solid.gone_nodes) / static_cast<double>(solid.to_clear_nodes);
+}
+
+double SolidCutting::all_cleared_percent() const {
+  std::uint64_t gone = 0, all = 0;
+  for (const Solid& solid : solids_) {
+    gone += solid.gone_nodes;
+    all += solid.to_clear_nodes;
+  }
+  return all > 0 ? 100 * static_cast<double>(gone) / static_cast<double>(all) : -1;
+}
+
+// By whole percents of the solid.
+void SolidCutting::tell_cleared(std::uint32_t s) {
+  Solid& solid = solids_[s];
+  const auto now = static_cast<std::uint32_t>(cleared_percent(s));
+  if (now <= solid.told_percent || news_.size() == kMostNews) return;
+  solid.told_percent = now;
+  News news;
+  news.solid = s;
+  news.cleared = true;
+  news.p_B = setup_.solids[s].field->box().center();
+  news_.push_back(news);
 }
 
 double SolidCutting::remove(std::uint32_t s, const Cutter& cutter, const Pose& from,
@@ -205,6 +334,7 @@ void SolidCutting::catch_up(std::uint32_t s) {
     if (solid.field.changed_at(n) <= solid.seen) continue;
     const std::uint32_t block = solid.field.block_at(n);
     (void)solid.holes->set(block, CutField::Block(solid.field.cuts(block), CutField::kNodes));
+    count_gone(solid, block);
   }
   solid.cells->update(solid.field, solid.seen);
   solid.seen = solid.field.step();
@@ -273,6 +403,7 @@ std::uint64_t SolidCutting::hash() const {
     h.add(solid.next_hash);
     h.add(solid.worked);
     h.add(solid.pieces);
+    if (solid.to_clear_nodes > 0) h.add(solid.told_percent);
   }
   for (const SolidCutHand& hand : hands_) {
     h.add(hand.solid);
@@ -286,8 +417,8 @@ std::uint64_t SolidCutting::hash() const {
 std::shared_ptr<const SoftCutState> SolidCutting::save() const {
   auto out = std::make_shared<SoftCutState>();
   for (const Solid& solid : solids_)
-    out->solids.push_back(
-        {solid.field.save(), solid.felt, solid.next, solid.worked, solid.looked, solid.pieces});
+    out->solids.push_back({solid.field.save(), solid.felt, solid.next, solid.worked, solid.looked,
+                           solid.pieces, solid.told_percent});
   out->hands = hands_;
   return out;
 }
@@ -313,10 +444,14 @@ void SolidCutting::put_cuts(std::uint32_t s, const SolidCutState& from) {
   Solid& solid = solids_[s];
   if (!solid.field.restore(from.cuts)) return;
   solid.holes->clear();
+  solid.gone.assign(solid.gone.size(), 0);
+  solid.gone_nodes = 0;
   for (std::size_t n = 0; n < solid.field.block_count(); ++n) {
     const std::uint32_t block = solid.field.block_at(n);
     (void)solid.holes->set(block, CutField::Block(solid.field.cuts(block), CutField::kNodes));
+    count_gone(solid, block);
   }
+  solid.told_percent = from.told_percent;
   solid.cells->update_all(solid.field);
   solid.seen = solid.told = solid.field.step();
   solid.pieces = from.pieces;

@@ -28,8 +28,9 @@ inline constexpr double kSolidCutAir_m = 0.004;
 /// of the state and of the tools, bit by bit.
 ///
 /// An edge goes in where it is pressed harder than the solid's cutting force, by as much as holds
-/// the push at that force. What is between jaws is gone when they shut. Allocates in steps in which
-/// something changes, not in others.
+/// the push at that force. What is between jaws is gone when they shut. What clears follows the
+/// hand through the solid as fast as it can. Allocates in steps in which something changes, not in
+/// others.
 class SolidCutting {
  public:
   /// A cut into a solid, or a piece that has come off.
@@ -39,9 +40,10 @@ class SolidCutting {
     bool piece = false;
     double force_n = 0, volume_m3 = 0;
     Vec3 p_B = Vec3::Zero();
+    bool cleared = false;  ///< so much of what is to be cleared is gone: cleared_percent()
   };
 
-  SolidCutting(const SoftSetup& setup, SolidPresses& presses);
+  SolidCutting(const SoftSetup& setup, SolidPresses& presses, double step_s);
 
   /// Parts of the tool that are out of the way.
   std::uint64_t lifted(const ToolState& tool) const;
@@ -50,6 +52,9 @@ class SolidCutting {
   std::span<const News> news() const { return news_; }
   double removed_m3(std::size_t solid) const;
   std::uint32_t pieces(std::size_t solid) const;
+  /// Of what is to be cleared; 0 where nothing is.
+  double cleared_percent(std::size_t solid) const;
+  double all_cleared_percent() const;  ///< of all solids together; -1: nothing is to be cleared
   void show(std::array<std::shared_ptr<const CarveState>, kMaxSolids>& cuts) const;
 
   std::uint64_t hash() const;
@@ -61,6 +66,7 @@ class SolidCutting {
   void clear();
 
  private:
+  using ClearBits = std::array<std::uint64_t, BlockGrid::kNodes / 64>;
   struct Solid {
     explicit Solid(CarvedField carved) : field(std::move(carved)) {}
     mutable CarvedField field;  ///< it keeps the hashes of its blocks
@@ -74,6 +80,10 @@ class SolidCutting {
     std::uint64_t worked = 0, seen = 0, looked = 0, told = 0;
     std::uint32_t pieces = 0;
     std::shared_ptr<const CarveState> shown;
+    std::vector<ClearBits> to_clear;  ///< of each block; empty: nothing is
+    std::vector<std::uint16_t> gone;  ///< of each block, of those
+    std::uint64_t to_clear_nodes = 0, gone_nodes = 0;
+    std::uint32_t told_percent = 0;
   };
   struct Stroke;
 
@@ -82,6 +92,12 @@ class SolidCutting {
   void cut_with(SoftState& state, std::size_t hand, const SolidHand& with);
   void slice(const Stroke& stroke);
   void bite(const Stroke& stroke);
+  void clear_away(SoftState& state, std::size_t hand, const SolidHand& of, const SolidCutter& with);
+  Vec3 touching_W(const SolidNear& near, const SolidHand& of) const;
+  bool clears_at(const SolidNear& near, const SolidHand& of, const SolidCutter& with) const;
+  void find_to_clear(Solid& solid, const SoftSolid& of) const;
+  void count_gone(Solid& solid, std::uint32_t block) const;
+  void tell_cleared(std::uint32_t solid);
   double remove(std::uint32_t solid, const Cutter& cutter, const Pose& from, const Pose& to);
   void tell(const Stroke& stroke, double volume_m3);
   void catch_up(std::uint32_t solid);
@@ -96,6 +112,7 @@ class SolidCutting {
   std::vector<Solid> solids_;
   std::array<SolidCutHand, kMaxHands> hands_{};
   std::vector<News> news_;
+  double step_s_ = 0.002;
 };
 
 }  // namespace osteon

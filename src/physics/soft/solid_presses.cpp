@@ -154,18 +154,23 @@ std::optional<SoftPushes::One> SolidPresses::pull_on(std::size_t solid,
   return SoftPushes::One{grip.hold.part, grip.hold.p_B, grip.against_B, grip.force_n};
 }
 
+// What one tool presses from two sides it does not squeeze: its parts stand as they stand. So of
+// the same tool only what presses the place away counts, and no force grows by itself.
 double SolidPresses::others(const SolidNear& near, const SolidPush& push,
                             const SoftState& all) const {
   const PressedSolid& body = this->body(near.contact.solid);
   double sum = 0;
-  for (const SolidHandState& hand : all.solid_hands)
+  for (const SolidHandState& hand : all.solid_hands) {
+    const bool own = &near >= hand.near.data() && &near < hand.near.data() + hand.near.size();
     for (std::uint32_t i = 0; i < hand.count; ++i) {
       const SolidNear& other = hand.near[i];
       if (&other == &near || other.contact.solid != near.contact.solid || !(other.force_n > 0))
         continue;
       const SolidPush by = body.push_at(other.contact.p_B, other.contact.nhat_B);
-      sum += other.force_n * body.compliance(push, by);
+      const double away = other.force_n * body.compliance(push, by);
+      sum += own ? std::max(0.0, away) : away;
     }
+  }
   for (const SoftGrip& grip : all.grips) {
     const auto pull = pull_on(near.contact.solid, grip);
     if (!pull) continue;

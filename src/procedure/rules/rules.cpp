@@ -11,6 +11,7 @@
 #include "rules/graft_rules.h"
 #include "rules/placing_rules.h"
 #include "rules/ring_rules.h"
+#include "rules/stump_rules.h"
 #include "rules/tunnel_rules.h"
 #include "rules/way_rules.h"
 
@@ -319,6 +320,7 @@ const std::vector<RuleKind>& rule_table() {
     all.insert(all.end(), tunnel_rule_table().begin(), tunnel_rule_table().end());
     all.insert(all.end(), graft_rule_table().begin(), graft_rule_table().end());
     all.insert(all.end(), placing_rule_table().begin(), placing_rule_table().end());
+    all.insert(all.end(), stump_rule_table().begin(), stump_rule_table().end());
     return all;
   }();
   return kinds;
@@ -333,7 +335,9 @@ const RuleKind* find_rule_kind(std::string_view name) {
 std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, double tick_s,
                                  RuleState& state) {
   const bool of_kind = rule.heeds != EventKind::kNone;
-  if (of_kind ? event.kind != rule.heeds : event.subject_kind != rule.about) return std::nullopt;
+  const bool heeded = event.kind == rule.heeds ||
+                      (rule.heeds_too != EventKind::kNone && event.kind == rule.heeds_too);
+  if (of_kind ? !heeded : event.subject_kind != rule.about) return std::nullopt;
   if (rule.hand != kNoHand && event.hand != rule.hand) return std::nullopt;
   const auto bone =
       of_kind ? rule.bones.begin() : std::find(rule.bones.begin(), rule.bones.end(), event.subject);
@@ -344,6 +348,7 @@ std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, do
   if (step_tunnel_rule(rule, event, place, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_graft_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_placing_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
+  if (step_stump_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
     const auto hit = row.step(rule, event, place, tick_s, state);

@@ -47,7 +47,7 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   // Of the water in a joint, and of wounds that bleed into it.
   if (function == kSuck || function == kBurn) return instrument.power.has_value();
   if (works_on_grafts(instrument.name)) return true;
-  if (function == kRemove) return instrument.removal.has_value();
+  if (function == kRemove) return instrument.removal || instrument.clears;
   if (function == kLook) return instrument.optics.has_value();
   // An edge cuts ligaments and menisci that are felt, a jaw bites menisci; what else removes does
   // not cut yet.

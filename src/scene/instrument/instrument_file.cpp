@@ -32,7 +32,7 @@ bool has_mark(const std::string& source) {
 
 void read_head(InstrumentReader& in, Instrument& out) {
   in.allow_only({"name", "title", "code", "regions", "functions", "source", "size", "shaft", "felt",
-                 "look", "jaws", "power", "optics", "removes", "aims"});
+                 "look", "jaws", "power", "optics", "removes", "clears", "aims"});
   out.name = in.text("name");
   if (!is_instrument_name(out.name)) in.set_error("'name' must be of a-z, 0-9 and _", "name");
   out.title = in.text("title");
@@ -79,6 +79,7 @@ class InstrumentFile {
     part("power", false, &InstrumentFile::read_power);
     part("optics", false, &InstrumentFile::read_optics);
     part("removes", false, &InstrumentFile::read_removal);
+    part("clears", false, &InstrumentFile::read_clears);
     part("aims", false, &InstrumentFile::read_aims);
     each("felt", kMostFelt, [this](InstrumentReader& t) { out_.felt.push_back(read_felt(t)); });
     each("look", kMostLooks, [this](InstrumentReader& t) { out_.look.push_back(read_look(t)); });
@@ -189,6 +190,23 @@ class InstrumentFile {
     out_.removal = std::move(removal);
   }
 
+  void read_clears(InstrumentReader& in) {
+    in.allow_only({"from_mm", "to_mm", "radius_mm", "face", "mm_per_s"});
+    ClearsDef clears{in.point("from_mm"), in.point("to_mm"), in.length("radius_mm", true),
+                     Vec3::Zero(), kMmPerFile * in.number("mm_per_s", {0.1, 1000})};
+    if (in.has("face")) {
+      const std::vector<double> face = in.numbers("face", 3, {-1, 1});
+      clears.face = Vec3(face[0], face[1], face[2]);
+      const double length = clears.face.norm();
+      if (!(length > 1e-6)) in.set_error("'face' must not be zero", "face");
+      if (length > 1e-6) clears.face /= length;
+    }
+    if (!out_.can(InstrumentFunction::kRemove) && !out_.can(InstrumentFunction::kBurn))
+      in.set_error("'functions' must name remove or burn where there is a table [clears]",
+                   "mm_per_s");
+    out_.clears = clears;
+  }
+
   void read_aims(InstrumentReader& in) {
     in.allow_only({"at_mm", "mouth_mm", "bore_mm"});
     const auto place = [&](const char* key) {
@@ -206,6 +224,8 @@ class InstrumentFile {
 
   // Who turns or strikes needs power; who bites needs jaws.
   void check_removal() {
+    if (out_.clears && !out_.power)
+      in_.set_error("an instrument that clears soft tissue needs a table [power]", "clears");
     if (!out_.removal) return;
     const RemovalWay way = out_.removal->way;
     const bool turned = way == RemovalWay::kDrill || way == RemovalWay::kBurr;

@@ -9,6 +9,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kMostCutCells = 4096, kMostCutWork = 1u << 16;
+constexpr std::uint64_t kCleared = 30;  // the version that says what was told of stumps
 
 }  // namespace
 
@@ -48,6 +49,7 @@ void field(A& a, std::shared_ptr<const SoftCutState>& cut) {
     number(a, solid.worked, kMostCutWork);
     field(a, solid.looked);
     field(a, solid.pieces);
+    if (since(a, kCleared)) number(a, solid.told_percent, 100u);
   }
   for (SolidCutHand& hand : state.hands) {
     field(a, hand.solid);

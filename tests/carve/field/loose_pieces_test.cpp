@@ -179,5 +179,31 @@ TEST(CutSurface, EnclosesWhatWasRemoved) {
     EXPECT_LT((v.head<2>() - Eigen::Vector2d(0.001, 0)).norm(), 0.006);
 }
 
+// What hangs on something stays, be it the smaller part; of a bone that hangs on nothing all is
+// loose.
+TEST(LoosePieces, WhatHangsStaysHoweverSmallItIs) {
+  CarvedField field = whole_block();
+  LoosePieces loose(field);
+  loose.hang(field, [](const Vec3& p_B) { return p_B.z() > 0.0035; });
+  EXPECT_TRUE(loose.find(field).empty());
+  saw(field, 0.0015);
+  const auto& pieces = loose.find(field);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_NEAR(1e9 * pieces[0].volume_m3, 8 * 8 * 5, 0.1 * 8 * 8 * 5);
+  EXPECT_LT(pieces[0].middle_B.z(), 0);
+  ASSERT_TRUE(loose.take_away(field, pieces[0], 0.004));
+  EXPECT_TRUE(loose.find(field).empty());
+  // Two parts may hang.
+  CarvedField halves = whole_block();
+  LoosePieces both(halves);
+  both.hang(halves, [](const Vec3& p_B) { return std::abs(p_B.z()) > 0.0035; });
+  saw(halves, 0.0015);
+  EXPECT_TRUE(both.find(halves).empty());
+  CarvedField free = whole_block();
+  LoosePieces nothing(free);
+  nothing.hang(free, [](const Vec3&) { return false; });
+  EXPECT_EQ(nothing.find(free).size(), 1u);
+}
+
 }  // namespace
 }  // namespace osteon

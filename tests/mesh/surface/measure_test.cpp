@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/shapes.h"
@@ -101,6 +102,50 @@ TEST(Topology, CountsComponentsByEdges) {
   EXPECT_TRUE(topology(cube()).closed());
   EXPECT_EQ(topology(test::joined(cube(), cube(0.1))).components, 2u);
   EXPECT_EQ(topology(test::soup(cube())).components, 12u);
+}
+
+TEST(ConnectedParts, OfNothingThereAreNone) { EXPECT_TRUE(connected_parts({}).empty()); }
+
+// Two balls and a cube that shares a corner's place, but no vertex, with nothing.
+TEST(ConnectedParts, EachIsClosedAndAllTogetherAreTheMesh) {
+  TriMesh all = sphere(0.01, 12);
+  const auto add = [&](const TriMesh& part) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+    for (const Triangle& t : part.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  };
+  add(cube(0.01, Vec3(0.05, 0, 0)));
+  add(sphere(0.005, 9, Vec3(0, 0.05, 0)));
+  all.vertices.emplace_back(9, 9, 9);  // of no triangle
+  // Triangles of the parts in turn.
+  std::reverse(all.triangles.begin() + 40, all.triangles.end());
+  const auto parts = connected_parts(all);
+  ASSERT_EQ(parts.size(), 3u);
+  double sum = 0;
+  std::size_t triangles = 0, vertices = 0;
+  for (const TriMesh& part : parts) {
+    EXPECT_TRUE(topology(part).closed());
+    EXPECT_EQ(topology(part).components, 1u);
+    sum += volume(part);
+    triangles += part.triangles.size();
+    vertices += part.vertices.size();
+  }
+  EXPECT_NEAR(sum, volume(all), 1e-12);
+  EXPECT_EQ(triangles, all.triangles.size());
+  EXPECT_EQ(vertices, all.vertices.size() - 1);
+  EXPECT_LT(centroid(parts[0]).norm(), 1e-4);
+}
+
+// A corner that two parts share belongs to both.
+TEST(ConnectedParts, TrianglesThatShareACornerAloneAreApart) {
+  TriMesh mesh;
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  const auto parts = connected_parts(mesh);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].vertices.size(), 3u);
+  EXPECT_EQ(parts[1].vertices[0], Vec3(0, 0, 0));
 }
 
 }  // namespace

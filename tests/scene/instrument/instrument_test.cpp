@@ -185,6 +185,36 @@ TEST(Instrument, HowItRemovesBoneIsRead) {
   }
 }
 
+TEST(Instrument, HowItClearsSoftTissueIsRead) {
+  const std::string jaws = "[jaws]";
+  const std::string power =
+      "[power]\nkind = \"motor\"\nmost = 6000\nunit = \"rpm\"\npedal = \"right\"\n\n";
+  const std::string clears =
+      "[clears]\nfrom_mm = [0, 0, { size = 0.5 }]\nto_mm = [0, 0, 6]\nradius_mm = { size = 0.5 "
+      "}\nface = [0, 0.5, 0]\nmm_per_s = 8\n\n";
+  const auto text = [&](const std::string& tables) {
+    std::string out = with(jaws, tables + jaws);
+    return out.replace(out.find("\"grasp\""), 7, "\"remove\"");
+  };
+  const auto read = parse_instrument(text(power + clears), "probe.toml");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_TRUE(read->clears);
+  EXPECT_EQ(read->clears->from.at(0.004), Vec3(0, 0, 0.002));
+  EXPECT_EQ(read->clears->face, Vec3(0, 1, 0));
+  EXPECT_DOUBLE_EQ(read->clears->speed_m_per_s, 0.008);
+  EXPECT_TRUE(has_effect(*read, InstrumentFunction::kRemove));
+  // Without power, without the function, with a face of no length, too slow, with a key too many.
+  EXPECT_FALSE(parse_instrument(text(clears), "probe.toml"));
+  EXPECT_FALSE(parse_instrument(with(jaws, power + clears + jaws), "probe.toml"));
+  for (const auto& [from, to] : {std::pair{"[0, 0.5, 0]", "[0, 0, 0]"},
+                                 {"mm_per_s = 8", "mm_per_s = 0"},
+                                 {"mm_per_s = 8", "mm_per_s = 8\nrpm = 2"}}) {
+    std::string bad = text(power + clears);
+    bad.replace(bad.find(from), std::string(from).size(), to);
+    EXPECT_FALSE(parse_instrument(bad, "probe.toml")) << to;
+  }
+}
+
 TEST(Instrument, AFunctionHasItsName) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < kInstrumentFunctions; ++i) {

@@ -13,6 +13,7 @@
 #include "commands/teaching/scenario_run.h"
 #include "osteon/base/file.h"
 #include "osteon/results/cmi5_course.h"
+#include "runs/hands/tray.h"
 
 namespace osteon {
 namespace {
@@ -137,9 +138,14 @@ int check_one(const ScenarioCommand& command) {
   auto spec = Result<std::string>(command.case_spec);
   if (command.case_spec.empty()) spec = with_hulls(case_spec_of(*scenario, "", {}));
   if (!spec) return report_error(spec.error());
-  const auto the_case = open_felt_case(*spec);
+  const auto the_case =
+      open_case(*spec, {}, scenario->soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return report_error(the_case.error());
-  const auto lines = check_scenario(*scenario, **the_case);
+  auto lines = check_scenario(*scenario, **the_case);
+  SessionSettings settings;
+  settings.soft = scenario->soft;
+  if (const auto softs = softs_for(**the_case, settings); !softs)
+    lines.push_back(scenario->where + ": 'soft': " + softs.error().message());
   for (const std::string& line : lines) std::printf("%s\n", line.c_str());
   if (lines.empty()) std::printf("sound\n");
   return lines.empty() ? kExitDone : kExitNo;

@@ -136,6 +136,8 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
       tools.optics = *hand.optics;
     } else {
       tools.probe = hand.instrument;
+      for (const std::string& name : hand.also)
+        if (has_goal(plan, "stumps_cleared") && name.starts_with("shaver")) tools.shaver = name;
     }
   }
   if (tools.pin.empty() || tools.scope.empty() || tools.probe.empty())

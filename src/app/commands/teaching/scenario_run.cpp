@@ -135,7 +135,8 @@ Result<void> plan_placing_work(const ScenarioRun& run, const Case& the_case,
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
-  const auto the_case = open_felt_case(run.case_spec);
+  const auto the_case =
+      open_case(run.case_spec, {}, run.scenario.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return tl::unexpected(the_case.error());
   const auto plan = plan_scenario(run.scenario, **the_case);
   if (!plan) return tl::unexpected(plan.error());
@@ -159,6 +160,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
+  headless.settings.soft = run.scenario.soft;
   headless.settings.carve.cortex_m = run.scenario.cortex_mm / 1000;
   headless.settings.carve.irrigation_ml_per_min = run.scenario.irrigation_ml_per_min;
   headless.record_to = run.record_to;

@@ -8,8 +8,10 @@
 #include "osteon/base/file.h"
 #include "osteon/image/tissue.h"
 #include "osteon/physics/soft_setup.h"
+#include "osteon/physics/stump_setup.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/instrument.h"
+#include "osteon/scene/soft_solid.h"
 
 namespace osteon {
 namespace {
@@ -118,15 +120,40 @@ Result<void> add_ligaments(const Case& the_case, std::span<const std::string> na
   return {};
 }
 
-Result<void> add_menisci(const Case& the_case, std::span<const std::string> names,
-                         const TissueTable& tissues, std::span<const std::string> tray,
-                         SoftSetup& setup) {
-  if (names.empty()) return {};
+// Menisci and what torn ligaments have left: solids of one list.
+Result<std::vector<SoftSolid>> solids_named(const Case& the_case,
+                                            std::span<const std::string> menisci, bool stumps,
+                                            const TissueTable& tissues) {
+  std::vector<SoftSolid> out;
+  if (!menisci.empty()) {
+    const auto meniscus = tissue_named(tissues, "meniscus");
+    if (!meniscus) return tl::unexpected(meniscus.error());
+    auto made = make_soft_solids(the_case, menisci, (*meniscus)->stiffness_n_per_m.value);
+    if (!made) return made;
+    out = std::move(*made);
+  }
+  if (!stumps) return out;
+  const auto ligament = tissue_named(tissues, "ligament");
+  if (!ligament) return tl::unexpected(ligament.error());
+  auto made =
+      make_stumps(the_case, {(*ligament)->stiffness_n_per_m.value, (*ligament)->cutting_n.value});
+  if (!made) return made;
+  for (SoftSolid& stump : *made) out.push_back(std::move(stump));
+  if (out.size() > kMaxSolids)
+    return fail("more than " + std::to_string(kMaxSolids) + " menisci and stumps", "--soft",
+                "Give fewer");
+  return out;
+}
+
+Result<void> add_solids_named(const Case& the_case, std::span<const std::string> menisci,
+                              bool stumps, const TissueTable& tissues,
+                              std::span<const std::string> tray, SoftSetup& setup) {
+  if (menisci.empty() && !stumps) return {};
   const auto meniscus = tissue_named(tissues, "meniscus");
   if (!meniscus) return tl::unexpected(meniscus.error());
-  auto made = make_soft_solids(the_case, names, (*meniscus)->stiffness_n_per_m.value);
-  if (!made) return tl::unexpected(made.error());
-  add_solids(setup, std::move(*made));
+  auto solids = solids_named(the_case, menisci, stumps, tissues);
+  if (!solids) return tl::unexpected(solids.error());
+  add_solids(setup, std::move(*solids));
   auto cutters = make_solid_cutters(tray);
   if (!cutters) return tl::unexpected(cutters.error());
   add_cutters(setup, std::move(*cutters), (*meniscus)->cutting_n.value);
@@ -157,13 +184,19 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
   const auto tissues = load_default_tissues();
   if (!tissues) return tl::unexpected(tissues.error());
-  std::vector<std::string> ligaments, menisci, skin;
+  std::vector<std::string> ligaments, menisci, skin, stumps;
   for (const std::string& name : settings.soft)
-    (names_skin(name) ? skin : names_solids(the_case, name) ? menisci : ligaments).push_back(name);
+    (names_skin(name)               ? skin
+     : names_stumps(name)           ? stumps
+     : names_solids(the_case, name) ? menisci
+                                    : ligaments)
+        .push_back(name);
   SoftSetup setup;
   if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
-  if (auto done = add_menisci(the_case, menisci, *tissues, settings.tray, setup); !done)
+  if (auto done =
+          add_solids_named(the_case, menisci, !stumps.empty(), *tissues, settings.tray, setup);
+      !done)
     return tl::unexpected(done.error());
   if (auto done = add_skin(the_case, skin, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());

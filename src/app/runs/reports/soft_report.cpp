@@ -44,6 +44,7 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
     out["deepest_mm"] = part.deepest_mm;
     out["removed_mm3"] = part.removed_mm3;
     out["pieces"] = part.pieces;
+    if (part.is_stump) out["cleared_percent"] = part.cleared_percent;
   } else {
     out["first_tension_n"] = part.first_tension_n;
     out["peak_tension_n"] = part.peak_tension_n;
@@ -174,6 +175,8 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
     report.parts[bands + s].is_solid = true;
     report.parts[bands + s].removed_mm3 = 1e9 * softs->removed_m3(s);
     report.parts[bands + s].pieces = softs->pieces(s);
+    report.parts[bands + s].is_stump = softs->setup().solids[s].to_clear != nullptr;
+    report.parts[bands + s].cleared_percent = softs->cleared_percent(s);
     report.parts[bands + s].whole = !(report.parts[bands + s].removed_mm3 > 0);
     report.parts[bands + s].lost = softs->state().solid_lost[s];
   }

@@ -18,15 +18,17 @@ struct SoftReport {
     double peak_tension_n = 0;  ///< of the whole part, by bones and hands
     double first_tension_n = 0;
     double contact_s = 0;
-    bool is_solid = false;     ///< it has no tension
-    bool is_skin = false;      ///< a patch; nor has this
-    double deepest_mm = 0;     ///< of a solid: how far it gave way
-    double removed_mm3 = 0;    ///< of a solid: by cuts
-    std::uint32_t pieces = 0;  ///< that came off
-    double cut_mm = 0;         ///< of skin: length that is open
-    std::uint32_t holes = 0;   ///< of skin: that trocars have made
-    bool whole = true;         ///< at the end; torn by a finding or in the run: false
-    bool lost = false;         ///< it could not be solved
+    bool is_solid = false;       ///< it has no tension
+    bool is_skin = false;        ///< a patch; nor has this
+    double deepest_mm = 0;       ///< of a solid: how far it gave way
+    double removed_mm3 = 0;      ///< of a solid: by cuts
+    std::uint32_t pieces = 0;    ///< that came off
+    bool is_stump = false;       ///< a solid of which something is to be cleared
+    double cleared_percent = 0;  ///< of that
+    double cut_mm = 0;           ///< of skin: length that is open
+    std::uint32_t holes = 0;     ///< of skin: that trocars have made
+    bool whole = true;           ///< at the end; torn by a finding or in the run: false
+    bool lost = false;           ///< it could not be solved
   };
   std::vector<Part> parts;
   std::vector<Event> events;          ///< codes 100 to 199

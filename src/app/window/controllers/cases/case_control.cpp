@@ -32,7 +32,7 @@ void CaseControl::open(LoadOrder order, bool as_ordered) {
   failure_.clear();
   order.instruments = live_.wanted_instruments();
   order.at_s = host_.order.at_s;
-  order.softs = host_.order.give_way;
+  if (order.softs.empty()) order.softs = host_.order.give_way;
   order.needs_softs = !scene_.the_case && order.recording.empty();
   // What is measured, recorded, judged or edited from the start is the case as it was ordered.
   const WindowOrder& line = host_.order;

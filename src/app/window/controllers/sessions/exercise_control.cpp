@@ -132,10 +132,13 @@ void ExerciseControl::open_patient() {
   const std::string spec = exercise_.case_spec();
   const bool all_here = want_instruments(exercise_.scenario());
   exercise_.wait_for_case();
+  const std::vector<std::string>& soft = exercise_.scenario().soft;
   if (live_.run() && scene_.the_case && scene_.source == spec && all_here &&
-      scene_.finer_source.empty())  // what carves its bones is ready
+      scene_.softs.names == soft && scene_.finer_source.empty())  // what carves its bones is ready
     return begin();
-  cases_.open({spec, {}, nullptr}, true);
+  LoadOrder order{spec, {}, nullptr};
+  order.softs = soft;
+  cases_.open(std::move(order), true);
 }
 
 // False: the tray lacked one. What removes bone is prepared with the case, by the tray.

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "osteon/base/result.h"
+#include "osteon/mesh/tri_mesh.h"
+#include "osteon/physics/soft_solid_setup.h"
+
+namespace osteon {
+
+/// The fields of a soft solid's surface, for who touches it and for who cuts it. `what`: named in
+/// errors. Fails on a surface that is open.
+Result<void> make_solid_fields(const TriMesh& mesh_B, const std::string& what, SoftSolid& out);
+
+}  // namespace osteon

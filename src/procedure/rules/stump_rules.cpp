@@ -1,0 +1,57 @@
+#include "rules/stump_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osteon/procedure/stump_watch.h"
+#include "osteon/procedure/tunnel_events.h"
+
+namespace osteon {
+namespace {
+
+bool is_enough(const PlannedRule& rule, double percent) {
+  return percent >= std::floor(100 * number_of(rule, "share") + 1e-9);
+}
+
+}  // namespace
+
+const std::vector<RuleKind>& stump_rule_table() {
+  static const std::vector<RuleKind> table{
+      {"stumps_cleared",
+       "this share of what torn ligaments have left is cleared, footprints apart",
+       true,
+       {{"share", 0.01, 1, 0.9}},
+       SubjectKind::kNothing,
+       kStumpsCleared},
+      {"stump_left",
+       "a tunnel is begun before this share of what torn ligaments have left is cleared",
+       false,
+       {{"share", 0.01, 1, 0.9}},
+       SubjectKind::kNothing,
+       kStumpsCleared,
+       false,
+       kTunnelBegun},
+  };
+  return table;
+}
+
+// `most` of the hold is the percentage that is gone.
+bool step_stump_rule(const PlannedRule& rule, const Event& event, double tick_s, RuleState& state,
+                     std::optional<RuleHit>& hit) {
+  const auto& table = stump_rule_table();
+  const auto kind = std::find_if(table.begin(), table.end(),
+                                 [&](const RuleKind& k) { return k.name == rule.rule.kind; });
+  if (kind == table.end()) return false;
+  hit.reset();
+  RuleHold& hold = state.holds[0];
+  if (event.kind == kStumpsCleared) hold.most = event.values[0];
+  if (kind->is_goal) {
+    state.met = is_enough(rule, hold.most);
+  } else if (event.kind == kTunnelBegun && !hold.told && !is_enough(rule, hold.most)) {
+    hold.told = true;
+    hit = RuleHit{time_of(event, tick_s)};
+  }
+  return true;
+}
+
+}  // namespace osteon

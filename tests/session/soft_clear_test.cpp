@@ -1,0 +1,223 @@
+// A stump that is cleared in a session: two blocks on bones, with the shipped instruments.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "osteon/physics/soft_cut_state.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/soft_events.h"
+#include "stump_fixtures.h"
+
+namespace osteon {
+namespace {
+
+using testing::kStumpHalf;
+using testing::stump_run;
+
+enum : std::uint32_t { kShaver, kHook, kAblator, kPunch, kDrill };
+
+// Tool's y and z in World.
+Quat held(const Vec3& y_W, const Vec3& z_W) {
+  return Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
+}
+const Quat kFromAbove = held(Vec3::UnitY(), Vec3::UnitZ());
+
+struct ClearingHand {
+  explicit ClearingHand(Session& s) : session(s) {}
+  Session& session;
+  Vec3 at = Vec3(0, 0, 0.018);
+  Quat q = kFromAbove;
+  std::vector<Event> events;
+  Recording* into = nullptr;
+
+  void tick(const Command& command = {}) {
+    ToolInput input;
+    input.X_WD = {at, q};
+    (void)session.tick(input, command);
+    for (const Event& event : session.last_events()) events.push_back(event);
+    if (!into) return;
+    into->ticks.push_back(session.last_tick_record());
+    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
+  }
+  void take(std::uint32_t instrument, double power) {
+    tick({CommandKind::kTake, static_cast<double>(instrument)});
+    tick({CommandKind::kPower, power});
+  }
+  void move(const Vec3& to, int ticks) {
+    const Vec3 from = at;
+    for (int n = 1; n <= ticks; ++n) {
+      at = from + n / static_cast<double>(ticks) * (to - from);
+      tick();
+    }
+  }
+  void rest(int ticks) { move(Vec3(at), ticks); }
+  double cleared(std::size_t stump = 0) const { return session.softs()->cleared_percent(stump); }
+  double removed_mm3(std::size_t stump = 0) const {
+    return 1e9 * session.softs()->removed_m3(stump);
+  }
+};
+
+// Upright plunges side by side, each down to `to_z`.
+void mow(ClearingHand& hand, double to_z, int plunges = 4) {
+  for (int i = 0; i < plunges; ++i)
+    for (int k = 0; k < plunges; ++k) {
+      const double step = 2 * kStumpHalf.x() / (plunges - 1);
+      const Vec3 over(-kStumpHalf.x() + i * step, -kStumpHalf.y() + k * step, 0.014);
+      hand.move(over, 60);
+      hand.move({over.x(), over.y(), to_z}, 700);
+      hand.move(over, 80);
+    }
+}
+
+TEST(SoftClear, NothingGoesWithoutPower) {
+  Session session = stump_run().session();
+  ClearingHand hand(session);
+  hand.take(kShaver, 0);
+  hand.move({0, 0, 0.009}, 500);
+  EXPECT_GT(session.tool_state().force_W.z(), 1);
+  EXPECT_EQ(hand.cleared(), 0);
+  EXPECT_EQ(hand.removed_mm3(), 0);
+}
+
+// Full power takes 8 mm a second, half of it 4, of a hand that presses 8 mm deep: once the round
+// end is in, a cylinder as wide as it is.
+TEST(SoftClear, ItGoesAsFastAsTheInstrumentClears) {
+  constexpr double kPressed_m = 0.008, kClears_mm_per_s = 8, kWatched_s = 0.2;
+  constexpr double kRadius_mm = 2.1 + 1e3 * kClearRoom_m;
+  for (const double power : {0.5, 1.0}) {
+    Session session = stump_run().session();
+    ClearingHand hand(session);
+    hand.take(kShaver, power);
+    hand.move({0, 0, 2 * kStumpHalf.z()}, 300);
+    hand.move({0, 0, 2 * kStumpHalf.z() - kPressed_m}, 400);
+    hand.rest(200);
+    const double before_mm3 = hand.removed_mm3();
+    hand.rest(static_cast<int>(1000 * kWatched_s));
+    const double passed_mm3 =
+        std::numbers::pi * kRadius_mm * kRadius_mm * power * kClears_mm_per_s * kWatched_s;
+    EXPECT_NEAR(hand.removed_mm3() - before_mm3, passed_mm3, 0.03 * passed_mm3) << power;
+  }
+}
+
+TEST(SoftClear, MownDownItIsClearedAndTheFootprintStays) {
+  Session session = stump_run().session();
+  ClearingHand hand(session);
+  hand.take(kDrill, 1);
+  mow(hand, 0.0016);
+  hand.rest(60);
+  EXPECT_GT(hand.cleared(), 90);
+  EXPECT_EQ(hand.cleared(1), 0);
+  EXPECT_NEAR(session.bones().cleared_percent, 0.5 * hand.cleared(), 1);
+  // 10 x 10 mm: at least half of the lowest 1.5 mm are left on the bone.
+  EXPECT_LT(hand.removed_mm3(), 10 * 10 * 12 - 0.5 * 10 * 10 * 1.5);
+  std::vector<double> told;
+  for (const Event& event : hand.events)
+    if (event.kind == kSoftCleared) told.push_back(event.values[0]);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GT(told.back(), 89);
+}
+
+// Its window looks to +y of Tool: what lies behind its back stays.
+TEST(SoftClear, TheBackOfTheShaverTakesNothing) {
+  const auto taken = [](const Vec3& window_W) {
+    Session session = stump_run().session();
+    ClearingHand hand(session);
+    hand.q = held(window_W, Vec3::UnitZ());
+    hand.at = {0, 0.012, 0.003};
+    hand.take(kShaver, 1);
+    hand.move({0, 0.005, 0.003}, 1500);
+    return hand.removed_mm3();
+  };
+  EXPECT_GT(taken(-Vec3::UnitY()), 5);
+  EXPECT_EQ(taken(Vec3::UnitY()), 0);
+}
+
+TEST(SoftClear, TheAblatorAndADrillClearTooAHookDoesNot) {
+  for (const std::uint32_t tool : {kHook, kAblator, kDrill}) {
+    Session session = stump_run().session();
+    ClearingHand hand(session);
+    hand.take(tool, 1);
+    hand.move({0, 0, 0.010}, 800);
+    if (tool == kHook)
+      EXPECT_EQ(hand.removed_mm3(), 0);
+    else
+      EXPECT_GT(hand.removed_mm3(), 3) << tool;
+  }
+}
+
+// Cut across half way up: what is above has no hold, what is below hangs on the bone.
+TEST(SoftClear, WhatIsCutOffFloatsAwayAndCountsAsCleared) {
+  Session session = stump_run().session();
+  ClearingHand hand(session);
+  // Lying along x, its window to the block, drawn through it from y = 10 to -10 mm: one half, then
+  // the other.
+  hand.take(kShaver, 1);
+  for (const double side : {-1.0, 1.0}) {
+    hand.q = held(-Vec3::UnitY(), side * Vec3::UnitX());
+    hand.at = {-side * 0.0005, 0.010, 0.004};
+    hand.move({-side * 0.0005, -0.010, 0.004}, 6000);
+  }
+  hand.rest(100);
+  EXPECT_EQ(session.softs()->pieces(0), 1u);
+  EXPECT_GT(hand.cleared(), 85);
+  EXPECT_LT(hand.removed_mm3(), 10 * 10 * 11);
+}
+
+TEST(SoftClear, AStateGoesOnTheSameAndUndoBringsItBack) {
+  Session session = stump_run().session();
+  ClearingHand hand(session);
+  hand.rest(10);
+  hand.tick({CommandKind::kMark, 0});
+  hand.rest(10);
+  hand.take(kShaver, 1);
+  hand.move({0, 0, 0.0085}, 900);
+  const double half_way = hand.cleared();
+  EXPECT_GT(half_way, 1);
+  const auto bytes = to_bytes(session.save());
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  Session other = stump_run().session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  ClearingHand second(other);
+  second.at = hand.at;
+  hand.events.clear();
+  for (ClearingHand* h : {&hand, &second}) h->move({0.002, 0.001, 0.004}, 900);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  EXPECT_EQ(second.cleared(), hand.cleared());
+  EXPECT_GT(hand.cleared(), half_way);
+  EXPECT_EQ(second.events.size(), hand.events.size());
+  hand.tick({CommandKind::kRestore, 0});
+  hand.rest(10);
+  EXPECT_EQ(hand.cleared(), 0);
+  EXPECT_EQ(session.bones().cleared_percent, 0);
+}
+
+TEST(SoftClear, AReplayClearsTheSame) {
+  const auto& run = stump_run();
+  Session session = run.session();
+  Recording recording;
+  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  ClearingHand hand(session);
+  hand.into = &recording;
+  hand.take(kShaver, 1);
+  hand.move({0, 0, 0.0085}, 900);
+  hand.take(kPunch, 0);
+  hand.tick({CommandKind::kJaw, 1});
+  hand.move({0, 0, 0.010}, 300);
+  hand.tick({CommandKind::kJaw, 0});
+  hand.rest(30);
+  recording.complete = true;
+  ReplayOptions options;
+  options.tray = run.tray;
+  options.softs = run.softs;
+  const auto outcome = replay(recording, run.the_case, options);
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+  EXPECT_EQ(outcome->state_hash, session.state_hash());
+}
+
+}  // namespace
+}  // namespace osteon
