@@ -191,7 +191,7 @@ TEST(SoftCut, WhatIsCutOffIsGoneAndTold) {
   if (hand.count(kSoftPiece) == 0) GTEST_FAIL() << "no piece; removed " << lost;
   // The end and the slit; the blade sways in what gives way.
   EXPECT_GT(lost, (12 - 9) * 16 * 6);
-  EXPECT_LT(lost, (12 - 9 + 0.75) * 16 * 6);
+  EXPECT_LT(lost, (12 - 9 + 0.7) * 16 * 6);
   EXPECT_EQ(session.softs()->pieces(0), 1u);
 }
 

@@ -154,12 +154,13 @@ std::optional<SoftPushes::One> SolidPresses::pull_on(std::size_t solid,
   return SoftPushes::One{grip.hold.part, grip.hold.p_B, grip.against_B, grip.force_n};
 }
 
-// What one tool presses from two sides it does not squeeze: its parts stand as they stand. So of
-// the same tool only what presses the place away counts, and no force grows by itself.
+// Where parts of one tool press from two sides, each sends the solid towards the other, and their
+// forces raise each other step by step. The other parts bring a place no nearer than the part is
+// deep in it: at most twice the force of the part alone.
 double SolidPresses::others(const SolidNear& near, const SolidPush& push,
                             const SoftState& all) const {
   const PressedSolid& body = this->body(near.contact.solid);
-  double sum = 0;
+  double sum = 0, by_own = 0;
   for (const SolidHandState& hand : all.solid_hands) {
     const bool own = &near >= hand.near.data() && &near < hand.near.data() + hand.near.size();
     for (std::uint32_t i = 0; i < hand.count; ++i) {
@@ -168,7 +169,7 @@ double SolidPresses::others(const SolidNear& near, const SolidPush& push,
         continue;
       const SolidPush by = body.push_at(other.contact.p_B, other.contact.nhat_B);
       const double away = other.force_n * body.compliance(push, by);
-      sum += own ? std::max(0.0, away) : away;
+      (own ? by_own : sum) += away;
     }
   }
   for (const SoftGrip& grip : all.grips) {
@@ -177,7 +178,7 @@ double SolidPresses::others(const SolidNear& near, const SolidPush& push,
     const SolidPush by = body.push_at(pull->p_B, pull->nhat_B);
     sum += pull->force_n * body.compliance(push, by);
   }
-  return sum;
+  return sum + std::max(by_own, -near.deep_m);
 }
 
 void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState& all) const {
