@@ -70,6 +70,19 @@ void mow(ClearingHand& hand, double to_z, int plunges = 4) {
     }
 }
 
+TEST(SoftClear, NobodyPressesAStumpThatATipHasNotReached) {
+  Session session = stump_run().session();
+  ClearingHand hand(session);
+  hand.take(kHook, 0);
+  hand.move({0, 0, 2 * kStumpHalf.z() + 0.0025}, 300);
+  const SolidHandState near = session.save().world.softs.solid_hands[0];
+  ASSERT_GT(near.count, 0u);
+  for (std::uint32_t i = 0; i < near.count; ++i) {
+    EXPECT_LT(near.near[i].deep_m, 0);
+    EXPECT_EQ(near.near[i].contact.others_m, 0);
+  }
+}
+
 TEST(SoftClear, NothingGoesWithoutPower) {
   Session session = stump_run().session();
   ClearingHand hand(session);

@@ -315,9 +315,8 @@ void SolidCutting::tell_cleared(std::uint32_t s) {
 double SolidCutting::remove(std::uint32_t s, const Cutter& cutter, const Pose& from,
                             const Pose& to) {
   const CarveStep did = solids_[s].field.cut(cutter, from, to);
-  if ((did.status & CarveStep::kRemoved) == 0) return 0;
-  catch_up(s);
-  return total(did.removed_m3);
+  if (did.blocks > 0) catch_up(s);  // room beside the solid as well, as a state says it
+  return (did.status & CarveStep::kRemoved) != 0 ? total(did.removed_m3) : 0;
 }
 
 void SolidCutting::tell(const Stroke& stroke, double volume_m3) {

@@ -178,7 +178,7 @@ double SolidPresses::others(const SolidNear& near, const SolidPush& push,
     const SolidPush by = body.push_at(pull->p_B, pull->nhat_B);
     sum += pull->force_n * body.compliance(push, by);
   }
-  return sum + std::max(by_own, -near.deep_m);
+  return sum + std::max(by_own, std::min(0.0, -near.deep_m));
 }
 
 void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState& all) const {
