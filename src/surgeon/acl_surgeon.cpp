@@ -30,13 +30,13 @@ constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on,
 constexpr double kTooHard_m = 0.012;
 constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 
-constexpr std::array<std::string_view, 26> kFaults{
+constexpr std::array<std::string_view, 27> kFaults{
     "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",      "anterior_tibia",
     "short_tibia",  "vertical_femur",     "blow_out",         "no_pin",        "plunged",
     "short_socket", "lost_thread",        "unflipped_button", "soft_tissue",   "flipped_in_muscle",
     "few_cycles",   "slack_tension",      "diverging_screw",  "shallow_screw", "amputated_tendon",
     "muscle_left",  "few_stitches",       "slack_graft",      "short_loop",    "long_loop",
-    "wide_tunnel"};
+    "wide_tunnel",  "stump_left"};
 
 // How somebody does it.
 struct AclHabits {
@@ -281,9 +281,8 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   const Vec3 out = outwards(*knee, am);
   AclWay probe(tools.probe, 0, held_by_shaft(am + kAway_m * out, out), habits.pace);
   probe.wait_until(scope.duration_s() + 0.5);
-  const bool clears = !tools.shaver.empty();
-  const StumpsAsObstacles stumps(the_case,
-                                 clears ? torn_stumps(the_case) : std::vector<TornStump>());
+  const StumpsAsObstacles stumps(the_case, torn_stumps(the_case));
+  const bool clears = !tools.shaver.empty() && habits.fault != "stump_left";
   const auto waiting = feel_marks(*knee, tools.felt, &stumps, am, habits, probe, ways.unreachable);
   probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
   if (clears) clear(*knee, tools.shaver, am, probe);

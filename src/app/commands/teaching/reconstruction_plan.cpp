@@ -27,10 +27,10 @@ bool has_goal(const ScenarioPlan& plan, std::string_view kind) {
 
 // Whoever makes an error before the graft comes stops where it was made: his run is lost already.
 bool errs_before_the_graft(const Skill& skill) {
-  constexpr std::array<std::string_view, 11> kBefore{
+  constexpr std::array<std::string_view, 12> kBefore{
       "wrong_portal", "skipped_inspection", "scuffed",  "too_hard", "anterior_tibia",
       "short_tibia",  "vertical_femur",     "blow_out", "no_pin",   "plunged",
-      "short_socket"};
+      "short_socket", "stump_left"};
   return skill.name.starts_with("bad:") &&
          std::find(kBefore.begin(), kBefore.end(), skill.name.substr(4)) != kBefore.end();
 }
