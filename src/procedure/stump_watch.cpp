@@ -6,7 +6,8 @@ namespace osteon {
 
 // Less than was told: a restore point has brought it back.
 void StumpWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
-  if (!(bones.cleared_percent >= 0)) return;
+  felt_ = bones.cleared_percent >= 0;
+  if (!felt_) return;
   const int now = static_cast<int>(std::floor(bones.cleared_percent));
   const bool again = now > 0 && tick % kTellStumps == 0;
   if (now == told_percent_ && !again) return;

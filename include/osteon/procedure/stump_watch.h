@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "osteon/scene/event.h"
@@ -19,8 +20,13 @@ inline constexpr std::uint64_t kTellStumps = 1000;
 class StumpWatch {
  public:
   void add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
+  /// None: no stumps are felt.
+  std::optional<int> percent() const {
+    return felt_ ? std::optional<int>(told_percent_) : std::nullopt;
+  }
 
  private:
+  bool felt_ = false;
   int told_percent_ = 0;
 };
 

@@ -61,6 +61,8 @@ class AttemptWatch {
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
   const PlacingWatch& placing() const { return placing_; }
+  /// Of what torn ligaments have left; none: it is not felt.
+  std::optional<int> cleared_percent() const { return stumps_.percent(); }
 
  private:
   struct HandCut {

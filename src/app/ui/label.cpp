@@ -8,7 +8,8 @@
 namespace osteon {
 namespace {
 
-constexpr std::array<std::string_view, 5> kAbbreviations = {"tfcc", "acl", "pcl", "mcl", "lcl"};
+constexpr std::array<std::string_view, 7> kAbbreviations = {"tfcc", "acl", "pcl", "mcl",
+                                                            "lcl",  "al",  "am"};
 
 char upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
 

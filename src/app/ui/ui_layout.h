@@ -17,6 +17,9 @@ struct UiLayout {
 
 /// The left card's width in units, when it is dragged.
 inline constexpr float kLeastLeftCard = 136, kMostLeftCard = 360;
+/// While an exercise runs its card is at the top of the left side, which is at least so wide; the
+/// left card has the room below it, at least so much.
+inline constexpr float kExerciseCard = 264, kLeastCaseCard = 96;
 
 /// On an 8-pixel grid times `scale`. Folded: the picture is the whole window. `left_card`: width of
 /// the left card in units; 0: wide enough for most names where the window has room. It is never

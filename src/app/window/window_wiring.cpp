@@ -64,12 +64,14 @@ UiModel WindowApp::build_model() {
   model.width = size.x;
   model.height = size.y;
   model.scale = host_.ui->scale();
-  model.left_card = static_cast<float>(host_.settings.left_card);
+  model.exercise = exercise_.model();
+  host_.exercise_runs = model.exercise.page == ExercisePage::kRunning ||
+                        model.exercise.page == ExercisePage::kJudging;
+  model.left_card = host_.left_card();
   model.toasts = host_.toasts.shown();
   model.panels_open = host_.settings.panels_open;
   model.help_open = help_open_;
   model.browser = browser_.model();
-  model.exercise = exercise_.model();
   model.first_run_hint = !host_.settings.hint_dismissed && !replay_.on() && host_.order.frames == 0;
   if (!cases_.ready()) {
     cases_.describe_loading(model);

@@ -18,6 +18,7 @@ TEST(Label, BeginsWithACapitalAndHasSpaces) {
 TEST(Label, AbbreviationsAreCapitalsButNoPartsOfWords) {
   EXPECT_EQ(label_of("tfcc_tear"), "TFCC tear");
   EXPECT_EQ(label_of("torn_acl"), "Torn ACL");
+  EXPECT_EQ(label_of("portal_am"), "Portal AM");
   EXPECT_EQ(label_of("aclinic"), "Aclinic");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "ui/gl_window.h"
 #include "ui/imgui_host.h"
 #include "ui/toasts.h"
+#include "ui/ui_layout.h"
 #include "window/window_order.h"
 
 namespace osteon {
@@ -27,6 +29,11 @@ struct WindowHost {
     window->framebuffer_size(size.width, size.height);
     return size;
   }
+  /// As make_layout takes it.
+  float left_card() const {
+    const auto wanted = static_cast<float>(settings.left_card);
+    return exercise_runs ? std::max(wanted, kExerciseCard) : wanted;
+  }
   void note(ToastKind kind, const std::string& text) { toasts.add(kind, text, now_s); }
   /// Since the program began.
   double age_s() const { return 1e-9 * static_cast<double>(steady_now_ns() - created_ns); }
@@ -38,6 +45,7 @@ struct WindowHost {
   std::unique_ptr<ImGuiHost> ui;
   Toasts toasts;
   double now_s = 0;  ///< since the loop began
+  bool exercise_runs = false;
 };
 
 }  // namespace osteon

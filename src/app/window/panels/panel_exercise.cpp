@@ -262,9 +262,22 @@ void draw_dialog(const PanelContext& c) {
   ImGui::End();
 }
 
+// The stage in hand with its neighbours: of a long exercise the others would cover the picture.
 void draw_live_stage(const PanelContext& c) {
+  constexpr std::ptrdiff_t kBefore = 1, kAfter = 2, kMostAtOnce = 6;
   const ExerciseModel& model = c.model.exercise;
-  for (const ExerciseModel::Stage& stage : model.stages) {
+  const auto count = static_cast<std::ptrdiff_t>(model.stages.size());
+  const auto live = std::find_if(model.stages.begin(), model.stages.end(),
+                                 [](const ExerciseModel::Stage& stage) { return stage.live; });
+  const std::ptrdiff_t at = std::min(live - model.stages.begin(), count - 1);
+  const bool all = count <= kMostAtOnce;
+  const std::ptrdiff_t first = all ? 0 : std::max<std::ptrdiff_t>(0, at - kBefore);
+  const std::ptrdiff_t end = all ? count : std::min(count, at + kAfter + 1);
+  if (!all)
+    ui::stat("Stage", std::to_string(at + 1) + " of " + std::to_string(count),
+             "The briefing and the list below name them all");
+  for (std::ptrdiff_t n = first; n < end; ++n) {
+    const ExerciseModel::Stage& stage = model.stages[static_cast<std::size_t>(n)];
     wrapped_text(stage.live ? color::kText : color::kTextQuiet,
                  (stage.done ? "Done: " : "") + stage.title);
     if (!stage.live) continue;
@@ -372,20 +385,44 @@ void draw_return(const PanelContext& c) {
   ImGui::EndCombo();
 }
 
-// Beside the scene while the exercise goes on.
-void draw_running(const PanelContext& c) {
+class ExerciseStyle {
+ public:
+  explicit ExerciseStyle(const PanelContext& c) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(12)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kPanel);
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+  }
+  ~ExerciseStyle() {
+    ImGui::PopStyleColor(2);
+    ImGui::PopStyleVar();
+  }
+  ExerciseStyle(const ExerciseStyle&) = delete;
+  ExerciseStyle& operator=(const ExerciseStyle&) = delete;
+};
+
+float end_card() {
+  const float height = ImGui::GetWindowHeight();
+  ImGui::PopItemWidth();
+  ImGui::End();
+  return height;
+}
+
+// Beside the scene while the exercise goes on. Its height.
+float draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   const UiRect& r = c.layout.picture;
-  const float card = c.model.panels_open ? c.layout.left.x + c.layout.left.w - r.x : 0;
-  ImGui::SetNextWindowPos({r.x + std::max(0.0f, card) + c.px(8), r.y + c.px(8)});
-  ImGui::SetNextWindowSizeConstraints({c.px(272), 0}, {c.px(272), r.h - c.px(16)});
+  const UiRect at = c.model.panels_open
+                        ? c.layout.left
+                        : UiRect{r.x + c.px(8), r.y + c.px(8), c.px(kExerciseCard), r.h - c.px(16)};
+  const float most = c.model.panels_open ? at.h - c.px(kLeastCaseCard) : at.h;
+  ImGui::SetNextWindowPos({at.x, at.y});
+  ImGui::SetNextWindowSizeConstraints({at.w, 0}, {at.w, most});
   ImGui::Begin("##running", nullptr, kExerciseWindow | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PushItemWidth(-1);
   strong(c, model.title);
   if (model.page == ExercisePage::kJudging) {
     wrapped_text(color::kTextQuiet, "Replaying and judging your attempt ...");
-    ImGui::End();
-    return;
+    return end_card();
   }
   ui::stat("Time",
            ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
@@ -424,24 +461,29 @@ void draw_running(const PanelContext& c) {
   if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
   ui::tooltip("Ends the attempt and judges it");
   draw_return(c);
-  ImGui::PopItemWidth();
-  ImGui::End();
+  return end_card();
 }
 
 }  // namespace
 
+// The room below it is the left card's.
+void draw_exercise_card(const PanelContext& c, UiLayout& layout) {
+  const ExercisePage page = c.model.exercise.page;
+  if (page != ExercisePage::kRunning && page != ExercisePage::kJudging) return;
+  const ExerciseStyle style(c);
+  const float used = draw_running(c) + c.px(8);
+  if (!c.model.panels_open) return;
+  layout.left.y += used;
+  layout.left.h = std::max(1.0f, layout.left.h - used);
+}
+
 void draw_exercise(const PanelContext& c) {
   const ExercisePage page = c.model.exercise.page;
-  if (page == ExercisePage::kClosed) return;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.px(14), c.px(12)});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kPanel);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
-  if (page == ExercisePage::kRunning || page == ExercisePage::kJudging)
-    draw_running(c);
-  else
-    draw_dialog(c);
-  ImGui::PopStyleColor(2);
-  ImGui::PopStyleVar();
+  if (page == ExercisePage::kClosed || page == ExercisePage::kRunning ||
+      page == ExercisePage::kJudging)
+    return;
+  const ExerciseStyle style(c);
+  draw_dialog(c);
 }
 
 }  // namespace osteon

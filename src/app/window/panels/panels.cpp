@@ -5,13 +5,14 @@ namespace osteon {
 UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   UiRequests requests;
   const bool ready = model.phase == UiPhase::kReady;
-  const UiLayout layout =
+  UiLayout layout =
       make_layout(model.width, model.height, model.scale, model.panels_open, model.left_card);
   const PanelContext c{model, fonts, layout, requests};
   read_shortcuts(c);
   if (model.panels_open) {
     draw_top_bar(c);
     if (ready) {
+      draw_exercise_card(c, layout);
       draw_case_card(c);
       draw_hand_card(c);
       draw_timeline(c);
@@ -21,6 +22,7 @@ UiRequests draw_ui(const UiModel& model, const UiFonts& fonts) {
   if (ready) draw_tip_line(c);
   if (ready) draw_bone_names(c);
   if (ready) draw_notes(c);
+  if (ready && !model.panels_open) draw_exercise_card(c, layout);
   if (ready) draw_felt_legend(c);
   if (ready) draw_heat_legend(c);
   if (ready) draw_edit(c);

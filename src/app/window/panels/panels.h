@@ -44,10 +44,11 @@ void draw_loading(const PanelContext& c);
 void draw_browser(const PanelContext& c);  // of what can be opened
 void draw_help(const PanelContext& c);
 void draw_checkup(const PanelContext& c);
-void draw_edit(const PanelContext& c);      // of a bone's surface
-void draw_patient(const PanelContext& c);   // a new one
-void draw_exercise(const PanelContext& c);  // course, briefing, how far, result
-void draw_panes(const PanelContext& c);     // names and messages of the picture's views
+void draw_edit(const PanelContext& c);                             // of a bone's surface
+void draw_patient(const PanelContext& c);                          // a new one
+void draw_exercise_card(const PanelContext& c, UiLayout& layout);  // how far it is; gives way
+void draw_exercise(const PanelContext& c);                         // course, briefing, result
+void draw_panes(const PanelContext& c);  // names and messages of the picture's views
 /// The chooser of what the picture shows: buttons side by side, or one that opens.
 void draw_layout_chooser(const PanelContext& c, bool wide);
 float layout_chooser_width(const PanelContext& c, bool wide);

@@ -93,6 +93,40 @@ TEST_F(ExercisePanel, WhileItRunsItCanBeEndedTakenBackAndAHintAskedFor) {
   EXPECT_FALSE(ui.click("##running", {"Hint (I)"}).exercise.hint) << "it is shown";
 }
 
+// The picture between the cards stays free; the card of the case has the room that is left.
+TEST_F(ExercisePanel, WhileItRunsItsCardIsAboveThatOfTheCase) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  model.stages.clear();
+  for (int i = 0; i < 15; ++i)
+    model.stages.push_back({"Stage " + std::to_string(i), std::string(300, 'x'), i < 7, i == 7, 0});
+  ui.model.left_card = kExerciseCard;
+  settle();
+  const UiRect card = ui.rect("##running"), bones = ui.rect("##case");
+  ASSERT_GT(card.h, 0);
+  ASSERT_GT(bones.h, 0);
+  EXPECT_EQ(card.w, kExerciseCard);
+  EXPECT_GE(bones.y, card.bottom());
+  EXPECT_LE(bones.bottom(), ui.model.height);
+  ui.model.panels_open = false;
+  settle();
+  EXPECT_GT(ui.rect("##running").h, 0) << "folded it is still there";
+  EXPECT_EQ(ui.rect("##case").h, 0);
+}
+
+TEST_F(ExercisePanel, OfManyStagesThoseNearTheOneInHandAreListed) {
+  const auto height = [&](int stages) {
+    ExerciseModel& model = at(ExercisePage::kRunning);
+    model.stages.clear();
+    for (int i = 0; i < stages; ++i)
+      model.stages.push_back({"Stage " + std::to_string(i), "Do it", i < 2, i == 2, 0});
+    settle();
+    return ui.rect("##running").h;
+  };
+  EXPECT_GT(height(6), height(5)) << "six are listed one by one";
+  EXPECT_LT(height(15), height(6));
+  EXPECT_EQ(height(30), height(15));
+}
+
 TEST_F(ExercisePanel, ItIsPausedAndGoesOnByButtonAndByKey) {
   ExerciseModel& model = at(ExercisePage::kRunning);
   settle();

@@ -42,10 +42,20 @@ std::vector<std::string> played_before(const std::vector<Scenario>& scenarios) {
   return words;
 }
 
+// What is to be done at a mark; a bone is to be touched.
+std::string verb_of(const PlannedRule& goal) {
+  const std::string& kind = goal.rule.kind;
+  return kind == "seen"      ? "see "
+         : kind == "through" ? "go through "
+         : kind == "felt"    ? "press "
+                             : "";
+}
+
 std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_case) {
   const std::uint32_t at = goal.bones[i];
   if (goal.about == SubjectKind::kLandmark)
-    return at < the_case.landmarks.size() ? label_of(the_case.landmarks[at].name) : "";
+    return at < the_case.landmarks.size() ? verb_of(goal) + label_of(the_case.landmarks[at].name)
+                                          : "";
   return at < the_case.bones.size() ? label_of(the_case.bones[at].name) : "";
 }
 
@@ -364,6 +374,9 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   model.paused = paused_;
   describe_asked(model);
   describe_graft(model);
+  if (const auto cleared = watch_->cleared_percent())
+    model.told.push_back({"Torn ends cleared", std::to_string(*cleared) + " %",
+                          "Of what the torn ligament has left; what lies on the bone stays"});
   model.hints = hints_;
   model.undone = undone_;
   model.guided_s = guided_s_;

@@ -84,8 +84,8 @@ std::vector<Pane> SceneSight::panes() const {
   const AppSettings& settings = host_.settings;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float scale = host_.ui->scale();
-  const UiLayout layout = make_layout(size.x, size.y, scale, settings.panels_open,
-                                      static_cast<float>(settings.left_card));
+  const UiLayout layout =
+      make_layout(size.x, size.y, scale, settings.panels_open, host_.left_card());
   UiRect free = layout.picture;
   if (settings.panels_open && this->layout() != PictureLayout::kOutside) {
     const float gap = std::round(8 * scale);
@@ -119,8 +119,7 @@ Viewport SceneSight::viewport() const {
 CoveredEdges SceneSight::covered_edges() const {
   if (!host_.settings.panels_open || layout() != PictureLayout::kOutside) return {};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const UiLayout layout = make_layout(size.x, size.y, host_.ui->scale(), true,
-                                      static_cast<float>(host_.settings.left_card));
+  const UiLayout layout = make_layout(size.x, size.y, host_.ui->scale(), true, host_.left_card());
   const double width = std::max(1.0, static_cast<double>(layout.picture.w));
   const double left = static_cast<double>(layout.left.right()) / width;
   const double right = static_cast<double>(layout.picture.right() - layout.right.x) / width;
