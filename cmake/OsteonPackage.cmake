@@ -37,6 +37,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # OpenGL in software is enough for pictures; fonts for the panels.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, fonts-inter")
-# Loaded when a film is begun.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libavcodec59, libavformat59, libopenal1")
+# Loaded when a film is begun, a sound is played, the desktop chooses a file.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libavcodec59, libavformat59, libopenal1, libsystemd0")
 include(CPack)

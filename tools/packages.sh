@@ -13,7 +13,7 @@ packages_test=(
   libgtest-dev libgmock-dev libumockdev-dev umockdev xvfb xauth xdotool xserver-xorg-core
   xserver-xorg-video-dummy x11-xserver-utils clang clang-format libclang-rt-14-dev sqlite3
   libcgal-dev libboost-dev libgmp-dev libmpfr-dev libqhull-dev invesalius-examples plastimatch
-  postgresql libxml2-utils libopenal1
+  postgresql libxml2-utils libopenal1 dbus-daemon libsystemd0
 )
 packages_bench=(libbenchmark-dev libumockdev-dev umockdev libcgal-dev libqhull-dev libccd-dev libfcl-dev
   libglpk-dev coinor-libclp-dev libopenvdb-dev)

@@ -18,14 +18,17 @@ namespace osteon {
 namespace fs = std::filesystem;
 namespace {
 
-Result<std::vector<fs::path>> mesh_files(const fs::path& source) {
+Result<std::vector<fs::path>> mesh_files(const ImportOptions& options) {
+  const fs::path& source = options.source;
   std::error_code ec;
-  if (fs::is_regular_file(source, ec)) return std::vector<fs::path>{source};
-  std::vector<fs::path> files;
-  fs::directory_iterator entries(source, ec);
-  if (ec) return fail("cannot be read (" + ec.message() + ")", source.string(), "Check the name");
-  for (const fs::directory_entry& entry : entries)
-    if (entry.is_regular_file(ec) && is_mesh_file(entry.path())) files.push_back(entry.path());
+  if (fs::is_regular_file(source, ec) && options.files.empty()) return std::vector{source};
+  std::vector<fs::path> files = options.files;
+  if (files.empty()) {
+    fs::directory_iterator entries(source, ec);
+    if (ec) return fail("cannot be read (" + ec.message() + ")", source.string(), "Check the name");
+    for (const fs::directory_entry& entry : entries)
+      if (entry.is_regular_file(ec) && is_mesh_file(entry.path())) files.push_back(entry.path());
+  }
   if (files.empty())
     return fail("holds no mesh", source.string(),
                 "Put STL, OBJ, PLY, VTK, VTP, glTF or GLB files there");
@@ -121,7 +124,7 @@ Result<void> read_bone(const fs::path& file, const ImportOptions& options, Impor
 }  // namespace
 
 Result<ImportResult> read_meshes(const ImportOptions& options) {
-  const auto files = mesh_files(options.source);
+  const auto files = mesh_files(options);
   if (!files) return tl::unexpected(files.error());
   ImportResult result;
   result.def.name =

@@ -13,6 +13,7 @@ namespace osteon {
 
 struct ImportOptions {
   std::filesystem::path source;  ///< a folder of meshes in one common frame, or one mesh
+  std::vector<std::filesystem::path> files;  ///< these meshes instead; empty: what `source` names
   double metres_per_unit = 1;
   std::filesystem::path out;  ///< the case folder to make
   std::string name;           ///< of the case; empty: that of the folder

@@ -3,7 +3,10 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace osteon {
@@ -68,7 +71,7 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
   glfwSetWindowUserPointer(made.window_, made.state_.get());
   glfwSetDropCallback(made.window_, [](GLFWwindow* window, int count, const char** paths) {
     auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-    state.dropped.assign(paths, paths + count);
+    state.dropped.insert(state.dropped.end(), paths, paths + count);
   });
   glfwSetKeyCallback(made.window_, [](GLFWwindow* window, int key, int, int action, int mods) {
     auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
@@ -119,6 +122,16 @@ double GlWindow::pixel_ratio() const {
   glfwGetFramebufferSize(window_, &framebuffer_w, &framebuffer_h);
   glfwGetWindowSize(window_, &window_w, &window_h);
   return window_w > 0 ? static_cast<double>(framebuffer_w) / window_w : 1.0;
+}
+
+// GLFW for Wayland lacks the function.
+std::string GlWindow::name_for_desktop() const {
+  using NumberOf = unsigned long (*)(GLFWwindow*);
+  const auto number_of = reinterpret_cast<NumberOf>(::dlsym(RTLD_DEFAULT, "glfwGetX11Window"));
+  const unsigned long number = number_of ? number_of(window_) : 0;
+  char name[32];
+  std::snprintf(name, sizeof name, "x11:%lx", number);
+  return number == 0 ? std::string() : name;
 }
 
 void GlWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }

@@ -37,6 +37,8 @@ class GlWindow {
   float content_scale() const;
   /// Framebuffer pixels a screen coordinate.
   double pixel_ratio() const;
+  /// Its name for other programs of the desktop, "x11:" and X11's number; empty: it has none.
+  std::string name_for_desktop() const;
   void set_title(const std::string& title);
   void toggle_fullscreen();
   void close();

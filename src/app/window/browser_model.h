@@ -34,6 +34,9 @@ struct BrowserModel {
   bool importing = false;
   double fraction = 0;
   bool in_millimetres = true;  ///< units of a mesh
+  // The desktop's own chooser.
+  bool desktop_files = false, desktop_folders = false;  ///< what it can ask for
+  bool desktop_asks = false;                            ///< it is open
 };
 
 struct BrowserRequests {
@@ -42,6 +45,7 @@ struct BrowserRequests {
   std::optional<std::string> look_into;  ///< a folder
   std::optional<bool> in_millimetres;
   bool stop_import = false;
+  bool desktop_file = false, desktop_folder = false;  ///< show the desktop's own chooser
 };
 
 }  // namespace osteon

@@ -114,7 +114,7 @@ void WindowApp::frame(double dt_s) {
 }
 
 void WindowApp::poll_jobs() {
-  for (const std::string& file : host_.window->take_dropped_files()) browser_.open_any(file);
+  browser_.open_together(host_.window->take_dropped_files());
   poll_loading();
   // A piece lies within its bone's hull: who touches no hull touches no piece, and feels nothing of
   // the exchange.

@@ -60,6 +60,24 @@ void draw_known(const PanelContext& c) {
   ImGui::EndChild();
 }
 
+// The desktop's chooser, where there is one: it knows the user's own places.
+void draw_desktop_chooser(const PanelContext& c) {
+  const BrowserModel& browser = c.model.browser;
+  if (!browser.desktop_files) return;
+  const float w = c.px(104);
+  const float all = w + (browser.desktop_folders ? w + c.px(4) : 0);
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - all);
+  ImGui::BeginDisabled(browser.desktop_asks);
+  if (ImGui::Button("Choose file ...", {w, 0})) c.requests.browser.desktop_file = true;
+  ui::tooltip("In the desktop's own window. Several meshes make one case");
+  if (browser.desktop_folders) {
+    ImGui::SameLine(0, c.px(4));
+    if (ImGui::Button("Folder ...", {w, 0})) c.requests.browser.desktop_folder = true;
+    ui::tooltip("A folder, in the desktop's own window");
+  }
+  ImGui::EndDisabled();
+}
+
 void draw_folder(const PanelContext& c) {
   const BrowserModel& browser = c.model.browser;
   ui::text(color::kTextQuiet, "On this computer: case folders, recordings, meshes, scans");
@@ -86,6 +104,7 @@ void draw_folder(const PanelContext& c) {
   bool mm = browser.in_millimetres;
   if (ImGui::Checkbox("Meshes are in millimetres", &mm)) c.requests.browser.in_millimetres = mm;
   ui::tooltip("Off: in metres");
+  draw_desktop_chooser(c);
 }
 
 void draw_browser_footer(const PanelContext& c) {

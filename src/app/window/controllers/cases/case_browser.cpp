@@ -9,6 +9,7 @@
 
 #include "cases/felt_choice.h"
 #include "cases/xdg.h"
+#include "osteon/image/dicom.h"
 #include "osteon/mesh/mesh_io.h"
 #include "ui/label.h"
 
@@ -18,14 +19,33 @@ namespace {
 
 constexpr std::size_t kMostEntries = 2000, kMostRecent = 12, kMostKnown = 40;
 constexpr std::size_t kLookedAt = 200;  // names in a folder, to tell what it holds
-constexpr std::array<std::string_view, 8> kScans = {".nrrd", ".nhdr", ".nii",  ".mha",
-                                                    ".mhd",  ".gz",   ".inv3", ".dcm"};
+constexpr std::size_t kLookedInto = 8;  // files in it, where their names do not tell
+constexpr std::array<std::string_view, 7> kScans = {".nrrd", ".nhdr",   ".nii", ".mha",
+                                                    ".mhd",  ".nii.gz", ".inv3"};
+constexpr std::array<std::string_view, 2> kSlices = {".dcm", ".ima"};
 constexpr const char* kBuiltinPrefix = "builtin:";
 
-bool is_scan(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return std::any_of(kScans.begin(), kScans.end(),
+template <class Endings>
+bool ends_as(const fs::path& file, const Endings& endings) {
+  std::string name = file.filename().string();
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return std::any_of(endings.begin(), endings.end(),
                      [&](std::string_view end) { return name.ends_with(end); });
+}
+
+// DICOM files often have no ending, or one that counts them.
+bool may_be_dicom(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  return ending.empty() ||
+         std::all_of(ending.begin() + 1, ending.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_slice(const fs::path& file, std::size_t& may_look_into) {
+  if (ends_as(file, kSlices)) return true;
+  if (!may_be_dicom(file) || may_look_into == 0) return false;
+  --may_look_into;
+  return is_dicom_file(file);
 }
 
 const char* about(OpenKind kind) {
@@ -50,13 +70,16 @@ const char* about(OpenKind kind) {
 OpenKind kind_of_folder(const fs::path& folder) {
   std::error_code ec;
   if (fs::exists(folder / "case.toml", ec)) return OpenKind::kCase;
-  std::size_t meshes = 0, slices = 0, folders = 0, looked_at = 0;
+  std::size_t meshes = 0, slices = 0, folders = 0, looked_at = 0, may_look_into = kLookedInto;
   for (fs::directory_iterator at(folder, ec), end; !ec && at != end && looked_at < kLookedAt;
        at.increment(ec), ++looked_at) {
     std::error_code ignored;
-    if (at->is_directory(ignored)) ++folders;
-    if (is_mesh_file(at->path())) ++meshes;
-    if (at->path().extension() == ".dcm" || at->path().extension() == ".ima") ++slices;
+    if (at->is_directory(ignored))
+      ++folders;
+    else if (is_mesh_file(at->path()))
+      ++meshes;
+    else if (is_slice(at->path(), may_look_into))
+      ++slices;
   }
   if (folders == 0 && meshes > 0) return OpenKind::kMeshes;
   if (folders == 0 && slices > 1) return OpenKind::kScan;
@@ -92,7 +115,9 @@ OpenKind kind_of(const std::string& path) {
   if (plain.extension() == ".osr") return OpenKind::kRecording;
   if (plain.filename() == "case.toml") return OpenKind::kCase;
   if (is_mesh_file(plain)) return OpenKind::kMeshes;
-  return is_scan(plain) ? OpenKind::kScan : OpenKind::kNothing;
+  std::size_t may_look_into = 1;
+  const bool scan = ends_as(plain, kScans) || is_slice(plain, may_look_into);
+  return scan ? OpenKind::kScan : OpenKind::kNothing;
 }
 
 std::vector<std::string> with_recent(std::vector<std::string> recent, const std::string& name) {
@@ -108,6 +133,9 @@ void CaseBrowser::add_folder_of(const fs::path& folder, const char* what) {
   std::error_code ec;
   for (fs::directory_iterator at(folder, ec), end; !ec && at != end; at.increment(ec)) {
     OpenEntry entry = entry_of(at->path().string(), what);
+    if (std::any_of(model_.known.begin(), model_.known.end(),
+                    [&](const OpenEntry& known) { return known.path == entry.path; }))
+      continue;
     if (entry.kind == OpenKind::kCase || entry.kind == OpenKind::kRecording)
       found.push_back(std::move(entry));
   }
@@ -151,12 +179,15 @@ void CaseBrowser::look_into(const fs::path& folder) {
   std::sort(model_.files.begin(), model_.files.end(), before);
 }
 
-void CaseBrowser::import(const fs::path& source) {
-  if (import_) return;
+void CaseBrowser::import(const std::vector<fs::path>& sources) {
+  if (import_ || sources.empty()) return;
+  const fs::path& source = sources.front();
   ImportOptions options;
   options.source = source;
+  if (sources.size() > 1) options.files = sources;
   options.metres_per_unit = model_.in_millimetres ? 1e-3 : 1;
-  options.out = dated_file(home_ / "cases", source.stem().string(), "");
+  const fs::path named = sources.size() > 1 ? source.parent_path() : source;
+  options.out = dated_file(home_ / "cases", named.stem().string(), "");
   struct Stopped {};
   import_ = std::make_unique<SideJob<std::string>>(
       [options](const Progress& progress) mutable -> Result<std::string> {

@@ -12,7 +12,8 @@
 namespace osteon {
 
 /// What a name stands for: a built-in case, a case folder, a recording, meshes, a scan, or a folder
-/// to look into. Reads the names in a folder, no file.
+/// to look into. Reads the names in a folder, and the start of a few files whose names do not tell
+/// whether they are DICOM.
 OpenKind kind_of(const std::string& path);
 
 /// What the user can open, and the import of meshes. Knows neither window nor picture.
@@ -25,11 +26,13 @@ class CaseBrowser {
   /// Lists all anew when it opens. `recent`: the last one first.
   void toggle(const std::vector<std::string>& recent);
   void close() { model_.open = false; }
+  /// The folder that is listed, whether or not the list is open.
   void look_into(const std::filesystem::path& folder);
   void set_in_millimetres(bool on) { model_.in_millimetres = on; }
 
-  /// Makes a case of meshes beside the picture.
-  void import(const std::filesystem::path& source);
+  /// Makes one case of meshes beside the picture: a folder of them, one, or several. Does nothing
+  /// while it makes one.
+  void import(const std::vector<std::filesystem::path>& sources);
   void stop_import();
   /// The folder of a case that has been imported, once; empty: none. An error says why not, once.
   Result<std::string> take_imported();

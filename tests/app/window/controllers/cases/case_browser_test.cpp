@@ -47,6 +47,51 @@ TEST_F(CaseBrowserTest, EveryThingIsToldByWhatItIs) {
   EXPECT_EQ(kind_of(""), OpenKind::kNothing);
 }
 
+TEST_F(CaseBrowserTest, SlicesAreToldByTheirStartWhereTheirNamesDoNotTell) {
+  std::string start(200, ' ');
+  start.replace(128, 4, "DICM");
+  fs::create_directories(home / "no ending");
+  fs::create_directories(home / "counted");
+  fs::create_directories(home / "upper");
+  for (const char* name : {"no ending/IM0001", "no ending/IM0002", "counted/a.1", "counted/a.2",
+                           "upper/1.DCM", "upper/2.DCM", "LUNATE.NRRD"})
+    std::ofstream(home / name) << start;
+  const auto kind = [&](const char* name) { return kind_of((home / name).string()); };
+  EXPECT_EQ(kind("no ending"), OpenKind::kScan);
+  EXPECT_EQ(kind("no ending/IM0001"), OpenKind::kScan);
+  EXPECT_EQ(kind("counted"), OpenKind::kScan);
+  EXPECT_EQ(kind("upper"), OpenKind::kScan);
+  EXPECT_EQ(kind("upper/1.DCM"), OpenKind::kScan);
+  EXPECT_EQ(kind("LUNATE.NRRD"), OpenKind::kScan);
+  std::ofstream(home / "no ending/IM0001") << "something else";
+  std::ofstream(home / "no ending/IM0002") << "something else";
+  EXPECT_EQ(kind("no ending"), OpenKind::kFolder);
+  EXPECT_EQ(kind("no ending/IM0001"), OpenKind::kNothing);
+}
+
+// A closed tetrahedron of 20 mm, in millimetres.
+void write_bone(const fs::path& file) {
+  std::ofstream(file) << "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\n"
+                         "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+}
+
+TEST_F(CaseBrowserTest, SeveralMeshesMakeOneCaseAndTheOthersOfTheirFolderStayOut) {
+  fs::create_directories(home / "three");
+  for (const char* name : {"three/lunate.obj", "three/capitate.obj", "three/hamate.obj"})
+    write_bone(home / name);
+  CaseBrowser browser(home);
+  browser.import({home / "three/lunate.obj", home / "three/hamate.obj"});
+  Result<std::string> made = std::string();
+  while (browser.model().importing) made = browser.take_imported();
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_TRUE(fs::path(*made).filename().string().starts_with("three")) << *made;
+  std::ifstream in(fs::path(*made) / "case.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("lunate"), std::string::npos) << text;
+  EXPECT_NE(text.find("hamate"), std::string::npos) << text;
+  EXPECT_EQ(text.find("capitate"), std::string::npos) << text;
+}
+
 TEST_F(CaseBrowserTest, OpenedItListsWhatIsBuiltInLatelyOpenedAndSaved) {
   CaseBrowser browser(home);
   EXPECT_FALSE(browser.is_open());
@@ -58,6 +103,12 @@ TEST_F(CaseBrowserTest, OpenedItListsWhatIsBuiltInLatelyOpenedAndSaved) {
   EXPECT_FALSE(find(model.known, "gone"));
   browser.toggle({});
   EXPECT_FALSE(browser.is_open());
+  browser.toggle({(home / "cases/patient").string()});
+  const std::vector<OpenEntry> known = browser.model().known;
+  EXPECT_EQ(std::count_if(known.begin(), known.end(),
+                          [](const OpenEntry& entry) { return entry.label == "patient"; }),
+            1)
+      << "saved and opened recently";
 }
 
 TEST_F(CaseBrowserTest, AFolderShowsFoldersFirstAndOnlyWhatCanBeOpened) {
@@ -76,7 +127,7 @@ TEST_F(CaseBrowserTest, AFolderShowsFoldersFirstAndOnlyWhatCanBeOpened) {
 
 TEST_F(CaseBrowserTest, AMeshThatCannotBeReadIsAnErrorAndLeavesNoCase) {
   CaseBrowser browser(home);
-  browser.import(home / "meshes");
+  browser.import({home / "meshes"});
   EXPECT_TRUE(browser.model().importing);
   Result<std::string> made = std::string();
   while (browser.model().importing) made = browser.take_imported();
