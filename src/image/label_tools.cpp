@@ -7,6 +7,7 @@
 #include "label_mask.h"
 #include "osteon/image/components.h"
 #include "osteon/image/fill.h"
+#include "osteon/image/outside_body.h"
 
 namespace osteon {
 namespace {
@@ -151,6 +152,30 @@ Result<std::size_t> grow_from(LabelEdit& edit, std::uint16_t label, const Voxel&
   return gained;
 }
 
+bool is_in(const LabelVolume& bodies, const Component& body, const LabelVolume& others,
+           const std::vector<bool>& of_others) {
+  for (int k = body.box.lo[2]; k < body.box.hi[2]; ++k)
+    for (int j = body.box.lo[1]; j < body.box.hi[1]; ++j)
+      for (int i = body.box.lo[0]; i < body.box.hi[0]; ++i)
+        if (bodies.at(i, j, k) == body.label) {
+          const std::uint16_t other = others.at(i, j, k);
+          return other != 0 && of_others[other - 1u];
+        }
+  return false;
+}
+
+/// Takes what lies outside the body from the list. Bones that are made already tell as well
+/// whether the scan shows a body.
+void leave_outside(const LabelEdit& edit, const HuRange& range, std::size_t smallest,
+                   const LabelVolume& bodies, std::vector<Component>& found) {
+  const Mask all = mask_over(bodies, {{0, 0, 0}, bodies.frame.size},
+                             [&](std::size_t n) { return range.holds(edit.volume().values[n]); });
+  LabelVolume parts;
+  const std::vector<Component> of_all = label_components(all, smallest, parts);
+  const std::vector<bool> outside = parts_outside_body(edit.volume(), parts, of_all);
+  std::erase_if(found, [&](const Component& body) { return is_in(bodies, body, parts, outside); });
+}
+
 }  // namespace
 
 Result<std::size_t> grow_label(LabelEdit& edit, std::uint16_t label, const Voxel& seed,
@@ -175,6 +200,7 @@ Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptio
   });
   LabelVolume bodies;
   std::vector<Component> found = label_components(mask, smallest, bodies);
+  leave_outside(edit, options.range, smallest, bodies, found);
   if (found.empty())
     return fail("no part within the threshold is as large as a bone", {}, "Move the threshold");
   if (found.size() > options.most) found.resize(options.most);

@@ -7,6 +7,7 @@
 #include "osteon/image/components.h"
 #include "osteon/image/distance_map.h"
 #include "osteon/image/fill.h"
+#include "osteon/image/outside_body.h"
 
 namespace osteon {
 namespace {
@@ -65,6 +66,24 @@ int part_component(const Component& component, const SegmentOptions& options, in
 
 std::size_t smallest_voxels(const GridFrame& frame, double smallest_m3) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(smallest_m3 / frame.voxel_volume_m3())));
+}
+
+/// Takes parts outside the body from the labels and from the list; returns how many of them are as
+/// large as a bone.
+std::size_t drop_outside(const Volume& volume, std::size_t smallest,
+                         std::vector<Component>& components, LabelVolume& labels) {
+  const std::vector<bool> outside = parts_outside_body(volume, labels, components);
+  std::vector<bool> drop(components.size() + 1, false);
+  std::size_t large = 0;
+  for (std::size_t n = 0; n < components.size(); ++n) {
+    if (!outside[n]) continue;
+    drop[components[n].label] = true;
+    large += components[n].voxels >= smallest ? 1 : 0;
+  }
+  for (std::uint16_t& label : labels.values)
+    if (label < drop.size() && drop[label]) label = 0;
+  std::erase_if(components, [&](const Component& c) { return drop[c.label]; });
+  return large;
 }
 
 std::vector<Region> measure(const LabelVolume& labels) {
@@ -135,6 +154,7 @@ Result<Segmentation> segment_bone(const Volume& volume, const SegmentOptions& op
   }
   if (components.size() > 2000) components.resize(2000);
   int next = static_cast<int>(components.size()) + 1;
+  if (!options.outside) out.outside = drop_outside(volume, smallest, components, out.labels);
   std::size_t done = 0;
   for (const Component& component : components) {
     const double share = static_cast<double>(done++) / static_cast<double>(components.size());

@@ -325,6 +325,23 @@ TEST(LabelBodies, MakesABoneOfEachAndLeavesThoseThatAre) {
   EXPECT_FALSE(label_bodies(edit, {.range = {500, 3000}, .smallest_m3 = 3e-8}));
 }
 
+// A limb (40 HU) from i = 0 on with a bone in it, in air, and a rail at i = 34 to 38.
+int limb_and_rail(int i, int j, int k) {
+  const bool rail = i >= 34 && i < 38;
+  if (rail) return 900;
+  if (i >= 26) return -1000;
+  return i >= 6 && i < 20 && j >= 6 && j < 18 && k >= 6 && k < 18 ? 900 : 40;
+}
+
+TEST(LabelBodies, WhatLiesOutsideTheBodyIsNoBoneWhetherOrNotTheBonesAreMadeAlready) {
+  LabelEdit edit = scan_where(frame_of(48, 24, 24), limb_and_rail);
+  const auto made = label_bodies(edit, {.range = {500, 3000}, .smallest_m3 = 3e-8});
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->size(), 1u);
+  EXPECT_EQ(voxels(edit, made->front()), 14u * 144u);
+  EXPECT_FALSE(label_bodies(edit, {.range = {500, 3000}, .smallest_m3 = 3e-8})) << "the rail";
+}
+
 // The same bones as the import's own stages find, where nothing has grown together.
 TEST(LabelBodies, AgreeWithTheImport) {
   const auto apart = [](int i, int j, int k) {

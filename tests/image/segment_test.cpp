@@ -252,6 +252,35 @@ TEST(Segment, FindsTwoBonesWithTheirMarrow) {
     EXPECT_NEAR((p - Vec3(0.0075, 0.008, 0.008)).norm(), 0.0065, 0.0009);
 }
 
+// Beyond i = 60 is air with a bar of 6 mm in it.
+Volume two_bones_and_a_bar() {
+  const Volume bones = two_bones();
+  Volume volume{grid(100, 32, 32), {}};
+  for (int k = 0; k < 32; ++k)
+    for (int j = 0; j < 32; ++j)
+      for (int i = 0; i < 100; ++i)
+        volume.values.push_back(i < 60              ? bones.at(i, j, k)
+                                : i >= 74 && i < 86 ? std::int16_t{1000}
+                                                    : std::int16_t{-1000});
+  return volume;
+}
+
+TEST(Segment, WhatLiesOutsideTheBodyIsNoBoneUnlessWanted) {
+  SegmentOptions options;
+  options.threshold_hu = 600;
+  const auto found = segment_bone(two_bones_and_a_bar(), options);
+  ASSERT_TRUE(found) << found.error().message();
+  EXPECT_EQ(found->regions.size(), 2u);
+  EXPECT_EQ(found->outside, 1u);
+  EXPECT_EQ(found->labels.at(80, 16, 16), 0);
+  options.outside = true;
+  const auto all = segment_bone(two_bones_and_a_bar(), options);
+  ASSERT_TRUE(all) << all.error().message();
+  EXPECT_EQ(all->regions.size(), 3u);
+  EXPECT_EQ(all->outside, 0u);
+  EXPECT_NE(all->labels.at(80, 16, 16), 0);
+}
+
 TEST(Segment, NothingAboveTheThresholdAndStopsAreSaid) {
   SegmentOptions options;
   options.threshold_hu = 5000;

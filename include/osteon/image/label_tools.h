@@ -74,7 +74,8 @@ struct BodyOptions {
 };
 
 /// Makes a bone of each part of the range connected by faces and belongs to no bone yet,
-/// the largest first. One step of history; returns the new labels. Fails when there is none.
+/// the largest first, without those outside the body (parts_outside_body). One step of history;
+/// returns the new labels. Fails when there is none.
 Result<std::vector<std::uint16_t>> label_bodies(LabelEdit& edit, const BodyOptions& options,
                                                 const Progress& progress = {});
 

@@ -14,6 +14,7 @@ struct SegmentOptions {
   double threshold_hu = 300;
   double smallest_m3 = 1e-7;  ///< smaller pieces are dropped
   bool split = true;          ///< part bodies at their necks
+  bool outside = false;       ///< keep parts outside the body too (parts_outside_body)
   NeckOptions necks;
   Progress progress;
 };
@@ -28,13 +29,14 @@ struct Region {
 struct Segmentation {
   LabelVolume labels;
   std::vector<Region> regions;  ///< largest first; region n has the label n + 1
+  std::size_t outside = 0;      ///< parts that were left out because they lie outside the body
 };
 
 /// What a segmentation of this grid takes at its peak, bytes, the volume included.
 double segmentation_bytes(const GridFrame& frame);
 
-/// Bone by threshold, its connected parts, each filled and parted at its necks. Fails when nothing
-/// of the smallest size is found.
+/// Bone by threshold, its connected parts without those outside the body, each filled and parted at
+/// its necks. Fails when nothing of the smallest size is found.
 Result<Segmentation> segment_bone(const Volume& volume, const SegmentOptions& options = {});
 
 /// Numbers the regions anew by size after labels were changed; drops those below `smallest_m3`.

@@ -75,9 +75,11 @@ Result<ImportCtResult> convert(const ImportCtOptions& options) {
   result.frame = volume->frame;
   result.soft_hu = levels.soft_hu;
   result.threshold_hu = options.threshold_hu.value_or(levels.threshold_hu);
-  auto labelled =
-      find_scan_bones(*volume, result.threshold_hu, part_of(options.progress, 0.3, 0.65));
-  if (!labelled) return tl::unexpected(labelled.error());
+  auto found = find_scan_bones(*volume, result.threshold_hu, options.outside,
+                               part_of(options.progress, 0.3, 0.65));
+  if (!found) return tl::unexpected(found.error());
+  LabelledBones* const labelled = &found->labelled;
+  result.outside = found->outside;
   result.recognised = labelled->recognised;
   result.fit_residual_m = labelled->fit.residual_m;
   result.parted = labelled->parted;

@@ -21,6 +21,7 @@ struct ImportCtOptions {
   double smooth_m = 0;                 ///< blur before segmentation, for noisy scans
   int contour_steps = 0;        ///< of the active contours; 0: outlines as the threshold has them
   std::size_t most_bones = 32;  ///< the largest ones are kept
+  bool outside = false;         ///< keeps what lies outside the body, such as a head rest
   Progress progress;
   /// Told size and memory before the voxels are read; false stops.
   std::function<bool(const GridFrame& frame, double bytes)> announce;
@@ -37,6 +38,7 @@ struct ImportCtResult {
   std::size_t gained = 0, lost = 0;  ///< voxels, by the active contours
   int parted = 0, joined = 0;        ///< regions that held several bones; that were pieces of one
   std::size_t left_out = 0;          ///< small bones beyond most_bones
+  std::size_t outside = 0;           ///< parts outside the body that were left out
 };
 
 /// Reads a scan and turns it into a case, without writing it. World is that of the built-in wrist

@@ -54,9 +54,10 @@ Progress part_of(const Progress& whole, double from, double to) {
   };
 }
 
-Result<LabelledBones> find_scan_bones(const Volume& volume, double threshold_hu,
-                                      const Progress& progress) {
+Result<ScanBones> find_scan_bones(const Volume& volume, double threshold_hu, bool outside,
+                                  const Progress& progress) {
   SegmentOptions segment;
+  segment.outside = outside;
   segment.threshold_hu = threshold_hu;
   segment.progress = part_of(progress, 0, 0.85);
   auto segmentation = segment_bone(volume, segment);
@@ -64,7 +65,10 @@ Result<LabelledBones> find_scan_bones(const Volume& volume, double threshold_hu,
   const auto model = wrist_model();
   if (!model) return tl::unexpected(model.error());
   if (!goes_on(progress, "Naming bones", 0.85)) return stopped();
-  return label_bones(volume, std::move(*segmentation), *model);
+  ScanBones out;
+  out.outside = segmentation->outside;
+  out.labelled = label_bones(volume, std::move(*segmentation), *model);
+  return out;
 }
 
 // z_W up is to the front, x_W to the left hand.

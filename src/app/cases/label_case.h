@@ -11,10 +11,15 @@
 
 namespace osteon {
 
+struct ScanBones {
+  LabelledBones labelled;
+  std::size_t outside = 0;  ///< parts that were left out because they lie outside the body
+};
+
 /// Finds, parts and names the bones of a scan with no hand work: what is above the threshold, named
-/// after the built-in wrist where the scan shows one.
-Result<LabelledBones> find_scan_bones(const Volume& volume, double threshold_hu,
-                                      const Progress& progress = {});
+/// after the built-in wrist where the scan shows one. `outside`: keeps what lies outside the body.
+Result<ScanBones> find_scan_bones(const Volume& volume, double threshold_hu, bool outside,
+                                  const Progress& progress = {});
 
 /// Where Patient lies in World: as the built-in wrist does where it was recognised, else on the
 /// back, z up, x to the left, the scan's middle at the origin.

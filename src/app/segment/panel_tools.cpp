@@ -113,7 +113,9 @@ void draw_threshold(const SegmentContext& c, ToolSettings& tools) {
                  "Tints what is within the threshold and belongs to no bone yet (T)");
   if (ImGui::Button("Make a bone of each part", {ImGui::GetContentRegionAvail().x, 0}))
     c.requests.find_bodies = true;
-  ui::tooltip("Every connected tinted part becomes a bone; specks are left out");
+  ui::tooltip(
+      "Every connected tinted part becomes a bone, but no specks and nothing outside the body, "
+      "such as a head rest");
 }
 
 void draw_grey(const SegmentContext& c) {

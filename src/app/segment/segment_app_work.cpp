@@ -119,8 +119,10 @@ void SegmentApp::poll_suggestion() {
     return note(ToastKind::kError, taken.error().message());
   X_WP_ = found->X_WP;
   side_ = found->side;
-  note(ToastKind::kInfo, side_.empty() ? std::to_string(found->names.size()) + " bones found"
-                                       : "Recognised a " + side_ + " wrist");
+  std::string told = side_.empty() ? std::to_string(found->names.size()) + " bones found"
+                                   : "Recognised a " + side_ + " wrist";
+  if (found->outside > 0) told += ". What lies outside the body, such as a head rest, is no bone";
+  note(ToastKind::kInfo, told);
   for (const auto& [label, name] : found->names)
     if (name == order_.choose) choose(label);
 }

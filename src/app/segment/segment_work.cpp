@@ -69,13 +69,15 @@ Result<OpenedScan> open_scan(const ScanOrder& order, const Progress& progress) {
 
 Result<SuggestedLabels> suggest_labels(const Volume& volume, const BoneLevels& levels,
                                        const Progress& progress) {
-  auto found = find_scan_bones(volume, levels.threshold_hu, progress);
-  if (!found) return tl::unexpected(found.error());
+  auto scan = find_scan_bones(volume, levels.threshold_hu, false, progress);
+  if (!scan) return tl::unexpected(scan.error());
+  LabelledBones& found = scan->labelled;
   SuggestedLabels out;
-  for (const LabelledBone& bone : found->bones) out.names[bone.label] = bone.name;
-  out.X_WP = scan_pose_WP(*found, volume.frame);
-  if (found->recognised) out.side = found->fit.mirrored ? "left" : "right";
-  out.labels = std::move(found->labels);
+  for (const LabelledBone& bone : found.bones) out.names[bone.label] = bone.name;
+  out.X_WP = scan_pose_WP(found, volume.frame);
+  if (found.recognised) out.side = found.fit.mirrored ? "left" : "right";
+  out.outside = scan->outside;
+  out.labels = std::move(found.labels);
   return out;
 }
 

@@ -33,7 +33,8 @@ struct SuggestedLabels {
   LabelVolume labels;
   std::map<std::uint16_t, std::string> names;
   Pose X_WP;
-  std::string side;  ///< "left" or "right" where a wrist was recognised
+  std::string side;         ///< "left" or "right" where a wrist was recognised
+  std::size_t outside = 0;  ///< parts outside the body, such as a head rest, that are no bones
 };
 
 Result<SuggestedLabels> suggest_labels(const Volume& volume, const BoneLevels& levels,

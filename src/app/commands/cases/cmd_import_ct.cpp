@@ -48,6 +48,10 @@ void print_result(const ImportCtResult& result, const std::string& out) {
   if (result.parted) std::printf("note: split %d regions of joined bones\n", result.parted);
   if (result.gained + result.lost > 0)
     std::printf("note: contours added %zu voxels and removed %zu\n", result.gained, result.lost);
+  if (result.outside)
+    std::printf(
+        "note: left out %zu part%s outside the body, such as a head rest (--keep-outside)\n",
+        result.outside, result.outside == 1 ? "" : "s");
   if (result.left_out) std::printf("note: left out %zu smaller pieces (--most)\n", result.left_out);
   for (const std::string& finding : check_case(result.def))
     std::printf("note: %s\n", finding.c_str());
@@ -71,6 +75,7 @@ std::string json_text(const ImportCtResult& result) {
   json["parted_regions"] = result.parted;
   json["joined_regions"] = result.joined;
   json["left_out"] = result.left_out;
+  json["outside_body"] = result.outside;
   json["contours"] = {{"gained_voxels", result.gained}, {"lost_voxels", result.lost}};
   for (const ImportedCtBone& bone : result.bones)
     json["bones"][bone.name] = {{"volume_mm3", bone.volume_m3 * 1e9},
@@ -138,6 +143,8 @@ void add_import_ct_command(cli::App& app, int& exit_code) {
   ct->add_option("--most", command->options.most_bones, "keep this many of the largest bones")
       ->check(cli::Range(std::size_t{1}, kMaxBones))
       ->capture_default_str();
+  ct->add_flag("--keep-outside", command->options.outside,
+               "keep bright parts outside the body too, such as a head rest or a cast");
   ct->add_option("--json", command->json, "write the findings to this JSON file");
   ct->callback([command, threshold, &exit_code] {
     command->has_threshold = threshold->count() > 0;
