@@ -16,6 +16,9 @@ constexpr double kAluminium_g_per_cm3 = 2.699;
 /// A detector's signal is never darker than this share of the brightest.
 constexpr double kFloor = 1e-6;
 
+/// For metal, as a share of the range of tissue (both in logarithms): a seventh of all.
+constexpr double kRoomForMetal = 1.0 / 6;
+
 /// Poisson deviate: by multiplying uniform numbers where few are expected (Knuth), by the normal
 /// deviate of the same mean and variance where many are.
 double poisson(Random& random, double mean) {
@@ -49,6 +52,40 @@ double quantile(std::vector<float>& values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
+}
+
+float metal_at(const ArealDensity& density, std::size_t n) {
+  return density.of[static_cast<std::size_t>(XraySubstance::kTitanium)][n] +
+         density.of[static_cast<std::size_t>(XraySubstance::kIron)][n];
+}
+
+bool has_metal(const ArealDensity& density) {
+  for (std::size_t n = 0; n < density.of[0].size(); ++n)
+    if (metal_at(density, n) > 0) return true;
+  return false;
+}
+
+/// Metal in a pixel or one of the eight about it.
+bool near_metal(const ArealDensity& density, int column, int row) {
+  for (int y = std::max(0, row - 1); y <= std::min(density.height - 1, row + 1); ++y)
+    for (int x = std::max(0, column - 1); x <= std::min(density.width - 1, column + 1); ++x)
+      if (metal_at(density, static_cast<std::size_t>(y) * static_cast<std::size_t>(density.width) +
+                                static_cast<std::size_t>(x)) > 0)
+        return true;
+  return false;
+}
+
+/// Signals of the pixels that something covers, with or without those near metal.
+std::vector<float> covered_signals(const std::vector<float>& signal, const ArealDensity& density,
+                                   bool with_metal) {
+  const std::vector<float> total = density.total();
+  std::vector<float> covered;
+  std::size_t n = 0;
+  for (int row = 0; row < density.height; ++row)
+    for (int column = 0; column < density.width; ++column, ++n)
+      if (total[n] > 0 && (with_metal || !near_metal(density, column, row)))
+        covered.push_back(signal[n]);
+  return covered;
 }
 
 /// Shares of each energy, and what of it a gram on a square centimetre lets through.
@@ -122,14 +159,17 @@ std::vector<float> detected(const std::vector<float>& transmitted, int width,
   return signal;
 }
 
-XrayWindow automatic_window(const std::vector<float>& signal, const std::vector<float>& density) {
-  std::vector<float> covered;
-  for (std::size_t n = 0; n < signal.size() && n < density.size(); ++n)
-    if (density[n] > 0) covered.push_back(signal[n]);
+XrayWindow automatic_window(const std::vector<float>& signal, const ArealDensity& density) {
+  std::vector<float> covered = covered_signals(signal, density, false);
+  const bool tissue = !covered.empty();
+  if (!tissue) covered = covered_signals(signal, density, true);
   if (covered.empty()) return {};
   XrayWindow window;
   window.dark = std::max(kFloor, quantile(covered, 0.005));
   window.bright = std::max(1.1 * window.dark, quantile(covered, 0.995));
+  if (tissue && has_metal(density))
+    window.dark =
+        std::max(kFloor, window.dark * std::pow(window.dark / window.bright, kRoomForMetal));
   return window;
 }
 

@@ -128,11 +128,26 @@ TEST(Detected, BlurSpreadsAPointToItsNeighboursAndKeepsTheLight) {
   EXPECT_EQ(got, want);
 }
 
+/// Nothing in the way of any pixel.
+ArealDensity no_density(int width, int height) {
+  ArealDensity density;
+  density.width = width;
+  density.height = height;
+  for (std::vector<float>& of : density.of)
+    of.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+  return density;
+}
+
+std::vector<float>& of(ArealDensity& density, XraySubstance substance) {
+  return density.of[static_cast<std::size_t>(substance)];
+}
+
 TEST(Window, SpansWhatIsCoveredAndGreyTellsAttenuation) {
-  std::vector<float> signal, density;
+  std::vector<float> signal;
+  ArealDensity density = no_density(1000, 1);
   for (int n = 0; n < 1000; ++n) {
     signal.push_back(static_cast<float>(std::exp(-0.004 * n)));
-    density.push_back(n == 0 ? 0.0f : 1.0f);
+    of(density, XraySubstance::kSoft)[static_cast<std::size_t>(n)] = n == 0 ? 0.0f : 1.0f;
   }
   const XrayWindow window = automatic_window(signal, density);
   EXPECT_NEAR(window.bright, std::exp(-0.004 * 5), 0.01);
@@ -141,7 +156,46 @@ TEST(Window, SpansWhatIsCoveredAndGreyTellsAttenuation) {
   EXPECT_EQ(grey.front(), 1);
   EXPECT_EQ(grey.back(), 0);
   EXPECT_NEAR(grey[250] - grey[350], grey[550] - grey[650], 1e-5);
-  EXPECT_EQ(automatic_window(signal, std::vector<float>(1000, 0.0f)).bright, 1);
+  EXPECT_EQ(automatic_window(signal, no_density(1000, 1)).bright, 1);
+}
+
+// Flesh on the left, bone on the right, and a steel bar of every width across both.
+TEST(Window, SteelBesideBoneLeavesBoneEasyToSeeAndIsDarkerThanIt) {
+  const auto spectrum = tube_spectrum(70);
+  ASSERT_TRUE(spectrum);
+  XrayDetector still;
+  still.noise = false;
+  const auto picture = [&](int bar_rows) {
+    ArealDensity density = no_density(60, 60);
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 60; ++column) {
+        const auto n = static_cast<std::size_t>(60 * row + column);
+        of(density, XraySubstance::kSoft)[n] = 8;
+        if (column >= 30) of(density, XraySubstance::kBone)[n] = 3;
+        if (row >= 10 && row < 10 + bar_rows) of(density, XraySubstance::kIron)[n] = 8;
+      }
+    const std::vector<float> signal = detected(transmitted(density, *spectrum), 60, still);
+    return shown(signal, automatic_window(signal, density));
+  };
+  EXPECT_NEAR(picture(0)[60u * 55 + 50], 0, 0.01) << "the darkest of all";
+  for (const int rows : {1, 5, 40}) {
+    const std::vector<float> grey = picture(rows);
+    EXPECT_NEAR(grey[60u * 55 + 10], 1, 0.01) << "flesh, " << rows << " rows of steel";
+    EXPECT_NEAR(grey[60u * 55 + 50], 1 / 7., 0.01) << "bone, " << rows << " rows of steel";
+    EXPECT_EQ(grey[60u * 10 + 50], 0) << "steel on bone";
+  }
+}
+
+TEST(Window, SteelAloneIsShownByItself) {
+  ArealDensity density = no_density(100, 1);
+  std::vector<float> signal(100, 0.3f);
+  for (std::size_t n = 0; n < 100; ++n) {
+    of(density, XraySubstance::kIron)[n] = 1;
+    signal[n] = static_cast<float>(std::exp(-0.05 * static_cast<double>(n)));
+  }
+  const XrayWindow window = automatic_window(signal, density);
+  EXPECT_NEAR(window.bright, 1, 0.1);
+  EXPECT_NEAR(window.dark, std::exp(-0.05 * 99), 0.001);
 }
 
 TEST(Dose, KermaIsTheTablesAndRisesBetween) {

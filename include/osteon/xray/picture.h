@@ -39,9 +39,12 @@ std::vector<float> detected(const std::vector<float>& transmitted, int width,
 struct XrayWindow {
   double dark = 0.01, bright = 1;
 };
-/// From the pixels that something covers (areal density above 0): all but the lowest and highest
-/// half per cent. The default when nothing is covered.
-XrayWindow automatic_window(const std::vector<float>& signal, const std::vector<float>& density);
+/// From the pixels that tissue covers and no metal, nor next to metal, whose shade spreads: all but
+/// the lowest and highest half per cent. So bone stays easy to see beside an instrument. Where
+/// there is metal, a seventh of the greys is left for it, darker than all tissue. From metal where
+/// there is nothing else; the default when nothing is covered. `signal` is one value for each pixel
+/// of `density`.
+XrayWindow automatic_window(const std::vector<float>& signal, const ArealDensity& density);
 /// 0: the window's dark end and below, 1: its bright end and above.
 std::vector<float> shown(const std::vector<float>& signal, const XrayWindow& window);
 

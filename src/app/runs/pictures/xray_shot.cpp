@@ -106,7 +106,7 @@ Result<XrayShot> take_shot(const XrayScene& scene, const XrayShotOrder& order) {
   detector.noise = order.noise;
   detector.seed = order.seed;
   const std::vector<float> signal = detected(through, view->width, detector);
-  shot.window = automatic_window(signal, shot.density.total());
+  shot.window = automatic_window(signal, shot.density);
   shot.grey = shown(signal, shot.window);
   return shot;
 }

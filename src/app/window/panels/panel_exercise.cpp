@@ -57,10 +57,12 @@ void draw_course(const PanelContext& c) {
     const float button_w = c.px(88);
     const float text_w = ImGui::GetContentRegionAvail().x - button_w - c.px(12);
     ImGui::BeginGroup();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + text_w);
     {
       const ui::WithFont font(c.fonts.strong);
-      ui::text_within(color::kText, card.title, text_w);
+      ui::text(color::kText, card.title.c_str());
     }
+    ImGui::PopTextWrapPos();
     ui::text_within(color::kTextQuiet, card.played.empty() ? "not tried yet" : card.played, text_w);
     ImGui::EndGroup();
     ui::tooltip(card.text.c_str());

@@ -62,6 +62,18 @@ TEST_F(ExercisePanel, AnExerciseIsChosenFromTheCourse) {
   EXPECT_EQ(*asked.choose, 1u);
 }
 
+TEST_F(ExercisePanel, ALongTitleIsShownWholeOnMoreLines) {
+  const auto height_with = [&](const std::string& title) {
+    at(ExercisePage::kCourse).cards = {{title, "text", ""}};
+    settle();
+    return ImGui::FindWindowByName(child("##exercise/cards").c_str())->ContentSize.y;
+  };
+  const float line = height_with("First");
+  EXPECT_EQ(height_with("Second"), line);
+  const float more = height_with("ACL reconstruction: the graft of two hamstring tendons, folded");
+  EXPECT_GT(more, line + 10);
+}
+
 TEST_F(ExercisePanel, TheBriefingBeginsByButtonAndByKeyAndGoesBack) {
   at(ExercisePage::kBriefing).faults = {{"Pressed too hard", "major", "A bruise", 0, {}}};
   ui.model.exercise.measures = {{"path_mm", "mm", 0, 3500, true}};
