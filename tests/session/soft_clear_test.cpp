@@ -83,6 +83,52 @@ TEST(SoftClear, NobodyPressesAStumpThatATipHasNotReached) {
   }
 }
 
+// A wall of 2 mm is left of the block. Two rods that come together like a roof press it from both
+// sides, ever harder: each sends the wall towards the other.
+TEST(SoftClear, PartsOfAToolOnBothSidesDoNotDriveEachOthersForceUp) {
+  const auto& run = stump_run();
+  Session session = run.session();
+  ClearingHand hand(session);
+  hand.take(kDrill, 1);
+  for (const double x : {-0.00505, 0.00505})
+    for (const double y : {-0.0035, 0.0, 0.0035}) {
+      hand.move({x, y, 0.014}, 60);
+      hand.move({x, y, 0.002}, 700);
+      hand.move({x, y, 0.014}, 60);
+    }
+  hand.rest(1000);
+  SoftState walls = session.save().world.softs;
+  walls.hands = {};
+  walls.solid_hands = {};
+  Tool roof;
+  for (const double side : {-1.0, 1.0})
+    roof.parts.push_back(make_rod({side * 0.003, 0, 0}, {side * 0.001, 0, 0.012}, 0.0008));
+  const std::vector<std::shared_ptr<const Tool>> tray{std::make_shared<const Tool>(roof)};
+  SoftWorld softs(run.softs, tray, 2000, 40, 0.002);
+  ASSERT_TRUE(softs.fits(walls));
+  softs.restore(walls, 0);
+  BoneSnapshot bones;
+  bones.count = 2;
+  for (std::size_t b = 0; b < 2; ++b) bones.bones[b].X_WB = run.the_case->bones[b].X_WB;
+  ToolState tool;
+  tool.tick = 1;
+  double most_n = 0;
+  for (int n = 0; n < 600; ++n) {
+    ++bones.step;
+    tool.X_WP.p.z() = std::max(0.003, 0.012 - 1.5e-5 * n);
+    const ToolState* const one = &tool;
+    softs.step(std::span(&one, 1), bones);
+    const SolidHandState& state = softs.state().solid_hands[0];
+    for (std::uint32_t i = 0; i < state.count; ++i) {
+      const SolidNear& near = state.near[i];
+      const double own_n = near.contact.stiffness_n_per_m * std::max(0.0, near.deep_m);
+      ASSERT_LE(near.force_n, 2 * own_n + 1e-9) << n;
+      most_n = std::max(most_n, near.force_n);
+    }
+  }
+  EXPECT_GT(most_n, 0.02);
+}
+
 TEST(SoftClear, NothingGoesWithoutPower) {
   Session session = stump_run().session();
   ClearingHand hand(session);
