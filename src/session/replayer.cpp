@@ -121,8 +121,10 @@ bool Replayer::run_next_step() {
 std::optional<std::size_t> Replayer::runnable_hand() {
   std::array<std::size_t, kMaxHands> order{};
   for (std::size_t h = 0; h < hands_.size(); ++h) order[h] = h;
-  std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(hands_.size()),
-                   [&](std::size_t a, std::size_t b) { return hands_[a].done < hands_[b].done; });
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(hands_.size()),
+            [&](std::size_t a, std::size_t b) {
+              return hands_[a].done != hands_[b].done ? hands_[a].done < hands_[b].done : a < b;
+            });
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandTrack& track = hands_[order[i]];
     const TickRecord* record = track.records.peek();
