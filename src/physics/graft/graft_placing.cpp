@@ -15,14 +15,16 @@ using PlacingKind = PlacingTool::Kind;
 constexpr double kPinTakeOn_m = 0.005;  // so near its line a pin is led
 constexpr double kPinTurn = 0.82;       // least cosine between the axes then
 constexpr double kPinAhead_m = 0.010;
-constexpr double kClampOff_m = 0.015;     // beyond the tibia a clamp is free again
-constexpr double kPinOff_m = 0.003;       // drawn back so far before the mouth it is off again
-constexpr double kLeadStep = 0.02;        // a line holds within 50 steps
-constexpr double kJawReach_m = 0.010;     // jaws take a thread
-constexpr double kOutOfSkin_m = 0.020;    // from the cortex to where the thread is taken hold of
-constexpr double kAside_m = 0.002;        // a clamp may lean so far beyond the tunnel's wall
-constexpr double kEndInJoint_m = 0.010;   // over the tibia's mouth the thread's end comes to lie
-constexpr double kScrewStarts_m = 0.008;  // so near the outer mouth a screw may begin
+constexpr double kClampOff_m = 0.015;    // beyond the tibia a clamp is free again
+constexpr double kPinOff_m = 0.003;      // drawn back so far before the mouth it is off again
+constexpr double kLeadStep = 0.02;       // a line holds within 50 steps
+constexpr double kJawReach_m = 0.010;    // jaws take a thread
+constexpr double kOutOfSkin_m = 0.020;   // from the cortex to where the thread is taken hold of
+constexpr double kAside_m = 0.002;       // a clamp may lean so far beyond the tunnel's wall
+constexpr double kEndInJoint_m = 0.010;  // over the tibia's mouth the thread's end comes to lie
+// So near the outer mouth a screw may begin: it touches first where the mouth's rim stands out
+// farthest, 11 mm before its middle for a screw of 10 mm and a tunnel 65 degrees oblique.
+constexpr double kScrewStarts_m = 0.012;
 constexpr double kScrewAside_m = 0.003;
 constexpr double kScrewTurn = 0.77;    // 40 degrees
 constexpr double kScrewOff_m = 0.012;  // drawn back so far from where it began it is let go

@@ -279,6 +279,17 @@ TEST(GraftPlacing, AScrewGoesInByItsPitchAndStaysWhenTheHandTakesSomethingElse) 
   EXPECT_EQ(rig.state.tension_n, 90);
 }
 
+// A wide screw before an oblique mouth touches the rim 9 mm before the middle of the mouth.
+TEST(GraftPlacing, AScrewBeginsWhereItTouchesTheRimAndNotFarBeforeIt) {
+  const Vec3 out = -Vec3::UnitX();
+  ScrewRig far;
+  far.stand(-0.014, out, 1, 1.5);
+  EXPECT_EQ(far.state.screw.screws, 0u);
+  ScrewRig rim;
+  rim.stand(-0.009, out, 1, 1.5);
+  EXPECT_EQ(rim.state.screw.screws, 1u);
+}
+
 TEST(GraftPlacing, AScrewKeepsTheLineOnWhichItBeganAndNeedsFiveMillimetres) {
   ScrewRig rig;
   const Vec3 aside = Vec3(-std::cos(0.4), std::sin(0.4), 0);
