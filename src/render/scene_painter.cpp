@@ -112,6 +112,7 @@ void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
   if (box.empty()) return;
   model.center_B = box.center();
   model.radius_m = 0.5 * box.extent().norm();
+  model.boxes = extent_boxes(mesh);
   model.around = capsule_around(box);
 }
 

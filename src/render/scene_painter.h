@@ -142,7 +142,8 @@ class ScenePainter {
     HeatTexture heat;           ///< likewise
     std::vector<Piece> pieces;
     Vec3 center_B = Vec3::Zero();
-    double radius_m = 0;  ///< of a ball about the centre that holds the bone
+    double radius_m = 0;           ///< of a ball about the centre that holds the bone
+    std::vector<ExtentBox> boxes;  ///< that hold it more closely
     Capsule around;
     bool closed = false;
     float line_opacity = 0;

@@ -53,11 +53,12 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
 const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapshot,
                                      const ViewState& view, const Frame& frame) const {
   const BoneModel& bone = shared_->bones[k];
+  if (bone.levels.size() == 1) return bone.levels.front().surface;
   const double allowed_px = frame.passing                          ? kLevelErrorPassing_px
                             : view.quality == RenderQuality::kFine ? kLevelErrorFine_px
                                                                    : kLevelError_px;
-  const Vec3 center_W = pose(snapshot, k) * bone.center_B;
-  const double allowed_m = allowed_px * finest_metres_per_pixel(frame, center_W, bone.radius_m);
+  const double allowed_m =
+      allowed_px * finest_metres_per_pixel(frame, pose(snapshot, k), bone.boxes);
   std::size_t level = 0;
   while (level + 1 < bone.levels.size() && bone.levels[level + 1].error_m <= allowed_m) ++level;
   return bone.levels[level].surface;

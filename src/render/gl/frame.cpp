@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace osteon {
 namespace {
@@ -97,6 +98,19 @@ double finest_metres_per_pixel(const Frame& frame, const Vec3& center_W, double 
   const double depth = -(frame.X_CW * center_W).z() - radius_m;
   const double w = perspective ? std::max(depth, kNearest_m) : 1.0;
   return static_cast<double>(frame.pixel_clip.y()) * w / clip(1, 1);
+}
+
+double finest_metres_per_pixel(const Frame& frame, const Pose& X_WB,
+                               std::span<const ExtentBox> boxes_B) {
+  const Pose X_CB = frame.X_CW * X_WB;
+  const Vec3 eye_axis_B = (X_CB.q.conjugate() * Vec3::UnitZ()).cwiseAbs();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const ExtentBox& box : boxes_B) {
+    const double depth_m = -(X_CB * box.center).z(), reach_m = eye_axis_B.dot(box.half_m);
+    if (depth_m + reach_m > 0) nearest_m = std::min(nearest_m, depth_m - reach_m);
+  }
+  if (!std::isfinite(nearest_m)) nearest_m = 0;
+  return finest_metres_per_pixel(frame, frame.X_CW.inverse() * Vec3(0, 0, -nearest_m), 0);
 }
 
 bool in_tiles(const Frame& frame, const Vec3& center_C, double radius_m) {

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
+#include "gl/extent_boxes.h"
 #include "gl/tile_mask.h"
 #include "osteon/render/camera.h"
 #include "osteon/render/renderer.h"
@@ -42,6 +44,10 @@ Frame make_frame(const ViewState& view, double aspect, const Aabb& content,
 
 /// Length in World that an output pixel covers where the ball is nearest to the eye.
 double finest_metres_per_pixel(const Frame& frame, const Vec3& center_W, double radius_m);
+/// The same of what lies in the boxes; those behind the eye do not count. The finest there may be
+/// where none counts.
+double finest_metres_per_pixel(const Frame& frame, const Pose& X_WB,
+                               std::span<const ExtentBox> boxes_B);
 
 /// False when no part of the ball can appear in the part that is drawn.
 bool in_sight(const Frame& frame, const Vec3& center_W, double radius_m);

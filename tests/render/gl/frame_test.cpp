@@ -68,6 +68,32 @@ TEST(Frame, FinestPixelAgreesWithTheCamera) {
   }
 }
 
+// A shaft of 200 mm across the picture, 60 mm before the eye: the ball about it reaches the eye.
+TEST(Frame, AShaftAcrossThePictureIsAsNearAsItIs) {
+  TriMesh shaft;
+  for (int k = 0; k <= 100; ++k)
+    for (const double side : {-0.005, 0.005})
+      shaft.vertices.emplace_back(0.002 * k - 0.1, side, side);
+  ViewState view;
+  view.camera.orthographic = false;
+  Aabb content;
+  content.include(view.camera.target_W);
+  const Frame frame = make_frame(view, 1.5, content, {}, 300, 200);
+  const std::vector<ExtentBox> boxes = extent_boxes(shaft);
+  const auto finest = [&](double depth_m) {
+    const Pose X_WB = frame.X_CW.inverse() * Pose{Vec3(0, 0, -depth_m), Quat::Identity()};
+    return finest_metres_per_pixel(frame, X_WB, boxes);
+  };
+  const auto at = [&](double depth_m) {
+    return finest_metres_per_pixel(frame, frame.X_CW.inverse() * Vec3(0, 0, -depth_m), 0);
+  };
+  EXPECT_NEAR(finest(0.06), at(0.055), 1e-9);
+  EXPECT_LT(finest_metres_per_pixel(frame, frame.X_CW.inverse() * Vec3(0, 0, -0.06), 0.1),
+            at(0.002));
+  EXPECT_NEAR(finest(0), at(0), 1e-9) << "the eye is in it";
+  EXPECT_NEAR(finest(-0.5), at(0), 1e-9) << "behind the eye nothing is seen";
+}
+
 TEST(Frame, NoBallIsLostThatReachesIntoThePicture) {
   Random random(23);
   const Viewport viewport{0, 0, 400, 300};
