@@ -50,6 +50,17 @@ BoneDef center_bone(std::string name, TriMesh mesh) {
   return bone;
 }
 
+std::string use_force(const ImportOptions& options) {
+  return options.in_window ? "use `osteon import mesh --force` in a terminal" : "give --force";
+}
+
+std::string use_unit(const std::string& unit, const ImportOptions& options) {
+  if (!options.in_window) return "Try --unit " + unit;
+  if (unit == "m") return "Switch \"Meshes are in millimetres\" off under Open";
+  if (unit == "mm") return "Switch \"Meshes are in millimetres\" on under Open";
+  return "Try `osteon import mesh --unit " + unit + "` in a terminal";
+}
+
 // A bone has a volume, and about the size that its name says.
 Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const fs::path& file,
                             const ImportOptions& options) {
@@ -65,8 +76,8 @@ Result<void> refuse_no_bone(const std::string& name, const TriMesh& mesh, const 
   if (options.force || complaint.empty()) return {};
   const std::string unit = likely_unit(name, length_m, options.metres_per_unit);
   return fail(complaint, file.string(),
-              unit.empty() ? "Check the file, or give --force to accept it"
-                           : "Try --unit " + unit + ", or give --force to accept it");
+              (unit.empty() ? "Check the file" : use_unit(unit, options)) + ", or " +
+                  use_force(options) + " to accept it");
 }
 
 // Parts that overlap are not one solid: what is felt and filled with tetrahedra would be wrong.
@@ -78,8 +89,8 @@ Result<void> refuse_overlap(const TriMesh& mesh, const fs::path& file,
   return fail("has parts that pass through each other (triangles " + std::to_string(pair->first) +
                   " and " + std::to_string(pair->second) + " of the repaired mesh)",
               file.string(),
-              "Merge them into one surface (a Boolean union) in the program that made them, or "
-              "give --force");
+              "Merge them into one surface (a Boolean union) in the program that made them, or " +
+                  use_force(options));
 }
 
 // Parts that only touch, along edges or faces, are not one solid either. An open surface is felt as
@@ -91,7 +102,7 @@ Result<void> refuse_touch(const TriMesh& mesh, const fs::path& file, const Impor
                   (shape.non_manifold_edges == 1 ? " edge" : " edges") +
                   " with more than two triangles: parts of it touch there",
               file.string(),
-              "Merge or separate them in the program that made them, or give --force");
+              "Merge or separate them in the program that made them, or " + use_force(options));
 }
 
 Result<void> read_bone(const fs::path& file, const ImportOptions& options, ImportResult& result) {

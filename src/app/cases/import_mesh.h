@@ -21,6 +21,7 @@ struct ImportOptions {
   bool keep_hollows = false;  ///< else they are walled up (fill_hollows)
   /// Takes bones that are three times as large or small as usual, and parts that overlap.
   bool force = false;
+  bool in_window = false;  ///< remedies name what the window offers, not the command's options
   std::function<void(double)> progress = {};  ///< told the share of files read; may throw to stop
 };
 

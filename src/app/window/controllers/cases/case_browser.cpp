@@ -185,6 +185,7 @@ void CaseBrowser::import(const std::vector<fs::path>& sources) {
   ImportOptions options;
   options.source = source;
   if (sources.size() > 1) options.files = sources;
+  options.in_window = true;
   options.metres_per_unit = model_.in_millimetres ? 1e-3 : 1;
   const fs::path named = sources.size() > 1 ? source.parent_path() : source;
   options.out = dated_file(home_ / "cases", named.stem().string(), "");

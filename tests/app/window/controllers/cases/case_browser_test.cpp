@@ -92,6 +92,20 @@ TEST_F(CaseBrowserTest, SeveralMeshesMakeOneCaseAndTheOthersOfTheirFolderStayOut
   EXPECT_EQ(text.find("capitate"), std::string::npos) << text;
 }
 
+TEST_F(CaseBrowserTest, MeshesInTheWrongUnitSayWhichSwitchOfTheWindowHelps) {
+  fs::create_directories(home / "wrong unit");
+  write_bone(home / "wrong unit/lunate.obj");
+  CaseBrowser browser(home);
+  browser.set_in_millimetres(false);
+  browser.import({home / "wrong unit"});
+  Result<std::string> made = std::string();
+  while (browser.model().importing) made = browser.take_imported();
+  ASSERT_FALSE(made);
+  const std::string why = made.error().message();
+  EXPECT_NE(why.find("millimetres\" on under Open"), std::string::npos) << why;
+  EXPECT_EQ(why.find("--unit"), std::string::npos) << why;
+}
+
 TEST_F(CaseBrowserTest, OpenedItListsWhatIsBuiltInLatelyOpenedAndSaved) {
   CaseBrowser browser(home);
   EXPECT_FALSE(browser.is_open());
