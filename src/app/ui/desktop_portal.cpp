@@ -16,6 +16,7 @@ constexpr const char* kFileChooser = "org.freedesktop.portal.FileChooser";
 constexpr const char* kPortalRequest = "org.freedesktop.portal.Request";
 constexpr const char* kChooserWords = "The desktop's file chooser";
 constexpr const char* kPortalToken = "osteon";
+constexpr const char* kUseList = "Choose in the list of folders instead";
 constexpr std::uint64_t kPortalWait_us = 100'000;
 constexpr std::uint32_t kAnswered = 0, kCancelled = 1;
 
@@ -115,10 +116,11 @@ std::string show_chooser(const SessionBus& bus, const DesktopQuestion& question)
 Result<std::vector<std::string>> paths_of(const PortalAnswer& answer) {
   std::vector<std::string> paths;
   if (answer.how == kCancelled) return paths;
-  if (answer.how != kAnswered) return fail("ended without an answer", kChooserWords);
+  if (answer.how != kAnswered) return fail("ended without an answer", kChooserWords, kUseList);
   for (const std::string& uri : answer.uris)
     if (const auto path = path_of_uri(uri)) paths.push_back(*path);
-  if (paths.empty()) return fail("what was chosen is not a file of this computer", kChooserWords);
+  if (paths.empty())
+    return fail("what was chosen is not a file of this computer", kChooserWords, kUseList);
   return paths;
 }
 
@@ -158,15 +160,16 @@ Result<std::vector<std::string>> choose_on_desktop(const DesktopQuestion& questi
   const auto calls = load_libsdbus(libsdbus_file());
   if (!calls) return tl::unexpected(calls.error());
   const SessionBus bus(*calls);
-  if (!bus) return fail("its message bus cannot be reached", kChooserWords);
+  if (!bus) return fail("its message bus cannot be reached", kChooserWords, kUseList);
   PortalAnswer answer;
   answer.calls = &*calls;
   const std::string expected = handle_for(bus);
-  if (!listen(bus, expected, answer)) return fail("its message bus does not listen", kChooserWords);
+  if (!listen(bus, expected, answer))
+    return fail("its message bus does not listen", kChooserWords, kUseList);
   const std::string handle = show_chooser(bus, question);
-  if (handle.empty()) return fail("does not open", kChooserWords);
+  if (handle.empty()) return fail("does not open", kChooserWords, kUseList);
   if (handle != expected && !listen(bus, handle, answer))  // portals before 0.9
-    return fail("its message bus does not listen", kChooserWords);
+    return fail("its message bus does not listen", kChooserWords, kUseList);
   while (!answer.came) {
     if (!goes_on(progress, "Waiting for the desktop's file chooser", 0)) {
       calls->call_method(bus.get(), kPortal, handle.c_str(), kPortalRequest, "Close", nullptr,
@@ -175,7 +178,7 @@ Result<std::vector<std::string>> choose_on_desktop(const DesktopQuestion& questi
     }
     const int did = calls->process(bus.get(), nullptr);
     if (did < 0 || (did == 0 && calls->wait(bus.get(), kPortalWait_us) < 0))
-      return fail("its message bus has closed", kChooserWords);
+      return fail("its message bus has closed", kChooserWords, kUseList);
   }
   return paths_of(answer);
 }
