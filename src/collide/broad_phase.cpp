@@ -16,13 +16,20 @@ bool same_pose(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs()
 struct Stretch {
   Vec3 from;
   Vec3 along;
+  double per_length2;  // 1 over the length's square; 0: a point
 };
 
+// So short a stretch is a point: what it adds is less than kRounding.
+double per_square(const Vec3& along) {
+  constexpr double kPoint_m2 = 1e-30;
+  const double length2 = along.squaredNorm();
+  return length2 > kPoint_m2 ? 1 / length2 : 0.0;
+}
+
 double distance_squared(const Stretch& s, const Vec3& p) {
-  const double length2 = s.along.squaredNorm();
-  const double share =
-      length2 > 0 ? std::clamp((p - s.from).dot(s.along) / length2, 0.0, 1.0) : 0.0;
-  return (p - s.from - share * s.along).squaredNorm();
+  const Vec3 off = p - s.from;
+  const double share = std::clamp(off.dot(s.along) * s.per_length2, 0.0, 1.0);
+  return (off - share * s.along).squaredNorm();
 }
 
 // Separating axes of a segment and a box: the box's own axes and their crosses with the segment
@@ -81,7 +88,8 @@ bool BroadPhase::out_of_reach(std::uint32_t bone, const Pose& X_WB, const SweptS
   const Vec3 center_W = X_WB * bones_[bone].center_B;
   const double room = ball.radius + margin + bones_[bone].radius +
                       kRounding * (2 + ball.p_from_W.norm() + center_W.norm());
-  const Stretch path_W{ball.p_from_W, ball.p_to_W - ball.p_from_W};
+  const Vec3 along_W = ball.p_to_W - ball.p_from_W;
+  const Stretch path_W{ball.p_from_W, along_W, per_square(along_W)};
   return distance_squared(path_W, center_W) > room * room;
 }
 
@@ -92,13 +100,14 @@ BroadPhase::BallOfBone BroadPhase::in_bone(const Pose& X_WB, const SweptSphere& 
   BallOfBone out;
   out.from_B = R_BW * (ball.p_from_W - X_WB.p);
   out.along_B = R_BW * (ball.p_to_W - ball.p_from_W);
+  out.per_length2 = per_square(out.along_B);
   out.reach = ball.radius + margin + kRounding * (1 + out.from_B.norm());
   out.finite = is_finite(out.from_B) && is_finite(out.along_B) && std::isfinite(out.reach);
   return out;
 }
 
 bool BroadPhase::meets(const Bounds& piece, const BallOfBone& ball) {
-  const Stretch path{ball.from_B, ball.along_B};
+  const Stretch path{ball.from_B, ball.along_B, ball.per_length2};
   const double apart = ball.reach + piece.radius;
   return distance_squared(path, piece.center_B) <= apart * apart &&
          meets_box(path, piece.box_center_B, piece.box_half + Vec3::Constant(ball.reach));
@@ -176,7 +185,7 @@ void BroadPhase::look_about(std::uint32_t bone, const Pose& X_WB, const BallOfBo
   place.reach = clear > size ? clear : gap_to_pieces(bone, place.p_B);
   if (place.reach > size + kAhead || clear > size) return;
   place.reach = size + kAhead;
-  const BallOfBone wide{place.p_B, Vec3::Zero(), place.reach + kRounding, true};
+  const BallOfBone wide{place.p_B, Vec3::Zero(), 0, place.reach + kRounding, true};
   for (std::uint32_t i = first_piece_[bone]; i < first_piece_[bone + 1]; ++i)
     if (meets(pieces_[i], wide))
       near.pieces_[first_piece_[bone] + place.count++] = i - first_piece_[bone];

@@ -75,6 +75,7 @@ class BroadPhase {
   struct BallOfBone {
     Vec3 from_B = Vec3::Zero();
     Vec3 along_B = Vec3::Zero();
+    double per_length2 = 0;  // 1 over the square of along_B's length; 0: a point
     double reach = 0;
     bool finite = false;
   };
