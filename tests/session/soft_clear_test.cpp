@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "driven_hand.h"
 #include "osteon/physics/soft_cut_state.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
@@ -12,46 +13,22 @@
 namespace osteon {
 namespace {
 
+using testing::DrivenHand;
 using testing::kStumpHalf;
+using testing::posed;
 using testing::stump_run;
 
 enum : std::uint32_t { kShaver, kHook, kAblator, kPunch, kDrill };
 
-// Tool's y and z in World.
-Quat held(const Vec3& y_W, const Vec3& z_W) {
-  return Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
-}
-const Quat kFromAbove = held(Vec3::UnitY(), Vec3::UnitZ());
+const Quat kFromAbove = posed(Vec3::UnitY(), Vec3::UnitZ());
 
-struct ClearingHand {
-  explicit ClearingHand(Session& s) : session(s) {}
-  Session& session;
-  Vec3 at = Vec3(0, 0, 0.018);
-  Quat q = kFromAbove;
-  std::vector<Event> events;
-  Recording* into = nullptr;
+struct ClearingHand : DrivenHand {
+  explicit ClearingHand(Session& s) : DrivenHand(s, {0, 0, 0.018}, kFromAbove) {}
 
-  void tick(const Command& command = {}) {
-    ToolInput input;
-    input.X_WD = {at, q};
-    (void)session.tick(input, command);
-    for (const Event& event : session.last_events()) events.push_back(event);
-    if (!into) return;
-    into->ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
-  }
   void take(std::uint32_t instrument, double power) {
-    tick({CommandKind::kTake, static_cast<double>(instrument)});
+    DrivenHand::take(instrument);
     tick({CommandKind::kPower, power});
   }
-  void move(const Vec3& to, int ticks) {
-    const Vec3 from = at;
-    for (int n = 1; n <= ticks; ++n) {
-      at = from + n / static_cast<double>(ticks) * (to - from);
-      tick();
-    }
-  }
-  void rest(int ticks) { move(Vec3(at), ticks); }
   double cleared(std::size_t stump = 0) const { return session.softs()->cleared_percent(stump); }
   double removed_mm3(std::size_t stump = 0) const {
     return 1e9 * session.softs()->removed_m3(stump);
@@ -183,7 +160,7 @@ TEST(SoftClear, TheBackOfTheShaverTakesNothing) {
   const auto taken = [](const Vec3& window_W) {
     Session session = stump_run().session();
     ClearingHand hand(session);
-    hand.q = held(window_W, Vec3::UnitZ());
+    hand.q = posed(window_W, Vec3::UnitZ());
     hand.at = {0, 0.012, 0.003};
     hand.take(kShaver, 1);
     hand.move({0, 0.005, 0.003}, 1500);
@@ -214,7 +191,7 @@ TEST(SoftClear, WhatIsCutOffFloatsAwayAndCountsAsCleared) {
   // the other.
   hand.take(kShaver, 1);
   for (const double side : {-1.0, 1.0}) {
-    hand.q = held(-Vec3::UnitY(), side * Vec3::UnitX());
+    hand.q = posed(-Vec3::UnitY(), side * Vec3::UnitX());
     hand.at = {-side * 0.0005, 0.010, 0.004};
     hand.move({-side * 0.0005, -0.010, 0.004}, 6000);
   }

@@ -1,6 +1,7 @@
 // A meniscus that is cut in a session: a block on a bone, with the shipped punch and blades.
 #include <gtest/gtest.h>
 
+#include "driven_hand.h"
 #include "osteon/base/random.h"
 #include "osteon/carve/carved_surface.h"
 #include "osteon/mesh/measure.h"
@@ -14,8 +15,10 @@
 namespace osteon {
 namespace {
 
+using testing::DrivenHand;
 using testing::kMeniscus_n_per_m;
 using testing::kMeniscusHalf;
+using testing::posed;
 
 enum : std::uint32_t { kBall, kRound, kBasket, kBlade };
 
@@ -42,49 +45,18 @@ const CutRun& cut_run() {
   return run;
 }
 
-// Axes of the tool in World by columns: x, y, z.
-Quat axes(const Vec3& y_W, const Vec3& z_W) {
-  return Quat((Mat3() << y_W.cross(z_W), y_W, z_W).finished());
-}
 // The first lies along x. The punch comes from +x, its jaw above.
-const Quat kLying = axes({0, 0, -1}, {1, 0, 0}), kFromEnd = axes({0, 0, 1}, {1, 0, 0});
+const Quat kLying = posed({0, 0, -1}, {1, 0, 0}), kFromEnd = posed({0, 0, 1}, {1, 0, 0});
 // The blade stands upright and is drawn along y.
-const Quat kUpright = axes({-1, 0, 0}, {0, 0, 1});
+const Quat kUpright = posed({-1, 0, 0}, {0, 0, 1});
 
-struct Hand {
-  explicit Hand(Session& s) : session(s) {}
-  Session& session;
-  Vec3 at = Vec3(0.022, 0, 0.012);
-  Quat q = Quat::Identity();
-  std::vector<Event> events;
-  Recording* into = nullptr;
+struct Hand : DrivenHand {
+  explicit Hand(Session& s) : DrivenHand(s, {0.022, 0, 0.012}) {}
 
-  void tick(const Command& command = {}) {
-    ToolInput input;
-    input.X_WD = {at, q};
-    (void)session.tick(input, command);
-    for (const Event& event : session.last_events()) events.push_back(event);
-    if (!into) return;
-    into->ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
-  }
   void take(std::uint32_t instrument, const Quat& pose, const Vec3& from) {
     at = from;
     q = pose;
-    tick({CommandKind::kTake, static_cast<double>(instrument)});
-  }
-  void move(const Vec3& to, int ticks) {
-    const Vec3 from = at;
-    for (int n = 1; n <= ticks; ++n) {
-      at = from + n / static_cast<double>(ticks) * (to - from);
-      tick();
-    }
-  }
-  void rest(int ticks) { move(Vec3(at), ticks); }
-  std::size_t count(EventKind kind) const {
-    std::size_t sum = 0;
-    for (const Event& event : events) sum += event.kind == kind ? 1 : 0;
-    return sum;
+    DrivenHand::take(instrument);
   }
 };
 

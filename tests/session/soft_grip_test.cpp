@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "count_allocations.h"
+#include "driven_hand.h"
 #include "osteon/base/random.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
@@ -17,6 +18,7 @@ namespace {
 using testing::allocations;
 using testing::band_table;
 using testing::BandRun;
+using testing::DrivenHand;
 using testing::kBandGap_m;
 using testing::kBandMiddle;
 using testing::kBandStiffness_n;
@@ -64,42 +66,16 @@ const testing::MeniscusRun& meniscus_run() {
   return run;
 }
 
-struct JawHand {
-  explicit JawHand(Session& s) : session(s) {}
-  Session& session;
-  Vec3 at = kBandMiddle + Vec3(0, 0, 0.020);
-  Quat q = Quat::Identity();
-  std::vector<Event> events;
-  Recording* into = nullptr;
-
-  void tick(const Command& command = {}) {
-    ToolInput input;
-    input.X_WD = {at, q};
-    (void)session.tick(input, command);
-    for (const Event& event : session.last_events()) events.push_back(event);
-    if (!into) return;
-    into->ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
-    if (session.tool_state().tick % 250 != 0) return;
-    StoredState state;
-    state.ticks[0] = session.tool_state().tick;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    into->states.push_back(state);
+struct JawHand : DrivenHand {
+  explicit JawHand(Session& s) : DrivenHand(s, kBandMiddle + Vec3(0, 0, 0.020)) {
+    store_every = 250;
   }
+
   void take(std::uint32_t instrument) {
-    tick({CommandKind::kTake, static_cast<double>(instrument)});
-    for (int n = 0; n < 40; ++n) tick();
+    DrivenHand::take(instrument);
+    rest(40);
   }
   void jaws(double open) { tick({CommandKind::kJaw, open}); }
-  void move(const Vec3& to, int ticks) {
-    const Vec3 from = at;
-    for (int n = 1; n <= ticks; ++n) {
-      at = from + n / static_cast<double>(ticks) * (to - from);
-      tick();
-    }
-  }
-  void rest(int ticks) { move(Vec3(at), ticks); }
   // The band between its open jaws, which then shut.
   void hold_band(std::uint32_t instrument = kGrasper, double aside_m = 0) {
     take(instrument);
@@ -107,10 +83,6 @@ struct JawHand {
     move(kBandMiddle + Vec3(0, aside_m, -kInMouth_m), 200);
     jaws(0);
     rest(20);
-  }
-  std::size_t count(EventKind kind) const {
-    return static_cast<std::size_t>(std::count_if(
-        events.begin(), events.end(), [kind](const Event& event) { return event.kind == kind; }));
   }
   Event first(EventKind kind) const {
     const auto found = std::find_if(events.begin(), events.end(),

@@ -79,7 +79,8 @@ void BrowserControl::import(const std::vector<std::filesystem::path>& meshes) {
 void BrowserControl::open_together(const std::vector<std::string>& paths) {
   if (paths.empty()) return;
   const bool meshes = std::all_of(paths.begin(), paths.end(), [](const std::string& path) {
-    return std::filesystem::is_regular_file(path) && kind_of(path) == OpenKind::kMeshes;
+    std::error_code unreadable;  // a folder on the way may not be looked into
+    return std::filesystem::is_regular_file(path, unreadable) && kind_of(path) == OpenKind::kMeshes;
   });
   if (meshes) return import({paths.begin(), paths.end()});
   if (paths.size() > 1 && kind_of(paths.front()) != OpenKind::kScan)
