@@ -3,6 +3,7 @@
 // A stump that is a block on a bone, and the shipped instruments that clear it.
 #include <gtest/gtest.h>
 
+#include "osteon/mesh/append_mesh.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/stump_setup.h"
 #include "osteon/scene/instrument.h"
@@ -19,12 +20,6 @@ inline TriMesh box_at(const Vec3& half, const Vec3& middle) {
   TriMesh mesh = box_mesh(half);
   for (Vec3& p : mesh.vertices) p += middle;
   return mesh;
-}
-inline void add_mesh(TriMesh& to, const TriMesh& part) {
-  const auto first = static_cast<std::uint32_t>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const Triangle& t : part.triangles)
-    to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 /// A ligament in two, on two bones side by side whose tops are at z = 0: on each stands a block of
@@ -43,7 +38,7 @@ inline std::shared_ptr<const Case> stump_case() {
   soft.name = "acl";
   soft.tissue = soft.kind = "ligament";
   soft.mesh_W = box_at(kStumpHalf, {0, 0, kStumpHalf.z()});
-  add_mesh(soft.mesh_W, box_at(kStumpHalf, {kStumpsApart_m, 0, kStumpHalf.z()}));
+  append_mesh(soft.mesh_W, box_at(kStumpHalf, {kStumpsApart_m, 0, kStumpHalf.z()}));
   soft.bones = {"tibia", "femur"};
   soft.attachments = {{"foot", "tibia", {0, 0, 0}}, {"head", "femur", {kStumpsApart_m, 0, 0}}};
   def.softs.push_back(soft);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "osteon/mesh/append_mesh.h"
+
 namespace osteon {
 namespace {
 
@@ -53,13 +55,6 @@ PoseTrack bending(const PoseTrack& X_FB, bool left) {
   return out;
 }
 
-void append(TriMesh& to, const TriMesh& more) {
-  const auto base = static_cast<std::uint32_t>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), more.vertices.begin(), more.vertices.end());
-  for (const Triangle& t : more.triangles)
-    to.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-}
-
 /// Triangles of a mesh that are farther than this from another surface.
 TriMesh farther_than(double gap, const TriMesh& mesh, const MeshDistance& other) {
   TriMesh out{mesh.vertices, {}};
@@ -74,7 +69,7 @@ TriMesh farther_than(double gap, const TriMesh& mesh, const MeshDistance& other)
 TriMesh touchable(const MeshDistance& bone, const MeshDistance& layer) {
   constexpr double kUnderside_m = 0.0003;
   TriMesh out = farther_than(kUnderside_m, layer.mesh(), bone);
-  append(out, farther_than(kUnderside_m, bone.mesh(), layer));
+  append_mesh(out, farther_than(kUnderside_m, bone.mesh(), layer));
   return out;
 }
 
@@ -83,7 +78,7 @@ Result<void> take_cartilage(const CaseDef& def, KneeParts& parts) {
   for (const SoftDef& soft : def.softs) {
     if (soft.kind != "cartilage" || soft.bones.empty()) continue;
     if (soft.bones[0] == "femur") {
-      append(femoral, moved_mesh(soft.mesh_W, parts.femur.X_FW, parts.left));
+      append_mesh(femoral, moved_mesh(soft.mesh_W, parts.femur.X_FW, parts.left));
       parts.femoral_thickness_m = std::max(parts.femoral_thickness_m, soft.thickness_m);
     }
     if (soft.bones[0] == "tibia")

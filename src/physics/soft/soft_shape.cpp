@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osteon/carve/carved_surface.h"
+#include "osteon/mesh/append_mesh.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
 #include "soft/skin_shape.h"
@@ -155,12 +156,7 @@ bool SoftShapes::take(std::size_t solid, const SoftPushes& pushes) {
 TriMesh SoftShapes::drawn(std::uint32_t soft) const {
   TriMesh out;
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
-    if (setup_->solids[s].soft != soft) continue;
-    const TriMesh& mesh = shapes_[s].drawn_W;
-    const auto first = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.insert(out.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const Triangle& t : mesh.triangles)
-      out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    if (setup_->solids[s].soft == soft) append_mesh(out, shapes_[s].drawn_W);
   }
   return out;
 }

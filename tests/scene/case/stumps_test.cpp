@@ -3,18 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "../../mesh/shapes.h"
+#include "osteon/mesh/append_mesh.h"
 #include "osteon/mesh/measure.h"
 #include "osteon/scene/build_case.h"
 
 namespace osteon {
 namespace {
-
-void add(TriMesh& to, const TriMesh& part) {
-  const auto first = static_cast<std::uint32_t>(to.vertices.size());
-  to.vertices.insert(to.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const Triangle& t : part.triangles)
-    to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
 
 // Balls on two bones, 40 mm apart along x; the second bone's frame stands elsewhere.
 Case with_ligament(const TriMesh& mesh_W, const std::string& kind = "ligament") {
@@ -47,8 +41,8 @@ TEST(TornStumps, AWholeLigamentHasNone) {
 
 TEST(TornStumps, OfOneInTwoThePartAtEachFootprintInItsBonesFrame) {
   TriMesh torn = test::sphere(0.003, 12, Vec3(0.029, 0, 0));
-  add(torn, test::sphere(0.004, 12, Vec3(0.012, 0, 0)));
-  add(torn, test::sphere(0.0005, 9, Vec3(0.009, 0, 0)));  // a shred right at the footprint
+  append_mesh(torn, test::sphere(0.004, 12, Vec3(0.012, 0, 0)));
+  append_mesh(torn, test::sphere(0.0005, 9, Vec3(0.009, 0, 0)));  // a shred right at the footprint
   const Case the_case = with_ligament(torn);
   const auto stumps = torn_stumps(the_case);
   ASSERT_EQ(stumps.size(), 2u);
@@ -68,7 +62,7 @@ TEST(TornStumps, OfOneInTwoThePartAtEachFootprintInItsBonesFrame) {
 // Two loose pieces at one end alone: that end has one stump, the other has the other piece.
 TEST(TornStumps, APartServesOneFootprintOnly) {
   TriMesh torn = test::sphere(0.003, 12, Vec3(0.010, 0, 0));
-  add(torn, test::sphere(0.003, 12, Vec3(0.018, 0, 0)));
+  append_mesh(torn, test::sphere(0.003, 12, Vec3(0.018, 0, 0)));
   const auto stumps = torn_stumps(with_ligament(torn));
   ASSERT_EQ(stumps.size(), 2u);
   EXPECT_NE(centroid(stumps[0].mesh_B), centroid(stumps[1].mesh_B));
@@ -76,7 +70,7 @@ TEST(TornStumps, APartServesOneFootprintOnly) {
 
 TEST(TornStumps, OtherPartsThatAreInTwoAreNoStumps) {
   TriMesh torn = test::sphere(0.003, 12, Vec3(0.029, 0, 0));
-  add(torn, test::sphere(0.004, 12, Vec3(0.012, 0, 0)));
+  append_mesh(torn, test::sphere(0.004, 12, Vec3(0.012, 0, 0)));
   EXPECT_TRUE(torn_stumps(with_ligament(torn, "fat")).empty());
 }
 
