@@ -160,7 +160,7 @@ void along_stroke(benchmark::State& state, const Query& query) {
       const Vec3 u(std::cos(angle) * 0.8, std::sin(angle) * 0.8, 0.6);
       const Vec3 n = u.cwiseQuotient(kBoneHalf).normalized();
       const Pose X{u.cwiseProduct(kBoneHalf) + (kProbeHalf - kDepth) * n,
-                   turn_between(Vec3::UnitZ(), n)};
+                   osteon::turn_between(Vec3::UnitZ(), n)};
       const Felt felt = query(X);
       if (i > 0) {
         depth_jump = std::max(depth_jump, std::abs(felt.depth - last.depth));

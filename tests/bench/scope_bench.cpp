@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "cases/scoped_case.h"
+#include "cases/standard_views.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/prepare.h"
 #include "osteon/render/renderer.h"
