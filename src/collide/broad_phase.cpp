@@ -11,6 +11,8 @@ namespace {
 // Grows every bound by more than the rounding of a pose at a metre from the origin.
 constexpr double kRounding = 1e-9;
 
+Mat3 turn_into_bone(const Pose& X_WB) { return X_WB.q.conjugate().toRotationMatrix(); }
+
 bool same_pose(const Pose& a, const Pose& b) { return a.p == b.p && a.q.coeffs() == b.q.coeffs(); }
 
 struct Stretch {
@@ -93,16 +95,16 @@ bool BroadPhase::out_of_reach(std::uint32_t bone, const Pose& X_WB, const SweptS
   return distance_squared(path_W, center_W) > room * room;
 }
 
-BroadPhase::BallOfBone BroadPhase::in_bone(const Pose& X_WB, const SweptSphere& ball,
-                                           double margin) {
-  // Two vectors turned by one matrix cost less than by the quaternion each.
-  const Mat3 R_BW = X_WB.q.conjugate().toRotationMatrix();
+// Two vectors turned by one matrix cost less than by the quaternion each.
+BroadPhase::BallOfBone BroadPhase::in_bone(const Pose& X_WB, const Mat3& R_BW,
+                                           const SweptSphere& ball, double margin) {
   BallOfBone out;
   out.from_B = R_BW * (ball.p_from_W - X_WB.p);
   out.along_B = R_BW * (ball.p_to_W - ball.p_from_W);
   out.per_length2 = per_square(out.along_B);
-  out.reach = ball.radius + margin + kRounding * (1 + out.from_B.norm());
-  out.finite = is_finite(out.from_B) && is_finite(out.along_B) && std::isfinite(out.reach);
+  out.reach = ball.radius + margin + kRounding * (1 + out.from_B.lpNorm<1>());
+  // What is not finite makes the sum so.
+  out.finite = std::isfinite(out.reach + out.from_B.sum() + out.along_B.sum());
   return out;
 }
 
@@ -196,7 +198,8 @@ std::size_t BroadPhase::query_bone(std::uint32_t bone, const Pose& X_WB, const S
                                    NearPieces* near) const {
   if (near ? still_clear(*near, bone, X_WB, ball, margin) : out_of_reach(bone, X_WB, ball, margin))
     return found;
-  const BallOfBone ball_B = in_bone(X_WB, ball, margin);
+  const BallOfBone ball_B =
+      in_bone(X_WB, near ? near->turn_into(bone, X_WB) : turn_into_bone(X_WB), ball, margin);
   const std::uint32_t first = first_piece_[bone];
   const bool listed = near && ball_B.finite;
   const auto list = listed ? near_of(bone, X_WB, ball_B, *near) : std::span<const std::uint32_t>();
@@ -221,6 +224,14 @@ std::size_t BroadPhase::query(std::span<const Pose> X_WB, const SweptSphere& bal
 }
 
 NearPieces::NearPieces(const BroadPhase& broad_phase)
-    : places_(broad_phase.bone_count()), pieces_(broad_phase.piece_count()) {}
+    : places_(broad_phase.bone_count()),
+      turns_(broad_phase.bone_count()),
+      pieces_(broad_phase.piece_count()) {}
+
+const Mat3& NearPieces::turn_into(std::uint32_t bone, const Pose& X_WB) {
+  Turn& turn = turns_[bone];
+  if (!same_pose(turn.X_WB, X_WB)) turn = {X_WB, turn_into_bone(X_WB)};
+  return turn.R_BW;
+}
 
 }  // namespace osteon

@@ -302,8 +302,8 @@ double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
 
 FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s, const Pose& X_WB,
                                        const Quat& q_WT) const {
-  const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
-  const Vec3 n_T = q_WT.conjugate() * n_W;
+  const Vec3 n_W = turned(X_WB.q, s.nhat_BT_B);
+  const Vec3 n_T = turned(q_WT.conjugate(), n_W);
   const PiecePair& ids = pairs_[pair];
   const double skin = ids.field ? kFieldSkin : kSkin;
   return {n_W, s.bone_support + n_W.dot(X_WB.p) + support_against(ids, n_T) + skin};
@@ -312,7 +312,7 @@ FreeHalfSpace ContactField::half_space(std::uint32_t pair, const PartingPlane& s
 // In half_space's order of operations: rounding then keeps c above that one's.
 FreeHalfSpace ContactField::outer_half_space(std::uint32_t pair, const PartingPlane& s,
                                              const Pose& X_WB) const {
-  const Vec3 n_W = X_WB.rotate(s.nhat_BT_B);
+  const Vec3 n_W = turned(X_WB.q, s.nhat_BT_B);
   return {n_W, s.bone_support + n_W.dot(X_WB.p) + piece_radius_[pairs_[pair].tool_piece] + kSkin};
 }
 

@@ -83,7 +83,8 @@ class BroadPhase {
   void close_bone();
   bool out_of_reach(std::uint32_t bone, const Pose& X_WB, const SweptSphere& ball,
                     double margin) const;
-  static BallOfBone in_bone(const Pose& X_WB, const SweptSphere& ball, double margin);
+  static BallOfBone in_bone(const Pose& X_WB, const Mat3& R_BW, const SweptSphere& ball,
+                            double margin);
   static bool meets(const Bounds& piece, const BallOfBone& ball);
   struct Clearance {
     double room = 0;          ///< m; the ball may be so far from the place; not above 0: nowhere
@@ -121,7 +122,15 @@ class NearPieces {
     double reach = -1;        ///< m; below 0: nothing is known
     std::uint32_t count = 0;
   };
+  /// The turn into a bone's frame: a bone that stands still keeps it.
+  struct Turn {
+    Pose X_WB;
+    Mat3 R_BW = Mat3::Identity();
+  };
+  const Mat3& turn_into(std::uint32_t bone, const Pose& X_WB);
+
   std::vector<Place> places_;          // one a bone
+  std::vector<Turn> turns_;            // likewise
   std::vector<std::uint32_t> pieces_;  // of each bone from its first piece on
 };
 
