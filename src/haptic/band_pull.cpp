@@ -79,6 +79,7 @@ void BandPull::add_solid(const PullingHand& hand, const Bones& bones, const Soli
 }
 
 // A shaft in its hole is damped every way and does not rub: the hole's friction is in the force.
+// What a portal holds, the patch about it does not hold as well.
 void BandPull::add_skin(const PullingHand& hand, const Bones& bones, const SkinContact& contact,
                         BandForce& out) const {
   if (contact.bone >= bones.X_WB.size() || contact.part >= on_skin_.size()) return;
@@ -88,8 +89,10 @@ void BandPull::add_skin(const PullingHand& hand, const Bones& bones, const SkinC
   const Vec3 nhat_W = X.q * contact.nhat_B, p_W = X * press.p_B;
   if (contact.through) {
     const double share = press.deep_m > 0 ? press.deep_m / (press.deep_m + kDamped_m) : 0;
-    out.force_W +=
-        press.force_n * nhat_W + X.q * press.aside_B - share * hand.damping_n_s_per_m * hand.v_W;
+    const bool held = contact.made != kNotMade && contact.made == hand.made;
+    const double left = held ? 1 - hand.grip : 1;
+    out.force_W += left * (press.force_n * nhat_W + X.q * press.aside_B -
+                           share * hand.damping_n_s_per_m * hand.v_W);
   } else if (press.force_n > 0) {
     add(hand,
         {nhat_W, p_W, press.force_n, press.deep_m, way_with(bones.before_WB[contact.bone], X, p_W),

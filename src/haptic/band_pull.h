@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ struct PullingHand {
   std::uint32_t instrument = 0, epoch = 0;
   double stiffness_n_per_m = 0;  ///< of the coupling
   double damping_n_s_per_m = 0;
+  std::uint32_t made = kNotMade;  ///< the made portal that holds the shaft
+  double grip = 0;                ///< 0 to 1: how far it does
 };
 
 /// What all bands, solids and skin do with a tool in a tick.

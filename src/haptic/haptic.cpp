@@ -36,6 +36,8 @@ struct HapticLoop::Impl {
   ProxySolver solver;
   BandPull bands;
   std::vector<Portal> portals;
+  std::size_t first_made = 0;              // those before are the case's own
+  const BandContacts* contacts = nullptr;  // null: nothing soft is felt
   HapticState state;
   std::array<Pose, kMaxBones> now_WB{};
   std::array<BoneMotion, kMaxBones> motion{};
@@ -73,6 +75,9 @@ struct HapticLoop::Impl {
   PortalPivot pivot(const ToolInput& input, const Pose& X_WD, const HapticParams& params);
   Vec3 pull_of_bands(const Pose& before_WP, const HapticParams& params);
   void aim_through(const PortalPivot& pivot, const Vec3& base_W, Pose& wanted) const;
+  void see_made_portals();
+  std::uint32_t let_in() const;
+  std::uint32_t made_in_use() const;
   void pass_portals(const Pose& X_WD, bool start);
   PortalHold still_in(std::uint32_t portal) const;
   Vec3 carried_base() const;
@@ -157,11 +162,49 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   pass_portals(X_WD, true);
 }
 
+// Where the made ones are in this tick. One that is no more, as after a restore point, lets go.
+void HapticLoop::Impl::see_made_portals() {
+  for (std::size_t i = first_made; i < portals.size(); ++i) {
+    Portal& portal = portals[i];
+    const MadePortal made = contacts ? contacts->made[portal.made] : MadePortal{};
+    portal.open = made.open && made.bone < state.bone_count;
+    if (!portal.open) {
+      if (state.portal.portal == i) state.portal = {};
+      if (state.tool.portal == i) state.tool.portal = kNoPortal;
+      continue;
+    }
+    portal.pierced = made.pierced;
+    portal.p_W = now_WB[made.bone] * made.p_B;
+    portal.nhat_W = -(now_WB[made.bone].q * made.nhat_B);
+  }
+}
+
+// The made portal through which a patch of skin lets the tool.
+std::uint32_t HapticLoop::Impl::let_in() const {
+  if (first_made == portals.size() || !contacts) return kNoPortal;
+  if (contacts->instrument != state.tool.instrument || contacts->epoch != state.tool.epoch)
+    return kNoPortal;
+  const std::size_t skins = std::min<std::size_t>(contacts->skin_count, kMaxSkins);
+  for (std::size_t s = 0; s < skins; ++s) {
+    const SkinContact& skin = contacts->skins[s];
+    const std::size_t portal = first_made + skin.made;
+    if (skin.through && skin.made != kNotMade && portal < portals.size() && portals[portal].open)
+      return static_cast<std::uint32_t>(portal);
+  }
+  return kNoPortal;
+}
+
 void HapticLoop::Impl::pass_portals(const Pose& X_WD, bool start) {
   if (!portals.empty() && tool->shaft.radius > 0)
-    follow_portals(portals, tool->shaft, state.tool.X_WP, X_WD, start, state.portal);
+    follow_portals(portals, tool->shaft, state.tool.X_WP, X_WD, start, let_in(), state.portal);
   if (state.portal.portal != kNoPortal || !(state.portal.grip > 0))
     state.tool.portal = state.portal.portal;
+  state.tool.p_portal_W.setZero();
+  state.tool.portal_way = 0;
+  if (state.tool.portal >= portals.size()) return;
+  const Portal& portal = portals[state.tool.portal];
+  state.tool.p_portal_W = portal.p_W;
+  if (portal.made != kNotMade) state.tool.portal_way = portal.pierced ? 2 : 1;
 }
 
 // A hand that begins anew where it is, with this instrument or another, is in the portal that it
@@ -227,6 +270,8 @@ void HapticLoop::Impl::grab(const ToolInput& input, const Pose& X_WD, const Hapt
   state.portal = {};
   state.rub = {};
   state.tool.portal = kNoPortal;
+  state.tool.p_portal_W.setZero();
+  state.tool.portal_way = 0;
   state.tool.contact_count = 0;
   state.tool.tool_contact_count = 0;
   state.fade_n = 0;
@@ -365,6 +410,11 @@ void HapticLoop::Impl::follow(const ToolInput& input, const Pose& X_WD,
   pass_portals(X_WD, false);
 }
 
+std::uint32_t HapticLoop::Impl::made_in_use() const {
+  const std::uint32_t portal = state.portal.portal;
+  return portal < portals.size() ? portals[portal].made : kNotMade;
+}
+
 // Soft bands push the tool where it is: bone and other tools alone bound its way.
 Vec3 HapticLoop::Impl::pull_of_bands(const Pose& before_WP, const HapticParams& params) {
   if (!bands.any()) {
@@ -378,7 +428,9 @@ Vec3 HapticLoop::Impl::pull_of_bands(const Pose& before_WP, const HapticParams& 
                          t.instrument,
                          t.epoch,
                          params.stiffness_n_per_m,
-                         params.damping_n_s_per_m};
+                         params.damping_n_s_per_m,
+                         made_in_use(),
+                         state.portal.grip};
   const BandForce pulled = bands.force(hand, before(), now());
   const double scale = params.friction_scale;
   RubNow rubbed{pulled.rests_W, scale * pulled.resting_n, scale * pulled.sliding_n,
@@ -456,6 +508,7 @@ const ToolState& HapticLoop::tick(const ToolInput& input, const BoneSnapshot& bo
   in.see_bones(bones, bones_age_s);
   in.see_others(others);
   in.see_guide(bones);
+  in.see_made_portals();
   in.wait_for_epoch(bones.epoch);
   in.v_hand_W = out.v_W = input.v_W;
   if (params.grab_n_per_m > 0) {
@@ -509,7 +562,16 @@ const Tool& HapticLoop::tool() const { return *impl_->tool; }
 
 std::uint64_t HapticLoop::state_hash() const { return hash_of(impl_->state); }
 
-void HapticLoop::set_portals(std::vector<Portal> portals) { impl_->portals = std::move(portals); }
+void HapticLoop::set_portals(std::vector<Portal> portals) {
+  impl_->portals = std::move(portals);
+  const auto& all = impl_->portals;
+  const auto first = std::find_if(all.begin(), all.end(),
+                                  [](const Portal& portal) { return portal.made != kNotMade; });
+  impl_->first_made = static_cast<std::size_t>(first - all.begin());
+  for (std::size_t i = impl_->first_made; i < all.size(); ++i)
+    demand(all[i].made == i - impl_->first_made && all[i].made < kMaxMade,
+           "portals that are made stand at the end, by their numbers");
+}
 
 void HapticLoop::set_cuts(std::span<const CutField* const> by_bone) {
   impl_->field.set_cuts(by_bone);
@@ -522,6 +584,7 @@ void HapticLoop::set_hand(std::uint32_t hand) {
 
 void HapticLoop::set_bands(const std::vector<SoftBand>* bands, const BandContacts* contacts,
                            const SoftFriction& friction) {
+  impl_->contacts = contacts;
   impl_->bands.set(bands, contacts, friction);
 }
 

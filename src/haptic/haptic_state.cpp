@@ -42,6 +42,8 @@ std::uint64_t hash_of(const HapticState& s) {
     h.add(s.portal.grip);
     h.add(s.portal.tip_depth_m);
     h.add(s.portal.nearest);
+    h.add(s.tool.p_portal_W);
+    h.add(s.tool.portal_way);
   }
   for (std::uint32_t i = 0; i < s.bone_count; ++i) h.add(s.X_WB[i]);
   for (const PairMemory& pair : s.pairs) {

@@ -83,12 +83,20 @@ std::uint32_t nearest_portal(std::span<const Portal> portals, const Capsule& sha
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t nearest = PortalHold::kNone;
   for (std::uint32_t i = 0; i < portals.size(); ++i) {
+    if (portals[i].made != kNotMade) continue;
     const double off = off_portal(portals[i], shaft, X_WP);
     if (!(off < least) || !points_inwards(portals[i], shaft, X_WP)) continue;
     least = off;
     nearest = i;
   }
   return nearest;
+}
+
+void enter(std::uint32_t portal, PortalHold& hold) {
+  hold.portal = portal;
+  hold.anchor_m = 0;
+  hold.sliding = false;
+  hold.grip = 0;
 }
 
 }  // namespace
@@ -149,7 +157,7 @@ PortalRing ring_about_line(const Vec3& p_W, const Vec3& along_W, const Pose& X_W
 }
 
 void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const Pose& X_WP,
-                    const Pose& X_WD, bool start, PortalHold& hold) {
+                    const Pose& X_WD, bool start, std::uint32_t let_in, PortalHold& hold) {
   if (hold.portal != PortalHold::kNone) {
     const Portal& portal = portals[hold.portal];
     const double depth = tip_depth(portal, shaft, X_WP);
@@ -161,6 +169,11 @@ void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const
     return;
   }
   hold.grip = std::max(0.0, hold.grip - kForgetPerTick);
+  if (let_in < portals.size()) {
+    hold.tip_depth_m = tip_depth(portals[let_in], shaft, X_WP);
+    if (hold.tip_depth_m > 0) enter(let_in, hold);
+    return;
+  }
   const std::uint32_t nearest = nearest_portal(portals, shaft, X_WP);
   const std::uint32_t before = hold.nearest;
   const double depth_before = hold.tip_depth_m;
@@ -169,12 +182,8 @@ void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const
   hold.tip_depth_m = tip_depth(portals[nearest], shaft, X_WP);
   const bool passes = before == nearest && depth_before <= 0;
   if (hold.tip_depth_m > 0 && (passes || start) &&
-      off_portal(portals[nearest], shaft, X_WP) < kCapture_m) {
-    hold.portal = nearest;
-    hold.anchor_m = 0;
-    hold.sliding = false;
-    hold.grip = 0;
-  }
+      off_portal(portals[nearest], shaft, X_WP) < kCapture_m)
+    enter(nearest, hold);
 }
 
 PortalPivot pivot_in(std::span<const Portal> portals, const Capsule& shaft, const PortalHand& hand,

@@ -44,9 +44,11 @@ inline constexpr double kMostYield_m = 0.0008;
 /// `start`; leaves it where the tip is withdrawn and the hand, at X_WD, has it out as well (or 5 mm
 /// out): at the rim the pivot itself may lift the tip out of the skin. Of one that has been let go
 /// `grip` tells how much longer it counts as in, from 1 to 0: the skin may push a yielding hand
-/// out, and it comes in again, many times a second. `shaft` in Tool, p0 at the tip.
+/// out, and it comes in again, many times a second. One that was made in a patch of skin is entered
+/// where the patch lets the shaft through: `let_in`, in `portals`; PortalHold::kNone: nowhere.
+/// `shaft` in Tool, p0 at the tip.
 void follow_portals(std::span<const Portal> portals, const Capsule& shaft, const Pose& X_WP,
-                    const Pose& X_WD, bool start, PortalHold& hold);
+                    const Pose& X_WD, bool start, std::uint32_t let_in, PortalHold& hold);
 
 /// What the portal that `hold` names does with the hand; moves `hold`'s friction on.
 PortalPivot pivot_in(std::span<const Portal> portals, const Capsule& shaft, const PortalHand& hand,

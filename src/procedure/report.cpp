@@ -33,7 +33,10 @@ ReportBuilder::ReportBuilder(const Case& the_case, double tick_s, std::span<cons
       tick_s_(tick_s),
       stride_(static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (kPathRateHz * tick_s))))),
       tallies_(the_case.bones.size()) {
-  for (const Portal& portal : portals) portals_.push_back({portal.name, 0, 0});
+  for (const Portal& portal : portals) {
+    portals_.push_back({portal.name, 0, 0});
+    to_make_.push_back(portal.made != kNotMade);
+  }
   portal_ticks_.resize(portals_.size());
   events_.resize(event_table().size());
   path_100hz_.reserve(static_cast<std::size_t>(kReservedSeconds * kPathRateHz));
@@ -103,7 +106,8 @@ Report ReportBuilder::finish() const {
                             tally.peak_n, contact_ticks > 0 ? tally.sum_n / contact_ticks : 0,
                             tally.deepest_m * 1000});
   }
-  report.portals = portals_;
+  for (std::size_t i = 0; i < portals_.size(); ++i)
+    if (!to_make_[i] || portals_[i].times_entered > 0) report.portals.push_back(portals_[i]);
   for (std::size_t i = 0; i < events_.size(); ++i)
     if (events_[i] > 0) report.events[std::string(event_table()[i].name)] = events_[i];
   const double rate_hz = 1 / (static_cast<double>(stride_) * tick_s_);

@@ -88,6 +88,8 @@ constexpr std::array kRows = {
     EventKindRow{
         kSoftCleared, "soft_cleared", "clears", S::kSoftPart, {"percent", "all_percent", ""}},
     EventKindRow{
+        kPortalMade, "portal_made", "makes", S::kPortal, {"off_mm", "pierced", "across_mm"}},
+    EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,
                  "cut_end",

@@ -5,6 +5,7 @@
 
 #include "osteon/base/hash.h"
 #include "osteon/mesh/measure.h"
+#include "osteon/scene/made_portal.h"
 
 namespace osteon {
 namespace {
@@ -70,6 +71,23 @@ std::vector<Portal> find_portals(const Case& the_case, const PortalSkin& skin) {
   return out;
 }
 
+std::vector<Portal> room_to_make(std::string_view place, std::uint32_t landmark,
+                                 std::uint32_t first, const PortalSkin& skin) {
+  std::vector<Portal> out(kMadePerPatch);
+  const bool known = place.starts_with(kPrefix) && place.size() > kPrefix.size();
+  const std::string title = known ? title_of(place) : std::string(place);
+  for (std::uint32_t i = 0; i < out.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    out[i].name = std::string(place) + "_made_" + number;
+    out[i].title = title + " made " + number;
+    out[i].landmark = landmark;
+    out[i].skin = skin;
+    out[i].made = first + i;
+    out[i].open = false;
+  }
+  return out;
+}
+
 PortalSkin portal_skin(const Tissue& skin) {
   PortalSkin out;
   out.stiffness_n_per_m = skin.stiffness_n_per_m.value;
@@ -94,6 +112,7 @@ std::uint64_t hash_of(const std::vector<Portal>& portals) {
     hasher.add(portal.skin.static_friction);
     hasher.add(portal.skin.dynamic_friction);
     hasher.add(portal.skin.squeeze_n);
+    if (portal.made != kNotMade) hasher.add(portal.made);
   }
   return hasher.value();
 }

@@ -107,6 +107,11 @@ struct Session::Impl {
   void step_if_due(std::uint64_t tick);
 
  private:
+  std::uint32_t first_made() const {
+    const auto fixed = std::count_if(portals.begin(), portals.end(),
+                                     [](const Portal& portal) { return portal.made == kNotMade; });
+    return static_cast<std::uint32_t>(fixed);
+  }
   void set_carving(const std::shared_ptr<const CarvingSetup>& carving) {
     std::vector<FeltCuts*> felt;
     for (const auto& hand : hands) felt.push_back(&hand->set_carving(*carving));
@@ -117,7 +122,7 @@ struct Session::Impl {
     for (const auto& hand : hands) felt.push_back(&hand->set_bands(softs->bands, softs->friction));
     world.set_softs(std::make_unique<SoftHalf>(
         std::make_unique<SoftWorld>(softs, tray, settings.haptic.stiffness_n_per_m,
-                                    settings.force_limit_n, settings.physics.step_s),
+                                    settings.force_limit_n, settings.physics.step_s, first_made()),
         std::move(felt)));
   }
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "osteon/physics/skin_setup.h"
 #include "osteon/scene/tool_hash.h"
 #include "osteon/session/session.h"
 #include "whole_tray.h"
@@ -46,12 +47,20 @@ std::string listed(const std::vector<Portal>& portals) {
   return text.empty() ? "The case has none: give none" : "Choose among " + text + ", all or none";
 }
 
-}  // namespace
+bool lies_under(const Portal& portal, const std::vector<Portal>& to_make) {
+  return std::any_of(to_make.begin(), to_make.end(),
+                     [&](const Portal& made) { return made.landmark == portal.landmark; });
+}
 
-Result<std::vector<Portal>> open_portals(const Case& the_case, const SessionSettings& settings) {
-  const std::vector<Portal> all = find_portals(the_case, settings.portal_skin);
+// Those of the case that the settings name; of all those over which whole skin lies are shut.
+Result<std::vector<Portal>> fixed_portals(const Case& the_case, const SessionSettings& settings,
+                                          const std::vector<Portal>& to_make) {
+  std::vector<Portal> all = find_portals(the_case, settings.portal_skin);
   const std::vector<std::string>& names = settings.portals;
-  if (names == std::vector<std::string>{kAll}) return all;
+  if (names == std::vector<std::string>{kAll}) {
+    std::erase_if(all, [&](const Portal& portal) { return lies_under(portal, to_make); });
+    return all;
+  }
   for (const std::string& name : names)
     if (!find_portal(all, name))
       return fail("the case has no portal '" + name + "'", "portals", listed(all));
@@ -62,6 +71,15 @@ Result<std::vector<Portal>> open_portals(const Case& the_case, const SessionSett
         }))
       open.push_back(portal);
   return open;
+}
+
+}  // namespace
+
+Result<std::vector<Portal>> open_portals(const Case& the_case, const SessionSettings& settings) {
+  const auto to_make = portals_to_make(the_case, settings.soft, settings.portal_skin);
+  auto portals = fixed_portals(the_case, settings, to_make);
+  if (portals) portals->insert(portals->end(), to_make.begin(), to_make.end());
+  return portals;
 }
 
 RecordingHeader recording_header(const Case& the_case, const SessionSettings& settings,

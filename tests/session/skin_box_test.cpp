@@ -138,7 +138,8 @@ SessionState with_hand(const SessionState& state, const SkinHand& hand) {
   return out;
 }
 
-// Version 28 of the state's bytes knew neither the place on a box nor how much of it presses.
+// Version 28 of the state's bytes knew neither the place on a box nor how much of it presses, and
+// no portals that were made in skin: the word that counts them.
 TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   Session session = skin_run().session();
   SkinHandAt hand(session);
@@ -153,12 +154,19 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   without.contact.core = Vec3::Zero();
   without.radius_m = 0;
   std::string bytes = to_bytes(state);
-  ASSERT_EQ(bytes[0], 30);
+  ASSERT_EQ(bytes[0], 31);
   const std::size_t core = first_other(bytes, with_hand(state, other_core));
   const std::size_t radius = first_other(bytes, with_hand(state, other_radius));
+  SkinState skin = *state.world.softs.skin;
+  skin.patches[0].made_count = 1;
+  SessionState with_portal = state;
+  with_portal.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
+  const std::size_t portals = first_other(bytes, with_portal);
+  ASSERT_LT(portals, core);
   ASSERT_LT(core, radius);
   bytes.erase(radius, 8);
   bytes.erase(core, 24);
+  bytes.erase(portals, 8);
   bytes[0] = 28;
   const auto back = state_from_bytes(bytes);
   ASSERT_TRUE(back) << back.error().message();

@@ -100,7 +100,8 @@ struct SkinRun {
     settings.haptic.max_force_n = 60;
     settings.haptic.max_slew_n_per_s = 1e5;
     settings.force_limit_n = 5;
-    if (!portals) settings.portals.clear();
+    settings.portals.clear();
+    if (portals) settings.portals = {"AL"};
     auto made = make_skin_patches(*the_case, settings.soft, Vec3::UnitY(), {});
     EXPECT_TRUE(made) << made.error().message();
     SoftSetup setup;

@@ -163,7 +163,7 @@ TEST(Skin, ATouchThatIsTooLightAndABladeThatLiesFlatCutNothing) {
   EXPECT_EQ(session.softs()->skin_readout(0).cut_m, 0);
 }
 
-// Rise, peak, drop; the hole's rim holds it on the way out; the second time nothing has to break.
+// Rise, peak, drop; after that a portal holds it, and the second time nothing has to break.
 TEST(Skin, ATrocarBreaksThroughAtItsPeak) {
   Session session = skin_run().session();
   SkinHandAt hand(session);
@@ -175,8 +175,8 @@ TEST(Skin, ATrocarBreaksThroughAtItsPeak) {
   const auto peak = std::max_element(hand.force_z.begin(), hand.force_z.end());
   EXPECT_NEAR(*peak, peak_n, 0.02 * peak_n);
   for (auto n = hand.force_z.begin() + 1; n < peak; ++n) ASSERT_GT(*n, n[-1] - 1e-9);
-  const PierceLaw law = pierce_law(m, kTrocar_m, 0, 400);
-  EXPECT_NEAR(hand.force_z.back(), law.grip_n + law.resist_n, 0.02 * peak_n);
+  const PortalSkin& rim = session.portals()[0].skin;
+  EXPECT_NEAR(hand.force_z.back(), rim.dynamic_friction * rim.squeeze_n, 0.05);
   ASSERT_EQ(hand.count(kSkinPierced), 1u);
   EXPECT_NEAR(hand.first(kSkinPierced)->values[0], peak_n, 0.03 * peak_n);
   EXPECT_NEAR(hand.first(kSkinPierced)->values[2], 2e3 * 0.8 * kTrocar_m, 1e-9);
@@ -186,15 +186,15 @@ TEST(Skin, ATrocarBreaksThroughAtItsPeak) {
   hand.move({0, 0, -0.030}, 200);
   hand.force_z.clear();
   hand.move({0, 0, 0.010}, 2000);
-  EXPECT_NEAR(*std::min_element(hand.force_z.begin(), hand.force_z.end()), -law.grip_n,
-              0.05 * law.grip_n + 0.02);
+  EXPECT_NEAR(*std::min_element(hand.force_z.begin(), hand.force_z.end()),
+              -rim.static_friction * rim.squeeze_n, 0.1);
   ASSERT_EQ(hand.count(kSkinLeft), 1u);
   EXPECT_NEAR(hand.first(kSkinLeft)->values[1], 30, 0.5);
   EXPECT_EQ(session.tool_state().force_W, Vec3(0, 0, 0));
   EXPECT_EQ(session.softs()->skin_readout(0).holes, 1u);
   hand.force_z.clear();
   hand.move({0, 0, -0.030}, 2000);
-  EXPECT_LT(*std::max_element(hand.force_z.begin(), hand.force_z.end()), 0.6 * peak_n);
+  EXPECT_LT(*std::max_element(hand.force_z.begin(), hand.force_z.end()), 0.15 * peak_n);
 }
 
 TEST(Skin, AScopeGoesInThroughACutAndNotThroughWholeSkin) {
@@ -217,7 +217,7 @@ TEST(Skin, AToolInAPortalDoesNotPressTheSkinAboutIt) {
   const SkinRun run(0, true);
   Session session = run.session();
   SkinHandAt hand(session);
-  ASSERT_EQ(session.portals().size(), 1u);
+  ASSERT_EQ(session.portals().size(), 1 + kMadePerPatch);
   hand.take(kSkinScope, {0, 0, 0.010});
   hand.move({0, 0, -0.020}, 1000);
   EXPECT_NE(session.tool_state().portal, kNoPortal);

@@ -64,7 +64,9 @@ class HapticLoop {
   /// meanwhile where there is room within 20 mm.
   void reset();
   /// The holes in the skin that a tool with a shaft may pass through (PortalPivot in
-  /// src/haptic/portal_pivot.h). Before the first tick; a case has none unless told.
+  /// src/haptic/portal_pivot.h). Before the first tick; a case has none unless told. Those that can
+  /// be made in skin stand at the end, by Portal::made; BandContacts says which are open, and
+  /// where.
   void set_portals(std::vector<Portal> portals);
   /// What was cut out of each bone, by its number; null: nothing, ever. Looked at in each tick, and
   /// must outlive the loop; who changes it does so between two ticks. Bones felt as pieces or hulls

@@ -10,6 +10,7 @@
 
 #include "osteon/base/result.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/portal.h"
 #include "osteon/scene/tool.h"
 #include "osteon/tissue/sheet_push.h"
 #include "osteon/tissue/sheet_work.h"
@@ -76,6 +77,11 @@ struct SkinNumbers {
 
 /// Whether a name of --soft means skin: "skin", or "skin:PLACE".
 bool names_skin(std::string_view name);
+
+/// The portals that can be made in such patches (see make_skin_patches), shut, in the order of the
+/// patches. None for names that mean no skin, or that the case does not have.
+std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
+                                    const PortalSkin& skin);
 
 /// Lays patches on the case's skin. `names`: "skin:PLACE" for the landmark or attachment PLACE;
 /// "skin": at portal_al, portal_am and pes_anserinus, as far as the case has them. `up_W`: along

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "osteon/physics/soft_state.h"
-#include "osteon/scene/skin_contact.h"
+#include "osteon/scene/made_portal.h"
 #include "osteon/scene/state.h"
 #include "osteon/tissue/sheet_pierce.h"
 #include "osteon/tissue/skin_sheet.h"
@@ -35,6 +35,13 @@ SkinCuts cuts_to_keep(const SkinSheet& sheet, const SheetCuts& cuts);
 bool fits(const SkinSheet& sheet, const SkinCuts& cuts);
 SheetCuts kept_cuts(const SkinSheet& sheet, const SkinCuts& cuts);
 
+/// A hole that holds shafts as a portal.
+struct SkinPortal {
+  SheetPoint at = SheetPoint::Zero();  ///< in the sheet at rest
+  double hole_m = 0;                   ///< radius at rest: what goes in there without a peak
+  bool pierced = false;                ///< else a cut let the shaft in
+};
+
 struct SkinPatchState {
   SkinCuts cuts;
   SkinCuts felt;         ///< its stiffness is that of these
@@ -43,6 +50,8 @@ struct SkinPatchState {
   std::uint64_t worked = 0;  ///< pieces of that work that are done
   double cut_m = 0;          ///< length that is open
   std::uint32_t holes = 0;   ///< that trocars have made
+  std::uint32_t made_count = 0;
+  std::array<SkinPortal, kMadePerPatch> made{};
 };
 
 /// A hand's tool on a patch, from step to step.
@@ -62,7 +71,8 @@ struct SkinHand {
   PierceState pierce;                  ///< of a tool that goes through
   double slit_m = 0;                   ///< in which it was set
   SheetPoint hole = SheetPoint::Zero();
-  double pull_n = 0;  ///< most that the hole has held it back with
+  double pull_n = 0;             ///< most that the hole has held it back with
+  std::uint32_t held_steps = 0;  ///< in which a portal has held it since it went through
   BandTouch touch;
 };
 

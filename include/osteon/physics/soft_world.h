@@ -38,8 +38,9 @@ struct SolidReadout {
 struct SkinReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
   std::array<double, kMaxHands> deep_m{};
-  double cut_m = 0;         ///< length that is open
-  std::uint32_t holes = 0;  ///< that trocars have made
+  double cut_m = 0;           ///< length that is open
+  std::uint32_t holes = 0;    ///< that trocars have made
+  std::uint32_t portals = 0;  ///< that have been made in it
 };
 
 /// The soft parts of a session at the physics' rate: it follows from which side each tool has come
@@ -51,10 +52,11 @@ struct SkinReadout {
 class SoftWorld {
  public:
   /// `tray`: the instruments by ToolState::instrument. `coupling_n_per_m`: the hands' stiffness.
-  /// `limit_n`: a force on a band above it is an event.
+  /// `limit_n`: a force on a band above it is an event. `first_made`: place of the first portal
+  /// that can be made in skin, in the session's list.
   SoftWorld(std::shared_ptr<const SoftSetup> setup,
             std::span<const std::shared_ptr<const Tool>> tray, double coupling_n_per_m,
-            double limit_n, double step_s);
+            double limit_n, double step_s, std::uint32_t first_made = 0);
   ~SoftWorld();
 
   /// `bones`: as this step has left them.

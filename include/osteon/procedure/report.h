@@ -38,7 +38,7 @@ struct Report {
   std::uint64_t case_hash = 0;
   double duration_s = 0;
   std::vector<BoneReport> bones;                ///< all bones of the case, in its order
-  std::vector<PortalReport> portals;            ///< all that were open, in their order
+  std::vector<PortalReport> portals;            ///< all that were open or made, in their order
   std::map<std::string, std::uint64_t> events;  ///< how many of each kind, by its name
   double path_length_mm = 0;                    ///< of the proxy, resampled at 100 Hz
   double smoothness_sparc = 0;                  ///< spectral arc length; 0 smoothest
@@ -80,6 +80,7 @@ class ReportBuilder {
   std::uint64_t ticks_ = 0;
   std::vector<BoneTally> tallies_;
   std::vector<PortalReport> portals_;
+  std::vector<bool> to_make_;  ///< of portals_: nothing is said of it while no shaft has been in it
   std::vector<std::uint64_t> portal_ticks_;
   std::vector<std::uint64_t> events_;  // by place in event_table()
   std::uint32_t portal_ = kNoPortal;

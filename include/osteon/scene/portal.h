@@ -8,6 +8,7 @@
 #include "osteon/base/types.h"
 #include "osteon/image/tissue.h"
 #include "osteon/scene/case.h"
+#include "osteon/scene/skin_contact.h"
 #include "osteon/scene/state.h"
 
 namespace osteon {
@@ -24,10 +25,14 @@ struct PortalSkin {
 struct Portal {
   std::string name;              ///< of its landmark: "portal_3_4"
   std::string title;             ///< "3-4"
-  std::uint32_t landmark = 0;    ///< in Case::landmarks
-  Vec3 p_W = Vec3::Zero();       ///< on the skin
+  std::uint32_t landmark = 0;    ///< in Case::landmarks; of a made one the place it is meant for
+  Vec3 p_W = Vec3::Zero();       ///< on the skin; of a made one nothing before it is made
   Vec3 nhat_W = -Vec3::UnitZ();  ///< unit, into the body
   PortalSkin skin;
+  /// Number among those that a student can make in patches of skin (MadePortal).
+  std::uint32_t made = kNotMade;
+  bool open = true;  ///< a made one: not before it is made
+  bool pierced = false;
 };
 
 /// Those of a case: its landmarks whose names begin with "portal_", so that they lie where they
@@ -35,6 +40,11 @@ struct Portal {
 /// landmark says; where it does not, against the skin's normal about it; in a case without skin,
 /// towards the nearest bone.
 std::vector<Portal> find_portals(const Case& the_case, const PortalSkin& skin = {});
+
+/// Room for those that can be made about a place: `first`: number of the first one. They are shut.
+/// `landmark`: kNoSubject where the place is none.
+std::vector<Portal> room_to_make(std::string_view place, std::uint32_t landmark,
+                                 std::uint32_t first, const PortalSkin& skin);
 
 /// From the tissue table's skin.
 PortalSkin portal_skin(const Tissue& skin);

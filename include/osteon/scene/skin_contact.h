@@ -8,6 +8,9 @@
 
 namespace osteon {
 
+/// Instead of the number of a portal that was made in skin: none.
+inline constexpr std::uint32_t kNotMade = 0xffffffffu;
+
 /// Where a part of a tool and a patch of skin meet: what physics tells the 1 kHz tick. The force is
 /// that of the last step and grows from there with the depth, so that it has no steps of 2 ms.
 struct SkinContact {
@@ -25,6 +28,9 @@ struct SkinContact {
   bool through = false;
   Vec3 hole_B = Vec3::Zero();
   double aside_n_per_m = 0;
+  /// Number of the made portal that it goes through. A hand that is held there feels so much less
+  /// of this contact.
+  std::uint32_t made = kNotMade;
   bool operator==(const SkinContact&) const = default;
 };
 

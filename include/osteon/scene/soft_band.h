@@ -11,6 +11,7 @@
 #include "osteon/collide/capsule_contact.h"
 #include "osteon/collide/round_box.h"
 #include "osteon/collide/segments.h"
+#include "osteon/scene/made_portal.h"
 #include "osteon/scene/skin_contact.h"
 #include "osteon/scene/soft_hold.h"
 #include "osteon/scene/soft_solid.h"
@@ -85,6 +86,7 @@ struct BandContacts {
   SoftHold hold;  ///< what its jaws hold
   std::uint32_t skin_count = 0;
   std::array<SkinContact, kMaxSkins> skins{};
+  MadePortals made{};  ///< in all patches, whatever the tool is near to
   bool operator==(const BandContacts&) const = default;
 };
 

@@ -24,4 +24,8 @@ inline constexpr EventKind kSkinLeft{116};     ///< and is out again
 /// percents of the stump.
 inline constexpr EventKind kSoftCleared{117};
 
+/// The subject is the portal: {from the place it was meant for, mm; 1: pierced, 0: cut; width of
+/// the shaft that fits, mm}.
+inline constexpr EventKind kPortalMade{118};
+
 }  // namespace osteon

@@ -103,6 +103,9 @@ struct ToolState {
   std::uint32_t buttons = 0;
   std::uint32_t status = kTickOk;
   std::uint32_t portal = kNoPortal;  ///< that the shaft passes through, as the loop's list has them
+  Vec3 p_portal_W = Vec3::Zero();    ///< where that is
+  /// 0: the case's own; of one that was made in skin 1: by a cut, 2: pierced.
+  std::uint32_t portal_way = 0;
   std::uint32_t contact_count = 0;
   std::array<Contact, kMaxContacts> contacts{};
   std::uint32_t tool_contact_count = 0;

@@ -46,7 +46,8 @@ struct SessionSettings {
   std::vector<HandSettings> hands{1};
   CarveSettings carve;            ///< of bones that instruments remove
   std::vector<std::string> tray;  ///< names of the tray's instruments, for who makes them again
-  /// Names or titles of the portals that are open; "all": every one of the case.
+  /// Names or titles of the portals that are open; "all": every one of the case but those under a
+  /// patch of skin (`soft`).
   std::vector<std::string> portals = {"all"};
   PortalSkin portal_skin;
   /// Soft parts that are felt, as make_soft_setup reads them; none: nothing soft is felt.
@@ -72,8 +73,8 @@ std::string to_json(const SessionSettings& settings);
 /// Fails on an unknown or missing setting, and on what check_settings refuses.
 Result<SessionSettings> parse_settings(const std::string& json);
 
-/// The holes in the skin of a session, by ToolState::portal, in the case's order. Fails on a name
-/// that the case does not have.
+/// The holes in the skin of a session, by ToolState::portal, in the case's order; after them those
+/// that can be made in its patches of skin. Fails on a name that the case does not have.
 Result<std::vector<Portal>> open_portals(const Case& the_case, const SessionSettings& settings);
 
 /// What a hand does in one tick.

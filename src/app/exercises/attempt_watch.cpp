@@ -6,6 +6,7 @@
 #include "osteon/procedure/tip_watch.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
+#include "osteon/session/session.h"
 #include "runs/hands/tray.h"
 
 namespace osteon {
@@ -100,6 +101,14 @@ Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
   return planned;
 }
 
+// By ToolState::portal.
+std::vector<Portal> portals_of_attempt(const Scenario& scenario, const Case& the_case) {
+  SessionSettings settings;
+  settings.soft = scenario.soft;
+  auto portals = open_portals(the_case, settings);
+  return portals ? std::move(*portals) : find_portals(the_case);
+}
+
 }  // namespace
 
 Result<std::vector<PlannedHand>> plan_hands(const Scenario& scenario, const Case& the_case) {
@@ -130,6 +139,7 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       rings_(the_case, tick_s),
       graft_(the_case) {
   const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
+  const std::vector<Portal> portals = portals_of_attempt(plan.scenario, the_case);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
     events_.emplace_back(the_case.bones.size(), event_limits(plan.scenario), hand, tick_s);
@@ -139,8 +149,7 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
     settings.hand = hand;
     settings.tick_s = tick_s;
     settings.marks = marks_of(plan);
-    for (const Portal& portal : find_portals(the_case))
-      settings.portal_marks.push_back(portal.landmark);
+    for (const Portal& portal : portals) settings.portal_marks.push_back(portal.landmark);
     scopes_.emplace_back(the_case, std::move(settings));
     for (const CutPart& part : parts)
       if (hands[h].removes)

@@ -7,6 +7,7 @@
 #include "osteon/mesh/distance.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/solid_cutter.h"
+#include "osteon/scene/event.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/tissue/skin_place.h"
@@ -33,15 +34,18 @@ struct PlaceAsked {
   std::string name;
   Vec3 near_W = Vec3::Zero();
   bool is_portal = false;
+  std::uint32_t landmark = kNoSubject;
 };
 
 std::optional<PlaceAsked> place_named(const Case& the_case, std::string_view name) {
-  for (const Landmark& landmark : the_case.landmarks)
+  for (std::uint32_t i = 0; i < the_case.landmarks.size(); ++i) {
+    const Landmark& landmark = the_case.landmarks[i];
     if (landmark.name == name)
-      return PlaceAsked{landmark.name, landmark.p_W, name.starts_with("portal_")};
+      return PlaceAsked{landmark.name, landmark.p_W, name.starts_with("portal_"), i};
+  }
   for (const SoftPart& part : the_case.softs)
     for (const Attachment& end : part.attachments)
-      if (end.name == name) return PlaceAsked{end.name, end.p_W, false};
+      if (end.name == name) return PlaceAsked{end.name, end.p_W, false, kNoSubject};
   return {};
 }
 
@@ -244,6 +248,22 @@ void add_skins(SoftSetup& setup, std::vector<SkinPatch> patches, std::vector<Ski
     h.add(tool.pierces);
   }
   setup.hash = h.value();
+}
+
+std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,
+                                    const PortalSkin& skin) {
+  std::vector<std::string> skins;
+  for (const std::string& name : names)
+    if (names_skin(name)) skins.push_back(name);
+  std::vector<Portal> out;
+  if (skins.empty()) return out;
+  const auto places = places_asked(the_case, skins);
+  if (!places) return out;
+  for (const PlaceAsked& place : *places)
+    for (Portal& portal :
+         room_to_make(place.name, place.landmark, static_cast<std::uint32_t>(out.size()), skin))
+      out.push_back(std::move(portal));
+  return out;
 }
 
 Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,

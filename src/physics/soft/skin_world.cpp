@@ -23,6 +23,10 @@ constexpr double kSkinInGroove_m = 0.0006;
 constexpr double kSkinDrops_m_per_s = 0.1;  // an edge falls so fast into an open groove
 constexpr double kSkinGrooveShare = 2.5;    // of the thickness: how deep a hole's slit is
 constexpr int kSkinSamples = 8;
+constexpr double kSkinPortalCloses_s = 0.06;  // a portal has closed about a shaft after 50 ms
+constexpr double kSkinOneOpening_m = 0.006;   // a shaft goes in so near: it is the same portal
+constexpr double kSkinAtOnePlace_m = 0.0025;  // for two shafts at a time
+constexpr double kSkinRounding = 1 + 1e-9;
 
 bool usable_tool(const ToolState& tool) {
   return tool.tick > 0 && is_finite(tool.X_WP) && tool.X_WP.p.squaredNorm() < 1e12;
@@ -46,11 +50,16 @@ struct SkinWorld::At {
   SkinHand* state = nullptr;
 };
 
-SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s)
-    : setup_(setup), coupling_n_per_m_(coupling_n_per_m), limit_n_(limit_n), step_s_(step_s) {
+SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s,
+                     std::uint32_t first_made)
+    : setup_(setup),
+      coupling_n_per_m_(coupling_n_per_m),
+      limit_n_(limit_n),
+      step_s_(step_s),
+      first_made_(first_made) {
   patches_.resize(setup_.skins.size());
   clear();
-  events_.reserve(kMaxHands * kMaxSkins * 6);
+  events_.reserve(kMaxHands * kMaxSkins * 7);
   scratch_.near.reserve(1024);
   for (const SkinPatch& patch : setup_.skins) (void)patch.whole->stiffness({}, scratch_);
 }
@@ -203,10 +212,21 @@ void SkinWorld::follow(const At& at) {
     hand.barred = c.deep_m > 0;
   }
   hand.yields_n_per_m += std::min(1.0, step_s_ / kSkinFollows_s) * (yields - hand.yields_n_per_m);
-  // What a portal lets through does not press the skin about it.
-  if (tool->portal != kNoPortal && !hand.pierce.through && !hand.cutting) hand.barred = true;
+  follow_portal(at);
   if (!(c.deep_m > 0)) hand.barred = false;
   press(at);
+}
+
+// What a portal lets through does not press the skin about it. In a hole that was made here the
+// portal takes over what the rim does, while it closes about the shaft.
+void SkinWorld::follow_portal(const At& at) {
+  SkinHand& hand = *at.state;
+  if (hand.pierce.through) hand.deepest_m = std::max(hand.deepest_m, hand.contact.deep_m);
+  if (at.now->tool->portal == kNoPortal || hand.cutting) return;
+  if (!hand.pierce.through)
+    hand.barred = true;
+  else if (hand.contact.made != kNotMade)
+    hand.barred = static_cast<double>(++hand.held_steps) * step_s_ >= kSkinPortalCloses_s;
 }
 
 void SkinWorld::press(const At& at) {
@@ -214,7 +234,7 @@ void SkinWorld::press(const At& at) {
   SkinContact& c = hand.contact;
   const SkinPatch& patch = setup_.skins[at.patch];
   const SkinTool& use = use_of(hand.instrument);
-  c.force_n = c.stiffness_n_per_m = 0;
+  c.force_n = c.stiffness_n_per_m = c.aside_n_per_m = 0;
   if (hand.barred) {
     if (hand.cutting) end_stroke_of(at);
     return;
@@ -308,7 +328,7 @@ void SkinWorld::pass(const At& at, const SheetPush& push) {
     c.through = false;
     c.force_n = touch.force_n;
     c.stiffness_n_per_m = touch.stiffness_n_per_m;
-    const double slit_m = patches_[at.patch].slits.near(hand.p, use.through_m).length_m;
+    const double slit_m = slit_at(at);
     const PierceLaw law =
         pierce_law(patch.sheet->material(), use.through_m, slit_m, hand.yields_n_per_m);
     const bool may = use.pierces || !(law.peak_n > 0);
@@ -333,9 +353,9 @@ void SkinWorld::pass(const At& at, const SheetPush& push) {
     const bool sticks = held > -law.grip_n && held < law.grip_n + law.resist_n;
     c.force_n = hand.pierce.force_n;
     c.stiffness_n_per_m = sticks ? std::min(law.stick_n_per_m, coupling_n_per_m_) : 0;
-    hand.deepest_m = std::max(hand.deepest_m, c.deep_m);
     hand.pull_n = std::max(hand.pull_n, -c.force_n);
   }
+  if (c.made == kNotMade && c.deep_m >= patch.sheet->material().thickness_m) make_portal(at);
   c.through = true;
   const SkinRelief::Place here = patch.relief.at(hand.hole);
   c.hole_B = patch.X_BS * Vec3(hand.hole.x(), hand.hole.y(), here.height_m);
@@ -346,6 +366,8 @@ void SkinWorld::pass(const At& at, const SheetPush& push) {
       {static_cast<double>(step_ - hand.since_step) * step_s_, 1e3 * hand.deepest_m, hand.pull_n});
   hand.pierce = {};
   hand.slit_m = 0;
+  hand.held_steps = 0;
+  c.made = kNotMade;
   c.through = false;
   c.force_n = c.stiffness_n_per_m = 0;
 }
@@ -361,6 +383,70 @@ void SkinWorld::make_hole(const At& at, double radius_m) {
   begin_stroke(sheet, mine.cuts, at.state->p - half);
   mine.cut_m += end_stroke(sheet, mine.cuts, at.state->p + half, depth_m);
   changed(at.patch);
+}
+
+// Length of the slit in which the tip is set. The hole of a portal is one that goes around it.
+double SkinWorld::slit_at(const At& at) const {
+  const Patch& mine = patches_[at.patch];
+  const SheetPoint& p = at.state->p;
+  const double reach_m = use_of(at.state->instrument).through_m;
+  double length_m = mine.slits.near(p, reach_m).length_m;
+  for (std::uint32_t i = 0; i < mine.made_count; ++i)
+    if ((mine.made[i].at - p).norm() < reach_m)
+      length_m = std::max(length_m, kSkinRounding * std::numbers::pi * mine.made[i].hole_m);
+  return length_m;
+}
+
+// Whether the shaft of another hand is in it.
+bool SkinWorld::is_taken(std::size_t s, std::uint32_t portal, std::size_t but) const {
+  const std::size_t number = s * kMadePerPatch + portal;
+  for (std::size_t h = 0; h < kMaxHands; ++h)
+    if (h != but && hands_[h][s].pierce.through && hands_[h][s].contact.made == number) return true;
+  return false;
+}
+
+// The portal of the opening that lets the tool in: the nearest.
+std::optional<std::uint32_t> SkinWorld::opening_at(const At& at) const {
+  const Patch& mine = patches_[at.patch];
+  std::optional<std::uint32_t> best;
+  double nearest = kSkinOneOpening_m;
+  for (std::uint32_t i = 0; i < mine.made_count; ++i) {
+    const double far = (mine.made[i].at - at.state->hole).norm();
+    const double reach = is_taken(at.patch, i, at.hand) ? kSkinAtOnePlace_m : kSkinOneOpening_m;
+    if (!(far < std::min(nearest, reach))) continue;
+    nearest = far;
+    best = i;
+  }
+  return best;
+}
+
+// A hole through skin is a portal once the shaft is in it as deep as the skin is thick. What goes
+// in later where it is open goes through the same one: in a slit it lies where the shaft does,
+// unless another holds it. Where there is no room for one more, the patch alone holds the shaft.
+void SkinWorld::make_portal(const At& at) {
+  SkinHand& hand = *at.state;
+  Patch& mine = patches_[at.patch];
+  const PierceLaw law =
+      pierce_law(setup_.skins[at.patch].sheet->material(), use_of(hand.instrument).through_m,
+                 hand.slit_m, hand.yields_n_per_m);
+  const bool pierced = law.peak_n > 0;
+  auto portal = pierced ? std::nullopt : opening_at(at);
+  const bool is_new = !portal;
+  if (is_new) {
+    if (mine.made_count == kMadePerPatch) return;
+    portal = mine.made_count++;
+    mine.made[*portal] = {hand.hole, 0, pierced};
+  }
+  SkinPortal& made = mine.made[*portal];
+  if (is_new || !is_taken(at.patch, *portal, at.hand)) made.at = hand.hole;
+  made.hole_m = std::max(made.hole_m, law.hole_m);
+  hand.contact.made = static_cast<std::uint32_t>(at.patch * kMadePerPatch + *portal);
+  if (!is_new) return;
+  const SkinRelief& relief = setup_.skins[at.patch].relief;
+  const double rise_m = relief.at(hand.hole).height_m - relief.at(SheetPoint::Zero()).height_m;
+  tell_event(at, kPortalMade,
+             {1e3 * std::hypot(hand.hole.norm(), rise_m), pierced ? 1.0 : 0.0,
+              2e3 * use_of(hand.instrument).through_m});
 }
 
 void SkinWorld::follow_stiffness(std::size_t s) {
@@ -406,6 +492,10 @@ void SkinWorld::tell_event(const At& at, EventKind kind, const std::array<double
   event.hand = static_cast<std::uint8_t>(at.hand);
   event.subject_kind = SubjectKind::kSoftPart;
   event.subject = setup_.skins[at.patch].soft;
+  if (kind == kPortalMade) {
+    event.subject_kind = SubjectKind::kPortal;
+    event.subject = first_made_ + hand.contact.made;
+  }
   event.values = values;
   const double h = setup_.skins[at.patch].relief.at(hand.p).height_m;
   event.p_W = patches_[at.patch].X_WS * Vec3(hand.p.x(), hand.p.y(), h);
@@ -433,8 +523,24 @@ void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bon
 
 void SkinWorld::tell(std::size_t hand, BandContacts& contacts) const {
   for (std::size_t s = 0; s < patches_.size(); ++s)
-    if (hands_[hand][s].near && !hands_[hand][s].barred)
+    if (hands_[hand][s].near && (!hands_[hand][s].barred || hands_[hand][s].contact.through))
       contacts.skins[contacts.skin_count++] = hands_[hand][s].contact;
+  for (std::size_t s = 0; s < patches_.size(); ++s)
+    for (std::uint32_t i = 0; i < patches_[s].made_count; ++i)
+      contacts.made[s * kMadePerPatch + i] = made_portal(s, i);
+}
+
+MadePortal SkinWorld::made_portal(std::size_t s, std::uint32_t portal) const {
+  const SkinPatch& patch = setup_.skins[s];
+  const SheetPoint& p = patches_[s].made[portal].at;
+  const SkinRelief::Place here = patch.relief.at(p);
+  MadePortal out;
+  out.open = true;
+  out.pierced = patches_[s].made[portal].pierced;
+  out.bone = patch.bone.index;
+  out.p_B = patch.X_BS * Vec3(p.x(), p.y(), here.height_m);
+  out.nhat_B = patch.X_BS.rotate(Vec3(-here.slope.x(), -here.slope.y(), 1).normalized());
+  return out;
 }
 
 void SkinWorld::show(SoftPushes& pushes) const {
@@ -454,6 +560,7 @@ SkinReadout SkinWorld::readout(std::size_t patch) const {
   SkinReadout out = readouts_[patch];
   out.cut_m = patches_[patch].cut_m;
   out.holes = patches_[patch].holes;
+  out.portals = patches_[patch].made_count;
   return out;
 }
 

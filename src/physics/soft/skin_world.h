@@ -33,12 +33,16 @@ struct SkinToolNow {
 class SkinWorld {
  public:
   /// `setup` must outlive it.
-  SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s);
+  /// `first_made`: place of the first made portal in the session's list.
+  SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s,
+            std::uint32_t first_made = 0);
   ~SkinWorld();
 
   void step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones);
   std::span<const Event> events() const { return events_; }
   void tell(std::size_t hand, BandContacts& contacts) const;
+  /// Of a patch, by its place there.
+  MadePortal made_portal(std::size_t patch, std::uint32_t portal) const;
   void show(SoftPushes& pushes) const;
   SkinReadout readout(std::size_t patch) const;
 
@@ -62,6 +66,8 @@ class SkinWorld {
     SkinSlits slits;
     double cut_m = 0;
     std::uint32_t holes = 0;
+    std::uint32_t made_count = 0;
+    std::array<SkinPortal, kMadePerPatch> made{};
     Pose X_WS;
     std::shared_ptr<const SkinCuts> shown;  ///< for pictures: no part of the state
   };
@@ -79,6 +85,11 @@ class SkinWorld {
   void end_stroke_of(const At& at);
   void let_go(const At& at);
   void make_hole(const At& at, double radius_m);
+  void follow_portal(const At& at);
+  double slit_at(const At& at) const;
+  void make_portal(const At& at);
+  std::optional<std::uint32_t> opening_at(const At& at) const;
+  bool is_taken(std::size_t patch, std::uint32_t portal, std::size_t but) const;
   void changed(std::size_t patch);
   void follow_stiffness(std::size_t patch);
   void tell_touch(const At& at, std::uint64_t step);
@@ -87,6 +98,7 @@ class SkinWorld {
 
   const SoftSetup& setup_;
   double coupling_n_per_m_, limit_n_, step_s_;
+  std::uint32_t first_made_;
   std::uint64_t step_ = 0;
   std::vector<Patch> patches_;
   std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands_{};

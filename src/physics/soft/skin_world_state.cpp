@@ -26,7 +26,7 @@ void add_to(Hasher& h, const SkinHand& hand) {
     h.add(hand.barred);
     h.add(hand.instrument);
     const SkinContact& c = hand.contact;
-    for (const std::uint32_t x : {c.patch, c.bone, c.part}) h.add(x);
+    for (const std::uint32_t x : {c.patch, c.bone, c.part, c.made, hand.held_steps}) h.add(x);
     for (const Vec3& v : {c.core, c.p_B, c.nhat_B, c.hole_B}) h.add(v);
     for (const double x :
          {c.along, c.deep_m, c.force_n, c.stiffness_n_per_m, c.aside_n_per_m, hand.radius_m,
@@ -45,6 +45,20 @@ void add_to(Hasher& h, const SkinHand& hand) {
   h.add(hand.touch.last_step);
   h.add(hand.touch.peak_n);
   h.add(hand.touch.deepest_m);
+}
+
+bool sound(const SkinPatchState& patch) {
+  if (patch.made_count > kMadePerPatch) return false;
+  for (std::uint32_t i = 0; i < patch.made_count; ++i)
+    if (!std::isfinite(patch.made[i].at.x()) || !std::isfinite(patch.made[i].at.y()) ||
+        !(patch.made[i].hole_m > 0 && patch.made[i].hole_m < 1))
+      return false;
+  return true;
+}
+
+bool is_made(std::uint32_t number, std::size_t s, const SkinPatchState& patch) {
+  const std::size_t first = s * kMadePerPatch;
+  return number == kNotMade || (number >= first && number < first + patch.made_count);
 }
 
 }  // namespace
@@ -67,6 +81,11 @@ std::uint64_t SkinWorld::hash() const {
     h.add(patch.worked);
     h.add(patch.cut_m);
     h.add(patch.holes);
+    for (std::uint32_t i = 0; i < patch.made_count; ++i) {
+      add_to(h, patch.made[i].at);
+      h.add(patch.made[i].hole_m);
+      h.add(patch.made[i].pierced);
+    }
   }
   for (const auto& hands : hands_)
     for (std::size_t s = 0; s < patches_.size(); ++s) add_to(h, hands[s]);
@@ -78,7 +97,8 @@ std::shared_ptr<const SkinState> SkinWorld::save() const {
   for (std::size_t s = 0; s < patches_.size(); ++s) {
     const Patch& from = patches_[s];
     out->patches.push_back({cuts_to_keep(*setup_.skins[s].sheet, from.cuts), from.felt,
-                            from.work != nullptr, from.next, from.worked, from.cut_m, from.holes});
+                            from.work != nullptr, from.next, from.worked, from.cut_m, from.holes,
+                            from.made_count, from.made});
   }
   out->hands = hands_;
   return out;
@@ -91,11 +111,13 @@ bool SkinWorld::fits(const SkinState& state, std::span<const std::vector<Capsule
     const SkinPatchState& patch = state.patches[s];
     for (const SkinCuts* cuts : {&patch.cuts, &patch.felt, &patch.next})
       if (!osteon::fits(sheet, *cuts)) return false;
+    if (!sound(patch)) return false;
     for (const auto& hands : state.hands)
       if (hands[s].near &&
           (hands[s].instrument >= tray.size() ||
            hands[s].contact.part >= tray[hands[s].instrument].size() ||
-           hands[s].contact.patch != s || hands[s].contact.bone != setup_.skins[s].bone.index))
+           hands[s].contact.patch != s || hands[s].contact.bone != setup_.skins[s].bone.index ||
+           !is_made(hands[s].contact.made, s, patch)))
         return false;
   }
   return true;
@@ -107,6 +129,8 @@ void SkinWorld::put(std::size_t s, const SkinPatchState& from) {
   mine.cuts = kept_cuts(sheet, from.cuts);
   mine.cut_m = from.cut_m;
   mine.holes = from.holes;
+  mine.made_count = from.made_count;
+  mine.made = from.made;
   mine.felt = from.felt;
   const SheetCuts felt = kept_cuts(sheet, from.felt);
   mine.felt_hash = hash_of_cuts(felt);
@@ -146,6 +170,8 @@ void SkinWorld::go_back(const SkinState& state) {
     mine.cuts.blade_in = false;
     mine.cut_m = state.patches[s].cut_m;
     mine.holes = state.patches[s].holes;
+    mine.made_count = state.patches[s].made_count;
+    mine.made = state.patches[s].made;
     changed(s);
   }
   hands_ = {};

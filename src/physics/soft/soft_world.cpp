@@ -37,7 +37,7 @@ bool usable(const ToolState& tool) {
 
 SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
                      std::span<const std::shared_ptr<const Tool>> tray, double coupling_n_per_m,
-                     double limit_n, double step_s)
+                     double limit_n, double step_s, std::uint32_t first_made)
     : setup_(std::move(setup)),
       coupling_n_per_m_(coupling_n_per_m),
       limit_n_(limit_n),
@@ -51,7 +51,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   state_.on = true;
   openings_.reserve(kMostOpenings);
   events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands +
-                  (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 6));
+                  (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 7));
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
@@ -59,7 +59,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   if (!setup_->grippers.empty())
     grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
   if (!setup_->skins.empty())
-    skins_ = std::make_unique<SkinWorld>(*setup_, coupling_n_per_m_, limit_n_, step_s_);
+    skins_ = std::make_unique<SkinWorld>(*setup_, coupling_n_per_m_, limit_n_, step_s_, first_made);
 }
 SoftWorld::~SoftWorld() = default;
 

@@ -36,7 +36,7 @@ void SoftWorld::tell(const Hand& hand, EventKind kind, std::size_t band,
 }
 
 void SoftWorld::tell(Event event, const Vec3& p_W) {
-  event.subject_kind = SubjectKind::kSoftPart;
+  if (event.subject_kind == SubjectKind::kNothing) event.subject_kind = SubjectKind::kSoftPart;
   event.p_W = is_finite(p_W) ? p_W : Vec3(Vec3::Zero());
   if (events_.size() < events_.capacity()) events_.push_back(event);
 }

@@ -26,8 +26,12 @@ Vec3 moment_about(const Vec3& g_W, const ToolState& state, std::span<const Porta
   const std::size_t tools = std::min<std::size_t>(state.tool_contact_count, kMaxToolContacts);
   for (std::size_t i = 0; i < tools; ++i)
     add(state.tool_contacts[i].p_W, state.tool_contacts[i].force_on_tool_W);
-  const bool in_portal = state.portal < portals.size();
-  moment_W += ((in_portal ? portals[state.portal].p_W : state.X_WP.p) - g_W).cross(Vec3(rest_W));
+  Vec3 at_W = state.X_WP.p;
+  if (state.portal < portals.size()) {
+    const Portal& portal = portals[state.portal];
+    at_W = portal.made == kNotMade ? portal.p_W : state.p_portal_W;
+  }
+  moment_W += (at_W - g_W).cross(Vec3(rest_W));
   return moment_W;
 }
 

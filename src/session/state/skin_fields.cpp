@@ -9,6 +9,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kBoxOnSkin = 29;         // the version before which a box was a rod on skin
+constexpr std::uint64_t kPortalsInSkin = 31;     // and before which no hole was a portal
 constexpr std::uint64_t kMostOfSkin = 1u << 20;  // vertices or edges of a sheet, more than it has
 
 }  // namespace
@@ -52,6 +53,14 @@ void field(A& a, SkinContact& c) {
   field(a, c.through);
   if (!since(a, kBoxOnSkin)) return;
   field(a, c.core);
+  if (c.through && since(a, kPortalsInSkin)) field(a, c.made);
+}
+
+template <class A>
+void field(A& a, SkinPortal& portal) {
+  field(a, portal.at);
+  field(a, portal.hole_m);
+  field(a, portal.pierced);
 }
 
 template <class A>
@@ -69,6 +78,7 @@ void field(A& a, SkinHand& h) {
     field(a, h.since_step);
     field(a, h.hole);
     if (since(a, kBoxOnSkin)) field(a, h.radius_m);
+    if (h.contact.through && since(a, kPortalsInSkin)) field(a, h.held_steps);
   }
   BandTouch& t = h.touch;
   field(a, t.on);
@@ -96,6 +106,7 @@ void field(A& a, std::shared_ptr<const SkinState>& skin) {
     field(a, patch.worked);
     field(a, patch.cut_m);
     field(a, patch.holes);
+    if (since(a, kPortalsInSkin)) first_of(a, patch.made_count, patch.made);
     if (!a.ok) return;
   }
   for (auto& hands : state.hands)

@@ -37,6 +37,9 @@ void field(A& a, ToolState& t) {
   field(a, t.power);
   field(a, t.jaw);
   field(a, t.portal);
+  if (t.portal == kNoPortal || !since(a, 31)) return;  // portals lay fixed then
+  field(a, t.p_portal_W);
+  number(a, t.portal_way, 2);
 }
 
 template <class A>

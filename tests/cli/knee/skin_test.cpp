@@ -38,6 +38,15 @@ TEST_F(SkinSession, IsCutAndPiercedAtThePortalAndItsRecordingReplays) {
     ASSERT_TRUE(events.contains(kind)) << kind;
     EXPECT_EQ(events[kind]["part"], "skin");
   }
+  // Through the cut and beside it the trocar makes a portal each.
+  ASSERT_EQ(part["portals"], 2);
+  ASSERT_TRUE(events.contains("portal_made"));
+  EXPECT_EQ(events["portal_made"]["portal"], "portal_al_made_1");
+  EXPECT_EQ(events["portal_made"]["pierced"], 0);
+  EXPECT_LT(events["portal_made"]["off_mm"], 6);
+  const nlohmann::json portals = report["hands"]["right"]["portals"];
+  EXPECT_TRUE(portals.contains("portal_al_made_2")) << portals;
+  EXPECT_FALSE(portals.contains("portal_al_made_3")) << portals;
   // The path draws the blade 12 mm far.
   EXPECT_NEAR(events["skin_cut_end"]["length_mm"], 12, 1.2);
   EXPECT_NEAR(events["skin_cut"]["force_n"], 1, 0.01);

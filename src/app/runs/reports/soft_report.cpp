@@ -18,16 +18,18 @@ bool is_of_softs(const Event& event) {
 }
 
 std::string subject_in(const Event& event, const SoftReport& report) {
-  return event.subject < report.subjects.size() ? report.subjects[event.subject]
-                                                : std::to_string(event.subject);
+  const bool portal = event.subject_kind == SubjectKind::kPortal;
+  const std::vector<std::string>& names = portal ? report.portals : report.subjects;
+  return event.subject < names.size() ? names[event.subject] : std::to_string(event.subject);
 }
 
 SoftJson soft_event_json(const Event& event, const SoftReport& report) {
   const EventKindRow* row = find_event_kind(event.kind);
-  SoftJson out{{"time_s", static_cast<double>(event.tick) * report.tick_s},
-               {"kind", row ? std::string(row->name) : "unknown"},
-               {"part", subject_in(event, report)},
-               {"at_mm", {1e3 * event.p_W.x(), 1e3 * event.p_W.y(), 1e3 * event.p_W.z()}}};
+  SoftJson out{
+      {"time_s", static_cast<double>(event.tick) * report.tick_s},
+      {"kind", row ? std::string(row->name) : "unknown"},
+      {event.subject_kind == SubjectKind::kPortal ? "portal" : "part", subject_in(event, report)},
+      {"at_mm", {1e3 * event.p_W.x(), 1e3 * event.p_W.y(), 1e3 * event.p_W.z()}}};
   if (event.hand != kNoHand) out["hand"] = event.hand;
   for (std::size_t v = 0; row && v < row->value_names.size(); ++v)
     if (!row->value_names[v].empty()) out[std::string(row->value_names[v])] = event.values[v];
@@ -40,6 +42,7 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
     out["deepest_mm"] = part.deepest_mm;
     out["cut_mm"] = part.cut_mm;
     out["holes"] = part.holes;
+    out["portals"] = part.portals;
   } else if (part.is_solid) {
     out["deepest_mm"] = part.deepest_mm;
     out["removed_mm3"] = part.removed_mm3;
@@ -168,6 +171,7 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
     part.is_skin = true;
     part.cut_mm = 1e3 * readout.cut_m;
     part.holes = readout.holes;
+    part.portals = readout.portals;
     part.whole = !(readout.cut_m > 0) && readout.holes == 0;
   }
   for (std::size_t s = 0; s < softs->setup().solids.size(); ++s) {
@@ -187,6 +191,7 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
     report.parts[b].whole = softs->setup().bands[b].left > 0 && !state.torn;
   }
   for (const SoftPart& part : session.the_case().softs) report.subjects.push_back(part.name);
+  for (const Portal& portal : session.portals()) report.portals.push_back(portal.name);
   return report;
 }
 

@@ -27,12 +27,14 @@ struct SoftReport {
     double cleared_percent = 0;  ///< of that
     double cut_mm = 0;           ///< of skin: length that is open
     std::uint32_t holes = 0;     ///< of skin: that trocars have made
+    std::uint32_t portals = 0;   ///< of skin: that were made in it
     bool whole = true;           ///< at the end; torn by a finding or in the run: false
     bool lost = false;           ///< it could not be solved
   };
   std::vector<Part> parts;
   std::vector<Event> events;          ///< codes 100 to 199
   std::vector<std::string> subjects;  ///< soft parts of the case
+  std::vector<std::string> portals;   ///< of the session
   double tick_s = 0.001;
 };
 /// "parts": "name", "peak_force_n", "peak_tension_n", "contact_s" ...; "events".

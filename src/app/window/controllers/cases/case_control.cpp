@@ -5,6 +5,7 @@
 
 #include "cases/felt_choice.h"
 #include "osteon/base/file.h"
+#include "osteon/session/session.h"
 #include "window/controllers/cases/case_browser.h"
 #include "window/controllers/cases/open_bones.h"
 #include "window/ui_model.h"
@@ -20,6 +21,14 @@ std::vector<Vec3> bone_middles(const Case& the_case) {
     middles.push_back(box.empty() ? Vec3(Vec3::Zero()) : box.center());
   }
   return middles;
+}
+
+// By ToolState::portal of a live run.
+std::vector<Portal> portals_of_run(const Case& the_case, const RunSofts& softs) {
+  SessionSettings settings;
+  if (softs.setup) settings.soft = softs.names;
+  auto portals = open_portals(the_case, settings);
+  return portals ? std::move(*portals) : std::vector<Portal>();
 }
 
 }  // namespace
@@ -86,11 +95,11 @@ bool CaseControl::show(Loaded& loaded) {
     scene_.views.begin(loaded.the_case, *scene_.renderer);
     scene_.source = loaded.case_source;
     scene_.the_case = loaded.the_case;
-    scene_.portals = find_portals(*scene_.the_case);
     scene_.bone_middles_B = bone_middles(*scene_.the_case);
     scene_.demo = loaded.demo;
     scene_.carving = loaded.carving.setup;
     scene_.softs = loaded.softs.softs;
+    scene_.portals = portals_of_run(*scene_.the_case, scene_.softs);
     felt_job_.reset();
     felt_known_ = false;
     prepared_ = std::move(loaded.prepared);
@@ -171,6 +180,7 @@ void CaseControl::exchange(FinerCase finer) {
   scene_.demo = std::move(finer.demo);
   scene_.carving = std::move(finer.carving.setup);
   scene_.softs = std::move(finer.softs);
+  scene_.portals = portals_of_run(*scene_.the_case, scene_.softs);
   scene_.finer_source.clear();
   scene_.renderer->set_pieces(*scene_.the_case);
   pieces_after_s_ = host_.age_s();

@@ -166,7 +166,7 @@ std::vector<LiveControl::PlacedHand> ExerciseControl::placed(
   for (std::size_t i = 0; i < hands.size(); ++i) {
     const double right_m = kHandsApart_m * (static_cast<double>(i) - middle);
     Pose X{offered.p + right_m * (camera.q_WC * Vec3::UnitX()), offered.q};
-    for (const Portal& portal : scene_.portals)
+    for (const Portal& portal : find_portals(*scene_.the_case))
       if (hands[i].portal_W && (portal.p_W - *hands[i].portal_W).norm() < 1e-6)
         X = {portal.p_W - kBeforePortal_m * portal.nhat_W,
              turn_between(Vec3::UnitZ(), -portal.nhat_W).normalized()};

@@ -75,6 +75,7 @@ void HandsControl::change_hands() {
 // Before the portal, the shaft along its way in.
 void HandsControl::bring_to(std::size_t portal) {
   if (portal >= scene_.portals.size() || !live_.run()->by_mouse()) return;
+  if (scene_.portals[portal].made != kNotMade) return;  // the hand finds it by itself
   const Portal& to = scene_.portals[portal];
   live_.run()->bring(
       {to.p_W - kBefore_m * to.nhat_W, turn_between(Vec3::UnitZ(), -to.nhat_W).normalized()});
@@ -85,7 +86,8 @@ void HandsControl::bring_to(std::size_t portal) {
 const Vec3* HandsControl::portal_near() const {
   const std::vector<Portal>& portals = scene_.portals;
   const ToolState& tool = sight_.shown().tool;
-  if (tool.portal < portals.size()) return &portals[tool.portal].p_W;
+  if (tool.portal < portals.size())
+    return portals[tool.portal].made == kNotMade ? &portals[tool.portal].p_W : &tool.p_portal_W;
   if (!aimed_ || *aimed_ >= portals.size()) return nullptr;
   return (tool.X_WP.p - portals[*aimed_].p_W).norm() > kPortalReach_m ? nullptr
                                                                       : &portals[*aimed_].p_W;
@@ -150,8 +152,9 @@ HandsModel HandsControl::model(bool can_add) {
   const LiveRun* const run = live_.run();
   if (!run) return model;
   model.rows = rows();
-  for (const Portal& portal : scene_.portals) model.portals.push_back(portal.title);
-  if (aimed_) model.next_portal = (*aimed_ + 1) % std::max<std::size_t>(1, scene_.portals.size());
+  for (const Portal& portal : scene_.portals)
+    if (portal.made == kNotMade) model.portals.push_back(portal.title);
+  if (aimed_) model.next_portal = (*aimed_ + 1) % std::max<std::size_t>(1, model.portals.size());
   model.can_bring = run->by_mouse();
   model.can_add = can_add && run->hands() == 1 && !run->recording();
   model.restore_points = 1;
