@@ -1,5 +1,8 @@
 // InVesalius 3 projects: a gzipped tar of property lists, the voxels (matrix.dat, C order, slices
-// first) and masks, whose first plane, row and column hold flags. Names in it are not read.
+// first) and masks, whose first plane, row and column hold flags. Names in it are not read. Rows
+// run from the back to the front there (InVesalius turns each slice over as it reads it), and from
+// the front to the back in a Grid: taken as they come they would be a mirror image.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -94,12 +97,19 @@ Result<Mask> unpack_mask(const GridFrame& frame, std::string_view bytes, const s
     return fail("is truncated inside its mask", where, "Copy or save it again");
   Mask mask{frame, {}};
   for (std::size_t k = 1; k < nk; ++k)
-    for (std::size_t j = 1; j < nj; ++j)
+    for (std::size_t j = nj - 1; j > 0; --j)
       for (std::size_t i = 1; i < ni; ++i) {
         const auto value = static_cast<std::uint8_t>(bytes[(k * nj + j) * ni + i]);
         mask.values.push_back(value > kInside ? 1 : 0);
       }
   return mask;
+}
+
+void turn_rows_over(Volume& volume) {
+  const GridFrame& frame = volume.frame;
+  for (int k = 0; k < frame.size[2]; ++k)
+    for (int j = 0, last = frame.size[1] - 1; j < last; ++j, --last)
+      for (int i = 0; i < frame.size[0]; ++i) std::swap(volume.at(i, j, k), volume.at(i, last, k));
 }
 
 /// The project's description, wherever it lies in the archive.
@@ -142,7 +152,9 @@ Result<Volume> parse_inv3(std::string_view bytes, const std::string& where) {
   const std::string_view matrix = plist_value(project->main, "matrix");
   const auto data = file_named(*project, plist_text(matrix, "filename"), where);
   if (!data) return tl::unexpected(data.error());
-  return unpack_values(*frame, *data, {}, where);
+  auto volume = unpack_values(*frame, *data, {}, where);
+  if (volume) turn_rows_over(*volume);
+  return volume;
 }
 
 Result<VolumeHead> head_of_inv3(const std::filesystem::path& file) {

@@ -60,5 +60,21 @@ TEST(Cranium, TheHeadRestIsNoBone) {
   }
 }
 
+// The patient lies on the head rest: what of the picture is outside the head, in front of its
+// middle, is air alone.
+TEST(Cranium, ItIsNoMirrorImage) {
+  if (!std::filesystem::exists(cranium())) GTEST_SKIP() << "no Cranium.inv3";
+  const auto volume = load_volume(cranium());
+  ASSERT_TRUE(volume) << volume.error().message();
+  std::size_t in_front = 0, behind = 0;
+  const int half = volume->frame.size[1] / 2;
+  for (int k = 40; k < 60; ++k)
+    for (int j = 0; j < volume->frame.size[1]; ++j)
+      for (const int i : {20, 41, 220, 240})
+        if (volume->at(i, j, k) > 226) ++(j < half ? in_front : behind);
+  EXPECT_EQ(in_front, 0u);
+  EXPECT_GT(behind, 20u);
+}
+
 }  // namespace
 }  // namespace osteon

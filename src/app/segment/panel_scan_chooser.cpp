@@ -66,6 +66,23 @@ void draw_spacing(const SegmentContext& c, const ScanChooserModel& chooser) {
   ui::tooltip("PNG and TIFF files do not store the size of a voxel: across, down, between slices");
 }
 
+// The desktop's chooser, where there is one: it knows the user's own places.
+void draw_desktop_chooser(const SegmentContext& c, const ScanChooserModel& chooser) {
+  if (!chooser.desktop_files) return;
+  const float w = c.px(104);
+  const float all = w + (chooser.desktop_folders ? w + c.px(4) : 0);
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x + c.px(16) - all);
+  ImGui::BeginDisabled(chooser.desktop_asks);
+  if (ImGui::Button("Choose file ...", {w, 0})) c.requests.desktop_file = true;
+  ui::tooltip("In the desktop's own window. Slices of one folder make one scan");
+  if (chooser.desktop_folders) {
+    ImGui::SameLine(0, c.px(4));
+    if (ImGui::Button("Folder ...", {w, 0})) c.requests.desktop_folder = true;
+    ui::tooltip("A folder, in the desktop's own window");
+  }
+  ImGui::EndDisabled();
+}
+
 void draw_open(const SegmentContext& c, const ScanChooserModel& chooser, float width) {
   const ScanFolder& folder = chooser.folder;
   const std::string scan = scan_of(folder);
@@ -99,6 +116,7 @@ void draw_scan_chooser(const SegmentContext& c) {
     draw_spacing(c, chooser);
   else
     draw_series(c, chooser);
+  draw_desktop_chooser(c, chooser);
   ImGui::Dummy({0, c.px(2)});
   draw_open(c, chooser, ImGui::GetContentRegionAvail().x);
   if (ImGui::Button(c.model.returns ? "Back to the simulator" : "Close",

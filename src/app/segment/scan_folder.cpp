@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "cases/whole_folder.h"
 #include "osteon/image/dicom.h"
 
 namespace osteon {
@@ -80,6 +81,19 @@ ScanFolder list_scan_folder(const fs::path& folder) {
     return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name;
   });
   return out;
+}
+
+Result<std::filesystem::path> scan_among(const std::vector<std::string>& paths) {
+  if (paths.empty()) return fail("nothing was chosen");
+  const fs::path first = plain_folder(paths.front());
+  if (paths.size() == 1) return first;
+  const bool together = std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
+    return plain_folder(path).parent_path() == first.parent_path();
+  });
+  if (!together)
+    return fail("these lie in several folders", first.parent_path().string(),
+                "Choose one file, one folder, or slices of one folder");
+  return first.parent_path();
 }
 
 }  // namespace osteon

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "osteon/base/result.h"
+
 namespace osteon {
 
 /// A folder as someone sees it who looks for a scan in it.
@@ -24,5 +26,9 @@ struct ScanFolder {
 /// Hidden entries and files that no reader takes are left out. Reads the start of files without an
 /// ending to see whether they are DICOM.
 ScanFolder list_scan_folder(const std::filesystem::path& folder);
+
+/// What to look at when these were dropped or chosen together: one path is itself, several files of
+/// one folder are slices of the scan in that folder. Fails when they lie in several folders.
+Result<std::filesystem::path> scan_among(const std::vector<std::string>& paths);
 
 }  // namespace osteon

@@ -122,6 +122,7 @@ void SegmentApp::frame() {
     if (!heavy_) draw_panes();
     draw_solid(layout);
   }
+  open_together(window_->take_dropped_files());
   const SegmentRequests requests = draw_segment_ui(shown_model(), ui_->fonts());
   ui_->end_frame();
   apply(requests, layout);
@@ -204,6 +205,7 @@ void SegmentApp::apply(const SegmentRequests& asked, const SegmentLayout& layout
   apply_window(requests);
   apply_closing(requests);
   apply_chooser(requests);
+  ask_desktop(requests);
   if (!segmenting_ || heavy_) return;
   pointer_ = requests.pointer;
   if (is_heavy(requests, *segmenting_)) return begin_heavy(requests);

@@ -12,6 +12,7 @@
 #include "segment/slice_texture.h"
 #include "segment/solid_view.h"
 #include "ui/app_settings.h"
+#include "ui/desktop_chooser.h"
 #include "ui/frame_stats.h"
 #include "ui/gl_window.h"
 #include "ui/imgui_host.h"
@@ -67,6 +68,8 @@ class SegmentApp {
   // segment_app_work.cpp
   void choose_scan(const std::filesystem::path& near);
   void apply_chooser(const SegmentRequests& requests);
+  void ask_desktop(const SegmentRequests& requests);
+  void open_together(const std::vector<std::string>& paths);
   void open_chosen(const std::filesystem::path& source);
   void begin_opening();
   void cancel_opening();
@@ -100,7 +103,8 @@ class SegmentApp {
   bool asks_to_close_ = false, ends_ = false, ends_when_saved_ = false;
 
   std::optional<ScanChooserModel> chooser_;  ///< while a scan is being chosen
-  bool chosen_in_window_ = false;            ///< the scan, not on the command line
+  DesktopChooser desktop_;
+  bool chosen_in_window_ = false;  ///< the scan, not on the command line
   bool out_given_ = false;
   std::filesystem::path case_to_open_;
   std::unique_ptr<SideJob<OpenedScan>> opening_;

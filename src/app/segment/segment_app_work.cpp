@@ -38,6 +38,35 @@ void SegmentApp::apply_chooser(const SegmentRequests& requests) {
   if (requests.open_scan) open_chosen(*requests.open_scan);
 }
 
+void SegmentApp::ask_desktop(const SegmentRequests& requests) {
+  if (!chooser_) return;
+  desktop_.look_for();
+  if (requests.desktop_file || requests.desktop_folder)
+    desktop_.ask(
+        {"Choose a scan to segment", requests.desktop_folder, window_->name_for_desktop()});
+  const Result<std::vector<std::string>> chosen = desktop_.take();
+  if (!chosen) return note(ToastKind::kError, chosen.error().message());
+  open_together(*chosen);
+  if (!chooser_) return;
+  chooser_->desktop_files = desktop_.offers_files();
+  chooser_->desktop_folders = desktop_.offers_folders();
+  chooser_->desktop_asks = desktop_.asks();
+}
+
+// What was dropped on the window or chosen in the desktop's chooser. A folder is shown first:
+// pictures in it need the size of a voxel.
+void SegmentApp::open_together(const std::vector<std::string>& paths) {
+  if (paths.empty()) return;
+  if (segmenting_ || opening_)
+    return note(ToastKind::kWarning, "One scan is open here. Close this window before another one");
+  const auto scan = scan_among(paths);
+  if (!scan) return note(ToastKind::kWarning, scan.error().message());
+  if (!chooser_) choose_scan(*scan);
+  SegmentRequests requests;
+  requests.browse = scan->string();
+  apply_chooser(requests);
+}
+
 void SegmentApp::open_chosen(const std::filesystem::path& source) {
   order_.scan.source = plain_folder(source);
   order_.scan.series = chooser_->series;

@@ -45,7 +45,9 @@ struct SlicePane {
 struct ScanChooserModel {
   ScanFolder folder;
   std::string series;
-  Vec3 spacing_mm = Vec3(0.5, 0.5, 0.5);  ///< of pictures
+  Vec3 spacing_mm = Vec3(0.5, 0.5, 0.5);                ///< of pictures
+  bool desktop_files = false, desktop_folders = false;  ///< the desktop has a chooser for them
+  bool desktop_asks = false;                            ///< which is open
 };
 
 struct SegmentModel {

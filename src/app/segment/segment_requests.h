@@ -66,8 +66,9 @@ struct SegmentRequests {
   bool quit_without_saving = false, quit_after_saving = false, stay = false;
   std::optional<std::uint64_t> dismiss_toast;
   std::optional<double> zoom_interface;
-  std::optional<std::string> save_as;            ///< the case's folder
-  std::optional<std::string> browse, open_scan;  ///< a folder to look into, a scan to open
+  std::optional<std::string> save_as;                 ///< the case's folder
+  std::optional<std::string> browse, open_scan;       ///< a folder to look into, a scan to open
+  bool desktop_file = false, desktop_folder = false;  ///< to be asked for by the desktop's chooser
   std::optional<std::string> series;
   std::optional<Vec3> spacing_mm;
   bool choose_scan = false;  ///< another one, after one could not be opened

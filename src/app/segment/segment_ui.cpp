@@ -70,6 +70,7 @@ SegmentRequests draw_segment_ui(const SegmentModel& model, const UiFonts& fonts)
   read_segment_keys(c);
   if (model.chooser) {
     draw_scan_chooser(c);
+    draw_segment_notes(c);
     return requests;
   }
   if (model.phase != UiPhase::kReady) {

@@ -20,7 +20,7 @@ void apply_colors(ImGuiStyle& style) {
   c[ImGuiCol_Header] = vec(color::kAccentDim);
   c[ImGuiCol_HeaderHovered] = vec(color::kFieldHover);
   c[ImGuiCol_HeaderActive] = vec(color::kAccentDim);
-  c[ImGuiCol_SliderGrab] = c[ImGuiCol_CheckMark] = vec(color::kAccent);
+  c[ImGuiCol_SliderGrab] = c[ImGuiCol_CheckMark] = c[ImGuiCol_PlotHistogram] = vec(color::kAccent);
   c[ImGuiCol_SliderGrabActive] = vec(color::kText);
   c[ImGuiCol_NavHighlight] = vec(color::kAccent);
   c[ImGuiCol_ScrollbarBg] = ImVec4(0, 0, 0, 0);

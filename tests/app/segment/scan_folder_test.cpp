@@ -68,5 +68,13 @@ TEST_F(ScanFolders, PicturesAreCounted) {
   EXPECT_EQ(list_scan_folder(dir_).dicom_files, 0u);
 }
 
+TEST_F(ScanFolders, WhatIsDroppedTogetherIsOneScan) {
+  EXPECT_FALSE(scan_among({}));
+  EXPECT_FALSE(scan_among({"/a/1.dcm", "/b/2.dcm"}));
+  EXPECT_EQ(*scan_among({"/a/ct.nrrd"}), "/a/ct.nrrd");
+  EXPECT_EQ(*scan_among({"/a/ct/"}), "/a/ct");
+  EXPECT_EQ(*scan_among({"/a/1.dcm", "/a/2.dcm", "/a/3"}), "/a");
+}
+
 }  // namespace
 }  // namespace osteon

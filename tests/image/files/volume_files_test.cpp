@@ -156,9 +156,14 @@ TEST_F(VolumeFiles, BadNiftiIsNamed) {
   expect_refused("a.nii", bad, "after its end");
 }
 
+// InVesalius stores the rows of a slice from the back to the front.
 TEST_F(VolumeFiles, Inv3) {
   Volume wanted = volume_;
   wanted.frame.origin_P = Vec3::Zero();
+  const auto& size = wanted.frame.size;
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i) wanted.at(i, j, k) = volume_.at(i, size[1] - 1 - j, k);
   expect_same(load("a.inv3", inv3(plist("int16", "CT"), raw_bytes(volume_))), wanted);
 }
 

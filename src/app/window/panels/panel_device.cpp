@@ -181,8 +181,9 @@ void draw_more(const PanelContext& c) {
   ImGui::BeginDisabled(c.model.record.on);
   if (ImGui::Button("Mapping", half)) ImGui::OpenPopup("mapping");
   ImGui::EndDisabled();
-  ui::tooltip(c.model.record.on ? "Stop the recording first"
-                                : "How the device moves the probe in this case, and its pedals");
+  ui::tooltip(c.model.record.on
+                  ? "Stop the recording first"
+                  : "How the device moves the instrument in this case, and its pedals");
   ImGui::SameLine(0, gap);
   if (ui::toggle_button("Check-up", c.model.checkup.open, half)) c.requests.toggle_checkup = true;
   ui::tooltip("Checks this computer and the device, and says how to fix problems (F2)");

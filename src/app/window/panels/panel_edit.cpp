@@ -75,7 +75,7 @@ void draw_end(const PanelContext& c) {
     c.requests.edit.save = true;
   ImGui::EndDisabled();
   ui::tooltip(
-      "Writes a new case with the edited bone and opens it; the probe feels the change only then");
+      "Writes a new case with the edited bone and opens it; it is felt as changed only then");
   ImGui::SameLine(0, gap);
   if (ImGui::Button(edit.changed ? "Discard###leave" : "Leave###leave", {w, 0}))
     c.requests.edit.leave = true;
@@ -105,7 +105,7 @@ void draw_dots(const PanelContext& c) {
 
 void draw_begin(const PanelContext& c) {
   if (ImGui::Button("Edit surface  (E)")) c.requests.edit.begin = true;
-  ui::tooltip("Drag the surface of the chosen bone with the mouse or the probe");
+  ui::tooltip("Drag the surface of the chosen bone with the mouse or the device");
 }
 
 void draw_editing(const PanelContext& c) {

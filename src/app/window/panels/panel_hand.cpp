@@ -14,11 +14,14 @@ bool is_slow(const HandModel& hand) { return hand.haptic.rate_hz > 0 && hand.hap
 void draw_device_menu(const PanelContext& c) {
   const HandModel& hand = c.model.hand;
   const bool known = hand.device >= 0 && hand.device < static_cast<int>(hand.devices.size());
-  const char* shown = known ? hand.devices[static_cast<std::size_t>(hand.device)].c_str() : "None";
-  if (c.model.replay.on) shown = "The recorded hand";
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  std::string name = known ? hand.devices[static_cast<std::size_t>(hand.device)] : "None";
+  if (c.model.replay.on) name = "The recorded hand";
+  const float w = ImGui::GetContentRegionAvail().x;
+  const float arrow = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string shown = ui::shortened(name, w - arrow);
+  ImGui::SetNextItemWidth(w);
   ImGui::BeginDisabled(c.model.record.on || c.model.replay.on);
-  if (ImGui::BeginCombo("##device", shown, ImGuiComboFlags_HeightLarge)) {
+  if (ImGui::BeginCombo("##device", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (int i = 0; i < static_cast<int>(hand.devices.size()); ++i) {
       ImGui::PushID(i);
       if (ImGui::Selectable(hand.devices[static_cast<std::size_t>(i)].c_str(), i == hand.device))
@@ -30,9 +33,10 @@ void draw_device_menu(const PanelContext& c) {
     ImGui::EndCombo();
   }
   ImGui::EndDisabled();
+  const std::string chosen = name + ": the device in your hand. A new choice restarts the run.";
   ui::tooltip(c.model.record.on   ? "Stop the recording before choosing another device"
-              : c.model.replay.on ? "Leave the replay to use the probe yourself"
-                                  : "The device in your hand. A new choice restarts the run.");
+              : c.model.replay.on ? "Leave the replay to use an instrument yourself"
+                                  : chosen.c_str());
 }
 
 void draw_force_off(const PanelContext& c) {
@@ -50,11 +54,13 @@ void draw_force_off(const PanelContext& c) {
 void draw_force_state(const PanelContext& c) {
   const HandModel& hand = c.model.hand;
   if (hand.probe_by_mouse && !c.model.replay.on) {
-    if (ui::toggle_button(hand.probe_in_hand ? "Release the probe  (M)" : "Take the probe  (M)",
-                          hand.probe_in_hand, {ImGui::GetContentRegionAvail().x, 0}))
+    if (ui::toggle_button(
+            hand.probe_in_hand ? "Release the instrument  (M)" : "Take the instrument  (M)",
+            hand.probe_in_hand, {ImGui::GetContentRegionAvail().x, 0}))
       c.requests.toggle_probe = true;
     ui::tooltip(
-        "The mouse then moves the probe instead of the view. Hold Space to take it while the key "
+        "The mouse then moves the instrument instead of the view. Hold Space to take it while the "
+        "key "
         "is down.");
   }
   if (c.model.replay.on) return;
@@ -64,7 +70,8 @@ void draw_force_state(const PanelContext& c) {
   if (!has_motors(hand)) {
     ui::text(color::kTextQuiet, "Force is shown, not felt");
     ui::tooltip(
-        "This device has no motors. The probe still stays outside bone, but your hand may go on "
+        "This device has no motors. The instrument still stays outside bone, but your hand may go "
+        "on "
         "into it.");
     return;
   }
@@ -83,8 +90,8 @@ void draw_contacts(const PanelContext& c) {
     const std::string label = known ? c.model.bone_labels[row.bone.index] : "Bone";
     ui::stat(label.c_str(), ui::number(row.force_n, 2) + " N",
              row.sticking
-                 ? "Force between probe and this bone, newtons; static friction holds the probe"
-                 : "Force between probe and this bone, newtons; the probe slides");
+                 ? "Force between instrument and this bone, newtons; static friction holds it"
+                 : "Force between instrument and this bone, newtons; it slides");
   }
 }
 

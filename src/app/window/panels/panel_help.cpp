@@ -29,7 +29,7 @@ constexpr std::array<KeyLine, 13> kLook = {{
 }};
 
 constexpr std::array<KeyLine, 14> kProbe = {{
-    {"M", "take or release the probe"},
+    {"M", "take or release the instrument"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
     {"W S, A D, Q E", "tilt, turn, roll"},
@@ -48,7 +48,7 @@ constexpr std::array<KeyLine, 14> kProbe = {{
 constexpr std::array<KeyLine, 4> kEdit = {{
     {"E", "edit the chosen bone's surface, or leave"},
     {"Drag, wheel", "pull the surface; along the view"},
-    {"Probe's button", "the same by hand, against a spring force"},
+    {"The device's button", "the same by hand, against a spring force"},
     {"Ctrl + Z, + Shift", "undo, redo"},
 }};
 
@@ -114,7 +114,7 @@ void draw_help(const PanelContext& c) {
   draw_keys(c, "Edit", kEdit);
   draw_keys(c, "Program", kProgram);
   if (wide) ImGui::NextColumn();
-  draw_keys(c, "Probe and hands", kProbe);
+  draw_keys(c, "Instruments and hands", kProbe);
   draw_keys(c, "Run", kRun);
   if (wide) ImGui::Columns(1);
   ImGui::EndChild();

@@ -86,7 +86,7 @@ class NoteRow {
 void draw_probe_hint(const PanelContext& c) {
   begin_bottom_note(c, "##probe");
   NoteRow row(c);
-  row.key("Mouse", "moves the probe");
+  row.key("Mouse", "moves the instrument");
   row.key("Wheel", "deeper, nearer");
   row.key("W A S D Q E", "turn");
   row.key("M", "release");
@@ -98,7 +98,7 @@ void draw_first_run_hint(const PanelContext& c) {
   NoteRow row(c);
   row.key("Drag", "look around");
   row.key("Wheel", "zoom");
-  row.key("M", "take the probe");
+  row.key("M", "take the instrument");
   row.key("F1", "all keys");
   constexpr const char* kGotIt = "Got it";
   row.place(ImGui::CalcTextSize(kGotIt).x + 2 * ImGui::GetStyle().FramePadding.x);

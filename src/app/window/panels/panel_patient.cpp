@@ -191,9 +191,7 @@ void draw_form(const PanelContext& c) {
 void draw_patient_state(const PanelContext& c) {
   const PatientModel& patient = c.model.patient;
   if (patient.making) {
-    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, color::kAccent);
     ImGui::ProgressBar(static_cast<float>(patient.fraction), {-1, c.px(6)}, "");
-    ImGui::PopStyleColor();
     return;
   }
   if (patient.problem.empty())

@@ -83,7 +83,7 @@ bool draw_light(const PanelContext& c, ViewState& view) {
 
 bool draw_switches(ViewState& view) {
   bool changed = ui::switch_row("Contact hulls", &view.show_hulls,
-                                "Shows the convex bodies that the probe feels (H)");
+                                "Shows the convex bodies that an instrument feels (H)");
   changed |= ui::switch_row(
       "Felt against seen", &view.show_felt,
       "Colours each bone by the distance of the felt surface above or below the visible one");
@@ -93,8 +93,9 @@ bool draw_switches(ViewState& view) {
       "what died of it");
   changed |= ui::switch_row("Force arrow", &view.show_force,
                             "The force on the hand as an arrow at the probe's tip");
-  changed |= ui::switch_row("Hand's position", &view.show_hand_ghost,
-                            "Position of the hand, when bone keeps the probe from following it");
+  changed |=
+      ui::switch_row("Hand's position", &view.show_hand_ghost,
+                     "Position of the hand, when bone keeps the instrument from following it");
   bool shaded = view.ambient_occlusion > 0;
   if (ui::switch_row("Soft shadows", &shaded, "Darkens the gaps between bones")) {
     view.ambient_occlusion = shaded ? 1.0f : 0.0f;

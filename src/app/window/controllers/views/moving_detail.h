@@ -16,7 +16,7 @@ class MovingDetail {
   void took(double picture_s);
 
  private:
-  static constexpr std::array<double, 5> kShares{1.0, 0.8, 0.65, 0.5, 0.4};
+  static constexpr std::array<double, 6> kShares{1.0, 0.8, 0.65, 0.5, 0.4, 0.33};
   /// Of a picture in which all moves: 40 a second. Finer again only where the finer picture, by the
   /// pixels it has more, would keep that too.
   static constexpr double kLongest_s = 0.025, kShortest_s = 0.014;

@@ -17,14 +17,14 @@ TEST(MovingDetail, OneSlowPictureChangesNothing) {
 TEST(MovingDetail, SlowPicturesGetCoarserToALimit) {
   MovingDetail detail;
   double before = detail.share();
-  for (int step = 0; step < 4; ++step) {
+  for (int step = 0; step < 5; ++step) {
     detail.took(0.07);
     detail.took(0.07);
     EXPECT_LT(detail.share(), before);
     before = detail.share();
   }
   for (int k = 0; k < 20; ++k) detail.took(1);
-  EXPECT_EQ(detail.share(), 0.4);
+  EXPECT_EQ(detail.share(), 0.33);
 }
 
 TEST(MovingDetail, QuickOnesGetFinerAgain) {
