@@ -140,6 +140,10 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
       graft_(the_case) {
   const std::vector<CutPart> parts = cut_parts_of(plan, the_case);
   const std::vector<Portal> portals = portals_of_attempt(plan.scenario, the_case);
+  PortalWatch::Settings made;
+  for (const Portal& portal : portals) made.marks.push_back(portal.landmark);
+  for (const PlannedHand& hand : hands) made.optics.push_back(hand.optics);
+  portals_.emplace(the_case, std::move(made));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
     events_.emplace_back(the_case.bones.size(), event_limits(plan.scenario), hand, tick_s);
@@ -188,6 +192,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) stumps_.add(tools[0]->tick, bones, fresh_);
+  if (portals_) portals_->add(tools, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
   judge_fresh();

@@ -12,6 +12,7 @@
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/graft_watch.h"
 #include "osteon/procedure/placing_watch.h"
+#include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/stump_watch.h"
@@ -88,6 +89,7 @@ class AttemptWatch {
   GraftWatch graft_;
   PlacingWatch placing_;
   StumpWatch stumps_;
+  std::optional<PortalWatch> portals_;
   std::vector<AttemptPause> pauses_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;

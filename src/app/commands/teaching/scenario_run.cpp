@@ -24,6 +24,7 @@
 #include "osteon/surgeon/parts_hand.h"
 #include "osteon/surgeon/placing_surgeon.h"
 #include "osteon/surgeon/probe_surgeon.h"
+#include "osteon/surgeon/puncture_surgeon.h"
 #include "osteon/surgeon/scope_surgeon.h"
 #include "osteon/surgeon/surgeon.h"
 #include "osteon/surgeon/tour_surgeon.h"
@@ -132,6 +133,27 @@ Result<void> plan_placing_work(const ScenarioRun& run, const Case& the_case,
   return {};
 }
 
+bool asks_for_portals(const ScenarioPlan& plan) {
+  for (const auto& goals : plan.goals)
+    for (const PlannedRule& goal : goals)
+      if (goal.rule.kind == "portal_made") return true;
+  return false;
+}
+
+// One hand makes the portals, the one with the scope looks on.
+Result<void> plan_puncture_work(const ScenarioRun& run, const Case& the_case,
+                                std::span<const PlannedHand> hands, HeadlessRun& headless) {
+  const auto scope = std::find_if(hands.begin(), hands.end(),
+                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
+  if (hands.size() != 2 || scope == hands.end())
+    return fail("portals are made by two hands, one of them with a scope", run.scenario.where);
+  auto ways = plan_puncture(the_case, scope->instrument, *scope->optics, run.skill);
+  if (!ways) return tl::unexpected(ways.error());
+  for (const PlannedHand& hand : hands)
+    headless.hands.push_back({hand.name, std::move(hand.optics ? ways->scope : ways->worker)});
+  return {};
+}
+
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -147,7 +169,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   std::vector<std::unique_ptr<HandPlayer>> players;
   const bool bench = !ligament && find_graft_bench(**the_case).has_value();
   const bool placing = !ligament && asks_for_graft(*plan);
-  const bool by_path = ligament || bench || placing;
+  const bool puncture = !ligament && asks_for_portals(*plan);
+  const bool by_path = ligament || bench || placing || puncture;
   if (!by_path)
     players = players_of(*hands, *plan, **the_case, run.skill, headless.settings.probe_radius_m);
   const auto all_done = [&] {
@@ -183,6 +206,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
       return tl::unexpected(ok.error());
   if (placing)
     if (auto ok = plan_placing_work(run, **the_case, *hands, headless); !ok)
+      return tl::unexpected(ok.error());
+  if (puncture)
+    if (auto ok = plan_puncture_work(run, **the_case, *hands, headless); !ok)
       return tl::unexpected(ok.error());
   for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));

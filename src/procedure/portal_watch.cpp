@@ -1,0 +1,105 @@
+#include "osteon/procedure/portal_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "osteon/procedure/judge.h"
+#include "osteon/scene/portal.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kSamePlace_m = 1e-6;
+constexpr double kSeenFrom_m = 0.08;
+constexpr double kTipHides_m = 0.003;  // what is so near to the tip does not hide it
+
+std::optional<Vec3> place_of(const Case& the_case, std::string_view name) {
+  const auto at = find_landmark(the_case, name);
+  return at ? std::optional<Vec3>(the_case.landmarks[*at].p_W) : std::nullopt;
+}
+
+Event of_portal(const ToolState& tool, std::size_t hand, std::uint32_t mark, EventKind kind) {
+  Event event;
+  event.tick = tool.tick;
+  event.kind = kind;
+  event.hand = static_cast<std::uint8_t>(hand);
+  event.subject_kind = SubjectKind::kLandmark;
+  event.subject = mark;
+  event.p_W = tool.p_portal_W;
+  return event;
+}
+
+}  // namespace
+
+// Symbols: m, to the other portal; n, out of the skin; u, from the tubercle.
+std::optional<PortalFrame> portal_frame(const Case& the_case, std::uint32_t landmark) {
+  if (landmark >= the_case.landmarks.size()) return std::nullopt;
+  const std::string& name = the_case.landmarks[landmark].name;
+  if (name != "portal_al" && name != "portal_am") return std::nullopt;
+  const auto other = place_of(the_case, name == "portal_al" ? "portal_am" : "portal_al");
+  const auto tubercle = place_of(the_case, "tibial_tubercle");
+  if (!other || !tubercle) return std::nullopt;
+  PortalFrame out;
+  for (const Portal& portal : find_portals(the_case))
+    if (portal.landmark == landmark) out.in_W = portal.nhat_W;
+  out.p_W = the_case.landmarks[landmark].p_W;
+  const auto along_skin = [&](const Vec3& v) { return Vec3(v - v.dot(out.in_W) * out.in_W); };
+  const Vec3 m = along_skin(*other - out.p_W);
+  if (!(m.norm() > 0)) return std::nullopt;
+  out.middle_W = m.normalized();
+  const Vec3 u = along_skin(out.p_W - *tubercle);
+  const Vec3 up = u - u.dot(out.middle_W) * out.middle_W;
+  if (!(up.norm() > 0)) return std::nullopt;
+  out.up_W = up.normalized();
+  return out;
+}
+
+PortalWatch::PortalWatch(const Case& the_case, Settings settings)
+    : case_(&the_case), settings_(std::move(settings)), told_(settings_.marks.size()) {
+  for (const std::uint32_t mark : settings_.marks) frames_.push_back(portal_frame(the_case, mark));
+}
+
+// One that was made anew after a restore point is told again, one that the restore point has kept
+// is not.
+bool PortalWatch::is_news(const ToolState& tool) {
+  Told& told = told_[tool.portal];
+  const bool same =
+      told.any && (told.epoch == tool.epoch || (told.p_W - tool.p_portal_W).norm() < kSamePlace_m);
+  told = {true, tool.epoch, tool.p_portal_W};
+  return !same;
+}
+
+bool PortalWatch::is_seen(std::span<const ToolState* const> tools, std::size_t by_hand,
+                          const BoneSnapshot& bones) const {
+  const Vec3& tip_W = tools[by_hand]->X_WP.p;
+  for (std::size_t h = 0; h < std::min(tools.size(), settings_.optics.size()); ++h) {
+    const auto& optics = settings_.optics[h];
+    if (h == by_hand || !optics || tools[h]->portal == kNoPortal) continue;
+    const ScopeView view = view_through(*optics, tools[h]->X_WP);
+    const Vec3 way = tip_W - view.eye_W;
+    const double far = way.norm();
+    if (!(far > 0) || far > kSeenFrom_m) continue;
+    if (way.dot(view.along_W) / far < std::cos(optics->half_field_rad)) continue;
+    if (!is_hidden(*case_, bones, view.eye_W, tip_W, kTipHides_m)) return true;
+  }
+  return false;
+}
+
+void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                      std::vector<Event>& out) {
+  for (std::size_t h = 0; h < tools.size(); ++h) {
+    const ToolState& tool = *tools[h];
+    if (tool.portal_way == 0 || tool.portal >= frames_.size() || !frames_[tool.portal]) continue;
+    if (!is_finite(tool.p_portal_W) || !is_news(tool)) continue;
+    const PortalFrame& frame = *frames_[tool.portal];
+    const Vec3 off = tool.p_portal_W - frame.p_W;
+    const std::uint32_t mark = settings_.marks[tool.portal];
+    out.push_back(of_portal(tool, h, mark, kPortalPlaced));
+    out.back().values = {1e3 * off.dot(frame.up_W), 1e3 * off.dot(frame.middle_W), 0};
+    out.push_back(of_portal(tool, h, mark, kPortalWay));
+    out.back().values = {tool.portal_way == 2 ? 1.0 : 0.0, is_seen(tools, h, bones) ? 1.0 : 0.0, 0};
+  }
+}
+
+}  // namespace osteon
