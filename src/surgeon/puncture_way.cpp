@@ -24,6 +24,7 @@ constexpr double kCutHalf_m = 0.0055, kBladeDeep_m = 0.011;  // 7 mm go around t
 constexpr double kCutStroke_m_per_s = 0.012, kPuncture_m_per_s = 0.02;
 constexpr double kTrocarDeep_m = 0.028, kTrocarRadius_m = 0.00275, kTrocarRoom_m = 0.0015;
 constexpr double kLookScope_m = 0.002, kScopeIn_m = 0.018;
+constexpr double kLookDeep_m = 0.006;  // under the skin of the other portal
 constexpr double kLooked_s = 2.2, kHook_s = 1.5;
 // So far ahead of the skin a hand goes that breaks through with what it is made to feel.
 constexpr double kForcedDeep_m = 0.041;
@@ -169,18 +170,20 @@ Vec3 hooked(const Puncture& at, const SkinWay& in) {
   return in.p_W + kTrocarDeep_m * in.in_W;
 }
 
-// Where the scope shows the inside of the other portal: the shaft comes from its own.
+// Where the scope shows the inside of the other portal: the shaft comes from its own, as steep as
+// it can.
 std::optional<Pose> looks_across(const Puncture& at, const SkinWay& from, const Vec3& to_W,
                                  const ScopeOptics& optics) {
   constexpr double kTurn = std::numbers::pi / 12;
-  for (int turn = 0; turn <= 11; ++turn)
-    for (const double side : {1.0, -1.0})
-      for (const double mm : {16.0, 13.0, 19.0, 22.0, 11.0}) {
-        const auto pose = pose_for({to_W, 1e-3 * mm, side * turn * kTurn}, from.p_W, optics);
-        if (!pose || from.n_W.dot(from.p_W - pose->p) < 0.004) continue;
-        if (!at.knee.is_free(pose->p, from.p_W, kLookScope_m + 0.0005)) continue;
-        if (at.knee.is_free(pose->p, to_W, 0.0004)) return pose;
-      }
+  for (const double deep_m : {0.008, 0.0065, 0.005, 0.004})
+    for (int turn = 0; turn <= 11; ++turn)
+      for (const double side : {1.0, -1.0})
+        for (const double mm : {16.0, 13.0, 19.0, 22.0, 11.0}) {
+          const auto pose = pose_for({to_W, 1e-3 * mm, side * turn * kTurn}, from.p_W, optics);
+          if (!pose || from.n_W.dot(from.p_W - pose->p) < deep_m) continue;
+          if (!at.knee.is_free(pose->p, from.p_W, kLookScope_m + 0.0005)) continue;
+          if (at.knee.is_free(pose->p, to_W, 0.0004)) return pose;
+        }
   return std::nullopt;
 }
 
@@ -223,7 +226,7 @@ Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scop
   if (!al) return tl::unexpected(al.error());
   const auto am = skin_way(*at, at->am, missed(at->am, am_off));
   if (!am) return tl::unexpected(am.error());
-  const auto gaze = looks_across(*at, *al, am->p_W + 0.003 * am->in_W, optics);
+  const auto gaze = looks_across(*at, *al, am->p_W + kLookDeep_m * am->in_W, optics);
   if (!gaze)
     return fail("the scope cannot see the place of the other portal", the_case.name,
                 "Use another patient");

@@ -86,7 +86,7 @@ UiModel WindowApp::build_model() {
   model.timeline.marks = marks_.all();
   model.contacts = contact_rows(sight_.shown().tool);
   tell_torque(sight_.shown().tool, replay_.on() ? replay_.replay()->tray : live_.tray().run().tools,
-              scene_.portals, model.hand);
+              replay_.on() ? replay_.replay()->portals : scene_.portals, model.hand);
   model.checkup = checkup_.model();
   model.edit = edit_.model();
   model.patient = patient_.model();

@@ -171,6 +171,9 @@ Result<void> Loader::repeat(Loaded& loaded, const Recording& recording) {
     replay_of.tray.push_back(
         std::make_shared<const Tool>(make_wrist_probe(settings->probe_radius_m)));
   replay_of.instruments = settings->tray;
+  auto portals = open_portals(*loaded.the_case, *settings);
+  if (!portals) return tl::unexpected(portals.error());
+  replay_of.portals = std::move(*portals);
   for (const HandSettings& hand : settings->hands) replay_of.hands.push_back(hand.name);
   replay_of.more.resize(settings->hands.size() - 1);
   if (!from_the_start) {

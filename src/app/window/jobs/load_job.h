@@ -45,6 +45,7 @@ struct LoadedReplay {
   std::vector<std::string> hands;               ///< names, where there are several
   std::vector<std::string> instruments;         ///< names by their place in the tray
   Tray tray;                                    ///< what the hands held
+  std::vector<Portal> portals;                  ///< of the session, by ToolState::portal
   std::shared_ptr<const CarvingSetup> carving;  ///< what they removed bone with; null: nothing
   CutHistory cuts;
   std::shared_ptr<const SoftSetup> softs;  ///< what gave way; null: nothing

@@ -19,7 +19,8 @@ void RunMarks::update() {
   if (events->events().size() == told_) return;
   const std::vector<std::string> titles = replay ? replay->instruments : live_.tray().titles();
   std::vector<std::string> portals, hands;
-  for (const Portal& portal : scene_.portals) portals.push_back("portal " + portal.title);
+  for (const Portal& portal : replay ? replay->portals : scene_.portals)
+    portals.push_back("portal " + portal.title);
   if (replay && replay->hands.size() > 1) hands = replay->hands;
   if (!replay && live->hands() > 1)
     for (std::size_t i = 0; i < live->hands(); ++i) hands.push_back(live->hand(i).name);
