@@ -15,7 +15,8 @@ constexpr double kClear_m = 0.1e-6;
 constexpr int kPlacings = 48;
 constexpr double kGolden = 0.6180339887498949;
 
-/// The i-th placing to try: first others turn, then the radius and the ends change as well.
+/// The i-th placing to try: first others turn, then the radius and the ends change as well. The
+/// radius by little first: where a side lies along the bone, a micrometre is much of a shallow cut.
 Placing placing_at(int i, const Placing& like) {
   if (i == 0) return like;
   Placing p = like;
@@ -23,7 +24,9 @@ Placing placing_at(int i, const Placing& like) {
   p.phase = turn - std::floor(turn);
   // Ends first move where a face lies in one of them, which no turning helps.
   if (i >= 4) p.end_shift = 0.5e-6 * (1 + i % 4);
-  if (i >= 8) p.radius_shift = (i % 2 == 0 ? 1 : -1) * 1e-6 * (0.3 + 0.7 * ((i / 2) % 8) / 7.0);
+  constexpr double kPairs = (kPlacings - 8) / 2 - 1;
+  if (i >= 8)
+    p.radius_shift = (i % 2 == 0 ? 1 : -1) * 1e-6 * (0.12 + 0.88 * ((i - 8) / 2) / kPairs);
   return p;
 }
 

@@ -17,6 +17,13 @@ Vec3 across(const Vec3& z) {
   return z.cross(least).normalized();
 }
 
+// The radius of the prism's corners over that of the circle, for both to have the same area: then a
+// shallow cut along a bone, whose width is many sides, is as deep on average as the cylinder's.
+double same_area(int sides) {
+  const double angle = 2 * M_PI / sides;
+  return std::sqrt(angle / std::sin(angle));
+}
+
 }  // namespace
 
 Frame::Frame(const Vec3& from, const Vec3& along)
@@ -31,7 +38,7 @@ int sides_for(double radius) {
 }
 
 Prism::Prism(double radius_m, double start_m, double end_m, const Placing& placing)
-    : radius(radius_m + placing.radius_shift),
+    : radius((radius_m + placing.radius_shift) * same_area(sides_for(radius_m))),
       start(start_m - placing.end_shift),
       end(end_m + placing.end_shift) {
   const int n = sides_for(radius_m);

@@ -39,8 +39,9 @@ struct Placing {
   double end_shift = 0;     ///< m, of both ends, outwards
 };
 
-/// The drill in its frame: a prism whose corners, its columns, lie on a circle of `radius`, between
-/// z = start and z = end. Side k lies between columns k and k + 1.
+/// The drill in its frame: a prism as wide across as the cylinder, by area, whose corners, its
+/// columns, lie on a circle of `radius`, between z = start and z = end. Side k lies between columns
+/// k and k + 1.
 struct Prism {
   double radius = 0;
   double start = 0, end = 0;
@@ -57,7 +58,7 @@ struct Prism {
   double depth(int k, const Vec2& p) const;
 };
 
-/// Sides of a prism of which no point lies deeper than 0.25 um under its cylinder: a multiple of
+/// Sides of a prism no point of which is farther than 0.25 um from its cylinder: a multiple of
 /// four, from 96 to 720.
 int sides_for(double radius);
 

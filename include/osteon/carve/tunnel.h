@@ -62,12 +62,12 @@ Result<TunnelPlan> plan_tunnel(TriMesh bone, const TunnelLine& line);
 /// Bone less the drill, whose flat end stands `depth_m` from `from` along the line; it may stand
 /// beyond `to` by what the plan can reach, which is as far as the bone goes.
 ///
-/// The wall is a prism whose corners lie on the cylinder, with so many sides that no point of it is
-/// further than 0.25 um from the cylinder. Where the surface touches the prism without crossing it,
-/// or nearly, the prism is turned about its axis, then its radius changed by up to 1 um and its
-/// ends moved outwards by up to 2 um, until all is at least 0.1 um apart: after that, every
-/// decision in double precision is the right one. The result has no crossings where the bone has
-/// none.
+/// The wall is a prism of the cylinder's cross-section in area, with so many sides that no point of
+/// it is further than 0.25 um from the cylinder. Where the surface touches the prism without
+/// crossing it, or nearly, the prism is turned about its axis, then its radius changed by up to 1
+/// um and its ends moved outwards by up to 2 um, until all is at least 0.1 um apart: after that,
+/// every decision in double precision is the right one. The result has no crossings where the bone
+/// has none.
 Result<TunnelCut> advance(const TunnelPlan& plan, double depth_m);
 
 /// The whole bone with the tunnel. Vertices that nothing uses are dropped. Empty where the drill
