@@ -50,4 +50,21 @@ Pose offered_probe(const Camera& camera, const Aabb& case_bounds_W) {
   return offered;
 }
 
+Pose probe_in_picture(const Camera& camera, const Aabb& case_bounds_W) {
+  const Vec3 towards_viewer_W = camera.q_WC * Vec3::UnitZ();
+  Pose offered = offered_probe(camera, case_bounds_W);
+  const double in_front = (offered.p - camera.target_W).dot(towards_viewer_W);
+  offered.p =
+      camera.target_W + std::clamp(in_front, 0.0, 0.5 * camera.distance_m) * towards_viewer_W;
+  return offered;
+}
+
+bool shows(const Camera& camera, double aspect, const Vec3& p_W) {
+  const Vec3 p_C = camera.q_WC.conjugate() * (p_W - camera.target_W);
+  const double depth = camera.distance_m - p_C.z();
+  const double scale = camera.orthographic ? 1.0 : depth / camera.distance_m;
+  const double half = camera.half_height_m() * scale;
+  return depth > 0 && std::abs(p_C.y()) <= half && std::abs(p_C.x()) <= aspect * half;
+}
+
 }  // namespace osteon

@@ -28,4 +28,11 @@ Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camer
 /// the shaft does not hide its tip.
 Pose offered_probe(const Camera& camera, const Aabb& case_bounds_W);
 
+/// The same in the middle of the picture, in front of what the camera looks at: of a close-up,
+/// whose case may reach beyond the eye, half-way to the eye at most.
+Pose probe_in_picture(const Camera& camera, const Aabb& case_bounds_W);
+
+/// Whether p_W shows in a picture of this width over its height.
+bool shows(const Camera& camera, double aspect, const Vec3& p_W);
+
 }  // namespace osteon

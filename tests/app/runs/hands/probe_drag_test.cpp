@@ -95,6 +95,35 @@ TEST(ProbeDrag, TheOfferedProbeIsInFrontOfTheCaseAndItsShaftComesTowardsTheViewe
   }
 }
 
+TEST(ProbeDrag, AProbeThatIsBroughtIntoACloseUpIsInItsPicture) {
+  Random random(10);
+  Aabb limb;
+  limb.include(Vec3(-0.08, -0.08, -0.4));
+  limb.include(Vec3(0.08, 0.08, 0.4));
+  for (int i = 0; i < 100; ++i) {
+    Camera camera = some_camera(random);
+    camera.target_W = 0.05 * random.direction();
+    camera.distance_m = random.uniform(0.05, 0.6);
+    const Pose X_WD = probe_in_picture(camera, limb);
+    const Vec3 p_C = camera.q_WC.conjugate() * (X_WD.p - camera.target_W);
+    EXPECT_TRUE(shows(camera, 0.5, X_WD.p));
+    EXPECT_GE(p_C.z(), -1e-12);
+    EXPECT_LE(p_C.z(), 0.5 * camera.distance_m + 1e-12);
+  }
+}
+
+TEST(ProbeDrag, WhatIsBesideThePictureOrBehindTheEyeDoesNotShow) {
+  Camera camera;
+  const double edge = camera.half_height_m();
+  EXPECT_TRUE(shows(camera, 2, Vec3(1.99 * edge, 0.99 * edge, 0)));
+  EXPECT_FALSE(shows(camera, 2, Vec3(2.01 * edge, 0, 0)));
+  EXPECT_FALSE(shows(camera, 2, Vec3(0, -1.01 * edge, 0)));
+  EXPECT_TRUE(shows(camera, 2, Vec3(0, -1.01 * edge, -0.1 * camera.distance_m)));
+  EXPECT_FALSE(shows(camera, 2, Vec3(0, 0, 1.1 * camera.distance_m)));
+  camera.orthographic = true;
+  EXPECT_FALSE(shows(camera, 2, Vec3(0, -1.01 * edge, -0.1 * camera.distance_m)));
+}
+
 TEST(CameraControl, ADragOrbitsAClickDoesNot) {
   CameraControl control;
   Camera camera;

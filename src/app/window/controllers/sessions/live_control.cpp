@@ -184,7 +184,17 @@ void LiveControl::apply_feel(const UiRequests& requests, bool may_resume) {
     if (run_->choice().info.peak_force_n > 0) run_->set_force(false);
   }
   if (requests.force_on && may_resume) run_->resume();
-  if (requests.toggle_probe) probe_toggled_ = !probe_toggled_;
+  if (!requests.toggle_probe) return;
+  probe_toggled_ = !probe_toggled_;
+  if (probe_toggled_) bring_into_picture();
+}
+
+// Whoever takes an instrument that the picture does not show could not tell where it went.
+void LiveControl::bring_into_picture() {
+  const Camera& camera = sight_.view().camera;
+  if (!run_->by_mouse() || !(sight_.hand_camera() == camera)) return;
+  if (!shows(camera, sight_.hand_viewport().aspect(), run_->snapshot().tool.X_WP.p))
+    run_->bring(probe_in_picture(camera, scene_.the_case->bounds_W()));
 }
 
 void LiveControl::apply_device(const UiRequests& requests) {

@@ -61,6 +61,7 @@ class LiveControl {
   void update(bool power_key, double dt_s);
   /// `may_resume`: nothing but the user's wish keeps the force off.
   void apply_feel(const UiRequests& requests, bool may_resume);
+  void bring_into_picture();
   /// Not while a check-up may have the device.
   void apply_device(const UiRequests& requests);
   void toggle_recording();
