@@ -13,6 +13,8 @@ constexpr double kSkinStill_m = 5e-5;
 constexpr double kDentAlike_m = 2e-4;  // the same of its radius
 // The wall of a groove begins so far under the lip: it has a colour of its own there.
 constexpr double kUnderLip_m = 1e-5;
+// The skin about a patch goes so far under it, both sides together: light comes through a joint.
+constexpr double kOverlap_m = 4e-4;
 constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn, at least
 constexpr double kDeepestDent = 0.95;    // of the fat's thickness
 
@@ -50,7 +52,8 @@ SkinShape::SkinShape(const Case& the_case, const SoftSetup& setup)
     Patch mine;
     mine.X_WS = the_case.bone(patch.bone).X_WB * patch.X_BS;
     mine.yields = patch.whole;
-    around_W_ = around(around_W_, mine.X_WS, patch.width_m, patch.height_m);
+    around_W_ =
+        around(around_W_, mine.X_WS, patch.width_m - kOverlap_m, patch.height_m - kOverlap_m);
     patches_.push_back(std::move(mine));
   }
 }

@@ -1,8 +1,12 @@
 #include "osteon/tissue/skin_place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "osteon/mesh/distance.h"
 
@@ -45,6 +49,87 @@ std::optional<double> height_at(const std::vector<std::array<Vec3, 3>>& skin, co
   return best;
 }
 
+// Cuts the rectangle of a sheet out of a skin. Each triangle is cut along the rectangle's four
+// lines in turn: what lies beyond a line stays, the rest goes on to the next, and what is left
+// after all four is under the sheet. A cut of an edge is computed from its ends in the order of
+// their numbers and kept by its place, so that both triangles beside the edge get the same vertex.
+class SheetHole {
+ public:
+  SheetHole(const TriMesh& skin_W, const Pose& X_WS, double width_m, double height_m)
+      : half_(0.5 * width_m, 0.5 * height_m), X_WS_(X_WS), skin_(skin_W) {
+    const Pose X_SW = X_WS.inverse();
+    for (const Vec3& p : skin_W.vertices) p_S_.push_back(X_SW * p);
+    out_.vertices = skin_W.vertices;
+  }
+
+  TriMesh cut() {
+    for (const Triangle& t : skin_.triangles) {
+      const bool far = std::any_of(
+          t.begin(), t.end(), [&](std::uint32_t v) { return std::abs(p_S_[v].z()) >= kFar_m; });
+      if (far)
+        out_.triangles.push_back(t);
+      else
+        cut_triangle(t);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  using Polygon = std::vector<std::uint32_t>;
+
+  // How far a vertex lies beyond the line: right, left, upper and lower side of the rectangle.
+  double beyond(std::uint32_t v, int line) const {
+    const int axis = line / 2;
+    return (line % 2 == 0 ? 1 : -1) * p_S_[v][axis] - half_[axis];
+  }
+
+  void cut_triangle(const Triangle& t) {
+    Polygon left(t.begin(), t.end());
+    std::vector<Polygon> kept;
+    for (int line = 0; line < 4 && !left.empty(); ++line) {
+      Polygon outer, inner;
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        const std::uint32_t a = left[i], b = left[(i + 1) % left.size()];
+        const double at_a = beyond(a, line), at_b = beyond(b, line);
+        if (at_a >= 0) outer.push_back(a);
+        if (at_a <= 0) inner.push_back(a);
+        if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
+          const std::uint32_t c = between(a, b, line);
+          outer.push_back(c);
+          inner.push_back(c);
+        }
+      }
+      if (outer.size() >= 3) kept.push_back(std::move(outer));
+      left = inner.size() >= 3 ? std::move(inner) : Polygon();
+    }
+    // Whole where nothing of it lies under the sheet.
+    if (left.empty()) return out_.triangles.push_back(t);
+    for (const Polygon& p : kept)
+      for (std::size_t i = 1; i + 1 < p.size(); ++i)
+        out_.triangles.push_back({p[0], p[i], p[i + 1]});
+  }
+
+  std::uint32_t between(std::uint32_t a, std::uint32_t b, int line) {
+    if (a > b) std::swap(a, b);
+    const double at_a = beyond(a, line), at_b = beyond(b, line);
+    const Vec3 p = p_S_[a] + at_a / (at_a - at_b) * (p_S_[b] - p_S_[a]);
+    const auto [found, is_new] =
+        at_.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(p_S_.size()));
+    if (is_new) {
+      p_S_.push_back(p);
+      out_.vertices.push_back(X_WS_ * p);
+    }
+    return found->second;
+  }
+
+  Eigen::Vector2d half_;
+  Pose X_WS_;
+  const TriMesh& skin_;
+  std::vector<Vec3> p_S_;
+  TriMesh out_;
+  std::map<std::array<double, 3>, std::uint32_t> at_;  // vertices that came about
+};
+
 }  // namespace
 
 Result<Pose> sheet_frame(const TriMesh& skin_W, const Vec3& near_W, const Vec3& up_W,
@@ -85,17 +170,7 @@ Result<TriMesh> lay_on(const TriMesh& skin_W, const Pose& X_WS, const TriMesh& s
 }
 
 TriMesh around(const TriMesh& skin_W, const Pose& X_WS, double width_m, double height_m) {
-  const Pose X_SW = X_WS.inverse();
-  const auto inside = [&](std::uint32_t i) {
-    const Vec3 p = X_SW * skin_W.vertices[i];
-    return std::abs(p.x()) <= 0.5 * width_m && std::abs(p.y()) <= 0.5 * height_m &&
-           std::abs(p.z()) < kFar_m;
-  };
-  TriMesh out;
-  out.vertices = skin_W.vertices;
-  for (const Triangle& t : skin_W.triangles)
-    if (!(inside(t[0]) && inside(t[1]) && inside(t[2]))) out.triangles.push_back(t);
-  return out;
+  return SheetHole(skin_W, X_WS, width_m, height_m).cut();
 }
 
 }  // namespace osteon

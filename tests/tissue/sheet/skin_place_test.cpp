@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "osteon/mesh/measure.h"
 #include "tissue/sheet/sheet_checks.h"
 
 namespace osteon {
@@ -75,6 +76,16 @@ TEST(SkinPlace, ASheetLiesOnTheSkinItsGrooveUnderIt) {
   EXPECT_NEAR(deepest, 0.005, 0.0003);
   const TriMesh rest = around(limb, *frame, 0.04, 0.03);
   EXPECT_LT(rest.triangles.size(), limb.triangles.size() - 20);
+  // What was cut out is the rectangle bent around the tube, to the facets' flatness.
+  const double cut_out = area(limb) - area(rest);
+  EXPECT_NEAR(cut_out, 0.03 * 2 * kRadius * std::asin(0.02 / kRadius), 0.001 * cut_out);
+  const Pose X_SW = frame->inverse();
+  for (const Triangle& t : rest.triangles) {
+    const Vec3 middle =
+        X_SW * Vec3((rest.vertices[t[0]] + rest.vertices[t[1]] + rest.vertices[t[2]]) / 3);
+    const bool under = std::abs(middle.x()) < 0.02 - 1e-9 && std::abs(middle.y()) < 0.015 - 1e-9;
+    EXPECT_FALSE(under && std::abs(middle.z()) < 0.02);
+  }
   EXPECT_FALSE(lay_on(limb, *frame,
                       sheet_surface(split(*SkinSheet::make(0.12, 0.03, 0.002, {}),
                                           whole_sheet(*SkinSheet::make(0.12, 0.03, 0.002, {}))),
