@@ -138,6 +138,15 @@ void push_on(const AclKnee& knee, AclWay& way, const Vec3& at_W) {
   way.go(held, 1.5);
 }
 
+// Out through the portal, and to the outer side of the leg: before the knee a shank that is
+// stretched out would strike it, in the joint both bones would press it.
+void leave(const AclKnee& knee, AclWay& way, const Vec3& portal_W) {
+  const Vec3 back = way.pose().rotate(Vec3::UnitZ()), outer = knee.femoral(-Vec3::UnitY());
+  way.go_at({portal_W + kOutside_m * back, way.pose().q}, kTravel_m_per_s);
+  way.go_at({portal_W + kAway_m * back, way.pose().q}, kAir_m_per_s);
+  way.go_at(held_by_shaft(portal_W + kAway_m * outer, outer), kAir_m_per_s);
+}
+
 // Through the portal, from mark to mark over it, and out again: a scope that stays would stand in
 // the pin's way.
 ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
@@ -164,9 +173,7 @@ ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
     way.stay(kLook_s);
   }
   if (habits.fault == "scuffed") push_on(knee, way, gazes.back().at_W);
-  const Vec3 last = way.pose().rotate(Vec3::UnitZ());
-  way.go_at({portal_W + kOutside_m * last, way.pose().q}, kTravel_m_per_s);
-  way.go_at({portal_W + kAway_m * last, way.pose().q}, kAir_m_per_s);
+  leave(knee, way, portal_W);
   return way.path();
 }
 

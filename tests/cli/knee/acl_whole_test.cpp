@@ -31,6 +31,9 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
     ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
     EXPECT_LT(stage["completed_s"], 1500);
   }
+  // The shank that is stretched out strikes no instrument that was put away.
+  for (const auto& [bone, touched] : json["hands"]["scope"]["bones"].items())
+    EXPECT_EQ(touched["contact_time_s"], 0) << bone;
   const Json& placing = json["acl"]["placing"];
   EXPECT_TRUE(placing["button_turned"]);
   EXPECT_NEAR(placing["tibia_mm"].get<double>(), json["acl"]["tibia"]["length_mm"].get<double>(),
