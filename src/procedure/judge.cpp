@@ -26,11 +26,20 @@ Result<PlannedRule> plan_marks(PlannedRule planned, const Scenario& scenario,
   return planned;
 }
 
+// `finding`: "old_tunnel=sound".
+bool has_finding(const Case& the_case, const std::string& finding) {
+  return std::any_of(
+      the_case.findings.begin(), the_case.findings.end(),
+      [&](const CaseFinding& found) { return found.name + "=" + found.grade == finding; });
+}
+
 Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const Case& the_case) {
   const RuleKind* kind = find_rule_kind(rule.kind);
   PlannedRule planned{rule, {}, kind ? kind->about : SubjectKind::kBone, kNoHand};
   if (kind) planned.heeds = kind->heeds;
   if (kind) planned.heeds_too = kind->heeds_too;
+  planned.applies = (rule.when.empty() || has_finding(the_case, rule.when)) &&
+                    (rule.unless.empty() || !has_finding(the_case, rule.unless));
   for (std::size_t h = 0; h < scenario.hands.size(); ++h)
     if (scenario.hands[h].name == rule.hand) planned.hand = static_cast<std::uint8_t>(h);
   if (!rule.hand.empty() && planned.hand == kNoHand)
@@ -52,7 +61,7 @@ Result<PlannedRule> plan_rule(const Rule& rule, const Scenario& scenario, const 
 }
 
 RuleState fresh_state(const PlannedRule& rule) {
-  return {std::vector<char>(rule.bones.size(), 0), false,
+  return {std::vector<char>(rule.bones.size(), 0), !rule.applies,
           std::vector<RuleHold>(std::max<std::size_t>(1, rule.bones.size()))};
 }
 
@@ -70,6 +79,16 @@ void note_error(const ScenarioPlan& plan, std::size_t error, double at_s, const 
   const std::uint32_t bone = event.subject_kind == SubjectKind::kBone ? event.subject : kNoSubject;
   state.errors.push_back({static_cast<std::uint32_t>(error), at_s, event.hand, bone});
   if (plan.scenario.errors[error].severity == Severity::kCritical) state.over = true;
+}
+
+bool is_sound(const std::string& grade) { return grade == kSoundGrade || grade == kNoFinding; }
+
+bool is_stated_wrongly(const PlannedRule& rule, const GradedFinding& finding) {
+  const bool sound = is_sound(finding.truth);
+  if (rule.rule.kind == "fault_missed") return !sound && !finding.right();
+  if (rule.rule.kind == "sound_blamed")
+    return sound && !finding.stated.empty() && !is_sound(finding.stated);
+  return false;
 }
 
 }  // namespace
@@ -135,8 +154,13 @@ void judge(const ScenarioPlan& plan, const Event& event, double tick_s, Scenario
   enter_stage(plan, state);
 }
 
-void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state) {
+void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state,
+                     const std::vector<GradedFinding>& graded) {
   state.over = true;
+  for (std::size_t i = 0; i < plan.errors.size(); ++i)
+    for (const GradedFinding& finding : graded)
+      if (is_stated_wrongly(plan.errors[i], finding))
+        state.errors.push_back({static_cast<std::uint32_t>(i), at_s, 0, kNoSubject});
   for (std::size_t i = 0; i < plan.errors.size(); ++i) {
     if (plan.errors[i].rule.kind != "left_out") continue;
     for (std::size_t b = 0; b < plan.errors[i].bones.size(); ++b) {

@@ -9,6 +9,14 @@ namespace {
 
 constexpr double kMany = 1e9;
 
+// Whom a rule is asked of.
+std::string read_patients(TomlTable& table, const char* key) {
+  const std::string finding = table.text_or(key, "");
+  if (!finding.empty() && finding.find('=') == std::string::npos)
+    table.set_error("'" + finding + "' has no grade", key, "Write NAME=GRADE");
+  return finding;
+}
+
 Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
   Rule rule;
   rule.line = table.line();
@@ -31,6 +39,8 @@ Rule read_rule(TomlTable& table, std::string_view key, bool is_goal) {
   }
   if (kind->with_bone && rule.subjects.size() != 1)
     table.set_error("the rule needs one bone", key, "Add bones = [\"NAME\"]");
+  rule.when = read_patients(table, "when");
+  rule.unless = read_patients(table, "unless");
   for (const RuleNumber& n : kind->numbers)
     rule.numbers[std::string(n.name)] = table.number_or(n.name, n.lo, n.hi, n.usual);
   return rule;
@@ -143,11 +153,13 @@ Scenario read_scenario(TomlTable& table) {
       table.set_error("'" + side + "' is not a side", "sides", "Use left and right");
   scenario.findings = table.texts_or_empty("findings");
   scenario.always = table.texts_or_empty("always");
-  for (const auto* list : {&scenario.findings, &scenario.always})
+  scenario.one_of = table.texts_or_empty("one_of");
+  for (const auto& [key, list] :
+       {std::pair("findings", &scenario.findings), std::pair("always", &scenario.always),
+        std::pair("one_of", &scenario.one_of)})
     for (const std::string& finding : *list)
       if (finding.find('=') == std::string::npos)
-        table.set_error("'" + finding + "' has no grade",
-                        list == &scenario.always ? "always" : "findings", "Write NAME=GRADE");
+        table.set_error("'" + finding + "' has no grade", key, "Write NAME=GRADE");
   for (TomlTable& hand : table.tables_or_empty("hands")) scenario.hands.push_back(read_hand(hand));
   if (scenario.hands.size() > 4) table.set_error("at most four hands are allowed", "hands");
   for (TomlTable& stage : table.tables_or_empty("stages"))

@@ -209,21 +209,22 @@ class LineMoves {
   std::vector<AclMove>& out_;
 };
 
-}  // namespace
+double through_m(const AclKnee& knee, bool of_femur, const AclLine& line) {
+  return knee.way_out(of_femur, line.at_W + 0.001 * line.in_W, line.in_W) + 0.001;
+}
 
-std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
-                                std::string_view fault, double begin_s, double pace) {
-  std::vector<AclMove> moves;
-  LineMoves tibia(plan.tibia, pace, moves), femur(plan.femur, pace, moves);
-  const auto through = [&](bool of_femur, const AclLine& line) {
-    return knee.way_out(of_femur, line.at_W + 0.001 * line.in_W, line.in_W) + 0.001;
-  };
-  const double tibia_m = through(false, plan.tibia), femur_m = through(true, plan.femur);
-  // A channel is left beyond the socket's bottom.
-  const double socket_m =
-      std::clamp(femur_m - kChannelLeft_m, std::min(kLeastSocket_m, plan.socket_m), plan.socket_m);
-  tibia.go(-kStand_m, kFast_m_per_s);
-  moves.push_back({Kind::kWait, {}, 0, 0, begin_s});
+// Where a hand waits that drills nothing.
+AclLine idle_line(const AclKnee& knee) {
+  constexpr double kBefore_m = 0.2;
+  const Vec3 portal = knee.mark("portal_am");
+  const Vec3 in = (knee.mark("acl_tibia") - portal).normalized();
+  return {portal - kBefore_m * in, in};
+}
+
+void drill_tibia(const AclKnee& knee, const AclDrillPlan& plan, std::string_view fault, double pace,
+                 std::vector<AclMove>& moves) {
+  LineMoves tibia(plan.tibia, pace, moves);
+  const double tibia_m = through_m(knee, false, plan.tibia);
   if (fault == "no_pin") {
     LineMoves beside(free_hand_line(knee, plan.tibia), pace, moves);
     beside.come_with(drill_of(plan.reamed_m));
@@ -242,6 +243,15 @@ std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
   tibia.draw_out();
   tibia.take(kAclPin);
   tibia.go(-kStand_m, kSlow_m_per_s);
+}
+
+void drill_femur(const AclKnee& knee, const AclDrillPlan& plan, std::string_view fault, double pace,
+                 std::vector<AclMove>& moves) {
+  LineMoves femur(plan.femur, pace, moves);
+  const double femur_m = through_m(knee, true, plan.femur);
+  // A channel is left beyond the socket's bottom.
+  const double socket_m =
+      std::clamp(femur_m - kChannelLeft_m, std::min(kLeastSocket_m, plan.socket_m), plan.socket_m);
   femur.aim(kAclFemoralAimer, femoral_aimer(knee, plan.femur));
   femur.come_with(kAclPin);
   femur.drill(femur_m + kPinOut_m, kDrive_n);
@@ -254,6 +264,20 @@ std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
   femur.draw_out();
   femur.take(kAclPin);
   femur.go(-kStand_m, kSlow_m_per_s);
+}
+
+}  // namespace
+
+std::vector<AclMove> drill_both(const AclKnee& knee, const AclDrillPlan& plan,
+                                std::string_view fault, double begin_s, double pace) {
+  std::vector<AclMove> moves;
+  const AclLine first = plan.drills_tibia   ? plan.tibia
+                        : plan.drills_femur ? plan.femur
+                                            : idle_line(knee);
+  LineMoves(first, pace, moves).go(-kStand_m, kFast_m_per_s);
+  moves.push_back({Kind::kWait, {}, 0, 0, begin_s});
+  if (plan.drills_tibia) drill_tibia(knee, plan, fault, pace, moves);
+  if (plan.drills_femur) drill_femur(knee, plan, fault, pace, moves);
   return moves;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "osteon/collide/segments.h"
 #include "osteon/procedure/judge.h"
 
 namespace osteon {
@@ -13,7 +15,24 @@ AclKnee::AclKnee(const Case& the_case, const Bone& femur, const Bone& tibia)
       tibia_(tibia.mesh),
       X_WF_(femur.X_WB),
       X_WT_(tibia.X_WB),
-      left_(the_case.side == "left") {}
+      left_(the_case.side == "left") {
+  old_socket_ = old_between("old_socket_mouth", "old_socket_end");
+  old_tunnel_ = old_between("old_tunnel_mouth", "old_tunnel_end");
+}
+
+std::optional<Capsule> AclKnee::old_between(std::string_view from, std::string_view to) const {
+  constexpr double kRadius_m = 0.0037;
+  if (!has_mark(from) || !has_mark(to)) return std::nullopt;
+  return Capsule{mark(from), mark(to), kRadius_m};
+}
+
+double AclKnee::to_old_m(bool of_femur, const Vec3& from_W, const Vec3& to_W,
+                         double radius_m) const {
+  const auto& old = of_femur ? old_socket_ : old_tunnel_;
+  if (!old) return std::numeric_limits<double>::infinity();
+  const AxisPoints nearest = nearest_on_axes({from_W, to_W, radius_m}, *old);
+  return (nearest.a - nearest.b).norm() - radius_m - old->radius;
+}
 
 Result<AclKnee> AclKnee::make(const Case& the_case) {
   const std::string where = "case '" + the_case.name + "'";

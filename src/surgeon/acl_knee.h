@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/collide/capsule_contact.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/scene/case.h"
 
@@ -36,6 +38,10 @@ class AclKnee {
   Vec3 on_femur(const Vec3& p_W) const {
     return X_WF_ * femur_.closest(X_WF_.inverse() * p_W).point;
   }
+  /// Whether the bone has a tunnel of an earlier reconstruction.
+  bool has_old(bool of_femur) const { return (of_femur ? old_socket_ : old_tunnel_).has_value(); }
+  /// Bone that is left between that and a new one from one place to another, below 0: none.
+  double to_old_m(bool of_femur, const Vec3& from_W, const Vec3& to_W, double radius_m) const;
   /// The outward normal of a bone's surface next to a place, unit.
   Vec3 normal(bool of_femur, const Vec3& p_W) const;
 
@@ -49,10 +55,13 @@ class AclKnee {
     return d;
   }
 
+  std::optional<Capsule> old_between(std::string_view from, std::string_view to) const;
+
   const Case* case_;
   MeshDistance femur_, tibia_;
   Pose X_WF_, X_WT_;
   bool left_ = false;
+  std::optional<Capsule> old_socket_, old_tunnel_;  ///< World
 };
 
 }  // namespace osteon

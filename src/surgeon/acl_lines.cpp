@@ -16,11 +16,20 @@ constexpr double kMostBehind_m = 0.01;
 constexpr double kMostOff_m = 0.0036, kFarthestOff_m = 0.0048;
 constexpr double kOpenWall_m = 0.0003;
 
+bool is_steep(std::string_view fault) {
+  return fault == "vertical_femur" || fault == "misplaced_socket" ||
+         fault == "sound_socket_drilled";
+}
+bool is_in_front(std::string_view fault) {
+  return fault == "anterior_tibia" || fault == "misplaced_tunnel" ||
+         fault == "sound_tunnel_drilled";
+}
+
 Vec3 femoral_mouth(const AclKnee& knee, std::string_view fault) {
   const Vec3 mouth = knee.mark("acl_femur");
   const Vec3 back = knee.mark("blumensaat_posterior"), front = knee.mark("blumensaat_anterior");
   // Under the roof, beside the middle.
-  if (fault == "vertical_femur")
+  if (is_steep(fault))
     return back + 0.25 * (front - back) + knee.femoral(Vec3(0.0012, -0.0045, -0.0016));
   return mouth;
 }
@@ -53,6 +62,20 @@ double bone_behind(const AclKnee& knee, const AclLine& line, double radius) {
   return least;
 }
 
+// What a line is worth beside the tunnel of an earlier reconstruction, 0 where there is none; below
+// 0: it is not to be drilled. Enough bone is left between both; who errs opens the old one instead,
+// but beyond his mouth.
+double beside_old(const AclKnee& knee, bool of_femur, const AclLine& line, double length_m,
+                  double radius_m, std::string_view fault) {
+  constexpr double kBridge_m = 0.0016, kOpens_m = -0.001, kDeepest_m = -0.0035, kWorthPerM = 1000;
+  const bool heedless = fault == "sound_socket_drilled" || fault == "sound_tunnel_drilled";
+  if (!knee.has_old(of_femur) || heedless) return 0;
+  const double gap = knee.to_old_m(of_femur, line.at_W, line.at_W + length_m * line.in_W, radius_m);
+  if (fault != (of_femur ? "into_old_socket" : "into_old_tunnel"))
+    return gap < kBridge_m ? -1 : kWorthPerM * std::min(gap, 0.002);
+  return gap > kOpens_m || gap < kDeepest_m ? -1 : 0;
+}
+
 // The least room about the way of what comes along a line, up to what is enough.
 double room_before(const AclKnee& knee, const AclLine& line, double enough_m) {
   constexpr double kFrom_m = 0.013, kTo_m = 0.09, kStride_m = 0.001;
@@ -72,7 +95,7 @@ double share_between(double value, double none, double all) {
 // What is wanted of a socket, in this order: room for the drill on its way, bone behind it, a
 // channel in which loop and button have their place, a mouth that is not too slanted. Who does not
 // look behind finds the least bone there.
-void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool looks_behind,
+void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, std::string_view fault,
                   Choice& best) {
   constexpr double kFlattest = 0.3, kSteep = 0.55, kShort_m = 0.027, kLong_m = 0.031;
   const Vec3 &mouth = line.at_W, &in = line.in_W;
@@ -80,7 +103,9 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool 
   if (straight < kFlattest) return;
   const double channel = knee.way_out(true, mouth + 0.001 * in, in) + 0.001;
   if (!(channel > kSocket_m + 0.002)) return;
-  double worth = best.given + 4 * share_between(channel, kShort_m, kLong_m) +
+  const double to_old = beside_old(knee, true, line, channel, radius, fault);
+  if (to_old < 0) return;
+  double worth = best.given + to_old + 4 * share_between(channel, kShort_m, kLong_m) +
                  0.3 / (1 + std::abs(channel - kChannel_m) / 0.01) +
                  2 * share_between(straight, kFlattest, kSteep);
   if (worth + 8 <= best.worth) return;
@@ -89,7 +114,7 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool 
   worth += 5 * share_between(room, radius + kTight_m, radius + kDrillRoom_m);
   if (worth + 3 <= best.worth) return;
   const double behind = std::clamp(bone_behind(knee, line, radius) / kWall_m, -1.0, 1.0);
-  worth += (looks_behind ? 3 : -3) * behind;
+  worth += (fault != "blow_out" ? 3 : -3) * behind;
   if (worth > best.worth) best = {worth, best.given, line};
 }
 
@@ -97,12 +122,12 @@ void weigh_socket(const AclKnee& knee, const AclLine& line, double radius, bool 
 class SocketSearch {
  public:
   SocketSearch(const AclKnee& knee, const Vec3& aimed_W, double most_off_m, double radius_m,
-               bool looks_behind)
+               std::string_view fault)
       : knee_(knee),
         aimed_W_(aimed_W),
         most_off_m_(most_off_m),
         radius_m_(radius_m),
-        looks_behind_(looks_behind) {
+        fault_(fault) {
     forward_W_ =
         (knee.mark("blumensaat_anterior") - knee.mark("blumensaat_posterior")).normalized();
     down_W_ = forward_W_.cross(knee.normal(true, aimed_W)).normalized();
@@ -151,46 +176,65 @@ class SocketSearch {
     const Vec3 mouth = knee_.on_femur(aimed_W_ + at.forward_m * forward_W_ + at.down_m * down_W_);
     const double before = found.choice.worth;
     found.choice.given = -kWorthPerM * std::hypot(at.forward_m, at.down_m);
-    weigh_socket(knee_, {mouth, in}, radius_m_, looks_behind_, found.choice);
+    weigh_socket(knee_, {mouth, in}, radius_m_, fault_, found.choice);
     if (found.choice.worth > before) found.place = at;
   }
 
   const AclKnee& knee_;
   Vec3 aimed_W_, forward_W_, down_W_;
   double most_off_m_, radius_m_;
-  bool looks_behind_;
+  std::string_view fault_;
+};
+
+// How a tibial tunnel is to be.
+struct TunnelWish {
+  double length_m = 0.045, radius_m = 0.004;
+  std::string_view fault;
 };
 
 // `out`: from the plateau to the front of the inner side.
-void weigh_tunnel(const AclKnee& knee, const Vec3& mouth, const Vec3& out, double wanted_m,
+void weigh_tunnel(const AclKnee& knee, const Vec3& mouth, const Vec3& out, const TunnelWish& wish,
                   Choice& best) {
   // Where the axis enters the bone on the plateau.
   Vec3 in = mouth - 0.02 * out;
   for (int i = 0; i < 400 && knee.tibia_m(in) > 0; ++i) in += 0.00025 * out;
   const double length = knee.way_out(false, in + 0.001 * out, out) + 0.001;
   if (!(length > 0.01 && length < 0.08)) return;
-  const double worth = -std::abs(length - wanted_m);
+  const AclLine inwards{in, out};
+  const double to_old = beside_old(knee, false, inwards, length, wish.radius_m, wish.fault);
+  if (to_old < 0) return;
+  const double worth = best.given + to_old - std::abs(length - wish.length_m);
   if (worth > best.worth) best = {worth, best.given, {in + length * out, -out}};
 }
 
 }  // namespace
 
-Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const Vec3& miss_W) {
+Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const Vec3& miss_W,
+                            double reamed_m) {
   Vec3 mouth = knee.mark("acl_tibia") + miss_W;
-  if (fault == "anterior_tibia") mouth += 0.0075 * knee.tibial(Vec3(0, 0, 1));
+  if (is_in_front(fault)) mouth += 0.0075 * knee.tibial(Vec3(0, 0, 1));
   // A flat way is short, but a flatter one would be no tunnel but a groove; one to a place in front
   // must be steep to be long enough.
   const bool is_short = fault == "short_tibia";
   const int flattest = is_short ? 45 : 40;
-  const int steepest = is_short ? 50 : fault == "anterior_tibia" ? 75 : 60;
+  const bool is_steep_too = is_in_front(fault) || fault == "into_old_tunnel";
+  const int steepest = is_short ? 50 : is_steep_too ? 75 : 60;
+  const TunnelWish wish{is_short ? 0.026 : 0.045, 0.5 * reamed_m, fault};
   Choice best;
   for (int steep = flattest; steep <= steepest; steep += 5)
     for (int inner = 20; inner <= 50; inner += 10) {
       const double s = steep * kAclTurn, i = inner * kAclTurn;
       const Vec3 out =
           knee.tibial(Vec3(std::sin(s), std::cos(s) * std::sin(i), std::cos(s) * std::cos(i)));
-      weigh_tunnel(knee, mouth, out, is_short ? 0.026 : 0.045, best);
+      // Beside an old tunnel the mouth may stand a little behind or before the footprint's middle.
+      const int beside = knee.has_old(false) && !is_in_front(fault) ? 3 : 0;
+      for (int mm = -beside; mm <= beside; ++mm) {
+        best.given = -0.0005 * std::abs(mm);
+        weigh_tunnel(knee, mouth + 0.001 * mm * knee.tibial(Vec3::UnitZ()), out, wish, best);
+      }
     }
+  if (best.worth < -1e8 && !miss_W.isZero())
+    return tibial_line(knee, fault, Vec3::Zero(), reamed_m);
   if (best.worth < -1e8) return fail("no line through the tibia was found", "the pin");
   return best.line;
 }
@@ -200,15 +244,18 @@ Result<AclLine> femoral_line(const AclKnee& knee, std::string_view fault, const 
   const Vec3 aimed = femoral_mouth(knee, fault) + miss_W;
   const bool looks_behind = fault != "blow_out";
   // Who misses does not know how far, and stays there.
-  const bool chooses = looks_behind && fault != "vertical_femur" && miss_W.isZero();
+  const bool chooses = looks_behind && !is_steep(fault) && miss_W.isZero();
   const double radius = 0.5 * reamed_m;
   const auto within = [&](double most_off_m) {
-    return SocketSearch(knee, aimed, most_off_m, radius, looks_behind).best();
+    return SocketSearch(knee, aimed, most_off_m, radius, fault).best();
   };
   Choice best = within(chooses ? kMostOff_m : 0);
   const bool found = best.worth > -1e8;
   if (chooses && (!found || bone_behind(knee, best.line, radius) < kOpenWall_m))
     if (const Choice farther = within(kFarthestOff_m); farther.worth > best.worth) best = farther;
+  // Where his place is no place at all, he too sees it.
+  if (best.worth < -1e8 && !miss_W.isZero())
+    return femoral_line(knee, fault, Vec3::Zero(), reamed_m);
   if (best.worth < -1e8) return fail("no free way to the femoral footprint was found", "the pin");
   return best.line;
 }

@@ -14,7 +14,7 @@ Pose to_bone(const Case& the_case, const char* name) {
 Result<AclPlan> plan_tunnels(const Case& the_case, std::string_view fault, double reamed_m) {
   const auto knee = AclKnee::make(the_case);
   if (!knee) return tl::unexpected(knee.error());
-  const auto tibia = tibial_line(*knee, fault, Vec3::Zero());
+  const auto tibia = tibial_line(*knee, fault, Vec3::Zero(), reamed_m);
   if (!tibia) return tl::unexpected(tibia.error());
   const auto femur = femoral_line(*knee, fault, Vec3::Zero(), reamed_m);
   if (!femur) return tl::unexpected(femur.error());

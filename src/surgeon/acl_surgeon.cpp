@@ -30,13 +30,47 @@ constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on,
 constexpr double kTooHard_m = 0.012;
 constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 
-constexpr std::array<std::string_view, 27> kFaults{
-    "wrong_portal", "skipped_inspection", "scuffed",          "too_hard",      "anterior_tibia",
-    "short_tibia",  "vertical_femur",     "blow_out",         "no_pin",        "plunged",
-    "short_socket", "lost_thread",        "unflipped_button", "soft_tissue",   "flipped_in_muscle",
-    "few_cycles",   "slack_tension",      "diverging_screw",  "shallow_screw", "amputated_tendon",
-    "muscle_left",  "few_stitches",       "slack_graft",      "short_loop",    "long_loop",
-    "wide_tunnel",  "stump_left"};
+constexpr std::array<std::string_view, 35> kFaults{"wrong_portal",
+                                                   "skipped_inspection",
+                                                   "scuffed",
+                                                   "too_hard",
+                                                   "anterior_tibia",
+                                                   "short_tibia",
+                                                   "vertical_femur",
+                                                   "blow_out",
+                                                   "no_pin",
+                                                   "plunged",
+                                                   "short_socket",
+                                                   "lost_thread",
+                                                   "unflipped_button",
+                                                   "soft_tissue",
+                                                   "flipped_in_muscle",
+                                                   "few_cycles",
+                                                   "slack_tension",
+                                                   "diverging_screw",
+                                                   "shallow_screw",
+                                                   "amputated_tendon",
+                                                   "muscle_left",
+                                                   "few_stitches",
+                                                   "slack_graft",
+                                                   "short_loop",
+                                                   "long_loop",
+                                                   "wide_tunnel",
+                                                   "stump_left",
+                                                   "fault_missed",
+                                                   "sound_blamed",
+                                                   "sound_socket_drilled",
+                                                   "sound_tunnel_drilled",
+                                                   "misplaced_socket",
+                                                   "misplaced_tunnel",
+                                                   "into_old_socket",
+                                                   "into_old_tunnel"};
+
+// Those that can be made in one bone alone.
+constexpr std::array<std::string_view, 5> kTibialFaults{"no_pin", "plunged", "sound_tunnel_drilled",
+                                                        "misplaced_tunnel", "into_old_tunnel"};
+constexpr std::array<std::string_view, 4> kFemoralFaults{"short_socket", "sound_socket_drilled",
+                                                         "misplaced_socket", "into_old_socket"};
 
 // How somebody does it.
 struct AclHabits {
@@ -264,7 +298,55 @@ Result<void> check_marks(const AclKnee& knee, const AclTools& tools, const AclHa
   if (!habits.fault.empty() &&
       std::find(kFaults.begin(), kFaults.end(), habits.fault) == kFaults.end())
     return fail("no virtual surgeon can make the error '" + habits.fault + "'", "surgeon");
+  const auto is_among = [&](std::span<const std::string_view> faults) {
+    return std::find(faults.begin(), faults.end(), habits.fault) != faults.end();
+  };
+  if ((is_among(kTibialFaults) && !tools.drills_tibia) ||
+      (is_among(kFemoralFaults) && !tools.drills_femur))
+    return fail("this patient gives no occasion for the error '" + habits.fault + "'", "surgeon",
+                "Choose another --seed");
   return {};
+}
+
+// Both tunnels, as far as they are to be drilled.
+Result<AclDrillPlan> plan_drilling(const AclKnee& knee, const AclTools& tools,
+                                   const AclHabits& habits) {
+  AclDrillPlan plan;
+  plan.reamed_m = tools.reamed_m;
+  plan.socket_m = tools.socket_m;
+  plan.drills_tibia = tools.drills_tibia;
+  plan.drills_femur = tools.drills_femur;
+  if (plan.drills_tibia) {
+    const auto tibia = tibial_line(knee, habits.fault, habits.tibia_miss_W, tools.reamed_m);
+    if (!tibia) return tl::unexpected(tibia.error());
+    plan.tibia = *tibia;
+  }
+  if (plan.drills_femur) {
+    const auto femur = femoral_line(knee, habits.fault, habits.femur_miss_W, tools.reamed_m);
+    if (!femur) return tl::unexpected(femur.error());
+    plan.femur = *femur;
+  }
+  return plan;
+}
+
+// The probe's hand, from when the scope is out; returns when it is done.
+ProbePath probe_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                    const AclHabits& habits, double begin_s,
+                    std::vector<std::string>& unreachable) {
+  const Vec3 out = outwards(knee, portal_W);
+  AclWay probe(tools.probe, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
+  probe.wait_until(begin_s);
+  const StumpsAsObstacles stumps(knee.whole(), torn_stumps(knee.whole()));
+  const bool clears = !tools.shaver.empty() && habits.fault != "stump_left";
+  const auto waiting = feel_marks(knee, tools.felt, &stumps, portal_W, habits, probe, unreachable);
+  probe.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
+  if (clears) clear(knee, tools.shaver, portal_W, probe);
+  if (!waiting.empty()) {
+    if (clears) probe.take(tools.probe, 0);
+    feel_marks(knee, waiting, nullptr, portal_W, habits, probe, unreachable);
+    probe.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
+  }
+  return probe.path();
 }
 
 }  // namespace
@@ -276,37 +358,25 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   if (!knee) return tl::unexpected(knee.error());
   const AclHabits habits = habits_of(skill);
   if (auto ok = check_marks(*knee, tools, habits); !ok) return tl::unexpected(ok.error());
-  const auto tibia = tibial_line(*knee, habits.fault, habits.tibia_miss_W);
-  if (!tibia) return tl::unexpected(tibia.error());
-  const auto femur = femoral_line(*knee, habits.fault, habits.femur_miss_W, tools.reamed_m);
-  if (!femur) return tl::unexpected(femur.error());
+  const auto plan = plan_drilling(*knee, tools, habits);
+  if (!plan) return tl::unexpected(plan.error());
   const bool swapped = habits.fault == "wrong_portal";
   const Vec3 al = knee->mark(swapped ? "portal_am" : "portal_al");
   const Vec3 am = knee->mark(swapped ? "portal_al" : "portal_am");
   AclWays ways;
   const ProbePath scope = scope_way(*knee, tools, al, habits, ways.unreachable);
-  const Vec3 out = outwards(*knee, am);
-  AclWay probe(tools.probe, 0, held_by_shaft(am + kAway_m * out, out), habits.pace);
-  probe.wait_until(scope.duration_s() + 0.5);
-  const StumpsAsObstacles stumps(the_case, torn_stumps(the_case));
-  const bool clears = !tools.shaver.empty() && habits.fault != "stump_left";
-  const auto waiting = feel_marks(*knee, tools.felt, &stumps, am, habits, probe, ways.unreachable);
-  probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
-  if (clears) clear(*knee, tools.shaver, am, probe);
-  if (!waiting.empty()) {
-    if (clears) probe.take(tools.probe, 0);
-    feel_marks(*knee, waiting, nullptr, am, habits, probe, ways.unreachable);
-    probe.go_at(held_by_shaft(am + kAway_m * out, out), kAir_m_per_s);
-  }
-  ways.third_begin_s = probe.now_s() + 0.5;
+  const ProbePath probe =
+      probe_way(*knee, tools, am, habits, scope.duration_s() + 0.5, ways.unreachable);
+  ways.third_begin_s = probe.duration_s() + 0.5;
   ways.after_graft = tools.drills && tools.after_graft;
   if (tools.drills)
-    ways.drilling =
-        drill_both(*knee, {*tibia, *femur, tools.reamed_m, 0.0045, tools.socket_m}, habits.fault,
-                   ways.after_graft ? 0 : ways.third_begin_s, habits.pace);
-  const AclWay pin = pin_way(*knee, tools, *tibia, *femur, ways.third_begin_s, habits.pace);
+    ways.drilling = drill_both(*knee, *plan, habits.fault,
+                               ways.after_graft ? 0 : ways.third_begin_s, habits.pace);
   ways.scope = trembling(scope, skill.tremor_m, skill.seed);
-  ways.probe = trembling(probe.path(), skill.tremor_m, skill.seed + 1);
+  ways.probe = trembling(probe, skill.tremor_m, skill.seed + 1);
+  if (tools.drills) return ways;
+  const AclWay pin =
+      pin_way(*knee, tools, plan->tibia, plan->femur, ways.third_begin_s, habits.pace);
   ways.pin = trembling(pin.path(), skill.tremor_m, skill.seed + 2);
   return ways;
 }

@@ -41,8 +41,25 @@ Result<Skill> bad_skill(const Scenario& scenario, const std::string& error_name)
               "See: osteon scenario info " + scenario.name);
 }
 
+namespace {
+
+// Who misses faults takes them for sound; who blames what is sound takes it for the first fault.
+void misstate(const std::string& fault, const AskedFinding& asked, std::string& grade) {
+  const bool sound = grade == kSoundGrade || grade == kNoFinding;
+  if (fault == "fault_missed" && !sound) grade = kSoundGrade;
+  if (fault != "sound_blamed" || !sound) return;
+  for (const std::string& other : asked.grades)
+    if (other != kSoundGrade) {
+      grade = other;
+      return;
+    }
+}
+
+}  // namespace
+
 StatedFindings stated_by(const Skill& skill, const Scenario& scenario, const Case& the_case) {
   StatedFindings stated = true_findings(scenario.asks, the_case);
+  for (const AskedFinding& asked : scenario.asks) misstate(skill.fault, asked, stated[asked.name]);
   Random random(skill.seed * 104729 + 3);
   for (const AskedFinding& asked : scenario.asks) {
     std::vector<std::string> others{kNoFinding};

@@ -75,6 +75,8 @@ class EachExercise : public Teaching, public ::testing::WithParamInterface<std::
 
 TEST_P(EachExercise, EachNamedErrorIsMadeAloneAndTheExpertPasses) {
   const std::string& name = GetParam();
+  // Who can err how follows from the patient: it has tests of its own.
+  if (name == "acl_second_look") GTEST_SKIP() << "see SecondLookCli";
   // Each patient of these is prepared for ten seconds and more.
   const bool is_long = name == "wrist_tour" || name == "acl";
   if (is_long && !std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG=1";
@@ -131,7 +133,7 @@ TEST_F(Teaching, ACourseIsWrittenForALearningManagementSystem) {
 TEST_F(Teaching, FiftyPatientsOfEachExerciseArePassedByTheExpert) {
   if (!std::getenv("OSTEON_LONG")) GTEST_SKIP() << "set OSTEON_LONG for all fifty patients";
   // Reconstructions have a test of their own.
-  const std::map<std::string, int> last{{"acl", 0}};
+  const std::map<std::string, int> last{{"acl", 0}, {"acl_second_look", 0}};
   for (const TeachJson& scenario : json_of("scenario list --json")) {
     const auto known = last.find(scenario["name"]);
     for (int seed = 1; seed <= (known == last.end() ? 50 : known->second); ++seed)

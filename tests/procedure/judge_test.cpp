@@ -185,6 +185,123 @@ TEST(Judge, WhatWasLeftOutIsFoundAtTheEnd) {
   EXPECT_DOUBLE_EQ(state.errors[0].at_s, 9);
 }
 
+// Two tunnels of which one may be at fault.
+const char* const kLookText = R"(format = 1
+name = "look"
+title = "Look"
+text = "Look."
+version = 1
+anatomy = "wrist"
+
+[[stages]]
+name = "mend"
+title = "A"
+instruction = "Touch what is at fault."
+[[stages.goals]]
+rule = "touched"
+bones = ["radius"]
+unless = "tunnel=sound"
+[[stages.goals]]
+rule = "touched"
+bones = ["lunate"]
+unless = "socket=sound"
+
+[[errors]]
+name = "too_much"
+title = "Touched what is sound"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "struck"
+bones = ["radius"]
+when = "tunnel=sound"
+
+[[errors]]
+name = "missed"
+title = "Missed"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "fault_missed"
+
+[[errors]]
+name = "blamed"
+title = "Blamed"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "sound_blamed"
+
+[[asks]]
+finding = "tunnel"
+title = "Tunnel"
+grades = ["sound", "front", "back"]
+
+[[asks]]
+finding = "socket"
+title = "Socket"
+grades = ["sound", "steep"]
+)";
+
+class SecondLook : public ::testing::Test {
+ protected:
+  SecondLook() { plan_for("sound", "steep"); }
+  void plan_for(const std::string& tunnel, const std::string& socket) {
+    auto scenario = parse_scenario(kLookText, "look.toml");
+    ASSERT_TRUE(scenario) << scenario.error().message();
+    case_ = testing::named_case({"radius", "lunate"});
+    case_.findings = {{"tunnel", tunnel, ""}, {"socket", socket, ""}};
+    auto plan = plan_scenario(*scenario, case_);
+    ASSERT_TRUE(plan) << plan.error().message();
+    plan_ = std::move(*plan);
+    state_ = begin_scenario(plan_);
+  }
+  std::vector<std::string> errors_of(const StatedFindings& stated) {
+    ScenarioState state = state_;
+    finish_scenario(plan_, 9, state, grade_findings(plan_.scenario.asks, case_, stated));
+    std::vector<std::string> names;
+    for (const MadeError& made : state.errors)
+      names.push_back(plan_.scenario.errors[made.error].name);
+    return names;
+  }
+  Case case_;
+  ScenarioPlan plan_;
+  ScenarioState state_;
+};
+
+TEST_F(SecondLook, OnlyWhatIsAtFaultIsToBeMended) {
+  judge(plan_, touch_end(1, 0), 0.001, state_);
+  EXPECT_FALSE(state_.over) << "of the sound one";
+  judge(plan_, touch_end(2, 1), 0.001, state_);
+  EXPECT_TRUE(state_.over);
+}
+
+TEST_F(SecondLook, WhereNothingIsAtFaultItIsDoneAtOnce) {
+  plan_for("sound", "sound");
+  EXPECT_FALSE(state_.over);
+  judge(plan_, at(0.1, EventKind::kImpact, 1), 0.001, state_);
+  EXPECT_TRUE(state_.over);
+}
+
+TEST_F(SecondLook, AnErrorIsMadeWithThosePatientsAlone) {
+  judge(plan_, at(1, EventKind::kImpact, 0, {2000, 0, 0}), 0.001, state_);
+  EXPECT_EQ(state_.errors.size(), 1u);
+  plan_for("front", "steep");
+  judge(plan_, at(1, EventKind::kImpact, 0, {2000, 0, 0}), 0.001, state_);
+  EXPECT_TRUE(state_.errors.empty());
+}
+
+TEST_F(SecondLook, WhatIsStatedIsJudgedAtTheEnd) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(errors_of({{"tunnel", "sound"}, {"socket", "steep"}}), Names{});
+  EXPECT_EQ(errors_of({{"tunnel", "sound"}, {"socket", "sound"}}), Names{"missed"});
+  EXPECT_EQ(errors_of({{"tunnel", "sound"}, {"socket", "none"}}), Names{"missed"});
+  EXPECT_EQ(errors_of({{"tunnel", "front"}, {"socket", "steep"}}), Names{"blamed"});
+  EXPECT_EQ(errors_of({}), Names{"missed"}) << "who says nothing blames nothing";
+  plan_for("front", "steep");
+  EXPECT_EQ(errors_of({{"tunnel", "back"}, {"socket", "steep"}}), Names{"missed"});
+}
+
 TEST(ToolEvents, OfAPressAreTouchForceAndEnd) {
   ToolEvents maker(2, {{2.0}, 1.0, 0.5});
   std::vector<Event> events;

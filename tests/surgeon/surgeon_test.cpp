@@ -54,6 +54,20 @@ TEST(Skill, IsReadFromItsName) {
   EXPECT_EQ(surgeons_of(s), (std::vector<std::string>{"expert", "novice", "bad:too_hard"}));
 }
 
+TEST(Skill, WhoMissesFaultsCallsThemSoundAndWhoBlamesCallsSoundOnesFaulty) {
+  Scenario s = touch_two();
+  s.asks = {{"tunnel", "Tunnel", {"sound", "front"}, 0},
+            {"socket", "Socket", {"sound", "steep"}, 0}};
+  Case c = two_blocks();
+  c.findings = {{"tunnel", "sound", ""}, {"socket", "steep", ""}};
+  Skill skill = expert_skill();
+  EXPECT_EQ(stated_by(skill, s, c), (StatedFindings{{"tunnel", "sound"}, {"socket", "steep"}}));
+  skill.fault = "fault_missed";
+  EXPECT_EQ(stated_by(skill, s, c), (StatedFindings{{"tunnel", "sound"}, {"socket", "sound"}}));
+  skill.fault = "sound_blamed";
+  EXPECT_EQ(stated_by(skill, s, c), (StatedFindings{{"tunnel", "front"}, {"socket", "steep"}}));
+}
+
 TEST(Skill, NovicesDifferFromEachOtherAndFromTheExpert) {
   EXPECT_NE(novice_skill(1).tremor_m, novice_skill(2).tremor_m);
   EXPECT_EQ(novice_skill(3).press_n, novice_skill(3).press_n);

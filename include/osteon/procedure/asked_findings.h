@@ -15,6 +15,8 @@ namespace osteon {
 /// stated at all; one that is not there is stated as kNoFinding.
 using StatedFindings = std::map<std::string, std::string>;
 inline constexpr const char* kNoFinding = "none";
+/// The grade of what was made well: "old_tunnel=sound".
+inline constexpr const char* kSoundGrade = "sound";
 /// Metric of an attempt whose scenario asks: the share of what is asked that was stated as it is.
 inline constexpr const char* kFindingsRight = "findings_right_percent";
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "osteon/procedure/asked_findings.h"
 #include "osteon/procedure/scenario.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/event.h"
@@ -21,6 +22,7 @@ struct PlannedRule {
   EventKind heeds = EventKind::kNone;  ///< see RuleKind
   std::vector<Vec3> places_W = {};     ///< of landmarks: where they are
   EventKind heeds_too = EventKind::kNone;
+  bool applies = true;  ///< to this patient: else a goal is met, and an error cannot be made
 };
 /// A scenario on one case: what judging needs, and nothing that changes.
 struct ScenarioPlan {
@@ -71,7 +73,9 @@ struct ScenarioState {
 ScenarioState begin_scenario(const ScenarioPlan& plan);
 /// Takes one event into account. Events come in the order of their ticks.
 void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state);
-/// Ends the attempt at a time: what was left out becomes an error.
-void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state);
+/// Ends the attempt at a time: what was left out becomes an error, and so does what was stated
+/// wrongly of the patient.
+void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state,
+                     const std::vector<GradedFinding>& graded = {});
 
 }  // namespace osteon

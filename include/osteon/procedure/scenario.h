@@ -27,6 +27,9 @@ struct Rule {
   int line = 0;                           ///< in its file
   std::vector<std::string> marks = {};    ///< landmarks by name; of kinds about landmarks alone
   std::string hand = {};                  ///< of this hand alone; empty: of any
+  /// "old_tunnel=sound": asked only of patients who have that finding, or only of others; empty:
+  /// of all.
+  std::string when = {}, unless = {};
 };
 
 /// One hand of the exercise. A scenario that names none has one with the wrist probe.
@@ -91,6 +94,7 @@ struct Scenario {
   std::vector<std::string> sides;     ///< of the patients that are drawn; empty: as described
   std::vector<std::string> findings;  ///< "geissler=2": half of the drawn patients have one
   std::vector<std::string> always;    ///< the same, of every drawn patient: "traction=10kg"
+  std::vector<std::string> one_of;    ///< drawn patients have them in turn: "old_socket=steep:..."
   std::vector<ScenarioHand> hands;
   std::vector<ScenarioStage> stages;
   std::vector<ScenarioError> errors;

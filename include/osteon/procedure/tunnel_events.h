@@ -31,6 +31,8 @@ inline constexpr EventKind kSocketDrilled{442};
 inline constexpr EventKind kDrilledFree{443};
 /// A drill under power has gone beyond a bone's far side: {how far mm; 0; 0}.
 inline constexpr EventKind kDrillPlunged{444};
+/// A drill has gone 3 mm into a bone, with a pin or without; once for each bone: {0; 0; 0}.
+inline constexpr EventKind kBoneDrilled{446};
 
 /// What is measured of tunnels and of the graft between them.
 enum class TunnelValue : std::uint8_t {
@@ -47,13 +49,15 @@ enum class TunnelValue : std::uint8_t {
   kBehindRoof,
   kExcursion,
   kLachman,
-  kPivot
+  kPivot,
+  kFemoralToOld,  ///< bone between a new tunnel and one that was there before
+  kTibialToOld
 };
 /// By TunnelValue: names with their units, each of a rule `outside_NAME` for errors.
-inline constexpr std::array<std::string_view, 14> kTunnelValueNames{
-    "femoral_depth_pct",     "femoral_height_pct", "femoral_off_mm", "femoral_from_roof_deg",
-    "femoral_channel_mm",    "femoral_socket_mm",  "back_wall_mm",   "amis_jakob_pct",
-    "tibial_medial_pct",     "tibial_length_mm",   "behind_roof_mm", "graft_excursion_mm",
-    "lachman_difference_mm", "pivot_difference_mm"};
+inline constexpr std::array<std::string_view, 16> kTunnelValueNames{
+    "femoral_depth_pct",     "femoral_height_pct",  "femoral_off_mm",    "femoral_from_roof_deg",
+    "femoral_channel_mm",    "femoral_socket_mm",   "back_wall_mm",      "amis_jakob_pct",
+    "tibial_medial_pct",     "tibial_length_mm",    "behind_roof_mm",    "graft_excursion_mm",
+    "lachman_difference_mm", "pivot_difference_mm", "femoral_to_old_mm", "tibial_to_old_mm"};
 
 }  // namespace osteon

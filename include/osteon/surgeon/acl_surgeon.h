@@ -17,14 +17,15 @@ namespace osteon {
 /// What whoever reconstructs a cruciate ligament works with.
 struct AclTools {
   ScopeOptics optics;
-  std::string scope, probe, pin;  ///< names of the instruments
+  std::string scope, probe, pin;  ///< names of the instruments; no probe: nothing is felt
   double reamed_m = 0.008;        ///< so wide the tunnels will be
   bool drills = false;            ///< both tunnels are drilled, not located alone
   double socket_m = 0.025;        ///< so deep the femur's is drilled
   bool after_graft = false;       ///< the hand that drills makes a graft before that
-  std::vector<std::string> tour;  ///< landmarks that are looked at
-  std::vector<std::string> felt;  ///< and those that the probe presses next to
-  std::string shaver;             ///< that clears the stumps after that; empty: they stay
+  bool drills_tibia = true, drills_femur = true;  ///< of those that drill
+  std::vector<std::string> tour;                  ///< landmarks that are looked at
+  std::vector<std::string> felt;                  ///< and those that the probe presses next to
+  std::string shaver;  ///< that clears the stumps after that; empty: they stay
 };
 
 /// Ways of three hands through a reconstruction.
@@ -42,7 +43,9 @@ struct AclWays {
 /// the ways that leave it room one with bone behind it and a channel of about 40 mm. A
 /// beginner is slower, trembles, presses harder and misses both footprints by up to 5 mm. `skill`
 /// "bad:NAME": one thing that is done wrong, acl_faults(). Fails when the case lacks a landmark or
-/// portal, on another NAME, or when no way of the pin is free.
+/// portal, on another NAME, on an error of a bone that is not to be drilled, or when no way of the
+/// pin is free. Beside a tunnel of an earlier reconstruction (landmarks `old_socket_mouth`, `_end`,
+/// `old_tunnel_mouth`, `_end`) a new one leaves bone.
 Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skill& skill);
 
 /// What a bad surgeon can do wrong, as an exercise's errors are named.

@@ -214,7 +214,7 @@ Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindi
   for (ToolEvents& events : events_) events.finish(fresh_);
   if (tunnels_) tunnels_->finish(fresh_);
   judge_fresh();
-  finish_scenario(*plan_, now_s_, state_);
+  finish_scenario(*plan_, now_s_, state_, grade_findings(plan_->scenario.asks, *case_, stated));
   auto metrics = meter_.finish();
   if (!metrics) return tl::unexpected(metrics.error());
   if (water_) (*metrics)[kObscuredPercent] = water_->sight().percent();

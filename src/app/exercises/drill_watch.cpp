@@ -99,8 +99,13 @@ void DrillWatch::look(std::size_t bone, std::size_t hand, const ToolState& tool,
   if (away_m < 0) {
     begin(bone, hand, tool, out);
     of.drilled = of.drilled || thick;
+    if (!drilling.inside) drilling.entered_B = X_BT.p;
     drilling.inside = true;
     drilling.inside_B = X_BT.p;
+    // Beside an old tunnel no place is far from a surface: the way counts.
+    const double way_m = (drilling.entered_B - X_BT.p).dot(X_BT.q * Vec3::UnitZ());
+    if (thick && way_m > kDeep_m && !std::exchange(of.told_deep, true))
+      out.push_back(drill_told(tool, hand, kBoneDrilled, bones_[bone], 0));
     if (thick && away_m < -kDeep_m && !of.told_free && !is_on_pin(bones, bones_[bone], X_BT.p)) {
       of.told_free = true;
       out.push_back(drill_told(tool, hand, kDrilledFree, bones_[bone], -1e3 * away_m));

@@ -38,11 +38,12 @@ class DrillWatch {
   struct Drilling {
     bool inside = false;  ///< the tip has been in the bone under power
     Vec3 inside_B = Vec3::Zero();
-    double told_m = 0;  ///< how far beyond was told
+    Vec3 entered_B = Vec3::Zero();  ///< where it came into the bone
+    double told_m = 0;              ///< how far beyond was told
   };
   struct Bone {
     std::optional<MeshDistance> whole;
-    bool drilled = false, pinned = false, begun = false, told_free = false;
+    bool drilled = false, pinned = false, begun = false, told_free = false, told_deep = false;
     std::uint64_t busy_tick = 0;
     std::vector<Drilling> hands;
   };

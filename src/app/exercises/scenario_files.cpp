@@ -31,6 +31,8 @@ std::string drawn_words(const Scenario& scenario, std::uint64_t seed) {
   if (!scenario.sides.empty()) words += ":" + pick(scenario.sides, side);
   if (!scenario.findings.empty() && ill < 0.5) words += ":" + pick(scenario.findings, which);
   for (const std::string& word : scenario.always) words += ":" + word;
+  // In turn: as many patients one after the other have them all.
+  if (!scenario.one_of.empty()) words += ":" + scenario.one_of[seed % scenario.one_of.size()];
   return words;
 }
 
@@ -84,7 +86,7 @@ std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
   std::string spec = case_spec;
   if (spec.empty()) spec = "builtin:" + scenario.anatomy;
   // What every patient of the exercise has stands behind a seed alone.
-  if (!scenario.always.empty() && !seed) seed = 0;
+  if (!(scenario.always.empty() && scenario.one_of.empty()) && !seed) seed = 0;
   if (case_spec.empty() && seed) spec += ":" + std::to_string(*seed) + drawn_words(scenario, *seed);
   if (spec.find('#') != std::string::npos) return spec;
   std::string felt = scenario.felt == "pieces" ? "" : scenario.felt;

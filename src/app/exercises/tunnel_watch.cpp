@@ -8,6 +8,7 @@
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
+#include "cases/undrilled.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/tunnel_events.h"
 
@@ -25,7 +26,7 @@ bool is_tunnel_rule(const PlannedRule& rule) {
   const std::string& kind = rule.rule.kind;
   return kind == "felt" || kind == "tunnel_located" || kind == "graft_tested" ||
          kind == "tunnel_drilled" || kind == "socket_drilled" || kind == "drilled_free" ||
-         kind == "plunged_past" || kind == "located_unseen" ||
+         kind == "drilled_into" || kind == "plunged_past" || kind == "located_unseen" ||
          std::any_of(kTunnelValueNames.begin(), kTunnelValueNames.end(),
                      [&](std::string_view name) { return kind == "outside_" + std::string(name); });
 }
@@ -112,7 +113,9 @@ TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelS
       stride_(std::max<std::uint64_t>(
           1, static_cast<std::uint64_t>(1 / (kTunnelWatchHz * tick_s) + 0.5))),
       holds_(pins_.size()) {
-  work_.spec = sources_.case_spec;
+  work_.spec = source_before_drilling(source_without_choice(sources_.case_spec));
+  work_.felt = &the_case;
+  work_.had_tunnels = work_.spec != source_without_choice(sources_.case_spec);
   if (!sources_.graft) bench_ = find_graft_bench(the_case);
   DrillWatch::Bones drilled{kNoSubject, kNoSubject};
   for (std::size_t k = 0; k < kBones; ++k) {
@@ -139,6 +142,9 @@ TunnelWatch::TunnelWatch(const ScenarioPlan& plan, const Case& the_case, TunnelS
     }
   if (drilled[0] != kNoSubject || drilled[1] != kNoSubject)
     drills_.emplace(the_case, drilled, std::move(widths_m), tick_s, pins_.size());
+  work_.bones = bones_;
+  // What others drilled is measured before anything is done.
+  fresh_ = drills_ && work_.had_tunnels;
 }
 
 void TunnelWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
@@ -336,12 +342,13 @@ void TunnelWatch::finish(std::vector<Event>& out) {
 void TunnelWatch::find_lines(Work& work) {
   for (std::size_t k = 0; k < kBones; ++k) {
     if (!work.cuts[k]) continue;
-    const auto before = work.holes[k];
+    const auto known = work.holes[k];
+    const MeshDistance before(work.felt->bones[work.bones[k]].mesh);
     for (const BoneDef& bone : work.whole->bones)
       if (bone.name == work.names[k])
-        work.holes[k] = find_drilled(*work.cuts[k], MeshDistance(bone.mesh));
+        work.holes[k] = find_drilled(*work.cuts[k], MeshDistance(bone.mesh), before);
     // One that came back with a restore point was told before.
-    work.is_new[k] = !is_same(before, work.holes[k]);
+    work.is_new[k] = !is_same(known, work.holes[k]);
     work.cuts[k].reset();
     if (const auto& hole = work.holes[k])
       work.lines[k] = {true, hole->line.from_W, hole->line.to_W, hole->line.diameter_m};
@@ -352,21 +359,36 @@ void TunnelWatch::find_lines(Work& work) {
 
 Result<AclReport> TunnelWatch::report_of(Work& work) {
   if (!work.whole) {
-    auto grown = open_case_def(source_without_choice(work.spec));
+    auto grown = open_case_def(work.spec);
     if (!grown) return tl::unexpected(grown.error());
     work.whole = std::make_shared<const CaseDef>(std::move(*grown));
   }
+  if (work.had_tunnels && !work.old) {
+    work.old.emplace();
+    for (std::size_t k = 0; k < kBones; ++k)
+      for (const DrilledLine& line : holes_of(work.felt->bones[work.bones[k]].mesh))
+        (*work.old)[k].push_back(in_world(work, k, line));
+  }
   find_lines(work);
   AclDrilling drilling;
+  std::array<double, kBones> channels_m{};
   for (std::size_t k = 0; k < kBones; ++k) {
-    if (!work.lines[k].known) continue;
     const Line& line = work.lines[k];
-    for (const BoneDef& bone : work.whole->bones)
-      if (bone.name == work.names[k])
-        (k == 0 ? drilling.femur : drilling.tibia) =
-            DrilledLine{bone.X_WB * line.from_B, bone.X_WB * line.to_B, line.wide_m};
+    if (!line.known) continue;
+    (k == 0 ? drilling.femur : drilling.tibia) =
+        in_world(work, k, {line.from_B, line.to_B, line.wide_m});
+    if (work.holes[k]) channels_m[k] = work.holes[k]->channel_m;
   }
+  if (work.old)
+    return report_beside_old(*work.whole, *work.old, drilling, channels_m, work.choices);
   return make_acl_report(*work.whole, drilling, work.choices);
+}
+
+DrilledLine TunnelWatch::in_world(const Work& work, std::size_t k, const DrilledLine& line_B) {
+  for (const BoneDef& bone : work.whole->bones)
+    if (bone.name == work.names[k])
+      return {bone.X_WB * line_B.from_W, bone.X_WB * line_B.to_W, line_B.diameter_m};
+  return line_B;
 }
 
 TunnelWatch::Work TunnelWatch::measured(Work work) {
@@ -414,7 +436,9 @@ void TunnelWatch::tell_measured(const Event& at, std::vector<Event>& out) {
       tell(kTunnelMeasured, {static_cast<double>(which), value, 0});
   };
   plan_graft();
-  tell_drilled(at, out);
+  // What is wrong with a tunnel counts before the tunnel itself, which may be the last goal.
+  std::vector<Event> drilled;
+  tell_drilled(at, drilled);
   const AclTunnels& tunnels = work_.report.tunnels;
   std::array<bool, kBones> is_new = std::exchange(work_.is_new, {});
   for (std::size_t k = 0; k < kBones; ++k) {
@@ -424,12 +448,17 @@ void TunnelWatch::tell_measured(const Event& at, std::vector<Event>& out) {
         is_new[k] && !over_ && work_.holes[k] && !is_socket_[k] && !work_.holes[k]->through;
     is_new[k] = is_new[k] && !untold_[k];
   }
+  const auto tell_gap = [&](TunnelValue which, const std::optional<double>& gap_m) {
+    if (gap_m) tell(kTunnelMeasured, {static_cast<double>(which), 1e3 * *gap_m, 0});
+  };
   if (tunnels.femur && is_new[0]) tell_all(*tunnels.femur);
   if (tunnels.tibia && is_new[1]) tell_all(*tunnels.tibia);
-  if (!work_.report.graft) return;
-  const GraftOutcome& graft = *work_.report.graft;
-  if (is_new[0] || is_new[1]) tell_all(graft);
-  tell(kGraftTested, {1e3 * (graft.lachman.anterior_m - graft.lachman_whole_m), 0, 0});
+  if (is_new[0]) tell_gap(TunnelValue::kFemoralToOld, work_.report.femur_to_old_m);
+  if (is_new[1]) tell_gap(TunnelValue::kTibialToOld, work_.report.tibia_to_old_m);
+  const auto& graft = work_.report.graft;
+  if (graft && (is_new[0] || is_new[1])) tell_all(*graft);
+  out.insert(out.end(), drilled.begin(), drilled.end());
+  if (graft) tell(kGraftTested, {1e3 * (graft->lachman.anterior_m - graft->lachman_whole_m), 0, 0});
 }
 
 }  // namespace osteon

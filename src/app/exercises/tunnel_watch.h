@@ -20,6 +20,7 @@
 #include "runs/reports/acl_report.h"
 #include "runs/reports/drilled_bone.h"
 #include "runs/reports/graft_report.h"
+#include "runs/reports/old_tunnels.h"
 
 namespace osteon {
 
@@ -83,7 +84,11 @@ class TunnelWatch {
   };
   /// What is measured, and what comes of it.
   struct Work {
-    std::string spec;
+    std::string spec;            ///< before any tunnel
+    const Case* felt = nullptr;  ///< as it is at the beginning of the attempt
+    std::array<std::uint32_t, kBones> bones{kNoSubject, kNoSubject};  ///< of that case
+    bool had_tunnels = false;                                         ///< at the beginning
+    std::optional<OldHoles> old;           ///< none: not looked for yet, or there were none
     std::shared_ptr<const CaseDef> whole;  ///< stretched out; null: to be grown
     std::array<std::string, kBones> names;
     std::array<Line, kBones> lines;
@@ -96,6 +101,7 @@ class TunnelWatch {
   };
   static Work measured(Work work);
   static void find_lines(Work& work);
+  static DrilledLine in_world(const Work& work, std::size_t k, const DrilledLine& line_B);
   static Result<AclReport> report_of(Work& work);
   /// A pin on a bone.
   struct Hold {

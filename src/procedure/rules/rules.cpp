@@ -90,6 +90,12 @@ std::optional<RuleHit> left_out(const PlannedRule&, const Event& event, std::siz
   return std::nullopt;
 }
 
+// Says nothing while the attempt runs: finish_scenario looks at what was stated.
+std::optional<RuleHit> judged_at_end(const PlannedRule&, const Event&, std::size_t, double,
+                                     RuleState&) {
+  return std::nullopt;
+}
+
 // A mark counts once it has been seen in this way for long enough, without a break.
 std::optional<RuleHit> seen(const PlannedRule& rule, const Event& event, std::size_t mark,
                             double tick_s, RuleState& state) {
@@ -205,6 +211,18 @@ const std::vector<RuleRow>& rule_rows() {
       {{"struck", "a bone is hit faster than a limit", false, {{"speed_mm_s", 1, 10000, 60}}},
        struck},
       {{"left_out", "the attempt ends before every bone was touched", false, {}}, left_out},
+      {{"fault_missed",
+        "the attempt ends, and a finding that is asked for was not stated as it is",
+        false,
+        {},
+        SubjectKind::kNothing},
+       judged_at_end},
+      {{"sound_blamed",
+        "the attempt ends, and something that is asked for and is sound was stated as faulty",
+        false,
+        {},
+        SubjectKind::kNothing},
+       judged_at_end},
       {{"seen",
         "every mark is seen near the middle of the picture, from a suitable distance and not "
         "hidden",
@@ -336,6 +354,7 @@ const RuleKind* find_rule_kind(std::string_view name) {
 
 std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, double tick_s,
                                  RuleState& state) {
+  if (!rule.applies) return std::nullopt;
   const bool of_kind = rule.heeds != EventKind::kNone;
   const bool heeded = event.kind == rule.heeds ||
                       (rule.heeds_too != EventKind::kNone && event.kind == rule.heeds_too);

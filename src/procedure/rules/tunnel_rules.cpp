@@ -10,7 +10,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kFixedKinds = 9;
+constexpr std::size_t kFixedKinds = 10;
 constexpr double kMost = 1000;
 
 // Names of the rules about measures live as long as the program.
@@ -63,6 +63,7 @@ std::vector<RuleKind> make_table() {
        "a drill under power goes farther beyond one of these bones",
        false,
        {{"most_mm", 0, 200, 10}}},
+      {"drilled_into", "a drill goes 3 mm into one of these bones", false, {}},
   };
   for (const std::string& name : outside_names())
     table.push_back({name,
@@ -94,9 +95,9 @@ std::optional<RuleHit> located_unseen(const PlannedRule& rule, const Event& even
 // Once for each bone.
 std::optional<RuleHit> drill_went_wrong(const PlannedRule& rule, const Event& event,
                                         std::size_t place, double tick_s, RuleState& state) {
-  const bool past = rule.rule.kind == "plunged_past";
-  if (event.kind != (past ? kDrillPlunged : kDrilledFree) || state.holds[place].told)
-    return std::nullopt;
+  const bool past = rule.rule.kind == "plunged_past", into = rule.rule.kind == "drilled_into";
+  const EventKind heeded = past ? kDrillPlunged : into ? kBoneDrilled : kDrilledFree;
+  if (event.kind != heeded || state.holds[place].told) return std::nullopt;
   if (past && event.values[0] <= rule.rule.numbers.at("most_mm")) return std::nullopt;
   state.holds[place].told = true;
   return now(event, tick_s);

@@ -8,6 +8,7 @@
 
 #include "cases/open_case.h"
 #include "osteon/mesh/distance.h"
+#include "osteon/procedure/judge.h"
 
 namespace osteon {
 namespace {
@@ -39,6 +40,39 @@ TEST(AclPlan, AWiderDrillHasItsRoomOnTheWay) {
     ASSERT_TRUE(plan) << plan.error().message();
     EXPECT_GT(least_room(**knee, *plan), 0.5 * reamed_m) << spec;
   }
+}
+
+// Least distance of a new axis, as far as `length_m`, from that of an old tunnel.
+double from_old(const Case& knee, bool of_femur, const AclPlan& plan, double length_m) {
+  const Bone& bone = knee.bones[knee.find(of_femur ? "femur" : "tibia").index];
+  const auto mark = [&](const char* name) {
+    return bone.X_WB.inverse() * knee.landmarks[*find_landmark(knee, name)].p_W;
+  };
+  const Vec3 from = mark(of_femur ? "old_socket_mouth" : "old_tunnel_mouth");
+  const Vec3 to = mark(of_femur ? "old_socket_end" : "old_tunnel_end");
+  const Vec3 at = of_femur ? plan.femur_B : plan.tibia_B;
+  const Vec3 in = of_femur ? plan.femur_in_B : plan.tibia_in_B;
+  double least = 1;
+  for (double m = 0; m < length_m; m += 0.0005) {
+    const Vec3 off = at + m * in - from, way = to - from;
+    const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (off - share * way).norm());
+  }
+  return least;
+}
+
+TEST(AclPlan, BesideAnOldTunnelBoneIsLeftAndWhoErrsOpensIt) {
+  constexpr double kBoth_m = 0.004 + 0.0037;  // radii of a new one and an old one
+  const auto knee =
+      open_case("builtin:knee:3:right:old_socket=front:old_tunnel=back#hull,flexion=120");
+  ASSERT_TRUE(knee) << knee.error().message();
+  const auto expert = plan_tunnels(**knee, "", 0.008);
+  ASSERT_TRUE(expert) << expert.error().message();
+  EXPECT_GT(from_old(**knee, true, *expert, 0.025), kBoth_m + 0.0015);
+  EXPECT_GT(from_old(**knee, false, *expert, 0.035), kBoth_m + 0.0015);
+  const auto opened = plan_tunnels(**knee, "into_old_tunnel", 0.008);
+  ASSERT_TRUE(opened) << opened.error().message();
+  EXPECT_LT(from_old(**knee, false, *opened, 0.035), kBoth_m - 0.0008);
 }
 
 }  // namespace

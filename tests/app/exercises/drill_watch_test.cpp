@@ -72,6 +72,16 @@ TEST_F(DrillWatchTest, WithoutAPinADrillIsToldOnceItIsDeep) {
   EXPECT_NEAR(told(kDrilledFree)[0], 3, 0.2);
 }
 
+TEST_F(DrillWatchTest, ABoneThatIsDrilledDeepIsToldOnceWithAPinOrWithout) {
+  put_pin();
+  lead(0.015, 0.0075, 1, 1);
+  EXPECT_TRUE(told(kBoneDrilled).empty());
+  lead(0.0075, 0, 1, 1);
+  lead(0, 0.015, 1, 1);
+  lead(0.015, 0, 1, 1);
+  EXPECT_EQ(told(kBoneDrilled).size(), 1u);
+}
+
 TEST_F(DrillWatchTest, OverAPinItIsDoneWhenDrillAndPinAreOut) {
   put_pin();
   lead(0.015, -0.013, 1, 1);

@@ -209,6 +209,24 @@ source = "D"
 rule = "plunged_past"
 bones = ["tibia"]
 most_mm = 10
+
+[[errors]]
+name = "sound_one"
+title = "Drilled what is sound"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "drilled_into"
+bones = ["tibia"]
+
+[[errors]]
+name = "into_old"
+title = "Opened the old one"
+severity = "major"
+consequence = "-"
+source = "D"
+rule = "outside_tibial_to_old_mm"
+least = 1
 )";
 
 class DrilledRules : public TunnelRules {
@@ -253,6 +271,19 @@ TEST_F(DrilledRules, DrillingWithoutAPinAndPlungingAreToldOnceForEachBone) {
     tell(kDrillPlunged, SubjectKind::kBone, 1, {beyond, 0, 0});
   for (int n = 0; n < 2; ++n) tell(kDrilledFree, SubjectKind::kBone, 0, {4, 0, 0});
   EXPECT_EQ(errors(), (std::vector<std::string>{"plunged", "no_pin"}));
+}
+
+TEST_F(DrilledRules, ABoneThatShallNotBeDrilledAndAnOldTunnelThatIsOpenedCount) {
+  tell(kBoneDrilled, SubjectKind::kBone, 0, {});
+  const auto measured = [&](TunnelValue which, double mm) {
+    tell(kTunnelMeasured, SubjectKind::kNothing, kNoSubject, {static_cast<double>(which), mm, 0});
+  };
+  measured(TunnelValue::kTibialToOld, 1.1);
+  measured(TunnelValue::kFemoralToOld, 0.2);
+  EXPECT_TRUE(errors().empty());
+  for (int n = 0; n < 2; ++n) tell(kBoneDrilled, SubjectKind::kBone, 1, {});
+  measured(TunnelValue::kTibialToOld, 0.9);
+  EXPECT_EQ(errors(), (std::vector<std::string>{"sound_one", "into_old"}));
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "commands/support/cli_support.h"
 #include "commands/support/parser.h"
 #include "osteon/base/file.h"
-#include "osteon/carve/measure_holes.h"
 #include "runs/reports/acl_report.h"
+#include "runs/reports/drilled_bone.h"
 #include "runs/reports/graft_report.h"
 
 namespace osteon {
@@ -94,30 +94,24 @@ Result<std::optional<DrilledLine>> line_between(const std::string& from, const s
   return std::optional<DrilledLine>(DrilledLine{*a, *b, diameter_mm / 1000});
 }
 
-// Of the holes of a bone the longest that a graft fits in.
-std::optional<DrilledLine> hole_in(const CaseDef& drilled, const char* name,
-                                   const HoleOptions& how) {
-  std::optional<DrilledLine> best;
-  double longest = 0;
+// Of the holes of a bone that a graft fits in the one that holds most.
+std::optional<DrilledLine> hole_in(const CaseDef& drilled, const char* name, double roundness_m) {
   for (const BoneDef& bone : drilled.bones) {
     if (bone.name != name) continue;
-    for (const Hole& hole : find_holes(bone.mesh, how)) {
-      if (!(hole.length_m > longest)) continue;
-      longest = hole.length_m;
-      best = DrilledLine{bone.X_WB * hole.entry, bone.X_WB * hole.exit, hole.diameter_m};
-    }
+    const auto holes = holes_of(bone.mesh, roundness_m);
+    if (holes.empty()) return std::nullopt;
+    const DrilledLine& most = holes.front();
+    return DrilledLine{bone.X_WB * most.from_W, bone.X_WB * most.to_W, most.diameter_m};
   }
-  return best;
+  return std::nullopt;
 }
 
 Result<AclDrilling> holes_in(const AclCommand& command) {
   const auto drilled = open_case_def(command.drilled, {}, CaseParts::kFelt);
   if (!drilled) return tl::unexpected(drilled.error());
-  HoleOptions how;
-  how.least_diameter_m = 0.004;
-  how.largest_diameter_m = 0.014;
-  how.roundness_m = command.roundness_mm / 1000;
-  AclDrilling drilling{hole_in(*drilled, "femur", how), hole_in(*drilled, "tibia", how)};
+  const double roundness_m = command.roundness_mm / 1000;
+  AclDrilling drilling{hole_in(*drilled, "femur", roundness_m),
+                       hole_in(*drilled, "tibia", roundness_m)};
   if (!drilling.femur && !drilling.tibia)
     return fail("has no round hole of 4 to 14 mm in femur or tibia", command.drilled,
                 "Holes that a hand drilled may need a larger --roundness");

@@ -124,6 +124,24 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
   return out;
 }
 
+// Of tunnels that were there before, those that are sound stay, but with who takes them for faulty.
+void choose_bones(const ScenarioPlan& plan, const Skill& skill, AclTools& tools) {
+  const auto is_left = [&](std::string_view kind) {
+    for (const auto& goals : plan.goals)
+      for (const PlannedRule& goal : goals)
+        if (goal.rule.kind == kind) return !goal.applies;
+    return false;
+  };
+  tools.drills_femur = !is_left("socket_drilled");
+  tools.drills_tibia = !is_left("tunnel_drilled");
+  const std::string& who = skill.name;
+  const bool blames_socket = who == "bad:sound_socket_drilled";
+  const bool blames_tunnel = who == "bad:sound_tunnel_drilled";
+  if (who != "bad:fault_missed" && !blames_socket && !blames_tunnel) return;
+  tools.drills_femur = blames_socket && !tools.drills_femur;
+  tools.drills_tibia = blames_tunnel && !tools.drills_tibia;
+}
+
 Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
                           std::span<const PlannedHand> hands) {
   AclTools tools;
@@ -140,9 +158,9 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
         if (has_goal(plan, "stumps_cleared") && name.starts_with("shaver")) tools.shaver = name;
     }
   }
-  if (tools.pin.empty() || tools.scope.empty() || tools.probe.empty())
-    return fail("needs a hand with a scope, one with a probe and one with a guide pin",
-                run.scenario.where);
+  if (tools.pin.empty() || tools.scope.empty())
+    return fail("needs a hand with a scope and one with a guide pin", run.scenario.where);
+  choose_bones(plan, run.skill, tools);
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals) {
       const auto& marks = goal.rule.marks;

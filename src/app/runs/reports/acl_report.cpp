@@ -40,6 +40,16 @@ AclJson tibia_json(const TibialTunnel& t) {
       {"behind_roof_mm", 1e3 * t.behind_roof_m}, {"through", t.through}};
 }
 
+AclJson before_json(const AclReport& report) {
+  const auto mm = [](const std::optional<double>& m) { return m ? AclJson(1e3 * *m) : AclJson(); };
+  AclJson out;
+  out["femur"] = report.before->femur ? femur_json(*report.before->femur) : AclJson();
+  out["tibia"] = report.before->tibia ? tibia_json(*report.before->tibia) : AclJson();
+  out["to_new_femur_mm"] = mm(report.femur_to_old_m);
+  out["to_new_tibia_mm"] = mm(report.tibia_to_old_m);
+  return out;
+}
+
 AclJson fixed_json(const GraftOutcome& graft) {
   const FixedGraft& fixed = *graft.fixed;
   AclJson json{{"diameter_mm", 1e3 * graft.diameter_m},
@@ -134,7 +144,8 @@ Result<AclReport> make_acl_report(const CaseDef& def, const AclDrilling& drillin
                                   const std::optional<GraftChoices>& choices) {
   auto tunnels = measure_tunnels(def, drilling);
   if (!tunnels) return tl::unexpected(tunnels.error());
-  AclReport report{std::move(*tunnels), {}};
+  AclReport report;
+  report.tunnels = std::move(*tunnels);
   if (!report.tunnels.femur || !report.tunnels.tibia) return report;
   const auto table = shipped_ligaments();
   if (!table) return tl::unexpected(table.error());
@@ -148,6 +159,7 @@ AclJson to_json(const AclReport& report) {
   AclJson out;
   out["femur"] = report.tunnels.femur ? femur_json(*report.tunnels.femur) : AclJson();
   out["tibia"] = report.tunnels.tibia ? tibia_json(*report.tunnels.tibia) : AclJson();
+  if (report.before) out["before"] = before_json(report);
   if (!report.graft) return out;
   out["isometry"] = isometry_of(*report.graft);
   out["impingement"] = {{"roof_gap_mm", 1e3 * report.graft->roof_gap_m},
@@ -175,6 +187,10 @@ std::string to_text(const AclReport& report) {
   std::string text;
   if (report.tunnels.femur) add_femur(text, *report.tunnels.femur);
   if (report.tunnels.tibia) add_tibia(text, *report.tunnels.tibia);
+  if (report.femur_to_old_m)
+    add_line(text, "femur: bone to the old socket", 1e3 * *report.femur_to_old_m, "mm");
+  if (report.tibia_to_old_m)
+    add_line(text, "tibia: bone to the old tunnel", 1e3 * *report.tibia_to_old_m, "mm");
   if (!report.graft) return text;
   const GraftOutcome& graft = *report.graft;
   add_line(text, "graft: length changes by", 1e3 * graft.excursion_m, "mm over flexion");

@@ -12,6 +12,11 @@ namespace osteon {
 struct AclReport {
   AclTunnels tunnels;
   std::optional<GraftOutcome> graft;  ///< none: a tunnel is missing
+  /// Tunnels of an earlier reconstruction, as they were found; none: the knee had none.
+  std::optional<AclTunnels> before = {};
+  /// Bone between a tunnel that was drilled now and that bone's earlier one, below 0: it opens into
+  /// it; none: one of both is missing.
+  std::optional<double> femur_to_old_m = {}, tibia_to_old_m = {};
 };
 
 /// assets/tissue/knee_ligaments.toml.

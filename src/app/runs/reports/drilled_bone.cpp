@@ -1,5 +1,6 @@
 #include "runs/reports/drilled_bone.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "osteon/carve/carved_surface.h"
@@ -13,6 +14,25 @@ constexpr double kOpens_m = 0.006;  // at most so far before the middle of its r
 // The same where neither end has a bottom: the rim of a flat tunnel is long.
 constexpr double kOpensFlat_m = 0.010;
 constexpr double kSameTurn = 0.9986;  // cosine of 3 degrees
+
+HoleOptions for_graft(double roundness_m) {
+  HoleOptions how;
+  how.least_diameter_m = 0.004;
+  how.largest_diameter_m = 0.014;
+  how.roundness_m = roundness_m;
+  return how;
+}
+
+// Whether most of a hole's axis runs in what was bone.
+bool is_new(const Hole& hole, const MeshDistance& before) {
+  constexpr int kPlaces = 9;
+  int inside = 0;
+  for (int i = 1; i <= kPlaces; ++i) {
+    const Vec3 p = hole.entry + i / (kPlaces + 1.0) * (hole.exit - hole.entry);
+    if (before.closest(p).signed_distance < 0) ++inside;
+  }
+  return 2 * inside > kPlaces;
+}
 
 double volume_of(const Hole& hole) { return hole.diameter_m * hole.diameter_m * hole.length_m; }
 
@@ -43,14 +63,11 @@ bool goes_on(const Hole& wide, const Hole& other, const MeshDistance& whole) {
 }  // namespace
 
 std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDistance& whole,
-                                        double roundness_m) {
+                                        const MeshDistance& before, double roundness_m) {
   CarvedSurface surface(field);
   surface.update(field);
-  HoleOptions how;
-  how.least_diameter_m = 0.004;
-  how.largest_diameter_m = 0.014;
-  how.roundness_m = roundness_m;
-  const std::vector<Hole> holes = find_holes(surface.joined(), how);
+  std::vector<Hole> holes = find_holes(surface.joined(), for_graft(roundness_m));
+  std::erase_if(holes, [&](const Hole& hole) { return !is_new(hole, before); });
   const Hole* best = nullptr;
   for (const Hole& hole : holes)
     if (!best || volume_of(hole) > volume_of(*best)) best = &hole;
@@ -66,6 +83,15 @@ std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDist
   for (const Hole& hole : holes)
     if (&hole != best && goes_on(*best, hole, whole)) out.channel_m = hole.diameter_m;
   return out;
+}
+
+std::vector<DrilledLine> holes_of(const TriMesh& bone, double roundness_m) {
+  std::vector<Hole> holes = find_holes(bone, for_graft(roundness_m));
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const Hole& a, const Hole& b) { return volume_of(a) > volume_of(b); });
+  std::vector<DrilledLine> lines;
+  for (const Hole& hole : holes) lines.push_back({hole.entry, hole.exit, hole.diameter_m});
+  return lines;
 }
 
 }  // namespace osteon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "osteon/carve/carved_field.h"
 #include "osteon/mesh/distance.h"
@@ -19,8 +20,13 @@ struct DrilledHole {
 };
 
 /// Of the round holes of 4 to 14 mm that the surface has where it was cut, the one that holds most;
-/// none: there is none. `whole`: the bone before, in Bone. `roundness_m`: see HoleOptions.
+/// none: there is none. `whole`: the bone that was never drilled, in Bone; `before`: as it was
+/// before these cuts. A hole whose axis does not run in bone of that was there already, and does
+/// not count. `roundness_m`: see HoleOptions.
 std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDistance& whole,
-                                        double roundness_m = 0.0003);
+                                        const MeshDistance& before, double roundness_m = 0.0003);
+
+/// The round holes of 4 to 14 mm that a bone's mesh has, the one that holds most first; in Bone.
+std::vector<DrilledLine> holes_of(const TriMesh& bone, double roundness_m = 0.0003);
 
 }  // namespace osteon

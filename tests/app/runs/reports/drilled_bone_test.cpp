@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../../../carve/carve_fixtures.h"
+#include "osteon/carve/carved_surface.h"
 
 namespace osteon {
 namespace {
@@ -25,7 +26,7 @@ class DrilledBone : public ::testing::Test {
       at = next;
     }
   }
-  std::optional<DrilledHole> found() { return find_drilled(field_, whole_); }
+  std::optional<DrilledHole> found() { return find_drilled(field_, whole_, whole_); }
 
   MeshDistance whole_;
   CarvedField field_;
@@ -98,6 +99,32 @@ TEST_F(DrilledBone, OfTwoHolesTheOneThatHoldsMoreCounts) {
   const auto hole = found();
   ASSERT_TRUE(hole);
   EXPECT_NEAR(hole->line.diameter_m, 0.009, 0.0002);
+}
+
+// The wider one was there already: the bone before has it.
+TEST_F(DrilledBone, AHoleThatWasThereBeforeDoesNotCount) {
+  drill(9, {0.025, 0.006, 0}, {-0.025, 0.006, 0});
+  CarvedSurface surface(field_);
+  surface.update(field_);
+  const MeshDistance before(surface.joined());
+  EXPECT_FALSE(find_drilled(field_, whole_, before));
+  drill(8, {0.025, -0.007, 0}, {-0.025, -0.007, 0});
+  const auto hole = find_drilled(field_, whole_, before);
+  ASSERT_TRUE(hole);
+  EXPECT_NEAR(hole->line.diameter_m, 0.008, 0.0002);
+  EXPECT_NEAR(hole->line.from_W.y(), -0.007, 0.0002);
+}
+
+TEST_F(DrilledBone, TheHolesOfAMeshComeWithTheOneThatHoldsMostFirst) {
+  EXPECT_TRUE(holes_of(whole_.mesh()).empty());
+  drill(5, {0.025, -0.008, 0}, {-0.025, -0.008, 0});
+  drill(9, {0.025, 0.006, 0}, {-0.001, 0.006, 0});
+  CarvedSurface surface(field_);
+  surface.update(field_);
+  const auto holes = holes_of(surface.joined());
+  ASSERT_EQ(holes.size(), 2u);
+  EXPECT_NEAR(holes[0].diameter_m, 0.009, 0.0002);
+  EXPECT_NEAR(holes[1].diameter_m, 0.005, 0.0002);
 }
 
 }  // namespace
