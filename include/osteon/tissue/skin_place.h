@@ -17,8 +17,8 @@ Result<Pose> sheet_frame(const TriMesh& skin_W, const Vec3& near_W, const Vec3& 
 /// Fails where the skin is not under all of the sheet.
 Result<TriMesh> lay_on(const TriMesh& skin_W, const Pose& X_WS, const TriMesh& surface_S);
 
-/// The skin with the sheet's rectangle cut out of it. Its first vertices are the skin's own; those on
-/// the rectangle's border follow.
+/// The skin with the sheet's rectangle cut out of it. Its first vertices are the skin's own; those
+/// on the rectangle's border follow.
 TriMesh around(const TriMesh& skin_W, const Pose& X_WS, double width_m, double height_m);
 
 }  // namespace osteon
