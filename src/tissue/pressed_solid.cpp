@@ -175,7 +175,7 @@ Result<PressedSolid> PressedSolid::make(const PressedSolidDef& def) {
   return PressedSolid(std::move(impl));
 }
 
-// The parts of cells that hang together with the one whose middle is nearest, two parts far: a push
+// The parts of cells that are connected with the one whose middle is nearest, two parts far: a push
 // on one side of a slit does nothing to the other side. Weights as below; where all nodes are too
 // far off, the nearest one alone.
 SolidPatch PressedSolid::Impl::patch_of_cut(const Vec3& p) const {

@@ -10,7 +10,7 @@
 
 namespace osteon {
 
-/// Which nodes of a carved field are left in each cell of a solid, and how they hang together: a
+/// Which nodes of a carved field are left in each cell of a solid, and how they are connected: a
 /// function of the cuts alone. A look at a block that changed costs its cells alone.
 class SolidCells {
  public:
