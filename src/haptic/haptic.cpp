@@ -11,6 +11,7 @@
 #include "guide_pull.h"
 #include "input_checks.h"
 #include "load.h"
+#include "made_portals.h"
 #include "osteon/base/check.h"
 #include "osteon/haptic/haptic_state.h"
 #include "osteon/haptic/snapshot_age.h"
@@ -162,20 +163,13 @@ void HapticLoop::Impl::place(const Pose& X_WD) {
   pass_portals(X_WD, true);
 }
 
-// Where the made ones are in this tick. One that is no more, as after a restore point, lets go.
+// One that is no more, as after a restore point, lets go.
 void HapticLoop::Impl::see_made_portals() {
   for (std::size_t i = first_made; i < portals.size(); ++i) {
-    Portal& portal = portals[i];
-    const MadePortal made = contacts ? contacts->made[portal.made] : MadePortal{};
-    portal.open = made.open && made.bone < state.bone_count;
-    if (!portal.open) {
-      if (state.portal.portal == i) state.portal = {};
-      if (state.tool.portal == i) state.tool.portal = kNoPortal;
-      continue;
-    }
-    portal.pierced = made.pierced;
-    portal.p_W = now_WB[made.bone] * made.p_B;
-    portal.nhat_W = -(now_WB[made.bone].q * made.nhat_B);
+    see_made_portal(contacts, now(), portals[i]);
+    if (portals[i].open) continue;
+    if (state.portal.portal == i) state.portal = {};
+    if (state.tool.portal == i) state.tool.portal = kNoPortal;
   }
 }
 
@@ -184,14 +178,7 @@ std::uint32_t HapticLoop::Impl::let_in() const {
   if (first_made == portals.size() || !contacts) return kNoPortal;
   if (contacts->instrument != state.tool.instrument || contacts->epoch != state.tool.epoch)
     return kNoPortal;
-  const std::size_t skins = std::min<std::size_t>(contacts->skin_count, kMaxSkins);
-  for (std::size_t s = 0; s < skins; ++s) {
-    const SkinContact& skin = contacts->skins[s];
-    const std::size_t portal = first_made + skin.made;
-    if (skin.through && skin.made != kNotMade && portal < portals.size() && portals[portal].open)
-      return static_cast<std::uint32_t>(portal);
-  }
-  return kNoPortal;
+  return entered_portal(*contacts, portals, first_made);
 }
 
 void HapticLoop::Impl::pass_portals(const Pose& X_WD, bool start) {

@@ -19,7 +19,7 @@ namespace {
 using test::Rig;
 
 constexpr double kIntent_n = 20;
-constexpr double kStiffness = 2000;
+constexpr double kHandStiffness = 2000;
 
 // Two holes in a skin that lies in the plane z = 0; inwards is down.
 std::vector<Portal> two_portals() {
@@ -149,7 +149,7 @@ TEST(Portal, SkinElsewhereIsNoPortal) {
 // The hand pulls sideways by 10 mm, which is 20 N on its spring, at any depth and in any direction,
 // held turned or not.
 TEST(Portal, PressedSidewaysTheShaftLeavesItByLessThanAMillimetre) {
-  const double pull = kIntent_n / kStiffness;
+  const double pull = kIntent_n / kHandStiffness;
   for (const double depth : {0.002, 0.01, 0.03, 0.08})
     for (int direction = 0; direction < 8; ++direction) {
       PortalRig rig;
