@@ -12,6 +12,7 @@ uniform float u_half_field;    // radians
 uniform float u_flat_half;     // tangent of the flat picture's half width
 uniform float u_tipped_to;     // angle in the picture of the mark on the field stop
 uniform float u_exposure;
+uniform vec3 u_white;          // what the camera shows of a white surface
 uniform float u_focus;         // sharp at this distance, metres
 uniform float u_blur_px;       // radius of blur, pixels of the flat picture, a dioptre off focus
 uniform float u_taken;         // light that the water takes, each metre
@@ -147,5 +148,5 @@ void main() {
   light = through_water(light, max(seen.a, 1e-3), normalize(vec3(plane, -1.0)));
 #endif
   float vignette = 1.0 - 0.55 * pow(r, 3.0) - 0.15 * r * r;
-  o_color = vec4(shown(light * vignette) * stop, 1.0);
+  o_color = vec4(shown(light * vignette * u_white) * stop, 1.0);
 }

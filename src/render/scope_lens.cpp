@@ -65,6 +65,7 @@ void ScopeLens::paint(const LightTarget& flat, const LensView& view,
   lens.set("u_flat_half", static_cast<float>(view.half));
   lens.set("u_tipped_to", static_cast<float>(view.camera.tipped_to_rad()));
   lens.set("u_exposure", static_cast<float>(view.exposure));
+  lens.set("u_white", Eigen::Vector3f(view.white.cast<float>()));
   lens.set("u_focus", static_cast<float>(kFocus_m));
   lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
   lens.set("u_taken", static_cast<float>(water.taken_per_m));

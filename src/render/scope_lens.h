@@ -14,8 +14,9 @@ namespace osteon {
 /// How a flat picture is seen through the lens.
 struct LensView {
   const ScopeCamera& camera;
-  double half = 1;      ///< tangent of half the flat picture's width
-  double exposure = 1;  ///< the camera's gain
+  double half = 1;            ///< tangent of half the flat picture's width
+  double exposure = 1;        ///< the camera's gain
+  Vec3 white = Vec3::Ones();  ///< shown of a white surface, linear
   Viewport viewport;
 };
 

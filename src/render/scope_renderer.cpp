@@ -106,10 +106,11 @@ struct ScopeRenderer::Impl {
     std::vector<float> ghosts;
     std::uint64_t version = 0, wall = 0;
     ScopeWater water;
+    Vec3 white = Vec3::Ones();
     bool still(const Painted& b) const {
       return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
              instruments == b.instruments && ghosts == b.ghosts && version == b.version &&
-             wall == b.wall && water == b.water && looks_still(X_WC, b.X_WC) &&
+             wall == b.wall && water == b.water && white == b.white && looks_still(X_WC, b.X_WC) &&
              looks_still(parts, b.parts) && looks_still(tools, b.tools);
     }
   };
@@ -122,6 +123,7 @@ struct ScopeRenderer::Impl {
   TissuePart wall;
   std::uint64_t walls = 0;  ///< that there have been
   ScopeWater water;
+  Vec3 white = Vec3::Ones();  ///< see shown_white
   std::vector<Pose> rest_X_WB;
   TissuePart tool = steel(), ghost = ghost_part();
   /// By ToolState::instrument and jaw_step(), where there is no scene.
@@ -275,7 +277,7 @@ struct ScopeRenderer::Impl {
   void paint_lens(const ScopeCamera& camera, double half, double exposure,
                   const Viewport& viewport) const {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
-    lens.paint(flat, {camera, half, exposure, viewport}, water);
+    lens.paint(flat, {camera, half, exposure, white, viewport}, water);
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -286,6 +288,7 @@ struct ScopeRenderer::Impl {
     now.barrel = camera.barrel();
     now.wall = walls;
     now.water = water;
+    now.white = white;
     now.version = scene ? scene->version() : cubes;
     for (const TissuePart& part : parts) now.parts.push_back(part.X_WM);
     for (const ShownTool& shown : tools) {
@@ -505,6 +508,10 @@ void ScopeRenderer::set_water(const ScopeWater& water) {
     if (is_finite(plume.p_W) && bounded(plume.radius_m, 1) > 0 && taken_per_m > 0)
       now.plumes[now.plume_count++] = {plume.p_W, bounded(plume.radius_m, 1), taken_per_m};
   }
+}
+
+void ScopeRenderer::set_white_balance(const WhiteBalance& white) {
+  impl_->white = shown_white(white);
 }
 
 void ScopeRenderer::set_wall(const TriMesh& wall_W) {

@@ -2,6 +2,7 @@
 #include <stb/stb_image.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -107,6 +108,49 @@ xdotool search --name "Osteon\$" windowfocus; sleep 0.2
 for i in $(seq 50); do xdotool key ctrl+q; sleep 0.2; kill -0 $window 2> /dev/null || break; done
 wait $window; echo "ended $?"
 )sh";
+
+// The window saves what the scope shows, as often as it is asked.
+constexpr const char* kStills = R"sh(
+"$OSTEON" window --replay run.osr --size 800x600 --layout scope > out.txt 2>&1 &
+window=$!
+for i in $(seq 300); do
+  xdotool key c; sleep 0.3
+  [ "$(ls osteon/pictures 2> /dev/null | wc -l)" -ge 2 ] && break
+done
+for i in $(seq 50); do xdotool key ctrl+q; sleep 0.2; kill -0 $window 2> /dev/null || break; done
+wait $window; echo "ended $?"
+)sh";
+
+class Stills : public CliTest {};
+
+TEST_F(Stills, TheKeySavesTheScopesPictureUnderANameWithoutAPatient) {
+  for (const char* program : {"Xvfb", "xdotool"})
+    if (is_missing(program)) GTEST_SKIP() << program << " is not installed";
+  const Ran ran = run_osteon("run fast_periscoping --no-store --record " + file("run.osr"));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  std::ofstream(file("play.sh")) << kStills;
+  const std::string command = "cd " + dir_.string() + " && XDG_CONFIG_HOME=" + dir_.string() +
+                              " XDG_DATA_HOME=" + dir_.string() +
+                              " OSTEON=" OSTEON_EXECUTABLE " " OSTEON_SOURCE_DIR
+                              "/tools/with-display 800x600 bash play.sh > told.txt 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  int stills = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "osteon" / "pictures")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(name.rfind("scope-2", 0), 0u) << name;
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> rgb(
+        stbi_load(entry.path().c_str(), &width, &height, &channels, 3), stbi_image_free);
+    ASSERT_TRUE(rgb) << name;
+    ASSERT_EQ(width, 1080);
+    ASSERT_EQ(height, 1080);
+    // Round: black corners, a lit middle.
+    EXPECT_EQ(rgb.get()[0], 0);
+    EXPECT_GT(rgb.get()[3 * (1080 * 540 + 540)], 20);
+    ++stills;
+  }
+  EXPECT_GE(stills, 2);
+}
 
 class TwoScreens : public CliTest {
  protected:

@@ -140,6 +140,24 @@ TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
   EXPECT_EQ(count_different(clear, drawn({std::nan(""), -1, -1}), 0), 0);
 }
 
+TEST_F(ScopePictures, AWarmLightIsOrangeUntilTheCameraIsBalancedToIt) {
+  const Case the_case = rows_of_balls();
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  ScopeRenderer renderer = make_scope(the_case);
+  const auto drawn = [&](const WhiteBalance& white) {
+    renderer.set_white_balance(white);
+    return renderer.draw_image(camera, 160, 160, RenderQuality::kFast);
+  };
+  const Image usual = renderer.draw_image(camera, 160, 160, RenderQuality::kFast);
+  const Image warm = drawn({3200, kScopeLamp_k}), balanced = drawn({3200, 3200});
+  EXPECT_EQ(count_different(usual, balanced, 0), 0);
+  const auto blue_of_red = [](const Image& image) {
+    return mean_channel(image, 2) / mean_channel(image, 0);
+  };
+  EXPECT_LT(blue_of_red(warm), 0.8 * blue_of_red(usual));
+  EXPECT_GT(blue_of_red(drawn({9000, kScopeLamp_k})), 1.1 * blue_of_red(usual));
+}
+
 // A ball of 6 mm whose nearest point is 6 mm before the tip: a plume between them reddens the
 // picture where it is, one behind the ball does not.
 TEST_F(ScopePictures, APlumeOfBloodIsSeenWhereItIs) {

@@ -11,6 +11,7 @@
 #include "osteon/render/prepare.h"
 #include "osteon/render/renderer.h"
 #include "osteon/render/scope_camera.h"
+#include "osteon/render/white_balance.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 #include "osteon/scene/tool.h"
@@ -69,6 +70,9 @@ class ScopeRenderer {
 
   /// Clear until it is told otherwise.
   void set_water(const ScopeWater& water);
+
+  /// Balanced to its own light until it is told otherwise.
+  void set_white_balance(const WhiteBalance& white);
 
   /// As Renderer has it, of a bone or a soft part; where a scene is drawn, its surfaces are seen.
   void set_surface(BoneId part, const TriMesh& mesh);

@@ -16,6 +16,7 @@ class ScopedCase {
 
   const Case& the_case() const { return case_; }
   void set_water(const ScopeWater& water) { renderer_.set_water(water); }
+  void set_white_balance(const WhiteBalance& white) { renderer_.set_white_balance(white); }
   /// Writes a PNG. Fails when the tip lies in bone.
   Result<void> draw(const ScopeDef& scope, const ScopePose& pose, int width, int height,
                     const std::filesystem::path& out);

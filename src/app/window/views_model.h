@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/render/white_balance.h"
 #include "ui/ui_layout.h"
 #include "water/scope_water.h"
 
@@ -76,13 +77,20 @@ struct WaterModel {
   bool can_set = true;     ///< not in a replay: it shows the pump as it was
 };
 
+/// A scope's camera head.
+struct ScopeCameraModel {
+  WhiteBalance white;
+  bool looks = true;  ///< a hand looks through a scope: there is a picture to keep
+};
+
 struct ViewsModel {
   PictureLayout layout = PictureLayout::kOutside;
   std::vector<PaneModel> panes;
   bool can_shoot = false;  ///< an X-ray picture can be asked for
   bool shooting = false;
   ObserverModel observer;
-  std::optional<WaterModel> water;  ///< none: no scope's picture is on show
+  std::optional<WaterModel> water;               ///< none: no scope's picture is on show
+  std::optional<ScopeCameraModel> scope_camera;  ///< likewise
   ScreenFilmModel film;
   SoundModel sound;
 };
@@ -93,6 +101,8 @@ struct ViewsRequests {
   std::optional<PictureLayout> observer_layout;
   bool take_scope = false;
   bool shoot = false;
+  bool keep_still = false;  ///< of the scope's picture
+  std::optional<WhiteBalance> white_balance;
   std::optional<WaterSettings> water;
   bool toggle_observer = false;
   bool toggle_film = false;

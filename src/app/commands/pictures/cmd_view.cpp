@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -26,8 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewCommand {
-  std::string case_spec, scope = "knee_30", size = "720x720", out, standard, only, views;
+  std::string case_spec, scope = "knee_30", size = "720x720", out, standard, only, views,
+                         white_balance = "auto";
   std::vector<double> at_mm, toward_mm, up;
+  double light_k = kScopeLamp_k;
   double post_deg = 0, pressure_mmhg = 60, bleeding_ml_min = 0;
   std::optional<double> flexion_deg;
   bool list = false;
@@ -60,6 +63,19 @@ Result<WaterNow> water_of(const ViewCommand& command, const Case& the_case) {
   return water_after(order, fluid_of(the_case));
 }
 
+/// A camera that is balanced on something white shows that light as white.
+Result<WhiteBalance> white_of(const ViewCommand& command) {
+  const std::string& text = command.white_balance;
+  if (text == "auto") return WhiteBalance{command.light_k, command.light_k};
+  double balance_k = 0;
+  const char* const end = text.data() + text.size();
+  const bool read = std::from_chars(text.data(), end, balance_k) == std::from_chars_result{end, {}};
+  if (read && balance_k >= kLeastLamp_k && balance_k <= kMostLamp_k)
+    return WhiteBalance{command.light_k, balance_k};
+  return fail("\"" + text + "\" is neither auto nor a number from 2000 to 10000",
+              "--white-balance");
+}
+
 void print_water(const ViewCommand& command, const WaterNow& water) {
   if (water.turbidity <= 0 && water.seen.fog <= 0) return;
   std::printf(
@@ -81,11 +97,14 @@ Result<void> draw_view(const ViewCommand& command) {
   if (!pose) return tl::unexpected(pose.error());
   const auto water = water_of(command, *opened);
   if (!water) return tl::unexpected(water.error());
+  const auto white = white_of(command);
+  if (!white) return tl::unexpected(white.error());
   const auto context = OffscreenContext::create();
   if (!context) return tl::unexpected(context.error());
   auto scoped = ScopedCase::create(std::move(*opened));
   if (!scoped) return tl::unexpected(scoped.error());
   scoped->set_water(water->seen);
+  scoped->set_white_balance(*white);
   if (auto ok = scoped->draw(*scope, *pose, size->width, size->height, command.out); !ok) return ok;
   print_water(command, *water);
   return {};
@@ -156,10 +175,13 @@ class StandardTour {
     if (command_.standard.empty()) return {};
     const auto water = water_of(command_, *opened);
     if (!water) return tl::unexpected(water.error());
+    const auto white = white_of(command_);
+    if (!white) return tl::unexpected(white.error());
     auto scoped = ScopedCase::create(std::move(*opened));
     if (!scoped) return tl::unexpected(scoped.error());
     scoped_.emplace(std::move(*scoped));
     scoped_->set_water(water->seen);
+    scoped_->set_white_balance(*white);
     print_water(command_, *water);
     return {};
   }
@@ -231,6 +253,18 @@ int run_view(const ViewCommand& command) {
   return kExitDone;
 }
 
+void add_camera_options(cli::App& sub, ViewCommand& command) {
+  sub.add_option("--light-kelvin", command.light_k,
+                 "colour temperature of the light source, 2000 to 10000 K: halogen has 3200, xenon "
+                 "6000")
+      ->check(cli::Range(kLeastLamp_k, kMostLamp_k))
+      ->capture_default_str();
+  sub.add_option("--white-balance", command.white_balance,
+                 "colour temperature that the camera takes for white, 2000 to 10000 K; auto: it "
+                 "was balanced on something white in this light")
+      ->capture_default_str();
+}
+
 void add_water_options(cli::App& sub, ViewCommand& command) {
   sub.add_option("--turbidity", command.water.turbidity,
                  "share of the light that pale debris absorbs between the scope and tissue 10 mm "
@@ -284,6 +318,7 @@ void add_view_command(cli::App& app, int& exit_code) {
       ->expected(3);
   sub->add_option("--flexion", command->flexion_deg, "flexion of a generated knee, degrees");
   add_water_options(*sub, *command);
+  add_camera_options(*sub, *command);
   sub->add_option("--size", command->size, "width x height in pixels")->capture_default_str();
   sub->add_option("--out", command->out, "PNG file to write");
   sub->add_option("--standard", command->standard,

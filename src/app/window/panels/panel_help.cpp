@@ -23,7 +23,7 @@ constexpr std::array<KeyLine, 13> kLook = {{
     {"H", "contact hulls"},
     {"L", "names on the bones"},
     {"V, F5 to F9", "next view; outside, scope, panorama, all, X-ray"},
-    {"B", "take an X-ray picture"},
+    {"B, C", "take an X-ray picture; save the scope's picture"},
     {"F3", "second window for observers"},
     {"Tab", "fold the panels away"},
 }};

@@ -112,6 +112,7 @@ void draw_view_section(const PanelContext& c) {
   draw_observer_section(c);
   draw_sound_section(c);
   draw_water_section(c);
+  draw_scope_camera_section(c);
 }
 
 // Folded at first where it would push the card's end out of the window.

@@ -137,6 +137,30 @@ void draw_water_section(const PanelContext& c) {
   if (changed) c.requests.views.water = {kPa_per_mmHg * pump_mmhg, 0.01 * outlet_percent};
 }
 
+void draw_scope_camera_section(const PanelContext& c) {
+  if (!c.model.views.scope_camera) return;
+  constexpr double kHalogen_k = 2800, kCold_k = 8000;
+  const ScopeCameraModel& camera = *c.model.views.scope_camera;
+  WhiteBalance white = camera.white;
+  if (ui::slider("Light source", &white.light_k, kHalogen_k, kCold_k, "%.0f K",
+                 "Colour temperature of the scope's light: halogen has 3200 K, xenon 6000 K. "
+                 "Balance the camera to it"))
+    c.requests.views.white_balance = white;
+  const float gap = c.px(4);
+  const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const bool balanced = white.balance_k == white.light_k;
+  ImGui::BeginDisabled(balanced);
+  if (ImGui::Button("White balance", {w, 0}))
+    c.requests.views.white_balance = WhiteBalance{white.light_k, white.light_k};
+  ImGui::EndDisabled();
+  ui::tooltip("Balances the camera as with a white swab before the lens");
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(!camera.looks);
+  if (ImGui::Button("Still", {w, 0})) c.requests.views.keep_still = true;
+  ImGui::EndDisabled();
+  ui::tooltip("Saves the scope's picture as PNG (C)");
+}
+
 void draw_sound_section(const PanelContext& c) {
   const SoundModel& sound = c.model.views.sound;
   if (!sound.problem.empty() && sound.volume > 0) {
@@ -174,6 +198,7 @@ void read_layout_keys(const PanelContext& c) {
   if (pressed('V')) c.requests.views.layout = next_layout(c.model.views.layout);
   if (pressed(kF5 - 2)) c.requests.views.toggle_observer = true;
   if (pressed(kF5 - 1)) c.requests.views.toggle_film = true;
+  if (pressed('C') && c.model.views.scope_camera) c.requests.views.keep_still = true;
   if (pressed('B') && c.model.views.can_shoot) c.requests.views.shoot = true;
 }
 

@@ -55,6 +55,7 @@ float layout_chooser_width(const PanelContext& c, bool wide);
 void draw_observer_section(const PanelContext& c);
 void draw_sound_section(const PanelContext& c);
 void draw_water_section(const PanelContext& c);  // of a scope's picture
+void draw_scope_camera_section(const PanelContext& c);
 std::string film_label(const ScreenFilmModel& film);
 void draw_film_button(const PanelContext& c);
 void read_layout_keys(const PanelContext& c);

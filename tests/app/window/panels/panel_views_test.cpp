@@ -112,6 +112,28 @@ TEST(ViewsPanel, TheWaterIsSetWhereAScopeIsOnShow) {
   EXPECT_NEAR(opened->pump_pa, 8000, 1e-9);
 }
 
+TEST(ViewsPanel, TheCameraIsBalancedToItsLightAndKeepsStillsWhereAScopeIsOnShow) {
+  UiFrame ui;
+  fill(ui);
+  EXPECT_FALSE(ui.press_key('C').views.keep_still);
+  EXPECT_LT(ui.find("##case", {"Still"}).x, 0);
+  ui.model.views.scope_camera = ScopeCameraModel{};
+  EXPECT_TRUE(ui.press_key('C').views.keep_still);
+  EXPECT_TRUE(ui.click_for_views(ui.find("##case", {"Still"})).keep_still);
+  EXPECT_FALSE(ui.click_for_views(ui.find("##case", {"White balance"})).white_balance)
+      << "it is balanced";
+  const auto lamp = press_slider(ui, "##Light source").white_balance;
+  ASSERT_TRUE(lamp);
+  EXPECT_NE(lamp->light_k, kScopeLamp_k);
+  EXPECT_EQ(lamp->balance_k, kScopeLamp_k) << "the light alone";
+  ui.model.views.scope_camera->white = *lamp;
+  const auto balanced = ui.click_for_views(ui.find("##case", {"White balance"})).white_balance;
+  ASSERT_TRUE(balanced);
+  EXPECT_EQ(balanced->balance_k, lamp->light_k);
+  ui.model.views.scope_camera->looks = false;
+  EXPECT_FALSE(ui.click_for_views(ui.find("##case", {"Still"})).keep_still);
+}
+
 TEST(ViewsPanel, TheVolumeIsSetUnlessNothingCanBeHeard) {
   UiFrame ui;
   fill(ui);

@@ -138,6 +138,28 @@ void PictureViews::poll_wall() {
   scope_->set_wall(*wall->mesh);
 }
 
+void PictureViews::set_scope_scene(std::size_t hand) {
+  std::vector<ToolState> others;
+  for (std::size_t h = 0; h < moment_.hands; ++h)
+    if (h != hand) others.push_back(moment_.tools[h]);
+  scope_->set_scene(moment_.bones, others);
+  scope_->set_ghosts(ghosts_through_scope());
+  scope_->set_white_balance(white_);
+  ask_for_wall(moment_.tools[hand].X_WP.p);
+}
+
+Result<Image> PictureViews::scope_still(int side_px) {
+  const auto hand = looking();
+  if (!hand) return Image{};
+  if (auto ok = ensure_scope(); !ok) return tl::unexpected(ok.error());
+  set_scope_scene(*hand);
+  const bool slow = main_->software_driver();
+  Image image = scope_->draw_image(*scope_camera(), side_px, side_px,
+                                   slow ? RenderQuality::kFast : RenderQuality::kFine);
+  if (image.rgb.empty()) return fail("the graphics driver has no memory for it", "the still");
+  return image;
+}
+
 void PictureViews::draw_scope(const Viewport& viewport, int most_px) {
   fill_viewport(viewport, 0, 0, 0);
   const auto hand = looking();
@@ -148,12 +170,7 @@ void PictureViews::draw_scope(const Viewport& viewport, int most_px) {
     return;
   }
   if (!scope_painted_) {
-    std::vector<ToolState> others;
-    for (std::size_t h = 0; h < moment_.hands; ++h)
-      if (h != *hand) others.push_back(moment_.tools[h]);
-    scope_->set_scene(moment_.bones, others);
-    scope_->set_ghosts(ghosts_through_scope());
-    ask_for_wall(moment_.tools[*hand].X_WP.p);
+    set_scope_scene(*hand);
     scope_painted_ = scope_->paint(*scope_camera(), most_px);
   }
   if (scope_painted_) scope_->show(fitted(viewport, 1, 1));

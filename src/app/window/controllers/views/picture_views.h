@@ -52,6 +52,12 @@ class PictureViews {
   /// Draws into viewports of the framebuffer that is bound. One drawing through the scope serves
   /// all places: `most_px` is the side of the largest.
   void draw_scope(const Viewport& viewport, int most_px);
+  /// What the scope shows now, a square of so many pixels a side. Empty where nobody looks through
+  /// one; fails where it cannot be drawn.
+  Result<Image> scope_still(int side_px);
+  /// From the next picture on.
+  void set_white_balance(const WhiteBalance& white) { white_ = white; }
+  const WhiteBalance& white_balance() const { return white_; }
   /// `observer`: in the second window, whose pictures are kept by themselves.
   void draw_panorama(const Viewport& viewport, bool observer = false);
   /// As the observer sees the scene: `view`'s looks from the front.
@@ -72,6 +78,7 @@ class PictureViews {
     std::optional<TriMesh> mesh;  ///< none: the tip lies in bone
   };
   Result<void> ensure_scope();
+  void set_scope_scene(std::size_t hand);
   void ask_for_wall(const Vec3& tip_W);
   void poll_wall();
   Result<void> poll_shot();
@@ -94,6 +101,7 @@ class PictureViews {
   FilmMoment moment_;
   std::vector<GhostTool> ghosts_;
   bool scope_painted_ = false;  ///< of this moment
+  WhiteBalance white_;
 
   std::shared_ptr<const JointRoom> room_;
   std::unique_ptr<SideJob<Wall>> wall_job_;

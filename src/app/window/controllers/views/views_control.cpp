@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
+#include "cases/xdg.h"
 #include "runs/pictures/heat_picture.h"
 
 namespace osteon {
@@ -109,6 +112,21 @@ void ViewsControl::picture_took(double picture_s) {
   scene_.renderer->set_moving_detail(detail_.share());
 }
 
+// Beside the screenshots, under a name that tells of nobody.
+void ViewsControl::keep_still() {
+  constexpr int kStill_px = 1080;
+  const auto image = scene_.views.scope_still(kStill_px);
+  if (!image) return host_.note(ToastKind::kError, image.error().message());
+  if (image->rgb.empty()) return host_.note(ToastKind::kInfo, "No hand looks through a scope");
+  const std::filesystem::path folder = data_home_dir() / "pictures";
+  std::error_code ignored;  // saving tells what is wrong
+  std::filesystem::create_directories(folder, ignored);
+  const std::filesystem::path file = dated_file(folder, "scope", ".png");
+  if (const auto saved = save_png(*image, file); !saved)
+    return host_.note(ToastKind::kError, saved.error().message());
+  host_.note(ToastKind::kInfo, "Still saved as " + file.string());
+}
+
 void ViewsControl::apply(const ViewsRequests& requests) {
   if (requests.layout) sight_.set_layout(*requests.layout);
   if (requests.observer_layout) observer_.set_layout(*requests.observer_layout);
@@ -118,6 +136,8 @@ void ViewsControl::apply(const ViewsRequests& requests) {
     pump_run_ = {};
     set_pump_again();
   }
+  if (requests.white_balance) scene_.views.set_white_balance(*requests.white_balance);
+  if (requests.keep_still) keep_still();
   if (requests.shoot) {
     const CarvedPicture* const picture = carved();
     scene_.views.shoot(picture ? picture->cut_scene() : CutScene{});
@@ -171,6 +191,8 @@ ViewsModel ViewsControl::model() const {
     return pane.pane.kind == PaneKind::kScope;
   });
   if (scope) model.water = water_model();
+  if (scope)
+    model.scope_camera = ScopeCameraModel{views.white_balance(), views.looking().has_value()};
   return model;
 }
 

@@ -43,6 +43,7 @@ class ViewsControl {
   void show_carved();
   void show_heat(CarvedPicture& picture);
   void show_softs();
+  void keep_still();
   void set_pump_again();
   std::optional<WaterModel> water_model() const;
   std::string message_on(PaneKind kind) const;
