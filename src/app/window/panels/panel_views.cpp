@@ -147,16 +147,17 @@ void draw_scope_camera_section(const PanelContext& c) {
                  "Balance the camera to it"))
     c.requests.views.white_balance = white;
   const float gap = c.px(4);
-  const float w = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const float w = ImGui::GetContentRegionAvail().x;
+  const float still_w = ImGui::CalcTextSize("Still").x + 2 * ImGui::GetStyle().FramePadding.x;
   const bool balanced = white.balance_k == white.light_k;
   ImGui::BeginDisabled(balanced);
-  if (ImGui::Button("White balance", {w, 0}))
+  if (ImGui::Button("White balance", {w - gap - still_w, 0}))
     c.requests.views.white_balance = WhiteBalance{white.light_k, white.light_k};
   ImGui::EndDisabled();
   ui::tooltip("Balances the camera as with a white swab before the lens");
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(!camera.looks);
-  if (ImGui::Button("Still", {w, 0})) c.requests.views.keep_still = true;
+  if (ImGui::Button("Still", {still_w, 0})) c.requests.views.keep_still = true;
   ImGui::EndDisabled();
   ui::tooltip("Saves the scope's picture as PNG (C)");
 }
