@@ -138,6 +138,24 @@ TEST_F(XrayCli, ARecordingShowsTheProbeAtItsTime) {
     EXPECT_NE(raw.g_per_cm2, last);
     last = raw.g_per_cm2;
   }
+  // The hand that holds it is given what scatters from the block, or the beam where it is in it.
+  const auto hand_of = [&](const std::string& options) {
+    const Ran ran =
+        xray(file("r.osr") + " --at 0.35 --size 64x64 --json --raw " + file("raw") + " " + options);
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    const Json hands = Json::parse(ran.output)["dose"]["hands"];
+    EXPECT_EQ(hands.size(), 1u);
+    return hands[0];
+  };
+  const Json aside = hand_of("--view lateral --mas 1"), hit = hand_of("--mas 1");
+  EXPECT_GT(aside["at_mm"][2], 60) << "above the tip, on the shaft";
+  EXPECT_FALSE(aside["in_beam"]);
+  EXPECT_GT(aside["scattered_mgy"], 0);
+  EXPECT_EQ(aside["direct_mgy"], 0);
+  EXPECT_TRUE(hit["in_beam"]);
+  EXPECT_GT(hit["direct_mgy"], 10 * aside["total_mgy"].get<double>());
+  EXPECT_NEAR(hand_of("--view lateral --mas 2")["total_mgy"].get<double>(),
+              2 * aside["total_mgy"].get<double>(), 1e-9);
   EXPECT_EQ(xray(file("r.osr") + " --at 9 --raw " + file("raw")).exit_code, 2);
 }
 

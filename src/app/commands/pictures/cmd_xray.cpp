@@ -111,6 +111,12 @@ int run_xray(XrayCommand& command) {
               command.scene.source.c_str(), shot->exposure.kv, shot->exposure.mas,
               shot->dose.air_kerma_mgy, shot->dose.kerma_area_mgy_cm2, shot->dose.shots,
               shot->dose.seconds);
+  for (std::size_t h = 0; h < shot->hands.size(); ++h) {
+    const HandDose& hand = shot->hands[h];
+    std::printf("hand %zu, %s the beam: %.3g mGy (%.3g direct, %.3g scattered)\n", h,
+                hand.in_beam ? "in" : "beside", hand.total_mgy(), hand.direct_mgy,
+                hand.scattered_mgy);
+  }
   return kExitDone;
 }
 

@@ -57,13 +57,14 @@ Result<std::size_t> ticks_until(const Recording& recording, const SessionSetting
   return std::clamp<std::size_t>(static_cast<std::size_t>(ticks), 1, recording.ticks.size());
 }
 
-Result<XrayLayer> steel_tool(const SessionSettings& settings, const Tray& tray,
-                             std::uint32_t instrument, const Pose& X_WT) {
-  const Tool held =
-      instrument < tray.size() ? *tray[instrument] : make_wrist_probe(settings.probe_radius_m);
+/// An instrument of steel, and the hand that holds it.
+Result<void> add_held(const Tool& held, const Pose& X_WT, XrayScene& scene) {
   auto mesh = xray_surface(held.mesh, "the instrument");
   if (!mesh) return tl::unexpected(mesh.error());
-  return XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}};
+  scene.body.layers.insert(scene.body.layers.begin(),
+                           XrayLayer{"instrument", kSteel, {{*mesh, X_WT}}});
+  scene.hands_W.push_back(X_WT * hand_on(held));
+  return {};
 }
 
 Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
@@ -108,10 +109,11 @@ Result<XrayScene> scene_of_recording(const XraySceneOrder& order) {
   if (!cuts) return tl::unexpected(cuts.error());
   cuts->add_to(scene->body, cut, bones_then);
   if (order.body.bones_hu) return scene;
+  scene->without_tools = scene->body;
   for (const ToolState& held : tools) {
-    auto tool = steel_tool(*settings, *tray, held.instrument, held.X_WP);
-    if (!tool) return tl::unexpected(tool.error());
-    scene->body.layers.insert(scene->body.layers.begin(), std::move(*tool));
+    const Tool tool = held.instrument < tray->size() ? *(*tray)[held.instrument]
+                                                     : make_wrist_probe(settings->probe_radius_m);
+    if (auto ok = add_held(tool, held.X_WP, *scene); !ok) return tl::unexpected(ok.error());
   }
   return scene;
 }
@@ -129,6 +131,13 @@ Result<XrayScene> scene_of_case(const XraySceneOrder& order) {
 }
 
 }  // namespace
+
+Vec3 hand_on(const Tool& tool) {
+  constexpr double kFromEnd_m = 0.05;
+  double end_m = 0;
+  for (const Vec3& v : tool.mesh.vertices) end_m = std::max(end_m, v.z());
+  return std::max(end_m - kFromEnd_m, 0.5 * end_m) * Vec3::UnitZ();
+}
 
 Result<XrayScene> open_xray_scene(const XraySceneOrder& order) {
   return is_recording(order.source) ? scene_of_recording(order) : scene_of_case(order);

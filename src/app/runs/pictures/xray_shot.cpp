@@ -101,6 +101,12 @@ Result<XrayShot> take_shot(const XrayScene& scene, const XrayShotOrder& order) {
   const double automatic = automatic_mas(mean_in_middle(through, view->width));
   shot.exposure = {order.kv, order.mas.value_or(automatic), order.shots, order.pulse_s};
   shot.dose = dose_of(shot.exposure, *view);
+  for (const Vec3& hand_W : scene.hands_W) {
+    const auto hand = hand_dose(scene.without_tools, *view, shot.density, shot.exposure, hand_W,
+                                order.arm.source_isocenter_m);
+    if (!hand) return tl::unexpected(hand.error());
+    shot.hands.push_back(*hand);
+  }
   XrayDetector detector;
   detector.photons *= shot.exposure.mas / automatic;
   detector.noise = order.noise;
@@ -121,6 +127,22 @@ Result<void> write_raw_density(const XrayShot& shot, const std::string& file) {
   return write_file_atomic(file + ".json", geometry(shot.view).dump(2) + "\n");
 }
 
+namespace {
+
+Json hands_json(const std::vector<HandDose>& hands) {
+  Json out = Json::array();
+  for (const HandDose& hand : hands)
+    out.push_back({{"hand", out.size()},
+                   {"at_mm", in_mm(hand.hand_W)},
+                   {"in_beam", hand.in_beam},
+                   {"direct_mgy", hand.direct_mgy},
+                   {"scattered_mgy", hand.scattered_mgy},
+                   {"total_mgy", hand.total_mgy()}});
+  return out;
+}
+
+}  // namespace
+
 std::string to_json(const XrayShot& shot) {
   Json json = geometry(shot.view);
   json["kv"] = shot.exposure.kv;
@@ -132,7 +154,8 @@ std::string to_json(const XrayShot& shot) {
                   {"beam_area_cm2", shot.dose.beam_area_cm2},
                   {"kap_mgy_cm2", shot.dose.kerma_area_mgy_cm2},
                   {"shots", shot.dose.shots},
-                  {"seconds", shot.dose.seconds}};
+                  {"seconds", shot.dose.seconds},
+                  {"hands", hands_json(shot.hands)}};
   return json.dump(2) + "\n";
 }
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/scene/tool.h"
 #include "osteon/xray/case_body.h"
 #include "osteon/xray/dose.h"
+#include "osteon/xray/hand_dose.h"
 #include "osteon/xray/picture.h"
 
 namespace osteon {
@@ -15,6 +17,8 @@ namespace osteon {
 /// What stands in the beam.
 struct XrayScene {
   XrayBody body;
+  XrayBody without_tools;     ///< the same without instruments
+  std::vector<Vec3> hands_W;  ///< middles of the hands that hold instruments, in their order
   PatientAxes patient;
   Vec3 isocenter_W = Vec3::Zero();  ///< the middle of the joint
 };
@@ -46,9 +50,14 @@ struct XrayShot {
   XrayWindow window;
   XrayExposure exposure;
   XrayDose dose;
+  std::vector<HandDose> hands;  ///< of XrayScene::hands_W
 };
 /// Fails on an arm, a voltage or a count out of range.
 Result<XrayShot> take_shot(const XrayScene& scene, const XrayShotOrder& order);
+
+/// Where the hand is that holds an instrument, in Tool: 50 mm from the far end of what is drawn,
+/// but never nearer to the tip than half of it.
+Vec3 hand_on(const Tool& tool);
 
 /// "orbit=30,angulation=-10": degrees; lift, distance (source to detector), source (source to
 /// isocentre) and field (width of the detector): millimetres. What is not named stays.

@@ -78,6 +78,11 @@ std::vector<GhostTool> PictureViews::ghosts_through_scope() const {
   return seen;
 }
 
+// A box for exercises has no wall, wherever the tip is.
+bool PictureViews::scope_is_outside() const {
+  return wall_known_ && wall_empty_ && !case_->name.starts_with("fast_");
+}
+
 std::optional<ScopeCamera> PictureViews::scope_camera() const {
   const auto hand = looking();
   if (!hand) return std::nullopt;

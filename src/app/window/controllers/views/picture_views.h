@@ -45,7 +45,7 @@ class PictureViews {
   /// Its camera; none where nobody looks.
   std::optional<ScopeCamera> scope_camera() const;
   /// The tip is so far from the joint that nothing of it is lit.
-  bool scope_is_outside() const { return wall_known_ && wall_empty_; }
+  bool scope_is_outside() const;
   /// By place in the tray: a scope to take; none: the tray has none.
   std::optional<std::uint32_t> scope_in_tray() const;
 
