@@ -6,10 +6,11 @@
 namespace osteon::rods {
 namespace {
 
-constexpr double kSpacing = 0.75;  // between samples, of the radius
-constexpr double kApart = 3.2;     // of the rod nearer than this many radii along it: no contact
-constexpr double kReach = 0.6;     // of the radius: looked at before it touches
-constexpr double kListed = 2;      // of the radius, at least: listed as near
+constexpr double kSpacing = 0.75;    // between samples, of the radius
+constexpr double kApart = 3.2;       // of the rod nearer than this many radii along it: no contact
+constexpr double kReach = 0.6;       // of the radius: looked at before it touches
+constexpr double kListed = 2;        // of the radius, at least: listed as near
+constexpr std::uint32_t kGroup = 8;  // segments
 
 struct NearestOnRod {
   double share = 0;         // along the other segment
@@ -78,6 +79,26 @@ double apart_at_least(const Rod& rod, const RodSupports& supports, const RodPair
   return (middle - 0.5 * (a + b)).norm() - half - 0.5 * (b - a).norm();
 }
 
+/// A ball around a segment or some of them.
+struct RodBall {
+  Vec3 middle = Vec3::Zero();
+  double radius_m = 0;
+};
+
+RodBall ball_about(const std::vector<RodBall>& balls, std::uint32_t first, std::uint32_t last) {
+  RodBall out;
+  for (std::uint32_t i = first; i < last; ++i) out.middle += balls[i].middle / (last - first);
+  for (std::uint32_t i = first; i < last; ++i)
+    out.radius_m =
+        std::max(out.radius_m, (balls[i].middle - out.middle).norm() + balls[i].radius_m);
+  return out;
+}
+
+bool within(const RodBall& a, const RodBall& b, double far_m) {
+  const double reach = far_m + a.radius_m + b.radius_m;
+  return (a.middle - b.middle).squaredNorm() < reach * reach;
+}
+
 RodTouch touch_of(const Rod& rod, const RodSupports& supports, const RodPair& pair,
                   const RodSample& sample, const NearestOnRod& at, const RodStick* stick) {
   RodTouch out;
@@ -107,7 +128,7 @@ std::vector<RodSample> samples_of(const Rod& rod) {
     for (std::size_t k = 0; k < n; ++k) {
       const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
       out.push_back({static_cast<std::uint32_t>(i), share,
-                     rod.material.young_pa * l / static_cast<double>(n), arc + share * l});
+                     rod.material.young_pa * l / static_cast<double>(n), arc + share * l, 0, 0});
     }
     arc += l;
   }
@@ -135,28 +156,57 @@ ContactFinder::ContactFinder(const Rod& rod, const std::vector<bool>& held_frame
     : samples_(samples_of(rod)), held_(held_frame), arc_m_(1, 0.0) {
   for (const double l : rod.length_m) arc_m_.push_back(arc_m_.back() + l);
   margin_m_ = std::max(kListed * rod.radius_m, arc_m_.back() / static_cast<double>(rod.segments()));
+  mark_apart(rod);
+}
+
+// Segments so far along the rod that a sample may touch them.
+void ContactFinder::mark_apart(const Rod& rod) {
+  const double apart = kApart * rod.radius_m;
+  for (RodSample& s : samples_) {
+    while (s.before < s.segment && s.arc_m - arc_m_[s.before + 1] > apart) ++s.before;
+    s.after = s.segment + 1;
+    while (s.after < rod.segments() && !(arc_m_[s.after] - s.arc_m > apart)) ++s.after;
+  }
 }
 
 bool ContactFinder::may_touch(const Rod& rod, const RodSample& s, std::uint32_t other) const {
-  if (other >= rod.segments()) return true;
-  if (held_[s.segment] && held_[other]) return false;
-  const double gap = s.segment < other ? arc_m_[other] - s.arc_m : s.arc_m - arc_m_[other + 1];
-  return gap > kApart * rod.radius_m;
+  if (other >= s.before && other < s.after) return false;
+  return other >= rod.segments() || !(held_[s.segment] && held_[other]);
 }
 
+// Segments go by groups, so that what is far is passed over many at a time.
 void ContactFinder::list_near(const Rod& rod, const RodSupports& supports,
                               const std::vector<Vec3>& x) {
   const auto segments = static_cast<std::uint32_t>(rod.segments());
-  const auto all = segments + static_cast<std::uint32_t>(supports.obstacles.size());
   listed_at_ = x;
-  near_.assign(segments, {});
+  near_.resize(segments);
+  std::vector<RodBall> balls(segments), groups;
   for (std::uint32_t i = 0; i < segments; ++i)
-    for (std::uint32_t other = 0; other < all; ++other) {
-      // Neighbours share a node: they fold before they touch.
-      if (other < segments && (i < other ? other - i : i - other) < 2) continue;
-      const double far = reach_of(rod, supports, other) + margin_m_;
-      if (apart_at_least(rod, supports, {i, other}, x) < far) near_[i].push_back(other);
+    balls[i] = {0.5 * (x[i] + x[i + 1]), 0.5 * (x[i + 1] - x[i]).norm()};
+  for (std::uint32_t first = 0; first < segments; first += kGroup)
+    groups.push_back(ball_about(balls, first, std::min(first + kGroup, segments)));
+  const double far = 2 * rod.radius_m + margin_m_;
+  for (std::uint32_t i = 0; i < segments; ++i) {
+    near_[i].clear();
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+      if (!within(groups[i / kGroup], groups[g], far)) continue;
+      for (std::uint32_t other = kGroup * g; other < std::min(kGroup * (g + 1), segments); ++other)
+        if (within(balls[i], balls[other], far) && could_touch(rod, i, other))
+          near_[i].push_back(other);
     }
+    for (std::uint32_t o = 0; o < supports.obstacles.size(); ++o)
+      if (apart_at_least(rod, supports, {i, segments + o}, x) <
+          reach_of(rod, supports, segments + o) + margin_m_)
+        near_[i].push_back(segments + o);
+  }
+}
+
+// Neighbours share a node: they fold before they touch; and no sample is further along the rod than
+// both segments' far ends.
+bool ContactFinder::could_touch(const Rod& rod, std::uint32_t i, std::uint32_t other) const {
+  const auto [low, high] = std::minmax(i, other);
+  const double gap = std::max(arc_m_[high] - arc_m_[low], arc_m_[high + 1] - arc_m_[low + 1]);
+  return high - low > 1 && gap > kApart * rod.radius_m;
 }
 
 void ContactFinder::look(const Rod& rod, const RodSupports& supports, const RodState& state,

@@ -14,6 +14,7 @@ struct RodSample {
   double share = 0;      ///< of the way along the segment
   double stiffness = 0;  ///< N/m: Young's modulus times the length that it stands for
   double arc_m = 0;      ///< from the rod's start
+  std::uint32_t before = 0, after = 0;  ///< it may touch segments below the one, from the other on
 };
 
 /// Samples no further apart than three quarters of the radius.
@@ -49,6 +50,8 @@ class ContactFinder {
 
  private:
   void list_near(const Rod& rod, const RodSupports& supports, const std::vector<Vec3>& x);
+  void mark_apart(const Rod& rod);
+  bool could_touch(const Rod& rod, std::uint32_t segment, std::uint32_t other) const;
   bool may_touch(const Rod& rod, const RodSample& sample, std::uint32_t other) const;
   void look(const Rod& rod, const RodSupports& supports, const RodState& state,
             std::uint32_t sample, std::vector<RodTouch>& out) const;

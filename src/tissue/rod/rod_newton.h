@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "rod/rod_contact.h"
+#include "rod/rod_system.h"
 
 namespace osteon::rods {
 
@@ -14,33 +15,33 @@ struct RodNewton {
   double dt;
   std::vector<bool> held_frame;
   std::vector<double> span;
-  std::vector<std::size_t> held;  // unknowns
-  std::vector<Vec3> inertia;      // of segments, kg m^2
+  std::vector<double> inertia;  // of segments across, kg m^2; half of that along
   ContactFinder finder;
+  RodSystem system;
+  std::vector<long> held_parts;  // first places of registers that hold something
 
   // Of the step under way.
-  double h = 0, now_s = 0;  // its length, the time at its end
-  RodPose start, aim, pose, tried;
-  std::vector<Vec3> force;
+  double h = 0, now_s = 0;       // its length, the time at its end
+  std::vector<Vec3> start_x, x;  // x: only where something may touch
   std::vector<RodTouch> touches;
   std::vector<RodContact> contacts;
-  RodBand band;
-  std::vector<double> slope, way;
+  bool settling = false;  // the last way was so short that the factors are still good
+  double last_size = 0;
 
   RodNewton(Rod r, RodSupports s, double step_s);
 
   void begin(const RodState& state);
-  void place_grips(RodPose& at) const;
+  void place_grips();
+  RodNumbers numbers() const;
   double potential(const RodPose& at) const;
   double turning_j(const Quat& from, const Quat& to, std::size_t i) const;
   void assemble(bool with_stiffness);
-  void add_turning(const Quat& from, std::size_t i, double weight);
-  void add_contacts();
+  void add_contacts(bool with_stiffness);
+  void release(RodSystem::Values& values) const;
   void find_way();
-  void conjugate(const std::vector<double>& r0);
-  void add_couplings(const std::vector<double>& x, std::vector<double>& out) const;
+  void conjugate();
+  void add_couplings(const RodSystem::Values& at, RodSystem::Values& out) const;
   void try_way(double share);
-  double largest() const;
   bool go();
   void finish(RodState& state);
   void advance(RodState& state, double from_s, double length_s);

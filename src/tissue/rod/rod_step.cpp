@@ -51,7 +51,7 @@ SolidEnergy RodStepper::energy(const RodState& state) const {
     sum.kinetic_j += 0.5 * m.rod.mass_kg[i] * state.velocity_m_per_s[i].squaredNorm();
   for (std::size_t i = 0; i < state.R_WS.size(); ++i) {
     const Vec3& w = state.spin_rad_per_s[i];
-    sum.kinetic_j += 0.5 * w.dot(m.inertia[i].cwiseProduct(w));
+    sum.kinetic_j += 0.5 * m.inertia[i] * w.dot(Vec3(1, 1, 2).cwiseProduct(w));
   }
   return sum;
 }
