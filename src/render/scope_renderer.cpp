@@ -16,6 +16,7 @@
 #include "gl/render_target.h"
 #include "osteon/scene/soft_motion.h"
 #include "renderer_impl.h"
+#include "scope_bits.h"
 #include "scope_lens.h"
 #include "scope_parts.h"
 #include "surface/changed_cubes.h"
@@ -107,17 +108,20 @@ struct ScopeRenderer::Impl {
     std::uint64_t version = 0, wall = 0;
     ScopeWater water;
     Vec3 white = Vec3::Ones();
+    std::vector<WaterBit> bits;
     bool still(const Painted& b) const {
       return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
              instruments == b.instruments && ghosts == b.ghosts && version == b.version &&
-             wall == b.wall && water == b.water && white == b.white && looks_still(X_WC, b.X_WC) &&
-             looks_still(parts, b.parts) && looks_still(tools, b.tools);
+             wall == b.wall && water == b.water && white == b.white && bits == b.bits &&
+             looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
+             looks_still(tools, b.tools);
     }
   };
 
   std::array<Program, kPatterns> tissues;  ///< by TissuePattern
   Program changed_bone, changed_cartilage;
   ScopeLens lens;
+  ScopeBits bits;
   std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
   std::vector<TissuePart> parts;
   TissuePart wall;
@@ -251,6 +255,7 @@ struct ScopeRenderer::Impl {
     glDepthMask(GL_FALSE);
     paint_all(camera, half, false);
     glDepthMask(GL_TRUE);
+    bits.paint(camera.X_WC().inverse(), flat_projection(half));
     paint_ghosts(camera, half);
     glDisable(GL_DEPTH_TEST);
   }
@@ -289,6 +294,7 @@ struct ScopeRenderer::Impl {
     now.wall = walls;
     now.water = water;
     now.white = white;
+    now.bits = bits.bits();
     now.version = scene ? scene->version() : cubes;
     for (const TissuePart& part : parts) now.parts.push_back(part.X_WM);
     for (const ShownTool& shown : tools) {
@@ -353,6 +359,9 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
   auto lens = ScopeLens::load(shaders);
   if (!lens) return tl::unexpected(lens.error());
   impl->lens = std::move(*lens);
+  auto bits = ScopeBits::load(shaders);
+  if (!bits) return tl::unexpected(bits.error());
+  impl->bits = std::move(*bits);
   impl->wall.pattern = TissuePattern::kSynovium;
   return impl;
 }
@@ -509,6 +518,8 @@ void ScopeRenderer::set_water(const ScopeWater& water) {
       now.plumes[now.plume_count++] = {plume.p_W, bounded(plume.radius_m, 1), taken_per_m};
   }
 }
+
+void ScopeRenderer::set_water_bits(std::span<const WaterBit> bits) { impl_->bits.set(bits); }
 
 void ScopeRenderer::set_white_balance(const WhiteBalance& white) {
   impl_->white = shown_white(white);

@@ -140,6 +140,71 @@ TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
   EXPECT_EQ(count_different(clear, drawn({std::nan(""), -1, -1}), 0), 0);
 }
 
+WaterBit bit_at(WaterBit::Is is, const Vec3& p_W, double radius_m) {
+  WaterBit bit;
+  bit.is = is;
+  bit.p_W = p_W;
+  bit.radius_m = radius_m;
+  return bit;
+}
+
+// Before a ball whose nearest point is 8 mm off: each is seen where it is projected and changes
+// nothing elsewhere; behind the ball, or of no size, nothing is seen of it.
+TEST_F(ScopePictures, BubblesAndFlakesAreSeenWhereTheyAre) {
+  const Case the_case = lone_ball(Vec3(0, 0, -0.012), 0.004);
+  const ScopeCamera camera(wide_scope(30, 0.6),
+                           {Vec3::Zero(), -Vec3::UnitZ(), Vec3::UnitY(), 3.14159});
+  ScopeRenderer renderer = make_scope(the_case);
+  const auto drawn = [&](const std::vector<WaterBit>& bits) {
+    renderer.set_water_bits(bits);
+    return renderer.draw_image(camera, 240, 240, RenderQuality::kFast);
+  };
+  const Image clear = drawn({});
+  for (const auto is : {WaterBit::Is::kBubble, WaterBit::Is::kFlake}) {
+    const Vec3 at = camera.X_WC() * Vec3(0.0012, -0.0008, -0.006);
+    const Image seen = drawn({bit_at(is, at, 0.0004)});
+    const auto middle = camera.project({0, 0, 240, 240}, at);
+    ASSERT_TRUE(middle);
+    int near = 0, far = 0;
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 240; ++x) {
+        if (std::abs(brightness(clear, x, y) - brightness(seen, x, y)) < 12) continue;
+        const bool is_near = std::hypot(x + 0.5 - middle->x, y + 0.5 - middle->y) < 16;
+        ++(is_near ? near : far);
+      }
+    EXPECT_GT(near, 40) << static_cast<int>(is);
+    EXPECT_EQ(far, 0) << static_cast<int>(is);
+    const double nan = std::nan("");
+    const Vec3 behind = Vec3(0, 0, -0.012);
+    for (const WaterBit& none :
+         {bit_at(is, behind, 0.0004), bit_at(is, Vec3(nan, 0, 0), 0.0004), bit_at(is, at, 0),
+          bit_at(is, at, nan), bit_at(is, camera.X_WC() * Vec3(0, 0, 0.003), 0.0004)})
+      EXPECT_EQ(count_different(clear, drawn({none}), 0), 0) << static_cast<int>(is);
+  }
+}
+
+// A window's picture that stands still is drawn anew for them.
+TEST_F(ScopePictures, WhatDriftsMakesAStillPictureNew) {
+  const Case the_case = lone_ball(Vec3(0, 0, -0.012), 0.004);
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  ScopeRenderer renderer = make_scope(the_case);
+  RenderTarget screen;
+  ASSERT_TRUE(screen.ensure(120, 120, 0));
+  const auto painted = [&] {
+    glBindFramebuffer(GL_FRAMEBUFFER, screen.framebuffer());
+    EXPECT_TRUE(renderer.paint(camera, 120));
+    renderer.show({0, 0, 120, 120});
+    std::vector<std::uint8_t> rgb(3 * 120 * 120);
+    glReadPixels(0, 0, 120, 120, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    return rgb;
+  };
+  std::vector<std::uint8_t> still;
+  for (int k = 0; k < 20; ++k) still = painted();
+  const std::vector<WaterBit> bits = {bit_at(WaterBit::Is::kFlake, Vec3(0, 0, -0.006), 0.0006)};
+  renderer.set_water_bits(bits);
+  EXPECT_NE(painted(), still);
+}
+
 TEST_F(ScopePictures, AWarmLightIsOrangeUntilTheCameraIsBalancedToIt) {
   const Case the_case = rows_of_balls();
   const ScopeCamera camera(wide_scope(0, 0.6), {});

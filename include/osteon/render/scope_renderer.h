@@ -11,6 +11,7 @@
 #include "osteon/render/prepare.h"
 #include "osteon/render/renderer.h"
 #include "osteon/render/scope_camera.h"
+#include "osteon/render/water_bit.h"
 #include "osteon/render/white_balance.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
@@ -70,6 +71,10 @@ class ScopeRenderer {
 
   /// Clear until it is told otherwise.
   void set_water(const ScopeWater& water);
+
+  /// Bubbles and loose tissue in the water, from now on; those given before are gone. At most
+  /// kMostWaterBits are seen.
+  void set_water_bits(std::span<const WaterBit> bits);
 
   /// Balanced to its own light until it is told otherwise.
   void set_white_balance(const WhiteBalance& white);

@@ -20,7 +20,9 @@ Result<void> ScopedCase::draw(const ScopeDef& scope, const ScopePose& pose, int 
   const auto wall = room_.wall(rest_snapshot(case_), pose.at_W);
   if (!wall) return tl::unexpected(wall.error());
   renderer_.set_wall(*wall);
-  const Image image = renderer_.draw_image(ScopeCamera(scope, pose), width, height);
+  const ScopeCamera camera(scope, pose);
+  if (strewn_) renderer_.set_water_bits(strewn_(camera, JointRoof(case_).with_wall(*wall)));
+  const Image image = renderer_.draw_image(camera, width, height);
   if (image.rgb.empty())
     return fail("the graphics driver has no memory for the picture", out.string(),
                 "Choose a smaller --size");

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "osteon/base/result.h"
 #include "osteon/physics/joint_fluid.h"
+#include "osteon/render/joint_roof.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
 
@@ -17,6 +21,9 @@ class ScopedCase {
   const Case& the_case() const { return case_; }
   void set_water(const ScopeWater& water) { renderer_.set_water(water); }
   void set_white_balance(const WhiteBalance& white) { renderer_.set_white_balance(white); }
+  /// What is in the water of each picture, by its camera and what closes the joint.
+  using Strewn = std::function<std::vector<WaterBit>(const ScopeCamera&, const JointRoof&)>;
+  void strew(Strewn strewn) { strewn_ = std::move(strewn); }
   /// Writes a PNG. Fails when the tip lies in bone.
   Result<void> draw(const ScopeDef& scope, const ScopePose& pose, int width, int height,
                     const std::filesystem::path& out);
@@ -27,6 +34,7 @@ class ScopedCase {
   Case case_;
   JointRoom room_;
   ScopeRenderer renderer_;
+  Strewn strewn_;
 };
 
 /// Which water a picture is taken through.

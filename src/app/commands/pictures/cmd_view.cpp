@@ -20,6 +20,7 @@
 #include "osteon/base/file.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/render/scope_sight.h"
+#include "water/water_drift.h"
 
 namespace osteon {
 namespace {
@@ -35,6 +36,7 @@ struct ViewCommand {
   std::optional<double> flexion_deg;
   bool list = false;
   WaterOrder water;
+  std::size_t bubbles = 0, flakes = 0;
 
   bool is_single() const { return !at_mm.empty() && !toward_mm.empty() && (list || !out.empty()); }
   bool is_standard() const { return !standard.empty() || (list && at_mm.empty()); }
@@ -76,6 +78,20 @@ Result<WhiteBalance> white_of(const ViewCommand& command) {
               "--white-balance");
 }
 
+/// About a place 15 mm before the lens.
+void strew(const ViewCommand& command, ScopedCase& scoped) {
+  constexpr double kBefore_m = 0.015;
+  if (command.bubbles + command.flakes == 0) return;
+  scoped.strew(
+      [bubbles = command.bubbles, flakes = command.flakes,
+       bones = rest_snapshot(scoped.the_case())](const ScopeCamera& camera, const JointRoof& roof) {
+        const auto above = [&](const Vec3& p_W, double most_m) {
+          return roof.distance(bones, p_W, Vec3::UnitZ(), most_m);
+        };
+        return strewn_bits(bubbles, flakes, camera.X_WC() * Vec3(0, 0, -kBefore_m), above);
+      });
+}
+
 void print_water(const ViewCommand& command, const WaterNow& water) {
   if (water.turbidity <= 0 && water.seen.fog <= 0) return;
   std::printf(
@@ -105,6 +121,7 @@ Result<void> draw_view(const ViewCommand& command) {
   if (!scoped) return tl::unexpected(scoped.error());
   scoped->set_water(water->seen);
   scoped->set_white_balance(*white);
+  strew(command, *scoped);
   if (auto ok = scoped->draw(*scope, *pose, size->width, size->height, command.out); !ok) return ok;
   print_water(command, *water);
   return {};
@@ -182,6 +199,7 @@ class StandardTour {
     scoped_.emplace(std::move(*scoped));
     scoped_->set_water(water->seen);
     scoped_->set_white_balance(*white);
+    strew(command_, *scoped_);
     print_water(command_, *water);
     return {};
   }
@@ -269,6 +287,13 @@ void add_water_options(cli::App& sub, ViewCommand& command) {
   sub.add_option("--turbidity", command.water.turbidity,
                  "share of the light that pale debris absorbs between the scope and tissue 10 mm "
                  "away, there and back, 0 to 1")
+      ->capture_default_str();
+  sub.add_option("--bubbles", command.bubbles,
+                 "bubbles of air that have risen to the roof near by, 0 to 60")
+      ->check(cli::Range(std::size_t{0}, std::size_t{60}))
+      ->capture_default_str();
+  sub.add_option("--flakes", command.flakes, "flakes of loose tissue in the water, 0 to 60")
+      ->check(cli::Range(std::size_t{0}, std::size_t{60}))
       ->capture_default_str();
   sub.add_option("--fog", command.water.fog, "share of the lens that is fogged, 0 to 1")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "cases/scoped_case.h"
 #include "osteon/base/file.h"
 #include "osteon/physics/soft_shape.h"
+#include "osteon/render/joint_roof.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
 #include "osteon/render/soft_surface.h"
@@ -15,6 +16,7 @@
 #include "runs/pictures/heat_picture.h"
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
+#include "water/water_drift.h"
 
 namespace osteon {
 namespace {
@@ -65,7 +67,9 @@ struct FilmPainter::Impl {
   std::optional<ScopeRenderer> scope;
   std::optional<FilmFluoro> fluoro;
   std::optional<JointRoom> room;
-  std::optional<Vec3> room_W;  ///< that its wall was shaped around
+  std::optional<JointRoof> roof;
+  std::optional<WaterDrift> drift;  ///< none: there is no joint with water
+  std::optional<Vec3> room_W;       ///< that its wall was shaped around
 
   bool uses(FilmView view) const { return order.view == view || order.view == FilmView::kLayout; }
   Result<void> open(const SessionSettings& settings, const Tray& tray);
@@ -83,6 +87,7 @@ struct FilmPainter::Impl {
   void show_carved();
   void show_softs(const SoftPushes& pushes);
   void flow(const FilmMoment& moment);
+  void drift_on(const FilmMoment& moment, const Vec3& tip_W);
   CarvedPicture carved{nullptr};
   std::optional<FluidJoint> joint;      ///< where a scope is drawn and the joint is filled
   std::optional<OtherPump> other_pump;  ///< none: the recorded one
@@ -118,6 +123,10 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
   scope->set_tray(tray);
   room.emplace(*the_case);
   joint = filled_joint(*the_case);
+  if (joint) {
+    roof.emplace(*the_case);
+    drift.emplace(*joint, tray);
+  }
   if (joint && order.water) other_pump.emplace(*joint, *order.water);
   return {};
 }
@@ -183,6 +192,7 @@ void FilmPainter::Impl::shape_room(const BoneSnapshot& bones, const Vec3& tip_W)
   const auto wall = room->wall(bones, tip_W);
   if (!wall) return;
   scope->set_wall(*wall);
+  if (roof) roof = roof->with_wall(*wall);
   room_W = tip_W;
 }
 
@@ -196,6 +206,15 @@ void FilmPainter::Impl::flow(const FilmMoment& moment) {
   scope->set_water(scope_water(*joint, moment.bones, &now));
 }
 
+void FilmPainter::Impl::drift_on(const FilmMoment& moment, const Vec3& tip_W) {
+  if (!drift) return;
+  drift->go_to(moment.time_s, tools(moment), moment.bones, tip_W,
+               [&](const Vec3& p_W, double most_m) {
+                 return roof->distance(moment.bones, p_W, Vec3::UnitZ(), most_m);
+               });
+  scope->set_water_bits(drift->bits());
+}
+
 Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int width, int height) {
   flow(moment);
   const auto hand = first_looking(lenses, tools(moment));
@@ -206,6 +225,7 @@ Result<Image> FilmPainter::Impl::through_scope(const FilmMoment& moment, int wid
   const Pose& X_WT = moment.tools[*hand].X_WP;
   scope->set_scene(moment.bones, others);
   shape_room(moment.bones, X_WT.p);
+  drift_on(moment, X_WT.p);
   const ScopeCamera camera(*lens_of_tool(lenses, moment.tools[*hand]), scope_pose(X_WT));
   Image image = scope->draw_image(camera, width, height, RenderQuality::kFast);
   if (image.rgb.empty()) return no_memory();

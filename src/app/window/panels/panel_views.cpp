@@ -196,7 +196,9 @@ void read_layout_keys(const PanelContext& c) {
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
   for (std::size_t k = 0; k < kLayouts.size(); ++k)
     if (pressed(kF5 + static_cast<int>(k))) c.requests.views.layout = kLayouts[k];
-  if (pressed('V')) c.requests.views.layout = next_layout(c.model.views.layout);
+  // V runs the motor of an instrument in hand.
+  if (pressed('V') && !c.model.hand.probe_in_hand)
+    c.requests.views.layout = next_layout(c.model.views.layout);
   if (pressed(kF5 - 2)) c.requests.views.toggle_observer = true;
   if (pressed(kF5 - 1)) c.requests.views.toggle_film = true;
   if (pressed('C') && c.model.views.scope_camera) c.requests.views.keep_still = true;

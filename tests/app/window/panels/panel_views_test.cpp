@@ -30,6 +30,9 @@ TEST(PanelViews, KeysChooseWhatThePictureShows) {
   EXPECT_FALSE(ui.press_key('B').views.shoot) << "one is being made";
   ui.model.views.can_shoot = true;
   EXPECT_TRUE(ui.press_key('B').views.shoot);
+  ui.model.hand.probe_in_hand = true;
+  EXPECT_FALSE(ui.press_key('V').views.layout) << "it runs the motor";
+  ui.model.hand.probe_in_hand = false;
   ui.model.phase = UiPhase::kLoading;
   EXPECT_FALSE(ui.press_key('V').views.layout);
 }

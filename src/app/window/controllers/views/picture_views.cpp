@@ -37,6 +37,8 @@ void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& m
   scope_.reset();
   scope_failed_ = false;
   room_.reset();
+  roof_.reset();
+  drift_.reset();
   wall_at_W_.reset();
   wall_known_ = wall_empty_ = false;
   panorama_view_.reset();
@@ -49,6 +51,8 @@ Result<void> PictureViews::set_tray(const std::vector<std::string>& names, const
                                     std::span<const Instrument> instruments) {
   fluoro_.reset();
   tray_ = tools;
+  drift_.reset();
+  if (joint_) drift_.emplace(*joint_, tools);
   lenses_.clear();
   auto found = instruments.empty() ? lenses_of(names) : lenses_of(names, instruments);
   if (!found) return tl::unexpected(found.error());
@@ -61,9 +65,23 @@ Result<void> PictureViews::set_moment(const FilmMoment& moment) {
   scope_painted_ = false;
   if (scope_) scope_->set_water(joint_ ? scope_water(*joint_, moment_.bones) : ScopeWater());
   poll_wall();
+  drift();
   if (auto shot = poll_shot(); !shot) failure_ = shot.error();
   if (!failure_) return {};
   return tl::unexpected(*std::exchange(failure_, {}));
+}
+
+// Before the joint's shape is known nothing rises in it.
+void PictureViews::drift() {
+  if (!drift_ || !scope_) return;
+  const auto hand = looking();
+  const auto roof = [this](const Vec3& p_W, double most_m) -> std::optional<double> {
+    if (!roof_) return std::nullopt;
+    return roof_->distance(moment_.bones, p_W, Vec3::UnitZ(), most_m);
+  };
+  drift_->go_to(moment_.time_s, tools_of(moment_), moment_.bones,
+                hand ? std::optional(moment_.tools[*hand].X_WP.p) : std::nullopt, roof);
+  scope_->set_water_bits(drift_->bits());
 }
 
 std::optional<std::size_t> PictureViews::looking() const {
@@ -119,12 +137,15 @@ void PictureViews::ask_for_wall(const Vec3& tip_W) {
   if (wall_job_) return;
   if (wall_at_W_ && (tip_W - *wall_at_W_).norm() < kWallMoves_m) return;
   wall_at_W_ = tip_W;
-  wall_job_ = std::make_unique<SideJob<Wall>>(
-      [room = room_, the_case = case_, bones = moment_.bones, tip_W](const Progress&) {
-        Wall wall{room ? room : std::make_shared<const JointRoom>(*the_case), {}};
-        if (auto made = wall.room->wall(bones, tip_W)) wall.mesh = std::move(*made);
-        return Result<Wall>(std::move(wall));
-      });
+  wall_job_ = std::make_unique<SideJob<Wall>>([room = room_, roof = roof_, the_case = case_,
+                                               bones = moment_.bones, tip_W](const Progress&) {
+    Wall wall{room ? room : std::make_shared<const JointRoom>(*the_case), roof, {}};
+    if (auto made = wall.room->wall(bones, tip_W)) wall.mesh = std::move(*made);
+    if (!wall.mesh) return Result<Wall>(std::move(wall));
+    const JointRoof parts = roof ? *roof : JointRoof(*the_case);
+    wall.roof = std::make_shared<const JointRoof>(parts.with_wall(*wall.mesh));
+    return Result<Wall>(std::move(wall));
+  });
 }
 
 // Where the tip stands in bone for a moment, the wall stays as it was.
@@ -137,6 +158,7 @@ void PictureViews::poll_wall() {
     return;
   }
   room_ = std::move(wall->room);
+  roof_ = std::move(wall->roof);
   if (!wall->mesh || !scope_) return;
   wall_known_ = true;
   wall_empty_ = wall->mesh->triangles.empty();

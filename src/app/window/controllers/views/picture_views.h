@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "osteon/render/joint_roof.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
 #include "runs/pictures/film_fluoro.h"
@@ -13,6 +14,7 @@
 #include "runs/pictures/scope_lens.h"
 #include "ui/side_job.h"
 #include "water/scope_water.h"
+#include "water/water_drift.h"
 #include "window/controllers/cases/shown_image.h"
 #include "window/views_model.h"
 
@@ -75,12 +77,14 @@ class PictureViews {
   std::vector<GhostTool> ghosts_through_scope() const;
   struct Wall {
     std::shared_ptr<const JointRoom> room;
+    std::shared_ptr<const JointRoof> roof;
     std::optional<TriMesh> mesh;  ///< none: the tip lies in bone
   };
   Result<void> ensure_scope();
   void set_scope_scene(std::size_t hand);
   void ask_for_wall(const Vec3& tip_W);
   void poll_wall();
+  void drift();
   Result<void> poll_shot();
   /// A view of the scene with what it shows beside it.
   struct Panorama {
@@ -96,6 +100,7 @@ class PictureViews {
   std::optional<ScopeRenderer> scope_;
   bool scope_failed_ = false;
   std::optional<FluidJoint> joint_;
+  std::optional<WaterDrift> drift_;  ///< none: there is no joint with water
   Lenses lenses_;
   Tray tray_;
   FilmMoment moment_;
@@ -104,6 +109,7 @@ class PictureViews {
   WhiteBalance white_;
 
   std::shared_ptr<const JointRoom> room_;
+  std::shared_ptr<const JointRoof> roof_;
   std::unique_ptr<SideJob<Wall>> wall_job_;
   std::optional<Vec3> wall_at_W_;  ///< that the newest wall was asked for
   bool wall_known_ = false, wall_empty_ = false;
