@@ -1,9 +1,9 @@
 find_package(tomlplusplus REQUIRED)
 osteon_link_system(osteon_tissue tomlplusplus::tomlplusplus)
 
-# The loops over rows of cubes and along rods, once for each width of registers; a debug build gets
+# The loops over rows of cubes, along rods and over tetrahedra, once for each width of registers; a debug build gets
 # the same bits, only sooner.
-set(rows hex/hex_row rod/rod_rows)
+set(rows hex/hex_row rod/rod_rows tet/tet_rows)
 set(widths base)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND widths avx2 avx512)

@@ -22,33 +22,6 @@ hex::Deformation<double> deformed(const TetSolid& solid, const TetElement& e,
                              h(2, 2));
 }
 
-// First Piola-Kirchhoff stress.
-Mat3 stress_of(const hex::Deformation<double>& d, const SolidMaterial& material) {
-  const auto by =
-      hex::neo_hookean<double>(d, shear_modulus_pa(material), bulk_modulus_pa(material));
-  Mat3 f, cof;
-  f << d.fxx, d.fxy, d.fxz, d.fyx, d.fyy, d.fyz, d.fzx, d.fzy, d.fzz;
-  cof << d.cxx, d.cxy, d.cxz, d.cyx, d.cyy, d.cyz, d.czx, d.czy, d.czz;
-  return by.f * f + by.cof * cof;
-}
-
-void add_neo_hookean(const TetSolid& solid, const SolidState& state, std::vector<Vec3>& force) {
-  const TetPoints& points = points_of(solid.order);
-  for (const TetElement& e : solid.elements) {
-    const NodeVectors u = moved_of(solid, e, state);
-    NodeVectors f;
-    f.fill(Vec3::Zero());
-    const double volume = e.volume_m3 / static_cast<double>(points.count);
-    for (std::size_t q = 0; q < points.count; ++q) {
-      const Mat3 p = stress_of(deformed(solid, e, points.at[q], u), solid.material);
-      CornerVectors w;
-      for (std::size_t k = 0; k < 4; ++k) w[k] = -volume * (p * e.slope[k]);
-      add_to_nodes(solid.order, points.at[q], w, f);
-    }
-    for (std::size_t a = 0; a < solid.nodes_an_element(); ++a) force[e.node[a]] += f[a];
-  }
-}
-
 void all_forces(const TetSolid& solid, const Supports& supports, double time_s,
                 const SolidState& state, TetScratch& scratch) {
   scratch.force_n.resize(solid.rest_W.size());
@@ -56,7 +29,11 @@ void all_forces(const TetSolid& solid, const Supports& supports, double time_s,
     scratch.force_n[i] = solid.mass_kg[i] * supports.gravity_m_per_s2;
   for (const NodeLoad& load : supports.loads)
     scratch.force_n[load.slot] += smooth_ramp(time_s, load.over_s).share * load.force_n;
-  add_neo_hookean(solid, state, scratch.force_n);
+  if (!scratch.points) scratch.points.emplace(solid);
+  scratch.moved_m.resize(scratch.force_n.size());
+  for (std::size_t i = 0; i < scratch.moved_m.size(); ++i)
+    scratch.moved_m[i] = state.moved(static_cast<std::uint32_t>(i));
+  scratch.points->add_neo_hookean(scratch.moved_m, scratch.rows, scratch.force_n);
 }
 
 double quickest_swing(const TetSolid& solid) {

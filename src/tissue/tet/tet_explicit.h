@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "osteon/tissue/tet_solid.h"
+#include "tet/tet_points.h"
 
 namespace osteon {
 
@@ -13,9 +17,12 @@ namespace osteon {
 /// swing at rest, which is found by power iteration.
 double stable_explicit_step_s(const TetSolid& solid);
 
-/// Memory that a step works in.
+/// What a step works in: memory, and the solid's points as rows, made by the first step. For one
+/// solid.
 struct TetScratch {
-  std::vector<Vec3> force_n;
+  std::vector<Vec3> force_n, moved_m;
+  std::optional<TetPointRows> points;
+  TetPointScratch rows;
 };
 
 void explicit_step(const TetSolid& solid, const Supports& supports, double step_s,

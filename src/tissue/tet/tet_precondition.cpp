@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tet/tet_element.h"
+#include "tet/tet_factor.h"
 
 namespace osteon {
 namespace {
@@ -103,7 +104,7 @@ struct TetPreconditioner::Impl {
   std::size_t corners;
   std::vector<std::array<std::uint32_t, 2>> ends;
   std::vector<Mat3> inverse_blocks;  // quadratic elements only
-  Factor factor;
+  TetFactor factor;
 };
 
 TetPreconditioner::TetPreconditioner(const TetSolid& solid, const AxisMask& held,
@@ -148,7 +149,8 @@ std::vector<Vec3> TetPreconditioner::solve(const std::vector<Vec3>& r,
     hold(at, m.held[i]);
     coarse.segment<3>(static_cast<Eigen::Index>(3 * i)) = at;
   }
-  const Eigen::VectorXd x = m.factor.solve(coarse);
+  m.factor.solve(coarse);
+  const Eigen::VectorXd& x = coarse;
   std::vector<Vec3> z(r.size());
   for (std::size_t i = 0; i < m.corners; ++i) z[i] = x.segment<3>(static_cast<Eigen::Index>(3 * i));
   for (std::size_t e = 0; e < m.ends.size(); ++e)
@@ -159,26 +161,6 @@ std::vector<Vec3> TetPreconditioner::solve(const std::vector<Vec3>& r,
     z[i] = turned[i] * z[i];
   }
   return z;
-}
-
-std::vector<Mat3> node_rotations(const TetSolid& solid, const std::vector<Mat3>& turned,
-                                 const AxisMask& held) {
-  std::vector<Mat3> out(solid.rest_W.size(), Mat3::Identity());
-  if (!solid.corotated) return out;
-  for (Mat3& r : out) r.setZero();
-  for (std::size_t i = 0; i < solid.elements.size(); ++i) {
-    const TetElement& e = solid.elements[i];
-    const std::size_t points = turned.size() / solid.elements.size();
-    Mat3 sum = Mat3::Zero();
-    for (std::size_t q = 0; q < points; ++q) sum += e.volume_m3 * turned[i * points + q];
-    for (std::size_t a = 0; a < solid.nodes_an_element(); ++a) out[e.node[a]] += sum;
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const bool any = held[i][0] || held[i][1] || held[i][2];
-    out[i] = any ? Mat3(Mat3::Identity())
-                 : rotation_of(out[i] / std::cbrt(std::max(out[i].determinant(), 1e-300)));
-  }
-  return out;
 }
 
 double slowest_swing(const TetSolid& solid, const AxisMask& held, double step_s) {

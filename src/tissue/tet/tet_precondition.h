@@ -29,11 +29,6 @@ class TetPreconditioner {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Mean rotation of the elements about each node, weighted by volume; the identity where an axis is
-/// held.
-std::vector<Mat3> node_rotations(const TetSolid& solid, const std::vector<Mat3>& turned,
-                                 const AxisMask& held);
-
 /// The slowest swing of a body, rad/s, on its corners alone (so somewhat too quick), by inverse
 /// iteration with the matrix of a step of this weight; 0 for a body that can move freely.
 double slowest_swing(const TetSolid& solid, const AxisMask& held, double step_s);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tet/tet_element.h"
+#include "tet/tet_points.h"
 #include "tet/tet_precondition.h"
 
 namespace osteon {
@@ -74,6 +75,7 @@ struct TetStepper::Impl {
   AxisMask held;
   StepWeights weights;
   TetPreconditioner preconditioner;
+  TetPointRows points;
   double rounding_n;
 
   Impl(TetSolid s, Supports p, double step_s)
@@ -83,11 +85,13 @@ struct TetStepper::Impl {
         held(mask_of(solid, supports)),
         weights(weights_for(solid.material, dt)),
         preconditioner(solid, held, weights),
+        points(solid),
         rounding_n(rounding_force_n(solid)) {}
 
   Vectors outer_forces(double time_s) const;
   void release(Vectors& v) const;  // held axes to zero
-  bool solve(const std::vector<Mat3>& turned, const Vectors& r, double goal, Vectors& x) const;
+  std::vector<Mat3> node_rotations(const TetPointScratch& scratch) const;
+  bool solve(TetPointScratch& scratch, const Vectors& r, double goal, Vectors& x) const;
   void drive(double time_s, Vectors& u, Vectors& v, Vectors& a) const;
   Vectors start_acceleration(const SolidState& state) const;
 };
@@ -113,28 +117,35 @@ void TetStepper::Impl::drive(double time_s, Vectors& u, Vectors& v, Vectors& a) 
   }
 }
 
+// The identity where an axis is held.
+std::vector<Mat3> TetStepper::Impl::node_rotations(const TetPointScratch& scratch) const {
+  std::vector<Mat3> out = points.node_rotations(scratch);
+  for (const HeldAxis& h : supports.held) out[h.slot] = Mat3::Identity();
+  return out;
+}
+
 // Conjugate gradients for A x = r from x = 0, until the residual is below `goal`. A is symmetric
 // and positive on the free axes, so each round lowers the error in its norm.
-bool TetStepper::Impl::solve(const std::vector<Mat3>& turned, const Vectors& r0, double goal,
+bool TetStepper::Impl::solve(TetPointScratch& scratch, const Vectors& r0, double goal,
                              Vectors& x) const {
   constexpr int kMostRounds = 400;
-  const std::vector<Mat3> nodes = node_rotations(solid, turned, held);
+  const std::vector<Mat3> nodes = node_rotations(scratch);
   x.assign(r0.size(), Vec3::Zero());
-  Vectors r = r0, z = preconditioner.solve(r, nodes), p = z, ap(r.size());
-  double rz = dot(r, z);
-  for (int n = 0; n < kMostRounds; ++n) {
+  Vectors r = r0, p(r.size(), Vec3::Zero()), ap(r.size());
+  double before = 0;
+  for (int n = 0; n <= kMostRounds; ++n) {
     if (std::sqrt(dot(r, r)) <= goal) return true;
+    const Vectors z = preconditioner.solve(r, nodes);
+    const double rz = dot(r, z), keep = n > 0 ? rz / before : 0;
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + keep * p[i];
     for (std::size_t i = 0; i < p.size(); ++i) ap[i] = weights.mass * solid.mass_kg[i] * p[i];
-    add_stiffness(solid, turned, p, weights.stiffness, ap);
+    points.add_stiffness(p, weights.stiffness, scratch, ap);
     release(ap);
     const double pap = dot(p, ap);
     if (!(pap > 0)) return false;
     add(x, rz / pap, p);
     add(r, -rz / pap, ap);
-    z = preconditioner.solve(r, nodes);
-    const double next = dot(r, z);
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + (next / rz) * p[i];
-    rz = next;
+    before = rz;
   }
   return false;
 }
@@ -173,6 +184,7 @@ bool TetStepper::step(SolidState& state) const {
       state.tick == 0 ? m.start_acceleration(state) : to_vectors(state.acceleration_m_per_s2);
   const Vectors outer = m.outer_forces(then_s - kAlphaF * dt);
   Vectors a1 = a, u1 = u, v1 = v, between = u;
+  TetPointScratch scratch;
   bool balanced = false;
   for (int n = 0; n < kMostRounds && !balanced; ++n) {
     for (std::size_t i = 0; i < u.size(); ++i) {
@@ -181,10 +193,9 @@ bool TetStepper::step(SolidState& state) const {
     }
     m.drive(then_s, u1, v1, a1);
     for (std::size_t i = 0; i < u.size(); ++i) between[i] = (1 - kAlphaF) * u1[i] + kAlphaF * u[i];
-    const SolidState::Field moved = to_field(between);
-    const std::vector<Mat3> turned = rotations(m.solid, moved);
+    m.points.rotate(between, scratch);
     Vectors elastic(u.size(), Vec3::Zero());
-    add_elastic(m.solid, moved, turned, 1, elastic);
+    m.points.add_elastic(between, scratch, elastic);
     Vectors left(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) {
       const Vec3 pace = (1 - kAlphaF) * v1[i] + kAlphaF * v[i];
@@ -204,7 +215,7 @@ bool TetStepper::step(SolidState& state) const {
     Vectors change;
     const double goal =
         m.solid.corotated ? std::max(0.5 * kBalance * size, 1e-3 * over) : 0.5 * kBalance * size;
-    if (!m.solve(turned, left, goal, change)) return false;
+    if (!m.solve(scratch, left, goal, change)) return false;
     add(a1, 1, change);
   }
   if (!balanced) return false;
