@@ -80,11 +80,13 @@ void read_tools(TableReader& reader, const toml::table& root, DrillTable& table)
   table.rubbing = reader.number(drill, "rubbing", 0, 10);
   table.blunt_factor = reader.number(drill, "blunt_factor", 1, 1e3);
   const toml::table& reamer = reader.part(root, "reamer");
-  reader.allow_only(reamer, {"teeth", "chatter_depth_m", "chatter_gain", "chatter_most_m"});
+  reader.allow_only(
+      reamer, {"teeth", "chatter_depth_m", "chatter_gain", "chatter_most_m", "chatter_most_n"});
   table.reamer_teeth = reader.number(reamer, "teeth", 1, 100);
   table.chatter_depth_m = reader.number(reamer, "chatter_depth_m", 0, 0.1);
   table.chatter_gain = reader.number(reamer, "chatter_gain", 0, 10);
   table.chatter_most_m = reader.number(reamer, "chatter_most_m", 0, 0.01);
+  table.chatter_most_n = reader.number(reamer, "chatter_most_n", 0, 10);
 }
 
 void read_heat(TableReader& reader, const toml::table& root, DrillTable& table) {

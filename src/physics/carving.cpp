@@ -19,8 +19,11 @@ bool needs_power(Way way) { return way == Way::kDrill || way == Way::kBurr; }
 
 }  // namespace
 
-Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands)
-    : setup_(std::move(setup)), count_(std::min(hands, kMaxHands)) {
+Carving::Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands,
+                 double coupling_n_per_m)
+    : setup_(std::move(setup)),
+      count_(std::min(hands, kMaxHands)),
+      most_shaken_m_(setup_->table.chatter_most_n / coupling_n_per_m) {
   for (const auto& bone : setup_->bones) {
     bones_.emplace_back();
     if (!bone) continue;

@@ -294,13 +294,21 @@ void Carving::follow_aimer(std::size_t hand, const AimingTool& with, const ToolS
   }
 }
 
-// How far the wave that the teeth meet stands out now. Beyond what so many steps a second can tell
-// nothing is felt of it; it is still told.
+// How far the wave that the teeth meet stands out for the hand now: it presses the teeth together,
+// and no hand holds them to a wave harder than the table says. Beyond what so many steps a second
+// can tell nothing is felt of it; it is still told.
 double Carving::shaken_m(const CarvingHand& h) const {
   constexpr double kMostFelt_hz = 100;
   if (!(h.chatter.amplitude_m > 0) || h.chatter.frequency_hz > kMostFelt_hz) return 0;
   const double teeth = setup_->table.reamer_teeth * h.drill.turned_rev;
-  return h.chatter.amplitude_m * std::sin(2 * std::numbers::pi * (teeth - std::floor(teeth)));
+  const double felt_m = std::min(h.chatter.amplitude_m, most_shaken_m_);
+  return felt_m * std::sin(2 * std::numbers::pi * (teeth - std::floor(teeth)));
+}
+
+// Of the hole that a drill makes: it goes on smoothly with the drill's feed. Bone goes in bites,
+// and an end that went with them would strike a loose hand once a bite.
+Vec3 Carving::end_of(const CarvingHand& h) const {
+  return h.X_BC.p - std::max(0.0, h.due_m - h.lag_m) * back_of(h.X_BC);
 }
 
 void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
@@ -320,7 +328,7 @@ void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapsho
   const bool on_its_pin = rod && rod->kind == GuideRod::Kind::kPin && with && with->stays;
   out.in_hole = (h.in_hole || on_its_pin) && h.bone == out.bone;
   out.stops = out.in_hole;
-  out.stop_m = out.nhat_B.dot(h.X_BC.p - out.p_B) - CarvingSetup::kSlack_m + shaken_m(h);
+  out.stop_m = out.nhat_B.dot(end_of(h) - out.p_B) - CarvingSetup::kSlack_m + shaken_m(h);
   if (!rod) return;
   const Pose X_BT = bones.bones[rod->bone].X_WB.inverse() * tool.X_WP;
   out.give_m_per_n = give_of(*rod, beside(*rod, X_BT).along_m);

@@ -25,6 +25,7 @@ WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings
     : the_case_(the_case),
       world_(the_case, physics_of(settings)),
       step_s_(settings.physics.step_s),
+      coupling_n_per_m_(settings.haptic.stiffness_n_per_m),
       keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {
   auto rings = std::make_unique<LooseRings>(std::move(the_case), step_s_);
   if (rings->count() > 0) rings_ = std::move(rings);
@@ -39,7 +40,7 @@ void WorldHalf::place_rings() {
 void WorldHalf::set_carving(std::shared_ptr<const CarvingSetup> setup,
                             std::vector<FeltCuts*> hands) {
   feed_ = std::make_unique<CutsFeed>(*setup, filled_joint(*the_case_));
-  carving_ = std::make_unique<Carving>(std::move(setup), hands.size());
+  carving_ = std::make_unique<Carving>(std::move(setup), hands.size(), coupling_n_per_m_);
   felt_ = std::move(hands);
 }
 

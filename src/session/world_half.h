@@ -91,6 +91,7 @@ class alignas(64) WorldHalf {
   std::vector<FeltCuts*> felt_;  ///< of the hands
   bool all_changed_ = false;     ///< bones came back from a restore point in this step
   double step_s_;
+  double coupling_n_per_m_;
   std::uint64_t keep_every_;  ///< steps
   std::array<WorldMark, kMaxMarks> marks_{};
   std::array<std::uint64_t, kMaxMarks> mark_hashes_{};

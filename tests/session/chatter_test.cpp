@@ -49,7 +49,7 @@ Drilling reaming(double size_mm, double cortex_m = 0.02) {
 // With a canal through the plate's middle as if a reamer of that size had made it.
 Session with_canal(const Drilling& with, double canal_mm) {
   Session session = with.session();
-  Carving carving(with.setup, 1);
+  Carving carving(with.setup, 1, with.settings.haptic.stiffness_n_per_m);
   CarvedField field = *carving.field(0);
   const auto reamer = make_cutter("reamer", 1e-3 * canal_mm);
   EXPECT_TRUE(reamer);
@@ -153,6 +153,38 @@ TEST(Chatter, IsFeltAtTheTeethsFrequency) {
   (void)none;
 }
 
+// A stiff coupling makes a large force of the teeth's wave: no more of it is felt than the table
+// says. The hand presses with 2 N and follows the reamer too slowly to swing with it.
+TEST(Chatter, NoMoreOfItIsFeltThanTheTableSays) {
+  constexpr double kStiffness = 2000;
+  const auto felt = [](double most_n) {
+    Drilling with = reaming(12);
+    with.settings.haptic.stiffness_n_per_m = kStiffness;
+    with.with([&](CarvingSetup& setup) { setup.table.chatter_most_n = most_n; });
+    Session session = with_canal(with, 8.5);
+    std::vector<double> force_n;
+    double slow_z = kTopHere_m + 0.002;
+    for (int n = 1; n <= 2400; ++n) {
+      const double z = session.tool_state().X_WP.p.z();
+      slow_z = n < 400 ? kTopHere_m + 0.002 - 1e-5 * n : slow_z + 0.01 * (z - slow_z);
+      HandInput hand;
+      hand.input.X_WD.p = {0, 0, n < 400 ? slow_z : slow_z - 2 / kStiffness};
+      if (n == 2) hand.command = {CommandKind::kPower, 1};
+      (void)session.tick(std::span(&hand, 1));
+      force_n.push_back(session.tool_state().force_W.z());
+    }
+    const double amplitude_m = session.save().world.carved->hands[0].chatter.amplitude_m;
+    return std::pair(swing_at(force_n, 1800, kTeethAtFull_hz), kStiffness * amplitude_m);
+  };
+  ASSERT_EQ(reaming(12).setup->table.chatter_most_n, 0.3);
+  const auto [whole, of_wave] = felt(0.3);
+  EXPECT_LT(of_wave, 0.3);
+  EXPECT_NEAR(whole, of_wave, 0.1 * of_wave);
+  const auto [bounded, beyond] = felt(0.06);
+  EXPECT_GT(beyond, 0.06);
+  EXPECT_NEAR(bounded, 0.06, 0.1 * 0.06);
+}
+
 TEST(Chatter, AStateOnTheWayGivesTheSameBitsAndPulledBackItEnds) {
   const Drilling with = reaming(11);
   Session session = with_canal(with, 8.5);
@@ -199,7 +231,7 @@ TEST(Reaming, AWideReamerCutsFromItsFirstTenths) {
     const double gone_mm3 = 1e9 * total(removed_volume(field));
     const auto reamer = make_cutter("reamer", 1e-3 * size_mm);
     ASSERT_TRUE(reamer);
-    Carving whole(with.setup, 1);
+    Carving whole(with.setup, 1, with.settings.haptic.stiffness_n_per_m);
     CarvedField sunk = *whole.field(0);
     (void)sunk.cut(*reamer, {Vec3(0, 0, kTopHere_m - deep), Quat::Identity()});
     const double front_mm3 = 1e9 * total(removed_volume(sunk));

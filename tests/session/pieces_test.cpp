@@ -17,7 +17,7 @@ using testing::kTop_m;
 // The block of 10 x 10 x 8 mm is sawn through with a burr of 1 mm at that height, as if it had been
 // done before.
 std::shared_ptr<CarvingState> sawn_through(const Drilling& with, double z_m) {
-  Carving carving(with.setup, 1);
+  Carving carving(with.setup, 1, with.settings.haptic.stiffness_n_per_m);
   CarvedField field = *carving.field(0);
   const auto burr = make_cutter("burr", 0.001);
   EXPECT_TRUE(burr);
@@ -161,7 +161,7 @@ TEST(CarvedPieces, ABoneLosesTheMassOfWhatIsGone) {
   Session session = with.session();
   put_carved(session, sawn_through(with, 0.0005));
   rest_above(session, 300);
-  Carving carving(with.setup, 1);
+  Carving carving(with.setup, 1, with.settings.haptic.stiffness_n_per_m);
   EXPECT_EQ(carving.loss(0, 0.01).mass_kg, 0);
   carving.restore(*session.save().world.carved);
   const BoneLoss loss = carving.loss(0, 0.01);

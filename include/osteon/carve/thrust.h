@@ -34,6 +34,7 @@ struct DrillTable {
   HeatMaterial heat;
   Irrigation water;
   double reamer_teeth = 0, chatter_depth_m = 0, chatter_gain = 0, chatter_most_m = 0;
+  double chatter_most_n = 0;  ///< of the hand, by which its wave is felt
 
   /// Null when no material has this name.
   const DrillMaterial* find(std::string_view name) const;

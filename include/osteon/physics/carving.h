@@ -169,7 +169,8 @@ struct CarvingReadout {
 /// specific energy and its cross-section, and where the push alone is more than both.
 class Carving {
  public:
-  Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands);
+  /// `coupling_n_per_m`: between what is felt and the hand, above 0.
+  Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands, double coupling_n_per_m);
 
   /// `bones`: where they are while the tools touch them.
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones, double step_s);
@@ -273,6 +274,7 @@ class Carving {
   void come_back(std::size_t hand, const CarvingTool& with, const ToolState& tool,
                  const BoneSnapshot& bones);
   double shaken_m(const CarvingHand& h) const;
+  Vec3 end_of(const CarvingHand& h) const;
   void publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
   void run_free(CarvingHand& h, const CarvingTool& with, const Pose& X_BT);
   GuideRod* free_rod();
@@ -287,7 +289,8 @@ class Carving {
 
   std::shared_ptr<const CarvingSetup> setup_;
   std::vector<Bone> bones_;
-  std::size_t count_;  ///< of hands
+  std::size_t count_;         ///< of hands
+  double most_shaken_m_ = 0;  ///< of the teeth's wave, for a hand
   std::array<CarvingHand, kMaxHands> hands_{};
   std::array<CarvingReadout, kMaxHands> readouts_{};
   std::array<ToolGuide, kMaxHands> guides_{};
