@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "osteon/collide/field_contact.h"
@@ -50,29 +51,12 @@ class SurfaceOfRod {
   }
 
   // The half ball about an end of the axis; `inward` is the unit vector to the other end. First a
-  // ring halfway down, then up and down from its lowest place.
+  // ring halfway down, then on by the slope of its lowest place, or up and down from there.
   void look_over_end(const Vec3& x, const Vec3& inward) {
-    const std::array<Vec3, 2> side = both_across(inward);
-    const auto place = [&](int k, double share) {
-      const double angle = 0.5 * std::numbers::pi * share;
-      return look(x, std::cos(angle) * inward + std::sin(angle) * turned(side[0], side[1], k));
-    };
-    int k_best = 0;
-    Touch lowest = place(0, 0.5);
-    for (int k = 1; k < kRound; ++k)
-      if (const Touch there = place(k, 0.5); there.gap < lowest.gap) {
-        lowest = there;
-        k_best = k;
-      }
-    double at = 0.5;
-    for (double step = 0.25; step > 0.02; step *= 0.5)
-      for (const double way : {-step, step})
-        if (const Touch there = place(k_best, at + way); there.gap < lowest.gap) {
-          lowest = there;
-          at += way;
-          break;
-        }
-    take(lowest);
+    const Vec3 side = lowest_side(x, inward);
+    const Touch halfway = look(x, tilted(inward, side, 0.5));
+    take(halfway);
+    if (!settles(x, halfway)) look_up_and_down(x, inward, side, halfway.gap);
     follow_slope();
   }
 
@@ -111,6 +95,50 @@ class SurfaceOfRod {
     return size > kAcross ? Vec3(across / size) : n;
   }
 
+  // Of the directions about `inward` the one in which a ring halfway down is lowest.
+  Vec3 lowest_side(const Vec3& x, const Vec3& inward) const {
+    const auto [e, f] = both_across(inward);
+    int lowest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kRound; ++k) {
+      const double gap = field_.at(x - rod_.radius * tilted(inward, turned(e, f, k), 0.5)).distance;
+      if (!(gap < least)) continue;
+      least = gap;
+      lowest = k;
+    }
+    return turned(e, f, lowest);
+  }
+
+  // Whether the place that the slope points at is nearest to one wall: there its slope points at
+  // the same place again. At a rim it does not.
+  bool settles(const Vec3& x, const Touch& from) {
+    constexpr double kSame = 0.999;
+    const double slope = from.slope.norm();
+    if (!(slope > kOneWall)) return false;
+    const Touch there = look(x, from.slope / slope);
+    const double size = there.slope.norm();
+    take(there);
+    return there.gap <= from.gap && size > kOneWall && there.slope.dot(there.n) > kSame * size;
+  }
+
+  void look_up_and_down(const Vec3& x, const Vec3& inward, const Vec3& side, double least) {
+    double at = 0.5;
+    for (double step = 0.25; step > 0.02; step *= 0.5)
+      for (const double way : {-step, step}) {
+        const Touch there = look(x, tilted(inward, side, at + way));
+        if (!(there.gap < least)) continue;
+        least = there.gap;
+        at += way;
+        take(there);
+        break;
+      }
+  }
+
+  // `share` of a right angle from `inward` to `side`.
+  static Vec3 tilted(const Vec3& inward, const Vec3& side, double share) {
+    const double angle = 0.5 * std::numbers::pi * share;
+    return std::cos(angle) * inward + std::sin(angle) * side;
+  }
   static Vec3 turned(const Vec3& e, const Vec3& f, int k) {
     const double angle = 2 * std::numbers::pi * k / kRound;
     return std::cos(angle) * e + std::sin(angle) * f;
@@ -136,17 +164,18 @@ class SurfaceOfRod {
 }  // namespace
 
 CapsuleContact carved_contact(const FieldView& coarse, const FieldView& fine, const Capsule& rod_A,
-                              double far_m) {
+                              double far_m, double low_m) {
   const CapsuleContact found = field_contact(coarse, rod_A, far_m);
   if (found.status != LpStatus::kOptimal || !(found.gap < far_m)) return found;
   SurfaceOfRod surface(fine, rod_A);
   if (!surface.start(found.p_axis_A, found.nhat_AB_A)) return found;
-  if (found.gap > kClose) return surface.contact();
+  if (found.gap > kClose || surface.gap() < low_m) return surface.contact();
   if (fine.at(found.p_axis_A).gradient.norm() < kOneWall) surface.look_round(found.p_axis_A);
   const Vec3 along = rod_A.p1 - rod_A.p0;
   const double length = along.norm();
   if (!(length > 0)) return surface.contact();
   for (const double side : {1.0, -1.0}) {
+    if (surface.gap() < low_m) break;
     const Vec3& end = side > 0 ? rod_A.p0 : rod_A.p1;
     if (fine.at(end).distance - rod_A.radius < surface.gap())
       surface.look_over_end(end, side / length * along);

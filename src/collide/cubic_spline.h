@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "four_lanes.h"
 #include "osteon/base/types.h"
 
 namespace osteon {
@@ -30,28 +31,25 @@ struct SplineSum {
   Vec3 slope = Vec3::Zero();
 };
 
-/// Sum over the 4 x 4 x 4 nodes about a place. `row(j, k)`: the first of four neighbours along x.
+/// Sum over the 4 x 4 x 4 nodes about a place. `row(j, k)`: four neighbours along x. First over z
+/// and y for all four of x at once, then over x.
 template <class Row>
 SplineSum sum_splines(const Row& row, const CubicSpline& x, const CubicSpline& y,
                       const CubicSpline& z) {
-  SplineSum out;
+  FourLanes v, along_y, along_z;
   for (std::size_t k = 0; k < 4; ++k) {
-    double v = 0, dx = 0, dy = 0;
+    FourLanes sum, sum_y;
     for (std::size_t j = 0; j < 4; ++j) {
-      const auto* h = row(j, k);
-      const double h0 = h[0], h1 = h[1], h2 = h[2], h3 = h[3];
-      const double along = (x.w[0] * h0 + x.w[1] * h1) + (x.w[2] * h2 + x.w[3] * h3);
-      const double along_dx = (x.d[0] * h0 + x.d[1] * h1) + (x.d[2] * h2 + x.d[3] * h3);
-      v += y.w[j] * along;
-      dx += y.w[j] * along_dx;
-      dy += y.d[j] * along;
+      const FourLanes h = row(j, k);
+      sum.add(y.w[j], h);
+      sum_y.add(y.d[j], h);
     }
-    out.value += z.w[k] * v;
-    out.slope.x() += z.w[k] * dx;
-    out.slope.y() += z.w[k] * dy;
-    out.slope.z() += z.d[k] * v;
+    v.add(z.w[k], sum);
+    along_y.add(z.w[k], sum_y);
+    along_z.add(z.d[k], sum);
   }
-  return out;
+  const FourLanes w = FourLanes::load(x.w.data()), d = FourLanes::load(x.d.data());
+  return {v.dot(w), {v.dot(d), along_y.dot(w), along_z.dot(w)}};
 }
 
 }  // namespace osteon

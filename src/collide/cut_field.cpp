@@ -34,32 +34,46 @@ struct Nodes4 {
   }
 };
 
-// Cuts at 4 x 4 x 4 nodes, um, x fastest, as numbers that splines weigh.
-using Nodes64 = std::array<double, 64>;
+using Corners = std::array<const std::int16_t*, 8>;  // of eight blocks, null where none is cut
 
-// Four nodes in a row of one block.
-void take_row(const std::int16_t* from, std::int16_t farthest, double* row) {
-  for (std::size_t i = 0; i < 4; ++i) row[i] = from[i] < farthest ? from[i] : farthest;
-}
+// Cuts at 4 x 4 x 4 nodes, um, x fastest: of more than one block, so that they lie nowhere in rows.
+using Nodes64 = std::array<std::int16_t, 64>;
 
-void gather(const std::array<const std::int16_t*, 8>& corner, const Nodes4& x, const Nodes4& y,
-            const Nodes4& z, std::int16_t farthest, Nodes64& out) {
-  out.fill(farthest);
-  const bool one_block = x.side[3] == 0;
+void gather(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
+            Nodes64& out) {
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j) {
-      double* row = out.data() + 16 * k + 4 * j;
+      std::int16_t* row = out.data() + 16 * k + 4 * j;
       const std::size_t first = 64u * z.node[k] + 8u * y.node[j];
       const std::size_t blocks = 4u * z.side[k] + 2u * y.side[j];
-      if (one_block) {
-        if (corner[blocks]) take_row(corner[blocks] + first + x.node[0], farthest, row);
-        continue;
-      }
       for (std::size_t i = 0; i < 4; ++i) {
         const std::int16_t* from = corner[blocks + x.side[i]];
-        if (from && from[first + x.node[i]] < farthest) row[i] = from[first + x.node[i]];
+        row[i] = from ? from[first + x.node[i]] : CutField::kUncut;
       }
     }
+}
+
+// Rows within blocks, or of nodes that nothing has cut.
+SplineSum sum_in_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
+                      std::int16_t farthest) {
+  static constexpr std::array<std::int16_t, 4> kNothing{CutField::kUncut, CutField::kUncut,
+                                                        CutField::kUncut, CutField::kUncut};
+  const auto row = [&](std::size_t j, std::size_t k) {
+    const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j]];
+    const std::size_t first = 64u * z.node[k] + 8u * y.node[j] + x.node[0];
+    return FourLanes::load(from ? from + first : kNothing.data(), farthest);
+  };
+  return sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+}
+
+SplineSum sum_gathered(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
+                       std::int16_t farthest) {
+  Nodes64 um;
+  gather(corner, x, y, z, um);
+  const auto row = [&](std::size_t j, std::size_t k) {
+    return FourLanes::load(um.data() + 16 * k + 4 * j, farthest);
+  };
+  return sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
 }
 
 }  // namespace
@@ -92,7 +106,7 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
   if (!is_finite(u)) return false;
   const Nodes4 x(u.x(), grid_.blocks[0]), y(u.y(), grid_.blocks[1]), z(u.z(), grid_.blocks[2]);
   if (!x.inside || !y.inside || !z.inside) return false;
-  std::array<const std::int16_t*, 8> corner{};
+  Corners corner{};
   bool any = false;
   for (std::size_t c = 0; c < corner.size(); ++c) {
     const int at = (z.block[c >> 2] * grid_.blocks[1] + y.block[c >> 1 & 1]) * grid_.blocks[0] +
@@ -103,10 +117,9 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
     any = true;
   }
   if (!any) return false;
-  Nodes64 um;
-  gather(corner, x, y, z, static_cast<std::int16_t>(farthest_um_), um);
-  const auto row = [&](std::size_t j, std::size_t k) { return um.data() + 16 * k + 4 * j; };
-  const SplineSum found = sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+  const auto farthest = static_cast<std::int16_t>(farthest_um_);
+  const SplineSum found = x.side[3] == 0 ? sum_in_rows(corner, x, y, z, farthest)
+                                         : sum_gathered(corner, x, y, z, farthest);
   out.distance = slack_m_ - 1e-6 * found.value;
   out.gradient = -1e-6 / grid_.cell_m * found.slope;
   out.near = found.value < farthest_um_;

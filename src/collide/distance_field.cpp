@@ -14,7 +14,9 @@ namespace {
 // Value and slope of a block at a place of one of its cells, in units of height and cells.
 SplineSum evaluate(const std::int16_t* first, const Vec3& t) {
   constexpr std::size_t kRow = FieldData::kSpan;
-  const auto row = [&](std::size_t j, std::size_t k) { return first + (k * kRow + j) * kRow; };
+  const auto row = [&](std::size_t j, std::size_t k) {
+    return FourLanes::load(first + (k * kRow + j) * kRow);
+  };
   return sum_splines(row, CubicSpline(t.x()), CubicSpline(t.y()), CubicSpline(t.z()));
 }
 

@@ -21,6 +21,7 @@ struct TwoLanes {
   friend TwoLanes operator*(TwoLanes a, TwoLanes b) { return {_mm_mul_pd(a.v, b.v)}; }
   friend TwoLanes abs(TwoLanes a) { return {_mm_andnot_pd(_mm_set1_pd(-0.0), a.v)}; }
   friend TwoLanes max(TwoLanes a, TwoLanes b) { return {_mm_max_pd(a.v, b.v)}; }
+  double sum() const { return _mm_cvtsd_f64(_mm_add_sd(v, _mm_unpackhi_pd(v, v))); }
   /// Larger of the two lanes.
   double top() const { return _mm_cvtsd_f64(_mm_max_sd(v, _mm_unpackhi_pd(v, v))); }
   /// Bit k set: lane k exceeds x.
@@ -45,6 +46,7 @@ struct TwoLanes {
   friend TwoLanes max(TwoLanes x, TwoLanes y) {
     return {x.a > y.a ? x.a : y.a, x.b > y.b ? x.b : y.b};
   }
+  double sum() const { return a + b; }
   double top() const { return a > b ? a : b; }
   friend int above(TwoLanes p, TwoLanes q) { return (p.a > q.a ? 1 : 0) | (p.b > q.b ? 2 : 0); }
 };

@@ -25,9 +25,6 @@ std::vector<Primitive> parts_to_field(const Tool& tool) {
   return parts;
 }
 
-// Of a gap wider than this only a bound is asked for: no tick goes so far.
-constexpr double kFarGap_m = 0.003;
-
 // How far the field holds a rod off exactly.
 double thickest(const DistanceField& field) { return field.data().outside_m - field.cell_m(); }
 
@@ -183,7 +180,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   const Pose X_BT = X_WB.inverse() * X_WT;
   if (ids.field) {
     Looks uncounted;
-    return part_field(ids, X_BT, uncounted, out);
+    return part_field(ids, X_BT, uncounted, kFarGap_m, out);
   }
   if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
@@ -202,8 +199,8 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
 }
 
 bool ContactField::separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
-                                  Looks& looks, PartingPlane& out) const {
-  return part_field(pairs_[pair], X_WB.inverse() * X_WT, looks, out);
+                                  Looks& looks, PartingPlane& out, double far_m) const {
+  return part_field(pairs_[pair], X_WB.inverse() * X_WT, looks, far_m, out);
 }
 
 bool ContactField::separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
@@ -247,8 +244,8 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
 
 // What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
 // the fine one then tells how far the surface is.
-PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT,
-                                          Looks& looks) const {
+PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+                                          const Wanted& wanted) const {
   if (guide_ && guide_->bone == ids.bone) {
     const Vec3 n_T = X_BT.q.conjugate() * guide_->nhat_B;
     double tool_m = -std::numeric_limits<double>::infinity();
@@ -259,14 +256,14 @@ PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT
   const CutField* cuts = cuts_[ids.bone];
   const FieldView fine(uncut, cuts, &looks.asked);
   const Primitive& part = to_field_[ids.tool_piece];
-  const double far = whole() ? kFarGap_m : std::numeric_limits<double>::infinity();
+  const double far = whole() ? wanted.far_m : std::numeric_limits<double>::infinity();
   const bool thin = !(part.rod.radius > thickest(uncut));
   const bool rod = part.kind == Primitive::Kind::kRod;
   if (thin && !(rod && fine.is_carved())) return primitive_contact(fine, part, X_BT, far);
   const FieldView coarse = thin ? fine : FieldView(*wide_[ids.bone], cuts, &looks.asked);
   if (!fine.is_carved()) return corrected(primitive_contact(coarse, part, X_BT, far), fine);
   const Capsule rod_B{X_BT * part.rod.p0, X_BT * part.rod.p1, part.rod.radius};
-  const CapsuleContact met = carved_contact(coarse, fine, rod_B, kFarGap_m);
+  const CapsuleContact met = carved_contact(coarse, fine, rod_B, wanted.far_m, wanted.low_m);
   return {met.status, met.gap, met.nhat_AB_A, met.p_A, 0};
 }
 
@@ -282,9 +279,9 @@ PrimitiveContact ContactField::corrected(PrimitiveContact found, const FieldView
   return found;
 }
 
-bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, double far_m,
                               PartingPlane& out) const {
-  const PrimitiveContact contact = meet_field(ids, X_BT, looks);
+  const PrimitiveContact contact = meet_field(ids, X_BT, looks, {.far_m = far_m});
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
@@ -293,9 +290,9 @@ bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& loo
   return true;
 }
 
-double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
-                         Looks& looks) const {
-  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT, looks);
+double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
+                         const Wanted& wanted) const {
+  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT, looks, wanted);
   return contact.status == LpStatus::kOptimal ? contact.gap
                                               : std::numeric_limits<double>::quiet_NaN();
 }

@@ -90,13 +90,24 @@ class ContactField {
   /// the line between their middles does not part them either.
   bool separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, LpBasis& basis,
                 PartingPlane& out) const;
+  /// Of a gap wider than this, m, only a bound is asked for: no tick goes so far.
+  static constexpr double kFarGap_m = 0.003;
+
+  /// Where a gap must be exact: of a wider one a bound above `far_m` may be told, of a narrower
+  /// one a bound below `low_m`.
+  struct Wanted {
+    double far_m = kFarGap_m;
+    double low_m = -std::numeric_limits<double>::infinity();
+  };
+
   /// The same of a pair of a field, whose looks are counted.
   bool separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
-                      PartingPlane& out) const;
+                      PartingPlane& out, double far_m = kFarGap_m) const;
 
   /// Gap of a pair of a field, m: what `separate` finds, without a plane. Not a number when
   /// unknown.
-  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks) const;
+  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
+             const Wanted& wanted) const;
 
   /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
   /// by its skin. Any x in it keeps a pair of convex pieces apart, wherever it is; of a field only
@@ -119,8 +130,10 @@ class ContactField {
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
   bool separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
                      PartingPlane& out) const;
-  bool part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, PartingPlane& out) const;
-  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks) const;
+  bool part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, double far_m,
+                  PartingPlane& out) const;
+  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+                              const Wanted& wanted) const;
   PrimitiveContact corrected(PrimitiveContact found, const FieldView& fine) const;
   double support_against(const PiecePair& ids, const Vec3& n_T) const;
   Vec3 middle_of(const PiecePair& ids) const;

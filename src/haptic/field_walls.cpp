@@ -10,6 +10,7 @@ namespace {
 
 // A bone farther than this needs no plane: the way to it is looked at.
 constexpr double kNearGap_m = 5e-4;
+constexpr double kFarGap_m = ContactField::kFarGap_m;
 // A stride along a surface, m, and how many of them a way may have.
 constexpr double kStride = 5e-5;
 constexpr int kMostStrides = 64;
@@ -25,6 +26,11 @@ void FieldWalls::start(const CandidateList& near) {
   count_ = 0;
   looks_ = {};
   known_.set = false;
+}
+
+bool FieldWalls::has_wall(std::uint32_t pair) const {
+  return std::any_of(walls_.begin(), walls_.begin() + count_,
+                     [pair](const Wall& wall) { return wall.pair == pair; });
 }
 
 // A plane found elsewhere is right while bone comes up to it or over it. Where the bone has bent
@@ -60,7 +66,9 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   for (const std::uint32_t pair : fields()) {
     const Pose& bone = bone_pose(pair, X_WB);
     PartingPlane now;
-    if (!field_.separate_field(pair, bone, X_WT, looks_, now)) return false;
+    // What is neither near nor the nearest needs a bound alone, but where it has walls to judge.
+    const double enough = has_wall(pair) ? kFarGap_m : std::clamp(least, kNearGap_m, kFarGap_m);
+    if (!field_.separate_field(pair, bone, X_WT, looks_, now, enough)) return false;
     if (now.gap < least) nearest = pair;
     least = std::min(least, now.gap);
     lay_back(pair, bone, X_WT, now);
@@ -97,19 +105,28 @@ void FieldWalls::keep(std::span<const Pose> X_WB, const Pose& X_WT, const Neares
   for (std::uint32_t i = 0; i < field_count_; ++i) known_.X_WB[i] = bone_pose(fields_[i], X_WB);
 }
 
-FieldWalls::Nearest FieldWalls::nearest(std::span<const Pose> X_WB, const Pose& X_WT) {
+// The one that was nearest at the last place comes first: of the others it is enough to know that
+// they are farther.
+FieldWalls::Nearest FieldWalls::nearest(std::span<const Pose> X_WB, const Pose& X_WT,
+                                        double low_m) {
   if (knows(X_WB, X_WT)) return known_.found;
   Nearest least;
-  for (const std::uint32_t pair : fields()) {
-    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT, looks_);
+  const auto look_at = [&](std::uint32_t pair) {
+    const double enough = least.gap < kFarGap_m ? least.gap : kFarGap_m;
+    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT, looks_, {enough, low_m});
     if (!(gap >= least.gap)) least = {gap, pair};  // takes what is not a number as well
-  }
+  };
+  const std::uint32_t first = known_.set ? known_.found.pair : kNoPair;
+  if (first != kNoPair) look_at(first);
+  for (const std::uint32_t pair : fields())
+    if (pair != first && !(least.gap < low_m)) look_at(pair);
+  if (least.gap < low_m) return least;
   keep(X_WB, X_WT, least);
   return least;
 }
 
 bool FieldWalls::clear(std::span<const Pose> X_WB, const Pose& X_WT) {
-  return nearest(X_WB, X_WT).gap >= kSkin;
+  return nearest(X_WB, X_WT, kSkin).gap >= kSkin;
 }
 
 Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& from_W,
@@ -118,9 +135,9 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
   blocked_.by = kNoPair;
   if (field_count_ == 0 || !(length > 0)) return to_W;
   const Vec3 along = (to_W - from_W) / length;
-  const auto look_at = [&](double s) { return nearest(X_WB, {from_W + s * along, q_WT}); };
-  double gap = look_at(0).gap;
+  double gap = nearest(X_WB, {from_W, q_WT}).gap;
   const double limit = std::min(kSkin, gap);
+  const auto look_at = [&](double s) { return nearest(X_WB, {from_W + s * along, q_WT}, limit); };
   double free = 0;
   for (int i = 0; i < kMostStrides && (i == 0 || !spent()); ++i) {
     const double next = std::min(length, free + std::max(kStride, kSafeShare * gap));

@@ -23,7 +23,7 @@ class FieldWalls {
   static constexpr std::size_t kMostPlanes = 24;
   /// Looks at carved bones after which a tick ends its search: the proxy stays where it has come
   /// to, and goes on in the next. The way to there was looked at, so this costs time alone.
-  static constexpr std::uint32_t kMostLooks = 160;
+  static constexpr std::uint32_t kMostLooks = 100;
 
   explicit FieldWalls(const ContactField& field) : field_(field) {}
 
@@ -83,12 +83,15 @@ class FieldWalls {
     Vec3 p_W = Vec3::Zero();  ///< of the tool: the first place found without room
   };
 
-  Nearest nearest(std::span<const Pose> X_WB, const Pose& X_WT);
+  /// Of a gap below `low_m` a bound below that may be told; it is not kept then.
+  Nearest nearest(std::span<const Pose> X_WB, const Pose& X_WT,
+                  double low_m = -std::numeric_limits<double>::infinity());
   bool knows(std::span<const Pose> X_WB, const Pose& X_WT) const;
   void keep(std::span<const Pose> X_WB, const Pose& X_WT, const Nearest& found);
   bool is_carved() const { return looks_.asked > 0; }
   /// Takes a plane that is nearer to the tool than the bone is back to its gap.
   void lay_back(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, PartingPlane& plane) const;
+  bool has_wall(std::uint32_t pair) const;
   bool still_right(const Wall& wall, const PartingPlane& now, const Pose& X_WB,
                    const Pose& X_WT) const;
 
