@@ -17,6 +17,7 @@ namespace osteon {
 struct DrilledLine {
   Vec3 from_W = Vec3::Zero(), to_W = Vec3::Zero();
   double diameter_m = 0;
+  bool open = false;  ///< it was found to leave the bone at both ends
 };
 struct AclDrilling {
   std::optional<DrilledLine> femur, tibia;

@@ -22,6 +22,7 @@ struct CarveSettings {
   double thrust_scale = 20;          ///< see CarvingSetup
   double guided_n = 0;               ///< likewise
   double irrigation_ml_per_min = 0;  ///< of water over the bone that is cut
+  friend bool operator==(const CarveSettings&, const CarveSettings&) = default;
 };
 
 /// Whether anything of a session can be carved: an instrument whose file says how it removes bone

@@ -96,6 +96,13 @@ std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
   return spec;
 }
 
+CarveSettings carve_settings(const Scenario& scenario) {
+  CarveSettings carve;
+  carve.cortex_m = scenario.cortex_mm / 1000;
+  carve.irrigation_ml_per_min = scenario.irrigation_ml_per_min;
+  return carve;
+}
+
 Result<void> note_attempt(const fs::path& recording, const Scenario& scenario,
                           const std::optional<Standard>& standard, const std::string& by,
                           const std::string& report_json) {

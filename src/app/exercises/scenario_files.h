@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/carving_setup.h"
 #include "osteon/procedure/scenario.h"
 #include "osteon/procedure/standard.h"
 
@@ -23,6 +24,9 @@ Result<std::optional<Standard>> shipped_standard(const std::string& scenario);
 /// of its anatomy; felt as the scenario says unless the name says so itself.
 std::string case_spec_of(const Scenario& scenario, const std::string& case_spec,
                          std::optional<std::uint64_t> seed);
+
+/// How a scenario's bones are removed in a run.
+CarveSettings carve_settings(const Scenario& scenario);
 
 /// Writes into a recording what it must hold so that the attempt can be judged again.
 Result<void> note_attempt(const std::filesystem::path& recording, const Scenario& scenario,

@@ -387,7 +387,7 @@ Result<AclReport> TunnelWatch::report_of(Work& work) {
 DrilledLine TunnelWatch::in_world(const Work& work, std::size_t k, const DrilledLine& line_B) {
   for (const BoneDef& bone : work.whole->bones)
     if (bone.name == work.names[k])
-      return {bone.X_WB * line_B.from_W, bone.X_WB * line_B.to_W, line_B.diameter_m};
+      return {bone.X_WB * line_B.from_W, bone.X_WB * line_B.to_W, line_B.diameter_m, line_B.open};
   return line_B;
 }
 

@@ -18,6 +18,7 @@ constexpr double kWalkedOut_m = 1e-5;
 struct Axis {
   Vec3 from, to, along;
   double length = 0, radius = 0;
+  bool open = false;  // at both ends, as was seen in the drilled bone
 };
 
 // Of a line through a bone the stretch that was drilled: from the mouth inwards.
@@ -38,6 +39,7 @@ Result<Axis> axis_of(const KneeParts& parts, const KneeParts::Bone& bone, const 
   axis.to = parts.place(bone, line.to_W);
   axis.length = (axis.to - axis.from).norm();
   axis.radius = 0.5 * line.diameter_m;
+  axis.open = line.open;
   if (!(axis.length > 0.001)) return fail("is shorter than a millimetre", where);
   axis.along = (axis.to - axis.from) / axis.length;
   return axis;
@@ -64,7 +66,7 @@ Result<Bore> bore_of(const KneeParts::Bone& bone, const Axis& axis, const Vec3& 
   bore.inwards = begins ? axis.along : Vec3(-axis.along);
   bore.channel = best.second - best.first;
   bore.drilled = most;
-  bore.through = axis.length > best.second && best.first > 0;
+  bore.through = axis.open || (axis.length > best.second && best.first > 0);
   return bore;
 }
 

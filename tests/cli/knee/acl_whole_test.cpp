@@ -36,6 +36,7 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
     EXPECT_EQ(touched["contact_time_s"], 0) << bone;
   const Json& placing = json["acl"]["placing"];
   EXPECT_TRUE(placing["button_turned"]);
+  EXPECT_TRUE(json["acl"]["tibia"]["through"]);
   EXPECT_NEAR(placing["tibia_mm"].get<double>(), json["acl"]["tibia"]["length_mm"].get<double>(),
               8);
   EXPECT_NEAR(placing["socket_mm"].get<double>(), 25, 4);

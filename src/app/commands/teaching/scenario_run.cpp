@@ -184,8 +184,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
   headless.settings.soft = run.scenario.soft;
-  headless.settings.carve.cortex_m = run.scenario.cortex_mm / 1000;
-  headless.settings.carve.irrigation_ml_per_min = run.scenario.irrigation_ml_per_min;
+  headless.settings.carve = carve_settings(run.scenario);
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
   std::vector<std::string> unreachable;

@@ -121,6 +121,7 @@ SessionSettings LiveRun::settings_now() const {
   settings.hands.clear();
   for (const LiveHand& hand : hands_) settings.hands.push_back({hand.name, hand.instrument});
   settings.tray = tray_.names;
+  settings.carve = tray_.carve;
   settings.carve.on = tray_.carving != nullptr;
   settings.soft_structures = !case_->softs.empty();
   if (tray_.softs.setup) {

@@ -50,6 +50,7 @@ struct RunTray {
   std::vector<Driven> driven;  ///< of each; those past its end: nothing
   /// What they remove bone with; null: nothing is carved.
   std::shared_ptr<const CarvingSetup> carving = nullptr;
+  CarveSettings carve = {};  ///< with which that was made
   RunSofts softs = {};
 };
 

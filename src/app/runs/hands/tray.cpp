@@ -68,9 +68,11 @@ Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
 }
 
 Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case,
-                                                            std::span<const std::string> tray) {
+                                                            std::span<const std::string> tray,
+                                                            const CarveSettings& carve) {
   SessionSettings settings;
   settings.tray.assign(tray.begin(), tray.end());
+  settings.carve = carve;
   settings.carve.on = can_carve(the_case, tray);
   return carving_for(the_case, settings);
 }

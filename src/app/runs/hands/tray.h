@@ -22,10 +22,11 @@ Result<Tray> tray_of(const RecordingHeader& header);
 Result<std::shared_ptr<const CarvingSetup>> carving_for(const Case& the_case,
                                                         const SessionSettings& settings);
 
-/// The same for a run whose hands may take these instruments, with usual settings; null: nothing
-/// can be carved.
+/// The same for a run whose hands may take these instruments; null: nothing can be carved. Of the
+/// settings `on` is not looked at.
 Result<std::shared_ptr<const CarvingSetup>> carving_for_run(const Case& the_case,
-                                                            std::span<const std::string> tray);
+                                                            std::span<const std::string> tray,
+                                                            const CarveSettings& carve = {});
 
 /// What is soft in a session with these settings; null: nothing. Fails where the settings name what
 /// the case has not, or a table has changed since they were recorded.

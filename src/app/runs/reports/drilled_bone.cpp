@@ -77,7 +77,7 @@ std::optional<DrilledHole> find_drilled(const CarvedField& field, const MeshDist
   const bool front = opens(whole, best->entry, -best->axis, reach_m);
   const bool back = opens(whole, best->exit, best->axis, reach_m);
   out.line = {best->entry - (front ? kLedOn_m : 0) * best->axis,
-              best->exit + (back ? kLedOn_m : 0) * best->axis, best->diameter_m};
+              best->exit + (back ? kLedOn_m : 0) * best->axis, best->diameter_m, front && back};
   out.length_m = best->length_m;
   out.through = front && back;
   for (const Hole& hole : holes)
@@ -90,7 +90,8 @@ std::vector<DrilledLine> holes_of(const TriMesh& bone, double roundness_m) {
   std::stable_sort(holes.begin(), holes.end(),
                    [](const Hole& a, const Hole& b) { return volume_of(a) > volume_of(b); });
   std::vector<DrilledLine> lines;
-  for (const Hole& hole : holes) lines.push_back({hole.entry, hole.exit, hole.diameter_m});
+  for (const Hole& hole : holes)
+    lines.push_back({hole.entry, hole.exit, hole.diameter_m, hole.through});
   return lines;
 }
 

@@ -134,7 +134,8 @@ Result<void> Loader::open_whole(Loaded& loaded, const std::string& spec) {
   });
   loaded.tray = prepare_tray(region_of(*loaded.the_case), order_.instruments);
   say("Preparing bones for carving", 0.7);
-  loaded.carving = prepare_carving(*loaded.the_case, loaded.tray->tray);
+  loaded.carving = prepare_carving(*loaded.the_case, loaded.tray->tray, order_.carve);
+  loaded.carve = order_.carve;
   return {};
 }
 
@@ -224,9 +225,10 @@ bool has_field(const Case& the_case) {
 }
 
 // A bone that cannot be carved is seen and felt all the same.
-PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray) {
+PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray,
+                                const CarveSettings& carve) {
   if (!can_carve(the_case, tray.run().names)) return {};
-  auto carving = carving_for_run(the_case, tray.run().names);
+  auto carving = carving_for_run(the_case, tray.run().names, carve);
   if (!carving) return {nullptr, carving.error().message()};
   return {std::move(*carving), {}};
 }

@@ -32,6 +32,7 @@ struct LoadOrder {
   bool at_once = false;
   double at_s = 0;                      ///< of a recording: the moment that is looked at first
   std::vector<std::string> softs = {};  ///< that give way in a live run, as SessionSettings::soft
+  CarveSettings carve = {};  ///< how its bones are removed in a live run; `on` is not looked at
   bool needs_softs = false;  ///< a case that does not have them fails; else the user is told
 };
 
@@ -67,7 +68,8 @@ struct PreparedCarving {
   std::string problem;  ///< why nothing can, though a bone is felt as a field; empty: none
 };
 /// Bones felt as fields can be carved, by the instruments of a tray; seconds for each.
-PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray);
+PreparedCarving prepare_carving(const Case& the_case, const InstrumentTray& tray,
+                                const CarveSettings& carve);
 bool has_field(const Case& the_case);
 
 /// What gives way in a live run of a case.
@@ -91,6 +93,7 @@ struct Loaded {
   ProbePath demo;                        ///< empty when none could be made
   std::optional<PreparedTray> tray;      ///< of the case; none: `open` was used again
   PreparedCarving carving;
+  CarveSettings carve;  ///< with which that was made
   PreparedSofts softs;
   std::optional<LoadedReplay> replay;
 };

@@ -49,9 +49,9 @@ SideJob<PreparedCase>::Work light_case(std::shared_ptr<const Case> the_case) {
 }
 
 SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted,
-                                     std::vector<std::string> softs) {
-  return [spec = std::move(spec), wanted = std::move(wanted),
-          softs = std::move(softs)](const Progress& tell) -> Result<FinerCase> {
+                                     std::vector<std::string> softs, CarveSettings carve) {
+  return [spec = std::move(spec), wanted = std::move(wanted), softs = std::move(softs),
+          carve](const Progress& tell) -> Result<FinerCase> {
     take_late_turns();
     try {
       auto opened = open_case(spec, [&](const char* what, double share) {
@@ -62,7 +62,7 @@ SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> 
       if (!has_field(**opened) && softs.empty()) return finer;
       const PreparedTray tray = prepare_tray(region_of(**opened), wanted);
       finer.softs = prepare_softs(**opened, tray.tray, softs).softs;
-      finer.carving = prepare_carving(**opened, tray.tray);
+      finer.carving = prepare_carving(**opened, tray.tray, carve);
       return finer;
     } catch (const StoppedWork&) {
       return stopped();

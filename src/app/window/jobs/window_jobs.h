@@ -37,9 +37,9 @@ struct FinerCase {
 };
 /// Makes what is felt of a case that was opened at once, and what it is carved with by the
 /// instruments of its tray (`wanted`: as prepare_tray takes them). Other threads go first. What of
-/// it gives way (`softs`: names) is made anew as well.
+/// it gives way (`softs`: names) is made anew as well. `carve`: how bone is removed.
 SideJob<FinerCase>::Work refine_case(std::string spec, std::vector<std::string> wanted,
-                                     std::vector<std::string> softs);
+                                     std::vector<std::string> softs, CarveSettings carve);
 
 struct SavedPatient {
   std::filesystem::path folder;

@@ -330,5 +330,27 @@ TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
   EXPECT_TRUE(live.carved().changes().empty());
 }
 
+// Otherwise its replay would remove them in another way.
+TEST(LiveRunCarves, ARecordingSaysHowItsBonesWereRemoved) {
+  const testing::Drilling with("drill:3.2");
+  RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
+  tray.carve.cortex_m = 0.003;
+  tray.carve.irrigation_ml_per_min = 60;
+  LiveRun live(with.the_case, "block", {}, {}, tray);
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("live_carve_" + std::to_string(::getpid()) + ".osr");
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  ASSERT_TRUE(live.start_recording(file));
+  ASSERT_TRUE(live.end());
+  const auto recording = load_recording(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(recording) << recording.error().message();
+  const auto settings = parse_settings(recording->header.settings_json);
+  ASSERT_TRUE(settings);
+  EXPECT_TRUE(settings->carve.on);
+  EXPECT_EQ(settings->carve.cortex_m, 0.003);
+  EXPECT_EQ(settings->carve.irrigation_ml_per_min, 60);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -44,6 +44,7 @@ TEST_F(DrilledBone, ATunnelIsThroughAndItsLineRunsOutOnBothSides) {
   const auto hole = found();
   ASSERT_TRUE(hole);
   EXPECT_TRUE(hole->through);
+  EXPECT_TRUE(hole->line.open);
   EXPECT_EQ(hole->channel_m, 0);
   EXPECT_NEAR(hole->line.diameter_m, 0.008, 0.0002);
   EXPECT_NEAR(hole->length_m, 0.030, 0.0005);
@@ -56,6 +57,7 @@ TEST_F(DrilledBone, ASocketEndsInTheBoneAndItsChannelGoesOn) {
   const auto blind = found();
   ASSERT_TRUE(blind);
   EXPECT_FALSE(blind->through);
+  EXPECT_FALSE(blind->line.open);
   EXPECT_EQ(blind->channel_m, 0);
   EXPECT_NEAR(blind->length_m, 0.0145, 0.003);
   drill(4.5, {0.025, 0, 0}, {-0.025, 0, 0});
@@ -125,6 +127,8 @@ TEST_F(DrilledBone, TheHolesOfAMeshComeWithTheOneThatHoldsMostFirst) {
   ASSERT_EQ(holes.size(), 2u);
   EXPECT_NEAR(holes[0].diameter_m, 0.009, 0.0002);
   EXPECT_NEAR(holes[1].diameter_m, 0.005, 0.0002);
+  EXPECT_FALSE(holes[0].open);
+  EXPECT_TRUE(holes[1].open);
 }
 
 }  // namespace

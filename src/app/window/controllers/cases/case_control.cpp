@@ -98,6 +98,7 @@ bool CaseControl::show(Loaded& loaded) {
     scene_.bone_middles_B = bone_middles(*scene_.the_case);
     scene_.demo = loaded.demo;
     scene_.carving = loaded.carving.setup;
+    scene_.carve = loaded.carve;
     scene_.softs = loaded.softs.softs;
     scene_.portals = portals_of_run(*scene_.the_case, scene_.softs);
     felt_job_.reset();
@@ -128,8 +129,8 @@ void CaseControl::begin_finer(const Loaded& loaded) {
   scene_.finer_source = loaded.finer_source;
   if (!loaded.lit) lighting_ = std::make_unique<SideJob<PreparedCase>>(light_case(scene_.the_case));
   if (scene_.finer_source.empty()) return;
-  refining_ = std::make_unique<SideJob<FinerCase>>(
-      refine_case(scene_.finer_source, live_.wanted_instruments(), scene_.softs.names));
+  refining_ = std::make_unique<SideJob<FinerCase>>(refine_case(
+      scene_.finer_source, live_.wanted_instruments(), scene_.softs.names, scene_.carve));
   if (scene_.finer_source == scene_.source)
     return host_.note(ToastKind::kInfo, "You can touch the bones now. Carving will be ready soon.");
   host_.note(ToastKind::kInfo,

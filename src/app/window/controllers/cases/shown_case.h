@@ -23,6 +23,7 @@ struct ShownCase {
   PictureViews views;
   ProbePath demo;
   std::shared_ptr<const CarvingSetup> carving;  ///< for a live run of the case
+  CarveSettings carve;                          ///< with which that was made
   RunSofts softs;                               ///< likewise
   std::vector<Portal> portals;
   std::vector<Vec3> bone_middles_B;  ///< where their names stand

@@ -134,10 +134,12 @@ void ExerciseControl::open_patient() {
   exercise_.wait_for_case();
   const std::vector<std::string>& soft = exercise_.scenario().soft;
   if (live_.run() && scene_.the_case && scene_.source == spec && all_here &&
-      scene_.softs.names == soft && scene_.finer_source.empty())  // what carves its bones is ready
+      scene_.softs.names == soft && scene_.carve == carve_settings(exercise_.scenario()) &&
+      scene_.finer_source.empty())  // what carves its bones is ready
     return begin();
   LoadOrder order{spec, {}, nullptr};
   order.softs = soft;
+  order.carve = carve_settings(exercise_.scenario());
   cases_.open(std::move(order), true);
 }
 

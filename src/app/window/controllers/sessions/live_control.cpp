@@ -56,6 +56,7 @@ void LiveControl::make_run() {
   const FeelSettings feel{settings.stiffness_n_per_m, settings.friction_scale, settings.bones_held};
   RunTray tray = tray_.run();
   tray.carving = scene_.carving;
+  tray.carve = scene_.carve;
   tray.softs = scene_.softs;
   run_ = std::make_unique<LiveRun>(scene_.the_case, scene_.source, tray_.sized(scene_.demo), feel,
                                    std::move(tray));
