@@ -7,8 +7,10 @@ in vec2 v_at;
 uniform sampler2D u_flat;      // linear light and distance, as a pinhole sees it
 uniform vec2 u_size_px;        // of this picture
 uniform float u_radius_px;     // of the round picture
-uniform float u_barrel;        // see ScopeDef
-uniform float u_half_field;    // radians
+uniform sampler2D u_half;      // its light out of focus, as of a disc of 3 of its pixels
+uniform sampler2D u_quarter;   // the same of 9 pixels
+uniform vec3 u_bow_near;       // tangent off the middle by the share of the radius, in the square
+uniform vec3 u_bow_far;        // of that: terms 0 to 2 and 3 to 5
 uniform float u_flat_half;     // tangent of the flat picture's half width
 uniform float u_tipped_to;     // angle in the picture of the mark on the field stop
 uniform float u_exposure;
@@ -77,24 +79,21 @@ vec3 through_water(vec3 light, float distance_m, vec3 dir_C) {
 }
 
 vec2 on_plane(vec2 from_center) {
-  float r = length(from_center);
-  float off = atan(r * tan(u_barrel * u_half_field)) / u_barrel;
-  return r > 0.0 ? from_center / r * tan(off) : vec2(0.0);
+  float s = dot(from_center, from_center);
+  vec3 n = u_bow_near, f = u_bow_far;
+  return from_center * (n.x + s * (n.y + s * (n.z + s * (f.x + s * (f.y + s * f.z)))));
 }
 
+// Light spreads as the square of a disc's radius.
 vec4 flat_at(vec2 plane) {
   vec2 uv = 0.5 + 0.5 * plane / u_flat_half;
   vec4 sharp = texture(u_flat, uv);
   float dioptres = abs(1.0 / max(sharp.a, 1e-3) - 1.0 / u_focus);
   float blur = min(u_blur_px * max(dioptres - 60.0, 0.0), 9.0);
-  if (blur < 0.6) return sharp;
-  vec2 texel = 1.0 / vec2(textureSize(u_flat, 0));
-  vec4 sum = sharp;
-  for (int k = 0; k < 8; ++k) {
-    float a = 2.39996 * float(k), q = sqrt((float(k) + 0.7) / 8.0);
-    sum += texture(u_flat, uv + blur * q * vec2(cos(a), sin(a)) * texel);
-  }
-  return sum / 9.0;
+  float spread = blur < 0.6 ? 0.0 : blur * blur;
+  vec3 light = mix(sharp.rgb, texture(u_half, uv).rgb, min(spread / 9.0, 1.0));
+  light = mix(light, texture(u_quarter, uv).rgb, max(spread - 9.0, 0.0) / 72.0);
+  return vec4(light, sharp.a);
 }
 
 // Fine drops on the glass spread the light of all that is around; they leave holes where they run

@@ -51,6 +51,21 @@ vec2 cells(vec3 p) {
   return sqrt(near);
 }
 
+// The distance to the nearest of them as far as it is less than a half; else half or more. Eight of
+// the 27 cells around tell it.
+float near_cell(vec3 p) {
+  vec3 i = floor(p), f = fract(p), lowest = step(0.5, f) - 1.0;
+  float near = 9.0;
+  for (int x = 0; x <= 1; ++x)
+    for (int y = 0; y <= 1; ++y)
+      for (int z = 0; z <= 1; ++z) {
+        vec3 c = lowest + vec3(x, y, z);
+        vec3 at = c + vec3(hash(i + c), hash(i + c + 17.3), hash(i + c + 41.7)) - f;
+        near = min(near, dot(at, at));
+      }
+  return sqrt(near);
+}
+
 // How much of a line of half a width `half_m` is at p, 0..1: the line is where a value is none. Its
 // distance is the value over the slope along the surface, so it is as wide where the value is slow;
 // there, at saddles and tops, it breaks off.
@@ -102,8 +117,7 @@ Look bone_look(vec3 p) {
   float pink = smoothstep(0.35, 0.68, layers(p * 130.0 + 4.0));
   vec3 c = mix(vec3(0.77, 0.57, 0.43), vec3(0.88, 0.78, 0.64), m);
   c = mix(c, vec3(0.80, 0.52, 0.43), 0.45 * pink);
-  vec2 pore = cells(p * 560.0);
-  float ragged = pore.x + 0.09 * noise(p * 4200.0);
+  float ragged = near_cell(p * 560.0) + 0.09 * noise(p * 4200.0);
   float hole = (1.0 - smoothstep(0.06, 0.13, ragged)) * smoothstep(0.45, 0.65, noise(p * 140.0 + 61.0));
   c = mix(c, vec3(0.50, 0.26, 0.20), 0.55 * hole);
   float grain = layers(p * 1100.0);

@@ -1,6 +1,9 @@
 #include "scope_lens.h"
 
+#include <Eigen/LU>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,10 +34,54 @@ GlTexture cloud_texture() {
   return texture;
 }
 
+/// tan(a) / r, a the angle off the middle that is seen at the share r of the picture's radius, as a
+/// polynomial in r^2: within 1e-6 of it as far as a picture reaches.
+std::array<double, 6> bow_of(const ScopeCamera& camera) {
+  constexpr int kTerms = 6;
+  constexpr double kFarthest = 1.06;  // of r^2
+  Eigen::Matrix<double, kTerms, kTerms> powers;
+  Eigen::Matrix<double, kTerms, 1> values;
+  for (int k = 0; k < kTerms; ++k) {
+    const double s = 0.5 * kFarthest * (1 - std::cos(std::numbers::pi * (k + 0.5) / kTerms));
+    for (int n = 0; n < kTerms; ++n) powers(k, n) = std::pow(s, n);
+    values(k) = std::tan(camera.off_middle_rad(std::sqrt(s))) / std::sqrt(s);
+  }
+  const Eigen::Matrix<double, kTerms, 1> terms = powers.partialPivLu().solve(values);
+  std::array<double, kTerms> out{};
+  for (int n = 0; n < kTerms; ++n) out[static_cast<std::size_t>(n)] = terms(n);
+  return out;
+}
+
+Eigen::Vector3f three(const std::array<double, 6>& terms, std::size_t from) {
+  return Eigen::Vector3d(terms[from], terms[from + 1], terms[from + 2]).cast<float>();
+}
+
 }  // namespace
+
+bool ScopeLens::Soft::ensure(int wanted) {
+  if (side == wanted && framebuffer.get() != 0) return true;
+  side = wanted;
+  framebuffer = make_framebuffer();
+  texture = make_texture();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, side, side, 0, GL_RGBA, GL_FLOAT, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.get(), 0);
+  return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
 
 Result<ScopeLens> ScopeLens::load(const std::filesystem::path& shaders) {
   ScopeLens out;
+  for (std::size_t k = 0; k < out.softer_.size(); ++k) {
+    auto softer = Program::load_with(shaders, "screen", "softer",
+                                     k == 0 ? "#define TAPS 4\n" : "#define TAPS 8\n");
+    if (!softer) return tl::unexpected(softer.error());
+    out.softer_[k] = std::move(*softer);
+  }
   for (std::size_t k = 0; k < out.lenses_.size(); ++k) {
     std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
     if ((k & kSeesFog) != 0) defines += "#define FOG\n";
@@ -47,21 +94,54 @@ Result<ScopeLens> ScopeLens::load(const std::filesystem::path& shaders) {
   return out;
 }
 
-void ScopeLens::paint(const LightTarget& flat, const LensView& view,
-                      const ScopeWater& water) const {
+void ScopeLens::soften(const Program& softer, GLuint from, const Soft& to, double spread) {
+  softer.use();
+  softer.set("u_flat", 0);
+  softer.set("u_screen_depth", 0.0f);
+  softer.set("u_spread", static_cast<float>(spread));
+  glBindFramebuffer(GL_FRAMEBUFFER, to.framebuffer.get());
+  glViewport(0, 0, to.side, to.side);
+  glBindTexture(GL_TEXTURE_2D, from);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// What is out of focus is mixed of three pictures: taking all its light at every place would cost
+// a processor more than all else. A disc of 3 pixels is spread as the half picture is, one of 9 as
+// the quarter one.
+void ScopeLens::paint(const LightTarget& flat, const RenderTarget& picture, const LensView& view,
+                      const ScopeWater& water) {
+  constexpr double kHalfSpread_px = 2.2, kQuarterSpread_px = 7.3;  // of the flat picture
+  const int side = flat.side();
+  glBindVertexArray(no_vertices_.get());
+  for (const GLenum test : {GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE})
+    glDisable(test);
+  glActiveTexture(GL_TEXTURE0);
+  const bool soft = half_.ensure((side + 1) / 2) && quarter_.ensure((side + 3) / 4);
+  if (soft) {
+    soften(softer_[0], flat.texture(), half_, kHalfSpread_px / side);
+    soften(softer_[1], half_.texture.get(), quarter_, kQuarterSpread_px / side);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
   glViewport(0, 0, view.viewport.width, view.viewport.height);
   const Program& lens = lenses_[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
   lens.use();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, flat.texture());
+  const std::array<GLuint, 3> levels = {flat.texture(), soft ? half_.texture.get() : flat.texture(),
+                                        soft ? quarter_.texture.get() : flat.texture()};
+  for (const std::size_t k : {2u, 1u, 0u}) {
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + (k > 0 ? k + 1 : 0)));
+    glBindTexture(GL_TEXTURE_2D, levels[k]);
+  }
   lens.set("u_flat", 0);
+  lens.set("u_half", 2);
+  lens.set("u_quarter", 3);
   lens.set("u_screen_depth", 0.0f);
   lens.set("u_size_px", Eigen::Vector2f(static_cast<float>(view.viewport.width),
                                         static_cast<float>(view.viewport.height)));
   const double radius_px = ScopeCamera::radius_px(view.viewport);
   lens.set("u_radius_px", static_cast<float>(radius_px));
-  lens.set("u_barrel", static_cast<float>(view.camera.barrel()));
-  lens.set("u_half_field", static_cast<float>(view.camera.half_field_rad()));
+  const std::array<double, 6> bow = bow_of(view.camera);
+  lens.set("u_bow_near", three(bow, 0));
+  lens.set("u_bow_far", three(bow, 3));
   lens.set("u_flat_half", static_cast<float>(view.half));
   lens.set("u_tipped_to", static_cast<float>(view.camera.tipped_to_rad()));
   lens.set("u_exposure", static_cast<float>(view.exposure));
@@ -73,7 +153,6 @@ void ScopeLens::paint(const LightTarget& flat, const LensView& view,
   if (!water.clear()) set_water(lens, water);
   lens.set("u_fog", static_cast<float>(water.fog));
   lens.set("u_world_from_view", to_matrix(view.camera.X_WC()));
-  glBindVertexArray(no_vertices_.get());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
   glBindTexture(GL_TEXTURE_2D, 0);

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "surface/shapes.h"
-
 #include "osteon/base/turn.h"
+#include "osteon/mesh/measure.h"
+#include "surface/shapes.h"
 
 namespace osteon {
 
@@ -29,6 +29,10 @@ void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue) {
   const int column = tissue.pattern == TissuePattern::kMeniscus ? 0 : 2;
   tissue.fibre = axes.eigenvectors().col(column).cast<float>();
   tissue.center = center.cast<float>();
+}
+
+bool faces_out(const TriMesh& mesh) {
+  return !mesh.triangles.empty() && topology(mesh).closed() && volume(mesh) > 0;
 }
 
 TissuePart steel() {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osteon/base/types.h"
+#include "osteon/mesh/tri_mesh.h"
 #include "osteon/scene/placing.h"
 #include "surface/tissue_part.h"
 
@@ -13,6 +14,8 @@ namespace osteon {
 TissuePattern pattern_of(std::string_view kind);
 /// Fibres run along a band's longest axis; a meniscus lies across its shortest.
 void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
+/// Closed, its triangles outwards.
+bool faces_out(const TriMesh& mesh);
 TissuePart steel();
 /// A piece of bone that was cut off: none of the case's own surfaces.
 TissuePart loose_part();

@@ -41,20 +41,21 @@ Eigen::Matrix4f flat_projection(double half) {
   return m.cast<float>();
 }
 
-/// The camera's gain for what the bound flat picture shows; its rim does not count.
+/// The camera's gain for what the bound flat picture shows; its rim does not count. Few rows are
+/// read: a whole picture of floats takes a processor's time.
 double gain_for(int side) {
-  std::vector<float> rgba(4u * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, rgba.data());
+  const int step = std::max(1, side / 64), from = side / 6, to = side - side / 6;
+  const int width = std::max(to - from, 0);
+  std::vector<float> row(4u * static_cast<std::size_t>(width));
   std::vector<double> light;
-  const int step = std::max(1, side / 64);
-  for (int y = side / 6; y < side - side / 6; y += step)
-    for (int x = side / 6; x < side - side / 6; x += step) {
-      const float* at =
-          rgba.data() + 4u * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
-                              static_cast<std::size_t>(x));
+  for (int y = from; y < to; y += step) {
+    glReadPixels(from, y, width, 1, GL_RGBA, GL_FLOAT, row.data());
+    for (int x = 0; x < width; x += step) {
+      const float* at = row.data() + 4u * static_cast<std::size_t>(x);
       light.push_back(0.3 * static_cast<double>(at[0]) + 0.6 * static_cast<double>(at[1]) +
                       0.1 * static_cast<double>(at[2]));
     }
+  }
   return exposure_gain(light);
 }
 
@@ -212,8 +213,8 @@ struct ScopeRenderer::Impl {
     begin(program, half);
     describe(program, part, X_CM);
     if (cubes_of) return cubes_of->draw();
-    // Fat that the tip lies in gives way to it: it is not seen from inside.
-    if (part.pattern == TissuePattern::kFat) glEnable(GL_CULL_FACE);
+    // What the tip lies in gives way to it: it is not seen from inside.
+    if (part.faces_out || part.pattern == TissuePattern::kFat) glEnable(GL_CULL_FACE);
     draw_seen(mesh, X_CM, half);
     glDisable(GL_CULL_FACE);
   }
@@ -280,9 +281,8 @@ struct ScopeRenderer::Impl {
   }
 
   void paint_lens(const ScopeCamera& camera, double half, double exposure,
-                  const Viewport& viewport) const {
-    glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
-    lens.paint(flat, {camera, half, exposure, white, viewport}, water);
+                  const Viewport& viewport) {
+    lens.paint(flat, picture, {camera, half, exposure, white, viewport}, water);
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -372,6 +372,7 @@ void ScopeRenderer::Impl::add_parts(const Case& the_case) {
     TissuePart part;
     part.model = k;
     part.X_WM = the_case.bones[k].X_WB;
+    part.faces_out = faces_out(the_case.bones[k].mesh);
     rest_X_WB.push_back(part.X_WM);
     parts.push_back(std::move(part));
   }
@@ -382,6 +383,7 @@ void ScopeRenderer::Impl::add_parts(const Case& the_case) {
     part.model = the_case.bones.size() + k;
     part.pattern = pattern_of(soft.kind);
     part.tint = soft.color_srgb;
+    part.faces_out = faces_out(soft.mesh_W);
     for (const BoneId bone : soft.bones) part.rides_on.push_back(bone.index);
     find_fibres(soft.mesh_W.vertices, part);
     part.middle = part.center.cast<double>();

@@ -140,6 +140,25 @@ TEST_F(ScopePictures, CloudyWaterAndFogTakeDetailAndBloodColoursIt) {
   EXPECT_EQ(count_different(clear, drawn({std::nan(""), -1, -1}), 0), 0);
 }
 
+// What the tip lies in gives way where it is closed; an open surface is seen from both sides.
+TEST_F(ScopePictures, AClosedPartIsNotSeenFromWithinAnOpenOneIsSeenFromBehind) {
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  const auto drawn = [&](const Case& the_case) {
+    return make_scope(the_case).draw_image(camera, 160, 160, RenderQuality::kFast);
+  };
+  const Case bare = lone_ball(Vec3(0, 0, -0.012), 0.004);
+  const Image alone = drawn(bare);
+  Case around = bare;
+  SoftPart soft;
+  soft.name = soft.kind = "ligament";
+  soft.mesh_W = sphere_mesh(0.003);
+  around.softs.push_back(soft);
+  EXPECT_EQ(count_different(alone, drawn(around), 0), 0);
+  TriMesh& mesh = around.softs[0].mesh_W;
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.vertices[t[0]].z() > 0; });
+  EXPECT_GT(count_different(alone, drawn(around), 20), 1000) << "a bowl before the tip";
+}
+
 WaterBit bit_at(WaterBit::Is is, const Vec3& p_W, double radius_m) {
   WaterBit bit;
   bit.is = is;

@@ -18,6 +18,7 @@ struct TissuePart {
   GpuMesh surface;
   std::size_t model = 0;  ///< which it is: the bones of a case, after them the soft parts
   Pose X_WM;
+  bool faces_out = false;  ///< closed: its back faces are seen from within alone
   TissuePattern pattern = TissuePattern::kBone;
   std::array<float, 3> tint{0.89f, 0.84f, 0.73f};
   std::vector<std::size_t> rides_on;      ///< bones; of a soft part
