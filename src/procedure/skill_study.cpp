@@ -1,5 +1,6 @@
 #include "osteon/procedure/skill_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,17 @@ Result<double> score_by(const std::vector<Metrics>& experts, const Metrics& pers
   const auto score = score_of(standard, person);
   if (!score) return tl::unexpected(score.error());
   return score->value;
+}
+
+// Whether leaving one person out may leave the same value in all runs.
+bool may_be_all_alike(const std::vector<Metrics>& runs, const std::string& metric) {
+  std::vector<double> values;
+  for (const Metrics& run : runs)
+    if (const auto found = run.find(metric); found != run.end()) values.push_back(found->second);
+  if (values.size() != runs.size()) return false;  // norm_of says which run has none
+  std::sort(values.begin(), values.end());
+  const std::size_t last = values.size() - 1;
+  return values[1] == values[last] || values[0] == values[last - 1];
 }
 
 double standard_error(double auc, std::size_t experts, std::size_t novices) {
@@ -78,10 +90,19 @@ void decide(SkillStudy& study) {
 
 Result<SkillStudy> study_skill(const std::vector<Metrics>& experts,
                                const std::vector<Metrics>& novices,
-                               const std::vector<StandardMetric>& wanted) {
+                               const std::vector<StandardMetric>& asked) {
   if (experts.size() < 3 || novices.size() < 3)
     return fail("a study needs three persons in each group", "study");
   SkillStudy study;
+  std::vector<StandardMetric> wanted;
+  for (const StandardMetric& metric : asked)
+    if (may_be_all_alike(experts, metric.name))
+      study.left_out.push_back(metric.name);
+    else
+      wanted.push_back(metric);
+  if (wanted.empty())
+    return fail("all metrics are the same in all runs of experts", "study",
+                "Give metrics in which experts differ");
   for (std::size_t i = 0; i < experts.size(); ++i) {
     const auto score = score_by(without(experts, i), experts[i], wanted);
     if (!score) return tl::unexpected(score.error());

@@ -52,6 +52,27 @@ TEST(SkillStudy, WhereAllHaveTheLowestScoreNoMarkIsSet) {
   EXPECT_EQ(apart->without_mark, 0);
 }
 
+// Such a metric has no norm: the scores are those of the others.
+TEST(SkillStudy, AMetricThatIsTheSameForAllExpertsIsLeftOut) {
+  auto experts = people(3, 20, 0), novices = people(32, 20, 5.5);
+  for (auto* group : {&experts, &novices})
+    for (Metrics& person : *group) person["right_percent"] = 100;
+  experts.front()["right_percent"] = 75;
+  std::vector<StandardMetric> asked = kWanted;
+  asked.push_back({"right_percent", 0, 1, 1, false});
+  const auto study = study_skill(experts, novices, asked),
+             plain = study_skill(experts, novices, kWanted);
+  ASSERT_TRUE(study) << study.error().message();
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(study->left_out, std::vector<std::string>{"right_percent"});
+  EXPECT_TRUE(plain->left_out.empty());
+  EXPECT_EQ(study->expert_scores, plain->expert_scores);
+  EXPECT_EQ(study->reliability, plain->reliability);
+  EXPECT_FALSE(study_skill(experts, novices, {asked.back()}));
+  experts.back()["right_percent"] = 50;
+  EXPECT_TRUE(study_skill(experts, novices, asked)->left_out.empty());
+}
+
 // Two normals d SD apart: AUC = Phi(d / sqrt 2); talents 2 apart with noise of 0.3 / sqrt 2.
 TEST(SkillStudy, TheAreaIsThatOfTheNormals) {
   const auto study = study_skill(people(3, 300, 0), people(4, 300, 2), kWanted);

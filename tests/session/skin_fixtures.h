@@ -51,6 +51,7 @@ inline std::shared_ptr<const Case> skin_case(double limb_m = 0) {
   def.softs.push_back(soft);
   def.landmarks.push_back({"portal_al", Vec3::Zero(), -Vec3::UnitZ()});
   def.landmarks.push_back({"beside", Vec3(0.010, 0, 0), Vec3::Zero()});
+  def.landmarks.push_back({"aside", Vec3(0.020, 0, 0), Vec3::Zero()});
   auto built = build_case(std::move(def));
   return built ? std::make_shared<const Case>(std::move(*built)) : nullptr;
 }

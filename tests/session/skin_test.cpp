@@ -65,6 +65,25 @@ TEST(Skin, AskedForWhereThereIsNoneItSaysWhatThereIs) {
   EXPECT_FALSE(names_skin("menisci"));
 }
 
+// On a small knee the portals are nearer to each other than a patch is wide: each gets as much as
+// does not reach the other.
+TEST(Skin, PatchesNearEachOtherAreSmaller) {
+  const auto the_case = testing::skin_case();
+  const auto made = [&](const std::vector<std::string>& names) {
+    const auto patches = make_skin_patches(*the_case, names, Vec3::UnitY(), {});
+    EXPECT_TRUE(patches) << (patches ? "" : patches.error().message());
+    std::vector<double> widths;
+    if (patches)
+      for (const SkinPatch& patch : *patches) widths.push_back(patch.width_m);
+    return widths;
+  };
+  EXPECT_EQ(made({"skin:portal_al"}), (std::vector<double>{0.030}));
+  const auto both = made({"skin:portal_al", "skin:aside"});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(both[0], 0.018, 1e-12);
+  EXPECT_NEAR(both[1], 0.018, 1e-12);
+}
+
 TEST(Skin, PalpatedItIsAsStiffAsTheTissueTableSays) {
   Session session = skin_run().session();
   SkinHandAt hand(session);

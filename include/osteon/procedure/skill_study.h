@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "osteon/base/result.h"
@@ -21,12 +22,16 @@ struct SkillStudy {
   /// Persons without whom the others' scores set no mark, as where all of a group have the lowest
   /// score that there is: they count as failed, which says nothing of them.
   int without_mark = 0;
+  /// Metrics that are the same in the runs of all experts, but one at most: they have no norm, and
+  /// no score holds them.
+  std::vector<std::string> left_out;
   std::vector<bool> passed;  ///< experts, then novices: at or above the mark set without them
 };
 
-/// Fails for fewer than three persons in a group, and as norm_of does.
+/// Fails for fewer than three persons in a group, where all metrics are left out, and as norm_of
+/// does.
 Result<SkillStudy> study_skill(const std::vector<Metrics>& experts,
                                const std::vector<Metrics>& novices,
-                               const std::vector<StandardMetric>& wanted);
+                               const std::vector<StandardMetric>& asked);
 
 }  // namespace osteon

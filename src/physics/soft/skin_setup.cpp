@@ -138,12 +138,18 @@ std::unique_ptr<const SheetYield> whole_yield(const SkinSheet& sheet) {
   return work.take();
 }
 
-// A place where the skin is much bent gets a smaller patch.
+/// Where a patch lies, and how wide it may be: half of the way to the next one's middle each.
+struct PatchRoom {
+  Pose X_WS;
+  double most_wide_m = 1;
+};
+
+// A place where the skin is much bent, or that lies near another one, gets a smaller patch.
 Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const PlaceAsked& place,
-                           const Vec3& up_W, const SkinNumbers& numbers) {
+                           const PatchRoom& room, const SkinNumbers& numbers) {
   const TriMesh& skin_W = the_case.softs[soft].mesh_W;
-  const auto X_WS = sheet_frame(skin_W, place.near_W, up_W, 0, kSkinReach_m);
-  if (!X_WS) return tl::unexpected(X_WS.error());
+  const Pose* const X_WS = &room.X_WS;
+  bool near = false;
   SkinPatch out;
   out.name = std::string(kSkinAt) + place.name;
   out.soft = soft;
@@ -152,6 +158,8 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
   for (const double share : {1.0, 0.8, 0.6, 0.45}) {
     out.width_m = share * (place.is_portal ? kPortalWidth_m : kSiteWidth_m);
     out.height_m = share * (place.is_portal ? kPortalHeight_m : kSiteHeight_m);
+    near = out.width_m > room.most_wide_m;
+    if (near) continue;
     auto relief = relief_of(skin_W, *X_WS, out.width_m, out.height_m);
     if (!relief) continue;
     out.relief = std::move(*relief);
@@ -162,21 +170,28 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
     out.edge_n = kEdgeShare * numbers.cutting_n;
     return out;
   }
+  if (near)
+    return fail("the patch " + out.name + " and one beside it overlap", kSkinWhere,
+                "Leave out one of them");
   return fail("the skin at '" + place.name + "' is too bent for a patch", kSkinWhere,
               "Choose another place");
 }
 
-Result<void> check_apart(const Case& the_case, const std::vector<SkinPatch>& patches) {
-  const auto middle = [&](const SkinPatch& patch) {
-    return the_case.bone(patch.bone).X_WB * patch.X_BS.p;
-  };
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if ((middle(patches[i]) - middle(patches[j])).norm() <
-          0.5 * (patches[i].width_m + patches[j].width_m))
-        return fail("the patches " + patches[j].name + " and " + patches[i].name + " overlap",
-                    kSkinWhere, "Leave out one of them");
-  return {};
+Result<std::vector<PatchRoom>> rooms_of(const Case& the_case, std::uint32_t soft,
+                                        std::span<const PlaceAsked> places, const Vec3& up_W) {
+  std::vector<PatchRoom> out;
+  for (const PlaceAsked& place : places) {
+    const auto X_WS = sheet_frame(the_case.softs[soft].mesh_W, place.near_W, up_W, 0, kSkinReach_m);
+    if (!X_WS) return tl::unexpected(X_WS.error());
+    PatchRoom room{*X_WS};
+    for (PatchRoom& other : out) {
+      const double apart_m = (room.X_WS.p - other.X_WS.p).norm();
+      room.most_wide_m = std::min(room.most_wide_m, apart_m);
+      other.most_wide_m = std::min(other.most_wide_m, apart_m);
+    }
+    out.push_back(room);
+  }
+  return out;
 }
 
 }  // namespace
@@ -277,14 +292,15 @@ Result<std::vector<SkinPatch>> make_skin_patches(const Case& the_case,
   if (!(numbers.stiffness_n_per_m > 0 && numbers.cutting_n > 0))
     return fail("skin has no stiffness, or nothing cuts it", kSkinWhere,
                 "Correct the tissue table");
+  const auto rooms = rooms_of(the_case, *soft, *places, up_W);
+  if (!rooms) return tl::unexpected(rooms.error());
   std::vector<SkinPatch> out;
-  for (const PlaceAsked& place : *places) {
-    auto patch = patch_at(the_case, *soft, place, up_W, numbers);
+  for (std::size_t i = 0; i < places->size(); ++i) {
+    auto patch = patch_at(the_case, *soft, (*places)[i], (*rooms)[i], numbers);
     if (!patch) return tl::unexpected(patch.error());
     patch->share = out.empty() ? FatShare::of(*patch->sheet) : out.front().share;
     out.push_back(std::move(*patch));
   }
-  if (auto apart = check_apart(the_case, out); !apart) return tl::unexpected(apart.error());
   return out;
 }
 

@@ -82,6 +82,7 @@ nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& tri
           {"mark", std::isfinite(s.mark) ? nlohmann::ordered_json(s.mark)
                                          : nlohmann::ordered_json(nullptr)},
           {"without_mark", s.without_mark},
+          {"left_out", s.left_out},
           {"experts_below_mark", s.experts_failed},
           {"novices_above_mark", s.novices_passed},
           {"experts_not_passed", trial.experts_not_passed},
@@ -93,6 +94,9 @@ nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& tri
 void print_trial(const std::string& name, const SkillTrial& trial) {
   const SkillStudy& s = trial.study;
   const std::size_t all = s.expert_scores.size() + s.novice_scores.size();
+  for (const std::string& metric : s.left_out)
+    std::printf("%-18s without '%s': it is the same for all experts, but one at most\n",
+                name.c_str(), metric.c_str());
   std::printf("%-18s AUC %.3f (SE %.3f)  reliability %.2f  mark ", name.c_str(), s.auc, s.auc_se,
               s.reliability);
   if (2 * static_cast<std::size_t>(s.without_mark) >= all) {
