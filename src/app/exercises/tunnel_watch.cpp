@@ -351,7 +351,8 @@ void TunnelWatch::find_lines(Work& work) {
     work.is_new[k] = !is_same(known, work.holes[k]);
     work.cuts[k].reset();
     if (const auto& hole = work.holes[k])
-      work.lines[k] = {true, hole->line.from_W, hole->line.to_W, hole->line.diameter_m};
+      work.lines[k] = {true, hole->line.from_W, hole->line.to_W, hole->line.diameter_m,
+                       hole->line.open};
     else
       work.lines[k] = {};
   }
@@ -376,7 +377,7 @@ Result<AclReport> TunnelWatch::report_of(Work& work) {
     const Line& line = work.lines[k];
     if (!line.known) continue;
     (k == 0 ? drilling.femur : drilling.tibia) =
-        in_world(work, k, {line.from_B, line.to_B, line.wide_m});
+        in_world(work, k, {line.from_B, line.to_B, line.wide_m, line.open});
     if (work.holes[k]) channels_m[k] = work.holes[k]->channel_m;
   }
   if (work.old)

@@ -81,6 +81,7 @@ class TunnelWatch {
     bool known = false;
     Vec3 from_B = Vec3::Zero(), to_B = Vec3::Zero();
     double wide_m = 0.008;
+    bool open = false;  ///< at both ends, as was seen in what is left
   };
   /// What is measured, and what comes of it.
   struct Work {
