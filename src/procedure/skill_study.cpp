@@ -115,6 +115,11 @@ Result<SkillStudy> study_skill(const std::vector<Metrics>& experts,
   }
   study.auc = *area_under_curve(study.expert_scores, study.novice_scores);
   study.auc_se = standard_error(study.auc, experts.size(), novices.size());
+  study.reliability = std::numeric_limits<double>::quiet_NaN();
+  if (wanted.size() < 2) {
+    decide(study);
+    return study;
+  }
   const auto items = items_of(experts, novices, wanted);
   if (!items) return tl::unexpected(items.error());
   const auto alpha = cronbach_alpha(*items);

@@ -69,6 +69,11 @@ TEST(SkillStudy, AMetricThatIsTheSameForAllExpertsIsLeftOut) {
   EXPECT_EQ(study->expert_scores, plain->expert_scores);
   EXPECT_EQ(study->reliability, plain->reliability);
   EXPECT_FALSE(study_skill(experts, novices, {asked.back()}));
+  const auto one = study_skill(experts, novices, {asked.front(), asked.back()});
+  ASSERT_TRUE(one) << one.error().message();
+  EXPECT_TRUE(std::isnan(one->reliability));
+  EXPECT_EQ(one->expert_scores.size(), 20u);
+  EXPECT_EQ(one->passed.size(), 40u);
   experts.back()["right_percent"] = 50;
   EXPECT_TRUE(study_skill(experts, novices, asked)->left_out.empty());
 }

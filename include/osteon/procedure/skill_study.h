@@ -14,8 +14,9 @@ namespace osteon {
 struct SkillStudy {
   std::vector<double> expert_scores, novice_scores;  ///< each by the norm of the other experts
   double auc = 0;                                    ///< see area_under_curve
-  double auc_se = 0;       ///< its standard error (Hanley and McNeil 1982)
-  double reliability = 0;  ///< Cronbach's alpha over the metrics' z, all persons
+  double auc_se = 0;  ///< its standard error (Hanley and McNeil 1982)
+  /// Cronbach's alpha over the metrics' z, all persons; NaN: fewer than two metrics.
+  double reliability = 0;
   double mark = 0;         ///< mean of the contrasting-groups marks; NaN: the groups do not part
   int experts_failed = 0;  ///< below the mark that was set without them
   int novices_passed = 0;  ///< at or above it

@@ -71,6 +71,10 @@ struct SkillCommand {
   bool json = false;
 };
 
+nlohmann::ordered_json or_null(double x) {
+  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& trial) {
   const SkillStudy& s = trial.study;
   return {{"scenario", name},
@@ -78,9 +82,8 @@ nlohmann::ordered_json trial_json(const std::string& name, const SkillTrial& tri
           {"novices", s.novice_scores.size()},
           {"auc", s.auc},
           {"auc_se", s.auc_se},
-          {"reliability", s.reliability},
-          {"mark", std::isfinite(s.mark) ? nlohmann::ordered_json(s.mark)
-                                         : nlohmann::ordered_json(nullptr)},
+          {"reliability", or_null(s.reliability)},
+          {"mark", or_null(s.mark)},
           {"without_mark", s.without_mark},
           {"left_out", s.left_out},
           {"experts_below_mark", s.experts_failed},
@@ -97,8 +100,11 @@ void print_trial(const std::string& name, const SkillTrial& trial) {
   for (const std::string& metric : s.left_out)
     std::printf("%-18s without '%s': it is the same for all experts, but one at most\n",
                 name.c_str(), metric.c_str());
-  std::printf("%-18s AUC %.3f (SE %.3f)  reliability %.2f  mark ", name.c_str(), s.auc, s.auc_se,
-              s.reliability);
+  char reliability[16] = "none";  // of one metric there is none
+  if (std::isfinite(s.reliability))
+    std::snprintf(reliability, sizeof reliability, "%.2f", s.reliability);
+  std::printf("%-18s AUC %.3f (SE %.3f)  reliability %s  mark ", name.c_str(), s.auc, s.auc_se,
+              reliability);
   if (2 * static_cast<std::size_t>(s.without_mark) >= all) {
     std::printf(
         "none\n%-18s for %d of %zu persons the scores of the others give no mark:\n%-18s all "
