@@ -60,6 +60,17 @@ void hexahedra(benchmark::State& state) {
   count(state, solid.elements);
 }
 
+// Some points held where they are, and the rest's weight.
+Supports under_weight(const std::vector<bool>& held) {
+  Supports supports;
+  supports.gravity_m_per_s2 = {0, 0, -9.81};
+  supports.entries = 1;
+  for (std::uint32_t i = 0; i < held.size(); ++i)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      if (held[i]) supports.held.push_back({i, k, 0, 0, 0});
+  return supports;
+}
+
 // An implicit step of a corotated mesh of linear tetrahedra that bends under its weight: its first
 // tenth of a second over and over, so that what is measured does not depend on how long.
 void step_corotated(benchmark::State& state, TetMesh mesh, const SolidMaterial& material,
@@ -71,12 +82,7 @@ void step_corotated(benchmark::State& state, TetMesh mesh, const SolidMaterial& 
   def.corotated = true;
   const auto made = make_tet_solid(def);
   if (!made) throw std::runtime_error(made.error().message());
-  Supports supports;
-  supports.gravity_m_per_s2 = {0, 0, -9.81};
-  supports.entries = 1;
-  for (std::uint32_t i = 0; i < made->rest_W.size(); ++i)
-    for (std::uint32_t k = 0; k < 3; ++k)
-      if (held[i]) supports.held.push_back({i, k, 0, 0, 0});
+  const Supports supports = under_weight(held);
   const TetStepper stepper(*made, supports, 0.002);
   constexpr std::uint64_t kSteps = 50;
   const SolidState rest = stepper.rest_state();
@@ -120,12 +126,7 @@ void explicit_tetrahedra(benchmark::State& state) {
   def.order = TetOrder::kLinear;
   const auto made = make_tet_solid(def);
   if (!made) throw std::runtime_error(made.error().message());
-  Supports supports;
-  supports.gravity_m_per_s2 = {0, 0, -9.81};
-  supports.entries = 1;
-  for (std::uint32_t i = 0; i < made->rest_W.size(); ++i)
-    for (std::uint32_t k = 0; k < 3; ++k)
-      if (made->rest_W[i].x() < 1e-9) supports.held.push_back({i, k, 0, 0, 0});
+  const Supports supports = under_weight(held_ends(def.mesh, 1));
   SolidState at = state_at_rest(made->rest_W.size(), false);
   TetScratch scratch;
   const double dt = stable_explicit_step_s(*made);

@@ -138,7 +138,12 @@ std::unique_ptr<const SheetYield> whole_yield(const SkinSheet& sheet) {
   return work.take();
 }
 
-/// Where a patch lies, and how wide it may be: half of the way to the next one's middle each.
+double usual_width_m(const PlaceAsked& place) {
+  return place.is_portal ? kPortalWidth_m : kSiteWidth_m;
+}
+
+/// Where a patch lies, and how wide it may be. Of two that would overlap each has half of the way
+/// between their middles.
 struct PatchRoom {
   Pose X_WS;
   double most_wide_m = 1;
@@ -148,19 +153,18 @@ struct PatchRoom {
 Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const PlaceAsked& place,
                            const PatchRoom& room, const SkinNumbers& numbers) {
   const TriMesh& skin_W = the_case.softs[soft].mesh_W;
-  const Pose* const X_WS = &room.X_WS;
   bool near = false;
   SkinPatch out;
   out.name = std::string(kSkinAt) + place.name;
   out.soft = soft;
-  out.bone = bone_under(the_case, X_WS->p);
-  out.X_BS = the_case.bone(out.bone).X_WB.inverse() * *X_WS;
+  out.bone = bone_under(the_case, room.X_WS.p);
+  out.X_BS = the_case.bone(out.bone).X_WB.inverse() * room.X_WS;
   for (const double share : {1.0, 0.8, 0.6, 0.45}) {
-    out.width_m = share * (place.is_portal ? kPortalWidth_m : kSiteWidth_m);
+    out.width_m = share * usual_width_m(place);
     out.height_m = share * (place.is_portal ? kPortalHeight_m : kSiteHeight_m);
     near = out.width_m > room.most_wide_m;
     if (near) continue;
-    auto relief = relief_of(skin_W, *X_WS, out.width_m, out.height_m);
+    auto relief = relief_of(skin_W, room.X_WS, out.width_m, out.height_m);
     if (!relief) continue;
     out.relief = std::move(*relief);
     auto sheet = SkinSheet::make(out.width_m, out.height_m, kSkinEdge_m, skin_material(numbers));
@@ -180,14 +184,16 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
 Result<std::vector<PatchRoom>> rooms_of(const Case& the_case, std::uint32_t soft,
                                         std::span<const PlaceAsked> places, const Vec3& up_W) {
   std::vector<PatchRoom> out;
-  for (const PlaceAsked& place : places) {
-    const auto X_WS = sheet_frame(the_case.softs[soft].mesh_W, place.near_W, up_W, 0, kSkinReach_m);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto X_WS =
+        sheet_frame(the_case.softs[soft].mesh_W, places[i].near_W, up_W, 0, kSkinReach_m);
     if (!X_WS) return tl::unexpected(X_WS.error());
     PatchRoom room{*X_WS};
-    for (PatchRoom& other : out) {
-      const double apart_m = (room.X_WS.p - other.X_WS.p).norm();
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart_m = (room.X_WS.p - out[j].X_WS.p).norm();
+      if (apart_m >= 0.5 * (usual_width_m(places[i]) + usual_width_m(places[j]))) continue;
       room.most_wide_m = std::min(room.most_wide_m, apart_m);
-      other.most_wide_m = std::min(other.most_wide_m, apart_m);
+      out[j].most_wide_m = std::min(out[j].most_wide_m, apart_m);
     }
     out.push_back(room);
   }
