@@ -142,6 +142,7 @@ bool ProxySolver::part(Context& c, std::uint32_t i, const Vec3& p_W) {
   if (!field_.separate(pair, bone, {p_W, c.raised_q_WT}, memory.basis, parting_[i])) return false;
   memory.plane = parting_[i];
   memory.known = true;
+  looked_[i] = true;
   gap_known_[i] = true;
   raise(c, i);
   return true;
@@ -335,6 +336,14 @@ bool ProxySolver::touching(const NearestPoint& target) const {
   return true;
 }
 
+// Every piece's plane that holds it was found in this move. Of two that lie in one plane the search
+// names one; the other comes to hold once the first has gone.
+bool ProxySolver::looked(const NearestPoint& target) const {
+  for (std::uint32_t k = 0; k < target.active_count; ++k)
+    if (target.active[k] < near_.count && !looked_[target.active[k]]) return false;
+  return true;
+}
+
 void ProxySolver::approach(Context& c, ProxyMove& move) {
   const ProxyTask& task = c.task;
   c.stuck = false;
@@ -344,8 +353,9 @@ void ProxySolver::approach(Context& c, ProxyMove& move) {
     if (!step_towards(c, move, target)) break;
     note_holding(task, target, move, kTouch);
     move.free = target.active_count == 0 && move.end() == task.hand_W;
-    // A plane whose gap was measured before bone or tool moved is looked at again.
-    const bool felt = touching(target) || move.rounds > 1;
+    // A plane whose gap was measured before bone or tool moved is looked at again: it may have been
+    // found from far away, where there is no bone.
+    const bool felt = touching(target) || (move.rounds > 1 && looked(target));
     const bool still = (move.end() - from).norm() < kStill;
     if (still && walls_.is_blocked() && (c.stuck || walls_.spent())) note_block(c, target, move);
     if (move.free || (felt && still && (!c.stopped || c.stuck))) break;
@@ -390,6 +400,7 @@ ProxyMove ProxySolver::move(const ProxyTask& wanted, std::span<PairMemory> memor
   move.path[0] = task.base_W;
   move.path_count = 1;
   move.query_W = task.X_WP.p;
+  looked_.fill(false);
   if (!gather(c) || !part_all(c)) {
     move.status = kTickSolverLimit;
     return move;

@@ -108,6 +108,7 @@ class ProxySolver {
   bool step_towards(Context& c, ProxyMove& move, NearestPoint& target);
   bool look_again(Context& c, const NearestPoint& target, ProxyMove& move);
   bool touching(const NearestPoint& target) const;
+  bool looked(const NearestPoint& target) const;
   void note_block(const Context& c, const NearestPoint& target, ProxyMove& move);
   /// Of the planes that hold it, those whose gap is not more.
   void note_holding(const ProxyTask& task, const NearestPoint& target, ProxyMove& move,
@@ -138,6 +139,7 @@ class ProxySolver {
   std::array<PairMemory, kMaxCandidates> last_{};  ///< for recall
   CandidateList near_;
   std::array<PartingPlane, kMaxCandidates> parting_{};
+  std::array<bool, kMaxCandidates> looked_{};  ///< found in this move
   FieldWalls walls_;
   ToolWalls tools_;
   std::array<FreeHalfSpace, kMaxCandidates + FieldWalls::kMostPlanes + ToolWalls::kMostPlanes +

@@ -67,6 +67,23 @@ TEST_P(WholeTool, AShaftThatLiesOnABlockIsHeldByIt) {
   EXPECT_GT(last, 5);
 }
 
+// Two blocks whose lower faces lie in one plane, and a blade that rises between them. The planes
+// that parted it from both when it was far below would stop it there, in the air.
+TEST(WholeToolGap, ABladeRisesBetweenTwoBlocksOfOneHeight) {
+  for (const double stop_m : {-0.0065, -0.006501, -0.0065005, -0.003}) {
+    Bone right = block(false);
+    right.X_WB.p = {0.028, 0, 0};
+    Rig rig({block(false), right}, tool_of_parts({make_box({}, Vec3(0.005, 0.020, 0.0005))}));
+    const Vec3 middle(0.014, 0, 0);
+    go(rig, middle + Vec3(0, 0, -0.05), middle + Vec3(0, 0, stop_m), Quat::Identity());
+    for (int i = 0; i < 5; ++i) rig.at(middle + Vec3(0, 0, stop_m));
+    const ToolState& s =
+        go(rig, middle + Vec3(0, 0, stop_m), middle + Vec3(0, 0, 0.004), Quat::Identity());
+    EXPECT_EQ(s.X_WP.p, Vec3(middle + Vec3(0, 0, 0.004))) << stop_m;
+    EXPECT_EQ(s.force_W, Vec3(0, 0, 0)) << stop_m;
+  }
+}
+
 // Far more pieces lie within a wide turn of the shaft than a list holds: it turns in small steps
 // where it once stood still for good.
 TEST(WholeToolTurn, ALongShaftAmongManyPiecesGoesOnTurning) {
