@@ -2,8 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "osteon/base/turn.h"
 #include "osteon/mesh/measure.h"
@@ -33,6 +36,28 @@ void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue) {
 
 bool faces_out(const TriMesh& mesh) {
   return !mesh.triangles.empty() && topology(mesh).closed() && volume(mesh) > 0;
+}
+
+TriMesh unseen_corners(int side_px) {
+  constexpr double kSpread_px = 16;
+  constexpr std::uint32_t kSegments = 8;
+  const double radius = 1 + 2 * kSpread_px / side_px;  // half of the side is 1
+  TriMesh mesh;
+  if (radius >= std::numbers::sqrt2) return mesh;
+  const double from = std::acos(1 / radius);
+  const double step = (std::numbers::pi / 2 - 2 * from) / kSegments;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const Eigen::AngleAxisd turn(quarter * std::numbers::pi / 2, Vec3::UnitZ());
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(turn * Vec3(1, 1, -1));
+    for (std::uint32_t k = 0; k <= kSegments; ++k) {
+      const double a = from + step * k;
+      mesh.vertices.push_back(turn * Vec3(radius * std::cos(a), radius * std::sin(a), -1));
+    }
+    for (std::uint32_t k = 1; k <= kSegments; ++k)
+      mesh.triangles.push_back({first, first + k + 1, first + k});
+  }
+  return mesh;
 }
 
 TissuePart steel() {

@@ -16,6 +16,9 @@ TissuePattern pattern_of(std::string_view kind);
 void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
 /// Closed, its triangles outwards.
 bool faces_out(const TriMesh& mesh);
+/// What a square flat picture of so many pixels shows and the round one does not, in clip space on
+/// the near plane: its corners, but for so much as softening spreads. Empty where that is all.
+TriMesh unseen_corners(int side_px);
 TissuePart steel();
 /// A piece of bone that was cut off: none of the case's own surfaces.
 TissuePart loose_part();

@@ -147,6 +147,8 @@ struct ScopeRenderer::Impl {
   std::vector<TissuePart> placed;  ///< the same, in World
   bool rods_changed = false;
   LightTarget flat;
+  GpuMesh corners;  ///< of the flat picture, that are not drawn
+  int corners_px = 0;
   RenderTarget picture;
   bool software = false;
   std::optional<Painted> painted;
@@ -233,6 +235,22 @@ struct ScopeRenderer::Impl {
         paint_part(tool, *mesh, X_CW * shown.X_WT, half, depth_alone);
   }
 
+  /// With the context current.
+  void make_corners() {
+    if (corners_px == flat.side()) return;
+    corners_px = flat.side();
+    corners = GpuMesh(plain_shaded(unseen_corners(corners_px)));
+  }
+  /// Nothing is drawn behind them. Fog spreads all light that there is.
+  void hide_corners() const {
+    if (water.fog > 0 || corners.empty()) return;
+    const Program& program = tissues[static_cast<std::size_t>(TissuePattern::kSteel)];
+    program.use();
+    program.set("u_clip_from_view", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+    program.set("u_view_from_model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+    corners.draw();
+  }
+
   /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
   /// for what is seen only.
   void paint_flat(const ScopeCamera& camera, double half) const {
@@ -250,6 +268,7 @@ struct ScopeRenderer::Impl {
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    hide_corners();
     paint_all(camera, half, true);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
@@ -546,6 +565,7 @@ Image ScopeRenderer::draw_image(const ScopeCamera& camera, int width, int height
   impl_->make_placed();
   impl_->painted.reset();
   if (impl_->flat.ensure(side) && impl_->picture.ensure(viewport.width, viewport.height, 0)) {
+    impl_->make_corners();
     impl_->paint_flat(camera, half);
     impl_->paint_lens(camera, half, gain_for(side), viewport);
     image = read_back(viewport.width, viewport.height);
@@ -575,6 +595,7 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   if (room) {
     glBindFramebuffer(GL_FRAMEBUFFER, impl_->flat.framebuffer());
     if (known) impl_->gain = std::pow(impl_->gain, 0.7) * std::pow(gain_for(side), 0.3);
+    impl_->make_corners();
     if (impl_->calm == 0 || !known) impl_->paint_flat(camera, half);
     if (!known) impl_->gain = gain_for(side);
     impl_->paint_lens(camera, half, impl_->gain, viewport);
