@@ -10,6 +10,7 @@
 #include "osteon/render/white_balance.h"
 #include "ui/ui_layout.h"
 #include "water/scope_water.h"
+#include "window/xray_model.h"
 
 namespace osteon {
 
@@ -88,6 +89,7 @@ struct ViewsModel {
   std::vector<PaneModel> panes;
   bool can_shoot = false;  ///< an X-ray picture can be asked for
   bool shooting = false;
+  XrayModel xray;
   ObserverModel observer;
   std::optional<WaterModel> water;               ///< none: no scope's picture is on show
   std::optional<ScopeCameraModel> scope_camera;  ///< likewise
@@ -101,6 +103,7 @@ struct ViewsRequests {
   std::optional<PictureLayout> observer_layout;
   bool take_scope = false;
   bool shoot = false;
+  XrayRequests xray;
   bool keep_still = false;  ///< of the scope's picture
   std::optional<WhiteBalance> white_balance;
   std::optional<WaterSettings> water;

@@ -41,16 +41,6 @@ Result<void> set_arm(XrayCommand& command, const XrayScene& scene) {
   return {};
 }
 
-Image picture_of(const XrayShot& shot, bool inverted) {
-  Image image{shot.view.width, shot.view.height, {}};
-  image.rgb.reserve(3 * shot.grey.size());
-  for (const float grey : shot.grey) {
-    const auto byte = static_cast<std::uint8_t>(std::lround(255 * (inverted ? 1 - grey : grey)));
-    image.rgb.insert(image.rgb.end(), 3, byte);
-  }
-  return image;
-}
-
 XrayFilm film_of(const XrayShot& shot, const CArm& arm, bool inverted) {
   XrayFilm film{shot.view.width, shot.view.height, shot.grey};
   if (inverted)
@@ -70,7 +60,7 @@ XrayFilm film_of(const XrayShot& shot, const CArm& arm, bool inverted) {
 Result<void> write_out(const XrayCommand& command, const XrayShot& shot) {
   if (command.out.empty()) return {};
   if (std::filesystem::path(command.out).extension() == ".png")
-    return save_png(picture_of(shot, command.inverted), command.out);
+    return save_png(grey_image(shot, command.inverted), command.out);
   XrayFilmOptions options;
   options.seed = command.shot.seed;
   return write_dicom_xray(film_of(shot, command.shot.arm, command.inverted), command.out, options);

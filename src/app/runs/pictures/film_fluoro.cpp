@@ -39,6 +39,7 @@ Result<FilmFluoro> FilmFluoro::create(const Case& the_case, const Tray& tray) {
     auto mesh = xray_surface(tool->mesh, "the instrument '" + tool->name + "'");
     if (!mesh) return tl::unexpected(mesh.error());
     fluoro.steel_.push_back(std::move(*mesh));
+    fluoro.hands_T_.push_back(hand_on(*tool));
   }
   const AnatomicalFrame frame = anatomical_frame(the_case);
   fluoro.scene_.patient = {frame.distal_W, frame.dorsal_W, frame.radial_W};
@@ -47,9 +48,12 @@ Result<FilmFluoro> FilmFluoro::create(const Case& the_case, const Tray& tray) {
   return fluoro;
 }
 
-Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side, const AskCuts& cuts) {
+// Without hands, whose dose takes time.
+void FilmFluoro::place(const FilmMoment& moment, const AskCuts& cuts) {
   scene_.body = body_.posed(moment.bones);
   if (cuts) cuts_.add_to(scene_.body, cuts(), moment.bones);
+  scene_.without_tools = scene_.body;
+  scene_.hands_W.clear();
   XrayLayer steel{"instruments", kSteel, {}};
   for (std::size_t h = 0; h < moment.hands; ++h) {
     const ToolState& tool = moment.tools[h];
@@ -58,6 +62,27 @@ Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side, const AskCuts
   }
   if (!steel.surfaces.empty())
     scene_.body.layers.insert(scene_.body.layers.begin(), std::move(steel));
+}
+
+Result<XrayShot> FilmFluoro::shoot(const FilmMoment& moment, const ShotOrder& order,
+                                   const AskCuts& cuts) {
+  place(moment, cuts);
+  for (std::size_t h = 0; h < moment.hands; ++h) {
+    const ToolState& tool = moment.tools[h];
+    if (tool.instrument < hands_T_.size() && is_finite(tool.X_WP))
+      scene_.hands_W.push_back(tool.X_WP * hands_T_[tool.instrument]);
+  }
+  XrayShotOrder shot;
+  shot.arm.orbit_rad = order.orbit_rad;
+  shot.arm.angulation_rad = order.angulation_rad;
+  shot.arm.width_px = shot.arm.height_px = order.side;
+  shot.arm.isocenter_W = scene_.isocenter_W;
+  shot.seed = order.seed;
+  return take_shot(scene_, shot);
+}
+
+Result<void> FilmFluoro::pulse(const FilmMoment& moment, int side, const AskCuts& cuts) {
+  place(moment, cuts);
   XrayShotOrder order;
   order.arm.width_px = order.arm.height_px = side;
   order.arm.isocenter_W = scene_.isocenter_W;

@@ -117,6 +117,16 @@ Result<XrayShot> take_shot(const XrayScene& scene, const XrayShotOrder& order) {
   return shot;
 }
 
+Image grey_image(const XrayShot& shot, bool inverted) {
+  Image image{shot.view.width, shot.view.height, {}};
+  image.rgb.reserve(3 * shot.grey.size());
+  for (const float grey : shot.grey) {
+    const auto byte = static_cast<std::uint8_t>(std::lround(255 * (inverted ? 1 - grey : grey)));
+    image.rgb.insert(image.rgb.end(), 3, byte);
+  }
+  return image;
+}
+
 Result<void> write_raw_density(const XrayShot& shot, const std::string& file) {
   std::string bytes;
   for (const float value : shot.density.total()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/render/renderer.h"
 #include "osteon/scene/tool.h"
 #include "osteon/xray/case_body.h"
 #include "osteon/xray/dose.h"
@@ -54,6 +55,9 @@ struct XrayShot {
 };
 /// Fails on an arm, a voltage or a count out of range.
 Result<XrayShot> take_shot(const XrayScene& scene, const XrayShotOrder& order);
+
+/// 8 bits, bone dark unless `inverted`.
+Image grey_image(const XrayShot& shot, bool inverted = false);
 
 /// Where the hand is that holds an instrument, in Tool: 50 mm from the far end of what is drawn,
 /// but never nearer to the tip than half of it.

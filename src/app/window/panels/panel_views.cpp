@@ -18,7 +18,8 @@ constexpr std::array<const char*, kPictureLayouts> kWhat = {
     "The last X-ray picture (F9); B takes one of the current scene"};
 
 void draw_message(const PanelContext& c, const PaneModel& shown, int index) {
-  const UiRect& r = shown.pane.area;
+  const bool xray = shown.pane.kind == PaneKind::kFluoro && shown.pane.large;
+  const UiRect r = xray ? xray_places(shown.pane.area, c.model.scale).picture : shown.pane.area;
   const std::string name = "##pane" + std::to_string(index);
   ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(c.px(320), r.w - c.px(16)), 0});
@@ -61,6 +62,8 @@ void draw_panes(const PanelContext& c) {
   int index = 0;
   for (const PaneModel& shown : c.model.views.panes) {
     draw_frame(c, shown.pane);
+    if (shown.pane.kind == PaneKind::kFluoro && shown.pane.large)
+      draw_xray_desk(c, shown.pane.area);
     if (!shown.message.empty()) draw_message(c, shown, index);
     ++index;
   }

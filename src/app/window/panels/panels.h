@@ -48,6 +48,7 @@ void draw_edit(const PanelContext& c);                             // of a bone'
 void draw_patient(const PanelContext& c);                          // a new one
 void draw_exercise_card(const PanelContext& c, UiLayout& layout);  // how far it is; gives way
 void draw_exercise(const PanelContext& c);                         // course, briefing, result
+void draw_xray_desk(const PanelContext& c, const UiRect& pane);    // of a large X-ray pane
 void draw_panes(const PanelContext& c);  // names and messages of the picture's views
 /// The chooser of what the picture shows: buttons side by side, or one that opens.
 void draw_layout_chooser(const PanelContext& c, bool wide);

@@ -92,7 +92,7 @@ bool CaseControl::show(Loaded& loaded) {
     }
     // From here on nothing fails: the case on show and its name change together.
     scene_.renderer = std::move(*renderer);
-    scene_.views.begin(loaded.the_case, *scene_.renderer);
+    scene_.views.begin(loaded.the_case, *scene_.renderer, same_case);
     scene_.source = loaded.case_source;
     scene_.the_case = loaded.the_case;
     scene_.bone_middles_B = bone_middles(*scene_.the_case);

@@ -1,6 +1,7 @@
 #include "window/controllers/views/picture_views.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "cases/scoped_case.h"
@@ -14,6 +15,7 @@ constexpr double kWallMoves_m = 0.008;  // of the tip, before the joint's wall i
 constexpr double kConeStill_m = 1e-4;   // of a scope, before its cone is drawn anew
 constexpr double kConeStill_rad = 2e-3;
 constexpr int kShot_px = 512;
+constexpr double kDegree_rad = std::numbers::pi / 180;
 
 bool looks_alike(const Pose& a, const Pose& b) {
   return (a.p - b.p).norm() < kConeStill_m && a.q.angularDistance(b.q) < kConeStill_rad;
@@ -25,7 +27,8 @@ std::span<const ToolState> tools_of(const FilmMoment& moment) {
 
 }  // namespace
 
-void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& main) {
+void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& main,
+                         bool same_case) {
   wall_job_.reset();
   shot_job_.reset();
   case_ = std::move(the_case);
@@ -43,7 +46,7 @@ void PictureViews::begin(std::shared_ptr<const Case> the_case, const Renderer& m
   wall_known_ = wall_empty_ = false;
   panorama_view_.reset();
   fluoro_.reset();
-  shot_.clear();
+  if (!same_case) shots_.clear();
   failure_.reset();
 }
 
@@ -239,32 +242,54 @@ void PictureViews::draw_outside(const Viewport& viewport, const ViewState& view)
 
 void PictureViews::draw_fluoro(const Viewport& viewport) const {
   fill_viewport(viewport, 0, 0, 0);
-  shot_.show(viewport);
+  shots_.show(viewport);
 }
 
 // The fluoroscope belongs to the thread that makes the picture until that is done.
 void PictureViews::shoot(CutScene cut) {
   if (shot_job_ || !case_ || moment_.hands == 0) return;
   if (!fluoro_) fluoro_ = std::make_shared<std::optional<FilmFluoro>>();
-  shot_job_ = std::make_unique<SideJob<Image>>(
-      [fluoro = fluoro_, the_case = case_, tray = tray_, moment = moment_,
-       cut = std::move(cut)](const Progress&) -> Result<Image> {
+  FilmFluoro::ShotOrder order;
+  order.orbit_rad = turn_.orbit_deg * kDegree_rad;
+  order.angulation_rad = turn_.tilt_deg * kDegree_rad;
+  order.side = kShot_px;
+  order.seed = ++pulses_;
+  shot_job_ = std::make_unique<SideJob<XrayPicture>>(
+      [fluoro = fluoro_, the_case = case_, tray = tray_, moment = moment_, order, turn = turn_,
+       cut = std::move(cut)](const Progress&) -> Result<XrayPicture> {
         if (!*fluoro) {
           auto made = FilmFluoro::create(*the_case, tray);
           if (!made) return tl::unexpected(made.error());
           fluoro->emplace(std::move(*made));
         }
-        return (*fluoro)->draw(moment, kShot_px, kShot_px, [&cut] { return cut; });
+        auto shot = (*fluoro)->shoot(moment, order, [&cut] { return cut; });
+        if (!shot) return tl::unexpected(shot.error());
+        return XrayPicture{grey_image(*shot), turn,        shot->exposure,
+                           shot->dose,        shot->hands, moment.time_s};
       });
 }
 
 Result<void> PictureViews::poll_shot() {
   if (!shot_job_ || !shot_job_->done()) return {};
-  const auto image = shot_job_->take();
+  auto picture = shot_job_->take();
   shot_job_.reset();
-  if (!image) return tl::unexpected(image.error());
-  shot_.set(*image);
+  if (!picture) return tl::unexpected(picture.error());
+  shots_.add(std::move(*picture));
   return {};
+}
+
+void PictureViews::apply(const XrayRequests& requests) {
+  if (requests.turn)
+    turn_ = {std::clamp(requests.turn->orbit_deg, -kMostOrbit_deg, kMostOrbit_deg),
+             std::clamp(requests.turn->tilt_deg, -kMostTilt_deg, kMostTilt_deg)};
+  if (requests.show) shots_.choose(*requests.show);
+  if (requests.begin_again) shots_.clear();
+}
+
+XrayModel PictureViews::xray_model() const {
+  XrayModel model = shots_.model();
+  model.turn = turn_;
+  return model;
 }
 
 }  // namespace osteon

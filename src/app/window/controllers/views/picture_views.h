@@ -15,7 +15,7 @@
 #include "ui/side_job.h"
 #include "water/scope_water.h"
 #include "water/water_drift.h"
-#include "window/controllers/cases/shown_image.h"
+#include "window/pictures/kept_shots.h"
 #include "window/views_model.h"
 
 namespace osteon {
@@ -25,8 +25,9 @@ namespace osteon {
 /// in the destructor. What takes long is made beside the window: the joint's wall, X-ray pictures.
 class PictureViews {
  public:
-  /// What was open before is forgotten. `main` draws the case.
-  void begin(std::shared_ptr<const Case> the_case, const Renderer& main);
+  /// What was open before is forgotten, but for X-ray pictures of the same case felt otherwise.
+  /// `main` draws the case.
+  void begin(std::shared_ptr<const Case> the_case, const Renderer& main, bool same_case);
   /// What hands may hold, by ToolState::instrument. Fails where a scope's file cannot be read; no
   /// instrument is looked through then.
   /// `instruments`: those of the names, where they have been read already.
@@ -69,7 +70,9 @@ class PictureViews {
   /// Takes an X-ray picture of the scene as it stands; while one is made, nothing.
   void shoot(CutScene cut);
   bool shooting() const { return shot_job_ != nullptr; }
-  bool has_shot() const { return !shot_.empty(); }
+  bool has_shot() const { return !shots_.empty(); }
+  void apply(const XrayRequests& requests);
+  XrayModel xray_model() const;
   /// Something is being made that will change the picture.
   bool busy() const { return wall_job_ || shot_job_; }
 
@@ -117,8 +120,10 @@ class PictureViews {
   std::optional<ViewState> panorama_view_;
 
   std::shared_ptr<std::optional<FilmFluoro>> fluoro_;  ///< made with the first picture
-  std::unique_ptr<SideJob<Image>> shot_job_;
-  ShownImage shot_;
+  std::unique_ptr<SideJob<XrayPicture>> shot_job_;
+  KeptShots shots_;
+  CArmTurn turn_;
+  std::uint64_t pulses_ = 0;  ///< that were asked for: each has noise of its own
   std::optional<Error> failure_;
 };
 

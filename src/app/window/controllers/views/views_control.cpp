@@ -80,6 +80,11 @@ void ViewsControl::set_pump_again() {
   if (live->set_pump(pump_->pump_pa, pump_->outlet_open)) pump_run_ = run;
 }
 
+Viewport ViewsControl::xray_viewport(const Pane& pane) const {
+  const float scale = host_.ui->scale();
+  return sight_.pixels_of(pane.large ? xray_places(pane.area, scale).picture : pane.area);
+}
+
 void ViewsControl::draw(const ViewState& looks) {
   scene_.renderer->set_others(others());
   scene_.renderer->set_ghosts(sight_.ghosts());
@@ -101,7 +106,7 @@ void ViewsControl::draw(const ViewState& looks) {
     if (pane.kind == PaneKind::kOutside) scene_.renderer->draw(sight_.shown(), looks, at);
     if (pane.kind == PaneKind::kScope) views.draw_scope(at, most_px);
     if (pane.kind == PaneKind::kPanorama) views.draw_panorama(at);
-    if (pane.kind == PaneKind::kFluoro) views.draw_fluoro(at);
+    if (pane.kind == PaneKind::kFluoro) views.draw_fluoro(xray_viewport(pane));
   }
 }
 
@@ -138,6 +143,7 @@ void ViewsControl::apply(const ViewsRequests& requests) {
   }
   if (requests.white_balance) scene_.views.set_white_balance(*requests.white_balance);
   if (requests.keep_still) keep_still();
+  scene_.views.apply(requests.xray);
   if (requests.shoot) {
     const CarvedPicture* const picture = carved();
     scene_.views.shoot(picture ? picture->cut_scene() : CutScene{});
@@ -186,6 +192,7 @@ ViewsModel ViewsControl::model() const {
   }
   model.can_shoot = !views.shooting();
   model.shooting = views.shooting();
+  model.xray = views.xray_model();
   model.observer = observer_.model();
   const bool scope = std::any_of(model.panes.begin(), model.panes.end(), [](const PaneModel& pane) {
     return pane.pane.kind == PaneKind::kScope;

@@ -43,6 +43,7 @@ class ViewsControl {
   void show_carved();
   void show_heat(CarvedPicture& picture);
   void show_softs();
+  Viewport xray_viewport(const Pane& pane) const;
   void keep_still();
   void set_pump_again();
   std::optional<WaterModel> water_model() const;
