@@ -155,6 +155,10 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
       const double middle = 0.5 * (free + blocked);
       (look_at(middle).gap >= limit ? free : blocked) = middle;
     }
+    // Without this, a tick that has no looks left would leave the proxy where it is, and so would
+    // the next: a burr stood still in its own cut.
+    const double least = next / (1 << halvings);
+    if (free == 0 && spent() && look_at(least).gap >= limit) free = least;
     blocked_.p_W = from_W + blocked * along;
     break;
   }

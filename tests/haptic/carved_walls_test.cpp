@@ -2,9 +2,11 @@
 // place where a ball rests on a round rim is known.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "collide/stepped_hole.h"
+#include "field_walls.h"
 #include "mesh/shapes.h"
 #include "test_scene.h"
 
@@ -68,6 +70,31 @@ TEST_P(OverAHole, TheRimHoldsTheDrillAndItsForceIsFeltWithoutAJump) {
 INSTANTIATE_TEST_SUITE_P(Beside, OverAHole,
                          ::testing::Values(Vec3(0, 0, 0), Vec3(5e-5, 0, 0), Vec3(0, -8e-5, 0),
                                            Vec3(3e-5, 6e-5, 0)));
+
+// A tick that has looked as often as it may goes on a little all the same: otherwise the next one,
+// which begins as it did, would stand still as well, however far the bone is cut away.
+TEST(CarvedWalls, WhereNoLooksAreLeftTheProxyStillComesNearer) {
+  const CutField cuts = kHole.cuts();
+  const CutField* one[] = {&cuts};
+  Case the_case;
+  the_case.bones.push_back(test::field_bone(test::cube(kHalf)));
+  const Tool tool = drill();
+  ContactField field(the_case, tool);
+  field.set_cuts(one);
+  FieldWalls walls(field);
+  CandidateList near;
+  near.field_count = 1;
+  walls.start(near);
+  const std::array<Pose, 1> X_WB;
+  // Over the face, nearer than a stride is long.
+  const Vec3 from(0.005, 0.005, kHalf + 1e-5);
+  const Vec3 into = from - Vec3(0, 0, 0.0005);
+  while (!walls.spent()) ASSERT_TRUE(walls.look(X_WB, {from, Quat::Identity()}));
+  const Vec3 there = walls.way(X_WB, Quat::Identity(), from, into);
+  EXPECT_LT(there.z(), from.z() - 1e-6);
+  EXPECT_GE(there.z(), kHalf);
+  EXPECT_TRUE(walls.is_blocked());
+}
 
 }  // namespace
 }  // namespace osteon
