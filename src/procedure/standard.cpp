@@ -30,6 +30,19 @@ std::string exact_text(double value) {
   return digits;
 }
 
+// As a TOML string holds it.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20 || c == '\t')
+      out += c;
+    else
+      out += ' ';
+  }
+  return out + '"';
+}
+
 }  // namespace
 
 Result<Standard> parse_standard(std::string_view text, const std::string& where) {
@@ -64,12 +77,12 @@ Result<Standard> load_standard(const std::filesystem::path& file) {
 
 std::string to_toml(const Standard& s) {
   std::string text =
-      "format = 1\nscenario = \"" + s.scenario + "\"\nversion = " + std::to_string(s.version) +
-      "\nsource = \"" + s.source + "\"\nexperts = " + std::to_string(s.experts) +
+      "format = 1\nscenario = " + quoted(s.scenario) + "\nversion = " + std::to_string(s.version) +
+      "\nsource = " + quoted(s.source) + "\nexperts = " + std::to_string(s.experts) +
       "\nreliability = " + exact_text(s.reliability) + "\nscore_sd = " + exact_text(s.score_sd) +
       "\npass_score = " + exact_text(s.pass_score) + "\n";
   for (const StandardMetric& m : s.metrics)
-    text += "\n[[metrics]]\nname = \"" + m.name + "\"\nmean = " + exact_text(m.mean) +
+    text += "\n[[metrics]]\nname = " + quoted(m.name) + "\nmean = " + exact_text(m.mean) +
             "\nsd = " + exact_text(m.sd) + "\nweight = " + exact_text(m.weight) +
             "\nbetter = " + (m.lower_is_better ? "\"lower\"" : "\"higher\"") + "\n";
   return text;

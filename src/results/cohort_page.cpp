@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <charconv>
 
+#include "html_page.h"
 #include "osteon/base/file.h"
 #include "osteon/results/cohort.h"
 #include "osteon/results/pdf.h"
@@ -11,36 +11,8 @@ namespace {
 
 constexpr double kPlotLeft = 150, kPlotWide = 420, kPlotRow = 18, kPlotHigh = 150;
 
-std::string tenths(double value) {
-  char digits[64];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 1).ptr;
-  return std::string(digits, end);
-}
 std::string tenths_or_dash(const std::optional<double>& value) {
   return value ? tenths(*value) : "-";
-}
-
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-std::string shown_name(const std::string& learner, const LearnerNames& names) {
-  const auto it = names.find(learner);
-  return it == names.end() ? learner : it->second + " (" + learner + ")";
 }
 
 std::string interval_text(const CohortLearner& one) {
@@ -84,14 +56,6 @@ ScoreScale scale_of(const CohortScenario& scenario) {
   return scale;
 }
 
-std::string svg_line(double x1, double y1, double x2, double y2, const char* look) {
-  return "<line x1=\"" + tenths(x1) + "\" y1=\"" + tenths(y1) + "\" x2=\"" + tenths(x2) +
-         "\" y2=\"" + tenths(y2) + "\" class=\"" + look + "\"/>";
-}
-std::string svg_text(double x, double y, const std::string& text) {
-  return "<text x=\"" + tenths(x) + "\" y=\"" + tenths(y) + "\">" + html_text(text) + "</text>";
-}
-
 // A bar to each learner's last score, with its interval over it and the experts' mean as a line.
 std::string bars_svg(const CohortScenario& scenario, const LearnerNames& names) {
   const ScoreScale scale = scale_of(scenario);
@@ -127,13 +91,6 @@ std::string curve_svg(const CohortScenario& scenario) {
   svg += svg_line(kPlotLeft, scale.y(100), kPlotLeft + kPlotWide, scale.y(100), "expert");
   svg += svg_text(0, scale.y(100) + 4, "experts 100") + svg_text(0, 178, "attempt");
   return svg + "<polyline points=\"" + way + "\"/></svg>";
-}
-
-std::string html_row(const std::vector<std::string>& cells, const char* tag) {
-  std::string row = "<tr>";
-  for (const std::string& cell : cells)
-    row += "<" + std::string(tag) + ">" + html_text(cell) + "</" + tag + ">";
-  return row + "</tr>\n";
 }
 
 const std::vector<std::string> kLearnerHead{"learner", "attempts",    "passed",

@@ -275,6 +275,81 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
   EXPECT_EQ(play("fast_centring", "expert", 1, "--learner 'Ada Lovelace'").exit_code, 2);
 }
 
+// Three experts and three novices set a standard; the seat's attempts are judged by it.
+TEST_F(Teaching, TwoGroupsOfLearnersSetAStandard) {
+  const std::string exercise = "fast_telescoping";
+  for (const std::string n : {"1", "2", "3"}) {
+    ASSERT_EQ(play(exercise, "expert", std::stoi(n), "--learner e" + n).exit_code, 0);
+    ASSERT_NE(play(exercise, "novice:" + n, std::stoi(n), "--learner n" + n).exit_code, 2);
+  }
+  const std::string set = "results standard " + exercise + " --experts e1,e2 e3 --novices n1 n2,n3";
+  const std::string own = file("data/osteon/standards/" + exercise + ".toml");
+  const Ran tried = run_osteon(set + " --page " + file("s.html"));
+  EXPECT_EQ(tried.exit_code, 0) << tried.output;
+  EXPECT_NE(tried.output.find("nothing is set yet"), std::string::npos) << tried.output;
+  EXPECT_FALSE(fs::exists(own));
+  EXPECT_GT(fs::file_size(file("s.html")), 1000u);
+  const Ran used = run_osteon(set + " --use --out " + file("s.toml"));
+  EXPECT_EQ(used.exit_code, 0) << used.output;
+  EXPECT_TRUE(fs::exists(own));
+  EXPECT_EQ(json_of("scenario info " + exercise + " --json")["standard"]["version"], 2);
+  const TeachJson json = json_of(set + " --json");
+  EXPECT_EQ(json["version"], 3);
+  EXPECT_EQ(json["expert_scores"].size(), 3u);
+  EXPECT_EQ(json["auc"], 1);
+  ASSERT_NE(play(exercise, "expert", 4, "").exit_code, 2);
+  EXPECT_EQ(read("r.json")["standard_version"], 2);
+  const std::string head = "results standard " + exercise;
+  for (const std::string& bad :
+       {head, head + " --experts e1 e2 e3", head + " --experts e1 e2 --novices n1 n2 n3",
+        head + " --experts e1 e2 e3 --novices e1 n1 n2",  // in both
+        head + " --experts n1 n2 n3 --novices e1 e2 e3",  // the wrong way round
+        "results standard nothing --experts e1 e2 e3 --novices n1 n2 n3",
+        set + " --out /nowhere/s.toml"})
+    EXPECT_EQ(run_osteon(bad).exit_code, 2) << bad;
+  // Nobody is judged by another standard than the one that was set.
+  std::ofstream(own) << "format = 1\nscenario = ";
+  const Ran broken = play(exercise, "expert", 1);
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.output.find(own + ":2"), std::string::npos) << broken.output;
+  fs::copy_file(file("s.toml"), file("data/osteon/standards/fast_maze.toml"));
+  EXPECT_EQ(play("fast_maze", "expert", 1).exit_code, 2);
+}
+
+TEST_F(Teaching, ASeatHasExercisesOfItsOwnAndOffersThoseThatAreSet) {
+  const fs::path own = file("data/osteon/scenarios");
+  fs::create_directories(own);
+  std::ifstream in(fs::path(OSTEON_SOURCE_DIR) / "assets/scenarios/fast_maze.toml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::ofstream(own / "twice.toml") << text;  // the name of a shipped one
+  text.replace(text.find("\"fast_maze\""), 11, "\"my_maze\"");
+  std::ofstream(own / "my_maze.toml") << text;
+  std::ofstream(own / "broken.toml") << "format = ";
+  const Ran list = run_osteon("scenario list");
+  EXPECT_EQ(list.exit_code, 1);
+  for (const char* said : {"my_maze", "touch_bones", "twice.toml", "broken.toml:1"})
+    EXPECT_NE(list.output.find(said), std::string::npos) << said << list.output;
+  EXPECT_EQ(play("my_maze", "expert", 1).exit_code, 0);
+  fs::remove(own / "twice.toml");
+  fs::remove(own / "broken.toml");
+  EXPECT_EQ(run_osteon("scenario list").exit_code, 0);
+  const auto course = [&](const std::string& exercises) {
+    std::ofstream(file("data/osteon/course.toml"))
+        << "format = 1\ntitle = \"Week 3\"\nexercises = " + exercises;
+    return run_osteon("scenario list --course");
+  };
+  const Ran set = course("[\"my_maze\", \"touch_bones:7\"]");
+  EXPECT_EQ(set.exit_code, 0) << set.output;
+  const TeachJson names = json_of("scenario list --course --json");
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_EQ(names[0]["name"], "my_maze");
+  EXPECT_EQ(names[1]["seed"], 7);
+  const Ran other = course("[\"nothing\", \"my_maze\"]");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.output.find("nothing"), std::string::npos) << other.output;
+  EXPECT_EQ(course("[]").exit_code, 1);
+}
+
 // The record store answers nobody before the run is over: it is neither waited for nor needed.
 TEST_F(Teaching, AKeptAttemptIsSentInTheBackground) {
   LrsThatWaits lrs;

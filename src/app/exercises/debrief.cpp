@@ -8,7 +8,7 @@
 #include "exercises/attempt_watch.h"
 #include "exercises/graft_order.h"
 #include "exercises/guided_time.h"
-#include "exercises/scenario_files.h"
+#include "exercises/seat_files.h"
 #include "exercises/surface_heat.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
@@ -45,7 +45,7 @@ Result<std::optional<Standard>> standard_for(const DebriefOrder& order, const Sc
   }
   const auto note = read_note(order.recording, "standard");
   if (!note) return tl::unexpected(note.error());
-  if (!*note) return shipped_standard(scenario.name);
+  if (!*note) return standard_in_use(scenario.name);
   auto standard = parse_standard(**note, order.recording.string() + " (its standard)");
   if (!standard) return tl::unexpected(standard.error());
   return std::optional<Standard>(std::move(*standard));

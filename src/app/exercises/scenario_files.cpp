@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "exercises/result_files.h"
+#include "exercises/seat_files.h"
 #include "osteon/base/file.h"
 #include "osteon/base/random.h"
 #include "osteon/procedure/attempt.h"
@@ -59,13 +60,14 @@ Result<std::vector<Scenario>> shipped_scenarios() {
 Result<Scenario> open_scenario(const std::string& spec) {
   std::error_code ec;
   if (fs::is_regular_file(spec, ec)) return load_scenario(spec);
-  const auto all = shipped_scenarios();
+  const auto all = all_exercises();
   if (!all) return tl::unexpected(all.error());
   std::string names;
-  for (const Scenario& scenario : *all) {
+  for (const Scenario& scenario : all->scenarios) {
     if (scenario.name == spec) return scenario;
     names += (names.empty() ? "" : ", ") + scenario.name;
   }
+  for (const Error& fault : all->faults) names += "\nleft out: " + fault.message();
   return fail("there is no scenario '" + spec + "' and no file of that name", "scenario",
               "Use one of: " + names);
 }

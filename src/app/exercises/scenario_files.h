@@ -15,7 +15,8 @@ namespace osteon {
 
 /// The scenarios that Osteon ships, by name: assets/scenarios/*.toml, in alphabetical order.
 Result<std::vector<Scenario>> shipped_scenarios();
-/// A scenario by what a user names it: a shipped one's name, or a file.
+/// A scenario by what a user names it: the name of a shipped one or of one of the user's own, or a
+/// file.
 Result<Scenario> open_scenario(const std::string& spec);
 /// The standard that is shipped for a scenario; none: there is none.
 Result<std::optional<Standard>> shipped_standard(const std::string& scenario);

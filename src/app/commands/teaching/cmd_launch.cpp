@@ -14,7 +14,7 @@
 #include "commands/teaching/scenario_run.h"
 #include "exercises/launched_exercise.h"
 #include "exercises/result_files.h"
-#include "exercises/scenario_files.h"
+#include "exercises/seat_files.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -47,7 +47,7 @@ Result<std::optional<AttemptRow>> played_by_surgeon(const std::string& surgeon,
   if (!scenario) return tl::unexpected(scenario.error());
   auto skill = parse_skill(*scenario, surgeon);
   if (!skill) return tl::unexpected(skill.error());
-  auto standard = shipped_standard(scenario->name);
+  auto standard = standard_in_use(scenario->name);
   if (!standard) return tl::unexpected(standard.error());
   ScenarioRun run;
   run.case_spec = case_spec_of(*scenario, "", launch.seed);

@@ -299,6 +299,7 @@ void add_results_commands(cli::App& app, int& exit_code) {
   compare->add_flag("--json", options->json, "print JSON");
   add_result_sending(*group, exit_code);
   add_result_rescore(*group, exit_code);
+  add_result_standard(*group, exit_code);
 }
 
 }  // namespace osteon

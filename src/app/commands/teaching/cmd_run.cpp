@@ -9,6 +9,7 @@
 #include "exercises/graft_order.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
+#include "exercises/seat_files.h"
 #include "osteon/base/file.h"
 
 namespace osteon {
@@ -22,7 +23,7 @@ struct RunCommand {
 };
 
 Result<std::optional<Standard>> standard_of(const RunCommand& command, const Scenario& scenario) {
-  if (command.standard.empty()) return shipped_standard(scenario.name);
+  if (command.standard.empty()) return standard_in_use(scenario.name);
   auto standard = load_standard(command.standard);
   if (!standard) return tl::unexpected(standard.error());
   return std::optional<Standard>(std::move(*standard));

@@ -11,6 +11,7 @@
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
+#include "exercises/seat_files.h"
 #include "osteon/base/file.h"
 #include "osteon/results/cmi5_course.h"
 #include "runs/hands/tray.h"
@@ -22,7 +23,7 @@ using ScenarioJson = nlohmann::ordered_json;
 
 struct ScenarioCommand {
   std::string scenario, case_spec;
-  bool json = false;
+  bool json = false, course = false;
 };
 
 struct CourseCommand {
@@ -58,17 +59,22 @@ ScenarioJson summary_json(const Scenario& scenario) {
 }
 
 int list_scenarios(const ScenarioCommand& command) {
-  const auto all = shipped_scenarios();
+  const auto all = command.course ? set_exercises() : all_exercises();
   if (!all) return report_error(all.error());
   ScenarioJson json = ScenarioJson::array();
-  for (const Scenario& scenario : *all) {
+  if (!command.json && !all->title.empty()) std::printf("%s\n", all->title.c_str());
+  for (std::size_t i = 0; i < all->scenarios.size(); ++i) {
+    const Scenario& scenario = all->scenarios[i];
     json.push_back(summary_json(scenario));
+    if (all->seeds[i]) json.back()["seed"] = *all->seeds[i];
     if (!command.json)
-      std::printf("%-16s %s (%zu stages, %zu errors)\n", scenario.name.c_str(),
-                  scenario.title.c_str(), scenario.stages.size(), scenario.errors.size());
+      std::printf("%-16s %s (%zu stages, %zu errors)%s\n", scenario.name.c_str(),
+                  scenario.title.c_str(), scenario.stages.size(), scenario.errors.size(),
+                  all->seeds[i] ? (", patient " + std::to_string(*all->seeds[i])).c_str() : "");
   }
   if (command.json) std::printf("%s\n", json.dump(2).c_str());
-  return kExitDone;
+  for (const Error& fault : all->faults) report_error(fault);
+  return all->faults.empty() ? kExitDone : kExitNo;
 }
 
 ScenarioJson info_json(const Scenario& scenario) {
@@ -113,13 +119,29 @@ void print_info(const Scenario& scenario) {
   std::printf("surgeons: %s\n", listed(surgeons_of(scenario)).c_str());
 }
 
+ScenarioJson standard_json(const Standard& standard) {
+  return {{"version", standard.version},
+          {"source", standard.source},
+          {"experts", standard.experts},
+          {"pass_score", standard.pass_score},
+          {"reliability", standard.reliability}};
+}
+
 int show_scenario(const ScenarioCommand& command) {
   const auto scenario = open_scenario(command.scenario);
   if (!scenario) return report_error(scenario.error());
-  if (command.json)
-    std::printf("%s\n", info_json(*scenario).dump(2).c_str());
-  else
-    print_info(*scenario);
+  const auto standard = standard_in_use(scenario->name);
+  if (!standard) return report_error(standard.error());
+  if (command.json) {
+    ScenarioJson json = info_json(*scenario);
+    json["standard"] = *standard ? standard_json(**standard) : ScenarioJson(nullptr);
+    std::printf("%s\n", json.dump(2).c_str());
+    return kExitDone;
+  }
+  print_info(*scenario);
+  if (*standard)
+    std::printf("standard: version %d, %.4g to pass. Source: %s\n", (*standard)->version,
+                (*standard)->pass_score, (*standard)->source.c_str());
   return kExitDone;
 }
 
@@ -161,7 +183,7 @@ Result<Cmi5Course> course_of(const CourseCommand& command) {
                     command.seed ? std::to_string(*command.seed) : "",
                     {}};
   const auto add = [&course](const Scenario& scenario) -> Result<void> {
-    const auto standard = shipped_standard(scenario.name);
+    const auto standard = standard_in_use(scenario.name);
     if (!standard) return tl::unexpected(standard.error());
     Cmi5Unit unit{scenario.name, scenario.title, scenario.text, {}};
     if (*standard) unit.mastery = (*standard)->pass_score / 100;
@@ -220,6 +242,8 @@ void add_scenario_commands(cli::App& app, int& exit_code) {
   auto options = std::make_shared<ScenarioCommand>();
   cli::App* list = group->add_subcommand("list", "List the bundled exercises");
   list->add_flag("--json", options->json, "print JSON");
+  list->add_flag("--course", options->course,
+                 "only the exercises that are set on this seat, in their order");
   list->callback([options, &exit_code] { exit_code = list_scenarios(*options); });
   cli::App* info = group->add_subcommand("info", "Show one exercise: stages, errors, metrics");
   info->add_option("scenario", options->scenario, "name or file")->required();

@@ -49,6 +49,7 @@ void draw_course(const PanelContext& c) {
   wrapped_text(color::kTextQuiet,
                "Each judges what you touch, how hard and for how long. Your attempts stay on this "
                "computer.");
+  if (!model.problem.empty()) wrapped_text(color::kAmber, model.problem);
   ImGui::BeginChild("cards", {0, -ImGui::GetFrameHeightWithSpacing()});
   for (std::size_t i = 0; i < model.cards.size(); ++i) {
     const ExerciseModel::Card& card = model.cards[i];
@@ -254,7 +255,8 @@ void draw_dialog(const PanelContext& c) {
     ImGui::SetNextWindowPos({r.x + r.w / 2, r.y + r.h / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({w, h});
   ImGui::Begin("##exercise", nullptr, kExerciseWindow);
-  strong(c, page == ExercisePage::kCourse ? "Exercises" : c.model.exercise.title);
+  const bool unnamed = page == ExercisePage::kCourse && c.model.exercise.title.empty();
+  strong(c, unnamed ? "Exercises" : c.model.exercise.title);
   if (page == ExercisePage::kCourse)
     draw_course(c);
   else if (page == ExercisePage::kResult)

@@ -112,17 +112,17 @@ void ExerciseControl::save_pages() {
 void ExerciseControl::show(const std::string& order) {
   const std::size_t colon = order.rfind(':');
   const std::string name = order.substr(0, colon);
-  std::uint64_t seed = 0;
-  const char* const end = order.data() + order.size();
-  if (colon != order.npos) {
-    if (std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
-      exercise_.set_seed(seed);
-    else
-      host_.note(ToastKind::kWarning, "'" + order.substr(colon + 1) + "' is not a seed.");
-  }
   exercise_.toggle();
   if (!exercise_.choose(name))
     host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");
+  if (colon == order.npos) return;
+  // After the exercise is chosen: a course may have set another patient for it.
+  std::uint64_t seed = 0;
+  const char* const end = order.data() + order.size();
+  if (std::from_chars(order.data() + colon + 1, end, seed) == std::from_chars_result{end, {}})
+    exercise_.set_seed(seed);
+  else
+    host_.note(ToastKind::kWarning, "'" + order.substr(colon + 1) + "' is not a seed.");
 }
 
 // The patient of the exercise takes the place of what is on show, unless it is that already.

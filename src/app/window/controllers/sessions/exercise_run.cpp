@@ -73,19 +73,28 @@ void ExerciseRun::close_page() {
     page_ = ExercisePage::kClosed;
 }
 
+void ExerciseRun::take_exercises(ExerciseList set) {
+  course_title_ = set.title;
+  scenarios_ = std::move(set.scenarios);
+  set_seeds_ = std::move(set.seeds);
+  // Where no course says otherwise, the first thing that a student meets comes first. None of those
+  // has a patient that is set.
+  if (course_title_.empty() && std::none_of(set_seeds_.begin(), set_seeds_.end(),
+                                            [](const auto& seed) { return seed.has_value(); }))
+    std::stable_partition(scenarios_.begin(), scenarios_.end(),
+                          [](const Scenario& s) { return s.hands.empty(); });
+  for (const Error& fault : set.faults)
+    problem_ += (problem_.empty() ? "" : "\n") + fault.message();
+}
+
 void ExerciseRun::toggle() {
   if (page_ != ExercisePage::kClosed) return close_page();
   problem_.clear();
   if (scenarios_.empty()) {
-    auto all = shipped_scenarios();
-    if (all)
-      scenarios_ = std::move(*all);
-    else
-      problem_ = all.error().message();
+    auto set = set_exercises();
+    if (!set) problem_ = set.error().message();
+    if (set) take_exercises(std::move(*set));
   }
-  // The first thing that a student meets comes first.
-  std::stable_partition(scenarios_.begin(), scenarios_.end(),
-                        [](const Scenario& s) { return s.hands.empty(); });
   played_ = played_before(scenarios_);
   page_ = ExercisePage::kCourse;
 }
@@ -93,6 +102,7 @@ void ExerciseRun::toggle() {
 void ExerciseRun::choose(std::size_t exercise) {
   if (exercise >= scenarios_.size()) return;
   chosen_ = exercise;
+  if (exercise < set_seeds_.size() && set_seeds_[exercise]) seed_ = set_seeds_[exercise];
   problem_.clear();
   page_ = ExercisePage::kBriefing;
 }
@@ -100,7 +110,13 @@ void ExerciseRun::choose(std::size_t exercise) {
 bool ExerciseRun::choose(const std::string& name) {
   for (std::size_t i = 0; i < scenarios_.size(); ++i)
     if (scenarios_[i].name == name) choose(i);
-  return page_ == ExercisePage::kBriefing;
+  if (page_ == ExercisePage::kBriefing) return true;
+  // One that is not set may still be named.
+  auto scenario = open_scenario(name);
+  if (!scenario) return false;
+  scenarios_.push_back(std::move(*scenario));
+  choose(scenarios_.size() - 1);
+  return true;
 }
 
 void ExerciseRun::back() {
@@ -298,7 +314,7 @@ void ExerciseRun::poll() {
 
 void ExerciseRun::keep() {
   const std::string report = report_of(*debrief_);
-  const auto standard = shipped_standard(scenario().name);
+  const auto standard = standard_in_use(scenario().name);
   const auto noted =
       note_attempt(file_, scenario(), standard ? *standard : std::nullopt, "a person", report);
   if (!noted) problem_ = noted.error().message();
@@ -325,6 +341,7 @@ ExerciseModel ExerciseRun::model() const {
   if (page_ == ExercisePage::kCourse) {
     for (std::size_t i = 0; i < scenarios_.size(); ++i)
       model.cards.push_back({scenarios_[i].title, scenarios_[i].text, played_[i]});
+    model.title = course_title_;
     return model;
   }
   model.title = scenario().title;

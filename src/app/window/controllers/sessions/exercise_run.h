@@ -11,7 +11,7 @@
 #include "exercises/attempt_watch.h"
 #include "exercises/debrief.h"
 #include "exercises/graft_order.h"
-#include "exercises/scenario_files.h"
+#include "exercises/seat_files.h"
 #include "ui/side_job.h"
 #include "window/exercise_model.h"
 
@@ -109,12 +109,15 @@ class ExerciseRun {
   void describe_result(ExerciseModel& model) const;
   void describe_asked(ExerciseModel& model) const;
   void describe_graft(ExerciseModel& model) const;
+  void take_exercises(ExerciseList set);
   void keep();
   Result<void> note_what_was_said() const;
 
   ExercisePage page_ = ExercisePage::kClosed;
   std::vector<Scenario> scenarios_;
-  std::vector<std::string> played_;  ///< as scenarios_
+  std::vector<std::string> played_;                      ///< as scenarios_
+  std::vector<std::optional<std::uint64_t>> set_seeds_;  ///< by a course, as scenarios_
+  std::string course_title_;
   std::size_t chosen_ = 0;
   std::optional<std::uint64_t> seed_;
   std::string problem_;
