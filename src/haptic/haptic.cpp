@@ -26,6 +26,7 @@ constexpr double kAnyWay = 1e9;
 constexpr double kFallsOn_m = 1e-4;  // in a tick: 100 mm/s
 // A tip goes no farther in a tick while its shaft is in a portal: 0.5 m/s.
 constexpr double kStepInPortal_m = 0.0005;
+constexpr double kMostSqueeze = 3;  // D: share of a contact in the felt force
 constexpr double kFadeTicks = HapticLoop::kFade_s / 0.001;
 
 }  // namespace
@@ -320,7 +321,9 @@ void HapticLoop::Impl::list_contacts(const ProxyMove& move) {
 }
 
 // Splits the force on the hand among the contacts: the part along the load's normal as the planes'
-// weights say, the rest (friction) in the same proportion.
+// weights say, the rest (friction) in the same proportion. Between two walls that face each other
+// the weights grow without bound as their angle closes, more than such planes are known: no contact
+// gets more than kMostSqueeze times what the hand feels, which a wedge of 19 degrees gives.
 void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, const Vec3& beside_W) {
   const Vec3 force = state.tool.force_W - beside_W;
   const double size = load.stretch_W.norm();
@@ -330,9 +333,10 @@ void HapticLoop::Impl::share_force(const ProxyMove& move, const Load& load, cons
   std::uint32_t bones = 0, tools = 0;
   for (std::uint32_t i = 0; i < move.holding_count; ++i) {
     const HoldingPlane& plane = move.holding[i];
+    const double weight = std::min(plane.weight, kMostSqueeze * size);
     Vec3& share = plane.other < kMaxHands ? state.tool.tool_contacts[tools++].force_on_tool_W
                                           : state.tool.contacts[bones++].force_on_tool_W;
-    share = (normal * plane.weight / size) * plane.nhat_BT_W + (plane.weight / load.sum) * rest;
+    share = (normal * weight / size) * plane.nhat_BT_W + (plane.weight / load.sum) * rest;
   }
 }
 

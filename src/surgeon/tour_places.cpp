@@ -288,7 +288,9 @@ TourPlace place_between(const TourPlace& from, const TourPlace& to, double lift_
   constexpr double kUp = 0.3;  // of the whole way; as much in again
   const double f = lift_m > 0 ? std::clamp((share - kUp) / (1 - 2 * kUp), 0.0, 1.0)
                               : std::clamp(share, 0.0, 1.0);
-  const double out = lift_m * std::min({1.0, share / kUp, (1 - share) / kUp});
+  const auto beyond = [](const TourPlace& end) { return std::max(0.0, -end.depth_m - kTourOut_m); };
+  const double out = std::max({lift_m * std::min({1.0, share / kUp, (1 - share) / kUp}),
+                               beyond(from) * (1 - share), beyond(to) * share});
   TourPlace place = from;
   place.depth_m = -kTourOut_m - out;
   // Between two portals the place is of neither: its portal is the point that it turns about.

@@ -132,19 +132,81 @@ class TourPlanner {
   // lifted over what is in between. A scope keeps its way: what it shows must not be lost for long.
   void keep_apart() {
     std::vector<std::optional<TourPlace>> at(tour_.tools.size());
-    for (TourVisit& visit : tour_.visits) {
+    for (std::size_t i = 0; i < tour_.visits.size(); ++i) {
+      TourVisit& visit = tour_.visits[i];
       const std::optional<TourPlace> from = std::exchange(at[visit.hand], std::nullopt);
       std::vector<TourPlace> others;
       for (const auto& place : at)
         if (place) others.push_back(*place);
       const bool hook = !tour_.tools[visit.hand].optics;
-      if (hook && visit.kind == TourVisit::Kind::kEnter)
-        visit.place = turned_clear(case_, tour_.tools[visit.hand], visit.place, others);
+      if (hook && visit.kind == TourVisit::Kind::kEnter && !enter_beside(i, at, others) &&
+          give_way(i, at)) {
+        at[tour_.visits[i].hand] = from;
+        --i;
+        continue;
+      }
       if (hook && from) visit.lift_m = lift_over(*from, visit.place, others).value_or(0);
       at[visit.hand] = visit.place;
       // Who has touched waits drawn back.
       if (visit.kind == TourVisit::Kind::kTouch) at[visit.hand]->depth_m = kTourRest_m;
     }
+  }
+
+  // Clear of the others as they are and as they will go while the hook waits. False: no turn leaves
+  // it clear of all that; it is clear of them as they are, then.
+  bool enter_beside(std::size_t i, const std::vector<std::optional<TourPlace>>& at,
+                    const std::vector<TourPlace>& others) {
+    TourVisit& visit = tour_.visits[i];
+    const TourTool& tool = tour_.tools[visit.hand];
+    std::vector<TourPlace> all = others;
+    for (const TourPlace& later : places_until(i, at)) all.push_back(later);
+    const TourPlace turned = turned_clear(case_, tool, visit.place, all);
+    const bool clear = std::all_of(all.begin(), all.end(),
+                                   [&](const TourPlace& other) { return clear_of(turned, other); });
+    visit.place = clear ? turned : turned_clear(case_, tool, visit.place, others);
+    return clear;
+  }
+
+  // Where another hand changes its portal next, the hook lets it go first: it waits over its own
+  // portal, so far out that the other passes. False: the other does not, or cannot pass either.
+  bool give_way(std::size_t i, const std::vector<std::optional<TourPlace>>& at) {
+    if (i + 1 >= tour_.visits.size()) return false;
+    const TourVisit &visit = tour_.visits[i], &next = tour_.visits[i + 1];
+    if (next.kind != TourVisit::Kind::kEnter || next.hand == visit.hand || !at[next.hand])
+      return false;
+    const std::vector<TourPlace> others = places_until(i, at);
+    for (const double out_m : {0.03, 0.06, 0.09, 0.12}) {
+      TourVisit wait = visit;
+      wait.kind = TourVisit::Kind::kWaitOver;
+      wait.place.depth_m = -out_m;
+      if (!clear_of(wait.place, *at[next.hand]) ||
+          !std::all_of(others.begin(), others.end(),
+                       [&](const TourPlace& other) { return clear_of(wait.place, other); }))
+        continue;
+      std::swap(tour_.visits[i], tour_.visits[i + 1]);
+      tour_.visits.insert(tour_.visits.begin() + static_cast<std::ptrdiff_t>(i), wait);
+      return true;
+    }
+    return false;
+  }
+
+  // Where the other hands are and pass from a visit until its own hand's next one.
+  std::vector<TourPlace> places_until(std::size_t visit,
+                                      std::vector<std::optional<TourPlace>> at) const {
+    constexpr int kSamples = 8;
+    std::vector<TourPlace> places;
+    const std::size_t hand = tour_.visits[visit].hand;
+    for (std::size_t i = visit + 1; i < tour_.visits.size(); ++i) {
+      const TourVisit& next = tour_.visits[i];
+      if (next.hand == hand) break;
+      const auto& from = at[next.hand];
+      const bool elsewhere = from && (from->portal_W - next.place.portal_W).norm() > 1e-9;
+      for (int k = 0; elsewhere && k <= kSamples; ++k)
+        places.push_back(place_between(*from, next.place, 0, static_cast<double>(k) / kSamples));
+      places.push_back(next.place);
+      at[next.hand] = next.place;
+    }
+    return places;
   }
 
   // Beside the other hand's shaft where there is a place; else the hands have to share the room.
@@ -364,7 +426,7 @@ void TourHand::move(double dt_s) {
     }
     case Phase::kOver: {
       TourPlace above = visit().place;
-      above.depth_m = -kTourOut_m;
+      above.depth_m = std::min(above.depth_m, -kTourOut_m);
       const Vec3 from_W = pose_at(from_, tool()).p, to_W = pose_at(above, tool()).p;
       const double lift_m = visit().lift_m;
       const double way_m = (to_W - from_W).norm() + 2 * lift_m;
@@ -382,8 +444,8 @@ void TourHand::move(double dt_s) {
       return;
     }
     case Phase::kEnter: {
-      inside_ = true;
       const TourPlace& to = visit().place;
+      inside_ = to.depth_m > 0;
       if (visit().kind != TourVisit::Kind::kTouch) {
         if (go_deep(to.depth_m, go)) enter(Phase::kLook);
         return;

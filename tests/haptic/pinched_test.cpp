@@ -145,5 +145,49 @@ TEST(Pinched, ADrillInTooNarrowAHoleFeelsTheRimThatStopsIt) {
   EXPECT_NEAR(s.force_W.z(), kStiffness * (z - (rests - kPush)), 1e-3);
 }
 
+// Two plates that stand on edge and lean apart, each by `half_angle`.
+std::vector<Bone> wedge(double half_angle) {
+  const auto plate = [&](double side) {
+    const Vec3 n(-side * std::cos(half_angle), 0, std::sin(half_angle));
+    Pose X_WB;
+    X_WB.q = Quat::FromTwoVectors(Vec3::UnitZ(), n);
+    X_WB.p = -0.005 * n;
+    return test::bone_of({test::box_hull(Vec3(0.08, 0.08, 0.005))}, X_WB);
+  };
+  return {plate(-1), plate(1)};
+}
+
+// Down between the plates until the hand feels more than a newton.
+const ToolState& push_between(Rig& rig) {
+  Vec3 hand(0, 0, 0.06);
+  (void)rig.at(hand);
+  while (hand.z() > 0 && rig.at(hand).force_W.norm() < 1) hand.z() -= 1e-4;
+  return rig.at(hand);
+}
+
+TEST(Pinched, InAWideWedgeTheWallsShareTheForceAsStaticsSays) {
+  for (const double half_angle : {0.35, 0.8}) {
+    Rig rig(wedge(half_angle));
+    const ToolState& s = push_between(rig);
+    ASSERT_EQ(s.contact_count, 2u) << half_angle;
+    for (std::uint32_t i = 0; i < 2; ++i)
+      EXPECT_NEAR(s.contacts[i].force_on_tool_W.norm(),
+                  s.force_W.norm() / (2 * std::sin(half_angle)), 0.02 * s.force_W.norm())
+          << half_angle;
+  }
+}
+
+// Without a bound a push of 1 N would count as 29 N on either wall.
+TEST(Pinched, InANarrowWedgeNoWallCountsForMoreThanThreeTimesWhatIsFelt) {
+  Rig rig(wedge(0.0175));
+  const ToolState& s = push_between(rig);
+  ASSERT_GT(s.force_W.norm(), 1);
+  ASSERT_EQ(s.contact_count, 2u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    EXPECT_LE(s.contacts[i].force_on_tool_W.norm(), 3.001 * s.force_W.norm());
+    EXPECT_GT(s.contacts[i].force_on_tool_W.norm(), 2.9 * s.force_W.norm());
+  }
+}
+
 }  // namespace
 }  // namespace osteon

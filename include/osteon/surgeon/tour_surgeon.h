@@ -75,7 +75,12 @@ inline constexpr double kTourOut_m = 0.012;
 
 /// One thing that one hand does.
 struct TourVisit {
-  enum class Kind { kEnter, kLook, kTouch };
+  enum class Kind {
+    kEnter,
+    kLook,
+    kTouch,
+    kWaitOver  ///< over its portal, until another hand has passed
+  };
   std::size_t hand = 0;
   Kind kind = Kind::kLook;
   bool faulty = false;  ///< the one thing that is done wrong is done here
