@@ -116,5 +116,51 @@ TEST(TourPlace, AtItsPortalAShaftTurnsAsideFromOneThatIsThere) {
   EXPECT_EQ(turned.portal_W, portal_W);
 }
 
+// A way between places that are farther out than usual begins and ends there.
+TEST(TourPlace, AWayFromFarOutBeginsThere) {
+  const TourPlace far = leaning(Vec3::Zero(), 0.2, -0.06), in = leaning(Vec3(0.01, 0, 0), 0, 0.005);
+  for (const double lift_m : {0.0, 0.03}) {
+    EXPECT_NEAR(place_between(far, in, lift_m, 0).depth_m, -0.06, 1e-15);
+    EXPECT_NEAR(place_between(far, in, lift_m, 1).depth_m, -kTourOut_m, 1e-15);
+    EXPECT_NEAR(place_between(in, far, lift_m, 1).depth_m, -0.06, 1e-15);
+  }
+}
+
+// Scope through a, hook through b, scope through c.
+TourPlan three_changes(const Vec3& a_W, const Vec3& b_W, const Vec3& c_W) {
+  Case c = block_under_portal();
+  c.landmarks = {{"portal_a", a_W}, {"portal_b", b_W}, {"portal_c", c_W}};
+  ScenarioPlan plan;
+  plan.goals.emplace_back();
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    PlannedRule goal;
+    goal.rule = {"through", {}, {{"for_s", 0.5}}};
+    goal.bones = {i};
+    goal.about = SubjectKind::kLandmark;
+    goal.hand = i == 1 ? 0 : 1;
+    plan.goals.back().push_back(goal);
+  }
+  return plan_tour(plan, c, {}, {hook(), scope()});
+}
+
+TEST(TourPlan, AHookWaitsOverItsPortalWhereTheScopeMustPass) {
+  using Kind = TourVisit::Kind;
+  const Vec3 a_W(-0.010, 0, 0.025), b_W(0, 0, 0.025), c_W(0.002, 0, 0.025);
+  const TourPlan plan = three_changes(a_W, b_W, c_W);
+  ASSERT_EQ(plan.visits.size(), 4u);
+  EXPECT_EQ(plan.visits[1].kind, Kind::kWaitOver);
+  EXPECT_EQ(plan.visits[1].hand, 0u);
+  EXPECT_LT(plan.visits[1].place.depth_m, -kTourOut_m);
+  EXPECT_EQ(plan.visits[2].hand, 1u);
+  EXPECT_EQ(plan.visits[3].kind, Kind::kEnter);
+  EXPECT_EQ(plan.visits[3].place.portal_W, b_W);
+  const TourPlace& waits = plan.visits[1].place;
+  for (int k = 0; k <= 8; ++k)
+    EXPECT_TRUE(
+        clear_of(place_between(plan.visits[0].place, plan.visits[2].place, 0, k / 8.0), waits));
+  // Where there is room all is done in its order.
+  EXPECT_EQ(three_changes(a_W, b_W + Vec3(0, 0.08, 0), c_W).visits.size(), 3u);
+}
+
 }  // namespace
 }  // namespace osteon
