@@ -55,7 +55,7 @@ void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandC
   const BandSpan span{from * band.from_B, to * band.to_B};
   const RoundBox part_W = placed(hand.X_WP, shapes_[contact.part]);
   const double k = std::min(hand.stiffness_n_per_m, band.surface_n_per_m);
-  const BandPress press = press_band(band, span, part_W, contact, k);
+  const BandPress press = press_band(band, span_at(span, contact), part_W, contact, k);
   if (!press.presses || !(press.force_n > 0)) return;
   const Vec3 way = span.b_W - span.a_W;
   const double share = std::clamp((press.p_W - span.a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
@@ -101,10 +101,35 @@ void BandPull::add_skin(const PullingHand& hand, const Bones& bones, const SkinC
   }
 }
 
+// What suction holds pulls straight to its mouth, no harder than the suction.
+Vec3 BandPull::suction_on(const PullingHand& hand, const Bones& bones) const {
+  const SoftHold& hold = contacts_->hold;
+  const Vec3 mouth_W = hand.X_WP * hold.p_T;
+  if (hold.of == SoftHold::Of::kSolid) {
+    if (hold.bone >= bones.X_WB.size()) return Vec3::Zero();
+    const Pose& X = bones.X_WB[hold.bone];
+    return suck_solid(hold, X * hold.p_B, X.q * hold.nhat_B, mouth_W);
+  }
+  if (!bands_ || hold.part >= bands_->size()) return Vec3::Zero();
+  const SoftBand& band = (*bands_)[hold.part];
+  const BandSpan span{bones.X_WB[band.from.index] * band.from_B,
+                      bones.X_WB[band.to.index] * band.to_B};
+  const BandPress press =
+      draw_band(band, span, mouth_W, hold.others_taken_m, hold.stiffness_n_per_m);
+  const Vec3 way_W = press.p_W - mouth_W;
+  const double length = way_W.norm();
+  if (!press.presses || !(length > 0)) return Vec3::Zero();
+  return std::min(press.force_n, hold.most_n) / length * way_W;
+}
+
 // What jaws hold pulls every way, and is damped every way. Nothing rubs there.
 void BandPull::add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const {
   const SoftHold& hold = contacts_->hold;
   if (hold.of == SoftHold::Of::kNothing) return;
+  if (hold.most_n > 0) {
+    out.force_W += suction_on(hand, bones);
+    return;
+  }
   const double k = std::min(hand.stiffness_n_per_m, kJawSpring_n_per_m);
   const Vec3 grip_W = hand.X_WP * hold.p_T;
   Vec3 force = Vec3::Zero();

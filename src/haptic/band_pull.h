@@ -61,6 +61,7 @@ class BandPull {
                  BandForce& out) const;
   void add_skin(const PullingHand& hand, const Bones& bones, const SkinContact& contact,
                 BandForce& out) const;
+  Vec3 suction_on(const PullingHand& hand, const Bones& bones) const;
   void add_hold(const PullingHand& hand, const Bones& bones, BandForce& out) const;
   static void add(const PullingHand& hand, const Pressed& pressed, BandForce& out);
 

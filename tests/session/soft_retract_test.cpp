@@ -105,6 +105,52 @@ TEST(SoftRetract, ABladeHoldsALigamentAsideAndFeelsItWithoutSteps) {
   EXPECT_LT(most, 0.001 * held);
 }
 
+// What another hand meets beside the blade is the leg of the string that it has drawn aside; it is
+// the two legs from there on.
+TEST(SoftRetract, WhereALigamentWasAnotherHandFindsRoom) {
+  const BandRun run = with_retractor(BandRun(band_table(0.003)));
+  const double touch = -(kBandRadius_m + kThinHalf_m), aside_m = 0.020, beside_m = 0.0095;
+  const double other_touch = -(kBandRadius_m + testing::kShaftRadius_m);
+  const auto other_at = [&](double z_m) -> Vec3 {
+    return kBandMiddle + Vec3(beside_m, -0.020, z_m);
+  };
+  std::array<double, 2> felt{};
+  for (const bool retracted : {false, true}) {
+    Session session = run.session();
+    TwoOnTissue hands(session, across_at(-0.05));
+    hands.move(0, across_at(touch - 0.003));
+    hands.rest(50);
+    if (retracted) hands.move(0, across_at(touch + aside_m));
+    hands.move(1, other_at(-0.012));
+    hands.move(1, other_at(other_touch + 0.0004));
+    hands.rest(100);
+    felt[retracted ? 1 : 0] = hands.force(1).norm();
+    if (!retracted) continue;
+    // Up to where the leg is.
+    const double bent = aside_m + hands.force(0).z() / kBandSurface_n_per_m;
+    const double leg = bent * (1 - beside_m / (testing::kBandGap_m / 2));
+    EXPECT_GT(leg, 0.0006);
+    double first = 0, most = 0;
+    for (double z = 0.0004; z < leg + 0.002; z += 1e-5) {
+      const double before = hands.force(1).norm();
+      hands.move(1, other_at(other_touch + z), 1);
+      if (first == 0 && hands.force(1).norm() > 0.02) first = z;
+      most = std::max(most, std::abs(hands.force(1).norm() - before));
+    }
+    EXPECT_NEAR(first, leg, 0.0001);
+    EXPECT_GT(hands.force(1).norm(), 0.5);
+    EXPECT_LT(most, 0.05);
+    // Both at rest, and what they feel does not swing.
+    hands.rest(300);
+    const Vec3 one = hands.force(0), other = hands.force(1);
+    hands.rest(200);
+    EXPECT_LT((hands.force(0) - one).norm(), 1e-3);
+    EXPECT_LT((hands.force(1) - other).norm(), 1e-3);
+  }
+  EXPECT_GT(felt[0], 0.1);
+  EXPECT_EQ(felt[1], 0);
+}
+
 // Slightly aslant, so that its tip is what lifts.
 TEST(SoftRetract, ABladeUnderAMeniscusLiftsItAndAnotherHandFindsRoom) {
   const testing::MeniscusRun run = with_retractor(testing::meniscus_run());

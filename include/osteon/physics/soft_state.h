@@ -22,6 +22,9 @@ struct NearBand {
   bool behind = false;  ///< another part presses from the same side, deeper: that one is felt
   double deep_m = 0;    ///< how far it has come over the surface of the band at rest
   double taken_m = 0;   ///< length of the string's path that it takes
+  /// How it bends the string there, and how far along the straight way.
+  Vec3 bend_W = Vec3::Zero();
+  double at_share = 0.5;
 };
 
 /// A hand on a band: for the events.
@@ -72,6 +75,7 @@ struct SoftGrip {
   double taken_m = 0;              ///< of a band: by so much its path is longer
   Vec3 against_B = Vec3::UnitZ();  ///< of a solid: unit, against the way that it is pulled
   double peak_n = 0, most_m = 0;   ///< since then; how far the jaws have gone with it
+  Vec3 bend_W = Vec3::Zero();      ///< of a band: from its straight way to the held place
   bool operator==(const SoftGrip&) const = default;
 };
 

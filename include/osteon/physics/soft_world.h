@@ -133,6 +133,8 @@ class SoftWorld {
   void tear(std::span<const Hand> hands);
   void tell_touches(const Hand& hand, std::uint64_t step);
   double taken_by_others(const NearBand& near) const;
+  Vec3 shift_of(const Hand& hand, const RoundBox& part_W, const BandContact& contact,
+                const Vec3& nhat_W) const;
   void tell(const Hand& hand, EventKind kind, std::size_t band, std::array<double, 3> values);
   void tell(Event event, const Vec3& p_W);
 

@@ -68,6 +68,7 @@ struct BandContact {
   std::uint32_t part = 0;       ///< of tool_rods() of the instrument
   Vec3 nhat_W = Vec3::UnitZ();  ///< unit, from the band to the part: the side on which it came
   double others_taken_m = 0;    ///< length of the string's path that other contacts take
+  Vec3 off_W = Vec3::Zero();    ///< by so much other hands have drawn its straight way aside here
   bool operator==(const BandContact&) const = default;
 };
 
@@ -95,6 +96,18 @@ struct BandContacts {
 /// are one. `surface_n_per_m`: the softer of the band's surface and the hand's coupling.
 BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox& part_W,
                      const BandContact& contact, double surface_n_per_m);
+
+/// A band's straight way as a contact meets it.
+inline BandSpan span_at(const BandSpan& span, const BandContact& contact) {
+  return {span.a_W + contact.off_W, span.b_W + contact.off_W};
+}
+
+/// The string of two straight legs that is drawn from its straight way towards `to_W`, in balance
+/// with a spring of `spring_n_per_m` between its surface and there. It is drawn by `deep_m`, of
+/// which it gives way by `bent_m`; `p_W` is where its middle line is then, and `force_n` the force
+/// on it. Presses nothing where its surface reaches `to_W`.
+BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W,
+                    double others_taken_m, double spring_n_per_m);
 
 /// Places of a band's middle line and of a part's core between which the part presses along
 /// `nhat_W`: the nearest of both; of a box over the band its lowest place there, however far it has

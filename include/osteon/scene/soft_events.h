@@ -12,9 +12,10 @@ inline constexpr EventKind kSoftTorn{103};   ///< its tension has reached its fa
 inline constexpr EventKind kSoftLost{104};   ///< it could not be solved: it is felt no more
 inline constexpr EventKind kSoftCut{105};    ///< cut in two; of a solid: a cut into it begins
 inline constexpr EventKind kSoftPiece{108};  ///< a piece of a solid has come off
-inline constexpr EventKind kSoftHeld{109};   ///< jaws shut about it and hold it
-inline constexpr EventKind kSoftFreed{110};  ///< the jaws that held it have opened
-inline constexpr EventKind kSoftSlipped{111};  ///< it was pulled out of the jaws that held it
+inline constexpr EventKind kSoftHeld{
+    109};  ///< jaws shut about it, or suction draws it, and hold it
+inline constexpr EventKind kSoftFreed{110};    ///< what held it has let go
+inline constexpr EventKind kSoftSlipped{111};  ///< it was pulled off what held it
 inline constexpr EventKind kSkinCut{112};      ///< an edge goes into skin: a stroke begins
 inline constexpr EventKind kSkinCutEnd{113};   ///< and has come out
 inline constexpr EventKind kSkinPierced{114};  ///< a tool has broken through skin

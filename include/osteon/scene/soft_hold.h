@@ -9,7 +9,7 @@ namespace osteon {
 struct SoftBand;
 struct BandSpan;
 
-/// A place of a soft part that jaws hold: what physics tells the 1 kHz tick.
+/// A place of a soft part that jaws or suction hold: what physics tells the 1 kHz tick.
 struct SoftHold {
   enum class Of : std::uint8_t { kNothing, kBand, kSolid };
   Of of = Of::kNothing;
@@ -20,6 +20,10 @@ struct SoftHold {
   double others_taken_m = 0;     ///< of a band: length of its path that other contacts take
   Vec3 p_B = Vec3::Zero();       ///< of a solid: the place at rest
   double stiffness_n_per_m = 0;  ///< of a solid there, the way that it is pulled
+  /// Above 0: suction holds it, no harder than so. It pulls straight towards the mouth alone:
+  /// `stiffness_n_per_m` is then that of solid and mouth together, or of the mouth on a band.
+  double most_n = 0;
+  Vec3 nhat_B = Vec3::UnitZ();  ///< of a solid that suction holds: unit, out of it
   bool operator==(const SoftHold&) const = default;
 };
 
@@ -40,6 +44,16 @@ struct HeldBand {
 /// each leg has its share of their length. Zero where the band ends or what is held is no number.
 HeldBand hold_band(const SoftBand& band, const BandSpan& span, const Vec3& grip_W,
                    const SoftHold& hold, double spring_n_per_m);
+
+/// Force on the mouth at `mouth_W` of a solid that suction holds: `rest_W` and `nhat_W` are of the
+/// held place at rest. It only pulls.
+inline Vec3 suck_solid(const SoftHold& hold, const Vec3& rest_W, const Vec3& nhat_W,
+                       const Vec3& mouth_W) {
+  const double gap_m = nhat_W.dot(mouth_W - rest_W);
+  if (!(gap_m > 0)) return Vec3::Zero();
+  const double pull_n = hold.stiffness_n_per_m * gap_m;
+  return -(pull_n < hold.most_n ? pull_n : hold.most_n) * nhat_W;
+}
 
 /// Force on the tool of a solid whose held place at rest is `rest_W`: a spring, the solid and
 /// `spring_n_per_m` one behind the other.

@@ -8,8 +8,7 @@
 namespace osteon {
 namespace {
 
-constexpr double kCovered_m = 0.015;   // soft parts over the outermost bone; own default
-constexpr double kBoreOfOuter = 0.75;  // of a cannula's outer diameter; own default
+constexpr double kCovered_m = 0.015;  // soft parts over the outermost bone; own default
 
 PieceTool piece_tool(const Instrument& instrument, std::size_t size) {
   PieceTool out;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "osteon/physics/joint_fluid.h"
 #include "osteon/scene/instrument.h"
 #include "soft/of_tray.h"
 
@@ -13,6 +15,10 @@ std::uint64_t jaw_bit(std::size_t part) { return part < 64 ? std::uint64_t{1} <<
 
 bool turns(const FeltPart& part) {
   return std::visit([](const auto& p) { return p.jaw != Jaw::kNone; }, part);
+}
+
+double area_of(const SoftGripper& mouth) {
+  return std::numbers::pi / 4 * mouth.bore_m * mouth.bore_m;
 }
 
 void add_mouth(SoftGripper& jaws) {
@@ -60,9 +66,28 @@ std::optional<SoftGripper> gripper_of(const Instrument& instrument, std::size_t 
   return out;
 }
 
+std::optional<SoftGripper> sucker_of(const Instrument& instrument, std::size_t size) {
+  if (!instrument.power || instrument.power->kind != "suction") return {};
+  SoftGripper out;
+  out.bore_m = kBoreOfOuter * instrument.sizes_m.at(size);
+  for (const Primitive& part : make_tool(instrument, size).parts)
+    out.bore_T.z() = std::min(out.bore_T.z(), -support(part, -Vec3::UnitZ()));
+  out.holds_n = FluidJoint{}.suction_pa * area_of(out);
+  return out;
+}
+
+double suction_at(const SoftGripper& mouth, double gap_m) {
+  const double area = area_of(mouth), gap = std::max(gap_m, 0.0);
+  const double speed = area / (area + 10 * gap * gap);
+  return area > 0 ? mouth.holds_n * speed * speed : 0;
+}
+
 Result<std::vector<std::optional<SoftGripper>>> make_soft_grippers(
     std::span<const std::string> tray) {
-  return of_tray<SoftGripper>(tray, gripper_of);
+  return of_tray<SoftGripper>(tray, [](const Instrument& instrument, std::size_t size) {
+    auto jaws = gripper_of(instrument, size);
+    return jaws ? jaws : sucker_of(instrument, size);
+  });
 }
 
 }  // namespace osteon

@@ -29,6 +29,17 @@ std::array<double, 2> inside_of(std::span<const Plane> planes, const Vec3& a, co
 
 }  // namespace
 
+Vec3 across(const BandSpan& span, const Vec3& p_W) {
+  const Vec3 way = span.b_W - span.a_W, off = p_W - span.a_W;
+  return off - off.dot(way) / way.squaredNorm() * way;
+}
+
+double share_along(const BandSpan& span, const Vec3& p_W) {
+  const Vec3 way = span.b_W - span.a_W;
+  const double share = (p_W - span.a_W).dot(way) / way.squaredNorm();
+  return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.5;
+}
+
 double taken_by_grips(const SoftState& state, std::size_t band, std::size_t but_hand) {
   double sum = 0;
   for (std::size_t h = 0; h < kMaxHands; ++h) {
@@ -132,6 +143,14 @@ void SoftGrips::draw_in(const SoftGripper& jaws, SoftHold& hold) const {
   hold.p_T -= std::clamp(off, -most, most) * jaws.rise_T;
 }
 
+double SoftGrips::others_taken_m(const SoftState& state, std::size_t h, std::size_t band) const {
+  double sum = taken_by_grips(state, band, h);
+  for (const SoftHandState& hand : state.hands)
+    for (std::uint32_t i = 0; i < hand.count; ++i)
+      if (hand.near[i].contact.band == band) sum += hand.near[i].taken_m;
+  return sum;
+}
+
 GripPull SoftGrips::pull_of(SoftState& state, std::size_t h, const ToolState& tool,
                             const Parts& parts) const {
   SoftHold& hold = state.grips[h].hold;
@@ -141,15 +160,12 @@ GripPull SoftGrips::pull_of(SoftState& state, std::size_t h, const ToolState& to
   out.p_W = tool.X_WP * hold.p_T;
   if (hold.of == SoftHold::Of::kBand) {
     const BandSpan& span = parts.spans[hold.part];
-    double others_m = taken_by_grips(state, hold.part, h);
-    for (const SoftHandState& hand : state.hands)
-      for (std::uint32_t i = 0; i < hand.count; ++i)
-        if (hand.near[i].contact.band == hold.part) others_m += hand.near[i].taken_m;
-    hold.others_taken_m = others_m;
+    hold.others_taken_m = others_taken_m(state, h, hold.part);
     const HeldBand held = hold_band(setup_.bands[hold.part], span, out.p_W, hold, spring_n_per_m_);
     out.force_n = held.force_W.norm();
     out.tension_n = held.tension_n;
     out.taken_m = std::max(0.0, held.taken_m);
+    state.grips[h].bend_W = across(span, held.held_W);
     const double whole = (span.b_W - span.a_W).norm() + setup_.bands[hold.part].over_m;
     const Vec3 rest_W = span.a_W + hold.share * whole * (span.b_W - span.a_W).normalized();
     out.pulled_m = (out.p_W - rest_W).norm();
@@ -177,27 +193,21 @@ GripNews SoftGrips::step(SoftState& state, std::size_t h, const ToolState* tool,
   SoftGrip& grip = state.grips[h];
   GripNews news;
   const SoftGripper* jaws = tool ? gripper(tool->instrument) : nullptr;
+  const bool sucks = jaws && jaws->bore_m > 0;
   const bool holds = grip.hold.of != SoftHold::Of::kNothing;
   const bool gone = holds && !is_felt(state, grip.hold, parts);
-  const auto leave = [&] {
-    news.hold = grip.hold;
-    news.since_s = static_cast<double>(step - grip.first_step) * step_s_;
-    news.peak_n = grip.peak_n;
-    news.pulled_mm = 1e3 * grip.most_m;
-    news.p_W = tool ? tool->X_WP * grip.hold.p_T : Vec3(Vec3::Zero());
-    grip = {};
-  };
-  if (!jaws) {
+  if (!jaws || (holds && sucks != (grip.hold.most_n > 0))) {
+    news = leave(grip, tool, step);
     news.freed = holds && !gone;
-    leave();
     return news;
   }
   if (gone) grip = {};
+  if (sucks) return suck(state, h, *jaws, *tool, parts, step, pull);
   const bool shuts = grip.jaw_open && tool->jaw <= kJawsShut;
   const bool open = tool->jaw > kJawsOpen || (grip.jaw_open && tool->jaw > kJawsShut);
   if (grip.hold.of != SoftHold::Of::kNothing && tool->jaw > kJawsShut) {
+    news = leave(grip, tool, step);
     news.freed = true;
-    leave();
   }
   grip.jaw_open = open;
   if (shuts &&
@@ -212,24 +222,41 @@ GripNews SoftGrips::step(SoftState& state, std::size_t h, const ToolState* tool,
   if (grip.hold.of == SoftHold::Of::kNothing) return news;
   draw_in(*jaws, grip.hold);
   pull = pull_of(state, h, *tool, parts);
+  hold_on(grip, pull);
+  const bool far = grip.hold.of == SoftHold::Of::kSolid && pull.pulled_m > kFarthest_m;
+  if (pull.force_n > jaws->holds_n || far || !std::isfinite(pull.force_n)) {
+    const bool held = news.held;
+    news = leave(grip, tool, step);
+    news.held = held;
+    news.slipped = true;
+    news.force_n = pull.force_n;
+    news.holds_n = jaws->holds_n;
+  }
+  return news;
+}
+
+void SoftGrips::hold_on(SoftGrip& grip, const GripPull& pull) const {
   grip.force_n = pull.force_n;
   grip.taken_m = pull.taken_m;
   grip.peak_n = std::max(grip.peak_n, pull.force_n);
   grip.most_m = std::max(grip.most_m, pull.pulled_m);
-  const bool far = grip.hold.of == SoftHold::Of::kSolid && pull.pulled_m > kFarthest_m;
-  if (pull.force_n > jaws->holds_n || far || !std::isfinite(pull.force_n)) {
-    news.slipped = true;
-    news.force_n = pull.force_n;
-    news.holds_n = jaws->holds_n;
-    leave();
-  }
+}
+
+GripNews SoftGrips::leave(SoftGrip& grip, const ToolState* tool, std::uint64_t step) const {
+  GripNews news;
+  news.hold = grip.hold;
+  news.since_s = static_cast<double>(step - grip.first_step) * step_s_;
+  news.peak_n = grip.peak_n;
+  news.pulled_mm = 1e3 * grip.most_m;
+  news.p_W = tool ? tool->X_WP * grip.hold.p_T : Vec3(Vec3::Zero());
+  grip = {};
   return news;
 }
 
 bool SoftGrips::fits(const SoftState& state) const {
   for (const SoftGrip& grip : state.grips) {
     const SoftHold& hold = grip.hold;
-    if (!is_finite(hold.p_T) || !is_finite(hold.p_B)) return false;
+    if (!is_finite(hold.p_T) || !is_finite(hold.p_B) || !(hold.most_n >= 0)) return false;
     if (hold.of == SoftHold::Of::kBand &&
         (hold.part >= setup_.bands.size() || !(hold.share > 0 && hold.share < 1)))
       return false;

@@ -34,7 +34,8 @@ struct GripPull {
 /// Jaws that hold soft parts, at the physics' rate. Jaws that have stood wide open and shut take
 /// what is in their mouth: a band whose straight way leads through it, or else the solid that has
 /// most in it. They draw the place between them as they shut, and hold it until they open, until it
-/// is pulled out, or until it is not felt any more. A step allocates, locks and logs nothing.
+/// is pulled out, or until it is not felt any more. A mouth that sucks holds what it draws to
+/// itself against its pull. A step allocates, locks and logs nothing.
 class SoftGrips {
  public:
   SoftGrips(const SoftSetup& setup, double coupling_n_per_m, double step_s)
@@ -66,10 +67,35 @@ class SoftGrips {
   void draw_in(const SoftGripper& jaws, SoftHold& hold) const;
   GripPull pull_of(SoftState& state, std::size_t hand, const ToolState& tool,
                    const Parts& parts) const;
+  void hold_on(SoftGrip& grip, const GripPull& pull) const;
+  GripNews leave(SoftGrip& grip, const ToolState* tool, std::uint64_t step) const;
+  // Suction.
+  struct Drawn {
+    double gap_m = 0;               ///< from the mouth to its surface at rest; below 0: pressed
+    double target_n_per_m = 0;      ///< what the hold's stiffness goes to
+    GripPull pull;                  ///< with the hold's stiffness
+    Vec3 bend_W = Vec3::Zero();     ///< of a band
+    Vec3 against_B = Vec3::Zero();  ///< of a solid
+  };
+  bool draws(const SoftState& state, std::size_t hand, const SoftGripper& mouth,
+             const ToolState& tool, const Parts& parts, SoftHold& hold, Drawn& out) const;
+  bool draws_band(const SoftState& state, std::size_t hand, const ToolState& tool,
+                  const Parts& parts, SoftHold& hold, Drawn& out) const;
+  bool draws_solid(const ToolState& tool, const Parts& parts, SoftHold& hold, Drawn& out) const;
+  bool find_drawn(const SoftState& state, std::size_t hand, const SoftGripper& mouth,
+                  const ToolState& tool, const Parts& parts, SoftHold& hold) const;
+  GripNews suck(SoftState& state, std::size_t hand, const SoftGripper& mouth, const ToolState& tool,
+                const Parts& parts, std::uint64_t step, GripPull& pull) const;
+  double others_taken_m(const SoftState& state, std::size_t hand, std::size_t band) const;
 
   const SoftSetup& setup_;
   double spring_n_per_m_, step_s_;
 };
+
+/// From a band's straight way to a place, across it.
+Vec3 across(const BandSpan& span, const Vec3& p_W);
+/// How far along a band's straight way a place is: 0 to 1.
+double share_along(const BandSpan& span, const Vec3& p_W);
 
 /// By so much the jaws of all hands but one make a band's path longer.
 double taken_by_grips(const SoftState& state, std::size_t band, std::size_t but_hand = kMaxHands);

@@ -180,6 +180,9 @@ void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grip
       h.add(plane.n);
       h.add(plane.d);
     }
+    if (!(jaws->bore_m > 0)) continue;
+    h.add(jaws->bore_m);
+    h.add(jaws->bore_T);
   }
   setup.hash = h.value();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/collide/round_box.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
@@ -23,6 +24,10 @@ constexpr double kDeepest_m = 0.025;
 // Two parts that press a band from one side are one push: the deeper counts.
 constexpr double kOneSide = 0.5;
 constexpr double kFarthest_m2 = 1e12;
+// A band that another hand draws onto a part shifts not at all where the two are nearer along it
+// than the first, and by all of it beyond the second: two that squeeze it at one place would send
+// it to and fro.
+constexpr double kTogether_m = 0.003, kApart_m = 0.009;
 // A blade or teeth open so much surface each second and newton (D).
 constexpr double kWounds_m2_per_ns = 2e-6;
 constexpr double kNick_n = 0.5;  // a lighter touch wounds nothing (D)
@@ -129,6 +134,38 @@ double SoftWorld::taken_by_others(const NearBand& near) const {
   return sum;
 }
 
+// Symbols: s, the part's place along the band, 0 to 1; t and b, place and bend of another hand's
+// contact. A string that is bent by b at t is bent at s by b s/t before t and b (1 - s)/(1 - t)
+// beyond; of several these add up, as of any string whose tension is one. `nhat_W`: from the band
+// to the part, zero where it is not known yet.
+Vec3 SoftWorld::shift_of(const Hand& hand, const RoundBox& part_W, const BandContact& contact,
+                         const Vec3& nhat_W) const {
+  const std::size_t b = contact.band;
+  const BandSpan& span = spans_[b];
+  Vec3 sum = Vec3::Zero();
+  double s = -1;
+  const auto add = [&](double t, const Vec3& bend_W) {
+    if (bend_W.isZero(0) || !is_finite(bend_W) || !(t > 0 && t < 1)) return;
+    if (s < 0)
+      s = share_of(b, nearest_on_cores(round_box(Capsule{span.a_W, span.b_W, 0}), part_W).a);
+    const double apart_m = std::abs(t - s) * (span.b_W - span.a_W).norm();
+    Vec3 by = (s < t ? s / t : (1 - s) / (1 - t)) * bend_W;
+    const double left = std::clamp((kApart_m - apart_m) / (kApart_m - kTogether_m), 0.0, 1.0);
+    by -= left * std::max(0.0, by.dot(nhat_W)) * nhat_W;
+    sum += by;
+  };
+  for (std::size_t h = 0; h < kMaxHands; ++h) {
+    if (h == hand.index) continue;
+    const SoftHandState& other = state_.hands[h];
+    for (std::uint32_t i = 0; i < other.count; ++i)
+      if (other.near[i].contact.band == b) add(other.near[i].at_share, other.near[i].bend_W);
+    const SoftGrip& grip = state_.grips[h];
+    if (grip.hold.of == SoftHold::Of::kBand && grip.hold.part == b)
+      add(grip.hold.share, grip.bend_W);
+  }
+  return sum;
+}
+
 bool SoftWorld::is_bent_far(const SoftHandState& hand, const NearBand& but) const {
   const auto far = [&](const NearBand& near) {
     return near.contact.band == but.contact.band && near.contact.part != but.contact.part &&
@@ -137,10 +174,11 @@ bool SoftWorld::is_bent_far(const SoftHandState& hand, const NearBand& but) cons
   return std::any_of(hand.near.begin(), hand.near.begin() + hand.count, far);
 }
 
-// Jaws that stand open, and a tool whose jaws hold the band, do not press it.
+// Jaws that stand open, and a tool whose jaws hold the band, do not press it. What suction draws
+// to the mouth does.
 bool SoftWorld::presses(const Hand& hand, std::size_t band, std::size_t part) const {
   const SoftHold& hold = state_.grips[hand.index].hold;
-  if (hold.of == SoftHold::Of::kBand && hold.part == band) return false;
+  if (hold.of == SoftHold::Of::kBand && hold.part == band && hold.most_n == 0) return false;
   return !(hand.lifted >> part & 1);
 }
 
@@ -154,9 +192,10 @@ void SoftWorld::follow(const Hand& hand) {
     NearBand near = state.near[i];
     const std::size_t b = near.contact.band;
     if (!is_felt(b) || !presses(hand, b, near.contact.part)) continue;
+    const RoundBox part_W = placed(hand.tool->X_WP, parts[near.contact.part]);
+    near.contact.off_W = shift_of(hand, part_W, near.contact, near.contact.nhat_W);
     const BandSide side =
-        next_side(setup_->bands[b], spans_[b], placed(hand.tool->X_WP, parts[near.contact.part]),
-                  near.contact.nhat_W);
+        next_side(setup_->bands[b], span_at(spans_[b], near.contact), part_W, near.contact.nhat_W);
     if (side.gap_m > kNear_m) continue;
     const bool begins = side.gap_m < 0 && !near.touching;
     near.barred = side.gap_m < 0 &&
@@ -183,12 +222,14 @@ void SoftWorld::seek(const Hand& hand) {
     for (std::size_t part = 0; part < parts.size() && is_felt(b); ++part) {
       if (state.count == kMaxBandContacts) return;
       if (known(b, part) || !presses(hand, b, part)) continue;
-      const BandSide side =
-          first_side(setup_->bands[b], spans_[b], placed(hand.tool->X_WP, parts[part]));
-      if (side.gap_m > kNear_m) continue;
+      const RoundBox part_W = placed(hand.tool->X_WP, parts[part]);
       NearBand near;
-      near.contact = {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(part), side.nhat_W,
-                      0};
+      near.contact.band = static_cast<std::uint32_t>(b);
+      near.contact.part = static_cast<std::uint32_t>(part);
+      near.contact.off_W = shift_of(hand, part_W, near.contact, Vec3::Zero());
+      const BandSide side = first_side(setup_->bands[b], span_at(spans_[b], near.contact), part_W);
+      if (side.gap_m > kNear_m) continue;
+      near.contact.nhat_W = side.nhat_W;
       near.touching = near.barred = side.gap_m < 0;
       near.deep_m = -side.gap_m;
       state.near[state.count++] = near;
@@ -220,13 +261,17 @@ void SoftWorld::press(Hand& hand) {
     const std::size_t b = near.contact.band;
     const SoftBand& band = setup_->bands[b];
     near.taken_m = 0;
+    near.bend_W = Vec3::Zero();
+    const RoundBox part_W = placed(hand.tool->X_WP, shapes_[state.instrument][near.contact.part]);
+    near.contact.off_W = shift_of(hand, part_W, near.contact, near.contact.nhat_W);
     near.contact.others_taken_m = taken_by_others(near);
     if (near.barred || near.behind) continue;
-    const RoundBox part_W = placed(hand.tool->X_WP, shapes_[state.instrument][near.contact.part]);
-    const BandPress press = press_band(band, spans_[b], part_W, near.contact,
+    const BandPress press = press_band(band, span_at(spans_[b], near.contact), part_W, near.contact,
                                        std::min(coupling_n_per_m_, band.surface_n_per_m));
     if (!press.presses) continue;
     near.taken_m = press.taken_m;
+    near.bend_W = -press.bent_m * near.contact.nhat_W;
+    near.at_share = share_of(b, press.p_W);
     keep_bend(near.contact, press, part_W.rod.radius);
     if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
       hand.cuts[b] = true;
@@ -332,7 +377,7 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     with.lifted = hand.lifted;
     if (cutting_) with.lifted |= cutting_->lifted(*hand.tool);
     const SoftHold& hold = state_.grips[hand.index].hold;
-    if (hold.of == SoftHold::Of::kSolid) with.held = hold.part;
+    if (hold.of == SoftHold::Of::kSolid && hold.most_n == 0) with.held = hold.part;
     solids_->follow(state, with, state_);
   }
   for (const Hand& hand : hands) {

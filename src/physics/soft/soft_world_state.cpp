@@ -23,6 +23,7 @@ void add_to(Hasher& h, const NearBand& near) {
   h.add(near.behind);
   h.add(near.deep_m);
   h.add(near.taken_m);
+  if (!near.contact.off_W.isZero(0)) h.add(near.contact.off_W);
 }
 
 void add_to(Hasher& h, const BandTouch& touch) {
@@ -54,6 +55,9 @@ void add_to(Hasher& h, const SoftGrip& grip) {
                          grip.force_n, grip.taken_m, grip.peak_n, grip.most_m})
     h.add(x);
   h.add(grip.first_step);
+  if (!(grip.hold.most_n > 0)) return;
+  h.add(grip.hold.most_n);
+  h.add(grip.hold.nhat_B);
 }
 
 void add_solids_to(Hasher& h, const SoftState& state) {

@@ -104,4 +104,27 @@ BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox&
   return out;
 }
 
+BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W,
+                    double others_taken_m, double spring_n_per_m) {
+  BandPress out;
+  const Vec3 way = span.b_W - span.a_W;
+  const double length = way.norm();
+  if (!(length > 0) || !is_finite(to_W) || !(spring_n_per_m > 0)) return out;
+  const double share = std::clamp((to_W - span.a_W).dot(way) / (length * length), 0.0, 1.0);
+  const Vec3 on_W = span.a_W + share * way;
+  const double apart = (to_W - on_W).norm();
+  out.p_W = on_W;
+  out.deep_m = apart - band.radius_m;
+  const double at_end = std::min(1.0, std::min(share, 1 - share) / kEndShare);
+  if (!(out.deep_m > 0) || !(at_end > 0)) return out;
+  const BentString string{band, share * length, (1 - share) * length, others_taken_m};
+  out.bent_m = balance(string, out.deep_m, at_end * spring_n_per_m);
+  out.taken_m = string.taken(out.bent_m);
+  out.tension_n = string.tension(out.bent_m);
+  out.force_n = string.force(out.bent_m);
+  out.p_W = on_W + out.bent_m / apart * (to_W - on_W);
+  out.presses = true;
+  return out;
+}
+
 }  // namespace osteon

@@ -55,7 +55,8 @@ bool has_effect(const Instrument& instrument, InstrumentFunction function) {
   if (function == kGuide)
     return instrument.aims || (instrument.removal && instrument.removal->way == RemovalWay::kDrill);
   if (function == kGrasp) return instrument.jaws && instrument.jaws->holds_n > 0;
-  return function == kProbe;
+  // A retractor holds tissue back by standing in its way.
+  return function == kProbe || function == kRetract;
 }
 
 std::string_view to_text(RemovalWay way) { return kWays[static_cast<std::size_t>(way)]; }

@@ -4,6 +4,9 @@
 
 namespace osteon::stored {
 
+// The version that says where a band is drawn aside, and what suction holds.
+constexpr std::uint64_t kAside = 32;
+
 template <class A>
 void field(A& a, NearBand& n) {
   field(a, n.contact.band);
@@ -13,6 +16,9 @@ void field(A& a, NearBand& n) {
   for (bool* x : {&n.touching, &n.barred, &n.behind}) field(a, *x);
   field(a, n.deep_m);
   field(a, n.taken_m);
+  if (!since(a, kAside)) return;
+  for (Vec3* x : {&n.contact.off_W, &n.bend_W}) field(a, *x);
+  field(a, n.at_share);
 }
 
 template <class A>
@@ -62,6 +68,9 @@ void field(A& a, SoftGrip& g) {
                     &g.taken_m, &g.peak_n, &g.most_m})
     field(a, *x);
   field(a, g.first_step);
+  if (!since(a, kAside)) return;
+  for (Vec3* x : {&hold.nhat_B, &g.bend_W}) field(a, *x);
+  field(a, hold.most_n);
 }
 
 template <class A>
