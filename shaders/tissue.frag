@@ -138,9 +138,10 @@ Look cartilage_look(vec3 p) {
 Look meniscus_look(vec3 p) {
   vec3 from_axis = p - u_center - dot(p - u_center, u_fibre) * u_fibre;
   vec3 round = normalize(cross(u_fibre, from_axis) + vec3(1e-6));
-  // Rings about the axis: polar coordinates make the streaks follow the rim.
+  // Rings about the axis: polar coordinates make the streaks follow the rim. The angle is the same
+  // on both sides of a plane through the axis: where it leapt by a turn there would be a seam.
   float r = length(from_axis), h = dot(p - u_center, u_fibre);
-  float a = atan(dot(round, u_fibre.yzx), dot(round, u_fibre.zxy));
+  float a = abs(atan(dot(round, u_fibre.yzx), dot(round, u_fibre.zxy)));
   float f = noise(vec3(r * 2600.0, h * 2600.0, a * 3.0));
   float m = layers(p * 260.0);
   vec3 c = mix(vec3(0.80, 0.72, 0.56), vec3(0.91, 0.86, 0.74), 0.6 * m + 0.4 * f);

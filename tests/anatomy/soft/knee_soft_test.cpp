@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "anatomy/anatomy_assets.h"
 #include "anatomy/knee_figures.h"
@@ -42,6 +47,70 @@ TEST(KneeSoft, MenisciHaveTheirPublishedSizes) {
   EXPECT_NEAR(medial.y(), 31.7, 1.5);
   EXPECT_NEAR(lateral.z(), 32.7, 1.5);
   EXPECT_NEAR(lateral.y(), 33.2, 1.5);
+}
+
+/// Where the section of a meniscus by a half plane upwards through `middle` (y, z), at `angle` from
+/// y to z, lies: heights over how far it is from the middle.
+struct MeniscusSection {
+  double inner = 1, outer = 0;
+  std::vector<std::pair<Vec3, Vec3>> edges;  ///< (distance, height, 0)
+  MeniscusSection(const TriMesh& mesh, double y, double z, double angle) {
+    const Vec3 out(0, std::cos(angle), std::sin(angle)), across(0, -out.z(), out.y());
+    const Vec3 middle(0, y, z);
+    for (const Triangle& t : mesh.triangles) {
+      std::vector<Vec3> cut;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = mesh.vertices[t[k]] - middle, b = mesh.vertices[t[(k + 1) % 3]] - middle;
+        const double da = across.dot(a), db = across.dot(b);
+        if ((da < 0) == (db < 0)) continue;
+        const Vec3 p = a + da / (da - db) * (b - a);
+        cut.push_back({out.dot(p), p.x(), 0});
+      }
+      if (cut.size() != 2 || cut[0].x() < 0) continue;
+      edges.emplace_back(cut[0], cut[1]);
+      inner = std::min({inner, cut[0].x(), cut[1].x()});
+      outer = std::max({outer, cut[0].x(), cut[1].x()});
+    }
+  }
+  /// Lowest and highest height at a share of the way from the inner edge to the rim.
+  std::pair<double, double> heights(double share) const {
+    const double at = inner + share * (outer - inner);
+    std::pair<double, double> found{1, -1};
+    for (const auto& [a, b] : edges) {
+      if ((a.x() < at) == (b.x() < at)) continue;
+      const double h = a.y() + (at - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+      found = {std::min(found.first, h), std::max(found.second, h)};
+    }
+    return found;
+  }
+  double thickness(double share) const {
+    const auto [low, high] = heights(share);
+    return high - low;
+  }
+};
+
+/// Thick at the rim, thin at the inner edge, hollow above: also where no condyle presses.
+TEST(KneeSoft, MenisciAreWedges) {
+  struct Compartment {
+    const char* name;
+    double y, z;
+    std::array<double, 4> angles_deg;
+  };
+  for (const Compartment& at :
+       {Compartment{"medial_meniscus", 0.014, -0.0047, {0, -30, -60, -80}},
+        Compartment{"lateral_meniscus", -0.014, -0.005, {180, 240, 260, 275}}}) {
+    const TriMesh& mesh = checks::soft_named(soft_knee(), at.name).mesh_W;
+    for (const double angle_deg : at.angles_deg) {
+      const MeniscusSection section(mesh, at.y, at.z, angle_deg * 3.14159265358979 / 180);
+      const double edge = section.thickness(0.12), middle = section.thickness(0.4);
+      const double rim = section.thickness(0.75);
+      EXPECT_LT(edge, 0.45 * rim) << at.name << " " << angle_deg;
+      EXPECT_LT(edge, middle) << at.name << " " << angle_deg;
+      EXPECT_LT(middle, rim) << at.name << " " << angle_deg;
+      const double straight = 0.5 * (section.heights(0.1).second + section.heights(0.7).second);
+      EXPECT_LT(section.heights(0.4).second, straight) << at.name << " " << angle_deg;
+    }
+  }
 }
 
 /// Section of the ligament by the plane in its middle, at right angles to its run.
