@@ -336,6 +336,31 @@ TEST(SoftGrip, APunchBitesAMeniscusAndDoesNotHoldIt) {
   EXPECT_GT(session.softs()->removed_m3(0), 20e-9);
 }
 
+// What another punch has bitten out while the jaws held it: they have that piece, and no more.
+TEST(SoftGrip, WhatIsCutOffBetweenTheJawsLeavesTheRestFree) {
+  Session bitten = meniscus_run().session();
+  JawHand punch(bitten);
+  reach_block(punch, kGripPunch);
+  Session session = meniscus_run().session();
+  JawHand hand(session);
+  reach_block(hand, kGrasper);
+  ASSERT_TRUE(hand.holds());
+  hand.move(hand.at + Vec3(0, 0, 0.004), 200);
+  hand.rest(100);
+  EXPECT_LT(session.tool_state().force_W.z(), -1);
+  SessionState state = session.save();
+  state.world.softs.cut = bitten.save().world.softs.cut;
+  ASSERT_TRUE(state.world.softs.cut);
+  ASSERT_TRUE(session.restore(state));
+  ASSERT_TRUE(hand.holds());
+  hand.rest(10);
+  EXPECT_FALSE(hand.holds());
+  ASSERT_EQ(hand.count(kSoftFreed), 1u);
+  EXPECT_GT(hand.first(kSoftFreed).values[1], 1);
+  EXPECT_EQ(session.tool_state().force_W, Vec3(0, 0, 0));
+  EXPECT_EQ(session.softs()->solid_readout(0).force_n[0], 0);
+}
+
 void wander(JawHand& hand, Random& random, int turns) {
   for (int n = 0; n < turns; ++n) {
     hand.jaws(random.uniform(0, 1) < 0.5 ? 1 : 0);

@@ -74,6 +74,13 @@ bool SoftGrips::is_felt(const SoftState& state, const SoftHold& hold, const Part
   return setup_.bands[hold.part].left > 0 && !band.torn && !band.lost;
 }
 
+// What jaws hold of a solid has come off it: they have the piece, and pull at the rest no more.
+bool SoftGrips::is_cut_away(const SoftHold& hold, const Parts& parts) const {
+  if (hold.of != SoftHold::Of::kSolid || hold.most_n > 0 || !parts.solids) return false;
+  return setup_.solids[hold.part].field->at(hold.p_B).distance < 0 &&
+         parts.solids->view(hold.part).at(hold.p_B).distance > 0;
+}
+
 // Of several bands the one with most of its way in the mouth.
 bool SoftGrips::take_band(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
                           const Parts& parts, SoftHold& hold) const {
@@ -196,7 +203,7 @@ GripNews SoftGrips::step(SoftState& state, std::size_t h, const ToolState* tool,
   const bool sucks = jaws && jaws->bore_m > 0;
   const bool holds = grip.hold.of != SoftHold::Of::kNothing;
   const bool gone = holds && !is_felt(state, grip.hold, parts);
-  if (!jaws || (holds && sucks != (grip.hold.most_n > 0))) {
+  if (!jaws || (holds && (is_cut_away(grip.hold, parts) || sucks != (grip.hold.most_n > 0)))) {
     news = leave(grip, tool, step);
     news.freed = holds && !gone;
     return news;

@@ -60,6 +60,7 @@ class SoftGrips {
   const SoftGripper* gripper(std::uint32_t instrument) const;
   bool is_felt(const SoftState& state, const SoftHold& hold, const Parts& parts) const;
   bool bites(std::uint32_t instrument) const;
+  bool is_cut_away(const SoftHold& hold, const Parts& parts) const;
   bool take_band(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
                  const Parts& parts, SoftHold& hold) const;
   bool take_solid(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
