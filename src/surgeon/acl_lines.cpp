@@ -8,6 +8,7 @@ namespace {
 constexpr double kPinRoom_m = 0.002;  // about its axis; a reamer with a cut-away side needs no more
 // About the axis of a drill, beyond its radius: what it needs, and what it may lack at worst.
 constexpr double kDrillRoom_m = 0.0001, kTight_m = -0.0004;
+constexpr double kPinBites = 0.67;  // cosine to the face that it enters: 48 degrees
 constexpr double kSocket_m = 0.025, kChannel_m = 0.040;
 constexpr double kWall_m = 0.0015;  // of bone behind a socket is enough
 constexpr double kMostBehind_m = 0.01;
@@ -190,6 +191,7 @@ class SocketSearch {
 struct TunnelWish {
   double length_m = 0.045, radius_m = 0.004;
   std::string_view fault;
+  double least_square = -1;  ///< least cosine between the way out and the bone's face there
 };
 
 // `out`: from the plateau to the front of the inner side.
@@ -202,9 +204,33 @@ void weigh_tunnel(const AclKnee& knee, const Vec3& mouth, const Vec3& out, const
   if (!(length > 0.01 && length < 0.08)) return;
   const AclLine inwards{in, out};
   const double to_old = beside_old(knee, false, inwards, length, wish.radius_m, wish.fault);
-  if (to_old < 0) return;
+  if (to_old < 0 || knee.normal(false, in + length * out).dot(out) < wish.least_square) return;
   const double worth = best.given + to_old - std::abs(length - wish.length_m);
   if (worth > best.worth) best = {worth, best.given, {in + length * out, -out}};
+}
+
+// Where a tibial tunnel is looked for: angles of its way out, in degrees, and how far its mouth may
+// stand behind or before its place, in mm.
+struct TunnelRange {
+  int flattest, steepest;
+  int least_inner, most_inner;
+  int beside;
+};
+
+Choice best_tunnel(const AclKnee& knee, const Vec3& mouth, const TunnelWish& wish,
+                   const TunnelRange& range) {
+  Choice best;
+  for (int steep = range.flattest; steep <= range.steepest; steep += 5)
+    for (int inner = range.least_inner; inner <= range.most_inner; inner += 10) {
+      const double s = steep * kAclTurn, i = inner * kAclTurn;
+      const Vec3 out =
+          knee.tibial(Vec3(std::sin(s), std::cos(s) * std::sin(i), std::cos(s) * std::cos(i)));
+      for (int mm = -range.beside; mm <= range.beside; ++mm) {
+        best.given = -0.0005 * std::abs(mm);
+        weigh_tunnel(knee, mouth + 0.001 * mm * knee.tibial(Vec3::UnitZ()), out, wish, best);
+      }
+    }
+  return best;
 }
 
 }  // namespace
@@ -220,19 +246,15 @@ Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const V
   const bool is_steep_too = is_in_front(fault) || fault == "into_old_tunnel";
   const int steepest = is_short ? 50 : is_steep_too ? 75 : 60;
   const TunnelWish wish{is_short ? 0.026 : 0.045, 0.5 * reamed_m, fault};
-  Choice best;
-  for (int steep = flattest; steep <= steepest; steep += 5)
-    for (int inner = 20; inner <= 50; inner += 10) {
-      const double s = steep * kAclTurn, i = inner * kAclTurn;
-      const Vec3 out =
-          knee.tibial(Vec3(std::sin(s), std::cos(s) * std::sin(i), std::cos(s) * std::cos(i)));
-      // Beside an old tunnel the mouth may stand a little behind or before the footprint's middle.
-      const int beside = knee.has_old(false) && !is_in_front(fault) ? 3 : 0;
-      for (int mm = -beside; mm <= beside; ++mm) {
-        best.given = -0.0005 * std::abs(mm);
-        weigh_tunnel(knee, mouth + 0.001 * mm * knee.tibial(Vec3::UnitZ()), out, wish, best);
-      }
-    }
+  // Beside an old tunnel the mouth may stand a little behind or before the footprint's middle.
+  const bool is_beside = knee.has_old(false) && !is_in_front(fault);
+  Choice best = best_tunnel(knee, mouth, wish, {flattest, steepest, 20, 50, is_beside ? 3 : 0});
+  // Where the old one leaves no room there, farther aside or steeper, but not so steep that a pin
+  // would slide off the tibia's front.
+  TunnelWish aside = wish;
+  aside.least_square = kPinBites;
+  if (best.worth < -1e8 && is_beside)
+    best = best_tunnel(knee, mouth, aside, {flattest, 75, 0, 70, 5});
   if (best.worth < -1e8 && !miss_W.isZero())
     return tibial_line(knee, fault, Vec3::Zero(), reamed_m);
   if (best.worth < -1e8) return fail("no line through the tibia was found", "the pin");
