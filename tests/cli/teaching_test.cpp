@@ -242,6 +242,27 @@ TEST_F(Teaching, AttemptsAreKeptListedDrawnExportedAndForgotten) {
   EXPECT_EQ(curve[0]["attempts"], 2);
   EXPECT_NEAR(curve[0]["lc_cusum"][0].get<double>(), 0.1823, 5e-5);
   EXPECT_EQ(curve[0]["lc_cusum"][1], 0);
+  // Recorded attempts are named by their id as well.
+  const std::string osr = file("again.osr");
+  ASSERT_EQ(play("fast_centring", "expert", 2, "--learner eve --record " + osr).exit_code, 0);
+  const std::string id = json_of("results list --learner eve --json")[0]["id"];
+  EXPECT_EQ(json_of("results show " + id)["report"]["recording"], osr);
+  const std::string pages = " --ghost off --no-pictures --out " + file("eve.pdf");
+  EXPECT_EQ(run_osteon("debrief " + id + pages).exit_code, 0);
+  for (const std::string format : {"csv", "xapi"}) {
+    ASSERT_EQ(run_osteon("results export --format " + format + " --out " + file("eve")).exit_code,
+              0);
+    std::ifstream in(file("eve"));
+    const std::string told{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_EQ(told.find("again.osr"), std::string::npos) << "a path of this computer";
+  }
+  fs::remove(osr);
+  EXPECT_NE(run_osteon("debrief " + id + pages).output.find("again.osr"), std::string::npos);
+  const Ran never = run_osteon("debrief " + std::string(all[0]["id"]) + pages);
+  EXPECT_EQ(never.exit_code, 2);
+  EXPECT_NE(never.output.find("not recorded"), std::string::npos) << never.output;
+  EXPECT_EQ(run_osteon("window --replay " + std::string(all[0]["id"])).exit_code, 2);
+  ASSERT_EQ(run_osteon("results forget --learner eve").exit_code, 0);
   for (const std::string format : {"csv", "xapi", "pdf"}) {
     const Ran ran =
         run_osteon("results export --format " + format + " --out " + file("x." + format));

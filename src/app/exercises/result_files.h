@@ -17,6 +17,10 @@ std::filesystem::path names_file();
 /// Whose attempts are made in this window: OSTEON_LEARNER where that is an id, else "local".
 std::string learner_here();
 
+/// The recording that a user names by its file or by the id of a stored attempt. Fails where the
+/// attempt is not there, was not recorded, or its recording is gone.
+Result<std::filesystem::path> recording_named(const std::string& file_or_id);
+
 /// The store with every waiting attempt taken in.
 Result<ResultStore> open_results();
 

@@ -1,6 +1,7 @@
 #include "exercises/scenario_files.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "exercises/result_files.h"
 #include "exercises/seat_files.h"
@@ -35,6 +36,16 @@ std::string drawn_words(const Scenario& scenario, std::uint64_t seed) {
   // In turn: as many patients one after the other have them all.
   if (!scenario.one_of.empty()) words += ":" + scenario.one_of[seed % scenario.one_of.size()];
   return words;
+}
+
+// A report that is no JSON is refused by who reads it next.
+std::string with_recording(const std::string& report_json, const fs::path& recording) {
+  auto report = nlohmann::ordered_json::parse(report_json, nullptr, false);
+  if (recording.empty() || !report.is_object()) return report_json;
+  std::error_code ec;
+  const fs::path whole = fs::absolute(recording, ec);
+  report["recording"] = (ec ? recording : whole).string();
+  return report.dump(2);
 }
 
 }  // namespace
@@ -116,9 +127,9 @@ Result<void> note_attempt(const fs::path& recording, const Scenario& scenario,
   return write_note(recording, "report", report_json);
 }
 
-Result<std::optional<Error>> keep_report(const std::string& report_json,
-                                         const std::string& learner) {
-  const auto row = row_from_report(report_json, learner);
+Result<std::optional<Error>> keep_report(const std::string& report_json, const std::string& learner,
+                                         const fs::path& recording) {
+  const auto row = row_from_report(with_recording(report_json, recording), learner);
   if (!row) return tl::unexpected(row.error());
   const auto kept = keep_attempt(*row, results_place(), waiting_folder());
   if (!kept) return tl::unexpected(kept.error());

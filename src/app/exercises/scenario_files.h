@@ -34,9 +34,9 @@ Result<void> note_attempt(const std::filesystem::path& recording, const Scenario
                           const std::optional<Standard>& standard, const std::string& by,
                           const std::string& report_json);
 
-/// Keeps an attempt among the user's results. Where the store cannot be written now it waits: the
-/// value says why.
-Result<std::optional<Error>> keep_report(const std::string& report_json,
-                                         const std::string& learner);
+/// Keeps an attempt among the user's results, with where its recording is, if it has one. Where the
+/// store cannot be written now it waits: the value says why.
+Result<std::optional<Error>> keep_report(const std::string& report_json, const std::string& learner,
+                                         const std::filesystem::path& recording = {});
 
 }  // namespace osteon

@@ -5,8 +5,10 @@
 
 #include "commands/pictures/window_size.h"
 #include "commands/pictures/windows_in_turn.h"
+#include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/support/number_check.h"
+#include "exercises/result_files.h"
 #include "runs/hands/tray.h"
 
 namespace osteon {
@@ -31,7 +33,8 @@ void add_window_command(cli::App& app, int& exit_code) {
   command
       ->add_option("--case,case", order->case_spec, "case: a folder, builtin:wrist or builtin:knee")
       ->capture_default_str();
-  command->add_option("--replay", order->replay, "recording to open");
+  command->add_option("--replay", order->replay,
+                      "recording to open, or the id of a stored attempt");
   command->add_option("--size", *size, "size of the window in pixels, e.g. 1280x720");
   command
       ->add_option("--ui-scale", order->interface_scale,
@@ -119,6 +122,14 @@ void add_window_command(cli::App& app, int& exit_code) {
     order->fresh = order->frames > 0;
     order->sound = !*mute && order->frames == 0;
     order->case_spec = absolute_spec(order->case_spec);
+    if (!order->replay.empty()) {
+      const auto recording = recording_named(order->replay.string());
+      if (!recording) {
+        exit_code = report_error(recording.error());
+        return;
+      }
+      order->replay = *recording;
+    }
     std::error_code ec;
     if (!order->ghost.empty() && order->ghost != "off" &&
         !std::filesystem::exists(order->ghost, ec))

@@ -12,6 +12,7 @@
 #include "exercises/debrief.h"
 #include "exercises/debrief_pictures.h"
 #include "exercises/ghost/ghost_recording.h"
+#include "exercises/result_files.h"
 #include "loops/stop_signal.h"
 
 namespace osteon {
@@ -45,7 +46,10 @@ Result<void> add_expert_to(Debrief& debrief, const std::string& ghost) {
   return {};
 }
 
-int run_debrief(const DebriefCommand& command) {
+int run_debrief(DebriefCommand command) {
+  const auto recording = recording_named(command.order.recording.string());
+  if (!recording) return report_error(recording.error());
+  command.order.recording = *recording;
   auto debrief = make_debrief(command.order);
   if (!debrief) return report_error(debrief.error());
   if (auto added = add_expert_to(*debrief, command.ghost); !added)
@@ -152,7 +156,9 @@ void add_debrief_command(cli::App& app, int& exit_code) {
       "debrief",
       "Replay a recorded attempt, judge it again and write a report to print.\n"
       "Exit code: 0 written, 1 written, but the replay differs from the recording, 2 not written");
-  command->add_option("recording", order->recording, "recording (.osr)")->required();
+  command
+      ->add_option("recording", order->recording, "recording (.osr), or the id of a stored attempt")
+      ->required();
   command->add_option("--out", options->out, "PDF file to write")->required();
   command
       ->add_option("--ghost", options->ghost,

@@ -78,7 +78,7 @@ int run_command(const RunCommand& command) {
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
   if (!command.no_store) {
-    const auto kept = keep_report(report, command.learner);
+    const auto kept = keep_report(report, command.learner, command.record);
     if (!kept) return report_error(kept.error());
     if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
     (void)send_results_in_background();

@@ -318,7 +318,7 @@ void ExerciseRun::keep() {
   const auto noted =
       note_attempt(file_, scenario(), standard ? *standard : std::nullopt, "a person", report);
   if (!noted) problem_ = noted.error().message();
-  const auto kept = keep_report(report, learner_here());
+  const auto kept = keep_report(report, learner_here(), file_);
   if (!kept) problem_ = kept.error().message();
   if (kept && *kept) problem_ = (*kept)->message();
   (void)send_results_in_background();
