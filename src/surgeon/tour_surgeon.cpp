@@ -234,7 +234,7 @@ class TourPlanner {
     if (skill_.fault.empty()) return;
     if (skill_.fault == "left_out") return leave_out();
     TourVisit* chosen = nullptr;
-    double least_m = kBumpReach_m;
+    std::vector<std::pair<double, TourVisit*>> bumps;
     for (TourVisit& visit : tour_.visits) {
       if (hand && visit.hand != *hand) continue;
       if (visit.kind == TourVisit::Kind::kTouch && !chosen) chosen = &visit;
@@ -246,12 +246,19 @@ class TourPlanner {
         continue;
       }
       const double cost_m = cost_of_bump(case_, visit.place, tour_.tools[visit.hand]);
-      if (cost_m >= least_m) continue;
-      least_m = cost_m;
-      chosen = &visit;
+      if (cost_m < kBumpReach_m) bumps.emplace_back(cost_m, &visit);
     }
+    if (!bumps.empty()) return bump(std::move(bumps));
     if (chosen) chosen->faulty = true;
     if (skill_.fault == "pressed_over" && chosen) press_again(*chosen);
+  }
+
+  // A window that meets bone aslant may slide off: it is pushed at the best few places.
+  static void bump(std::vector<std::pair<double, TourVisit*>> at) {
+    constexpr std::size_t kBumps = 3;
+    std::stable_sort(at.begin(), at.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < std::min(kBumps, at.size()); ++i) at[i].second->faulty = true;
   }
 
   // Between two bones a hook leans on both, and neither may be pressed too hard: the touch after
