@@ -30,10 +30,12 @@ void quiet_heading(const PanelContext& c, const char* words) {
   ui::text(color::kTextQuiet, words);
 }
 
-// "path_mm" -> "Path"; the unit stands behind the number.
+// "path_mm" -> "Path", "peak_force_n" -> "Peak force": the unit stands behind the number.
 std::string measure_label(const ExerciseModel::Measure& measure) {
   std::string name = measure.name;
   std::string unit = "_" + measure.unit;
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   std::replace(unit.begin(), unit.end(), ' ', '_');
   std::replace(unit.begin(), unit.end(), '/', '_');
   if (name.ends_with(unit)) name.resize(name.size() - unit.size());
