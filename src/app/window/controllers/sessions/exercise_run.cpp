@@ -84,7 +84,7 @@ void ExerciseRun::take_exercises(ExerciseList set) {
     std::stable_partition(scenarios_.begin(), scenarios_.end(),
                           [](const Scenario& s) { return s.hands.empty(); });
   for (const Error& fault : set.faults)
-    problem_ += (problem_.empty() ? "" : "\n") + fault.message();
+    left_out_ += (left_out_.empty() ? "" : "\n") + fault.message();
 }
 
 void ExerciseRun::toggle() {
@@ -95,6 +95,7 @@ void ExerciseRun::toggle() {
     if (!set) problem_ = set.error().message();
     if (set) take_exercises(std::move(*set));
   }
+  if (problem_.empty()) problem_ = left_out_;
   played_ = played_before(scenarios_);
   page_ = ExercisePage::kCourse;
 }

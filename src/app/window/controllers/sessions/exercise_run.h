@@ -117,7 +117,7 @@ class ExerciseRun {
   std::vector<Scenario> scenarios_;
   std::vector<std::string> played_;                      ///< as scenarios_
   std::vector<std::optional<std::uint64_t>> set_seeds_;  ///< by a course, as scenarios_
-  std::string course_title_;
+  std::string course_title_, left_out_;                  ///< which files could not be used, and why
   std::size_t chosen_ = 0;
   std::optional<std::uint64_t> seed_;
   std::string problem_;
