@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spread.h"
+
 namespace osteon {
-namespace {
-
-// With n - 1.
-double sd_of(const std::vector<double>& values) {
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
-}  // namespace
 
 Result<GroupStandard> standard_of_groups(Standard draft, const std::vector<Metrics>& experts,
                                          const std::vector<Metrics>& novices) {
@@ -32,7 +23,7 @@ Result<GroupStandard> standard_of_groups(Standard draft, const std::vector<Metri
   std::vector<double> scores = study->expert_scores;
   scores.insert(scores.end(), study->novice_scores.begin(), study->novice_scores.end());
   draft.experts = static_cast<int>(experts.size());
-  draft.score_sd = sd_of(scores);
+  draft.score_sd = spread_of(scores).sd;
   draft.reliability =
       std::isfinite(study->reliability) ? std::clamp(study->reliability, 0.0, 1.0) : 0;
   draft.pass_score = mark->mark;

@@ -2,22 +2,10 @@
 #include <cmath>
 
 #include "osteon/procedure/standard.h"
+#include "spread.h"
 
 namespace osteon {
 namespace {
-
-struct Spread {
-  double mean = 0, sd = 0;
-};
-
-Spread spread_of(const std::vector<double>& values) {
-  Spread spread;
-  for (const double v : values) spread.mean += v / static_cast<double>(values.size());
-  double squares = 0;
-  for (const double v : values) squares += (v - spread.mean) * (v - spread.mean);
-  spread.sd = std::sqrt(squares / static_cast<double>(values.size() - 1));
-  return spread;
-}
 
 double share_below(double x, const Spread& s) {
   return 0.5 * std::erfc(-(x - s.mean) / (s.sd * std::sqrt(2.0)));

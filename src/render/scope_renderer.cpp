@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "gl/light_target.h"
 #include "gl/render_target.h"
 #include "osteon/scene/soft_motion.h"
+#include "read_picture.h"
 #include "renderer_impl.h"
 #include "scope_bits.h"
 #include "scope_lens.h"
@@ -24,7 +24,6 @@
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/tissue_part.h"
-#include "view/exposure.h"
 
 namespace osteon {
 namespace {
@@ -39,37 +38,6 @@ Eigen::Matrix4f flat_projection(double half) {
   m(2, 3) = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
   m(3, 2) = -1;
   return m.cast<float>();
-}
-
-/// The camera's gain for what the bound flat picture shows; its rim does not count. Few rows are
-/// read: a whole picture of floats takes a processor's time.
-double gain_for(int side) {
-  const int step = std::max(1, side / 64), from = side / 6, to = side - side / 6;
-  const int width = std::max(to - from, 0);
-  std::vector<float> row(4u * static_cast<std::size_t>(width));
-  std::vector<double> light;
-  for (int y = from; y < to; y += step) {
-    glReadPixels(from, y, width, 1, GL_RGBA, GL_FLOAT, row.data());
-    for (int x = 0; x < width; x += step) {
-      const float* at = row.data() + 4u * static_cast<std::size_t>(x);
-      light.push_back(0.3 * static_cast<double>(at[0]) + 0.6 * static_cast<double>(at[1]) +
-                      0.1 * static_cast<double>(at[2]));
-    }
-  }
-  return exposure_gain(light);
-}
-
-Image read_back(int width, int height) {
-  Image image{width, height, {}};
-  const std::size_t row_bytes = 3u * static_cast<std::size_t>(width);
-  image.rgb.resize(row_bytes * static_cast<std::size_t>(height));
-  std::vector<std::uint8_t> up(image.rgb.size());
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, up.data());
-  for (int row = 0; row < height; ++row)
-    std::memcpy(image.rgb.data() + static_cast<std::size_t>(height - 1 - row) * row_bytes,
-                up.data() + static_cast<std::size_t>(row) * row_bytes, row_bytes);
-  return image;
 }
 
 /// Whether a ball in view space can show in a square picture, `half` the tangent of half its width.
