@@ -6,12 +6,12 @@
 namespace osteon {
 
 /// Of two values or more; the SD with n - 1.
-struct Spread {
+struct SampleSpread {
   double mean = 0, sd = 0;
 };
 
-inline Spread spread_of(const std::vector<double>& values) {
-  Spread spread;
+inline SampleSpread spread_of(const std::vector<double>& values) {
+  SampleSpread spread;
   for (const double v : values) spread.mean += v / static_cast<double>(values.size());
   double squares = 0;
   for (const double v : values) squares += (v - spread.mean) * (v - spread.mean);

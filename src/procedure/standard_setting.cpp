@@ -7,11 +7,11 @@
 namespace osteon {
 namespace {
 
-double share_below(double x, const Spread& s) {
+double share_below(double x, const SampleSpread& s) {
   return 0.5 * std::erfc(-(x - s.mean) / (s.sd * std::sqrt(2.0)));
 }
 
-double log_density(double x, const Spread& s) {
+double log_density(double x, const SampleSpread& s) {
   const double z = (x - s.mean) / s.sd;
   return -0.5 * z * z - std::log(s.sd);
 }
@@ -30,7 +30,7 @@ Result<std::vector<StandardMetric>> norm_of(const std::vector<Metrics>& experts,
         return fail("a run has no metric '" + metric.name + "'", "norm");
       values.push_back(found->second);
     }
-    const Spread spread = spread_of(values);
+    const SampleSpread spread = spread_of(values);
     if (!(spread.sd > 0))
       return fail("all runs have the same '" + metric.name + "'", "norm", "Leave the metric out");
     metric.mean = spread.mean;
@@ -46,9 +46,9 @@ Result<ContrastingMark> contrasting_groups(const std::vector<double>& experts,
                                            const std::vector<double>& novices) {
   if (experts.size() < 2 || novices.size() < 2)
     return fail("each group needs two scores", "contrasting groups");
-  const Spread e = spread_of(experts), n = spread_of(novices);
+  const SampleSpread e = spread_of(experts), n = spread_of(novices);
   // Of equal scores the rounding of their mean leaves a spread as well.
-  const auto spreads = [](const Spread& s) { return s.sd > 1e-9 * (1 + std::abs(s.mean)); };
+  const auto spreads = [](const SampleSpread& s) { return s.sd > 1e-9 * (1 + std::abs(s.mean)); };
   if (!spreads(e) || !spreads(n))
     return fail("a group's scores are all the same", "contrasting groups");
   double hi = e.mean, lo = n.mean;
