@@ -34,8 +34,9 @@ void quiet_heading(const PanelContext& c, const char* words) {
 std::string measure_label(const ExerciseModel::Measure& measure) {
   std::string name = measure.name;
   std::string unit = "_" + measure.unit;
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   std::replace(unit.begin(), unit.end(), ' ', '_');
   std::replace(unit.begin(), unit.end(), '/', '_');
   if (name.ends_with(unit)) name.resize(name.size() - unit.size());
