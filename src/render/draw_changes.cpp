@@ -32,7 +32,7 @@ bool looks_the_same(const ToolState& a, const ToolState& b) {
 
 bool looks_the_same(const LooseBones& a, const LooseBones& b) {
   if (a.count != b.count) return false;
-  for (std::size_t k = 0; k < std::min<std::size_t>(a.count, kMaxLooseBones); ++k)
+  for (std::size_t k = 0; k < std::min<std::size_t>(a.count, kMaxLoose); ++k)
     if (a.bones[k].shape != b.bones[k].shape || !same(a.bones[k].X_WB, b.bones[k].X_WB))
       return false;
   return true;

@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::size_t kMostShapes = 256;  // more are not kept: pieces of runs long past
 
+// Of what it was part of.
+const BoneAppearance& loose_look(const ViewState& view, const LooseBone& piece) {
+  if (piece.soft == kNoSoftPart) return appearance(view, piece.bone);
+  static const BoneAppearance plain;
+  return piece.soft < view.softs.size() ? view.softs[piece.soft] : plain;
+}
+
 }  // namespace
 
 void ScenePainter::set_loose(std::uint64_t shape, std::size_t bone, const SurfaceCube& surface) {
@@ -33,11 +40,11 @@ std::vector<std::pair<const ScenePainter::LooseModel*, const LooseBone*>> SceneP
   std::vector<std::pair<const LooseModel*, const LooseBone*>> out;
   if (!view.show_loose) return out;
   const LooseBones& loose = snapshot.bones.loose;
-  for (std::size_t i = 0; i < std::min<std::size_t>(loose.count, kMaxLooseBones); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(loose.count, kMaxLoose); ++i) {
     const LooseBone& piece = loose.bones[i];
     const auto found = shared_->loose.find(piece.shape);
     if (found == shared_->loose.end() || !is_finite(piece.X_WB)) continue;
-    if (appearance(view, piece.bone).visible) out.emplace_back(&found->second, &piece);
+    if (loose_look(view, piece).visible) out.emplace_back(&found->second, &piece);
   }
   return out;
 }
@@ -54,7 +61,7 @@ std::vector<ScenePainter::Capsule> ScenePainter::loose_capsules(const RenderSnap
 void ScenePainter::paint_loose(const RenderSnapshot& snapshot, const ViewState& view,
                                const Frame& frame) const {
   for (const auto& [model, piece] : loose_of(snapshot, view)) {
-    const std::array<float, 3>& rgb = appearance(view, piece->bone).color;
+    const std::array<float, 3>& rgb = loose_look(view, *piece).color;
     shared_->bone.use();
     shared_->bone.set("u_view_from_model", to_matrix(frame.X_CW * piece->X_WB));
     shared_->bone.set("u_color", Eigen::Vector4f(rgb[0], rgb[1], rgb[2], 1.0f));

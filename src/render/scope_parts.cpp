@@ -73,6 +73,16 @@ TissuePart loose_part() {
   return part;
 }
 
+TissuePart loose_part_of(const TissuePart& soft, const Pose& X_WB) {
+  TissuePart part = loose_part();
+  part.pattern = soft.pattern;
+  part.tint = soft.tint;
+  const Pose X_BW = X_WB.inverse();
+  part.fibre = X_BW.rotate(soft.fibre.cast<double>()).cast<float>();
+  part.center = (X_BW * soft.center.cast<double>()).cast<float>();
+  return part;
+}
+
 TissuePart ghost_part() {
   TissuePart part = steel();
   part.tint = {0.35f, 0.72f, 1.0f};

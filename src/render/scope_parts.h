@@ -22,6 +22,9 @@ TriMesh unseen_corners(int side_px);
 TissuePart steel();
 /// A piece of bone that was cut off: none of the case's own surfaces.
 TissuePart loose_part();
+/// A piece of a soft part that was cut off, in the frame of its bone, which stood at `X_WB` at
+/// rest: it looks as the part does.
+TissuePart loose_part_of(const TissuePart& soft, const Pose& X_WB);
 /// An instrument of another hand's recorded way.
 TissuePart ghost_part();
 /// Thread, graft or button, in World.

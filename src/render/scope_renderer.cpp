@@ -110,7 +110,6 @@ struct ScopeRenderer::Impl {
   std::vector<GhostTool> ghosts;
   std::map<std::uint64_t, GpuMesh> own_loose;  ///< by shape, where there is no scene
   std::vector<LooseBone> loose;
-  TissuePart piece = loose_part();
   std::vector<PlacingRod> rods;    ///< thread, graft and button now
   std::vector<TissuePart> placed;  ///< the same, in World
   bool rods_changed = false;
@@ -146,6 +145,16 @@ struct ScopeRenderer::Impl {
                               : part.model < own_changed.size() ? &own_changed[part.model]
                                                                 : nullptr;
     return all && !all->empty() ? all : nullptr;
+  }
+
+  /// Of a piece that lies loose.
+  TissuePart looks_of(const LooseBone& shown) const {
+    const std::size_t model = rest_X_WB.size() + shown.soft;
+    const auto soft = std::find_if(parts.begin(), parts.end(),
+                                   [&](const TissuePart& part) { return part.model == model; });
+    if (shown.soft == kNoSoftPart || soft == parts.end() || shown.bone >= rest_X_WB.size())
+      return loose_part();
+    return loose_part_of(*soft, rest_X_WB[shown.bone]);
   }
 
   static void begin(const Program& program, double half) {
@@ -196,7 +205,7 @@ struct ScopeRenderer::Impl {
     if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
     for (const LooseBone& shown : loose)
       if (const GpuMesh* mesh = loose_surface(shown.shape))
-        paint_part(piece, *mesh, X_CW * shown.X_WB, half, depth_alone);
+        paint_part(looks_of(shown), *mesh, X_CW * shown.X_WB, half, depth_alone);
     for (const TissuePart& part : placed) paint_part(part, part.surface, X_CW, half, depth_alone);
     for (const ShownTool& shown : tools)
       if (const GpuMesh* mesh = tool_surface(shown.instrument, shown.jaw))
@@ -441,7 +450,7 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
     if (impl_->tool_surface(tool.instrument) && is_finite(tool.X_WP))
       impl_->tools.push_back({tool.instrument, jaw_step(tool.jaw), tool.X_WP});
   impl_->loose.clear();
-  for (std::size_t i = 0; i < std::min<std::size_t>(bones.loose.count, kMaxLooseBones); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(bones.loose.count, kMaxLoose); ++i)
     if (is_finite(bones.loose.bones[i].X_WB)) impl_->loose.push_back(bones.loose.bones[i]);
   auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {

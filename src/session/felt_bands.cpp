@@ -25,9 +25,10 @@ void FeltBands::copy(const BandContacts& contacts) {
 SoftHalf::SoftHalf(std::unique_ptr<SoftWorld> world, std::vector<FeltBands*> hands)
     : world_(std::move(world)), hands_(std::move(hands)) {}
 
-void SoftHalf::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+void SoftHalf::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                    std::span<const CarvedField* const> carved) {
   if (!heard_) return;
-  world_->step(tools, bones);
+  world_->step(tools, bones, carved);
   publish(bones.step);
 }
 

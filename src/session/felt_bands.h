@@ -48,7 +48,8 @@ class SoftHalf {
   const SoftWorld& world() const { return *world_; }
   /// Steps, and tells the hands what has changed for them. A hand that has not listened for so long
   /// that there is no room would miss what changes: nothing is stepped after that, as with cuts.
-  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+            std::span<const CarvedField* const> carved);
   void restore(const SoftState& state, std::uint32_t epoch);
   void go_back(const SoftState& state, std::uint32_t epoch) { world_->go_back(state, epoch); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osteon/base/hash.h"
+#include "osteon/physics/fallen_pieces.h"
 
 namespace osteon {
 namespace {
@@ -54,7 +55,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   if (carving_) {
     carving_->step(tools, world_.snapshot(), step_s_);
     if (!world_.held()) lighten();
-    world_.set_loose(carving_->loose());
+    show_loose();
   }
   if (bench_) {
     GraftBenchState bench = world_.snapshot().bench;
@@ -78,8 +79,7 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
     rings_->step(tools, bones.epoch);
     place_rings();
   }
-  if (softs_) softs_->step(tools, bones);
-  if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
+  if (softs_) step_softs(tools, bones);
   if (water_) let_flow(tools);
   if (structures_) look_inside(tools);
   all_changed_ = false;
@@ -90,6 +90,22 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
   const bool marked = command.kind == CommandKind::kMark && mark_of(command) < kMaxMarks;
   if (marked || bones.step % keep_every_ == 0) world_.ask_to_keep();
   return bones;
+}
+
+void WorldHalf::step_softs(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+  softs_->step(tools, bones, carving_ ? carving_->fields() : std::span<const CarvedField* const>());
+  world_.set_cleared(softs_->world().all_cleared_percent());
+  show_loose();
+}
+
+// Pieces of bone, after them those of soft parts.
+void WorldHalf::show_loose() {
+  LooseBones loose = carving_ ? carving_->loose() : LooseBones{};
+  if (softs_)
+    for (const FallenPiece& piece : softs_->world().lying())
+      loose.bones[loose.count++] = {piece.shape->hash(), piece.shape->grid().bone, piece.X_WB,
+                                    piece.soft};
+  world_.set_loose(loose);
 }
 
 void WorldHalf::set_bench(std::vector<BenchTool> tray) {
@@ -384,11 +400,11 @@ void WorldHalf::restore(const WorldState& from) {
   if (water_ && !from.bones.water.on) world_.set_water(fresh_water());
   if (carving_ && from.carved) {
     carving_->restore(*from.carved);
-    world_.set_loose(carving_->loose());
     for (FeltCuts* hand : felt_) hand->copy(*carving_);
     feed_->note_all(*carving_);
   }
   if (softs_) softs_->restore(from.softs, from.bones.epoch);
+  show_loose();
   if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
   if (rings_) rings_->restore(from.rings);
   marks_ = from.marks;

@@ -62,6 +62,8 @@ class alignas(64) WorldHalf {
   void go_back(const WorldMark& mark);
   std::shared_ptr<const CarvingState> carved() const;
   void place_rings();
+  void step_softs(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  void show_loose();
   void lighten();
   void lead();
   bool takes_graft(const Command& command);

@@ -15,13 +15,13 @@ inline constexpr double kBlockTop_m =
     0.003 + kBallRadius_m;  // of the ball's middle where it touches
 
 // The bone is far below, so that a hook can come from under the block.
-inline std::shared_ptr<const Case> meniscus_case() {
+inline std::shared_ptr<const Case> meniscus_case(const Vec3& bone_half = kBoxHalf) {
   CaseDef def;
   def.name = "a block on a bone";
   BoneDef bone;
   bone.name = "tibia";
   bone.X_WB.p = {0, 0, -0.040};
-  bone.mesh = box_mesh(kBoxHalf);
+  bone.mesh = box_mesh(bone_half);
   def.bones.push_back(bone);
   SoftDef soft;
   soft.name = "medial_meniscus";
@@ -34,12 +34,12 @@ inline std::shared_ptr<const Case> meniscus_case() {
 }
 
 struct MeniscusRun {
-  std::shared_ptr<const Case> the_case = meniscus_case();
+  std::shared_ptr<const Case> the_case;
   SessionSettings settings;
   Tray tray;
   std::shared_ptr<const SoftSetup> softs;
 
-  MeniscusRun() {
+  explicit MeniscusRun(std::shared_ptr<const Case> of = meniscus_case()) : the_case(std::move(of)) {
     Tool ball;
     ball.name = "ball";
     ball.parts.push_back(make_rod(Vec3::Zero(), Vec3::Zero(), kBallRadius_m));

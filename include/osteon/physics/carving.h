@@ -199,6 +199,8 @@ class Carving {
   /// Pieces that were cut off and lie loose.
   std::span<const FallenPiece> pieces() const;
   LooseBones loose() const;
+  /// What is left of each bone; null: it is not carved.
+  std::span<const CarvedField* const> fields() const { return carved_fields_; }
   /// Of a piece whose bone has that mass: all of one density.
   double mass_kg(const FallenPiece& piece, double bone_mass_kg) const;
   /// What became of them in the last step.

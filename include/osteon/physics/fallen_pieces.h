@@ -17,7 +17,7 @@ namespace osteon {
 class CarvedField;
 struct PieceSurroundings;
 
-/// A piece of bone that was cut off: a rigid body.
+/// A piece of bone, or of a soft part on it, that was cut off: a rigid body.
 struct FallenPiece {
   enum class Is : std::uint8_t { kMoving = 0, kResting = 1, kHeld = 2 };
   std::shared_ptr<const PieceShape> shape;  ///< never null
@@ -26,9 +26,10 @@ struct FallenPiece {
   Vec3 v_W = Vec3::Zero();  ///< of its middle, m/s
   Vec3 w_W = Vec3::Zero();  ///< rad/s
   std::uint8_t hand = kNoHand;
-  bool drawn = false;       ///< suction holds it, not jaws
-  Pose X_PB;                ///< in the tool of `hand`, while it is held
-  std::uint32_t still = 0;  ///< steps in which it hardly moved
+  bool drawn = false;                ///< suction holds it, not jaws
+  Pose X_PB;                         ///< in the tool of `hand`, while it is held
+  std::uint32_t still = 0;           ///< steps in which it hardly moved
+  std::uint32_t soft = kNoSoftPart;  ///< of the case, that it was part of
 };
 
 /// All that a step of the pieces leaves to the next: a value.
@@ -42,13 +43,13 @@ struct FallenPiecesState {
 struct PieceNews {
   enum class Is : std::uint8_t { kHeld, kLetGo, kSucked, kOut };
   Is is = Is::kHeld;
-  std::uint32_t bone = 0;
+  std::uint32_t bone = 0, soft = kNoSoftPart;
   std::uint8_t hand = kNoHand;  ///< kNoHand: none had to do with it
   double volume_m3 = 0;
   Vec3 p_W = Vec3::Zero();  ///< of its middle
 };
 
-/// Pieces of bone that lie loose: in a limb soft parts hold them where they are, in air they
+/// Pieces that lie loose: in a limb soft parts hold them where they are, in air they
 /// fall and come to rest on bone; instruments push them, jaws hold them, suction draws them. A
 /// function of its state and of what is given to it. No hand feels a piece: one of a cubic
 /// centimetre weighs 20 mN. Pieces do not meet each other, nor soft parts.
@@ -67,7 +68,11 @@ class FallenPieces {
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
             std::span<const CarvedField* const> carved, bool stirred, double step_s);
   /// False: there is no room for one more.
-  bool add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB);
+  bool add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB,
+           std::uint32_t soft = kNoSoftPart);
+  /// Jaws that were shut about what has just come off have it from then on. Without effect where
+  /// nothing lies between them.
+  void take_now(std::uint8_t hand, const ToolState& tool);
 
   /// Of the last step.
   std::span<const PieceNews> news() const { return news_; }

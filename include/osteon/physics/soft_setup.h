@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "osteon/base/result.h"
+#include "osteon/physics/pieces_setup.h"
 #include "osteon/physics/skin_setup.h"
 #include "osteon/physics/soft_gripper.h"
 #include "osteon/physics/soft_solid_setup.h"
@@ -29,8 +31,10 @@ struct SoftSetup {
   std::vector<std::optional<SoftGripper>> grippers;  ///< by the tray; none: nothing is held
   std::vector<SkinPatch> skins;
   std::vector<SkinTool> skin_tools;  ///< by the tray; of skin alone
-  SoftFriction friction;             ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;            ///< over all of it
+  /// What pieces of solids that were cut off meet; null: they are gone at once.
+  std::shared_ptr<const PiecesSetup> pieces;
+  SoftFriction friction;   ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;  ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -41,6 +45,8 @@ void add_solids(SoftSetup& setup, std::vector<SoftSolid> solids);
 /// Lets instruments cut its solids, by their places in the tray. Nothing changes where none cuts.
 void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutters,
                  double cutting_n);
+/// What is cut off of its solids lies loose then. Nothing changes where nothing cuts them.
+void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

@@ -10,6 +10,7 @@
 
 namespace osteon {
 
+struct FallenPiecesState;
 struct SoftCutState;
 struct SkinState;
 
@@ -89,6 +90,8 @@ struct SoftState {
   std::array<SoftGrip, kMaxHands> grips{};
   std::shared_ptr<const SoftCutState> cut;  ///< of the solids; null: nothing cuts them
   std::shared_ptr<const SkinState> skin;    ///< null: no patch of skin is felt
+  /// Of the solids, that lie loose; null: none does.
+  std::shared_ptr<const FallenPiecesState> pieces;
 };
 
 }  // namespace osteon

@@ -20,7 +20,11 @@ struct BandReadout {
   std::array<double, kMaxHands> force_n{};  ///< of each hand on it
 };
 
+class CarvedField;
+class FallenPieces;
+class PieceShape;
 class SkinWorld;
+struct FallenPiece;
 class SoftGrips;
 class SolidCutting;
 class SolidPresses;
@@ -59,14 +63,17 @@ class SoftWorld {
             double limit_n, double step_s, std::uint32_t first_made = 0);
   ~SoftWorld();
 
-  /// `bones`: as this step has left them.
-  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  /// `bones`: as this step has left them. `carved`: of each bone; null where it is as it was.
+  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+            std::span<const CarvedField* const> carved = {});
 
   const SoftSetup& setup() const { return *setup_; }
   const SoftState& state() const { return state_; }  ///< but what was cut
   SoftState save() const;                            ///< all of it
   double removed_m3(std::size_t solid) const;        ///< by cuts; looks at all of them
   std::uint32_t pieces(std::size_t solid) const;     ///< that came off
+  /// Those that lie loose, hands hold, or suction: kMaxLooseSofts at most.
+  std::span<const FallenPiece> lying() const;
   /// Of a stump, how much of what is to be cleared is gone; 0 of other solids.
   double cleared_percent(std::size_t solid) const;
   double all_cleared_percent() const;  ///< of all stumps together; -1: there are none
@@ -115,6 +122,13 @@ class SoftWorld {
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
   void cut_solids(std::span<const SolidHand> hands, std::uint64_t step);
+  void lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> shape,
+                std::span<const SolidHand> hands);
+  void step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                   std::span<const CarvedField* const> carved);
+  void tell_pieces();
+  void restore_pieces(const SoftState& state, bool let_go);
+  bool fits_pieces(const FallenPiecesState& state) const;
   void step_skins(std::span<const Hand> hands, const BoneSnapshot& bones);
   void put(const SoftState& state, std::uint32_t epoch);
   void restore_cuts(const SoftState& state);
@@ -151,6 +165,7 @@ class SoftWorld {
   std::unique_ptr<SoftGrips> grips_;       ///< null: no jaws hold anything
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them
+  std::unique_ptr<FallenPieces> pieces_;   ///< null: what is cut off is gone
   std::unique_ptr<SkinWorld> skins_;       ///< null: no patch of skin is felt
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};
   std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state

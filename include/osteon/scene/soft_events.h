@@ -25,6 +25,11 @@ inline constexpr EventKind kSkinLeft{116};     ///< and is out again
 /// percents of the stump.
 inline constexpr EventKind kSoftCleared{117};
 
+inline constexpr EventKind kSoftPieceHeld{119};    ///< jaws or suction hold a piece of it
+inline constexpr EventKind kSoftPieceLetGo{120};   ///< and have let go
+inline constexpr EventKind kSoftPieceSucked{121};  ///< it went through a suction cannula
+inline constexpr EventKind kSoftPieceOut{122};     ///< it is out of the patient
+
 /// The subject is the portal: {from the place it was meant for, mm; 1: pierced, 0: cut; width of
 /// the shaft that fits, mm}.
 inline constexpr EventKind kPortalMade{118};

@@ -6,11 +6,13 @@
 #include <memory>
 
 #include "osteon/base/types.h"
+#include "osteon/scene/loose_bone.h"
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_solid.h"
 
 namespace osteon {
 
+class PieceShape;
 struct CarveState;
 struct SkinCuts;
 
@@ -63,6 +65,9 @@ struct SoftPushes {
   std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts{};
   /// Of each patch of skin, anew when it changed; null: none is felt.
   std::array<std::shared_ptr<const SkinCuts>, kMaxSkins> skin_cuts{};
+  /// Pieces of solids that lie loose now; where they lie is in the bones' snapshot.
+  std::uint32_t piece_count = 0;
+  std::array<std::shared_ptr<const PieceShape>, kMaxLooseSofts> pieces{};
   std::uint32_t skin_count = 0;
   std::array<SkinDent, 4 * kMaxSkins> skin_dents{};
   bool operator==(const SoftPushes&) const = default;

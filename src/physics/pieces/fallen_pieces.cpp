@@ -31,17 +31,20 @@ FallenPieces::FallenPieces(std::shared_ptr<const PiecesSetup> setup) : setup_(st
   state_.instrument.fill(kNoInstrument);
 }
 
-bool FallenPieces::add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB) {
+bool FallenPieces::add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB,
+                       std::uint32_t soft) {
   if (!shape || state_.pieces.size() == kMaxLooseBones || !is_finite(X_WB)) return false;
   FallenPiece piece;
   piece.shape = std::move(shape);
   piece.X_WB = X_WB;
+  piece.soft = soft;
   state_.pieces.push_back(std::move(piece));
+  gone_.resize(state_.pieces.size(), 0);
   return true;
 }
 
 void FallenPieces::tell(PieceNews::Is is, const FallenPiece& piece, std::uint8_t hand) {
-  news_.push_back({is, piece.shape->grid().bone, hand, piece.shape->volume_m3(),
+  news_.push_back({is, piece.shape->grid().bone, piece.soft, hand, piece.shape->volume_m3(),
                    piece.X_WB * piece.shape->middle_B()});
 }
 
@@ -97,6 +100,14 @@ void FallenPieces::take(std::uint8_t hand, const ToolState& tool, const SoftGrip
   best->X_PB = X_TW * best->X_WB;
   best->v_W = best->w_W = Vec3::Zero();
   tell(PieceNews::Is::kHeld, *best, hand);
+}
+
+void FallenPieces::take_now(std::uint8_t hand, const ToolState& tool) {
+  const PieceTool* const with = tool_of(tool);
+  if (!with || !with->jaws || hand >= kMaxHands || !is_finite(tool.X_WP)) return;
+  state_.instrument[hand] = tool.instrument;
+  state_.open[hand] = false;
+  take(hand, tool, *with->jaws);
 }
 
 // Jaws must have been open before they can shut; who takes another instrument lets go.
@@ -226,7 +237,8 @@ void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnaps
 LooseBones FallenPieces::shown() const {
   LooseBones out;
   for (const FallenPiece& piece : state_.pieces)
-    out.bones[out.count++] = {piece.shape->hash(), piece.shape->grid().bone, piece.X_WB};
+    out.bones[out.count++] = {piece.shape->hash(), piece.shape->grid().bone, piece.X_WB,
+                              piece.soft};
   return out;
 }
 
@@ -242,6 +254,7 @@ std::uint64_t FallenPieces::hash() const {
     hasher.add(piece.drawn);
     hasher.add(piece.X_PB);
     hasher.add(piece.still);
+    if (piece.soft != kNoSoftPart) hasher.add(piece.soft);
   }
   return hasher.value();
 }

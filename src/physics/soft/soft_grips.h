@@ -55,12 +55,13 @@ class SoftGrips {
   GripNews step(SoftState& state, std::size_t hand, const ToolState* tool, const Parts& parts,
                 std::uint64_t step, GripPull& pull) const;
   bool fits(const SoftState& state) const;
+  /// What is held of a solid has come off it.
+  bool is_cut_away(const SoftHold& hold, const Parts& parts) const;
 
  private:
   const SoftGripper* gripper(std::uint32_t instrument) const;
   bool is_felt(const SoftState& state, const SoftHold& hold, const Parts& parts) const;
   bool bites(std::uint32_t instrument) const;
-  bool is_cut_away(const SoftHold& hold, const Parts& parts) const;
   bool take_band(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
                  const Parts& parts, SoftHold& hold) const;
   bool take_solid(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,

@@ -165,6 +165,15 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
   setup.hash = h.value();
 }
 
+void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces) {
+  if (setup.cutters.empty() || !pieces) return;
+  setup.pieces = std::move(pieces);
+  Hasher h;
+  h.add(setup.hash);
+  h.add(std::string_view("pieces"));
+  setup.hash = h.value();
+}
+
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {
   const auto holds = [](const std::optional<SoftGripper>& jaws) { return jaws.has_value(); };
   if (std::none_of(grippers.begin(), grippers.end(), holds)) return;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "osteon/collide/round_box.h"
+#include "osteon/physics/fallen_pieces.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
 #include "soft/band_side.h"
@@ -56,11 +57,13 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   state_.on = true;
   openings_.reserve(kMostOpenings);
   events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands +
-                  (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 7));
+                  (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 7) +
+                  (setup_->pieces ? kMaxHands * kMaxLooseSofts : 0));
   if (!setup_->solids.empty())
     solids_ = std::make_unique<SolidPresses>(setup_->solids, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
     cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_, step_s_);
+  if (cutting_ && setup_->pieces) pieces_ = std::make_unique<FallenPieces>(setup_->pieces);
   if (!setup_->grippers.empty())
     grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
   if (!setup_->skins.empty())
@@ -414,6 +417,7 @@ void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step)
     else
       event.values = {news.force_n, 0, kMm3 * news.volume_m3};
     tell(event, solids_->X_WB(news.solid) * news.p_B);
+    if (news.piece) lay_down(news.solid, news.shape, hands);
   }
 }
 
@@ -444,6 +448,7 @@ SoftPushes SoftWorld::pushes() const {
   for (std::uint32_t b = 0; b < setup_->bands.size(); ++b)
     if (state_.bands[b].torn) out.breaks[out.break_count++] = {b, state_.bands[b].torn_share};
   if (cutting_) cutting_->show(out.cuts);
+  for (const FallenPiece& piece : lying()) out.pieces[out.piece_count++] = piece.shape;
   if (skins_) skins_->show(out);
   return out;
 }
@@ -500,7 +505,8 @@ void SoftWorld::keep_hold(const GripPull& pull) {
   bend.along_W = along_W;
 }
 
-void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                     std::span<const CarvedField* const> carved) {
   events_.clear();
   openings_.clear();
   bend_count_ = 0;
@@ -518,7 +524,9 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
     if (hand.tool) press(hand);
   tear(hands);
   for (const Hand& hand : hands) tell_touches(hand, bones.step);
+  if (pieces_) step_pieces(tools, bones, carved);
   if (solids_) step_solids(hands, bones);
+  if (pieces_) tell_pieces();
   if (skins_) step_skins(hands, bones);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "osteon/base/hash.h"
+#include "osteon/physics/fallen_pieces.h"
 #include "osteon/physics/soft_world.h"
 #include "soft/skin_world.h"
 #include "soft/soft_grips.h"
@@ -76,6 +77,7 @@ SoftState SoftWorld::save() const {
   SoftState out = state_;
   if (cutting_) out.cut = cutting_->save();
   if (skins_) out.skin = skins_->save();
+  if (pieces_) out.pieces = std::make_shared<const FallenPiecesState>(pieces_->state());
   return out;
 }
 
@@ -108,12 +110,14 @@ std::uint64_t SoftWorld::hash() const {
   if (solids_) add_solids_to(h, state_);
   if (cutting_) h.add(cutting_->hash());
   if (skins_) h.add(skins_->hash());
+  if (pieces_ && !pieces_->empty()) h.add(pieces_->hash());
   return h.value();
 }
 
 bool SoftWorld::fits(const SoftState& state) const {
   if (!state.on || (state.cut && !(cutting_ && cutting_->fits(*state.cut)))) return false;
   if (state.skin && !(skins_ && skins_->fits(*state.skin, tray_))) return false;
+  if (state.pieces && !fits_pieces(*state.pieces)) return false;
   for (const BandState& band : state.bands)
     if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
   for (const SoftHandState& hand : state.hands) {
@@ -138,6 +142,7 @@ bool SoftWorld::fits(const SoftState& state) const {
 void SoftWorld::restore(const SoftState& state, std::uint32_t epoch) {
   put(state, epoch);
   restore_cuts(state);
+  restore_pieces(state, false);
   state_.skin = nullptr;
   if (!skins_) return;
   if (state.skin)
@@ -160,6 +165,7 @@ void SoftWorld::go_back(const SoftState& state, std::uint32_t epoch) {
     cutting_->go_back(*state.cut);
   else
     restore_cuts(state);
+  restore_pieces(state, true);
   if (skins_ && state.skin) skins_->go_back(*state.skin);
   state_.cut = nullptr;
   state_.skin = nullptr;

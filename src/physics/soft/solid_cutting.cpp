@@ -340,17 +340,22 @@ void SolidCutting::catch_up(std::uint32_t s) {
   presses_.set_cut(s, solid.holes.get(), solid.body);
 }
 
-// A piece that hangs on nothing is gone: out of the joint with the water.
+// A piece that hangs on nothing lies loose; crumbs are gone, out of the joint with the water.
 void SolidCutting::drop_pieces(std::uint32_t s) {
   Solid& solid = solids_[s];
   if (solid.field.step() == solid.looked) return;
   const auto pieces = solid.loose->find(solid.field);
   for (const LoosePiece& piece : pieces) {
+    const bool lies = setup_.pieces && !(piece.volume_m3 < kCrumb_m3);
+    auto shape = lies
+                     ? PieceShape::of(solid.field, *solid.loose, piece, setup_.solids[s].bone.index)
+                     : nullptr;
     if (!solid.loose->take_away(solid.field, piece, kSolidCutAir_m)) continue;
     if (piece.volume_m3 < kCrumb_m3) continue;
     ++solid.pieces;
     if (news_.size() < kMostNews)
-      news_.push_back({s, kNoHand, true, 0, piece.volume_m3, piece.middle_B});
+      news_.push_back(
+          {s, kNoHand, true, 0, piece.volume_m3, piece.middle_B, false, std::move(shape)});
   }
   if (!pieces.empty()) catch_up(s);
   solid.looked = solid.field.step();

@@ -8,6 +8,7 @@
 
 #include "osteon/carve/carved_field.h"
 #include "osteon/carve/loose_pieces.h"
+#include "osteon/carve/piece_shape.h"
 #include "osteon/collide/cut_field.h"
 #include "osteon/physics/soft_cut_state.h"
 #include "osteon/physics/soft_setup.h"
@@ -41,6 +42,8 @@ class SolidCutting {
     double force_n = 0, volume_m3 = 0;
     Vec3 p_B = Vec3::Zero();
     bool cleared = false;  ///< so much of what is to be cleared is gone: cleared_percent()
+    /// Of a piece, in Bone; null where pieces are gone at once.
+    std::shared_ptr<const PieceShape> shape = nullptr;
   };
 
   SolidCutting(const SoftSetup& setup, SolidPresses& presses, double step_s);

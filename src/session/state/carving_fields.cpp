@@ -16,7 +16,8 @@ constexpr std::uint64_t kMostCarvedBones = kMaxBones, kMostCarvedBlocks = 1u << 
 // which holes were left, and how a reamer chatters.
 constexpr std::uint64_t kTwist = 4, kGuides = 6, kHoles = 9, kChatter = 16;
 
-constexpr std::uint64_t kLoose = 28;  // the version that says what lies loose
+// The versions that say what lies loose, and of which soft part.
+constexpr std::uint64_t kLoose = 28, kLooseOfSofts = 33;
 
 }  // namespace
 
@@ -143,6 +144,7 @@ void field(A& a, FallenPiece& piece) {
   field(a, piece.hand);
   field(a, piece.drawn);
   field(a, piece.still);
+  if (since(a, kLooseOfSofts)) field(a, piece.soft);
 }
 
 template <class A>
@@ -180,6 +182,8 @@ void field(A& a, std::shared_ptr<const CarvingState>& carved) {
 
 template void field(Out&, CarveState&);
 template void field(In&, CarveState&);
+template void field(Out&, FallenPiecesState&);
+template void field(In&, FallenPiecesState&);
 template void field(Out&, std::shared_ptr<const CarvingState>&);
 template void field(In&, std::shared_ptr<const CarvingState>&);
 

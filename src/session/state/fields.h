@@ -46,6 +46,8 @@ template <class A>
 void field(A& a, CarveState& value);
 template <class A>
 void field(A& a, std::shared_ptr<const CarvingState>& value);
+template <class A>
+void field(A& a, FallenPiecesState& value);
 
 // cut_fields.cpp
 template <class A>

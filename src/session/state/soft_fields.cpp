@@ -6,6 +6,8 @@ namespace osteon::stored {
 
 // The version that says where a band is drawn aside, and what suction holds.
 constexpr std::uint64_t kAside = 32;
+// The version that says what of the solids lies loose.
+constexpr std::uint64_t kLooseSofts = 33;
 
 template <class A>
 void field(A& a, NearBand& n) {
@@ -103,6 +105,19 @@ void field(A& a, SoftState& s) {
   solids_field(a, s);
   grips_field(a, s);
   field(a, s.skin);
+  pieces_field(a, s);
+}
+
+// As of bones (carving_fields.cpp). Where nothing cuts, nothing lies.
+template <class A>
+void pieces_field(A& a, SoftState& s) {
+  if (!since(a, kLooseSofts) || !s.cut) return;
+  bool there = s.pieces != nullptr && !s.pieces->pieces.empty();
+  field(a, there);
+  if (!there) return;
+  FallenPiecesState state = s.pieces ? *s.pieces : FallenPiecesState{};
+  field(a, state);
+  if constexpr (A::kReads) s.pieces = std::make_shared<const FallenPiecesState>(std::move(state));
 }
 
 template void field(Out&, SoftState&);

@@ -25,10 +25,12 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
   const auto bends = first_of(pushes.bends, pushes.bend_count);
   const auto breaks = first_of(pushes.breaks, pushes.break_count);
   const auto dents = first_of(pushes.skin_dents, pushes.skin_count);
+  const auto pieces = first_of(pushes.pieces, pushes.piece_count);
   const Kept nothing;
   const Kept& last = kept_.empty() ? nothing : kept_.back();
   if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks) &&
-      pushes.cuts == last.cuts && are_same(dents, last.dents) && pushes.skin_cuts == last.skin_cuts)
+      pushes.cuts == last.cuts && are_same(dents, last.dents) &&
+      pushes.skin_cuts == last.skin_cuts && are_same(pieces, last.pieces))
     return;
   kept_.push_back({time_s,
                    {all.begin(), all.end()},
@@ -36,6 +38,7 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
                    {breaks.begin(), breaks.end()},
                    pushes.cuts,
                    {dents.begin(), dents.end()},
+                   {pieces.begin(), pieces.end()},
                    pushes.skin_cuts});
 }
 
@@ -49,6 +52,8 @@ SoftPushes PushHistory::at(double time_s) const {
   std::copy(kept.bends.begin(), kept.bends.end(), out.bends.begin());
   std::copy(kept.breaks.begin(), kept.breaks.end(), out.breaks.begin());
   std::copy(kept.dents.begin(), kept.dents.end(), out.skin_dents.begin());
+  std::copy(kept.pieces.begin(), kept.pieces.end(), out.pieces.begin());
+  out.piece_count = static_cast<std::uint32_t>(kept.pieces.size());
   out.cuts = kept.cuts;
   out.skin_cuts = kept.skin_cuts;
   out.skin_count = static_cast<std::uint32_t>(kept.dents.size());

@@ -27,6 +27,7 @@ class PushHistory {
     std::vector<BandBreak> breaks;
     std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts;
     std::vector<SkinDent> dents;
+    std::vector<std::shared_ptr<const PieceShape>> pieces;
     std::array<std::shared_ptr<const SkinCuts>, kMaxSkins> skin_cuts;
   };
   std::vector<Kept> kept_;

@@ -206,6 +206,12 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (!grippers) return tl::unexpected(grippers.error());
   add_grippers(setup, std::move(*grippers));
   add_friction(setup, SoftFriction(setup.friction));
+  // A recording from before pieces lay loose is replayed without them.
+  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) {
+    auto pieces = make_pieces(the_case, settings.tray);
+    if (!pieces) return tl::unexpected(pieces.error());
+    add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
+  }
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");

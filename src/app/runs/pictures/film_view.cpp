@@ -14,6 +14,7 @@
 #include "runs/pictures/carved_picture.h"
 #include "runs/pictures/film_fluoro.h"
 #include "runs/pictures/heat_picture.h"
+#include "runs/pictures/loose_softs.h"
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
 #include "water/water_drift.h"
@@ -85,6 +86,7 @@ struct FilmPainter::Impl {
   ViewState plain_view(double aspect) const;
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
+  void set_loose(const CarvedPicture::Piece& piece);
   void show_softs(const SoftPushes& pushes);
   void flow(const FilmMoment& moment);
   void drift_on(const FilmMoment& moment, const Vec3& tip_W);
@@ -94,6 +96,7 @@ struct FilmPainter::Impl {
   double obscured_s = 0;
   std::optional<double> flowed_s;  ///< to this time
   std::optional<SoftShapes> shapes;
+  LooseSofts loose_softs;
   std::vector<std::uint32_t> felt_softs;   ///< what gives way is seen
   std::optional<std::uint32_t> felt_skin;  ///< seen from outside, and not through
 };
@@ -295,15 +298,17 @@ void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
 
 void FilmPainter::take(const CutsPatch& cut) { impl_->carved.take(cut); }
 
+void FilmPainter::Impl::set_loose(const CarvedPicture::Piece& piece) {
+  if (renderer) renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+  if (scope) scope->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+}
+
 void FilmPainter::Impl::show_carved() {
   for (const CarvedPicture::Changed& changed : carved.changes()) {
     if (renderer) renderer->set_cubes(changed.bone, changed.grid, changed.cubes);
     if (scope) scope->set_cubes(changed.bone, changed.grid, changed.cubes);
   }
-  for (const CarvedPicture::Piece& piece : carved.new_pieces()) {
-    if (renderer) renderer->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
-    if (scope) scope->set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
-  }
+  for (const CarvedPicture::Piece& piece : carved.new_pieces()) set_loose(piece);
   if (!order.heat || !renderer) return;
   (void)carved.follow_heat();
   for (const CarvedPicture::Warmed& warmed : carved.warmed())
@@ -317,6 +322,7 @@ void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {
       set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
     if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
   }
+  for (const CarvedPicture::Piece& piece : loose_softs.new_pieces(pushes)) set_loose(piece);
 }
 
 Result<Image> FilmPainter::draw(const FilmMoment& moment) {

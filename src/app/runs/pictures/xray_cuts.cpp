@@ -87,7 +87,7 @@ void XrayCuts::add_to(XrayBody& body, const CutScene& cut, const BoneSnapshot& b
                                 {"cortical bone of pieces", cortical_, {}},
                                 {"cartilage of pieces", cartilage_, {}},
                                 {"cut away", away_, {}}};
-  for (std::uint32_t n = 0; n < std::min<std::size_t>(bones.loose.count, kMaxLooseBones); ++n) {
+  for (std::uint32_t n = 0; n < std::min<std::size_t>(bones.loose.count, kMaxLoose); ++n) {
     const LooseBone& lying = bones.loose.bones[n];
     const Piece* const of = piece(cut, lying);
     if (!of) continue;

@@ -46,7 +46,7 @@ std::size_t ReplayTrack::keep_around(double time_s, const BoneSnapshot& bones) {
 
 std::size_t ReplayTrack::keep_loose(const LooseBones& loose) {
   const auto begin = loose.bones.begin();
-  const auto end = begin + std::min<std::ptrdiff_t>(loose.count, kMaxLooseBones);
+  const auto end = begin + std::min<std::ptrdiff_t>(loose.count, kMaxLoose);
   const bool moved = loose_.empty() || !std::equal(loose_.back().begin(), loose_.back().end(),
                                                    begin, end, same_piece);
   if (moved) loose_.emplace_back(begin, end);

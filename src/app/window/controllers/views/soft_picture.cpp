@@ -13,7 +13,10 @@ bool SoftPicture::put(const SoftPushes& pushes, Renderer& renderer) {
   const auto changes = shapes_->changes(pushes);
   for (const SoftShapes::Changed& changed : changes)
     set_soft_surface(renderer, *case_, changed.soft, changed.mesh_W, changed.depth_m);
-  return !changes.empty();
+  const auto pieces = loose_.new_pieces(pushes);
+  for (const CarvedPicture::Piece& piece : pieces)
+    renderer.set_loose(piece.shape, BoneId{piece.bone}, piece.surface);
+  return !changes.empty() || !pieces.empty();
 }
 
 void SoftPicture::show(const std::shared_ptr<const Case>& the_case,

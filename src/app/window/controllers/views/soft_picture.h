@@ -5,6 +5,7 @@
 
 #include "osteon/physics/soft_shape.h"
 #include "osteon/render/renderer.h"
+#include "runs/pictures/loose_softs.h"
 
 namespace osteon {
 
@@ -18,7 +19,10 @@ class SoftPicture {
             const std::shared_ptr<const SoftSetup>& setup, const SoftPushes& pushes, double now_s,
             Renderer& renderer);
   /// The renderer shows all parts at rest.
-  void begin_again() { shapes_.reset(); }
+  void begin_again() {
+    shapes_.reset();
+    loose_ = {};
+  }
 
  private:
   /// True: something has another shape.
@@ -27,6 +31,7 @@ class SoftPicture {
   std::shared_ptr<const Case> case_;
   std::shared_ptr<const SoftSetup> setup_;
   std::optional<SoftShapes> shapes_;
+  LooseSofts loose_;
   double changed_s_ = -1;  ///< when a shape was last given
 };
 

@@ -1,0 +1,86 @@
+// Pieces of menisci and stumps that were cut off.
+#include <algorithm>
+
+#include "osteon/physics/fallen_pieces.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/soft_events.h"
+#include "soft/soft_grips.h"
+#include "soft/solid_cutting.h"
+#include "soft/solid_presses.h"
+
+namespace osteon {
+namespace {
+
+constexpr double kMm3_per_m3 = 1e9;
+
+bool stirs(const BoneSnapshot& bones) {
+  const auto moves = [](const BoneMotion& bone) {
+    return !bone.v_W.isZero(0) || !bone.w_W.isZero(0);
+  };
+  return std::any_of(bones.bones.begin(),
+                     bones.bones.begin() + std::min<std::size_t>(bones.count, kMaxBones), moves);
+}
+
+}  // namespace
+
+std::span<const FallenPiece> SoftWorld::lying() const {
+  return pieces_ ? std::span<const FallenPiece>(pieces_->state().pieces)
+                 : std::span<const FallenPiece>();
+}
+
+// Jaws that held the solid where it is no more have the piece. Where no room is left it is gone,
+// as crumbs are.
+void SoftWorld::lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> shape,
+                         std::span<const SolidHand> hands) {
+  if (!pieces_ || !shape || pieces_->state().pieces.size() >= kMaxLooseSofts) return;
+  if (!pieces_->add(std::move(shape), solids_->X_WB(solid), setup_->solids[solid].soft)) return;
+  const std::span<const BandSpan> spans(spans_.data(), setup_->bands.size());
+  for (std::size_t h = 0; h < hands.size() && grips_; ++h) {
+    const SoftHold& hold = state_.grips[h].hold;
+    if (!hands[h].tool || hold.of != SoftHold::Of::kSolid || hold.part != solid) continue;
+    if (grips_->is_cut_away(hold, {spans, solids_.get()}))
+      pieces_->take_now(static_cast<std::uint8_t>(h), *hands[h].tool);
+  }
+}
+
+// Before the cuts of the step: what comes off in it moves in the next.
+void SoftWorld::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                            std::span<const CarvedField* const> carved) {
+  pieces_->step(tools, bones, carved, stirs(bones), step_s_);
+}
+
+void SoftWorld::tell_pieces() {
+  using Is = PieceNews::Is;
+  for (const PieceNews& news : pieces_->news()) {
+    Event event;
+    event.hand = news.hand;
+    event.kind = news.is == Is::kHeld     ? kSoftPieceHeld
+                 : news.is == Is::kLetGo  ? kSoftPieceLetGo
+                 : news.is == Is::kSucked ? kSoftPieceSucked
+                                          : kSoftPieceOut;
+    event.subject = news.soft;
+    event.values = {kMm3_per_m3 * news.volume_m3, 0, 0};
+    tell(event, news.p_W);
+  }
+}
+
+// A state from before pieces lay loose has none.
+void SoftWorld::restore_pieces(const SoftState& state, bool let_go) {
+  state_.pieces = nullptr;
+  if (!pieces_) return;
+  pieces_->restore(state.pieces ? *state.pieces : FallenPiecesState{});
+  if (let_go) pieces_->let_all_go();
+}
+
+bool SoftWorld::fits_pieces(const FallenPiecesState& state) const {
+  const auto is_ours = [&](const FallenPiece& piece) {
+    return std::any_of(setup_->solids.begin(), setup_->solids.end(), [&](const SoftSolid& solid) {
+      return solid.soft == piece.soft && solid.bone.index == piece.shape->grid().bone;
+    });
+  };
+  return pieces_ && state.pieces.size() <= kMaxLooseSofts &&
+         FallenPieces::fits(state, setup_->pieces->bones.size()) &&
+         std::all_of(state.pieces.begin(), state.pieces.end(), is_ours);
+}
+
+}  // namespace osteon

@@ -1,0 +1,298 @@
+// Pieces of a meniscus that were cut off in a session: a block on a bone, cut by a shipped blade.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "driven_hand.h"
+#include "osteon/physics/fallen_pieces.h"
+#include "osteon/physics/soft_cut_state.h"
+#include "osteon/physics/soft_world.h"
+#include "osteon/scene/instrument.h"
+#include "osteon/scene/soft_events.h"
+#include "soft_solid_fixtures.h"
+
+namespace osteon {
+namespace {
+
+using testing::DrivenHand;
+using testing::kMeniscusHalf;
+using testing::posed;
+
+enum : std::uint32_t { kBall, kBlade, kGrasper, kSuction };
+
+// What falls off the block lands on the bone.
+const Vec3 kFloorHalf(0.04, 0.04, 0.02);
+
+struct PiecesRun : testing::MeniscusRun {
+  explicit PiecesRun(bool lie = true) : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
+    const auto instruments = load_instruments();
+    EXPECT_TRUE(instruments);
+    for (const char* name : {"scalpel_11", "grasper", "suction"}) {
+      const Instrument* found = find_instrument(*instruments, name);
+      settings.tray.emplace_back(name);
+      tray.push_back(std::make_shared<const Tool>(make_tool(*found, found->usual_size)));
+    }
+    SoftSetup setup = *softs;
+    auto cutters = make_solid_cutters(settings.tray);
+    auto grippers = make_soft_grippers(settings.tray);
+    auto pieces = make_pieces(*the_case, settings.tray);
+    EXPECT_TRUE(cutters && grippers && pieces);
+    if (cutters) add_cutters(setup, std::move(*cutters), 6);
+    if (grippers) add_grippers(setup, std::move(*grippers));
+    if (pieces && lie) add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
+    settings.soft_hash = setup.hash;
+    softs = std::make_shared<const SoftSetup>(std::move(setup));
+  }
+};
+
+const PiecesRun& pieces_run() {
+  static const PiecesRun run;
+  return run;
+}
+
+const Quat kUpright = posed({-1, 0, 0}, {0, 0, 1});  // the blade is drawn along y
+const Quat kFromEnd = posed({0, 0, 1}, {1, 0, 0});   // jaws that come from +x
+constexpr double kAway_m = 0.05;                     // along x: no piece is near there
+
+struct PieceHand : DrivenHand {
+  explicit PieceHand(Session& s) : DrivenHand(s, {kAway_m, 0, 0.012}) { store_every = 250; }
+
+  void take(std::uint32_t instrument, const Quat& pose, const Vec3& from) {
+    at = from;
+    q = pose;
+    DrivenHand::take(instrument);
+  }
+  void jaws(double open) { tick({CommandKind::kJaw, open}); }
+  // The end of the block, 3 mm and more of it, and away.
+  void cut_end_off() {
+    const double low = kMeniscusHalf.z() - 0.009;
+    until_it_comes_off();
+    move({0.009, 0.012, low}, 500);
+    rest(100);
+    move({kAway_m, 0.012, low}, 50);
+  }
+  void until_it_comes_off() {
+    const double low = kMeniscusHalf.z() - 0.009;
+    take(kBlade, kUpright, {0.009, -0.012, kMeniscusHalf.z() + 0.002});
+    move({0.009, -0.012, low}, 300);
+    for (int n = 1; n <= 2000 && count(kSoftPiece) == 0; ++n)
+      move({0.009, -0.012 + 0.024 * n / 2000, low}, 1);
+  }
+  Event first(EventKind kind) const {
+    const auto found = std::find_if(events.begin(), events.end(),
+                                    [&](const Event& event) { return event.kind == kind; });
+    return found == events.end() ? Event{} : *found;
+  }
+};
+
+std::span<const FallenPiece> lying(const Session& session) { return session.softs()->lying(); }
+
+Vec3 middle_W(const FallenPiece& piece) { return piece.X_WB * piece.shape->middle_B(); }
+
+// The bone lies 17 mm under the block; nothing holds what falls.
+TEST(SoftPieces, WhatIsCutOffFallsAndComesToRest) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.cut_end_off();
+  ASSERT_EQ(hand.count(kSoftPiece), 1u);
+  ASSERT_EQ(lying(session).size(), 1u);
+  const FallenPiece& piece = lying(session)[0];
+  const double told_mm3 = hand.first(kSoftPiece).values[0];
+  EXPECT_NEAR(1e9 * piece.shape->volume_m3(), told_mm3, 0.1 * told_mm3);
+  EXPECT_GT(told_mm3, 3 * 16 * 6 * 0.75);
+  EXPECT_LT(told_mm3, 3 * 16 * 6 * 1.05);
+  EXPECT_EQ(piece.soft, 0u);
+  EXPECT_EQ(session.softs()->pieces(0), 1u);
+  ASSERT_EQ(session.bones().loose.count, 1u);
+  EXPECT_EQ(session.bones().loose.bones[0].soft, 0u);
+  EXPECT_EQ(session.bones().loose.bones[0].shape, piece.shape->hash());
+  ASSERT_EQ(session.softs()->pushes().piece_count, 1u);
+  EXPECT_EQ(session.softs()->pushes().pieces[0], piece.shape);
+  const auto surface = piece.shape->surface();
+  ASSERT_TRUE(surface);
+  hand.rest(1500);
+  EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kResting);
+  EXPECT_LT(middle_W(lying(session)[0]).z(), -0.004);
+}
+
+TEST(SoftPieces, WithoutASetUpForThemTheyAreGone) {
+  const PiecesRun run(false);
+  EXPECT_NE(run.softs->hash, pieces_run().softs->hash);
+  Session session = run.session();
+  PieceHand hand(session);
+  hand.cut_end_off();
+  EXPECT_EQ(hand.count(kSoftPiece), 1u);
+  EXPECT_TRUE(lying(session).empty());
+  EXPECT_EQ(session.bones().loose.count, 0u);
+}
+
+// Jaws hold the end of the block, and the block is cut behind them: they have the piece. The cuts
+// are those of another session, up to the step before the piece was found.
+TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
+  std::shared_ptr<const SoftCutState> cuts;
+  {
+    Session cutting = pieces_run().session();
+    PieceHand blade(cutting);
+    const double low = kMeniscusHalf.z() - 0.009;
+    blade.take(kBlade, kUpright, {0.006, -0.012, kMeniscusHalf.z() + 0.002});
+    blade.move({0.006, -0.012, low}, 300);
+    for (int n = 1; n <= 2000 && blade.count(kSoftPiece) == 0; ++n) {
+      const auto before = cutting.save().world.softs.cut;
+      blade.move({0.006, -0.012 + 0.024 * n / 2000, low}, 1);
+      if (blade.count(kSoftPiece) == 0) cuts = before;
+    }
+    ASSERT_EQ(blade.count(kSoftPiece), 1u);
+  }
+  ASSERT_TRUE(cuts);
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.take(kGrasper, kFromEnd, {0.030, 0, 0});
+  hand.jaws(1);
+  hand.move({0.0075, 0, 0}, 300);
+  hand.jaws(0);
+  hand.rest(150);
+  ASSERT_EQ(hand.count(kSoftHeld), 1u);
+  SessionState state = session.save();
+  state.world.softs.cut = cuts;
+  ASSERT_TRUE(session.restore(state));
+  hand.rest(100);
+  ASSERT_EQ(hand.count(kSoftPiece), 1u);
+  ASSERT_EQ(lying(session).size(), 1u);
+  EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kHeld);
+  EXPECT_EQ(hand.count(kSoftFreed), 1u);
+  // It goes where the hand goes, and no meniscus pulls at it.
+  const Vec3 before = middle_W(lying(session)[0]);
+  hand.move(hand.at + Vec3(0.020, 0, 0.010), 200);
+  hand.rest(50);
+  EXPECT_LT((middle_W(lying(session)[0]) - before - Vec3(0.020, 0, 0.010)).norm(), 1e-4);
+  EXPECT_LT(session.tool_state().force_W.norm(), 0.05);
+  hand.jaws(1);
+  hand.rest(10);
+  EXPECT_EQ(hand.count(kSoftPieceLetGo), 1u);
+  EXPECT_EQ(hand.first(kSoftPieceLetGo).subject, 0u);
+  EXPECT_NE(lying(session)[0].is, FallenPiece::Is::kHeld);
+}
+
+// Picked up from where it lies, carried off and let go beyond all bones: it is out.
+TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.cut_end_off();
+  hand.rest(1500);
+  ASSERT_EQ(lying(session).size(), 1u);
+  const Vec3 at = middle_W(lying(session)[0]);
+  hand.take(kGrasper, kFromEnd, {kAway_m, at.y(), at.z()});
+  hand.jaws(1);
+  hand.move({at.x() - 0.004, at.y(), at.z()}, 300);
+  hand.jaws(0);
+  hand.rest(20);
+  ASSERT_EQ(hand.count(kSoftPieceHeld), 1u);
+  hand.move(hand.at + Vec3(0, 0, 0.060), 300);
+  hand.move({0.3, 0, 0.06}, 600);
+  EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kHeld);
+  hand.jaws(1);
+  hand.rest(200);
+  EXPECT_EQ(hand.count(kSoftPieceOut), 1u);
+  EXPECT_TRUE(lying(session).empty());
+  EXPECT_EQ(session.bones().loose.count, 0u);
+}
+
+TEST(SoftPieces, ItSticksToSuctionThatIsNarrowerThanItIs) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.cut_end_off();
+  hand.rest(1500);
+  ASSERT_EQ(lying(session).size(), 1u);
+  const Vec3 at = middle_W(lying(session)[0]);
+  hand.take(kSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
+  hand.tick({CommandKind::kPower, 1});
+  hand.move({at.x(), at.y(), at.z() + 0.0035}, 400);
+  hand.rest(100);
+  ASSERT_EQ(lying(session).size(), 1u);
+  ASSERT_EQ(lying(session)[0].is, FallenPiece::Is::kHeld);
+  EXPECT_TRUE(lying(session)[0].drawn);
+  hand.tick({CommandKind::kPower, 0});
+  hand.rest(10);
+  EXPECT_EQ(hand.count(kSoftPieceLetGo), 1u);
+}
+
+TEST(SoftPieces, UndoBringsTheWholeBack) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.rest(10);
+  hand.tick({CommandKind::kMark, 0});
+  hand.rest(10);
+  hand.cut_end_off();
+  ASSERT_EQ(lying(session).size(), 1u);
+  hand.tick({CommandKind::kMark, 1});
+  hand.rest(200);
+  hand.tick({CommandKind::kRestore, 0});
+  hand.rest(10);
+  EXPECT_TRUE(lying(session).empty());
+  EXPECT_EQ(session.bones().loose.count, 0u);
+  EXPECT_EQ(session.softs()->removed_m3(0), 0);
+  hand.tick({CommandKind::kRestore, 1});
+  hand.rest(10);
+  EXPECT_EQ(lying(session).size(), 1u);
+}
+
+TEST(SoftPieces, AStateKeepsThemAndAReplayIsTheSame) {
+  const PiecesRun& run = pieces_run();
+  Session session = run.session();
+  Recording recording;
+  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  PieceHand hand(session);
+  hand.into = &recording;
+  hand.until_it_comes_off();
+  hand.rest(20);  // it falls
+  ASSERT_EQ(lying(session).size(), 1u);
+  ASSERT_EQ(lying(session)[0].is, FallenPiece::Is::kMoving);
+  const auto bytes = to_bytes(session.save());
+  const auto back = state_from_bytes(bytes);
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_EQ(to_bytes(*back), bytes);
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  PieceHand second(other);
+  second.at = hand.at;
+  second.q = hand.q;
+  for (PieceHand* h : {&hand, &second}) h->rest(400);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  recording.complete = true;
+  ReplayOptions options;
+  options.tray = run.tray;
+  options.softs = run.softs;
+  for (const double from_s : {0.0, 2.0}) {
+    options.from_s = from_s;
+    const auto outcome = replay(recording, run.the_case, options);
+    ASSERT_TRUE(outcome) << outcome.error().message();
+    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
+    EXPECT_EQ(outcome->state_hash, session.state_hash());
+  }
+}
+
+TEST(SoftPieces, StatesThatCannotBeAreRefused) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  hand.cut_end_off();
+  const SessionState good = session.save();
+  ASSERT_TRUE(good.world.softs.pieces);
+  ASSERT_EQ(good.world.softs.pieces->pieces.size(), 1u);
+  const auto with = [&](const std::function<void(FallenPiecesState&)>& change) {
+    SessionState state = good;
+    FallenPiecesState pieces = *state.world.softs.pieces;
+    change(pieces);
+    state.world.softs.pieces = std::make_shared<const FallenPiecesState>(std::move(pieces));
+    return session.restore(state).has_value();
+  };
+  EXPECT_TRUE(with([](FallenPiecesState&) {}));
+  EXPECT_FALSE(with([](FallenPiecesState& s) { s.pieces[0].soft = 1; }));
+  EXPECT_FALSE(with([](FallenPiecesState& s) { s.pieces[0].soft = kNoSoftPart; }));
+  EXPECT_FALSE(with([](FallenPiecesState& s) { s.pieces[0].hand = 2; }));
+  EXPECT_FALSE(with(
+      [](FallenPiecesState& s) { s.pieces.resize(kMaxLooseSofts + 1, FallenPiece(s.pieces[0])); }));
+}
+
+}  // namespace
+}  // namespace osteon
