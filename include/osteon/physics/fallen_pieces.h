@@ -70,9 +70,9 @@ class FallenPieces {
   /// False: there is no room for one more.
   bool add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB,
            std::uint32_t soft = kNoSoftPart);
-  /// Jaws that were shut about what has just come off have it from then on. Without effect where
-  /// nothing lies between them.
-  void take_now(std::uint8_t hand, const ToolState& tool);
+  /// Shut jaws that held at `p_W` what came off there last have it from then on.
+  /// Without effect where the piece is farther from that place than 3 mm, or held.
+  void take_last(std::uint8_t hand, const ToolState& tool, const Vec3& p_W);
 
   /// Of the last step.
   std::span<const PieceNews> news() const { return news_; }
@@ -96,6 +96,7 @@ class FallenPieces {
   void carry(FallenPiece& piece, const ToolState& tool, const PieceSurroundings& around);
   bool is_touched(const FallenPiece& piece, const PieceSurroundings& around) const;
   void move(FallenPiece& piece, const PieceSurroundings& around, double step_s) const;
+  void hold(FallenPiece& piece, std::uint8_t hand, const ToolState& tool, bool drawn);
   void tell(PieceNews::Is is, const FallenPiece& piece, std::uint8_t hand);
   void drop_gone();
 

@@ -25,8 +25,8 @@ struct SoftSolid {
   std::shared_ptr<const PressedSolid> body;
   std::shared_ptr<const UncutField> uncut;      ///< of its surface, for what is cut out of it
   std::function<bool(const Vec3& p_B)> bleeds;  ///< whether it has vessels there; none: nowhere
-  /// Of a stump: whether it hangs on its bone there, whatever is cut, and whether what is there
-  /// counts as remains that are to be cleared. None: the largest part stays, nothing is to go.
+  /// Whether it hangs on its bone there, whatever is cut; of a stump, whether what is there counts
+  /// as remains that are to be cleared. None: the largest part stays, nothing is to go.
   std::function<bool(const Vec3&p_B)> hangs, to_clear;
   std::shared_ptr<const TriMesh> surface_B;  ///< of a stump; none: all of the soft part
   double cutting_n = 0;  ///< force of an edge that opens it; 0: as SoftSetup says

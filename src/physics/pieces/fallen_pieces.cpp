@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kOpenForPiece = 0.5, kShutOnPiece = 0.15;  // of their way
 constexpr double kPieceSlips_m = 0.002;    // what is held slips out where it stands so deep in bone
+constexpr double kHeldNear_m = 0.003;      // what jaws held, they have
 constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
 constexpr double kPull_m_per_s2 = 60;      // at the bore, with full power
 constexpr double kLeastSuction = 0.05;
@@ -95,19 +96,25 @@ void FallenPieces::take(std::uint8_t hand, const ToolState& tool, const SoftGrip
     best = &piece;
   }
   if (!best) return;
-  best->is = FallenPiece::Is::kHeld;
-  best->hand = hand;
-  best->X_PB = X_TW * best->X_WB;
-  best->v_W = best->w_W = Vec3::Zero();
-  tell(PieceNews::Is::kHeld, *best, hand);
+  hold(*best, hand, tool, false);
 }
 
-void FallenPieces::take_now(std::uint8_t hand, const ToolState& tool) {
-  const PieceTool* const with = tool_of(tool);
-  if (!with || !with->jaws || hand >= kMaxHands || !is_finite(tool.X_WP)) return;
+void FallenPieces::hold(FallenPiece& piece, std::uint8_t hand, const ToolState& tool, bool drawn) {
+  piece.is = FallenPiece::Is::kHeld;
+  piece.hand = hand;
+  piece.drawn = drawn;
+  piece.X_PB = tool.X_WP.inverse() * piece.X_WB;
+  piece.v_W = piece.w_W = Vec3::Zero();
+  tell(PieceNews::Is::kHeld, piece, hand);
+}
+
+void FallenPieces::take_last(std::uint8_t hand, const ToolState& tool, const Vec3& p_W) {
+  if (state_.pieces.empty() || hand >= kMaxHands || !is_finite(tool.X_WP)) return;
+  FallenPiece& piece = state_.pieces.back();
+  if (piece.is == FallenPiece::Is::kHeld || nearest_point_m(piece, p_W) > kHeldNear_m) return;
   state_.instrument[hand] = tool.instrument;
   state_.open[hand] = false;
-  take(hand, tool, *with->jaws);
+  hold(piece, hand, tool, false);
 }
 
 // Jaws must have been open before they can shut; who takes another instrument lets go.
@@ -147,12 +154,7 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double
       tell(PieceNews::Is::kSucked, piece, hand);
       gone_[i] = 1;
     } else if (!fits && nearest_point_m(piece, bore_W) < 0.5 * with->bore_m) {
-      piece.is = FallenPiece::Is::kHeld;
-      piece.hand = hand;
-      piece.drawn = true;
-      piece.X_PB = tool.X_WP.inverse() * piece.X_WB;
-      piece.v_W = piece.w_W = Vec3::Zero();
-      tell(PieceNews::Is::kHeld, piece, hand);
+      hold(piece, hand, tool, true);
     } else if (to_bore.norm() > 1e-9) {
       const double share = 1 - std::max(gap, 0.0) / kSuctionReach_m;
       piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();

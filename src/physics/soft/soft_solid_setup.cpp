@@ -55,15 +55,18 @@ Vec3 vertices_middle(const TriMesh& mesh) {
   return sum / static_cast<double>(std::max<std::size_t>(mesh.vertices.size(), 1));
 }
 
+// As the coronary ligament and the roots hold a meniscus.
+bool is_held(const RimOutline& outline, const Vec3& p) {
+  return outline.inside(p) < kRim_m && outline.height(p) < 0;
+}
+
 PressedSolidDef solid_def(const TriMesh& mesh, const RimOutline& outline,
                           std::shared_ptr<const DistanceField> field, double stiffness_n_per_m) {
   PressedSolidDef def;
   for (const Vec3& p : mesh.vertices) def.box.include(p);
   def.up = outline.up();
   def.stiffness_n_per_m = stiffness_n_per_m;
-  def.held = [&outline](const Vec3& p) {
-    return outline.inside(p) < kRim_m && outline.height(p) < 0;
-  };
+  def.held = [&outline](const Vec3& p) { return is_held(outline, p); };
   def.rests = [field, &outline](const Vec3& p) {
     return field->at(p).gradient.normalized().dot(outline.up()) < kUnder;
   };
@@ -91,6 +94,7 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
     return tl::unexpected(body.error());
   }
   out.body = std::make_shared<const PressedSolid>(std::move(*body));
+  out.hangs = [outline](const Vec3& p_B) { return is_held(outline, p_B); };
   out.bleeds = [outline](const Vec3& p_B) { return outline.inside(p_B) < kVessels_m; };
   return out;
 }

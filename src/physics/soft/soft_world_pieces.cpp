@@ -38,8 +38,9 @@ void SoftWorld::lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> 
   for (std::size_t h = 0; h < hands.size() && grips_; ++h) {
     const SoftHold& hold = state_.grips[h].hold;
     if (!hands[h].tool || hold.of != SoftHold::Of::kSolid || hold.part != solid) continue;
-    if (grips_->is_cut_away(hold, {spans, solids_.get()}))
-      pieces_->take_now(static_cast<std::uint8_t>(h), *hands[h].tool);
+    if (!grips_->is_cut_away(hold, {spans, solids_.get()})) continue;
+    pieces_->take_last(static_cast<std::uint8_t>(h), *hands[h].tool,
+                       solids_->X_WB(solid) * hold.p_B);
   }
 }
 

@@ -62,7 +62,8 @@ SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses, double
     made.holes =
         std::make_unique<CutField>(cut_grid(made.field.grid()), kMostCutBlocks, kWallSlack_m);
     made.loose = std::make_unique<LoosePieces>(made.field);
-    if (solid.hangs) made.loose->hang(made.field, solid.hangs);
+    // Where pieces are gone at once the largest part of a meniscus stays, as it always has.
+    if (solid.hangs && (solid.to_clear || setup_.pieces)) made.loose->hang(made.field, solid.hangs);
     if (solid.to_clear) find_to_clear(made, solid);
     made.cells = std::make_unique<SolidCells>(made.field, *solid.body);
     made.whole = made.cells->cells();

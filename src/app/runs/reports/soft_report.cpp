@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "osteon/physics/fallen_pieces.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/event.h"
 
@@ -94,6 +95,13 @@ SoftJson to_json(const SoftReport& report) {
   SoftJson out;
   out["parts"] = SoftJson::array();
   for (const SoftReport::Part& part : report.parts) out["parts"].push_back(soft_part_json(part));
+  out["loose"] = SoftJson::array();
+  for (const SoftReport::Loose& piece : report.loose)
+    out["loose"].push_back(
+        {{"part", piece.part < report.subjects.size() ? report.subjects[piece.part] : ""},
+         {"volume_mm3", piece.volume_mm3},
+         {"at_mm", {1e3 * piece.p_W.x(), 1e3 * piece.p_W.y(), 1e3 * piece.p_W.z()}},
+         {"held", piece.held}});
   out["events"] = SoftJson::array();
   for (const Event& event : report.events) out["events"].push_back(soft_event_json(event, report));
   return out;
@@ -190,6 +198,10 @@ std::optional<SoftReport> SoftWatch::finish(const Session& session) const {
     report.parts[b].lost = state.lost;
     report.parts[b].whole = softs->setup().bands[b].left > 0 && !state.torn;
   }
+  for (const FallenPiece& piece : softs->lying())
+    report.loose.push_back({piece.soft, 1e9 * piece.shape->volume_m3(),
+                            piece.X_WB * piece.shape->middle_B(),
+                            piece.is == FallenPiece::Is::kHeld});
   for (const SoftPart& part : session.the_case().softs) report.subjects.push_back(part.name);
   for (const Portal& portal : session.portals()) report.portals.push_back(portal.name);
   return report;

@@ -31,7 +31,15 @@ struct SoftReport {
     bool whole = true;           ///< at the end; torn by a finding or in the run: false
     bool lost = false;           ///< it could not be solved
   };
+  /// A piece that was cut off and lies loose at the end.
+  struct Loose {
+    std::uint32_t part = 0;  ///< in `subjects`
+    double volume_mm3 = 0;
+    Vec3 p_W = Vec3::Zero();  ///< of its middle
+    bool held = false;
+  };
   std::vector<Part> parts;
+  std::vector<Loose> loose;
   std::vector<Event> events;          ///< codes 100 to 199
   std::vector<std::string> subjects;  ///< soft parts of the case
   std::vector<std::string> portals;   ///< of the session
