@@ -1,5 +1,6 @@
 // A moving scope's picture, 720 x 720, in the notch of the built-in knee: in clear and cloudy
-// water, with blood and plumes, with a fogged lens. Needs OpenGL, without a window.
+// water, with blood and plumes, with a fogged lens; from the surfaces that a window shares with it,
+// in as many pixels as there. Needs OpenGL, without a window.
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
@@ -11,6 +12,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/render/scope_renderer.h"
 #include "osteon/scene/scope.h"
+#include "osteon/scene/tool.h"
 
 namespace osteon {
 namespace {
@@ -25,7 +27,10 @@ struct NotchPicture {
   OffscreenContext context = made(OffscreenContext::create());
   Case knee = made(open_scoped_case("builtin:knee", 80));
   ScopeDef scope = made(load_scope("knee_30"));
-  ScopeRenderer renderer = made(ScopeRenderer::create(knee, OSTEON_SOURCE_DIR, prepare_case(knee)));
+  /// The window's: the scope shares its surfaces and, where a processor draws, has fewer pixels.
+  Renderer scene =
+      made(Renderer::create(knee, make_wrist_probe(), OSTEON_SOURCE_DIR, prepare_case(knee)));
+  ScopeRenderer renderer = made(ScopeRenderer::create(knee, OSTEON_SOURCE_DIR, scene));
 
   NotchPicture() {
     const auto wall = JointRoom(knee).wall(rest_snapshot(knee), Vec3(0.010, -0.010, -0.004));
