@@ -1,7 +1,7 @@
 // The round picture of a scope: takes the flat picture through its lens (barrel), out of focus
 // where it lies near or far, in water that takes light and gives some of it back, behind fog on the
-// glass, within the field stop, with the camera's own exposure. FOG and WATER say whether there are
-// any.
+// glass, within the field stop, with the camera's own exposure. FOG, WATER and SOFT say whether
+// there are any, and whether anything is out of focus.
 in vec2 v_at;
 
 uniform sampler2D u_flat;      // linear light and distance, as a pinhole sees it
@@ -9,6 +9,7 @@ uniform vec2 u_size_px;        // of this picture
 uniform float u_radius_px;     // of the round picture
 uniform sampler2D u_half;      // its light out of focus, as of a disc of 3 of its pixels
 uniform sampler2D u_quarter;   // the same of 9 pixels
+uniform sampler2D u_milky;     // the same of a third of its half width: as fog spreads it
 uniform vec3 u_bow_near;       // tangent off the middle by the share of the radius, in the square
 uniform vec3 u_bow_far;        // of that: terms 0 to 2 and 3 to 5
 uniform float u_flat_half;     // tangent of the flat picture's half width
@@ -19,62 +20,39 @@ uniform float u_focus;         // sharp at this distance, metres
 uniform float u_blur_px;       // radius of blur, pixels of the flat picture, a dioptre off focus
 uniform float u_taken;         // light that the water takes, each metre
 uniform float u_blood;         // share of that which blood takes
-uniform sampler3D u_clouds;    // of water, repeated
-uniform float u_clouds_per_m;  // how often they are repeated
-uniform int u_plumes;          // how many
-uniform vec3 u_plume_at[6];    // in World
-uniform vec2 u_plume_size[6];  // radius, and light that its middle takes, each metre
+uniform sampler2D u_water;     // as scope_water.frag has it
 uniform float u_fog;           // share of the glass that is fogged
-uniform mat4 u_world_from_view;
 
 out vec4 o_color;
 
-float hash(vec3 p) {
-  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.x + p.y) * p.z);
-}
-
-// Smooth values 0..1, one change a unit.
+// Smooth values 0..1, one change a unit: as tissue.frag has them.
 float noise(vec3 p) {
   vec3 i = floor(p), f = fract(p);
   f = f * f * (3.0 - 2.0 * f);
-  float a = mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
-                mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y);
-  float b = mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
-                mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y);
-  return mix(a, b, f.z);
-}
-
-// How thick the water is at a place of World, 1 on the mean.
-float clouds(vec3 p) { return 2.0 * texture(u_clouds, p * u_clouds_per_m).r; }
-
-// Light that plumes of blood take on the way, as a power of e: each falls off from its middle as a
-// bell, whose sum along a line is known (tanh stands for the error function).
-float plumes_on(vec3 eye, vec3 along, float distance_m) {
-  float sum = 0.0;
-  for (int k = 0; k < u_plumes; ++k) {
-    vec3 to = u_plume_at[k] - eye;
-    float s = u_plume_size[k].x, t = dot(to, along), off = dot(to, to) - t * t;
-    float part = 0.5 * (tanh(0.8485 * (distance_m - t) / s) + tanh(0.8485 * t / s));
-    float wisps = 0.4 + 1.2 * noise(eye * 300.0 + (t + 0.3 * s) * along * 300.0 + 5.0 * float(k));
-    sum += u_plume_size[k].y * 2.5066 * s * exp(-0.5 * off / (s * s)) * max(part, 0.0) * wisps;
-  }
-  return sum;
+  vec3 u = fract(i * vec3(0.1031, 0.1030, 0.0973));
+  vec3 w = fract((i + 1.0) * vec3(0.1031, 0.1030, 0.0973));
+  // Of hash(): the dot product over x and y by corner, over z, and what stands beside them.
+  vec4 x = vec4(u.x, w.x, u.x, w.x), y = vec4(u.y, u.y, w.y, w.y);
+  vec4 s = x + y, d = 2.0 * x * y + 33.33 * s;
+  vec2 z = vec2(u.z, w.z), e = z * (z + 33.33);
+  vec4 t = s + 2.0 * d;
+  vec4 lo = fract((t + 2.0 * e.x) * (d + (z.x + e.x)));
+  vec4 hi = fract((t + 2.0 * e.y) * (d + (z.y + e.y)));
+  vec4 m = mix(lo, hi, f.z);
+  vec2 n = mix(m.xy, m.zw, f.y);
+  return mix(n.x, n.y, f.x);
 }
 
 // Light through cloudy water, from the tip to the tissue and back: it falls by an exponential, and
 // what the water scatters comes back from near by as a veil. Blood takes green and blue before red.
-vec3 through_water(vec3 light, float distance_m, vec3 dir_C) {
+vec3 through_water(vec3 light, float distance_m, vec2 plane) {
   const vec3 kBlood = vec3(0.55, 1.5, 1.6);
-  vec3 eye = u_world_from_view[3].xyz, along = mat3(u_world_from_view) * dir_C;
-  float thick = 0.0;
-  for (int k = 0; k < 2; ++k) thick += 0.5 * clouds(eye + (0.25 + 0.5 * float(k)) * distance_m * along);
-  float mixed = u_taken * thick * distance_m, plumes = plumes_on(eye, along, distance_m);
+  vec2 water = texture(u_water, 0.5 + 0.5 * plane / u_flat_half).rg;
+  float mixed = u_taken * water.r * distance_m, plumes = water.g;
   vec3 takes = mixed * mix(vec3(1.0), kBlood, u_blood) + plumes * kBlood;
   float red = (mixed * u_blood + plumes) / max(mixed + plumes, 1e-9);
   vec3 left = exp(-2.0 * takes);
-  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), red) * (0.55 + 0.45 * thick);
+  vec3 veil = mix(vec3(0.34, 0.33, 0.30), vec3(0.20, 0.012, 0.010), red) * (0.55 + 0.45 * water.r);
   return light * left + veil * (1.0 - left);
 }
 
@@ -88,12 +66,16 @@ vec2 on_plane(vec2 from_center) {
 vec4 flat_at(vec2 plane) {
   vec2 uv = 0.5 + 0.5 * plane / u_flat_half;
   vec4 sharp = texture(u_flat, uv);
+#ifdef SOFT
   float dioptres = abs(1.0 / max(sharp.a, 1e-3) - 1.0 / u_focus);
   float blur = min(u_blur_px * max(dioptres - 60.0, 0.0), 9.0);
   float spread = blur < 0.6 ? 0.0 : blur * blur;
   vec3 light = mix(sharp.rgb, texture(u_half, uv).rgb, min(spread / 9.0, 1.0));
   light = mix(light, texture(u_quarter, uv).rgb, max(spread - 9.0, 0.0) / 72.0);
   return vec4(light, sharp.a);
+#else
+  return sharp;
+#endif
 }
 
 // Fine drops on the glass spread the light of all that is around; they leave holes where they run
@@ -101,17 +83,8 @@ vec4 flat_at(vec2 plane) {
 vec3 through_fog(vec3 light, vec2 plane, vec2 from_center) {
   float patchy = noise(vec3(from_center * 3.0, 4.0)) + 0.25 * noise(vec3(from_center * 23.0, 8.0));
   float share = smoothstep(1.0 - u_fog, 1.25 - 0.9 * u_fog, patchy + 0.35 * u_fog) * min(1.0, 2.0 * u_fog);
-  // The samples turn slowly over the picture: neighbours share them, so fog has no grain.
-  float turn = 6.2832 * noise(vec3(from_center * 2.0, 1.0));
-  vec2 turned = vec2(cos(turn), sin(turn)), middle = 0.5 + 0.5 * plane / u_flat_half;
-  vec3 spread = vec3(0.0);
-  for (int k = 0; k < 16; ++k) {
-    // The turn of each is known before: of the place's own turn there is one.
-    float a = 2.39996 * float(k), q = 0.34 * sqrt((float(k) + 0.5) / 16.0);
-    vec2 to = vec2(turned.x * cos(a) - turned.y * sin(a), turned.y * cos(a) + turned.x * sin(a));
-    spread += texture(u_flat, middle + 0.5 * q * to).rgb;
-  }
-  vec3 milky = 0.75 * min(spread / 16.0, vec3(2.0)) + vec3(0.10, 0.10, 0.11) / u_exposure;
+  vec3 spread = texture(u_milky, 0.5 + 0.5 * plane / u_flat_half).rgb;
+  vec3 milky = 0.75 * min(spread, vec3(2.0)) + vec3(0.10, 0.10, 0.11) / u_exposure;
   return mix(light, milky, 0.93 * share);
 }
 
@@ -144,8 +117,8 @@ void main() {
 #endif
   light *= u_exposure;
 #ifdef WATER
-  light = through_water(light, max(seen.a, 1e-3), normalize(vec3(plane, -1.0)));
+  light = through_water(light, max(seen.a, 1e-3), plane);
 #endif
-  float vignette = 1.0 - 0.55 * pow(r, 3.0) - 0.15 * r * r;
+  float vignette = 1.0 - 0.55 * r * r * r - 0.15 * r * r;
   o_color = vec4(shown(light * vignette * u_white) * stop, 1.0);
 }

@@ -1,4 +1,5 @@
-// A scope's flat picture out of focus, on a coarser grid: the mean of TAPS places over a disc.
+// A scope's flat picture out of focus, on a coarser grid: the mean of TAPS places over a disc. ROUND:
+// of those in the round field alone.
 in vec2 v_at;
 
 uniform sampler2D u_flat;
@@ -7,10 +8,16 @@ uniform float u_spread;  // the disc's radius, of the picture's side
 out vec4 o_light;
 
 void main() {
-  vec3 sum = vec3(0.0);
+  vec4 sum = vec4(0.0);
   for (int k = 0; k < TAPS; ++k) {
     float a = 2.39996 * float(k), q = sqrt((float(k) + 0.7) / float(TAPS));
-    sum += texture(u_flat, v_at + u_spread * q * vec2(cos(a), sin(a))).rgb;
+    vec2 at = v_at + u_spread * q * vec2(cos(a), sin(a));
+#ifdef ROUND
+    float counts = length(at - 0.5) < 0.5 ? 1.0 : 0.0;
+#else
+    float counts = 1.0;
+#endif
+    sum += counts * vec4(texture(u_flat, at).rgb, 1.0);
   }
-  o_light = vec4(sum / float(TAPS), 1.0);
+  o_light = vec4(sum.rgb / max(sum.a, 1.0), 1.0);
 }

@@ -21,15 +21,23 @@ float hash(vec3 p) {
   return fract((p.x + p.y) * p.z);
 }
 
-// Smooth values 0..1, one change a unit.
+// Smooth values 0..1, one change a unit: hash() of the eight corners around, whose products of two
+// are shared.
 float noise(vec3 p) {
   vec3 i = floor(p), f = fract(p);
   f = f * f * (3.0 - 2.0 * f);
-  float a = mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
-                mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y);
-  float b = mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
-                mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y);
-  return mix(a, b, f.z);
+  vec3 u = fract(i * vec3(0.1031, 0.1030, 0.0973));
+  vec3 w = fract((i + 1.0) * vec3(0.1031, 0.1030, 0.0973));
+  // Of hash(): the dot product over x and y by corner, over z, and what stands beside them.
+  vec4 x = vec4(u.x, w.x, u.x, w.x), y = vec4(u.y, u.y, w.y, w.y);
+  vec4 s = x + y, d = 2.0 * x * y + 33.33 * s;
+  vec2 z = vec2(u.z, w.z), e = z * (z + 33.33);
+  vec4 t = s + 2.0 * d;
+  vec4 lo = fract((t + 2.0 * e.x) * (d + (z.x + e.x)));
+  vec4 hi = fract((t + 2.0 * e.y) * (d + (z.y + e.y)));
+  vec4 m = mix(lo, hi, f.z);
+  vec2 n = mix(m.xy, m.zw, f.y);
+  return mix(n.x, n.y, f.x);
 }
 
 float layers(vec3 p) {

@@ -5,26 +5,48 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "view/exposure.h"
 
 namespace osteon {
+namespace {
 
-double gain_for(int side) {
-  const int step = std::max(1, side / 64), from = side / 6, to = side - side / 6;
-  const int width = std::max(to - from, 0);
-  std::vector<float> row(4u * static_cast<std::size_t>(width));
+/// Some 45 rows and columns of the middle tell it.
+double gain_of(const std::vector<float>& all, std::size_t width) {
+  const std::size_t step = std::max<std::size_t>(1, width / 64), from = width / 6;
   std::vector<double> light;
-  for (int y = from; y < to; y += step) {
-    glReadPixels(from, y, width, 1, GL_RGBA, GL_FLOAT, row.data());
-    for (int x = 0; x < width; x += step) {
-      const float* at = row.data() + 4u * static_cast<std::size_t>(x);
+  for (std::size_t y = from; y < width - from; y += step) {
+    for (std::size_t x = from; x < width - from; x += step) {
+      const float* at = all.data() + 4 * (y * width + x);
       light.push_back(0.3 * static_cast<double>(at[0]) + 0.6 * static_cast<double>(at[1]) +
                       0.1 * static_cast<double>(at[2]));
     }
   }
   return exposure_gain(light);
+}
+
+/// Every other pixel and row: what is near is not small.
+double nearest_of(const std::vector<float>& all, std::size_t width) {
+  float nearest_m = std::numeric_limits<float>::infinity();
+  for (std::size_t y = 0; y < width; y += 2)
+    for (std::size_t x = 0; x < width; x += 2)
+      nearest_m = std::min(nearest_m, all[4 * (y * width + x) + 3]);
+  return static_cast<double>(nearest_m);
+}
+
+}  // namespace
+
+// All at once: a driver takes longer to begin a reading than to read what is left out below.
+FlatReading read_flat(int side) {
+  const std::size_t width = static_cast<std::size_t>(std::max(side, 0));
+  std::vector<float> all(4 * width * width);
+  glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, all.data());
+  FlatReading out;
+  out.gain = gain_of(all, width);
+  out.nearest_m = nearest_of(all, width);
+  return out;
 }
 
 Image read_back(int width, int height) {

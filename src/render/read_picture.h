@@ -4,9 +4,13 @@
 
 namespace osteon {
 
-/// The camera's gain for what the bound square picture of floats shows, `side` pixels wide; its rim
-/// does not count. Few rows are read: all of it takes a processor's time. Needs the context.
-double gain_for(int side);
+/// What a scope's flat picture says of itself.
+struct FlatReading {
+  double gain = 0;       ///< of the camera; the picture's rim does not count
+  double nearest_m = 0;  ///< the least distance of what it shows
+};
+/// Of the bound square picture of light and distance, `side` pixels wide. Needs the context.
+FlatReading read_flat(int side);
 
 /// The bound picture, the upper row first. Needs the context.
 Image read_back(int width, int height);

@@ -66,6 +66,14 @@ const GpuMesh& ScenePainter::exact_surface(std::size_t k) const {
                                                         : nothing;
 }
 
+const GpuMesh& ScenePainter::surface_within(std::size_t k, double error_m) const {
+  if (k >= shared_->bones.size()) return exact_surface(k);
+  const std::vector<Level>& levels = shared_->bones[k].levels;
+  std::size_t level = 0;
+  while (level + 1 < levels.size() && levels[level + 1].error_m <= error_m) ++level;
+  return levels.empty() ? exact_surface(k) : levels[level].surface;
+}
+
 void ScenePainter::set_surfaces(const PreparedCase& prepared) {
   static const ShadedMesh nothing;
   ++shared_->version;

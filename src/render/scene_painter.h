@@ -29,6 +29,8 @@ class ScenePainter {
   std::uint64_t version() const { return shared_->version; }
   /// The finest surface of a model: the bones, after them the soft parts.
   const GpuMesh& exact_surface(std::size_t k) const;
+  /// The coarsest that lies within `error_m` of it.
+  const GpuMesh& surface_within(std::size_t k, double error_m) const;
   /// Where something else stands than that surface, of a bone.
   const ChangedCubes& changed(std::size_t bone) const { return shared_->bones[bone].changed; }
   /// By ToolState::instrument and jaw_step(); null: the tray has no such place.

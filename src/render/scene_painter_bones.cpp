@@ -59,9 +59,7 @@ const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapsh
                                                                    : kLevelError_px;
   const double allowed_m =
       allowed_px * finest_metres_per_pixel(frame, pose(snapshot, k), bone.boxes);
-  std::size_t level = 0;
-  while (level + 1 < bone.levels.size() && bone.levels[level + 1].error_m <= allowed_m) ++level;
-  return bone.levels[level].surface;
+  return surface_within(k, allowed_m);
 }
 
 void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,

@@ -1,6 +1,7 @@
 #include "scope_lens.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -15,7 +16,11 @@ namespace osteon {
 namespace {
 
 constexpr double kFocus_m = 0.012;
-constexpr std::size_t kSeesWater = 1, kSeesFog = 2;
+/// Radius of blur, pixels of a flat picture of 720, a dioptre off focus; what is so many off is
+/// sharp, and so is what is spread less than that many pixels. As scope.frag has it.
+constexpr double kBlur_px = 0.02, kSharpDioptres = 60, kLeastBlur_px = 0.6;
+constexpr std::size_t kSeesWater = 1, kSeesFog = 2, kSeesSoft = 4;
+constexpr GLsizei kDiscCorners = 49;  // as disc.vert has them
 
 GlTexture cloud_texture() {
   constexpr int kSide = 64;  // three values in the smallest cell
@@ -77,21 +82,32 @@ bool ScopeLens::Soft::ensure(int wanted) {
 Result<ScopeLens> ScopeLens::load(const std::filesystem::path& shaders) {
   ScopeLens out;
   for (std::size_t k = 0; k < out.softer_.size(); ++k) {
-    auto softer = Program::load_with(shaders, "screen", "softer",
-                                     k == 0 ? "#define TAPS 4\n" : "#define TAPS 8\n");
+    constexpr std::array<const char*, 3> kTaps = {"4", "8", "64"};
+    const std::string taps = std::string("#define TAPS ") + kTaps[k] + "\n";
+    auto softer =
+        Program::load_with(shaders, "screen", "softer", taps + (k == 2 ? "#define ROUND\n" : ""));
     if (!softer) return tl::unexpected(softer.error());
     out.softer_[k] = std::move(*softer);
   }
   for (std::size_t k = 0; k < out.lenses_.size(); ++k) {
     std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
     if ((k & kSeesFog) != 0) defines += "#define FOG\n";
-    auto lens = Program::load_with(shaders, "screen", "scope", defines);
+    if ((k & kSeesSoft) != 0) defines += "#define SOFT\n";
+    auto lens = Program::load_with(shaders, "disc", "scope", defines);
     if (!lens) return tl::unexpected(lens.error());
     out.lenses_[k] = std::move(*lens);
   }
+  auto water = Program::load(shaders, "screen", "scope_water");
+  if (!water) return tl::unexpected(water.error());
+  out.water_ = std::move(*water);
   out.no_vertices_ = make_vertex_array();
   out.clouds_ = cloud_texture();
   return out;
+}
+
+bool ScopeLens::is_soft(double nearest_m, int side_px) {
+  const double before = 1 / std::max(nearest_m, 1e-3) - 1 / kFocus_m, beyond = 1 / kFocus_m;
+  return kBlur_px * side_px / 720 * (std::max(before, beyond) - kSharpDioptres) >= kLeastBlur_px;
 }
 
 void ScopeLens::soften(const Program& softer, GLuint from, const Soft& to, double spread) {
@@ -116,28 +132,44 @@ void ScopeLens::paint(const LightTarget& flat, const RenderTarget& picture, cons
   for (const GLenum test : {GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE})
     glDisable(test);
   glActiveTexture(GL_TEXTURE0);
-  const bool soft = half_.ensure((side + 1) / 2) && quarter_.ensure((side + 3) / 4);
+  const bool soft = is_soft(view.nearest_m, side) && half_.ensure((side + 1) / 2) &&
+                    quarter_.ensure((side + 3) / 4);
   if (soft) {
     soften(softer_[0], flat.texture(), half_, kHalfSpread_px / side);
     soften(softer_[1], half_.texture.get(), quarter_, kQuarterSpread_px / side);
   }
+  // An eighth of the picture cannot tell where the taps lie: its pixels are as wide as their steps.
+  constexpr double kFogSpread = 0.17;  // of the flat picture
+  const bool milky = water.fog > 0 && milky_.ensure((side + 7) / 8);
+  if (milky) soften(softer_[2], flat.texture(), milky_, kFogSpread);
+  const bool cloudy = !water.clear() && on_the_way_.ensure((side + 1) / 2);
+  if (cloudy) measure_water(flat, view, water);
   glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
   glViewport(0, 0, view.viewport.width, view.viewport.height);
-  const Program& lens = lenses_[(water.clear() ? 0 : kSeesWater) + (water.fog > 0 ? kSeesFog : 0)];
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  const Program& lens =
+      lenses_[(cloudy ? kSeesWater : 0) + (milky ? kSeesFog : 0) + (soft ? kSeesSoft : 0)];
   lens.use();
-  const std::array<GLuint, 3> levels = {flat.texture(), soft ? half_.texture.get() : flat.texture(),
-                                        soft ? quarter_.texture.get() : flat.texture()};
-  for (const std::size_t k : {2u, 1u, 0u}) {
+  const std::array<GLuint, 5> levels = {flat.texture(), soft ? half_.texture.get() : flat.texture(),
+                                        soft ? quarter_.texture.get() : flat.texture(),
+                                        milky ? milky_.texture.get() : flat.texture(),
+                                        cloudy ? on_the_way_.texture.get() : flat.texture()};
+  for (const std::size_t k : {4u, 3u, 2u, 1u, 0u}) {
     glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + (k > 0 ? k + 1 : 0)));
     glBindTexture(GL_TEXTURE_2D, levels[k]);
   }
+  const double radius_px = ScopeCamera::radius_px(view.viewport);
   lens.set("u_flat", 0);
   lens.set("u_half", 2);
   lens.set("u_quarter", 3);
-  lens.set("u_screen_depth", 0.0f);
+  lens.set("u_milky", 4);
+  lens.set("u_water", 5);
+  constexpr double kStopWide_px = 1.5;  // more than the stop's soft edge
+  lens.set("u_disc", Eigen::Vector2f(2 * (radius_px + kStopWide_px) / view.viewport.width,
+                                     2 * (radius_px + kStopWide_px) / view.viewport.height));
   lens.set("u_size_px", Eigen::Vector2f(static_cast<float>(view.viewport.width),
                                         static_cast<float>(view.viewport.height)));
-  const double radius_px = ScopeCamera::radius_px(view.viewport);
   lens.set("u_radius_px", static_cast<float>(radius_px));
   const std::array<double, 6> bow = bow_of(view.camera);
   lens.set("u_bow_near", three(bow, 0));
@@ -147,31 +179,40 @@ void ScopeLens::paint(const LightTarget& flat, const RenderTarget& picture, cons
   lens.set("u_exposure", static_cast<float>(view.exposure));
   lens.set("u_white", Eigen::Vector3f(view.white.cast<float>()));
   lens.set("u_focus", static_cast<float>(kFocus_m));
-  lens.set("u_blur_px", static_cast<float>(0.02 * flat.side() / 720));
+  lens.set("u_blur_px", static_cast<float>(kBlur_px * flat.side() / 720));
   lens.set("u_taken", static_cast<float>(water.taken_per_m));
   lens.set("u_blood", static_cast<float>(water.blood));
-  if (!water.clear()) set_water(lens, water);
   lens.set("u_fog", static_cast<float>(water.fog));
-  lens.set("u_world_from_view", to_matrix(view.camera.X_WC()));
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDrawArrays(GL_TRIANGLE_FAN, 0, kDiscCorners);
   glBindVertexArray(0);
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-void ScopeLens::set_water(const Program& lens, const ScopeWater& water) const {
+void ScopeLens::measure_water(const LightTarget& flat, const LensView& view,
+                              const ScopeWater& water) const {
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_3D, clouds_.get());
   glActiveTexture(GL_TEXTURE0);
-  lens.set("u_clouds", 1);
-  lens.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
-  lens.set("u_plumes", static_cast<int>(water.plume_count));
+  glBindTexture(GL_TEXTURE_2D, flat.texture());
+  water_.use();
+  water_.set("u_screen_depth", 0.0f);
+  water_.set("u_flat", 0);
+  water_.set("u_flat_half", static_cast<float>(view.half));
+  water_.set("u_world_from_view", to_matrix(view.camera.X_WC()));
+  water_.set("u_clouds", 1);
+  water_.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
+  water_.set("u_plumes", static_cast<int>(water.plume_count));
   for (std::uint32_t k = 0; k < water.plume_count; ++k) {
     const std::string at = "[" + std::to_string(k) + "]";
     const BloodPlume& plume = water.plumes[k];
-    lens.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
-    lens.set(("u_plume_size" + at).c_str(), Eigen::Vector2f(static_cast<float>(plume.radius_m),
-                                                            static_cast<float>(plume.taken_per_m)));
+    water_.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
+    water_.set(
+        ("u_plume_size" + at).c_str(),
+        Eigen::Vector2f(static_cast<float>(plume.radius_m), static_cast<float>(plume.taken_per_m)));
   }
+  glBindFramebuffer(GL_FRAMEBUFFER, on_the_way_.framebuffer.get());
+  glViewport(0, 0, on_the_way_.side, on_the_way_.side);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace osteon

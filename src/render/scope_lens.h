@@ -16,6 +16,7 @@ namespace osteon {
 struct LensView {
   const ScopeCamera& camera;
   double half = 1;            ///< tangent of half the flat picture's width
+  double nearest_m = 0;       ///< nothing in it is nearer
   double exposure = 1;        ///< the camera's gain
   Vec3 white = Vec3::Ones();  ///< shown of a white surface, linear
   Viewport viewport;
@@ -25,6 +26,9 @@ struct LensView {
 class ScopeLens {
  public:
   static Result<ScopeLens> load(const std::filesystem::path& shaders);
+  /// Whether anything at that distance or beyond is out of focus in a flat picture of so many
+  /// pixels.
+  static bool is_soft(double nearest_m, int side_px);
   /// Binds `picture`'s framebuffer and draws into it.
   void paint(const LightTarget& flat, const RenderTarget& picture, const LensView& view,
              const ScopeWater& water);
@@ -38,11 +42,15 @@ class ScopeLens {
     GlTexture texture;
   };
   static void soften(const Program& softer, GLuint from, const Soft& to, double spread);
-  void set_water(const Program& lens, const ScopeWater& water) const;
+  /// How much light the water takes on the way, over the flat picture.
+  void measure_water(const LightTarget& flat, const LensView& view, const ScopeWater& water) const;
 
-  std::array<Program, 2> softer_;  ///< to half_, and to quarter_
+  std::array<Program, 3> softer_;  ///< to half_, to quarter_, and to milky_
   Soft half_, quarter_;            ///< as wide as their names say
-  std::array<Program, 4> lenses_;  ///< kSeesWater and kSeesFog, added
+  Program water_;
+  Soft on_the_way_;                ///< half as wide: thickness of the water, and plumes
+  Soft milky_;                     ///< an eighth as wide: light that fog spreads
+  std::array<Program, 8> lenses_;  ///< kSeesWater, kSeesFog and kSeesSoft, added
   GlVertexArray no_vertices_;
   GlTexture clouds_;  ///< of water
 };

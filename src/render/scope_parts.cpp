@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "osteon/base/turn.h"
@@ -38,10 +37,14 @@ bool faces_out(const TriMesh& mesh) {
   return !mesh.triangles.empty() && topology(mesh).closed() && volume(mesh) > 0;
 }
 
-TriMesh unseen_corners(int side_px) {
+double seen_radius(int side_px) {
   constexpr double kSpread_px = 16;
+  return 1 + 2 * kSpread_px / side_px;
+}
+
+TriMesh unseen_corners(int side_px) {
   constexpr std::uint32_t kSegments = 8;
-  const double radius = 1 + 2 * kSpread_px / side_px;  // half of the side is 1
+  const double radius = seen_radius(side_px);
   TriMesh mesh;
   if (radius >= std::numbers::sqrt2) return mesh;
   const double from = std::acos(1 / radius);
@@ -67,14 +70,8 @@ TissuePart steel() {
   return part;
 }
 
-TissuePart loose_part() {
-  TissuePart part;
-  part.model = std::numeric_limits<std::size_t>::max();
-  return part;
-}
-
 TissuePart loose_part_of(const TissuePart& soft, const Pose& X_WB) {
-  TissuePart part = loose_part();
+  TissuePart part;
   part.pattern = soft.pattern;
   part.tint = soft.tint;
   const Pose X_BW = X_WB.inverse();

@@ -16,12 +16,13 @@ TissuePattern pattern_of(std::string_view kind);
 void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
 /// Closed, its triangles outwards.
 bool faces_out(const TriMesh& mesh);
+/// Share of half the flat picture's width to which the round picture and what softening spreads
+/// into it reach.
+double seen_radius(int side_px);
 /// What a square flat picture of so many pixels shows and the round one does not, in clip space on
 /// the near plane: its corners, but for so much as softening spreads. Empty where that is all.
 TriMesh unseen_corners(int side_px);
 TissuePart steel();
-/// A piece of bone that was cut off: none of the case's own surfaces.
-TissuePart loose_part();
 /// A piece of a soft part that was cut off, in the frame of its bone, which stood at `X_WB` at
 /// rest: it looks as the part does.
 TissuePart loose_part_of(const TissuePart& soft, const Pose& X_WB);

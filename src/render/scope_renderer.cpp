@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/tissue_part.h"
+#include "view/scope_field.h"
 
 namespace osteon {
 namespace {
@@ -40,17 +42,28 @@ Eigen::Matrix4f flat_projection(double half) {
   return m.cast<float>();
 }
 
-/// Whether a ball in view space can show in a square picture, `half` the tangent of half its width.
-bool in_square(const Vec3& center_C, double radius_m, double half) {
-  const double reach = radius_m * std::sqrt(1 + half * half);
-  const double edge = -half * center_C.z();
-  return std::abs(center_C.x()) - edge <= reach && std::abs(center_C.y()) - edge <= reach;
-}
+/// How far a coarser surface may lie off in a window, in pixels of the flat picture.
+constexpr double kScopeLevelError_px = 1.0;
 
 constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
 
 /// Less than a student can see: of a place, and of a turn (the sine of its half).
 constexpr double kStill_m = 2e-6, kStill_turn = 2e-5;
+
+/// A processor that draws begins on what it has been given while it is given the rest.
+class FlushNowAndThen {
+ public:
+  void after(int triangles) {
+    constexpr int kAtOnce = 12'000;
+    given_ += triangles;
+    if (given_ < kAtOnce) return;
+    glFlush();
+    given_ = 0;
+  }
+
+ private:
+  int given_ = 0;  ///< triangles since the last
+};
 
 bool looks_still(const Pose& a, const Pose& b) {
   return (a.p - b.p).norm() < kStill_m && (a.q.conjugate() * b.q).vec().norm() < kStill_turn;
@@ -88,6 +101,7 @@ struct ScopeRenderer::Impl {
   };
 
   std::array<Program, kPatterns> tissues;  ///< by TissuePattern
+  Program depth;                           ///< writes no light
   Program changed_bone, changed_cartilage;
   ScopeLens lens;
   ScopeBits bits;
@@ -110,8 +124,9 @@ struct ScopeRenderer::Impl {
   std::vector<GhostTool> ghosts;
   std::map<std::uint64_t, GpuMesh> own_loose;  ///< by shape, where there is no scene
   std::vector<LooseBone> loose;
-  std::vector<PlacingRod> rods;    ///< thread, graft and button now
-  std::vector<TissuePart> placed;  ///< the same, in World
+  std::vector<TissuePart> loose_looks;  ///< of them
+  std::vector<PlacingRod> rods;         ///< thread, graft and button now
+  std::vector<TissuePart> placed;       ///< the same, in World
   bool rods_changed = false;
   LightTarget flat;
   GpuMesh corners;  ///< of the flat picture, that are not drawn
@@ -121,12 +136,14 @@ struct ScopeRenderer::Impl {
   std::optional<Painted> painted;
   int calm = 0;  ///< pictures since the last that moved
   double gain = 0;
+  double nearest_m = 0;  ///< what the flat picture shows is no nearer
 
   std::vector<ChangedCubes> own_changed;  ///< by TissuePart::model, where there is no scene
   std::uint64_t cubes = 0;                ///< how often they have been set
 
-  const GpuMesh& surface(const TissuePart& part) const {
-    return scene ? scene->exact_surface(part.model) : part.surface;
+  /// The coarsest there is within `error_m` of the exact one.
+  const GpuMesh& surface(const TissuePart& part, double error_m) const {
+    return scene ? scene->surface_within(part.model, error_m) : part.surface;
   }
   const GpuMesh* tool_surface(std::uint32_t instrument, std::size_t jaw = 0) const {
     if (scene) return scene->tool_surface(instrument, jaw);
@@ -153,7 +170,7 @@ struct ScopeRenderer::Impl {
     const auto soft = std::find_if(parts.begin(), parts.end(),
                                    [&](const TissuePart& part) { return part.model == model; });
     if (shown.soft == kNoSoftPart || soft == parts.end() || shown.bone >= rest_X_WB.size())
-      return loose_part();
+      return {};
     return loose_part_of(*soft, rest_X_WB[shown.bone]);
   }
 
@@ -168,48 +185,78 @@ struct ScopeRenderer::Impl {
     program.set("u_fibre", part.fibre);
     program.set("u_center", part.center);
   }
-  static void draw_seen(const GpuMesh& mesh, const Pose& X_CM, double half) {
-    mesh.draw([&](const GpuMesh::Chunk& chunk) {
-      return in_square(X_CM * chunk.center, chunk.radius, half);
-    });
-  }
   const Program& program_of(const TissuePart& part, bool depth_alone) const {
-    const auto cheapest = TissuePattern::kSteel;
-    return tissues[static_cast<std::size_t>(depth_alone ? cheapest : part.pattern)];
+    return depth_alone ? depth : tissues[static_cast<std::size_t>(part.pattern)];
   }
-  void paint_part(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM, double half,
-                  bool depth_alone) const {
+  /// What the tip lies in gives way to it: it is not seen from inside.
+  static bool one_sided(const TissuePart& part) {
+    return part.faces_out || part.pattern == TissuePattern::kFat;
+  }
+
+  /// A surface and the stretches of it that can be seen.
+  struct Seen {
+    const TissuePart* part = nullptr;
+    const GpuMesh* mesh = nullptr;
+    Pose X_CM;
+    GpuMesh::Stretches stretches;
+    int triangles() const {
+      return std::accumulate(stretches.counts.begin(), stretches.counts.end(), 0) / 3;
+    }
+  };
+  Seen seen_of(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM,
+               const ScopeField& field) const {
+    return {&part, &mesh, X_CM, mesh.stretches([&](const GpuMesh::Chunk& chunk) {
+              return field.shows(X_CM * chunk.center, chunk.radius, kNear_m);
+            })};
+  }
+  /// Of a part of the case, from the level that its nearest place in the field allows.
+  Seen seen_of(const TissuePart& part, const Pose& X_CM, const ScopeField& field,
+               double off) const {
+    double least_m = kFar_m;
+    for (const GpuMesh::Chunk& chunk : surface(part, 0).chunks()) {
+      const Vec3 center_C = X_CM * chunk.center;
+      if (field.shows(center_C, chunk.radius, kNear_m))
+        least_m = std::min(least_m, -center_C.z() - chunk.radius);
+    }
+    const double error_m = off * std::max(least_m, kNear_m);
+    return seen_of(part, surface(part, error_m), X_CM, field);
+  }
+  /// A coarser surface may lie off by `off` of its distance.
+  std::vector<Seen> all_seen(const ScopeCamera& camera, const ScopeField& field, double off) const {
+    const Pose X_CW = camera.X_WC().inverse();
+    std::vector<Seen> out;
+    for (const TissuePart& part : parts) out.push_back(seen_of(part, X_CW * part.X_WM, field, off));
+    if (!wall.surface.empty()) out.push_back(seen_of(wall, wall.surface, X_CW, field));
+    for (std::size_t k = 0; k < loose.size(); ++k)
+      if (const GpuMesh* mesh = loose_surface(loose[k].shape))
+        out.push_back(seen_of(loose_looks[k], *mesh, X_CW * loose[k].X_WB, field));
+    for (const TissuePart& part : placed) out.push_back(seen_of(part, part.surface, X_CW, field));
+    for (const ShownTool& shown : tools)
+      if (const GpuMesh* mesh = tool_surface(shown.instrument, shown.jaw))
+        out.push_back(seen_of(tool, *mesh, X_CW * shown.X_WT, field));
+    std::erase_if(out,
+                  [&](const Seen& seen) { return seen.stretches.empty() && !changed(*seen.part); });
+    return out;
+  }
+
+  void paint_part(const Seen& seen, double half, bool depth_alone) const {
+    const TissuePart& part = *seen.part;
     const Program& program = program_of(part, depth_alone);
     const ChangedCubes* const cubes_of = changed(part);
     if (cubes_of) {
       const bool cartilage = part.pattern == TissuePattern::kCartilage;
       const Program& old = cartilage ? changed_cartilage : changed_bone;
       begin(old, half);
-      describe(old, part, X_CM);
+      describe(old, part, seen.X_CM);
       cubes_of->hide(old);
-      draw_seen(mesh, X_CM, half);
+      seen.mesh->draw(seen.stretches);
     }
     begin(program, half);
-    describe(program, part, X_CM);
+    describe(program, part, seen.X_CM);
     if (cubes_of) return cubes_of->draw();
-    // What the tip lies in gives way to it: it is not seen from inside.
-    if (part.faces_out || part.pattern == TissuePattern::kFat) glEnable(GL_CULL_FACE);
-    draw_seen(mesh, X_CM, half);
+    if (one_sided(part)) glEnable(GL_CULL_FACE);
+    seen.mesh->draw(seen.stretches);
     glDisable(GL_CULL_FACE);
-  }
-
-  void paint_all(const ScopeCamera& camera, double half, bool depth_alone) const {
-    const Pose X_CW = camera.X_WC().inverse();
-    for (const TissuePart& part : parts)
-      paint_part(part, surface(part), X_CW * part.X_WM, half, depth_alone);
-    if (!wall.surface.empty()) paint_part(wall, wall.surface, X_CW, half, depth_alone);
-    for (const LooseBone& shown : loose)
-      if (const GpuMesh* mesh = loose_surface(shown.shape))
-        paint_part(looks_of(shown), *mesh, X_CW * shown.X_WB, half, depth_alone);
-    for (const TissuePart& part : placed) paint_part(part, part.surface, X_CW, half, depth_alone);
-    for (const ShownTool& shown : tools)
-      if (const GpuMesh* mesh = tool_surface(shown.instrument, shown.jaw))
-        paint_part(tool, *mesh, X_CW * shown.X_WT, half, depth_alone);
   }
 
   /// With the context current.
@@ -218,19 +265,18 @@ struct ScopeRenderer::Impl {
     corners_px = flat.side();
     corners = GpuMesh(plain_shaded(unseen_corners(corners_px)));
   }
-  /// Nothing is drawn behind them. Fog spreads all light that there is.
+  /// Nothing is drawn behind them.
   void hide_corners() const {
-    if (water.fog > 0 || corners.empty()) return;
-    const Program& program = tissues[static_cast<std::size_t>(TissuePattern::kSteel)];
-    program.use();
-    program.set("u_clip_from_view", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
-    program.set("u_view_from_model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+    if (corners.empty()) return;
+    depth.use();
+    depth.set("u_clip_from_view", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+    depth.set("u_view_from_model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
     corners.draw();
   }
 
   /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
-  /// for what is seen only.
-  void paint_flat(const ScopeCamera& camera, double half) const {
+  /// for what is seen only. Surfaces may lie off by `off_px`.
+  void paint_flat(const ScopeCamera& camera, double half, double off_px) const {
     glBindFramebuffer(GL_FRAMEBUFFER, flat.framebuffer());
     glViewport(0, 0, flat.side(), flat.side());
     glDisable(GL_SCISSOR_TEST);
@@ -246,39 +292,49 @@ struct ScopeRenderer::Impl {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     hide_corners();
-    paint_all(camera, half, true);
+    const ScopeField field(half, seen_radius(flat.side()));
+    const std::vector<Seen> all = all_seen(camera, field, off_px * 2 * half / flat.side());
+    FlushNowAndThen flush;
+    for (const Seen& seen : all) {
+      paint_part(seen, half, true);
+      flush.after(seen.triangles());
+    }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
-    paint_all(camera, half, false);
+    for (const Seen& seen : all) {
+      paint_part(seen, half, false);
+      flush.after(seen.triangles());
+    }
     glDepthMask(GL_TRUE);
     bits.paint(camera.X_WC().inverse(), flat_projection(half));
-    paint_ghosts(camera, half);
+    paint_ghosts(camera, half, field);
     glDisable(GL_DEPTH_TEST);
   }
 
   /// Over what is seen, the nearest side alone. The distance under them stays: they stand in no
   /// water and are as sharp as what is behind.
-  void paint_ghosts(const ScopeCamera& camera, double half) const {
+  void paint_ghosts(const ScopeCamera& camera, double half, const ScopeField& field) const {
     const Pose X_CW = camera.X_WC().inverse();
     for (const GhostTool& shown : ghosts) {
       const GpuMesh* const mesh = tool_surface(shown.instrument);
       if (!mesh) continue;
       const float opacity = std::min(shown.opacity, kScopeGhostMost);
+      const Seen seen = seen_of(ghost, *mesh, X_CW * shown.X_WT, field);
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      paint_part(ghost, *mesh, X_CW * shown.X_WT, half, true);
+      paint_part(seen, half, true);
       glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
       glEnable(GL_BLEND);
       glBlendColor(0, 0, 0, opacity);
       glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
-      paint_part(ghost, *mesh, X_CW * shown.X_WT, half, false);
+      paint_part(seen, half, false);
       glDisable(GL_BLEND);
     }
   }
 
   void paint_lens(const ScopeCamera& camera, double half, double exposure,
                   const Viewport& viewport) {
-    lens.paint(flat, picture, {camera, half, exposure, white, viewport}, water);
+    lens.paint(flat, picture, {camera, half, nearest_m, exposure, white, viewport}, water);
   }
 
   Painted as_it_is(const ScopeCamera& camera, int side_px) const {
@@ -346,6 +402,9 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
     if (!tissue) return tl::unexpected(tissue.error());
     impl->tissues[k] = std::move(*tissue);
   }
+  auto depth = Program::load(shaders, "tissue", "depth");
+  if (!depth) return tl::unexpected(depth.error());
+  impl->depth = std::move(*depth);
   auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
   if (!changed) return tl::unexpected(changed.error());
   impl->changed_bone = std::move(*changed);
@@ -452,6 +511,8 @@ void ScopeRenderer::set_scene(const BoneSnapshot& bones, std::span<const ToolSta
   impl_->loose.clear();
   for (std::size_t i = 0; i < std::min<std::size_t>(bones.loose.count, kMaxLoose); ++i)
     if (is_finite(bones.loose.bones[i].X_WB)) impl_->loose.push_back(bones.loose.bones[i]);
+  impl_->loose_looks.clear();
+  for (const LooseBone& shown : impl_->loose) impl_->loose_looks.push_back(impl_->looks_of(shown));
   auto rods = placing_rods(bones);
   std::erase_if(rods, [](const PlacingRod& rod) {
     return !is_finite(rod.a_W) || !((rod.b_W - rod.a_W).norm() > 1e-6);
@@ -543,19 +604,22 @@ Image ScopeRenderer::draw_image(const ScopeCamera& camera, int width, int height
   impl_->painted.reset();
   if (impl_->flat.ensure(side) && impl_->picture.ensure(viewport.width, viewport.height, 0)) {
     impl_->make_corners();
-    impl_->paint_flat(camera, half);
-    impl_->paint_lens(camera, half, gain_for(side), viewport);
+    impl_->paint_flat(camera, half, 0);
+    const FlatReading reading = read_flat(side);
+    impl_->nearest_m = reading.nearest_m;
+    impl_->paint_lens(camera, half, reading.gain, viewport);
     image = read_back(viewport.width, viewport.height);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
   return image;
 }
 
-/// The gain is read before the picture is drawn: by then the one before is ready, and nothing waits
-/// for it.
+/// Gain and the least distance are read before the picture is drawn: by then the one before is
+/// ready, and nothing waits for it.
 bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   constexpr double kOfProcessor = 0.7;  // flat pixels, where each costs a processor's time
   constexpr int kSettled = 12;          // pictures after which the gain has come to rest
+  constexpr double kOfNearest = 0.9;    // it may have come nearer since the picture before
   const int size = std::clamp(side_px, 16, kMaxImageSide);
   const Viewport viewport{0, 0, size, size};
   impl_->make_placed();
@@ -571,10 +635,14 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   const bool room = impl_->flat.ensure(side) && impl_->picture.ensure(size, size, 0);
   if (room) {
     glBindFramebuffer(GL_FRAMEBUFFER, impl_->flat.framebuffer());
-    if (known) impl_->gain = std::pow(impl_->gain, 0.7) * std::pow(gain_for(side), 0.3);
+    const auto take = [&](const FlatReading& reading) {
+      impl_->gain = known ? std::pow(impl_->gain, 0.7) * std::pow(reading.gain, 0.3) : reading.gain;
+      impl_->nearest_m = kOfNearest * reading.nearest_m;
+    };
+    if (known) take(read_flat(side));
     impl_->make_corners();
-    if (impl_->calm == 0 || !known) impl_->paint_flat(camera, half);
-    if (!known) impl_->gain = gain_for(side);
+    if (impl_->calm == 0 || !known) impl_->paint_flat(camera, half, kScopeLevelError_px);
+    if (!known) take(read_flat(side));
     impl_->paint_lens(camera, half, impl_->gain, viewport);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));

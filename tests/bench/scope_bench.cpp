@@ -1,10 +1,12 @@
 // A moving scope's picture, 720 x 720, in the notch of the built-in knee: in clear and cloudy
-// water, with blood and plumes, with a fogged lens; from the surfaces that a window shares with it,
-// in as many pixels as there. Needs OpenGL, without a window.
+// water, with blood and plumes, with a fogged lens, with all of that and bubbles; from the surfaces
+// that a window shares with it, in as many pixels as there. Needs OpenGL, without a window.
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
 
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "cases/standard_views.h"
 #include "osteon/render/joint_room.h"
@@ -46,9 +48,11 @@ struct NotchPicture {
   }
 };
 
-void scope_picture(benchmark::State& state, const ScopeWater& water) {
+void scope_picture(benchmark::State& state, const ScopeWater& water,
+                   std::span<const WaterBit> bits = {}) {
   static NotchPicture notch;
   notch.renderer.set_water(water);
+  notch.renderer.set_water_bits(bits);
   double along_m = 0;
   for (auto _ : state) {
     along_m = along_m > 0.002 ? 0 : along_m + 1e-4;
@@ -65,10 +69,32 @@ ScopeWater plumes() {
   return water;
 }
 
+ScopeWater everything() {
+  ScopeWater water = plumes();
+  water.fog = 0.4;
+  return water;
+}
+
+/// Before the lens, strewn by steps that do not fall together.
+std::vector<WaterBit> bubbles_and_flakes() {
+  std::vector<WaterBit> bits;
+  for (int k = 0; k < 42; ++k) {
+    WaterBit bit;
+    bit.p_W = Vec3(-0.004 - 3e-4 * k, -0.006 + 2e-4 * (7 * k % 42), -0.008 + 2e-4 * (11 * k % 42));
+    bit.radius_m = 6e-4;
+    bit.is = k < 30 ? WaterBit::Is::kBubble : WaterBit::Is::kFlake;
+    bit.shape = k / 42.0;
+    bits.push_back(bit);
+  }
+  return bits;
+}
+
 BENCHMARK_CAPTURE(scope_picture, clear, ScopeWater{})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scope_picture, cloudy, ScopeWater{60, 0, 0})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scope_picture, blood_and_two_plumes, plumes())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scope_picture, fogged, ScopeWater{0, 0, 0.4})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scope_picture, all_with_bubbles, everything(), bubbles_and_flakes())
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace osteon

@@ -105,25 +105,32 @@ void GpuMesh::make_chunks(const std::vector<Vertex>& vertices,
   }
 }
 
-void GpuMesh::draw(const std::function<bool(const Chunk&)>& wanted) const {
-  std::vector<GLsizei> counts;
-  std::vector<const void*> firsts;
+GpuMesh::Stretches GpuMesh::stretches(const std::function<bool(const Chunk&)>& wanted) const {
+  Stretches out;
   bool last_wanted = false;
   for (const Chunk& chunk : chunks_) {
     const bool now = wanted(chunk);
     if (now && last_wanted) {
-      counts.back() += chunk.count;
+      out.counts.back() += chunk.count;
     } else if (now) {
-      counts.push_back(chunk.count);
-      firsts.push_back(chunk.first);
+      out.counts.push_back(chunk.count);
+      out.firsts.push_back(chunk.first);
     }
     last_wanted = now;
   }
-  if (counts.empty()) return;
+  return out;
+}
+
+void GpuMesh::draw(const Stretches& stretches) const {
+  if (stretches.empty()) return;
   glBindVertexArray(array_.get());
-  glMultiDrawElements(mode_, counts.data(), GL_UNSIGNED_INT, firsts.data(),
-                      static_cast<GLsizei>(counts.size()));
+  glMultiDrawElements(mode_, stretches.counts.data(), GL_UNSIGNED_INT, stretches.firsts.data(),
+                      static_cast<GLsizei>(stretches.counts.size()));
   glBindVertexArray(0);
+}
+
+void GpuMesh::draw(const std::function<bool(const Chunk&)>& wanted) const {
+  draw(stretches(wanted));
 }
 
 void GpuMesh::draw() const {

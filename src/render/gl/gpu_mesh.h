@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "gl/gl_objects.h"
 #include "osteon/render/prepare.h"
@@ -28,9 +29,18 @@ class GpuMesh {
     GLsizei count = 0;
     const void* first = nullptr;
   };
+  /// Chunks that follow on each other are drawn as one.
+  struct Stretches {
+    std::vector<GLsizei> counts;
+    std::vector<const void*> firsts;
+    bool empty() const { return counts.empty(); }
+  };
 
   bool empty() const { return count_ == 0; }
   void draw() const;
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  Stretches stretches(const std::function<bool(const Chunk&)>& wanted) const;
+  void draw(const Stretches& stretches) const;
   /// Only the chunks that are wanted.
   void draw(const std::function<bool(const Chunk&)>& wanted) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "gl/gpu_mesh.h"
@@ -13,10 +14,13 @@ namespace osteon {
 /// As tissue.frag knows them.
 enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat, kSteel };
 
+inline constexpr std::size_t kNoModel = std::numeric_limits<std::size_t>::max();
+
 /// A surface with its pattern.
 struct TissuePart {
   GpuMesh surface;
-  std::size_t model = 0;  ///< which it is: the bones of a case, after them the soft parts
+  /// Which it is: the bones of a case, after them the soft parts; else none.
+  std::size_t model = kNoModel;
   Pose X_WM;
   bool faces_out = false;  ///< closed: its back faces are seen from within alone
   TissuePattern pattern = TissuePattern::kBone;
