@@ -140,6 +140,15 @@ void add_to(Hasher& hasher, const BendState& bend) {
   hasher.add(bend.cycles);
 }
 
+// What was told is in the digest, and with it all that follows from the loads.
+void add_to(Hasher& hasher, const KneeExamState& exam) {
+  hasher.add(exam.on);
+  hasher.add(exam.told);
+  hasher.add(exam.digest);
+  for (const double x : exam.wanted) hasher.add(x);
+  for (const double x : exam.now) hasher.add(x);
+}
+
 void add_to(Hasher& hasher, const WaterState& water) {
   for (const double x : {water.pump_pa, water.outlet_open, water.pressure_pa, water.blood,
                          water.debris, water.suction, water.bleeding_m3_s, water.debris_m3_s,
@@ -194,6 +203,7 @@ std::uint64_t hash_of(const BoneSnapshot& snapshot) {
   if (snapshot.placing.on) add_to(hasher, snapshot.placing);
   if (snapshot.placing.ordered || snapshot.placing.told > 0) add_order(hasher, snapshot.placing);
   if (snapshot.bend.on) add_to(hasher, snapshot.bend);
+  if (snapshot.exam.told > 0) add_to(hasher, snapshot.exam);
   if (snapshot.water.on && snapshot.water.hashed) add_to(hasher, snapshot.water);
   for (std::size_t h = 0; h < snapshot.inside.size(); ++h) add_to(hasher, h, snapshot.inside[h]);
   return hasher.value();
@@ -399,6 +409,8 @@ void BoneWorld::set_bench(const GraftBenchState& bench) { impl_->snapshot.bench 
 void BoneWorld::set_placing(const GraftPlacingState& placing) { impl_->snapshot.placing = placing; }
 
 void BoneWorld::set_bend(const BendState& bend) { impl_->snapshot.bend = bend; }
+
+void BoneWorld::set_exam(const KneeExamState& exam) { impl_->snapshot.exam = exam; }
 
 void BoneWorld::set_water(const WaterState& water) { impl_->snapshot.water = water; }
 

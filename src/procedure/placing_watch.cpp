@@ -64,7 +64,7 @@ void PlacingWatch::add_fixing(std::uint64_t tick, const BoneSnapshot& bones,
     cycles_ = bones.bend.cycles;
     return;
   }
-  if (bones.bend.on) {
+  if (bones.bend.on && !is_loaded(bones.exam)) {
     const double place = bones.bend.now_deg / 10;
     const auto n = static_cast<std::size_t>(std::clamp(std::round(place), 0.0, 13.0));
     constexpr double kNear = 0.05;

@@ -25,6 +25,7 @@ PhysicsParams physics_of(const SessionSettings& settings) {
 WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings& settings)
     : the_case_(the_case),
       world_(the_case, physics_of(settings)),
+      knee_(the_case, settings.physics.step_s),
       step_s_(settings.physics.step_s),
       coupling_n_per_m_(settings.haptic.stiffness_n_per_m),
       keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {
@@ -177,6 +178,16 @@ void WorldHalf::order_bend(double degrees) {
   world_.set_bend(bend);
 }
 
+// Whoever pulls at a knee that was never bent holds it as it lies.
+bool WorldHalf::examines(const Command& command) {
+  KneeExamState exam = world_.snapshot().exam;
+  if (!knee_.obey(command, exam)) return false;
+  world_.set_exam(exam);
+  const BendState& bend = world_.snapshot().bend;
+  if (is_wanted(exam) && !bend.on) order_bend(the_case_->joints.front().at_deg);
+  return true;
+}
+
 // The joint goes to where it is wanted, and its bones with it, however they are held.
 void WorldHalf::bend() {
   BendState bend = world_.snapshot().bend;
@@ -185,6 +196,12 @@ void WorldHalf::bend() {
   const double most = kBend_deg_per_s * step_s_;
   const double before = bend.now_deg;
   bend.now_deg += std::clamp(bend.wanted_deg - bend.now_deg, -most, most);
+  KneeExamState exam = world_.snapshot().exam;
+  const KneeGive gave = exam.give;
+  // Bent farther than it can be examined it is let go first.
+  if (is_loaded(exam)) bend.now_deg = std::min(bend.now_deg, KneeGiveTable::kMost_deg);
+  knee_.step(bend, exam);
+  world_.set_exam(exam);
   if (bend.now_deg <= kStraight_deg) bend.straight = true;
   if (bend.straight && bend.now_deg >= kBent_deg) {
     bend.straight = false;
@@ -193,8 +210,8 @@ void WorldHalf::bend() {
   world_.set_bend(bend);
   const Pose& X_WF = world_.snapshot().bones[joint.fixed.index].X_WB;
   for (const CaseJoint::Moved& moved : joint.bones) {
-    const Pose was = X_WF * pose_at(moved.X_FB, before);
-    const Pose now = X_WF * pose_at(moved.X_FB, bend.now_deg);
+    const Pose was = X_WF * knee_.pose_in_fixed(joint, moved, before, gave);
+    const Pose now = X_WF * knee_.pose_in_fixed(joint, moved, bend.now_deg, exam.give);
     // So small a turn is twice the vector part of its quaternion.
     const Quat turn = now.q * was.q.conjugate();
     const double sign = turn.w() < 0 ? -2 : 2;
@@ -286,6 +303,8 @@ void WorldHalf::obey(const Command& command) {
     order_bend(command.value);
   else if (command.kind == CommandKind::kTension)
     pull_tail(command.value);
+  else if (examines(command))
+    return;
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
     keep(mark);
   else if (command.kind == CommandKind::kRestore && mark < kMaxMarks && marks_[mark].set)
@@ -317,6 +336,8 @@ void WorldHalf::go_back(const WorldMark& mark) {
   BendState bend = mark.bones.bend;
   bend.wanted_deg = bend.now_deg;
   world_.set_bend(bend);
+  knee_.restore(mark.knee);
+  world_.set_exam(let_go(mark.bones.exam));
   if (!carving_ || !mark.carved) return;
   carving_->restore(*mark.carved);
   carving_->let_pieces_go();
@@ -329,7 +350,8 @@ void WorldHalf::keep(std::uint32_t mark) {
                   world_.snapshot(),
                   carved(),
                   softs_ ? softs_->world().save() : SoftState{},
-                  rings_ ? rings_->state() : RingsState{}};
+                  rings_ ? rings_->state() : RingsState{},
+                  knee_.told()};
   mark_hashes_[mark] = hash_of(marks_[mark].bones);
 }
 
@@ -354,6 +376,7 @@ void WorldHalf::save(WorldState& into) const {
   into.carved = carved();
   if (softs_) into.softs = softs_->world().save();
   if (rings_) into.rings = rings_->state();
+  into.knee = knee_.told();
   into.marks = marks_;
 }
 
@@ -380,9 +403,9 @@ bool WorldHalf::fits(const WorldState& state) const {
     const bool bends = !bones.bend.on || !the_case_->joints.empty();
     return bones.bench.on == (bench_ != nullptr) && fits_placing(bones.placing) && flows && bends;
   };
-  if (!lies(state.bones)) return false;
+  if (!lies(state.bones) || !knee_.fits(state.bones.exam, state.knee)) return false;
   for (const WorldMark& mark : state.marks)
-    if (mark.set && !lies(mark.bones)) return false;
+    if (mark.set && !(lies(mark.bones) && knee_.fits(mark.bones.exam, mark.knee))) return false;
   for (const WorldMark& mark : state.marks)
     if (mark.set && !(good(mark.carved) && fit(mark.softs) && hang(mark.rings))) return false;
   return good(state.carved) && fit(state.softs) && hang(state.rings);
@@ -407,6 +430,7 @@ void WorldHalf::restore(const WorldState& from) {
   show_loose();
   if (softs_) world_.set_cleared(softs_->world().all_cleared_percent());
   if (rings_) rings_->restore(from.rings);
+  knee_.restore(from.knee);
   marks_ = from.marks;
   for (WorldMark& mark : marks_)
     if (mark.set) mark.bones.placing = own(mark.bones.placing);

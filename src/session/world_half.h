@@ -7,6 +7,7 @@
 
 #include "felt_bands.h"
 #include "felt_cuts.h"
+#include "knee_half.h"
 #include "osteon/physics/bone_world.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/graft_bench_work.h"
@@ -70,6 +71,7 @@ class alignas(64) WorldHalf {
   void make_placing(const GraftPlacingState& state);
   bool fits_placing(const GraftPlacingState& state) const;
   void order_bend(double degrees);
+  bool examines(const Command& command);
   void bend();
   void pull_tail(double tension_n);
   void turn_pump(const Command& command);
@@ -88,7 +90,8 @@ class alignas(64) WorldHalf {
   std::unique_ptr<GraftPlacing> placing_;       ///< null: none is placed
   std::vector<PlacingTool> placing_tray_;
   std::optional<PlacingPlan> own_plan_;  ///< of a case with both tunnels
-  std::optional<JointWater> water_;      ///< none: the case has no joint that is filled
+  KneeHalf knee_;
+  std::optional<JointWater> water_;  ///< none: the case has no joint that is filled
   bool water_hashed_ = true;
   std::vector<FeltCuts*> felt_;  ///< of the hands
   bool all_changed_ = false;     ///< bones came back from a restore point in this step

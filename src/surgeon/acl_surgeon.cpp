@@ -30,7 +30,7 @@ constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on,
 constexpr double kTooHard_m = 0.012;
 constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 
-constexpr std::array<std::string_view, 35> kFaults{"wrong_portal",
+constexpr std::array<std::string_view, 36> kFaults{"wrong_portal",
                                                    "skipped_inspection",
                                                    "scuffed",
                                                    "too_hard",
@@ -57,6 +57,7 @@ constexpr std::array<std::string_view, 35> kFaults{"wrong_portal",
                                                    "long_loop",
                                                    "wide_tunnel",
                                                    "stump_left",
+                                                   "not_examined",
                                                    "fault_missed",
                                                    "sound_blamed",
                                                    "sound_socket_drilled",
@@ -365,13 +366,21 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   const Vec3 am = knee->mark(swapped ? "portal_al" : "portal_am");
   AclWays ways;
   const ProbePath scope = scope_way(*knee, tools, al, habits, ways.unreachable);
-  const ProbePath probe =
-      probe_way(*knee, tools, am, habits, scope.duration_s() + 0.5, ways.unreachable);
+  double probe_s = scope.duration_s() + 0.5;
+  ways.examines = tools.drills && tools.examines && habits.fault != "not_examined";
+  if (ways.examines) {
+    const double at_deg = the_case.joints.empty() ? 0 : the_case.joints.front().at_deg;
+    KneeExamOrders exam = plan_knee_exam(probe_s, at_deg, at_deg);
+    probe_s = exam.end_s;
+    ways.exam = std::move(exam.orders);
+  }
+  const ProbePath probe = probe_way(*knee, tools, am, habits, probe_s, ways.unreachable);
   ways.third_begin_s = probe.duration_s() + 0.5;
   ways.after_graft = tools.drills && tools.after_graft;
   if (tools.drills)
-    ways.drilling = drill_both(*knee, *plan, habits.fault,
-                               ways.after_graft ? 0 : ways.third_begin_s, habits.pace);
+    ways.drilling =
+        drill_both(*knee, *plan, habits.fault,
+                   ways.after_graft || ways.examines ? 0 : ways.third_begin_s, habits.pace);
   ways.scope = trembling(scope, skill.tremor_m, skill.seed);
   ways.probe = trembling(probe, skill.tremor_m, skill.seed + 1);
   if (tools.drills) return ways;

@@ -1,9 +1,9 @@
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "hand_way.h"
+#include "knee_orders.h"
 #include "osteon/scene/state.h"
 #include "osteon/surgeon/placing_surgeon.h"
 
@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kCycleStraight_deg = 5, kCycleBent_deg = 95, kScrewFlexion_deg = 30;
 constexpr int kWholeCycles = 25, kFewCycles = 5;
-constexpr double kBend_deg_per_s = 90, kKneeAnswer_s = 0.25;  // of the knee
 constexpr double kTailPull_n = 90, kTailSlack_n = 15;
 constexpr double kScrew_m_per_s = 0.0025;  // by its pitch
 constexpr double kScrewDeep_m = 0.0255, kScrewShallow_m = 0.011;
@@ -31,28 +30,6 @@ FixingHabits fixing_habits(const Skill& skill) {
   if (skill.name == "bad:diverging_screw") out.aside_rad = kScrewAside_rad;
   return out;
 }
-
-// Asks for bends one after the other, each once the knee is there.
-class KneeOrders {
- public:
-  KneeOrders(double begin_s, double deg) : at_s_(begin_s), deg_(deg) {}
-  void bend(double deg) {
-    say({CommandKind::kBend, deg});
-    at_s_ += std::abs(deg - deg_) / kBend_deg_per_s + kKneeAnswer_s;
-    deg_ = deg;
-  }
-  void pull(double n) {
-    say({CommandKind::kTension, n});
-    at_s_ += kKneeAnswer_s;
-  }
-  double now_s() const { return at_s_; }
-  std::vector<TimedCommand> take() { return std::move(orders_); }
-
- private:
-  void say(const Command& command) { orders_.push_back({at_s_, command}); }
-  double at_s_, deg_;
-  std::vector<TimedCommand> orders_;
-};
 
 }  // namespace
 

@@ -90,6 +90,7 @@ struct GraftOutcome {
   std::optional<FixedGraft> fixed;    ///< of a graft that was made and fixed as said
   std::optional<PassedGraft> passed;  ///< of the same graft: how it was drawn in before
   double diameter_m = 0;
+  KneeGraft graft;    ///< as it is in the knee that was tested
   bool holds = true;  ///< it is fixed, and the screw bears what the tests pull
 };
 

@@ -65,6 +65,8 @@ class BoneWorld {
   void set_placing(const GraftPlacingState& placing);
   /// How far the joint is bent, for the next step's snapshot.
   void set_bend(const BendState& bend);
+  /// How the knee is examined, for the next step's snapshot.
+  void set_exam(const KneeExamState& exam);
   /// How the joint's water is after a step.
   void set_water(const WaterState& water);
   /// Pieces that lie loose, for the next step's snapshot.

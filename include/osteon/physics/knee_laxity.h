@@ -70,6 +70,9 @@ struct KneeLaxity {
 /// quarters, and comes to rest again.
 Result<KneeLaxity> test_laxity(const KneeModel& knee, const LaxityTestRow& test);
 
+/// What it finds after each quarter of the load; the last is the test's own.
+Result<std::vector<KneeLaxity>> laxity_curve(const KneeModel& knee, const LaxityTestRow& test);
+
 /// Length of the straight line from a place on the femur to one on the tibia at a bend.
 struct LineLength {
   double flexion_deg = 0, length_m = 0;

@@ -29,12 +29,17 @@ enum class CommandKind : std::uint32_t {
   kGraftOrder = 14,
   /// value: the next of placing_numbers, m or rad; with the last of them the graft is there
   kGraftNumber = 15,
-  kBend = 16,    ///< value: how far the case's joint is to be bent, degrees
-  kTension = 17  ///< value: pull on the tail of a graft whose button has turned, N
+  kBend = 16,     ///< value: how far the case's joint is to be bent, degrees
+  kTension = 17,  ///< value: pull on the tail of a graft whose button has turned, N
+  /// value: 0; how the knee gives is about to be told, what was told of that before is forgotten
+  kKneeOrder = 18,
+  kKneeNumber = 19,  ///< value: the next of give_numbers; with the last of them it can be examined
+  kLachman = 20,     ///< value: pull on the tibia to the front, N; ends the other test
+  kPivot = 21        ///< value: share of the pivot shift's load, 0 to 1; ends the other test
 };
 
 /// The last of them.
-inline constexpr CommandKind kLastCommandKind = CommandKind::kTension;
+inline constexpr CommandKind kLastCommandKind = CommandKind::kPivot;
 
 /// Restore points of a session.
 inline constexpr std::uint32_t kMaxMarks = 16;
@@ -49,7 +54,8 @@ inline bool is_for_physics_alone(CommandKind kind) {
   return kind == CommandKind::kHoldBones || kind == CommandKind::kPump ||
          kind == CommandKind::kOutlet || kind == CommandKind::kGraftOrder ||
          kind == CommandKind::kGraftNumber || kind == CommandKind::kBend ||
-         kind == CommandKind::kTension;
+         kind == CommandKind::kTension ||
+         (kind >= CommandKind::kKneeOrder && kind <= CommandKind::kPivot);
 }
 /// Whether it concerns physics: such a command goes to physics, and to the hands as well unless
 /// is_for_physics_alone.

@@ -10,6 +10,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft_bench.h"
 #include "osteon/scene/inside.h"
+#include "osteon/scene/knee_exam.h"
 #include "osteon/scene/loose_bone.h"
 #include "osteon/scene/placing.h"
 #include "osteon/scene/tool_guide.h"
@@ -48,6 +49,7 @@ struct BoneSnapshot {
   GraftBenchState bench{};      ///< off: the case has no bench
   GraftPlacingState placing{};  ///< off: there are no tunnels for a graft, or it is not there yet
   BendState bend{};             ///< off: no joint was bent
+  KneeExamState exam{};         ///< off: nobody has told how the knee gives
   WaterState water{};           ///< off: the case has no joint that is filled
   LooseBones loose{};           ///< pieces of bone that were cut off
   double cleared_percent = -1;  ///< of stumps of torn ligaments, all together; -1: there are none

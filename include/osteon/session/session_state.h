@@ -21,6 +21,9 @@ namespace osteon {
 
 struct CarvingState;
 
+/// What was told of how the knee gives, number by number; null: nothing.
+using ToldKnee = std::shared_ptr<const std::vector<double>>;
+
 /// What a hand keeps at a restore point: where the device is stays the hand's own business.
 struct HandMark {
   bool set = false;
@@ -68,6 +71,7 @@ struct WorldMark {
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
   SoftState softs;                             ///< off: nothing is soft
   RingsState rings;                            ///< off: no rings lie loose
+  ToldKnee knee;
 };
 
 /// All that one physics step leaves to the next.
@@ -77,6 +81,7 @@ struct WorldState {
   std::shared_ptr<const CarvingState> carved;  ///< null: no bone is carved
   SoftState softs;                             ///< off: nothing is soft
   RingsState rings;                            ///< off: no rings lie loose
+  ToldKnee knee;
   std::array<WorldMark, kMaxMarks> marks{};
 };
 

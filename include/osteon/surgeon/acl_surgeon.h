@@ -10,6 +10,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/path.h"
 #include "osteon/surgeon/acl_driller.h"
+#include "osteon/surgeon/exam_surgeon.h"
 #include "osteon/surgeon/skill.h"
 
 namespace osteon {
@@ -25,7 +26,8 @@ struct AclTools {
   bool drills_tibia = true, drills_femur = true;  ///< of those that drill
   std::vector<std::string> tour;                  ///< landmarks that are looked at
   std::vector<std::string> felt;                  ///< and those that the probe presses next to
-  std::string shaver;  ///< that clears the stumps after that; empty: they stay
+  bool examines = false;  ///< the knee is tested by hand, between the scope and the probe
+  std::string shaver;     ///< that clears the stumps after that; empty: they stay
 };
 
 /// Ways of three hands through a reconstruction.
@@ -34,6 +36,8 @@ struct AclWays {
   std::vector<AclMove> drilling;         ///< in place of `pin`, where tunnels are drilled
   double third_begin_s = 0;              ///< when that hand, or the pin's, begins
   bool after_graft = false;              ///< `drilling` begins when a graft has been made
+  bool examines = false;                 ///< or when that time has come
+  std::vector<TimedCommand> exam;        ///< what is asked of the knee meanwhile
   std::vector<std::string> unreachable;  ///< landmarks that no free way leads to
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "exercises/exam_order.h"
 #include "osteon/procedure/tip_watch.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
@@ -192,11 +193,16 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) stumps_.add(tools[0]->tick, bones, fresh_);
+  if (!tools.empty()) exam_.add(tools[0]->tick, bones, fresh_);
   if (portals_) portals_->add(tools, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
   judge_fresh();
   if (!tools.empty()) meter_.add(*tools[0]);
+}
+
+std::optional<KneeExam> AttemptWatch::exam() const {
+  return asks_for_exam(*plan_) ? std::optional(exam_.exam()) : std::nullopt;
 }
 
 void AttemptWatch::watch_tunnels(TunnelSources sources) {

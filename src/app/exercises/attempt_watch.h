@@ -11,6 +11,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/cut_watch.h"
 #include "osteon/procedure/graft_watch.h"
+#include "osteon/procedure/knee_exam_watch.h"
 #include "osteon/procedure/placing_watch.h"
 #include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/ring_watch.h"
@@ -62,6 +63,8 @@ class AttemptWatch {
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
   const PlacingWatch& placing() const { return placing_; }
+  /// What was found of the knee by hand; none: the scenario does not ask for it.
+  std::optional<KneeExam> exam() const;
   /// Of what torn ligaments have left; none: it is not felt.
   std::optional<int> cleared_percent() const { return stumps_.percent(); }
 
@@ -89,6 +92,7 @@ class AttemptWatch {
   GraftWatch graft_;
   PlacingWatch placing_;
   StumpWatch stumps_;
+  KneeExamWatch exam_;
   std::optional<PortalWatch> portals_;
   std::vector<AttemptPause> pauses_;
   std::vector<ToolState> shifted_;

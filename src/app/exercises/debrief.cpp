@@ -17,6 +17,7 @@
 #include "runs/hands/tray.h"
 #include "runs/pictures/carved_picture.h"
 #include "runs/replays/recorded_case.h"
+#include "runs/reports/exam_report.h"
 
 namespace osteon {
 namespace {
@@ -229,6 +230,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   const PlacingWatch& placing = again.watch->placing();
   if (const auto plan = placing.plan())
     debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
+  debrief.exam = again.watch->exam();
   debrief.scenario = std::move(**scenario);
   return debrief;
 }
@@ -252,9 +254,10 @@ std::string report_of(const Debrief& debrief) {
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
   const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
                                         debrief.acl, debrief.not_measured);
-  if (!debrief.placing) return text;
+  if (!debrief.placing && !debrief.exam) return text;
   auto json = nlohmann::ordered_json::parse(text);
-  json["acl"]["placing"] = to_json(*debrief.placing);
+  if (debrief.placing) json["acl"]["placing"] = to_json(*debrief.placing);
+  if (debrief.exam) json["acl"]["examined"] = to_json(*debrief.exam);
   return json.dump(2) + "\n";
 }
 

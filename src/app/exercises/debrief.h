@@ -13,6 +13,7 @@
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
+#include "osteon/procedure/knee_exam_watch.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
 #include "osteon/render/renderer.h"
@@ -40,6 +41,7 @@ struct Debrief {
   std::optional<Outcome> outcome;
   std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
+  std::optional<KneeExam> exam = {};          ///< of a knee that was to be examined by hand
   std::string not_measured;                   ///< why they could not be measured
   std::vector<Report> reports;                ///< of each of `hands`
   std::vector<HandTrace> hands;

@@ -208,6 +208,12 @@ void TunnelWatch::follow_fixing(const BoneSnapshot& bones, std::vector<Event>& o
   measure(measured_at(), out);
 }
 
+std::optional<KneeGraft> TunnelWatch::fixed() const {
+  const auto& graft = work_.report.graft;
+  const bool tested = fixed_ && !fresh_ && !job_.valid() && work_.choices && graft;
+  return tested ? std::optional(graft->graft) : std::nullopt;
+}
+
 // A graft is ready when its button hangs on it. What the board does to it is counted until then.
 void TunnelWatch::follow_bench(const GraftBenchState& bench) {
   const auto graft = bench.loop_m > 0 ? graft_on(*bench_, bench) : std::nullopt;

@@ -65,6 +65,11 @@ class TunnelWatch {
   /// A graft for both tunnels as they were measured last; none: there are no two, or what was
   /// measured is no longer what there is, or the graft is still being made at a bench.
   std::optional<PlacingPlan> placing() const { return at_hand_ ? placing_ : std::nullopt; }
+  /// The graft that is fixed in the knee, as the tests of it had it; none: none is, or it is being
+  /// tested.
+  std::optional<KneeGraft> fixed() const;
+  /// Grows the knee before anything was drilled in it.
+  const std::string& whole_spec() const { return work_.spec; }
   /// What there is for a graft, whether one has been made or not.
   std::optional<GraftRoom> room() const { return at_hand_ ? room_ : std::nullopt; }
   /// Why tunnels could not be measured: their line misses what it must meet, for example.

@@ -32,9 +32,25 @@ struct GhostModel {
   std::string problem;
 };
 
-/// The knee with a placed graft in it, which is bent by the panel.
+/// The knee as the panel examines it: loads of both tests, and what the tibia does.
+struct ExaminedKneeModel {
+  bool shown = false, computing = false;
+  bool grafted = false;  ///< a graft is fixed in it
+  bool may = true;       ///< it is bent little enough
+  double most_deg = 0;   ///< bent more it is not examined
+  double full_n = 0, full_valgus_nm = 0, full_internal_nm = 0;
+  double pull_n = 0, pivot_share = 0;          ///< wanted
+  double now_n = 0, now_share = 0;             ///< on the tibia
+  double front_mm = 0, other_mm = 0;           ///< of this knee, and of the intact one
+  std::optional<double> lachman_mm, pivot_mm;  ///< side differences that were found
+  std::string problem;
+};
+
+/// The knee that is bent by the panel: with a placed graft in it, or to be examined.
 struct BentKneeModel {
   bool shown = false;
+  bool placed = false;  ///< a graft lies in it: it is worked and pulled
+  ExaminedKneeModel exam;
   double least_deg = 0, most_deg = 0, wanted_deg = 0, tension_n = 0;
   std::uint32_t cycles = 0;
   std::vector<double> flexion_deg, between_mm;  ///< the graft's way, where it was bent to
@@ -115,6 +131,7 @@ struct ExerciseRequests {
   bool undo = false;
   std::optional<std::size_t> return_to = {};            ///< to the start of that stage
   std::optional<double> bend_deg = {}, tension_n = {};  ///< of the knee and the graft's tail
+  std::optional<double> pull_n = {}, pivot_share = {};  ///< on the tibia that is examined
   bool ghost = false;                                   ///< switched on or off
   bool guide = false;                                   ///< likewise: leads the hands
   bool pause = false;                                   ///< or go on

@@ -174,6 +174,7 @@ Result<GraftOutcome> graft_outcome(const CaseDef& def, const LigamentTable& tabl
     graft.held = fixed->held;
     out.fixed = std::move(*fixed);
   }
+  out.graft = graft;
   KneeChanges healed, repaired;
   healed.heal = true;
   repaired.graft = graft;

@@ -130,6 +130,7 @@ Result<KneeParts> find_knee_bones(const CaseDef& def) {
   const PoseTrack* with = find_track(def, "fibula");
   if (fibula && with) parts.fibula = placed(*fibula, pose_at(*with, 0), parts.left);
   parts.X_FT = bending(*track, parts.left);
+  parts.straight_BF = pose_at(*track, 0).inverse();
   return parts;
 }
 

@@ -27,6 +27,7 @@ struct KneeParts {
   double femoral_thickness_m = 0;
   std::vector<TriMesh> plateaus;  ///< layers of cartilage on the tibia
   PoseTrack X_FT;
+  Pose straight_BF;  ///< the femur's frame in the tibia's, stretched out, not mirrored
   bool left = false;
   double scale = 1;  ///< against a knee of the table's width
 

@@ -8,6 +8,7 @@
 #include "osteon/procedure/scope_watch.h"
 #include "osteon/procedure/sight_events.h"
 #include "osteon/procedure/tip_watch.h"
+#include "rules/exam_rules.h"
 #include "rules/graft_rules.h"
 #include "rules/placing_rules.h"
 #include "rules/portal_rules.h"
@@ -341,6 +342,7 @@ const std::vector<RuleKind>& rule_table() {
     all.insert(all.end(), placing_rule_table().begin(), placing_rule_table().end());
     all.insert(all.end(), stump_rule_table().begin(), stump_rule_table().end());
     all.insert(all.end(), portal_rule_table().begin(), portal_rule_table().end());
+    all.insert(all.end(), exam_rule_table().begin(), exam_rule_table().end());
     return all;
   }();
   return kinds;
@@ -371,6 +373,7 @@ std::optional<RuleHit> step_rule(const PlannedRule& rule, const Event& event, do
   if (step_placing_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_stump_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   if (step_portal_rule(rule, event, place, tick_s, state, tunnel_hit)) return tunnel_hit;
+  if (step_exam_rule(rule, event, tick_s, state, tunnel_hit)) return tunnel_hit;
   for (const RuleRow& row : rule_rows()) {
     if (row.kind.name != rule.rule.kind) continue;
     const auto hit = row.step(rule, event, place, tick_s, state);

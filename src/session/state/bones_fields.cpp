@@ -86,6 +86,7 @@ void field(A& a, BoneSnapshot& s) {
   field(a, s.water);
   field(a, s.placing);
   field(a, s.bend);
+  field(a, s.exam);
   for (InsideList& list : s.inside) field(a, list);
 }
 

@@ -30,6 +30,10 @@ template <class A>
 void field(A& a, GraftPlacingState& value);
 template <class A>
 void field(A& a, BendState& value);
+template <class A>
+void field(A& a, KneeExamState& value);
+template <class A>
+void field(A& a, ToldKnee& value);
 
 // bones_fields.cpp
 template <class A>

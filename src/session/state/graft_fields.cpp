@@ -4,6 +4,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kTableWork = 25;  // that of muscle and thread on tendons
+constexpr std::uint64_t kExams = 33;      // that of a knee that is examined
 constexpr std::uint64_t kOrders = 13;     // the version that says what graft was handed over
 
 }  // namespace
@@ -115,11 +116,45 @@ void field(A& a, BendState& s) {
   field(a, s.cycles);
 }
 
+template <class A>
+void field(A& a, KneeExamState& s) {
+  if (!since(a, kExams)) return;
+  number(a, s.told, kKneeGiveNumbers);
+  if (s.told == 0) return;
+  field(a, s.on);
+  number(a, s.knee, kMostKneeState);
+  field(a, s.digest);
+  for (double& x : s.wanted) field(a, x);
+  for (double& x : s.now) field(a, x);
+  for (double* x : {&s.front_n, &s.valgus_nm, &s.internal_nm}) field(a, *x);
+  field(a, s.give.way_B);
+  field(a, s.give.turn_B);
+  for (double* x : {&s.give.front_m, &s.give.other_front_m}) field(a, *x);
+}
+
+template <class A>
+void field(A& a, ToldKnee& told) {
+  if (!since(a, kExams)) return;
+  std::uint64_t count = told ? told->size() : 0;
+  number(a, count, kKneeGiveNumbers);
+  if constexpr (A::kReads) {
+    std::vector<double> numbers(a.ok ? count : 0);
+    for (double& x : numbers) field(a, x);
+    told = numbers.empty() ? nullptr : std::make_shared<const std::vector<double>>(numbers);
+  } else if (told) {
+    for (double x : *told) field(a, x);
+  }
+}
+
 template void field(Out&, GraftBenchState&);
 template void field(In&, GraftBenchState&);
 template void field(Out&, GraftPlacingState&);
 template void field(In&, GraftPlacingState&);
 template void field(Out&, BendState&);
 template void field(In&, BendState&);
+template void field(Out&, KneeExamState&);
+template void field(In&, KneeExamState&);
+template void field(Out&, ToldKnee&);
+template void field(In&, ToldKnee&);
 
 }  // namespace osteon::stored

@@ -3,6 +3,7 @@
 namespace osteon {
 namespace stored {
 
+constexpr std::uint64_t kKnees = 33;   // the version that says how a knee gives
 constexpr std::uint64_t kSights = 23;  // the version that says what a scope has seen
 
 // Which bones, bit by bit, and the ticks of those.
@@ -55,6 +56,18 @@ void field(A& a, HandState& h) {
   for (HandMark& mark : h.marks) field(a, mark);
 }
 
+// A restore point knows the same of the knee as the world, mostly.
+template <class A>
+void knee_field(A& a, const ToldKnee& of_world, ToldKnee& told) {
+  if (!since(a, kKnees)) return;
+  bool same = told == of_world || (told && of_world && *told == *of_world);
+  field(a, same);
+  if (same)
+    told = of_world;
+  else
+    field(a, told);
+}
+
 template <class A>
 void field(A& a, WorldState& w) {
   field(a, w.bones);
@@ -62,6 +75,7 @@ void field(A& a, WorldState& w) {
   field(a, w.carved);
   field(a, w.softs);
   field(a, w.rings);
+  field(a, w.knee);
   for (WorldMark& mark : w.marks) {
     field(a, mark.set);
     if (!mark.set) continue;
@@ -70,6 +84,7 @@ void field(A& a, WorldState& w) {
     field(a, mark.carved);
     field(a, mark.softs);
     field(a, mark.rings);
+    knee_field(a, w.knee, mark.knee);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "exercises/result_sender.h"
 #include "exercises/seat_files.h"
 #include "osteon/base/file.h"
+#include "runs/reports/exam_report.h"
 
 namespace osteon {
 namespace {
@@ -71,6 +72,7 @@ int run_command(const RunCommand& command) {
   if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
   if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
   if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
+  if (done->exam) std::fputs(to_text(*done->exam).c_str(), stdout);
   if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   std::fflush(stdout);

@@ -10,6 +10,7 @@
 #include "exercises/graft_order.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/surgeon/acl_surgeon.h"
+#include "osteon/surgeon/exam_surgeon.h"
 #include "osteon/surgeon/graft_surgeon.h"
 #include "osteon/surgeon/parts_hand.h"
 #include "osteon/surgeon/placing_surgeon.h"
@@ -27,10 +28,10 @@ bool has_goal(const ScenarioPlan& plan, std::string_view kind) {
 
 // Whoever makes an error before the graft comes stops where it was made: his run is lost already.
 bool errs_before_the_graft(const Skill& skill) {
-  constexpr std::array<std::string_view, 12> kBefore{
-      "wrong_portal", "skipped_inspection", "scuffed",  "too_hard", "anterior_tibia",
-      "short_tibia",  "vertical_femur",     "blow_out", "no_pin",   "plunged",
-      "short_socket", "stump_left"};
+  constexpr std::array<std::string_view, 13> kBefore{
+      "wrong_portal", "skipped_inspection", "scuffed",     "too_hard", "anterior_tibia",
+      "short_tibia",  "vertical_femur",     "blow_out",    "no_pin",   "plunged",
+      "short_socket", "stump_left",         "not_examined"};
   return skill.name.starts_with("bad:") &&
          std::find(kBefore.begin(), kBefore.end(), skill.name.substr(4)) != kBefore.end();
 }
@@ -63,7 +64,7 @@ constexpr double kLeastDrill_m = 0.008;
 constexpr double kShallowSocket_m = 0.0215;
 
 // A graft that is made is hung on its button when the tunnels are measured, placed when it has
-// come, and fixed when its button has turned.
+// come, fixed when its button has turned, and the knee examined once it is known how it gives then.
 std::vector<PartsHand::Plan> later_parts(const ScenarioPlan& plan, const PlannedHand& hand,
                                          const Case& the_case, const Skill& skill,
                                          const LaterWork& work) {
@@ -96,7 +97,27 @@ std::vector<PartsHand::Plan> later_parts(const ScenarioPlan& plan, const Planned
     if (way) part = std::move(*way);
     return part;
   });
+  if (!has_goal(plan, "knee_examined")) return parts;
+  parts.push_back([work](const Pose& from) {
+    const BoneSnapshot* now = work.bones();
+    std::optional<HandPart> part;
+    if (now && now->exam.on && now->exam.knee == 1)
+      part = plan_exam_part("clamp", from, now->bend.now_deg, now->bend.now_deg);
+    return part;
+  });
   return parts;
+}
+
+// Stays where it will begin, while the knee is asked for something.
+HandPart waiting_part(const std::string& held, const Pose& at, double until_s,
+                      std::vector<TimedCommand> orders) {
+  ProbePath path;
+  path.with_instruments = true;
+  for (const double time_s : {0.0, until_s}) {
+    path.samples.emplace_back(time_s, at, false);
+    path.samples.back().instrument = held;
+  }
+  return {std::move(path), std::move(orders)};
 }
 
 // The third hand: a graft as far as it is made before the tunnels, then those and the rest.
@@ -113,12 +134,15 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
     auto way =
         plan_graft_stage(the_case, skill, ways.third_begin_s, drills->start(), hand.instrument);
     if (!way) return tl::unexpected(way.error());
-    auto maker = std::make_unique<ScriptedHand>(HandPart{std::move(*way), {}});
+    auto maker = std::make_unique<ScriptedHand>(HandPart{std::move(*way), std::move(ways.exam)});
     out.maker = maker.get();
     out.first.push_back(std::move(maker));
     // Without a graft nothing is drilled for it.
     if (skill.name == "bad:amputated_tendon") return out;
   }
+  if (!ways.after_graft && ways.examines)
+    out.first.push_back(std::make_unique<ScriptedHand>(
+        waiting_part(hand.instrument, drills->start(), ways.third_begin_s, std::move(ways.exam))));
   out.driller = drills.get();
   out.first.push_back(std::move(drills));
   return out;
@@ -160,6 +184,7 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   }
   if (tools.pin.empty() || tools.scope.empty())
     return fail("needs a hand with a scope and one with a guide pin", run.scenario.where);
+  tools.examines = has_goal(plan, "knee_examined");
   choose_bones(plan, run.skill, tools);
   for (const auto& goals : plan.goals)
     for (const PlannedRule& goal : goals) {

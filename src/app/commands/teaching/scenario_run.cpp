@@ -13,6 +13,7 @@
 #include "commands/teaching/played_hand.h"
 #include "commands/teaching/reconstruction_plan.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/exam_order.h"
 #include "exercises/graft_order.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
@@ -30,6 +31,7 @@
 #include "osteon/surgeon/tour_surgeon.h"
 #include "osteon/surgeon/way_surgeon.h"
 #include "runs/hands/tray.h"
+#include "runs/reports/exam_report.h"
 
 namespace osteon {
 namespace {
@@ -100,10 +102,11 @@ std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bon
 std::string to_json(const ScenarioOutcome& done) {
   const std::string text =
       with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
-  if (!done.graft && !done.placing) return text;
+  if (!done.graft && !done.placing && !done.exam) return text;
   auto json = nlohmann::ordered_json::parse(text);
   if (done.graft) json["acl"][done.acl ? "made" : "graft"] = to_json(*done.graft);
   if (done.placing) json["acl"]["placing"] = to_json(*done.placing);
+  if (done.exam) json["acl"]["examined"] = to_json(*done.exam);
   return json.dump(2) + "\n";
 }
 
@@ -222,10 +225,16 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   watch.watch_tunnels(std::move(sources));
   watch.watch_water(tray_of_hands(headless.hands));
   GraftOrder order;
-  if (watch.tunnels() && asks_for_graft(*plan))
-    headless.beside = [&] {
-      order.see(watch.tunnels()->placing(), session->bones());
-      return order.take();
+  std::optional<ExamOrder> exam;
+  if (watch.tunnels() && asks_for_exam(*plan))
+    exam.emplace(**the_case, watch.tunnels()->whole_spec(), false);
+  if (watch.tunnels() && (asks_for_graft(*plan) || exam))
+    headless.beside = [&]() -> std::optional<Command> {
+      if (asks_for_graft(*plan)) order.see(watch.tunnels()->placing(), session->bones());
+      if (const auto said = order.take()) return said;
+      if (!exam) return std::nullopt;
+      exam->see(watch.tunnels()->fixed(), session->bones());
+      return exam->take();
     };
   headless.done = [&] { return watch.over() || all_done(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
@@ -247,9 +256,12 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   if (watch.placing().plan())
     done.placing =
         PlacingReport{*watch.placing().plan(), watch.placing().state(), watch.placing().bent()};
+  done.exam = watch.exam();
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();
+  if (exam && exam->problem() && done.not_measured.empty())
+    done.not_measured = exam->problem()->message();
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());

@@ -9,6 +9,7 @@
 #include "exercises/scenario_files.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
+#include "osteon/procedure/knee_exam_watch.h"
 #include "osteon/procedure/report.h"
 #include "osteon/surgeon/skill.h"
 #include "runs/reports/acl_report.h"
@@ -36,10 +37,11 @@ struct ScenarioOutcome {
   std::string not_measured;                   ///< why they could not be measured
   std::optional<GraftReport> graft = {};      ///< of a case with a bench
   std::optional<PlacingReport> placing = {};  ///< of a case with tunnels for a graft
+  std::optional<KneeExam> exam = {};          ///< of a scenario that has the knee examined
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
 /// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as
-/// `acl.placing`.
+/// `acl.placing`, and what was found of the knee by hand as `acl.examined`.
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 

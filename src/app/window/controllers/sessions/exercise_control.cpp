@@ -19,6 +19,7 @@ namespace osteon {
 namespace {
 
 constexpr double kHandsApart_m = 0.025;
+constexpr int kOrdersAtOnce = 8;  // about as many as the physics takes until the next picture
 constexpr double kBeforePortal_m = 0.012;
 constexpr double kArrived_m = 0.005, kHighOver_m = 0.2;
 constexpr std::array<std::pair<DebriefView, DamageKind>, 3> kDamageViews{
@@ -53,6 +54,8 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
       if (mark && run->go_back(*mark)) count_undo();
       if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
       if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
+      if (requests.pull_n) run->say({CommandKind::kLachman, *requests.pull_n});
+      if (requests.pivot_share) run->say({CommandKind::kPivot, *requests.pivot_share});
     }
     if (requests.ghost) ghost_.toggle();
     if (requests.guide) ghost_.toggle_guide();
@@ -272,8 +275,13 @@ void ExerciseControl::poll() {
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
   go_with_stage();
-  while (const auto said = exercise_.next_order(sight_.shown().bones))
-    if (!run->say(*said)) break;
+  for (int i = 0; i < kOrdersAtOnce; ++i) {
+    const auto said = exercise_.next_order(sight_.shown().bones);
+    if (!said) break;
+    if (run->say(*said)) continue;
+    exercise_.refuse(*said);
+    break;
+  }
   ghost_.poll(exercise_);
   exercise_.set_guided(run->guided_s());
   if (exercise_.over() || !run->recording()) end();

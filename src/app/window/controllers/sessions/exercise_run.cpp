@@ -170,6 +170,10 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   order_ = {};
+  exam_.reset();
+  refused_.reset();
+  if (watch_->tunnels() && asks_for_exam(*plan_))
+    exam_.emplace(*case_, watch_->tunnels()->whole_spec(), true);
   stage_marks_.clear();
   debrief_.reset();
   problem_.clear();
@@ -184,9 +188,13 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
 }
 
 std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
-  if (!watch_ || !watch_->tunnels() || paused_ || !asks_for_graft(*plan_)) return std::nullopt;
-  order_.see(watch_->tunnels()->placing(), bones);
-  return order_.take();
+  if (!watch_ || !watch_->tunnels() || paused_) return std::nullopt;
+  if (const auto refused = std::exchange(refused_, std::nullopt)) return refused;
+  if (asks_for_graft(*plan_)) order_.see(watch_->tunnels()->placing(), bones);
+  if (const auto said = order_.take()) return said;
+  if (!exam_) return std::nullopt;
+  exam_->see(watch_->tunnels()->fixed(), bones);
+  return exam_->take();
 }
 
 bool ExerciseRun::at_bench() const {
@@ -208,9 +216,11 @@ BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
   BentKneeModel model;
   const GraftPlacingState& placing = bones.placing;
   if (!watch_ || !case_ || case_->joints.empty() || page_ != ExercisePage::kRunning) return model;
-  if (!placing.on || placing.phase != PlacingPhase::kTurned) return model;
+  model.placed = placing.on && placing.phase == PlacingPhase::kTurned;
+  if (exam_ && (model.placed || asks_for_exam_now())) describe_exam(bones, model.exam);
+  model.shown = model.placed || model.exam.shown;
+  if (!model.shown) return model;
   const CaseJoint& joint = case_->joints.front();
-  model.shown = true;
   model.least_deg = joint.min_deg();
   model.most_deg = joint.max_deg();
   model.wanted_deg = bones.bend.on ? bones.bend.wanted_deg : joint.at_deg;
@@ -223,6 +233,40 @@ BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
     model.between_mm.push_back(1e3 * bent.lengths_m[i]);
   }
   return model;
+}
+
+bool ExerciseRun::asks_for_exam_now() const {
+  const std::uint32_t stage = watch_->state().stage;
+  if (stage >= plan_->goals.size()) return false;
+  const auto& goals = plan_->goals[stage];
+  return std::any_of(goals.begin(), goals.end(),
+                     [](const PlannedRule& goal) { return goal.rule.kind == "knee_examined"; });
+}
+
+void ExerciseRun::describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const {
+  const KneeExamState& exam = bones.exam;
+  const auto is_of = [](KneeTest test) { return static_cast<std::size_t>(test); };
+  model.shown = true;
+  model.problem = exam_->problem() ? exam_->problem()->message() : std::string();
+  model.computing = !exam.on || (bones.placing.screw.done && exam.knee == 0);
+  model.grafted = exam.knee == 1;
+  model.most_deg = KneeGiveTable::kMost_deg;
+  model.may = bones.bend.on ? bones.bend.now_deg <= KneeGiveTable::kMost_deg
+                            : case_->joints.front().at_deg <= KneeGiveTable::kMost_deg;
+  model.full_n = exam.front_n;
+  model.full_valgus_nm = exam.valgus_nm;
+  model.full_internal_nm = exam.internal_nm;
+  model.pull_n = exam.front_n * exam.wanted[is_of(KneeTest::kLachman)];
+  model.pivot_share = exam.wanted[is_of(KneeTest::kPivot)];
+  model.now_n = exam.front_n * exam.now[is_of(KneeTest::kLachman)];
+  model.now_share = exam.now[is_of(KneeTest::kPivot)];
+  model.front_mm = 1e3 * exam.give.front_m;
+  model.other_mm = 1e3 * exam.give.other_front_m;
+  const auto found = watch_->exam();
+  if (!found) return;
+  const auto& of_this = found->found[exam.knee];
+  if (of_this[0]) model.lachman_mm = 1e3 * of_this[0]->side_difference_m();
+  if (of_this[1]) model.pivot_mm = 1e3 * of_this[1]->side_difference_m();
 }
 
 bool ExerciseRun::follow(const BoneSnapshot& bones) {

@@ -10,6 +10,7 @@
 
 #include "exercises/attempt_watch.h"
 #include "exercises/debrief.h"
+#include "exercises/exam_order.h"
 #include "exercises/graft_order.h"
 #include "exercises/seat_files.h"
 #include "ui/side_job.h"
@@ -49,8 +50,11 @@ class ExerciseRun {
   void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
   /// Judges the ticks that all hands have done. True: a stage has begun that can be come back to.
   bool follow(const BoneSnapshot& bones);
-  /// What the tunnels that were drilled ask to be handed over; none: nothing, or not yet.
+  /// What the tunnels that were drilled ask to be handed over, and how the knee gives; none:
+  /// nothing, or not yet.
   std::optional<Command> next_order(const BoneSnapshot& bones);
+  /// One of those could not be said: it is the next again.
+  void refuse(const Command& order) { refused_ = order; }
   /// Whether what the live stage asks for is done at a bench.
   bool at_bench() const;
   /// Whether a hand may take what is used there.
@@ -108,6 +112,8 @@ class ExerciseRun {
   void describe_run(ExerciseModel& model) const;
   void describe_result(ExerciseModel& model) const;
   void describe_asked(ExerciseModel& model) const;
+  bool asks_for_exam_now() const;
+  void describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const;
   void describe_graft(ExerciseModel& model) const;
   void take_exercises(ExerciseList set);
   void keep();
@@ -127,6 +133,8 @@ class ExerciseRun {
   std::vector<PlannedHand> hands_;
   std::unique_ptr<AttemptWatch> watch_;
   GraftOrder order_;
+  std::optional<ExamOrder> exam_;  ///< none: the exercise does not have the knee examined
+  std::optional<Command> refused_;
   std::map<std::size_t, std::uint32_t> stage_marks_;
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
