@@ -86,6 +86,16 @@ bool PortalWatch::is_seen(std::span<const ToolState* const> tools, std::size_t b
   return false;
 }
 
+void PortalWatch::keep(const MadePortalFound& portal) {
+  const auto same = std::find_if(found_.begin(), found_.end(), [&](const MadePortalFound& known) {
+    return known.landmark == portal.landmark;
+  });
+  if (same == found_.end())
+    found_.push_back(portal);
+  else
+    *same = portal;
+}
+
 void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                       std::vector<Event>& out) {
   for (std::size_t h = 0; h < tools.size(); ++h) {
@@ -98,7 +108,12 @@ void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     out.push_back(of_portal(tool, h, mark, kPortalPlaced));
     out.back().values = {1e3 * off.dot(frame.up_W), 1e3 * off.dot(frame.middle_W), 0};
     out.push_back(of_portal(tool, h, mark, kPortalWay));
-    out.back().values = {tool.portal_way == 2 ? 1.0 : 0.0, is_seen(tools, h, bones) ? 1.0 : 0.0, 0};
+    const bool pierced = tool.portal_way == 2, seen = is_seen(tools, h, bones);
+    out.back().values = {pierced ? 1.0 : 0.0, seen ? 1.0 : 0.0, 0};
+    const auto in_frame = [&](const Vec3& v) {
+      return Vec3(v.dot(frame.in_W), v.dot(frame.up_W), v.dot(frame.middle_W));
+    };
+    keep({mark, in_frame(off), in_frame(tool.X_WP.rotate(-Vec3::UnitZ())), pierced, seen});
   }
 }
 

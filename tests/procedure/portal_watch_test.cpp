@@ -88,6 +88,13 @@ TEST(PortalWatch, ItSaysHowFarOffInTheKneesOwnDirections) {
   EXPECT_EQ(events[1].kind, kPortalWay);
   EXPECT_EQ(events[1].values[0], 1);
   EXPECT_EQ(events[1].values[1], 0);
+  ASSERT_EQ(rig.watch.found().size(), 1u);
+  const MadePortalFound& found = rig.watch.found()[0];
+  EXPECT_EQ(found.landmark, 0u);
+  EXPECT_LT((found.off_F - Vec3(0, -0.003, 0.002)).norm(), 1e-12);
+  EXPECT_LT((found.shaft_F - Vec3(1, 0, 0)).norm(), 1e-12);
+  EXPECT_TRUE(found.pierced);
+  EXPECT_FALSE(found.seen);
 }
 
 TEST(PortalWatch, APortalIsToldOnceAndAnewWhenItWasMadeAnew) {

@@ -31,6 +31,15 @@ struct PortalFrame {
 /// None: the landmark is not portal_al or portal_am, or the case lacks one of them or the tubercle.
 std::optional<PortalFrame> portal_frame(const Case& the_case, std::uint32_t landmark);
 
+/// Where a portal was made. Components: into the body, up and towards the middle, as in the frame
+/// of the landmark that it is meant for.
+struct MadePortalFound {
+  std::uint32_t landmark = 0;
+  Vec3 off_F = Vec3::Zero();           ///< from the landmark, m
+  Vec3 shaft_F = Vec3::UnitX();        ///< unit, how the shaft went in
+  bool pierced = false, seen = false;  ///< as kPortalWay
+};
+
 /// Follows where portals are made. A function of the tools' states: a replay makes the same events.
 class PortalWatch {
  public:
@@ -43,6 +52,8 @@ class PortalWatch {
   /// Adds the tick's events to `out`.
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
            std::vector<Event>& out);
+  /// Of each landmark the portal that was made last, in the order of the first ones.
+  const std::vector<MadePortalFound>& found() const { return found_; }
 
  private:
   /// What has been told of a portal.
@@ -51,6 +62,7 @@ class PortalWatch {
     std::uint32_t epoch = 0;
     Vec3 p_W = Vec3::Zero();
   };
+  void keep(const MadePortalFound& portal);
   bool is_news(const ToolState& tool);
   bool is_seen(std::span<const ToolState* const> tools, std::size_t by_hand,
                const BoneSnapshot& bones) const;
@@ -59,6 +71,7 @@ class PortalWatch {
   Settings settings_;
   std::vector<std::optional<PortalFrame>> frames_;  ///< by ToolState::portal
   std::vector<Told> told_;                          ///< likewise
+  std::vector<MadePortalFound> found_;
 };
 
 }  // namespace osteon

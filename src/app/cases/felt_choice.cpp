@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace osteon {
 namespace {
@@ -18,6 +20,27 @@ std::optional<double> degrees_from(const std::string& text) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
   return whole && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+constexpr std::string_view kPortalPrefix = "portal_";
+constexpr double kFarthest_mm = 1000;
+
+// "31.5/-20/4/0.6/0.8/0".
+std::optional<FeltChoice::Place> place_from(const std::string& text) {
+  std::istringstream parts(text);
+  std::vector<double> numbers;
+  for (std::string part; std::getline(parts, part, '/');) {
+    const auto number = degrees_from(part);
+    if (!number || std::abs(*number) > kFarthest_mm) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != 6) return std::nullopt;
+  FeltChoice::Place out;
+  out.p_W = Vec3(numbers[0], numbers[1], numbers[2]) / 1000;
+  const Vec3 inwards(numbers[3], numbers[4], numbers[5]);
+  if (!(inwards.norm() > 0.5)) return std::nullopt;
+  out.inwards_W = inwards.normalized();
+  return out;
 }
 
 std::string shortest(double value) {
@@ -40,6 +63,15 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
     const std::string value = all ? part : part.substr(equals + 1);
     if (!all && part.substr(0, equals) == "beside") {
       out.beside = value;
+      continue;
+    }
+    if (!all && part.starts_with(kPortalPrefix)) {
+      const auto place = place_from(value);
+      if (!place)
+        return fail("'" + part + "' does not set where a portal is", spec,
+                    "Write PORTAL=X/Y/Z/INX/INY/INZ: a place in mm, World, and a direction into "
+                    "the body");
+      out.portals[part.substr(0, equals)] = *place;
       continue;
     }
     if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
@@ -71,6 +103,11 @@ std::string to_text(const FeltChoice& choice) {
     out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
   if (choice.near_mm > 0)
     out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
+  for (const auto& [portal, place] : choice.portals) {
+    out.append(out.empty() ? "#" : ",").append(portal).append("=");
+    for (int i = 0; i < 3; ++i) out.append(shortest(1000 * place.p_W[i])).append("/");
+    for (int i = 0; i < 3; ++i) out.append(shortest(place.inwards_W[i])).append(i < 2 ? "/" : "");
+  }
   if (!choice.beside.empty()) out.append(out.empty() ? "#" : ",").append("beside=" + choice.beside);
   return choice.source + out;
 }
@@ -98,6 +135,14 @@ Result<void> apply(const FeltChoice& choice, CaseDef& def) {
     if (!there)
       return fail("there is no bone '" + name + "'", "case '" + def.name + "'",
                   "'osteon case info' lists the bones");
+  }
+  for (const auto& [name, place] : choice.portals) {
+    const auto mark = std::find_if(def.landmarks.begin(), def.landmarks.end(),
+                                   [&](const Landmark& landmark) { return landmark.name == name; });
+    if (mark == def.landmarks.end())
+      return fail("there is no portal '" + name + "'", "case '" + def.name + "'");
+    mark->p_W = place.p_W;
+    mark->inwards_W = place.inwards_W;
   }
   return {};
 }

@@ -11,12 +11,18 @@ namespace osteon {
 /// What of the bones is felt, and how far joints are bent, chosen otherwise than the case says:
 /// part of how a user names a case, so that a recording knows it too.
 /// "wrist_folder#lunate=hull,capitate=field", or "#field" for all; "knee_folder#flexion=70";
-/// "builtin:knee#near=80"; "builtin:knee#beside=graft_bench".
+/// "builtin:knee#near=80"; "builtin:knee#beside=graft_bench"; and where portals are:
+/// "builtin:knee#portal_al=31.5/-20/4/0.6/0.8/0", a place in mm, World, and a direction into the
+/// body.
 struct FeltChoice {
   std::string source;                       ///< the case without the choice
   std::map<std::string, Felt> of_bone;      ///< by name; "" stands for all others
   std::map<std::string, double> bent = {};  ///< degrees, by the joint's name
   double near_mm = 0;  ///< femur and tibia of a knee end so far from the joint; 0: they are whole
+  struct Place {
+    Vec3 p_W = Vec3::Zero(), inwards_W = Vec3::UnitX();
+  };
+  std::map<std::string, Place> portals = {};  ///< by landmark: where they are instead
   std::string beside = {};  ///< a built-in anatomy that lies beside it (beside_case.h)
 };
 
@@ -29,7 +35,8 @@ std::string to_text(const FeltChoice& choice);
 Result<std::string> bent_spec(const std::string& spec, const std::string& joint, double degrees);
 /// The case alone, whatever follows it.
 std::string source_without_choice(const std::string& spec);
-/// Puts what is felt into the case; fails when it names a bone that is not there.
+/// Puts what is felt and where portals are into the case; fails when it names a bone or a portal
+/// that is not there.
 Result<void> apply(const FeltChoice& choice, CaseDef& def);
 
 }  // namespace osteon

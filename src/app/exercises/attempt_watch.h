@@ -63,6 +63,8 @@ class AttemptWatch {
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
   const PlacingWatch& placing() const { return placing_; }
+  /// Portals that were made in skin.
+  const std::vector<MadePortalFound>& made_portals() const { return portals_->found(); }
   /// What was found of the knee by hand; none: the scenario does not ask for it.
   std::optional<KneeExam> exam() const;
   /// Of what torn ligaments have left; none: it is not felt.

@@ -18,6 +18,7 @@
 #include "runs/pictures/carved_picture.h"
 #include "runs/replays/recorded_case.h"
 #include "runs/reports/exam_report.h"
+#include "runs/reports/portal_report.h"
 
 namespace osteon {
 namespace {
@@ -231,6 +232,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (const auto plan = placing.plan())
     debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
   debrief.exam = again.watch->exam();
+  debrief.made_portals = again.watch->made_portals();
   debrief.scenario = std::move(**scenario);
   return debrief;
 }
@@ -254,8 +256,10 @@ std::string report_of(const Debrief& debrief) {
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
   const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
                                         debrief.acl, debrief.not_measured);
-  if (!debrief.placing && !debrief.exam) return text;
+  if (!debrief.acl && !debrief.placing && debrief.made_portals.empty()) return text;
   auto json = nlohmann::ordered_json::parse(text);
+  if (debrief.the_case)
+    add_portals(debrief.made_portals, *debrief.the_case, debrief.case_spec, json);
   if (debrief.placing) json["acl"]["placing"] = to_json(*debrief.placing);
   if (debrief.exam) json["acl"]["examined"] = to_json(*debrief.exam);
   return json.dump(2) + "\n";

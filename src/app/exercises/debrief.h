@@ -14,6 +14,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/procedure/knee_exam_watch.h"
+#include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/report.h"
 #include "osteon/procedure/scenario.h"
 #include "osteon/render/renderer.h"
@@ -42,8 +43,9 @@ struct Debrief {
   std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
   std::optional<KneeExam> exam = {};          ///< of a knee that was to be examined by hand
-  std::string not_measured;                   ///< why they could not be measured
-  std::vector<Report> reports;                ///< of each of `hands`
+  std::vector<MadePortalFound> made_portals = {};
+  std::string not_measured;     ///< why they could not be measured
+  std::vector<Report> reports;  ///< of each of `hands`
   std::vector<HandTrace> hands;
   std::string case_spec;  ///< of the case that it was repeated on
   std::shared_ptr<const Case> the_case;

@@ -52,6 +52,32 @@ TEST(FeltChoice, AKneeMayEndNearItsJoint) {
   EXPECT_FALSE(parse_felt_choice("builtin:knee#near=500"));
 }
 
+TEST(FeltChoice, PortalsMayBeElsewhere) {
+  const std::string spec = "builtin:knee#flexion=120,portal_al=31.5/-20/4/0/0.5/-0.5";
+  const auto choice = parse_felt_choice(spec);
+  ASSERT_TRUE(choice) << choice.error().message();
+  EXPECT_FALSE(choice->bent.contains("portal_al"));
+  ASSERT_TRUE(choice->portals.contains("portal_al"));
+  EXPECT_LT((choice->portals.at("portal_al").p_W - Vec3(0.0315, -0.020, 0.004)).norm(), 1e-12);
+  EXPECT_NEAR(choice->portals.at("portal_al").inwards_W.norm(), 1, 1e-12);
+  const auto again = parse_felt_choice(to_text(*choice));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(to_text(*again), to_text(*choice));
+  CaseDef def = two_bones();
+  EXPECT_FALSE(apply(*choice, def));
+  def.landmarks.push_back({"portal_al", Vec3::Zero()});
+  def.landmarks.push_back({"portal_am", Vec3::Zero()});
+  ASSERT_TRUE(apply(*choice, def));
+  EXPECT_EQ(def.landmarks[0].p_W, choice->portals.at("portal_al").p_W);
+  EXPECT_EQ(def.landmarks[0].inwards_W, choice->portals.at("portal_al").inwards_W);
+  EXPECT_EQ(def.landmarks[1].p_W, Vec3::Zero());
+  for (const char* bad :
+       {"portal_al=", "portal_al=1", "portal_al=1/2/3/0/0", "portal_al=1/2/3/0/0/0",
+        "portal_al=1/2/nan/0/0/1", "portal_al=1/2/1e9/0/0/1", "portal_al=1/2/3/0/0/1/1",
+        "portal_al=a/2/3/0/0/1"})
+    EXPECT_FALSE(parse_felt_choice("builtin:knee#" + std::string(bad))) << bad;
+}
+
 TEST(FeltChoice, SomethingMayLieBesideIt) {
   const auto choice = parse_felt_choice("builtin:knee#femur=field,near=100,beside=graft_bench");
   ASSERT_TRUE(choice);

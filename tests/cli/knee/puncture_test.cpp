@@ -1,10 +1,12 @@
 // Making both portals of a knee, through the command line alone.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "../run_osteon.h"
 
@@ -54,6 +56,49 @@ TEST_F(PunctureCommands, APlaceThatTheCaseLacksIsNamedByTheCheck) {
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
   EXPECT_NE(ran.output.find("elbow"), std::string::npos) << ran.output;
   EXPECT_NE(ran.output.find("skin:portal_al"), std::string::npos) << ran.output;
+}
+
+// What follows goes in where a run has made the portals.
+TEST_F(PunctureCommands, AReconstructionGoesInWhereThePortalsWereMade) {
+  const PunctureJson made = report("--seed 0", 0)["portals"];
+  ASSERT_TRUE(made.contains("portal_al") && made.contains("portal_am")) << made;
+  EXPECT_LT(std::abs(made["portal_al"]["off"]["up_mm"].get<double>()), 5);
+  EXPECT_FALSE(made["portal_al"]["seen"]);
+  EXPECT_TRUE(made["portal_am"]["seen"]);
+  // 4 mm aside of there: so it is not where every patient has it.
+  PunctureJson moved;
+  moved["portals"] = made;
+  auto& off = moved["portals"]["portal_al"]["off"];
+  off["middle_mm"] = off["middle_mm"].get<double>() - 4;
+  std::ofstream(file("moved.json")) << moved;
+  const auto gone = [&](const std::string& portals, const std::string& name) {
+    const Ran ran =
+        run_osteon("run acl --seed 0 --surgeon bad:skipped_inspection --no-store --report " +
+                   file("acl.json") + " --portals " + file(portals) + " --record " + file("a.osr"));
+    EXPECT_EQ(ran.exit_code, 1) << ran.output;
+    std::ifstream in(file("acl.json"));
+    const PunctureJson json = PunctureJson::parse(in, nullptr, false);
+    EXPECT_EQ(json["hands"]["probe"]["portals"]["portal_am"]["times_entered"].get<int>() > 0, true);
+    const auto mm = json["acl"]["portals"][name]["p_mm"].get<std::vector<double>>();
+    return mm;
+  };
+  const auto a = gone("puncture.json", "portal_al"), b = gone("moved.json", "portal_al");
+  ASSERT_EQ(a.size(), 3u);
+  EXPECT_NEAR(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 4, 1e-6);
+  EXPECT_EQ(run_osteon("replay " + file("a.osr")).exit_code, 0);
+}
+
+TEST_F(PunctureCommands, PortalsOfNobodyOrOfSomebodyElseAreRefused) {
+  (void)report("--seed 0", 0);
+  std::ofstream(file("no.json")) << "{\"acl\": 3}";
+  const std::string run = "run acl --no-store --portals ";
+  const Ran other = run_osteon(run + file("puncture.json") + " --seed 1");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.output.find("builtin:knee:0:right"), std::string::npos) << other.output;
+  const Ran none = run_osteon(run + file("no.json") + " --seed 0");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.output.find("acl_puncture"), std::string::npos) << none.output;
+  EXPECT_EQ(run_osteon(run + file("nowhere") + " --seed 0").exit_code, 2);
 }
 
 TEST_F(PunctureCommands, TheExpertPassesOnManyPatients) {

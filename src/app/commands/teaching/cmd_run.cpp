@@ -7,17 +7,20 @@
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
 #include "exercises/graft_order.h"
+#include "exercises/portal_choice.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "exercises/seat_files.h"
 #include "osteon/base/file.h"
 #include "runs/reports/exam_report.h"
+#include "runs/reports/portal_report.h"
 
 namespace osteon {
 namespace {
 
 struct RunCommand {
-  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft;
+  std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft,
+                                   portals;
   std::string learner = "local";
   bool no_store = false;
   std::optional<std::uint64_t> seed;
@@ -52,6 +55,15 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     leave_out_bench_stages(*scenario);
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
+  if (!command.portals.empty()) {
+    const auto text = read_file(command.portals, 16u << 20);
+    if (!text) return tl::unexpected(text.error());
+    const auto made = read_portals(*text, command.portals);
+    if (!made) return tl::unexpected(made.error());
+    auto spec = with_made_portals(run.case_spec, *made, command.portals);
+    if (!spec) return tl::unexpected(spec.error());
+    run.case_spec = std::move(*spec);
+  }
   run.scenario = std::move(*scenario);
   run.standard = std::move(*standard);
   run.skill = std::move(*skill);
@@ -72,6 +84,7 @@ int run_command(const RunCommand& command) {
   if (done->acl) std::fputs(to_text(*done->acl).c_str(), stdout);
   if (done->graft) std::fputs(to_text(*done->graft).c_str(), stdout);
   if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
+  std::fputs(portals_text(done->made_portals, *done->the_case).c_str(), stdout);
   if (done->exam) std::fputs(to_text(*done->exam).c_str(), stdout);
   if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
@@ -114,6 +127,9 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option("--graft", options->graft,
                       "report of a run of acl_graft: its graft is placed in acl, and the stages at "
                       "the bench are left out");
+  command->add_option("--portals", options->portals,
+                      "report of a run of acl_puncture on the same patient: the portals of acl are "
+                      "where they were made");
   command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");

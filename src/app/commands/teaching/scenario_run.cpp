@@ -32,6 +32,7 @@
 #include "osteon/surgeon/way_surgeon.h"
 #include "runs/hands/tray.h"
 #include "runs/reports/exam_report.h"
+#include "runs/reports/portal_report.h"
 
 namespace osteon {
 namespace {
@@ -102,8 +103,9 @@ std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bon
 std::string to_json(const ScenarioOutcome& done) {
   const std::string text =
       with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
-  if (!done.graft && !done.placing && !done.exam) return text;
+  if (!done.acl && !done.graft && !done.placing && done.made_portals.empty()) return text;
   auto json = nlohmann::ordered_json::parse(text);
+  add_portals(done.made_portals, *done.the_case, done.case_spec, json);
   if (done.graft) json["acl"][done.acl ? "made" : "graft"] = to_json(*done.graft);
   if (done.placing) json["acl"]["placing"] = to_json(*done.placing);
   if (done.exam) json["acl"]["examined"] = to_json(*done.exam);
@@ -257,6 +259,9 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     done.placing =
         PlacingReport{*watch.placing().plan(), watch.placing().state(), watch.placing().bent()};
   done.exam = watch.exam();
+  done.made_portals = watch.made_portals();
+  done.the_case = *the_case;
+  done.case_spec = run.case_spec;
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();

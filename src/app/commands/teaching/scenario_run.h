@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,9 @@
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
 #include "osteon/procedure/knee_exam_watch.h"
+#include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/report.h"
+#include "osteon/scene/case.h"
 #include "osteon/surgeon/skill.h"
 #include "runs/reports/acl_report.h"
 #include "runs/reports/graft_report.h"
@@ -32,16 +35,20 @@ struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand
   std::vector<std::string> hands;
   Outcome outcome;
-  std::vector<std::string> unreachable;       ///< bones that the surgeon found no way to
-  std::optional<AclReport> acl;               ///< of a scenario that asks for tunnels
-  std::string not_measured;                   ///< why they could not be measured
-  std::optional<GraftReport> graft = {};      ///< of a case with a bench
-  std::optional<PlacingReport> placing = {};  ///< of a case with tunnels for a graft
-  std::optional<KneeExam> exam = {};          ///< of a scenario that has the knee examined
+  std::vector<std::string> unreachable;            ///< bones that the surgeon found no way to
+  std::optional<AclReport> acl;                    ///< of a scenario that asks for tunnels
+  std::string not_measured;                        ///< why they could not be measured
+  std::optional<GraftReport> graft = {};           ///< of a case with a bench
+  std::optional<PlacingReport> placing = {};       ///< of a case with tunnels for a graft
+  std::optional<KneeExam> exam = {};               ///< of a scenario that has the knee examined
+  std::vector<MadePortalFound> made_portals = {};  ///< in skin
+  std::shared_ptr<const Case> the_case = {};
+  std::string case_spec = {};
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
 /// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as
-/// `acl.placing`, and what was found of the knee by hand as `acl.examined`.
+/// `acl.placing`, what was found of the knee by hand as `acl.examined`, and its portals
+/// (portal_report.h).
 std::string to_json(const ScenarioOutcome& done);
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run);
 
