@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/portal.h"
@@ -12,6 +13,8 @@ namespace {
 
 constexpr double kSamePlace_m = 1e-6;
 constexpr double kSeenFrom_m = 0.08;
+// A needle counts from so deep under the skin, so near its landmark, and not along the skin.
+constexpr double kNeedleDeep_m = 0.008, kNeedleNear_m = 0.02, kNeedleSlope = 0.2;
 constexpr double kTipHides_m = 0.003;  // what is so near to the tip does not hide it
 
 std::optional<Vec3> place_of(const Case& the_case, std::string_view name) {
@@ -86,6 +89,52 @@ bool PortalWatch::is_seen(std::span<const ToolState* const> tools, std::size_t b
   return false;
 }
 
+// Its hole is where its axis goes through the skin about the nearest landmark.
+std::optional<PortalWatch::Needle> PortalWatch::needle_at(const ToolState& tool) const {
+  const Vec3 back = tool.X_WP.rotate(Vec3::UnitZ());
+  std::optional<Needle> best;
+  double nearest = kNeedleNear_m;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (!frames_[i]) continue;
+    const PortalFrame& frame = *frames_[i];
+    const double deep = frame.in_W.dot(tool.X_WP.p - frame.p_W), slope = -frame.in_W.dot(back);
+    if (deep < kNeedleDeep_m || slope < kNeedleSlope) continue;
+    const Vec3 off = tool.X_WP.p + deep / slope * back - frame.p_W;
+    if (!(off.norm() < nearest)) continue;
+    nearest = off.norm();
+    best = Needle{settings_.marks[i], {0, off.dot(frame.up_W), off.dot(frame.middle_W)}};
+  }
+  return best;
+}
+
+void PortalWatch::follow_needle(std::span<const ToolState* const> tools, std::size_t hand,
+                                const BoneSnapshot& bones, std::vector<Event>& out) {
+  const ToolState& tool = *tools[hand];
+  needle_told_.resize(std::max(needle_told_.size(), tools.size()), 0);
+  const bool held = tool.instrument < needles_.size() && needles_[tool.instrument] != 0;
+  const auto needle = held && is_finite(tool.X_WP) ? needle_at(tool) : std::nullopt;
+  int& told = needle_told_[hand];
+  if (!needle) {
+    told = 0;
+    return;
+  }
+  const bool seen = told < 2 && is_seen(tools, hand, bones);
+  const int now = std::max(told, seen ? 2 : 1);
+  if (now == std::exchange(told, now)) return;
+  std::erase_if(needle_holes_, [&](const Needle& known) { return known.mark == needle->mark; });
+  needle_holes_.push_back(*needle);
+  out.push_back(of_portal(tool, hand, needle->mark, kNeedleIn));
+  out.back().p_W = tool.X_WP.p;
+  out.back().values = {1e3 * needle->off_F.y(), 1e3 * needle->off_F.z(), seen ? 1.0 : 0.0};
+}
+
+std::optional<double> PortalWatch::from_needle(const MadePortalFound& portal) const {
+  for (const Needle& needle : needle_holes_)
+    if (needle.mark == portal.landmark)
+      return std::hypot(portal.off_F.y() - needle.off_F.y(), portal.off_F.z() - needle.off_F.z());
+  return std::nullopt;
+}
+
 void PortalWatch::keep(const MadePortalFound& portal) {
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const MadePortalFound& known) {
     return known.landmark == portal.landmark;
@@ -100,6 +149,7 @@ void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
                       std::vector<Event>& out) {
   for (std::size_t h = 0; h < tools.size(); ++h) {
     const ToolState& tool = *tools[h];
+    follow_needle(tools, h, bones, out);
     if (tool.portal_way == 0 || tool.portal >= frames_.size() || !frames_[tool.portal]) continue;
     if (!is_finite(tool.p_portal_W) || !is_news(tool)) continue;
     const PortalFrame& frame = *frames_[tool.portal];
@@ -113,7 +163,10 @@ void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     const auto in_frame = [&](const Vec3& v) {
       return Vec3(v.dot(frame.in_W), v.dot(frame.up_W), v.dot(frame.middle_W));
     };
-    keep({mark, in_frame(off), in_frame(tool.X_WP.rotate(-Vec3::UnitZ())), pierced, seen});
+    MadePortalFound made{mark, in_frame(off), in_frame(tool.X_WP.rotate(-Vec3::UnitZ())), pierced,
+                         seen};
+    made.from_needle_m = from_needle(made);
+    keep(made);
   }
 }
 

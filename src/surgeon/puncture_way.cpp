@@ -23,6 +23,7 @@ constexpr double kOverSkin_m = 0.04;
 constexpr double kCutHalf_m = 0.0055, kBladeDeep_m = 0.011;  // 7 mm go around the trocar
 constexpr double kCutStroke_m_per_s = 0.012, kPuncture_m_per_s = 0.02;
 constexpr double kTrocarDeep_m = 0.028, kTrocarRadius_m = 0.00275, kTrocarRoom_m = 0.0015;
+constexpr double kNeedleDeep_m = 0.022, kNeedle_s = 0.8;
 constexpr double kLookScope_m = 0.002, kScopeIn_m = 0.018;
 constexpr double kLookDeep_m = 0.006;  // under the skin of the other portal
 constexpr double kLooked_s = 2.2, kHook_s = 1.5;
@@ -148,6 +149,16 @@ void push_trocar(const Puncture& at, const SkinWay& in, const std::string& fault
   way.go(in.along(-kOverSkin_m), kHandNear_m_per_s);
 }
 
+// Under the scope's eyes to where the trocar will go, and out again.
+void push_needle(const SkinWay& in, HandWay& way) {
+  way.take("spinal_needle");
+  way.go(in.along(-kOverSkin_m), kHandCarry_m_per_s);
+  way.go(in.along(-0.002), kHandCarry_m_per_s);
+  way.go(in.along(kNeedleDeep_m), kPuncture_m_per_s);
+  way.stay(kNeedle_s);
+  way.go(in.along(-kOverSkin_m), kHandNear_m_per_s);
+}
+
 void make_portal(const Puncture& at, const SkinWay& in, const std::string& fault, HandWay& way) {
   if (fault != "forced") {
     way.take("scalpel_11");
@@ -243,6 +254,7 @@ Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scop
     eye.go(puncture_wait(at->al), kHandCarry_m_per_s);
   }
   worker.stay(eye.now_s() + 0.3 - worker.now_s());
+  push_needle(*am, worker);
   make_portal(*at, *am, {}, worker);
   worker.take("hook_probe");
   const Vec3 hook = hooked(*at, *am), back = (am->p_W - hook).normalized();

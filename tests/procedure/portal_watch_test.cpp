@@ -67,6 +67,48 @@ TEST(PortalWatch, ACaseWithoutATubercleHasNoFrame) {
   EXPECT_FALSE(portal_frame(two_portals(), 77));
 }
 
+// Instrument 2 of the tray.
+ToolState needle_at(const Vec3& tip_W, const Vec3& back_W) {
+  ToolState tool;
+  tool.tick = 9;
+  tool.instrument = 2;
+  tool.X_WP = {tip_W, turn_between(Vec3::UnitZ(), back_W.normalized())};
+  return tool;
+}
+
+TEST(PortalWatch, ANeedleIsToldWhereItsAxisGoesThroughTheSkin) {
+  Rig rig;
+  const Vec3 hole(0.002, 0.018, 0), back(0.3, 0, 1);
+  const ToolState in = needle_at(hole - 0.02 * back, back);
+  EXPECT_TRUE(rig.add(in).empty());  // nobody said that it is one
+  rig.watch.set_needles({0, 0, 1});
+  EXPECT_TRUE(rig.add(needle_at(hole - 0.005 * back, back)).empty());  // not in the joint
+  EXPECT_TRUE(rig.add(needle_at(hole + 0.005 * back, back)).empty());
+  EXPECT_TRUE(rig.add(needle_at(Vec3(0.002, 0.08, -0.02), back)).empty());     // far away
+  EXPECT_TRUE(rig.add(needle_at(hole - 0.02 * back, Vec3(1, 0, 0))).empty());  // along the skin
+  const auto told = rig.add(in);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, kNeedleIn);
+  EXPECT_EQ(told[0].subject, 1u);
+  EXPECT_NEAR(told[0].values[0], -2, 1e-9);
+  EXPECT_NEAR(told[0].values[1], -3, 1e-9);
+  EXPECT_EQ(told[0].values[2], 0);
+  EXPECT_TRUE(rig.add(in).empty());
+  // A scope in its portal looks at the tip.
+  ToolState scope = in_portal(0, 0, {0, -0.015, 0});
+  scope.X_WP = {in.X_WP.p + Vec3(0, -0.02, 0), turn_between(Vec3::UnitZ(), -Vec3::UnitY())};
+  const auto seen = rig.add(in, scope);
+  ASSERT_EQ(seen.size(), 1u);
+  EXPECT_EQ(seen[0].values[2], 1);
+  EXPECT_TRUE(rig.add(in, scope).empty());
+  // How far from its hole a portal is.
+  rig.add({});
+  (void)rig.add(in_portal(2, 1, {0.002, 0.022, 0}));
+  ASSERT_EQ(rig.watch.found().size(), 1u);
+  ASSERT_TRUE(rig.watch.found()[0].from_needle_m);
+  EXPECT_NEAR(*rig.watch.found()[0].from_needle_m, 0.004, 1e-9);
+}
+
 TEST(PortalWatch, ItSaysHowFarOffInTheKneesOwnDirections) {
   const Case c = two_portals();
   const auto al = portal_frame(c, 0), am = portal_frame(c, 1);

@@ -92,8 +92,8 @@ TEST(PunctureWay, TheExpertCutsGoesInLooksAndMakesTheSecondWhileTheScopeIsIn) {
   const auto ways = ways_of(flat_knee(), expert_skill());
   ASSERT_TRUE(ways) << ways.error().message();
   EXPECT_EQ(taken(ways->worker),
-            (std::vector<std::string>{"scalpel_11", "trocar_blunt", "scalpel_11", "trocar_blunt",
-                                      "hook_probe"}));
+            (std::vector<std::string>{"scalpel_11", "trocar_blunt", "spinal_needle", "scalpel_11",
+                                      "trocar_blunt", "hook_probe"}));
   EXPECT_EQ(taken(ways->scope), (std::vector<std::string>{"arthroscope_30"}));
   for (const ProbePath* path : {&ways->scope, &ways->worker})
     for (std::size_t i = 1; i < path->samples.size(); ++i)

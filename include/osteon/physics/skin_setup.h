@@ -63,8 +63,9 @@ struct SkinTool {
   Vec3 flat_T = Vec3::Zero();  ///< across the blade
   double through_m = 0;        ///< radius of the shaft that goes through a hole; 0: none
   bool pierces = false;        ///< it makes the hole itself
+  bool makes_portal = true;  ///< else its hole is too small for a portal: the patch alone holds it
 };
-/// `pierces`: it is a trocar.
+/// `pierces`: it is a trocar or a needle.
 SkinTool skin_tool(const Tool& tool, bool pierces);
 /// Of each name of a tray. Fails where the instruments cannot be read.
 Result<std::vector<SkinTool>> make_skin_tools(std::span<const std::string> tray);

@@ -21,6 +21,10 @@ inline constexpr EventKind kPortalPlaced{467};
 /// tip, 0: none did; 0}.
 inline constexpr EventKind kPortalWay{468};
 
+/// A needle is in as deep as in a joint, near a landmark for a portal, and once more when a scope
+/// comes to see its tip: {where its hole is, as kPortalPlaced, mm; the same; 1: seen, 0: not}.
+inline constexpr EventKind kNeedleIn{470};
+
 /// Which way is which beside the patellar ligament; unit vectors, at right angles.
 struct PortalFrame {
   Vec3 p_W = Vec3::Zero();
@@ -38,6 +42,8 @@ struct MadePortalFound {
   Vec3 off_F = Vec3::Zero();           ///< from the landmark, m
   Vec3 shaft_F = Vec3::UnitX();        ///< unit, how the shaft went in
   bool pierced = false, seen = false;  ///< as kPortalWay
+  /// From the hole of the needle that came there last; none: there was none.
+  std::optional<double> from_needle_m = {};
 };
 
 /// Follows where portals are made. A function of the tools' states: a replay makes the same events.
@@ -52,6 +58,8 @@ class PortalWatch {
   /// Adds the tick's events to `out`.
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
            std::vector<Event>& out);
+  /// Of each instrument of the session's tray whether it is a needle; before the first tick.
+  void set_needles(std::vector<char> needles) { needles_ = std::move(needles); }
   /// Of each landmark the portal that was made last, in the order of the first ones.
   const std::vector<MadePortalFound>& found() const { return found_; }
 
@@ -62,6 +70,15 @@ class PortalWatch {
     std::uint32_t epoch = 0;
     Vec3 p_W = Vec3::Zero();
   };
+  /// A needle near a landmark.
+  struct Needle {
+    std::uint32_t mark = 0;
+    Vec3 off_F = Vec3::Zero();  ///< of its hole, as MadePortalFound
+  };
+  std::optional<Needle> needle_at(const ToolState& tool) const;
+  void follow_needle(std::span<const ToolState* const> tools, std::size_t hand,
+                     const BoneSnapshot& bones, std::vector<Event>& out);
+  std::optional<double> from_needle(const MadePortalFound& portal) const;
   void keep(const MadePortalFound& portal);
   bool is_news(const ToolState& tool);
   bool is_seen(std::span<const ToolState* const> tools, std::size_t by_hand,
@@ -72,6 +89,9 @@ class PortalWatch {
   std::vector<std::optional<PortalFrame>> frames_;  ///< by ToolState::portal
   std::vector<Told> told_;                          ///< likewise
   std::vector<MadePortalFound> found_;
+  std::vector<char> needles_;         ///< by instrument
+  std::vector<int> needle_told_;      ///< by hand: 1: it is in, 2: and was seen
+  std::vector<Needle> needle_holes_;  ///< the last of each landmark
 };
 
 }  // namespace osteon

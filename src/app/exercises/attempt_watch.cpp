@@ -5,6 +5,7 @@
 
 #include "exercises/exam_order.h"
 #include "osteon/procedure/tip_watch.h"
+#include "osteon/scene/needle.h"
 #include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/session/session.h"
@@ -211,7 +212,10 @@ void AttemptWatch::watch_tunnels(TunnelSources sources) {
   tunnels_.emplace(*plan_, *case_, std::move(sources), pins_, std::move(widths_m), tick_s_);
 }
 
-void AttemptWatch::watch_water(const std::vector<std::string>& tray) {
+void AttemptWatch::watch_tray(const std::vector<std::string>& tray) {
+  std::vector<char> needles;
+  for (const std::string& name : tray) needles.push_back(name.starts_with(kSpinalNeedle));
+  if (portals_) portals_->set_needles(std::move(needles));
   water_ = WaterWatch::of(*case_, tray, tick_s_);
 }
 

@@ -58,8 +58,9 @@ class AttemptWatch {
   void watch_tunnels(TunnelSources sources);
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
-  /// Follows the water in the joint, where the tray has a scope; once, before the first tick.
-  void watch_water(const std::vector<std::string>& tray);
+  /// Follows the water in the joint, where the tray has a scope, and its needles; once, before the
+  /// first tick.
+  void watch_tray(const std::vector<std::string>& tray);
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
   const PlacingWatch& placing() const { return placing_; }

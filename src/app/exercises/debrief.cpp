@@ -127,7 +127,7 @@ struct JudgedAgain {
     hands = std::move(*held);
     watch = std::make_unique<AttemptWatch>(*plan, the_case, hands, tick_s);
     watch->watch_tunnels(std::move(sources));
-    watch->watch_water(tray);
+    watch->watch_tray(tray);
     tools.resize(hands.size());
     return {};
   }

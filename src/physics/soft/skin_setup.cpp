@@ -9,6 +9,7 @@
 #include "osteon/physics/solid_cutter.h"
 #include "osteon/scene/event.h"
 #include "osteon/scene/instrument.h"
+#include "osteon/scene/needle.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/tissue/skin_place.h"
 
@@ -250,7 +251,9 @@ Result<std::vector<SkinTool>> make_skin_tools(std::span<const std::string> tray)
     const auto size = named->size_mm ? find_size(*found, *named->size_mm)
                                      : std::optional<std::size_t>(found->usual_size);
     if (!size) return fail("the instrument has no such size", tray[i]);
-    out[i] = skin_tool(make_tool(*found, *size), name.starts_with("trocar"));
+    const bool needle = name == kSpinalNeedle;
+    out[i] = skin_tool(make_tool(*found, *size), needle || name.starts_with("trocar"));
+    out[i].makes_portal = !needle;
   }
   return out;
 }

@@ -355,7 +355,8 @@ void SkinWorld::pass(const At& at, const SheetPush& push) {
     c.stiffness_n_per_m = sticks ? std::min(law.stick_n_per_m, coupling_n_per_m_) : 0;
     hand.pull_n = std::max(hand.pull_n, -c.force_n);
   }
-  if (c.made == kNotMade && c.deep_m >= patch.sheet->material().thickness_m) make_portal(at);
+  const bool deep = c.deep_m >= patch.sheet->material().thickness_m;
+  if (c.made == kNotMade && deep && use.makes_portal) make_portal(at);
   c.through = true;
   const SkinRelief::Place here = patch.relief.at(hand.hole);
   c.hole_B = patch.X_BS * Vec3(hand.hole.x(), hand.hole.y(), here.height_m);

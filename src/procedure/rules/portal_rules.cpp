@@ -32,6 +32,12 @@ const std::vector<RuleKind>& portal_rule_table() {
        true,
        {{"within_mm", 0.5, 50, 5}},
        SubjectKind::kLandmark},
+      {"needle_in",
+       "a needle is in the joint, its hole within a distance of every one of these marks, and a "
+       "scope in a portal sees its tip",
+       true,
+       {{"within_mm", 0.5, 50, 5}},
+       SubjectKind::kLandmark},
       {"portal_outside",
        "a portal is made farther from its mark than a limit: towards the trunk, the foot, the "
        "middle of the knee or its side",
@@ -66,8 +72,10 @@ bool step_portal_rule(const PlannedRule& rule, const Event& event, std::size_t p
     if (is_wrong(rule, event)) hit = RuleHit{time_of(event, tick_s)};
     return true;
   }
-  if (event.kind == kPortalPlaced &&
-      std::hypot(event.values[0], event.values[1]) <= number_of(rule, "within_mm"))
+  const bool needle = kind->name == "needle_in";
+  const bool counts =
+      needle ? event.kind == kNeedleIn && event.values[2] > 0 : event.kind == kPortalPlaced;
+  if (counts && std::hypot(event.values[0], event.values[1]) <= number_of(rule, "within_mm"))
     state.done[place] = 1;
   state.met = std::all_of(state.done.begin(), state.done.end(), [](char d) { return d != 0; });
   return true;

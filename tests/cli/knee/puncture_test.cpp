@@ -42,6 +42,10 @@ TEST_F(PunctureCommands, TheExpertMakesBothPortalsAndTheRecordingRepeats) {
     EXPECT_EQ(again.exit_code, 0) << from << again.output;
   }
   const Ran events = run_osteon("record info --events " + file("p.osr"));
+  // The needle went through the skin, and left no portal.
+  EXPECT_NE(events.output.find("skin_pierced"), std::string::npos);
+  EXPECT_TRUE(json["portals"]["portal_al"]["from_needle_mm"].is_null());
+  EXPECT_LT(json["portals"]["portal_am"]["from_needle_mm"], 2);
   for (const char* portal : {"portal_al_made_1", "portal_am_made_1"})
     EXPECT_NE(events.output.find("portal_made  portal " + std::string(portal)), std::string::npos);
 }

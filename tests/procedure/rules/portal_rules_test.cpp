@@ -25,13 +25,13 @@ struct PortalRuleRig {
     state.holds.resize(2);
   }
   // As the judge does.
-  bool hit(EventKind kind, std::uint32_t mark, double a = 0, double b = 0) {
+  bool hit(EventKind kind, std::uint32_t mark, double a = 0, double b = 0, double c = 0) {
     Event event;
     event.kind = kind;
     event.hand = 0;
     event.subject_kind = SubjectKind::kLandmark;
     event.subject = mark;
-    event.values = {a, b, 0};
+    event.values = {a, b, c};
     return step_rule(rule, event, 0.001, state).has_value();
   }
   PlannedRule rule;
@@ -47,6 +47,17 @@ TEST(PortalRules, TheGoalIsMetWhenEachPortalIsMadeNearItsMark) {
   rig.hit(kPortalPlaced, 3, -3, 4);
   EXPECT_FALSE(rig.state.met);
   rig.hit(kPortalPlaced, 5, 0, 1);
+  EXPECT_TRUE(rig.state.met);
+}
+
+TEST(PortalRules, ANeedleCountsNearItsMarkAndSeen) {
+  PortalRuleRig rig("needle_in");
+  rig.hit(kNeedleIn, 3, 4, 4, 1);  // 5.7 mm
+  rig.hit(kNeedleIn, 3, 1, 1, 0);  // nobody saw it
+  rig.hit(kPortalPlaced, 3, 0, 0, 1);
+  rig.hit(kNeedleIn, 5, 0, 1, 1);
+  EXPECT_FALSE(rig.state.met);
+  rig.hit(kNeedleIn, 3, -3, 4, 1);
   EXPECT_TRUE(rig.state.met);
 }
 

@@ -225,7 +225,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     sources.graft = *graft;
   }
   watch.watch_tunnels(std::move(sources));
-  watch.watch_water(tray_of_hands(headless.hands));
+  watch.watch_tray(tray_of_hands(headless.hands));
   GraftOrder order;
   std::optional<ExamOrder> exam;
   if (watch.tunnels() && asks_for_exam(*plan))

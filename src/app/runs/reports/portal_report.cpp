@@ -59,6 +59,8 @@ nlohmann::ordered_json made_portals_json(std::span<const MadePortalFound> found,
     entry["shaft"] = components(portal.shaft_F, 1, "");
     entry["pierced"] = portal.pierced;
     entry["seen"] = portal.seen;
+    entry["from_needle_mm"] = nullptr;
+    if (portal.from_needle_m) entry["from_needle_mm"] = 1e3 * *portal.from_needle_m;
   }
   return json;
 }

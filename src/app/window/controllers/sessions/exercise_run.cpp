@@ -166,7 +166,7 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   sources.case_spec = case_spec();
   sources.in_background = true;
   watch_->watch_tunnels(std::move(sources));
-  watch_->watch_water(tray);
+  watch_->watch_tray(tray);
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   order_ = {};
