@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kFirm = 0.9;  // of the full load
 constexpr double kLachmanFrom_deg = 20, kLachmanTo_deg = 40;
-constexpr double kPivotFrom_deg = 15, kPivotTo_deg = 35;
+constexpr double kPivotFrom_deg = 15, kPivotTo_deg = 30;
 
 }  // namespace
 

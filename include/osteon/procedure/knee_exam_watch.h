@@ -33,7 +33,7 @@ struct KneeExam {
 
 /// Follows a knee that is examined by what snapshots say. A Lachman is done when the tibia was
 /// pulled with nine tenths of the full load or more while the knee was bent to 20 to 40 degrees; a
-/// pivot shift when its load stayed on while the knee was bent from 15 degrees or less to 35 or
+/// pivot shift when its load stayed on while the knee was bent from 15 degrees or less to 30 or
 /// more. Of a test that is done again the last one counts. A function of the snapshots: a replay
 /// finds the same. The hand of an event is the first.
 class KneeExamWatch {

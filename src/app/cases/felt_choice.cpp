@@ -39,7 +39,8 @@ std::optional<FeltChoice::Place> place_from(const std::string& text) {
   out.p_W = Vec3(numbers[0], numbers[1], numbers[2]) / 1000;
   const Vec3 inwards(numbers[3], numbers[4], numbers[5]);
   if (!(inwards.norm() > 0.5)) return std::nullopt;
-  out.inwards_W = inwards.normalized();
+  // What was written by to_text stays as it is.
+  out.inwards_W = std::abs(inwards.norm() - 1) < 1e-12 ? inwards : Vec3(inwards.normalized());
   return out;
 }
 

@@ -29,7 +29,7 @@ KneeGive give_from(const KneeModel& knee, const KneeLaxity& found, bool left) {
   return out;
 }
 
-Result<LaxityTestRow> row_of(const LigamentTable& table, const std::string& name) {
+Result<LaxityTestRow> laxity_row(const LigamentTable& table, const std::string& name) {
   for (const LaxityTestRow& row : table.tests)
     if (row.name == name) return row;
   return fail("has no test " + name, "table of ligaments");
@@ -55,7 +55,7 @@ Result<KneeGiveTable::Curve> curve_at(const KneeModel& knee, LaxityTestRow test,
 
 Result<KneeGiveTable> give_of_knee(const CaseDef& def, const LigamentTable& table,
                                    const KneeChanges& changes) {
-  const auto lachman = row_of(table, "lachman"), pivot = row_of(table, "pivot");
+  const auto lachman = laxity_row(table, "lachman"), pivot = laxity_row(table, "pivot");
   if (!lachman || !pivot) return tl::unexpected((lachman ? pivot : lachman).error());
   const auto knee = make_knee(def, table, changes);
   if (!knee) return tl::unexpected(knee.error());

@@ -355,7 +355,7 @@ void draw_loads(const PanelContext& c, const ExaminedKneeModel& exam) {
   const std::string pivot_help =
       "Of " + ui::number(exam.full_valgus_nm, 0) + " Nm valgus and " +
       ui::number(exam.full_internal_nm, 0) +
-      " Nm inwards. Load it below 15 degrees, then bend it to 35 or more";
+      " Nm inwards. Load it below 15 degrees, then bend it to 30 or more";
   ImGui::BeginDisabled(!exam.may);
   if (ui::slider("Lachman", &pull_n, 0, exam.full_n, "%.0f N",
                  "Your pull on the tibia to the front. Pull with all of it at 20 to 40 degrees"))

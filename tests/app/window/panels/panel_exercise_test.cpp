@@ -198,5 +198,40 @@ TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   EXPECT_TRUE(ui.click("##exercise", {"Exercises"}).exercise.back);
 }
 
+// Loads come with their sliders once the knee is known, and not where it is bent too far.
+TEST_F(ExercisePanel, AKneeIsExaminedBySliders) {
+  const auto pressed = [&](const char* slider) {
+    settle();
+    const ImVec2 at = ui.find("##running", {slider});
+    if (at.x < 0) return ExerciseRequests{};
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {at.x + 60, at.y};
+    ui.draw();
+    io.MouseDown[0] = true;
+    const ExerciseRequests out = ui.draw().exercise;
+    io.MouseDown[0] = false;
+    ui.draw();
+    return out;
+  };
+  BentKneeModel& knee = at(ExercisePage::kRunning).knee;
+  EXPECT_FALSE(pressed("##Knee").bend_deg);
+  knee.shown = knee.exam.shown = knee.exam.computing = true;
+  knee.most_deg = 130;
+  knee.exam.full_n = 134;
+  EXPECT_TRUE(pressed("##Knee").bend_deg);
+  EXPECT_FALSE(pressed("##Lachman").pull_n);
+  EXPECT_FALSE(pressed("##Graft's tail").tension_n);
+  knee.exam.computing = false;
+  const auto pull = pressed("##Lachman").pull_n, load = pressed("##Pivot shift").pivot_share;
+  ASSERT_TRUE(pull && load);
+  EXPECT_GT(*pull, 1);
+  EXPECT_LE(*pull, 134);
+  EXPECT_GT(*load, 0.01);
+  EXPECT_LE(*load, 1);
+  knee.exam.may = false;
+  EXPECT_FALSE(pressed("##Lachman").pull_n);
+  EXPECT_FALSE(pressed("##Pivot shift").pivot_share);
+}
+
 }  // namespace
 }  // namespace osteon

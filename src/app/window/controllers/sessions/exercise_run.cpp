@@ -217,7 +217,9 @@ BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
   const GraftPlacingState& placing = bones.placing;
   if (!watch_ || !case_ || case_->joints.empty() || page_ != ExercisePage::kRunning) return model;
   model.placed = placing.on && placing.phase == PlacingPhase::kTurned;
-  if (exam_ && (model.placed || asks_for_exam_now())) describe_exam(bones, model.exam);
+  // Once it was bent it can be bent back.
+  if (exam_ && (model.placed || asks_for_exam_now() || bones.bend.on))
+    describe_exam(bones, model.exam);
   model.shown = model.placed || model.exam.shown;
   if (!model.shown) return model;
   const CaseJoint& joint = case_->joints.front();
