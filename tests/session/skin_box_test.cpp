@@ -154,7 +154,7 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   without.contact.core = Vec3::Zero();
   without.radius_m = 0;
   std::string bytes = to_bytes(state);
-  ASSERT_EQ(bytes[0], 33);
+  ASSERT_EQ(bytes[0], 34);
   const std::size_t core = first_other(bytes, with_hand(state, other_core));
   const std::size_t radius = first_other(bytes, with_hand(state, other_radius));
   SkinState skin = *state.world.softs.skin;

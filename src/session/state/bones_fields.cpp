@@ -85,8 +85,7 @@ void field(A& a, BoneSnapshot& s) {
   field(a, s.bench);
   field(a, s.water);
   field(a, s.placing);
-  field(a, s.bend);
-  field(a, s.exam);
+  bend_fields(a, s.bend, s.exam);
   for (InsideList& list : s.inside) field(a, list);
 }
 

@@ -29,9 +29,7 @@ void field(A& a, GraftBenchState& value);
 template <class A>
 void field(A& a, GraftPlacingState& value);
 template <class A>
-void field(A& a, BendState& value);
-template <class A>
-void field(A& a, KneeExamState& value);
+void bend_fields(A& a, BendState& bend, KneeExamState& exam);
 template <class A>
 void field(A& a, ToldKnee& value);
 

@@ -4,7 +4,7 @@ namespace osteon::stored {
 namespace {
 
 constexpr std::uint64_t kTableWork = 25;  // that of muscle and thread on tendons
-constexpr std::uint64_t kExams = 33;      // that of a knee that is examined
+constexpr std::uint64_t kExams = 34;      // that of a knee that is examined
 constexpr std::uint64_t kOrders = 13;     // the version that says what graft was handed over
 
 }  // namespace
@@ -107,20 +107,8 @@ void field(A& a, GraftPlacingState& s) {
 }
 
 template <class A>
-void field(A& a, BendState& s) {
-  if (!since(a, 13)) return;  // no joint was bent then
-  field(a, s.on);
-  if (!s.on) return;
-  for (double* x : {&s.wanted_deg, &s.now_deg}) field(a, *x);
-  field(a, s.straight);
-  field(a, s.cycles);
-}
-
-template <class A>
 void field(A& a, KneeExamState& s) {
-  if (!since(a, kExams)) return;
   number(a, s.told, kKneeGiveNumbers);
-  if (s.told == 0) return;
   field(a, s.on);
   number(a, s.knee, kMostKneeState);
   field(a, s.digest);
@@ -132,9 +120,22 @@ void field(A& a, KneeExamState& s) {
   for (double* x : {&s.give.front_m, &s.give.other_front_m}) field(a, *x);
 }
 
+// Whether it was bent, and since kExams whether something was told of how it gives, are one word.
+template <class A>
+void bend_fields(A& a, BendState& s, KneeExamState& exam) {
+  if (!since(a, 13)) return;  // no joint was bent then
+  std::uint64_t known = (s.on ? 1u : 0u) + (exam.told > 0 ? 2u : 0u);
+  number(a, known, since(a, kExams) ? 3 : 1);
+  if constexpr (A::kReads) s.on = (known & 1u) != 0;
+  if ((known & 2u) != 0) field(a, exam);
+  if (!s.on) return;
+  for (double* x : {&s.wanted_deg, &s.now_deg}) field(a, *x);
+  field(a, s.straight);
+  field(a, s.cycles);
+}
+
 template <class A>
 void field(A& a, ToldKnee& told) {
-  if (!since(a, kExams)) return;
   std::uint64_t count = told ? told->size() : 0;
   number(a, count, kKneeGiveNumbers);
   if constexpr (A::kReads) {
@@ -150,10 +151,8 @@ template void field(Out&, GraftBenchState&);
 template void field(In&, GraftBenchState&);
 template void field(Out&, GraftPlacingState&);
 template void field(In&, GraftPlacingState&);
-template void field(Out&, BendState&);
-template void field(In&, BendState&);
-template void field(Out&, KneeExamState&);
-template void field(In&, KneeExamState&);
+template void bend_fields(Out&, BendState&, KneeExamState&);
+template void bend_fields(In&, BendState&, KneeExamState&);
 template void field(Out&, ToldKnee&);
 template void field(In&, ToldKnee&);
 

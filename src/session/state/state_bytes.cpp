@@ -3,7 +3,6 @@
 namespace osteon {
 namespace stored {
 
-constexpr std::uint64_t kKnees = 33;   // the version that says how a knee gives
 constexpr std::uint64_t kSights = 23;  // the version that says what a scope has seen
 
 // Which bones, bit by bit, and the ticks of those.
@@ -59,7 +58,6 @@ void field(A& a, HandState& h) {
 // A restore point knows the same of the knee as the world, mostly.
 template <class A>
 void knee_field(A& a, const ToldKnee& of_world, ToldKnee& told) {
-  if (!since(a, kKnees)) return;
   bool same = told == of_world || (told && of_world && *told == *of_world);
   field(a, same);
   if (same)
@@ -75,7 +73,7 @@ void field(A& a, WorldState& w) {
   field(a, w.carved);
   field(a, w.softs);
   field(a, w.rings);
-  field(a, w.knee);
+  if (w.bones.exam.told > 0) field(a, w.knee);
   for (WorldMark& mark : w.marks) {
     field(a, mark.set);
     if (!mark.set) continue;
@@ -84,7 +82,7 @@ void field(A& a, WorldState& w) {
     field(a, mark.carved);
     field(a, mark.softs);
     field(a, mark.rings);
-    knee_field(a, w.knee, mark.knee);
+    if (mark.bones.exam.told > 0) knee_field(a, w.knee, mark.knee);
   }
 }
 
