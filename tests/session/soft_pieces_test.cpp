@@ -18,7 +18,7 @@ using testing::DrivenHand;
 using testing::kMeniscusHalf;
 using testing::posed;
 
-enum : std::uint32_t { kBall, kBlade, kGrasper, kSuction };
+enum : std::uint32_t { kBall, kBlade, kPieceGrasper, kSuction };
 
 // What falls off the block lands on the bone.
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
@@ -169,7 +169,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
   }
   Session session = run.session();
   PieceHand hand(session);
-  hand.take(kGrasper, kFromEnd, {0.030, 0, 0});
+  hand.take(kPieceGrasper, kFromEnd, {0.030, 0, 0});
   hand.jaws(1);
   hand.move({0.0075, 0, 0}, 300);
   hand.jaws(0);
@@ -204,7 +204,7 @@ TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
   hand.rest(1500);
   ASSERT_EQ(lying(session).size(), 1u);
   const Vec3 at = middle_W(lying(session)[0]);
-  hand.take(kGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
+  hand.take(kPieceGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
   hand.jaws(1);
   hand.move({at.x(), at.y(), at.z()}, 300);
   hand.jaws(0);
