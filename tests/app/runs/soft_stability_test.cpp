@@ -37,19 +37,19 @@ struct SoftOutcome {
   double last_swing_m = 0, last_force_n = 0;
 };
 
-// From `from` at 50 mm/s to `to`, which the hand then aims at; the force comes a tick late.
+// From `from` at that speed to `to`, which the hand then aims at; the force comes a tick late.
 SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput& from,
-                         const Vec3& to_W) {
+                         const Vec3& to_W, double speed_m_per_s = 0.05) {
   VirtualHand hand({loop.mass_kg, kSoftGrip_n_per_m, loop.grip_n_s_per_m});
   Pose wanted = from.X_WD;
   hand.reset(wanted);
   const Vec3 way = to_W - from.X_WD.p;
-  const int moves = static_cast<int>(way.norm() / 0.05 / 1e-3);
+  const int moves = static_cast<int>(way.norm() / speed_m_per_s / 1e-3);
   Vec3 late = Vec3::Zero();
   std::vector<Vec3> place, speed;
   for (int i = 0; i < 2500; ++i) {
     wanted.p = from.X_WD.p + std::min(1.0, static_cast<double>(i) / moves) * way;
-    const Vec3 wanted_v = i < moves ? Vec3(0.05 * way.normalized()) : Vec3(Vec3::Zero());
+    const Vec3 wanted_v = i < moves ? Vec3(speed_m_per_s * way.normalized()) : Vec3(Vec3::Zero());
     ToolInput input;
     input.X_WD = hand.pose();
     input.v_W = hand.velocity();
@@ -75,7 +75,7 @@ SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput
   return out;
 }
 
-void expect_rest(const SoftOutcome& o, const SoftLoop& loop) {
+void expect_rest(const SoftOutcome& o, const SoftLoop& loop, double least_n = 0.5) {
   SCOPED_TRACE("mass " + std::to_string(loop.mass_kg) + " grip " +
                std::to_string(loop.grip_n_s_per_m) + " k " +
                std::to_string(loop.stiffness_n_per_m));
@@ -83,7 +83,7 @@ void expect_rest(const SoftOutcome& o, const SoftLoop& loop) {
   for (std::size_t i = 1; i < o.window_energy.size(); ++i)
     EXPECT_LE(o.window_energy[i], 0.85 * o.window_energy[i - 1] + kNothing) << "window " << i;
   EXPECT_LT(o.last_swing_m, 3e-5);
-  EXPECT_GT(o.last_force_n, 0.5) << "it must be pressed";
+  EXPECT_GT(o.last_force_n, least_n) << "it must be pressed";
 }
 
 TEST(SoftStability, AMeniscusPressedOrLiftedComesToRest) {
@@ -118,14 +118,14 @@ TEST(SoftStability, ALigamentTautOrSlackComesToRest) {
   }
 }
 
-// The grasper is the last in the tray.
+// It is the last in the tray.
 template <class Run>
-void add_grasper(Run& run) {
+void add_gripper(Run& run, const char* name) {
   const auto instruments = load_instruments();
   ASSERT_TRUE(instruments);
-  const Instrument* grasper = find_instrument(*instruments, "grasper");
-  run.settings.tray.emplace_back("grasper");
-  run.tray.push_back(std::make_shared<const Tool>(make_tool(*grasper, grasper->usual_size)));
+  const Instrument* gripper = find_instrument(*instruments, name);
+  run.settings.tray.emplace_back(name);
+  run.tray.push_back(std::make_shared<const Tool>(make_tool(*gripper, gripper->usual_size)));
   auto grippers = make_soft_grippers(run.settings.tray);
   ASSERT_TRUE(grippers);
   SoftSetup setup = *run.softs;
@@ -149,7 +149,7 @@ void expect_rest_of_held(Session session, const SoftLoop& loop, const ToolInput&
 TEST(SoftStability, AHeldLigamentDrawnAsideComesToRest) {
   for (const double strain : {0.05, -0.01}) {
     testing::BandRun run(testing::band_table(strain));
-    add_grasper(run);
+    add_gripper(run, "grasper");
     for (const SoftLoop& loop : soft_loops()) {
       run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
       ToolInput at;
@@ -161,7 +161,7 @@ TEST(SoftStability, AHeldLigamentDrawnAsideComesToRest) {
 
 TEST(SoftStability, AHeldMeniscusLiftedComesToRest) {
   testing::MeniscusRun run = testing::meniscus_run();
-  add_grasper(run);
+  add_gripper(run, "grasper");
   for (const SoftLoop& loop : soft_loops()) {
     run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
     ToolInput at;
@@ -169,6 +169,44 @@ TEST(SoftStability, AHeldMeniscusLiftedComesToRest) {
     at.X_WD.q = Quat((Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished());  // z to +x, y to +z
     expect_rest_of_held(run.session(), loop, at, {0, 0, 0.009}, 1);
   }
+}
+
+// Suction under full power at `from`, drawn away by a hand to `off`, where it still holds, or
+// farther than it can: in 0.4 s, so that its own swing does not pull it off.
+template <class Run>
+void expect_rest_under_suction(Run run, const Vec3& surface_W) {
+  add_gripper(run, "suction");
+  const double mouth_m = run.softs->grippers[1]->bore_T.z();
+  const double full_n = suction_at(*run.softs->grippers[1], 0);
+  const auto over = [&](double gap_m) { return Vec3(surface_W + Vec3(0, 0, gap_m - mouth_m)); };
+  for (const SoftLoop& loop : soft_loops()) {
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    for (const double gap_m : {0.0002, 0.006}) {
+      Session session = run.session();
+      ToolInput at;
+      at.X_WD.p = over(0.00001);
+      (void)session.tick(at, {CommandKind::kTake, 1});
+      for (int n = 0; n < 50; ++n) (void)session.tick(at);
+      (void)session.tick(at, {CommandKind::kPower, 1});
+      for (int n = 0; n < 50; ++n) (void)session.tick(at);
+      ASSERT_NE(session.softs()->state().grips[0].hold.of, SoftHold::Of::kNothing);
+      const bool holds = gap_m < 0.001;
+      const SoftOutcome o = press_softly(session, loop, at, over(gap_m), gap_m / 0.4);
+      expect_rest(o, loop, holds ? 0.05 * full_n : -1);
+      EXPECT_EQ(session.softs()->state().grips[0].hold.of != SoftHold::Of::kNothing, holds);
+      EXPECT_LE(o.last_force_n, full_n + 1e-9);
+    }
+  }
+}
+
+TEST(SoftStability, ALigamentUnderSuctionComesToRest) {
+  expect_rest_under_suction(testing::BandRun(testing::band_table(0.01)),
+                            testing::kBandMiddle + Vec3(0, 0, testing::kBandRadius_m));
+}
+
+TEST(SoftStability, AMeniscusUnderSuctionComesToRest) {
+  expect_rest_under_suction(testing::meniscus_run(),
+                            Vec3(0.002, 0.001, testing::kMeniscusHalf.z()));
 }
 
 }  // namespace
