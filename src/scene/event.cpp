@@ -87,6 +87,8 @@ constexpr std::array kRows = {
                  {"duration_s", "deepest_mm", "pull_n"}},
     EventKindRow{
         kSoftCleared, "soft_cleared", "clears", S::kSoftPart, {"percent", "all_percent", ""}},
+    EventKindRow{
+        kPortalMade, "portal_made", "makes", S::kPortal, {"off_mm", "pierced", "across_mm"}},
     EventKindRow{kSoftPieceHeld,
                  "soft_piece_held",
                  "holds a piece of",
@@ -107,8 +109,6 @@ constexpr std::array kRows = {
                  "is rid of a piece of",
                  S::kSoftPart,
                  {"volume_mm3", "", ""}},
-    EventKindRow{
-        kPortalMade, "portal_made", "makes", S::kPortal, {"off_mm", "pierced", "across_mm"}},
     EventKindRow{
         kCutBegin, "cut_begin", "begins to cut", S::kBone, {"diameter_mm", "thrust_n", ""}},
     EventKindRow{kCutEnd,
