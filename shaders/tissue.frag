@@ -10,6 +10,7 @@ in vec4 v_shade;  // openness, cavity, mottle
 // KIND: 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel
 uniform vec3 u_tint;      // the part's own colour, display
 uniform vec3 u_fibre;     // unit, along the fibres, in the part's frame; of a meniscus: its axis
+uniform float u_fineness;  // of a ligament's fibres: 1 for thick ones
 uniform vec3 u_center;    // of the part, in its frame
 uniform float u_light;    // strength at 10 mm
 
@@ -157,12 +158,12 @@ Look meniscus_look(vec3 p) {
 }
 
 Look ligament_look(vec3 p) {
-  float f = fibres(p, u_fibre, 2200.0);
-  float bundle = fibres(p, u_fibre, 480.0);
+  float f = fibres(p, u_fibre, 2200.0 * u_fineness);
+  float bundle = fibres(p, u_fibre, 480.0 * u_fineness);
   vec3 c = mix(vec3(0.70, 0.55, 0.42), vec3(0.93, 0.86, 0.74), 0.55 * f + 0.45 * bundle);
   float v = vessels(p, u_fibre, 7.0, 620.0, 1.0e-4);
   c = mix(c, vec3(0.66, 0.22, 0.17), 0.4 * v);
-  return Look(c, 6e-5 * f + 2.2e-4 * bundle, 45.0, 0.40, 0.25);
+  return Look(c, (6e-5 * f + 2.2e-4 * bundle) / u_fineness, 45.0, 0.40, 0.25);
 }
 
 Look synovium_look(vec3 p) {

@@ -2,16 +2,45 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "osteon/base/turn.h"
 #include "osteon/mesh/measure.h"
 #include "surface/shapes.h"
 
 namespace osteon {
+
+namespace {
+
+constexpr double kThickBand_m = 0.004;  // the fibres of a cruciate ligament are drawn as they are
+constexpr double kFinestFibres = 3;
+
+// From the footprints on one bone to those on the other; none where there are not just two bones.
+std::optional<Vec3> between_footprints(const SoftPart& soft) {
+  constexpr double kTooNear_m = 0.001;
+  std::vector<BoneId> bones;
+  std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
+  std::array<int, 2> counts{};
+  for (const Attachment& at : soft.attachments) {
+    const auto known = std::find(bones.begin(), bones.end(), at.bone);
+    const auto end = static_cast<std::size_t>(known - bones.begin());
+    if (end == sums.size()) return std::nullopt;
+    if (known == bones.end()) bones.push_back(at.bone);
+    sums[end] += at.p_W;
+    ++counts[end];
+  }
+  if (bones.size() != sums.size()) return std::nullopt;
+  const Vec3 way = sums[1] / counts[1] - sums[0] / counts[0];
+  if (!(way.norm() > kTooNear_m)) return std::nullopt;
+  return way.normalized();
+}
+
+}  // namespace
 
 TissuePattern pattern_of(std::string_view kind) {
   if (kind == "cartilage") return TissuePattern::kCartilage;
@@ -20,17 +49,26 @@ TissuePattern pattern_of(std::string_view kind) {
   return kind == "fat" ? TissuePattern::kFat : TissuePattern::kBone;
 }
 
-void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue) {
+void find_fibres(const SoftPart& soft, TissuePart& tissue) {
+  const std::vector<Vec3>& vertices = soft.mesh_W.vertices;
   if (vertices.empty()) return;
+  const double share = 1 / static_cast<double>(vertices.size());
   Vec3 center = Vec3::Zero();
-  for (const Vec3& v : vertices) center += v / static_cast<double>(vertices.size());
+  for (const Vec3& v : vertices) center += share * v;
   Mat3 spread = Mat3::Zero();
-  for (const Vec3& v : vertices) spread += (v - center) * (v - center).transpose();
+  for (const Vec3& v : vertices) spread += share * (v - center) * (v - center).transpose();
   if (!spread.allFinite()) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
-  const int column = tissue.pattern == TissuePattern::kMeniscus ? 0 : 2;
-  tissue.fibre = axes.eigenvectors().col(column).cast<float>();
+  const bool meniscus = tissue.pattern == TissuePattern::kMeniscus;
+  Vec3 fibre = axes.eigenvectors().col(meniscus ? 0 : 2);
+  if (!meniscus)
+    if (const auto way = between_footprints(soft)) fibre = *way;
+  tissue.fibre = fibre.cast<float>();
   tissue.center = center.cast<float>();
+  // Points of a band's two sides lie half its thickness off the middle.
+  const double thick_m = 2 * std::sqrt(std::max(axes.eigenvalues()[0], 0.0));
+  tissue.fineness =
+      static_cast<float>(std::clamp(kThickBand_m / std::max(thick_m, 1e-6), 1.0, kFinestFibres));
 }
 
 bool faces_out(const TriMesh& mesh) {

@@ -5,6 +5,7 @@
 
 #include "osteon/base/types.h"
 #include "osteon/mesh/tri_mesh.h"
+#include "osteon/scene/case.h"
 #include "osteon/scene/placing.h"
 #include "surface/tissue_part.h"
 
@@ -12,8 +13,9 @@ namespace osteon {
 
 /// How a soft part of a kind looks, as cases name kinds.
 TissuePattern pattern_of(std::string_view kind);
-/// Fibres run along a band's longest axis; a meniscus lies across its shortest.
-void find_fibres(const std::vector<Vec3>& vertices, TissuePart& tissue);
+/// Fibres run from one bone to the other, where a part tells its footprints on just two, else along
+/// its longest axis; they are the finer the thinner it is. A meniscus lies across its shortest.
+void find_fibres(const SoftPart& soft, TissuePart& tissue);
 /// Closed, its triangles outwards.
 bool faces_out(const TriMesh& mesh);
 /// Share of half the flat picture's width to which the round picture and what softening spreads

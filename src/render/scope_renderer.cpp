@@ -183,6 +183,7 @@ struct ScopeRenderer::Impl {
     program.set("u_view_from_model", to_matrix(X_CM));
     program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
     program.set("u_fibre", part.fibre);
+    program.set("u_fineness", part.fineness);
     program.set("u_center", part.center);
   }
   const Program& program_of(const TissuePart& part, bool depth_alone) const {
@@ -440,7 +441,7 @@ void ScopeRenderer::Impl::add_parts(const Case& the_case) {
     part.tint = soft.color_srgb;
     part.faces_out = faces_out(soft.mesh_W);
     for (const BoneId bone : soft.bones) part.rides_on.push_back(bone.index);
-    find_fibres(soft.mesh_W.vertices, part);
+    find_fibres(soft, part);
     part.middle = part.center.cast<double>();
     parts.push_back(std::move(part));
   }

@@ -46,5 +46,56 @@ TEST(UnseenCorners, KeepOffTheRoundPictureAndCoverMostOfTheRest) {
   }
 }
 
+// A band of these half sizes about the origin.
+SoftPart band(const Vec3& half) {
+  SoftPart soft;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0})
+        soft.mesh_W.vertices.push_back(half.cwiseProduct(Vec3(x, y, z)));
+  return soft;
+}
+
+TissuePart found(const SoftPart& soft, TissuePattern pattern = TissuePattern::kFibres) {
+  TissuePart part;
+  part.pattern = pattern;
+  find_fibres(soft, part);
+  return part;
+}
+
+TEST(FibresOfAPart, OfNothingAreAsTheyWere) {
+  const TissuePart part = found({});
+  EXPECT_EQ(part.fibre, TissuePart().fibre);
+  EXPECT_EQ(part.fineness, 1);
+  const TissuePart flat = found(band(Vec3(0.01, 0.004, 0)));
+  EXPECT_EQ(flat.fineness, 3);
+}
+
+TEST(FibresOfAPart, WithoutFootprintsRunAlongItsLongestAxis) {
+  EXPECT_NEAR(std::abs(found(band({0.003, 0.010, 0.002})).fibre.y()), 1, 1e-6);
+  const auto meniscus = found(band({0.003, 0.010, 0.002}), TissuePattern::kMeniscus);
+  EXPECT_NEAR(std::abs(meniscus.fibre.z()), 1, 1e-6);
+}
+
+// The scapholunate ligament is wider than it is long.
+TEST(FibresOfAPart, RunFromOneBoneToTheOtherHoweverWideItIs) {
+  SoftPart soft = band({0.0015, 0.005, 0.0008});
+  soft.attachments = {{"a", BoneId{3}, Vec3(-0.002, 0.004, 0)},
+                      {"b", BoneId{1}, Vec3(0.002, 0.001, 0)},
+                      {"c", BoneId{3}, Vec3(-0.002, -0.004, 0)},
+                      {"d", BoneId{1}, Vec3(0.002, -0.001, 0)}};
+  const TissuePart part = found(soft);
+  EXPECT_NEAR(std::abs(part.fibre.x()), 1, 1e-6);
+  EXPECT_NEAR(part.fineness, 0.004 / 0.0016, 1e-5);
+  soft.attachments.push_back({"e", BoneId{2}, Vec3::Zero()});
+  EXPECT_NEAR(std::abs(found(soft).fibre.y()), 1, 1e-6);
+  soft.attachments = {{"a", BoneId{3}, Vec3::Zero()}, {"b", BoneId{1}, Vec3(0.0005, 0, 0)}};
+  EXPECT_NEAR(std::abs(found(soft).fibre.y()), 1, 1e-6);
+}
+
+TEST(FibresOfAPart, OfAThickOneAreNotCoarser) {
+  EXPECT_EQ(found(band({0.005, 0.016, 0.0035})).fineness, 1);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -28,6 +28,7 @@ struct TissuePart {
   std::vector<std::size_t> rides_on;      ///< bones; of a soft part
   std::vector<ShadedMesh::Shade> shades;  ///< of its vertices at rest, of a soft part
   Vec3 middle = Vec3::Zero();             ///< at rest, of a soft part
+  float fineness = 1;                     ///< of a ligament's fibres
   Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
 };
 
