@@ -42,8 +42,9 @@ Eigen::Matrix4f flat_projection(double half) {
   return m.cast<float>();
 }
 
-/// How far a coarser surface may lie off in a window, in pixels of the flat picture.
-constexpr double kScopeLevelError_px = 1.0;
+/// How far a coarser surface may lie off in a moving picture of a window, in pixels of the flat
+/// picture, which has 0.7 of the window's.
+constexpr double kScopeLevelError_px = 1.4;
 
 constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
 
