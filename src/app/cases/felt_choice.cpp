@@ -138,8 +138,9 @@ Result<void> apply(const FeltChoice& choice, CaseDef& def) {
                   "'osteon case info' lists the bones");
   }
   for (const auto& [name, place] : choice.portals) {
-    const auto mark = std::find_if(def.landmarks.begin(), def.landmarks.end(),
-                                   [&](const Landmark& landmark) { return landmark.name == name; });
+    const auto mark =
+        std::find_if(def.landmarks.begin(), def.landmarks.end(),
+                     [&of = name](const Landmark& landmark) { return landmark.name == of; });
     if (mark == def.landmarks.end())
       return fail("there is no portal '" + name + "'", "case '" + def.name + "'");
     mark->p_W = place.p_W;
