@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "gl/flush_now_and_then.h"
 #include "gl/frame.h"
 #include "gl/gl_objects.h"
 #include "gl/gpu_mesh.h"
@@ -19,7 +20,9 @@
 #include "renderer_impl.h"
 #include "scope_bits.h"
 #include "scope_lens.h"
+#include "scope_painted.h"
 #include "scope_parts.h"
+#include "scope_programs.h"
 #include "surface/changed_cubes.h"
 #include "surface/loose_surface.h"
 #include "surface/moved_light.h"
@@ -48,62 +51,10 @@ constexpr double kScopeLevelError_px = 1.4;
 
 constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
 
-/// Less than a student can see: of a place, and of a turn (the sine of its half).
-constexpr double kStill_m = 2e-6, kStill_turn = 2e-5;
-
-/// A processor that draws begins on what it has been given while it is given the rest.
-class FlushNowAndThen {
- public:
-  void after(int triangles) {
-    constexpr int kAtOnce = 12'000;
-    given_ += triangles;
-    if (given_ < kAtOnce) return;
-    glFlush();
-    given_ = 0;
-  }
-
- private:
-  int given_ = 0;  ///< triangles since the last
-};
-
-bool looks_still(const Pose& a, const Pose& b) {
-  return (a.p - b.p).norm() < kStill_m && (a.q.conjugate() * b.q).vec().norm() < kStill_turn;
-}
-
-bool looks_still(const std::vector<Pose>& a, const std::vector<Pose>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Pose& p, const Pose& q) { return looks_still(p, q); });
-}
-
 }  // namespace
 
-constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
-
 struct ScopeRenderer::Impl {
-  /// How the picture that is kept was drawn.
-  struct Painted {
-    int side_px = 0;
-    Pose X_WC;
-    double half_field_rad = 0, barrel = 1;
-    std::vector<Pose> parts, tools;
-    std::vector<std::size_t> instruments;
-    std::vector<float> ghosts;
-    std::uint64_t version = 0, wall = 0;
-    ScopeWater water;
-    Vec3 white = Vec3::Ones();
-    std::vector<WaterBit> bits;
-    bool still(const Painted& b) const {
-      return side_px == b.side_px && half_field_rad == b.half_field_rad && barrel == b.barrel &&
-             instruments == b.instruments && ghosts == b.ghosts && version == b.version &&
-             wall == b.wall && water == b.water && white == b.white && bits == b.bits &&
-             looks_still(X_WC, b.X_WC) && looks_still(parts, b.parts) &&
-             looks_still(tools, b.tools);
-    }
-  };
-
-  std::array<Program, kPatterns> tissues;  ///< by TissuePattern
-  Program depth;                           ///< writes no light
-  Program changed_bone, changed_cartilage;
+  ScopePrograms programs;
   ScopeLens lens;
   ScopeBits bits;
   std::optional<ScenePainter> scene;  ///< that the surfaces belong to; none: they are the parts'
@@ -134,7 +85,7 @@ struct ScopeRenderer::Impl {
   int corners_px = 0;
   RenderTarget picture;
   bool software = false;
-  std::optional<Painted> painted;
+  std::optional<ScopePainted> painted;
   int calm = 0;  ///< pictures since the last that moved
   double gain = 0;
   double nearest_m = 0;  ///< what the flat picture shows is no nearer
@@ -175,21 +126,6 @@ struct ScopeRenderer::Impl {
     return loose_part_of(*soft, rest_X_WB[shown.bone]);
   }
 
-  static void begin(const Program& program, double half) {
-    program.use();
-    program.set("u_clip_from_view", flat_projection(half));
-    program.set("u_light", 1.0f);
-  }
-  static void describe(const Program& program, const TissuePart& part, const Pose& X_CM) {
-    program.set("u_view_from_model", to_matrix(X_CM));
-    program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
-    program.set("u_fibre", part.fibre);
-    program.set("u_fineness", part.fineness);
-    program.set("u_center", part.center);
-  }
-  const Program& program_of(const TissuePart& part, bool depth_alone) const {
-    return depth_alone ? depth : tissues[static_cast<std::size_t>(part.pattern)];
-  }
   /// What the tip lies in gives way to it: it is not seen from inside.
   static bool one_sided(const TissuePart& part) {
     return part.faces_out || part.pattern == TissuePattern::kFat;
@@ -243,18 +179,14 @@ struct ScopeRenderer::Impl {
 
   void paint_part(const Seen& seen, double half, bool depth_alone) const {
     const TissuePart& part = *seen.part;
-    const Program& program = program_of(part, depth_alone);
     const ChangedCubes* const cubes_of = changed(part);
     if (cubes_of) {
-      const bool cartilage = part.pattern == TissuePattern::kCartilage;
-      const Program& old = cartilage ? changed_cartilage : changed_bone;
-      begin(old, half);
-      describe(old, part, seen.X_CM);
+      const Program& old = programs.changed(part);
+      ScopePrograms::begin(old, part, flat_projection(half), seen.X_CM);
       cubes_of->hide(old);
       seen.mesh->draw(seen.stretches);
     }
-    begin(program, half);
-    describe(program, part, seen.X_CM);
+    ScopePrograms::begin(programs.of(part, depth_alone), part, flat_projection(half), seen.X_CM);
     if (cubes_of) return cubes_of->draw();
     if (one_sided(part)) glEnable(GL_CULL_FACE);
     seen.mesh->draw(seen.stretches);
@@ -270,6 +202,7 @@ struct ScopeRenderer::Impl {
   /// Nothing is drawn behind them.
   void hide_corners() const {
     if (corners.empty()) return;
+    const Program& depth = programs.depth();
     depth.use();
     depth.set("u_clip_from_view", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
     depth.set("u_view_from_model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
@@ -339,8 +272,8 @@ struct ScopeRenderer::Impl {
     lens.paint(flat, picture, {camera, half, nearest_m, exposure, white, viewport}, water);
   }
 
-  Painted as_it_is(const ScopeCamera& camera, int side_px) const {
-    Painted now;
+  ScopePainted as_it_is(const ScopeCamera& camera, int side_px) const {
+    ScopePainted now;
     now.side_px = side_px;
     now.X_WC = camera.X_WC();
     now.half_field_rad = camera.half_field_rad();
@@ -398,21 +331,9 @@ Result<std::unique_ptr<ScopeRenderer::Impl>> ScopeRenderer::Impl::load(
     const std::filesystem::path& data_dir) {
   auto impl = std::make_unique<Impl>();
   const std::filesystem::path shaders = data_dir / "shaders";
-  for (std::size_t k = 0; k < kPatterns; ++k) {
-    const std::string kind = "#define KIND " + std::to_string(k) + "\n";
-    auto tissue = Program::load_with(shaders, "tissue", "tissue", kind);
-    if (!tissue) return tl::unexpected(tissue.error());
-    impl->tissues[k] = std::move(*tissue);
-  }
-  auto depth = Program::load(shaders, "tissue", "depth");
-  if (!depth) return tl::unexpected(depth.error());
-  impl->depth = std::move(*depth);
-  auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
-  if (!changed) return tl::unexpected(changed.error());
-  impl->changed_bone = std::move(*changed);
-  auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
-  if (!layer) return tl::unexpected(layer.error());
-  impl->changed_cartilage = std::move(*layer);
+  auto programs = ScopePrograms::load(shaders);
+  if (!programs) return tl::unexpected(programs.error());
+  impl->programs = std::move(*programs);
   auto lens = ScopeLens::load(shaders);
   if (!lens) return tl::unexpected(lens.error());
   impl->lens = std::move(*lens);
@@ -625,7 +546,7 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   const int size = std::clamp(side_px, 16, kMaxImageSide);
   const Viewport viewport{0, 0, size, size};
   impl_->make_placed();
-  Impl::Painted now = impl_->as_it_is(camera, size);
+  ScopePainted now = impl_->as_it_is(camera, size);
   const bool first = !impl_->painted;
   impl_->calm = !first && impl_->painted->still(now) ? impl_->calm + 1 : 0;
   if (impl_->calm > kSettled) return true;

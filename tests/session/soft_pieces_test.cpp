@@ -93,6 +93,14 @@ std::span<const FallenPiece> lying(const Session& session) { return session.soft
 
 Vec3 middle_W(const FallenPiece& piece) { return piece.X_WB * piece.shape->middle_B(); }
 
+// The end is cut off and lies on the bone.
+Vec3 where_it_comes_to_rest(PieceHand& hand) {
+  hand.cut_end_off();
+  hand.rest(1500);
+  const auto all = lying(hand.session);
+  return all.empty() ? Vec3(Vec3::Zero()) : middle_W(all[0]);
+}
+
 // The bone lies 17 mm under the block; nothing holds what falls.
 TEST(SoftPieces, WhatIsCutOffFallsAndComesToRest) {
   Session session = pieces_run().session();
@@ -200,10 +208,8 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
 TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
   Session session = pieces_run().session();
   PieceHand hand(session);
-  hand.cut_end_off();
-  hand.rest(1500);
+  const Vec3 at = where_it_comes_to_rest(hand);
   ASSERT_EQ(lying(session).size(), 1u);
-  const Vec3 at = middle_W(lying(session)[0]);
   hand.take(kPieceGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
   hand.jaws(1);
   hand.move({at.x(), at.y(), at.z()}, 300);
@@ -223,10 +229,8 @@ TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
 TEST(SoftPieces, ItSticksToSuctionThatIsNarrowerThanItIs) {
   Session session = pieces_run().session();
   PieceHand hand(session);
-  hand.cut_end_off();
-  hand.rest(1500);
+  const Vec3 at = where_it_comes_to_rest(hand);
   ASSERT_EQ(lying(session).size(), 1u);
-  const Vec3 at = middle_W(lying(session)[0]);
   hand.take(kSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
   hand.tick({CommandKind::kPower, 1});
   hand.move({at.x(), at.y(), at.z() + 0.0035}, 400);

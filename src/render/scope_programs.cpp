@@ -1,0 +1,42 @@
+#include "scope_programs.h"
+
+#include <string>
+#include <utility>
+
+#include "gl/frame.h"
+
+namespace osteon {
+
+Result<ScopePrograms> ScopePrograms::load(const std::filesystem::path& shaders) {
+  ScopePrograms out;
+  for (std::size_t k = 0; k < kPatterns; ++k) {
+    const std::string kind = "#define KIND " + std::to_string(k) + "\n";
+    auto tissue = Program::load_with(shaders, "tissue", "tissue", kind);
+    if (!tissue) return tl::unexpected(tissue.error());
+    out.tissues_[k] = std::move(*tissue);
+  }
+  auto depth = Program::load(shaders, "tissue", "depth");
+  if (!depth) return tl::unexpected(depth.error());
+  out.depth_ = std::move(*depth);
+  auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
+  if (!changed) return tl::unexpected(changed.error());
+  out.changed_bone_ = std::move(*changed);
+  auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
+  if (!layer) return tl::unexpected(layer.error());
+  out.changed_cartilage_ = std::move(*layer);
+  return out;
+}
+
+void ScopePrograms::begin(const Program& program, const TissuePart& part,
+                          const Eigen::Matrix4f& clip_from_view, const Pose& X_CM) {
+  program.use();
+  program.set("u_clip_from_view", clip_from_view);
+  program.set("u_light", 1.0f);
+  program.set("u_view_from_model", to_matrix(X_CM));
+  program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
+  program.set("u_fibre", part.fibre);
+  program.set("u_fineness", part.fineness);
+  program.set("u_center", part.center);
+}
+
+}  // namespace osteon
