@@ -82,10 +82,7 @@ void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
 // What rests on bone falls on when bone is cut or moves.
 void Carving::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                           double step_s) {
-  bool stirred = !changed_.empty();
-  for (std::uint32_t b = 0; b < bones.count && !stirred; ++b)
-    stirred = !bones.bones[b].v_W.isZero(0) || !bones.bones[b].w_W.isZero(0);
-  pieces_->step(tools, bones, carved_fields_, stirred, step_s);
+  pieces_->step(tools, bones, carved_fields_, !changed_.empty(), step_s);
   for (const PieceNews& news : pieces_->news()) {
     using Is = PieceNews::Is;
     const EventKind kind = news.is == Is::kHeld     ? kPieceHeld

@@ -63,7 +63,8 @@ class FallenPieces {
 
   explicit FallenPieces(std::shared_ptr<const PiecesSetup> setup);
 
-  /// `stirred`: bone was cut or put elsewhere in this step, so that what rests may rest no more.
+  /// `stirred`: bone was cut in this step, so that what rests may rest no more; so it may where a
+  /// bone moves.
   /// `carved`: of each bone; null where it is as it was.
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
             std::span<const CarvedField* const> carved, bool stirred, double step_s);

@@ -26,6 +26,13 @@ bool is_sound(const FallenPiece& piece, std::size_t bones) {
          is_finite(piece.X_PB) && held == (piece.hand < kMaxHands);
 }
 
+bool any_moves(const BoneSnapshot& bones) {
+  const auto moves = [](const BoneMotion& bone) {
+    return !bone.v_W.isZero(0) || !bone.w_W.isZero(0);
+  };
+  return std::any_of(bones.bones.begin(), bones.bones.begin() + bones.count, moves);
+}
+
 }  // namespace
 
 FallenPieces::FallenPieces(std::shared_ptr<const PiecesSetup> setup) : setup_(std::move(setup)) {
@@ -212,6 +219,7 @@ void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnaps
     heed_suction(static_cast<std::uint8_t>(h), *tools[h], step_s);
   }
   if (state_.pieces.empty()) return;
+  stirred = stirred || any_moves(bones);
   const PieceSurroundings around{*setup_, tools.first(hands), bones, carved};
   const Aabb seen = setup_->box_W.grown(kFarOut_m);
   for (std::size_t i = 0; i < state_.pieces.size(); ++i) {

@@ -13,14 +13,6 @@ namespace {
 
 constexpr double kMm3_per_m3 = 1e9;
 
-bool stirs(const BoneSnapshot& bones) {
-  const auto moves = [](const BoneMotion& bone) {
-    return !bone.v_W.isZero(0) || !bone.w_W.isZero(0);
-  };
-  return std::any_of(bones.bones.begin(),
-                     bones.bones.begin() + std::min<std::size_t>(bones.count, kMaxBones), moves);
-}
-
 }  // namespace
 
 std::span<const FallenPiece> SoftWorld::lying() const {
@@ -47,7 +39,7 @@ void SoftWorld::lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> 
 // Before the cuts of the step: what comes off in it moves in the next.
 void SoftWorld::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                             std::span<const CarvedField* const> carved) {
-  pieces_->step(tools, bones, carved, stirs(bones), step_s_);
+  pieces_->step(tools, bones, carved, false, step_s_);
 }
 
 void SoftWorld::tell_pieces() {
