@@ -12,11 +12,7 @@
 namespace osteon {
 namespace {
 
-/// Height of the layer's edge, of its thickness (D): what thins out to nothing cannot be filled
-/// with elements of good shape.
-constexpr double kRimShare = 0.4;
-constexpr double kMostRim_m = 3.5e-4;  // and at most that (D)
-constexpr double kLeast_m = 5e-5;      // where bones nearly meet
+constexpr double kLeast_m = 5e-5;  // at the rim, and where bones nearly meet
 constexpr int kRimRounds = 8;
 constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
@@ -26,9 +22,12 @@ constexpr double kAtDefect_m = 1e-4;     // a rim so near to one is the defect's
 constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
 
 double rim_height(const LayerDescription& layer) {
-  if (layer.rim > 0) return std::min(layer.rim, layer.thickness);
-  return std::min(kRimShare * layer.thickness, kMostRim_m);
+  return std::min(layer.rim > 0 ? layer.rim : kLeast_m, layer.thickness);
 }
+
+/// Rises from the rim in a round shoulder, so that no ledge stands there and the edge is still a
+/// wedge that elements of good shape fill.
+double shoulder(double share) { return share * (2 - share); }
 
 /// How far the nearest of `bones` lies, at most `limit`, and whether the normal points at it.
 struct Facing {
@@ -145,9 +144,8 @@ class LayerMaker {
 
   double height(const CoveredVertex& v) {
     const double share = std::clamp(v.inside / layer_.taper, 0.0, 1.0);
-    const double taper = share * share * (3 - 2 * share);
     const double rim = rim_height(layer_);
-    const double wanted = rim + (layer_.thickness - rim) * taper;
+    const double wanted = rim + (layer_.thickness - rim) * shoulder(share);
     const double reach = 2 * layer_.thickness + layer_.clearance;
     const double gap = nearest(v.p, v.normal, others_, surfaces_, reach).distance;
     const double room = 0.5 * (gap - layer_.clearance);
