@@ -27,7 +27,7 @@ double rim_height(const LayerDescription& layer) {
 
 /// Rises from the rim in a round shoulder, so that no ledge stands there and the edge is still a
 /// wedge that elements of good shape fill.
-double shoulder(double share) { return share * (2 - share); }
+double shoulder(double share) { return share * (1 + share * (1 - share)); }
 
 /// How far the nearest of `bones` lies, at most `limit`, and whether the normal points at it.
 struct Facing {
@@ -103,6 +103,7 @@ class LayerMaker {
     const auto at_defect = [&](const Vec3& p) { return outside_defects(p) < kAtDefect_m; };
     even_rim(bone.surface, whole, at_defect, patch);
     raise(patch);
+    unfold(patch);
     return raise_patch(patch);
   }
 
@@ -119,6 +120,28 @@ class LayerMaker {
       for (const std::uint32_t v : t) wanted[v] = true;
     for (std::size_t v = 0; v < wanted.size(); ++v)
       if (wanted[v]) patch.vertices[v].height = height(patch.vertices[v]);
+  }
+
+  /// Lowers the corners of triangles whose outer side would turn over.
+  static void unfold(CoveredPatch& patch) {
+    constexpr double kLowered = 0.7;
+    const auto outer = [&](std::uint32_t v) -> Vec3 {
+      return patch.vertices[v].p + patch.vertices[v].height * patch.vertices[v].normal;
+    };
+    for (bool again = true; again;) {
+      again = false;
+      for (const Triangle& t : patch.triangles) {
+        const Vec3& a = patch.vertices[t[0]].p;
+        const Vec3 under = (patch.vertices[t[1]].p - a).cross(patch.vertices[t[2]].p - a);
+        const Vec3 b = outer(t[0]);
+        if ((outer(t[1]) - b).cross(outer(t[2]) - b).dot(under) > 0) continue;
+        for (const std::uint32_t v : t) {
+          double& height = patch.vertices[v].height;
+          again = again || height > kLeast_m;
+          height = std::max(kLowered * height, kLeast_m);
+        }
+      }
+    }
   }
 
   /// Metres from the rim, negative outside.

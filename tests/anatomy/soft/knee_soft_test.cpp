@@ -164,6 +164,8 @@ TEST(KneeSoft, TendonsDoNotOverhangThePatella) {
   }
 }
 
+TEST(KneeSoft, CartilageEndsWithoutALedge) { checks::expect_no_ledges(soft_knee()); }
+
 TEST(KneeSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(soft_knee(), 1.5); }
 
 TEST(KneeSoft, CartilageIsAboutTwoMillimetresThick) {

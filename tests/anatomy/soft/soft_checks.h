@@ -149,6 +149,28 @@ inline double rim_waver_deg_per_mm(const TriMesh& layer) {
   return waver / length * (180 / 3.14159265358979) * 1e-3;
 }
 
+/// Height of the wall that a layer ends with, metres; its vertices as rim_waver_deg_per_mm has
+/// them.
+inline double ledge_of(const TriMesh& layer) {
+  const auto half = static_cast<std::uint32_t>(layer.vertices.size() / 2);
+  double most = 0;
+  for (const Triangle& t : layer.triangles)
+    if (t[0] < half && t[1] < half && t[2] == t[1] + half)
+      most = std::max(most, (layer.vertices[t[2]] - layer.vertices[t[1]]).norm());
+  return most;
+}
+
+/// Every layer runs out to its rim.
+inline void expect_no_ledges(const GeneratedAnatomy& anatomy) {
+  constexpr double kUnseen_m = 2.5e-4;
+  for (const GeneratedSoft& soft : anatomy.softs) {
+    if (soft.kind != "cartilage") continue;
+    const double ledge = ledge_of(soft.mesh_W);
+    EXPECT_GT(ledge, 0) << soft.name << " has a rim";
+    EXPECT_LT(ledge, kUnseen_m) << soft.name;
+  }
+}
+
 /// Prints it of every layer, and expects no more than `most`; no layer crosses itself.
 inline void expect_smooth_rims(const GeneratedAnatomy& anatomy, double most_deg_per_mm) {
   for (const GeneratedSoft& soft : anatomy.softs) {

@@ -50,6 +50,8 @@ TEST(WristSoft, IsSound) {
   checks::expect_layers_apart(soft_wrist());
 }
 
+TEST(WristSoft, CartilageEndsWithoutALedge) { checks::expect_no_ledges(soft_wrist()); }
+
 TEST(WristSoft, RimsOfCartilageAreSmoothCurves) { checks::expect_smooth_rims(soft_wrist(), 7); }
 
 /// 0.8 mm (K) where the joint has room; the radiocarpal joint has.
