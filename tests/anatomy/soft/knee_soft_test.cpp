@@ -107,9 +107,41 @@ TEST(KneeSoft, MenisciAreWedges) {
       EXPECT_LT(edge, 0.45 * rim) << at.name << " " << angle_deg;
       EXPECT_LT(edge, middle) << at.name << " " << angle_deg;
       EXPECT_LT(middle, rim) << at.name << " " << angle_deg;
-      const double straight = 0.5 * (section.heights(0.1).second + section.heights(0.7).second);
-      EXPECT_LT(section.heights(0.4).second, straight) << at.name << " " << angle_deg;
+      // Up is towards smaller x.
+      const double straight = 0.5 * (section.heights(0.1).first + section.heights(0.7).first);
+      EXPECT_GT(section.heights(0.4).first, straight) << at.name << " " << angle_deg;
     }
+  }
+}
+
+/// How far the part of a mesh within 2 mm of `end`, across x, stands off `bone`.
+struct HornEnd {
+  double least = 1, most = 0;
+  HornEnd(const TriMesh& mesh, const MeshDistance& bone, const Vec3& end) {
+    for (const Vec3& v : mesh.vertices) {
+      if (std::hypot(v.y() - end.y(), v.z() - end.z()) > 0.002) continue;
+      const double off = bone.closest(v).signed_distance;
+      least = std::min(least, off);
+      most = std::max(most, off);
+    }
+  }
+};
+
+/// Each horn runs down to its root: there it lies on bare bone and is thin.
+TEST(KneeSoft, HornsOfMenisciEndInTheirRoots) {
+  const auto bones = checks::bone_surfaces_W(soft_knee());
+  std::size_t tibia = 0;
+  while (soft_knee().bones.at(tibia).name != "tibia") ++tibia;
+  for (const auto& [name, end] : {std::pair{"medial_meniscus", Vec3(0, 0.008, 0.0112)},
+                                  std::pair{"medial_meniscus", Vec3(0, 0.0083, -0.0187)},
+                                  std::pair{"lateral_meniscus", Vec3(0, -0.0085, 0.0073)},
+                                  std::pair{"lateral_meniscus", Vec3(0, -0.009, -0.0147)}}) {
+    const TriMesh& mesh = checks::soft_named(soft_knee(), name).mesh_W;
+    const HornEnd horn(mesh, bones[tibia], end);
+    std::printf("%s ends %.2f to %.1f mm off bone\n", name, horn.least * 1e3, horn.most * 1e3);
+    EXPECT_LT(horn.least, 1e-4) << name;
+    EXPECT_GT(horn.most, 0.0005) << name;
+    EXPECT_LT(horn.most, 0.0035) << name;
   }
 }
 
