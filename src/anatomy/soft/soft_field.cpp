@@ -12,6 +12,8 @@
 namespace osteon {
 namespace {
 
+constexpr double kRoundCells = 1.5;  // of a volume's edge beside an obstacle (D)
+
 /// The obstacles near a shape, as it is asked for point after point.
 class NearestObstacle {
  public:
@@ -51,13 +53,15 @@ class NearestObstacle {
 };
 
 /// What a shape holds and defects and obstacles leave. Obstacles count where the shape itself is;
-/// `beyond` it its own distance is a bound that will do. Shape: NearSolid or NearBandSpans.
+/// `beyond` it its own distance is a bound that will do. Where it would thin out beside one to an
+/// edge that the cells cannot follow, it ends round, `round` in metres. Shape: NearSolid or
+/// NearBandSpans.
 template <class Shape>
 class ClippedField : public LocalField {
  public:
   ClippedField(const Shape& shape, const std::vector<BoundPart>& defects, double beyond,
-               double sink, SampledField& nearest)
-      : shape_(shape), beyond_(beyond), sink_(sink), nearest_(nearest) {
+               double sink, double round, SampledField& nearest)
+      : shape_(shape), beyond_(beyond), sink_(sink), round_(round), nearest_(nearest) {
     for (const BoundPart& defect : defects) defects_.push_back(&defect.part);
   }
 
@@ -65,15 +69,15 @@ class ClippedField : public LocalField {
     double d = shape_(p);
     for (const Part* defect : defects_) d = less(d, *defect, p);
     if (d > beyond_) return d;
-    return std::max(d, -nearest_(p) - sink_);
+    return smooth_max(d, -nearest_(p) - sink_, round_);
   }
 
   Near near(const Vec3& center, double radius) const override {
     const Vicinity where{center, radius};
     Spread values;
     const Shape shape = shape_.within(where, values);
-    auto here =
-        std::make_unique<ClippedField>(shape, std::vector<BoundPart>{}, beyond_, sink_, nearest_);
+    auto here = std::make_unique<ClippedField>(shape, std::vector<BoundPart>{}, beyond_, sink_,
+                                               round_, nearest_);
     for (const Part* defect : defects_) {
       const Spread own = spread(defect->primitive, where);
       if (surely_less(negated(values), own, defect->blend)) continue;
@@ -87,7 +91,7 @@ class ClippedField : public LocalField {
  private:
   Shape shape_;
   std::vector<const Part*> defects_;
-  double beyond_, sink_;
+  double beyond_, sink_, round_;
   SampledField& nearest_;
 };
 
@@ -95,7 +99,7 @@ class ClippedField : public LocalField {
 /// deeper in it than `depth`. `least`: thickness that they leave between two bones.
 template <class Shape>
 Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, double sink,
-                             double least, const SoftDescription& soft,
+                             double least, double round, const SoftDescription& soft,
                              const std::vector<Obstacle>& obstacles) {
   IsosurfaceOptions options;
   options.cell_m = soft.cell;
@@ -104,7 +108,7 @@ Result<TriMesh> grow_clipped(const Shape& shape, const Aabb& box, double depth, 
   NearestObstacle nearest(obstacles, box.grown(soft.cell), least);
   SampledField sampled([&](const Vec3& p) { return nearest(p, depth + beyond); },
                        box.grown(3 * soft.cell), soft.cell);
-  const ClippedField<Shape> field(shape, soft.defects, beyond, sink, sampled);
+  const ClippedField<Shape> field(shape, soft.defects, beyond, sink, round, sampled);
   auto mesh = isosurface(field, box.grown(soft.cell), options);
   if (mesh) keep_largest_pieces(*mesh, soft.pieces);
   return mesh;
@@ -122,7 +126,7 @@ Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescripti
                           const std::vector<Obstacle>& obstacles) {
   double depth = 0;
   for (const BandSection& s : band.sections) depth = std::max(depth, s.half_thickness);
-  return grow_clipped(NearBandSpans(band), bounds(band), depth, sink, 0, soft, obstacles);
+  return grow_clipped(NearBandSpans(band), bounds(band), depth, sink, 0, 0, soft, obstacles);
 }
 
 Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescription& soft,
@@ -130,7 +134,9 @@ Result<TriMesh> grow_volume(const VolumeDescription& volume, const SoftDescripti
   const Solid solid = solid_of(volume.parts);
   const Aabb box = bounds(solid);
   const double depth = 0.5 * box.extent().minCoeff();
-  return grow_clipped(NearSolid(solid), box, depth, volume.sink, volume.least, soft, obstacles);
+  const double round = kRoundCells * soft.cell;
+  return grow_clipped(NearSolid(solid), box, depth, volume.sink, volume.least, round, soft,
+                      obstacles);
 }
 
 Result<TriMesh> grow_skin(const SkinDescription& skin, double cell_m,
