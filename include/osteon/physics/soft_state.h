@@ -47,6 +47,7 @@ struct SolidNear {
   /// Where the middle of the part's axis would be, were the solid rigid: it stays outside of it, on
   /// the side where the part came.
   Vec3 outside_B = Vec3::Zero();
+  Vec3 slid_B = Vec3::Zero();  ///< the way of that place in this step
   bool touching = false;
   bool barred = false;  ///< as of NearBand
   bool behind = false;  ///< another part of the tool presses the same place deeper

@@ -22,8 +22,11 @@ struct SolidCutter {
   Way way = Way::kSlice;
   Cutter cutter;
   Vec3 flat_T = Vec3::Zero();  ///< of an edge: across the blade
-  std::uint64_t works = 0;     ///< which of tool_rods() do it, bit by bit
-  std::uint64_t lifts = 0;     ///< which are out of the way while the jaws are open
+  /// Of an edge: however fast it is drawn, it needs so much of the force that pushes it straight
+  /// in.
+  double drawn_share = 0.2;
+  std::uint64_t works = 0;  ///< which of tool_rods() do it, bit by bit
+  std::uint64_t lifts = 0;  ///< which are out of the way while the jaws are open
   /// Of what clears: the line of its rod, and the half of space to which it does (zero: all round).
   Vec3 from_T = Vec3::Zero(), to_T = Vec3::Zero(), face_T = Vec3::Zero();
   double speed_m_per_s = 0;  ///< at full power

@@ -161,6 +161,7 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
     h.add(std::string_view(cutter->cutter.name));
     h.add(cutter->cutter.size_m);
     h.add(cutter->works);
+    if (cutter->way == SolidCutter::Way::kSlice) h.add(cutter->drawn_share);
     if (cutter->way != SolidCutter::Way::kClear) continue;
     for (const Vec3& v : {cutter->from_T, cutter->to_T, cutter->face_T}) h.add(v);
     h.add(cutter->speed_m_per_s);

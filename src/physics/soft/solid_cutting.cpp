@@ -15,6 +15,7 @@ constexpr std::size_t kMostCutBlocks = 4096, kMostNews = 64;
 constexpr double kWallSlack_m = 15e-6;  // as of bone: what cut a hole moves in it
 constexpr double kSharp = 1.0 / 3;      // D: an edge needs so much of the table's force
 constexpr double kLightest_n = 0.05;
+constexpr int kHalvings = 40;
 constexpr double kAcross = 0.7;                         // a blade that lies flat does not cut
 constexpr std::uint32_t kStrokeEnds = 100;              // steps without a cut
 constexpr double kBladesOpen = 0.5, kBladesShut = 0.1;  // of the blades' way
@@ -36,6 +37,22 @@ std::uint64_t cells_hash(const std::vector<CutCell>& cells) {
     for (const std::uint16_t bits : cell.beyond) h.add(static_cast<std::uint32_t>(bits));
   }
   return h.value();
+}
+
+// How far an edge goes in within a step. Symbols: p, by how much it is pressed, and F, the push of
+// that; f, the force that pushes it straight in; s, by how much it slides along itself; x, how far
+// it goes in. A drawn edge needs f / (1 + (s / x)^2), and no less than a share of f (Atkins, Xu and
+// Jeronimidis 2004: pressing and slicing; the share stands for the friction that limits it there).
+// F (1 - x / p) falls and the force needed rises with x: bisected, it ends at where they are equal.
+double edge_goes_in(double p, double F, double f, double s, double share) {
+  if (!(p > 0)) return 0;
+  double lo = 0, hi = p;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double x = 0.5 * (lo + hi);
+    const double needed = f * std::max(share, x * x / (x * x + s * s));
+    (F * (1 - x / p) > needed ? lo : hi) = x;
+  }
+  return lo;
 }
 
 }  // namespace
@@ -168,21 +185,26 @@ void SolidCutting::bite(const Stroke& stroke) {
   if (gone > 0) tell(stroke, gone);
 }
 
-// F = k (d - e) for e, how far the edge is in; where F is above the cutting force f, e grows to
-// d - f / k. The slit is what the blade passes from where it was in the last step.
+// The slit is what the blade passes from where it was in the last step.
 void SolidCutting::slice(const Stroke& stroke) {
   SolidNear& near = *stroke.near;
-  const double own_n = setup_.solids[stroke.solid].cutting_n;
-  const double over = near.force_n - kSharp * (own_n > 0 ? own_n : setup_.solid_cutting_n);
-  const bool flat = std::abs(stroke.with.flat_T.dot(stroke.nhat_T)) > kAcross;
-  if (over > 0 && !flat && near.force_n > 0) {
-    const double pressed = near.deep_m - near.entered_m - near.contact.others_m;
-    near.entered_m += std::max(0.0, pressed) * over / near.force_n;
+  // What pushes the blade's flat side does not cut.
+  const double across = stroke.with.flat_T.dot(stroke.nhat_T);
+  const double upright = std::sqrt(std::max(0.0, 1 - across * across));
+  if (std::abs(across) <= kAcross && near.force_n > 0) {
+    const double own_n = setup_.solids[stroke.solid].cutting_n;
+    const Vec3 edge_B = stroke.X_BT.rotate(stroke.with.flat_T.cross(stroke.nhat_T)).normalized();
+    near.entered_m +=
+        edge_goes_in(near.deep_m - near.entered_m - near.contact.others_m, upright * near.force_n,
+                     kSharp * (own_n > 0 ? own_n : setup_.solid_cutting_n),
+                     std::abs(edge_B.dot(near.slid_B)), stroke.with.drawn_share);
   }
   if (!(near.entered_m > 0)) return;
   SolidCutHand& hand = stroke.hand;
   Pose X = stroke.X_BT;
-  X.p -= near.entered_m * near.contact.nhat_B;
+  // In its own plane: a blade that is pushed aslant does not plough a wider slit.
+  const Vec3 flat_B = X.rotate(stroke.with.flat_T);
+  X.p -= near.entered_m * (near.contact.nhat_B - across * flat_B);
   const bool goes_on = hand.solid == stroke.solid && hand.idle <= 2;
   const double gone = remove(stroke.solid, stroke.with.cutter, goes_on ? hand.X_BC : X, X);
   if (gone > 0 && hand.solid != stroke.solid) tell(stroke, gone);

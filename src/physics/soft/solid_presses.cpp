@@ -85,6 +85,7 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
   if (near.deep_m < -kSolidNear_m) return false;
   near.touching = near.deep_m > 0;
   near.barred = near.touching && (near.barred || near.deep_m > kSolidDeepest_m);
+  near.slid_B = middle_of(part) + o - near.outside_B;
   near.outside_B = middle_of(part) + o;
   near.entered_m = std::clamp(near.entered_m, 0.0, std::max(0.0, near.deep_m));
   contact.p_B = c.p_A;
@@ -117,7 +118,9 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
     near.contact.part = static_cast<std::uint32_t>(part);
     near.barred = c.gap < 0;
     near.outside_B = middle_of(part_B);
-    if (keep(near, hand)) state.near[state.count++] = near;
+    if (!keep(near, hand)) continue;
+    near.slid_B.setZero();
+    state.near[state.count++] = near;
   }
 }
 
