@@ -12,6 +12,8 @@ constexpr double kNearBalanced_n = 0.1;  // where cartilage has a fold it may ge
 constexpr double kLongestStep_m = 0.003;
 constexpr int kMostRounds = 400;
 constexpr double kLeastDamping = 1e-3, kMostDamping = 1e15;  // N/m
+constexpr double kProbes_m[] = {64e-6, 16e-6, 4e-6, 1e-6};
+constexpr double kLess_j = 1e-13;  // a difference of energies that is not rounding
 
 /// Solves A x = b by Cholesky's factors; none where A is not positive definite. Written out, so
 /// that sums have one order.
@@ -77,38 +79,92 @@ std::optional<JointVector> damped_step(const JointEnergy& now, double damping) {
   return step;
 }
 
-}  // namespace
+struct Descent {
+  JointPotential potential;
+  JointPose pose;
+  JointEnergy now;
+  int rounds = 0;
+};
 
-Result<SettledJoint> settle(const HeldJoint& joint, const JointLoad& load, const JointPose& start) {
-  // q: place and turns; E(q): energy of fibres, cartilage, surroundings and load, with slope g and
-  // curvature H. Levenberg's and Marquardt's step (H + d I) s = -g, d raised until H + d I is
-  // definite and E falls, lowered after. Invariant: E never rises. It ends: each round either takes
-  // a step or raises d fourfold, which stops at its most; rounds are counted too.
-  if (auto sound = check(joint, load, start); !sound) return tl::unexpected(sound.error());
-  JointPotential potential(joint, load);
-  SettledJoint out;
-  out.pose = start;
-  JointEnergy now = potential.at(start);
+// q: place and turns; E(q): energy of fibres, cartilage, surroundings and load, with slope g and
+// curvature H. Levenberg's and Marquardt's step (H + d I) s = -g, d raised until H + d I is
+// definite and E falls, lowered after. Invariant: E never rises. It ends: each round either takes
+// a step or raises d fourfold, which stops at its most; rounds are counted too.
+void descend(Descent& at) {
   double damping = 1e3;
-  while (out.rounds < kMostRounds && now.slope.norm() > kBalanced_n && damping < kMostDamping) {
-    ++out.rounds;
-    const auto step = damped_step(now, damping);
-    const JointPose next = step ? moved(out.pose, *step) : out.pose;
-    const JointEnergy then = step ? potential.at(next) : now;
-    if (step && then.energy_j < now.energy_j) {
-      out.pose = next;
-      now = then;
+  while (at.rounds < kMostRounds && at.now.slope.norm() > kBalanced_n && damping < kMostDamping) {
+    ++at.rounds;
+    const auto step = damped_step(at.now, damping);
+    const JointPose next = step ? moved(at.pose, *step) : at.pose;
+    const JointEnergy then = step ? at.potential.at(next) : at.now;
+    if (step && then.energy_j < at.now.energy_j) {
+      at.pose = next;
+      at.now = then;
       damping = std::max(kLeastDamping, damping / 8);
     } else {
       damping *= 4;
     }
   }
+}
+
+bool steps_down(Descent& at, const JointVector& step) {
+  const JointPose next = moved(at.pose, step);
+  const JointEnergy then = at.potential.at(next);
+  if (!(then.energy_j < at.now.energy_j - kLess_j)) return false;
+  at.pose = next;
+  at.now = then;
+  return true;
+}
+
+// Along an axis or between two of them.
+bool steps_down_by(Descent& at, double by_m) {
+  for (int i = 0; i < 5; ++i)
+    for (const double a : {by_m, -by_m}) {
+      JointVector step = JointVector::Zero();
+      step[i] = a;
+      if (steps_down(at, step)) return true;
+      for (int k = 0; k < i; ++k)
+        for (const double b : {by_m, -by_m}) {
+          step[k] = b;
+          if (steps_down(at, step)) return true;
+          step[k] = 0;
+        }
+    }
+  return false;
+}
+
+// Where the cartilage has a fold, the slope jumps at the pose of least energy, and the descent
+// stands still on the fold or beside it. Steps of 64 to 1 um along and between the axes are tried:
+// one that lowers E begins the descent anew; where none does the joint rests to 1 um. It ends:
+// every turn lowers E, and counts as a round.
+bool rests_in_fold(Descent& at) {
+  while (at.rounds < kMostRounds) {
+    ++at.rounds;
+    bool down = false;
+    for (const double by_m : kProbes_m) down = down || steps_down_by(at, by_m);
+    if (!down) return true;
+    descend(at);
+    if (at.now.slope.norm() <= kNearBalanced_n) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<SettledJoint> settle(const HeldJoint& joint, const JointLoad& load, const JointPose& start) {
+  if (auto sound = check(joint, load, start); !sound) return tl::unexpected(sound.error());
+  Descent at{JointPotential(joint, load), start, {}, 0};
+  at.now = at.potential.at(start);
+  descend(at);
+  SettledJoint out;
+  out.converged = at.now.slope.norm() <= kNearBalanced_n || rests_in_fold(at);
+  out.pose = at.pose;
+  out.rounds = at.rounds;
   const Pose X_FT = pose_of(joint, out.pose);
   for (const JointFibre& fibre : joint.fibres) out.fibres.push_back(fibre_state(fibre, X_FT));
-  out.contact_n = now.contact_n;
-  out.unbalanced_n = now.slope.norm();
-  out.energy_j = now.energy_j;
-  out.converged = out.unbalanced_n <= kNearBalanced_n;
+  out.contact_n = at.now.contact_n;
+  out.unbalanced_n = at.now.slope.norm();
+  out.energy_j = at.now.energy_j;
   return out;
 }
 

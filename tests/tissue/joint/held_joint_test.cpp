@@ -120,6 +120,32 @@ TEST(HeldJoint, CartilageOnAPlaneCarriesTheLoadAsSpringsSideBySide) {
   EXPECT_NEAR(tipped->pose.varus_rad, 0.3 / (4 * 50000 * 0.02 * 0.02), 3e-5);
 }
 
+// In a groove of 45 degrees a bed rests on both walls: across, the force jumps from one side to the
+// other and balances nowhere. Along it half of the walls' push carries: k o / sqrt(2) = F.
+TEST(HeldJoint, ItRestsInAFoldWhereTheForceJumps) {
+  TriMesh groove;
+  for (const double y : {0.0, 0.1, -0.1})
+    for (const double z : {-0.1, 0.1}) groove.vertices.emplace_back(std::abs(y), y, z);
+  groove.triangles = {{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}};
+  HeldJoint joint;
+  joint.fibres = {fibre({-1, 0, 0}, {0, 0, 0}, 2, 1000)};  // slack
+  joint.surface_F = std::make_shared<MeshDistance>(groove);
+  joint.beds = {{Vec3::Zero(), 0.002, 50000}};
+  joint.surround = turns_only();
+  joint.surround.across_n_per_m = 1;
+  for (const double y : {0.0007, -0.0004}) {
+    JointPose start;
+    start.middle_F = {0.0025, y, 0};
+    const auto at = settle(joint, {Vec3(-60, 0, 0), 0, 0}, start);
+    ASSERT_TRUE(at);
+    EXPECT_TRUE(at->converged) << at->unbalanced_n << " N after " << at->rounds;
+    EXPECT_NEAR(at->pose.middle_F.y(), 0, 2e-6);
+    const double overlap = 60 * std::sqrt(2.0) / 50000;
+    EXPECT_NEAR(at->pose.middle_F.x(), (0.002 - overlap) * std::sqrt(2.0), 4e-6);
+    EXPECT_NEAR(at->contact_n, 60 * std::sqrt(2.0), 0.2);
+  }
+}
+
 TEST(HeldJoint, PosesComeBackFromTheirTurns) {
   HeldJoint joint;
   joint.middle_T = {0.01, 0.002, -0.003};
