@@ -185,6 +185,52 @@ TEST(SoftCut, WhatIsCutOffIsGoneAndTold) {
   EXPECT_EQ(session.softs()->pieces(0), 1u);
 }
 
+// Pictures follow a stroke block by block: what they show is what a new picture shows, bit by bit,
+// during the stroke, after undo and after another.
+TEST(SoftCut, WhatIsDrawnDoesNotDependOnWhatWasDrawnBefore) {
+  const CutRun& run = cut_run();
+  Session session = run.session();
+  Hand hand(session);
+  SoftShapes shapes(*run.the_case, run.softs);
+  TriMesh shown;
+  std::size_t compared = 0;
+  const auto compare = [&] {
+    const SoftPushes pushes = session.softs()->pushes();
+    if (auto changed = shapes.changes(pushes); !changed.empty())
+      shown = std::move(changed[0].mesh_W);
+    SoftShapes anew(*run.the_case, run.softs);
+    const auto first = anew.changes(pushes);
+    if (first.empty()) return;
+    EXPECT_EQ(first[0].mesh_W.triangles, shown.triangles);
+    EXPECT_TRUE(topology(shown).closed());
+    ASSERT_EQ(first[0].mesh_W.vertices.size(), shown.vertices.size());
+    // A push is drawn again once it has changed by more than can be seen.
+    for (std::size_t v = 0; v < shown.vertices.size(); ++v)
+      ASSERT_LT((first[0].mesh_W.vertices[v] - shown.vertices[v]).norm(), 2e-5);
+    ++compared;
+  };
+  const auto stroke = [&](double x) {
+    const double top = kMeniscusHalf.z();
+    hand.take(kBlade, kUpright, {x, -0.009, top + 0.002});
+    hand.move({x, -0.009, top - 0.004}, 200);
+    for (int k = -8; k <= 8; ++k) {
+      hand.move({x, 0.001 * k, top - 0.004}, 60);
+      compare();
+    }
+    hand.move({x, 0.008, top + 0.006}, 100);
+    hand.rest(100);
+    compare();
+  };
+  hand.tick({CommandKind::kMark, 0});
+  stroke(0);
+  hand.tick({CommandKind::kRestore, 0});
+  hand.rest(100);
+  EXPECT_EQ(session.softs()->pushes().cuts[0], nullptr);
+  (void)shapes.changes(session.softs()->pushes());
+  stroke(0.005);
+  EXPECT_GT(compared, 20u);
+}
+
 TEST(SoftCut, UndoPutsItBackAndAStateGoesOnTheSame) {
   const CutRun& run = cut_run();
   Session session = run.session();

@@ -40,7 +40,8 @@ class CarvedSurface {
   /// Null where there is no surface.
   const SurfacePatch* patch(std::uint32_t block) const;
   /// Of all patches: closed after mesh_all.
-  TriMesh joined() const;
+  /// `keys`, if given: of its vertices, rising.
+  TriMesh joined(std::vector<std::uint64_t>* keys = nullptr) const;
 
  private:
   void remesh(const CarvedField& field, std::uint32_t block);

@@ -12,6 +12,7 @@
 
 namespace osteon {
 
+class CutShape;
 class SkinShape;
 
 /// Surfaces of soft solids, bands and skin as they are under pushes, for pictures.
@@ -40,10 +41,11 @@ class SoftShapes {
   struct Shape {
     TriMesh mesh_W;                          ///< at rest
     Pose X_WB;                               ///< rest pose of the bone
-    std::vector<SolidPatch> patches;         ///< of each vertex
+    std::vector<SolidPatch> patches;         ///< of each vertex of the whole one
     std::vector<SoftPushes::One> shown;      ///< pushes that it was given with
     TriMesh whole_W;                         ///< `mesh_W` before any cut
     std::shared_ptr<const CarveState> cuts;  ///< that it was given with
+    std::unique_ptr<CutShape> left;          ///< null: it is whole
     TriMesh drawn_W;                         ///< as it was given
   };
   void cut(std::size_t solid, std::shared_ptr<const CarveState> cuts);

@@ -104,7 +104,7 @@ void CarvedSurface::mesh(const CarvedField& field, std::span<const std::uint32_t
 
 // Vertices under one key are one. In order of blocks, so that the same field gives the same bytes
 // whatever was meshed before.
-TriMesh CarvedSurface::joined() const {
+TriMesh CarvedSurface::joined(std::vector<std::uint64_t>* keys) const {
   struct Use {
     std::uint64_t key;
     std::uint32_t place;  // among all patches' vertices in order
@@ -124,6 +124,11 @@ TriMesh CarvedSurface::joined() const {
   for (std::size_t n = 0; n < uses.size(); ++n) {
     if (n > 0 && uses[n].key != uses[n - 1].key) ++count;
     vertex[uses[n].place] = count;
+  }
+  if (keys) {
+    keys->clear();
+    for (std::size_t n = 0; n < uses.size(); ++n)
+      if (n == 0 || uses[n].key != uses[n - 1].key) keys->push_back(uses[n].key);
   }
   TriMesh mesh;
   mesh.vertices.resize(uses.empty() ? 0 : count + 1);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osteon/carve/carved_surface.h"
 #include "osteon/mesh/append_mesh.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
+#include "soft/cut_shape.h"
 #include "soft/skin_shape.h"
-#include "soft/solid_cutting.h"
 
 namespace osteon {
 namespace {
@@ -88,21 +87,17 @@ void SoftShapes::find_patches(std::size_t solid) {
     shape.patches.push_back(setup_->solids[solid].body->patch_at(X_BW * p));
 }
 
-// Closed and manifold: walls of cuts are part of it.
 void SoftShapes::cut(std::size_t solid, std::shared_ptr<const CarveState> cuts) {
   Shape& shape = shapes_[solid];
   shape.cuts = std::move(cuts);
-  shape.mesh_W = shape.whole_W;
-  if (shape.cuts) {
-    auto field =
-        CarvedField::make(setup_->solids[solid].uncut, {},
-                          std::max<std::size_t>(1, shape.cuts->blocks.size()), kSolidCutAir_m);
-    if (field && field->restore(*shape.cuts)) {
-      auto left = carved_mesh(*field);
-      shape.mesh_W = left ? std::move(*left) : TriMesh{};
-      for (Vec3& p : shape.mesh_W.vertices) p = shape.X_WB * p;
-    }
+  if (shape.cuts && !shape.left) shape.left = std::make_unique<CutShape>(setup_->solids[solid]);
+  if (shape.cuts && shape.left->show(*shape.cuts)) {
+    shape.mesh_W = shape.left->mesh_B();
+    for (Vec3& p : shape.mesh_W.vertices) p = shape.X_WB * p;
+    return;
   }
+  shape.left = nullptr;
+  shape.mesh_W = shape.whole_W;
   find_patches(solid);
 }
 
@@ -147,8 +142,10 @@ bool SoftShapes::take(std::size_t solid, const SoftPushes& pushes) {
   const std::vector<Vec3> nodes = moved(solid, now);
   shape.shown = std::move(now);
   shape.drawn_W = shape.mesh_W;
-  for (std::size_t v = 0; v < shape.patches.size(); ++v)
-    shape.drawn_W.vertices[v] += shape.X_WB.rotate(PressedSolid::moved_at(shape.patches[v], nodes));
+  if (shape.shown.empty()) return true;
+  const std::vector<SolidPatch>& patches = shape.left ? shape.left->patches() : shape.patches;
+  for (std::size_t v = 0; v < patches.size(); ++v)
+    shape.drawn_W.vertices[v] += shape.X_WB.rotate(PressedSolid::moved_at(patches[v], nodes));
   return true;
 }
 

@@ -11,7 +11,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kMostCutBlocks = 4096, kMostNews = 64;
+constexpr std::size_t kMostNews = 64;
 constexpr double kWallSlack_m = 15e-6;  // as of bone: what cut a hole moves in it
 constexpr double kSharp = 1.0 / 3;      // D: an edge needs so much of the table's force
 constexpr double kLightest_n = 0.05;

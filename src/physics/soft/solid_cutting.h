@@ -22,6 +22,8 @@ namespace osteon {
 /// Cuts are known so far outside of a solid: further than the middle of any cutter's axis is from
 /// what it presses.
 inline constexpr double kSolidCutAir_m = 0.004;
+/// Of a solid that hold cuts, at most.
+inline constexpr std::size_t kMostCutBlocks = 4096;
 
 /// Soft solids that instruments cut, at the physics' rate. What is left is a carved field: hands
 /// feel a hole in the next step. The solid's stiffness is that of the cells that are left, made

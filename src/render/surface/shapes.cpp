@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "surface/surface.h"
@@ -36,6 +37,24 @@ Vec3 unit_normal(const Surface& s, const Triangle& t) {
   return length > 0 ? Vec3(n / length) : Vec3::UnitZ();
 }
 
+/// Triangles at point k, in their order: triangles[first[k]] up to triangles[first[k + 1]].
+struct Around {
+  std::vector<std::uint32_t> first, triangles;
+};
+
+Around triangles_around(const Surface& s) {
+  Around out;
+  out.first.assign(s.points.size() + 1, 0);
+  for (const Triangle& t : s.triangles)
+    for (const std::uint32_t v : t) ++out.first[v + 1];
+  std::partial_sum(out.first.begin(), out.first.end(), out.first.begin());
+  out.triangles.resize(3 * s.triangles.size());
+  std::vector<std::uint32_t> next = out.first;
+  for (std::uint32_t i = 0; i < s.triangles.size(); ++i)
+    for (const std::uint32_t v : s.triangles[i]) out.triangles[next[v]++] = i;
+  return out;
+}
+
 Vec3 on_circle(int k, int sides, double z) {
   const double angle = 2 * std::numbers::pi * k / sides;
   return {std::cos(angle), std::sin(angle), z};
@@ -50,18 +69,25 @@ std::pair<std::uint32_t, std::uint32_t> ring_edge(std::uint32_t first, int k, in
 }  // namespace
 
 ShadedMesh plain_shaded(const TriMesh& mesh) {
-  const Surface s = make_surface(mesh);
-  std::vector<std::vector<Vec3>> around(s.points.size());
-  for (const Triangle& t : s.triangles)
-    for (const std::uint32_t v : t) around[v].push_back(unit_normal(s, t));
+  const Surface s = welded(mesh);
+  std::vector<Vec3> normals;
+  normals.reserve(s.triangles.size());
+  for (const Triangle& t : s.triangles) normals.push_back(unit_normal(s, t));
+  const Around around = triangles_around(s);
   ShadedMesh out;
-  for (const Triangle& t : s.triangles) {
-    const Vec3 own = unit_normal(s, t);
+  out.positions.reserve(3 * s.triangles.size());
+  out.normals.reserve(3 * s.triangles.size());
+  out.shades.reserve(3 * s.triangles.size());
+  out.triangles.reserve(s.triangles.size());
+  for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+    const Triangle& t = s.triangles[i];
+    const Vec3& own = normals[i];
     std::array<Vec3, 3> p, n;
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 sum = Vec3::Zero();
-      for (const Vec3& other : around[t[k]])
-        if (other.dot(own) > kCreaseCosine) sum += other;
+      for (std::uint32_t e = around.first[t[k]]; e < around.first[t[k] + 1]; ++e)
+        if (const Vec3& other = normals[around.triangles[e]]; other.dot(own) > kCreaseCosine)
+          sum += other;
       p[k] = s.points[t[k]];
       n[k] = sum.norm() > 0 ? Vec3(sum.normalized()) : own;
     }

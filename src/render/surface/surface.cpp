@@ -87,7 +87,7 @@ void link_neighbours(Surface& s) {
 
 }  // namespace
 
-Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
+Surface welded(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
   Surface s;
   const std::vector<std::uint32_t> index = weld(mesh.vertices, s.points);
   if (place) *place = index;
@@ -98,6 +98,11 @@ Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
     if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;
     s.triangles.push_back(w);
   }
+  return s;
+}
+
+Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
+  Surface s = welded(mesh, place);
   s.normals = angle_weighted_normals(s);
   link_neighbours(s);
   return s;

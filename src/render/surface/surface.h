@@ -20,6 +20,8 @@ struct Surface {
 
 /// `place`, if given: of each vertex the index of its point; 2^32 - 1 where it has none.
 Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place = nullptr);
+/// Its points and triangles alone, without normals and neighbours.
+Surface welded(const TriMesh& mesh, std::vector<std::uint32_t>* place = nullptr);
 
 /// True when every edge runs once each way and the volume inside is positive.
 bool encloses_volume(const Surface& surface);
