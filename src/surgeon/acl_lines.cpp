@@ -15,7 +15,7 @@ constexpr double kMostBehind_m = 0.01;
 // A socket stands so far from the footprint's middle at most; farther where it would be open
 // behind.
 constexpr double kMostOff_m = 0.0036, kFarthestOff_m = 0.0048;
-constexpr double kOpenWall_m = 0.0008;
+constexpr double kOpenWall_m = 0.0003;
 
 bool is_steep(std::string_view fault) {
   return fault == "vertical_femur" || fault == "misplaced_socket" ||

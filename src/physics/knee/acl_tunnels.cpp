@@ -82,17 +82,6 @@ double way_out(const MeshDistance& surface, const Vec3& p, const Vec3& direction
   return way;
 }
 
-// How deep the tunnel must be until its slanted mouth is closed all round.
-double mouth_depth(const MeshDistance& surface, const Bore& bore, double radius) {
-  const TriMesh& mesh = surface.mesh();
-  const Triangle& t = mesh.triangles[surface.closest(bore.mouth).triangle];
-  const Vec3 n = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
-                     .cross(mesh.vertices[t[2]] - mesh.vertices[t[0]])
-                     .normalized();
-  const double straight = std::clamp(std::abs(n.dot(bore.inwards)), 0.2, 1.0);
-  return radius * std::sqrt(1 - straight * straight) / straight + 0.001;
-}
-
 // At the mouth: from its hind edge to the hind border of the condyle at that height.
 double rim_behind(const KneeParts& parts, const QuadrantGrid& grid, const Vec3& mouth,
                   double radius) {
@@ -104,30 +93,59 @@ double rim_behind(const KneeParts& parts, const QuadrantGrid& grid, const Vec3& 
   return grid.axes.u(mouth) - radius - border;
 }
 
-// Least bone behind the tunnel: at its mouth, and over the hind third of the way round from where
-// the mouth is closed to as deep as it was drilled.
+// What stands behind a tunnel: bone from its axis out, over the hind third of the way round.
+class BehindTunnel {
+ public:
+  BehindTunnel(const KneeParts& parts, const QuadrantGrid& grid, const Bore& bore, double radius)
+      : surface_(*parts.femur.surface), bore_(bore), radius_(radius) {
+    const Vec3& w = bore.inwards;
+    hind_ = (-grid.axes.along + grid.axes.along.dot(w) * w).normalized();
+    side_ = w.cross(hind_);
+  }
+
+  // The least at one depth; 0 or less where the tunnel is open.
+  double wall_m(double depth_m) const {
+    constexpr int kAround = 5;
+    double least = 1e9;
+    for (int k = -kAround; k <= kAround; ++k) {
+      const double a = std::numbers::pi / 3 * k / kAround;
+      const Vec3 out = std::cos(a) * hind_ + std::sin(a) * side_;
+      const Vec3 p = bore_.mouth + depth_m * bore_.inwards;
+      least = std::min(least, way_out(surface_, p, out) - radius_);
+    }
+    return least;
+  }
+
+  // A slanted mouth is closed all round only so deep, with a millimetre for its thin lip. What is
+  // still open at the deepest is no mouth but a missing wall.
+  double mouth_depth_m(double deepest_m) const {
+    constexpr double kStride_m = 0.0005, kLip_m = 0.001;
+    for (double depth = 0; depth < deepest_m; depth += kStride_m)
+      if (wall_m(depth) > 0) return std::min(depth + kLip_m, deepest_m);
+    return deepest_m;
+  }
+
+ private:
+  const MeshDistance& surface_;
+  const Bore& bore_;
+  double radius_;
+  Vec3 hind_, side_;
+};
+
+// Least bone behind the tunnel: at its mouth, and from where that is closed to as deep as it was
+// drilled.
 double back_wall(const KneeParts& parts, const QuadrantGrid& grid, const Bore& bore,
                  double radius) {
-  const Vec3& w = bore.inwards;
-  const Vec3 hind = (-grid.axes.along + grid.axes.along.dot(w) * w).normalized();
-  const Vec3 side = w.cross(hind);
-  double least = rim_behind(parts, grid, bore.mouth, radius);
-  constexpr int kAlong = 12, kAround = 5;
-  // What is still open so deep is no slanted mouth but a missing wall.
+  constexpr int kAlong = 12;
   constexpr double kDeepestMouth_m = 0.0125;
-  const double first =
-      std::min({mouth_depth(*parts.femur.surface, bore, radius), kDeepestMouth_m, bore.drilled});
+  const BehindTunnel behind(parts, grid, bore, radius);
+  const double first = behind.mouth_depth_m(std::min(kDeepestMouth_m, bore.drilled));
   // Of one that goes through, the far mouth is open by its nature.
   const bool open_end = bore.drilled > bore.channel - 0.001;
   const double last = std::max(first, open_end ? bore.drilled - 2 * radius : bore.drilled);
-  for (int i = 0; i <= kAlong; ++i) {
-    const double at = first + (last - first) * i / kAlong;
-    for (int k = -kAround; k <= kAround; ++k) {
-      const double a = std::numbers::pi / 3 * k / kAround;
-      const Vec3 out = std::cos(a) * hind + std::sin(a) * side;
-      least = std::min(least, way_out(*parts.femur.surface, bore.mouth + at * w, out) - radius);
-    }
-  }
+  double least = rim_behind(parts, grid, bore.mouth, radius);
+  for (int i = 0; i <= kAlong; ++i)
+    least = std::min(least, behind.wall_m(first + (last - first) * i / kAlong));
   return least;
 }
 
