@@ -42,7 +42,8 @@ struct TipModel {
   bool known = false;
   double distance_mm = 0;
   BoneId bone;
-  bool drawn = false;  ///< as a line in the picture, between these points
+  std::optional<std::uint32_t> soft;  ///< in Case::softs; none: the bone itself
+  bool drawn = false;                 ///< as a line in the picture, between these points
   float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 

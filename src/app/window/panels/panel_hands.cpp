@@ -60,10 +60,12 @@ void draw_portals(const PanelContext& c) {
 
 void draw_tip(const PanelContext& c) {
   const TipModel& tip = c.model.hands.tip;
-  if (!tip.known || tip.bone.index >= c.model.bone_labels.size()) return;
-  ui::stat(("Tip to " + c.model.bone_labels[tip.bone.index]).c_str(),
-           ui::number(tip.distance_mm, 1) + " mm",
-           "From the middle of the tip to the nearest bone surface, millimetres; negative inside");
+  const auto& labels = tip.soft ? c.model.soft_labels : c.model.bone_labels;
+  const std::size_t k = tip.soft ? *tip.soft : tip.bone.index;
+  if (!tip.known || k >= labels.size()) return;
+  ui::stat(("Tip to " + labels[k]).c_str(), ui::number(tip.distance_mm, 1) + " mm",
+           "From the middle of the tip to the nearest surface of a bone, or of a meniscus or stump "
+           "that is felt (before any cut), millimetres; negative inside");
 }
 
 // From the middle of the bone to a name that had to give way.

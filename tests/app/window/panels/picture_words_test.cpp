@@ -44,7 +44,7 @@ TEST(PictureWords, NamesKeepOffNotesAndTheDistanceAtTheTip) {
                          {"And here", "", true, 610, 302},
                          {"Not drawn", "", false, 600, 300}};
   ui.model.hands.names = {{BoneId{0}, 604, 318}, {BoneId{1}, 600, 300}, {BoneId{2}, 420, 204}};
-  ui.model.hands.tip = {true, 12.3, BoneId{0}, true, 380, 180, 400, 200};
+  ui.model.hands.tip = {true, 12.3, BoneId{0}, {}, true, 380, 180, 400, 200};
   const Words words(ui);
   const auto notes = note_words(words.c), names = name_words(words.c);
   ASSERT_EQ(notes.size(), 2u);

@@ -177,11 +177,13 @@ TrayModel HandsControl::tray_model() const {
 TipModel HandsControl::tip_model() {
   TipModel model;
   const ToolState& tool = sight_.shown().tool;
+  tip_.feel(live_.run() ? live_.run()->softs() : nullptr);
   const auto nearest = tip_.nearest(sight_.shown(), sight_.view());
   if (!nearest || (live_.run() && tool.tick == 0)) return model;
   model.known = true;
   model.distance_mm = 1e3 * nearest->distance_m;
   model.bone = nearest->bone;
+  model.soft = nearest->soft;
   const auto tip = sight_.on_screen(tool.X_WP.p), bone = sight_.on_screen(nearest->p_W);
   const bool near = nearest->distance_m > 0 && nearest->distance_m < kNearEnough_m;
   if (!tip || !bone || !near || !sight_.view().show_proxy) return model;

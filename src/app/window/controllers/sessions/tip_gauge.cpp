@@ -1,6 +1,7 @@
 #include "window/controllers/sessions/tip_gauge.h"
 
 #include <limits>
+#include <utility>
 
 namespace osteon {
 namespace {
@@ -9,52 +10,103 @@ double distance_to_box(const Aabb& box, const Vec3& p) {
   return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(Vec3::Zero()).norm();
 }
 
-bool is_drawn(const ViewState& view, std::size_t bone) {
-  return bone >= view.bones.size() || view.bones[bone].visible;
+Aabb box_around(const TriMesh& mesh) {
+  Aabb box;
+  for (const Vec3& p : mesh.vertices) box.include(p);
+  return box;
+}
+
+template <class T>
+void take_from(std::unique_ptr<SideJob<T>>& job, T& into) {
+  if (!job || !job->done()) return;
+  if (auto made = job->take()) into = std::move(*made);
+  job.reset();
 }
 
 }  // namespace
 
-Result<TipGauge::Surfaces> TipGauge::make(const Case& the_case, const Progress& progress) {
+bool TipGauge::is_seen(const GaugedSurface& surface, const ViewState& view) {
+  const auto& looks = surface.soft ? view.softs : view.bones;
+  const std::size_t k = surface.soft ? *surface.soft : surface.bone.index;
+  return k >= looks.size() || looks[k].visible;
+}
+
+Result<TipGauge::Surfaces> TipGauge::of_bones(const Case& the_case, const Progress& progress) {
   Surfaces out;
-  for (const Bone& bone : the_case.bones) {
+  for (std::uint32_t k = 0; k < the_case.bones.size(); ++k) {
     if (progress && !progress("Measuring the bones", 0)) return fail("stopped");
-    Aabb box;
-    for (const Vec3& p : bone.mesh.vertices) box.include(p);
-    out.push_back({MeshDistance(bone.mesh), box, 0});
+    const TriMesh& mesh = the_case.bones[k].mesh;
+    out.push_back({BoneId{k}, {}, MeshDistance(mesh), box_around(mesh), 0});
+  }
+  return out;
+}
+
+Result<TipGauge::Surfaces> TipGauge::of_softs(const Case& the_case, const SoftSetup& felt,
+                                              const Progress& progress) {
+  Surfaces out;
+  for (const SoftSolid& solid : felt.solids) {
+    if (progress && !progress("Measuring the soft parts", 0)) return fail("stopped");
+    TriMesh mesh_B = solid.surface_B ? *solid.surface_B : the_case.softs[solid.soft].mesh_W;
+    const Pose X_BW = the_case.bone(solid.bone).X_WB.inverse();
+    if (!solid.surface_B)
+      for (Vec3& p : mesh_B.vertices) p = X_BW * p;
+    const Aabb box = box_around(mesh_B);
+    out.push_back({solid.bone, solid.soft, MeshDistance(std::move(mesh_B)), box, 0});
   }
   return out;
 }
 
 void TipGauge::begin(std::shared_ptr<const Case> the_case) {
-  surfaces_.clear();
-  job_ = std::make_unique<SideJob<Surfaces>>(
-      [the_case](const Progress& progress) { return make(*the_case, progress); });
+  bones_.clear();
+  case_ = std::move(the_case);
+  bones_job_ = std::make_unique<SideJob<Surfaces>>(
+      [of = case_](const Progress& progress) { return of_bones(*of, progress); });
+  felt_ = nullptr;
+  softs_.clear();
+  softs_job_.reset();
 }
 
-// A bone whose box is farther away than the nearest surface so far is not asked.
+void TipGauge::feel(const std::shared_ptr<const SoftSetup>& felt) {
+  if (felt == felt_) return;
+  felt_ = felt;
+  softs_.clear();
+  softs_job_.reset();
+  if (!felt_ || !case_) return;
+  softs_job_ = std::make_unique<SideJob<Surfaces>>(
+      [of = case_, felt](const Progress& progress) { return of_softs(*of, *felt, progress); });
+}
+
+void TipGauge::wait() const {
+  if (bones_job_) bones_job_->wait();
+  if (softs_job_) softs_job_->wait();
+}
+
+void TipGauge::take_made() {
+  take_from(bones_job_, bones_);
+  take_from(softs_job_, softs_);
+}
+
+// A surface whose box is farther away than the nearest one so far is not asked.
 std::optional<TipGauge::Nearest> TipGauge::nearest(const RenderSnapshot& snapshot,
                                                    const ViewState& view) {
-  if (job_ && job_->done()) {
-    if (auto made = job_->take()) surfaces_ = std::move(*made);
-    job_.reset();
-  }
+  take_made();
   const Vec3& tip_W = snapshot.tool.X_WP.p;
   std::optional<Nearest> best;
   double least = std::numeric_limits<double>::infinity();
   if (!is_finite(tip_W)) return best;
-  for (std::size_t k = 0; k < surfaces_.size() && k < snapshot.bones.count; ++k) {
-    BoneSurface& bone = surfaces_[k];
-    if (!is_drawn(view, k) || bone.box_B.empty()) continue;
-    const Pose& X_WB = snapshot.bones.bones[k].X_WB;
-    const Vec3 tip_B = X_WB.inverse() * tip_W;
-    if (distance_to_box(bone.box_B, tip_B) > std::abs(least)) continue;
-    const ClosestPoint found = bone.distance.closest(tip_B, bone.guess);
-    bone.guess = found.triangle;
-    if (found.signed_distance >= least) continue;
-    least = found.signed_distance;
-    best = Nearest{BoneId{static_cast<std::uint32_t>(k)}, X_WB * found.point, least};
-  }
+  for (Surfaces* surfaces : {&bones_, &softs_})
+    for (GaugedSurface& surface : *surfaces) {
+      if (surface.bone.index >= snapshot.bones.count || surface.box_B.empty()) continue;
+      if (!is_seen(surface, view)) continue;
+      const Pose& X_WB = snapshot.bones.bones[surface.bone.index].X_WB;
+      const Vec3 tip_B = X_WB.inverse() * tip_W;
+      if (distance_to_box(surface.box_B, tip_B) > std::abs(least)) continue;
+      const ClosestPoint found = surface.distance.closest(tip_B, surface.guess);
+      surface.guess = found.triangle;
+      if (found.signed_distance >= least) continue;
+      least = found.signed_distance;
+      best = Nearest{surface.bone, surface.soft, X_WB * found.point, least};
+    }
   return best;
 }
 

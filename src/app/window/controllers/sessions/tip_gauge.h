@@ -5,36 +5,51 @@
 #include <vector>
 
 #include "osteon/mesh/distance.h"
+#include "osteon/physics/soft_setup.h"
 #include "osteon/render/renderer.h"
 #include "ui/side_job.h"
 
 namespace osteon {
 
-/// How far a tip is from the nearest surface of bone. What the search needs is made beside the
-/// picture, once a case.
+/// How far a tip is from the nearest surface of bone, or of a meniscus or stump that is felt, at
+/// rest and as it was before any cut. What the search needs is made beside the picture, once a case
+/// and once for what is felt.
 class TipGauge {
  public:
   struct Nearest {
-    BoneId bone;
-    Vec3 p_W = Vec3::Zero();  ///< on its surface
-    double distance_m = 0;    ///< below 0: inside
+    BoneId bone;                        ///< that it is, or that the soft part lies on
+    std::optional<std::uint32_t> soft;  ///< in Case::softs
+    Vec3 p_W = Vec3::Zero();            ///< on its surface
+    double distance_m = 0;              ///< below 0: inside
   };
   /// Forgets the case before.
   void begin(std::shared_ptr<const Case> the_case);
+  /// What is felt of the case from now on; null: nothing soft. The same again costs nothing.
+  void feel(const std::shared_ptr<const SoftSetup>& felt);
+  /// Returns when nothing is being made any more.
+  void wait() const;
   /// Once a picture. None while the search is being made, and with no bone in sight.
   std::optional<Nearest> nearest(const RenderSnapshot& snapshot, const ViewState& view);
 
  private:
-  struct BoneSurface {
+  struct GaugedSurface {
+    BoneId bone;
+    std::optional<std::uint32_t> soft;
     MeshDistance distance;
     Aabb box_B;
     std::uint32_t guess = 0;
   };
-  using Surfaces = std::vector<BoneSurface>;
-  static Result<Surfaces> make(const Case& the_case, const Progress& progress);
+  using Surfaces = std::vector<GaugedSurface>;
+  static Result<Surfaces> of_bones(const Case& the_case, const Progress& progress);
+  static Result<Surfaces> of_softs(const Case& the_case, const SoftSetup& felt,
+                                   const Progress& progress);
+  static bool is_seen(const GaugedSurface& surface, const ViewState& view);
+  void take_made();
 
-  std::unique_ptr<SideJob<Surfaces>> job_;
-  Surfaces surfaces_;
+  std::shared_ptr<const Case> case_;
+  std::shared_ptr<const SoftSetup> felt_;
+  std::unique_ptr<SideJob<Surfaces>> bones_job_, softs_job_;
+  Surfaces bones_, softs_;
 };
 
 }  // namespace osteon

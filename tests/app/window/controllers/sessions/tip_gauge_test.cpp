@@ -1,0 +1,74 @@
+// How far a tip is from what it is nearest to: bone, or a soft part that is felt.
+#include "window/controllers/sessions/tip_gauge.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "session/soft_solid_fixtures.h"
+
+namespace osteon {
+namespace {
+
+using testing::kMeniscusHalf;
+
+// A block of meniscus, its middle the origin, 40 mm over the middle of a block of bone.
+struct Gauge {
+  Gauge() {
+    view.softs[0].visible = true;
+    tip.begin(the_case);
+    tip.wait();
+  }
+  std::optional<TipGauge::Nearest> at(const Vec3& p_W) {
+    RenderSnapshot snapshot;
+    snapshot.bones = rest_snapshot(*the_case);
+    snapshot.tool.X_WP.p = p_W;
+    return tip.nearest(snapshot, view);
+  }
+  void feel(const std::shared_ptr<const SoftSetup>& felt) {
+    tip.feel(felt);
+    tip.wait();
+  }
+
+  std::shared_ptr<const Case> the_case = testing::meniscus_run().the_case;
+  TipGauge tip;
+  ViewState view = default_view(*the_case);
+};
+
+TEST(TipGauge, APlaceThatIsNoNumberHasNoDistance) {
+  Gauge gauge;
+  EXPECT_FALSE(gauge.at({std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+}
+
+TEST(TipGauge, WhatIsNotFeltIsPassedOver) {
+  Gauge gauge;
+  const auto bone = gauge.at({0, 0, 0.008});
+  ASSERT_TRUE(bone);
+  EXPECT_FALSE(bone->soft);
+  EXPECT_GT(bone->distance_m, 0.02);
+}
+
+TEST(TipGauge, AFeltMeniscusCountsUntilItIsFeltNoMore) {
+  Gauge gauge;
+  gauge.feel(testing::meniscus_run().softs);
+  const auto soft = gauge.at({0, 0, 0.008});
+  ASSERT_TRUE(soft && soft->soft);
+  EXPECT_EQ(gauge.the_case->softs[*soft->soft].name, "medial_meniscus");
+  EXPECT_NEAR(soft->distance_m, 0.008 - kMeniscusHalf.z(), 1e-9);
+  EXPECT_NEAR((soft->p_W - Vec3(0, 0, kMeniscusHalf.z())).norm(), 0, 1e-9);
+  const auto inside = gauge.at({0, 0, 0.001});
+  ASSERT_TRUE(inside && inside->soft);
+  EXPECT_NEAR(inside->distance_m, 0.001 - kMeniscusHalf.z(), 1e-9);
+  gauge.feel(nullptr);
+  EXPECT_FALSE(gauge.at({0, 0, 0.008})->soft);
+}
+
+TEST(TipGauge, WhatIsHiddenIsPassedOver) {
+  Gauge gauge;
+  gauge.feel(testing::meniscus_run().softs);
+  gauge.view.softs[0].visible = false;
+  EXPECT_FALSE(gauge.at({0, 0, 0.008})->soft);
+}
+
+}  // namespace
+}  // namespace osteon
