@@ -192,7 +192,7 @@ void HapticLoop::Impl::pass_portals(const Pose& X_WD, bool start) {
   if (state.tool.portal >= portals.size()) return;
   const Portal& portal = portals[state.tool.portal];
   state.tool.p_portal_W = portal.p_W;
-  if (portal.made != kNotMade) state.tool.portal_way = portal.pierced ? 2 : 1;
+  if (portal.made != kNotMade && !portal.bare) state.tool.portal_way = portal.pierced ? 2 : 1;
 }
 
 // A hand that begins anew where it is, with this instrument or another, is in the portal that it

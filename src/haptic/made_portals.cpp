@@ -9,6 +9,7 @@ void see_made_portal(const BandContacts* contacts, std::span<const Pose> X_WB, P
   portal.open = made.open && made.bone < X_WB.size();
   if (!portal.open) return;
   portal.pierced = made.pierced;
+  portal.bare = made.bare;
   portal.p_W = X_WB[made.bone] * made.p_B;
   portal.nhat_W = -(X_WB[made.bone].q * made.nhat_B);
 }

@@ -83,7 +83,7 @@ std::uint32_t nearest_portal(std::span<const Portal> portals, const Capsule& sha
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t nearest = PortalHold::kNone;
   for (std::uint32_t i = 0; i < portals.size(); ++i) {
-    if (portals[i].made != kNotMade) continue;
+    if (portals[i].made != kNotMade && !(portals[i].open && portals[i].bare)) continue;
     const double off = off_portal(portals[i], shaft, X_WP);
     if (!(off < least) || !points_inwards(portals[i], shaft, X_WP)) continue;
     least = off;

@@ -49,9 +49,28 @@ void KneeExamWatch::follow(std::uint64_t tick, KneeTest test, const BoneSnapshot
   out.push_back(event);
 }
 
+void KneeExamWatch::follow_bend(std::uint64_t tick, const BoneSnapshot& bones,
+                                std::vector<Event>& out) {
+  if (!bones.bend.on) return;
+  const bool stands = bones.bend.now_deg == bones.bend.wanted_deg;
+  if (stands && stands_deg_ == bones.bend.now_deg) return;
+  stands_deg_ = stands ? std::optional(bones.bend.now_deg) : std::nullopt;
+  if (!stands) return;
+  Event event;
+  event.tick = tick;
+  event.kind = kKneeBent;
+  event.hand = 0;
+  event.values = {bones.bend.now_deg, 0, 0};
+  out.push_back(event);
+}
+
 void KneeExamWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
-  if (bones.epoch != epoch_) courses_ = {};
+  if (bones.epoch != epoch_) {
+    courses_ = {};
+    stands_deg_.reset();
+  }
   epoch_ = bones.epoch;
+  follow_bend(tick, bones, out);
   if (!bones.exam.on || !bones.bend.on) return;
   exam_.front_n = bones.exam.front_n;
   exam_.valgus_nm = bones.exam.valgus_nm;

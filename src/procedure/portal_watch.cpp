@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "osteon/procedure/judge.h"
+#include "osteon/scene/marks_now.h"
 #include "osteon/scene/portal.h"
 
 namespace osteon {
@@ -90,16 +91,18 @@ bool PortalWatch::is_seen(std::span<const ToolState* const> tools, std::size_t b
 }
 
 // Its hole is where its axis goes through the skin about the nearest landmark.
-std::optional<PortalWatch::Needle> PortalWatch::needle_at(const ToolState& tool) const {
-  const Vec3 back = tool.X_WP.rotate(Vec3::UnitZ());
+std::optional<PortalWatch::Needle> PortalWatch::needle_at(const ToolState& tool,
+                                                          const BoneSnapshot& bones) const {
   std::optional<Needle> best;
   double nearest = kNeedleNear_m;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     if (!frames_[i]) continue;
     const PortalFrame& frame = *frames_[i];
-    const double deep = frame.in_W.dot(tool.X_WP.p - frame.p_W), slope = -frame.in_W.dot(back);
+    const Pose X_WP = moved_from_rest(*case_, settings_.marks[i], bones).inverse() * tool.X_WP;
+    const Vec3 back = X_WP.rotate(Vec3::UnitZ());
+    const double deep = frame.in_W.dot(X_WP.p - frame.p_W), slope = -frame.in_W.dot(back);
     if (deep < kNeedleDeep_m || slope < kNeedleSlope) continue;
-    const Vec3 off = tool.X_WP.p + deep / slope * back - frame.p_W;
+    const Vec3 off = X_WP.p + deep / slope * back - frame.p_W;
     if (!(off.norm() < nearest)) continue;
     nearest = off.norm();
     best = Needle{settings_.marks[i], {0, off.dot(frame.up_W), off.dot(frame.middle_W)}};
@@ -112,7 +115,7 @@ void PortalWatch::follow_needle(std::span<const ToolState* const> tools, std::si
   const ToolState& tool = *tools[hand];
   needle_told_.resize(std::max(needle_told_.size(), tools.size()), 0);
   const bool held = tool.instrument < needles_.size() && needles_[tool.instrument] != 0;
-  const auto needle = held && is_finite(tool.X_WP) ? needle_at(tool) : std::nullopt;
+  const auto needle = held && is_finite(tool.X_WP) ? needle_at(tool, bones) : std::nullopt;
   int& told = needle_told_[hand];
   if (!needle) {
     told = 0;
@@ -153,8 +156,9 @@ void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     if (tool.portal_way == 0 || tool.portal >= frames_.size() || !frames_[tool.portal]) continue;
     if (!is_finite(tool.p_portal_W) || !is_news(tool)) continue;
     const PortalFrame& frame = *frames_[tool.portal];
-    const Vec3 off = tool.p_portal_W - frame.p_W;
     const std::uint32_t mark = settings_.marks[tool.portal];
+    const Pose to_rest = moved_from_rest(*case_, mark, bones).inverse();
+    const Vec3 off = to_rest * tool.p_portal_W - frame.p_W;
     out.push_back(of_portal(tool, h, mark, kPortalPlaced));
     out.back().values = {1e3 * off.dot(frame.up_W), 1e3 * off.dot(frame.middle_W), 0};
     out.push_back(of_portal(tool, h, mark, kPortalWay));
@@ -163,8 +167,8 @@ void PortalWatch::add(std::span<const ToolState* const> tools, const BoneSnapsho
     const auto in_frame = [&](const Vec3& v) {
       return Vec3(v.dot(frame.in_W), v.dot(frame.up_W), v.dot(frame.middle_W));
     };
-    MadePortalFound made{mark, in_frame(off), in_frame(tool.X_WP.rotate(-Vec3::UnitZ())), pierced,
-                         seen};
+    MadePortalFound made{mark, in_frame(off),
+                         in_frame(to_rest.rotate(tool.X_WP.rotate(-Vec3::UnitZ()))), pierced, seen};
     made.from_needle_m = from_needle(made);
     keep(made);
   }

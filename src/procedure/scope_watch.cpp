@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "osteon/scene/marks_now.h"
 #include "osteon/scene/rings.h"
 
 namespace osteon {
@@ -107,7 +108,7 @@ void ScopeWatch::look(const ToolState& tool, const ToolState* other, const BoneS
   const double turned = turn_deg(view);
   int in_view = 0;
   for (const std::uint32_t mark : settings_.marks) {
-    const auto at = seen(view, bones, case_->landmarks[mark].p_W, 0.0008);
+    const auto at = seen(view, bones, place_now(*case_, mark, bones), 0.0008);
     if (!at) continue;
     ++in_view;
     out.push_back(event(tool, kMarkSeen, {(*at)[0], (*at)[1], turned}));

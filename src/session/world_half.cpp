@@ -31,6 +31,20 @@ WorldHalf::WorldHalf(std::shared_ptr<const Case> the_case, const SessionSettings
       keep_every_(static_cast<std::uint64_t>(std::ceil(kKeepEvery_s / settings.physics.step_s))) {
   auto rings = std::make_unique<LooseRings>(std::move(the_case), step_s_);
   if (rings->count() > 0) rings_ = std::move(rings);
+  begin_bent();
+}
+
+// A joint that begins otherwise bent than its bones lie at rest.
+void WorldHalf::begin_bent() {
+  if (the_case_->joints.empty() || !the_case_->joints.front().begin_deg) return;
+  const CaseJoint& joint = the_case_->joints.front();
+  BendState bend;
+  bend.on = true;
+  bend.now_deg = bend.wanted_deg = *joint.begin_deg;
+  world_.set_bend(bend);
+  const Pose& X_WF = world_.snapshot().bones[joint.fixed.index].X_WB;
+  for (const CaseJoint::Moved& moved : joint.bones)
+    world_.place(moved.bone.index, {X_WF * pose_at(moved.X_FB, bend.now_deg)});
 }
 
 // Whatever moves the other bones, rings are where jaws and gravity have put them.
@@ -303,7 +317,9 @@ void WorldHalf::obey(const Command& command) {
     order_bend(command.value);
   else if (command.kind == CommandKind::kTension)
     pull_tail(command.value);
-  else if (examines(command))
+  else if (command.kind == CommandKind::kBareSkin) {
+    if (softs_) softs_->bare_skin();
+  } else if (examines(command))
     return;
   else if (command.kind == CommandKind::kMark && mark < kMaxMarks)
     keep(mark);

@@ -70,6 +70,7 @@ class alignas(64) WorldHalf {
   bool takes_graft(const Command& command);
   void make_placing(const GraftPlacingState& state);
   bool fits_placing(const GraftPlacingState& state) const;
+  void begin_bent();
   void order_bend(double degrees);
   bool examines(const Command& command);
   void bend();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "acl_drilling.h"
 #include "acl_knee.h"
@@ -196,7 +197,7 @@ ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
   }
   const Vec3 out = outwards(knee, portal_W);
   AclWay way(tools.scope, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
-  way.wait_until(0.1);
+  way.wait_until(tools.begin_s + 0.1);
   if (gazes.empty() || habits.fault == "skipped_inspection") return way.path();
   const Pose first = *pose_for(gazes[0], portal_W, tools.optics);
   const Vec3 back = first.rotate(Vec3::UnitZ());
@@ -362,8 +363,9 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   const auto plan = plan_drilling(*knee, tools, habits);
   if (!plan) return tl::unexpected(plan.error());
   const bool swapped = habits.fault == "wrong_portal";
-  const Vec3 al = knee->mark(swapped ? "portal_am" : "portal_al");
-  const Vec3 am = knee->mark(swapped ? "portal_al" : "portal_am");
+  Vec3 al = tools.al_W.value_or(knee->mark("portal_al"));
+  Vec3 am = tools.am_W.value_or(knee->mark("portal_am"));
+  if (swapped) std::swap(al, am);
   AclWays ways;
   const ProbePath scope = scope_way(*knee, tools, al, habits, ways.unreachable);
   double probe_s = scope.duration_s() + 0.5;
@@ -380,7 +382,8 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   if (tools.drills)
     ways.drilling =
         drill_both(*knee, *plan, habits.fault,
-                   ways.after_graft || ways.examines ? 0 : ways.third_begin_s, habits.pace);
+                   ways.after_graft || ways.examines || tools.begin_s > 0 ? 0 : ways.third_begin_s,
+                   habits.pace);
   ways.scope = trembling(scope, skill.tremor_m, skill.seed);
   ways.probe = trembling(probe, skill.tremor_m, skill.seed + 1);
   if (tools.drills) return ways;

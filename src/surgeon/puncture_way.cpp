@@ -13,6 +13,7 @@
 #include "osteon/base/turn.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/portal_watch.h"
+#include "osteon/scene/marks_now.h"
 #include "osteon/surgeon/puncture_surgeon.h"
 #include "osteon/surgeon/scope_reach.h"
 
@@ -49,10 +50,14 @@ struct SkinWay {
 struct Puncture {
   const Case& the_case;
   AclKnee knee;
-  MeshDistance skin;
+  MeshDistance skin_at_rest;
+  Pose X_moved;  // of the skin about both portals, away from rest
   PortalFrame al, am;
   std::string fault;
   double pace = 1;
+  Vec3 on_skin(const Vec3& p_W) const {
+    return X_moved * skin_at_rest.closest(X_moved.inverse() * p_W).point;
+  }
 };
 
 const SoftPart* skin_of_case(const Case& the_case) {
@@ -61,17 +66,20 @@ const SoftPart* skin_of_case(const Case& the_case) {
   return nullptr;
 }
 
-Result<Puncture> puncture_of(const Case& the_case, const Skill& skill) {
+// `the_case`: as it begins.
+Result<Puncture> puncture_of(const Case& at_rest, const Case& the_case, const Skill& skill) {
   auto knee = AclKnee::make(the_case);
   if (!knee) return tl::unexpected(knee.error());
-  const SoftPart* skin = skin_of_case(the_case);
+  const SoftPart* skin = skin_of_case(at_rest);
   const auto al = find_landmark(the_case, "portal_al"), am = find_landmark(the_case, "portal_am");
   const auto al_frame = al ? portal_frame(the_case, *al) : std::nullopt;
   const auto am_frame = am ? portal_frame(the_case, *am) : std::nullopt;
   if (!skin || !al_frame || !am_frame)
     return fail("the case has no skin with both portals", the_case.name,
                 "Use a generated knee, such as builtin:knee");
-  Puncture out{the_case, std::move(*knee), MeshDistance(skin->mesh_W), *al_frame, *am_frame, {}};
+  const Pose X_moved = moved_from_rest(at_rest, *al, begun_bones(at_rest));
+  Puncture out{
+      the_case, std::move(*knee), MeshDistance(skin->mesh_W), X_moved, *al_frame, *am_frame, {}};
   if (skill.name.starts_with("bad:")) out.fault = skill.name.substr(4);
   if (!out.fault.empty() &&
       std::find(kPunctureFaults.begin(), kPunctureFaults.end(), out.fault) == kPunctureFaults.end())
@@ -100,8 +108,7 @@ std::optional<Vec3> free_way(const Puncture& at, const Vec3& p_W, const Vec3& n_
 // At the landmark or beside it, on the skin.
 Result<SkinWay> skin_way(const Puncture& at, const PortalFrame& frame, const Vec3& beside_W) {
   SkinWay out;
-  const auto on = at.skin.closest(frame.p_W + beside_W);
-  out.p_W = on.point;
+  out.p_W = at.on_skin(frame.p_W + beside_W);
   out.n_W = -frame.in_W;
   out.up_W = frame.up_W;
   const auto in = free_way(at, out.p_W, out.n_W);
@@ -119,8 +126,8 @@ void cut_skin(const Puncture& at, const SkinWay& in, HandWay& way) {
   axes.col(2) = in.n_W;
   axes.col(1) = axes.col(2).cross(axes.col(0));
   const Quat q(axes);
-  const Vec3 from = at.skin.closest(in.p_W - kCutHalf_m * in.up_W).point;
-  const Vec3 to = at.skin.closest(in.p_W + kCutHalf_m * in.up_W).point;
+  const Vec3 from = at.on_skin(in.p_W - kCutHalf_m * in.up_W);
+  const Vec3 to = at.on_skin(in.p_W + kCutHalf_m * in.up_W);
   const auto place = [&](const Vec3& p_W, double deep_m) { return Pose{p_W - deep_m * in.n_W, q}; };
   way.go(place(from, -kOverSkin_m), kHandCarry_m_per_s);
   way.go(place(from, -0.003), kHandCarry_m_per_s);
@@ -215,11 +222,30 @@ void bring_scope(const SkinWay& in, const Pose& gaze, HandWay& way) {
   }
 }
 
+// With the hook to the tibia's footprint.
+void end_hooked(const Puncture& at, const SkinWay& am, HandWay& worker) {
+  worker.take("hook_probe");
+  const Vec3 hook = hooked(at, am), back = (am.p_W - hook).normalized();
+  worker.go(held_by_shaft(am.p_W + kOverSkin_m * back, back), kHandCarry_m_per_s);
+  worker.go(held_by_shaft(hook, back), kPuncture_m_per_s);
+  worker.stay(kHook_s);
+}
+
+void draw_scope_out(const Puncture& at, const SkinWay& al, HandWay& eye) {
+  eye.go(al.along(kScopeIn_m), kHandNear_m_per_s);
+  eye.go(al.along(-kOverSkin_m), kHandNear_m_per_s);
+  eye.go(puncture_wait(at.al), kHandCarry_m_per_s);
+}
+
 }  // namespace
 
+std::span<const std::string_view> puncture_faults() { return kPunctureFaults; }
+
 Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scope,
-                                   const ScopeOptics& optics, const Skill& skill) {
-  const auto at = puncture_of(the_case, skill);
+                                   const ScopeOptics& optics, const Skill& skill,
+                                   const PunctureEnd& end) {
+  const Case begun = as_it_begins(the_case);
+  const auto at = puncture_of(the_case, begun, skill);
   if (!at) return tl::unexpected(at.error());
   Random random(skill.seed * 31 + 11);
   const double miss_m = std::min(0.08 * skill.detour_m, 0.004);
@@ -241,29 +267,27 @@ Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scop
   if (!gaze)
     return fail("the scope cannot see the place of the other portal", the_case.name,
                 "Use another patient");
-  HandWay worker("scalpel_11", puncture_wait(at->am), at->pace);
+  HandWay worker(end.held, puncture_wait(at->am), at->pace);
   make_portal(*at, *al, at->fault, worker);
   worker.go(puncture_wait(at->am), kHandCarry_m_per_s);
   HandWay eye(scope, puncture_wait(at->al), at->pace);
   eye.stay(worker.now_s() + 0.3);
   bring_scope(*al, *gaze, eye);
   eye.stay(kLooked_s);
-  if (at->fault == "am_blind") {
-    eye.go(al->along(kScopeIn_m), kHandNear_m_per_s);
-    eye.go(al->along(-kOverSkin_m), kHandNear_m_per_s);
-    eye.go(puncture_wait(at->al), kHandCarry_m_per_s);
-  }
+  if (at->fault == "am_blind") draw_scope_out(*at, *al, eye);
   worker.stay(eye.now_s() + 0.3 - worker.now_s());
   push_needle(*am, worker);
   make_portal(*at, *am, {}, worker);
-  worker.take("hook_probe");
-  const Vec3 hook = hooked(*at, *am), back = (am->p_W - hook).normalized();
-  worker.go(held_by_shaft(am->p_W + kOverSkin_m * back, back), kHandCarry_m_per_s);
-  worker.go(held_by_shaft(hook, back), kPuncture_m_per_s);
-  worker.stay(kHook_s);
+  if (end.leaves)
+    worker.go(puncture_wait(at->am), kHandCarry_m_per_s);
+  else
+    end_hooked(*at, *am, worker);
   eye.stay(worker.now_s() - eye.now_s());
+  if (end.leaves && at->fault != "am_blind") draw_scope_out(*at, *al, eye);
+  const Pose X_rest = at->X_moved.inverse();
   return PunctureWays{trembling(eye.path(), skill.tremor_m, skill.seed + 6),
-                      trembling(worker.path(), skill.tremor_m, skill.seed + 7)};
+                      trembling(worker.path(), skill.tremor_m, skill.seed + 7), X_rest * al->p_W,
+                      X_rest * am->p_W};
 }
 
 }  // namespace osteon

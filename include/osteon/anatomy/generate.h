@@ -46,6 +46,7 @@ struct GeneratedLandmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
   Vec3 inwards_W = Vec3::Zero();  ///< unit, into the body, of one on the skin; else zero
+  std::string bone = {};          ///< that it goes with; empty: none
 };
 
 /// How a joint moves bones against one that stays.

@@ -80,6 +80,7 @@ struct SkinHand {
 struct SkinState {
   std::vector<SkinPatchState> patches;
   std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands{};
+  bool bares = false;  ///< no patch is felt from when on each has a portal
 };
 
 }  // namespace osteon

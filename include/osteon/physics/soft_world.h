@@ -82,6 +82,8 @@ class SoftWorld {
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
   const SolidReadout& solid_readout(std::size_t solid) const { return solid_readouts_[solid]; }
   SkinReadout skin_readout(std::size_t patch) const;
+  /// No patch of skin is felt from when on each has a portal; those are open to every shaft.
+  void bare_skin();
   /// No tool is near it: nothing is done for it.
   bool is_asleep(std::size_t solid) const;
   /// What presses the solids now, and what has bent the bands in the last step: their shape follows

@@ -16,6 +16,9 @@ namespace osteon {
 /// fixed graft; side difference mm as it was done}.
 inline constexpr EventKind kKneeExamined{469};
 
+/// A knee that was being bent stands still: {degrees; 0; 0}.
+inline constexpr EventKind kKneeBent{471};
+
 /// What a test by hand found, where the tibia stood farthest ahead.
 struct KneeTestFound {
   double flexion_deg = 0;
@@ -47,12 +50,14 @@ class KneeExamWatch {
     bool begun = false, done = false;
     KneeTestFound farthest;
   };
+  void follow_bend(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out);
   void follow(std::uint64_t tick, KneeTest test, const BoneSnapshot& bones,
               std::vector<Event>& out);
 
   KneeExam exam_;
   std::array<Course, kKneeTests> courses_{};
   std::uint32_t epoch_ = 0;
+  std::optional<double> stands_deg_;  ///< where the knee stood still last; none: it is being bent
 };
 
 }  // namespace osteon

@@ -75,7 +75,7 @@ class PortalWatch {
     std::uint32_t mark = 0;
     Vec3 off_F = Vec3::Zero();  ///< of its hole, as MadePortalFound
   };
-  std::optional<Needle> needle_at(const ToolState& tool) const;
+  std::optional<Needle> needle_at(const ToolState& tool, const BoneSnapshot& bones) const;
   void follow_needle(std::span<const ToolState* const> tools, std::size_t hand,
                      const BoneSnapshot& bones, std::vector<Event>& out);
   std::optional<double> from_needle(const MadePortalFound& portal) const;

@@ -91,6 +91,7 @@ struct Landmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
   Vec3 inwards_W = Vec3::Zero();  ///< unit, into the body, of one on the skin; zero: not known
+  std::string bone = {};          ///< name of the one that it goes with; empty: it stays
 };
 
 /// What is wrong with the patient, in words: for who teaches with the case. The parts of the case

@@ -35,11 +35,14 @@ enum class CommandKind : std::uint32_t {
   kKneeOrder = 18,
   kKneeNumber = 19,  ///< value: the next of give_numbers; with the last of them it can be examined
   kLachman = 20,     ///< value: pull on the tibia to the front, N; ends the other test
-  kPivot = 21        ///< value: share of the pivot shift's load, 0 to 1; ends the other test
+  kPivot = 21,       ///< value: share of the pivot shift's load, 0 to 1; ends the other test
+  /// value: 0; patches of skin are felt no more. Portals that were made in them stay open, and let
+  /// shafts in as those of the case do
+  kBareSkin = 22
 };
 
 /// The last of them.
-inline constexpr CommandKind kLastCommandKind = CommandKind::kPivot;
+inline constexpr CommandKind kLastCommandKind = CommandKind::kBareSkin;
 
 /// Restore points of a session.
 inline constexpr std::uint32_t kMaxMarks = 16;
@@ -55,7 +58,7 @@ inline bool is_for_physics_alone(CommandKind kind) {
          kind == CommandKind::kOutlet || kind == CommandKind::kGraftOrder ||
          kind == CommandKind::kGraftNumber || kind == CommandKind::kBend ||
          kind == CommandKind::kTension ||
-         (kind >= CommandKind::kKneeOrder && kind <= CommandKind::kPivot);
+         (kind >= CommandKind::kKneeOrder && kind <= CommandKind::kBareSkin);
 }
 /// Whether it concerns physics: such a command goes to physics, and to the hands as well unless
 /// is_for_physics_alone.

@@ -22,6 +22,7 @@ struct BendingJoint {
   BoneKey fixed;      ///< the bone that stays
   double at_deg = 0;  ///< how far it is bent while every bone is at rest
   std::vector<Moved> bones;
+  std::optional<double> begin_deg = {};  ///< how far it is bent as a session begins; none: at_deg
 
   double min_deg() const { return bones.empty() ? 0 : bones[0].X_FB.first; }
   double max_deg() const { return bones.empty() ? 0 : bones[0].X_FB.last(); }

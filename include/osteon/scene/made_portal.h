@@ -18,6 +18,7 @@ inline constexpr std::size_t kMaxMade = kMaxSkins * kMadePerPatch;
 struct MadePortal {
   bool open = false;
   bool pierced = false;         ///< else a cut let the shaft in
+  bool bare = false;            ///< its patch is felt no more: any shaft goes in there
   std::uint32_t bone = 0;       ///< that it goes with
   Vec3 p_B = Vec3::Zero();      ///< on the skin at rest
   Vec3 nhat_B = Vec3::UnitZ();  ///< unit, out of the skin

@@ -33,6 +33,7 @@ struct Portal {
   std::uint32_t made = kNotMade;
   bool open = true;  ///< a made one: not before it is made
   bool pierced = false;
+  bool bare = false;  ///< a made one: entered like one of the case, its skin is felt no more
 };
 
 /// Those of a case: its landmarks whose names begin with "portal_", so that they lie where they

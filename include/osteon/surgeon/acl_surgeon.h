@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct AclTools {
   std::vector<std::string> felt;                  ///< and those that the probe presses next to
   bool examines = false;  ///< the knee is tested by hand, between the scope and the probe
   std::string shaver;     ///< that clears the stumps after that; empty: they stay
+  double begin_s = 0;     ///< nobody comes before; what drills then begins when it is told to
+  std::optional<Vec3> al_W, am_W;  ///< where the portals were made; none: at the landmarks
 };
 
 /// Ways of three hands through a reconstruction.

@@ -63,6 +63,7 @@ Result<GeneratedAnatomy> grow_bones(const AnatomyDescription& anatomy,
   for (const LandmarkDescription& landmark : anatomy.landmarks) {
     const auto moved = landmark.bone ? displacement_of(anatomy, *landmark.bone) : std::nullopt;
     generated.landmarks.push_back({landmark.name, moved ? *moved * landmark.p_W : landmark.p_W});
+    if (landmark.bone) generated.landmarks.back().bone = anatomy.bones[*landmark.bone].name;
   }
   return generated;
 }

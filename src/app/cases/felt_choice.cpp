@@ -23,6 +23,7 @@ std::optional<double> degrees_from(const std::string& text) {
 }
 
 constexpr std::string_view kPortalPrefix = "portal_";
+constexpr std::string_view kBeginPrefix = "begin_";
 constexpr double kFarthest_mm = 1000;
 
 // "31.5/-20/4/0.6/0.8/0".
@@ -76,10 +77,15 @@ Result<FeltChoice> parse_felt_choice(const std::string& spec) {
       continue;
     }
     if (const auto degrees = all ? std::nullopt : degrees_from(value)) {
-      const bool near = part.substr(0, equals) == "near";
+      const std::string name = part.substr(0, equals);
+      if (name.starts_with(kBeginPrefix)) {
+        out.begins[name.substr(kBeginPrefix.size())] = *degrees;
+        continue;
+      }
+      const bool near = name == "near";
       if (near && !(*degrees >= kLeastNear_mm && *degrees <= kMostNear_mm))
         return fail("'" + part + "' is not 60 to 400 mm", spec);
-      (near ? out.near_mm : out.bent[part.substr(0, equals)]) = *degrees;
+      (near ? out.near_mm : out.bent[name]) = *degrees;
       continue;
     }
     const auto felt = felt_from_text(value);
@@ -102,6 +108,12 @@ std::string to_text(const FeltChoice& choice) {
   }
   for (const auto& [joint, degrees] : choice.bent)
     out.append(out.empty() ? "#" : ",").append(joint).append("=").append(shortest(degrees));
+  for (const auto& [joint, degrees] : choice.begins)
+    out.append(out.empty() ? "#" : ",")
+        .append(kBeginPrefix)
+        .append(joint)
+        .append("=")
+        .append(shortest(degrees));
   if (choice.near_mm > 0)
     out.append(out.empty() ? "#" : ",").append("near=" + shortest(choice.near_mm));
   for (const auto& [portal, place] : choice.portals) {
@@ -136,6 +148,13 @@ Result<void> apply(const FeltChoice& choice, CaseDef& def) {
     if (!there)
       return fail("there is no bone '" + name + "'", "case '" + def.name + "'",
                   "'osteon case info' lists the bones");
+  }
+  for (const auto& [name, degrees] : choice.begins) {
+    const auto joint = std::find_if(def.joints.begin(), def.joints.end(),
+                                    [&of = name](const JointDef& j) { return j.name == of; });
+    if (joint == def.joints.end())
+      return fail("it has no joint '" + name + "'", "case '" + def.name + "'");
+    joint->begin_deg = degrees;
   }
   for (const auto& [name, place] : choice.portals) {
     const auto mark =

@@ -12,12 +12,14 @@ namespace osteon {
 /// part of how a user names a case, so that a recording knows it too.
 /// "wrist_folder#lunate=hull,capitate=field", or "#field" for all; "knee_folder#flexion=70";
 /// "builtin:knee#near=80"; "builtin:knee#beside=graft_bench"; and where portals are:
-/// "builtin:knee#portal_al=31.5/-20/4/0.6/0.8/0", a place in mm, World, and a direction into the
-/// body.
+/// "builtin:knee#flexion=120,begin_flexion=80" lies bent to 120 degrees and is bent to 80 as a
+/// session begins; "builtin:knee#portal_al=31.5/-20/4/0.6/0.8/0", a place in mm, World, and a
+/// direction into the body.
 struct FeltChoice {
-  std::string source;                       ///< the case without the choice
-  std::map<std::string, Felt> of_bone;      ///< by name; "" stands for all others
-  std::map<std::string, double> bent = {};  ///< degrees, by the joint's name
+  std::string source;                         ///< the case without the choice
+  std::map<std::string, Felt> of_bone;        ///< by name; "" stands for all others
+  std::map<std::string, double> bent = {};    ///< degrees, by the joint's name
+  std::map<std::string, double> begins = {};  ///< likewise, as a session begins
   double near_mm = 0;  ///< femur and tibia of a knee end so far from the joint; 0: they are whole
   struct Place {
     Vec3 p_W = Vec3::Zero(), inwards_W = Vec3::UnitX();

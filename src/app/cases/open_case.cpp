@@ -230,7 +230,8 @@ CaseDef case_from(GeneratedAnatomy anatomy) {
     def.softs.push_back(std::move(soft));
   }
   for (GeneratedLandmark& landmark : anatomy.landmarks)
-    def.landmarks.push_back({std::move(landmark.name), landmark.p_W, landmark.inwards_W});
+    def.landmarks.push_back(
+        {std::move(landmark.name), landmark.p_W, landmark.inwards_W, std::move(landmark.bone)});
   for (GeneratedFinding& finding : anatomy.findings)
     def.findings.push_back(
         {std::move(finding.name), std::move(finding.grade), std::move(finding.meaning)});

@@ -4,11 +4,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cases/felt_choice.h"
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
 #include "exercises/graft_order.h"
 #include "exercises/guided_time.h"
 #include "exercises/seat_files.h"
+#include "exercises/skin_order.h"
 #include "exercises/surface_heat.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
@@ -174,6 +176,8 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     const auto graft = graft_in(order.recording);
     if (!graft) return tl::unexpected(graft.error());
     if (*graft) leave_out_bench_stages(**scenario);
+    if (const auto choice = parse_felt_choice(*spec); choice && !choice->portals.empty())
+      leave_out_puncture_stages(**scenario);
     sources.graft = *graft;
     if (auto begun =
             again.begin(**scenario, **the_case, tick_s, hands, std::move(sources), settings->tray);

@@ -14,6 +14,7 @@ Result<std::string> with_made_portals(const std::string& case_spec, const Report
                 "Make them in the same patient and side: run acl_puncture with the same --seed");
   auto choice = parse_felt_choice(case_spec);
   if (!choice) return tl::unexpected(choice.error());
+  choice->begins.clear();  // nothing is made in the knee as it would begin
   const auto the_case = open_case(case_spec, {}, CaseParts::kAll);
   if (!the_case) return tl::unexpected(the_case.error());
   for (const auto& [name, portal] : made.portals) {

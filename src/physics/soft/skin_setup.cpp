@@ -107,6 +107,14 @@ BoneId bone_under(const Case& the_case, const Vec3& p_W) {
   return best;
 }
 
+// A patch at a landmark goes with the landmark's bone, as far as that is known.
+BoneId bone_of_patch(const Case& the_case, std::uint32_t landmark, const Vec3& p_W) {
+  if (landmark < the_case.landmarks.size() && !the_case.landmarks[landmark].bone.empty())
+    if (const BoneId named = the_case.find(the_case.landmarks[landmark].bone); named.valid())
+      return named;
+  return bone_under(the_case, p_W);
+}
+
 Result<SkinRelief> relief_of(const TriMesh& skin_W, const Pose& X_WS, double width_m,
                              double height_m) {
   const auto nx = static_cast<std::size_t>(std::lround(width_m / kReliefCell_m)) + 1;
@@ -158,7 +166,7 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
   SkinPatch out;
   out.name = std::string(kSkinAt) + place.name;
   out.soft = soft;
-  out.bone = bone_under(the_case, room.X_WS.p);
+  out.bone = bone_of_patch(the_case, place.landmark, room.X_WS.p);
   out.X_BS = the_case.bone(out.bone).X_WB.inverse() * room.X_WS;
   for (const double share : {1.0, 0.8, 0.6, 0.45}) {
     out.width_m = share * usual_width_m(place);

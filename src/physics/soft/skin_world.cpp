@@ -74,6 +74,7 @@ const SkinTool& SkinWorld::use_of(std::uint32_t instrument) const {
 void SkinWorld::clear() {
   for (std::size_t s = 0; s < patches_.size(); ++s) put(s, {});
   hands_ = {};
+  bares_ = false;
 }
 
 std::optional<SkinWorld::Place> SkinWorld::deepest_box(std::size_t s, const RoundBox& box_S) const {
@@ -503,9 +504,15 @@ void SkinWorld::tell_event(const At& at, EventKind kind, const std::array<double
   events_.push_back(event);
 }
 
+bool SkinWorld::is_bare() const {
+  return bares_ && std::all_of(patches_.begin(), patches_.end(),
+                               [](const Patch& patch) { return patch.made_count > 0; });
+}
+
 void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bones) {
   events_.clear();
   step_ = bones.step;
+  const bool bare = is_bare();
   for (std::size_t s = 0; s < patches_.size(); ++s) {
     const Pose& X_WB = bones.bones[setup_.skins[s].bone.index].X_WB;
     const bool lies = is_finite(X_WB);
@@ -513,7 +520,7 @@ void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bon
     readouts_[s] = {};
     for (std::size_t h = 0; h < hands.size(); ++h) {
       SkinToolNow now = hands[h];
-      if (now.tool && (!lies || !usable_tool(*now.tool))) now.tool = nullptr;
+      if (now.tool && (bare || !lies || !usable_tool(*now.tool))) now.tool = nullptr;
       const At at{h, s, &now, &hands_[h][s]};
       follow(at);
       tell_touch(at, bones.step);
@@ -538,6 +545,7 @@ MadePortal SkinWorld::made_portal(std::size_t s, std::uint32_t portal) const {
   MadePortal out;
   out.open = true;
   out.pierced = patches_[s].made[portal].pierced;
+  out.bare = is_bare();
   out.bone = patch.bone.index;
   out.p_B = patch.X_BS * Vec3(p.x(), p.y(), here.height_m);
   out.nhat_B = patch.X_BS.rotate(Vec3(-here.slope.x(), -here.slope.y(), 1).normalized());

@@ -89,6 +89,7 @@ std::uint64_t SkinWorld::hash() const {
   }
   for (const auto& hands : hands_)
     for (std::size_t s = 0; s < patches_.size(); ++s) add_to(h, hands[s]);
+  if (bares_) h.add(bares_);
   return h.value();
 }
 
@@ -101,6 +102,7 @@ std::shared_ptr<const SkinState> SkinWorld::save() const {
                             from.made_count, from.made});
   }
   out->hands = hands_;
+  out->bares = bares_;
   return out;
 }
 
@@ -160,6 +162,7 @@ void SkinWorld::put(std::size_t s, const SkinPatchState& from) {
 void SkinWorld::restore(const SkinState& state) {
   for (std::size_t s = 0; s < patches_.size(); ++s) put(s, state.patches[s]);
   hands_ = state.hands;
+  bares_ = state.bares;
   events_.clear();
 }
 

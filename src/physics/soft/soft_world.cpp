@@ -540,6 +540,10 @@ void SoftWorld::step_skins(std::span<const Hand> hands, const BoneSnapshot& bone
 
 SkinReadout SoftWorld::skin_readout(std::size_t patch) const { return skins_->readout(patch); }
 
+void SoftWorld::bare_skin() {
+  if (skins_) skins_->bare();
+}
+
 BandContacts SoftWorld::contacts(std::size_t hand) const {
   const SoftHandState& state = state_.hands[hand];
   BandContacts out;

@@ -1,6 +1,7 @@
 #include "rules/exam_rules.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "osteon/procedure/knee_exam_watch.h"
 #include "osteon/procedure/tunnel_events.h"
@@ -28,6 +29,12 @@ const std::vector<RuleKind>& exam_rule_table() {
        {{"grafted", 0, 1, 0}},
        SubjectKind::kNothing,
        kKneeExamined},
+      {"knee_bent",
+       "the knee stands still, bent as far as is asked for",
+       true,
+       {{"to_deg", 0, 160, 90}, {"within_deg", 0.5, 90, 5}},
+       SubjectKind::kNothing,
+       kKneeBent},
       {"unexamined",
        "a tunnel is begun before Lachman and pivot shift were both tested by hand",
        false,
@@ -48,6 +55,12 @@ bool step_exam_rule(const PlannedRule& rule, const Event& event, double tick_s, 
                                  [&](const RuleKind& k) { return k.name == rule.rule.kind; });
   if (kind == table.end()) return false;
   hit.reset();
+  if (kind->name == "knee_bent") {
+    if (event.kind == kKneeBent &&
+        std::abs(event.values[0] - number_of(rule, "to_deg")) <= number_of(rule, "within_deg"))
+      state.met = true;
+    return true;
+  }
   RuleHold& hold = state.holds[0];
   const double knee = kind->is_goal ? number_of(rule, "grafted") : 0;
   if (event.kind == kKneeExamined && event.values[1] == knee)

@@ -150,6 +150,8 @@ std::uint64_t hash_of(const Case& the_case, const std::vector<Felt>& chosen) {
   Hasher hasher;
   hasher.add(static_cast<std::uint64_t>(the_case.bones.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i) hash_bone(hasher, the_case.bones[i], chosen[i]);
+  for (const CaseJoint& joint : the_case.joints)
+    if (joint.begin_deg) hasher.add(*joint.begin_deg);
   return hasher.value();
 }
 

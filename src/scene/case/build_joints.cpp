@@ -46,6 +46,10 @@ Result<CaseJoint> build_joint(JointDef def, const std::vector<Bone>& bones) {
   }
   if (!(def.at_deg >= joint.min_deg() && def.at_deg <= joint.max_deg()))
     return fail("it is bent beyond its range", where);
+  joint.begin_deg = def.begin_deg;
+  if (joint.begin_deg &&
+      !(*joint.begin_deg >= joint.min_deg() && *joint.begin_deg <= joint.max_deg()))
+    return fail("it would begin beyond its range", where);
   return joint;
 }
 

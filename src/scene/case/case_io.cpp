@@ -157,6 +157,7 @@ std::string case_text(const CaseDef& def, const MeshFiles& files) {
     text += "\n[[landmarks]]\nname = " + quoted(landmark.name) +
             "\nposition_m = " + bracketed(landmark.p_W) + "\n";
     if (!landmark.inwards_W.isZero(0)) text += "inwards = " + bracketed(landmark.inwards_W) + "\n";
+    if (!landmark.bone.empty()) text += "bone = " + quoted(landmark.bone) + "\n";
   }
   for (const CaseFinding& finding : def.findings)
     text += "\n[[findings]]\nname = " + quoted(finding.name) +

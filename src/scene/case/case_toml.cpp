@@ -177,7 +177,7 @@ void read_soft(const toml::table& table, const std::string& where, CaseText& out
 void read_landmark(const toml::table& table, const std::string& where, CaseText& out,
                    CaseTomlReader& file) {
   CaseTomlReader reader(table, where, "landmark " + std::to_string(out.def.landmarks.size() + 1));
-  reader.allow_only({"name", "position_m", "inwards"});
+  reader.allow_only({"name", "position_m", "inwards", "bone"});
   Landmark landmark;
   landmark.name = read_name(reader);
   landmark.p_W = reader.position("position_m");
@@ -187,6 +187,7 @@ void read_landmark(const toml::table& table, const std::string& where, CaseText&
     if (!(std::abs(landmark.inwards_W.norm() - 1) < kUnit))
       reader.set_error("'inwards' must be of length 1", "inwards");
   }
+  if (reader.has("bone")) landmark.bone = reader.text("bone");
   out.def.landmarks.push_back(std::move(landmark));
   file.adopt_error(reader);
 }

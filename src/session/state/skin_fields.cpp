@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint64_t kBoxOnSkin = 29;         // the version before which a box was a rod on skin
 constexpr std::uint64_t kPortalsInSkin = 31;     // and before which no hole was a portal
+constexpr std::uint64_t kBareSkin = 35;          // and before which it was always felt
 constexpr std::uint64_t kMostOfSkin = 1u << 20;  // vertices or edges of a sheet, more than it has
 
 }  // namespace
@@ -109,6 +110,7 @@ void field(A& a, std::shared_ptr<const SkinState>& skin) {
     if (since(a, kPortalsInSkin)) first_of(a, patch.made_count, patch.made);
     if (!a.ok) return;
   }
+  if (since(a, kBareSkin)) field(a, state.bares);
   for (auto& hands : state.hands)
     for (std::size_t s = 0; s < patches; ++s) field(a, hands[s]);
   if constexpr (A::kReads) skin = std::make_shared<const SkinState>(std::move(state));

@@ -11,6 +11,7 @@
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "exercises/seat_files.h"
+#include "exercises/skin_order.h"
 #include "osteon/base/file.h"
 #include "runs/reports/exam_report.h"
 #include "runs/reports/portal_report.h"
@@ -56,6 +57,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
   if (!command.portals.empty()) {
+    leave_out_puncture_stages(*scenario);
     const auto text = read_file(command.portals, 16u << 20);
     if (!text) return tl::unexpected(text.error());
     const auto made = read_portals(*text, command.portals);

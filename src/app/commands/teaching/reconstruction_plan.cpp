@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/teaching/opened_knee.h"
 #include "commands/teaching/played_hand.h"
 #include "exercises/graft_order.h"
 #include "osteon/scene/tool_set.h"
@@ -140,7 +141,7 @@ Result<ThirdHand> plan_third_hand(const Case& the_case, const PlannedHand& hand,
     // Without a graft nothing is drilled for it.
     if (skill.name == "bad:amputated_tendon") return out;
   }
-  if (!ways.after_graft && ways.examines)
+  if (!ways.after_graft && !ways.exam.empty())
     out.first.push_back(std::make_unique<ScriptedHand>(
         waiting_part(hand.instrument, drills->start(), ways.third_begin_s, std::move(ways.exam))));
   out.driller = drills.get();
@@ -207,6 +208,19 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   return tools;
 }
 
+// Whoever makes an error with the portals goes no farther; the third hand waits beside the knee.
+void open_alone(OpenedKnee& opened, const Case& the_case, std::span<const PlannedHand> hands,
+                HeadlessRun& headless) {
+  constexpr double kBeside_m = 0.4;
+  const Pose beside{the_case.bounds_W().center() + kBeside_m * Vec3::UnitZ(), Quat::Identity()};
+  for (const PlannedHand& hand : hands) {
+    ProbePath way = hand.pin      ? waiting_part(hand.instrument, beside, opened.end_s, {}).path
+                    : hand.optics ? std::move(opened.scope)
+                                  : std::move(opened.worker);
+    headless.hands.push_back({hand.name, std::move(way)});
+  }
+}
+
 }  // namespace
 
 // The ways up to the tunnels are known before it begins.
@@ -214,10 +228,21 @@ Result<std::vector<std::string>> plan_reconstruction(
     const ScenarioRun& run, const ScenarioPlan& plan, const Case& the_case,
     std::span<const PlannedHand> hands, LaterWork work, HeadlessRun& headless,
     std::vector<std::unique_ptr<HandPlayer>>& players) {
-  const auto tools = tools_of(run, plan, the_case, hands);
+  auto tools = tools_of(run, plan, the_case, hands);
   if (!tools) return tl::unexpected(tools.error());
+  auto opened = plan_opening(plan, the_case, run.skill, *tools);
+  if (!opened) return tl::unexpected(opened.error());
+  if (*opened && (*opened)->erred) {
+    open_alone(**opened, the_case, hands, headless);
+    return std::vector<std::string>();
+  }
   auto ways = plan_acl(the_case, *tools, run.skill);
   if (!ways) return tl::unexpected(ways.error());
+  if (*opened) {
+    ways->scope = joined(std::move((*opened)->scope), ways->scope);
+    ways->probe = joined(std::move((*opened)->worker), ways->probe);
+    ways->exam.insert(ways->exam.begin(), (*opened)->orders.begin(), (*opened)->orders.end());
+  }
   work.made = ways->after_graft;
   ThirdHand third;
   PartsHand* whole = nullptr;

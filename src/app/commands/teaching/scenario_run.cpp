@@ -15,6 +15,7 @@
 #include "exercises/attempt_watch.h"
 #include "exercises/exam_order.h"
 #include "exercises/graft_order.h"
+#include "exercises/skin_order.h"
 #include "osteon/carve/removed.h"
 #include "osteon/physics/carving.h"
 #include "osteon/procedure/hand_reports.h"
@@ -230,8 +231,11 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   std::optional<ExamOrder> exam;
   if (watch.tunnels() && asks_for_exam(*plan))
     exam.emplace(**the_case, watch.tunnels()->whole_spec(), false);
+  SkinOrder skin;
   if (watch.tunnels() && (asks_for_graft(*plan) || exam))
     headless.beside = [&]() -> std::optional<Command> {
+      skin.see(*plan, watch.state());
+      if (const auto said = skin.take()) return said;
       if (asks_for_graft(*plan)) order.see(watch.tunnels()->placing(), session->bones());
       if (const auto said = order.take()) return said;
       if (!exam) return std::nullopt;

@@ -170,6 +170,7 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   order_ = {};
+  skin_ = {};
   exam_.reset();
   refused_.reset();
   if (watch_->tunnels() && asks_for_exam(*plan_))
@@ -190,6 +191,8 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
 std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
   if (!watch_ || !watch_->tunnels() || paused_) return std::nullopt;
   if (const auto refused = std::exchange(refused_, std::nullopt)) return refused;
+  skin_.see(*plan_, watch_->state());
+  if (const auto said = skin_.take()) return said;
   if (asks_for_graft(*plan_)) order_.see(watch_->tunnels()->placing(), bones);
   if (const auto said = order_.take()) return said;
   if (!exam_) return std::nullopt;
@@ -241,8 +244,9 @@ bool ExerciseRun::asks_for_exam_now() const {
   const std::uint32_t stage = watch_->state().stage;
   if (stage >= plan_->goals.size()) return false;
   const auto& goals = plan_->goals[stage];
-  return std::any_of(goals.begin(), goals.end(),
-                     [](const PlannedRule& goal) { return goal.rule.kind == "knee_examined"; });
+  return std::any_of(goals.begin(), goals.end(), [](const PlannedRule& goal) {
+    return goal.rule.kind == "knee_examined" || goal.rule.kind == "knee_bent";
+  });
 }
 
 void ExerciseRun::describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const {

@@ -13,6 +13,7 @@
 #include "exercises/exam_order.h"
 #include "exercises/graft_order.h"
 #include "exercises/seat_files.h"
+#include "exercises/skin_order.h"
 #include "ui/side_job.h"
 #include "window/exercise_model.h"
 
@@ -133,6 +134,7 @@ class ExerciseRun {
   std::vector<PlannedHand> hands_;
   std::unique_ptr<AttemptWatch> watch_;
   GraftOrder order_;
+  SkinOrder skin_;
   std::optional<ExamOrder> exam_;  ///< none: the exercise does not have the knee examined
   std::optional<Command> refused_;
   std::map<std::size_t, std::uint32_t> stage_marks_;

@@ -1,0 +1,48 @@
+#include "exercises/skin_order.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace osteon {
+namespace {
+
+bool has_goal_of(const ScenarioStage& stage, const std::string& kind) {
+  return std::any_of(stage.goals.begin(), stage.goals.end(),
+                     [&](const Rule& goal) { return goal.kind == kind; });
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> stage_bent_after_portals(const ScenarioPlan& plan) {
+  const auto& stages = plan.scenario.stages;
+  bool portals = false;
+  for (std::uint32_t s = 0; s < stages.size(); ++s) {
+    portals = portals || has_goal_of(stages[s], "portal_made");
+    if (portals && has_goal_of(stages[s], "knee_bent")) return s;
+  }
+  return std::nullopt;
+}
+
+// All from the first of them until the knee is bent after the last one.
+void leave_out_puncture_stages(Scenario& scenario) {
+  auto& stages = scenario.stages;
+  const auto makes = [](const ScenarioStage& stage) { return has_goal_of(stage, "portal_made"); };
+  const auto first = std::find_if(stages.begin(), stages.end(), makes);
+  auto end = std::find_if(stages.rbegin(), stages.rend(), makes).base();
+  if (end != stages.end() && has_goal_of(*end, "knee_bent")) ++end;
+  if (first != stages.end()) stages.erase(first, end);
+  std::erase_if(scenario.soft, [](const std::string& name) { return name.starts_with("skin"); });
+}
+
+void SkinOrder::see(const ScenarioPlan& plan, const ScenarioState& state) {
+  if (told_) return;
+  const auto from = stage_bent_after_portals(plan);
+  told_ = waiting_ = from && state.stage >= *from;
+}
+
+std::optional<Command> SkinOrder::take() {
+  if (!std::exchange(waiting_, false)) return std::nullopt;
+  return Command{CommandKind::kBareSkin, 0};
+}
+
+}  // namespace osteon
