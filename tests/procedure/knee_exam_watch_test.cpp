@@ -35,6 +35,31 @@ TEST(KneeExamWatch, SaysNothingOfAKneeThatNobodyLoads) {
   EXPECT_FALSE(rig.watch.exam().any());
 }
 
+TEST(KneeExamWatch, TellsWhereABentKneeStandsStillOnceEachTime) {
+  KneeExamWatch watch;
+  BoneSnapshot bones;
+  std::vector<Event> out;
+  const auto see = [&](double now_deg, double wanted_deg) {
+    bones.bend = {};
+    bones.bend.on = true;
+    bones.bend.now_deg = now_deg;
+    bones.bend.wanted_deg = wanted_deg;
+    out.clear();
+    watch.add(1, bones, out);
+    return out.size();
+  };
+  EXPECT_EQ(see(80, 80), 1u);
+  EXPECT_EQ(out[0].kind, kKneeBent);
+  EXPECT_EQ(out[0].values[0], 80);
+  EXPECT_EQ(see(80, 80), 0u);
+  EXPECT_EQ(see(80, 120), 0u);
+  EXPECT_EQ(see(119.9, 120), 0u);
+  EXPECT_EQ(see(120, 120), 1u);
+  EXPECT_EQ(see(120, 120), 0u);
+  ++bones.epoch;  // back to a restore point
+  EXPECT_EQ(see(120, 120), 1u);
+}
+
 TEST(KneeExamWatch, ALachmanIsAFirmPullAtItsBend) {
   ExamWatchRig rig;
   EXPECT_TRUE(rig.see(30, 0.85, 0).empty());

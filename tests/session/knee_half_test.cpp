@@ -13,12 +13,13 @@ namespace {
 constexpr double kFull_n = 134, kFull_m = 0.012;
 
 struct ExamSession {
-  ExamSession() {
+  explicit ExamSession(std::optional<double> begin_deg = {}) {
     CaseDef def = testing::placing_def();
     JointDef knee;
     knee.name = "flexion";
     knee.fixed = "femur";
     knee.at_deg = 90;
+    knee.begin_deg = begin_deg;
     PoseTrack track{0, 30, {}};
     const Pose rest = def.bones[0].X_WB.inverse() * def.bones[1].X_WB;
     for (int n = 0; n <= 4; ++n)
@@ -94,6 +95,23 @@ TEST(SessionExam, AKneeOfWhichNothingIsToldDoesNotGive) {
   EXPECT_FALSE(exam_of(session).on);
   EXPECT_EQ(tibia_of(session).p, before.p);
   EXPECT_FALSE(session.bones().bend.on);
+}
+
+TEST(SessionExam, AKneeThatBeginsOtherwiseBentStandsThereAndARestorePointKnowsIt) {
+  const ExamSession rig(30), other;
+  Session session = rig.session(), bent = other.session();
+  other.say(bent, {CommandKind::kBend, 30});
+  EXPECT_LT((tibia_of(session).p - tibia_of(bent).p).norm(), 1e-12);
+  EXPECT_GT((tibia_of(session).p - other.session().bones().bones[1].X_WB.p).norm(), 1e-4);
+  const Pose begun = tibia_of(session);
+  rig.say(session, {CommandKind::kMark, 0}, 10);
+  EXPECT_EQ(tibia_of(session).p, begun.p);
+  EXPECT_EQ(session.bones().bend.now_deg, 30);
+  rig.say(session, {CommandKind::kBend, 90});
+  EXPECT_LT((tibia_of(session).p - rig.the_case->bones[1].X_WB.p).norm(), 1e-12);
+  rig.say(session, {CommandKind::kRestore, 0});
+  EXPECT_EQ(tibia_of(session).p, begun.p);
+  EXPECT_EQ(session.bones().bend.wanted_deg, 30);
 }
 
 TEST(SessionExam, TheTibiaGoesAsTheTableSays) {

@@ -139,7 +139,7 @@ SessionState with_hand(const SessionState& state, const SkinHand& hand) {
 }
 
 // Version 28 of the state's bytes knew neither the place on a box nor how much of it presses, and
-// no portals that were made in skin: the word that counts them.
+// no portals that were made in skin: the word that counts them, nor skin that is felt no more.
 TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   Session session = skin_run().session();
   SkinHandAt hand(session);
@@ -154,7 +154,7 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   without.contact.core = Vec3::Zero();
   without.radius_m = 0;
   std::string bytes = to_bytes(state);
-  ASSERT_EQ(bytes[0], 34);
+  ASSERT_EQ(bytes[0], 35);
   const std::size_t core = first_other(bytes, with_hand(state, other_core));
   const std::size_t radius = first_other(bytes, with_hand(state, other_radius));
   SkinState skin = *state.world.softs.skin;
@@ -162,10 +162,17 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   SessionState with_portal = state;
   with_portal.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
   const std::size_t portals = first_other(bytes, with_portal);
-  ASSERT_LT(portals, core);
+  skin = *state.world.softs.skin;
+  skin.bares = true;
+  SessionState bares = state;
+  bares.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
+  const std::size_t bare = first_other(bytes, bares);
+  ASSERT_LT(portals, bare);
+  ASSERT_LT(bare, core);
   ASSERT_LT(core, radius);
   bytes.erase(radius, 8);
   bytes.erase(core, 24);
+  bytes.erase(bare, 8);
   bytes.erase(portals, 8);
   bytes[0] = 28;
   const auto back = state_from_bytes(bytes);

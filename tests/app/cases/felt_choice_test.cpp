@@ -52,6 +52,23 @@ TEST(FeltChoice, AKneeMayEndNearItsJoint) {
   EXPECT_FALSE(parse_felt_choice("builtin:knee#near=500"));
 }
 
+TEST(FeltChoice, AJointMayBeginOtherwiseBent) {
+  const std::string spec = "builtin:knee:3#femur=field,flexion=120,begin_flexion=80,near=100";
+  const auto choice = parse_felt_choice(spec);
+  ASSERT_TRUE(choice) << choice.error().message();
+  EXPECT_EQ(choice->bent.at("flexion"), 120);
+  EXPECT_EQ(choice->begins.at("flexion"), 80);
+  EXPECT_EQ(to_text(*choice), spec);
+  CaseDef def;
+  def.bones.resize(1);
+  def.bones[0].name = "femur";
+  EXPECT_FALSE(apply(*choice, def));  // it has no such joint
+  def.joints.emplace_back();
+  def.joints[0].name = "flexion";
+  ASSERT_TRUE(apply(*choice, def));
+  EXPECT_EQ(def.joints[0].begin_deg, 80);
+}
+
 TEST(FeltChoice, PortalsMayBeElsewhere) {
   const std::string spec = "builtin:knee#flexion=120,portal_al=31.5/-20/4/0/0.5/-0.5";
   const auto choice = parse_felt_choice(spec);

@@ -53,6 +53,16 @@ TEST(ExamRules, AKneeIsExaminedByBothTestsOfIt) {
   EXPECT_TRUE(grafted.state.met);
 }
 
+TEST(ExamRules, AKneeIsBentWhereItStandsNearEnough) {
+  ExamRuleRig rig("knee_bent");
+  rig.rule.rule.numbers = {{"to_deg", 120}, {"within_deg", 3}};
+  rig.hit(kKneeExamined, 120);
+  for (const double deg : {80.0, 116.9, 123.1}) rig.hit(kKneeBent, deg);
+  EXPECT_FALSE(rig.state.met);
+  EXPECT_FALSE(rig.hit(kKneeBent, 117.1));
+  EXPECT_TRUE(rig.state.met);
+}
+
 TEST(ExamRules, ATunnelBeforeBothTestsIsOneError) {
   ExamRuleRig rig("unexamined");
   EXPECT_FALSE(rig.hit(kKneeExamined, 0));

@@ -1,0 +1,62 @@
+#include "exercises/skin_order.h"
+
+#include <gtest/gtest.h>
+
+namespace osteon {
+namespace {
+
+ScenarioPlan plan_of(std::initializer_list<const char*> kinds) {
+  ScenarioPlan plan;
+  for (const char* kind : kinds) {
+    plan.scenario.stages.emplace_back();
+    plan.scenario.stages.back().name = kind;
+    plan.scenario.stages.back().goals.emplace_back();
+    plan.scenario.stages.back().goals.back().kind = kind;
+  }
+  return plan;
+}
+
+TEST(SkinOrder, SaysNothingWhereTheKneeIsNotBentAfterPortals) {
+  for (const ScenarioPlan& plan :
+       {plan_of({}), plan_of({"portal_made", "seen"}), plan_of({"knee_bent", "seen"}),
+        plan_of({"knee_bent", "portal_made"})}) {
+    SkinOrder order;
+    ScenarioState state;
+    state.stage = 9;
+    order.see(plan, state);
+    EXPECT_FALSE(order.take());
+  }
+}
+
+TEST(SkinOrder, SaysItOnceWhenThatStageBegins) {
+  const ScenarioPlan plan = plan_of({"portal_made", "through", "portal_made", "knee_bent", "seen"});
+  EXPECT_EQ(stage_bent_after_portals(plan), 3u);
+  SkinOrder order;
+  ScenarioState state;
+  for (state.stage = 0; state.stage < 3; ++state.stage) {
+    order.see(plan, state);
+    EXPECT_FALSE(order.take());
+  }
+  order.see(plan, state);
+  const auto said = order.take();
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->kind, CommandKind::kBareSkin);
+  order.see(plan, state);
+  EXPECT_FALSE(order.take());
+}
+
+TEST(SkinOrder, StagesOfPortalsThatWereMadeBeforeAreLeftOut) {
+  Scenario scenario =
+      plan_of({"portal_made", "through", "portal_made", "knee_bent", "seen", "knee_bent"}).scenario;
+  scenario.soft = {"stumps", "skin:portal_al", "skin:portal_am"};
+  leave_out_puncture_stages(scenario);
+  ASSERT_EQ(scenario.stages.size(), 2u);
+  EXPECT_EQ(scenario.stages[0].name, "seen");
+  EXPECT_EQ(scenario.stages[1].name, "knee_bent");
+  EXPECT_EQ(scenario.soft, std::vector<std::string>{"stumps"});
+  leave_out_puncture_stages(scenario);
+  EXPECT_EQ(scenario.stages.size(), 2u);
+}
+
+}  // namespace
+}  // namespace osteon
