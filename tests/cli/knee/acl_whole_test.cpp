@@ -1,6 +1,7 @@
 // A whole reconstruction of a cruciate ligament, through the command line alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,17 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
     ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
     EXPECT_LT(stage["completed_s"], 1500);
   }
+  // Portals through the skin at 80 degrees, then the knee is bent; all goes in there.
+  EXPECT_LT(
+      (*std::find_if(json["stages"].begin(), json["stages"].end(),
+                     [](const Json& stage) { return stage["name"] == "bending"; }))["completed_s"],
+      60);
+  const Json& hands = json["hands"];
+  EXPECT_GE(hands["scope"]["portals"]["portal_al_made_1"]["times_entered"], 2);
+  EXPECT_GE(hands["probe"]["portals"]["portal_am_made_1"]["times_entered"], 3);
+  for (const char* hand : {"scope", "probe"})
+    EXPECT_FALSE(hands[hand]["portals"].contains("portal_al")) << hands[hand]["portals"];
+  EXPECT_LT(json["portals"]["portal_am"]["from_needle_mm"], 2);
   // The shank that is stretched out strikes no instrument that was put away.
   for (const auto& [bone, touched] : json["hands"]["scope"]["bones"].items())
     EXPECT_EQ(touched["contact_time_s"], 0) << bone;
@@ -77,7 +89,7 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   EXPECT_GT(hand["found"]["lachman"]["side_difference_mm"], 5);
   EXPECT_GT(hand["found"]["pivot"]["side_difference_mm"], 1.5);
   EXPECT_LT(hand["grafted"]["pivot"]["side_difference_mm"], 1.5);
-  for (const std::string from : {"15 ", "350 ", "600 "})
+  for (const std::string from : {"25 ", "350 ", "650 "})
     EXPECT_EQ(run_osteon("replay --from " + from + file("w.osr")).exit_code, 0) << from;
 }
 

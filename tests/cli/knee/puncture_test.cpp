@@ -61,6 +61,27 @@ TEST_F(PunctureCommands, APlaceThatTheCaseLacksIsNamedByTheCheck) {
   EXPECT_NE(ran.output.find("skin:portal_al"), std::string::npos) << ran.output;
 }
 
+// A reconstruction makes its own portals in the same way; who errs with them goes no farther.
+TEST_F(PunctureCommands, AReconstructionBeginsWithItsPortals) {
+  for (const std::string name : {"al_low", "am_blind"}) {
+    const Ran ran =
+        run_osteon("run acl --seed 1 --surgeon bad:" + name + " --no-store --report " +
+                   file("acl.json") + (name == "al_low" ? " --record " + file("a.osr") : ""));
+    EXPECT_EQ(ran.exit_code, 1) << ran.output;
+    std::ifstream in(file("acl.json"));
+    const PunctureJson json = PunctureJson::parse(in, nullptr, false);
+    ASSERT_EQ(json["errors"].size(), 1u) << json["errors"];
+    EXPECT_EQ(json["errors"][0]["name"], name);
+    const bool low = name == "al_low";
+    EXPECT_EQ(json["stages"][0]["completed_s"].is_null(), low);
+    EXPECT_TRUE(json["stages"][3]["completed_s"].is_null());
+    EXPECT_NEAR(json["portals"]["portal_al"]["off"]["up_mm"], low ? -8.5 : 0, 0.6);
+    EXPECT_LT(json["duration_s"], 45);
+  }
+  EXPECT_EQ(run_osteon("replay " + file("a.osr")).exit_code, 0);
+  EXPECT_EQ(run_osteon("replay --from 20 " + file("a.osr")).exit_code, 0);
+}
+
 // What follows goes in where a run has made the portals.
 TEST_F(PunctureCommands, AReconstructionGoesInWhereThePortalsWereMade) {
   const PunctureJson made = report("--seed 0", 0)["portals"];
@@ -76,13 +97,18 @@ TEST_F(PunctureCommands, AReconstructionGoesInWhereThePortalsWereMade) {
   off["middle_mm"] = off["middle_mm"].get<double>() - 4;
   std::ofstream(file("moved.json")) << moved;
   const Ran ran = run_osteon(
-      "run acl --seed 0 --surgeon bad:skipped_inspection --no-store --report " + file("acl.json") +
+      "run acl --seed 0 --surgeon bad:amputated_tendon --no-store --report " + file("acl.json") +
       " --portals " + file("moved.json") + " --record " + file("a.osr"));
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
   std::ifstream in(file("acl.json"));
   const PunctureJson json = PunctureJson::parse(in, nullptr, false);
   ASSERT_EQ(json["errors"].size(), 1u) << json["errors"];
   EXPECT_GT(json["hands"]["probe"]["portals"]["portal_am"]["times_entered"], 0);
+  EXPECT_GT(json["hands"]["scope"]["portals"]["portal_al"]["times_entered"], 0);
+  // No stage in which portals are made is left.
+  EXPECT_EQ(json["stages"].size(), 14u);
+  EXPECT_EQ(json["stages"][0]["name"], "inspection");
+  EXPECT_FALSE(json.contains("portals"));
   const auto mm = json["acl"]["portals"]["portal_al"]["p_mm"].get<std::vector<double>>();
   const Ran info = run_osteon("record info " + file("a.osr"));
   const std::string key = "portal_al=";

@@ -106,10 +106,10 @@ std::string to_json(const ScenarioOutcome& done) {
       with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
   if (!done.acl && !done.graft && !done.placing && done.made_portals.empty()) return text;
   auto json = nlohmann::ordered_json::parse(text);
-  add_portals(done.made_portals, *done.the_case, done.case_spec, json);
   if (done.graft) json["acl"][done.acl ? "made" : "graft"] = to_json(*done.graft);
   if (done.placing) json["acl"]["placing"] = to_json(*done.placing);
   if (done.exam) json["acl"]["examined"] = to_json(*done.exam);
+  add_portals(done.made_portals, *done.the_case, done.case_spec, json);
   return json.dump(2) + "\n";
 }
 

@@ -65,9 +65,28 @@ nlohmann::ordered_json made_portals_json(std::span<const MadePortalFound> found,
   return json;
 }
 
-nlohmann::ordered_json portals_json(const Case& the_case) {
+namespace {
+
+// One that was made lies beside its landmark.
+Portal as_made(Portal portal, std::span<const MadePortalFound> found, const Case& the_case) {
+  for (const MadePortalFound& made : found) {
+    const auto frame = portal_frame(the_case, made.landmark);
+    if (made.landmark != portal.landmark || !frame) continue;
+    const auto in_world = [&](const Vec3& v) {
+      return Vec3(v.x() * frame->in_W + v.y() * frame->up_W + v.z() * frame->middle_W);
+    };
+    portal.p_W = frame->p_W + in_world(made.off_F);
+    portal.nhat_W = in_world(made.shaft_F);
+  }
+  return portal;
+}
+
+}  // namespace
+
+nlohmann::ordered_json portals_json(const Case& the_case, std::span<const MadePortalFound> found) {
   auto json = nlohmann::ordered_json::object();
-  for (const Portal& portal : find_portals(the_case)) {
+  for (const Portal& of_case : find_portals(the_case)) {
+    const Portal portal = as_made(of_case, found, the_case);
     const Vec3 mm = 1e3 * portal.p_W;
     json[portal.name] = {{"p_mm", {mm.x(), mm.y(), mm.z()}},
                          {"inwards", {portal.nhat_W.x(), portal.nhat_W.y(), portal.nhat_W.z()}}};
@@ -79,7 +98,7 @@ void add_portals(std::span<const MadePortalFound> found, const Case& the_case,
                  const std::string& case_spec, nlohmann::ordered_json& report) {
   if (!found.empty()) report["portals"] = made_portals_json(found, the_case, case_spec);
   if (report.contains("acl") && report["acl"].is_object())
-    if (auto portals = portals_json(the_case); !portals.empty())
+    if (auto portals = portals_json(the_case, found); !portals.empty())
       report["acl"]["portals"] = std::move(portals);
 }
 

@@ -15,8 +15,10 @@ namespace osteon {
 /// keys.
 nlohmann::ordered_json made_portals_json(std::span<const MadePortalFound> found,
                                          const Case& the_case, const std::string& case_spec);
-/// Where the portals of a case are: lengths in mm, World.
-nlohmann::ordered_json portals_json(const Case& the_case);
+/// Where the portals of a case are, or were made beside their landmarks: lengths in mm, World, the
+/// case at rest.
+nlohmann::ordered_json portals_json(const Case& the_case,
+                                    std::span<const MadePortalFound> found = {});
 /// Puts both into the report of an attempt: portals that were made as `portals`, and where those of
 /// a knee with tunnels are as `acl.portals`.
 void add_portals(std::span<const MadePortalFound> found, const Case& the_case,

@@ -74,6 +74,20 @@ TEST(PortalReports, WhatIsWrittenIsRead) {
   EXPECT_EQ(acl["acl"]["portals"]["portal_al"]["inwards"][2], -1);
 }
 
+TEST(PortalReports, PortalsThatWereMadeAreBesideTheirLandmarks) {
+  Case knee = portal_marks();
+  knee.landmarks.push_back({"tibial_tubercle", {0.04, 0, -0.01}});
+  const auto json = portals_json(knee, both());
+  const auto mm = json["portal_al"]["p_mm"].get<std::vector<double>>();
+  const auto frame = portal_frame(knee, 0);
+  ASSERT_TRUE(frame);
+  const Vec3 off = 1e-3 * Vec3(mm[0], mm[1], mm[2]) - knee.landmarks[0].p_W;
+  EXPECT_NEAR(off.dot(frame->in_W), 0.0005, 1e-12);
+  EXPECT_NEAR(off.dot(frame->up_W), -0.002, 1e-12);
+  EXPECT_NEAR(off.dot(frame->middle_W), 0.003, 1e-12);
+  EXPECT_NEAR(json["portal_al"]["inwards"][2].get<double>(), -0.8, 1e-12);
+}
+
 TEST(PortalReports, APatientIsTheSameWhateverIsTornOrBent) {
   EXPECT_EQ(patient_of("builtin:knee:1:left:acl_tear=midsubstance#femur=field,flexion=120"),
             "builtin:knee:1:left");
