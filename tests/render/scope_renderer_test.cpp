@@ -322,6 +322,34 @@ TEST_F(ScopePictures, AnotherSurfaceIsSeenInItsPlace) {
   EXPECT_EQ(bright_spot(renderer.draw_image(camera, 200, 200)).pixels, small.pixels);
 }
 
+// Neither is a bone, though each has places in a frame of its own as a bone has: what is carved
+// out of the first bone of a case leaves them as they were.
+TEST_F(ScopePictures, ToolsAndTheWallAreNotLeftOutWhereABoneIsCarved) {
+  const ScopeCamera camera(wide_scope(0, 1), ScopePose{});
+  const Pose X_WC = camera.X_WC();
+  const Case the_case = lone_ball(X_WC * Vec3(0, 0, 0.1), 0.002);  // behind the eye
+  ScopeRenderer renderer = make_scope(the_case);
+  TriMesh wall = sphere_mesh(0.02);
+  for (Vec3& p : wall.vertices) p = X_WC * Vec3(p - Vec3(0, 0, 0.03));
+  renderer.set_wall(wall);
+  auto tool = std::make_shared<Tool>(make_wrist_probe());
+  tool->mesh = sphere_mesh(0.002);
+  const std::array<std::shared_ptr<const Tool>, 1> tray{tool};
+  renderer.set_tray(tray);
+  RenderSnapshot snapshot = at_rest(the_case);
+  const auto picture = [&] { return renderer.draw_image(camera, 160, 160); };
+  const Image wall_alone = picture();
+  snapshot.tool.X_WP = {X_WC * Vec3(0.002, 0, -0.008), Quat::Identity()};
+  renderer.set_scene(snapshot.bones, {&snapshot.tool, 1});
+  const Image before = picture();
+  ASSERT_GT(count_different(before, wall_alone, 20), 500) << "the tool is seen";
+  ASSERT_GT(brightness(wall_alone, 80, 60), 20) << "the wall is";
+  const CubeGrid everywhere{Vec3::Constant(-0.2), 0.4, {1, 1, 1}, 0};
+  const SurfaceCube nothing_left;
+  renderer.set_cubes(BoneId{0}, everywhere, {&nothing_left, 1});
+  EXPECT_EQ(picture().rgb, before.rgb);
+}
+
 // A soft part that gives way and comes back looks as before.
 TEST_F(ScopePictures, WhatGivesWayIsSeenAndComesBack) {
   const ScopeCamera camera(wide_scope(0, 1), ScopePose{});
