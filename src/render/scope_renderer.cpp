@@ -137,27 +137,28 @@ struct ScopeRenderer::Impl {
     const GpuMesh* mesh = nullptr;
     Pose X_CM;
     GpuMesh::Stretches stretches;
+    double least_m = kFar_m;  ///< it is no nearer
     int triangles() const {
       return std::accumulate(stretches.counts.begin(), stretches.counts.end(), 0) / 3;
     }
   };
   Seen seen_of(const TissuePart& part, const GpuMesh& mesh, const Pose& X_CM,
                const ScopeField& field) const {
-    return {&part, &mesh, X_CM, mesh.stretches([&](const GpuMesh::Chunk& chunk) {
-              return field.shows(X_CM * chunk.center, chunk.radius, kNear_m);
-            })};
+    Seen seen{&part, &mesh, X_CM, {}};
+    seen.stretches = mesh.stretches([&](const GpuMesh::Chunk& chunk) {
+      const Vec3 center_C = X_CM * chunk.center;
+      if (!field.shows(center_C, chunk.radius, kNear_m)) return false;
+      seen.least_m = std::min(seen.least_m, -center_C.z() - chunk.radius);
+      return true;
+    });
+    return seen;
   }
   /// Of a part of the case, from the level that its nearest place in the field allows.
   Seen seen_of(const TissuePart& part, const Pose& X_CM, const ScopeField& field,
                double off) const {
-    double least_m = kFar_m;
-    for (const GpuMesh::Chunk& chunk : surface(part, 0).chunks()) {
-      const Vec3 center_C = X_CM * chunk.center;
-      if (field.shows(center_C, chunk.radius, kNear_m))
-        least_m = std::min(least_m, -center_C.z() - chunk.radius);
-    }
-    const double error_m = off * std::max(least_m, kNear_m);
-    return seen_of(part, surface(part, error_m), X_CM, field);
+    Seen exact = seen_of(part, surface(part, 0), X_CM, field);
+    const GpuMesh& mesh = surface(part, off * std::max(exact.least_m, kNear_m));
+    return &mesh == exact.mesh ? exact : seen_of(part, mesh, X_CM, field);
   }
   /// A coarser surface may lie off by `off` of its distance.
   std::vector<Seen> all_seen(const ScopeCamera& camera, const ScopeField& field, double off) const {
@@ -209,8 +210,13 @@ struct ScopeRenderer::Impl {
     corners.draw();
   }
 
-  /// First the depth alone: the patterns cost far more than the triangles, and are then worked out
-  /// for what is seen only. Surfaces may lie off by `off_px`.
+  /// What hides others comes first: bones lie under soft parts, the wall behind all.
+  std::pair<int, double> order(const Seen& seen) const {
+    return {seen.part == &wall ? 2 : seen.part->model < rest_X_WB.size() ? 1 : 0, seen.least_m};
+  }
+
+  /// First the depth alone: the patterns are then worked out for what is seen only. Where surfaces
+  /// may lie off, by `off_px`, their order alone does nearly as well.
   void paint_flat(const ScopeCamera& camera, double half, double off_px) const {
     glBindFramebuffer(GL_FRAMEBUFFER, flat.framebuffer());
     glViewport(0, 0, flat.side(), flat.side());
@@ -228,15 +234,20 @@ struct ScopeRenderer::Impl {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     hide_corners();
     const ScopeField field(half, seen_radius(flat.side()));
-    const std::vector<Seen> all = all_seen(camera, field, off_px * 2 * half / flat.side());
+    std::vector<Seen> all = all_seen(camera, field, off_px * 2 * half / flat.side());
     FlushNowAndThen flush;
-    for (const Seen& seen : all) {
-      paint_part(seen, half, true);
-      flush.after(seen.triangles());
+    if (off_px > 0) {
+      std::stable_sort(all.begin(), all.end(),
+                       [&](const Seen& a, const Seen& b) { return order(a) < order(b); });
+    } else {
+      for (const Seen& seen : all) {
+        paint_part(seen, half, true);
+        flush.after(seen.triangles());
+      }
+      glDepthMask(GL_FALSE);
     }
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_FALSE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (const Seen& seen : all) {
       paint_part(seen, half, false);
       flush.after(seen.triangles());

@@ -12,7 +12,8 @@
 namespace osteon {
 namespace {
 
-constexpr double kLeast_m = 5e-5;  // at the rim, and where bones nearly meet
+constexpr double kRim_m = 1e-4;    // the facets of a convex bone stay under it (D)
+constexpr double kLeast_m = 5e-5;  // where bones nearly meet
 constexpr int kRimRounds = 8;
 constexpr double kBorder_m = 4e-4;       // half-width of the groove between two layers on a bone
 constexpr double kLeastArea_m2 = 4e-6;   // smaller islands are no joint surface (D)
@@ -22,7 +23,7 @@ constexpr double kAtDefect_m = 1e-4;     // a rim so near to one is the defect's
 constexpr double kFacingReach_m = 5e-3;  // metres inside a cosine of 1 more counts as
 
 double rim_height(const LayerDescription& layer) {
-  return std::min(layer.rim > 0 ? layer.rim : kLeast_m, layer.thickness);
+  return std::min(layer.rim > 0 ? layer.rim : kRim_m, layer.thickness);
 }
 
 /// Rises from the rim in a round shoulder, so that no ledge stands there and the edge is still a

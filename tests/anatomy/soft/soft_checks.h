@@ -162,7 +162,7 @@ inline double ledge_of(const TriMesh& layer) {
 
 /// Every layer runs out to its rim.
 inline void expect_no_ledges(const GeneratedAnatomy& anatomy) {
-  constexpr double kUnseen_m = 2.5e-4;
+  constexpr double kUnseen_m = 3e-4;
   for (const GeneratedSoft& soft : anatomy.softs) {
     if (soft.kind != "cartilage") continue;
     const double ledge = ledge_of(soft.mesh_W);
