@@ -68,6 +68,7 @@ struct SoftPushes {
   /// Pieces of solids that lie loose now; where they lie is in the bones' snapshot.
   std::uint32_t piece_count = 0;
   std::array<std::shared_ptr<const PieceShape>, kMaxLooseSofts> pieces{};
+  MadePortals made{};  ///< holes in skin that hold shafts
   std::uint32_t skin_count = 0;
   std::array<SkinDent, 4 * kMaxSkins> skin_dents{};
   bool operator==(const SoftPushes&) const = default;

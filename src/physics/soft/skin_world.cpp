@@ -555,6 +555,8 @@ MadePortal SkinWorld::made_portal(std::size_t s, std::uint32_t portal) const {
 void SkinWorld::show(SoftPushes& pushes) const {
   for (std::size_t s = 0; s < patches_.size(); ++s) {
     pushes.skin_cuts[s] = patches_[s].shown;
+    for (std::uint32_t i = 0; i < patches_[s].made_count; ++i)
+      pushes.made[s * kMadePerPatch + i] = made_portal(s, i);
     for (std::size_t h = 0; h < kMaxHands; ++h) {
       const SkinHand& hand = hands_[h][s];
       const double dent_m = hand.contact.deep_m - hand.entered_m;

@@ -73,24 +73,43 @@ void HandsControl::change_hands() {
 }
 
 // Before the portal, the shaft along its way in.
-void HandsControl::bring_to(std::size_t portal) {
-  if (portal >= scene_.portals.size() || !live_.run()->by_mouse()) return;
-  if (scene_.portals[portal].made != kNotMade) return;  // the hand finds it by itself
-  const Portal& to = scene_.portals[portal];
+std::vector<HandsControl::WayIn> HandsControl::ways_in() const {
+  std::vector<WayIn> out;
+  const LiveRun* const run = live_.run();
+  if (!run) return out;
+  const MadePortals made = run->pushes().made;
+  const BoneSnapshot& bones = sight_.shown().bones;
+  for (std::size_t i = 0; i < scene_.portals.size(); ++i) {
+    const Portal& portal = scene_.portals[i];
+    if (portal.made == kNotMade) {
+      out.push_back({i, portal.p_W, portal.nhat_W});
+      continue;
+    }
+    const MadePortal* const hole = portal.made < made.size() ? &made[portal.made] : nullptr;
+    if (!hole || !hole->open || hole->bone >= bones.count) continue;
+    const Pose& X_WB = bones.bones[hole->bone].X_WB;
+    out.push_back({i, X_WB * hole->p_B, -X_WB.rotate(hole->nhat_B)});
+  }
+  return out;
+}
+
+void HandsControl::bring_to(std::size_t way) {
+  const std::vector<WayIn> ways = ways_in();
+  if (way >= ways.size() || !live_.run()->by_mouse()) return;
+  const WayIn& to = ways[way];
   live_.run()->bring(
-      {to.p_W - kBefore_m * to.nhat_W, turn_between(Vec3::UnitZ(), -to.nhat_W).normalized()});
-  aimed_ = portal;
+      {to.p_W - kBefore_m * to.inwards_W, turn_between(Vec3::UnitZ(), -to.inwards_W).normalized()});
+  aimed_ = to;
 }
 
 // The one that the shaft is in, else the one that the hand was brought to and is still near.
-const Vec3* HandsControl::portal_near() const {
+std::optional<Vec3> HandsControl::portal_near() const {
   const std::vector<Portal>& portals = scene_.portals;
   const ToolState& tool = sight_.shown().tool;
   if (tool.portal < portals.size())
-    return portals[tool.portal].made == kNotMade ? &portals[tool.portal].p_W : &tool.p_portal_W;
-  if (!aimed_ || *aimed_ >= portals.size()) return nullptr;
-  return (tool.X_WP.p - portals[*aimed_].p_W).norm() > kPortalReach_m ? nullptr
-                                                                      : &portals[*aimed_].p_W;
+    return portals[tool.portal].made == kNotMade ? portals[tool.portal].p_W : tool.p_portal_W;
+  if (!aimed_ || (tool.X_WP.p - aimed_->p_W).norm() > kPortalReach_m) return {};
+  return aimed_->p_W;
 }
 
 bool HandsControl::nudge_rested(SceneInput& input) {
@@ -152,9 +171,11 @@ HandsModel HandsControl::model(bool can_add) {
   const LiveRun* const run = live_.run();
   if (!run) return model;
   model.rows = rows();
-  for (const Portal& portal : scene_.portals)
-    if (portal.made == kNotMade) model.portals.push_back(portal.title);
-  if (aimed_) model.next_portal = (*aimed_ + 1) % std::max<std::size_t>(1, model.portals.size());
+  for (const WayIn& way : ways_in()) {
+    model.portals.push_back(scene_.portals[way.portal].title);
+    if (aimed_ && way.portal == aimed_->portal) model.next_portal = model.portals.size();
+  }
+  if (model.next_portal >= model.portals.size()) model.next_portal = 0;
   model.can_bring = run->by_mouse();
   model.can_add = can_add && run->hands() == 1 && !run->recording();
   model.restore_points = 1;

@@ -31,8 +31,8 @@ class HandsControl {
   void take(std::uint32_t place);
   /// With Alt held, wheel and turning keys are the resting hand's: true, and taken from `input`.
   bool nudge_rested(SceneInput& input);
-  /// The portal that leads the active hand; null: none.
-  const Vec3* portal_near() const;
+  /// The portal that leads the active hand; none: no portal does.
+  std::optional<Vec3> portal_near() const;
   /// Buttons of the active hand's device, once a picture.
   void poll_buttons();
 
@@ -41,7 +41,13 @@ class HandsControl {
  private:
   void exchange(const HandsRequests& requests);
   void change_hands();
-  void bring_to(std::size_t portal);
+  /// A portal that a hand may be brought to: one of the case that is open, or one that was made.
+  struct WayIn {
+    std::size_t portal = 0;  ///< in ShownCase::portals
+    Vec3 p_W = Vec3::Zero(), inwards_W = Vec3::UnitZ();
+  };
+  std::vector<WayIn> ways_in() const;
+  void bring_to(std::size_t way);
   std::vector<HandRow> rows() const;
   TrayModel tray_model() const;
   TipModel tip_model();
@@ -54,7 +60,7 @@ class HandsControl {
   TrayPictures pictures_;
   bool tray_open_ = false, names_on_ = false;
   std::string search_;
-  std::optional<std::size_t> aimed_;  ///< portal that a hand was brought to
+  std::optional<WayIn> aimed_;        ///< portal that a hand was brought to
   std::uint32_t buttons_before_ = 0;  ///< of the active hand's device
   InkwellVisits inkwell_;             ///< of that device's stylus
   TipGauge tip_;

@@ -45,9 +45,11 @@ void ScenePointer::move(SceneInput& input) {
   }
   if (nudged_) return;
   const bool held = live_.probe_held();
-  if (held && !input.right)
+  if (held && !input.right) {
+    const std::optional<Vec3> portal_W = hands_.portal_near();
     return live_.run()->move_hand(probe_motion(input), sight_.hand_camera(), sight_.hand_viewport(),
-                                  input.dt_s, hands_.portal_near());
+                                  input.dt_s, portal_W ? &*portal_W : nullptr);
+  }
   // With the probe in hand the right button orbits.
   if (held) std::swap(input.left, input.right);
   sight_.move_camera(input);
