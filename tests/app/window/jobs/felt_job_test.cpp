@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 #include "osteon/hull/hull.h"
 
@@ -55,9 +56,10 @@ TEST(FeltJob, MayBeLeftBeforeItIsDone) {
   auto the_case = one_bone();
   const std::weak_ptr<const Case> watched = the_case;
   {
-    const FeltJob job(measure_felt(the_case, prepare_case(*the_case)));
+    auto work = measure_felt(the_case, prepare_case(*the_case));
     the_case.reset();
-    EXPECT_FALSE(watched.expired()) << "the job holds what it works on";
+    EXPECT_FALSE(watched.expired()) << "the work holds what it works on";
+    const FeltJob job(std::move(work));
   }
   EXPECT_TRUE(watched.expired()) << "its thread has ended and holds nothing any more";
 }
