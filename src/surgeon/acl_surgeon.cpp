@@ -264,10 +264,16 @@ std::vector<std::string> feel_marks(const AclKnee& knee, const std::vector<std::
   return waiting;
 }
 
-// With the shaver, and out again.
-void clear(const AclKnee& knee, const std::string& shaver, const Vec3& portal_W, AclWay& way) {
+// With the shaver, and out again. Who leaves a stump leaves the one on the tibia: on the femur it
+// would push the aimer aside.
+void clear(const AclKnee& knee, const std::string& shaver, bool leaves_one, const Vec3& portal_W,
+           AclWay& way) {
   const Vec3 out = outwards(knee, portal_W);
-  clear_stumps(knee, torn_stumps(knee.whole()), {shaver, 0, kShaverRadius_m, portal_W}, way);
+  std::vector<TornStump> stumps = torn_stumps(knee.whole());
+  const BoneId tibia = knee.whole().find("tibia");
+  if (leaves_one)
+    std::erase_if(stumps, [&](const TornStump& stump) { return stump.bone == tibia; });
+  clear_stumps(knee, stumps, {shaver, 0, kShaverRadius_m, portal_W}, way);
   way.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
 }
 
@@ -339,10 +345,10 @@ ProbePath probe_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
   AclWay probe(tools.probe, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
   probe.wait_until(begin_s);
   const StumpsAsObstacles stumps(knee.whole(), torn_stumps(knee.whole()));
-  const bool clears = !tools.shaver.empty() && habits.fault != "stump_left";
+  const bool clears = !tools.shaver.empty();
   const auto waiting = feel_marks(knee, tools.felt, &stumps, portal_W, habits, probe, unreachable);
   probe.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
-  if (clears) clear(knee, tools.shaver, portal_W, probe);
+  if (clears) clear(knee, tools.shaver, habits.fault == "stump_left", portal_W, probe);
   if (!waiting.empty()) {
     if (clears) probe.take(tools.probe, 0);
     feel_marks(knee, waiting, nullptr, portal_W, habits, probe, unreachable);
