@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "osteon/mesh/append_mesh.h"
+#include "skin/skin_shape.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
 #include "soft/cut_shape.h"
-#include "soft/skin_shape.h"
 
 namespace osteon {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
-#include "soft/skin_world.h"
+#include "skin/skin_world.h"
 #include "soft/soft_grips.h"
 #include "soft/soft_touch.h"
 #include "soft/solid_presses.h"

@@ -5,7 +5,7 @@
 #include "osteon/base/hash.h"
 #include "osteon/physics/fallen_pieces.h"
 #include "osteon/physics/soft_world.h"
-#include "soft/skin_world.h"
+#include "skin/skin_world.h"
 #include "soft/soft_grips.h"
 #include "soft/soft_touch.h"
 #include "soft/solid_cutting.h"

@@ -13,7 +13,7 @@
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/tool.h"
-#include "soft/skin_slits.h"
+#include "skin/skin_slits.h"
 
 namespace osteon {
 

@@ -1,11 +1,11 @@
-#include "soft/skin_world.h"
+#include "skin/skin_world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "osteon/scene/soft_events.h"
-#include "soft/skin_box.h"
+#include "skin/skin_box.h"
 #include "soft/soft_touch.h"
 
 namespace osteon {

@@ -1,4 +1,4 @@
-#include "soft/skin_shape.h"
+#include "skin/skin_shape.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "soft/skin_slits.h"
+#include "skin/skin_slits.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "osteon/base/hash.h"
-#include "soft/skin_world.h"
+#include "skin/skin_world.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "soft/skin_box.h"
+#include "skin/skin_box.h"
 
 #include <gtest/gtest.h>
 
