@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "osteon/scene/placing.h"
 #include "ring_box.h"
@@ -27,6 +28,23 @@ inline CaseDef placing_def(bool fields = false) {
   mark("tibial_tunnel_to", 0, 0, -22);
   mark("tibial_tunnel_side", 0, 4, -80);
   return def;
+}
+
+/// Makes the tibia turn about the femur's origin, 0.1 rad every 30 degrees up to 120, at rest
+/// at 90.
+inline void let_bend(CaseDef& def, std::optional<double> begin_deg = {}) {
+  JointDef knee;
+  knee.name = "flexion";
+  knee.fixed = "femur";
+  knee.at_deg = 90;
+  knee.begin_deg = begin_deg;
+  PoseTrack track{0, 30, {}};
+  const Pose rest = def.bones[0].X_WB.inverse() * def.bones[1].X_WB;
+  for (int n = 0; n <= 4; ++n)
+    track.poses.push_back(
+        Pose{Vec3::Zero(), Quat(Eigen::AngleAxisd(0.1 * (3 - n), Vec3::UnitY()))} * rest);
+  knee.bones.push_back({"tibia", track});
+  def.joints.push_back(knee);
 }
 
 inline std::shared_ptr<const Case> placing_knee(bool fields = false) {

@@ -7,21 +7,10 @@
 namespace osteon {
 namespace {
 
-// A tibia that turns about the femur's origin, 0.1 rad every 30 degrees, at rest at 90.
+// A knee that bends, with a mark on each bone and two on none.
 Case marked_knee(std::optional<double> begin_deg = {}) {
   CaseDef def = testing::placing_def();
-  JointDef knee;
-  knee.name = "flexion";
-  knee.fixed = "femur";
-  knee.at_deg = 90;
-  knee.begin_deg = begin_deg;
-  PoseTrack track{0, 30, {}};
-  const Pose rest = def.bones[0].X_WB.inverse() * def.bones[1].X_WB;
-  for (int n = 0; n <= 4; ++n)
-    track.poses.push_back(
-        Pose{Vec3::Zero(), Quat(Eigen::AngleAxisd(0.1 * (3 - n), Vec3::UnitY()))} * rest);
-  knee.bones.push_back({"tibia", track});
-  def.joints.push_back(knee);
+  testing::let_bend(def, begin_deg);
   def.landmarks.clear();
   def.landmarks.push_back({"free", Vec3(0.1, 0.2, 0.3), Vec3::Zero()});
   def.landmarks.push_back({"on_femur", Vec3(0.1, 0.2, 0.3), Vec3::Zero(), "femur"});

@@ -15,18 +15,7 @@ constexpr double kFull_n = 134, kFull_m = 0.012;
 struct ExamSession {
   explicit ExamSession(std::optional<double> begin_deg = {}) {
     CaseDef def = testing::placing_def();
-    JointDef knee;
-    knee.name = "flexion";
-    knee.fixed = "femur";
-    knee.at_deg = 90;
-    knee.begin_deg = begin_deg;
-    PoseTrack track{0, 30, {}};
-    const Pose rest = def.bones[0].X_WB.inverse() * def.bones[1].X_WB;
-    for (int n = 0; n <= 4; ++n)
-      track.poses.push_back(
-          Pose{Vec3::Zero(), Quat(Eigen::AngleAxisd(0.1 * (3 - n), Vec3::UnitY()))} * rest);
-    knee.bones.push_back({"tibia", track});
-    def.joints.push_back(knee);
+    testing::let_bend(def, begin_deg);
     auto built = build_case(std::move(def));
     EXPECT_TRUE(built) << (built ? "" : built.error().message());
     the_case = std::make_shared<const Case>(std::move(*built));

@@ -58,6 +58,11 @@ struct Hand : DrivenHand {
     q = pose;
     DrivenHand::take(instrument);
   }
+  // The upright blade from above the block straight down, so deep into it.
+  void set_blade(double x, double y, double deep_m, int ticks) {
+    take(kBlade, kUpright, {x, y, kMeniscusHalf.z() + 0.002});
+    move({x, y, kMeniscusHalf.z() - deep_m}, ticks);
+  }
 };
 
 double removed_mm3(const Session& session) { return 1e9 * session.softs()->removed_m3(0); }
@@ -120,8 +125,7 @@ TEST(SoftCut, ABladeGoesInAtItsForceAndSlitsAlongItsStroke) {
   Session session = cut_run().session();
   Hand hand(session);
   const double top = kMeniscusHalf.z();
-  hand.take(kBlade, kUpright, {0, -0.003, top + 0.002});
-  hand.move({0, -0.003, top - 0.005}, 400);
+  hand.set_blade(0, -0.003, 0.005, 400);
   EXPECT_LT(std::abs(session.tool_state().force_W.z()), 3);
   EXPECT_GT(std::abs(session.tool_state().force_W.z()), 1);
   hand.move({0, 0.003, top - 0.005}, 400);
@@ -138,8 +142,7 @@ TEST(SoftCut, ADrawnEdgeNeedsLessForce) {
   Session session = cut_run().session();
   Hand hand(session);
   const double top = kMeniscusHalf.z();
-  hand.take(kBlade, kUpright, {0, -0.003, top + 0.002});
-  hand.move({0, -0.003, top - 0.002}, 400);
+  hand.set_blade(0, -0.003, 0.002, 400);
   hand.rest(200);
   const double pushed = std::abs(session.tool_state().force_W.z());
   EXPECT_GT(pushed, 0.6);
@@ -172,9 +175,8 @@ TEST(SoftCut, WhatIsCutOffIsGoneAndTold) {
   Session session = cut_run().session();
   Hand hand(session);
   const double top = kMeniscusHalf.z();
-  hand.take(kBlade, kUpright, {0.009, -0.012, top + 0.002});
   // Down beside the end, then across the whole block.
-  hand.move({0.009, -0.012, top - 0.009}, 300);
+  hand.set_blade(0.009, -0.012, 0.009, 300);
   hand.move({0.009, 0.012, top - 0.009}, 2000);
   hand.rest(100);
   const double lost = removed_mm3(session);
@@ -211,8 +213,7 @@ TEST(SoftCut, WhatIsDrawnDoesNotDependOnWhatWasDrawnBefore) {
   };
   const auto stroke = [&](double x) {
     const double top = kMeniscusHalf.z();
-    hand.take(kBlade, kUpright, {x, -0.009, top + 0.002});
-    hand.move({x, -0.009, top - 0.004}, 200);
+    hand.set_blade(x, -0.009, 0.004, 200);
     for (int k = -8; k <= 8; ++k) {
       hand.move({x, 0.001 * k, top - 0.004}, 60);
       compare();
