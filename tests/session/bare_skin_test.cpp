@@ -4,11 +4,14 @@
 #include "osteon/physics/skin_state.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "skin_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
+using testing::expect_same_replays;
 using testing::kSkinBall;
 using testing::kSkinScope;
 using testing::kSkinTrocar;
@@ -127,8 +130,7 @@ TEST(BareSkin, ARestorePointFromBeforeThePortalHasTheSkinAgainUntilItIsMadeAnew)
 TEST(BareSkin, ARecordingRepeatsFromTheStartAndTheMiddle) {
   const auto& run = skin_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   SkinHandAt hand(session);
   hand.into = &recording;
   hand.tick();
@@ -138,17 +140,7 @@ TEST(BareSkin, ARecordingRepeatsFromTheStartAndTheMiddle) {
   hand.move({0.003, 0, -0.020}, 800);
   hand.move({0.020, 0.010, -0.018}, 400);
   ASSERT_EQ(session.tool_state().portal, 0u);
-  recording.complete = true;
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 1.0, 2.1, 2.9}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << from_s << ": " << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 1.0, 2.1, 2.9});
   const auto back = state_from_bytes(to_bytes(session.save()));
   ASSERT_TRUE(back) << back.error().message();
   EXPECT_TRUE(back->world.softs.skin->bares);

@@ -14,12 +14,15 @@
 #include "osteon/scene/carve_events.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
+#include "recorded_run.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
 using testing::down_at;
 using testing::Drilling;
+using testing::go_on_as;
 using testing::kTop_m;
 
 void run(Session& session, std::uint64_t from, std::uint64_t to, double power,
@@ -74,11 +77,8 @@ TEST(Carving, AStateGivesTheSameBitsAfterwards) {
   Session session = with.session();
   run(session, 1, 2500, 1);
   ASSERT_GT(removed_mm3(session), 1);
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = with.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  (void)go_on_as(other, session);
   run(session, 2501, 3500, 1);
   run(other, 2501, 3500, 1);
   EXPECT_EQ(other.state_hash(), session.state_hash());
@@ -192,8 +192,7 @@ TEST(Carving, ABurrRemovesWhereItIsPressed) {
 TEST(Carving, AHandThatStoodStillFeelsAllAndReplays) {
   const Drilling with;
   Session session = with.session();
-  Recording recording;
-  recording.header = recording_header(*with.the_case, with.settings, "test", "0", with.tray);
+  Recording recording = begin_recording(with);
   ToolState tool;
   for (std::uint64_t n = 1; n <= 2600; ++n) {
     if (n < 1500 || n > 1900) {
@@ -222,8 +221,7 @@ TEST(Carving, AHandThatIsNotToldYetWaitsAndReplays) {
   Drilling with;
   with.with([](CarvingSetup& setup) { setup.channel_places = 40; });
   Session session = with.session();
-  Recording recording;
-  recording.header = recording_header(*with.the_case, with.settings, "test", "0", with.tray);
+  Recording recording = begin_recording(with);
   BoneSnapshot seen = session.bones();
   ToolState tool;
   bool was_behind = false;

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "osteon/record/recording.h"
-#include "osteon/session/session.h"
+#include "recorded_run.h"
 
 namespace osteon::testing {
 
@@ -26,10 +25,7 @@ struct DrivenHand {
     input.X_WD = {at, q};
     (void)session.tick(input, command);
     for (const Event& event : session.last_events()) events.push_back(event);
-    if (!into) return;
-    into->ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
-    if (store_every > 0 && session.tool_state().tick % store_every == 0) store();
+    if (into) keep_tick(*into, session, store_every);
   }
   void take(std::uint32_t instrument) {
     tick({CommandKind::kTake, static_cast<double>(instrument)});
@@ -45,15 +41,6 @@ struct DrivenHand {
   std::size_t count(EventKind kind) const {
     return static_cast<std::size_t>(std::count_if(
         events.begin(), events.end(), [kind](const Event& event) { return event.kind == kind; }));
-  }
-
- private:
-  void store() {
-    StoredState state;
-    state.ticks[0] = session.tool_state().tick;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    into->states.push_back(state);
   }
 };
 

@@ -7,11 +7,14 @@
 #include "osteon/physics/skin_state.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "skin_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kSkinBlade;
 using testing::kSkinScope;
 using testing::kSkinTrocar;
@@ -255,11 +258,8 @@ TEST(MadePortal, AStateWhileTheHoleClosesAboutTheShaftGoesOnTheSame) {
     hand.move({0, 0, hand.at.z() - 0.00005}, 1);
   hand.rest(21);
   ASSERT_NE(session.tool_state().portal, kNoPortal);
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = skin_run().session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const SessionState back = go_on_as(other, session);
   SkinHandAt again(other);
   again.at = hand.at;
   for (SkinHandAt* one : {&hand, &again}) {
@@ -270,7 +270,7 @@ TEST(MadePortal, AStateWhileTheHoleClosesAboutTheShaftGoesOnTheSame) {
   EXPECT_EQ(other.state_hash(), session.state_hash());
   EXPECT_EQ(again.force_z, hand.force_z);
   for (const int wrong : {0, 1, 2}) {
-    SessionState odd = *back;
+    SessionState odd = back;
     SkinState skin = *odd.world.softs.skin;
     ASSERT_EQ(skin.patches[0].made_count, 1u);
     if (wrong == 0) skin.patches[0].made_count = 9;
@@ -371,20 +371,10 @@ TEST(MadePortal, AnotherHandGoesInThereAndAReplayIsTheSameFromTheStartAndFromThe
   two.move(0, {-0.009, -0.008, 0.020}, 300);
   EXPECT_EQ(two.session->tool_state(0).portal, kNoPortal);
   EXPECT_EQ(two.session->tool_state(1).portal, kNoPortal);
-  two.recording.complete = true;
   std::size_t made = 0;
   for (const Event& event : two.events) made += event.kind == kPortalMade ? 1 : 0;
   EXPECT_EQ(made, 2u);
-  ReplayOptions options;
-  options.tray = two.run.tray;
-  options.softs = two.run.softs;
-  for (const double from_s : {0.0, 0.55, 1.1, 2.0, 2.8}) {
-    options.from_s = from_s;
-    const auto outcome = replay(two.recording, two.run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << from_s << ": " << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, two.session->state_hash());
-  }
+  expect_same_replays(two.recording, two.run, *two.session, {0.0, 0.55, 1.1, 2.0, 2.8});
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 
 #include "count_allocations.h"
 #include "osteon/session/session.h"
+#include "recorded_run.h"
 #include "ring_box.h"
 
 namespace osteon {
 namespace {
 
 using testing::jaws_at_ring;
+using testing::keep_tick;
 using testing::kRingLies_m;
 using testing::ring_box;
 
@@ -80,8 +82,7 @@ TEST(SessionRings, ARecordingRepeatsAndARestorePointLetsTheRingFall) {
     HandInput hand = ring_hand(n);
     if (n == 1000) hand.command = {CommandKind::kRestore, 2};  // it was in the air then
     (void)session.tick(std::span(&hand, 1));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+    keep_tick(recording, session);
   }
   recording.complete = true;
   const auto again = replay(recording, box);

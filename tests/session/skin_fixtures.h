@@ -8,6 +8,7 @@
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/session/session.h"
+#include "recorded_run.h"
 #include "session_fixtures.h"
 
 namespace osteon::testing {
@@ -139,15 +140,7 @@ struct SkinHandAt {
     for (const Event& event : session.last_events()) events.push_back(event);
     force_z.push_back(session.tool_state().force_W.z());
     if (session.softs()) most_n = std::max(most_n, session.softs()->skin_readout(0).force_n[0]);
-    if (!into) return;
-    into->ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) into->steps.push_back(session.last_step_record());
-    if (session.tool_state().tick % 250 != 0) return;
-    StoredState state;
-    state.ticks[0] = session.tool_state().tick;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    into->states.push_back(state);
+    if (into) keep_tick(*into, session, 250);
   }
   void take(std::uint32_t instrument, const Vec3& from) {
     at = from;

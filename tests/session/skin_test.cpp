@@ -8,11 +8,15 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/tissue/sheet_balance.h"
+#include "recorded_run.h"
 #include "skin_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kBallTip_m;
 using testing::kSkinBall;
 using testing::kSkinBlade;
@@ -267,8 +271,7 @@ void wander(SkinHandAt& hand, Random& random, int turns) {
 TEST(Skin, RandomWorkKeepsItSoundAndAReplayIsTheSameFromTheStartAndFromTheMiddle) {
   const SkinRun& run = skin_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   SkinHandAt hand(session);
   hand.into = &recording;
   Random random(5);
@@ -280,22 +283,12 @@ TEST(Skin, RandomWorkKeepsItSoundAndAReplayIsTheSameFromTheStartAndFromTheMiddle
   wander(hand, random, 60);
   hand.tick({CommandKind::kRestore, 0});
   wander(hand, random, 20);
-  recording.complete = true;
   EXPECT_GT(hand.count(kSkinCut), 3u);
   EXPECT_GT(hand.count(kSkinPierced), 0u);
   EXPECT_GT(hand.count(kSkinEntered), 0u);
   for (const double f : hand.force_z) ASSERT_TRUE(std::isfinite(f));
   ASSERT_GT(recording.states.size(), 8u);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 0.8, 2.1, 3.6}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << from_s << ": " << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.8, 2.1, 3.6});
 }
 
 TEST(Skin, ARestorePointMakesItWholeAgain) {
@@ -321,11 +314,8 @@ TEST(Skin, AStateInTheMiddleOfACutGoesOnTheSameAndAWrongOneIsRefused) {
   hand.move({-0.0063, 0.0004, -0.008}, 300);
   hand.move({0, 0, -0.008}, 203);
   ASSERT_FALSE(session.save().world.softs.skin->patches[0].cuts.moved.empty());
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = skin_run().session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const SessionState back = go_on_as(other, session);
   SkinHandAt again(other);
   again.at = hand.at;
   for (SkinHandAt* one : {&hand, &again}) {
@@ -337,7 +327,7 @@ TEST(Skin, AStateInTheMiddleOfACutGoesOnTheSameAndAWrongOneIsRefused) {
   EXPECT_EQ(again.force_z, hand.force_z);
   EXPECT_EQ(again.count(kSkinCutEnd), 1u);
   for (const int wrong : {0, 1, 2, 3}) {
-    SessionState odd = *back;
+    SessionState odd = back;
     SkinState skin = *odd.world.softs.skin;
     if (wrong == 0) skin.patches[0].cuts.cut[0].edge = 1u << 30;
     if (wrong == 1) skin.patches[0].cuts.moved[0].p.x() = std::nan("");

@@ -8,11 +8,13 @@
 #include "osteon/physics/soft_cut_state.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "stump_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
 using testing::DrivenHand;
 using testing::kStumpHalf;
 using testing::posed;
@@ -234,8 +236,7 @@ TEST(SoftClear, AStateGoesOnTheSameAndUndoBringsItBack) {
 TEST(SoftClear, AReplayClearsTheSame) {
   const auto& run = stump_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   ClearingHand hand(session);
   hand.into = &recording;
   hand.take(kShaver, 1);

@@ -10,12 +10,17 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_solid_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
 using testing::DrivenHand;
+using testing::expect_same_replays;
+using testing::go_on_as;
+using testing::keep_state;
 using testing::kMeniscus_n_per_m;
 using testing::kMeniscusHalf;
 using testing::posed;
@@ -240,13 +245,8 @@ TEST(SoftCut, UndoPutsItBackAndAStateGoesOnTheSame) {
   hand.tick({CommandKind::kMark, 0});
   hand.rest(10);
   bite(hand);
-  const auto bytes = to_bytes(session.save());
-  const auto back = state_from_bytes(bytes);
-  ASSERT_TRUE(back) << back.error().message();
-  EXPECT_EQ(to_bytes(*back), bytes);
   Session other = run.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  (void)go_on_as(other, session);
   Hand second(other);
   second.at = hand.at;
   second.q = hand.q;
@@ -264,8 +264,7 @@ TEST(SoftCut, UndoPutsItBackAndAStateGoesOnTheSame) {
 TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
   const CutRun& run = cut_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   Hand hand(session);
   hand.into = &recording;
   Random random(11);
@@ -294,24 +293,10 @@ TEST(SoftCut, RandomCutsKeepItSoundAndReplayTheSame) {
       ASSERT_NEAR(1e9 * volume(mesh) + removed, 24 * 16 * 6, 0.02 * removed + 3) << bout;
     }
     if (bout != 8) continue;
-    StoredState state;
-    state.ticks[0] = recording.ticks.size();
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    recording.states.push_back(state);
+    keep_state(recording, session);
   }
-  recording.complete = true;
   EXPECT_GT(last, 10);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 0.9}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.9});
 }
 
 }  // namespace

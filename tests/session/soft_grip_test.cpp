@@ -9,6 +9,7 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_fixtures.h"
 #include "soft_solid_fixtures.h"
 
@@ -18,7 +19,10 @@ namespace {
 using testing::allocations;
 using testing::band_table;
 using testing::BandRun;
+using testing::begin_recording;
 using testing::DrivenHand;
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kBandGap_m;
 using testing::kBandMiddle;
 using testing::kBandStiffness_n;
@@ -374,27 +378,16 @@ void wander(JawHand& hand, Random& random, int turns) {
 TEST(SoftGrip, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
   const BandRun run = band_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   JawHand hand(session);
   hand.into = &recording;
   Random random(11);
   hand.take(kGrasper);
   wander(hand, random, 80);
-  recording.complete = true;
   EXPECT_GT(hand.count(kSoftHeld), 5u);
   EXPECT_GT(hand.count(kSoftSlipped) + hand.count(kSoftFreed), 5u);
   ASSERT_GT(recording.states.size(), 8u);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 0.6, 1.3, 2.1}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << from_s << ": " << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.6, 1.3, 2.1});
 }
 
 TEST(SoftGrip, AStateKeepsWhatIsHeldAndAWrongOneIsRefused) {
@@ -403,11 +396,8 @@ TEST(SoftGrip, AStateKeepsWhatIsHeldAndAWrongOneIsRefused) {
   JawHand hand(session);
   hand.hold_band();
   hand.move(hand.at + Vec3(0, 0, 0.002), 51);
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = run.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const SessionState back = go_on_as(other, session);
   JawHand again(other);
   again.at = hand.at;
   for (JawHand* one : {&hand, &again}) one->move(one->at + Vec3(0, 0, 0.001), 101);
@@ -415,7 +405,7 @@ TEST(SoftGrip, AStateKeepsWhatIsHeldAndAWrongOneIsRefused) {
   EXPECT_TRUE(again.holds());
   EXPECT_LT(other.tool_state().force_W.z(), -2);
   for (const int wrong : {0, 1, 2}) {
-    SessionState odd = *back;
+    SessionState odd = back;
     SoftHold& hold = odd.world.softs.grips[0].hold;
     if (wrong == 0) hold.part = 7;
     if (wrong == 1) hold.share = 1;
@@ -427,7 +417,7 @@ TEST(SoftGrip, AStateKeepsWhatIsHeldAndAWrongOneIsRefused) {
   bare.settings.tray = run.settings.tray;
   bare.tray = run.tray;
   Session without = bare.session();
-  EXPECT_FALSE(without.restore(*back));
+  EXPECT_FALSE(without.restore(back));
 }
 
 }  // namespace

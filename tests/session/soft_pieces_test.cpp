@@ -9,12 +9,16 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_solid_fixtures.h"
 
 namespace osteon {
 namespace {
 
+using testing::begin_recording;
 using testing::DrivenHand;
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kMeniscusHalf;
 using testing::posed;
 
@@ -266,37 +270,21 @@ TEST(SoftPieces, UndoBringsTheWholeBack) {
 TEST(SoftPieces, AStateKeepsThemAndAReplayIsTheSame) {
   const PiecesRun& run = pieces_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   PieceHand hand(session);
   hand.into = &recording;
   hand.until_it_comes_off();
   hand.rest(20);  // it falls
   ASSERT_EQ(lying(session).size(), 1u);
   ASSERT_EQ(lying(session)[0].is, FallenPiece::Is::kMoving);
-  const auto bytes = to_bytes(session.save());
-  const auto back = state_from_bytes(bytes);
-  ASSERT_TRUE(back) << back.error().message();
-  EXPECT_EQ(to_bytes(*back), bytes);
   Session other = run.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  (void)go_on_as(other, session);
   PieceHand second(other);
   second.at = hand.at;
   second.q = hand.q;
   for (PieceHand* h : {&hand, &second}) h->rest(400);
   EXPECT_EQ(other.state_hash(), session.state_hash());
-  recording.complete = true;
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 2.0}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 2.0});
 }
 
 TEST(SoftPieces, StatesThatCannotBeAreRefused) {

@@ -7,6 +7,7 @@
 #include "osteon/base/random.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_solid_fixtures.h"
 
 namespace osteon {
@@ -14,7 +15,11 @@ namespace {
 
 using testing::allocations;
 
+using testing::begin_recording;
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kBlockTop_m;
+using testing::keep_tick;
 using testing::kMeniscus_n_per_m;
 using testing::MeniscusRun;
 
@@ -149,18 +154,15 @@ TEST(SoftSolid, AStateGivesTheSameBitsAfterwards) {
   const MeniscusRun& run = the_run();
   Session session = run.session();
   bring(session, over_block(0, 0, -0.002), over_block(0.004, 0, 0.003), 300);
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = run.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const SessionState back = go_on_as(other, session);
   for (Session* s : {&session, &other})
     bring(*s, over_block(0.004, 0, 0.003), over_block(-0.004, 0.002, 0.002));
   EXPECT_EQ(other.state_hash(), session.state_hash());
   EXPECT_EQ(other.tool_state().force_W, session.tool_state().force_W);
   EXPECT_GT(other.tool_state().force_W.z(), 1);
   Session without(run.the_case, run.settings, run.tray, nullptr, nullptr);
-  EXPECT_FALSE(without.restore(*back));
+  EXPECT_FALSE(without.restore(back));
 }
 
 ToolInput roaming(Random& random, Vec3& at) {
@@ -172,35 +174,17 @@ ToolInput roaming(Random& random, Vec3& at) {
 TEST(SoftSolid, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
   const MeniscusRun& run = the_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   Random random(5);
   Vec3 at(0, 0, 0.008);
   std::size_t touched = 0;
   for (std::uint64_t n = 1; n <= 2000; ++n) {
     (void)session.tick(roaming(random, at));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+    keep_tick(recording, session, 500);
     touched += session.tool_state().force_W.isZero(0) ? 0 : 1;
-    if (n % 500 != 0) continue;
-    StoredState state;
-    state.ticks[0] = n;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    recording.states.push_back(state);
   }
-  recording.complete = true;
   EXPECT_GT(touched, 100u);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 1.2}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 1.2});
 }
 
 TEST(SoftSolid, WildHandsGetAFiniteForceAndNothingIsAllocated) {

@@ -9,6 +9,7 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_fixtures.h"
 #include "soft_solid_fixtures.h"
 
@@ -17,7 +18,9 @@ namespace {
 
 using testing::band_table;
 using testing::BandRun;
+using testing::begin_recording;
 using testing::DrivenHand;
+using testing::expect_same_replays;
 using testing::kBandMiddle;
 using testing::kBandRadius_m;
 
@@ -246,8 +249,7 @@ TEST(SoftSuction, PressedOnItFeelsTheTissueAsWithoutPower) {
 TEST(SoftSuction, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
   const BandRun run = with_suction(BandRun(band_table(-0.01)));
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   DrivenHand by(session, before_band(run, 0.004));
   by.into = &recording;
   by.store_every = 250;
@@ -259,20 +261,10 @@ TEST(SoftSuction, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
     by.move(before_band(run, 0.0010) + Vec3(0.002, 0, 0), 150);
     by.move(before_band(run, 0.0040), 150);
   }
-  recording.complete = true;
   EXPECT_GE(by.count(kSoftHeld), 4u);
   EXPECT_GE(by.count(kSoftSlipped), 4u);
   ASSERT_GT(recording.states.size(), 4u);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 0.3, 0.6, 1.1}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << from_s << ": " << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.3, 0.6, 1.1});
 }
 
 }  // namespace

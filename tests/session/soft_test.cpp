@@ -7,6 +7,7 @@
 #include "osteon/base/random.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "recorded_run.h"
 #include "soft_fixtures.h"
 
 namespace osteon {
@@ -15,11 +16,15 @@ namespace {
 using testing::allocations;
 using testing::band_table;
 using testing::BandRun;
+using testing::begin_recording;
+using testing::expect_same_replays;
+using testing::go_on_as;
 using testing::kBandGap_m;
 using testing::kBandStiffness_n;
 using testing::kBandStrain;
 using testing::kBandSurface_n_per_m;
 using testing::kBandToe;
+using testing::keep_tick;
 using testing::kTouch_m;
 using testing::shaft_at;
 
@@ -197,11 +202,8 @@ TEST(Soft, AStateGivesTheSameBitsAfterwards) {
   const BandRun run;
   Session session = run.session();
   press_to(session, 1, 301, 0.006);
-  const auto back = state_from_bytes(to_bytes(session.save()));
-  ASSERT_TRUE(back) << back.error().message();
   Session other = run.session();
-  ASSERT_TRUE(other.restore(*back));
-  EXPECT_EQ(other.state_hash(), session.state_hash());
+  const SessionState back = go_on_as(other, session);
   press_to(session, 302, 600, 0.006);
   press_to(other, 302, 600, 0.006);
   EXPECT_EQ(other.state_hash(), session.state_hash());
@@ -210,7 +212,7 @@ TEST(Soft, AStateGivesTheSameBitsAfterwards) {
   BandRun hard = run;
   hard.softs = nullptr;
   Session without = hard.session();
-  EXPECT_FALSE(without.restore(*back));
+  EXPECT_FALSE(without.restore(back));
 }
 
 constexpr std::size_t kWordsAfterSofts = 1 + kMaxMarks + 2;  // rings, marks, command
@@ -321,36 +323,21 @@ ToolInput wandering(Random& random, Vec3& at) {
 TEST(Soft, AReplayIsTheSameFromTheStartAndFromTheMiddle) {
   const BandRun run;
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   Random random(5);
   Vec3 at(0, 0, 0.008);
   std::size_t touched = 0;
   for (std::uint64_t n = 1; n <= 3000; ++n) {
     (void)session.tick(wandering(random, at));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+    keep_tick(recording, session, 500);
     touched += session.tool_state().force_W.isZero(0) ? 0 : 1;
-    if (n % 500 != 0) continue;
-    StoredState state;
-    state.ticks[0] = n;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    recording.states.push_back(state);
   }
-  recording.complete = true;
   EXPECT_GT(touched, 200u);
-  ReplayOptions options;
-  options.tray = run.tray;
-  EXPECT_FALSE(replay(recording, run.the_case, options));  // without the soft parts
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 1.2}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  recording.complete = true;
+  ReplayOptions without;
+  without.tray = run.tray;
+  EXPECT_FALSE(replay(recording, run.the_case, without));  // without the soft parts
+  expect_same_replays(recording, run, session, {0.0, 1.2});
 }
 
 // Where a blade has cut is kept in a state and comes back; no place that is none is taken.
@@ -364,22 +351,13 @@ TEST(Soft, AStateKeepsWhereItWasCutAndAReplayCutsThere) {
   blade.parts = {make_rod(Vec3(0, 0, 0), Vec3(0, 0, 0.025), testing::kShaftRadius_m)};
   run.tray = {std::make_shared<const Tool>(blade)};
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   constexpr double kAside_m = 0.006, kFrom_m = testing::kTouch_m + 0.003;
   for (std::uint64_t n = 1; n <= 1000; ++n) {
     const double z = kFrom_m - 0.009 * std::min(1.0, static_cast<double>(n) / 600);
     (void)session.tick(shaft_at(z, 0, kAside_m));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
-    if (n % 250 != 0) continue;
-    StoredState state;
-    state.ticks[0] = n;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    recording.states.push_back(state);
+    keep_tick(recording, session, 250);
   }
-  recording.complete = true;
   const double share = 0.5 + kAside_m / testing::kBandGap_m;
   const SoftPushes pushes = session.softs()->pushes();
   ASSERT_EQ(pushes.break_count, 1u);
@@ -390,16 +368,7 @@ TEST(Soft, AStateKeepsWhereItWasCutAndAReplayCutsThere) {
   ASSERT_TRUE(other.restore(*back));
   EXPECT_EQ(other.state_hash(), session.state_hash());
   EXPECT_EQ(other.softs()->pushes().breaks, pushes.breaks);
-  ReplayOptions options;
-  options.tray = run.tray;
-  options.softs = run.softs;
-  for (const double from_s : {0.0, 0.8}) {
-    options.from_s = from_s;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick;
-    EXPECT_EQ(outcome->state_hash, session.state_hash());
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.8});
   // Version 9 had no word for the place.
   SessionState elsewhere = session.save();
   std::string old = without_water(elsewhere);

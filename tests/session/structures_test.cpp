@@ -9,11 +9,14 @@
 #include "drilling.h"
 #include "mesh/shapes.h"
 #include "osteon/physics/structure_watch.h"
+#include "recorded_run.h"
 #include "session_fixtures.h"
 #include "soft_fixtures.h"
 
 namespace osteon {
 namespace {
+
+using testing::keep_tick;
 
 constexpr double kStructureTick_s = 0.001,
                  kStructureLook_s = 2 * StructureWatch::kEvery * kStructureTick_s;
@@ -311,8 +314,7 @@ TEST(Structures, AReplayFindsTheSame) {
   std::size_t told = 0;
   for (int n = 1; n <= 2000; ++n) {
     (void)session.tick(tip_at(kFatMiddle + (n / 1000.0 - 1) * kAcrossFat));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
+    keep_tick(recording, session);
     for (const Event& event : session.last_events()) told += is_told(event) ? 1 : 0;
   }
   recording.complete = true;

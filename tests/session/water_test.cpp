@@ -7,6 +7,7 @@
 #include "count_allocations.h"
 #include "osteon/physics/joint_water.h"
 #include "osteon/physics/soft_world.h"
+#include "recorded_run.h"
 #include "soft_fixtures.h"
 
 namespace osteon {
@@ -14,7 +15,10 @@ namespace {
 
 using testing::allocations;
 using testing::BandRun;
+using testing::begin_recording;
+using testing::expect_same_replays;
 using testing::kBandRadius_m;
+using testing::keep_tick;
 using testing::kTouch_m;
 using testing::shaft_at;
 
@@ -88,32 +92,14 @@ TEST(Water, ALigamentThatIsCutBleedsAndABluntShaftOpensNothing) {
 TEST(Water, ThePumpIsAnInputThatAReplayRepeatsFromTheStartAndTheMiddle) {
   const BandRun run = blade_run();
   Session session = run.session();
-  Recording recording;
-  recording.header = recording_header(*run.the_case, run.settings, "test", "0", run.tray);
+  Recording recording = begin_recording(run);
   for (std::uint64_t n = 1; n <= 1500; ++n) {
     (void)session.tick(blade_at(n), pump_at(n));
-    recording.ticks.push_back(session.last_tick_record());
-    if (session.last_steps() > 0) recording.steps.push_back(session.last_step_record());
-    if (n % 250 != 0) continue;
-    StoredState state;
-    state.ticks[0] = n;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
-    recording.states.push_back(state);
+    keep_tick(recording, session, 250);
   }
-  recording.complete = true;
   EXPECT_EQ(water_of(session).pump_pa, 90 * kPa_per_mmHg);
   EXPECT_EQ(water_of(session).outlet_open, 1);
-  for (const double from_s : {0.0, 0.25, 0.5, 1.25}) {
-    ReplayOptions options;
-    options.from_s = from_s;
-    options.tray = run.tray;
-    options.softs = run.softs;
-    const auto outcome = replay(recording, run.the_case, options);
-    ASSERT_TRUE(outcome) << outcome.error().message();
-    EXPECT_TRUE(outcome->identical) << outcome->first_different_tick << " from " << from_s;
-    EXPECT_EQ(outcome->state_hash, session.state_hash()) << from_s;
-  }
+  expect_same_replays(recording, run, session, {0.0, 0.25, 0.5, 1.25});
 }
 
 TEST(Water, ARestorePointBringsBackTheWaterAndLeavesThePump) {
