@@ -180,10 +180,11 @@ bool ScenePainter::any_changed() const {
                      [](const BoneModel& bone) { return !bone.changed.empty(); });
 }
 
-ScenePainter::BoneModel ScenePainter::make_soft(const SoftPart& soft) {
+ScenePainter::BoneModel ScenePainter::make_soft(const Case& the_case, const SoftPart& soft) {
   BoneModel model;
   model.outermost = soft.kind == "skin";
   for (const BoneId bone : soft.bones) model.rides_on.push_back(bone.index);
+  if (model.outermost) model.cover = LimbCover::over(the_case);
   set_extent(model, soft.mesh_W);
   return model;
 }
@@ -202,9 +203,11 @@ bool ScenePainter::shows(const RenderSnapshot& snapshot, const ViewState& view,
   return look.visible && look.opacity >= kSeenThrough && is_finite(pose(snapshot, k));
 }
 
-/// A soft part follows the mean motion of its bones away from rest.
+/// A soft part follows the mean motion of its bones away from rest, skin that bends the upper bone.
 Pose ScenePainter::pose(const RenderSnapshot& snapshot, std::size_t k) const {
   if (k < shared_->rest_X_WB.size()) return snapshot.bones.bones[k].X_WB;
+  if (const auto& cover = shared_->bones[k].cover)
+    return cover->motion(snapshot.bones, shared_->rest_X_WB).upper;
   return mean_motion(snapshot.bones, shared_->rest_X_WB, shared_->bones[k].rides_on,
                      shared_->bones[k].center_B);
 }
@@ -235,11 +238,20 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
     (is_changed ? painter.shared_->changed_heated_bone : painter.shared_->heated_bone) =
         std::move(*heated);
   }
+  const std::pair<Program*, const char*> covers[] = {{&painter.shared_->cover_bone, "bone"},
+                                                     {&painter.shared_->cover_depth, "depth"},
+                                                     {&painter.shared_->cover_mark, "mark"}};
+  for (const auto& [program, frag] : covers) {
+    auto loaded = Program::load_with(shader_dir, "surface", frag, "#define COVERS\n");
+    if (!loaded) return tl::unexpected(loaded.error());
+    *program = std::move(*loaded);
+  }
   for (const Bone& bone : the_case.bones) {
     painter.shared_->bones.push_back(make_bone(bone));
     painter.shared_->rest_X_WB.push_back(bone.X_WB);
   }
-  for (const SoftPart& soft : the_case.softs) painter.shared_->bones.push_back(make_soft(soft));
+  for (const SoftPart& soft : the_case.softs)
+    painter.shared_->bones.push_back(make_soft(the_case, soft));
   painter.set_surfaces(prepared);
   painter.shared_->tools.push_back(make_tool_model(tool));
   painter.shared_->shaft = GpuMesh(plain_shaded(cylinder(20)));
@@ -282,7 +294,8 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
   };
   for (std::size_t k = 0; k < shared_->bones.size(); ++k)
     if (shows(snapshot, view, k))
-      include(pose(snapshot, k) * shared_->bones[k].center_B, shared_->bones[k].radius_m);
+      for (const Pose& X_WB : end_poses(snapshot, k))
+        include(X_WB * shared_->bones[k].center_B, shared_->bones[k].radius_m);
   const auto include_tool = [&](const ToolState& state, const Pose& X) {
     if (!is_finite(X) || !view.show_proxy) return;
     const ToolModel& tool = model_of(state);
@@ -356,8 +369,11 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
       set_tool_shade(*p, snapshot, view, frame);
       HeatTexture::set_colors(*p);
     }
-  for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->depth, &shared_->bone})
+  for (const Program* p : {&shared_->metal, &shared_->mark, &shared_->depth, &shared_->bone,
+                           &shared_->cover_mark, &shared_->cover_depth, &shared_->cover_bone})
     set_shared(*p, view, frame);
+  set_tool_shade(shared_->cover_bone, snapshot, view, frame);
+  shared_->bone.use();
   set_tool_shade(shared_->bone, snapshot, view, frame);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "gl/gpu_mesh.h"
 #include "gl/tile_mask.h"
 #include "osteon/render/renderer.h"
+#include "osteon/scene/limb_cover.h"
 #include "surface/changed_cubes.h"
 #include "surface/heat_texture.h"
 
@@ -151,13 +154,23 @@ class ScenePainter {
     float line_opacity = 0;
     bool outermost = false;                 ///< the skin: drawn over all else that is seen through
     std::vector<std::size_t> rides_on;      ///< bones; of a soft part
+    std::optional<LimbCover> cover;         ///< of skin that bends with a knee
     std::vector<ShadedMesh::Shade> shades;  ///< of a soft part's vertices
   };
   /// Models are the bones and after them the soft parts; what follows takes both.
   Pose pose(const RenderSnapshot& snapshot, std::size_t k) const;
   const BoneAppearance& look_of(const ViewState& view, std::size_t k) const;
   bool shows(const RenderSnapshot& snapshot, const ViewState& view, std::size_t k) const;
-  static BoneModel make_soft(const SoftPart& soft);
+  static BoneModel make_soft(const Case& the_case, const SoftPart& soft);
+  /// How it bends with its limb; none: it is rigid, or has not been bent.
+  /// Motion of both ends of what bends; the pose twice of what is rigid.
+  std::array<Pose, 2> end_poses(const RenderSnapshot& snapshot, std::size_t k) const;
+  std::optional<CoverMotion> cover_motion(const RenderSnapshot& snapshot, std::size_t k) const;
+  static void set_cover(const Program& program, const LimbCover& cover, const CoverMotion& motion);
+  /// Into use: `rigid`, or `bending` where the part bends; its model's matrix is set.
+  const Program& begin_part(const Program& rigid, const Program& bending,
+                            const RenderSnapshot& snapshot, std::size_t k,
+                            const Frame& frame) const;
   /// Bones to draw whose appearance passes, the nearest first.
   template <class Passes>
   std::vector<std::size_t> near_to_far(const RenderSnapshot& snapshot, const ViewState& view,
@@ -204,9 +217,10 @@ class ScenePainter {
   struct Shared {
     Program bone, changed_bone, depth, metal, mark, ground;
     Program heated_bone, changed_heated_bone;
-    std::vector<BoneModel> bones;  ///< and soft parts
-    std::vector<Pose> rest_X_WB;   ///< of the bones
-    std::vector<ToolModel> tools;  ///< by ToolState::instrument; not empty
+    Program cover_bone, cover_depth, cover_mark;  ///< of skin that bends
+    std::vector<BoneModel> bones;                 ///< and soft parts
+    std::vector<Pose> rest_X_WB;                  ///< of the bones
+    std::vector<ToolModel> tools;                 ///< by ToolState::instrument; not empty
     std::map<std::uint64_t, LooseModel> loose;
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;

@@ -40,7 +40,8 @@ std::vector<std::size_t> ScenePainter::near_to_far(const RenderSnapshot& snapsho
   for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     if (!shows(snapshot, view, k) || !passes(look_of(view, k))) continue;
     const Vec3 center_W = pose(snapshot, k) * shared_->bones[k].center_B;
-    if (!in_sight(frame, center_W, shared_->bones[k].radius_m)) continue;
+    if (!cover_motion(snapshot, k) && !in_sight(frame, center_W, shared_->bones[k].radius_m))
+      continue;
     const double depth = -(frame.X_CW * center_W).z();
     by_depth.emplace_back(shared_->bones[k].outermost ? -1e300 : depth, k);
   }
@@ -65,6 +66,7 @@ const GpuMesh& ScenePainter::surface(std::size_t k, const RenderSnapshot& snapsh
 void ScenePainter::draw_surface(std::size_t k, const RenderSnapshot& snapshot,
                                 const ViewState& view, const Frame& frame) const {
   const GpuMesh& mesh = surface(k, snapshot, view, frame);
+  if (cover_motion(snapshot, k)) return mesh.draw();
   const Pose X_WB = pose(snapshot, k), X_CB = frame.X_CW * X_WB;
   mesh.draw([&](const GpuMesh::Chunk& chunk) {
     return frame.tiles ? in_tiles(frame, X_CB * chunk.center, chunk.radius)
@@ -88,10 +90,9 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   const bool heated = view.show_heat && !heat.empty();
   const Program& bone = heated ? shared_->heated_bone : shared_->bone;
   const Program& changed_bone = heated ? shared_->changed_heated_bone : shared_->changed_bone;
-  const auto begin = [&](const Program& program) {
-    program.use();
+  const auto begin = [&](const Program& rigid) {
+    const Program& program = begin_part(rigid, shared_->cover_bone, snapshot, k, frame);
     if (heated) heat.show(program);
-    program.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
     program.set("u_color", Color(look.color[0], look.color[1], look.color[2],
                                  is_clear(look) ? look.opacity : 1.0f));
   };
@@ -109,14 +110,14 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
 void ScenePainter::paint_depth(std::size_t k, const RenderSnapshot& snapshot, const ViewState& view,
                                const Frame& frame) const {
   if (!shared_->bones[k].changed.empty()) return;  // its surface is not what is seen everywhere
-  shared_->depth.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+  begin_part(shared_->depth, shared_->cover_depth, snapshot, k, frame);
   draw_surface(k, snapshot, view, frame);
 }
 
 void ScenePainter::set_felt_colors(const ViewState& view) const {
   const char* const names[] = {"u_felt_low", "u_felt_none", "u_felt_high"};
   for (const Program* program : {&shared_->changed_heated_bone, &shared_->heated_bone,
-                                 &shared_->changed_bone, &shared_->bone}) {
+                                 &shared_->changed_bone, &shared_->cover_bone, &shared_->bone}) {
     program->use();
     for (std::size_t k = 0; k < kFeltColors.size(); ++k)
       program->set(names[k],
@@ -144,7 +145,6 @@ void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const View
                                    [&](std::size_t k) { return k >= shared_->rest_X_WB.size(); });
   if (layered && !frame.passing) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    shared_->depth.use();
     each([&](std::size_t k) { paint_depth(k, snapshot, view, frame); });
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
@@ -156,21 +156,26 @@ void ScenePainter::paint_opaque_bones(const RenderSnapshot& snapshot, const View
 /// The bone's back faces, pushed outwards on the screen, show as a line around it.
 void ScenePainter::paint_outlines(const RenderSnapshot& snapshot, const ViewState& view,
                                   const Frame& frame, bool clear) const {
-  shared_->mark.use();
-  shared_->mark.set("u_color", kAccent);
-  shared_->mark.set("u_form", 0.0f);
-  shared_->mark.set("u_edge", 0.0f);
-  shared_->mark.set("u_outline", Eigen::Vector2f(frame.pixel_clip * kOutline_px));
+  const auto with_outline = [&](const Eigen::Vector2f& outline) {
+    for (const Program* mark : {&shared_->cover_mark, &shared_->mark}) {
+      mark->use();
+      mark->set("u_color", kAccent);
+      mark->set("u_form", 0.0f);
+      mark->set("u_edge", 0.0f);
+      mark->set("u_outline", outline);
+    }
+  };
+  with_outline(frame.pixel_clip * kOutline_px);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
   for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     const BoneAppearance& look = look_of(view, k);
     if (!look.highlighted || is_clear(look) != clear || !shows(snapshot, view, k)) continue;
-    shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+    begin_part(shared_->mark, shared_->cover_mark, snapshot, k, frame);
     draw_surface(k, snapshot, view, frame);
   }
   glDisable(GL_CULL_FACE);
-  shared_->mark.set("u_outline", Eigen::Vector2f(0, 0));
+  with_outline(Eigen::Vector2f(0, 0));
 }
 
 /// Far bones first; of each only the nearest surface, so that folds do not show as stains.
@@ -182,11 +187,9 @@ void ScenePainter::paint_clear_bones(const RenderSnapshot& snapshot, const ViewS
   set_felt_colors(view);
   for (const std::size_t k : order) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    shared_->depth.use();
     paint_depth(k, snapshot, view, frame);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_FALSE);
-    shared_->bone.use();
     paint_bone(k, snapshot, view, frame);
     glDepthMask(GL_TRUE);
   }

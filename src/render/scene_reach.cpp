@@ -171,10 +171,12 @@ double ScenePainter::nearest_bone(const RenderSnapshot& snapshot, const ViewStat
   double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     if (!shows(snapshot, view, k) || shared_->bones[k].radius_m <= 0) continue;
-    const Pose X_CB = frame.X_CW * pose(snapshot, k);
     const Capsule& c = shared_->bones[k].around;
-    const double depth = -std::max((X_CB * c.a).z(), (X_CB * c.b).z()) - c.radius_m;
-    nearest_m = std::min(nearest_m, depth);
+    for (const Pose& X_WB : end_poses(snapshot, k)) {
+      const Pose X_CB = frame.X_CW * X_WB;
+      const double depth = -std::max((X_CB * c.a).z(), (X_CB * c.b).z()) - c.radius_m;
+      nearest_m = std::min(nearest_m, depth);
+    }
   }
   return nearest_m;
 }
@@ -207,9 +209,11 @@ TileMask ScenePainter::bone_tiles(const RenderSnapshot& snapshot, const ViewStat
   Marker marker(frame, width, height, mask);
   for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     if (!shows(snapshot, view, k) || shared_->bones[k].radius_m <= 0) continue;
-    const Pose X_CB = frame.X_CW * pose(snapshot, k);
     const Capsule& c = shared_->bones[k].around;
-    marker.capsule(X_CB * c.a, X_CB * c.b, c.radius_m);
+    for (const Pose& X_WB : end_poses(snapshot, k)) {
+      const Pose X_CB = frame.X_CW * X_WB;
+      marker.capsule(X_CB * c.a, X_CB * c.b, c.radius_m);
+    }
   }
   return mask;
 }

@@ -97,7 +97,7 @@ Result<Program> Program::load_with(const std::filesystem::path& shader_dir, cons
 
 Result<Program> Program::link(const std::filesystem::path& shader_dir, const std::string& vert,
                               const std::string& frag, const std::string& defines, bool changed) {
-  const auto vertex = compile(GL_VERTEX_SHADER, shader_dir, vert + ".vert");
+  const auto vertex = compile(GL_VERTEX_SHADER, shader_dir, vert + ".vert", defines);
   if (!vertex) return tl::unexpected(vertex.error());
   const auto fragment = compile(GL_FRAGMENT_SHADER, shader_dir, frag + ".frag", defines, changed);
   if (!fragment) return tl::unexpected(fragment.error());

@@ -67,7 +67,7 @@ class Program {
   /// As above for a surface of which parts are left out (changed.glsl).
   static Result<Program> load_changed(const std::filesystem::path& shader_dir,
                                       const std::string& vert, const std::string& frag);
-  /// As above, with lines of the preprocessor before the fragment shader's text: a processor that
+  /// As above, with lines of the preprocessor before both shaders' texts: a processor that
   /// draws works out both sides of every condition, so what a program never needs is better left
   /// out of it.
   static Result<Program> load_with(const std::filesystem::path& shader_dir, const std::string& vert,

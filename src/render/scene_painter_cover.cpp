@@ -1,0 +1,68 @@
+// How skin that bends with a knee is painted: the graphics card moves its vertices, so that neither
+// surface nor light is made anew while the knee bends.
+#include <algorithm>
+#include <string>
+
+#include "scene_painter.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::size_t kMostWholes = 4;  // as in surface.vert
+
+Eigen::Vector4f with(const Vec3& v, double w) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
+          static_cast<float>(w)};
+}
+
+}  // namespace
+
+std::optional<CoverMotion> ScenePainter::cover_motion(const RenderSnapshot& snapshot,
+                                                      std::size_t k) const {
+  const auto& cover = shared_->bones[k].cover;
+  if (!cover) return {};
+  const CoverMotion motion = cover->motion(snapshot.bones, shared_->rest_X_WB);
+  if (motion.angle_rad == 0 && motion.along_m == 0) return {};
+  return motion;
+}
+
+std::array<Pose, 2> ScenePainter::end_poses(const RenderSnapshot& snapshot, std::size_t k) const {
+  const Pose upper = pose(snapshot, k);
+  const auto motion = cover_motion(snapshot, k);
+  if (!motion) return {upper, upper};
+  const Quat turn(Eigen::AngleAxisd(motion->angle_rad, motion->axis));
+  return {upper, Pose{motion->moved(Vec3::Zero(), 1), upper.q * turn}};
+}
+
+void ScenePainter::set_cover(const Program& program, const LimbCover& cover,
+                             const CoverMotion& motion) {
+  const Vec3& n = cover.towards_lower_W();
+  program.set("u_cover_axis", with(motion.axis, motion.angle_rad));
+  program.set("u_cover_point", with(motion.point, motion.along_m));
+  program.set("u_cover_plane", with(n, n.dot(cover.middle_W())));
+  program.set("u_cover_widths", Eigen::Vector3f(static_cast<float>(LimbCover::kHalfWidth_m),
+                                                static_cast<float>(LimbCover::kWholeTo_m),
+                                                static_cast<float>(LimbCover::kWholeFrom_m)));
+  Eigen::Vector4f shares = Eigen::Vector4f::Zero();
+  const std::size_t count = std::min(cover.wholes().size(), kMostWholes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const LimbCover::Whole& whole = cover.wholes()[i];
+    program.set(("u_cover_wholes[" + std::to_string(i) + "]").c_str(), with(whole.center_W, 0));
+    shares[static_cast<Eigen::Index>(i)] = static_cast<float>(whole.share);
+  }
+  program.set("u_cover_shares", shares);
+  program.set("u_cover_count", static_cast<int>(count));
+}
+
+const Program& ScenePainter::begin_part(const Program& rigid, const Program& bending,
+                                        const RenderSnapshot& snapshot, std::size_t k,
+                                        const Frame& frame) const {
+  const auto motion = cover_motion(snapshot, k);
+  const Program& program = motion ? bending : rigid;
+  program.use();
+  program.set("u_view_from_model", to_matrix(frame.X_CW * pose(snapshot, k)));
+  if (motion) set_cover(program, *shared_->bones[k].cover, *motion);
+  return program;
+}
+
+}  // namespace osteon
