@@ -16,6 +16,8 @@ constexpr double kWheel_m = 0.0005;  // along the view a notch
 
 void EditControl::begin() {
   if (edit_ || !live_.run() || !scene_.the_case) return;
+  if (live_.recording())  // an exercise is one, too
+    return host_.note(ToastKind::kWarning, "While a run is recorded no surface is edited");
   auto begun = BoneEdit::begin(*scene_.the_case, sight_.picked());
   if (!begun) return host_.note(ToastKind::kWarning, begun.error().message());
   edit_ = std::make_unique<BoneEdit>(std::move(*begun));

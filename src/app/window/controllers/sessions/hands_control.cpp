@@ -18,6 +18,14 @@ std::string capital(std::string name) {
   return name;
 }
 
+// Names of bones that skin hides would seem to be names of the skin.
+bool is_covered(const Case& the_case, const ViewState& view) {
+  for (std::size_t i = 0; i < the_case.softs.size() && i < view.softs.size(); ++i)
+    if (the_case.softs[i].kind == "skin" && view.softs[i].visible && view.softs[i].opacity >= 1)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 void HandsControl::begin_case() { tip_.begin(scene_.the_case); }
@@ -220,6 +228,7 @@ std::vector<NameTag> HandsControl::name_tags() const {
   std::vector<NameTag> tags;
   const std::vector<BoneAppearance>& looks = sight_.view().bones;
   const BoneSnapshot& bones = sight_.shown().bones;
+  if (is_covered(*scene_.the_case, sight_.view())) return tags;
   for (std::size_t i = 0; i < scene_.bone_middles_B.size() && i < bones.count; ++i) {
     if (i < looks.size() && !looks[i].visible) continue;
     const auto at = sight_.on_screen(bones.bones[i].X_WB * scene_.bone_middles_B[i]);

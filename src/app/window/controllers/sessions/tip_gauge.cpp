@@ -6,6 +6,9 @@
 namespace osteon {
 namespace {
 
+constexpr double kIntoSkin_m = 0.002;  // a blade's tip is still at the skin so deep
+constexpr int kSkinCells = 24;         // along each side of a patch
+
 double distance_to_box(const Aabb& box, const Vec3& p) {
   return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(Vec3::Zero()).norm();
 }
@@ -31,12 +34,37 @@ bool TipGauge::is_seen(const GaugedSurface& surface, const ViewState& view) {
   return k >= looks.size() || looks[k].visible;
 }
 
+bool TipGauge::GaugedSurface::is_past(const Vec3& tip_B) const {
+  if (!skin) return false;
+  const Vec3 tip_S = skin->X_BS.inverse() * tip_B;
+  return tip_S.z() < skin->relief.at(tip_S.head<2>()).height_m - kIntoSkin_m;
+}
+
+TipGauge::GaugedSurface TipGauge::of_skin(const SkinPatch& patch) {
+  TriMesh mesh_B;
+  for (int j = 0; j <= kSkinCells; ++j)
+    for (int i = 0; i <= kSkinCells; ++i) {
+      const SheetPoint p(patch.width_m * (static_cast<double>(i) / kSkinCells - 0.5),
+                         patch.height_m * (static_cast<double>(j) / kSkinCells - 0.5));
+      mesh_B.vertices.push_back(patch.X_BS * Vec3(p.x(), p.y(), patch.relief.at(p).height_m));
+    }
+  constexpr std::uint32_t kRow = kSkinCells + 1;
+  for (std::uint32_t j = 0; j + 1 < kRow; ++j)
+    for (std::uint32_t i = 0; i + 1 < kRow; ++i) {
+      const std::uint32_t a = j * kRow + i;
+      mesh_B.triangles.push_back({a, a + 1, a + kRow + 1});
+      mesh_B.triangles.push_back({a, a + kRow + 1, a + kRow});
+    }
+  const Aabb box = box_around(mesh_B);
+  return {patch.bone, patch.soft, MeshDistance(std::move(mesh_B)), box, 0, &patch};
+}
+
 Result<TipGauge::Surfaces> TipGauge::of_bones(const Case& the_case, const Progress& progress) {
   Surfaces out;
   for (std::uint32_t k = 0; k < the_case.bones.size(); ++k) {
     if (progress && !progress("Measuring the bones", 0)) return fail("stopped");
     const TriMesh& mesh = the_case.bones[k].mesh;
-    out.push_back({BoneId{k}, {}, MeshDistance(mesh), box_around(mesh), 0});
+    out.push_back({BoneId{k}, {}, MeshDistance(mesh), box_around(mesh), 0, nullptr});
   }
   return out;
 }
@@ -51,8 +79,9 @@ Result<TipGauge::Surfaces> TipGauge::of_softs(const Case& the_case, const SoftSe
     if (!solid.surface_B)
       for (Vec3& p : mesh_B.vertices) p = X_BW * p;
     const Aabb box = box_around(mesh_B);
-    out.push_back({solid.bone, solid.soft, MeshDistance(std::move(mesh_B)), box, 0});
+    out.push_back({solid.bone, solid.soft, MeshDistance(std::move(mesh_B)), box, 0, nullptr});
   }
+  for (const SkinPatch& patch : felt.skins) out.push_back(of_skin(patch));
   return out;
 }
 
@@ -101,6 +130,7 @@ std::optional<TipGauge::Nearest> TipGauge::nearest(const RenderSnapshot& snapsho
       const Pose& X_WB = snapshot.bones.bones[surface.bone.index].X_WB;
       const Vec3 tip_B = X_WB.inverse() * tip_W;
       if (distance_to_box(surface.box_B, tip_B) > std::abs(least)) continue;
+      if (surface.is_past(tip_B)) continue;
       const ClosestPoint found = surface.distance.closest(tip_B, surface.guess);
       surface.guess = found.triangle;
       if (found.signed_distance >= least) continue;

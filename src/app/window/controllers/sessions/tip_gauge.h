@@ -11,9 +11,9 @@
 
 namespace osteon {
 
-/// How far a tip is from the nearest surface of bone, or of a meniscus or stump that is felt, at
-/// rest and as it was before any cut. What the search needs is made beside the picture, once a case
-/// and once for what is felt.
+/// How far a tip is from the nearest surface of bone, or of a meniscus, stump or patch of skin that
+/// is felt, at rest and as it was before any cut. Skin counts for who is outside of it. What the
+/// search needs is made beside the picture, once a case and once for what is felt.
 class TipGauge {
  public:
   struct Nearest {
@@ -38,11 +38,16 @@ class TipGauge {
     MeshDistance distance;
     Aabb box_B;
     std::uint32_t guess = 0;
+    const SkinPatch* skin = nullptr;  ///< a patch of what is felt
+
+    /// Under the skin what lies deeper is of interest.
+    bool is_past(const Vec3& tip_B) const;
   };
   using Surfaces = std::vector<GaugedSurface>;
   static Result<Surfaces> of_bones(const Case& the_case, const Progress& progress);
   static Result<Surfaces> of_softs(const Case& the_case, const SoftSetup& felt,
                                    const Progress& progress);
+  static GaugedSurface of_skin(const SkinPatch& patch);
   static bool is_seen(const GaugedSurface& surface, const ViewState& view);
   void take_made();
 

@@ -100,8 +100,13 @@ std::vector<GhostTool> PictureViews::ghosts_through_scope() const {
 }
 
 // A box for exercises has no wall, wherever the tip is.
-bool PictureViews::scope_is_outside() const {
+bool PictureViews::scope_is_far() const {
   return wall_known_ && wall_empty_ && !case_->name.starts_with("fast_");
+}
+
+bool PictureViews::scope_is_before_skin() const {
+  const auto hand = looking();
+  return skin_felt_ && hand && moment_.tools[*hand].portal == kNoPortal;
 }
 
 std::optional<ScopeCamera> PictureViews::scope_camera() const {
@@ -180,7 +185,7 @@ void PictureViews::set_scope_scene(std::size_t hand) {
 
 Result<Image> PictureViews::scope_still(int side_px) {
   const auto hand = looking();
-  if (!hand) return Image{};
+  if (!hand || scope_is_before_skin()) return Image{};
   if (auto ok = ensure_scope(); !ok) return tl::unexpected(ok.error());
   set_scope_scene(*hand);
   const bool slow = main_->software_driver();
@@ -193,7 +198,7 @@ Result<Image> PictureViews::scope_still(int side_px) {
 void PictureViews::draw_scope(const Viewport& viewport, int most_px) {
   fill_viewport(viewport, 0, 0, 0);
   const auto hand = looking();
-  if (!hand || viewport.empty() || scope_failed_) return;
+  if (!hand || viewport.empty() || scope_failed_ || scope_is_before_skin()) return;
   if (auto ok = ensure_scope(); !ok) {
     scope_failed_ = true;
     failure_ = ok.error();

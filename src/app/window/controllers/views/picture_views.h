@@ -47,8 +47,11 @@ class PictureViews {
   std::optional<std::size_t> looking() const;
   /// Its camera; none where nobody looks.
   std::optional<ScopeCamera> scope_camera() const;
-  /// The tip is so far from the joint that nothing of it is lit.
-  bool scope_is_outside() const;
+  /// The tip is so far from the joint that nothing of it is lit, or before the skin.
+  bool scope_is_outside() const { return scope_is_far() || scope_is_before_skin(); }
+  /// Skin that is felt has a way in by its portals alone: in none of them a scope sees no joint.
+  bool scope_is_before_skin() const;
+  void set_skin_felt(bool felt) { skin_felt_ = felt; }
   /// By place in the tray: a scope to take; none: the tray has none.
   std::optional<std::uint32_t> scope_in_tray() const;
 
@@ -78,6 +81,7 @@ class PictureViews {
 
  private:
   std::vector<GhostTool> ghosts_through_scope() const;
+  bool scope_is_far() const;
   struct Wall {
     std::shared_ptr<const JointRoom> room;
     std::shared_ptr<const JointRoof> roof;
@@ -109,6 +113,7 @@ class PictureViews {
   FilmMoment moment_;
   std::vector<GhostTool> ghosts_;
   bool scope_painted_ = false;  ///< of this moment
+  bool skin_felt_ = false;
   WhiteBalance white_;
 
   std::shared_ptr<const JointRoom> room_;

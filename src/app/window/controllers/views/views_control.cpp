@@ -67,6 +67,7 @@ void ViewsControl::show_heat(CarvedPicture& picture) {
 void ViewsControl::show_softs() {
   LiveRun* const live = live_.run();
   const auto setup = live ? live->softs() : replay_.softs();
+  scene_.views.set_skin_felt(setup && !setup->skins.empty());
   softs_.show(scene_.the_case, setup, live ? live->pushes() : replay_.pushes(), host_.now_s,
               *scene_.renderer);
 }
@@ -163,6 +164,10 @@ std::string ViewsControl::message_on(PaneKind kind) const {
     return replay_.on() ? "No hand holds a scope at this moment of the recording."
                         : "No hand holds a scope. Take one here or from the tray (T). X adds a "
                           "second hand; the scope then rests as if an assistant held it.";
+  if (views.scope_is_before_skin())
+    return "The scope is not in the joint. It goes in by a portal that was made in the skin: G "
+           "moves "
+           "the hand to one, the wheel moves it in.";
   if (views.scope_is_outside())
     return "The scope is far from the joint. G moves the hand to a portal, the wheel moves it in.";
   return {};

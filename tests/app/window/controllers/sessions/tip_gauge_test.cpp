@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "session/skin_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
 namespace osteon {
@@ -68,6 +69,38 @@ TEST(TipGauge, WhatIsHiddenIsPassedOver) {
   gauge.feel(testing::meniscus_run().softs);
   gauge.view.softs[0].visible = false;
   EXPECT_FALSE(gauge.at({0, 0, 0.008})->soft);
+}
+
+// The bone of the skin's case lies 54 mm under it.
+TEST(TipGauge, FeltSkinCountsForWhoIsOutsideOfIt) {
+  const testing::SkinRun& run = testing::skin_run();
+  TipGauge tip;
+  tip.begin(run.the_case);
+  tip.feel(run.softs);
+  tip.wait();
+  ViewState view = default_view(*run.the_case);
+  view.softs[0].visible = true;
+  const auto at = [&](const Vec3& p_W) {
+    RenderSnapshot snapshot;
+    snapshot.bones = rest_snapshot(*run.the_case);
+    snapshot.tool.X_WP.p = p_W;
+    return tip.nearest(snapshot, view);
+  };
+  const auto over = at({0.003, 0.004, 0.007});
+  ASSERT_TRUE(over && over->soft);
+  EXPECT_EQ(run.the_case->softs[*over->soft].name, "skin");
+  EXPECT_NEAR(over->distance_m, 0.007, 1e-4);
+  const auto cutting = at({0, 0, -0.001});
+  ASSERT_TRUE(cutting && cutting->soft);
+  EXPECT_NEAR(cutting->distance_m, -0.001, 1e-4);
+  const auto inside = at({0, 0, -0.020});
+  ASSERT_TRUE(inside);
+  EXPECT_FALSE(inside->soft);
+  EXPECT_NEAR(inside->distance_m, 0.040 - testing::kBoxHalf.z(), 1e-9);
+  // Beside the patch and under it the skin is none, whatever its border is nearest to.
+  const auto beside = at({0.030, 0.030, -0.010});
+  ASSERT_TRUE(beside);
+  EXPECT_FALSE(beside->soft);
 }
 
 }  // namespace
