@@ -29,9 +29,9 @@ class LimbCover {
     Vec3 center_W = Vec3::Zero();
     double share = 1;  ///< 1: with the lower bone, 0: with the upper one
   };
-  static constexpr double kHalfWidth_m = 0.030;  ///< of the stretch between both, along the limb
+  static constexpr double kHalfWidth_m = 0.090;  ///< of the stretch between both, along the limb
   static constexpr double kWholeTo_m = 0.024;    ///< from the place of a portal
-  static constexpr double kWholeFrom_m = 0.050;  ///< beyond this the portal changes nothing
+  static constexpr double kWholeFrom_m = 0.120;  ///< beyond this the portal changes nothing
 
   /// Of a case with a femur and a tibia; none otherwise.
   static std::optional<LimbCover> over(const Case& the_case);

@@ -9,6 +9,7 @@
 #include "exercises/debrief_pictures.h"
 #include "exercises/pause_force.h"
 #include "osteon/base/turn.h"
+#include "osteon/physics/soft_setup.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/graft_bench.h"
@@ -216,12 +217,26 @@ void ExerciseControl::begin() {
   ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
-  if (looks && sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
+  const auto& felt = live_.run()->softs();
+  waits_for_portal_ = looks && felt && !felt->skins.empty();
+  scene_.views.set_skin_felt(waits_for_portal_);
+  if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(*hands);
   camera_before_bench_.reset();
   hand_before_bench_.reset();
   ways_.clear();
   host_.note(ToastKind::kInfo, "The time is running. M takes the probe, Esc releases it.");
+}
+
+void ExerciseControl::show_scope() {
+  if (sight_.layout() == PictureLayout::kOutside) sight_.set_layout(PictureLayout::kAll);
+}
+
+// Portals are made on what is seen from outside; then a scope is in one.
+void ExerciseControl::go_in_with_scope() {
+  if (!waits_for_portal_ || !scene_.views.looking() || scene_.views.scope_is_before_skin()) return;
+  waits_for_portal_ = false;
+  show_scope();
 }
 
 // The bench is another place than the joint: the picture goes there with the stage, and back.
@@ -274,6 +289,7 @@ void ExerciseControl::poll() {
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
+  go_in_with_scope();
   go_with_stage();
   for (int i = 0; i < kOrdersAtOnce; ++i) {
     const auto said = exercise_.next_order(sight_.shown().bones);

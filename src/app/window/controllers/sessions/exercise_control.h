@@ -48,6 +48,8 @@ class ExerciseControl {
   void save_pages();
   void show_debrief();
   void look_at_the_box(const std::vector<PlannedHand>& hands);
+  void show_scope();
+  void go_in_with_scope();
   void go_with_stage();
   void bring_to_bench(bool at_bench);
 
@@ -58,6 +60,7 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
+  bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
   std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
   std::optional<Pose> hand_before_bench_;      ///< likewise, of the hand that was brought there
   std::deque<Pose> ways_;                      ///< by which it goes on
