@@ -12,7 +12,9 @@ uniform vec2 u_outline;  // half pixel sizes in clip units times the outline's w
 uniform vec4 u_cover_axis;    // unit; the lower bone's turn against the upper one, radians
 uniform vec4 u_cover_point;   // of the axis; how far along it the lower bone has gone
 uniform vec4 u_cover_plane;   // towards the lower bone; where both have half
-uniform vec3 u_cover_widths;  // half of the stretch between both; of a portal's skin, to and from
+uniform vec4 u_cover_front;   // forwards; there is the middle
+uniform vec3 u_cover_halves;  // of the stretch between both: behind, in front; from where in front
+uniform vec2 u_cover_reach;   // of a portal's skin: wholly to, changed from
 uniform vec4 u_cover_wholes[4];  // places of portals
 uniform vec4 u_cover_shares;     // of the lower bone there
 uniform int u_cover_count;
@@ -25,13 +27,17 @@ vec2 rise(float from, float to, float x) {
 
 // The share of a place after its gradient.
 vec4 cover_share(vec3 p) {
-  vec2 along = rise(-u_cover_widths.x, u_cover_widths.x,
-                    dot(u_cover_plane.xyz, p) - u_cover_plane.w);
-  vec4 share = vec4(along.x * u_cover_plane.xyz, along.y);
+  vec2 front = rise(0.0, u_cover_halves.z, dot(u_cover_front.xyz, p) - u_cover_front.w);
+  float wider = u_cover_halves.y - u_cover_halves.x;
+  float width = u_cover_halves.x + wider * front.y;
+  float across = (dot(u_cover_plane.xyz, p) - u_cover_plane.w) / width;
+  vec2 along = rise(-1.0, 1.0, across);
+  vec3 steeper = u_cover_plane.xyz - across * wider * front.x * u_cover_front.xyz;
+  vec4 share = vec4(along.x / width * steeper, along.y);
   for (int k = 0; k < u_cover_count; ++k) {
     vec3 from = p - u_cover_wholes[k].xyz;
     float away = max(length(from), 1e-6);
-    vec2 far = rise(u_cover_widths.y, u_cover_widths.z, away);
+    vec2 far = rise(u_cover_reach.x, u_cover_reach.y, away);
     float more = share.w - u_cover_shares[k];
     share = vec4(far.y * share.xyz + more * far.x * from / away, u_cover_shares[k] + far.y * more);
   }

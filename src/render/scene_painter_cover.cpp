@@ -39,10 +39,15 @@ void ScenePainter::set_cover(const Program& program, const LimbCover& cover,
   const Vec3& n = cover.towards_lower_W();
   program.set("u_cover_axis", with(motion.axis, motion.angle_rad));
   program.set("u_cover_point", with(motion.point, motion.along_m));
+  const Vec3& e = cover.forwards_W();
   program.set("u_cover_plane", with(n, n.dot(cover.middle_W())));
-  program.set("u_cover_widths", Eigen::Vector3f(static_cast<float>(LimbCover::kHalfWidth_m),
-                                                static_cast<float>(LimbCover::kWholeTo_m),
-                                                static_cast<float>(LimbCover::kWholeFrom_m)));
+  program.set("u_cover_front", with(e, e.dot(cover.middle_W())));
+  const auto narrow = [](double v) { return static_cast<float>(v); };
+  program.set("u_cover_halves",
+              Eigen::Vector3f(narrow(LimbCover::kHalfBehind_m), narrow(LimbCover::kHalfInFront_m),
+                              narrow(LimbCover::kFront_m)));
+  program.set("u_cover_reach",
+              Eigen::Vector2f(narrow(LimbCover::kWholeTo_m), narrow(LimbCover::kWholeFrom_m)));
   Eigen::Vector4f shares = Eigen::Vector4f::Zero();
   const std::size_t count = std::min(cover.wholes().size(), kMostWholes);
   for (std::size_t i = 0; i < count; ++i) {

@@ -74,10 +74,12 @@ std::optional<LimbCover> LimbCover::over(const Case& the_case) {
   out.upper_ = upper.index;
   out.lower_ = lower.index;
   out.middle_W_ = (nearest_to(above, below_W) + nearest_to(below, above_W)) / 2;
-  const Vec3 across =
-      (below_W - out.middle_W_).normalized() - (above_W - out.middle_W_).normalized();
+  const Vec3 down = (below_W - out.middle_W_).normalized();
+  const Vec3 up = (above_W - out.middle_W_).normalized();
+  const Vec3 across = down - up;
   if (!(across.norm() > kFolded)) return {};
   out.towards_lower_W_ = across.normalized();
+  if ((down + up).norm() > kFolded) out.forwards_W_ = -(down + up).normalized();
   for (const Landmark& place : the_case.landmarks) {
     if (!place.name.starts_with("portal_")) continue;
     if (place.bone == "femur") out.wholes_.push_back({place.p_W, 0});
@@ -87,7 +89,10 @@ std::optional<LimbCover> LimbCover::over(const Case& the_case) {
 }
 
 double LimbCover::share(const Vec3& p_W) const {
-  double share = smooth_step(-kHalfWidth_m, kHalfWidth_m, towards_lower_W_.dot(p_W - middle_W_));
+  const Vec3 from_W = p_W - middle_W_;
+  const double front = smooth_step(0, kFront_m, forwards_W_.dot(from_W));
+  const double half_m = kHalfBehind_m + front * (kHalfInFront_m - kHalfBehind_m);
+  double share = smooth_step(-half_m, half_m, towards_lower_W_.dot(from_W));
   for (const Whole& whole : wholes_) {
     const double far = smooth_step(kWholeTo_m, kWholeFrom_m, (p_W - whole.center_W).norm());
     share = whole.share + far * (share - whole.share);

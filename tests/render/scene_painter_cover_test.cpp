@@ -12,7 +12,10 @@ Case limb_at(const Pose& tibia_moved) {
   Case limb;
   for (const double side : {1.0, -1.0}) {
     TriMesh ball = sphere_mesh(0.006);
-    for (Vec3& p : ball.vertices) p.y() = 5 * p.y() + side * 0.040;
+    // Aslant: the limb is bent forwards at rest.
+    const Quat aslant(Eigen::AngleAxisd(-side * 0.4, Vec3::UnitZ()));
+    for (Vec3& p : ball.vertices)
+      p = aslant * Vec3(p.x(), 5 * p.y(), p.z()) + Vec3(0, side * 0.040, 0);
     limb.bones.push_back(make_bone(side > 0 ? "femur" : "tibia", ball, Vec3::Zero()));
   }
   limb.bones[1].X_WB = tibia_moved;

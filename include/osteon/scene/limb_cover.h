@@ -29,7 +29,10 @@ class LimbCover {
     Vec3 center_W = Vec3::Zero();
     double share = 1;  ///< 1: with the lower bone, 0: with the upper one
   };
-  static constexpr double kHalfWidth_m = 0.090;  ///< of the stretch between both, along the limb
+  /// Half of the stretch between both, along the limb: in front, where much skin shifts over the
+  /// knee, and in the hollow of the knee, where thigh and shank of a bent knee lie close together.
+  static constexpr double kHalfInFront_m = 0.090, kHalfBehind_m = 0.010;
+  static constexpr double kFront_m = 0.050;      ///< so far in front of the middle it is the former
   static constexpr double kWholeTo_m = 0.024;    ///< from the place of a portal
   static constexpr double kWholeFrom_m = 0.120;  ///< beyond this the portal changes nothing
 
@@ -40,12 +43,13 @@ class LimbCover {
   CoverMotion motion(const BoneSnapshot& bones, std::span<const Pose> rest_X_WB) const;
 
   const Vec3& towards_lower_W() const { return towards_lower_W_; }  ///< unit
+  const Vec3& forwards_W() const { return forwards_W_; }            ///< unit; zero: a straight limb
   const Vec3& middle_W() const { return middle_W_; }  ///< of the plane where both have half
   const std::vector<Whole>& wholes() const { return wholes_; }
 
  private:
   std::size_t upper_ = 0, lower_ = 0;
-  Vec3 middle_W_ = Vec3::Zero(), towards_lower_W_ = Vec3::UnitZ();
+  Vec3 middle_W_ = Vec3::Zero(), towards_lower_W_ = Vec3::UnitZ(), forwards_W_ = Vec3::Zero();
   std::vector<Whole> wholes_;
 };
 
