@@ -357,8 +357,9 @@ void ScenePainter::set_tool_shade(const Program& program, const RenderSnapshot& 
   program.set("u_tool_end", point(tool.length_m, Vec3::UnitZ()));
 }
 
-void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& view,
+void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& wanted,
                          const Frame& frame) const {
+  const ViewState view = with_far_covers_clear(snapshot, wanted);
   if (any_changed()) {
     set_shared(shared_->changed_bone, view, frame);
     set_tool_shade(shared_->changed_bone, snapshot, view, frame);

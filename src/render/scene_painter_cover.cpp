@@ -9,6 +9,10 @@ namespace osteon {
 namespace {
 
 constexpr std::size_t kMostWholes = 4;  // as in surface.vert
+// Of a knee that was made bent thigh and shank are one in its hollow; opened by more than this they
+// should have parted there.
+constexpr double kFar_rad = 1.05;
+constexpr float kFarOpacity = 0.28f;
 
 Eigen::Vector4f with(const Vec3& v, double w) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
@@ -24,6 +28,18 @@ std::optional<CoverMotion> ScenePainter::cover_motion(const RenderSnapshot& snap
   const CoverMotion motion = cover->motion(snapshot.bones, shared_->rest_X_WB);
   if (motion.angle_rad == 0 && motion.along_m == 0) return {};
   return motion;
+}
+
+ViewState ScenePainter::with_far_covers_clear(const RenderSnapshot& snapshot,
+                                              ViewState view) const {
+  for (std::size_t i = 0; i < view.softs.size(); ++i) {
+    const std::size_t k = shared_->rest_X_WB.size() + i;
+    if (k >= shared_->bones.size()) break;
+    const auto motion = cover_motion(snapshot, k);
+    if (motion && motion->angle_rad > kFar_rad)
+      view.softs[i].opacity = std::min(view.softs[i].opacity, kFarOpacity);
+  }
+  return view;
 }
 
 std::array<Pose, 2> ScenePainter::end_poses(const RenderSnapshot& snapshot, std::size_t k) const {

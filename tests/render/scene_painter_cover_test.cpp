@@ -66,5 +66,19 @@ TEST_F(CoverPicture, IsThatOfSkinMovedBeforehand) {
   }
 }
 
+// The bones in it are seen then, as through skin that was made clear.
+TEST_F(CoverPicture, SkinThatIsBentFarIsSeenThrough) {
+  const Case limb = limb_at({});
+  Renderer renderer = make_renderer(limb);
+  RenderSnapshot bent = at_rest(limb);
+  for (const double turn : {0.9, 1.2}) {
+    bent.bones.bones[1].X_WB.q = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+    const Image solid = picture(renderer, bent, 1), clear = picture(renderer, bent, 0.28f);
+    const int differs = count_different(solid, clear, kOther);
+    EXPECT_EQ(differs > 3000, turn < 1) << turn << " " << differs;
+    EXPECT_EQ(differs == 0, turn > 1) << turn << " " << differs;
+  }
+}
+
 }  // namespace
 }  // namespace osteon

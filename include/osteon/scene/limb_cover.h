@@ -31,7 +31,7 @@ class LimbCover {
   };
   /// Half of the stretch between both, along the limb: in front, where much skin shifts over the
   /// knee, and in the hollow of the knee, where thigh and shank of a bent knee lie close together.
-  static constexpr double kHalfInFront_m = 0.090, kHalfBehind_m = 0.010;
+  static constexpr double kHalfInFront_m = 0.090, kHalfBehind_m = 0.060;
   static constexpr double kFront_m = 0.050;      ///< so far in front of the middle it is the former
   static constexpr double kWholeTo_m = 0.024;    ///< from the place of a portal
   static constexpr double kWholeFrom_m = 0.120;  ///< beyond this the portal changes nothing
