@@ -52,6 +52,7 @@ void CutSolidWork::Impl::find_parts(const PressedSolid::Impl& whole,
       part_of[e][a] = static_cast<std::uint32_t>(from.size());
       from.push_back(e);
       out.fill.push_back(whole.cells.fill[e] * cells[e].left[a]);
+      if (!whole.cells.pull.empty()) out.pull.push_back(whole.cells.pull[e]);
       made->middles.push_back(cells[e].middle[a]);
     }
   }
@@ -150,7 +151,11 @@ void CutSolidWork::Impl::assemble() {
                               static_cast<std::size_t>(a % 3);
         const std::size_t j = 3 * std::size_t{cells.corners[e][static_cast<std::size_t>(b / 3)]} +
                               static_cast<std::size_t>(b % 3);
-        if (j <= i) matrix->at(i, j) += cells.fill[e] * cube(a, b);
+        if (j > i) continue;
+        matrix->at(i, j) += cells.fill[e] * cube(a, b);
+        if (a % 3 == b % 3)
+          matrix->at(i, j) += pulled_stiffness(cells, e, static_cast<std::size_t>(a / 3),
+                                               static_cast<std::size_t>(b / 3));
       }
   const double hold = kSupportHolds * cells.cell_m, ground = kGround * cells.cell_m;
   for (std::size_t n = 0; n < cells.nodes.size(); ++n)
@@ -188,6 +193,7 @@ CutSolidWork::CutSolidWork(std::shared_ptr<const PressedSolid> whole,
   made.stiffness_n_per_m = whole->impl_->stiffness_n_per_m;
   made.poisson = whole->impl_->poisson;
   made.cells.cell_m = whole->impl_->cells.cell_m;
+  made.cells.fibres = whole->impl_->cells.fibres;
   impl_->find_parts(*whole->impl_, cells);
   made.whole = std::move(whole);
   if (!made.middles.empty()) impl_->begin_matrix();

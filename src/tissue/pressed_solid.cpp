@@ -85,7 +85,10 @@ CellMatrix stiffness_of(const FilledCells& cells, const PressedSolidDef& def, bo
         all.emplace_back(
             static_cast<int>(3 * cells.corners[e][static_cast<std::size_t>(a / 3)]) + a % 3,
             static_cast<int>(3 * cells.corners[e][static_cast<std::size_t>(b / 3)]) + b % 3,
-            cells.fill[e] * cube(a, b));
+            cells.fill[e] * cube(a, b) +
+                (a % 3 == b % 3 ? pulled_stiffness(cells, e, static_cast<std::size_t>(a / 3),
+                                                   static_cast<std::size_t>(b / 3))
+                                : 0));
   const double hold = kSupportHolds * cells.cell_m;
   for (std::size_t i = 0; i < cells.nodes.size(); ++i)
     for (int r = 0; r < 3; ++r)
@@ -103,6 +106,11 @@ CellMatrix stiffness_of(const FilledCells& cells, const PressedSolidDef& def, bo
   return out;
 }
 
+tl::unexpected<Error> nothing_holds() {
+  return fail("nothing holds the soft part, so it has no equilibrium", {},
+              "It must lie on a bone and be held there");
+}
+
 Result<Eigen::MatrixXd> ways_of(const CellMatrix& stiffness) {
   const Eigen::SimplicialLLT<CellMatrix> factor(stiffness);
   Eigen::MatrixXd out;
@@ -110,8 +118,37 @@ Result<Eigen::MatrixXd> ways_of(const CellMatrix& stiffness) {
     out = factor.solve(Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols()));
   // One that nothing holds has ways without bound.
   if (out.size() > 0 && out.allFinite() && out.cwiseAbs().maxCoeff() < 1e12) return out;
-  return fail("nothing holds the soft part, so it has no equilibrium", {},
-              "It must lie on a bone and be held there");
+  return nothing_holds();
+}
+
+// Fibres that were stretched by the same everywhere, let go: where nothing holds them they shorten
+// until they pull no more. Symbols: u, ways then; s, stress along the fibres = what they were
+// stretched to + lambda div u + 2 mu du/dt of a modulus of 1 Pa; none pushes.
+Result<std::vector<double>> pull_of(const FilledCells& cells, const PressedSolidDef& def) {
+  const double start = def.tension_pa / def.young_pa, h = cells.cell_m;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * cells.nodes.size()));
+  for (std::size_t e = 0; e < cells.corners.size(); ++e)
+    for (std::size_t c = 0; c < 8; ++c)
+      force.segment<3>(3 * static_cast<Eigen::Index>(cells.corners[e][c])) -=
+          0.25 * cells.fill[e] * h * h * start * along_fibres(cells, c) * cells.fibres;
+  const CellMatrix stiffness = stiffness_of(cells, def, false);
+  const Eigen::SimplicialLLT<CellMatrix> factor(stiffness);
+  Eigen::VectorXd u;
+  if (factor.info() == Eigen::Success) u = factor.solve(force);
+  if (u.size() == 0 || !u.allFinite() || !(u.cwiseAbs().maxCoeff() < 1e3)) return nothing_holds();
+  const double nu = def.poisson, mu = 0.5 / (1 + nu), lambda = nu / ((1 + nu) * (1 - 2 * nu));
+  std::vector<double> out;
+  for (const auto& corners : cells.corners) {
+    double widens = 0, along = 0;
+    for (std::size_t c = 0; c < 8; ++c) {
+      const Vec3 way = u.segment<3>(3 * static_cast<Eigen::Index>(corners[c]));
+      const Vec3 sign((c & 1) ? 1 : -1, (c & 2) ? 1 : -1, (c & 4) ? 1 : -1);
+      widens += sign.dot(way) / (4 * h);
+      along += along_fibres(cells, c) * cells.fibres.dot(way) / (4 * h);
+    }
+    out.push_back(std::max(0.0, start + lambda * widens + 2 * mu * along));
+  }
+  return out;
 }
 
 double lying_share(const Vec3& nhat, const Vec3& up) {
@@ -160,6 +197,12 @@ Result<PressedSolid> PressedSolid::make(const PressedSolidDef& def) {
   impl->up = def.up;
   if (impl->cells.corners.size() < kLeastCells)
     return fail("the soft part is too small to be felt as a solid", {}, "Leave it out");
+  impl->cells.fibres = def.fibres;
+  if (def.young_pa > 0 && def.tension_pa > 0) {
+    auto pull = pull_of(impl->cells, def);
+    if (!pull) return tl::unexpected(pull.error());
+    impl->cells.pull = std::move(*pull);
+  }
   auto lifted = ways_of(stiffness_of(impl->cells, def, false));
   if (!lifted) return tl::unexpected(lifted.error());
   auto lying = ways_of(stiffness_of(impl->cells, def, true));
@@ -168,6 +211,7 @@ Result<PressedSolid> PressedSolid::make(const PressedSolidDef& def) {
   impl->lying = std::move(*lying);
   impl->stiffness_n_per_m = def.stiffness_n_per_m;
   impl->poisson = def.poisson;
+  impl->young_pa = def.young_pa;
   for (const Vec3& p : impl->cells.nodes) {
     impl->held.push_back(def.held(p) ? 1 : 0);
     impl->rests.push_back(def.rests(p) ? 1 : 0);
@@ -247,6 +291,10 @@ SolidPush PressedSolid::push_at(const Vec3& p, const Vec3& nhat, double force_n)
     push.gain = impl_->whole->push_at(p, nhat).gain;
     return push;
   }
+  if (impl_->young_pa > 0) {
+    push.gain = 1 / impl_->young_pa;
+    return push;
+  }
   const double lying = impl_->yields(push, push, 1);
   const double now = impl_->yields(push, push, impl_->share(push));
   const double held_back = now > 0 ? std::min(1.0, kMostLifted * lying / now) : 1;
@@ -302,6 +350,7 @@ std::uint64_t PressedSolid::hash() const {
   h.add(impl_->cells.cell_m);
   h.add(impl_->stiffness_n_per_m);
   h.add(impl_->up);
+  if (impl_->young_pa > 0) h.add(impl_->young_pa);
   for (const Vec3& p : impl_->cells.nodes) h.add(p);
   for (const Eigen::MatrixXd* ways : {&impl_->lying, &impl_->lifted})
     h.bytes(ways->data(), static_cast<std::size_t>(ways->size()) * sizeof(double));

@@ -72,8 +72,8 @@ struct BandContact {
   bool operator==(const BandContact&) const = default;
 };
 
-inline constexpr std::size_t kMaxBands = 8;
-inline constexpr std::size_t kMaxBandContacts = 6;
+inline constexpr std::size_t kMaxBands = 12;
+inline constexpr std::size_t kMaxBandContacts = 16;
 
 /// Physics -> one hand: the bands, solids and patches of skin that its tool is near to. What the
 /// tick feels follows from it and from where the tool and the bones are then.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,9 @@ struct LigamentRow {
   /// and each is laid on the bone.
   std::string part;
   bool over_tibia = false;  ///< the band lies over the tibia's rim
-  double failure_n = 1e9;   ///< tension at which it tears; not given: never
+  /// Of a table of what is felt: the bone that the band lies on from its bend on; empty: none.
+  std::string over_bone;
+  double failure_n = 1e9;  ///< tension at which it tears; not given: never
   std::vector<LigamentBundle> bundles;
 };
 
@@ -35,7 +38,15 @@ struct LigamentRow {
 struct TornRow {
   std::string finding, grade;  ///< no grade: any
   std::string ligament;
-  double left = 0;  ///< share of its fibres' stiffness
+  double left = 0;               ///< share of its fibres' stiffness
+  std::optional<double> strain;  ///< of its fibres at rest then; none: as without the finding
+};
+
+/// A disc between two bones as an elastic solid whose fibres run from one to the other under
+/// tension.
+struct DiscRow {
+  std::string part;  ///< soft part of the case; empty: the table has none
+  double young_pa = 0, tension_pa = 0;
 };
 
 /// A test by hand: a bend and the load on top of the seating force.
@@ -65,9 +76,14 @@ struct LigamentTable {
   std::vector<TornRow> torn;
   std::vector<LaxityTestRow> tests;
   GraftRow graft;
+  DiscRow disc;
 };
 
 /// Reads assets/tissue/knee_ligaments.toml or one like it; strict, errors name key and line.
 Result<LigamentTable> load_ligament_table(const std::filesystem::path& file);
+
+/// Reads assets/tissue/wrist_ligaments.toml or one like it, of a joint whose laxity is not worked
+/// out: what is felt of its ligaments and its disc alone. Everything else is left as it is.
+Result<LigamentTable> load_felt_table(const std::filesystem::path& file);
 
 }  // namespace osteon

@@ -24,6 +24,12 @@ struct PressedSolidDef {
   double stiffness_n_per_m = 900;              ///< to a hand that presses from above
   double poisson = 0.3;
   std::size_t most_nodes = 300;
+  /// Young's modulus. 0: what makes a press from above meet `stiffness_n_per_m`, wherever it is.
+  double young_pa = 0;
+  /// With which fibres along `fibres` (unit) pull before anything presses, where both of their ends
+  /// are held; what is free at one end pulls at nothing. Of a solid with a modulus alone.
+  double tension_pa = 0;
+  Vec3 fibres = Vec3::UnitX();
 };
 
 /// Nodes that share a force, and whose mean way is that of the place.
@@ -49,7 +55,9 @@ struct SolidPush {
 ///
 /// A hand that presses from above meets the wanted stiffness everywhere: the shape, what one push
 /// does elsewhere, and by how much more the solid gives where it is lifted (twice at most) are
-/// those of the elastic solid. Of one that was cut it is as much softer as the cuts make it.
+/// those of the elastic solid. Of one that was cut it is as much softer as the cuts make it. One
+/// with a modulus of its own is as stiff as the elastic solid is, under the tension of its fibres
+/// (the stiffness of a stretched string: tension times the slope across).
 class PressedSolid {
  public:
   /// Fails on a solid that nothing holds, or that is too small for its cells.

@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kSkin = "skin";
 constexpr const char* kSkinWhere = "--soft";
 constexpr std::string_view kSkinAt = "skin:";
-constexpr std::array kUsualPlaces{"portal_al", "portal_am", "pes_anserinus"};
+constexpr std::array kUsualPlaces{"portal_al", "portal_am", "pes_anserinus", "portal_3_4",
+                                  "portal_6r"};
 // Own defaults: room for a portal, and for an incision over the tendons' insertion.
 constexpr double kPortalWidth_m = 0.030, kPortalHeight_m = 0.036;
 constexpr double kSiteWidth_m = 0.040, kSiteHeight_m = 0.056;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kAllLigaments = "ligaments";
 constexpr const char* kWhere = "--soft";
-constexpr double kShortest_m = 0.005, kLongest_m = 0.3;
+constexpr double kShortest_m = 0.003, kLongest_m = 0.3;
 constexpr double kThinnest_m = 0.0003, kThickest_m = 0.02;
 constexpr double kBends_deg = 120, kStep_deg = 10;  // as the laxity of a knee has it
 
@@ -47,7 +47,7 @@ Result<std::vector<const LigamentRow*>> rows_asked(const Case& the_case, const L
                                                    std::span<const std::string> names) {
   const std::vector<std::string> there = names_there(the_case, table);
   const std::string advice =
-      there.empty() ? "Give a case with a knee, such as builtin:knee"
+      there.empty() ? "Give a case with a knee or a wrist, such as builtin:knee"
                     : "Choose from " + listed(there) + ", " + kAllLigaments + " or menisci";
   std::vector<std::string> wanted;
   for (const std::string& name : names) {
@@ -124,29 +124,41 @@ double length_at(const Case& the_case, const SoftBand& band, const CaseJoint* jo
 // Slack, so that the fibres have their strain where the table says, and no more than the most on
 // the way.
 BandFibres fibres_of(const Case& the_case, const SoftBand& band, const LigamentBundle& bundle,
-                     double toe_strain) {
+                     std::optional<double> found_strain, double toe_strain) {
   const CaseJoint* joint = joint_of(the_case, band);
   BandFibres out;
   out.stiffness_n = bundle.stiffness_n;
   out.toe_strain = toe_strain;
-  out.slack_m = length_at(the_case, band, joint, bundle.taut_deg) / (1 + bundle.strain);
+  out.slack_m = length_at(the_case, band, joint, bundle.taut_deg) /
+                (1 + found_strain.value_or(bundle.strain));
   for (double deg = 0; joint && deg <= std::min(kBends_deg, joint->max_deg()); deg += kStep_deg)
     out.slack_m =
         std::max(out.slack_m, length_at(the_case, band, joint, deg) / (1 + bundle.most_strain));
   return out;
 }
 
-double left_of(const Case& the_case, const LigamentTable& table, const std::string& ligament) {
+struct FoundOf {
   double left = 1;
+  std::optional<double> strain;
+};
+
+// Of several findings the worst counts.
+FoundOf found_of(const Case& the_case, const LigamentTable& table, const std::string& ligament) {
+  FoundOf out;
   for (const CaseFinding& finding : the_case.findings)
-    for (const TornRow& row : table.torn)
-      if (row.finding == finding.name && row.ligament == ligament &&
-          (row.grade.empty() || row.grade == finding.grade))
-        left = std::min(left, row.left);
-  return left;
+    for (const TornRow& row : table.torn) {
+      if (row.finding != finding.name || row.ligament != ligament ||
+          !(row.grade.empty() || row.grade == finding.grade))
+        continue;
+      out.left = std::min(out.left, row.left);
+      if (row.strain) out.strain = std::min(out.strain.value_or(*row.strain), *row.strain);
+    }
+  return out;
 }
 
-Result<void> lay_ends(const Case& the_case, const SoftPart& part, bool over, SoftBand& band) {
+Result<void> lay_ends(const Case& the_case, const SoftPart& part, const LigamentRow& row,
+                      SoftBand& band) {
+  const bool over = row.over_tibia || !row.over_bone.empty();
   const Attachment* ends[2] = {};
   for (const Attachment& end : part.attachments)
     if (!ends[0])
@@ -156,9 +168,11 @@ Result<void> lay_ends(const Case& the_case, const SoftPart& part, bool over, Sof
   if (!ends[1])
     return fail("the ligament '" + part.name + "' does not run from one bone to another", kWhere,
                 "It needs footprints on two bones");
-  if (over && the_case.bone(ends[0]->bone).name == "tibia") std::swap(ends[0], ends[1]);
+  if (row.over_tibia && the_case.bone(ends[0]->bone).name == "tibia") std::swap(ends[0], ends[1]);
   band.from = ends[0]->bone;
   band.to = ends[1]->bone;
+  if (!row.over_bone.empty())
+    if (const BoneId bend = the_case.find(row.over_bone); bend.valid()) band.to = bend;
   const Vec3 from_W = ends[0]->p_W, to_W = ends[1]->p_W;
   const Vec3 leaves_W = over ? farthest_bend(part, from_W, to_W) : to_W;
   band.over_m = (to_W - leaves_W).norm();
@@ -167,7 +181,7 @@ Result<void> lay_ends(const Case& the_case, const SoftPart& part, bool over, Sof
   const double free_m = (leaves_W - from_W).norm();
   if (!(free_m >= kShortest_m && free_m <= kLongest_m))
     return fail("the ligament '" + part.name + "' is " + std::to_string(1e3 * free_m) + " mm long",
-                kWhere, "Footprints must be 5 to 300 mm apart");
+                kWhere, "Footprints must be 3 to 300 mm apart");
   return {};
 }
 
@@ -185,9 +199,9 @@ Result<SoftBand> band_of(const Case& the_case, const LigamentTable& table, const
   band.soft = *part_of(the_case, row);
   const SoftPart& part = the_case.softs[band.soft];
   band.name = part.name;
-  if (auto laid = lay_ends(the_case, part, row.over_tibia, band); !laid)
-    return tl::unexpected(laid.error());
-  band.left = left_of(the_case, table, row.name);
+  if (auto laid = lay_ends(the_case, part, row, band); !laid) return tl::unexpected(laid.error());
+  const FoundOf found = found_of(the_case, table, row.name);
+  band.left = found.left;
   const double length_m = length_in(band, rest_snapshot(the_case));
   auto radius = radius_of(part, length_m);
   if (!radius && band.left > 0) return tl::unexpected(radius.error());
@@ -195,7 +209,7 @@ Result<SoftBand> band_of(const Case& the_case, const LigamentTable& table, const
   band.surface_n_per_m = surface_n_per_m;
   band.failure_n = row.failure_n;
   for (const LigamentBundle& bundle : row.bundles)
-    band.fibres.push_back(fibres_of(the_case, band, bundle, table.toe_strain));
+    band.fibres.push_back(fibres_of(the_case, band, bundle, found.strain, table.toe_strain));
   return band;
 }
 

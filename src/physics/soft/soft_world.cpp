@@ -33,6 +33,8 @@ constexpr double kTogether_m = 0.003, kApart_m = 0.009;
 constexpr double kWounds_m2_per_ns = 2e-6;
 constexpr double kNick_n = 0.5;  // a lighter touch wounds nothing (D)
 constexpr std::size_t kMostOpenings = 64;
+// A knee's ligaments are four at most; where there are more, many are near to a tool at once.
+constexpr std::size_t kFewBands = 4, kFewContacts = 6;
 constexpr double kBlade_m = 0.03;  // from a blade's tip: so much of it is sharp at most
 
 bool usable(const ToolState& tool) {
@@ -221,9 +223,10 @@ void SoftWorld::seek(const Hand& hand) {
                          return near.contact.band == band && near.contact.part == part;
                        });
   };
+  const std::size_t room = setup_->bands.size() > kFewBands ? kMaxBandContacts : kFewContacts;
   for (std::size_t b = 0; b < setup_->bands.size(); ++b)
     for (std::size_t part = 0; part < parts.size() && is_felt(b); ++part) {
-      if (state.count == kMaxBandContacts) return;
+      if (state.count >= room) return;
       if (known(b, part) || !presses(hand, b, part)) continue;
       const RoundBox part_W = placed(hand.tool->X_WP, parts[part]);
       NearBand near;

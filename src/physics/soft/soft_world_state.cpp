@@ -1,6 +1,7 @@
 // State of what is soft in a session: saved, checked, put back, hashed.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "osteon/base/hash.h"
 #include "osteon/physics/fallen_pieces.h"
@@ -13,6 +14,9 @@
 
 namespace osteon {
 namespace {
+
+// So many bands are hashed at least, felt or not: as recordings of before there was room for more.
+constexpr std::size_t kHashedBands = 8;
 
 void add_to(Hasher& h, const NearBand& near) {
   h.add(near.contact.band);
@@ -94,7 +98,8 @@ void SoftWorld::restore_cuts(const SoftState& state) {
 std::uint64_t SoftWorld::hash() const {
   Hasher h;
   h.add(setup_->hash);
-  for (const BandState& band : state_.bands) {
+  const std::size_t bands = std::max(kHashedBands, setup_->bands.size());
+  for (const BandState& band : std::span(state_.bands).first(bands)) {
     h.add(band.torn);
     h.add(band.lost);
     if (band.torn) h.add(band.torn_share);
@@ -103,7 +108,7 @@ std::uint64_t SoftWorld::hash() const {
     h.add(hand.instrument);
     h.add(hand.count);
     for (std::uint32_t i = 0; i < hand.count; ++i) add_to(h, hand.near[i]);
-    for (const BandTouch& touch : hand.touches) add_to(h, touch);
+    for (const BandTouch& touch : std::span(hand.touches).first(bands)) add_to(h, touch);
   }
   for (const SoftGrip& grip : state_.grips)
     if (grip != SoftGrip{}) add_to(h, grip);

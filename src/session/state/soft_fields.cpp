@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "state/fields.h"
 
@@ -8,6 +9,9 @@ namespace osteon::stored {
 constexpr std::uint64_t kAside = 32;
 // The version that says what of the solids lies loose.
 constexpr std::uint64_t kLooseSofts = 33;
+// The version that has room for more bands than kBandsBefore.
+constexpr std::uint64_t kMoreBands = 36;
+constexpr std::size_t kBandsBefore = 8;
 
 template <class A>
 void field(A& a, NearBand& n) {
@@ -90,7 +94,8 @@ void field(A& a, SoftState& s) {
   if (!since(a, 3)) return;  // nothing was soft then
   field(a, s.on);
   if (!s.on) return;
-  for (BandState& band : s.bands) {
+  const std::size_t bands = since(a, kMoreBands) ? kMaxBands : kBandsBefore;
+  for (BandState& band : std::span(s.bands).first(bands)) {
     field(a, band.torn);
     field(a, band.lost);
     if (!band.torn) continue;
@@ -100,7 +105,7 @@ void field(A& a, SoftState& s) {
   for (SoftHandState& hand : s.hands) {
     field(a, hand.instrument);
     first_of(a, hand.count, hand.near);
-    for (BandTouch& touch : hand.touches) field(a, touch);
+    for (BandTouch& touch : std::span(hand.touches).first(bands)) field(a, touch);
   }
   solids_field(a, s);
   grips_field(a, s);

@@ -80,17 +80,76 @@ GraftRow read_graft(SceneReader& in, const Keys& keys) {
   return out;
 }
 
-/// Every ligament that is named is one of the table.
-void check_names(SceneReader& in, const Keys& root, const LigamentTable& table) {
-  const auto known = [&](const std::string& name) {
-    return std::any_of(table.ligaments.begin(), table.ligaments.end(),
-                       [&](const LigamentRow& row) { return row.name == name; });
-  };
+bool has_row(const LigamentTable& table, const std::string& name) {
+  return std::any_of(table.ligaments.begin(), table.ligaments.end(),
+                     [&](const LigamentRow& row) { return row.name == name; });
+}
+
+// Every ligament that is named is one of the table.
+void check_torn(SceneReader& in, const Keys& root, const LigamentTable& table) {
   for (const TornRow& row : table.torn)
-    if (!known(row.ligament))
+    if (!has_row(table, row.ligament))
       in.complain("names no ligament: '" + row.ligament + "'", root, "torn");
-  if (!known(table.graft.ligament))
+}
+
+void check_names(SceneReader& in, const Keys& root, const LigamentTable& table) {
+  check_torn(in, root, table);
+  if (!has_row(table, table.graft.ligament))
     in.complain("names no ligament: '" + table.graft.ligament + "'", root, "graft");
+}
+
+LigamentBundle read_felt_bundle(SceneReader& in, const Keys& keys) {
+  in.only(keys, {"name", "stiffness_n", "strain"});
+  LigamentBundle out;
+  out.name = in.text(keys, "name");
+  out.stiffness_n = in.number(keys, "stiffness_n", {1, 1e6});
+  out.strain = in.number(keys, "strain", {-0.5, 0.2});
+  return out;
+}
+
+LigamentRow read_felt_ligament(SceneReader& in, const Keys& keys) {
+  in.only(keys, {"name", "part", "over", "failure_n", "bundle"});
+  LigamentRow out;
+  out.name = in.text(keys, "name");
+  out.part = in.text(keys, "part");
+  if (SceneReader::has(keys, "over")) out.over_bone = in.text(keys, "over");
+  out.failure_n = in.number(keys, "failure_n", {1, 1e5});
+  for (const Keys& bundle : in.tables(keys, "bundle"))
+    out.bundles.push_back(read_felt_bundle(in, bundle));
+  if (out.bundles.empty()) in.complain("needs at least one bundle", keys, "name");
+  return out;
+}
+
+TornRow read_felt_torn(SceneReader& in, const Keys& keys) {
+  in.only(keys, {"finding", "grade", "ligament", "left", "strain"});
+  TornRow out;
+  out.finding = in.text(keys, "finding");
+  if (SceneReader::has(keys, "grade")) out.grade = in.text(keys, "grade");
+  out.ligament = in.text(keys, "ligament");
+  out.left = in.number(keys, "left", {0, 1});
+  if (SceneReader::has(keys, "strain")) out.strain = in.number(keys, "strain", {-0.5, 0.2});
+  return out;
+}
+
+DiscRow read_disc(SceneReader& in, const Keys& keys) {
+  in.only(keys, {"part", "young_kpa", "tension_kpa"});
+  DiscRow out;
+  out.part = in.text(keys, "part");
+  out.young_pa = 1e3 * in.number(keys, "young_kpa", {1, 1e5});
+  out.tension_pa = 1e3 * in.number(keys, "tension_kpa", {0, 1e5});
+  return out;
+}
+
+LigamentTable read_felt(SceneReader& in, const Keys& root) {
+  in.only(root, {"toe_strain", "disc", "ligament", "torn"});
+  LigamentTable out;
+  out.toe_strain = in.number(root, "toe_strain", {1e-4, 0.2});
+  if (SceneReader::has(root, "disc")) out.disc = read_disc(in, in.table(root, "disc"));
+  for (const Keys& keys : in.tables(root, "ligament"))
+    out.ligaments.push_back(read_felt_ligament(in, keys));
+  for (const Keys& keys : in.tables(root, "torn")) out.torn.push_back(read_felt_torn(in, keys));
+  check_torn(in, root, out);
+  return out;
 }
 
 LigamentTable read_table(SceneReader& in, const Keys& root) {
@@ -117,22 +176,30 @@ LigamentTable read_table(SceneReader& in, const Keys& root) {
   return out;
 }
 
-}  // namespace
-
-Result<LigamentTable> load_ligament_table(const std::filesystem::path& file) {
+template <class Read>
+Result<LigamentTable> load_by(const std::filesystem::path& file, const char* remedy, Read&& read) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());
   try {
     const toml::table root = toml::parse(*text, file.string());
     SceneReader in(file.string());
-    LigamentTable table = read_table(in, {&root, ""});
+    LigamentTable table = read(in, Keys{&root, ""});
     if (in.error()) return tl::unexpected(*in.error());
     return table;
   } catch (const toml::parse_error& error) {
     return fail(std::string(error.description()),
-                file.string() + ", line " + std::to_string(error.source().begin.line),
-                "See docs/laxity.md");
+                file.string() + ", line " + std::to_string(error.source().begin.line), remedy);
   }
+}
+
+}  // namespace
+
+Result<LigamentTable> load_ligament_table(const std::filesystem::path& file) {
+  return load_by(file, "See docs/laxity.md", read_table);
+}
+
+Result<LigamentTable> load_felt_table(const std::filesystem::path& file) {
+  return load_by(file, "See docs/tissue.md", read_felt);
 }
 
 }  // namespace osteon

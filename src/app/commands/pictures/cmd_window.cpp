@@ -62,7 +62,7 @@ void add_window_command(cli::App& app, int& exit_code) {
       "--soft", *soft,
       "begin with the soft parts shown; with names, those are shown, felt and give way: ligaments "
       "and menisci (all that the case has), or some of them: "
-      "acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus");
+      "acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus; of a wrist tfcc, too");
   softs->expected(0, 1);
   command->add_flag("--close-up", order->close_up, "begin close up on the joint");
   command->add_flag("--demo", order->demo, "the virtual hand plays the case's path");

@@ -57,9 +57,9 @@ void add_portals_option(cli::App& command, std::string& portals) {
 
 void add_soft_option(cli::App& command, std::string& soft) {
   command.add_option("--soft", soft,
-                     "soft parts that are felt: ligaments, menisci and skin (all that the case "
-                     "has), or some of them: acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus,"
-                     "skin:portal_al; default: none");
+                     "soft parts that are felt: ligaments, menisci, tfcc and skin (all that the "
+                     "case has), or some of them: acl,pcl,mcl,lcl,medial_meniscus,"
+                     "lateral_meniscus,scapholunate_dorsal,skin:portal_al; default: none");
 }
 
 void add_guided_option(cli::App& command, double& guided_n) {

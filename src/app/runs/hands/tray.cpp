@@ -7,6 +7,7 @@
 #include "cases/all_cores.h"
 #include "osteon/base/file.h"
 #include "osteon/image/tissue.h"
+#include "osteon/physics/disc_setup.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/stump_setup.h"
 #include "osteon/render/anatomical_view.h"
@@ -102,13 +103,43 @@ FrictionRatios ratios_of(const Tissue& tissue) {
   return {tissue.static_friction.value, tissue.dynamic_friction.value};
 }
 
+// Of a case with a radius what is felt of a wrist, of others the knee's.
+Result<LigamentTable> table_for(const Case& the_case) {
+  const auto data = find_data_dir();
+  if (!data) return tl::unexpected(data.error());
+  if (the_case.find("radius").valid())
+    return load_felt_table(*data / "assets/tissue/wrist_ligaments.toml");
+  return load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
+}
+
+// What is soft in a session, by the kinds that its names mean.
+struct SoftNames {
+  std::vector<std::string> ligaments, menisci, skin;
+  bool stumps = false, disc = false;
+};
+
+SoftNames sorted_names(const Case& the_case, std::span<const std::string> names) {
+  SoftNames out;
+  for (const std::string& name : names) {
+    if (names_skin(name))
+      out.skin.push_back(name);
+    else if (names_stumps(name))
+      out.stumps = true;
+    else if (names_disc(the_case, name))
+      out.disc = true;
+    else if (names_solids(the_case, name))
+      out.menisci.push_back(name);
+    else
+      out.ligaments.push_back(name);
+  }
+  return out;
+}
+
 Result<void> add_ligaments(const Case& the_case, std::span<const std::string> names,
                            const TissueTable& tissues, std::span<const std::string> tray,
                            SoftSetup& setup) {
   if (names.empty()) return {};
-  const auto data = find_data_dir();
-  if (!data) return tl::unexpected(data.error());
-  const auto table = load_ligament_table(*data / "assets/tissue/knee_ligaments.toml");
+  const auto table = table_for(the_case);
   if (!table) return tl::unexpected(table.error());
   const auto ligament = tissue_named(tissues, "ligament");
   if (!ligament) return tl::unexpected(ligament.error());
@@ -122,38 +153,47 @@ Result<void> add_ligaments(const Case& the_case, std::span<const std::string> na
   return {};
 }
 
-// Menisci and what torn ligaments have left: solids of one list.
-Result<std::vector<SoftSolid>> solids_named(const Case& the_case,
-                                            std::span<const std::string> menisci, bool stumps,
-                                            const TissueTable& tissues) {
+void append_solids(std::vector<SoftSolid>&& from, std::vector<SoftSolid>& out) {
+  for (SoftSolid& solid : from) out.push_back(std::move(solid));
+}
+
+// Menisci, the disc of a wrist and what torn ligaments have left: solids of one list.
+Result<std::vector<SoftSolid>> solids_named(const Case& the_case, const SoftNames& names,
+                                            const TissueTable& tissues, const Tissue& meniscus) {
   std::vector<SoftSolid> out;
-  if (!menisci.empty()) {
-    const auto meniscus = tissue_named(tissues, "meniscus");
-    if (!meniscus) return tl::unexpected(meniscus.error());
-    auto made = make_soft_solids(the_case, menisci, (*meniscus)->stiffness_n_per_m.value);
+  if (!names.menisci.empty()) {
+    auto made = make_soft_solids(the_case, names.menisci, meniscus.stiffness_n_per_m.value);
     if (!made) return made;
-    out = std::move(*made);
+    append_solids(std::move(*made), out);
   }
-  if (!stumps) return out;
-  const auto ligament = tissue_named(tissues, "ligament");
-  if (!ligament) return tl::unexpected(ligament.error());
-  auto made =
-      make_stumps(the_case, {(*ligament)->stiffness_n_per_m.value, (*ligament)->cutting_n.value});
-  if (!made) return made;
-  for (SoftSolid& stump : *made) out.push_back(std::move(stump));
+  if (names.disc) {
+    const auto table = table_for(the_case);
+    if (!table) return tl::unexpected(table.error());
+    auto made = make_disc_solids(the_case, table->disc, meniscus.stiffness_n_per_m.value);
+    if (!made) return made;
+    append_solids(std::move(*made), out);
+  }
+  if (names.stumps) {
+    const auto ligament = tissue_named(tissues, "ligament");
+    if (!ligament) return tl::unexpected(ligament.error());
+    auto made =
+        make_stumps(the_case, {(*ligament)->stiffness_n_per_m.value, (*ligament)->cutting_n.value});
+    if (!made) return made;
+    append_solids(std::move(*made), out);
+  }
   if (out.size() > kMaxSolids)
-    return fail("more than " + std::to_string(kMaxSolids) + " menisci and stumps", "--soft",
-                "Give fewer");
+    return fail("more than " + std::to_string(kMaxSolids) + " menisci, pieces of a disc and stumps",
+                "--soft", "Give fewer");
   return out;
 }
 
-Result<void> add_solids_named(const Case& the_case, std::span<const std::string> menisci,
-                              bool stumps, const TissueTable& tissues,
-                              std::span<const std::string> tray, SoftSetup& setup) {
-  if (menisci.empty() && !stumps) return {};
+Result<void> add_solids_named(const Case& the_case, const SoftNames& names,
+                              const TissueTable& tissues, std::span<const std::string> tray,
+                              SoftSetup& setup) {
+  if (names.menisci.empty() && !names.stumps && !names.disc) return {};
   const auto meniscus = tissue_named(tissues, "meniscus");
   if (!meniscus) return tl::unexpected(meniscus.error());
-  auto solids = solids_named(the_case, menisci, stumps, tissues);
+  auto solids = solids_named(the_case, names, tissues, **meniscus);
   if (!solids) return tl::unexpected(solids.error());
   add_solids(setup, std::move(*solids));
   auto cutters = make_solid_cutters(tray);
@@ -186,21 +226,13 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (settings.soft.empty()) return std::shared_ptr<const SoftSetup>();
   const auto tissues = load_default_tissues();
   if (!tissues) return tl::unexpected(tissues.error());
-  std::vector<std::string> ligaments, menisci, skin, stumps;
-  for (const std::string& name : settings.soft)
-    (names_skin(name)               ? skin
-     : names_stumps(name)           ? stumps
-     : names_solids(the_case, name) ? menisci
-                                    : ligaments)
-        .push_back(name);
+  const SoftNames names = sorted_names(the_case, settings.soft);
   SoftSetup setup;
-  if (auto done = add_ligaments(the_case, ligaments, *tissues, settings.tray, setup); !done)
+  if (auto done = add_ligaments(the_case, names.ligaments, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
-  if (auto done =
-          add_solids_named(the_case, menisci, !stumps.empty(), *tissues, settings.tray, setup);
-      !done)
+  if (auto done = add_solids_named(the_case, names, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
-  if (auto done = add_skin(the_case, skin, *tissues, settings.tray, setup); !done)
+  if (auto done = add_skin(the_case, names.skin, *tissues, settings.tray, setup); !done)
     return tl::unexpected(done.error());
   auto grippers = make_soft_grippers(settings.tray);
   if (!grippers) return tl::unexpected(grippers.error());
