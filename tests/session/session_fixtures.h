@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "osteon/scene/build_case.h"
 #include "osteon/session/session.h"
@@ -102,6 +104,26 @@ inline Recording record_one_thread(const std::shared_ptr<const Case>& the_case,
   recording.complete = true;
   if (final_hash) *final_hash = session.state_hash();
   return recording;
+}
+
+/// Versions of a state's bytes before 36 had room for 8 bands: takes the words of the others out of
+/// `bytes`, which are those of `saved` up to there. Something must be soft.
+inline void erase_more_bands(std::string& bytes, const SessionState& saved) {
+  constexpr std::size_t kBefore = 8, kWord = 8, kOfBand = 2, kOfTouch = 6;
+  const std::string all = to_bytes(saved);
+  const auto first_word = [&](const auto& change) {
+    SessionState other = saved;
+    change(other.world.softs);
+    const std::string changed = to_bytes(other);
+    const auto differ = std::mismatch(all.begin(), all.end(), changed.begin()).first;
+    return static_cast<std::size_t>(differ - all.begin()) / kWord * kWord;
+  };
+  for (std::size_t h = kMaxHands; h-- > 0;)
+    bytes.erase(first_word([&](SoftState& s) { s.hands[h].touches[kBefore].on = true; }),
+                (kMaxBands - kBefore) * kOfTouch * kWord);
+  // Of a band the word that it is torn stands before the one that it is lost.
+  bytes.erase(first_word([](SoftState& s) { s.bands[kBefore].lost = true; }) - kWord,
+              (kMaxBands - kBefore) * kOfBand * kWord);
 }
 
 }  // namespace osteon::testing

@@ -61,7 +61,7 @@ inline LigamentTable band_table(double strain = kBandStrain, double failure_n = 
   bundle.strain = strain;
   row.bundles.push_back(bundle);
   table.ligaments.push_back(row);
-  table.torn.push_back({"acl_tear", "", "acl", 0});
+  table.torn.push_back({"acl_tear", "", "acl", 0, {}});
   return table;
 }
 

@@ -217,22 +217,28 @@ TEST(Soft, AStateGivesTheSameBitsAfterwards) {
 
 constexpr std::size_t kWordsAfterSofts = 1 + kMaxMarks + 2;  // rings, marks, command
 
+std::string bytes_of_35(const SessionState& saved) {
+  std::string bytes = to_bytes(saved);
+  testing::erase_more_bands(bytes, saved);
+  return bytes;
+}
+
 // Versions before 11 knew no water: its words, of which the first says that there is any. Behind it
 // stand those of versions 12 and 13: no graft is placed or was ordered, no joint is bent. Versions
 // 14, 22 and 24 have one more each, behind all that is soft: nothing was cut, no jaws hold
 // anything, and no skin is felt. Version 23 has one in the hand: no scope has seen anything; and
 // version 26 one behind it, and one for each hand behind the joint: no tip is in anything.
 std::string without_words_since(SessionState saved) {
-  const std::string with = to_bytes(saved);
+  const std::string with = bytes_of_35(saved);
   saved.world.bones.water = {};
-  std::string bytes = to_bytes(saved);
+  std::string bytes = bytes_of_35(saved);
   const auto differ = std::mismatch(bytes.begin(), bytes.end(), with.begin());
   bytes.erase(static_cast<std::size_t>(differ.first - bytes.begin()) / 8 * 8,
               8 * (5 + kPlacingNumbers + kMaxHands));
   bytes.erase(bytes.size() - 8 * (kWordsAfterSofts + 3), 24);
-  const std::string blind = to_bytes(saved);
+  const std::string blind = bytes_of_35(saved);
   saved.hands[0].watch.seen[0] = 1;
-  const std::string looked = to_bytes(saved);
+  const std::string looked = bytes_of_35(saved);
   const auto sees = std::mismatch(blind.begin(), blind.end(), looked.begin()).first;
   bytes.erase(static_cast<std::size_t>(sees - blind.begin()) / 8 * 8, 16);
   return bytes;
@@ -273,13 +279,35 @@ TEST(Soft, AStateFromBeforeFrictionIsReadWithoutIt) {
   Session session = run.session();
   press_to(session, 1, 301, 0.006);
   std::string bytes = without_water(session.save());
-  ASSERT_EQ(bytes[0], 35);
+  ASSERT_EQ(bytes[0], 36);
   bytes[0] = 8;
   erase_rub(bytes, session.save());
   const auto back = state_from_bytes(bytes);
   ASSERT_TRUE(back) << back.error().message();
   Session other = run.session();
   ASSERT_TRUE(other.restore(*back));
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+}
+
+// A twelfth band's state is kept; one of version 35 with eight bands is read, and has the hash it
+// had.
+TEST(Soft, AStateKeepsMoreThanEightBands) {
+  BandRun run;
+  Session session = run.session();
+  press_to(session, 1, 301, 0.006);
+  SessionState saved = session.save();
+  saved.world.softs.bands[kMaxBands - 1].lost = true;
+  saved.world.softs.hands[0].touches[kMaxBands - 1].peak_n = 3;
+  const auto back = state_from_bytes(to_bytes(saved));
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_TRUE(back->world.softs.bands[kMaxBands - 1].lost);
+  EXPECT_EQ(back->world.softs.hands[0].touches[kMaxBands - 1].peak_n, 3);
+  std::string old = bytes_of_35(session.save());
+  old[0] = 35;
+  const auto before = state_from_bytes(old);
+  ASSERT_TRUE(before) << before.error().message();
+  Session other = run.session();
+  ASSERT_TRUE(other.restore(*before));
   EXPECT_EQ(other.state_hash(), session.state_hash());
 }
 
@@ -295,7 +323,7 @@ TEST(Soft, AStateFromBeforeSolidsIsReadWithoutThem) {
   const std::string with_bench = without_water(saved);
   constexpr std::size_t kWord = 8, kTouch = 6;
   constexpr std::size_t kSolids = kMaxSolids + kMaxHands * (2 + kMaxSolids * kTouch);
-  ASSERT_EQ(bytes[0], 35);
+  ASSERT_EQ(bytes[0], 36);
   bytes[0] = 6;
   bytes.erase(bytes.size() - (kWordsAfterSofts + kSolids) * kWord, kSolids * kWord);
   // Nor was there a bench: the word that says so is where the two differ first.

@@ -114,6 +114,68 @@ TEST(PressedSolid, ASupportHoldsWhatIsPressedAndLetsGoOfWhatIsLifted) {
   EXPECT_LT(mutual * mutual, 0.95 * solid->compliance(up, up) * solid->compliance(down, down));
 }
 
+// A strip of 12 x 4 x 1 mm along x that is held at one or both ends.
+const Vec3 kStripHalf(0.006, 0.002, 0.0005);
+
+PressedSolidDef strip_def(double young_pa, double tension_pa, bool both_ends) {
+  PressedSolidDef def;
+  auto field = DistanceField::make(block_mesh(kStripHalf), {0.00025, 0.003, 0.001});
+  EXPECT_TRUE(field);
+  if (field) def.field = std::make_shared<const DistanceField>(std::move(*field));
+  def.box = {-kStripHalf, kStripHalf};
+  def.held = [both_ends](const Vec3& p) {
+    return (both_ends ? std::abs(p.x()) : -p.x()) > kStripHalf.x() - 1e-6;
+  };
+  def.rests = [](const Vec3&) { return false; };
+  def.young_pa = young_pa;
+  def.tension_pa = tension_pa;
+  return def;
+}
+
+// Mean way down of the nodes at `x_m`, for each newton that presses there all across.
+double gives_across(const PressedSolid& solid, double x_m) {
+  std::vector<SolidPush> pushes;
+  constexpr int kPlaces = 9;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double y = kStripHalf.y() * (2.0 * i / (kPlaces - 1) - 1);
+    pushes.push_back(solid.push_at({x_m, y, 0}, Vec3::UnitZ(), 1.0 / kPlaces));
+  }
+  const std::vector<Vec3> moved = solid.moved(pushes);
+  double sum = 0;
+  for (const SolidPush& push : pushes) sum -= PressedSolid::moved_at(push.patch, moved).z();
+  return sum / kPlaces;
+}
+
+// 4 T / L of a string of tension T, beside the strip's own 192 E I / L^3, which is a fortieth of
+// it.
+TEST(PressedSolid, FibresUnderTensionAreAString) {
+  constexpr double kTension_pa = 1e5, kYoung_pa = 1e5;
+  const auto solid = PressedSolid::make(strip_def(kYoung_pa, kTension_pa, true));
+  ASSERT_TRUE(solid) << solid.error().message();
+  const double length = 2 * kStripHalf.x(), wide = 2 * kStripHalf.y(), thick = 2 * kStripHalf.z();
+  const double string = 4 * kTension_pa * wide * thick / length;
+  const double beam = 16 * kYoung_pa * wide * std::pow(thick / length, 3);
+  EXPECT_NEAR(gives_across(*solid, 0) * (string + beam), 1, 0.2);
+}
+
+// Some tension is left at the root, which cannot get narrower as the rest does.
+TEST(PressedSolid, FibresThatNothingHoldsAtOneEndPullAtNothing) {
+  const auto taut = PressedSolid::make(strip_def(1e5, 1e5, true));
+  const auto slack = PressedSolid::make(strip_def(1e5, 0, true));
+  const auto torn = PressedSolid::make(strip_def(1e5, 1e5, false));
+  const auto loose = PressedSolid::make(strip_def(1e5, 0, false));
+  ASSERT_TRUE(taut && slack && torn && loose);
+  EXPECT_LT(gives_across(*taut, 0), 0.6 * gives_across(*slack, 0));
+  EXPECT_NEAR(gives_across(*torn, 0.004) / gives_across(*loose, 0.004), 1, 0.15);
+}
+
+TEST(PressedSolid, OneWithAModulusIsAsStiffAsThatMakesIt) {
+  const auto soft = PressedSolid::make(strip_def(1e5, 0, true));
+  const auto firm = PressedSolid::make(strip_def(3e5, 0, true));
+  ASSERT_TRUE(soft && firm);
+  EXPECT_NEAR(gives_across(*soft, 0) / gives_across(*firm, 0), 3, 1e-9);
+}
+
 TEST(PressedSolid, RefusesWhatNothingHolds) {
   PressedSolidDef def = block_def();
   def.held = [](const Vec3&) { return false; };

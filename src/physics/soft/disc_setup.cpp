@@ -19,6 +19,8 @@ constexpr const char* kDiscKind = "disc";
 constexpr const char* kDiscWhere = "--soft";
 constexpr double kBare_m = 0.00035;  // so near a bone no cartilage lies between
 constexpr double kLies_m = 0.0004;
+// Where it nowhere meets bare bone of the ulna: what is nearest of its outer fifth is held.
+constexpr double kNearest_m = 0.0002, kOuter = 0.8, kUlnaFar_m = 0.0015;
 constexpr double kDiscUnder = -0.3;
 constexpr double kLeastPiece_m3 = 3e-9;
 // The outer 10 to 40 % have vessels, but not at the radius (Bednar, Arnoczky and Weiland 1991, J
@@ -31,6 +33,11 @@ struct DiscPlace {
   TriMesh mesh_B;  // all of it
   std::vector<MeshDistance> bones_B, cartilage_B;
   Vec3 up = Vec3::UnitZ(), fibres = Vec3::UnitX();
+  double ulna_reach_m = kBare_m;  // so near the ulna it is held
+  Vec3 outwards = Vec3::Zero();   // of what is held there: at least so far along this
+  double from_m = 0;
+
+  bool held(const Vec3& p) const;
 };
 
 TriMesh moved_mesh(const TriMesh& mesh, const Pose& X) {
@@ -51,19 +58,44 @@ bool is_near(std::span<const MeshDistance> surfaces, const Vec3& p, double reach
   });
 }
 
+bool DiscPlace::held(const Vec3& p) const {
+  const std::span<const MeshDistance> all(bones_B);
+  return is_near(all.first(1), p, kBare_m) ||
+         (outwards.dot(p) >= from_m && is_near(all.subspan(1), p, ulna_reach_m));
+}
+
+std::vector<Vec3> on_bone(const DiscPlace& place, std::size_t bone) {
+  std::vector<Vec3> out;
+  const auto one = std::span(place.bones_B).subspan(bone, 1);
+  const double reach_m = bone == 0 ? kBare_m : place.ulna_reach_m;
+  for (const Vec3& p : place.mesh_B.vertices)
+    if ((bone == 0 || place.outwards.dot(p) >= place.from_m) && is_near(one, p, reach_m))
+      out.push_back(p);
+  return out;
+}
+
+// A patient's disc may end over the cartilage of the ulna.
+void reach_for_ulna(DiscPlace& place, const Vec3& radial) {
+  place.outwards = (mean_of(place.mesh_B.vertices) - radial).normalized();
+  double most_m = -1, least_m = 1;
+  for (const Vec3& p : place.mesh_B.vertices)
+    most_m = std::max(most_m, place.outwards.dot(p - radial));
+  place.from_m = place.outwards.dot(radial) + kOuter * most_m;
+  for (const Vec3& p : place.mesh_B.vertices)
+    if (place.outwards.dot(p) >= place.from_m)
+      least_m = std::min(least_m, place.bones_B.back().closest(p).signed_distance);
+  if (least_m < kUlnaFar_m) place.ulna_reach_m = least_m + kNearest_m;
+}
+
 // From the middle of what the first bone holds to that of what the second does.
-Result<Vec3> way_between(const DiscPlace& place, const std::string& what) {
-  Vec3 middle[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    std::vector<Vec3> there;
-    for (const Vec3& p : place.mesh_B.vertices)
-      if (is_near(std::span(place.bones_B).subspan(i, 1), p, kBare_m)) there.push_back(p);
-    if (there.empty())
-      return fail(what + " does not reach both of its bones", kDiscWhere,
-                  "Its surface must lie on bare bone of each");
-    middle[i] = mean_of(there);
-  }
-  return Vec3(middle[1] - middle[0]);
+Result<Vec3> way_between(DiscPlace& place, const std::string& what) {
+  const std::vector<Vec3> radial = on_bone(place, 0);
+  if (!radial.empty() && on_bone(place, 1).empty()) reach_for_ulna(place, mean_of(radial));
+  const std::vector<Vec3> ulnar = on_bone(place, 1);
+  if (radial.empty() || ulnar.empty())
+    return fail(what + " does not reach both of its bones", kDiscWhere,
+                "Its surface must lie on each of them");
+  return Vec3(mean_of(ulnar) - mean_of(radial));
 }
 
 Result<DiscPlace> place_disc(const Case& the_case, std::uint32_t soft, const std::string& what) {
@@ -109,9 +141,7 @@ PressedSolidDef disc_def(std::shared_ptr<const DiscPlace> place, const TriMesh& 
   def.young_pa = row.young_pa;
   def.tension_pa = row.tension_pa;
   def.fibres = place->fibres;
-  def.held = [place, field](const Vec3& p) {
-    return is_near(place->bones_B, on_solid(*field, p), kBare_m);
-  };
+  def.held = [place, field](const Vec3& p) { return place->held(on_solid(*field, p)); };
   def.rests = [place, field](const Vec3& p) {
     return field->at(p).gradient.normalized().dot(place->up) < kDiscUnder &&
            is_near(place->cartilage_B, on_solid(*field, p), kLies_m);
@@ -134,7 +164,7 @@ Result<SoftSolid> piece_of(const Case& the_case, std::shared_ptr<const DiscPlace
     return tl::unexpected(body.error());
   }
   out.body = std::make_shared<const PressedSolid>(std::move(*body));
-  out.hangs = [place](const Vec3& p_B) { return is_near(place->bones_B, p_B, kBare_m); };
+  out.hangs = [place](const Vec3& p_B) { return place->held(p_B); };
   const RimOutline outline(place->mesh_B.vertices, mean_of(place->bones_B.back().mesh().vertices));
   out.bleeds = [outline, place](const Vec3& p_B) {
     return outline.inside(p_B) < kDiscVessels_m &&
@@ -183,7 +213,7 @@ Result<std::vector<SoftSolid>> make_disc_solids(const Case& the_case, const Disc
                 "Its surface must be closed, its triangles facing outwards");
   std::vector<SoftSolid> out;
   for (const TriMesh& piece : pieces) {
-    const auto touches = [&](const Vec3& p) { return is_near(place->bones_B, p, kBare_m); };
+    const auto touches = [&](const Vec3& p) { return place->held(p); };
     if (std::none_of(piece.vertices.begin(), piece.vertices.end(), touches)) continue;
     auto solid = piece_of(the_case, place, piece, row, stiffness_n_per_m);
     if (!solid && !out.empty()) continue;  // a shred

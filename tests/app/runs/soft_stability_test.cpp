@@ -6,6 +6,7 @@
 #include "osteon/device/virtual_hand.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
+#include "physics/disc_fixtures.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
@@ -115,6 +116,52 @@ TEST(SoftStability, ALigamentTautOrSlackComesToRest) {
       const Vec3 to_W = testing::shaft_at(testing::kTouch_m - 0.009).X_WD.p;
       expect_rest(press_softly(session, loop, from, to_W), loop);
     }
+  }
+}
+
+// As short, thin and stiff as the dorsal scapholunate one.
+TEST(SoftStability, ALigamentOfAWristComesToRest) {
+  constexpr double kShort_m = 0.0065;
+  testing::BandRun run;
+  SoftSetup setup = *rough(*run.softs);
+  SoftBand& band = setup.bands.front();
+  const double less_m = (testing::kBandGap_m - kShort_m) / 2;
+  band.from_B.x() += less_m;
+  band.to_B.x() -= less_m;
+  band.radius_m = 0.0014;
+  band.fibres = {{kShort_m / 1.03, 360, 0.03}};
+  setup.hash = hash_of(setup.bands);
+  run.softs = std::make_shared<const SoftSetup>(setup);
+  run.settings.soft_hash = setup.hash;
+  for (const SoftLoop& loop : soft_loops()) {
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    Session session = run.session();
+    const ToolInput from = testing::shaft_at(testing::kTouch_m + 0.004);
+    expect_rest(press_softly(session, loop, from, testing::shaft_at(-0.003).X_WD.p), loop);
+  }
+}
+
+TEST(SoftStability, ADiscPressedOrLiftedWholeOrTornComesToRest) {
+  for (const bool torn : {false, true}) {
+    testing::MeniscusRun run(testing::meniscus_case());
+    run.the_case = testing::disc_case(torn);
+    auto made = make_disc_solids(*run.the_case, testing::disc_row(), testing::kDiscTable_n_per_m);
+    ASSERT_TRUE(made) << made.error().message();
+    SoftSetup setup;
+    add_solids(setup, std::move(*made));
+    run.settings.soft = {"tfcc"};
+    run.softs = rough(setup);
+    run.settings.soft_hash = run.softs->hash;
+    const double touch_m = testing::kDiscThick_m / 2 + testing::kBallRadius_m;
+    for (const double side : {1.0, -1.0})
+      for (const SoftLoop& loop : soft_loops()) {
+        run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+        Session session = run.session();
+        ToolInput from;
+        from.X_WD.p = {0.001, 0.001, side * (touch_m + 0.003)};
+        expect_rest(press_softly(session, loop, from, {0.001, 0.001, side * (touch_m - 0.006)}),
+                    loop, 0.2);
+      }
   }
 }
 
