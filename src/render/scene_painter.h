@@ -162,11 +162,11 @@ class ScenePainter {
   const BoneAppearance& look_of(const ViewState& view, std::size_t k) const;
   bool shows(const RenderSnapshot& snapshot, const ViewState& view, std::size_t k) const;
   static BoneModel make_soft(const Case& the_case, const SoftPart& soft);
-  /// How it bends with its limb; none: it is rigid, or has not been bent.
   /// Motion of both ends of what bends; the pose twice of what is rigid.
   std::array<Pose, 2> end_poses(const RenderSnapshot& snapshot, std::size_t k) const;
   /// Skin that has been bent far from how it was made is seen through.
   ViewState with_far_covers_clear(const RenderSnapshot& snapshot, ViewState view) const;
+  /// How it bends with its limb; none: it is rigid, or has not been bent.
   std::optional<CoverMotion> cover_motion(const RenderSnapshot& snapshot, std::size_t k) const;
   static void set_cover(const Program& program, const LimbCover& cover, const CoverMotion& motion);
   /// Into use: `rigid`, or `bending` where the part bends; its model's matrix is set.
