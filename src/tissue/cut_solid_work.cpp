@@ -171,15 +171,21 @@ void CutSolidWork::Impl::assemble() {
   rows = solved = 0;
 }
 
+// The inverse is symmetric: of a column, what lies below the diagonal is solved for and put beside
+// it as well.
 void CutSolidWork::Impl::solve_some() {
   Eigen::MatrixXd& ways = lies ? made->lying : made->lifted;
   const std::size_t wide = std::min(Envelope::kWide, matrix->size() - solved);
-  for (auto& row : columns) row.fill(0);
+  for (std::size_t i = solved; i < columns.size(); ++i) columns[i].fill(0);
   for (std::size_t c = 0; c < wide; ++c) columns[solved + c][c] = 1;
   matrix->solve(columns, solved);
-  for (std::size_t c = 0; c < wide; ++c)
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      ways(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(solved + c)) = columns[i][c];
+  for (std::size_t c = 0; c < wide; ++c) {
+    const auto column = static_cast<Eigen::Index>(solved + c);
+    for (std::size_t i = solved + c; i < columns.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      ways(row, column) = ways(column, row) = columns[i][c];
+    }
+  }
   solved += wide;
 }
 
@@ -214,7 +220,9 @@ bool CutSolidWork::step() {
   }
   work.solve_some();
   if (work.solved < work.matrix->size()) return false;
-  if (!work.lies) {
+  if (!work.made->can_lie()) {
+    work.made->lying = work.made->lifted;
+  } else if (!work.lies) {
     work.lies = true;
     work.assemble();
     return false;

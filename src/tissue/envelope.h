@@ -38,15 +38,15 @@ class Envelope {
   }
 
   using Columns = std::vector<std::array<double, kWide>>;
-  // x has nothing before row `from`.
+  // x has nothing before row `from`, and rows before it are not asked for.
   void solve(Columns& x, std::size_t from) const {
     for (std::size_t i = from; i < size(); ++i) {
       for (std::size_t j = std::max(from, first_[i]); j < i; ++j) add(x[i], -at(i, j), x[j]);
       scale(x[i], 1 / at(i, i));
     }
-    for (std::size_t i = size(); i-- > 0;) {
+    for (std::size_t i = size(); i-- > from;) {
       scale(x[i], 1 / at(i, i));
-      for (std::size_t j = first_[i]; j < i; ++j) add(x[j], -at(i, j), x[i]);
+      for (std::size_t j = std::max(from, first_[i]); j < i; ++j) add(x[j], -at(i, j), x[i]);
     }
   }
 

@@ -158,6 +158,12 @@ double lying_share(const Vec3& nhat, const Vec3& up) {
 
 }  // namespace
 
+bool PressedSolid::Impl::can_lie() const {
+  for (std::size_t n = 0; n < rests.size(); ++n)
+    if (rests[n] && !held[n]) return true;
+  return false;
+}
+
 double PressedSolid::Impl::share(const SolidPush& push) const { return lying_share(push.nhat, up); }
 
 // Of a node, for each newton of the push.
@@ -203,19 +209,22 @@ Result<PressedSolid> PressedSolid::make(const PressedSolidDef& def) {
     if (!pull) return tl::unexpected(pull.error());
     impl->cells.pull = std::move(*pull);
   }
-  auto lifted = ways_of(stiffness_of(impl->cells, def, false));
-  if (!lifted) return tl::unexpected(lifted.error());
-  auto lying = ways_of(stiffness_of(impl->cells, def, true));
-  if (!lying) return tl::unexpected(lying.error());
-  impl->lifted = std::move(*lifted);
-  impl->lying = std::move(*lying);
-  impl->stiffness_n_per_m = def.stiffness_n_per_m;
-  impl->poisson = def.poisson;
-  impl->young_pa = def.young_pa;
   for (const Vec3& p : impl->cells.nodes) {
     impl->held.push_back(def.held(p) ? 1 : 0);
     impl->rests.push_back(def.rests(p) ? 1 : 0);
   }
+  auto lifted = ways_of(stiffness_of(impl->cells, def, false));
+  if (!lifted) return tl::unexpected(lifted.error());
+  impl->lifted = std::move(*lifted);
+  impl->lying = impl->lifted;
+  if (impl->can_lie()) {
+    auto lying = ways_of(stiffness_of(impl->cells, def, true));
+    if (!lying) return tl::unexpected(lying.error());
+    impl->lying = std::move(*lying);
+  }
+  impl->stiffness_n_per_m = def.stiffness_n_per_m;
+  impl->poisson = def.poisson;
+  impl->young_pa = def.young_pa;
   return PressedSolid(std::move(impl));
 }
 

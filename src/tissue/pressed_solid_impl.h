@@ -49,6 +49,7 @@ struct PressedSolid::Impl {
   std::vector<Vec3> middles;
   std::vector<std::vector<std::uint32_t>> links;
 
+  bool can_lie() const;  ///< something of it rests and is not held: else `lying` is `lifted`
   double share(const SolidPush& push) const;
   double yields(const SolidPush& at, const SolidPush& push, double share) const;
   Vec3 way(const Eigen::MatrixXd& ways, std::uint32_t node, const SolidPush& push) const;

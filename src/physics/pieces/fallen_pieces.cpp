@@ -174,9 +174,10 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double
 void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
                          const PieceSurroundings& around) {
   piece.X_WB = tool.X_WP * piece.X_PB;
+  const PieceNeighbours near(around, piece.X_WB * piece.shape->middle_B(), piece.shape->reach_m());
   double deepest = 0;
   for (const Vec3& p_B : piece.shape->points_B())
-    deepest = std::max(deepest, around.in_bone(piece.X_WB * p_B).depth_m);
+    deepest = std::max(deepest, near.in_bone(piece.X_WB * p_B).depth_m);
   if (!(deepest > kPieceSlips_m)) return;
   tell(PieceNews::Is::kLetGo, piece, piece.hand);
   begin_to_fall(piece);

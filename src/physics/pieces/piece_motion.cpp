@@ -18,6 +18,7 @@ constexpr double kPieceFastest_m_per_s = 0.5;
 constexpr double kPieceSlow_m_per_s = 0.008;               // for a tenth of a second: it rests
 constexpr double kMostOut_m = 1e-4, kMostByTool_m = 1e-3;  // of one correction
 constexpr int kPieceRounds = 4;
+constexpr double kRoomOfStep_m = 0.002;  // beyond a piece: a step seldom goes farther
 
 Quat turned(const Quat& q, const Vec3& by) {
   const Quat turn(0, by.x(), by.y(), by.z());
@@ -47,7 +48,7 @@ struct PointContact {
 };
 
 // Out of what the point stands in.
-bool push_out(Moving& at, const Vec3& p_M, const PieceSurroundings& around, PointContact& contact) {
+bool push_out(Moving& at, const Vec3& p_M, const PieceNeighbours& around, PointContact& contact) {
   const Vec3 r = at.q * p_M;
   PiecePush push = around.in_bone(at.c + r);
   double by_m = std::min(push.depth_m, kMostOut_m);
@@ -100,6 +101,7 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
   at.c = at.c0 + step_s * piece.v_W;
   at.q = turned(at.q0, step_s * piece.w_W);
   at.inverse_J_B = J.inverse();
+  const PieceNeighbours near(around, at.c0, shape.reach_m() + kRoomOfStep_m);
   PieceStep did;
   did.touches = held;
   std::array<PointContact, PieceShape::kMostPoints> contacts{};
@@ -108,7 +110,7 @@ PieceStep move_piece(FallenPiece& piece, const PieceSurroundings& around, double
       // To and fro: one order alone would turn what rests on a slope a little in each step.
       const std::size_t i = round % 2 == 0 ? n : shape.points_B().size() - 1 - n;
       const Vec3 p_M = shape.points_B()[i] - shape.middle_B();
-      did.touches = push_out(at, p_M, around, contacts[i]) || did.touches;
+      did.touches = push_out(at, p_M, near, contacts[i]) || did.touches;
       if (contacts[i].pushed_m > 0) hold_back(at, p_M, contacts[i]);
     }
   if (!is_finite(at.c) || !at.q.coeffs().allFinite()) {

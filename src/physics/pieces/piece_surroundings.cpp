@@ -11,6 +11,7 @@ namespace osteon {
 namespace {
 
 constexpr double kPieceJawsShut = 0.15;  // of their way: open ones push nothing
+constexpr double kRounding_m = 1e-9;     // above that of a place in World
 
 double level_m(const CarvedField& field, const GridNode& at) {
   const double height = field.height_m(at.block, at.node);
@@ -69,6 +70,15 @@ PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B) {
   return out;
 }
 
+Aabb box_of(const BlockGrid& grid) {
+  Aabb box;
+  box.include(grid.lo);
+  for (Eigen::Index k = 0; k < 3; ++k)
+    box.hi[k] =
+        grid.lo[k] + grid.cell_m * BlockGrid::kSide * grid.blocks[static_cast<std::size_t>(k)];
+  return box;
+}
+
 bool is_lifted(const PieceTool& tool, std::size_t part, double jaw) {
   return tool.jaws && jaw > kPieceJawsShut && part < 64 && (tool.jaws->jaws >> part & 1) != 0;
 }
@@ -80,6 +90,9 @@ PiecePush push_of(const Primitive& part, const Vec3& p_T) {
 }
 
 PiecePush push_of(const CarvedField& field, const Vec3& p_B) {
+  // No node beside one of an outer block lies in the bone.
+  const auto nearest = nearest_node(field.grid(), p_B);
+  if (!nearest || field.bone().place(nearest->block) == UncutField::Place::kOutside) return {};
   const auto level = level_at(field, p_B);
   if (!level || !(*level < 0)) return {};
   const double step = 0.5 * field.grid().cell_m;
@@ -93,18 +106,46 @@ PiecePush push_of(const CarvedField& field, const Vec3& p_B) {
   return {-*level, norm > 1e-12 ? Vec3(slope / norm) : Vec3::UnitZ()};
 }
 
+void PieceSurroundings::add_push(std::size_t b, const Vec3& p_B, PiecePush& out) const {
+  const CarvedField* const field = carved_at(b);
+  const PiecePush push = field ? push_of(*field, p_B) : push_of(setup.bones[b], p_B);
+  if (push.depth_m > out.depth_m) out = {push.depth_m, bones.bones[b].X_WB.rotate(push.out_W)};
+}
+
 PiecePush PieceSurroundings::in_bone(const Vec3& p_W) const {
   PiecePush out;
-  for (std::size_t b = 0; b < setup.bones.size() && b < bones.count; ++b) {
-    const Pose& X_WB = bones.bones[b].X_WB;
-    if (!is_finite(X_WB)) continue;
-    const Vec3 p_B = X_WB.inverse() * p_W;
-    const CarvedField* const field = b < carved.size() ? carved[b] : nullptr;
-    PiecePush push = field ? push_of(*field, p_B) : push_of(setup.bones[b], p_B);
-    if (!(push.depth_m > out.depth_m)) continue;
-    out = {push.depth_m, X_WB.rotate(push.out_W)};
-  }
+  for (std::size_t b = 0; b < setup.bones.size() && b < bones.count; ++b)
+    if (const Pose& X_WB = bones.bones[b].X_WB; is_finite(X_WB))
+      add_push(b, X_WB.inverse() * p_W, out);
   return out;
+}
+
+PieceNeighbours::PieceNeighbours(const PieceSurroundings& around, const Vec3& center_W,
+                                 double radius_m)
+    : around_(around),
+      center_W_(center_W),
+      square_(radius_m * radius_m),
+      tools_(around.tool_near(center_W, radius_m + kRounding_m)) {
+  for (std::size_t b = 0; b < around.setup.bones.size() && b < around.bones.count; ++b) {
+    const Pose& X_WB = around.bones.bones[b].X_WB;
+    if (!is_finite(X_WB)) continue;
+    const Pose X_BW = X_WB.inverse();
+    const CarvedField* const field = around.carved_at(b);
+    const Aabb box_B = field ? box_of(field->grid()) : around.setup.bones[b].box_B;
+    if (in_box(box_B.grown(kRounding_m + radius_m), X_BW * center_W)) near_[count_++] = {b, X_BW};
+  }
+}
+
+PiecePush PieceNeighbours::in_bone(const Vec3& p_W) const {
+  if (!is_inside(p_W)) return around_.in_bone(p_W);
+  PiecePush out;
+  for (std::size_t i = 0; i < count_; ++i)
+    around_.add_push(near_[i].bone, near_[i].X_BW * p_W, out);
+  return out;
+}
+
+PiecePush PieceNeighbours::in_tool(const Vec3& p_W) const {
+  return tools_ || !is_inside(p_W) ? around_.in_tool(p_W) : PiecePush{};
 }
 
 PiecePush PieceSurroundings::in_tool(const Vec3& p_W) const {

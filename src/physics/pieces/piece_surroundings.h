@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "osteon/base/types.h"
@@ -20,7 +21,12 @@ struct PieceSurroundings {
   const BoneSnapshot& bones;
   std::span<const CarvedField* const> carved;
 
-  /// The deepest of all bones, of those whose box the ball overlaps.
+  const CarvedField* carved_at(std::size_t bone) const {
+    return bone < carved.size() ? carved[bone] : nullptr;
+  }
+  /// Of one bone, if it is deeper than `out`.
+  void add_push(std::size_t bone, const Vec3& p_B, PiecePush& out) const;
+  /// The deepest of all bones.
   PiecePush in_bone(const Vec3& p_W) const;
   /// The deepest of all instruments that are where the bones are.
   PiecePush in_tool(const Vec3& p_W) const;
@@ -28,6 +34,29 @@ struct PieceSurroundings {
   bool in_tissue(const Vec3& p_W) const;
   /// Whether any instrument comes into that ball.
   bool tool_near(const Vec3& center_W, double radius_m) const;
+};
+
+/// The bones and instruments that a ball comes near, found once for the many points of a piece.
+/// Answers are those of `PieceSurroundings`, bit by bit, for points outside of the ball too.
+class PieceNeighbours {
+ public:
+  PieceNeighbours(const PieceSurroundings& around, const Vec3& center_W, double radius_m);
+  PiecePush in_bone(const Vec3& p_W) const;
+  PiecePush in_tool(const Vec3& p_W) const;
+
+ private:
+  struct NearBone {
+    std::size_t bone = 0;
+    Pose X_BW;
+  };
+  bool is_inside(const Vec3& p_W) const { return (p_W - center_W_).squaredNorm() <= square_; }
+
+  const PieceSurroundings& around_;
+  Vec3 center_W_;
+  double square_ = 0;
+  std::size_t count_ = 0;
+  bool tools_ = false;
+  std::array<NearBone, kMaxBones> near_;
 };
 
 /// How far a point in Tool lies in a part of an instrument; `out_W` is in Tool.

@@ -358,7 +358,6 @@ void SolidCutting::catch_up(std::uint32_t s) {
     (void)solid.holes->set(block, CutField::Block(solid.field.cuts(block), CutField::kNodes));
     count_gone(solid, block);
   }
-  solid.cells->update(solid.field, solid.seen);
   solid.seen = solid.field.step();
   presses_.set_cut(s, solid.holes.get(), solid.body);
 }
@@ -386,8 +385,15 @@ void SolidCutting::drop_pieces(std::uint32_t s) {
 
 void SolidCutting::follow_stiffness(Solid& solid, std::uint32_t s) {
   if (!solid.work) {
+    if (solid.followed == solid.field.step()) return;
+    // Cells are looked at when they are asked for: cuts of many steps at once.
+    solid.cells->update(solid.field, solid.celled);
+    solid.celled = solid.field.step();
     const auto& now = solid.cells->cells();
-    if (now == (solid.felt.empty() ? solid.whole : solid.felt)) return;
+    if (now == (solid.felt.empty() ? solid.whole : solid.felt)) {
+      solid.followed = solid.celled;
+      return;
+    }
     if (now == solid.whole) {
       set(solid.felt, solid.felt_hash, {});
       solid.body = nullptr;
@@ -480,7 +486,8 @@ void SolidCutting::put_cuts(std::uint32_t s, const SolidCutState& from) {
   }
   solid.told_percent = from.told_percent;
   solid.cells->update_all(solid.field);
-  solid.seen = solid.told = solid.field.step();
+  solid.seen = solid.told = solid.celled = solid.field.step();
+  solid.followed = Solid::kNever;
   solid.pieces = from.pieces;
   solid.looked = from.looked;
   solid.shown = from.cuts.blocks.empty() ? nullptr : std::make_shared<const CarveState>(from.cuts);

@@ -83,6 +83,9 @@ class SolidCutting {
     std::unique_ptr<CutSolidWork> work;
     std::uint64_t felt_hash = 0, next_hash = 0;
     std::uint64_t worked = 0, seen = 0, looked = 0, told = 0;
+    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+    /// The field's steps when cells were looked at, and when they were found to be what is felt.
+    std::uint64_t celled = 0, followed = kNever;
     std::uint32_t pieces = 0;
     std::shared_ptr<const CarveState> shown;
     std::vector<ClearBits> to_clear;  ///< of each block; empty: nothing is

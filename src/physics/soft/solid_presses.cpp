@@ -101,6 +101,7 @@ bool SolidPresses::keep(SolidNear& near, const SolidHand& hand) const {
 
 void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const {
   const FieldView field = view(solid);
+  const Pose X_BT = X_WB_[solid].inverse() * hand.tool->X_WP;
   for (std::size_t part = 0; part < hand.parts.size(); ++part) {
     if (state.count == kMaxSolidContacts) return;
     const auto is_it = [&](const SolidNear& near) {
@@ -108,7 +109,7 @@ void SolidPresses::seek(SolidHandState& state, const SolidHand& hand, std::size_
     };
     if (hand.lifted >> part & 1) continue;
     if (std::any_of(state.near.begin(), state.near.begin() + state.count, is_it)) continue;
-    const RoundBox part_B = in_bone(solid, hand, part);
+    const RoundBox part_B = placed(X_BT, hand.parts[part]);
     if (!is_by(field.box(), part_B)) continue;
     const CapsuleContact c = round_contact(field, part_B, kSolidNear_m);
     if (c.status != LpStatus::kOptimal || c.gap > kSolidNear_m) continue;

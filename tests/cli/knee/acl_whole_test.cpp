@@ -89,8 +89,8 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   EXPECT_GT(hand["found"]["lachman"]["side_difference_mm"], 5);
   EXPECT_GT(hand["found"]["pivot"]["side_difference_mm"], 1.5);
   EXPECT_LT(hand["grafted"]["pivot"]["side_difference_mm"], 1.5);
-  for (const std::string from : {"25 ", "350 ", "650 "})
-    EXPECT_EQ(run_osteon("replay --from " + from + file("w.osr")).exit_code, 0) << from;
+  // Where the tunnels are about to be drilled; from the beginning in TwentyKnees.
+  EXPECT_EQ(run_osteon("replay --from 350 " + file("w.osr")).exit_code, 0);
 }
 
 TEST_F(WholeAcl, EachBadSurgeonMakesHisErrorAlone) {
