@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +22,9 @@ struct BoundPart {
   /// A band whose ends take it along where their bones are displaced, in place of `bone`; may be
   /// empty.
   std::string along = {};
+  /// Of a tube: the bone that its last point goes with, its first one with `bone`; those between by
+  /// their place in the list.
+  std::optional<std::size_t> to_bone = {};
 };
 
 /// Cartilage: a layer on a bone's surface. Covered is what lies within `reach` of a bone of

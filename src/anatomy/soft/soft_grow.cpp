@@ -301,6 +301,7 @@ class SoftGrower {
     };
     for (const BoundPart& part : volume.parts) {
       add(part.bone);
+      if (part.to_bone) add(*part.to_bone);
       if (part.along.empty()) continue;
       const BandDescription* band = band_named(part.along);
       if (!band) return fail("'along' names no ligament or tendon: '" + part.along + "'");

@@ -11,9 +11,10 @@ namespace {
 constexpr Range kThickness_mm{0.05, 100};
 constexpr Range kSink_mm{0, 5};
 
-std::size_t read_bone_key(TomlReader& in, const FindBone& find_bone, const std::string& name) {
+std::size_t read_bone_key(TomlReader& in, const FindBone& find_bone, const std::string& name,
+                          const char* key = "bone") {
   const auto bone = find_bone(name);
-  if (!bone) in.reject(bone.error().what, "bone");
+  if (!bone) in.reject(bone.error().what, key);
   return bone.value_or(0);
 }
 
@@ -32,7 +33,11 @@ Result<void> read_bound_parts(TomlReader& soft, const std::string& key, Operatio
     BoundPart part;
     part.bone = read_bone_or(in, find_bone, bone);
     if (in.has("along")) part.along = in.text("along");
+    if (in.has("to_bone"))
+      part.to_bone = read_bone_key(in, find_bone, in.text("to_bone"), "to_bone");
     part.part = read_part(in, operation, blend);
+    if (part.to_bone && !std::holds_alternative<Tube>(part.part.primitive))
+      in.reject("is for a tube alone", "to_bone");
     if (auto ok = in.finish(); !ok) return ok;
     parts.push_back(std::move(part));
   }

@@ -1,6 +1,7 @@
 #include "vary/vary_bound.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace osteon {
 namespace {
@@ -16,13 +17,31 @@ class BoundMover {
   }
   void parts(std::vector<BoundPart>& parts) const {
     for (BoundPart& p : parts) {
-      if (!moves(p.bone)) continue;
+      if (p.to_bone && moves(*p.to_bone) != moves(p.bone)) move_one_end(p);
+      if (!moves(p.bone) || (p.to_bone && !moves(*p.to_bone))) continue;
       move_.part_W(p.part.primitive);
       p.part.blend *= move_.scale;
     }
   }
 
  private:
+  // Of a tube between two bones of which one moves: each point by its share of the way.
+  void move_one_end(BoundPart& bound) const {
+    auto* tube = std::get_if<Tube>(&bound.part.primitive);
+    if (!tube || tube->points.size() < 2) return;
+    Primitive whole = *tube;
+    move_.part_W(whole);
+    const Tube& moved = std::get<Tube>(whole);
+    const double last = static_cast<double>(tube->points.size() - 1);
+    for (std::size_t i = 0; i < tube->points.size(); ++i) {
+      const double along = static_cast<double>(i) / last,
+                   share = moves(bound.bone) ? 1 - along : along;
+      tube->points[i] += share * (moved.points[i] - tube->points[i]);
+      tube->radii[i] += share * (moved.radii[i] - tube->radii[i]);
+    }
+    find_reach(*tube);
+  }
+
   std::vector<bool> moved_;
   const BoundMove& move_;
 };

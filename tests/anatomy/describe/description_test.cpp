@@ -272,6 +272,13 @@ TEST(Description, SoftPartsAreChecked) {
                       "add = [{ shape = \"ellipsoid\", center_mm = [0, 0, 0], radii_mm = "
                       "[5, 4, 3] }]\n"),
                  {"add 1", "'bone'"});
+  const std::string ball = "center_mm = [0, 0, 0], radii_mm = [5, 4, 3] }]\n";
+  expect_refused(
+      soft("disc", "add = [{ bone = \"a\", to_bone = \"b\", shape = \"ellipsoid\", " + ball),
+      {"add 1", "'to_bone'", "tube"});
+  expect_refused(
+      soft("disc", "add = [{ bone = \"a\", to_bone = \"c\", shape = \"ellipsoid\", " + ball),
+      {"add 1", "'to_bone'", "'c'"});
 }
 
 TEST(Description, SoftPartsNamesAreUnlikeAllOthers) {
