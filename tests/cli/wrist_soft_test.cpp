@@ -62,7 +62,8 @@ TEST_F(WristSoft, AHookPullsTheScapholunateLigamentUnlessItIsTorn) {
   EXPECT_TRUE(dorsal["whole"]);
   EXPECT_GT(dorsal["peak_force_n"], 0.5);
   EXPECT_GT(dorsal["peak_tension_n"], dorsal["first_tension_n"]);
-  for (const char* name : {"lunotriquetral_volar", "radioscaphocapitate", "ulnotriquetral"})
+  for (const char* name : {"lunotriquetral_volar", "radioscaphocapitate", "ulnotriquetral",
+                           "dorsal_radiocarpal", "dorsal_intercarpal"})
     EXPECT_FALSE(part(name).is_null()) << name;
   const Ran again = run_osteon("replay " + file("run.osr"));
   EXPECT_EQ(again.exit_code, 0) << again.output;

@@ -38,10 +38,11 @@ Vec3 landmark(const GeneratedAnatomy& anatomy, const std::string& name) {
 TEST(WristSoft, HasWhatAnArthroscopyLooksAt) {
   std::set<std::string> names;
   for (const GeneratedSoft& soft : soft_wrist().softs) names.insert(soft.name);
-  for (const char* name : {"scaphoid_fossa", "lunate_fossa", "tfcc_disc", "scapholunate_dorsal",
-                           "scapholunate_proximal", "scapholunate_volar", "lunotriquetral_dorsal",
-                           "lunotriquetral_volar", "radioscaphocapitate", "long_radiolunate",
-                           "short_radiolunate", "ulnolunate", "ulnotriquetral", "skin"})
+  for (const char* name :
+       {"scaphoid_fossa", "lunate_fossa", "tfcc_disc", "scapholunate_dorsal",
+        "scapholunate_proximal", "scapholunate_volar", "lunotriquetral_dorsal",
+        "lunotriquetral_volar", "radioscaphocapitate", "long_radiolunate", "short_radiolunate",
+        "ulnolunate", "ulnotriquetral", "dorsal_radiocarpal", "dorsal_intercarpal", "skin"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 
@@ -74,7 +75,9 @@ TEST(WristSoft, BandsJoinTheBonesThatTheirNamesSay) {
       {"long_radiolunate", "radius", "lunate"},
       {"short_radiolunate", "radius", "lunate"},
       {"ulnolunate", "ulna", "lunate"},
-      {"ulnotriquetral", "ulna", "triquetrum"}};
+      {"ulnotriquetral", "ulna", "triquetrum"},
+      {"dorsal_radiocarpal", "radius", "triquetrum"},
+      {"dorsal_intercarpal", "triquetrum", "scaphoid"}};
   for (const auto& [name, from, to] : bands) {
     const GeneratedSoft& band = checks::soft_named(soft_wrist(), name);
     ASSERT_EQ(band.attachments.size(), 2u) << name;
