@@ -28,7 +28,8 @@ enum : std::uint32_t { kBall, kBlade, kPieceGrasper, kSuction };
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
 
 struct PiecesRun : testing::MeniscusRun {
-  explicit PiecesRun(bool lie = true) : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
+  explicit PiecesRun(bool lie = true, bool meet = false)
+      : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
     const auto instruments = load_instruments();
     EXPECT_TRUE(instruments);
     for (const char* name : {"scalpel_11", "grasper", "suction"}) {
@@ -44,6 +45,7 @@ struct PiecesRun : testing::MeniscusRun {
     if (cutters) add_cutters(setup, std::move(*cutters), 6);
     if (grippers) add_grippers(setup, std::move(*grippers));
     if (pieces && lie) add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
+    if (meet) let_pieces_meet_softs(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -51,6 +53,12 @@ struct PiecesRun : testing::MeniscusRun {
 
 const PiecesRun& pieces_run() {
   static const PiecesRun run;
+  return run;
+}
+
+/// As sessions are made now: pieces lie on what is left of the block, too.
+const PiecesRun& meeting_run() {
+  static const PiecesRun run(true, true);
   return run;
 }
 
@@ -133,6 +141,42 @@ TEST(SoftPieces, WhatIsCutOffFallsAndComesToRest) {
   hand.rest(1500);
   EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kResting);
   EXPECT_LT(middle_W(lying(session)[0]).z(), -0.004);
+}
+
+// The bottom of the block's end, which the rim holds, holds it up; an instrument that takes hold of
+// it finds it there.
+TEST(SoftPieces, WhatIsCutOffLiesOnWhatIsLeft) {
+  EXPECT_NE(meeting_run().softs->hash, pieces_run().softs->hash);
+  Session session = meeting_run().session();
+  PieceHand hand(session);
+  const Vec3 at = where_it_comes_to_rest(hand);
+  ASSERT_EQ(lying(session).size(), 1u);
+  EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kResting);
+  EXPECT_GT(at.z(), 0.0005);
+  EXPECT_LT(at.z(), kMeniscusHalf.z());
+  double least_m = 1;
+  for (const Vec3& p_B : lying(session)[0].shape->points_B())
+    least_m = std::min(least_m, (lying(session)[0].X_WB * p_B).z());
+  EXPECT_GT(least_m, -0.0015) << "the slit lies up to a millimetre lower than it was led";
+}
+
+TEST(SoftPieces, AStateKeepsOneThatLiesOnASoftPartAndAReplayIsTheSame) {
+  const PiecesRun& run = meeting_run();
+  Session session = run.session();
+  Recording recording = begin_recording(run);
+  PieceHand hand(session);
+  hand.into = &recording;
+  hand.until_it_comes_off();
+  hand.rest(300);
+  ASSERT_EQ(lying(session).size(), 1u);
+  Session other = run.session();
+  (void)go_on_as(other, session);
+  PieceHand second(other);
+  second.at = hand.at;
+  second.q = hand.q;
+  for (PieceHand* h : {&hand, &second}) h->rest(400);
+  EXPECT_EQ(other.state_hash(), session.state_hash());
+  expect_same_replays(recording, run, session, {0.0, 2.0});
 }
 
 // Cut through from top to bottom its two sides hang on the rim, each on its own.

@@ -15,6 +15,7 @@
 namespace osteon {
 
 class CarvedField;
+class PieceSoftGround;
 struct PieceSurroundings;
 
 /// A piece of bone, or of a soft part on it, that was cut off: a rigid body.
@@ -52,7 +53,8 @@ struct PieceNews {
 /// Pieces that lie loose: in a limb soft parts hold them where they are, in air they
 /// fall and come to rest on bone; instruments push them, jaws hold them, suction draws them. A
 /// function of its state and of what is given to it. No hand feels a piece: one of a cubic
-/// centimetre weighs 20 mN. Pieces do not meet each other, nor soft parts.
+/// centimetre weighs 20 mN. Pieces do not meet each other; soft parts only where they are told of
+/// them.
 ///
 /// Each step moves a piece freely and then out of what it stands in, point by point of its surface,
 /// with friction; its speed follows from where it has come to (position based dynamics of rigid
@@ -66,8 +68,12 @@ class FallenPieces {
   /// `stirred`: bone was cut in this step, so that what rests may rest no more; so it may where a
   /// bone moves.
   /// `carved`: of each bone; null where it is as it was.
+  /// `softs`: soft parts that they meet; null: none.
   void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
-            std::span<const CarvedField* const> carved, bool stirred, double step_s);
+            std::span<const CarvedField* const> carved, bool stirred, double step_s,
+            const PieceSoftGround* softs = nullptr);
+  /// What rests may rest no more: something under it has changed.
+  void stir();
   /// False: there is no room for one more.
   bool add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB,
            std::uint32_t soft = kNoSoftPart);

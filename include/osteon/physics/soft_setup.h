@@ -33,8 +33,9 @@ struct SoftSetup {
   std::vector<SkinTool> skin_tools;  ///< by the tray; of skin alone
   /// What pieces of solids that were cut off meet; null: they are gone at once.
   std::shared_ptr<const PiecesSetup> pieces;
-  SoftFriction friction;   ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;  ///< over all of it
+  bool pieces_meet_softs = false;  ///< they rest on what is soft, too
+  SoftFriction friction;           ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;          ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -47,6 +48,8 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
                  double cutting_n);
 /// What is cut off of its solids lies loose then. Nothing changes where nothing cuts them.
 void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces);
+/// Those pieces meet bands and solids then, as these are at rest. Nothing changes where none lies.
+void let_pieces_meet_softs(SoftSetup& setup);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

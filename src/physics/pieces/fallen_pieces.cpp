@@ -83,6 +83,11 @@ void FallenPieces::let_all_go() {
   state_.instrument.fill(kNoInstrument);
 }
 
+void FallenPieces::stir() {
+  for (FallenPiece& piece : state_.pieces)
+    if (piece.is == FallenPiece::Is::kResting) begin_to_fall(piece);
+}
+
 // The piece with most of its points in the mouth that the jaws sweep when they shut.
 void FallenPieces::take(std::uint8_t hand, const ToolState& tool, const SoftGripper& jaws) {
   FallenPiece* best = nullptr;
@@ -210,7 +215,8 @@ void FallenPieces::drop_gone() {
 }
 
 void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
-                        std::span<const CarvedField* const> carved, bool stirred, double step_s) {
+                        std::span<const CarvedField* const> carved, bool stirred, double step_s,
+                        const PieceSoftGround* softs) {
   news_.clear();
   const std::size_t hands = std::min<std::size_t>(tools.size(), kMaxHands);
   gone_.assign(state_.pieces.size(), 0);
@@ -221,7 +227,7 @@ void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnaps
   }
   if (state_.pieces.empty()) return;
   stirred = stirred || any_moves(bones);
-  const PieceSurroundings around{*setup_, tools.first(hands), bones, carved};
+  const PieceSurroundings around{*setup_, tools.first(hands), bones, carved, softs};
   const Aabb seen = setup_->box_W.grown(kFarOut_m);
   for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
     FallenPiece& piece = state_.pieces[i];

@@ -51,6 +51,7 @@ struct PointContact {
 bool push_out(Moving& at, const Vec3& p_M, const PieceNeighbours& around, PointContact& contact) {
   const Vec3 r = at.q * p_M;
   PiecePush push = around.in_bone(at.c + r);
+  if (const PiecePush soft = around.in_soft(at.c + r); soft.depth_m > push.depth_m) push = soft;
   double by_m = std::min(push.depth_m, kMostOut_m);
   const PiecePush tool = around.in_tool(at.c + r);
   if (tool.depth_m > push.depth_m) {

@@ -14,12 +14,21 @@ struct PiecePush {
   Vec3 out_W = Vec3::UnitZ();
 };
 
+/// The surfaces of soft parts, as loose pieces meet them.
+class PieceSoftGround {
+ public:
+  virtual ~PieceSoftGround() = default;
+  /// The deepest of all; allocates nothing.
+  virtual PiecePush at(const Vec3& p_W) const = 0;
+};
+
 /// What loose pieces meet in a step: bones as they are now, and the instruments of the hands.
 struct PieceSurroundings {
   const PiecesSetup& setup;
   std::span<const ToolState* const> tools;
   const BoneSnapshot& bones;
   std::span<const CarvedField* const> carved;
+  const PieceSoftGround* softs = nullptr;  ///< null: they meet no soft part
 
   const CarvedField* carved_at(std::size_t bone) const {
     return bone < carved.size() ? carved[bone] : nullptr;
@@ -30,6 +39,8 @@ struct PieceSurroundings {
   PiecePush in_bone(const Vec3& p_W) const;
   /// The deepest of all instruments that are where the bones are.
   PiecePush in_tool(const Vec3& p_W) const;
+  /// The deepest of all soft parts that are met.
+  PiecePush in_soft(const Vec3& p_W) const { return softs ? softs->at(p_W) : PiecePush{}; }
   /// Whether soft parts are about a point: it lies in the limb.
   bool in_tissue(const Vec3& p_W) const;
   /// Whether any instrument comes into that ball.

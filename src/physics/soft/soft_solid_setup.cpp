@@ -179,6 +179,15 @@ void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces) {
   setup.hash = h.value();
 }
 
+void let_pieces_meet_softs(SoftSetup& setup) {
+  if (!setup.pieces) return;
+  setup.pieces_meet_softs = true;
+  Hasher h;
+  h.add(setup.hash);
+  h.add(std::string_view("pieces meet soft parts"));
+  setup.hash = h.value();
+}
+
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {
   const auto holds = [](const std::optional<SoftGripper>& jaws) { return jaws.has_value(); };
   if (std::none_of(grippers.begin(), grippers.end(), holds)) return;

@@ -1,9 +1,11 @@
 // Pieces of menisci and stumps that were cut off.
 #include <algorithm>
+#include <span>
 
 #include "osteon/physics/fallen_pieces.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
+#include "pieces/piece_surroundings.h"
 #include "soft/soft_grips.h"
 #include "soft/solid_cutting.h"
 #include "soft/solid_presses.h"
@@ -12,6 +14,52 @@ namespace osteon {
 namespace {
 
 constexpr double kMm3_per_m3 = 1e9;
+
+/// Soft parts as they are at rest, less what was cut out of them: what hands bend or press in a
+/// step counts for little under what weighs next to nothing.
+class RestingSofts : public PieceSoftGround {
+ public:
+  RestingSofts(const SoftSetup& setup, const SoftState& state, std::span<const BandSpan> spans,
+               const SolidPresses* solids)
+      : setup_(setup), state_(state), spans_(spans), solids_(solids) {}
+
+  PiecePush at(const Vec3& p_W) const override {
+    PiecePush out;
+    for (std::size_t s = 0; solids_ && s < setup_.solids.size(); ++s) in_solid(s, p_W, out);
+    for (std::size_t b = 0; b < spans_.size(); ++b) in_band(b, p_W, out);
+    return out;
+  }
+
+ private:
+  void in_solid(std::size_t s, const Vec3& p_W, PiecePush& out) const {
+    const Pose X_WB = solids_->X_WB(s);
+    if (state_.solid_lost[s] || !is_finite(X_WB)) return;
+    const FieldView field = solids_->view(s);
+    const Vec3 p_B = X_WB.inverse() * p_W;
+    const Aabb& box = field.box();
+    if (!((p_B - box.lo).minCoeff() >= 0) || !((box.hi - p_B).minCoeff() >= 0)) return;
+    const FieldSample at = field.at(p_B);
+    const double slope = at.gradient.norm();
+    if (!(-at.distance > out.depth_m) || !(slope > 0)) return;
+    out = {-at.distance, X_WB.rotate(at.gradient / slope)};
+  }
+
+  // A string with a round surface, straight from bone to bone.
+  void in_band(std::size_t b, const Vec3& p_W, PiecePush& out) const {
+    const SoftBand& band = setup_.bands[b];
+    if (!(band.left > 0) || state_.bands[b].torn || state_.bands[b].lost) return;
+    const Vec3 way = spans_[b].b_W - spans_[b].a_W;
+    const double share = std::clamp((p_W - spans_[b].a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const Vec3 off = p_W - (spans_[b].a_W + share * way);
+    const double away = off.norm();
+    if (band.radius_m - away > out.depth_m && away > 1e-9) out = {band.radius_m - away, off / away};
+  }
+
+  const SoftSetup& setup_;
+  const SoftState& state_;
+  std::span<const BandSpan> spans_;
+  const SolidPresses* solids_;
+};
 
 }  // namespace
 
@@ -39,7 +87,19 @@ void SoftWorld::lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> 
 // Before the cuts of the step: what comes off in it moves in the next.
 void SoftWorld::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                             std::span<const CarvedField* const> carved) {
-  pieces_->step(tools, bones, carved, false, step_s_);
+  if (!setup_->pieces_meet_softs) return pieces_->step(tools, bones, carved, false, step_s_);
+  const RestingSofts softs(*setup_, state_, {spans_.data(), setup_->bands.size()}, solids_.get());
+  pieces_->step(tools, bones, carved, false, step_s_, &softs);
+}
+
+// Where something was cut or has torn in this step, what lay on it falls from the next on.
+void SoftWorld::stir_pieces() {
+  const auto parts = [](const Event& event) {
+    return event.kind == kSoftTorn || event.kind == kSoftCut;
+  };
+  if (!setup_->pieces_meet_softs) return;
+  if ((cutting_ && cutting_->cuts_now()) || std::any_of(events_.begin(), events_.end(), parts))
+    pieces_->stir();
 }
 
 void SoftWorld::tell_pieces() {

@@ -269,6 +269,13 @@ void SolidCutting::clear_away(SoftState& state, std::size_t h, const SolidHand& 
   hand.idle = 0;
 }
 
+bool SolidCutting::cuts_now() const {
+  const auto cuts = [](const SolidCutHand& hand) {
+    return hand.solid != SolidCutHand::kNone && hand.idle == 0;
+  };
+  return !news_.empty() || std::any_of(hands_.begin(), hands_.end(), cuts);
+}
+
 // Where the tool is outside of what it presses. It may have been led a stride deep into a wall
 // beside it: it is led out of that.
 Vec3 SolidCutting::touching_W(const SolidNear& near, const SolidHand& of) const {

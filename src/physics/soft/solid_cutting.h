@@ -55,6 +55,8 @@ class SolidCutting {
   /// After all hands have pressed.
   void step(SoftState& state, std::span<const SolidHand> hands, std::uint64_t step);
   std::span<const News> news() const { return news_; }
+  /// Something was cut in the last step.
+  bool cuts_now() const;
   double removed_m3(std::size_t solid) const;
   std::uint32_t pieces(std::size_t solid) const;
   /// Of what is to be cleared; 0 where nothing is.

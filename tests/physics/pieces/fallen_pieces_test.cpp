@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "physics/physics_fixtures.h"
+#include "pieces/piece_surroundings.h"
 
 namespace osteon {
 namespace {
@@ -128,6 +129,34 @@ TEST(FallenPieces, NoMoreThanThereIsRoomFor) {
   for (std::size_t i = 0; i < kMaxLooseBones; ++i)
     EXPECT_TRUE(rig.pieces.add(shape, {Vec3(0, 0, 0.01), Quat::Identity()}));
   EXPECT_FALSE(rig.pieces.add(shape, {Vec3(0, 0, 0.01), Quat::Identity()}));
+}
+
+/// A soft floor whose surface lies at a height, until it is taken away.
+struct SoftFloor : PieceSoftGround {
+  double top_m = 0.004;
+  PiecePush at(const Vec3& p_W) const override { return {top_m - p_W.z(), Vec3::UnitZ()}; }
+};
+
+// Once what it rests on is gone, it stays until it is stirred, and then lies on the table.
+TEST(FallenPieces, ItRestsOnASoftPartUntilThatIsTakenAway) {
+  PieceRig rig(table());
+  SoftFloor floor;
+  rig.add(cube_piece(0.001), Vec3(0, 0, 0.008));
+  const ToolState* const tools[] = {&rig.tool};
+  const auto step = [&](int count) {
+    for (int n = 0; n < count; ++n)
+      rig.pieces.step(tools, rig.bones, {}, false, kPieceStep_s, &floor);
+  };
+  step(300);
+  EXPECT_EQ(rig.piece().is, FallenPiece::Is::kResting);
+  EXPECT_NEAR(rig.middle().z(), floor.top_m + 0.001, 2e-4);
+  floor.top_m = -1;
+  step(50);
+  EXPECT_EQ(rig.piece().is, FallenPiece::Is::kResting);
+  rig.pieces.stir();
+  step(300);
+  EXPECT_EQ(rig.piece().is, FallenPiece::Is::kResting);
+  EXPECT_NEAR(rig.middle().z(), 0.001, 2e-4);
 }
 
 // In air with drag k: v = (g / k) (1 - exp(-k t)).

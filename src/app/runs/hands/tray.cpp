@@ -244,6 +244,8 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
     if (!pieces) return tl::unexpected(pieces.error());
     add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
   }
+  // One from before they met soft parts: as then.
+  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_pieces_meet_softs(setup);
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");
