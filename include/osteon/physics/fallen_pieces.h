@@ -74,6 +74,8 @@ class FallenPieces {
             const PieceSoftGround* softs = nullptr);
   /// What rests may rest no more: something under it has changed.
   void stir();
+  /// The same of what an instrument comes near: it may have cut the ground away.
+  void stir_by(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
   /// False: there is no room for one more.
   bool add(std::shared_ptr<const PieceShape> shape, const Pose& X_WB,
            std::uint32_t soft = kNoSoftPart);

@@ -129,7 +129,7 @@ class SoftWorld {
   void step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
                    std::span<const CarvedField* const> carved);
   void tell_pieces();
-  void stir_pieces();
+  void stir_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
   void restore_pieces(const SoftState& state, bool let_go);
   bool fits_pieces(const FallenPiecesState& state) const;
   void step_skins(std::span<const Hand> hands, const BoneSnapshot& bones);

@@ -16,7 +16,8 @@ constexpr double kHeldNear_m = 0.003;      // what jaws held, they have
 constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
 constexpr double kPull_m_per_s2 = 60;      // at the bore, with full power
 constexpr double kLeastSuction = 0.05;
-constexpr double kFarOut_m = 0.05;  // beyond all bones: nobody looks for it there
+constexpr double kFarOut_m = 0.05;      // beyond all bones: nobody looks for it there
+constexpr double kCutBeside_m = 0.005;  // a cut takes ground no farther from its instrument
 constexpr std::uint32_t kNoInstrument = 0xffffffffu;
 
 bool is_sound(const FallenPiece& piece, std::size_t bones) {
@@ -86,6 +87,16 @@ void FallenPieces::let_all_go() {
 void FallenPieces::stir() {
   for (FallenPiece& piece : state_.pieces)
     if (piece.is == FallenPiece::Is::kResting) begin_to_fall(piece);
+}
+
+void FallenPieces::stir_by(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+  const std::size_t hands = std::min<std::size_t>(tools.size(), kMaxHands);
+  const PieceSurroundings around{*setup_, tools.first(hands), bones, {}};
+  for (FallenPiece& piece : state_.pieces) {
+    if (piece.is != FallenPiece::Is::kResting) continue;
+    const Vec3 middle_W = piece.X_WB * piece.shape->middle_B();
+    if (around.tool_near(middle_W, piece.shape->reach_m() + kCutBeside_m)) begin_to_fall(piece);
+  }
 }
 
 // The piece with most of its points in the mouth that the jaws sweep when they shut.

@@ -125,7 +125,8 @@ PieceNeighbours::PieceNeighbours(const PieceSurroundings& around, const Vec3& ce
     : around_(around),
       center_W_(center_W),
       square_(radius_m * radius_m),
-      tools_(around.tool_near(center_W, radius_m + kRounding_m)) {
+      tools_(around.tool_near(center_W, radius_m + kRounding_m)),
+      softs_(around.softs && around.softs->may_meet(center_W, radius_m + kRounding_m)) {
   for (std::size_t b = 0; b < around.setup.bones.size() && b < around.bones.count; ++b) {
     const Pose& X_WB = around.bones.bones[b].X_WB;
     if (!is_finite(X_WB)) continue;
@@ -142,6 +143,10 @@ PiecePush PieceNeighbours::in_bone(const Vec3& p_W) const {
   for (std::size_t i = 0; i < count_; ++i)
     around_.add_push(near_[i].bone, near_[i].X_BW * p_W, out);
   return out;
+}
+
+PiecePush PieceNeighbours::in_soft(const Vec3& p_W) const {
+  return softs_ || !is_inside(p_W) ? around_.in_soft(p_W) : PiecePush{};
 }
 
 PiecePush PieceNeighbours::in_tool(const Vec3& p_W) const {

@@ -20,6 +20,8 @@ class PieceSoftGround {
   virtual ~PieceSoftGround() = default;
   /// The deepest of all; allocates nothing.
   virtual PiecePush at(const Vec3& p_W) const = 0;
+  /// False: no point of that ball is in one.
+  virtual bool may_meet(const Vec3& center_W, double radius_m) const = 0;
 };
 
 /// What loose pieces meet in a step: bones as they are now, and the instruments of the hands.
@@ -54,6 +56,7 @@ class PieceNeighbours {
   PieceNeighbours(const PieceSurroundings& around, const Vec3& center_W, double radius_m);
   PiecePush in_bone(const Vec3& p_W) const;
   PiecePush in_tool(const Vec3& p_W) const;
+  PiecePush in_soft(const Vec3& p_W) const;
 
  private:
   struct NearBone {
@@ -66,7 +69,7 @@ class PieceNeighbours {
   Vec3 center_W_;
   double square_ = 0;
   std::size_t count_ = 0;
-  bool tools_ = false;
+  bool tools_ = false, softs_ = false;
   std::array<NearBone, kMaxBones> near_;
 };
 

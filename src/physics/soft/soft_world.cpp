@@ -530,7 +530,7 @@ void SoftWorld::step(std::span<const ToolState* const> tools, const BoneSnapshot
   if (pieces_) step_pieces(tools, bones, carved);
   if (solids_) step_solids(hands, bones);
   if (pieces_) tell_pieces();
-  if (pieces_) stir_pieces();
+  if (pieces_) stir_pieces(tools, bones);
   if (skins_) step_skins(hands, bones);
 }
 
