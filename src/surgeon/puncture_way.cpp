@@ -12,6 +12,7 @@
 #include "osteon/base/random.h"
 #include "osteon/base/turn.h"
 #include "osteon/mesh/distance.h"
+#include "osteon/procedure/judge.h"
 #include "osteon/procedure/portal_watch.h"
 #include "osteon/scene/marks_now.h"
 #include "osteon/surgeon/puncture_surgeon.h"
@@ -30,6 +31,7 @@ constexpr double kLookDeep_m = 0.006;  // under the skin of the other portal
 constexpr double kLooked_s = 2.2, kHook_s = 1.5;
 // So far ahead of the skin a hand goes that breaks through with what it is made to feel.
 constexpr double kForcedDeep_m = 0.041;
+constexpr double kBreaksDeep_m = 0.018;    // under the skin at rest, about where it breaks then
 constexpr double kWrong_m = 0.0085;        // beside the place, of an error
 constexpr double kTrocarPlunge_m = 0.024;  // beyond the bone's surface
 constexpr double kBeside_m = 0.25;         // where a hand waits
@@ -146,7 +148,14 @@ void plunge_trocar(const Puncture& at, const SkinWay& in, HandWay& way) {
   way.go(in.along(kTrocarDeep_m), kHandNear_m_per_s);
 }
 
-void push_trocar(const Puncture& at, const SkinWay& in, const std::string& fault, HandWay& way) {
+// The same way, moved along the skin so that a tip that is so deep is under the place itself.
+SkinWay aimed_deep(SkinWay in, double deep_m) {
+  in.p_W -= deep_m * (in.in_W / -in.in_W.dot(in.n_W) + in.n_W);
+  return in;
+}
+
+void push_trocar(const Puncture& at, const SkinWay& place, const std::string& fault, HandWay& way) {
+  const SkinWay in = fault == "forced" ? aimed_deep(place, kBreaksDeep_m) : place;
   way.take("trocar_blunt");
   way.go(in.along(-kOverSkin_m), kHandCarry_m_per_s);
   way.go(in.along(-0.002), kHandCarry_m_per_s);

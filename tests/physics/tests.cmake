@@ -1,4 +1,4 @@
-# Discs of drawn patients.
+# Discs of drawn patients; skin is palpated on generated knees.
 target_link_libraries(osteon_physics_tests PRIVATE osteon_anatomy)
 # Twenty patients with each tear take minutes: by themselves, and only where asked.
 add_executable(osteon_physics_long_tests

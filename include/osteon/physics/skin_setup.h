@@ -17,7 +17,8 @@
 
 namespace osteon {
 
-/// How the skin at rest rises over a sheet's plane: smooth, so that its normal has no steps.
+/// A smooth map over a sheet's plane: how the skin at rest rises over it, so that its normal has no
+/// steps, or how thick what yields is under the skin.
 class SkinRelief {
  public:
   struct Place {
@@ -32,6 +33,9 @@ class SkinRelief {
   double lowest_m() const { return lowest_m_; }
   double highest_m() const { return highest_m_; }
   std::span<const double> heights_m() const { return heights_m_; }
+  double cell_m() const { return cell_m_; }
+  long nx() const { return nx_; }
+  long ny() const { return ny_; }
 
  private:
   double node(long i, long j) const;
@@ -51,6 +55,7 @@ struct SkinPatch {
   double width_m = 0, height_m = 0;
   std::shared_ptr<const SkinSheet> sheet;
   SkinRelief relief;
+  SkinRelief cover;  ///< its heights: how far it is down to bone or tendon, at most the sheet's fat
   FatShare share;
   std::shared_ptr<const SheetYield> whole;  ///< before any cut
   double edge_n = 1;                        ///< push at which an edge goes in

@@ -22,6 +22,10 @@ SheetTouch push_sheet(const SheetPush& push, double deep_m);
 /// How deep it is pressed by a force, at least 0.
 double pushed_by(const SheetPush& push, double force_n);
 
+/// The same where the fat is `cover_m` thick instead: what it bears of a slight push goes as one
+/// over its thickness, what the membrane bears stays.
+SheetPush over_cover(const SheetPush& push, double cover_m);
+
 /// The share of the fat for tips of any radius: measured once for a sheet, in its middle, by
 /// SheetBalance, and between its radii a straight line.
 class FatShare {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "describe/part_reader.h"
 #include "describe/shape_count.h"
@@ -113,6 +114,19 @@ void read_ground(TomlReader& in, const AnatomyDescription& anatomy, LandmarkDesc
   if (!landmark.on_soft) in.reject("names no bone and no soft part: '" + on + "'", "on");
 }
 
+/// The band that a landmark stays beside.
+void read_along(TomlReader& in, const AnatomyDescription& anatomy, LandmarkDescription& landmark) {
+  if (!in.has("along")) return;
+  const std::string along = in.text("along");
+  for (std::size_t i = 0; i < anatomy.softs.size(); ++i)
+    if (anatomy.softs[i].name == along &&
+        std::holds_alternative<BandDescription>(anatomy.softs[i].shape))
+      landmark.along = i;
+  if (!landmark.along) in.reject("names no ligament and no tendon: '" + along + "'", "along");
+  if (!landmark.bone || landmark.on_bone)
+    in.reject("is for a landmark that goes with a bone and does not lie on one", "along");
+}
+
 Result<void> read_landmarks(TomlReader& root, const std::string& file,
                             AnatomyDescription& anatomy) {
   for (const toml::table* table : root.tables("landmark", false)) {
@@ -121,6 +135,7 @@ Result<void> read_landmarks(TomlReader& root, const std::string& file,
     landmark.name = in.text("name");
     landmark.p_W = in.vec3("position_mm", kPlace_mm) * kMm;
     read_ground(in, anatomy, landmark);
+    read_along(in, anatomy, landmark);
     for (const LandmarkDescription& other : anatomy.landmarks)
       if (other.name == landmark.name) in.reject("is used by two landmarks", "name");
     if (auto ok = in.finish(); !ok) return ok;

@@ -66,6 +66,9 @@ struct LandmarkDescription {
   /// The bone that it moves with, which one that lies on a bone always has. No step of a variation
   /// table names it then.
   std::optional<std::size_t> bone = {};
+  /// A band, of the soft parts, beside which it stays where joints bend and findings move bones.
+  /// In a session, whose skin does not slide, it goes with `bone` all the same.
+  std::optional<std::size_t> along = {};
 };
 
 struct AnatomyDescription {

@@ -76,11 +76,17 @@ struct MovedChord {
   Vec3 from, to;
   Pose of_from, of_to;
 
+  /// How far along the way at rest a place beside it is, 0 to 1.
+  double share_beside(const Vec3& near_W) const {
+    const Vec3 way = to - from;
+    return std::clamp((near_W - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  }
+
   /// Takes the straight way between the ends to where it comes, and what lies beside `near_W` with
   /// it.
   Pose motion_beside(const Vec3& near_W) const {
     const Vec3 way = to - from, moved_from = of_from * from, moved_way = of_to * to - moved_from;
-    const double share = std::clamp((near_W - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double share = share_beside(near_W);
     const Quat mean = mean_turn(of_from.q, of_to.q);
     Pose X;
     X.q = turn_between(mean * (way / way.norm()), moved_way / moved_way.norm()) * mean;
@@ -91,23 +97,35 @@ struct MovedChord {
 
 using Displaced = std::vector<std::optional<Pose>>;
 
-/// Parts of volumes that go along with bands, with their primitives moved.
+Displaced displaced_bones(const AnatomyDescription& anatomy) {
+  Displaced out;
+  for (std::size_t i = 0; i < anatomy.bones.size(); ++i) out.push_back(displacement_of(anatomy, i));
+  return out;
+}
+
+MovedChord chord_of(const BandDescription& band, const Displaced& displaced) {
+  const BoundPoint &from = band.path.front().at, &to = band.path.back().at;
+  return {from.p_W, to.p_W, displaced[from.bone].value_or(Pose{}),
+          displaced[to.bone].value_or(Pose{})};
+}
+
+/// Parts of volumes and of the skin that go along with bands, with their primitives moved.
 std::vector<std::pair<Part*, Primitive>> moved_along_bands(AnatomyDescription& anatomy,
                                                            const Displaced& displaced) {
   std::vector<std::pair<Part*, Primitive>> moved;
   const auto follow = [&](BoundPart& bound, const BandDescription& band) {
     const BoundPoint &from = band.path.front().at, &to = band.path.back().at;
-    const MovedChord chord{from.p_W, to.p_W, displaced[from.bone].value_or(Pose{}),
-                           displaced[to.bone].value_or(Pose{})};
     if (!displaced[from.bone] && !displaced[to.bone]) return;
     Primitive part = bound.part.primitive;
-    move_rigidly(chord.motion_beside(bounds(part).center()), part);
+    move_rigidly(chord_of(band, displaced).motion_beside(bounds(part).center()), part);
     moved.emplace_back(&bound.part, std::move(part));
   };
   for (SoftDescription& soft : anatomy.softs) {
-    auto* volume = std::get_if<VolumeDescription>(&soft.shape);
-    if (!volume) continue;
-    for (BoundPart& bound : volume->parts)
+    std::vector<BoundPart>* parts = nullptr;
+    if (auto* volume = std::get_if<VolumeDescription>(&soft.shape)) parts = &volume->parts;
+    if (auto* skin = std::get_if<SkinDescription>(&soft.shape)) parts = &skin->parts;
+    if (!parts) continue;
+    for (BoundPart& bound : *parts)
       for (const SoftDescription& other : anatomy.softs)
         if (const auto* band = std::get_if<BandDescription>(&other.shape))
           if (other.name == bound.along) follow(bound, *band);
@@ -132,11 +150,20 @@ std::optional<Pose> bend_of(const AnatomyDescription& anatomy, std::size_t bone)
   return total_of(anatomy, bone, true);
 }
 
+Vec3 moved_beside_band(const AnatomyDescription& anatomy, const LandmarkDescription& landmark) {
+  const auto& band = std::get<BandDescription>(anatomy.softs[*landmark.along].shape);
+  const Displaced displaced = displaced_bones(anatomy);
+  const MovedChord chord = chord_of(band, displaced);
+  const double share = chord.share_beside(landmark.p_W);
+  const Vec3 at_rest = chord.from + share * (chord.to - chord.from);
+  const Vec3 from = chord.of_from * chord.from;
+  const Vec3 now = from + share * (chord.of_to * chord.to - from);
+  return now + displaced[*landmark.bone].value_or(Pose{}).rotate(landmark.p_W - at_rest);
+}
+
 void move_bound_along(AnatomyDescription& anatomy) {
   // All are known before any is moved: pivots move along too.
-  Displaced displaced;
-  for (std::size_t i = 0; i < anatomy.bones.size(); ++i)
-    displaced.push_back(displacement_of(anatomy, i));
+  const Displaced displaced = displaced_bones(anatomy);
   auto along = moved_along_bands(anatomy, displaced);
   for (std::size_t i = 0; i < anatomy.bones.size(); ++i) {
     const auto& moved = displaced[i];

@@ -14,6 +14,11 @@ std::optional<Pose> displacement_of(const AnatomyDescription& anatomy, std::size
 /// The same, of bent joints alone.
 std::optional<Pose> bend_of(const AnatomyDescription& anatomy, std::size_t bone);
 
+/// Where a landmark comes that stays beside a band: it goes with its bone, and over that as the
+/// straight way between the band's ends shifts beside it, by all that moves bones. `landmark` names
+/// a band and a bone.
+Vec3 moved_beside_band(const AnatomyDescription& anatomy, const LandmarkDescription& landmark);
+
 /// Moves a primitive of World by X.
 void move_rigidly(const Pose& X, Primitive& primitive);
 

@@ -279,10 +279,14 @@ Result<void> bend_joints(AnatomyDescription& anatomy, const std::string& file,
   }
   for (std::size_t i = 0; i < grown.bones.size(); ++i)
     if (const auto bent = bend_of(anatomy, i)) grown.bones[i].X_WB = *bent * grown.bones[i].X_WB;
-  for (std::size_t i = 0; i < anatomy.landmarks.size(); ++i)
-    if (const auto bone = anatomy.landmarks[i].bone)
-      if (const auto bent = bend_of(anatomy, *bone))
-        grown.landmarks[i].p_W = *bent * grown.landmarks[i].p_W;
+  for (std::size_t i = 0; i < anatomy.landmarks.size(); ++i) {
+    const LandmarkDescription& landmark = anatomy.landmarks[i];
+    const auto bent = landmark.bone ? bend_of(anatomy, *landmark.bone) : std::nullopt;
+    if (landmark.along)
+      grown.landmarks[i].p_W = moved_beside_band(anatomy, landmark);
+    else if (bent)
+      grown.landmarks[i].p_W = *bent * grown.landmarks[i].p_W;
+  }
   return {};
 }
 

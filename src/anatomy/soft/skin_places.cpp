@@ -1,5 +1,8 @@
 #include "soft/skin_places.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <variant>
 
 #include "bone/grow.h"
@@ -42,6 +45,33 @@ Vec3 nearest_on(const SkinField& skin, const Vec3& from) {
   return p;
 }
 
+// Where the line through `from` along `way_W` (unit) meets the skin, the nearest such place but for
+// folds. Newton's method, in steps that stay near; none where the skin runs along the line.
+std::optional<Vec3> straight_on(const SkinField& skin, const Vec3& from, const Vec3& way_W) {
+  constexpr double kStride_m = 0.005, kLeastRise = 0.1;
+  Vec3 p = from;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Vec3 fine = kFine_m * way_W;
+    const double rise = (skin.at(p + fine) - skin.at(p - fine)) / (2 * kFine_m);
+    if (!(rise > kLeastRise)) return std::nullopt;
+    const double step = std::clamp(-skin.at(p) / rise, -kStride_m, kStride_m);
+    p += step * way_W;
+    if (std::abs(step) < kStill_m) return p;
+  }
+  return std::nullopt;
+}
+
+// One that stays beside a band lies on the skin straight over where it is beside it: across the
+// band's flat side, as that goes with the landmark's bone.
+Vec3 on_skin(const AnatomyDescription& anatomy, const LandmarkDescription& landmark,
+             const SkinField& skin, const Vec3& from) {
+  if (!landmark.along || !landmark.bone) return nearest_on(skin, from);
+  const auto& band = std::get<BandDescription>(anatomy.softs[*landmark.along].shape);
+  const Pose moved = displacement_of(anatomy, *landmark.bone).value_or(Pose{});
+  const auto over = straight_on(skin, from, moved.rotate(band.flat_W));
+  return over ? *over : nearest_on(skin, from);
+}
+
 }  // namespace
 
 void lay_on_skin(const AnatomyDescription& anatomy, GeneratedAnatomy& grown) {
@@ -57,7 +87,7 @@ void lay_on_skin(const AnatomyDescription& anatomy, GeneratedAnatomy& grown) {
     for (std::size_t i = 0; i < moved.landmarks.size() && i < grown.landmarks.size(); ++i) {
       if (moved.landmarks[i].on_soft != s) continue;
       GeneratedLandmark& landmark = grown.landmarks[i];
-      landmark.p_W = nearest_on(skin, landmark.p_W);
+      landmark.p_W = on_skin(anatomy, anatomy.landmarks[i], skin, landmark.p_W);
       const Vec3 out = slope(skin, landmark.p_W, kAbout_m);
       if (out.norm() > 0) landmark.inwards_W = -out.normalized();
     }

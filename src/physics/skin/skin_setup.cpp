@@ -12,6 +12,7 @@
 #include "osteon/scene/needle.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/tissue/skin_place.h"
+#include "skin/skin_cover.h"
 
 namespace osteon {
 namespace {
@@ -181,6 +182,7 @@ Result<SkinPatch> patch_at(const Case& the_case, std::uint32_t soft, const Place
     if (!sheet) return tl::unexpected(sheet.error());
     out.sheet = std::make_shared<const SkinSheet>(std::move(*sheet));
     out.whole = whole_yield(*out.sheet);
+    out.cover = cover_of(the_case, room.X_WS, out.relief, out.sheet->material().fat_m);
     out.edge_n = kEdgeShare * numbers.cutting_n;
     return out;
   }
@@ -229,6 +231,7 @@ std::uint64_t hash_of(std::span<const SkinPatch> patches) {
           m.tether_n_per_m3, m.thickness_m, m.friction, m.pierce_pa, m.fat_pierce_pa})
       h.add(x);
     for (const double x : patch.relief.heights_m()) h.add(x);
+    for (const double x : patch.cover.heights_m()) h.add(x);
     for (const double radius_m : {0.001, 0.002, 0.004}) h.add(patch.share.at(radius_m, 1000));
   }
   return h.value();

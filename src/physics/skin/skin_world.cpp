@@ -240,8 +240,9 @@ void SkinWorld::press(const At& at) {
     if (hand.cutting) end_stroke_of(at);
     return;
   }
-  const SheetPush push{hand.yields_n_per_m, patch.share.at(hand.radius_m, hand.yields_n_per_m),
-                       patch.sheet->material().fat_m, coupling_n_per_m_};
+  const SheetPush usual{hand.yields_n_per_m, patch.share.at(hand.radius_m, hand.yields_n_per_m),
+                        patch.sheet->material().fat_m, coupling_n_per_m_};
+  const SheetPush push = over_cover(usual, patch.cover.at(hand.p).height_m);
   if (use.through_m > 0)
     pass(at, push);
   else

@@ -52,6 +52,12 @@ double pushed_by(const SheetPush& push, double force_n) {
   return hi;
 }
 
+SheetPush over_cover(const SheetPush& push, double cover_m) {
+  if (!(cover_m > 0) || cover_m == push.fat_m) return push;
+  const double fat = push.share * push.fat_m / cover_m, all = 1 - push.share + fat;
+  return {push.stiffness_n_per_m * all, fat / all, cover_m, push.most_n_per_m};
+}
+
 FatShare FatShare::of(const SkinSheet& sheet) {
   constexpr std::array kRadii_m{0.0005, 0.001, 0.0015, 0.002, 0.003, 0.004, 0.006, 0.009, 0.012};
   constexpr double kAt = 2.0 / 3;  // of the fat's thickness: where the law is exact

@@ -209,6 +209,8 @@ TEST(Description, NamesAreUniqueAndClearancesNameOtherBones) {
       {"'gap_mm'"});
   const std::string landmark = "[[landmark]]\nname = \"l\"\nposition_mm = [0, 0, 0]\n";
   expect_refused(kHead + bone("a", kBall) + landmark + landmark, {"'l'", "two landmarks"});
+  expect_refused(kHead + bone("a", kBall) + landmark + "along = \"t\"\n",
+                 {"'l'", "'along'", "'t'"});
 }
 
 TEST(Description, ReadsInMetresWithDefaults) {

@@ -53,6 +53,21 @@ TEST(SheetPush, BesideACutItIsTheBalanceToo) {
   }
 }
 
+TEST(SheetPush, OverAThinnerCoverTheFatAloneBearsMore) {
+  const SheetPush usual{400, 0.2, 0.012, 2000};
+  for (const double none : {0.0, -1.0, double(NAN), 0.012})
+    EXPECT_EQ(over_cover(usual, none).stiffness_n_per_m, 400) << none;
+  const SheetPush thin = over_cover(usual, 0.004);
+  EXPECT_NEAR(thin.stiffness_n_per_m * (1 - thin.share), 320, 1e-9) << "of the membrane";
+  EXPECT_NEAR(thin.stiffness_n_per_m * thin.share, 240, 1e-9);
+  EXPECT_EQ(thin.fat_m, 0.004);
+  EXPECT_EQ(thin.most_n_per_m, 2000);
+  for (double deep = 0.0005; deep < 0.010; deep += 0.0005) {
+    EXPECT_GT(push_sheet(thin, deep).force_n, push_sheet(usual, deep).force_n) << deep;
+    EXPECT_LE(push_sheet(thin, deep).stiffness_n_per_m, 2000 * (1 + 1e-12)) << deep;
+  }
+}
+
 TEST(SheetPush, ItsSlopeIsTheForcesAndIsBounded) {
   const SheetPush push{400, 0.22, 0.012, 1500};
   double before = -1;
