@@ -84,8 +84,10 @@ class BentKnee : public ::testing::Test {
 };
 std::shared_ptr<const Case> BentKnee::knee;
 
+// From 20 mm before the footprint the tibia takes the tip 19 mm along. A tip close to the footprint
+// is near the axis of the bend, moves little and is pressed with less than what counts.
 TEST_F(BentKnee, AScopeThatIsLeftInTheJointIsPressedAndCounts) {
-  EXPECT_TRUE(errors_with_scope(0.014).contains("scuffed"));
+  EXPECT_TRUE(errors_with_scope(0.020).contains("scuffed"));
 }
 
 TEST_F(BentKnee, AScopeThatWasTakenOutIsNot) { EXPECT_TRUE(errors_with_scope(0.3).empty()); }
