@@ -38,7 +38,19 @@ inline TriMesh skin_mesh(double limb_m = 0) {
   return mesh;
 }
 
-inline std::shared_ptr<const Case> skin_case(double limb_m = 0) {
+// A tendon under the half of the skin with negative x, its upper face and that edge.
+inline TriMesh tendon_mesh(double deep_m) {
+  TriMesh mesh;
+  mesh.vertices = {{-0.030, -0.030, -deep_m},
+                   {0, -0.030, -deep_m},
+                   {0, 0.030, -deep_m},
+                   {-0.030, 0.030, -deep_m}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// `tendon_m`: how deep under the skin's top a tendon lies; 0: there is none.
+inline std::shared_ptr<const Case> skin_case(double limb_m = 0, double tendon_m = 0) {
   CaseDef def;
   def.name = "skin over a bone";
   BoneDef bone;
@@ -50,6 +62,11 @@ inline std::shared_ptr<const Case> skin_case(double limb_m = 0) {
   soft.name = soft.tissue = soft.kind = "skin";
   soft.mesh_W = skin_mesh(limb_m);
   def.softs.push_back(soft);
+  if (tendon_m > 0) {
+    soft.name = soft.tissue = soft.kind = "tendon";
+    soft.mesh_W = tendon_mesh(tendon_m);
+    def.softs.push_back(soft);
+  }
   def.landmarks.push_back({"portal_al", Vec3::Zero(), -Vec3::UnitZ()});
   def.landmarks.push_back({"beside", Vec3(0.010, 0, 0), Vec3::Zero()});
   def.landmarks.push_back({"aside", Vec3(0.020, 0, 0), Vec3::Zero()});
@@ -91,7 +108,8 @@ struct SkinRun {
   Tray tray;
   std::shared_ptr<const SoftSetup> softs;
 
-  explicit SkinRun(double limb_m = 0, bool portals = false) : the_case(skin_case(limb_m)) {
+  explicit SkinRun(double limb_m = 0, bool portals = false, double tendon_m = 0)
+      : the_case(skin_case(limb_m, tendon_m)) {
     std::vector<SkinTool> uses;
     for (Tool& tool : skin_tools()) {
       settings.tray.push_back(tool.name);

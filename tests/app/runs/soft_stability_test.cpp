@@ -7,6 +7,7 @@
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "physics/disc_fixtures.h"
+#include "session/skin_fixtures.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
@@ -164,6 +165,56 @@ TEST(SoftStability, ADiscPressedOrLiftedWholeOrTornComesToRest) {
         expect_rest(press_softly(session, loop, from, to_W, 0.05, 3500), loop, 0.2);
       }
   }
+}
+
+struct SkinWay {
+  double tendon_m;  // under the skin's top, where x is negative
+  double from_x, to_x;
+};
+
+testing::SkinRun rough_skin(double limb_m, double tendon_m) {
+  testing::SkinRun run(limb_m, false, tendon_m);
+  SoftSetup setup = *run.softs;
+  add_friction(setup, {{}, {}, {0.4, 0.3}});  // of the tissue table
+  run.settings.soft_hash = setup.hash;
+  run.softs = std::make_shared<const SoftSetup>(std::move(setup));
+  return run;
+}
+
+// A loose hand that slides over skin, or is pressed aside on a limb, shakes by 0.2 mm under a
+// coupling of 3000 N/m, over fat alone as well: the damper of its friction fades where it slips.
+// There the coupling is 2000 at most.
+void expect_skin_rests(const SkinWay& way, double most_n_per_m) {
+  for (const double limb_m : {0.0, 0.060}) {
+    testing::SkinRun run = rough_skin(limb_m, way.tendon_m);
+    for (const SoftLoop& loop : soft_loops()) {
+      if (loop.stiffness_n_per_m > (limb_m > 0 ? 2000 : most_n_per_m)) continue;
+      SCOPED_TRACE("limb " + std::to_string(limb_m) + ", tendon at " +
+                   std::to_string(way.tendon_m) + ", from " + std::to_string(way.from_x) + " to " +
+                   std::to_string(way.to_x));
+      run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+      Session session = run.session();
+      ToolInput from;
+      from.X_WD.p = {way.from_x, 0.001, 0.004};
+      // Over a tendon the skin is as stiff as the coupling: there a heavy hand that is held loosely
+      // swings longer.
+      const bool long_swing = loop.mass_kg > 0.3 && loop.grip_n_s_per_m < 5;
+      expect_rest(press_softly(session, loop, from, {way.to_x, 0.001, -0.008}, 0.05,
+                               long_swing ? 8500 : 2500),
+                  loop);
+    }
+  }
+}
+
+// Over the middle of a tendon and on its edge, beside which the push rises.
+TEST(SoftStability, SkinPressedOverATendonComesToRest) {
+  for (const SkinWay& way : {SkinWay{0.003, -0.008, -0.008}, SkinWay{0.003, 0, 0}})
+    expect_skin_rests(way, 3000);
+}
+
+TEST(SoftStability, SkinSlidOverATendonsEdgeComesToRest) {
+  for (const SkinWay& way : {SkinWay{0.003, -0.004, 0.004}, SkinWay{0.003, 0.004, 0}})
+    expect_skin_rests(way, 2000);
 }
 
 // It is the last in the tray.
