@@ -242,9 +242,9 @@ Result<AclLine> tibial_line(const AclKnee& knee, std::string_view fault, const V
   // A flat way is short, but a flatter one would be no tunnel but a groove; one to a place in front
   // must be steep to be long enough.
   const bool is_short = fault == "short_tibia";
-  const int flattest = is_short ? 45 : 40;
+  const int flattest = is_short ? 50 : 40;
   const bool is_steep_too = is_in_front(fault) || fault == "into_old_tunnel";
-  const int steepest = is_short ? 50 : is_steep_too ? 75 : 60;
+  const int steepest = is_short ? 55 : is_steep_too ? 75 : 60;
   const TunnelWish wish{is_short ? 0.026 : 0.045, 0.5 * reamed_m, fault};
   // Beside an old tunnel the mouth may stand a little behind or before the footprint's middle.
   const bool is_beside = knee.has_old(false) && !is_in_front(fault);

@@ -98,7 +98,8 @@ class FallenPieces {
  private:
   const PieceTool* tool_of(const ToolState& tool) const;
   void heed_jaws(std::uint8_t hand, const ToolState& tool);
-  void heed_suction(std::uint8_t hand, const ToolState& tool, double step_s);
+  void heed_suction(std::uint8_t hand, const ToolState& tool, const PieceSurroundings& around,
+                    double step_s);
   void take(std::uint8_t hand, const ToolState& tool, const SoftGripper& jaws);
   void let_go(std::uint8_t hand, bool drawn);
   void begin_to_fall(FallenPiece& piece);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kOpenForPiece = 0.5, kShutOnPiece = 0.15;  // of their way
 constexpr double kPieceSlips_m = 0.002;    // what is held slips out where it stands so deep in bone
+constexpr double kPieceTaken_m = 0.001;    // and suction takes none that stands deeper than that
 constexpr double kHeldNear_m = 0.003;      // what jaws held, they have
 constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
 constexpr double kPull_m_per_s2 = 60;      // at the bore, with full power
@@ -32,6 +33,14 @@ bool any_moves(const BoneSnapshot& bones) {
     return !bone.v_W.isZero(0) || !bone.w_W.isZero(0);
   };
   return std::any_of(bones.bones.begin(), bones.bones.begin() + bones.count, moves);
+}
+
+double deepest_in_bone_m(const FallenPiece& piece, const PieceSurroundings& around) {
+  const PieceNeighbours near(around, piece.X_WB * piece.shape->middle_B(), piece.shape->reach_m());
+  double deepest = 0;
+  for (const Vec3& p_B : piece.shape->points_B())
+    deepest = std::max(deepest, near.in_bone(piece.X_WB * p_B).depth_m);
+  return deepest;
 }
 
 }  // namespace
@@ -161,7 +170,8 @@ void FallenPieces::heed_jaws(std::uint8_t hand, const ToolState& tool) {
 }
 
 // A small piece goes through the bore, a larger one sticks to it.
-void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double step_s) {
+void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool,
+                                const PieceSurroundings& around, double step_s) {
   const PieceTool* const with = tool_of(tool);
   if (!with || !(with->bore_m > 0) || !(tool.power > kLeastSuction)) return let_go(hand, true);
   const Vec3 bore_W = tool.X_WP * with->bore_T;
@@ -177,7 +187,8 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double
       tell(PieceNews::Is::kSucked, piece, hand);
       gone_[i] = 1;
     } else if (!fits && nearest_point_m(piece, bore_W) < 0.5 * with->bore_m) {
-      hold(piece, hand, tool, true);
+      // What would soon slip off lies where bone has it.
+      if (deepest_in_bone_m(piece, around) <= kPieceTaken_m) hold(piece, hand, tool, true);
     } else if (to_bore.norm() > 1e-9) {
       const double share = 1 - std::max(gap, 0.0) / kSuctionReach_m;
       piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();
@@ -190,11 +201,7 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool, double
 void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
                          const PieceSurroundings& around) {
   piece.X_WB = tool.X_WP * piece.X_PB;
-  const PieceNeighbours near(around, piece.X_WB * piece.shape->middle_B(), piece.shape->reach_m());
-  double deepest = 0;
-  for (const Vec3& p_B : piece.shape->points_B())
-    deepest = std::max(deepest, near.in_bone(piece.X_WB * p_B).depth_m);
-  if (!(deepest > kPieceSlips_m)) return;
+  if (!(deepest_in_bone_m(piece, around) > kPieceSlips_m)) return;
   tell(PieceNews::Is::kLetGo, piece, piece.hand);
   begin_to_fall(piece);
 }
@@ -231,14 +238,14 @@ void FallenPieces::step(std::span<const ToolState* const> tools, const BoneSnaps
   news_.clear();
   const std::size_t hands = std::min<std::size_t>(tools.size(), kMaxHands);
   gone_.assign(state_.pieces.size(), 0);
+  const PieceSurroundings around{*setup_, tools.first(hands), bones, carved, softs};
   for (std::size_t h = 0; h < hands; ++h) {
     if (tools[h]->epoch != bones.epoch || !is_finite(tools[h]->X_WP)) continue;
     heed_jaws(static_cast<std::uint8_t>(h), *tools[h]);
-    heed_suction(static_cast<std::uint8_t>(h), *tools[h], step_s);
+    heed_suction(static_cast<std::uint8_t>(h), *tools[h], around, step_s);
   }
   if (state_.pieces.empty()) return;
   stirred = stirred || any_moves(bones);
-  const PieceSurroundings around{*setup_, tools.first(hands), bones, carved, softs};
   const Aabb seen = setup_->box_W.grown(kFarOut_m);
   for (std::size_t i = 0; i < state_.pieces.size(); ++i) {
     FallenPiece& piece = state_.pieces[i];

@@ -135,6 +135,9 @@ TEST(FallenPieces, NoMoreThanThereIsRoomFor) {
 struct SoftFloor : PieceSoftGround {
   double top_m = 0.004;
   PiecePush at(const Vec3& p_W) const override { return {top_m - p_W.z(), Vec3::UnitZ()}; }
+  bool may_meet(const Vec3& center_W, double radius_m) const override {
+    return center_W.z() - radius_m <= top_m;
+  }
 };
 
 // Once what it rests on is gone, it stays until it is stirred, and then lies on the table.
@@ -300,6 +303,26 @@ TEST(FallenPieces, ALargePieceSticksToTheSuction) {
   rig.tool.power = 0;
   rig.step(2);
   EXPECT_EQ(rig.piece().is, FallenPiece::Is::kMoving);
+}
+
+// What suction holds is pushed into bone, by more than it can hold: bone takes it off the bore, and
+// it is not held anew and let go in every step while it is pushed out.
+TEST(FallenPieces, WhatBoneTakesOffTheSuctionIsNotHeldAgainAtOnce) {
+  PieceRig rig(table(), {"suction:4"});
+  rig.add(ball_piece(0.003), Vec3(0, 0, 0.003));
+  rig.step(300);
+  rig.tool.X_WP.p = Vec3(0, 0, 0.0085);
+  rig.tool.power = 1;
+  rig.step(500);
+  ASSERT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
+  int let_go = 0;
+  for (int n = 0; n < 200; ++n) {
+    if (rig.tool.X_WP.p.z() > 0.0055) rig.tool.X_WP.p.z() -= 0.0001;
+    rig.step();
+    let_go += rig.told(PieceNews::Is::kLetGo);
+  }
+  EXPECT_GE(let_go, 1);
+  EXPECT_LE(let_go, 10);
 }
 
 TEST(FallenPieces, BeyondAllBonesItIsGone) {
