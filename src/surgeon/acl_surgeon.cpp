@@ -341,7 +341,9 @@ Result<AclDrillPlan> plan_drilling(const AclKnee& knee, const AclTools& tools,
 ProbePath probe_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
                     const AclHabits& habits, double begin_s,
                     std::vector<std::string>& unreachable) {
-  const Vec3 out = outwards(knee, portal_W);
+  // Before the anterolateral portal the shank would come by as the knee is examined.
+  const bool swapped = habits.fault == "wrong_portal";
+  const Vec3 out = swapped ? knee.femoral(-Vec3::UnitY()) : outwards(knee, portal_W);
   AclWay probe(tools.probe, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
   probe.wait_until(begin_s);
   const StumpsAsObstacles stumps(knee.whole(), torn_stumps(knee.whole()));
