@@ -172,9 +172,11 @@ void CutSolidWork::Impl::assemble() {
 }
 
 // The inverse is symmetric: of a column, what lies below the diagonal is solved for and put beside
-// it as well.
+// it as well. What cannot lie has the same ways there: put down column by column, since a copy of
+// all of them would take more than a step may.
 void CutSolidWork::Impl::solve_some() {
   Eigen::MatrixXd& ways = lies ? made->lying : made->lifted;
+  const bool both = !made->can_lie();
   const std::size_t wide = std::min(Envelope::kWide, matrix->size() - solved);
   for (std::size_t i = solved; i < columns.size(); ++i) columns[i].fill(0);
   for (std::size_t c = 0; c < wide; ++c) columns[solved + c][c] = 1;
@@ -184,6 +186,7 @@ void CutSolidWork::Impl::solve_some() {
     for (std::size_t i = solved + c; i < columns.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       ways(row, column) = ways(column, row) = columns[i][c];
+      if (both) made->lying(row, column) = made->lying(column, row) = columns[i][c];
     }
   }
   solved += wide;
@@ -220,9 +223,7 @@ bool CutSolidWork::step() {
   }
   work.solve_some();
   if (work.solved < work.matrix->size()) return false;
-  if (!work.made->can_lie()) {
-    work.made->lying = work.made->lifted;
-  } else if (!work.lies) {
+  if (!work.lies && work.made->can_lie()) {
     work.lies = true;
     work.assemble();
     return false;
