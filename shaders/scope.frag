@@ -13,7 +13,7 @@ uniform sampler2D u_milky;     // the same of a third of its half width: as fog 
 uniform vec3 u_bow_near;       // tangent off the middle by the share of the radius, in the square
 uniform vec3 u_bow_far;        // of that: terms 0 to 2 and 3 to 5
 uniform float u_flat_half;     // tangent of the flat picture's half width
-uniform float u_tipped_to;     // angle in the picture of the mark on the field stop
+uniform vec2 u_to_mark;        // unit, in the picture towards the mark on the field stop
 uniform float u_exposure;
 uniform vec3 u_white;          // what the camera shows of a white surface
 uniform float u_focus;         // sharp at this distance, metres
@@ -102,8 +102,8 @@ void main() {
   float r = length(from_center);
   float stop = 1.0 - smoothstep(1.0 - 1.2 / u_radius_px, 1.0 + 1.2 / u_radius_px, r);
   // The mark that shows which way the view is tipped: a notch of the stop.
-  vec2 to_mark = vec2(cos(u_tipped_to), sin(u_tipped_to));
-  float along = dot(from_center, to_mark), aside = abs(dot(from_center, vec2(-to_mark.y, to_mark.x)));
+  vec2 across = vec2(-u_to_mark.y, u_to_mark.x);
+  float along = dot(from_center, u_to_mark), aside = abs(dot(from_center, across));
   stop *= smoothstep(0.0, 2.5 / u_radius_px, max(0.955 - along, aside - 0.45 * (along - 0.955)) + 0.001);
   if (stop <= 0.0) {
     o_color = vec4(0.0, 0.0, 0.0, 1.0);

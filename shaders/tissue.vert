@@ -11,7 +11,6 @@ invariant gl_Position;  // depth is drawn by one program, light by another
 out vec3 v_position;
 out vec3 v_normal;
 out vec3 v_place;         // metres, in the part's frame
-out vec3 v_place_normal;
 out vec4 v_shade;
 
 void main() {
@@ -19,7 +18,6 @@ void main() {
   v_position = position.xyz;
   v_normal = mat3(u_view_from_model) * a_normal;
   v_place = a_position;
-  v_place_normal = a_normal;
   v_shade = a_shade;
   gl_Position = u_clip_from_view * position;
 }

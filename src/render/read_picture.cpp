@@ -39,13 +39,13 @@ double nearest_of(const std::vector<float>& all, std::size_t width) {
 }  // namespace
 
 // All at once: a driver takes longer to begin a reading than to read what is left out below.
-FlatReading read_flat(int side) {
+FlatReading read_flat(int side, std::vector<float>& room) {
   const std::size_t width = static_cast<std::size_t>(std::max(side, 0));
-  std::vector<float> all(4 * width * width);
-  glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, all.data());
+  room.resize(4 * width * width);
+  glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, room.data());
   FlatReading out;
-  out.gain = gain_of(all, width);
-  out.nearest_m = nearest_of(all, width);
+  out.gain = gain_of(room, width);
+  out.nearest_m = nearest_of(room, width);
   return out;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "osteon/render/renderer.h"
 
 namespace osteon {
@@ -9,8 +11,9 @@ struct FlatReading {
   double gain = 0;       ///< of the camera; the picture's rim does not count
   double nearest_m = 0;  ///< the least distance of what it shows
 };
-/// Of the bound square picture of light and distance, `side` pixels wide. Needs the context.
-FlatReading read_flat(int side);
+/// Of the bound square picture of light and distance, `side` pixels wide, which it leaves in
+/// `room`. Needs the context.
+FlatReading read_flat(int side, std::vector<float>& room);
 
 /// The bound picture, the upper row first. Needs the context.
 Image read_back(int width, int height);

@@ -175,7 +175,8 @@ void ScopeLens::paint(const LightTarget& flat, const RenderTarget& picture, cons
   lens.set("u_bow_near", three(bow, 0));
   lens.set("u_bow_far", three(bow, 3));
   lens.set("u_flat_half", static_cast<float>(view.half));
-  lens.set("u_tipped_to", static_cast<float>(view.camera.tipped_to_rad()));
+  const double to_mark = view.camera.tipped_to_rad();
+  lens.set("u_to_mark", Eigen::Vector2d(std::cos(to_mark), std::sin(to_mark)).cast<float>().eval());
   lens.set("u_exposure", static_cast<float>(view.exposure));
   lens.set("u_white", Eigen::Vector3f(view.white.cast<float>()));
   lens.set("u_focus", static_cast<float>(kFocus_m));

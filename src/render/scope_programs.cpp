@@ -1,11 +1,22 @@
 #include "scope_programs.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "gl/frame.h"
 
 namespace osteon {
+namespace {
+
+/// A quarter of how the part's own colour, in linear light (gamma 2), differs from grey.
+Eigen::Vector3f tint_of(const TissuePart& part) {
+  constexpr float kShare = 0.25f, kDarkest = 0.05f;
+  const Eigen::Array3f linear = Eigen::Array3f(part.tint[0], part.tint[1], part.tint[2]).square();
+  return 1 - kShare + kShare * linear / std::max(linear.mean(), kDarkest);
+}
+
+}  // namespace
 
 Result<ScopePrograms> ScopePrograms::load(const std::filesystem::path& shaders) {
   ScopePrograms out;
@@ -24,7 +35,20 @@ Result<ScopePrograms> ScopePrograms::load(const std::filesystem::path& shaders) 
   auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
   if (!layer) return tl::unexpected(layer.error());
   out.changed_cartilage_ = std::move(*layer);
+  auto nothing = Program::load(shaders, "screen", "nothing");
+  if (!nothing) return tl::unexpected(nothing.error());
+  out.nothing_ = std::move(*nothing);
+  out.no_vertices_ = make_vertex_array();
   return out;
+}
+
+void ScopePrograms::paint_nothing() const {
+  constexpr float kFarthest = 1;  // clip z
+  nothing_.use();
+  nothing_.set("u_screen_depth", kFarthest);
+  glBindVertexArray(no_vertices_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
 }
 
 void ScopePrograms::begin(const Program& program, const TissuePart& part,
@@ -33,7 +57,7 @@ void ScopePrograms::begin(const Program& program, const TissuePart& part,
   program.set("u_clip_from_view", clip_from_view);
   program.set("u_light", 1.0f);
   program.set("u_view_from_model", to_matrix(X_CM));
-  program.set("u_tint", Eigen::Vector3f(part.tint[0], part.tint[1], part.tint[2]));
+  program.set("u_tint", tint_of(part));
   program.set("u_fibre", part.fibre);
   program.set("u_fineness", part.fineness);
   program.set("u_center", part.center);

@@ -25,6 +25,8 @@ class ScopePrograms {
   const Program& changed(const TissuePart& part) const {
     return part.pattern == TissuePattern::kCartilage ? changed_cartilage_ : changed_bone_;
   }
+  /// Over the whole viewport, behind all that is drawn: no light.
+  void paint_nothing() const;
   /// The program draws that part from then on.
   static void begin(const Program& program, const TissuePart& part,
                     const Eigen::Matrix4f& clip_from_view, const Pose& X_CM);
@@ -32,7 +34,8 @@ class ScopePrograms {
  private:
   static constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
   std::array<Program, kPatterns> tissues_;  ///< by TissuePattern
-  Program depth_, changed_bone_, changed_cartilage_;
+  Program depth_, changed_bone_, changed_cartilage_, nothing_;
+  GlVertexArray no_vertices_;
 };
 
 }  // namespace osteon

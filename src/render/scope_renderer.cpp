@@ -88,8 +88,8 @@ struct ScopeRenderer::Impl {
   std::optional<ScopePainted> painted;
   int calm = 0;  ///< pictures since the last that moved
   double gain = 0;
-  double nearest_m = 0;  ///< what the flat picture shows is no nearer
-
+  double nearest_m = 0;                   ///< what the flat picture shows is no nearer
+  std::vector<float> readings;            ///< room for those of the flat picture
   std::vector<ChangedCubes> own_changed;  ///< by TissuePart::model, where there is no scene
   std::uint64_t cubes = 0;                ///< how often they have been set
 
@@ -228,9 +228,8 @@ struct ScopeRenderer::Impl {
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glClearColor(0, 0, 0, 1);
     glClearDepth(1.0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glClear(GL_DEPTH_BUFFER_BIT);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     hide_corners();
     const ScopeField field(half, seen_radius(flat.side()));
@@ -252,6 +251,7 @@ struct ScopeRenderer::Impl {
       paint_part(seen, half, false);
       flush.after(seen.triangles());
     }
+    programs.paint_nothing();
     glDepthMask(GL_TRUE);
     bits.paint(camera.X_WC().inverse(), flat_projection(half));
     paint_ghosts(camera, half, field);
@@ -316,8 +316,8 @@ struct ScopeRenderer::Impl {
   static int flat_side(const ScopeCamera& camera, const Viewport& viewport, double finer) {
     const double per_tangent = ScopeCamera::radius_px(viewport) * camera.barrel() /
                                std::tan(camera.barrel() * camera.half_field_rad());
-    return std::clamp(static_cast<int>(std::ceil(finer * 2 * flat_half(camera) * per_tangent)), 16,
-                      kMaxImageSide);
+    const double side = std::ceil(finer * 2 * flat_half(camera) * per_tangent);
+    return std::clamp(static_cast<int>(side), 16, kMaxImageSide);
   }
   static double flat_half(const ScopeCamera& camera) {
     return 1.01 * std::tan(camera.half_field_rad());
@@ -539,7 +539,7 @@ Image ScopeRenderer::draw_image(const ScopeCamera& camera, int width, int height
   if (impl_->flat.ensure(side) && impl_->picture.ensure(viewport.width, viewport.height, 0)) {
     impl_->make_corners();
     impl_->paint_flat(camera, half, 0);
-    const FlatReading reading = read_flat(side);
+    const FlatReading reading = read_flat(side, impl_->readings);
     impl_->nearest_m = reading.nearest_m;
     impl_->paint_lens(camera, half, reading.gain, viewport);
     image = read_back(viewport.width, viewport.height);
@@ -573,10 +573,10 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
       impl_->gain = known ? std::pow(impl_->gain, 0.7) * std::pow(reading.gain, 0.3) : reading.gain;
       impl_->nearest_m = kOfNearest * reading.nearest_m;
     };
-    if (known) take(read_flat(side));
+    if (known) take(read_flat(side, impl_->readings));
     impl_->make_corners();
     if (impl_->calm == 0 || !known) impl_->paint_flat(camera, half, kScopeLevelError_px);
-    if (!known) take(read_flat(side));
+    if (!known) take(read_flat(side, impl_->readings));
     impl_->paint_lens(camera, half, impl_->gain, viewport);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
