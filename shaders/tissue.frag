@@ -149,6 +149,8 @@ Look meniscus_look(vec3 p) {
   // on both sides of a plane through the axis: where it leapt by a turn there would be a seam.
   float r = length(from_axis), h = dot(p - u_center, u_fibre);
   float a = abs(atan(dot(round, u_fibre.yzx), dot(round, u_fibre.zxy)));
+  // A disc has its axis within it, where streaks of all angles would meet in a star.
+  a *= smoothstep(0.0, 0.004, r);
   float f = noise(vec3(r * 2600.0, h * 2600.0, a * 3.0));
   float m = layers(p * 260.0);
   vec3 c = mix(vec3(0.80, 0.72, 0.56), vec3(0.91, 0.86, 0.74), 0.6 * m + 0.4 * f);
