@@ -107,16 +107,23 @@ TEST_F(CliTest, TwentyKillsLeaveTwentyRecordingsThatReplay) {
                                "little";
 }
 
+// The recorder is faster than a machine that is busy elsewhere: a run that was whole before it could
+// be killed replays whole.
 TEST_F(CliTest, AKillInTheFirstMomentLeavesNoBrokenRecording) {
   const Source source = make_source(dir_);
-  for (int i = 0; i < 5; ++i) {
+  int broken_off = 0;
+  for (int i = 0; i < 8; ++i) {
     const std::string recording = file("first" + std::to_string(i) + ".osr");
-    kill_at(start_recording(source, recording), recording, 1);
+    const bool killed = kill_at(start_recording(source, recording), recording, 1);
     ASSERT_TRUE(fs::exists(recording));
-    const Ran replayed = run_osteon("replay " + recording);
-    EXPECT_EQ(replayed.exit_code, 3) << replayed.output;
+    const bool broke_off = replays_as_far_as_saved(recording);
+    ASSERT_FALSE(HasFailure()) << "kill " << i;
+    EXPECT_TRUE(killed || !broke_off) << "a recording that was not cut is not whole";
     EXPECT_EQ(run_osteon("record info " + recording).exit_code, 0);
+    broken_off += broke_off ? 1 : 0;
   }
+  EXPECT_GE(broken_off, 3) << "most sessions ended before they could be killed: the test shows "
+                              "little";
 }
 
 }  // namespace
