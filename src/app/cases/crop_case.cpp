@@ -127,22 +127,24 @@ Result<void> crop_knee(CaseDef& def, double near_m) {
 void prepare_cropped(const CaseDef& def, PieceCache& pieces, FieldCache& fields) {
   FieldOptions coarse;
   coarse.cell_m = kCroppedCell_m;
-  std::vector<const BoneDef*> bones;
+  // A cache is asked on one thread: it reads its file when it is first asked.
+  std::vector<const BoneDef*> bones, unknown;
   for (const BoneDef& bone : def.bones)
     if (is_field(bone.felt) && !bone.beside) bones.push_back(&bone);
-  std::vector<FieldCache::Field> made(bones.size());
+  for (const BoneDef* bone : bones)
+    if (!fields.find(field_key(*bone))) unknown.push_back(bone);
+  std::vector<FieldCache::Field> made(unknown.size());
   run_on_all_cores(
-      bones.size(),
+      unknown.size(),
       [&](std::size_t i) {
-        if (fields.find(field_key(*bones[i]))) return;
-        auto field = make_felt_field(*bones[i], coarse);
+        auto field = make_felt_field(*unknown[i], coarse);
         if (field) made[i] = std::make_shared<const DistanceField>(std::move(*field));
       },
       [](double) {});
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (made[i]) fields.put(field_key(*bones[i]), made[i]);
-    pieces.put(piece_key(bones[i]->mesh), PieceCorners{{bones[i]->mesh.vertices}, 0, false});
-  }
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    if (made[i]) fields.put(field_key(*unknown[i]), made[i]);
+  for (const BoneDef* bone : bones)
+    pieces.put(piece_key(bone->mesh), PieceCorners{{bone->mesh.vertices}, 0, false});
 }
 
 }  // namespace osteon

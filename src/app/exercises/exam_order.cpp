@@ -82,7 +82,8 @@ void ExamOrder::keep() {
     numbers = give_numbers(*work_.table);
   }
   if (work_.graft) held_by_ = work_.graft;
-  (work_.graft ? held_ : found_) = std::move(numbers);
+  const std::uint64_t digest = give_digest(numbers);
+  (work_.graft ? held_ : found_) = Told{std::move(numbers), digest};
 }
 
 void ExamOrder::see(const std::optional<KneeGraft>& fixed, const BoneSnapshot& bones) {
@@ -92,13 +93,13 @@ void ExamOrder::see(const std::optional<KneeGraft>& fixed, const BoneSnapshot& b
   }
   if (!waiting_.empty() || is_loaded(bones.exam)) return;
   if (fixed && held_ && !(held_by_ && is_same_graft(*held_by_, *fixed))) held_.reset();
-  const auto& numbers = fixed ? held_ : found_;
-  if (!numbers) return compute(fixed);
-  if (numbers->empty() || bones.exam.digest == give_digest(*numbers)) return;
+  const auto& told = fixed ? held_ : found_;
+  if (!told) return compute(fixed);
+  if (told->numbers.empty() || bones.exam.digest == told->digest) return;
   if (sent_s_ && bones.time_s - *sent_s_ < kTellAgain_s && bones.exam.told > 0) return;
   sent_s_ = bones.time_s;
   waiting_.push_back({CommandKind::kKneeOrder, 0});
-  for (const double number : *numbers) waiting_.push_back({CommandKind::kKneeNumber, number});
+  for (const double number : told->numbers) waiting_.push_back({CommandKind::kKneeNumber, number});
 }
 
 std::optional<Command> ExamOrder::take() {

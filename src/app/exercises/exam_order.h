@@ -51,8 +51,13 @@ class ExamOrder {
   bool in_background_;
   Work work_;
   std::future<Work> job_;
-  std::optional<std::vector<double>> found_;  ///< numbers of the knee as it was found
-  std::optional<std::vector<double>> held_;   ///< and with the graft that is fixed
+  /// What is told of one knee, with its digest: it is compared at each step.
+  struct Told {
+    std::vector<double> numbers;
+    std::uint64_t digest = 0;
+  };
+  std::optional<Told> found_;  ///< of the knee as it was found
+  std::optional<Told> held_;   ///< and with the graft that is fixed
   std::optional<KneeGraft> held_by_;
   std::deque<Command> waiting_;
   std::optional<double> sent_s_;  ///< when the last was begun

@@ -100,21 +100,27 @@ JointPose moved(const JointPose& pose, const JointVector& step) {
   return out;
 }
 
-bool JointPotential::is_inside(const Vec3& p_F, const ClosestPoint& at, const Seen& seen) const {
+bool JointPotential::is_inside(const Vec3& p_F, const ClosestPoint& at, std::size_t bed) {
   if (joint_.solids_F.empty()) return at.signed_distance < 0;
+  const Seen& seen = seen_[bed];
   if ((p_F - seen.at_F).norm() < seen.outside_m) return false;
   if (std::abs(at.signed_distance) > kDeepest_m) return false;
-  for (const auto& solid : joint_.solids_F)
-    if (solid->closest(p_F).signed_distance < 0) return true;
+  std::uint32_t* guess = &of_solid_[bed * joint_.solids_F.size()];
+  for (const auto& solid : joint_.solids_F) {
+    const ClosestPoint found = solid->closest(p_F, *guess);
+    *guess++ = found.triangle;
+    if (found.signed_distance < 0) return true;
+  }
   return false;
 }
 
-JointPotential::Gap JointPotential::gap(const Vec3& p_F, Seen& seen) const {
+JointPotential::Gap JointPotential::gap(const Vec3& p_F, std::size_t bed) {
   if (!joint_.surface_F) return {1e300, Vec3::UnitX()};
+  Seen& seen = seen_[bed];
   const ClosestPoint at = joint_.surface_F->closest(p_F, seen.triangle);
   seen.triangle = at.triangle;
   const Vec3 away = p_F - at.point;
-  const double length = away.norm(), sign = is_inside(p_F, at, seen) ? -1 : 1;
+  const double length = away.norm(), sign = is_inside(p_F, at, bed) ? -1 : 1;
   seen.at_F = p_F;
   seen.outside_m = sign * length - kSlip_m;
   return {sign * length, length > 1e-12 ? Vec3(away * (sign / length)) : Vec3(Vec3::UnitX())};
@@ -130,7 +136,7 @@ JointEnergy JointPotential::at(const JointPose& pose) {
     const Vec3 arm_F = bone.R * (bed.base_T - joint_.middle_T);
     const Vec3 p_F = pose.middle_F + arm_F;
     if ((p_F - seen.at_F).norm() < seen.free_m) continue;
-    const Gap g = gap(p_F, seen);
+    const Gap g = gap(p_F, i);
     const double overlap = bed.thickness_m - g.distance_m;
     seen.free_m = -overlap - kSlip_m;
     if (overlap <= 0) continue;

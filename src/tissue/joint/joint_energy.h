@@ -27,7 +27,10 @@ struct JointEnergy {
 class JointPotential {
  public:
   JointPotential(const HeldJoint& joint, const JointLoad& load)
-      : joint_(joint), load_(load), seen_(joint.beds.size()) {}
+      : joint_(joint),
+        load_(load),
+        seen_(joint.beds.size()),
+        of_solid_(joint.beds.size() * joint.solids_F.size(), 0) {}
 
   JointEnergy at(const JointPose& pose);
 
@@ -44,12 +47,13 @@ class JointPotential {
     double distance_m = 0;
     Vec3 away_F = Vec3::UnitX();
   };
-  Gap gap(const Vec3& p_F, Seen& seen) const;
-  bool is_inside(const Vec3& p_F, const ClosestPoint& at, const Seen& seen) const;
+  Gap gap(const Vec3& p_F, std::size_t bed);
+  bool is_inside(const Vec3& p_F, const ClosestPoint& at, std::size_t bed);
 
   const HeldJoint& joint_;
   const JointLoad& load_;
   std::vector<Seen> seen_;
+  std::vector<std::uint32_t> of_solid_;  ///< the triangle last found, by bed, then by solid
 };
 
 JointVector coordinates(const JointPose& pose);

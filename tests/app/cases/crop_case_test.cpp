@@ -2,11 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <utility>
 
 #include "mesh/shapes.h"
+#include "osteon/scene/bone_cover.h"
+#include "osteon/scene/bone_pieces.h"
+#include "osteon/scene/field_cache.h"
+#include "osteon/scene/piece_cache.h"
 
 namespace osteon {
 namespace {
@@ -47,6 +54,59 @@ TEST(CropCase, OnlyAGrownKneeIsCropped) {
   CaseDef def;
   def.name = "mine";
   EXPECT_FALSE(crop_knee(def, 0.1));
+}
+
+CaseDef balls(int count) {
+  CaseDef def;
+  for (int i = 0; i < count; ++i) {
+    BoneDef bone;
+    bone.name = "ball" + std::to_string(i);
+    bone.felt = Felt::kField;
+    bone.mesh = test::sphere(0.01 + 0.001 * i, 24);
+    def.bones.push_back(std::move(bone));
+  }
+  return def;
+}
+
+// A field whose cells show that it was not made again.
+TEST(CropCase, FieldsThatAFileHoldsAreNotMadeAgain) {
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("cropped_" + std::to_string(::getpid()) + ".bin");
+  const CaseDef def = balls(8);
+  constexpr double kMark_m = 0.00125;
+  FieldOptions marked;
+  marked.cell_m = kMark_m;
+  {
+    FieldCache kept(file);
+    for (const BoneDef& bone : def.bones) {
+      auto field = make_felt_field(bone, marked);
+      ASSERT_TRUE(field) << field.error().message();
+      kept.put(field_key(bone), std::make_shared<const DistanceField>(std::move(*field)));
+    }
+    ASSERT_TRUE(kept.save());
+  }
+  FieldCache fields(file);
+  PieceCache pieces;
+  prepare_cropped(def, pieces, fields);
+  for (const BoneDef& bone : def.bones) {
+    const auto field = fields.find(field_key(bone));
+    ASSERT_TRUE(field) << bone.name;
+    EXPECT_EQ(field->data().cell_m, kMark_m) << bone.name;
+    EXPECT_NE(pieces.find(piece_key(bone.mesh)), nullptr) << bone.name;
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(CropCase, FieldsThatNoFileHoldsAreMade) {
+  const CaseDef def = balls(3);
+  FieldCache fields;
+  PieceCache pieces;
+  prepare_cropped(def, pieces, fields);
+  for (const BoneDef& bone : def.bones) {
+    const auto field = fields.find(field_key(bone));
+    ASSERT_TRUE(field) << bone.name;
+    EXPECT_EQ(field->data().cell_m, 0.0005) << bone.name;
+  }
 }
 
 }  // namespace
