@@ -5,8 +5,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kPartPatience_s = 3;
-
 std::vector<std::unique_ptr<HandPlayer>> alone(std::unique_ptr<HandPlayer> player) {
   std::vector<std::unique_ptr<HandPlayer>> players;
   players.push_back(std::move(player));
@@ -29,7 +27,7 @@ void PartsHand::begin_part(double dt_s) {
     return;
   }
   waited_s_ += dt_s;
-  if (waited_s_ > kPartPatience_s) at_ = parts_.size();
+  if (waited_s_ > patience_s_) at_ = parts_.size();
 }
 
 Pose PartsHand::step(double dt_s) {

@@ -11,7 +11,7 @@
 namespace osteon {
 
 /// A hand whose later parts depend on what the earlier ones did: each is planned as it begins, from
-/// where the hand then is. A part that cannot be planned within three seconds ends it.
+/// where the hand then is. A part that cannot be planned in time ends it.
 class PartsHand : public HandPlayer {
  public:
   using Plan = std::function<std::optional<HandPart>(const Pose& from)>;
@@ -21,6 +21,9 @@ class PartsHand : public HandPlayer {
   PartsHand(std::unique_ptr<HandPlayer> first, std::vector<Plan> parts);
   /// `tray`: names of the session's instruments; one that is not among them is not taken.
   void set_tray(std::vector<std::string> tray) { tray_ = std::move(tray); }
+
+  /// For how long a part may wait to be planned, s: more than three where measuring takes its time.
+  void set_patience(double patience_s) { patience_s_ = patience_s; }
 
   Pose start() const override { return first_.front()->start(); }
   Pose step(double dt_s) override;
@@ -41,7 +44,7 @@ class PartsHand : public HandPlayer {
   std::vector<std::string> tray_;
   std::optional<ScriptedHand> part_;
   std::size_t now_ = 0, at_ = 0;  ///< of those that are played first, and of the parts
-  double waited_s_ = 0;
+  double waited_s_ = 0, patience_s_ = 3;
   Pose X_;
   Command next_;
 };

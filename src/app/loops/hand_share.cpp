@@ -14,7 +14,14 @@ double period_of(const DeviceInfo& info) { return info.rate_hz > 0 ? 1 / info.ra
 }  // namespace
 
 HandShare::HandShare(std::unique_ptr<HapticDevice> device, std::size_t first)
-    : device_(std::move(device)), wanted_(first), owner_(first) {}
+    : device_(std::move(device)), wanted_(first), owner_(first), led_(first) {
+  if (first < kMaxHands) shifts_[first].publish(Pose{Vec3::Zero(), Quat::Identity()});
+}
+
+Pose HandShare::to_device(std::size_t hand, const Pose& X_VD_hand) {
+  const Pose& shift = shifts_[hand].read();
+  return {X_VD_hand.p - shift.p, (X_VD_hand.q * shift.q.conjugate()).normalized()};
+}
 
 void HandShare::set_rest(std::size_t hand, const Pose& X_VD) {
   if (hand < kMaxHands && is_finite(X_VD)) rests_[hand].publish(X_VD);
@@ -41,6 +48,7 @@ DeviceSample SharedHand::read() {
   share_->device_->write_force(Vec3::Zero());
   held_ = false;
   target_VD_ = X_VD_;
+  share_->led_.store(kMaxHands, std::memory_order_release);
   share_->owner_.store(wanted, std::memory_order_release);
   return resting();
 }
@@ -68,6 +76,8 @@ DeviceSample SharedHand::moved(DeviceSample sample) {
     gain_ = 0;
     shift_.p = X_VD_.p - sample.X_VD.p;
     shift_.q = sample.X_VD.q.conjugate() * X_VD_.q;
+    share_->shifts_[hand_].publish(shift_);
+    share_->led_.store(hand_, std::memory_order_release);
   }
   gain_ = std::min(1.0, gain_ + period_of(info_) / kRise_s);
   sample.X_VD.p += shift_.p;

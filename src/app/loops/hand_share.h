@@ -22,6 +22,10 @@ class HandShare {
   std::size_t wanted() const { return wanted_.load(std::memory_order_acquire); }
   /// Where a hand shall rest, in V; from the window's thread. Not finite: ignored.
   void set_rest(std::size_t hand, const Pose& X_VD);
+  /// For one thread that leads an emulated user's device: whether that hand has taken it, and where
+  /// the device is to be so that the hand is there. Of a hand that has it.
+  bool is_led(std::size_t hand) const { return led_.load(std::memory_order_acquire) == hand; }
+  Pose to_device(std::size_t hand, const Pose& X_VD_hand);
   /// After every hand has ended its run: the device, still open.
   std::unique_ptr<HapticDevice> take_device() { return std::move(device_); }
 
@@ -31,6 +35,8 @@ class HandShare {
   std::atomic<std::size_t> wanted_;
   std::atomic<std::size_t> owner_;  ///< only this hand's thread touches the device
   std::array<LatestValue<Pose>, kMaxHands> rests_;
+  std::atomic<std::size_t> led_;  ///< the hand whose way from the device is told; kMaxHands: none
+  std::array<LatestValue<Pose>, kMaxHands> shifts_;
 };
 
 /// What one hand sees of it: a device of its own. Allocates, locks and logs nothing in its ticks.

@@ -37,6 +37,7 @@ void LoopClock::refresh(std::int64_t now_ns) {
   stats_.missed = pacer_.missed();
   stats_.p50_us = durations_.quantile_ns(0.50) * 1e-3;
   stats_.p99_us = durations_.quantile_ns(0.99) * 1e-3;
+  stats_.p999_us = durations_.quantile_ns(0.999) * 1e-3;
   stats_.max_us = durations_.max_ns() * 1e-3;
   window_started_ns_ = now_ns;
   window_ticks_ = 0;

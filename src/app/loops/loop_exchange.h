@@ -19,9 +19,9 @@ namespace osteon {
 /// How a loop keeps time, measured by itself.
 struct LoopStats {
   std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;                   ///< ticks skipped because the loop came late
-  double rate_hz = 0;                         ///< over the last quarter second; 0 before
-  double p50_us = 0, p99_us = 0, max_us = 0;  ///< duration of one tick
+  std::uint64_t missed = 0;  ///< ticks skipped because the loop came late
+  double rate_hz = 0;        ///< over the last quarter second; 0 before
+  double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;  ///< duration of one tick
 };
 
 /// What the haptic loop reports of the device.

@@ -6,6 +6,7 @@
 #include "commands/sessions/hand_in_loop.h"
 #include "osteon/base/clock.h"
 #include "osteon/base/percentiles.h"
+#include "osteon/physics/carving.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/record/recording.h"
 #include "osteon/scene/tool_moment.h"
@@ -19,10 +20,8 @@ Result<std::optional<RecordingWriter>> open_recording(const HeadlessRun& run,
                                                       const SessionSettings& settings,
                                                       const Session& session) {
   if (!run.record_to) return std::optional<RecordingWriter>{};
-  RecordingHeader header =
-      recording_header(*run.the_case, settings, run.case_source, OSTEON_VERSION, session.tray());
-  header.case_path = absolute_case_path(run.case_source);
-  auto writer = RecordingWriter::create(*run.record_to, header);
+  auto writer =
+      RecordingWriter::create(*run.record_to, header_of_run(run, settings, session.tray()));
   if (!writer) return tl::unexpected(writer.error());
   return std::optional<RecordingWriter>(std::move(*writer));
 }
@@ -161,31 +160,32 @@ class HeadlessLoop {
 
 Result<HeadlessLoop> make_loop(const HeadlessRun& run, std::span<const HeadlessHand> hands,
                                SessionSettings& settings) {
-  settings.tray = tray_of_hands(hands);
-  auto tray = make_tray(settings.tray, settings.probe_radius_m);
-  if (!tray) return tl::unexpected(tray.error());
-  const auto portals = open_portals(*run.the_case, settings);
-  if (!portals) return tl::unexpected(portals.error());
-  settings.hands.clear();
-  std::vector<RunningHand> running;
+  std::vector<std::unique_ptr<HandInLoop>> taken;
   for (const HeadlessHand& hand : hands) {
-    PathCommands commands(hand.path, settings.tray);
-    settings.hands.push_back({hand.name, commands.first_instrument()});
-    auto taken = take_hand(run, hand, settings.haptic);
-    if (!taken) return tl::unexpected(taken.error());
-    running.push_back({std::move(*taken), std::move(commands),
-                       ReportBuilder(*run.the_case, settings.haptic.tick_s, *portals)});
+    auto one = take_hand(run, hand, settings.haptic);
+    if (!one) return tl::unexpected(one.error());
+    taken.push_back(std::move(*one));
   }
-  settings.carve.on = can_carve(*run.the_case, settings.tray);
-  settings.soft_structures = !run.the_case->softs.empty();
-  if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
-  auto carving = carving_for(*run.the_case, settings);
-  if (!carving) return tl::unexpected(carving.error());
-  auto softs = softs_for(*run.the_case, settings);
-  if (!softs) return tl::unexpected(softs.error());
-  if (*softs) settings.soft_hash = (*softs)->hash;
-  return HeadlessLoop(run, settings, std::move(*tray), std::move(*carving), std::move(*softs),
-                      std::move(running));
+  auto parts = parts_of_run(run, hands, settings);
+  if (!parts) return tl::unexpected(parts.error());
+  settings = parts->settings;
+  std::vector<RunningHand> running;
+  for (std::size_t h = 0; h < hands.size(); ++h)
+    running.push_back({std::move(taken[h]), PathCommands(hands[h].path, settings.tray),
+                       ReportBuilder(*run.the_case, settings.haptic.tick_s, parts->portals)});
+  return HeadlessLoop(run, settings, std::move(parts->tray), std::move(parts->carving),
+                      std::move(parts->softs), std::move(running));
+}
+
+RunSight sight_of(const Session& session) {
+  RunSight sight;
+  sight.bones = [&session] { return &session.bones(); };
+  sight.carved = [&session](std::uint32_t bone) {
+    const Carving* carving = session.carving();
+    const CarvedField* field = carving ? carving->field(bone) : nullptr;
+    return field && field->block_count() > 0 ? std::optional<CarvedField>(*field) : std::nullopt;
+  };
+  return sight;
 }
 
 }  // namespace
@@ -199,6 +199,42 @@ std::vector<std::string> tray_of_hands(std::span<const HeadlessHand> hands) {
   return names.size() == 1 && names[0] == kWristProbe ? std::vector<std::string>() : names;
 }
 
+RecordingHeader header_of_run(const HeadlessRun& run, const SessionSettings& settings,
+                              const Tray& tray) {
+  RecordingHeader header =
+      recording_header(*run.the_case, settings, run.case_source, OSTEON_VERSION, tray);
+  header.case_path = absolute_case_path(run.case_source);
+  return header;
+}
+
+Result<RunParts> parts_of_run(const HeadlessRun& run, std::span<const HeadlessHand> hands,
+                              SessionSettings settings) {
+  RunParts parts;
+  settings.tray = tray_of_hands(hands);
+  auto tray = make_tray(settings.tray, settings.probe_radius_m);
+  if (!tray) return tl::unexpected(tray.error());
+  parts.tray = std::move(*tray);
+  auto portals = open_portals(*run.the_case, settings);
+  if (!portals) return tl::unexpected(portals.error());
+  parts.portals = std::move(*portals);
+  settings.hands.clear();
+  for (const HeadlessHand& hand : hands)
+    settings.hands.push_back(
+        {hand.name, PathCommands(hand.path, settings.tray).first_instrument()});
+  settings.carve.on = can_carve(*run.the_case, settings.tray);
+  settings.soft_structures = !run.the_case->softs.empty();
+  if (auto sound = check_settings(settings); !sound) return tl::unexpected(sound.error());
+  auto carving = carving_for(*run.the_case, settings);
+  if (!carving) return tl::unexpected(carving.error());
+  parts.carving = std::move(*carving);
+  auto softs = softs_for(*run.the_case, settings);
+  if (!softs) return tl::unexpected(softs.error());
+  if (*softs) settings.soft_hash = (*softs)->hash;
+  parts.softs = std::move(*softs);
+  parts.settings = std::move(settings);
+  return parts;
+}
+
 Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   const std::vector<HeadlessHand> hands = hands_of(run);
   SessionSettings settings = run.settings;
@@ -206,7 +242,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
   if (!loop) return tl::unexpected(loop.error());
   auto writer = open_recording(run, settings, loop->session());
   if (!writer) return tl::unexpected(writer.error());
-  if (run.on_session) run.on_session(loop->session());
+  if (run.on_begin) run.on_begin(sight_of(loop->session()));
   double duration_s = 0;
   for (const HeadlessHand& hand : hands) duration_s = std::max(duration_s, hand.path.duration_s());
   const double dt = run.settings.haptic.tick_s;

@@ -10,6 +10,7 @@
 
 #include "commands/sessions/hand_in_loop.h"
 #include "osteon/base/result.h"
+#include "osteon/carve/carved_field.h"
 #include "osteon/device/virtual_hand.h"
 #include "osteon/procedure/report.h"
 #include "osteon/scene/case.h"
@@ -21,12 +22,23 @@
 
 namespace osteon {
 
+class HandPlayer;
+
 /// One hand of a run, with the path that it follows.
 struct HeadlessHand {
   std::string name;  ///< "left"; unique
   ProbePath path;
   /// Makes whoever moves the tool instead of the path; empty: the path, or the run's `user`.
   std::function<std::unique_ptr<HandInLoop>(double tick_s)> user = {};
+  /// Whose will that user follows; null: the path's. For who moves the hand otherwise.
+  HandPlayer* player = nullptr;
+};
+
+/// What who plays a run may look at meanwhile.
+struct RunSight {
+  std::function<const BoneSnapshot*()> bones;  ///< as they are now; null before the first
+  /// A copy of a bone as it is now; none: nothing was cut from it.
+  std::function<std::optional<CarvedField>(std::uint32_t)> carved;
 };
 
 /// A run of a path on a case with the virtual hand: no window, no threads, no pacing.
@@ -47,18 +59,35 @@ struct HeadlessRun {
   /// the first hand where that one has none. May be empty.
   std::function<std::optional<Command>()> beside = {};
   std::function<bool()> done;  ///< of a run by users: asked after each tick whether it is over
-  double longest_s = 0;        ///< of a run by users: it ends then at the latest
+  /// Whether what the run is for is over, whoever may still be at work. May be empty.
+  std::function<bool()> over = {};
+  double longest_s = 0;  ///< of a run by users: it ends then at the latest
   std::optional<std::filesystem::path> record_to;
   /// Sees all hands' tools after every tick; may be empty.
   std::function<void(std::span<const ToolState* const>, const BoneSnapshot&)> on_hands;
-  /// Sees the session before its first tick; it stays where it is. May be empty.
-  std::function<void(const Session&)> on_session = {};
+  /// Is told before the first tick how to look at the run. May be empty.
+  std::function<void(RunSight)> on_begin = {};
   /// Sees every tick; may be empty.
   std::function<void(const ToolState&, const BoneSnapshot&)> on_tick;
 };
 
 /// What the tray of such a run holds: all that the paths name.
 std::vector<std::string> tray_of_hands(std::span<const HeadlessHand> hands);
+
+/// What the session of a run is made of.
+struct RunParts {
+  SessionSettings settings;
+  Tray tray;
+  std::vector<Portal> portals;
+  std::shared_ptr<const CarvingSetup> carving;  ///< null: no bone is removed
+  std::shared_ptr<const SoftSetup> softs;       ///< null: nothing is soft
+};
+/// For these hands; `settings` say what the devices bear.
+Result<RunParts> parts_of_run(const HeadlessRun& run, std::span<const HeadlessHand> hands,
+                              SessionSettings settings);
+/// The header of a recording of it.
+RecordingHeader header_of_run(const HeadlessRun& run, const SessionSettings& settings,
+                              const Tray& tray);
 
 /// Reports of all hands, in their order.
 struct HeadlessOutcome {

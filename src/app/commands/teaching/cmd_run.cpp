@@ -12,7 +12,10 @@
 #include "exercises/result_sender.h"
 #include "exercises/seat_files.h"
 #include "exercises/skin_order.h"
+#include "loops/stop_signal.h"
 #include "osteon/base/file.h"
+#include "osteon/device/drivers.h"
+#include "runs/hands/hand_order.h"
 #include "runs/reports/exam_report.h"
 #include "runs/reports/portal_report.h"
 
@@ -23,7 +26,8 @@ struct RunCommand {
   std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft,
                                    portals;
   std::string learner = "local";
-  bool no_store = false;
+  std::vector<std::string> devices;
+  bool no_store = false, live = false;
   std::optional<std::uint64_t> seed;
 };
 
@@ -32,6 +36,28 @@ Result<std::optional<Standard>> standard_of(const RunCommand& command, const Sce
   auto standard = load_standard(command.standard);
   if (!standard) return tl::unexpected(standard.error());
   return std::optional<Standard>(std::move(*standard));
+}
+
+// The devices of a live run, as other commands name them.
+Result<std::shared_ptr<std::vector<LedDevice>>> open_devices(const RunCommand& command) {
+  auto devices = std::make_shared<std::vector<LedDevice>>();
+  std::vector<DeviceChoice> taken;
+  for (const std::string& text : command.devices) {
+    const HandOrder order = parse_hand_order(text);
+    if (!order.instrument.empty())
+      return fail("what a hand holds is told by the exercise", text,
+                  "Leave out =" + order.instrument);
+    auto choice = choice_of(order, taken);
+    if (!choice) return tl::unexpected(choice.error());
+    for (const Driver& driver : drivers()) {
+      if (choice->driver != driver.name) continue;
+      auto device = driver.open(choice->info);
+      if (!device) return tl::unexpected(device.error());
+      devices->push_back({key_of(*choice), std::move(*device)});
+    }
+    taken.push_back(std::move(*choice));
+  }
+  return devices;
 }
 
 Result<ScenarioRun> ordered_run(const RunCommand& command) {
@@ -70,10 +96,31 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   run.standard = std::move(*standard);
   run.skill = std::move(*skill);
   if (!command.record.empty()) run.record_to = command.record;
+  if (!command.live) return run;
+  auto devices = open_devices(command);
+  if (!devices) return tl::unexpected(devices.error());
+  run.live = std::move(*devices);
   return run;
 }
 
+// A live run that was broken off is kept as far as it went; its verdict is no answer.
+int exit_code_of(const ScenarioOutcome& done) {
+  if (done.live && stop_signal()) return 128 + stop_signal();
+  if (done.live && !done.live->broken_off.empty())
+    return report_error({done.live->broken_off, "the run was broken off",
+                         "All forces are zero. What was done up to then is kept"});
+  if (!done.identical)
+    return report_error({"the recording does not repeat", "live run",
+                         "Report this with the "
+                         "recording"});
+  return done.outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
+}
+
 int run_command(const RunCommand& command) {
+  std::optional<StopSignals> signals;
+  if (command.live) signals.emplace();
+  if (!command.live && !command.devices.empty())
+    return report_error({"a device is for a live run", "--device", "Add --live"});
   if (!is_learner_id(command.learner))
     return report_error({"'" + command.learner + "' is not a valid learner's id", "--learner",
                          "Use 1 to 64 letters, digits, '.', '_' and '-'"});
@@ -88,6 +135,7 @@ int run_command(const RunCommand& command) {
   if (done->placing) std::fputs(to_text(*done->placing).c_str(), stdout);
   std::fputs(portals_text(done->made_portals, *done->the_case).c_str(), stdout);
   if (done->exam) std::fputs(to_text(*done->exam).c_str(), stdout);
+  if (done->live) std::fputs(to_text(*done->live).c_str(), stdout);
   if (!done->not_measured.empty()) std::printf("not measured  %s\n", done->not_measured.c_str());
   for (const std::string& bone : done->unreachable) std::printf("no way to     %s\n", bone.c_str());
   std::fflush(stdout);
@@ -100,7 +148,7 @@ int run_command(const RunCommand& command) {
     if (*kept) std::fprintf(stderr, "osteon: %s\n", (*kept)->message().c_str());
     (void)send_results_in_background();
   }
-  return done->outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
+  return exit_code_of(*done);
 }
 
 }  // namespace
@@ -132,6 +180,12 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option("--portals", options->portals,
                       "report of a run of acl_puncture on the same patient: the portals of acl are "
                       "where they were made");
+  command->add_flag("--live", options->live,
+                    "play it in real time on the devices that --device names");
+  command->add_option("--device", options->devices,
+                      "with --live: driver or driver:serial of a device whose user is emulated; "
+                      "one for each hand, in the exercise's order; the last serves the hands that "
+                      "are left, one after the other");
   command->add_option("--learner", options->learner, "local id under which the attempt is stored")
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");

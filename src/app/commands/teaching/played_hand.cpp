@@ -52,9 +52,11 @@ ProbePath holding(const PlannedHand& hand) {
 }  // namespace
 
 HeadlessHand played_by(HandPlayer& player, const PlannedHand& hand, const HandParams& params) {
-  return {hand.name, holding(hand), [&params, &player](double tick_s) {
+  return {hand.name, holding(hand),
+          [&params, &player](double tick_s) {
             return std::make_unique<SurgeonHand>(player, params, tick_s);
-          }};
+          },
+          &player};
 }
 
 }  // namespace osteon

@@ -208,6 +208,9 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
   return tools;
 }
 
+// In a live run tunnels and the knee are measured on another thread, meanwhile the hand waits.
+constexpr double kLivePatience_s = 120;
+
 // Whoever makes an error with the portals goes no farther; the third hand waits beside the knee.
 void open_alone(OpenedKnee& opened, const Case& the_case, std::span<const PlannedHand> hands,
                 HeadlessRun& headless) {
@@ -254,6 +257,7 @@ Result<std::vector<std::string>> plan_reconstruction(
       auto parts = third.driller ? later_parts(plan, hand, the_case, run.skill, work)
                                  : std::vector<PartsHand::Plan>();
       auto made = std::make_unique<PartsHand>(std::move(third.first), std::move(parts));
+      if (run.live) made->set_patience(kLivePatience_s);
       whole = made.get();
       headless.hands.push_back(played_by(*made, hand, headless.hand));
       players.push_back(std::move(made));

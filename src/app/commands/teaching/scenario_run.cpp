@@ -13,11 +13,12 @@
 #include "commands/teaching/played_hand.h"
 #include "commands/teaching/reconstruction_plan.h"
 #include "exercises/attempt_watch.h"
+#include "exercises/debrief.h"
 #include "exercises/exam_order.h"
 #include "exercises/graft_order.h"
 #include "exercises/skin_order.h"
+#include "osteon/base/clock.h"
 #include "osteon/carve/removed.h"
-#include "osteon/physics/carving.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording_note.h"
 #include "osteon/scene/tool_set.h"
@@ -93,12 +94,6 @@ std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand>
   return players;
 }
 
-std::optional<CarvedField> carved_bone(const Session* session, std::uint32_t bone) {
-  const Carving* carving = session ? session->carving() : nullptr;
-  const CarvedField* field = carving ? carving->field(bone) : nullptr;
-  return field && field->block_count() > 0 ? std::optional<CarvedField>(*field) : std::nullopt;
-}
-
 }  // namespace
 
 std::string to_json(const ScenarioOutcome& done) {
@@ -160,6 +155,69 @@ Result<void> plan_puncture_work(const ScenarioRun& run, const Case& the_case,
   return {};
 }
 
+// What goes with the recording beside the hands.
+Result<void> note_beside(const ScenarioRun& run, const std::filesystem::path& recording,
+                         const StatedFindings& stated) {
+  if (!run.scenario.asks.empty())
+    if (auto noted = write_note(recording, "findings", to_json(stated)); !noted) return noted;
+  if (run.graft_json.empty()) return {};
+  return write_note(recording, "graft", run.graft_json);
+}
+
+// A file that is not kept: the verdict of a live run is made from its recording alone.
+class PassingFile {
+ public:
+  explicit PassingFile(bool wanted) {
+    if (!wanted) return;
+    file_ = std::filesystem::temp_directory_path() /
+            ("osteon-live-" + std::to_string(steady_now_ns()) + ".osr");
+  }
+  ~PassingFile() {
+    std::error_code gone;
+    if (!file_.empty()) std::filesystem::remove(file_, gone);
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+// Judges what was recorded, as the window does: what the loops told meanwhile may have gaps.
+Result<ScenarioOutcome> play_and_judge(const ScenarioRun& run, HeadlessRun headless,
+                                       const StatedFindings& stated,
+                                       std::vector<std::string> unreachable) {
+  const PassingFile passing(!headless.record_to);
+  if (!headless.record_to) headless.record_to = passing.path();
+  const std::filesystem::path& file = *headless.record_to;
+  auto played = play_live(headless, std::move(*run.live));
+  if (!played) return tl::unexpected(played.error());
+  if (auto noted = note_beside(run, file, stated); !noted) return tl::unexpected(noted.error());
+  if (auto noted = note_attempt(file, run.scenario, run.standard, run.skill.name, ""); !noted)
+    return tl::unexpected(noted.error());
+  auto judged = make_debrief({file, run.case_spec, "", ""});
+  if (!judged) return tl::unexpected(judged.error());
+  ScenarioOutcome done;
+  done.reports = std::move(judged->reports);
+  for (const LivePlayed::Hand& hand : played->hands) done.hands.push_back(hand.name);
+  if (judged->outcome) done.outcome = std::move(*judged->outcome);
+  done.unreachable = std::move(unreachable);
+  done.acl = std::move(judged->acl);
+  done.not_measured = std::move(judged->not_measured);
+  done.placing = std::move(judged->placing);
+  done.exam = std::move(judged->exam);
+  done.made_portals = std::move(judged->made_portals);
+  done.the_case = judged->the_case;
+  done.case_spec = run.case_spec;
+  done.identical = judged->identical;
+  done.live = std::move(*played);
+  if (auto noted = note_attempt(file, run.scenario, run.standard, run.skill.name, to_json(done));
+      !noted)
+    return tl::unexpected(noted.error());
+  return done;
+}
+
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
@@ -194,10 +252,10 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
   std::vector<std::string> unreachable;
-  const Session* session = nullptr;
+  RunSight sight{[] { return nullptr; }, {}};
   if (ligament) {
     LaterWork work;
-    work.bones = [&session] { return session ? &session->bones() : nullptr; };
+    work.bones = [&sight] { return sight.bones(); };
     work.room = [&watch] {
       return watch.tunnels() ? watch.tunnels()->room() : std::optional<GraftRoom>();
     };
@@ -217,9 +275,10 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
       return tl::unexpected(ok.error());
   for (std::size_t h = 0; !ligament && h < players.size(); ++h)
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
-  headless.on_session = [&](const Session& begun) { session = &begun; };
+  headless.on_begin = [&](RunSight begun) { sight = std::move(begun); };
   TunnelSources sources{run.case_spec, tray_of_hands(headless.hands),
-                        [&](std::uint32_t bone) { return carved_bone(session, bone); }};
+                        [&](std::uint32_t bone) { return sight.carved(bone); },
+                        run.live != nullptr};
   if (!run.graft_json.empty()) {
     const auto graft = made_graft(run.graft_json, "--graft");
     if (!graft) return tl::unexpected(graft.error());
@@ -230,26 +289,28 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   GraftOrder order;
   std::optional<ExamOrder> exam;
   if (watch.tunnels() && asks_for_exam(*plan))
-    exam.emplace(**the_case, watch.tunnels()->whole_spec(), false);
+    exam.emplace(**the_case, watch.tunnels()->whole_spec(), run.live != nullptr);
   SkinOrder skin;
   if (watch.tunnels() && (asks_for_graft(*plan) || exam))
     headless.beside = [&]() -> std::optional<Command> {
       skin.see(*plan, watch.state());
       if (const auto said = skin.take()) return said;
-      if (asks_for_graft(*plan)) order.see(watch.tunnels()->placing(), session->bones());
+      if (asks_for_graft(*plan)) order.see(watch.tunnels()->placing(), *sight.bones());
       if (const auto said = order.take()) return said;
       if (!exam) return std::nullopt;
-      exam->see(watch.tunnels()->fixed(), session->bones());
+      exam->see(watch.tunnels()->fixed(), *sight.bones());
       return exam->take();
     };
   headless.done = [&] { return watch.over() || all_done(); };
+  headless.over = [&] { return watch.over(); };
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);
   };
-  auto reports = simulate_hands(headless);
-  if (!reports) return tl::unexpected(reports.error());
   const StatedFindings stated =
       run.stated ? *run.stated : stated_by(run.skill, run.scenario, **the_case);
+  if (run.live) return play_and_judge(run, std::move(headless), stated, std::move(unreachable));
+  auto reports = simulate_hands(headless);
+  if (!reports) return tl::unexpected(reports.error());
   auto outcome = watch.finish(run.standard ? &*run.standard : nullptr, stated);
   if (!outcome) return tl::unexpected(outcome.error());
   ScenarioOutcome done{std::move(reports->reports),
@@ -274,11 +335,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   for (const auto& player : players)
     done.unreachable.insert(done.unreachable.end(), player->unreachable().begin(),
                             player->unreachable().end());
-  if (run.record_to && !run.scenario.asks.empty())
-    if (auto noted = write_note(*run.record_to, "findings", to_json(stated)); !noted)
-      return tl::unexpected(noted.error());
-  if (run.record_to && !run.graft_json.empty())
-    if (auto noted = write_note(*run.record_to, "graft", run.graft_json); !noted)
+  if (run.record_to)
+    if (auto noted = note_beside(run, *run.record_to, stated); !noted)
       return tl::unexpected(noted.error());
   if (run.record_to)
     if (auto noted =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/teaching/live_play.h"
 #include "exercises/scenario_files.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
@@ -21,7 +22,7 @@
 
 namespace osteon {
 
-/// One attempt by a virtual surgeon, without a window, as fast as it goes.
+/// One attempt by a virtual surgeon, without a window, as fast as it goes or on devices.
 struct ScenarioRun {
   Scenario scenario;
   std::optional<Standard> standard;
@@ -30,6 +31,9 @@ struct ScenarioRun {
   std::optional<std::filesystem::path> record_to;
   std::string graft_json = {};                ///< a report of making one; empty: a graft that fits
   std::optional<StatedFindings> stated = {};  ///< none: as the surgeon's skill allows
+  /// Plays it in real time on these devices (play_live), and judges what was recorded; empty: as
+  /// fast as it goes, without devices. They are used up.
+  std::shared_ptr<std::vector<LedDevice>> live = {};
 };
 struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand
@@ -44,6 +48,8 @@ struct ScenarioOutcome {
   std::vector<MadePortalFound> made_portals = {};  ///< in skin
   std::shared_ptr<const Case> the_case = {};
   std::string case_spec = {};
+  std::optional<LivePlayed> live = {};  ///< of a live run
+  bool identical = true;                ///< of a live run: its recording repeats bit by bit
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
 /// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as
