@@ -24,6 +24,8 @@ struct StubLibrary {
     bind(reset, "stub_hd_reset");
     bind(step, "stub_hd_step");
     bind(stall, "stub_hd_stall");
+    bind(want, "stub_hd_want");
+    bind(plug, "stub_hd_plug");
     bind(now_ns, "stub_hd_now_ns");
     bind(scheduler_runs, "stub_hd_scheduler_runs");
     bind(misuses, "stub_hd_misuses");
@@ -39,6 +41,8 @@ struct StubLibrary {
   void (*reset)() = nullptr;
   void (*step)(int) = nullptr;
   void (*stall)(int) = nullptr;
+  void (*want)(StubArm*, const double*, const double*, const double*) = nullptr;
+  void (*plug)(StubArm*, bool) = nullptr;
   std::int64_t (*now_ns)() = nullptr;
   bool (*scheduler_runs)() = nullptr;
   std::uint64_t (*misuses)() = nullptr;

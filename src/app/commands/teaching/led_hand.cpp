@@ -60,7 +60,7 @@ Result<LedHands> LedHands::make(std::unique_ptr<HapticDevice> device, std::strin
   return led;
 }
 
-Result<void> LedHands::go_to_start() {
+Result<void> LedHands::go_to_start(const std::function<void()>& step) {
   constexpr int kMostReads = 10000, kStill = 50;
   constexpr double kAtStart_m = 0.001;
   const Pose wanted_VD = mapping_.to_device(hands_.front().X_W);
@@ -73,7 +73,10 @@ Result<void> LedHands::go_to_start() {
     const bool there = sample.calibrated && sample.refusal == ForceOff::kNone &&
                        (sample.X_VD.p - wanted_VD.p).norm() < kAtStart_m;
     still = there ? still + 1 : 0;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (step)
+      step();
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   if (still == kStill) return {};
   return fail("the emulated hand does not reach where its part begins", label_,

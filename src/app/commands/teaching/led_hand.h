@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,8 +49,8 @@ class LedHands {
   /// them with the device in hand.
   static Result<LedHands> make(std::unique_ptr<HapticDevice> device, std::string label,
                                std::span<const Pose> starts_W);
-  /// Brings the user to where its first hand begins, at the devices' own pace; before `take`.
-  Result<void> go_to_start();
+  /// Brings the user to where its first hand begins; before `take`. `step` as play_live has it.
+  Result<void> go_to_start(const std::function<void()>& step);
   const DeviceInfo& info() const { return info_; }
   const DeviceMapping& mapping() const { return mapping_; }
   const std::string& label() const { return label_; }

@@ -34,7 +34,8 @@ struct Spread {
   std::vector<std::size_t> device_of, place_of;  ///< by hand
 };
 
-Result<Spread> spread_hands(std::span<const HandWill> wills, std::vector<LedDevice> devices) {
+Result<Spread> spread_hands(std::span<const HandWill> wills, std::vector<LedDevice> devices,
+                            const std::function<void()>& step_devices) {
   Spread spread;
   for (std::size_t d = 0, h = 0; d < devices.size(); ++d) {
     const std::size_t last = d + 1 == devices.size() ? wills.size() : h + 1;
@@ -46,7 +47,7 @@ Result<Spread> spread_hands(std::span<const HandWill> wills, std::vector<LedDevi
     }
     auto led = LedHands::make(std::move(devices[d].device), devices[d].label, starts);
     if (!led) return tl::unexpected(led.error());
-    if (auto there = led->go_to_start(); !there) return tl::unexpected(there.error());
+    if (auto there = led->go_to_start(step_devices); !there) return tl::unexpected(there.error());
     spread.devices.push_back(std::move(*led));
   }
   return spread;
@@ -74,6 +75,7 @@ class LivePlayer {
              std::unique_ptr<RecordFeed> feed)
       : run_(run),
         tick_s_(parts.settings.haptic.tick_s),
+        physics_s_(parts.settings.physics.step_s),
         wills_(std::move(wills)),
         spread_(std::move(spread)),
         carved_(parts.carving),
@@ -100,8 +102,13 @@ class LivePlayer {
     runtime_->judge_ticks();
   }
 
-  Result<LivePlayed> play() {
+  Result<LivePlayed> play(const std::function<void()>& step_devices) {
     if (run_.on_begin) run_.on_begin(sight());
+    if (step_devices) {
+      while (!is_over()) step_all(step_devices);
+      runtime_->drain_records_once();
+      return finish();
+    }
     runtime_->start();
     const std::int64_t started = steady_now_ns();
     std::int64_t acted = started;  // so far
@@ -118,6 +125,19 @@ class LivePlayer {
   }
 
  private:
+  // What the loops do side by side, one after the other.
+  void step_all(const std::function<void()>& step_devices) {
+    step_devices();
+    for (std::size_t h = 0; h < wills_.size(); ++h) runtime_->step_haptic_once(h);
+    if ((physics_due_s_ += tick_s_) > physics_s_ - 0.5 * tick_s_) {
+      physics_due_s_ = 0;
+      runtime_->step_physics_once();
+    }
+    runtime_->drain_records_once();
+    look();
+    tick();
+  }
+
   LedHands& device_of(std::size_t hand) { return spread_.devices[spread_.device_of[hand]]; }
   double now_s() { return static_cast<double>(last_[0].tick) * tick_s_; }
 
@@ -190,18 +210,16 @@ class LivePlayer {
     const DeviceStatus& status = runtime_->device_status(h);
     LivePlayed::Hand& hand = played_.hands[h];
     hand.peak_force_n = std::max(hand.peak_force_n, status.force_at_hand_V.norm());
-    if (status.cause == ForceOff::kNone || status.cause == ForceOff::kSoftware) {
-      tripped_s_[h] = std::max(0.0, tripped_s_[h] - tick_s_);
-      return;
-    }
+    const bool was_waiting = tripped_s_[h] > 0;
+    tripped_s_[h] = std::max(0.0, tripped_s_[h] - tick_s_);
+    if (status.cause == ForceOff::kNone || status.cause == ForceOff::kSoftware) return;
     if (!can_resume(status.cause)) {
       played_.broken_off = hand.device + ": " + describe(status.cause);
       return;
     }
-    if (tripped_s_[h] <= 0) {
-      runtime_->set_force_enabled(true, h);
-      ++played_.resumed;
-    }
+    if (tripped_s_[h] > 0) return;
+    if (!was_waiting) ++played_.resumed;
+    runtime_->set_force_enabled(true, h);
     tripped_s_[h] = kArmed_s;
   }
 
@@ -251,7 +269,7 @@ class LivePlayer {
   }
 
   const HeadlessRun& run_;
-  double tick_s_;
+  double tick_s_, physics_s_;
   std::vector<HandWill> wills_;
   Spread spread_;
   CarvedPicture carved_;
@@ -262,7 +280,7 @@ class LivePlayer {
   std::vector<ToolState> last_;
   std::vector<double> tripped_s_;
   const BoneSnapshot* bones_ = nullptr;
-  double armed_s_ = 0, done_s_ = 0;
+  double armed_s_ = 0, done_s_ = 0, physics_due_s_ = 0;
   bool steps_next_ = false;
   LivePlayed played_;
 };
@@ -297,12 +315,13 @@ std::string to_text(const LivePlayed& played) {
   return text + line;
 }
 
-Result<LivePlayed> play_live(const HeadlessRun& run, std::vector<LedDevice> devices) {
+Result<LivePlayed> play_live(const HeadlessRun& run, std::vector<LedDevice> devices,
+                             const std::function<void()>& step_devices) {
   if (auto ok = check_devices(run, devices); !ok) return tl::unexpected(ok.error());
   const std::vector<std::string> tray = tray_of_hands(run.hands);
   std::vector<HandWill> wills;
   for (const HeadlessHand& hand : run.hands) wills.emplace_back(hand, tray);
-  auto spread = spread_hands(wills, std::move(devices));
+  auto spread = spread_hands(wills, std::move(devices), step_devices);
   if (!spread) return tl::unexpected(spread.error());
   SessionSettings settings = run.settings;
   for (const LedHands& led : spread->devices)
@@ -314,7 +333,7 @@ Result<LivePlayed> play_live(const HeadlessRun& run, std::vector<LedDevice> devi
   if (!writer) return tl::unexpected(writer.error());
   auto feed = std::make_unique<RecordFeed>(std::move(*writer), 8.0, run.hands.size());
   LivePlayer player(run, std::move(*parts), std::move(wills), std::move(*spread), std::move(feed));
-  return player.play();
+  return player.play(step_devices);
 }
 
 }  // namespace osteon

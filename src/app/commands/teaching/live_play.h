@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ std::string to_text(const LivePlayed& played);
 /// ends it early: all forces are zero then, what was recorded stays. Fails when a device's user is
 /// a real one, when there are fewer devices than hands at work at once, or when a device cannot be
 /// brought to where its hand begins.
-Result<LivePlayed> play_live(const HeadlessRun& run, std::vector<LedDevice> devices);
+///
+/// With `step_devices`, which moves the devices' own time on by a tick, no thread and no clock is
+/// needed: all loops take their turns on the caller's thread, as fast as it goes.
+Result<LivePlayed> play_live(const HeadlessRun& run, std::vector<LedDevice> devices,
+                             const std::function<void()>& step_devices = {});
 
 }  // namespace osteon

@@ -191,7 +191,7 @@ Result<ScenarioOutcome> play_and_judge(const ScenarioRun& run, HeadlessRun headl
   const PassingFile passing(!headless.record_to);
   if (!headless.record_to) headless.record_to = passing.path();
   const std::filesystem::path& file = *headless.record_to;
-  auto played = play_live(headless, std::move(*run.live));
+  auto played = play_live(headless, std::move(*run.live), run.step_devices);
   if (!played) return tl::unexpected(played.error());
   if (auto noted = note_beside(run, file, stated); !noted) return tl::unexpected(noted.error());
   if (auto noted = note_attempt(file, run.scenario, run.standard, run.skill.name, ""); !noted)
@@ -252,6 +252,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   headless.record_to = run.record_to;
   headless.longest_s = run.scenario.time_limit_s;
   std::vector<std::string> unreachable;
+  const bool in_background = run.live && !run.step_devices;
   RunSight sight{[] { return nullptr; }, {}};
   if (ligament) {
     LaterWork work;
@@ -277,8 +278,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     headless.hands.push_back(played_by(*players[h], (*hands)[h], headless.hand));
   headless.on_begin = [&](RunSight begun) { sight = std::move(begun); };
   TunnelSources sources{run.case_spec, tray_of_hands(headless.hands),
-                        [&](std::uint32_t bone) { return sight.carved(bone); },
-                        run.live != nullptr};
+                        [&](std::uint32_t bone) { return sight.carved(bone); }, in_background};
   if (!run.graft_json.empty()) {
     const auto graft = made_graft(run.graft_json, "--graft");
     if (!graft) return tl::unexpected(graft.error());
@@ -289,7 +289,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   GraftOrder order;
   std::optional<ExamOrder> exam;
   if (watch.tunnels() && asks_for_exam(*plan))
-    exam.emplace(**the_case, watch.tunnels()->whole_spec(), run.live != nullptr);
+    exam.emplace(**the_case, watch.tunnels()->whole_spec(), in_background);
   SkinOrder skin;
   if (watch.tunnels() && (asks_for_graft(*plan) || exam))
     headless.beside = [&]() -> std::optional<Command> {

@@ -34,6 +34,7 @@ struct ScenarioRun {
   /// Plays it in real time on these devices (play_live), and judges what was recorded; empty: as
   /// fast as it goes, without devices. They are used up.
   std::shared_ptr<std::vector<LedDevice>> live = {};
+  std::function<void()> step_devices = {};  ///< of a live run without threads, as play_live has it
 };
 struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand

@@ -290,6 +290,18 @@ void stub_hd_stall(int ms) {
   for (int i = 0; i < ms; ++i) pass_time();
 }
 
+void stub_hd_want(StubArm* arm, const double* p_mm, const double* q, const double* v_mm_per_s) {
+  const Lock lock(lib().guard);
+  std::copy_n(p_mm, 3, arm->wanted_p_mm);
+  std::copy_n(q, 4, arm->wanted_q);
+  std::copy_n(v_mm_per_s, 3, arm->wanted_v_mm_per_s);
+}
+
+void stub_hd_plug(StubArm* arm, bool plugged) {
+  const Lock lock(lib().guard);
+  arm->plugged = plugged;
+}
+
 std::int64_t stub_hd_now_ns() { return lib().now_ns; }
 bool stub_hd_scheduler_runs() { return lib().runs; }
 std::uint64_t stub_hd_misuses() { return lib().misuses; }

@@ -53,6 +53,10 @@ void stub_hd_reset();
 void stub_hd_step(int passes);
 /// Moves the clock and the hands without a servo pass: the loop is late.
 void stub_hd_stall(int ms);
+/// Where the hand on an arm wants it, while a thread of the stub's own steps it: mm, w x y z, mm/s.
+void stub_hd_want(StubArm* arm, const double* p_mm, const double* q, const double* v_mm_per_s);
+/// The same for its plug.
+void stub_hd_plug(StubArm* arm, bool plugged);
 std::int64_t stub_hd_now_ns();
 bool stub_hd_scheduler_runs();
 /// Calls that broke the library's rules: frames not paired, devices not open, and such.
