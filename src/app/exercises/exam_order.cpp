@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cases/open_case.h"
+#include "loops/realtime.h"
 #include "runs/reports/acl_report.h"
 
 namespace osteon {
@@ -65,7 +66,10 @@ void ExamOrder::compute(const std::optional<KneeGraft>& fixed) {
   if (job_.valid()) return;
   work_.graft = fixed;
   if (in_background_) {
-    job_ = std::async(std::launch::async, &ExamOrder::computed, work_);
+    job_ = std::async(std::launch::async, [work = work_]() mutable {
+      take_late_turns();
+      return computed(std::move(work));
+    });
     return;
   }
   work_ = computed(std::move(work_));

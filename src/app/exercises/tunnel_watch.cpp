@@ -9,6 +9,7 @@
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
 #include "cases/undrilled.h"
+#include "loops/realtime.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/tunnel_events.h"
 
@@ -411,7 +412,10 @@ void TunnelWatch::measure(const Event& at, std::vector<Event>& out) {
   if (!std::exchange(fresh_, false)) return tell_measured(at, out);
   measured_epoch_ = epoch_;
   if (sources_.in_background) {
-    job_ = std::async(std::launch::async, &TunnelWatch::measured, work_);
+    job_ = std::async(std::launch::async, [work = work_]() mutable {
+      take_late_turns();
+      return measured(std::move(work));
+    });
     for (auto& cuts : work_.cuts) cuts.reset();
     return;
   }

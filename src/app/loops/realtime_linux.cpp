@@ -27,7 +27,12 @@ bool request_early_turns() {
   return setpriority(PRIO_PROCESS, 0, kEarlyTurns) == 0;
 }
 
-void take_late_turns() { (void)setpriority(PRIO_PROCESS, 0, kLateTurns); }
+// A program that was started with a real-time priority gave it to this thread as well.
+void take_late_turns() {
+  const sched_param ordinary{};
+  (void)pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  (void)setpriority(PRIO_PROCESS, 0, kLateTurns);
+}
 
 bool lock_memory() {
   // Under a finite limit MCL_FUTURE would make later allocations fail: better paged than broken.

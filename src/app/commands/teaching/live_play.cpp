@@ -109,6 +109,8 @@ class LivePlayer {
       runtime_->drain_records_once();
       return finish();
     }
+    // This thread stands for a person, who waits for no other program.
+    (void)request_early_turns();
     runtime_->start();
     const std::int64_t started = steady_now_ns();
     std::int64_t acted = started;  // so far

@@ -2,6 +2,9 @@
 // servo loop that the test steps. Checks that it is used by the rules.
 #include "stub_hd.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -202,7 +205,11 @@ void step_once() {
   if (lib().runs) run_work();
 }
 
+// With the priority of the real one's, where this user may have it.
 void run_thread() {
+  sched_param param{};
+  param.sched_priority = 45;
+  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
   auto next = std::chrono::steady_clock::now();
   while (!lib().thread_ends) {
     step_once();
