@@ -74,6 +74,8 @@ DeviceSample SharedHand::moved(DeviceSample sample) {
   if (!held_) {
     held_ = true;
     gain_ = 0;
+    // The gate takes a hand whose readings grow no younger for one that was lost.
+    clock_shift_ns_ = time_ns_ + 1 - sample.time_ns;
     shift_.p = X_VD_.p - sample.X_VD.p;
     shift_.q = sample.X_VD.q.conjugate() * X_VD_.q;
     share_->shifts_[hand_].publish(shift_);
@@ -83,6 +85,7 @@ DeviceSample SharedHand::moved(DeviceSample sample) {
   sample.X_VD.p += shift_.p;
   sample.X_VD.q = (sample.X_VD.q * shift_.q).normalized();
   X_VD_ = target_VD_ = sample.X_VD;
+  time_ns_ = sample.time_ns += clock_shift_ns_;
   return sample;
 }
 

@@ -66,7 +66,8 @@ class SharedHand : public HapticDevice {
   Pose shift_{Vec3::Zero(), Quat::Identity()};  ///< from the device's pose to the hand's
   bool held_ = false;                           ///< the last reading was the device's
   double gain_ = 0;                             ///< of the force, rising after the device has come
-  std::int64_t time_ns_ = 0;
+  std::int64_t time_ns_ = 0;         ///< of the last reading, on a clock of the hand's own
+  std::int64_t clock_shift_ns_ = 0;  ///< from the device's clock to that
 };
 
 }  // namespace osteon
