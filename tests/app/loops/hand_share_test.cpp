@@ -64,6 +64,48 @@ TEST(HandShare, TheDeviceIsTakenOnlyAfterItWasLetGoAtZeroForce) {
   EXPECT_EQ(two.first.read().X_VD.p, left_at) << "the first rests where it was left";
 }
 
+// The gate takes readings that grow no younger for a device that is lost, whichever clock the device
+// has: here it starts far ahead of the hands'.
+TEST(HandShare, EveryHandsReadingsGrowYoungerWhoeverHasTheDevice) {
+  DeviceLog log;
+  const auto late = [](std::uint64_t tick) {
+    DeviceSample sample = walking(tick);
+    sample.time_ns += 222'000'000'000;
+    return sample;
+  };
+  const auto share = std::make_shared<HandShare>(std::make_unique<FakeDevice>(late, log), 0);
+  SharedHand first{share, 0, Pose{}}, second{share, 1, Pose{}};
+  std::int64_t first_ns = first.read().time_ns, second_ns = second.read().time_ns;
+  for (int turn = 1; turn <= 4; ++turn) {
+    share->give(static_cast<std::size_t>(turn % 2));
+    for (int tick = 0; tick < 50; ++tick) {
+      const std::int64_t now_first = first.read().time_ns, now_second = second.read().time_ns;
+      ASSERT_GT(now_first, first_ns) << "turn " << turn << ", tick " << tick;
+      ASSERT_GT(now_second, second_ns) << "turn " << turn << ", tick " << tick;
+      first_ns = now_first;
+      second_ns = now_second;
+    }
+  }
+}
+
+// Whoever leads an emulated user brings the hand to where he wants it, whatever lies between the
+// device and the hand.
+TEST(HandShare, WhoLeadsTheDeviceKnowsWhereItHasTheHand) {
+  TwoHands two;
+  EXPECT_TRUE(two.share->is_led(0));
+  EXPECT_EQ(two.share->to_device(0, two.rest).p, two.rest.p);
+  two.first.read();
+  two.share->give(1);
+  two.first.read();
+  EXPECT_FALSE(two.share->is_led(0));
+  EXPECT_FALSE(two.share->is_led(1)) << "nobody has told yet where the device is";
+  const DeviceSample hand = two.second.read();
+  ASSERT_TRUE(two.share->is_led(1));
+  const Pose device = two.share->to_device(1, hand.X_VD);
+  EXPECT_LT((device.p - walking(1).X_VD.p).norm(), 1e-15);
+  EXPECT_LT(device.q.angularDistance(walking(1).X_VD.q), 1e-12);
+}
+
 TEST(HandShare, TheForceRisesOverHalfASecondAfterAnExchange) {
   TwoHands two;
   two.first.read();
