@@ -107,8 +107,8 @@ TEST_F(CliTest, TwentyKillsLeaveTwentyRecordingsThatReplay) {
                                "little";
 }
 
-// The recorder is faster than a machine that is busy elsewhere: a run that was whole before it could
-// be killed replays whole.
+// The recorder is faster than a machine that is busy elsewhere: a run that was whole before it
+// could be killed replays whole.
 TEST_F(CliTest, AKillInTheFirstMomentLeavesNoBrokenRecording) {
   const Source source = make_source(dir_);
   int broken_off = 0;

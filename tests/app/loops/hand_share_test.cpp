@@ -64,8 +64,8 @@ TEST(HandShare, TheDeviceIsTakenOnlyAfterItWasLetGoAtZeroForce) {
   EXPECT_EQ(two.first.read().X_VD.p, left_at) << "the first rests where it was left";
 }
 
-// The gate takes readings that grow no younger for a device that is lost, whichever clock the device
-// has: here it starts far ahead of the hands'.
+// The gate takes readings that grow no younger for a device that is lost, whichever clock the
+// device has: here it starts far ahead of the hands'.
 TEST(HandShare, EveryHandsReadingsGrowYoungerWhoeverHasTheDevice) {
   DeviceLog log;
   const auto late = [](std::uint64_t tick) {
