@@ -1,7 +1,8 @@
 // A loose piece is cut away: its nodes, and the distances around it.
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <utility>
+#include <vector>
 
 #include "osteon/carve/loose_pieces.h"
 
@@ -12,7 +13,8 @@ constexpr double kStillCells = 2;     // so near to what is left no cut changes:
 constexpr double kKnownCells = 2.5;   // distances to cuts are written so far out, see cut.cpp
 constexpr double kSurelyCells = 0.5;  // a distance is wrong by more than what the search is
 constexpr std::size_t kMostNodes = std::size_t{1} << 24;
-constexpr std::int32_t kNowhere = -1;
+constexpr double kFarAway_um = 1e18;
+constexpr std::uint32_t kNowhere = 0xffffffffu;
 
 }  // namespace
 
@@ -28,8 +30,8 @@ struct LoosePieces::Local {
   std::vector<std::int16_t> level;    ///< um over what is left; negative: bone
   std::vector<std::int16_t> outside;  ///< um over the uncut bone
   std::vector<std::uint8_t> loose;
-  std::vector<std::int32_t> nearest;  ///< of what is left
-  std::vector<std::int32_t> piece;    ///< nearest node of the piece
+  std::vector<double> to_left_um;  ///< to the surface of what is left, kFarAway_um beyond the reach
+  std::vector<double> to_piece_um;  ///< to that of the piece, likewise
 
   Local(const CarvedField& f, const LoosePiece& of, double reach_m)
       : field(f), grid(f.grid()), reach_um(1e6 * reach_m), cell_um(1e6 * f.grid().cell_m) {
@@ -44,30 +46,40 @@ struct LoosePieces::Local {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  std::array<int, 3> place(std::size_t n) const {
+  using Place = std::array<int, 3>;
+  Place place(std::size_t n) const {
     const int i = static_cast<int>(n);
     return {i % size[0], i / size[0] % size[1], i / size[0] / size[1]};
+  }
+  /// Visits all nodes in their order with their places: x runs first.
+  template <class Visit>
+  void for_nodes(const Visit& visit) const {
+    std::size_t n = 0;
+    Place at{};
+    for (at[2] = 0; at[2] < size[2]; ++at[2])
+      for (at[1] = 0; at[1] < size[1]; ++at[1])
+        for (at[0] = 0; at[0] < size[0]; ++at[0]) visit(n++, at);
   }
   struct Node {
     std::uint32_t block = 0;
     std::size_t node = 0;
   };
-  Node node_of(std::size_t n) const {
-    std::array<int, 3> at = place(n), in{};
+  Node node_of(Place at) const {
+    Place in{};
     for (std::size_t a = 0; a < 3; ++a) {
-      at[a] += lo[a];
-      in[a] = at[a] % BlockGrid::kSide;
-      at[a] /= BlockGrid::kSide;
+      const auto sum = static_cast<unsigned>(at[a] + lo[a]);
+      in[a] = static_cast<int>(sum % BlockGrid::kSide);
+      at[a] = static_cast<int>(sum / BlockGrid::kSide);
     }
     return {grid.index(at), static_cast<std::size_t>(64 * in[2] + 8 * in[1] + in[0])};
   }
   void read(const LoosePieces& of, const LoosePiece& which);
-  double distance_um(std::size_t n, std::int32_t from) const;
+  double distance_um(const Place& a, const Place& source, double depth_um) const;
   template <class Visit>
-  void for_neighbours(std::size_t n, const Visit& visit) const;
+  void for_neighbours(std::size_t n, const Place& at, const Visit& visit) const;
   bool stays(std::size_t n) const { return level[n] < 0 && loose[n] == 0; }
   template <class Source>
-  void spread(const Source& is_source, double most_um, std::vector<std::int32_t>& from) const;
+  std::vector<double> spread(const Source& is_source, double most_um) const;
   void measure();
   std::int16_t cut_at(std::size_t n, std::int16_t before) const;
 };
@@ -80,8 +92,8 @@ void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& which) {
   const auto is_part = [](const LoosePiece::Part& a, const LoosePiece::Part& b) {
     return std::pair(a.block, a.label) < std::pair(b.block, b.label);
   };
-  for (std::size_t n = 0; n < count(); ++n) {
-    const Node at = node_of(n);
+  for_nodes([&](std::size_t n, const Place& place) {
+    const Node at = node_of(place);
     const std::int16_t* cuts = field.cuts(at.block);
     const std::int16_t* heights = cuts ? field.heights(at.block) : field.bone().stored(at.block);
     const bool deep = field.bone().place(at.block) == UncutField::Place::kDeep;
@@ -91,74 +103,80 @@ void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& which) {
     const std::uint8_t label = of.label_at(field, at.block, at.node);
     loose[n] = label != 0 && std::binary_search(which.parts.begin(), which.parts.end(),
                                                 LoosePiece::Part{at.block, label}, is_part);
-  }
+  });
 }
 
 // To the surface beyond a node of the rim, which lies so deep under it.
-double LoosePieces::Local::distance_um(std::size_t n, std::int32_t from) const {
-  if (from == kNowhere) return 1e18;
-  const auto a = place(n), b = place(static_cast<std::size_t>(from));
+double LoosePieces::Local::distance_um(const Place& a, const Place& source, double depth_um) const {
   double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += double(a[k] - b[k]) * double(a[k] - b[k]);
-  const double depth = -static_cast<double>(level[static_cast<std::size_t>(from)]);
-  return cell_um * std::sqrt(sum) - std::min(depth, cell_um);
+  for (std::size_t k = 0; k < 3; ++k) sum += double(a[k] - source[k]) * double(a[k] - source[k]);
+  return cell_um * std::sqrt(sum) - std::min(depth_um, cell_um);
 }
 
 template <class Visit>
-void LoosePieces::Local::for_neighbours(std::size_t n, const Visit& visit) const {
-  const auto at = place(n);
+void LoosePieces::Local::for_neighbours(std::size_t n, const Place& at, const Visit& visit) const {
   const std::array<std::size_t, 3> step{
       1, static_cast<std::size_t>(size[0]),
       static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
+  Place next = at;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (at[a] > 0) visit(n - step[a]);
-    if (at[a] + 1 < size[a]) visit(n + step[a]);
+    next[a] = at[a] - 1;
+    if (next[a] >= 0) visit(n - step[a], next);
+    next[a] = at[a] + 1;
+    if (next[a] < size[a]) visit(n + step[a], next);
+    next[a] = at[a];
   }
 }
 
 template <class Source>
-void LoosePieces::Local::spread(const Source& is_source, double most_um,
-                                std::vector<std::int32_t>& from) const {
-  from.assign(count(), kNowhere);
-  std::deque<std::uint32_t> open;
-  for (std::size_t n = 0; n < count(); ++n) {
+std::vector<double> LoosePieces::Local::spread(const Source& is_source, double most_um) const {
+  std::vector<double> to(count(), kFarAway_um);
+  std::vector<std::uint32_t> from(count(), kNowhere), told(count(), kNowhere), open;
+  std::vector<std::uint8_t> closed(count());
+  for (std::size_t n = 0; n < closed.size(); ++n) closed[n] = is_source(n) || stays(n) ? 1 : 0;
+  for_nodes([&](std::size_t n, const Place& at) {
+    if (!is_source(n)) return;
     bool rim = false;
-    if (is_source(n)) for_neighbours(n, [&](std::size_t m) { rim = rim || !is_source(m); });
-    if (!rim) continue;
-    from[n] = static_cast<std::int32_t>(n);
+    for_neighbours(n, at, [&](std::size_t m, const Place&) { rim = rim || !is_source(m); });
+    if (!rim) return;
+    from[n] = static_cast<std::uint32_t>(n);
     open.push_back(static_cast<std::uint32_t>(n));
-  }
-  while (!open.empty()) {
-    const std::size_t here = open.front();
-    const std::int32_t source = from[here];
-    open.pop_front();
-    for_neighbours(here, [&](std::size_t m) {
-      if (is_source(m) || stays(m)) return;
-      const double now = distance_um(m, source);
-      if (now > most_um || !(now < distance_um(m, from[m]))) return;
+  });
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const std::uint32_t here = open[next], source = from[here];
+    // Who has told its neighbours of this source has nothing new for them.
+    if (std::exchange(told[here], source) == source) continue;
+    const Place rim = place(source);
+    const double depth_um = -static_cast<double>(level[source]);
+    for_neighbours(here, place(here), [&](std::size_t m, const Place& at) {
+      if (closed[m] != 0) return;
+      const double now = distance_um(at, rim, depth_um);
+      if (now > most_um || !(now < to[m])) return;
+      to[m] = now;
       from[m] = source;
       open.push_back(static_cast<std::uint32_t>(m));
     });
   }
+  return to;
 }
 
 void LoosePieces::Local::measure() {
-  spread([this](std::size_t n) { return stays(n); }, reach_um, nearest);
+  to_left_um = spread([this](std::size_t n) { return stays(n); }, reach_um);
   const double known = reach_um + kKnownCells * cell_um;
-  spread([this](std::size_t n) { return loose[n] != 0; }, known, piece);
+  to_piece_um = spread([this](std::size_t n) { return loose[n] != 0; }, known);
 }
 
 // The cut that a node gets instead of the one before. What is cut away is all that lies within the
 // reach of the piece and not in what is left: the larger of both distances.
 std::int16_t LoosePieces::Local::cut_at(std::size_t n, std::int16_t before) const {
   if (stays(n)) return before;
-  const double to = std::min(reach_um, distance_um(n, nearest[n]));
+  const double to = std::min(reach_um, to_left_um[n]);
   const auto whole = [](double um) {
     return static_cast<std::int16_t>(std::clamp(std::round(um), -32767.0, 32767.0));
   };
   if (loose[n] != 0) return std::min(before, whole(std::min(-1.0, -to)));
-  if (piece[n] == kNowhere || to <= kStillCells * cell_um) return before;
-  const double shape = std::max(-to, distance_um(n, piece[n]) - reach_um);
+  if (to_piece_um[n] == kFarAway_um || to <= kStillCells * cell_um) return before;
+  const double shape = std::max(-to, to_piece_um[n] - reach_um);
   const bool known = -shape <= -before + kSurelyCells * cell_um;
   return known || shape > kKnownCells * cell_um ? before : std::min(before, whole(shape));
 }
@@ -184,13 +202,14 @@ bool LoosePieces::take_away(CarvedField& field, const LoosePiece& piece, double 
     }
   };
   std::vector<Change> changes;
-  for (std::size_t n = 0; n < local.count(); ++n) {
-    const Local::Node at = local.node_of(n);
+  local.for_nodes([&](std::size_t n, const Local::Place& place) {
+    if (local.stays(n)) return;
+    const Local::Node at = local.node_of(place);
     const std::int16_t* cuts = field.cuts(at.block);
     const std::int16_t before = cuts ? cuts[at.node] : CarvedField::kUncut;
     const std::int16_t now = local.cut_at(n, before);
     if (now != before) changes.push_back({at.block, static_cast<std::uint16_t>(at.node), now});
-  }
+  });
   std::sort(changes.begin(), changes.end());
   std::size_t wanted = field.block_count();
   for (std::size_t n = 0; n < changes.size(); ++n)
