@@ -8,6 +8,8 @@
 namespace osteon {
 namespace {
 
+constexpr double kUsPerNs = 1e-3;
+
 constexpr double kReservedSeconds = 600;
 
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }
@@ -120,11 +122,17 @@ Report ReportBuilder::finish() const {
 }
 
 void set_tick_times(Report& report, const Percentiles& durations) {
-  constexpr double kUsPerNs = 1e-3;
   report.tick_p50_us = durations.quantile_ns(0.50) * kUsPerNs;
   report.tick_p99_us = durations.quantile_ns(0.99) * kUsPerNs;
   report.tick_p999_us = durations.quantile_ns(0.999) * kUsPerNs;
   report.tick_max_us = durations.max_ns() * kUsPerNs;
+}
+
+void set_step_times(Report& report, const Percentiles& durations) {
+  report.step_p50_us = durations.quantile_ns(0.50) * kUsPerNs;
+  report.step_p99_us = durations.quantile_ns(0.99) * kUsPerNs;
+  report.step_p999_us = durations.quantile_ns(0.999) * kUsPerNs;
+  report.step_max_us = durations.max_ns() * kUsPerNs;
 }
 
 }  // namespace osteon

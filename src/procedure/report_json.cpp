@@ -43,6 +43,11 @@ void add_tail(const Report& report, OrderedJson& json) {
                      {"p99", report.tick_p99_us},
                      {"p999", report.tick_p999_us},
                      {"max", report.tick_max_us}};
+  if (report.step_max_us > 0)
+    json["step_us"] = {{"p50", report.step_p50_us},
+                       {"p99", report.step_p99_us},
+                       {"p999", report.step_p999_us},
+                       {"max", report.step_max_us}};
   json["missed_ticks"] = report.missed_ticks;
   json["realtime_factor"] = report.realtime_factor;
 }

@@ -68,6 +68,10 @@ std::string timing_lines(const Report& report) {
             fixed(report.tick_p99_us, 1) + ", p99.9 " + fixed(report.tick_p999_us, 1) + ", max " +
             fixed(report.tick_max_us, 1) + "; missed ticks " + std::to_string(report.missed_ticks) +
             "\n";
+  if (report.step_max_us > 0)
+    text += "step time us   p50 " + fixed(report.step_p50_us, 1) + ", p99 " +
+            fixed(report.step_p99_us, 1) + ", p99.9 " + fixed(report.step_p999_us, 1) + ", max " +
+            fixed(report.step_max_us, 1) + " (physics)\n";
   if (report.realtime_factor > 0)
     text += "speed          " + fixed(report.realtime_factor, 1) + " times real time\n";
   return text;

@@ -91,6 +91,7 @@ class Tally {
     for (Hand& hand : hands_) {
       Report report = hand.report.finish();
       set_tick_times(report, hand.durations);
+      set_step_times(report, replayer.step_times());
       report.missed_ticks = hand.missed_ticks;
       report.state_hash = outcome.state_hash;
       report.realtime_factor = elapsed_s > 0 ? report.duration_s / elapsed_s : 0;

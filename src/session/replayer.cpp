@@ -110,6 +110,7 @@ bool Replayer::run_next_step() {
   const std::int64_t begin_ns = steady_now_ns();
   snapshots_.push_back(
       session_.physics_step(std::span(tools).first(hands_.size()), record->command));
+  step_times_.add_ns(steady_now_ns() - begin_ns);
   session_.catch_up();
   elapsed_ns_ += steady_now_ns() - begin_ns;
   used_by_steps_ = record->tool_ticks;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "osteon/base/percentiles.h"
 #include "osteon/session/session.h"
 #include "record_source.h"
 
@@ -38,6 +39,8 @@ class Replayer {
   /// Of the newest step.
   double bones_time_s() const { return snapshots_.back().time_s; }
   std::int64_t last_tick_ns() const { return last_tick_ns_; }
+  /// Of the physics steps so far.
+  const Percentiles& step_times() const { return step_times_; }
   std::int64_t elapsed_ns() const { return elapsed_ns_; }
   const Error& error() const { return *error_; }
 
@@ -74,6 +77,7 @@ class Replayer {
   TickRecord record_;
   const BoneSnapshot* bones_ = nullptr;
   std::int64_t last_tick_ns_ = 0;
+  Percentiles step_times_;
   std::int64_t elapsed_ns_ = 0;
   std::optional<Error> error_;
 };

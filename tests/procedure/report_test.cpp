@@ -145,6 +145,23 @@ TEST(Report, TickTimesComeInMicroseconds) {
   EXPECT_NEAR(report.tick_p99_us, 990, 20);
   EXPECT_NEAR(report.tick_p999_us, 999, 20);
   EXPECT_NEAR(report.tick_max_us, 1000, 1e-9);
+  EXPECT_EQ(report.step_max_us, 0);
+}
+
+TEST(Report, StepTimesAreToldWhereTheyWereMeasured) {
+  Percentiles durations;
+  for (int i = 1; i <= 1000; ++i) durations.add_ns(i * 1000);
+  Report report;
+  EXPECT_EQ(to_text(report).find("step time us"), std::string::npos);
+  EXPECT_EQ(to_json(report).find("step_us"), std::string::npos);
+  set_step_times(report, durations);
+  EXPECT_NEAR(report.step_p50_us, 500, 10);
+  EXPECT_NEAR(report.step_p99_us, 990, 20);
+  EXPECT_NEAR(report.step_p999_us, 999, 20);
+  EXPECT_NEAR(report.step_max_us, 1000, 1e-9);
+  EXPECT_EQ(report.tick_max_us, 0);
+  EXPECT_NE(to_text(report).find("max 1000.0 (physics)"), std::string::npos) << to_text(report);
+  EXPECT_NE(to_json(report).find("step_us"), std::string::npos);
 }
 
 }  // namespace

@@ -61,6 +61,8 @@ TEST(Replay, RepeatsASessionInOneThread) {
   EXPECT_LT(report.smoothness_sparc, 0);
   EXPECT_GT(report.tick_p50_us, 0);
   EXPECT_GE(report.tick_max_us, report.tick_p50_us);
+  EXPECT_GT(report.step_p50_us, 0);
+  EXPECT_GE(report.step_max_us, report.step_p50_us);
   EXPECT_GT(report.realtime_factor, 0);
 }
 

@@ -43,6 +43,8 @@ struct Report {
   double path_length_mm = 0;                    ///< of the proxy, resampled at 100 Hz
   double smoothness_sparc = 0;                  ///< spectral arc length; 0 smoothest
   double tick_p50_us = 0, tick_p99_us = 0, tick_p999_us = 0, tick_max_us = 0;
+  /// Of a physics step, which serves all hands; 0 when not measured.
+  double step_p50_us = 0, step_p99_us = 0, step_p999_us = 0, step_max_us = 0;
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;
   std::uint64_t state_hash = 0;
@@ -90,6 +92,8 @@ class ReportBuilder {
 
 /// Fills tick_p50_us ... tick_max_us from measured durations.
 void set_tick_times(Report& report, const Percentiles& durations);
+/// Likewise step_p50_us ... step_max_us.
+void set_step_times(Report& report, const Percentiles& durations);
 
 /// A report as JSON, in this order; the same text in every locale:
 /// ```
@@ -100,11 +104,12 @@ void set_tick_times(Report& report, const Percentiles& durations);
 ///   "portals": { "<name>": { "time_s": 12.5, "times_entered": 2 }, ... },   (where any is open)
 ///   "events": { "contact_begin": 12, ... },   (kinds that there were; left out where there was
 ///   none) "path_length_mm": 812.5, "smoothness_sparc": -7.1, "state_hash": "<16 hex digits>",
-///   "tick_us": { "p50": 9.1, "p99": 20.3, "p999": 31.0, "max": 55.7 }, "missed_ticks": 0,
-///   "realtime_factor": 41.0 }
+///   "tick_us": { "p50": 9.1, "p99": 20.3, "p999": 31.0, "max": 55.7 },
+///   "step_us": { ... the same of a physics step ... },   (where it was measured: in a replay)
+///   "missed_ticks": 0, "realtime_factor": 41.0 }
 /// ```
-/// Up to `state_hash` a report depends on case and input alone; `tick_us`, `missed_ticks` and
-/// `realtime_factor` depend on the machine.
+/// Up to `state_hash` a report depends on case and input alone; `tick_us`, `step_us`,
+/// `missed_ticks` and `realtime_factor` depend on the machine.
 std::string to_json(const Report& report);
 /// Table for a terminal; bones that were never touched share its last line.
 std::string to_text(const Report& report);
