@@ -8,8 +8,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kUsPerNs = 1e-3;
-
 constexpr double kReservedSeconds = 600;
 
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }
@@ -26,6 +24,15 @@ std::vector<double> speeds(const std::vector<Vec3>& points, double rate_hz) {
   for (std::size_t i = 1; i < points.size(); ++i)
     speed.push_back((points[i] - points[i - 1]).norm() * rate_hz);
   return speed;
+}
+
+void set_times(const Percentiles& durations, double& p50_us, double& p99_us, double& p999_us,
+               double& max_us) {
+  constexpr double kUsPerNs = 1e-3;
+  p50_us = durations.quantile_ns(0.50) * kUsPerNs;
+  p99_us = durations.quantile_ns(0.99) * kUsPerNs;
+  p999_us = durations.quantile_ns(0.999) * kUsPerNs;
+  max_us = durations.max_ns() * kUsPerNs;
 }
 
 }  // namespace
@@ -122,17 +129,13 @@ Report ReportBuilder::finish() const {
 }
 
 void set_tick_times(Report& report, const Percentiles& durations) {
-  report.tick_p50_us = durations.quantile_ns(0.50) * kUsPerNs;
-  report.tick_p99_us = durations.quantile_ns(0.99) * kUsPerNs;
-  report.tick_p999_us = durations.quantile_ns(0.999) * kUsPerNs;
-  report.tick_max_us = durations.max_ns() * kUsPerNs;
+  set_times(durations, report.tick_p50_us, report.tick_p99_us, report.tick_p999_us,
+            report.tick_max_us);
 }
 
 void set_step_times(Report& report, const Percentiles& durations) {
-  report.step_p50_us = durations.quantile_ns(0.50) * kUsPerNs;
-  report.step_p99_us = durations.quantile_ns(0.99) * kUsPerNs;
-  report.step_p999_us = durations.quantile_ns(0.999) * kUsPerNs;
-  report.step_max_us = durations.max_ns() * kUsPerNs;
+  set_times(durations, report.step_p50_us, report.step_p99_us, report.step_p999_us,
+            report.step_max_us);
 }
 
 }  // namespace osteon

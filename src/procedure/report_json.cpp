@@ -37,17 +37,17 @@ OrderedJson head_json(const Report& report) {
           {"ticks", report.ticks}};
 }
 
+OrderedJson times_json(double p50, double p99, double p999, double max) {
+  return {{"p50", p50}, {"p99", p99}, {"p999", p999}, {"max", max}};
+}
+
 void add_tail(const Report& report, OrderedJson& json) {
   json["state_hash"] = hex16(report.state_hash);
-  json["tick_us"] = {{"p50", report.tick_p50_us},
-                     {"p99", report.tick_p99_us},
-                     {"p999", report.tick_p999_us},
-                     {"max", report.tick_max_us}};
+  json["tick_us"] =
+      times_json(report.tick_p50_us, report.tick_p99_us, report.tick_p999_us, report.tick_max_us);
   if (report.step_max_us > 0)
-    json["step_us"] = {{"p50", report.step_p50_us},
-                       {"p99", report.step_p99_us},
-                       {"p999", report.step_p999_us},
-                       {"max", report.step_max_us}};
+    json["step_us"] =
+        times_json(report.step_p50_us, report.step_p99_us, report.step_p999_us, report.step_max_us);
   json["missed_ticks"] = report.missed_ticks;
   json["realtime_factor"] = report.realtime_factor;
 }

@@ -61,17 +61,21 @@ std::string portal_line(const Report& report) {
   return text.empty() ? text : text + "\n";
 }
 
+std::string times(double p50, double p99, double p999, double max) {
+  return "p50 " + fixed(p50, 1) + ", p99 " + fixed(p99, 1) + ", p99.9 " + fixed(p999, 1) +
+         ", max " + fixed(max, 1);
+}
+
 std::string timing_lines(const Report& report) {
   std::string text;
   if (report.tick_max_us > 0)
-    text += "tick time us   p50 " + fixed(report.tick_p50_us, 1) + ", p99 " +
-            fixed(report.tick_p99_us, 1) + ", p99.9 " + fixed(report.tick_p999_us, 1) + ", max " +
-            fixed(report.tick_max_us, 1) + "; missed ticks " + std::to_string(report.missed_ticks) +
-            "\n";
+    text += "tick time us   " +
+            times(report.tick_p50_us, report.tick_p99_us, report.tick_p999_us, report.tick_max_us) +
+            "; missed ticks " + std::to_string(report.missed_ticks) + "\n";
   if (report.step_max_us > 0)
-    text += "step time us   p50 " + fixed(report.step_p50_us, 1) + ", p99 " +
-            fixed(report.step_p99_us, 1) + ", p99.9 " + fixed(report.step_p999_us, 1) + ", max " +
-            fixed(report.step_max_us, 1) + " (physics)\n";
+    text += "step time us   " +
+            times(report.step_p50_us, report.step_p99_us, report.step_p999_us, report.step_max_us) +
+            " (physics)\n";
   if (report.realtime_factor > 0)
     text += "speed          " + fixed(report.realtime_factor, 1) + " times real time\n";
   return text;

@@ -136,9 +136,14 @@ TEST(ReportBuilder, SmoothnessIsThatOfTheSpeed) {
   EXPECT_LT(jerky.finish().smoothness_sparc, clean.finish().smoothness_sparc - 0.5);
 }
 
-TEST(Report, TickTimesComeInMicroseconds) {
+Percentiles up_to_a_millisecond() {
   Percentiles durations;
   for (int i = 1; i <= 1000; ++i) durations.add_ns(i * 1000);
+  return durations;
+}
+
+TEST(Report, TickTimesComeInMicroseconds) {
+  const Percentiles durations = up_to_a_millisecond();
   Report report;
   set_tick_times(report, durations);
   EXPECT_NEAR(report.tick_p50_us, 500, 10);
@@ -149,8 +154,7 @@ TEST(Report, TickTimesComeInMicroseconds) {
 }
 
 TEST(Report, StepTimesAreToldWhereTheyWereMeasured) {
-  Percentiles durations;
-  for (int i = 1; i <= 1000; ++i) durations.add_ns(i * 1000);
+  const Percentiles durations = up_to_a_millisecond();
   Report report;
   EXPECT_EQ(to_text(report).find("step time us"), std::string::npos);
   EXPECT_EQ(to_json(report).find("step_us"), std::string::npos);
