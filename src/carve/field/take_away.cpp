@@ -73,11 +73,29 @@ struct LoosePieces::Local {
     }
     return {grid.index(at), static_cast<std::size_t>(64 * in[2] + 8 * in[1] + in[0])};
   }
+  /// Visits the rows along x, each in stretches of one block: the first node, how many, and where
+  /// in its block that one is.
+  template <class Visit>
+  void for_stretches(const Visit& visit) const {
+    std::size_t n = 0;
+    Place at{};
+    for (at[2] = 0; at[2] < size[2]; ++at[2])
+      for (at[1] = 0; at[1] < size[1]; ++at[1])
+        for (at[0] = 0; at[0] < size[0];) {
+          const int in = (at[0] + lo[0]) % BlockGrid::kSide;
+          const int many = std::min(BlockGrid::kSide - in, size[0] - at[0]);
+          visit(n, static_cast<std::size_t>(many), node_of(at));
+          n += static_cast<std::size_t>(many);
+          at[0] += many;
+        }
+  }
   void read(const LoosePieces& of, const LoosePiece& which);
-  double distance_um(const Place& a, const Place& source, double depth_um) const;
+  std::vector<double> ways_um(double most_um) const;
   template <class Visit>
   void for_neighbours(std::size_t n, const Place& at, const Visit& visit) const;
   bool stays(std::size_t n) const { return level[n] < 0 && loose[n] == 0; }
+  template <class Source>
+  std::vector<std::uint32_t> rim_of(const Source& is_source) const;
   template <class Source>
   std::vector<double> spread(const Source& is_source, double most_um) const;
   void measure();
@@ -89,28 +107,33 @@ void LoosePieces::Local::read(const LoosePieces& of, const LoosePiece& which) {
   level.resize(count());
   outside.resize(count());
   loose.assign(count(), 0);
-  const auto is_part = [](const LoosePiece::Part& a, const LoosePiece::Part& b) {
-    return std::pair(a.block, a.label) < std::pair(b.block, b.label);
+  const auto is_before = [](const LoosePiece::Part& part, std::uint32_t block) {
+    return part.block < block;
   };
-  for_nodes([&](std::size_t n, const Place& place) {
-    const Node at = node_of(place);
+  for_stretches([&](std::size_t n, std::size_t many, const Node& at) {
     const std::int16_t* cuts = field.cuts(at.block);
     const std::int16_t* heights = cuts ? field.heights(at.block) : field.bone().stored(at.block);
     const bool deep = field.bone().place(at.block) == UncutField::Place::kDeep;
-    outside[n] = heights ? heights[at.node] : (deep ? static_cast<std::int16_t>(-kFar) : kFar);
-    level[n] = std::max(outside[n],
-                        cuts ? static_cast<std::int16_t>(-cuts[at.node]) : std::int16_t(-kFar));
-    const std::uint8_t label = of.label_at(field, at.block, at.node);
-    loose[n] = label != 0 && std::binary_search(which.parts.begin(), which.parts.end(),
-                                                LoosePiece::Part{at.block, label}, is_part);
+    for (std::size_t i = 0; i < many; ++i) {
+      outside[n + i] =
+          heights ? heights[at.node + i] : (deep ? static_cast<std::int16_t>(-kFar) : kFar);
+      level[n + i] = std::max(outside[n + i], cuts ? static_cast<std::int16_t>(-cuts[at.node + i])
+                                                   : std::int16_t(-kFar));
+    }
+    auto part = std::lower_bound(which.parts.begin(), which.parts.end(), at.block, is_before);
+    for (; part != which.parts.end() && part->block == at.block; ++part)
+      for (std::size_t i = 0; i < many; ++i)
+        if (of.label_at(field, at.block, at.node + i) == part->label) loose[n + i] = 1;
   });
 }
 
-// To the surface beyond a node of the rim, which lies so deep under it.
-double LoosePieces::Local::distance_um(const Place& a, const Place& source, double depth_um) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += double(a[k] - source[k]) * double(a[k] - source[k]);
-  return cell_um * std::sqrt(sum) - std::min(depth_um, cell_um);
+// To the surface beyond a node of the rim, which lies so deep under it: of each sum of squares of
+// steps along the axes, as far as `most_um` may reach.
+std::vector<double> LoosePieces::Local::ways_um(double most_um) const {
+  const double most = (most_um + cell_um) / cell_um;
+  std::vector<double> out;
+  for (int sum = 0; sum <= most * most; ++sum) out.push_back(cell_um * std::sqrt(double(sum)));
+  return out;
 }
 
 template <class Visit>
@@ -118,45 +141,57 @@ void LoosePieces::Local::for_neighbours(std::size_t n, const Place& at, const Vi
   const std::array<std::size_t, 3> step{
       1, static_cast<std::size_t>(size[0]),
       static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1])};
-  Place next = at;
   for (std::size_t a = 0; a < 3; ++a) {
-    next[a] = at[a] - 1;
-    if (next[a] >= 0) visit(n - step[a], next);
-    next[a] = at[a] + 1;
-    if (next[a] < size[a]) visit(n + step[a], next);
-    next[a] = at[a];
+    if (at[a] > 0) visit(n - step[a], static_cast<int>(a), -1);
+    if (at[a] + 1 < size[a]) visit(n + step[a], static_cast<int>(a), 1);
   }
 }
 
 template <class Source>
-std::vector<double> LoosePieces::Local::spread(const Source& is_source, double most_um) const {
-  std::vector<double> to(count(), kFarAway_um);
-  std::vector<std::uint32_t> from(count(), kNowhere), told(count(), kNowhere), open;
-  std::vector<std::uint8_t> closed(count());
-  for (std::size_t n = 0; n < closed.size(); ++n) closed[n] = is_source(n) || stays(n) ? 1 : 0;
+std::vector<std::uint32_t> LoosePieces::Local::rim_of(const Source& is_source) const {
+  std::vector<std::uint32_t> out;
   for_nodes([&](std::size_t n, const Place& at) {
     if (!is_source(n)) return;
     bool rim = false;
-    for_neighbours(n, at, [&](std::size_t m, const Place&) { rim = rim || !is_source(m); });
-    if (!rim) return;
-    from[n] = static_cast<std::uint32_t>(n);
-    open.push_back(static_cast<std::uint32_t>(n));
+    for_neighbours(n, at, [&](std::size_t m, int, int) { rim = rim || !is_source(m); });
+    if (rim) out.push_back(static_cast<std::uint32_t>(n));
   });
+  return out;
+}
+
+template <class Source>
+std::vector<double> LoosePieces::Local::spread(const Source& is_source, double most_um) const {
+  struct Reached {
+    double um = kFarAway_um;
+    std::uint32_t from = kNowhere, told = kNowhere;
+  };
+  std::vector<Reached> reached(count());
+  std::vector<std::uint8_t> closed(count());
+  for (std::size_t n = 0; n < closed.size(); ++n) closed[n] = is_source(n) || stays(n) ? 1 : 0;
+  const std::vector<double> way_um = ways_um(most_um);
+  std::vector<std::uint32_t> open = rim_of(is_source);
+  for (const std::uint32_t n : open) reached[n].from = n;
   for (std::size_t next = 0; next < open.size(); ++next) {
-    const std::uint32_t here = open[next], source = from[here];
+    const std::uint32_t here = open[next], source = reached[here].from;
     // Who has told its neighbours of this source has nothing new for them.
-    if (std::exchange(told[here], source) == source) continue;
-    const Place rim = place(source);
-    const double depth_um = -static_cast<double>(level[source]);
-    for_neighbours(here, place(here), [&](std::size_t m, const Place& at) {
+    if (std::exchange(reached[here].told, source) == source) continue;
+    const Place at = place(here), rim = place(source);
+    const Place apart{at[0] - rim[0], at[1] - rim[1], at[2] - rim[2]};
+    const int sum = apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2];
+    const double depth_um = std::min(-static_cast<double>(level[source]), cell_um);
+    for_neighbours(here, at, [&](std::size_t m, int axis, int step) {
       if (closed[m] != 0) return;
-      const double now = distance_um(at, rim, depth_um);
-      if (now > most_um || !(now < to[m])) return;
-      to[m] = now;
-      from[m] = source;
+      const int there = sum + 2 * step * apart[static_cast<std::size_t>(axis)] + 1;
+      if (there >= static_cast<int>(way_um.size())) return;
+      const double now = way_um[static_cast<std::size_t>(there)] - depth_um;
+      if (now > most_um || !(now < reached[m].um)) return;
+      reached[m].um = now;
+      reached[m].from = source;
       open.push_back(static_cast<std::uint32_t>(m));
     });
   }
+  std::vector<double> to(count());
+  std::transform(reached.begin(), reached.end(), to.begin(), [](const Reached& r) { return r.um; });
   return to;
 }
 
