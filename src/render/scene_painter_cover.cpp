@@ -13,6 +13,7 @@ constexpr std::size_t kMostWholes = 4;  // as in surface.vert
 // should have parted there.
 constexpr double kFar_rad = 1.05;
 constexpr float kFarOpacity = 0.28f;
+constexpr double kBent_rad = 0.17;
 
 Eigen::Vector4f with(const Vec3& v, double w) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
@@ -36,8 +37,14 @@ ViewState ScenePainter::with_far_covers_clear(const RenderSnapshot& snapshot,
     const std::size_t k = shared_->rest_X_WB.size() + i;
     if (k >= shared_->bones.size()) break;
     const auto motion = cover_motion(snapshot, k);
-    if (motion && motion->angle_rad > kFar_rad)
+    if (!motion) continue;
+    if (motion->angle_rad > kFar_rad)
       view.softs[i].opacity = std::min(view.softs[i].opacity, kFarOpacity);
+    // Skin that is bent does not follow the kneecap, which glides on the femur: it would stand out.
+    const std::size_t kneecap = shared_->bones[k].cover->kneecap().index;
+    const bool hides = view.softs[i].visible && view.softs[i].opacity >= 1;
+    if (hides && motion->angle_rad > kBent_rad && kneecap < view.bones.size())
+      view.bones[kneecap].visible = false;
   }
   return view;
 }

@@ -73,6 +73,7 @@ std::optional<LimbCover> LimbCover::over(const Case& the_case) {
   LimbCover out;
   out.upper_ = upper.index;
   out.lower_ = lower.index;
+  out.kneecap_ = the_case.find("patella");
   out.middle_W_ = (nearest_to(above, below_W) + nearest_to(below, above_W)) / 2;
   const Vec3 down = (below_W - out.middle_W_).normalized();
   const Vec3 up = (above_W - out.middle_W_).normalized();

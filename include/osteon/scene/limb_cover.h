@@ -46,9 +46,13 @@ class LimbCover {
   const Vec3& forwards_W() const { return forwards_W_; }            ///< unit; zero: a straight limb
   const Vec3& middle_W() const { return middle_W_; }  ///< of the plane where both have half
   const std::vector<Whole>& wholes() const { return wholes_; }
+  /// The bone under the skin in front of the joint, which glides under it as the joint bends; none:
+  /// the case has none.
+  BoneId kneecap() const { return kneecap_; }
 
  private:
   std::size_t upper_ = 0, lower_ = 0;
+  BoneId kneecap_;
   Vec3 middle_W_ = Vec3::Zero(), towards_lower_W_ = Vec3::UnitZ(), forwards_W_ = Vec3::Zero();
   std::vector<Whole> wholes_;
 };

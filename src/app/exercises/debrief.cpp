@@ -232,6 +232,8 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     debrief.acl = tunnels->report();
     if (tunnels->problem()) debrief.not_measured = tunnels->problem()->message();
   }
+  const GraftWatch& graft = again.watch->graft();
+  if (graft.plan()) debrief.graft = GraftReport{*graft.plan(), graft.state()};
   const PlacingWatch& placing = again.watch->placing();
   if (const auto plan = placing.plan())
     debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
@@ -260,8 +262,11 @@ std::string report_of(const Debrief& debrief) {
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
   const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
                                         debrief.acl, debrief.not_measured);
-  if (!debrief.acl && !debrief.placing && debrief.made_portals.empty()) return text;
+  if (!debrief.acl && !debrief.graft && !debrief.placing && debrief.made_portals.empty())
+    return text;
   auto json = nlohmann::ordered_json::parse(text);
+  // In the report of a whole reconstruction `acl.graft` is what holds it.
+  if (debrief.graft) json["acl"][debrief.acl ? "made" : "graft"] = to_json(*debrief.graft);
   if (debrief.the_case)
     add_portals(debrief.made_portals, *debrief.the_case, debrief.case_spec, json);
   if (debrief.placing) json["acl"]["placing"] = to_json(*debrief.placing);

@@ -20,6 +20,7 @@
 #include "osteon/render/renderer.h"
 #include "osteon/scene/state.h"
 #include "runs/reports/acl_report.h"
+#include "runs/reports/graft_report.h"
 #include "runs/reports/placing_report.h"
 
 namespace osteon {
@@ -41,6 +42,7 @@ struct Debrief {
   std::optional<Scenario> scenario;  ///< none: the recording contains no exercise
   std::optional<Outcome> outcome;
   std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
+  std::optional<GraftReport> graft = {};      ///< of a graft that was made at a bench
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
   std::optional<KneeExam> exam = {};          ///< of a knee that was to be examined by hand
   std::vector<MadePortalFound> made_portals = {};

@@ -26,6 +26,7 @@ struct TrayItem {
   std::string does;         ///< "probe, cut (no effect yet)"
   std::uint32_t place = 0;  ///< in the session's tray
   int picture = -1;         ///< cell of the sheet; -1: none
+  bool used = false;        ///< by the active hand, in the exercise that runs; these come first
 };
 
 struct TrayModel {

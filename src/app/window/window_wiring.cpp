@@ -93,7 +93,7 @@ UiModel WindowApp::build_model() {
   model.joints = bend_.model();
   model.can_bend = may_change_case();
   model.notes = notes_.model(may_change_case());
-  model.hands = hands_.model(!checkup_.running());
+  model.hands = hands_.model(!checkup_.running(), exercise_.used_by_active_hand());
   model.views = views_.model();
   model.views.film = film_.model();
   model.views.sound = sound_.model();

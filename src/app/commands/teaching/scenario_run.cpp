@@ -205,6 +205,7 @@ Result<ScenarioOutcome> play_and_judge(const ScenarioRun& run, HeadlessRun headl
   done.unreachable = std::move(unreachable);
   done.acl = std::move(judged->acl);
   done.not_measured = std::move(judged->not_measured);
+  done.graft = std::move(judged->graft);
   done.placing = std::move(judged->placing);
   done.exam = std::move(judged->exam);
   done.made_portals = std::move(judged->made_portals);

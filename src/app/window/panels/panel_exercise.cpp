@@ -424,11 +424,14 @@ void draw_knee(const PanelContext& c) {
   draw_exam(c);
 }
 
+bool can_return(const ExerciseModel& model) {
+  return std::any_of(model.stages.begin(), model.stages.end(),
+                     [](const auto& stage) { return !stage.restore_title.empty(); });
+}
+
 void draw_return(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
-  const bool any = std::any_of(model.stages.begin(), model.stages.end(),
-                               [](const auto& stage) { return !stage.restore_title.empty(); });
-  if (!any) return;
+  if (!can_return(model)) return;
   const bool chooses = ImGui::BeginCombo("##return", "Back to the start of ...");
   ui::tooltip("What was done since is undone; errors still count");
   if (!chooses) return;
@@ -461,6 +464,50 @@ float end_card() {
   return height;
 }
 
+void draw_made_errors(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  if (model.faults.empty()) return;
+  ImGui::Separator();
+  const std::size_t shown = std::min<std::size_t>(3, model.faults.size());
+  for (std::size_t i = model.faults.size() - shown; i < model.faults.size(); ++i)
+    wrapped_text(color::kAmber,
+                 ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
+                     (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
+}
+
+void draw_scrolled_part(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  draw_live_stage(c);
+  for (const ExerciseModel::Told& told : model.told)
+    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
+  if (!model.cue.empty()) wrapped_text(color::kText, "Hint: " + model.cue);
+  draw_made_errors(c);
+  draw_asked(c);
+  draw_knee(c);
+  if (!model.ghost.allowed) return;
+  ImGui::Separator();
+  draw_ghost_switch(c);
+  draw_guide_switch(c);
+}
+
+void draw_card_buttons(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  if (ImGui::Button(model.paused ? "Resume (P)" : "Pause (P)", {-1, 0}))
+    c.requests.exercise.pause = true;
+  ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
+  if (ImGui::Button("Hint (I)")) c.requests.exercise.hint = true;
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::Button("Back (U)")) c.requests.exercise.undo = true;
+  ui::tooltip(
+      "To the start of the stage or the last mark. Errors still count, and the report says how "
+      "often you went back.");
+  ImGui::SameLine();
+  if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
+  ui::tooltip("Ends the attempt and judges it");
+  draw_return(c);
+}
+
 // Beside the scene while the exercise goes on. Its height.
 float draw_running(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
@@ -484,37 +531,17 @@ float draw_running(const PanelContext& c) {
   if (model.paused)
     wrapped_text(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
   ImGui::Separator();
-  draw_live_stage(c);
-  for (const ExerciseModel::Told& told : model.told)
-    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
-  if (!model.cue.empty()) wrapped_text(color::kText, "Hint: " + model.cue);
-  if (!model.faults.empty()) {
-    ImGui::Separator();
-    const std::size_t shown = std::min<std::size_t>(3, model.faults.size());
-    for (std::size_t i = model.faults.size() - shown; i < model.faults.size(); ++i)
-      wrapped_text(color::kAmber,
-                   ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
-                       (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
-  }
-  draw_asked(c);
-  draw_knee(c);
-  ImGui::Separator();
-  draw_ghost_switch(c);
-  draw_guide_switch(c);
-  if (ImGui::Button(model.paused ? "Resume (P)" : "Pause (P)", {-1, 0}))
-    c.requests.exercise.pause = true;
-  ImGui::BeginDisabled(!model.has_cue || !model.cue.empty());
-  if (ImGui::Button("Hint (I)")) c.requests.exercise.hint = true;
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  if (ImGui::Button("Back (U)")) c.requests.exercise.undo = true;
-  ui::tooltip(
-      "To the start of the stage or the last mark. Errors still count, and the report says how "
-      "often you went back.");
-  ImGui::SameLine();
-  if (ImGui::Button("End (J)")) c.requests.exercise.end = true;
-  ui::tooltip("Ends the attempt and judges it");
-  draw_return(c);
+  // What does not fit scrolls; the buttons below it stay in sight.
+  const float below = ImGui::GetFrameHeightWithSpacing() * (can_return(model) ? 3.0f : 2.0f);
+  float* const needed = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("needed"), c.px(200));
+  const float room = most - ImGui::GetCursorPosY() - below - ImGui::GetStyle().WindowPadding.y;
+  ImGui::BeginChild("scrolled", {0, std::max(c.px(64), std::min(*needed, room))});
+  ImGui::PushItemWidth(-1);
+  draw_scrolled_part(c);
+  ImGui::PopItemWidth();
+  *needed = ImGui::GetCursorPosY();
+  ImGui::EndChild();
+  draw_card_buttons(c);
   return end_card();
 }
 

@@ -118,8 +118,16 @@ void draw_bone_names(const PanelContext& c) {
   }
 }
 
-void read_hand_keys(const PanelContext& c) {
+// No letters: they work while a word is typed into the tray, too.
+void read_paging_keys(const PanelContext& c) {
   constexpr int kPageUp = 266, kPageDown = 267, kEnd = 269;  // GLFW's numbers
+  if (c.model.replay.on || ImGui::GetIO().KeyAlt) return;
+  if (ImGui::IsKeyPressed(kPageUp, false)) c.requests.hands.step = -1;
+  if (ImGui::IsKeyPressed(kPageDown, false)) c.requests.hands.step = 1;
+  if (ImGui::IsKeyPressed(kEnd, false)) c.requests.hands.next_size = true;
+}
+
+void read_hand_keys(const PanelContext& c) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
   HandsRequests& requests = c.requests.hands;
@@ -131,9 +139,7 @@ void read_hand_keys(const PanelContext& c) {
     requests.portal = c.model.hands.next_portal;
   if (pressed('K')) requests.mark = true;
   if (pressed('U')) requests.undo = true;
-  if (pressed(kPageUp)) requests.step = -1;
-  if (pressed(kPageDown)) requests.step = 1;
-  if (pressed(kEnd)) requests.next_size = true;
+  read_paging_keys(c);
 }
 
 }  // namespace osteon

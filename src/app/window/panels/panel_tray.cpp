@@ -1,3 +1,6 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -102,6 +105,18 @@ void draw_row(const PanelContext& c, const TrayRow& row) {
   ImGui::PopID();
 }
 
+// Of an exercise, what it has the hand use comes first.
+void draw_rows(const PanelContext& c, const std::vector<TrayRow>& rows) {
+  const bool any_used =
+      std::any_of(rows.begin(), rows.end(), [](const TrayRow& row) { return row.front()->used; });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool used = rows[i].front()->used;
+    if (any_used && (i == 0 || used != rows[i - 1].front()->used))
+      ui::text(color::kTextQuiet, used ? "For this hand in the exercise" : "All others");
+    draw_row(c, rows[i]);
+  }
+}
+
 }  // namespace
 
 void draw_tray(const PanelContext& c) {
@@ -118,12 +133,18 @@ void draw_tray(const PanelContext& c) {
   std::array<char, kLongest> search{};
   c.model.hands.tray.search.copy(search.data(), kLongest - 1);
   ImGui::SetNextItemWidth(w - c.px(112));
+  // At once: a letter that is meant for it would else be another function's key.
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   if (ImGui::InputTextWithHint("##search", "Search", search.data(), kLongest))
     c.requests.hands.search = search.data();
+  const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   ImGui::SameLine();
-  if (ImGui::Button("Close  (T)")) c.requests.hands.toggle_tray = true;
+  if (ImGui::Button("Close  (Esc)")) c.requests.hands.toggle_tray = true;
+  const std::vector<TrayRow> rows = rows_of(c.model.hands.tray);
+  if (typing && !rows.empty() && ImGui::IsKeyPressed(GLFW_KEY_ENTER, false))
+    c.requests.hands.take = rows.front().front()->place;
   ImGui::BeginChild("items");
-  for (const TrayRow& row : rows_of(c.model.hands.tray)) draw_row(c, row);
+  draw_rows(c, rows);
   ImGui::EndChild();
   ImGui::End();
   ImGui::PopStyleColor();

@@ -36,6 +36,7 @@ void draw_tray(const PanelContext& c);        // of instruments
 void draw_tip_line(const PanelContext& c);    // to the nearest bone, in the picture
 void draw_bone_names(const PanelContext& c);  // in the picture
 void read_hand_keys(const PanelContext& c);
+void read_paging_keys(const PanelContext& c);  // through the tray
 void draw_device_section(const PanelContext& c);
 void draw_force_section(const PanelContext& c);
 void draw_timeline(const PanelContext& c);

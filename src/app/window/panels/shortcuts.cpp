@@ -64,7 +64,10 @@ void read_run_keys(const PanelContext& c) {
 void read_shortcuts(const PanelContext& c) {
   // Off comes first and always works, whatever has the keyboard.
   if (pressed(GLFW_KEY_ESCAPE)) c.requests.force_off = true;
-  if (ImGui::GetIO().WantTextInput) return;
+  if (ImGui::GetIO().WantTextInput) {
+    if (c.model.phase == UiPhase::kReady && c.model.hands.tray.open) read_paging_keys(c);
+    return;
+  }
   read_window_keys(c);
   if (c.model.phase != UiPhase::kReady) return;
   if (ImGui::GetIO().KeyCtrl) {

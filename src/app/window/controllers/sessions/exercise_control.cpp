@@ -72,6 +72,11 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   }
 }
 
+std::vector<std::string> ExerciseControl::used_by_active_hand() const {
+  if (!running() || !live_.run()) return {};
+  return exercise_.used_by(live_.run()->active());
+}
+
 void ExerciseControl::count_undo() {
   exercise_.count_undo();
   ghost_.restart();

@@ -36,6 +36,8 @@ class ExerciseControl {
   void close_page() { exercise_.close_page(); }
   void forget_force() { exercise_.keep_force_wish(false); }
   bool paused() const { return exercise_.paused(); }
+  /// What the exercise has the active hand use; empty: none runs.
+  std::vector<std::string> used_by_active_hand() const;
   void count_undo();
   /// Once a picture.
   void poll();

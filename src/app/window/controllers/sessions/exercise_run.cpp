@@ -206,6 +206,13 @@ bool ExerciseRun::at_bench() const {
          is_at_bench(stages[watch_->state().stage]);
 }
 
+std::vector<std::string> ExerciseRun::used_by(std::size_t hand) const {
+  if (hand >= hands_.size()) return {};
+  std::vector<std::string> names{hands_[hand].instrument};
+  names.insert(names.end(), hands_[hand].also.begin(), hands_[hand].also.end());
+  return names;
+}
+
 void ExerciseRun::keep_mark(std::uint32_t number) {
   if (watch_) stage_marks_[watch_->state().stage] = number;
 }
@@ -220,10 +227,10 @@ BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
   const GraftPlacingState& placing = bones.placing;
   if (!watch_ || !case_ || case_->joints.empty() || page_ != ExercisePage::kRunning) return model;
   model.placed = placing.on && placing.phase == PlacingPhase::kTurned;
+  if (exam_ && asks_now("knee_examined")) describe_exam(bones, model.exam);
   // Once it was bent it can be bent back.
-  if (exam_ && (model.placed || asks_for_exam_now() || bones.bend.on))
-    describe_exam(bones, model.exam);
-  model.shown = model.placed || model.exam.shown;
+  model.shown =
+      model.placed || (exam_ && (model.exam.shown || asks_now("knee_bent") || bones.bend.on));
   if (!model.shown) return model;
   const CaseJoint& joint = case_->joints.front();
   model.least_deg = joint.min_deg();
@@ -240,13 +247,12 @@ BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
   return model;
 }
 
-bool ExerciseRun::asks_for_exam_now() const {
+bool ExerciseRun::asks_now(std::string_view kind) const {
   const std::uint32_t stage = watch_->state().stage;
   if (stage >= plan_->goals.size()) return false;
   const auto& goals = plan_->goals[stage];
-  return std::any_of(goals.begin(), goals.end(), [](const PlannedRule& goal) {
-    return goal.rule.kind == "knee_examined" || goal.rule.kind == "knee_bent";
-  });
+  return std::any_of(goals.begin(), goals.end(),
+                     [&](const PlannedRule& goal) { return goal.rule.kind == kind; });
 }
 
 void ExerciseRun::describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const {
@@ -442,7 +448,7 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   model.paused = paused_;
   describe_asked(model);
   describe_graft(model);
-  if (const auto cleared = watch_->cleared_percent())
+  if (const auto cleared = watch_->cleared_percent(); cleared && asks_now("stumps_cleared"))
     model.told.push_back({"Torn ends cleared", std::to_string(*cleared) + " %",
                           "Of what the torn ligament has left; what lies on the bone stays"});
   model.hints = hints_;

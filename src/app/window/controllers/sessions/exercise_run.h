@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "exercises/attempt_watch.h"
@@ -62,6 +63,8 @@ class ExerciseRun {
   bool works_at_bench(std::size_t hand) const {
     return hand < hands_.size() && !hands_[hand].also.empty();
   }
+  /// Instruments that a hand has and may take, by the tray's names.
+  std::vector<std::string> used_by(std::size_t hand) const;
   /// The live stage's start was kept as that restore point of the run.
   void keep_mark(std::uint32_t number);
   /// The restore point of a stage's start; none: it has none, or was not reached.
@@ -113,7 +116,8 @@ class ExerciseRun {
   void describe_run(ExerciseModel& model) const;
   void describe_result(ExerciseModel& model) const;
   void describe_asked(ExerciseModel& model) const;
-  bool asks_for_exam_now() const;
+  /// Whether the live stage has a goal of that kind.
+  bool asks_now(std::string_view kind) const;
   void describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const;
   void describe_graft(ExerciseModel& model) const;
   void take_exercises(ExerciseList set);

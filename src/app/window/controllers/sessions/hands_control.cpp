@@ -35,6 +35,8 @@ bool HandsControl::apply(const HandsRequests& requests, bool free) {
   if (requests.toggle_names) names_on_ = !names_on_;
   if (requests.search) search_ = *requests.search;
   if (requests.toggle_tray && run) tray_open_ = !tray_open_;
+  if (requests.take) tray_open_ = false;  // the picture is wanted again
+  if (!tray_open_) search_.clear();
   if (tray_open_) pictures_.want(live_.tray().instruments());
   pictures_.poll();
   if (!run || !free) return false;
@@ -171,7 +173,7 @@ std::vector<HandRow> HandsControl::rows() const {
   return rows;
 }
 
-HandsModel HandsControl::model(bool can_add) {
+HandsModel HandsControl::model(bool can_add, const std::vector<std::string>& used) {
   HandsModel model;
   model.tip = tip_model();
   model.names_on = names_on_;
@@ -187,15 +189,20 @@ HandsModel HandsControl::model(bool can_add) {
   model.can_bring = run->by_mouse();
   model.can_add = can_add && run->hands() == 1 && !run->recording();
   model.restore_points = 1;
-  if (tray_open_) model.tray = tray_model();
+  if (tray_open_) model.tray = tray_model(used);
   return model;
 }
 
-TrayModel HandsControl::tray_model() const {
+TrayModel HandsControl::tray_model(const std::vector<std::string>& used) const {
   TrayModel tray;
   tray.open = true;
   tray.search = search_;
   tray.items = live_.tray().items();
+  for (const std::string& name : used)
+    for (TrayItem& item : tray.items)
+      item.used = item.used || live_.tray().find(name) == item.place;
+  std::stable_partition(tray.items.begin(), tray.items.end(),
+                        [](const TrayItem& item) { return item.used; });
   tray.held = sight_.shown().tool.instrument;
   tray.sheet = pictures_.texture();
   tray.sheet_columns = TrayPictures::kColumns;

@@ -36,7 +36,8 @@ class HandsControl {
   /// Buttons of the active hand's device, once a picture.
   void poll_buttons();
 
-  HandsModel model(bool can_add);
+  /// `used`: what an exercise has the active hand use, by the tray's names.
+  HandsModel model(bool can_add, const std::vector<std::string>& used = {});
 
  private:
   void exchange(const HandsRequests& requests);
@@ -49,7 +50,7 @@ class HandsControl {
   std::vector<WayIn> ways_in() const;
   void bring_to(std::size_t way);
   std::vector<HandRow> rows() const;
-  TrayModel tray_model() const;
+  TrayModel tray_model(const std::vector<std::string>& used) const;
   TipModel tip_model();
   std::vector<NameTag> name_tags() const;
 
