@@ -43,8 +43,9 @@ ViewState ScenePainter::with_far_covers_clear(const RenderSnapshot& snapshot,
     // Skin that is bent does not follow the kneecap, which glides on the femur: it would stand out.
     const std::size_t kneecap = shared_->bones[k].cover->kneecap().index;
     const bool hides = view.softs[i].visible && view.softs[i].opacity >= 1;
-    if (hides && motion->angle_rad > kBent_rad && kneecap < view.bones.size())
-      view.bones[kneecap].visible = false;
+    if (!hides || motion->angle_rad <= kBent_rad || kneecap >= shared_->rest_X_WB.size()) continue;
+    if (kneecap >= view.bones.size()) view.bones.resize(kneecap + 1);
+    view.bones[kneecap].visible = false;
   }
   return view;
 }

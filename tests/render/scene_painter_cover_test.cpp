@@ -80,5 +80,22 @@ TEST_F(CoverPicture, SkinThatIsBentFarIsSeenThrough) {
   }
 }
 
+// Skin does not follow a kneecap that glides on the femur: it would stand out of what covers it.
+TEST_F(CoverPicture, TheKneecapIsDrawnUnlessBentSkinIsSolid) {
+  const Case without = limb_at({});
+  Case with = limb_at({});
+  with.bones.push_back(make_bone("patella", sphere_mesh(0.025), Vec3::Zero()));
+  Renderer bare = make_renderer(without), renderer = make_renderer(with);
+  const auto differs = [&](double turn, float opacity) {
+    RenderSnapshot a = at_rest(without), b = at_rest(with);
+    for (RenderSnapshot* bent : {&a, &b})
+      bent->bones.bones[1].X_WB.q = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+    return count_different(picture(bare, a, opacity), picture(renderer, b, opacity), kOther);
+  };
+  EXPECT_GT(differs(0, 1), 1000);
+  EXPECT_LT(differs(0.6, 1), 60) << "pixels of the outline: the picture's depth is another";
+  EXPECT_GT(differs(0.6, 0.4f), 1000);
+}
+
 }  // namespace
 }  // namespace osteon

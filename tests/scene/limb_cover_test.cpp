@@ -30,6 +30,14 @@ Case bent_limb() {
   return limb;
 }
 
+TEST(LimbCover, KnowsTheKneecapWhereThereIsOne) {
+  Case limb = bent_limb();
+  ASSERT_TRUE(LimbCover::over(limb));
+  EXPECT_FALSE(LimbCover::over(limb)->kneecap().valid());
+  limb.bones.emplace_back().name = "patella";
+  EXPECT_EQ(LimbCover::over(limb)->kneecap().index, 2u);
+}
+
 std::vector<Pose> rest_of(const Case& limb) {
   std::vector<Pose> out;
   for (const Bone& bone : limb.bones) out.push_back(bone.X_WB);

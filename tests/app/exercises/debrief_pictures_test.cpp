@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/loops/fake_device.h"
@@ -11,6 +12,22 @@
 
 namespace osteon {
 namespace {
+
+// In the report of a whole reconstruction `acl.graft` is what holds the graft.
+TEST(DebriefReport, TellsTheGraftThatWasMadeAtABench) {
+  Debrief debrief;
+  debrief.outcome.emplace();
+  debrief.reports.emplace_back();
+  EXPECT_EQ(report_of(debrief).find("\"acl\""), std::string::npos);
+  debrief.graft.emplace();
+  debrief.graft->state.loop_m = 0.020;
+  const auto alone = nlohmann::json::parse(report_of(debrief))["acl"];
+  EXPECT_EQ(alone["graft"]["loop_mm"], 20) << alone;
+  EXPECT_FALSE(alone.contains("made"));
+  debrief.acl.emplace();
+  const auto whole = nlohmann::json::parse(report_of(debrief))["acl"];
+  EXPECT_EQ(whole["made"]["loop_mm"], 20) << whole;
+}
 
 TEST(DebriefPictures, ATubeNeedsTwoPlaces) {
   const double nan = std::numeric_limits<double>::quiet_NaN();

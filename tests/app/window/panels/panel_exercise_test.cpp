@@ -34,6 +34,8 @@ class ExercisePanel : public ::testing::Test {
       if (std::string(window->Name).starts_with(begin)) return window->Name;
     return {};
   }
+  // The part of the card above its buttons.
+  std::string scrolled() const { return child("##running/scrolled"); }
   UiFrame ui;
 };
 
@@ -125,6 +127,29 @@ TEST_F(ExercisePanel, WhileItRunsItsCardIsAboveThatOfTheCase) {
   EXPECT_EQ(ui.rect("##case").h, 0);
 }
 
+// However much there is to say, the way back and the end are in sight.
+TEST_F(ExercisePanel, TheButtonsOfItsCardStayInSight) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  model.stages[1].instruction = std::string(600, 'x');
+  model.stages[1].restore_title = "Initial state";
+  for (int i = 0; i < 20; ++i) model.told.push_back({"Channel", "32.7 mm", "measured"});
+  model.has_cue = true;
+  settle();
+  const UiRect card = ui.rect("##running");
+  EXPECT_LE(card.bottom(), ui.rect("##case").y);
+  for (const char* name : {"Pause (P)", "Hint (I)", "Back (U)", "End (J)", "##return"}) {
+    const ImVec2 button = ui.find("##running", {name});
+    EXPECT_GT(button.y, card.y) << name;
+    EXPECT_LT(button.y, card.bottom() - 8) << name;
+  }
+  const UiRect above = ui.rect(scrolled().c_str());
+  EXPECT_LT(above.h, ImGui::FindWindowByName(scrolled().c_str())->ContentSize.y) << "it scrolls";
+  model.told.clear();
+  model.stages[1].instruction = "Touch these";
+  settle();
+  EXPECT_LT(ui.rect("##running").h, card.h - 50) << "no higher than it must be";
+}
+
 TEST_F(ExercisePanel, OfManyStagesThoseNearTheOneInHandAreListed) {
   const auto height = [&](int stages) {
     ExerciseModel& model = at(ExercisePage::kRunning);
@@ -156,25 +181,25 @@ TEST_F(ExercisePanel, ItIsPausedAndGoesOnByButtonAndByKey) {
 TEST_F(ExercisePanel, TheExpertBesideTheLearnerIsSwitchedWhereTheExerciseAllowsIt) {
   ExerciseModel& model = at(ExercisePage::kRunning);
   settle();
-  EXPECT_FALSE(ui.click("##running", {"Expert beside me"}).exercise.ghost) << "not allowed";
+  EXPECT_FALSE(ui.click(scrolled().c_str(), {"Expert beside me"}).exercise.ghost) << "not allowed";
   model.ghost.allowed = true;
   for (const bool preparing : {true, false})
     for (const double strength : {0.0, 1.0}) {
       model.ghost.preparing = preparing;
       model.ghost.strength = strength;
       settle();
-      EXPECT_TRUE(ui.click("##running", {"Expert beside me"}).exercise.ghost);
+      EXPECT_TRUE(ui.click(scrolled().c_str(), {"Expert beside me"}).exercise.ghost);
     }
   model.ghost.on = false;
   model.ghost.problem = "The recording is of another patient";
   settle();
-  EXPECT_TRUE(ui.click("##running", {"Expert beside me"}).exercise.ghost);
+  EXPECT_TRUE(ui.click(scrolled().c_str(), {"Expert beside me"}).exercise.ghost);
 }
 
 TEST_F(ExercisePanel, WhatIsFoundIsStatedByMouse) {
   at(ExercisePage::kRunning).asked = {{"geissler", "Scaphoid", {"1", "2"}, "", ""}};
   settle();
-  (void)ui.click("##running", {"geissler", "##stated"});
+  (void)ui.click(scrolled().c_str(), {"geissler", "##stated"});
   settle();
   const std::string list = child("##Combo");
   ASSERT_FALSE(list.empty());
@@ -202,7 +227,7 @@ TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
 TEST_F(ExercisePanel, AKneeIsExaminedBySliders) {
   const auto pressed = [&](const char* slider) {
     settle();
-    const ImVec2 at = ui.find("##running", {slider});
+    const ImVec2 at = ui.find(scrolled().c_str(), {slider});
     if (at.x < 0) return ExerciseRequests{};
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = {at.x + 60, at.y};

@@ -78,6 +78,54 @@ TEST(TrayPanel, AnInstrumentIsTakenByAClickAndFoundByItsName) {
   EXPECT_EQ(*found.hands.take, 2u);
 }
 
+// R would end what is recorded, P would pause it.
+TEST(TrayPanel, LettersGoIntoTheSearchAndAreNobodysKeys) {
+  UiFrame ui;
+  fill_hands(ui);
+  ui.model.hands.tray.items = {{"Wrist probe", "", "probe", 0, -1},
+                               {"Grasper", "", "grasp", 1, -1}};
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_R).toggle_record) << "the tray is not open";
+  ui.model.hands.tray.open = true;
+  for (int i = 0; i < 3; ++i) ui.draw();
+  for (const int key : {GLFW_KEY_R, GLFW_KEY_X, GLFW_KEY_U, GLFW_KEY_T, GLFW_KEY_J}) {
+    const UiRequests none = ui.press_key(key);
+    EXPECT_FALSE(none.toggle_record || none.hands.change || none.hands.undo ||
+                 none.hands.toggle_tray || none.exercise.toggle)
+        << key;
+  }
+  ImGui::GetIO().AddInputCharacter('g');
+  const UiRequests typed = ui.draw();
+  ASSERT_TRUE(typed.hands.search);
+  EXPECT_EQ(*typed.hands.search, "g");
+  EXPECT_EQ(ui.press_key(GLFW_KEY_PAGE_DOWN).hands.step, 1);
+  EXPECT_EQ(ui.press_key(GLFW_KEY_PAGE_UP).hands.step, -1);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_END).hands.next_size);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_ESCAPE).force_off);
+  ui.model.hands.tray.search = "gra";
+  const UiRequests first = ui.press_key(GLFW_KEY_ENTER);
+  ASSERT_TRUE(first.hands.take) << "the first that was found";
+  EXPECT_EQ(*first.hands.take, 1u);
+}
+
+TEST(TrayPanel, WhatAnExerciseUsesStandsUnderAHeading) {
+  UiFrame ui;
+  fill_hands(ui);
+  TrayModel& tray = ui.model.hands.tray;
+  tray.open = true;
+  tray.items = {{"Grasper", "", "grasp", 1, -1}, {"Wrist probe", "", "probe", 0, -1}};
+  const auto taken_at = [&](float y) {
+    for (int i = 0; i < 3; ++i) ui.draw();
+    const UiRect r = ui.rect("##tray");
+    return ui.click({r.x + 120, r.y + y}).hands.take;
+  };
+  EXPECT_EQ(taken_at(31 + 6), 1u);
+  tray.items[0].used = true;
+  EXPECT_FALSE(taken_at(31 + 6)) << "the heading";
+  EXPECT_EQ(taken_at(31 + 18 + 60), 1u);
+  EXPECT_FALSE(taken_at(31 + 18 + 68 + 6)) << "the next heading";
+  EXPECT_EQ(taken_at(31 + 2 * 18 + 68 + 30), 0u);
+}
+
 TEST(TrayPanel, TheSizesOfAnInstrumentShareARowAndEachCanBeTaken) {
   UiFrame ui;
   fill_hands(ui);

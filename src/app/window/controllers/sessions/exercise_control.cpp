@@ -227,6 +227,7 @@ void ExerciseControl::begin() {
   scene_.views.set_skin_felt(waits_for_portal_);
   if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(*hands);
+  skin_clear_.reset();
   camera_before_bench_.reset();
   hand_before_bench_.reset();
   ways_.clear();
@@ -242,6 +243,18 @@ void ExerciseControl::go_in_with_scope() {
   if (!waits_for_portal_ || !scene_.views.looking() || scene_.views.scope_is_before_skin()) return;
   waits_for_portal_ = false;
   show_scope();
+}
+
+// Skin that nothing feels would hide where aimers, pins and drills go. What the user chooses stays
+// until that changes.
+void ExerciseControl::show_skin() {
+  constexpr float kClearSkin = 0.28f;
+  const bool clear = exercise_.is_under_skin();
+  if (clear == skin_clear_) return;
+  skin_clear_ = clear;
+  auto& softs = sight_.view().softs;
+  for (std::size_t i = 0; i < std::min(softs.size(), scene_.the_case->softs.size()); ++i)
+    if (scene_.the_case->softs[i].kind == "skin") softs[i].opacity = clear ? kClearSkin : 1;
 }
 
 // The bench is another place than the joint: the picture goes there with the stage, and back.
@@ -295,6 +308,7 @@ void ExerciseControl::poll() {
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
   go_in_with_scope();
+  show_skin();
   go_with_stage();
   for (int i = 0; i < kOrdersAtOnce; ++i) {
     const auto said = exercise_.next_order(sight_.shown().bones);

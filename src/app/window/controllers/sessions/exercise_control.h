@@ -52,6 +52,7 @@ class ExerciseControl {
   void look_at_the_box(const std::vector<PlannedHand>& hands);
   void show_scope();
   void go_in_with_scope();
+  void show_skin();
   void go_with_stage();
   void bring_to_bench(bool at_bench);
 
@@ -63,6 +64,7 @@ class ExerciseControl {
   ExerciseRun exercise_;
   GhostControl ghost_;
   bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
+  std::optional<bool> skin_clear_;             ///< as it was shown last; none: as it was
   std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
   std::optional<Pose> hand_before_bench_;      ///< likewise, of the hand that was brought there
   std::deque<Pose> ways_;                      ///< by which it goes on

@@ -206,6 +206,15 @@ bool ExerciseRun::at_bench() const {
          is_at_bench(stages[watch_->state().stage]);
 }
 
+bool ExerciseRun::is_under_skin() const {
+  const auto& soft = scenario().soft;
+  const bool felt = std::any_of(soft.begin(), soft.end(),
+                                [](const std::string& name) { return name.starts_with("skin"); });
+  if (!felt || !plan_ || !watch_) return !felt;
+  const auto from = stage_bent_after_portals(*plan_);
+  return from && watch_->state().stage >= *from;
+}
+
 std::vector<std::string> ExerciseRun::used_by(std::size_t hand) const {
   if (hand >= hands_.size()) return {};
   std::vector<std::string> names{hands_[hand].instrument};

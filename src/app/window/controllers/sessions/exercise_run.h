@@ -63,6 +63,8 @@ class ExerciseRun {
   bool works_at_bench(std::size_t hand) const {
     return hand < hands_.size() && !hands_[hand].also.empty();
   }
+  /// Whether skin is no longer felt, or never was: what lies under it is worked on.
+  bool is_under_skin() const;
   /// Instruments that a hand has and may take, by the tray's names.
   std::vector<std::string> used_by(std::size_t hand) const;
   /// The live stage's start was kept as that restore point of the run.
