@@ -34,13 +34,14 @@ struct WindowOrder {
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one
   /// hand with the device of last time.
   std::vector<std::string> devices;
-  std::filesystem::path path;       ///< what an emulated hand plays; empty: the case's own
-  std::filesystem::path record;     ///< recorded from the start; empty: nothing
-  std::filesystem::path force_log;  ///< of the device's last seconds; empty: none
-  std::string edit;                 ///< name of the bone whose editing begins; empty: none
-  bool checkup = false;             ///< opens the check-up and begins one
-  bool new_patient = false;         ///< opens the panel that makes one
-  std::string exercise;             ///< whose briefing is opened; empty: none
+  std::filesystem::path path;            ///< what an emulated hand plays; empty: the case's own
+  std::filesystem::path record;          ///< recorded from the start; empty: nothing
+  std::filesystem::path force_log;       ///< of the device's last seconds; empty: none
+  std::string edit;                      ///< name of the bone whose editing begins; empty: none
+  bool checkup = false;                  ///< opens the check-up and begins one
+  bool new_patient = false;              ///< opens the panel that makes one
+  std::string exercise;                  ///< whose briefing is opened; empty: none
+  std::filesystem::path graft, portals;  ///< reports of what was made before; empty: none
   std::string ghost;  ///< beside an exercise: a recording's file, "off", or empty: an expert's
   std::optional<double> ghost_strength;  ///< 0..1; none: by the learner's results
   bool guide = false;                    ///< an exercise begins with the hands led

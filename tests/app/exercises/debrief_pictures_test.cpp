@@ -20,13 +20,13 @@ TEST(DebriefReport, TellsTheGraftThatWasMadeAtABench) {
   debrief.reports.emplace_back();
   EXPECT_EQ(report_of(debrief).find("\"acl\""), std::string::npos);
   debrief.graft.emplace();
-  debrief.graft->state.loop_m = 0.020;
+  debrief.graft->plan.channel_m = 0.03125;
   const auto alone = nlohmann::json::parse(report_of(debrief))["acl"];
-  EXPECT_EQ(alone["graft"]["loop_mm"], 20) << alone;
+  EXPECT_EQ(alone["graft"]["channel_mm"], 31.25) << alone;
   EXPECT_FALSE(alone.contains("made"));
   debrief.acl.emplace();
   const auto whole = nlohmann::json::parse(report_of(debrief))["acl"];
-  EXPECT_EQ(whole["made"]["loop_mm"], 20) << whole;
+  EXPECT_EQ(whole["made"]["channel_mm"], 31.25) << whole;
 }
 
 TEST(DebriefPictures, ATubeNeedsTwoPlaces) {

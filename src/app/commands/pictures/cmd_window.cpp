@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include "commands/support/parser.h"
 
 #include "commands/pictures/window_size.h"
@@ -80,6 +81,12 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_flag("--check-up", order->checkup, "begin with the check-up of computer and device");
   command->add_option("--exercise", order->exercise,
                       "open the briefing of this exercise; see: osteon scenario list");
+  command->add_option("--graft", order->graft,
+                      "with --exercise acl: a report of acl_graft; its graft is placed, and the "
+                      "stages at the bench are left out");
+  command->add_option("--portals", order->portals,
+                      "with --exercise acl: a report of acl_puncture on the same patient; the "
+                      "portals are where they were made");
   command->add_option(
       "--ghost", order->ghost,
       "what an exercise shows as the expert's movement: FILE.osr (a recording of it on the same "
@@ -117,6 +124,14 @@ void add_window_command(cli::App& app, int& exit_code) {
       cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
     if (!layout->empty()) order->layout = *parse_picture_layout(*layout);
     if (!observer->empty()) order->observer = *parse_picture_layout(*observer);
+    for (const auto& [option, file] :
+         {std::pair<const char*, std::filesystem::path>{"--graft", order->graft},
+          {"--portals", order->portals}}) {
+      if (file.empty()) continue;
+      if (order->exercise.empty()) cli::refuse(option, "give --exercise, too");
+      if (!std::filesystem::exists(file))
+        cli::refuse(option, "there is no report '" + file.string() + "'");
+    }
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;

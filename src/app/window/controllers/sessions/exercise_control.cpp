@@ -8,6 +8,7 @@
 #include "cases/xdg.h"
 #include "exercises/debrief_pictures.h"
 #include "exercises/pause_force.h"
+#include "osteon/base/file.h"
 #include "osteon/base/turn.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/procedure/judge.h"
@@ -124,6 +125,7 @@ void ExerciseControl::show(const std::string& order) {
   exercise_.toggle();
   if (!exercise_.choose(name))
     host_.note(ToastKind::kWarning, "There is no exercise '" + name + "'. Choose one of these.");
+  take_made_before();
   if (colon == order.npos) return;
   // After the exercise is chosen: a course may have set another patient for it.
   std::uint64_t seed = 0;
@@ -134,10 +136,49 @@ void ExerciseControl::show(const std::string& order) {
     host_.note(ToastKind::kWarning, "'" + order.substr(colon + 1) + "' is not a seed.");
 }
 
+// What the command line names beside the exercise.
+void ExerciseControl::take_made_before() {
+  if (exercise_.page() != ExercisePage::kBriefing) return;
+  const auto use = [&](const std::filesystem::path& file, auto&& take) {
+    if (file.empty()) return;
+    const auto report = read_file(file, 16u << 20);
+    const Result<void> used =
+        report ? take(*report, file.string()) : Result<void>(tl::unexpected(report.error()));
+    if (!used) host_.note(ToastKind::kWarning, used.error().message());
+  };
+  use(host_.order.graft, [&](const std::string& report, const std::string& where) {
+    return exercise_.use_graft(report, where);
+  });
+  use(host_.order.portals, [&](const std::string& report, const std::string& where) {
+    return exercise_.use_portals(report, where);
+  });
+}
+
+// True: it goes on, or it has failed. The patient is opened once the places are known.
+bool ExerciseControl::places_portals() {
+  if (!placing_) {
+    auto place = exercise_.portals_to_place();
+    if (!place) return false;
+    exercise_.wait_for_case();
+    placing_ = std::make_unique<SideJob<std::string>>([place](const Progress&) { return place(); });
+    return true;
+  }
+  if (!placing_->done()) return true;
+  auto placed = placing_->take();
+  placing_.reset();
+  if (!placed) {
+    exercise_.fail_to_begin(placed.error().message());
+    return true;
+  }
+  exercise_.set_placed(std::move(*placed));
+  return false;
+}
+
 // The patient of the exercise takes the place of what is on show, unless it is that already.
 void ExerciseControl::open_patient() {
   if (live_.recording())
     return host_.note(ToastKind::kWarning, "Stop the recording before starting an exercise.");
+  if (places_portals()) return;
   const std::string spec = exercise_.case_spec();
   const bool all_here = want_instruments(exercise_.scenario());
   exercise_.wait_for_case();
@@ -219,7 +260,10 @@ void ExerciseControl::begin() {
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
                   live_.run()->tray().names);
   if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
-  ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
+  // An expert would make anew what was made before.
+  ghost_.end();
+  if (!exercise_.is_shortened())
+    ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   const auto& felt = live_.run()->softs();
@@ -300,6 +344,7 @@ void ExerciseControl::poll() {
   exercise_.poll();
   if (judging && exercise_.debrief() && ghost_.track()) exercise_.set_expert(*ghost_.track());
   show_debrief();
+  if (placing_) return placing_->done() ? open_patient() : void();
   if (opening() && !cases_.loading()) exercise_.fail_to_begin("The patient could not be opened.");
   LiveRun* const run = live_.run();
   if (!running() || !run) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ class ExerciseControl {
 
  private:
   void open_patient();
+  void take_made_before();
+  bool places_portals();
   bool want_instruments(const Scenario& scenario);
   std::vector<LiveControl::PlacedHand> placed(const std::vector<PlannedHand>& hands) const;
   void save_pages();
@@ -63,6 +66,7 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
+  std::unique_ptr<SideJob<std::string>> placing_;  ///< of portals, before the patient is opened
   bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
   std::optional<bool> skin_clear_;             ///< as it was shown last; none: as it was
   std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on

@@ -9,6 +9,7 @@
 
 #include "exercises/debrief_pictures.h"
 #include "exercises/guided_time.h"
+#include "exercises/portal_choice.h"
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "osteon/procedure/attempt.h"
@@ -103,6 +104,11 @@ void ExerciseRun::toggle() {
 void ExerciseRun::choose(std::size_t exercise) {
   if (exercise >= scenarios_.size()) return;
   chosen_ = exercise;
+  shortened_.reset();
+  graft_report_.clear();
+  graft_.reset();
+  portals_.reset();
+  placed_spec_.clear();
   if (exercise < set_seeds_.size() && set_seeds_[exercise]) seed_ = set_seeds_[exercise];
   problem_.clear();
   page_ = ExercisePage::kBriefing;
@@ -127,7 +133,36 @@ void ExerciseRun::back() {
   page_ = ExercisePage::kCourse;
 }
 
-std::string ExerciseRun::case_spec() const { return case_spec_of(scenario(), "", seed_); }
+std::string ExerciseRun::case_spec() const {
+  return placed_spec_.empty() ? case_spec_of(scenario(), "", seed_) : placed_spec_;
+}
+
+Result<void> ExerciseRun::use_graft(const std::string& report, const std::string& where) {
+  auto made = made_graft(report, where);
+  if (!made) return tl::unexpected(made.error());
+  graft_ = *made;
+  graft_report_ = report;
+  if (!shortened_) shortened_ = scenario();
+  leave_out_bench_stages(*shortened_);
+  return {};
+}
+
+Result<void> ExerciseRun::use_portals(const std::string& report, const std::string& where) {
+  auto made = read_portals(report, where);
+  if (!made) return tl::unexpected(made.error());
+  portals_ = std::move(*made);
+  portals_from_ = where;
+  if (!shortened_) shortened_ = scenario();
+  leave_out_puncture_stages(*shortened_);
+  return {};
+}
+
+std::function<Result<std::string>()> ExerciseRun::portals_to_place() const {
+  if (!portals_ || !placed_spec_.empty()) return {};
+  return [spec = case_spec(), made = *portals_, where = portals_from_] {
+    return with_made_portals(spec, made, where);
+  };
+}
 
 void ExerciseRun::fail_to_begin(const std::string& why) {
   problem_ = why;
@@ -165,6 +200,7 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   watch_ = std::make_unique<AttemptWatch>(*plan_, *case_, hands_, tick_s);
   sources.case_spec = case_spec();
   sources.in_background = true;
+  sources.graft = graft_;
   watch_->watch_tunnels(std::move(sources));
   watch_->watch_tray(tray);
   ticks_.assign(hands_.size(), {});
@@ -347,6 +383,8 @@ void ExerciseRun::state_finding(const std::string& name, const std::string& grad
 Result<void> ExerciseRun::note_what_was_said() const {
   if (!pauses_.empty())
     if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
+  if (!graft_report_.empty())
+    if (auto ok = write_note(file_, "graft", graft_report_); !ok) return ok;
   if (guided_s_ > 0)
     if (auto ok = write_note(file_, "guided", guided_text(guided_s_)); !ok) return ok;
   if (!scenario().asks.empty()) return write_note(file_, "findings", to_json(stated_));

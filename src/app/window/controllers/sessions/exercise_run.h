@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "exercises/graft_order.h"
 #include "exercises/seat_files.h"
 #include "exercises/skin_order.h"
+#include "runs/reports/portal_report.h"
 #include "ui/side_job.h"
 #include "window/exercise_model.h"
 
@@ -32,10 +34,22 @@ class ExerciseRun {
   void toggle();
   void choose(std::size_t exercise);
   bool choose(const std::string& name);
-  void set_seed(std::optional<std::uint64_t> seed) { seed_ = seed; }
+  void set_seed(std::optional<std::uint64_t> seed) {
+    seed_ = seed;
+    placed_spec_.clear();
+  }
+  /// A graft and portals that were made in exercises of their own, as their reports tell them: the
+  /// chosen exercise leaves out the stages in which they are made. `where`: names the report.
+  Result<void> use_graft(const std::string& report, const std::string& where);
+  Result<void> use_portals(const std::string& report, const std::string& where);
+  /// What has to be known before the patient is opened; returns where he is then. Takes long, and
+  /// may be done on another thread. Empty: nothing has.
+  std::function<Result<std::string>()> portals_to_place() const;
+  void set_placed(std::string case_spec) { placed_spec_ = std::move(case_spec); }
+  bool is_shortened() const { return shortened_.has_value(); }
   void back();
 
-  const Scenario& scenario() const { return scenarios_[chosen_]; }
+  const Scenario& scenario() const { return shortened_ ? *shortened_ : scenarios_[chosen_]; }
   std::string case_spec() const;
   void wait_for_case() { page_ = ExercisePage::kOpening; }
   /// The patient is open: what the hands shall hold. An error is shown on the briefing.
@@ -132,6 +146,11 @@ class ExerciseRun {
   std::vector<std::optional<std::uint64_t>> set_seeds_;  ///< by a course, as scenarios_
   std::string course_title_, left_out_;                  ///< which files could not be used, and why
   std::size_t chosen_ = 0;
+  std::optional<Scenario> shortened_;  ///< of the chosen one, by what was made before
+  std::string graft_report_;           ///< empty: the graft is made, or none is needed
+  std::optional<MadeGraft> graft_;
+  std::optional<ReportedPortals> portals_;
+  std::string portals_from_, placed_spec_;
   std::optional<std::uint64_t> seed_;
   std::string problem_;
 
