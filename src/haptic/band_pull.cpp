@@ -115,7 +115,7 @@ Vec3 BandPull::suction_on(const PullingHand& hand, const Bones& bones) const {
   const BandSpan span{bones.X_WB[band.from.index] * band.from_B,
                       bones.X_WB[band.to.index] * band.to_B};
   const BandPress press =
-      draw_band(band, span, mouth_W, hold.others_taken_m, hold.stiffness_n_per_m);
+      draw_band(band, span, mouth_W, hold.others_taken_m, hold.stiffness_n_per_m, hold.left);
   const Vec3 way_W = press.p_W - mouth_W;
   const double length = way_W.norm();
   if (!press.presses || !(length > 0)) return Vec3::Zero();

@@ -34,6 +34,7 @@ struct SoftSetup {
   /// What pieces of solids that were cut off meet; null: they are gone at once.
   std::shared_ptr<const PiecesSetup> pieces;
   bool pieces_meet_softs = false;  ///< they rest on what is soft, too
+  bool by_strands = false;         ///< bands are cut and torn strand by strand
   SoftFriction friction;           ///< of instruments on it; none unless told
   std::uint64_t hash = 0;          ///< over all of it
 };
@@ -50,6 +51,8 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
 void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces);
 /// Those pieces meet bands and solids then, as these are at rest. Nothing changes where none lies.
 void let_pieces_meet_softs(SoftSetup& setup);
+/// Bands are cut and torn strand by strand then. Nothing changes where there are none.
+void let_bands_part_by_strands(SoftSetup& setup);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

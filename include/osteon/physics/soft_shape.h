@@ -33,8 +33,8 @@ class SoftShapes {
   };
   /// Those that have another shape than was given last, so that it can be seen: by more than 5 um
   /// under a push of a meniscus, by a cut into it (its surface has other vertices then), or of a
-  /// ligament's middle line. At first all are at rest. A ligament that was cut or has torn is two
-  /// stumps, at rest.
+  /// ligament's middle line or strands. At first all are at rest. A ligament that was cut or has
+  /// torn is two stumps, at rest.
   std::vector<Changed> changes(const SoftPushes& pushes);
 
  private:
@@ -53,10 +53,12 @@ class SoftShapes {
   bool take(std::size_t solid, const SoftPushes& pushes);
   TriMesh drawn(std::uint32_t soft) const;
   struct BandShape {
-    TriMesh mesh_W;                 ///< at rest
-    BandSpan rest_W;                ///< the string, with the bones at rest
-    std::vector<StringBend> shown;  ///< bends that it was given with
-    std::optional<double> broken;   ///< where it was given in two
+    TriMesh mesh_W;                  ///< at rest
+    BandSpan rest_W;                 ///< the string, with the bones at rest
+    std::vector<StringBend> shown;   ///< bends that it was given with
+    std::optional<double> broken;    ///< where it was given in two
+    std::optional<BandNotch> notch;  ///< with which it was given
+    BandSection section;             ///< with the bones at rest
   };
   std::vector<Vec3> moved(std::size_t solid, std::span<const SoftPushes::One> pushes) const;
   void add_bands(const SoftPushes& pushes, std::vector<Changed>& out);

@@ -64,7 +64,8 @@ struct SolidHandState {
 
 struct BandState {
   bool torn = false;
-  double torn_share = 0.5;  ///< of a torn one, where: of the way from its first end to its last
+  std::uint64_t gone = 0;   ///< strands that are cut or torn (band_strands.h)
+  double torn_share = 0.5;  ///< where it first lost one: of the way from its first end to its last
   bool lost = false;        ///< it could not be solved
 };
 

@@ -107,9 +107,10 @@ class SoftWorld {
     std::size_t index = 0;
     std::array<double, kMaxBands> force_n{}, deep_m{};
     std::array<Vec3, kMaxBands> p_W{};
-    std::array<bool, kMaxBands> cuts{};  ///< a blade presses it hard enough
-    bool works = false;                  ///< with an edge, or under power
-    std::uint64_t lifted = 0;            ///< parts of the tool that are out of the way
+    std::array<bool, kMaxBands> cuts{};    ///< a blade presses it hard enough
+    std::array<Vec3, kMaxBands> edge_W{};  ///< towards that blade, unit
+    bool works = false;                    ///< with an edge, or under power
+    std::uint64_t lifted = 0;              ///< parts of the tool that are out of the way
     std::array<double, kMaxSolids> pull_n{}, pull_m{};  ///< of its jaws on the solids
     double leg_n = 0;  ///< tension of a band that its jaws hold, at most
   };
@@ -117,9 +118,12 @@ class SoftWorld {
   bool is_blade(std::uint32_t instrument, std::size_t part) const;
   bool is_working_end(std::uint32_t instrument, std::size_t part) const;
   void wound(std::size_t band, const Vec3& p_W, double area_m2);
-  void wound_ends(std::size_t band);
+  void wound_ends(std::size_t band, double share);
   void wound_solids(const Hand& hand, const BoneSnapshot& bones);
+  double cutting_force_n(std::size_t band) const;
   bool cut(std::size_t band, std::span<const Hand> hands);
+  void tear_when_overloaded(std::size_t band, const Hand& by, double force_n);
+  void lose_strand(std::size_t band, int strand, const Hand& by, bool by_edge);
   double share_of(std::size_t band, const Vec3& p_W) const;
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
@@ -165,6 +169,7 @@ class SoftWorld {
   std::uint32_t epoch_ = 0;
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
+  std::array<BandSection, kMaxBands> sections_{};
   std::unique_ptr<SoftGrips> grips_;       ///< null: no jaws hold anything
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them

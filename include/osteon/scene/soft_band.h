@@ -36,19 +36,26 @@ struct SoftBand {
   Vec3 from_B = Vec3::Zero(), to_B = Vec3::Zero();  ///< ends of what is free, each in its bone
   double over_m = 0;                                ///< of its length, what lies on `to` beyond
   double radius_m = 0.003;
-  double surface_n_per_m = 800;  ///< how its surface yields, of the tissue table
-  double failure_n = 1e9;        ///< tension at which it tears
-  double left = 1;               ///< share of its fibres that a finding has left
+  double surface_n_per_m = 800;    ///< how its surface yields, of the tissue table
+  double failure_n = 1e9;          ///< tension at which it tears
+  double left = 1;                 ///< share of its fibres that a finding has left
+  Vec3 section_B = Vec3::UnitX();  ///< in the first bone: across it, where its strands begin
   std::vector<BandFibres> fibres;
 };
 
-/// Tension at a length of the whole path, N, and how much it grows with that length, N/m.
-double tension_at(const SoftBand& band, double length_m);
-double tension_slope_at(const SoftBand& band, double length_m);
+/// Tension at a length of the whole path, N, and how much it grows with that length, N/m. `left`:
+/// the share of its strands that no hand has cut or torn.
+double tension_at(const SoftBand& band, double length_m, double left = 1);
+double tension_slope_at(const SoftBand& band, double length_m, double left = 1);
 
 /// A band between its ends in World.
 struct BandSpan {
   Vec3 a_W = Vec3::Zero(), b_W = Vec3::Zero();
+};
+
+/// Two directions across a band, unit, that go with its first bone.
+struct BandSection {
+  Vec3 u_W = Vec3::UnitX(), v_W = Vec3::UnitY();
 };
 
 /// How a part of a tool presses a band.
@@ -68,7 +75,10 @@ struct BandContact {
   std::uint32_t part = 0;       ///< of tool_rods() of the instrument
   Vec3 nhat_W = Vec3::UnitZ();  ///< unit, from the band to the part: the side on which it came
   double others_taken_m = 0;    ///< length of the string's path that other contacts take
-  Vec3 off_W = Vec3::Zero();    ///< by so much other hands have drawn its straight way aside here
+  /// By so much other hands have drawn its straight way aside here; and so deep lies the surface of
+  /// what is left of one that was cut.
+  Vec3 off_W = Vec3::Zero();
+  double left = 1;  ///< share of its strands that are whole
   bool operator==(const BandContact&) const = default;
 };
 
@@ -107,7 +117,7 @@ inline BandSpan span_at(const BandSpan& span, const BandContact& contact) {
 /// which it gives way by `bent_m`; `p_W` is where its middle line is then, and `force_n` the force
 /// on it. Presses nothing where its surface reaches `to_W`.
 BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W,
-                    double others_taken_m, double spring_n_per_m);
+                    double others_taken_m, double spring_n_per_m, double left = 1);
 
 /// Places of a band's middle line and of a part's core between which the part presses along
 /// `nhat_W`: the nearest of both; of a box over the band its lowest place there, however far it has

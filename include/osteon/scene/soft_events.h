@@ -25,6 +25,11 @@ inline constexpr EventKind kSkinLeft{116};     ///< and is out again
 /// percents of the stump.
 inline constexpr EventKind kSoftCleared{117};
 
+/// Strands of a ligament are cut, or have torn: {what is left of them, %; force of the hand, N; its
+/// tension, N}. As the first one goes, and with each tenth of them.
+inline constexpr EventKind kSoftStrandsCut{123};
+inline constexpr EventKind kSoftStrandsTorn{124};
+
 inline constexpr EventKind kSoftPieceHeld{119};    ///< jaws or suction hold a piece of it
 inline constexpr EventKind kSoftPieceLetGo{120};   ///< and have let go
 inline constexpr EventKind kSoftPieceSucked{121};  ///< it went through a suction cannula

@@ -18,6 +18,7 @@ struct SoftHold {
   Vec3 p_T = Vec3::Zero();       ///< the held place, in Tool
   double share = 0.5;            ///< of a band: so much of its length lies before that place
   double others_taken_m = 0;     ///< of a band: length of its path that other contacts take
+  double left = 1;               ///< of a band: share of its strands that are whole
   Vec3 p_B = Vec3::Zero();       ///< of a solid: the place at rest
   double stiffness_n_per_m = 0;  ///< of a solid there, the way that it is pulled
   /// Above 0: suction holds it, no harder than so. It pulls straight towards the mouth alone:

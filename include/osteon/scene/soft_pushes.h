@@ -45,6 +45,14 @@ struct BandBreak {
   bool operator==(const BandBreak&) const = default;
 };
 
+/// A band of which some strands are cut or have torn (physics/soft/band_strands.h).
+struct BandNotch {
+  std::uint32_t band = 0;
+  double share = 0.5;  ///< of the way from the first end to the last
+  std::uint64_t gone = 0;
+  bool operator==(const BandNotch&) const = default;
+};
+
 /// What presses the soft parts now and what is in two, for pictures: of every hand's parts.
 struct SoftPushes {
   struct One {
@@ -61,6 +69,8 @@ struct SoftPushes {
   std::array<StringBend, kMostBends> bends{};
   std::uint32_t break_count = 0;
   std::array<BandBreak, kMaxBands> breaks{};
+  std::uint32_t notch_count = 0;
+  std::array<BandNotch, kMaxBands> notches{};
   /// What was cut out of each solid, anew when it changed; null: nothing.
   std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts{};
   /// Of each patch of skin, anew when it changed; null: none is felt.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "jaws.h"
+#include "osteon/physics/band_strands.h"
 
 namespace osteon {
 namespace {
@@ -168,6 +169,7 @@ GripPull SoftGrips::pull_of(SoftState& state, std::size_t h, const ToolState& to
   if (hold.of == SoftHold::Of::kBand) {
     const BandSpan& span = parts.spans[hold.part];
     hold.others_taken_m = others_taken_m(state, h, hold.part);
+    hold.left = strands_left(state.bands[hold.part].gone);
     const HeldBand held = hold_band(setup_.bands[hold.part], span, out.p_W, hold, spring_n_per_m_);
     out.force_n = held.force_W.norm();
     out.tension_n = held.tension_n;

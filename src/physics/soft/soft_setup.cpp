@@ -178,6 +178,8 @@ Result<void> lay_ends(const Case& the_case, const SoftPart& part, const Ligament
   band.over_m = (to_W - leaves_W).norm();
   band.from_B = the_case.bone(band.from).X_WB.inverse() * from_W;
   band.to_B = the_case.bone(band.to).X_WB.inverse() * leaves_W;
+  const Vec3 way_W = leaves_W - from_W;
+  band.section_B = the_case.bone(band.from).X_WB.inverse().rotate(way_W).unitOrthogonal();
   const double free_m = (leaves_W - from_W).norm();
   if (!(free_m >= kShortest_m && free_m <= kLongest_m))
     return fail("the ligament '" + part.name + "' is " + std::to_string(1e3 * free_m) + " mm long",

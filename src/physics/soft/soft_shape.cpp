@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "osteon/mesh/append_mesh.h"
+#include "osteon/physics/band_strands.h"
 #include "skin/skin_shape.h"
 #include "soft/band_stumps.h"
 #include "soft/bent_band.h"
 #include "soft/cut_shape.h"
+#include "soft/notched_band.h"
 
 namespace osteon {
 namespace {
@@ -50,6 +52,12 @@ std::optional<double> break_of(std::size_t band, const SoftPushes& pushes) {
   return {};
 }
 
+std::optional<BandNotch> notch_of(std::size_t band, const SoftPushes& pushes) {
+  for (std::uint32_t i = 0; i < pushes.notch_count; ++i)
+    if (pushes.notches[i].band == band) return pushes.notches[i];
+  return {};
+}
+
 }  // namespace
 
 SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> setup)
@@ -67,12 +75,14 @@ SoftShapes::SoftShapes(const Case& the_case, std::shared_ptr<const SoftSetup> se
     shapes_.push_back(std::move(shape));
     find_patches(shapes_.size() - 1);
   }
-  for (const SoftBand& band : setup_->bands)
-    bands_.push_back(
-        {the_case.softs[band.soft].mesh_W,
-         {the_case.bone(band.from).X_WB * band.from_B, the_case.bone(band.to).X_WB * band.to_B},
-         {},
-         {}});
+  for (const SoftBand& band : setup_->bands) {
+    BandShape shape;
+    shape.mesh_W = the_case.softs[band.soft].mesh_W;
+    const Pose &from = the_case.bone(band.from).X_WB, &to = the_case.bone(band.to).X_WB;
+    shape.rest_W = {from * band.from_B, to * band.to_B};
+    shape.section = section_of(band, shape.rest_W, from);
+    bands_.push_back(std::move(shape));
+  }
   if (!setup_->skins.empty()) skin_ = std::make_unique<SkinShape>(the_case, *setup_);
 }
 
@@ -106,7 +116,8 @@ void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) 
     BandShape& shape = bands_[b];
     std::vector<StringBend> now = bends_of(b, pushes);
     const std::optional<double> broken = break_of(b, pushes);
-    if (broken == shape.broken &&
+    const std::optional<BandNotch> notch = notch_of(b, pushes);
+    if (broken == shape.broken && notch == shape.notch &&
         std::equal(now.begin(), now.end(), shape.shown.begin(), shape.shown.end(), bends_alike))
       continue;
     out.push_back({setup_->bands[b].soft, shape.mesh_W, {}});
@@ -114,8 +125,13 @@ void SoftShapes::add_bands(const SoftPushes& pushes, std::vector<Changed>& out) 
     if (broken)
       mesh_W.vertices = stump_points(shape.mesh_W, shape.rest_W, *broken,
                                      stump_gap_m(setup_->bands[b], shape.rest_W));
+    else if (notch)
+      mesh_W.vertices = bent_points(notched_points(shape.mesh_W.vertices, setup_->bands[b],
+                                                   shape.rest_W, shape.section, *notch),
+                                    shape.rest_W, now);
     else
       mesh_W.vertices = bent_points(shape.mesh_W.vertices, shape.rest_W, now);
+    shape.notch = notch;
     shape.shown = std::move(now);
     shape.broken = broken;
   }

@@ -188,6 +188,15 @@ void let_pieces_meet_softs(SoftSetup& setup) {
   setup.hash = h.value();
 }
 
+void let_bands_part_by_strands(SoftSetup& setup) {
+  if (setup.bands.empty()) return;
+  setup.by_strands = true;
+  Hasher h;
+  h.add(setup.hash);
+  h.add(std::string_view("bands part by strands"));
+  setup.hash = h.value();
+}
+
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {
   const auto holds = [](const std::optional<SoftGripper>& jaws) { return jaws.has_value(); };
   if (std::none_of(grippers.begin(), grippers.end(), holds)) return;

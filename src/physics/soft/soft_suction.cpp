@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/physics/band_strands.h"
 #include "soft/soft_grips.h"
 
 namespace osteon {
@@ -26,8 +27,9 @@ bool SoftGrips::draws_band(const SoftState& state, std::size_t h, const ToolStat
   if (!(hold.share > kAtEnds && hold.share < 1 - kAtEnds) || !(distance > 0)) return false;
   if (!(apart.dot(tool.X_WP.rotate(Vec3::UnitZ())) > kBefore * distance)) return false;
   hold.others_taken_m = others_taken_m(state, h, hold.part);
+  hold.left = strands_left(state.bands[hold.part].gone);
   const BandPress press =
-      draw_band(band, span, mouth_W, hold.others_taken_m, hold.stiffness_n_per_m);
+      draw_band(band, span, mouth_W, hold.others_taken_m, hold.stiffness_n_per_m, hold.left);
   out.gap_m = distance - band.radius_m;
   out.target_n_per_m = spring_n_per_m_;
   if (press.presses) out.bend_W = across(span, press.p_W);

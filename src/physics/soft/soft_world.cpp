@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "osteon/collide/round_box.h"
+#include "osteon/physics/band_strands.h"
 #include "osteon/physics/fallen_pieces.h"
 #include "osteon/scene/soft_events.h"
 #include "osteon/scene/tool_rods.h"
@@ -88,20 +88,6 @@ bool SoftWorld::is_working_end(std::uint32_t instrument, std::size_t part) const
   return std::max(rod.p0.norm(), rod.p1.norm()) < kBlade_m;
 }
 
-// Of a band the place goes with the bone whose end is nearer.
-void SoftWorld::wound(std::size_t b, const Vec3& p_W, double area_m2) {
-  const SoftBand& band = setup_->bands[b];
-  if (openings_.size() < openings_.capacity())
-    openings_.push_back({band.soft, share_of(b, p_W) < 0.5 ? band.from : band.to, p_W, area_m2});
-}
-
-// Both ends of a band that is in two now.
-void SoftWorld::wound_ends(std::size_t b) {
-  const double radius_m = setup_->bands[b].radius_m;
-  wound(b, spans_[b].a_W + state_.bands[b].torn_share * (spans_[b].b_W - spans_[b].a_W),
-        2 * std::numbers::pi * radius_m * radius_m);
-}
-
 void SoftWorld::wound_solids(const Hand& hand, const BoneSnapshot& bones) {
   const SolidHandState& state = state_.solid_hands[hand.index];
   for (std::uint32_t i = 0; i < state.count && hand.tool && hand.works; ++i) {
@@ -121,6 +107,8 @@ void SoftWorld::place_bands(const BoneSnapshot& bones) {
     const SoftBand& band = setup_->bands[b];
     spans_[b] = {bones.bones[band.from.index].X_WB * band.from_B,
                  bones.bones[band.to.index].X_WB * band.to_B};
+    if (setup_->by_strands)
+      sections_[b] = section_of(band, spans_[b], bones.bones[band.from.index].X_WB);
     readouts_[b] = {};
     const bool sound = is_finite(spans_[b].a_W) && is_finite(spans_[b].b_W) &&
                        (spans_[b].b_W - spans_[b].a_W).norm() > 1e-6;
@@ -168,6 +156,8 @@ Vec3 SoftWorld::shift_of(const Hand& hand, const RoundBox& part_W, const BandCon
     if (grip.hold.of == SoftHold::Of::kBand && grip.hold.part == b)
       add(grip.hold.share, grip.bend_W);
   }
+  if (const std::uint64_t gone = state_.bands[b].gone; gone != 0)
+    sum -= hollow_m(setup_->bands[b], gone, sections_[b], nhat_W) * nhat_W;
   return sum;
 }
 
@@ -271,6 +261,7 @@ void SoftWorld::press(Hand& hand) {
     const RoundBox part_W = placed(hand.tool->X_WP, shapes_[state.instrument][near.contact.part]);
     near.contact.off_W = shift_of(hand, part_W, near.contact, near.contact.nhat_W);
     near.contact.others_taken_m = taken_by_others(near);
+    near.contact.left = strands_left(state_.bands[b].gone);
     if (near.barred || near.behind) continue;
     const BandPress press = press_band(band, span_at(spans_[b], near.contact), part_W, near.contact,
                                        std::min(coupling_n_per_m_, band.surface_n_per_m));
@@ -279,8 +270,10 @@ void SoftWorld::press(Hand& hand) {
     near.bend_W = -press.bent_m * near.contact.nhat_W;
     near.at_share = share_of(b, press.p_W);
     keep_bend(near.contact, press, part_W.rod.radius);
-    if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part))
+    if (press.force_n > cutting_force_n(b) && is_blade(state.instrument, near.contact.part)) {
       hand.cuts[b] = true;
+      hand.edge_W[b] = near.contact.nhat_W;
+    }
     if (press.force_n > kNick_n && hand.works &&
         is_working_end(state.instrument, near.contact.part))
       wound(b, press.p_W, kWounds_m2_per_ns * press.force_n * step_s_);
@@ -309,55 +302,6 @@ double SoftWorld::share_of(std::size_t b, const Vec3& p_W) const {
   const Vec3 way = spans_[b].b_W - spans_[b].a_W;
   const double share = (p_W - spans_[b].a_W).dot(way) / way.squaredNorm();
   return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.5;
-}
-
-// In two: as of one that is torn, nothing of it is felt after that.
-bool SoftWorld::cut(std::size_t b, std::span<const Hand> hands) {
-  for (const Hand& hand : hands) {
-    if (!hand.cuts[b]) continue;
-    state_.bands[b].torn = true;
-    state_.bands[b].torn_share = share_of(b, hand.p_W[b]);
-    tell(hand, kSoftCut, b, {hand.force_n[b], readouts_[b].tension_n, 0});
-    return true;
-  }
-  return false;
-}
-
-// Who pulls most tears it; where no hand pulls, the bones do.
-void SoftWorld::tear(std::span<const Hand> hands) {
-  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
-    if (!is_felt(b)) continue;
-    const SoftBand& band = setup_->bands[b];
-    double length = (spans_[b].b_W - spans_[b].a_W).norm() + band.over_m;
-    for (const SoftHandState& hand : state_.hands)
-      for (std::uint32_t i = 0; i < hand.count; ++i)
-        if (hand.near[i].contact.band == b) length += hand.near[i].taken_m;
-    length += taken_by_grips(state_, b);
-    BandReadout& readout = readouts_[b];
-    readout.tension_n = tension_at(band, length);
-    std::size_t most = hands.size();
-    for (const Hand& hand : hands) {
-      const SoftHold& hold = state_.grips[hand.index].hold;
-      if (hold.of == SoftHold::Of::kBand && hold.part == b)
-        readout.tension_n = std::max(readout.tension_n, hand.leg_n);
-      readout.force_n[hand.index] = hand.force_n[b];
-      if (hand.force_n[b] > (most < hands.size() ? hands[most].force_n[b] : 0)) most = hand.index;
-    }
-    const Hand by = most < hands.size() ? hands[most] : Hand{};
-    const double force_n = most < hands.size() ? by.force_n[b] : 0;
-    if (!std::isfinite(readout.tension_n) || !std::isfinite(force_n)) {
-      state_.bands[b].lost = true;
-      tell(by, kSoftLost, b, {});
-    } else if (cut(b, hands)) {
-      // A blade is sooner than tearing.
-    } else if (readout.tension_n > band.failure_n) {
-      state_.bands[b].torn = true;
-      state_.bands[b].torn_share = by.tool ? share_of(b, by.p_W[b]) : 0.5;
-      tell(by, kSoftTorn, b, {readout.tension_n, force_n, 0});
-    }
-    if (state_.bands[b].torn) wound_ends(b);
-    if (!is_felt(b)) readout = {};
-  }
 }
 
 // Parts are followed for all hands first: what one presses away another one meets.
@@ -449,7 +393,10 @@ SoftPushes SoftWorld::pushes() const {
   for (std::uint32_t i = 0; i < bend_count_; ++i)
     if (is_felt(bends_[i].band)) out.bends[out.bend_count++] = bends_[i];
   for (std::uint32_t b = 0; b < setup_->bands.size(); ++b)
-    if (state_.bands[b].torn) out.breaks[out.break_count++] = {b, state_.bands[b].torn_share};
+    if (const BandState& band = state_.bands[b]; band.torn)
+      out.breaks[out.break_count++] = {b, band.torn_share};
+    else if (band.gone != 0)
+      out.notches[out.notch_count++] = {b, band.torn_share, band.gone};
   if (cutting_) cutting_->show(out.cuts);
   for (const FallenPiece& piece : lying()) out.pieces[out.piece_count++] = piece.shape;
   if (skins_) skins_->show(out);
@@ -555,10 +502,14 @@ BandContacts SoftWorld::contacts(std::size_t hand) const {
   out.epoch = epoch_;
   for (std::uint32_t i = 0; i < state.count; ++i) {
     const NearBand& near = state.near[i];
-    if (!near.barred && !near.behind && is_felt(near.contact.band))
-      out.all[out.count++] = near.contact;
+    if (near.barred || near.behind || !is_felt(near.contact.band)) continue;
+    BandContact& told = out.all[out.count++];
+    told = near.contact;
+    told.left = strands_left(state_.bands[told.band].gone);
   }
   out.hold = state_.grips[hand].hold;
+  if (out.hold.of == SoftHold::Of::kBand)
+    out.hold.left = strands_left(state_.bands[out.hold.part].gone);
   if (solids_) solids_->tell(state_.solid_hands[hand], out);
   if (skins_) skins_->tell(hand, out);
   return out;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "osteon/base/hash.h"
+#include "osteon/physics/band_strands.h"
 #include "osteon/physics/fallen_pieces.h"
 #include "osteon/physics/soft_world.h"
 #include "skin/skin_world.h"
@@ -102,7 +103,8 @@ std::uint64_t SoftWorld::hash() const {
   for (const BandState& band : std::span(state_.bands).first(bands)) {
     h.add(band.torn);
     h.add(band.lost);
-    if (band.torn) h.add(band.torn_share);
+    if (band.gone != 0) h.add(band.gone);
+    if (band.torn || band.gone != 0) h.add(band.torn_share);
   }
   for (const SoftHandState& hand : state_.hands) {
     h.add(hand.instrument);
@@ -124,7 +126,7 @@ bool SoftWorld::fits(const SoftState& state) const {
   if (state.skin && !(skins_ && skins_->fits(*state.skin, tray_))) return false;
   if (state.pieces && !fits_pieces(*state.pieces)) return false;
   for (const BandState& band : state.bands)
-    if (!(band.torn_share >= 0 && band.torn_share <= 1)) return false;
+    if (!(band.torn_share >= 0 && band.torn_share <= 1) || band.gone > kAllStrands) return false;
   for (const SoftHandState& hand : state.hands) {
     if (hand.count > kMaxBandContacts || hand.instrument >= tray_.size()) return false;
     for (std::uint32_t i = 0; i < hand.count; ++i)

@@ -30,12 +30,12 @@ double slope_of(const BandFibres& fibres, double length_m) {
 // A string bent by `bent` across its straight way, `to_a` and `to_b` from its ends.
 struct BentString {
   const SoftBand& band;
-  double to_a, to_b, taken_by_others_m;
+  double to_a, to_b, taken_by_others_m, left;
 
   double leg(double along, double bent) const { return std::sqrt(along * along + bent * bent); }
   double taken(double bent) const { return leg(to_a, bent) + leg(to_b, bent) - (to_a + to_b); }
   double tension(double bent) const {
-    return tension_at(band, to_a + to_b + taken(bent) + taken_by_others_m + band.over_m);
+    return tension_at(band, to_a + to_b + taken(bent) + taken_by_others_m + band.over_m, left);
   }
   double force(double bent) const {
     return tension(bent) * bent * (1 / leg(to_a, bent) + 1 / leg(to_b, bent));
@@ -55,16 +55,16 @@ double balance(const BentString& string, double deep, double k) {
 
 }  // namespace
 
-double tension_at(const SoftBand& band, double length_m) {
+double tension_at(const SoftBand& band, double length_m, double left) {
   double sum = 0;
   for (const BandFibres& fibres : band.fibres) sum += pull_of(fibres, length_m);
-  return band.left * sum;
+  return left * band.left * sum;
 }
 
-double tension_slope_at(const SoftBand& band, double length_m) {
+double tension_slope_at(const SoftBand& band, double length_m, double left) {
   double sum = 0;
   for (const BandFibres& fibres : band.fibres) sum += slope_of(fibres, length_m);
-  return band.left * sum;
+  return left * band.left * sum;
 }
 
 AxisPoints pressed_between(const BandSpan& span, const RoundBox& part_W, const Vec3& nhat_W) {
@@ -94,7 +94,7 @@ BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox&
   const double to_a = (pair.a - span.a_W).norm(), to_b = (pair.a - span.b_W).norm();
   const double at_end = std::min(1.0, std::min(to_a, to_b) / (kEndShare * (to_a + to_b)));
   if (!(out.deep_m > 0) || !(at_end > 0) || !std::isfinite(to_a + to_b)) return out;
-  const BentString string{band, to_a, to_b, contact.others_taken_m};
+  const BentString string{band, to_a, to_b, contact.others_taken_m, contact.left};
   const double k = at_end * surface_n_per_m;
   out.bent_m = balance(string, out.deep_m, k);
   out.taken_m = string.taken(out.bent_m);
@@ -105,7 +105,7 @@ BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox&
 }
 
 BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W,
-                    double others_taken_m, double spring_n_per_m) {
+                    double others_taken_m, double spring_n_per_m, double left) {
   BandPress out;
   const Vec3 way = span.b_W - span.a_W;
   const double length = way.norm();
@@ -117,7 +117,7 @@ BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W
   out.deep_m = apart - band.radius_m;
   const double at_end = std::min(1.0, std::min(share, 1 - share) / kEndShare);
   if (!(out.deep_m > 0) || !(at_end > 0)) return out;
-  const BentString string{band, share * length, (1 - share) * length, others_taken_m};
+  const BentString string{band, share * length, (1 - share) * length, others_taken_m, left};
   out.bent_m = balance(string, out.deep_m, at_end * spring_n_per_m);
   out.taken_m = string.taken(out.bent_m);
   out.tension_n = string.tension(out.bent_m);

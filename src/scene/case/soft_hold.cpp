@@ -19,11 +19,11 @@ constexpr double kDescends = 0.1;  // of what the slope promises
 struct HeldLeg {
   const SoftBand& band;
   Vec3 end_W;
-  double share, behind_m, others_m;
+  double share, behind_m, others_m, left;
 
   double whole(double l) const { return (l + behind_m) / share + others_m; }
-  double tension(double l) const { return tension_at(band, whole(l)); }
-  double slope(double l) const { return tension_slope_at(band, whole(l)) / share; }
+  double tension(double l) const { return tension_at(band, whole(l), left); }
+  double slope(double l) const { return tension_slope_at(band, whole(l), left) / share; }
   // Pull on the place h, and the curvature that its energy has there.
   void add(const Vec3& h, Vec3& force, Mat3& curve) const {
     const Vec3 way = h - end_W;
@@ -63,8 +63,9 @@ HeldBand hold_band(const SoftBand& band, const BandSpan& span, const Vec3& grip_
   HeldBand out;
   const double share = hold.share;
   if (!is_finite(grip_W) || !(share > 0 && share < 1) || !(spring_n_per_m > 0)) return out;
-  const HeldString string{{band, span.a_W, share, 0, hold.others_taken_m},
-                          {band, span.b_W, 1 - share, band.over_m, hold.others_taken_m},
+  const double others_m = hold.others_taken_m;
+  const HeldString string{{band, span.a_W, share, 0, others_m, hold.left},
+                          {band, span.b_W, 1 - share, band.over_m, others_m, hold.left},
                           grip_W,
                           spring_n_per_m};
   Vec3 h = grip_W;

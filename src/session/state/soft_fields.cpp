@@ -12,6 +12,8 @@ constexpr std::uint64_t kLooseSofts = 33;
 // The version that has room for more bands than kBandsBefore.
 constexpr std::uint64_t kMoreBands = 36;
 constexpr std::size_t kBandsBefore = 8;
+// Of a band: 61 strands and whether it is in two.
+constexpr std::uint64_t kAllStrandBits = (std::uint64_t{1} << 62) - 1;
 
 template <class A>
 void field(A& a, NearBand& n) {
@@ -89,6 +91,16 @@ void grips_field(A& a, SoftState& s) {
     if (any) field(a, grip);
 }
 
+// Whether it is in two, bit 0, and behind it which of its strands are gone: a word of before they
+// were told apart says the same.
+template <class A>
+void strands_field(A& a, BandState& band) {
+  std::uint64_t bits = band.gone << 1 | (band.torn ? 1 : 0);
+  number(a, bits, kAllStrandBits);
+  band.torn = (bits & 1) != 0;
+  band.gone = bits >> 1;
+}
+
 template <class A>
 void field(A& a, SoftState& s) {
   if (!since(a, 3)) return;  // nothing was soft then
@@ -96,9 +108,9 @@ void field(A& a, SoftState& s) {
   if (!s.on) return;
   const std::size_t bands = since(a, kMoreBands) ? kMaxBands : kBandsBefore;
   for (BandState& band : std::span(s.bands).first(bands)) {
-    field(a, band.torn);
+    strands_field(a, band);
     field(a, band.lost);
-    if (!band.torn) continue;
+    if (!band.torn && band.gone == 0) continue;
     if (!since(a, 10)) continue;  // where it tore was not kept then
     field(a, band.torn_share);
   }

@@ -1,9 +1,11 @@
 // Soft parts by themselves: what is no ligament is refused, and what cannot be solved is let go.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/build_case.h"
 #include "osteon/scene/soft_events.h"
@@ -30,10 +32,11 @@ Tool rod_along_y() {
   tool.parts.push_back(make_rod(Vec3(0, -0.02, 0), Vec3(0, 0.02, 0), 0.001));
   return tool;
 }
-std::shared_ptr<const SoftSetup> setup_of(const SoftBand& band) {
+std::shared_ptr<const SoftSetup> setup_of(const SoftBand& band, bool by_strands) {
   SoftSetup setup;
   setup.bands = {band};
   setup.hash = 1;
+  setup.by_strands = by_strands;
   return std::make_shared<const SoftSetup>(std::move(setup));
 }
 
@@ -43,8 +46,10 @@ struct World {
   BoneSnapshot bones;
   ToolState tool;
 
-  explicit World(const SoftBand& band = taut_band(), const Tool& held = rod_along_y())
-      : tray{std::make_shared<const Tool>(held)}, softs(setup_of(band), tray, 2000, 5, 0.002) {
+  explicit World(const SoftBand& band = taut_band(), const Tool& held = rod_along_y(),
+                 bool by_strands = false)
+      : tray{std::make_shared<const Tool>(held)},
+        softs(setup_of(band, by_strands), tray, 2000, 5, 0.002) {
     bones.count = 2;
     tool.tick = 1;
   }
@@ -105,6 +110,41 @@ TEST(SoftWorld, BonesPulledApartTearIt) {
   EXPECT_EQ(world.softs.events()[0].kind, kSoftTorn);
   EXPECT_EQ(world.softs.events()[0].hand, kNoHand);
   EXPECT_GT(world.softs.events()[0].values[0], 400);
+}
+
+// Bones that part slowly tear what is left of it strand by strand: the first at its share of the
+// failure load, the last at a quarter more for itself; the tension falls all the way.
+TEST(SoftWorld, BonesPulledApartTearWhatIsLeftStrandByStrand) {
+  for (const int strands : {61, 30, 6}) {
+    SoftBand band = taut_band();
+    band.failure_n = 400;
+    World world(band, rod_along_y(), true);
+    SoftState state = world.softs.save();
+    for (int i = strands; i < kStrands; ++i) state.bands[0].gone |= std::uint64_t{1} << i;
+    world.softs.restore(state, 0);
+    double peak_n = 0, apart_m = 0, first_m = 0;
+    std::vector<double> left;
+    while (!world.softs.state().bands[0].torn && apart_m < 0.003) {
+      apart_m += 2e-7;
+      world.bones.bones[1].X_WB.p.x() = apart_m;
+      world.step(0.05);
+      const std::uint64_t gone = world.softs.state().bands[0].gone;
+      if (gone != state.bands[0].gone && first_m == 0) first_m = apart_m;
+      peak_n = std::max(peak_n, world.softs.readout(0).tension_n);
+      for (const Event& event : world.softs.events())
+        if (event.kind == kSoftStrandsTorn) left.push_back(event.values[0]);
+    }
+    ASSERT_TRUE(world.softs.state().bands[0].torn) << strands;
+    ASSERT_EQ(world.softs.events().back().kind, kSoftTorn);
+    const double weakest = strand_strength(weakest_strand(state.bands[0].gone));
+    EXPECT_NEAR(peak_n, 400 * weakest * strands / kStrands, 0.005 * peak_n) << strands;
+    double strongest = 0;
+    for (int i = 0; i < strands; ++i) strongest = std::max(strongest, strand_strength(i));
+    EXPECT_NEAR(world.softs.events().back().values[0], 400 * strongest / kStrands, 0.05);
+    EXPECT_NEAR(apart_m - first_m, 400 * (strongest - weakest) / 6000 * 0.03 / 1.05, 2e-6);
+    EXPECT_TRUE(std::is_sorted(left.rbegin(), left.rend()));
+    EXPECT_GE(left.size(), strands == 61 ? 9u : 0u);
+  }
 }
 
 TEST(SoftWorld, AStateOfAnotherKindDoesNotFit) {
