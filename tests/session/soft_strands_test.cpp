@@ -107,6 +107,10 @@ TEST(SoftStrands, ABladeCutsThemOneAfterTheOtherAsDeepAsItIsPressed) {
   before = blade.left();
   while (blade.z_m < kTouch_m + 0.002) blade.tick(blade.z_m + kPress_m_per_tick);
   EXPECT_EQ(blade.left(), before);
+  const SoftPushes shown = session.softs()->pushes();  // still seen when nothing presses it
+  ASSERT_EQ(shown.load_count, 1u);
+  EXPECT_EQ(shown.loads[0].force_n[0], 0);
+  EXPECT_EQ(shown.loads[0].left, before);
   EXPECT_EQ(blade.told(kSoftCut, 0).size(), 0u);
   while (!blade.band().torn && blade.z_m > -0.03) blade.tick(blade.z_m - kPress_m_per_tick);
   EXPECT_TRUE(blade.band().torn);

@@ -153,6 +153,7 @@ class SoftWorld {
   void keep_bend(const BandContact& contact, const BandPress& press, double part_radius_m);
   void tear(std::span<const Hand> hands);
   void tell_touches(const Hand& hand, std::uint64_t step);
+  void show_loads(SoftPushes& out) const;
   double taken_by_others(const NearBand& near) const;
   Vec3 shift_of(const Hand& hand, const RoundBox& part_W, const BandContact& contact,
                 const Vec3& nhat_W) const;

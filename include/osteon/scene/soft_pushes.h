@@ -9,6 +9,7 @@
 #include "osteon/scene/loose_bone.h"
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_solid.h"
+#include "osteon/scene/state.h"
 
 namespace osteon {
 
@@ -53,6 +54,15 @@ struct BandNotch {
   bool operator==(const BandNotch&) const = default;
 };
 
+/// A soft part that hands press or pull now, or of which some strands are gone.
+struct SoftLoad {
+  std::uint32_t soft = 0;                   ///< in Case::softs
+  std::array<double, kMaxHands> force_n{};  ///< of each hand on it
+  double tension_n = -1;                    ///< of a band; below 0: it is none
+  double left = 1;                          ///< of a band, the share of its strands
+  bool operator==(const SoftLoad&) const = default;
+};
+
 /// What presses the soft parts now and what is in two, for pictures: of every hand's parts.
 struct SoftPushes {
   struct One {
@@ -71,6 +81,9 @@ struct SoftPushes {
   std::array<BandBreak, kMaxBands> breaks{};
   std::uint32_t notch_count = 0;
   std::array<BandNotch, kMaxBands> notches{};
+  static constexpr std::size_t kMostLoads = kMaxBands + kMaxSolids + kMaxSkins;
+  std::uint32_t load_count = 0;
+  std::array<SoftLoad, kMostLoads> loads{};
   /// What was cut out of each solid, anew when it changed; null: nothing.
   std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts{};
   /// Of each patch of skin, anew when it changed; null: none is felt.

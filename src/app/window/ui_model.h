@@ -74,6 +74,14 @@ struct ContactRow {
   bool sticking = false;
 };
 
+/// A soft part that the hand presses or pulls, or that has been cut.
+struct SoftRow {
+  std::uint32_t soft = 0;  ///< in UiModel::soft_labels
+  double force_n = 0;
+  double tension_n = -1;  ///< below 0: it has none
+  double left = 1;        ///< share of its strands
+};
+
 struct RecordModel {
   bool on = false;
   double seconds = 0;
@@ -138,6 +146,7 @@ struct UiModel {
 
   HandModel hand;
   std::vector<ContactRow> contacts;
+  std::vector<SoftRow> soft_rows;
   std::span<const float> force_history;  ///< N, oldest first, kForceHistoryHz
   RecordModel record;
   ReplayModel replay;

@@ -47,6 +47,18 @@ std::vector<ContactRow> contact_rows(const ToolState& tool) {
   return rows;
 }
 
+// What that hand presses and pulls of the soft parts, and what of them has been cut.
+std::vector<SoftRow> soft_rows(const SoftPushes& pushes, std::size_t hand) {
+  std::vector<SoftRow> rows;
+  for (std::uint32_t i = 0; i < pushes.load_count; ++i) {
+    const SoftLoad& load = pushes.loads[i];
+    const double force_n = load.force_n[hand];
+    if (force_n > 0 || load.left < 1)
+      rows.push_back({load.soft, force_n, load.tension_n, load.left});
+  }
+  return rows;
+}
+
 // What the instrument that the picture shows bears at its grip.
 void tell_torque(const ToolState& state, const Tray& tray, std::span<const Portal> portals,
                  HandModel& hand) {
@@ -83,8 +95,11 @@ UiModel WindowApp::build_model() {
   replay_.describe(model);
   cases_.describe(model);
   marks_.update();
+  soft_news_.update();
   model.timeline.marks = marks_.all();
   model.contacts = contact_rows(sight_.shown().tool);
+  model.soft_rows = live_.run() ? soft_rows(live_.run()->pushes(), live_.run()->active())
+                                : soft_rows(replay_.pushes(), 0);
   tell_torque(sight_.shown().tool, replay_.on() ? replay_.replay()->tray : live_.tray().run().tools,
               replay_.on() ? replay_.replay()->portals : scene_.portals, model.hand);
   model.checkup = checkup_.model();

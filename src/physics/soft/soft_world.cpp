@@ -397,6 +397,7 @@ SoftPushes SoftWorld::pushes() const {
       out.breaks[out.break_count++] = {b, band.torn_share};
     else if (band.gone != 0)
       out.notches[out.notch_count++] = {b, band.torn_share, band.gone};
+  show_loads(out);
   if (cutting_) cutting_->show(out.cuts);
   for (const FallenPiece& piece : lying()) out.pieces[out.piece_count++] = piece.shape;
   if (skins_) skins_->show(out);

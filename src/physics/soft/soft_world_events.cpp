@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/soft_events.h"
 #include "skin/skin_world.h"
@@ -61,6 +62,23 @@ void SoftWorld::tell_solid_touches(const SolidHand& solid_hand, const Hand& hand
     say(news.over, kSoftOver, {force_n, limit_n_, 0});
     say(news.ends, kSoftEnd, {news.since_s, news.peak_n, news.deepest_mm});
   }
+}
+
+void SoftWorld::show_loads(SoftPushes& out) const {
+  const auto add = [&](const SoftLoad& load) {
+    const auto pushes = [](double force_n) { return force_n > 0; };
+    if (out.load_count == out.loads.size()) return;
+    if (load.left < 1 || std::any_of(load.force_n.begin(), load.force_n.end(), pushes))
+      out.loads[out.load_count++] = load;
+  };
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b)
+    if (is_felt(b))
+      add({setup_->bands[b].soft, readouts_[b].force_n, readouts_[b].tension_n,
+           strands_left(state_.bands[b].gone)});
+  for (std::size_t s = 0; s < setup_->solids.size(); ++s)
+    add({setup_->solids[s].soft, solid_readouts_[s].force_n});
+  for (std::size_t k = 0; skins_ && k < setup_->skins.size(); ++k)
+    add({setup_->skins[k].soft, skins_->readout(k).force_n});
 }
 
 void SoftWorld::tell_grip(const Hand& hand, const GripNews& news) {

@@ -8,8 +8,8 @@
 
 namespace osteon {
 
-/// What pressed soft parts, and which were in two, in a repeated recording, 60 times a second, kept
-/// where it changed.
+/// What pressed soft parts, and which were cut or in two, in a repeated recording, 60 times a
+/// second, kept where it changed.
 class PushHistory {
  public:
   static constexpr double kPictureHz = 60;
@@ -25,6 +25,8 @@ class PushHistory {
     std::vector<SoftPushes::One> all;
     std::vector<StringBend> bends;
     std::vector<BandBreak> breaks;
+    std::vector<BandNotch> notches;
+    std::vector<SoftLoad> loads;
     std::array<std::shared_ptr<const CarveState>, kMaxSolids> cuts;
     std::vector<SkinDent> dents;
     std::vector<std::shared_ptr<const PieceShape>> pieces;

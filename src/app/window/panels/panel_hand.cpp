@@ -80,8 +80,26 @@ void draw_force_state(const PanelContext& c) {
   ui::tooltip("Switches the motors off at once");
 }
 
+// Of a ligament its tension as well, and what is left of one that was cut.
+void draw_soft_rows(const PanelContext& c) {
+  for (const SoftRow& row : c.model.soft_rows) {
+    if (row.soft >= c.model.soft_labels.size()) continue;
+    ui::stat(c.model.soft_labels[row.soft].c_str(), ui::number(row.force_n, 2) + " N",
+             "Force of the instrument on this soft part, newtons");
+    if (row.tension_n >= 0)
+      ui::stat("  tension", ui::number(row.tension_n, 1) + " N",
+               "With this force the whole ligament is stretched, by bones and hands, newtons");
+    if (row.left < 1)
+      ui::stat("  left", ui::number(100 * row.left, 0) + " %",
+               "Share of the ligament's strands that is neither cut nor torn. It tears at this "
+               "share of its failure load");
+  }
+}
+
 void draw_contacts(const PanelContext& c) {
+  draw_soft_rows(c);
   if (c.model.contacts.empty()) {
+    if (!c.model.soft_rows.empty()) return;
     ui::text(color::kTextQuiet, "Nothing touched");
     return;
   }

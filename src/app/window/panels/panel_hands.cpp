@@ -64,8 +64,9 @@ void draw_tip(const PanelContext& c) {
   const std::size_t k = tip.soft ? *tip.soft : tip.bone.index;
   if (!tip.known || k >= labels.size()) return;
   ui::stat(("Tip to " + labels[k]).c_str(), ui::number(tip.distance_mm, 1) + " mm",
-           "From the middle of the tip to the nearest surface of a bone, or of a meniscus, stump "
-           "or patch of skin that is felt (before any cut), millimetres; negative inside");
+           "From the middle of the tip to the nearest surface of a bone, or of a ligament, "
+           "meniscus, stump or patch of skin that is felt (before any cut), millimetres; negative "
+           "inside");
 }
 
 // From the middle of the bone to a name that had to give way.

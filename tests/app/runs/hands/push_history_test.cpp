@@ -81,5 +81,20 @@ TEST(PushHistory, KeepsDentsAndCutsOfSkin) {
   EXPECT_EQ(history.kept(), 2u);
 }
 
+TEST(PushHistory, KeepsWhatOfALigamentIsCutAndWhatLoadsIt) {
+  PushHistory history;
+  SoftPushes cut;
+  cut.notch_count = 1;
+  cut.notches[0] = {1, 0.4, 0b101};
+  SoftPushes loaded = cut;
+  loaded.load_count = 1;
+  loaded.loads[0] = {3, {2.5}, 30, 0.9};
+  for (int tick = 1; tick <= 300; ++tick)
+    history.add(tick <= 100 ? SoftPushes{} : tick <= 200 ? cut : loaded, tick * 0.001);
+  EXPECT_EQ(history.at(0.05), SoftPushes{});
+  EXPECT_EQ(history.at(0.19), cut);
+  EXPECT_EQ(history.at(0.29), loaded);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -1,5 +1,6 @@
 #include "window/controllers/sessions/tip_gauge.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,20 @@ void take_from(std::unique_ptr<SideJob<T>>& job, T& into) {
   if (!job || !job->done()) return;
   if (auto made = job->take()) into = std::move(*made);
   job.reset();
+}
+
+// On the surface of the round cord as which it is felt, with its bones as they stand.
+std::optional<TipGauge::Nearest> on_band(const SoftBand& band, const BoneSnapshot& bones,
+                                         const Vec3& tip_W) {
+  if (!(band.left > 0) || std::max(band.from.index, band.to.index) >= bones.count) return {};
+  const Vec3 a_W = bones.bones[band.from.index].X_WB * band.from_B;
+  const Vec3 way = bones.bones[band.to.index].X_WB * band.to_B - a_W;
+  const double share = std::clamp((tip_W - a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  const Vec3 line_W = a_W + share * way;
+  const double away = (tip_W - line_W).norm();
+  if (!(away > 0)) return {};
+  const Vec3 p_W = line_W + band.radius_m / away * (tip_W - line_W);
+  return TipGauge::Nearest{band.from, band.soft, p_W, away - band.radius_m};
 }
 
 }  // namespace
@@ -137,6 +152,14 @@ std::optional<TipGauge::Nearest> TipGauge::nearest(const RenderSnapshot& snapsho
       least = found.signed_distance;
       best = Nearest{surface.bone, surface.soft, X_WB * found.point, least};
     }
+  for (std::size_t b = 0; felt_ && b < felt_->bands.size(); ++b) {
+    const std::size_t soft = felt_->bands[b].soft;
+    if (soft < view.softs.size() && !view.softs[soft].visible) continue;
+    const auto found = on_band(felt_->bands[b], snapshot.bones, tip_W);
+    if (!found || found->distance_m >= least) continue;
+    least = found->distance_m;
+    best = found;
+  }
   return best;
 }
 

@@ -11,9 +11,9 @@
 
 namespace osteon {
 
-/// How far a tip is from the nearest surface of bone, or of a meniscus, stump or patch of skin that
-/// is felt, at rest and as it was before any cut. Skin counts for who is outside of it. What the
-/// search needs is made beside the picture, once a case and once for what is felt.
+/// How far a tip is from the nearest surface of bone, or of a ligament, meniscus, stump or patch of
+/// skin that is felt, at rest and as it was before any cut. Skin counts for who is outside of it.
+/// What the search needs is made beside the picture, once a case and once for what is felt.
 class TipGauge {
  public:
   struct Nearest {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "session/skin_fixtures.h"
+#include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
 namespace osteon {
@@ -62,6 +63,28 @@ TEST(TipGauge, AFeltMeniscusCountsUntilItIsFeltNoMore) {
   EXPECT_NEAR(inside->distance_m, 0.001 - kMeniscusHalf.z(), 1e-9);
   gauge.feel(nullptr);
   EXPECT_FALSE(gauge.at({0, 0, 0.008})->soft);
+}
+
+// A ligament between two boxes, 3 mm thick all round, as far as its bones stand apart.
+TEST(TipGauge, AFeltLigamentCountsAsTheCordThatItIs) {
+  const testing::BandRun run;
+  TipGauge tip;
+  tip.begin(run.the_case);
+  tip.feel(run.softs);
+  tip.wait();
+  ViewState view = default_view(*run.the_case);
+  view.softs[0].visible = true;
+  RenderSnapshot snapshot;
+  snapshot.bones = rest_snapshot(*run.the_case);
+  snapshot.tool.X_WP.p = testing::kBandMiddle + Vec3(0.002, 0, 0.007);
+  const auto found = tip.nearest(snapshot, view);
+  ASSERT_TRUE(found && found->soft);
+  EXPECT_EQ(run.the_case->softs[*found->soft].name, "acl");
+  EXPECT_NEAR(found->distance_m, 0.007 - run.softs->bands[0].radius_m, 1e-9);
+  EXPECT_NEAR((found->p_W - snapshot.tool.X_WP.p).norm(), found->distance_m, 1e-9);
+  view.softs[0].visible = false;
+  const auto bone = tip.nearest(snapshot, view);
+  EXPECT_FALSE(bone && bone->soft);
 }
 
 TEST(TipGauge, WhatIsHiddenIsPassedOver) {

@@ -1,0 +1,45 @@
+// What the window tells of soft parts as it happens.
+#include "window/controllers/sessions/soft_news.h"
+
+#include <gtest/gtest.h>
+
+#include "osteon/scene/soft_events.h"
+#include "session/soft_fixtures.h"
+#include "session/soft_solid_fixtures.h"
+
+namespace osteon {
+namespace {
+
+Event soft_event(EventKind kind, std::array<double, 3> values = {}) {
+  Event event;
+  event.kind = kind;
+  event.subject_kind = SubjectKind::kSoftPart;
+  event.values = values;
+  return event;
+}
+
+TEST(SoftNews, SaysWhatIsInTwoAndAtWhichForce) {
+  const auto the_case = testing::band_case();
+  ASSERT_TRUE(the_case);
+  EXPECT_EQ(soft_news_of(soft_event(kSoftTorn, {24.4, 20, 0}), *the_case), "ACL has torn, at 24 N");
+  EXPECT_EQ(soft_news_of(soft_event(kSoftCut, {8, 60, 0}), *the_case), "ACL is cut in two");
+  EXPECT_EQ(soft_news_of(soft_event(kSoftSlipped, {10.2, 10, 4}), *the_case),
+            "ACL was pulled off the jaws, at 10 N");
+}
+
+// Not each touch, nor the start of a stroke into a meniscus, nor what is no soft part of the case.
+TEST(SoftNews, SaysNothingElse) {
+  const auto ligament = testing::band_case();
+  for (const EventKind kind : {kSoftBegin, kSoftEnd, kSoftStrandsCut})
+    EXPECT_EQ(soft_news_of(soft_event(kind), *ligament), "");
+  EXPECT_EQ(soft_news_of(soft_event(kSoftCut), *testing::meniscus_run().the_case), "");
+  Event event = soft_event(kSoftTorn);
+  event.subject = 9;
+  EXPECT_EQ(soft_news_of(event, *ligament), "");
+  event.subject = 0;
+  event.subject_kind = SubjectKind::kBone;
+  EXPECT_EQ(soft_news_of(event, *ligament), "");
+}
+
+}  // namespace
+}  // namespace osteon
