@@ -28,7 +28,7 @@ enum : std::uint32_t { kBall, kBlade, kPieceGrasper, kSuction };
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
 
 struct PiecesRun : testing::MeniscusRun {
-  explicit PiecesRun(bool lie = true, bool meet = false)
+  explicit PiecesRun(bool lie = true, bool meet = false, bool tear = false)
       : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
     const auto instruments = load_instruments();
     EXPECT_TRUE(instruments);
@@ -46,6 +46,7 @@ struct PiecesRun : testing::MeniscusRun {
     if (grippers) add_grippers(setup, std::move(*grippers));
     if (pieces && lie) add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
     if (meet) let_pieces_meet_softs(setup);
+    if (tear) let_bridges_tear(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -59,6 +60,12 @@ const PiecesRun& pieces_run() {
 /// As sessions are made now: pieces lie on what is left of the block, too.
 const PiecesRun& meeting_run() {
   static const PiecesRun run(true, true);
+  return run;
+}
+
+/// And jaws tear off what little holds.
+const PiecesRun& tearing_run() {
+  static const PiecesRun run(true, true, true);
   return run;
 }
 
@@ -351,6 +358,85 @@ TEST(SoftPieces, StatesThatCannotBeAreRefused) {
   EXPECT_FALSE(with([](FallenPiecesState& s) { s.pieces[0].hand = 2; }));
   EXPECT_FALSE(with(
       [](FallenPiecesState& s) { s.pieces.resize(kMaxLooseSofts + 1, FallenPiece(s.pieces[0])); }));
+}
+
+constexpr double kNarrow_m = 0.0007;
+
+// The top of the block's end hangs by what the blade has left, `left_m` wide; the jaws come from
+// that end.
+void hold_flap(PieceHand& hand, double left_m) {
+  const double flat = 0.0005;
+  hand.take(kBlade, kFlat, {0.022, -0.010, flat});
+  hand.move({kCut_m - 0.006, -0.010, flat}, 2000);
+  // The blade widens upwards: over the slit its edge is 1.45 mm ahead of its tip, in the mean.
+  const double end = kMeniscusHalf.y() - left_m - 0.00145;
+  hand.take(kBlade, kUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
+  hand.move({kCut_m, -0.012, kLow_m}, 300);
+  hand.move({kCut_m, end, kLow_m}, 2000);
+  hand.move({kCut_m, end, kMeniscusHalf.z() + 0.010}, 300);
+  hand.rest(1500);  // the stiffness follows
+  const double middle = 0.5 * (kMeniscusHalf.z() + flat);
+  hand.take(kPieceGrasper, kFromEnd, {kAway_m, 0, middle});
+  hand.jaws(1);
+  hand.move({0.008, 0, middle}, 300);
+  hand.jaws(0);
+  hand.rest(150);
+}
+
+// Pulled, a flap tears off at its bridge's section times what tissue bears, and the jaws have it.
+TEST(SoftPieces, JawsTearAFlapOffWhereLittleOfItIsLeft) {
+  Session session = tearing_run().session();
+  PieceHand hand(session);
+  hold_flap(hand, kNarrow_m);
+  ASSERT_EQ(hand.count(kSoftHeld), 1u);
+  ASSERT_EQ(hand.count(kSoftPiece), 0u);
+  const double before = session.softs()->removed_m3(0);
+  for (int n = 0; n < 3500 && hand.count(kSoftTorn) == 0; ++n)
+    hand.move(hand.at + Vec3(5e-6, 0, 5e-6), 1);
+  ASSERT_EQ(hand.count(kSoftTorn), 1u);
+  const Event torn = hand.first(kSoftTorn);
+  EXPECT_EQ(tearing_run().the_case->softs[torn.subject].name, "medial_meniscus");
+  EXPECT_EQ(torn.hand, 0);
+  // 2 MPa on a bridge 2.5 mm high, give or take a node of its width.
+  EXPECT_NEAR(torn.values[0], 2e6 * kNarrow_m * 0.0025, 2e6 * 0.0003 * 0.0025);
+  EXPECT_GE(torn.values[1], torn.values[0]);
+  EXPECT_LT(torn.values[1], torn.values[0] + 1);
+  EXPECT_LT((torn.p_W - Vec3(kCut_m, 0.0072, 0.0018)).norm(), 0.003);
+  hand.rest(100);
+  ASSERT_EQ(hand.count(kSoftPiece), 1u);
+  EXPECT_EQ(hand.count(kSoftPieceHeld), 1u);
+  EXPECT_GT(session.softs()->removed_m3(0), before);
+  ASSERT_EQ(lying(session).size(), 1u);
+  hand.move({kAway_m, 0, 0.010}, 200);
+  EXPECT_GT(middle_W(lying(session)[0]).x(), 0.03);
+}
+
+// Wider, it bears what the jaws can pull; and before jaws tore anything none tore.
+TEST(SoftPieces, AFlapThatHangsByMoreIsNotTornOff) {
+  for (const bool wide : {true, false}) {
+    Session session = wide ? tearing_run().session() : meeting_run().session();
+    PieceHand hand(session);
+    hold_flap(hand, wide ? 0.009 : kNarrow_m);
+    ASSERT_EQ(hand.count(kSoftHeld), 1u);
+    for (int n = 0; n < 8000 && hand.count(kSoftSlipped) == 0; ++n)
+      hand.move(hand.at + Vec3(5e-6, 0, 5e-6), 1);
+    EXPECT_EQ(hand.count(kSoftSlipped), 1u) << wide;
+    EXPECT_EQ(hand.count(kSoftTorn), 0u) << wide;
+    EXPECT_EQ(hand.count(kSoftPiece), 0u) << wide;
+  }
+}
+
+TEST(SoftPieces, AFlapTornOffReplaysTheSameFromTheStartAndFromTheMiddle) {
+  Session session = tearing_run().session();
+  Recording recording = begin_recording(tearing_run());
+  PieceHand hand(session);
+  hand.into = &recording;
+  hold_flap(hand, kNarrow_m);
+  hand.move(hand.at + Vec3(0.0165, 0, 0.0165), 3300);
+  hand.rest(100);
+  ASSERT_EQ(hand.count(kSoftTorn), 1u);
+  ASSERT_EQ(hand.count(kSoftPieceHeld), 1u);
+  expect_same_replays(recording, tearing_run(), session, {0.0, 7.0, 9.5});
 }
 
 }  // namespace

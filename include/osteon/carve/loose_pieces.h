@@ -34,11 +34,17 @@ struct LoosePiece {
 /// search looks at the nodes of blocks that changed since the last one alone.
 class LoosePieces {
  public:
+  /// A node that the bone hangs on.
+  struct Held {
+    std::uint32_t block = 0;
+    std::uint16_t node = 0;
+  };
   /// Looks at the whole bone once: some 50 ns a node of the blocks near its surface.
   explicit LoosePieces(const CarvedField& field);
 
   /// Nodes of the uncut bone for which `holds` is true hang on something.
   void hang(const CarvedField& field, const std::function<bool(const Vec3& p_B)>& holds);
+  const std::vector<Held>& held() const { return held_; }  ///< none: hang() was not called
 
   /// Pieces by the place of their first block. Allocates nothing where there are none.
   const std::vector<LoosePiece>& find(const CarvedField& field);
@@ -91,11 +97,6 @@ class LoosePieces {
   std::vector<std::uint32_t> many_;  ///< of each block: its uncut bone's place in many_labels_
   std::vector<Labels> many_labels_;
   std::vector<std::uint8_t> touches_;  ///< bits 0 to 2: uncut, it goes on beyond x+, y+, z+
-  /// A node that the bone hangs on.
-  struct Held {
-    std::uint32_t block = 0;
-    std::uint16_t node = 0;
-  };
   std::vector<Held> held_;
   bool hangs_ = false;  ///< hang() was called
 

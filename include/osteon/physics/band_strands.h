@@ -16,14 +16,14 @@ inline constexpr std::uint64_t kAllStrands = (std::uint64_t{1} << kStrands) - 1;
 double strands_left(std::uint64_t gone);
 
 /// `X_WB`: of the band's first bone.
-BandSection section_of(const SoftBand& band, const BandSpan& span, const Pose& X_WB);
+StrandAxes section_of(const SoftBand& band, const BandSpan& span, const Pose& X_WB);
 
 /// By so much the surface of what is left lies deeper than that of the whole, seen along `nhat_W`
 /// from outside. The same to the last bit, zero, where nothing is gone.
-double hollow_m(const SoftBand& band, std::uint64_t gone, const BandSection& section,
+double hollow_m(const SoftBand& band, std::uint64_t gone, const StrandAxes& section,
                 const Vec3& nhat_W);
 /// The strand that an edge meets first that comes from where `nhat_W` points. Some must be left.
-int strand_under(std::uint64_t gone, const BandSection& section, const Vec3& nhat_W);
+int strand_under(std::uint64_t gone, const StrandAxes& section, const Vec3& nhat_W);
 
 /// The weakest that is left, and how much more than the mean load of the whole band at its failure
 /// each one bears: the weakest none, the strongest a quarter more (D). So the load is highest as

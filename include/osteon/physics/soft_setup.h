@@ -35,6 +35,7 @@ struct SoftSetup {
   std::shared_ptr<const PiecesSetup> pieces;
   bool pieces_meet_softs = false;  ///< they rest on what is soft, too
   bool by_strands = false;         ///< bands are cut and torn strand by strand
+  bool bridges_tear = false;       ///< what jaws pull off a solid tears where it is narrow
   SoftFriction friction;           ///< of instruments on it; none unless told
   std::uint64_t hash = 0;          ///< over all of it
 };
@@ -53,6 +54,9 @@ void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces);
 void let_pieces_meet_softs(SoftSetup& setup);
 /// Bands are cut and torn strand by strand then. Nothing changes where there are none.
 void let_bands_part_by_strands(SoftSetup& setup);
+/// What jaws pull tears off a cut solid then, where too little of it is left. Nothing changes where
+/// nothing cuts solids, or no jaws hold them.
+void let_bridges_tear(SoftSetup& setup);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

@@ -58,7 +58,7 @@ class SoftShapes {
     std::vector<StringBend> shown;   ///< bends that it was given with
     std::optional<double> broken;    ///< where it was given in two
     std::optional<BandNotch> notch;  ///< with which it was given
-    BandSection section;             ///< with the bones at rest
+    StrandAxes section;              ///< with the bones at rest
   };
   std::vector<Vec3> moved(std::size_t solid, std::span<const SoftPushes::One> pushes) const;
   void add_bands(const SoftPushes& pushes, std::vector<Changed>& out);

@@ -120,7 +120,6 @@ class SoftWorld {
   void wound(std::size_t band, const Vec3& p_W, double area_m2);
   void wound_ends(std::size_t band, double share);
   void wound_solids(const Hand& hand, const BoneSnapshot& bones);
-  double cutting_force_n(std::size_t band) const;
   bool cut(std::size_t band, std::span<const Hand> hands);
   void tear_when_overloaded(std::size_t band, const Hand& by, double force_n);
   void lose_strand(std::size_t band, int strand, const Hand& by, bool by_edge);
@@ -170,7 +169,7 @@ class SoftWorld {
   std::uint32_t epoch_ = 0;
   std::array<BandSpan, kMaxBands> spans_{};
   std::array<BandReadout, kMaxBands> readouts_{};
-  std::array<BandSection, kMaxBands> sections_{};
+  std::array<StrandAxes, kMaxBands> sections_{};
   std::unique_ptr<SoftGrips> grips_;       ///< null: no jaws hold anything
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them

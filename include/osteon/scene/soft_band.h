@@ -54,7 +54,7 @@ struct BandSpan {
 };
 
 /// Two directions across a band, unit, that go with its first bone.
-struct BandSection {
+struct StrandAxes {
   Vec3 u_W = Vec3::UnitX(), v_W = Vec3::UnitY();
 };
 

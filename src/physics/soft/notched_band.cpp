@@ -19,7 +19,7 @@ constexpr double kOnLine_m = 1e-6;
 }  // namespace
 
 std::vector<Vec3> notched_points(std::span<const Vec3> points_W, const SoftBand& band,
-                                 const BandSpan& rest_W, const BandSection& section,
+                                 const BandSpan& rest_W, const StrandAxes& section,
                                  const BandNotch& notch) {
   std::vector<Vec3> out(points_W.begin(), points_W.end());
   const Vec3 way = rest_W.b_W - rest_W.a_W;

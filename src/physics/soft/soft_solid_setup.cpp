@@ -197,6 +197,15 @@ void let_bands_part_by_strands(SoftSetup& setup) {
   setup.hash = h.value();
 }
 
+void let_bridges_tear(SoftSetup& setup) {
+  if (!setup.pieces || setup.grippers.empty()) return;
+  setup.bridges_tear = true;
+  Hasher h;
+  h.add(setup.hash);
+  h.add(std::string_view("bridges tear"));
+  setup.hash = h.value();
+}
+
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {
   const auto holds = [](const std::optional<SoftGripper>& jaws) { return jaws.has_value(); };
   if (std::none_of(grippers.begin(), grippers.end(), holds)) return;

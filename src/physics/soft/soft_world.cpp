@@ -35,6 +35,9 @@ constexpr double kNick_n = 0.5;  // a lighter touch wounds nothing (D)
 constexpr std::size_t kMostOpenings = 64;
 // A knee's ligaments are four at most; where there are more, many are near to a tool at once.
 constexpr std::size_t kFewBands = 4, kFewContacts = 6;
+// A cord yields to a small dent as its surface does; shown, it goes along with a part that is
+// pressed deeper than so much of its radius.
+constexpr double kShownDent = 0.5;
 constexpr double kBlade_m = 0.03;  // from a blade's tip: so much of it is sharp at most
 
 bool usable(const ToolState& tool) {
@@ -270,7 +273,7 @@ void SoftWorld::press(Hand& hand) {
     near.bend_W = -press.bent_m * near.contact.nhat_W;
     near.at_share = share_of(b, press.p_W);
     keep_bend(near.contact, press, part_W.rod.radius);
-    if (press.force_n > cutting_force_n(b) && is_blade(state.instrument, near.contact.part)) {
+    if (press.force_n > setup_->cutting_n && is_blade(state.instrument, near.contact.part)) {
       hand.cuts[b] = true;
       hand.edge_W[b] = near.contact.nhat_W;
     }
@@ -291,8 +294,9 @@ void SoftWorld::keep_bend(const BandContact& contact, const BandPress& press,
   StringBend& bend = bends_[bend_count_++];
   bend.band = contact.band;
   bend.share = std::clamp((press.p_W - span.a_W).dot(way) / way.squaredNorm(), 0.0, 1.0);
-  bend.bent_m = press.bent_m;
-  bend.dent_m = press.deep_m - press.bent_m;
+  const double dent_m = press.deep_m - press.bent_m;
+  bend.dent_m = std::min(dent_m, kShownDent * setup_->bands[contact.band].radius_m);
+  bend.bent_m = press.bent_m + dent_m - bend.dent_m;
   bend.round_m = setup_->bands[contact.band].radius_m + part_radius_m;
   bend.nhat_W = contact.nhat_W;
   bend.along_W = way.normalized();
@@ -351,14 +355,24 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
 
 void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step) {
   cutting_->step(state_, hands, step);
+  for (std::size_t h = 0; h < hands.size(); ++h) {
+    const SoftHold& hold = state_.grips[h].hold;
+    if (hands[h].tool && hold.of == SoftHold::Of::kSolid && hold.most_n == 0)
+      cutting_->pull(hold.part, h, hold.p_B, state_.grips[h].force_n, step);
+  }
   for (const SolidCutting::News& news : cutting_->news()) {
     constexpr double kMm3 = 1e9;
     Event event;
     event.hand = news.piece || news.cleared ? kNoHand : static_cast<std::uint8_t>(news.hand);
-    event.kind = news.cleared ? kSoftCleared : news.piece ? kSoftPiece : kSoftCut;
+    event.kind = news.cleared ? kSoftCleared
+                 : news.piece ? kSoftPiece
+                 : news.torn  ? kSoftTorn
+                              : kSoftCut;
     event.subject = setup_->solids[news.solid].soft;
     if (news.cleared)
       event.values = {cutting_->cleared_percent(news.solid), cutting_->all_cleared_percent(), 0};
+    else if (news.torn)
+      event.values = {news.holds_n, news.force_n, 0};
     else if (news.piece)
       event.values = {kMm3 * news.volume_m3, 0, 0};
     else

@@ -33,12 +33,6 @@ void SoftWorld::wound_ends(std::size_t b, double share) {
         share * 2 * std::numbers::pi * radius_m * radius_m);
 }
 
-// An edge needs less the narrower is what is left: its width goes as the root of its section.
-double SoftWorld::cutting_force_n(std::size_t b) const {
-  const std::uint64_t gone = state_.bands[b].gone;
-  return gone == 0 ? setup_->cutting_n : setup_->cutting_n * std::sqrt(strands_left(gone));
-}
-
 // In two: as of one that is torn, nothing of it is felt after that.
 bool SoftWorld::cut(std::size_t b, std::span<const Hand> hands) {
   for (const Hand& hand : hands) {

@@ -19,8 +19,9 @@ constexpr int kHalvings = 40;
 constexpr double kAcross = 0.7;                         // a blade that lies flat does not cut
 constexpr std::uint32_t kStrokeEnds = 100;              // steps without a cut
 constexpr double kBladesOpen = 0.5, kBladesShut = 0.1;  // of the blades' way
-constexpr std::uint64_t kLookForPieces = 24, kShowEvery = 20;
+constexpr std::uint64_t kShowEvery = 20;
 constexpr double kCrumb_m3 = 0.5e-9;  // less is no piece to tell of
+constexpr double kRipped_m = 0.0007;  // width of what a tear takes: both nodes of each pair
 
 CutGrid cut_grid(const BlockGrid& grid) { return {grid.cell_m, grid.lo, grid.blocks}; }
 
@@ -82,10 +83,15 @@ SolidCutting::SolidCutting(const SoftSetup& setup, SolidPresses& presses, double
     // Where pieces are gone at once the largest part of a meniscus stays, as it always has.
     if (solid.hangs && (solid.to_clear || setup_.pieces)) made.loose->hang(made.field, solid.hangs);
     if (solid.to_clear) find_to_clear(made, solid);
+    if (setup_.bridges_tear && solid.hangs)
+      made.bridges = std::make_unique<BridgeSearch>(made.field);
     made.cells = std::make_unique<SolidCells>(made.field, *solid.body);
     made.whole = made.cells->cells();
   }
   news_.reserve(kMostNews);
+  auto rip = make_cutter("burr", kRipped_m);
+  demand(rip.has_value(), "a tear has no cutter");
+  rip_ = std::move(*rip);
 }
 
 const SolidCutter* SolidCutting::cutter(std::uint32_t instrument) const {
@@ -125,7 +131,7 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std:
       hand = {};
   }
   for (std::uint32_t s = 0; s < solids_.size(); ++s) {
-    if (step % kLookForPieces == 0) {
+    if (step % kSolidLookEvery == 0) {
       drop_pieces(s);
       tell_cleared(s);
     }
@@ -494,6 +500,7 @@ void SolidCutting::put_cuts(std::uint32_t s, const SolidCutState& from) {
   solid.told_percent = from.told_percent;
   solid.cells->update_all(solid.field);
   solid.seen = solid.told = solid.celled = solid.field.step();
+  solid.bridged = Solid::kNever;
   solid.followed = Solid::kNever;
   solid.pieces = from.pieces;
   solid.looked = from.looked;

@@ -14,6 +14,7 @@
 #include "osteon/physics/soft_setup.h"
 #include "osteon/physics/soft_state.h"
 #include "osteon/tissue/cut_solid_work.h"
+#include "soft/solid_bridge.h"
 #include "soft/solid_cells.h"
 #include "soft/solid_presses.h"
 
@@ -24,6 +25,8 @@ namespace osteon {
 inline constexpr double kSolidCutAir_m = 0.004;
 /// Of a solid that hold cuts, at most.
 inline constexpr std::size_t kMostCutBlocks = 4096;
+/// Steps from one look for what has come off, or tears off, to the next.
+inline constexpr std::uint64_t kSolidLookEvery = 24;
 
 /// Soft solids that instruments cut, at the physics' rate. What is left is a carved field: hands
 /// feel a hole in the next step. The solid's stiffness is that of the cells that are left, made
@@ -46,6 +49,8 @@ class SolidCutting {
     bool cleared = false;  ///< so much of what is to be cleared is gone: cleared_percent()
     /// Of a piece, in Bone; null where pieces are gone at once.
     std::shared_ptr<const PieceShape> shape = nullptr;
+    bool torn = false;   ///< what jaws pull has torn
+    double holds_n = 0;  ///< what it bore
   };
 
   SolidCutting(const SoftSetup& setup, SolidPresses& presses, double step_s);
@@ -55,6 +60,10 @@ class SolidCutting {
   /// After all hands have pressed.
   void step(SoftState& state, std::span<const SolidHand> hands, std::uint64_t step);
   std::span<const News> news() const { return news_; }
+  /// What jaws pull at `p_B` with that force tears where what is left bears less. After step(), and
+  /// once in kSolidLookEvery steps, since the search takes some milliseconds.
+  void pull(std::uint32_t solid, std::size_t hand, const Vec3& p_B, double force_n,
+            std::uint64_t step);
   /// Something was cut in the last step.
   bool cuts_now() const;
   double removed_m3(std::size_t solid) const;
@@ -94,6 +103,11 @@ class SolidCutting {
     std::vector<std::uint16_t> gone;  ///< of each block, of those
     std::uint64_t to_clear_nodes = 0, gone_nodes = 0;
     std::uint32_t told_percent = 0;
+    std::unique_ptr<BridgeSearch> bridges;  ///< null: nothing tears
+    /// The last search, of the field after which step and from where: not part of the state.
+    std::optional<SolidBridge> bridge;
+    std::uint64_t bridged = kNever;
+    Vec3 bridged_B = Vec3::Zero();
   };
   struct Stroke;
 
@@ -114,6 +128,7 @@ class SolidCutting {
   void drop_pieces(std::uint32_t solid);
   void follow_stiffness(Solid& solid, std::uint32_t index);
   void put_cuts(std::uint32_t solid, const SolidCutState& from);
+  const std::optional<SolidBridge>& bridge_at(std::uint32_t solid, const Vec3& p_B);
   void feel(std::uint32_t solid);
   static void set(std::vector<CutCell>& cells, std::uint64_t& hash, std::vector<CutCell> now);
 
@@ -122,6 +137,7 @@ class SolidCutting {
   std::vector<Solid> solids_;
   std::array<SolidCutHand, kMaxHands> hands_{};
   std::vector<News> news_;
+  Cutter rip_;  ///< what a tear takes about each pair of nodes that it parts
   double step_s_ = 0.002;
 };
 

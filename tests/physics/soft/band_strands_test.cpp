@@ -30,7 +30,7 @@ double left_of_round(double deep_m, double radius_m) {
 
 TEST(BandStrands, CutFromAnySideItIsARoundSectionCutAcross) {
   const SoftBand band = strand_band();
-  const BandSection section = section_of(band, kStrandSpan, Pose{});
+  const StrandAxes section = section_of(band, kStrandSpan, Pose{});
   const double layer_m = 2 * band.radius_m / 9;
   for (double turn = 0; turn < 2 * std::numbers::pi; turn += 0.37) {
     const Vec3 n = towards(turn);
@@ -51,7 +51,7 @@ TEST(BandStrands, CutFromAnySideItIsARoundSectionCutAcross) {
 // From the other side nothing is gone until the edge comes through.
 TEST(BandStrands, TheOtherSideStaysWhereItIs) {
   const SoftBand band = strand_band();
-  const BandSection section = section_of(band, kStrandSpan, Pose{});
+  const StrandAxes section = section_of(band, kStrandSpan, Pose{});
   std::uint64_t gone = 0;
   for (int i = 0; i < 45; ++i) {
     gone |= std::uint64_t{1} << strand_under(gone, section, Vec3::UnitZ());
@@ -83,7 +83,7 @@ TEST(BandStrands, EachBearsAnotherLoadAndTheWeakestGoesFirst) {
 // Seen, it has a groove where it is cut, as deep as it is cut, and is whole elsewhere.
 TEST(BandStrands, TheGrooveIsAsDeepAsItIsCut) {
   const SoftBand band = strand_band();
-  const BandSection section = section_of(band, kStrandSpan, Pose{});
+  const StrandAxes section = section_of(band, kStrandSpan, Pose{});
   BandNotch notch{0, 0.4, 0};
   for (int i = 0; i < 25; ++i)
     notch.gone |= std::uint64_t{1} << strand_under(notch.gone, section, Vec3::UnitZ());

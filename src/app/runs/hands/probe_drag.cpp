@@ -31,7 +31,8 @@ Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camer
                    turn_about(Vec3::UnitX(), motion.pitch * angle) *
                    turn_about(Vec3::UnitZ(), motion.roll * angle);
   const Quat q_CW = camera.q_WC.conjugate();
-  moved.q = (camera.q_WC * q_C * q_CW * X_WD.q).normalized();
+  const Quat twist_D = turn_about(Vec3::UnitZ(), motion.twist * angle);
+  moved.q = (camera.q_WC * q_C * q_CW * X_WD.q * twist_D).normalized();
   return moved;
 }
 

@@ -10,6 +10,7 @@ struct ProbeMotion {
   double right_px = 0, up_px = 0;       ///< of the pointer
   double wheel = 0;                     ///< notches, positive pushes the probe away from the viewer
   double pitch = 0, yaw = 0, roll = 0;  ///< keys, each in [-1, 1]
+  double twist = 0;                     ///< about the instrument's own shaft, as those
 };
 
 /// Speeds by which the mouse holds the probe.
@@ -20,7 +21,8 @@ struct ProbeDragParams {
 };
 
 /// The hand's pose after `motion`: the tip follows the pointer in the plane of the view, at its own
-/// depth; turns are about the camera's axes through the tip.
+/// depth; turns are about the camera's axes through the tip, and a twist about the
+/// shaft through the tip.
 Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camera,
                 const Viewport& viewport, double dt_s, const ProbeDragParams& params = {});
 

@@ -246,8 +246,10 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   }
   // One from before they met soft parts: as then.
   if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_pieces_meet_softs(setup);
-  // One from before ligaments were cut and torn strand by strand: all at once.
+  // One from before ligaments were cut and torn strand by strand: all at once; from before jaws
+  // tore off what little held: as then.
   if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_bands_part_by_strands(setup);
+  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_bridges_tear(setup);
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");

@@ -28,11 +28,12 @@ constexpr std::array<KeyLine, 13> kLook = {{
     {"Tab", "fold the panels away"},
 }};
 
-constexpr std::array<KeyLine, 14> kProbe = {{
+constexpr std::array<KeyLine, 15> kProbe = {{
     {"M", "take or release the instrument"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
     {"W S, A D, Q E", "tilt, turn, roll"},
+    {"Shift + Q E, + wheel", "turn about its shaft; finer steps"},
     {"X", "the other hand"},
     {"G", "move it to the next portal; the wheel goes in"},
     {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},

@@ -63,6 +63,21 @@ TEST(ProbeDrag, TurnsKeepTheTipAndAUnitQuaternion) {
   EXPECT_NEAR(X_WD.q.norm(), 1, 1e-12);
 }
 
+// However the camera looks: the shaft and the tip stay, and a hook goes round them.
+TEST(ProbeDrag, ATwistTurnsAHookAboutItsShaft) {
+  Random random(9);
+  const Camera camera = some_camera(random);
+  Pose X_WD{camera.target_W, random.rotation()};
+  const Pose before = X_WD;
+  ProbeMotion motion;
+  motion.twist = 1;
+  for (int i = 0; i < 100; ++i) X_WD = drag_probe(X_WD, motion, camera, {}, 0.01);
+  EXPECT_EQ(X_WD.p, before.p);
+  EXPECT_NEAR((X_WD.q * Vec3::UnitZ() - before.q * Vec3::UnitZ()).norm(), 0, 1e-12);
+  const Vec3 hook = before.q.conjugate() * (X_WD.q * Vec3::UnitX());
+  EXPECT_NEAR((hook - Vec3(std::cos(1.2), std::sin(1.2), 0)).norm(), 0, 1e-9);
+}
+
 TEST(ProbeDrag, TheProbeCannotBeLost) {
   Random random(8);
   const Camera camera = some_camera(random);

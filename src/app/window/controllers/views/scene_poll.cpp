@@ -6,6 +6,8 @@
 namespace osteon {
 namespace {
 
+constexpr double kFine = 0.25;  // of a notch, with Shift
+
 double between_keys(GLFWwindow* window, int minus, int plus) {
   const auto down = [window](int key) { return glfwGetKey(window, key) == GLFW_PRESS ? 1.0 : 0.0; };
   return down(plus) - down(minus);
@@ -52,10 +54,10 @@ ProbeMotion probe_motion(const SceneInput& input) {
   ProbeMotion motion;
   motion.right_px = input.dx;
   motion.up_px = -input.dy;
-  motion.wheel = input.wheel;
+  motion.wheel = input.shift ? kFine * input.wheel : input.wheel;
   motion.pitch = input.pitch;
   motion.yaw = input.yaw;
-  motion.roll = input.roll;
+  (input.shift ? motion.twist : motion.roll) = input.roll;
   return motion;
 }
 

@@ -23,7 +23,8 @@ class ScenePoll {
   double x_ = 0, y_ = 0;
 };
 
-/// The part of the input that moves a probe held by the mouse.
+/// The part of the input that moves a probe held by the mouse. With Shift the wheel goes in fine
+/// steps, and the keys that roll turn it about its own shaft.
 ProbeMotion probe_motion(const SceneInput& input);
 
 /// The first gamepad, in the camera's axes; `connected` is false when there is none.

@@ -14,6 +14,7 @@ Event soft_event(EventKind kind, std::array<double, 3> values = {}) {
   Event event;
   event.kind = kind;
   event.subject_kind = SubjectKind::kSoftPart;
+  event.subject = 0;
   event.values = values;
   return event;
 }
