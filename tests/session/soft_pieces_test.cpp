@@ -374,11 +374,11 @@ void hold_flap(PieceHand& hand, double left_m) {
   hand.move({kCut_m, -0.012, kLow_m}, 300);
   hand.move({kCut_m, end, kLow_m}, 2000);
   hand.move({kCut_m, end, kMeniscusHalf.z() + 0.010}, 300);
-  hand.rest(1500);  // the stiffness follows
-  const double middle = 0.5 * (kMeniscusHalf.z() + flat);
-  hand.take(kPieceGrasper, kFromEnd, {kAway_m, 0, middle});
+  hand.rest(1500);                                 // the stiffness follows
+  const double over = kMeniscusHalf.z() + 0.0055;  // no more than the flap is in their mouth
+  hand.take(kPieceGrasper, kFromEnd, {kAway_m, 0, over});
   hand.jaws(1);
-  hand.move({0.008, 0, middle}, 300);
+  hand.move({0.009, 0, over}, 300);
   hand.jaws(0);
   hand.rest(150);
 }

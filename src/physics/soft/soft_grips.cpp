@@ -107,7 +107,7 @@ bool SoftGrips::take_band(const SoftState& state, const SoftGripper& jaws, const
 }
 
 // Symbols: places of the mouth at x along the hinge, out to r, at the angle t. The held place is
-// the mean of those that are inside of the solid.
+// the mean of those that are inside of the solid, or the one nearest to it where that is a slit.
 bool SoftGrips::take_solid(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
                            const Parts& parts, SoftHold& hold) const {
   int most = 0;
@@ -120,6 +120,7 @@ bool SoftGrips::take_solid(const SoftState& state, const SoftGripper& jaws, cons
     if (!field.box().overlaps(reach.grown(jaws.length_m + jaws.half_width_m))) continue;
     int inside = 0;
     Vec3 sum = Vec3::Zero();
+    std::array<Vec3, kSideways * kTurns * kOutwards> found;
     for (int i = 0; i < kSideways * kTurns * kOutwards; ++i) {
       const int across = i % kSideways, turn = i / kSideways % kTurns,
                 out = i / (kSideways * kTurns);
@@ -130,7 +131,7 @@ bool SoftGrips::take_solid(const SoftState& state, const SoftGripper& jaws, cons
                                r * (std::cos(t) * jaws.along_T + std::sin(t) * jaws.rise_T));
       if (!(field.at(p_B).distance < 0)) continue;
       sum += p_B;
-      ++inside;
+      found[static_cast<std::size_t>(inside++)] = p_B;
     }
     if (inside <= most) continue;
     most = inside;
@@ -139,6 +140,11 @@ bool SoftGrips::take_solid(const SoftState& state, const SoftGripper& jaws, cons
     hold.part = s;
     hold.bone = setup_.solids[s].bone.index;
     hold.p_B = sum / inside;
+    if (setup_.bridges_tear && !(field.at(hold.p_B).distance < 0))
+      hold.p_B = *std::min_element(found.begin(), found.begin() + inside,
+                                   [&, middle = Vec3(hold.p_B)](auto& a, auto& b) {
+                                     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+                                   });
     hold.p_T = X_BT.inverse() * hold.p_B;
   }
   return most > 0;

@@ -11,10 +11,12 @@ std::string soft_news_of(const Event& event, const Case& the_case) {
     return {};
   const SoftPart& soft = the_case.softs[event.subject];
   const std::string name = label_of(soft.name);
-  const auto at = [](double force_n) { return " at " + ui::number(force_n, 0) + " N"; };
-  if (event.kind == kSoftTorn) return name + " has torn," + at(event.values[0]);
+  const auto force = [](double force_n) { return " " + ui::number(force_n, 0) + " N"; };
+  if (event.kind == kSoftTorn && event.hand == kNoHand) return name + " has torn";
+  if (event.kind == kSoftTorn) return name + " has torn, pulled with" + force(event.values[1]);
   if (event.kind == kSoftCut && soft.kind == "ligament") return name + " is cut in two";
-  if (event.kind == kSoftSlipped) return name + " was pulled off the jaws," + at(event.values[0]);
+  if (event.kind == kSoftSlipped)
+    return name + " was pulled off the jaws, with" + force(event.values[0]);
   return {};
 }
 

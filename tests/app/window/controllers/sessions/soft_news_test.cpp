@@ -15,6 +15,7 @@ Event soft_event(EventKind kind, std::array<double, 3> values = {}) {
   event.kind = kind;
   event.subject_kind = SubjectKind::kSoftPart;
   event.subject = 0;
+  event.hand = 0;
   event.values = values;
   return event;
 }
@@ -22,10 +23,14 @@ Event soft_event(EventKind kind, std::array<double, 3> values = {}) {
 TEST(SoftNews, SaysWhatIsInTwoAndAtWhichForce) {
   const auto the_case = testing::band_case();
   ASSERT_TRUE(the_case);
-  EXPECT_EQ(soft_news_of(soft_event(kSoftTorn, {24.4, 20, 0}), *the_case), "ACL has torn, at 24 N");
+  EXPECT_EQ(soft_news_of(soft_event(kSoftTorn, {24.4, 20, 0}), *the_case),
+            "ACL has torn, pulled with 20 N");
+  Event by_bones = soft_event(kSoftTorn, {24.4, 0, 0});
+  by_bones.hand = kNoHand;
+  EXPECT_EQ(soft_news_of(by_bones, *the_case), "ACL has torn");
   EXPECT_EQ(soft_news_of(soft_event(kSoftCut, {8, 60, 0}), *the_case), "ACL is cut in two");
   EXPECT_EQ(soft_news_of(soft_event(kSoftSlipped, {10.2, 10, 4}), *the_case),
-            "ACL was pulled off the jaws, at 10 N");
+            "ACL was pulled off the jaws, with 10 N");
 }
 
 // Not each touch, nor the start of a stroke into a meniscus, nor what is no soft part of the case.
