@@ -1,6 +1,7 @@
 #include "band_pull.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "osteon/scene/tool_rods.h"
 
@@ -54,7 +55,9 @@ void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandC
   const Pose &from = bones.X_WB[band.from.index], &to = bones.X_WB[band.to.index];
   const BandSpan span{from * band.from_B, to * band.to_B};
   const RoundBox part_W = placed(hand.X_WP, shapes_[contact.part]);
-  const double k = std::min(hand.stiffness_n_per_m, band.surface_n_per_m);
+  // What is left of a cut one yields less, as it is thinner.
+  const double surface = band.surface_n_per_m / std::sqrt(contact.left);
+  const double k = std::min(hand.stiffness_n_per_m, surface);
   const BandPress press = press_band(band, span_at(span, contact), part_W, contact, k);
   if (!press.presses || !(press.force_n > 0)) return;
   const Vec3 way = span.b_W - span.a_W;
