@@ -56,7 +56,7 @@ void BandPull::add_band(const PullingHand& hand, const Bones& bones, const BandC
   const BandSpan span{from * band.from_B, to * band.to_B};
   const RoundBox part_W = placed(hand.X_WP, shapes_[contact.part]);
   // What is left of a cut one yields less, as it is thinner.
-  const double surface = band.surface_n_per_m / std::sqrt(contact.left);
+  const double surface = band.surface_n_per_m / std::sqrt(std::sqrt(contact.left));
   const double k = std::min(hand.stiffness_n_per_m, surface);
   const BandPress press = press_band(band, span_at(span, contact), part_W, contact, k);
   if (!press.presses || !(press.force_n > 0)) return;

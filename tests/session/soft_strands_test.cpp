@@ -135,7 +135,7 @@ TEST(SoftStrands, WhatIsLeftPullsAsItsShareOfTheSection) {
         hollow_m(run.softs->bands[0], session.softs()->state().bands[0].gone,
                  section_of(run.softs->bands[0], {Vec3::Zero(), Vec3(kBandGap_m, 0, 0)}, Pose{}),
                  -Vec3::UnitZ());
-    const double surface = std::min(2000.0, kBandSurface_n_per_m / std::sqrt(strands / 61.0));
+    const double surface = std::min(2000.0, kBandSurface_n_per_m / std::pow(strands / 61.0, 0.25));
     const double bent = deep - hollow - force / surface;
     const double leg = std::hypot(kBandGap_m / 2, bent);
     const double tension = strands / 61.0 * kBandStiffness_n * (2 * leg / slack - 1 - kBandToe);

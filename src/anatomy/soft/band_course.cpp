@@ -49,8 +49,8 @@ CoursePlace place_at(const LaidBand& band, double way) {
 
 /// Of the cross-section there: along, across and flat are its axes.
 Pose section_pose(const LaidBand& band, const CoursePlace& place) {
-  const StrandAxes& a = band.sections[place.span];
-  const StrandAxes& b = band.sections[place.span + 1];
+  const BandSection& a = band.sections[place.span];
+  const BandSection& b = band.sections[place.span + 1];
   const auto between = [&](const Vec3& from, const Vec3& to) {
     return Vec3(from + place.share * (to - from));
   };

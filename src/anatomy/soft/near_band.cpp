@@ -15,8 +15,8 @@ NearBandSpans::NearBandSpans(const LaidBand& band)
     : band_(&band), last_(band.sections.empty() ? 0 : band.sections.size() - 1) {}
 
 Spread NearBandSpans::span_spread(std::size_t span, const Vicinity& where) const {
-  const StrandAxes& a = band_->sections[span];
-  const StrandAxes& b = band_->sections[span + 1];
+  const BandSection& a = band_->sections[span];
+  const BandSection& b = band_->sections[span + 1];
   const Vec3 step = b.center - a.center, from_a = where.center - a.center;
   const double share = std::clamp(from_a.dot(step) / step.squaredNorm(), 0.0, 1.0);
   const double d = (from_a - share * step).norm();

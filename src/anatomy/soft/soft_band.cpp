@@ -162,13 +162,13 @@ std::vector<Vec3> flats_between(const std::vector<Station>& stations, const Vec3
   return flats;
 }
 
-std::vector<StrandAxes> sections_of(const std::vector<Station>& stations,
-                                    const std::vector<Vec3>& flats) {
-  std::vector<StrandAxes> sections;
+std::vector<BandSection> sections_of(const std::vector<Station>& stations,
+                                     const std::vector<Vec3>& flats) {
+  std::vector<BandSection> sections;
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const Vec3& a = stations[i > 0 ? i - 1 : i].p;
     const Vec3& b = stations[i + 1 < stations.size() ? i + 1 : i].p;
-    StrandAxes s;
+    BandSection s;
     s.center = stations[i].p;
     s.along = unit_or(b - a, sections.empty() ? Vec3::UnitX() : sections.back().along);
     const Vec3 before = sections.empty() ? Vec3(s.along.unitOrthogonal()) : sections.back().flat;
@@ -232,8 +232,8 @@ double distance(const LaidBand& band, const Vec3& p) {
 double distance(const LaidBand& band, const Vec3& p, std::size_t first, std::size_t last) {
   double nearest = 1e300;
   for (std::size_t i = first; i < last; ++i) {
-    const StrandAxes& a = band.sections[i];
-    const StrandAxes& b = band.sections[i + 1];
+    const BandSection& a = band.sections[i];
+    const BandSection& b = band.sections[i + 1];
     const Vec3 step = b.center - a.center, from_a = p - a.center;
     const double reach = step.norm() + a.half_width + b.half_width;
     const double far = nearest + reach;  // beyond it this span cannot be nearer
@@ -253,7 +253,7 @@ double distance(const LaidBand& band, const Vec3& p, std::size_t first, std::siz
 
 Aabb bounds(const LaidBand& band) {
   Aabb box;
-  for (const StrandAxes& s : band.sections) {
+  for (const BandSection& s : band.sections) {
     box.include(s.center - Vec3::Constant(s.half_width));
     box.include(s.center + Vec3::Constant(s.half_width));
   }

@@ -7,7 +7,7 @@
 namespace osteon {
 
 /// One cross-section of a band: a flat bar with round edges.
-struct StrandAxes {
+struct BandSection {
   Vec3 center = Vec3::Zero();
   Vec3 along = Vec3::UnitX(), across = Vec3::UnitY(), flat = Vec3::UnitZ();  ///< unit, World
   double half_width = 0, half_thickness = 0;
@@ -15,7 +15,7 @@ struct StrandAxes {
 
 /// A band laid over the bones.
 struct LaidBand {
-  std::vector<StrandAxes> sections;
+  std::vector<BandSection> sections;
   std::size_t first = 0, last = 0;  ///< sections of the path's ends; beyond them lie insertions
   std::vector<Vec3> attachments;    ///< of the points that are attached, in their order; on bone
   double length = 0;                ///< from end to end along the middle, outside bone, metres

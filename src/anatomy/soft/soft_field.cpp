@@ -125,7 +125,7 @@ Solid solid_of(const std::vector<BoundPart>& parts) {
 Result<TriMesh> grow_band(const LaidBand& band, double sink, const SoftDescription& soft,
                           const std::vector<Obstacle>& obstacles) {
   double depth = 0;
-  for (const StrandAxes& s : band.sections) depth = std::max(depth, s.half_thickness);
+  for (const BandSection& s : band.sections) depth = std::max(depth, s.half_thickness);
   return grow_clipped(NearBandSpans(band), bounds(band), depth, sink, 0, 0, soft, obstacles);
 }
 

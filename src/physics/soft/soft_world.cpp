@@ -266,7 +266,7 @@ void SoftWorld::press(Hand& hand) {
     near.contact.others_taken_m = taken_by_others(near);
     near.contact.left = strands_left(state_.bands[b].gone);
     if (near.barred || near.behind) continue;
-    const double surface = band.surface_n_per_m / std::sqrt(near.contact.left);  // as the hand's
+    const double surface = band.surface_n_per_m / std::sqrt(std::sqrt(near.contact.left));
     const BandPress press = press_band(band, span_at(spans_[b], near.contact), part_W, near.contact,
                                        std::min(coupling_n_per_m_, surface));
     if (!press.presses) continue;

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kSpans = 40;
 constexpr double kLength = 0.03;
 
-StrandAxes section(const Vec3& center, const Vec3& along, const Vec3& flat) {
-  StrandAxes s;
+BandSection section(const Vec3& center, const Vec3& along, const Vec3& flat) {
+  BandSection s;
   s.center = center;
   s.along = along;
   s.flat = flat;
@@ -70,7 +70,7 @@ TEST(BandCourse, ACourseThatStaysMovesNothing) {
 TEST(BandCourse, ACourseThatMovesRigidlyTakesAlongWhatLiesBesideIt) {
   const Pose X{Vec3(0.01, -0.02, 0.03), Quat(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()))};
   LaidBand moved = straight();
-  for (StrandAxes& s : moved.sections)
+  for (BandSection& s : moved.sections)
     s = section(X * s.center, X.rotate(s.along), X.rotate(s.flat));
   expect_same(motion_along(straight(), moved, Vec3(0.02, 0.003, 0.001)), X, 1e-12);
 }

@@ -13,7 +13,7 @@ LaidBand twisted_band() {
   for (int i = 0; i <= 12; ++i) {
     const double t = i / 12.0;
     const Mat3 R = rotation_xyz_deg({90 * t, 20 * t, 60 * t});
-    StrandAxes s;
+    BandSection s;
     s.center = Vec3(0.02 * t, 0.008 * t * t, 0.003 * t * (1 - t));
     s.along = R.col(0);
     s.across = R.col(1);

@@ -44,7 +44,7 @@ TEST_F(Balls, RunsOverTheBoneInItsWay) {
   band.path = {point(0, Vec3(0.003, 0, 0.004), true), point(1, Vec3(0.017, 0, 0.004), true)};
   const LaidBand laid = lay_band(band, ground_);
   double nearest = 1;
-  for (const StrandAxes& s : laid.sections)
+  for (const BandSection& s : laid.sections)
     nearest = std::min(nearest, balls_[2].surface.closest(s.center).signed_distance);
   EXPECT_GT(nearest, 0.0003) << "about half the thickness over the ball in the way";
   EXPECT_GT(laid.length, 0.0142) << "longer than the straight way";
@@ -71,7 +71,7 @@ TEST_F(Balls, LiesFlatOnTheBoneWhereItEndsThoughToldOtherwise) {
   band.flat_W = Vec3(0, 0.6, 0.8);
   band.path = {point(0, Vec3(-0.001, 0, 0.005), true), point(1, Vec3(0.021, 0, 0.005), true)};
   const LaidBand laid = lay_band(band, ground_);
-  for (const StrandAxes* end : {&laid.sections.front(), &laid.sections.back()}) {
+  for (const BandSection* end : {&laid.sections.front(), &laid.sections.back()}) {
     EXPECT_LT(std::abs(end->flat.y()), 0.2);
     EXPECT_LT(end->half_width, 0.5 * band.path[0].width) << "the tip is rounded";
   }
