@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osteon/device/virtual_hand.h"
+#include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "physics/disc_fixtures.h"
@@ -121,6 +122,30 @@ TEST(SoftStability, ALigamentTautOrSlackComesToRest) {
 }
 
 // As short, thin and stiff as the dorsal scapholunate one.
+// Its surface is stiffer than that of the whole, and its pull a ninth. Pressed from below, where
+// its strands are.
+TEST(SoftStability, WhatIsLeftOfACutLigamentComesToRest) {
+  testing::BandRun run;
+  SoftSetup setup = *rough(*run.softs);
+  let_bands_part_by_strands(setup);
+  run.softs = std::make_shared<const SoftSetup>(std::move(setup));
+  run.settings.soft_hash = run.softs->hash;
+  for (const SoftLoop& loop : soft_loops()) {
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    Session session = run.session();
+    SessionState state = session.save();
+    std::uint64_t& gone = state.world.softs.bands[0].gone;
+    const StrandAxes axes{Vec3::UnitX(), Vec3::UnitZ()};
+    for (int i = 0; i < 54; ++i)
+      gone |= std::uint64_t{1} << strand_under(gone, axes, Vec3::UnitZ());
+    ASSERT_TRUE(session.restore(state));
+    expect_rest(press_softly(session, loop, testing::shaft_at(-testing::kTouch_m - 0.004),
+                             testing::shaft_at(-testing::kTouch_m + 0.009).X_WD.p),
+                loop);
+    EXPECT_EQ(strands_left(session.softs()->state().bands[0].gone), 7.0 / kStrands);
+  }
+}
+
 TEST(SoftStability, ALigamentOfAWristComesToRest) {
   constexpr double kShort_m = 0.0065;
   testing::BandRun run;
