@@ -98,6 +98,39 @@ TEST_F(ExerciseRunTest, TheBriefingTellsStagesErrorsAndAims) {
   EXPECT_EQ(run_.page(), ExercisePage::kCourse);
 }
 
+// A graft and portals come from exercises of their own, and where portals lie is known later.
+TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("acl"));
+  const std::size_t whole = run_.model().stages.size();
+  const std::string spec = run_.case_spec();
+  EXPECT_FALSE(run_.use_graft("{}", "graft.json"));
+  EXPECT_FALSE(run_.use_portals("{}", "puncture.json"));
+  EXPECT_FALSE(run_.is_shortened());
+  ASSERT_TRUE(run_.use_graft(
+      R"({"length_mm": 103, "diameter_mm": 9, "loop_mm": 15, "pretension_s": 600})", "graft.json"));
+  EXPECT_EQ(run_.model().stages.size(), whole - 6) << "harvest to pretension, and the button";
+  EXPECT_FALSE(run_.portals_to_place());
+  const std::string portal =
+      R"({"off": {"in_mm": 0, "up_mm": 1, "middle_mm": 2}, "shaft": {"in": 1, "up": 0, "middle": 0}})";
+  const auto used = run_.use_portals(R"({"portals": {"patient": "builtin:knee", "portal_al": )" +
+                                         portal + R"(, "portal_am": )" + portal + "}}",
+                                     "puncture.json");
+  ASSERT_TRUE(used) << used.error().message();
+  EXPECT_EQ(run_.model().stages.size(), whole - 11);
+  EXPECT_EQ(run_.model().stages.front().title, "The notch");
+  EXPECT_TRUE(run_.portals_to_place());
+  run_.set_placed("builtin:knee#portal_al=1/2/3/1/0/0");
+  EXPECT_FALSE(run_.portals_to_place());
+  EXPECT_EQ(run_.case_spec(), "builtin:knee#portal_al=1/2/3/1/0/0");
+  run_.set_seed(3);
+  EXPECT_TRUE(run_.portals_to_place()) << "of another patient they are elsewhere";
+  run_.set_seed({});
+  ASSERT_TRUE(run_.choose("acl"));
+  EXPECT_EQ(run_.model().stages.size(), whole);
+  EXPECT_EQ(run_.case_spec(), spec);
+}
+
 TEST_F(ExerciseRunTest, StagesAndErrorsAreFollowedTickByTick) {
   begin();
   EXPECT_FALSE(run_.follow(rest_snapshot(*case_))) << "nothing happened yet";
