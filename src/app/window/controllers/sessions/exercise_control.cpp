@@ -310,11 +310,15 @@ void ExerciseControl::go_with_stage() {
   if (!at_bench) {
     camera = *camera_before_bench_;
     camera_before_bench_.reset();
+    sight_.set_layout(layout_before_bench_);
     return;
   }
   const auto bench = find_graft_bench(*scene_.the_case);
   if (!bench) return;
   camera_before_bench_ = camera;
+  // A scope shows nothing there.
+  layout_before_bench_ = sight_.layout();
+  sight_.set_layout(PictureLayout::kOutside);
   camera = bench_camera(camera, *bench, sight_.viewport().aspect());
 }
 

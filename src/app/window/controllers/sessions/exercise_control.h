@@ -70,8 +70,9 @@ class ExerciseControl {
   bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
   std::optional<bool> skin_clear_;             ///< as it was shown last; none: as it was
   std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on
-  std::optional<Pose> hand_before_bench_;      ///< likewise, of the hand that was brought there
-  std::deque<Pose> ways_;                      ///< by which it goes on
+  PictureLayout layout_before_bench_ = PictureLayout::kOutside;  ///< likewise
+  std::optional<Pose> hand_before_bench_;  ///< likewise, of the hand that was brought there
+  std::deque<Pose> ways_;                  ///< by which it goes on
   DebriefView wanted_ = DebriefView::kNothing, shown_ = DebriefView::kNothing;
 };
 

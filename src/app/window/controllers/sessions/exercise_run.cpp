@@ -242,6 +242,13 @@ bool ExerciseRun::at_bench() const {
          is_at_bench(stages[watch_->state().stage]);
 }
 
+bool ExerciseRun::works_at_bench(std::size_t hand) const {
+  const std::vector<std::string> names = used_by(hand);
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name == "tendon_stripper" || name.starts_with("graft_sizer");
+  });
+}
+
 bool ExerciseRun::is_under_skin() const {
   const auto& soft = scenario().soft;
   const bool felt = std::any_of(soft.begin(), soft.end(),

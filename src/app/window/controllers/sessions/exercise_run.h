@@ -74,9 +74,7 @@ class ExerciseRun {
   /// Whether what the live stage asks for is done at a bench.
   bool at_bench() const;
   /// Whether a hand may take what is used there.
-  bool works_at_bench(std::size_t hand) const {
-    return hand < hands_.size() && !hands_[hand].also.empty();
-  }
+  bool works_at_bench(std::size_t hand) const;
   /// Whether skin is no longer felt, or never was: what lies under it is worked on.
   bool is_under_skin() const;
   /// Instruments that a hand has and may take, by the tray's names.
