@@ -5,6 +5,8 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 namespace osteon {
 namespace {
@@ -24,12 +26,34 @@ Area area_of(GLFWwindow* window) {
   return area;
 }
 
-std::vector<Area> screens() {
+std::span<GLFWmonitor* const> monitors() {
   int count = 0;
-  GLFWmonitor** const monitors = glfwGetMonitors(&count);
-  std::vector<Area> areas(static_cast<std::size_t>(std::max(count, 0)));
-  for (std::size_t k = 0; k < areas.size(); ++k)
-    glfwGetMonitorWorkarea(monitors[k], &areas[k].x, &areas[k].y, &areas[k].w, &areas[k].h);
+  GLFWmonitor** const first = glfwGetMonitors(&count);
+  return {first, static_cast<std::size_t>(std::max(count, 0))};
+}
+
+// Without what bars of the desktop cover.
+std::vector<Area> work_areas() {
+  std::vector<Area> areas;
+  for (GLFWmonitor* monitor : monitors()) {
+    Area& area = areas.emplace_back();
+    glfwGetMonitorWorkarea(monitor, &area.x, &area.y, &area.w, &area.h);
+  }
+  return areas;
+}
+
+// A screen that was unplugged a moment ago is listed until the next events are read. GLFW 3.3 ends
+// the program when it is asked for that one's work area; place and mode may be asked for.
+std::vector<Area> screens() {
+  std::vector<Area> areas;
+  for (GLFWmonitor* monitor : monitors()) {
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+    if (!mode) continue;
+    Area& area = areas.emplace_back();
+    glfwGetMonitorPos(monitor, &area.x, &area.y);
+    area.w = mode->width;
+    area.h = mode->height;
+  }
   return areas;
 }
 
@@ -56,7 +80,7 @@ Result<std::unique_ptr<ObserverWindow>> ObserverWindow::open(const GlWindow& fir
   if (!window) return tl::unexpected(window.error());
   const Area of_first = area_of(first.handle());
   own_screen = false;
-  for (const Area& screen : screens()) {
+  for (const Area& screen : work_areas()) {
     if (own_screen || screen.w <= 0 || shows_middle(screen, of_first)) continue;
     put(window->handle(), screen);
     own_screen = true;
