@@ -99,6 +99,14 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   return out;
 }
 
+// What a set-up does more than those from before it.
+void tell_hash(SoftSetup& setup, std::string_view does) {
+  Hasher h;
+  h.add(setup.hash);
+  h.add(does);
+  setup.hash = h.value();
+}
+
 }  // namespace
 
 bool names_solids(const Case& the_case, const std::string& name) {
@@ -173,37 +181,25 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
 void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces) {
   if (setup.cutters.empty() || !pieces) return;
   setup.pieces = std::move(pieces);
-  Hasher h;
-  h.add(setup.hash);
-  h.add(std::string_view("pieces"));
-  setup.hash = h.value();
+  tell_hash(setup, "pieces");
 }
 
 void let_pieces_meet_softs(SoftSetup& setup) {
   if (!setup.pieces) return;
   setup.pieces_meet_softs = true;
-  Hasher h;
-  h.add(setup.hash);
-  h.add(std::string_view("pieces meet soft parts"));
-  setup.hash = h.value();
+  tell_hash(setup, "pieces meet soft parts");
 }
 
 void let_bands_part_by_strands(SoftSetup& setup) {
   if (setup.bands.empty()) return;
   setup.by_strands = true;
-  Hasher h;
-  h.add(setup.hash);
-  h.add(std::string_view("bands part by strands"));
-  setup.hash = h.value();
+  tell_hash(setup, "bands part by strands");
 }
 
 void let_bridges_tear(SoftSetup& setup) {
   if (!setup.pieces || setup.grippers.empty()) return;
   setup.bridges_tear = true;
-  Hasher h;
-  h.add(setup.hash);
-  h.add(std::string_view("bridges tear"));
-  setup.hash = h.value();
+  tell_hash(setup, "bridges tear");
 }
 
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers) {

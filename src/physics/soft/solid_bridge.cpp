@@ -134,7 +134,11 @@ void BridgeSearch::link() {
     }
 }
 
-// One more way from the place to what is held, the shortest that has room; false: there is none.
+// Symbols: a part is a node of the graph, a link's room the pairs of nodes that no way uses yet.
+// Invariant: what flows into a part flows out of it, but where it starts and where it is held.
+// Source: Edmonds and Karp, J. ACM 19 (1972). Ends: each way is the shortest that has room and
+// fills a link, and a link is filled at most half as often as there are parts. False: there is no
+// way, and what was reached is parted from the rest by the least cut.
 bool BridgeSearch::push_more() {
   came_.assign(source_.size(), kNoLink);
   std::vector<std::int32_t> queue;

@@ -238,18 +238,18 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
   if (!grippers) return tl::unexpected(grippers.error());
   add_grippers(setup, std::move(*grippers));
   add_friction(setup, SoftFriction(setup.friction));
-  // A recording from before pieces lay loose is replayed without them.
-  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) {
+  // A recording from before a soft part could do something is replayed as then: what came later is
+  // added, in the order in which it came, until the hash is the recording's.
+  const auto lacks_something = [&] {
+    return settings.soft_hash == 0 || settings.soft_hash != setup.hash;
+  };
+  if (lacks_something()) {
     auto pieces = make_pieces(the_case, settings.tray);
     if (!pieces) return tl::unexpected(pieces.error());
     add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
   }
-  // One from before they met soft parts: as then.
-  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_pieces_meet_softs(setup);
-  // One from before ligaments were cut and torn strand by strand: all at once; from before jaws
-  // tore off what little held: as then.
-  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_bands_part_by_strands(setup);
-  if (settings.soft_hash == 0 || settings.soft_hash != setup.hash) let_bridges_tear(setup);
+  for (auto* let : {let_pieces_meet_softs, let_bands_part_by_strands, let_bridges_tear})
+    if (lacks_something()) let(setup);
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",
                 "Replay it with the version of Osteon that made it");
