@@ -92,6 +92,7 @@ class HeadlessLoop {
       if (command.kind == CommandKind::kNone) command = hand.hand->command();
     }
     say_beside();
+    if (run_.on_hands && (n == 0 || session_.last_steps() > 0)) consumed_ = session_.bones();
     const std::int64_t before = steady_now_ns();
     (void)session_.tick(inputs_);
     tick_times_.add_ns(steady_now_ns() - before);
@@ -107,7 +108,7 @@ class HeadlessLoop {
     if (run_.on_hands) {
       tools_.clear();
       for (std::size_t h = 0; h < hands_.size(); ++h) tools_.push_back(&session_.tool_state(h));
-      run_.on_hands(tools_, session_.bones());
+      run_.on_hands(tools_, consumed_);
     }
     carving_.see(session_);
     softs_.see(session_);
@@ -152,6 +153,7 @@ class HeadlessLoop {
   std::vector<RunningHand> hands_;
   std::vector<HandInput> inputs_;
   std::vector<const ToolState*> tools_;
+  BoneSnapshot consumed_;  ///< by the last tick: what whoever repeats the recording sees at it
   Percentiles tick_times_;
   CarvingWatch carving_;
   TorqueWatch torque_;

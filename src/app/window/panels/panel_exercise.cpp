@@ -330,9 +330,10 @@ void draw_ghost_switch(const PanelContext& c) {
     c.requests.exercise.ghost = true;
   if (!ghost.on) return;
   if (!ghost.problem.empty())
-    ui::text_within(color::kTextQuiet, ghost.problem, ImGui::GetContentRegionAvail().x);
+    wrapped_text(color::kTextQuiet, ghost.problem);
   else if (ghost.preparing)
-    ui::text(color::kTextQuiet, "The expert is playing it ...");
+    wrapped_text(color::kTextQuiet,
+                 "The expert plays it in the background. Of a long exercise that takes minutes.");
   else if (ghost.strength <= 0)
     wrapped_text(color::kTextQuiet, "Not shown: your results say that you can do without.");
 }

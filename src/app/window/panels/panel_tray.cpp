@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,24 @@
 namespace osteon {
 namespace {
 
-bool contains(const std::string& text, const char* part) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) ==
-           std::tolower(static_cast<unsigned char>(b));
-  };
-  const std::string wanted = part;
-  return std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
+// Letters and digits, small; all else parts words.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += std::isalnum(byte) != 0 || c == '.' ? static_cast<char>(std::tolower(byte)) : ' ';
+  }
+  return out;
+}
+
+// Every word that is searched for is a part of the name or of what it does: "scalpel 11" finds
+// "Scalpel, no. 11 blade".
+bool is_found(const TrayItem& item, const std::string& search) {
+  const std::string text = plain(item.title + " " + item.size + " " + item.does);
+  std::istringstream words(plain(search));
+  for (std::string word; words >> word;)
+    if (text.find(word) == std::string::npos) return false;
+  return true;
 }
 
 void draw_picture(const PanelContext& c, const TrayItem& item) {
@@ -40,8 +52,7 @@ using TrayRow = std::vector<const TrayItem*>;
 std::vector<TrayRow> rows_of(const TrayModel& tray) {
   std::vector<TrayRow> rows;
   for (const TrayItem& item : tray.items) {
-    if (!contains(item.title, tray.search.c_str()) && !contains(item.does, tray.search.c_str()))
-      continue;
+    if (!is_found(item, tray.search)) continue;
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const TrayRow& other) {
       return other.front()->title == item.title;
     });
@@ -129,6 +140,7 @@ void draw_tray(const PanelContext& c) {
   ImGui::Begin(
       "##tray", nullptr,
       ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  const std::vector<TrayRow> rows = rows_of(c.model.hands.tray);
   constexpr std::size_t kLongest = 64;
   std::array<char, kLongest> search{};
   c.model.hands.tray.search.copy(search.data(), kLongest - 1);
@@ -138,12 +150,13 @@ void draw_tray(const PanelContext& c) {
   if (ImGui::InputTextWithHint("##search", "Search", search.data(), kLongest))
     c.requests.hands.search = search.data();
   const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+  const bool entered = typing && ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
+  if (entered && rows.empty()) ImGui::SetKeyboardFocusHere(-1);  // to search for something else
   ImGui::SameLine();
   if (ImGui::Button("Close  (Esc)")) c.requests.hands.toggle_tray = true;
-  const std::vector<TrayRow> rows = rows_of(c.model.hands.tray);
-  if (typing && !rows.empty() && ImGui::IsKeyPressed(GLFW_KEY_ENTER, false))
-    c.requests.hands.take = rows.front().front()->place;
+  if (entered && !rows.empty()) c.requests.hands.take = rows.front().front()->place;
   ImGui::BeginChild("items");
+  if (rows.empty()) ui::text(color::kTextQuiet, "Nothing in the tray is called that");
   draw_rows(c, rows);
   ImGui::EndChild();
   ImGui::End();

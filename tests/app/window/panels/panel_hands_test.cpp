@@ -76,6 +76,23 @@ TEST(TrayPanel, AnInstrumentIsTakenByAClickAndFoundByItsName) {
   const UiRequests found = ui.click({tray.x + 120, tray.y + 50 + 30});
   ASSERT_TRUE(found.hands.take);
   EXPECT_EQ(*found.hands.take, 2u);
+  for (const char* words : {"drill 9", "9mm drill", "cannulated, drill"}) {
+    ui.model.hands.tray.search = words;
+    const UiRequests by_words = ui.click({tray.x + 120, tray.y + 50 + 30});
+    EXPECT_EQ(by_words.hands.take.has_value(), std::string(words) != "9mm drill") << words;
+  }
+}
+
+TEST(TrayPanel, WhereNothingIsFoundOneSearchesOn) {
+  UiFrame ui;
+  fill_hands(ui);
+  ui.model.hands.tray.open = true;
+  ui.model.hands.tray.items = {{"Wrist probe", "", "probe", 0, -1}};
+  ui.model.hands.tray.search = "saw";
+  for (int i = 0; i < 3; ++i) ui.draw();
+  EXPECT_FALSE(ui.press_key(GLFW_KEY_ENTER).hands.take);
+  for (int i = 0; i < 3; ++i) ui.draw();
+  EXPECT_FALSE(ui.press_key(GLFW_KEY_R).toggle_record) << "letters still go into the search";
 }
 
 // R would end what is recorded, P would pause it.

@@ -87,8 +87,8 @@ void GhostControl::take_prepared() {
   auto prepared = job_->take();
   job_.reset();
   if (!prepared) {
-    problem_ = prepared.error().message();
-    host_.note(ToastKind::kWarning, "The expert is not shown: " + problem_);
+    problem_ = "The expert is not shown: " + prepared.error().what;
+    host_.note(ToastKind::kWarning, "The expert is not shown: " + prepared.error().message());
     return;
   }
   track_ = prepared->track;
