@@ -134,7 +134,8 @@ struct ExerciseRequests {
   std::optional<double> pull_n = {}, pivot_share = {};  ///< on the tibia that is examined
   bool ghost = false;                                   ///< switched on or off
   bool guide = false;                                   ///< likewise: leads the hands
-  bool pause = false;                                   ///< or go on
+  bool as_expert = false;  ///< the active hand holds its instrument as the expert does
+  bool pause = false;      ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;

@@ -76,6 +76,7 @@ struct HandsRequests {
   bool next_size = false;
   std::optional<std::size_t> portal;  ///< the active hand goes before it
   bool mark = false, undo = false;
+  bool upright = false;  ///< the active hand's instrument, on what its tip is nearest to
   bool toggle_names = false;
 };
 

@@ -122,7 +122,8 @@ struct RepeatedGhost {
   Verdict verdict = Verdict::kUndecided;
 };
 
-Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWanted& wanted) {
+Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWanted& wanted,
+                                       const SeeGhost& see) {
   const auto header = header_for_ghost(recording, wanted);
   if (!header) return tl::unexpected(header.error());
   const auto settings = parse_settings(header->settings_json);
@@ -132,7 +133,12 @@ Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWan
   order.recording = recording;
   order.case_spec = wanted.case_spec;
   order.on_judged = [&](std::span<const ToolState* const> tools, const ScenarioState& state) {
+    const std::size_t known = maker.so_far().stretches.size();
     maker.add(tools, state);
+    if (!see || maker.so_far().stretches.size() == known) return;
+    GhostTrack part = maker.so_far();
+    part.tray = settings->tray;
+    see(part);
   };
   const auto debrief = make_debrief(order);
   if (!debrief) return tl::unexpected(debrief.error());
@@ -146,8 +152,9 @@ Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWan
 }
 
 // One who does not pass himself is no example.
-Result<GhostTrack> example_of(const fs::path& recording, const GhostWanted& wanted) {
-  auto repeated = repeat_for_ghost(recording, wanted);
+Result<GhostTrack> example_of(const fs::path& recording, const GhostWanted& wanted,
+                              const SeeGhost& see) {
+  auto repeated = repeat_for_ghost(recording, wanted, see);
   if (!repeated) return tl::unexpected(repeated.error());
   if (repeated->verdict == Verdict::kNotPassed)
     return fail("the virtual expert does not pass on this patient", wanted.case_spec);
@@ -156,8 +163,9 @@ Result<GhostTrack> example_of(const fs::path& recording, const GhostWanted& want
 
 }  // namespace
 
-Result<GhostTrack> ghost_of_recording(const fs::path& recording, const GhostWanted& wanted) {
-  auto repeated = repeat_for_ghost(recording, wanted);
+Result<GhostTrack> ghost_of_recording(const fs::path& recording, const GhostWanted& wanted,
+                                      const SeeGhost& see) {
+  auto repeated = repeat_for_ghost(recording, wanted, see);
   if (!repeated) return tl::unexpected(repeated.error());
   return std::move(repeated->track);
 }
@@ -174,17 +182,17 @@ fs::path expert_recording(const GhostWanted& wanted) {
 }
 
 Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
-                                   const fs::path& program) {
+                                   const fs::path& program, const SeeGhost& see) {
   const fs::path file = expert_recording(wanted);
   std::error_code ec;
   if (fs::exists(file, ec)) {
-    auto kept = example_of(file, wanted);
+    auto kept = example_of(file, wanted, see);
     if (kept || !go_on()) return kept;
     fs::remove(file, ec);  // of an older build, or damaged
   }
   if (auto ok = record_expert(wanted, file, go_on, program); !ok) return tl::unexpected(ok.error());
   if (!go_on()) return fail("stopped");
-  return example_of(file, wanted);
+  return example_of(file, wanted, see);
 }
 
 double ghost_strength_of(const std::string& learner, const std::string& scenario) {

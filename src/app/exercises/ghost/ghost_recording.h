@@ -18,17 +18,22 @@ struct GhostWanted {
   std::uint64_t case_hash = 0;
 };
 
+/// Is shown a way as far as it is known, each time that another step of the exercise has been
+/// repeated, and before it is known whether its maker passes. May be empty.
+using SeeGhost = std::function<void(const GhostTrack&)>;
+
 /// The way through an exercise that a recording shows. Repeats and judges it. Fails where it is of
 /// another exercise or another patient, where it does not repeat, and where nothing was done in it.
 Result<GhostTrack> ghost_of_recording(const std::filesystem::path& recording,
-                                      const GhostWanted& wanted);
+                                      const GhostWanted& wanted, const SeeGhost& see = {});
 
 /// Lets the virtual expert perform the exercise on the same patient, in a program of its own that
 /// gives way to others (`osteon run`), and keeps the recording in the cache: the next time it is
 /// only repeated. `go_on`: asked many times a second; false ends the program. `program`: the one to
 /// start; empty: this one.
 Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
-                                   const std::filesystem::path& program = {});
+                                   const std::filesystem::path& program = {},
+                                   const SeeGhost& see = {});
 /// Where that recording is kept.
 std::filesystem::path expert_recording(const GhostWanted& wanted);
 

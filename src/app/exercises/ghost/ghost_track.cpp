@@ -98,6 +98,20 @@ std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t 
   return sample;
 }
 
+std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                 std::uint32_t instrument, const Vec3& tip_W) {
+  if (stretch >= track.stretches.size() || hand >= track.hands.size()) return std::nullopt;
+  const GhostStretch& s = track.stretches[stretch];
+  const std::vector<GhostTrack::Sample>& samples = track.hands[hand];
+  std::optional<Pose> found;
+  for (std::size_t i = s.from; i <= s.to && i < samples.size(); ++i) {
+    if (samples[i].instrument != instrument || !is_finite(samples[i].X_WT)) continue;
+    const Vec3 away_W = samples[i].X_WT.p - tip_W;
+    if (!found || away_W.norm() < (found->p - tip_W).norm()) found = samples[i].X_WT;
+  }
+  return found;
+}
+
 namespace {
 
 using Samples = std::vector<GhostTrack::Sample>;

@@ -50,6 +50,8 @@ class GhostTrackMaker {
   /// `state`: after this tick.
   void add(std::span<const ToolState* const> tools, const ScenarioState& state);
   GhostTrack finish(std::vector<std::string> tray);
+  /// As far as it has come.
+  const GhostTrack& so_far() const { return track_; }
 
  private:
   void keep(std::span<const ToolState* const> tools);
@@ -73,6 +75,11 @@ std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioS
 /// and begins again. None: the track has no such hand or stretch, or the pose is not finite.
 std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t stretch,
                                            std::size_t hand, double since_s);
+
+/// How that hand holds this instrument (of the track's tray) in a stretch, at the place of its way
+/// that is nearest to a tip. None: it does not hold it there.
+std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                 std::uint32_t instrument, const Vec3& tip_W);
 
 /// The piece of that hand's way in a stretch along which a tip at `tip_W` shall be led, with full
 /// strength. `at`: the sample at which it was led before, which moves on: to the place nearest to

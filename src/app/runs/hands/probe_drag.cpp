@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/base/turn.h"
+
 namespace osteon {
 namespace {
 
@@ -23,8 +25,10 @@ Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camer
   const double m_per_px = metres_per_pixel(camera, viewport, X_WD.p);
   const Vec3 step_C(motion.right_px * m_per_px, motion.up_px * m_per_px,
                     -motion.wheel * params.wheel_m);
+  const Vec3 on_W = motion.along * params.wheel_m * (X_WD.q * -Vec3::UnitZ());
   Pose moved;
-  moved.p = kept_within(X_WD.p + camera.q_WC * step_C, camera.target_W, params.max_from_target_m);
+  moved.p =
+      kept_within(X_WD.p + camera.q_WC * step_C + on_W, camera.target_W, params.max_from_target_m);
 
   const double angle = params.turn_rad_per_s * dt_s;
   const Quat q_C = turn_about(Vec3::UnitY(), motion.yaw * angle) *
@@ -34,6 +38,13 @@ Pose drag_probe(const Pose& X_WD, const ProbeMotion& motion, const Camera& camer
   const Quat twist_D = turn_about(Vec3::UnitZ(), motion.twist * angle);
   moved.q = (camera.q_WC * q_C * q_CW * X_WD.q * twist_D).normalized();
   return moved;
+}
+
+Pose upright_on(const Pose& X_WD, const Vec3& p_W, bool inside) {
+  constexpr double kTold_m = 1e-5;
+  const Vec3 out_W = inside ? p_W - X_WD.p : X_WD.p - p_W;
+  if (!(out_W.norm() > kTold_m)) return X_WD;
+  return {X_WD.p, (turn_between(X_WD.q * Vec3::UnitZ(), out_W) * X_WD.q).normalized()};
 }
 
 Pose offered_probe(const Camera& camera, const Aabb& case_bounds_W) {

@@ -140,6 +140,8 @@ void read_hand_keys(const PanelContext& c) {
     requests.portal = c.model.hands.next_portal;
   if (pressed('K')) requests.mark = true;
   if (pressed('U')) requests.undo = true;
+  if (pressed('Z')) requests.upright = true;
+  if (pressed('Y')) c.requests.exercise.as_expert = true;
   read_paging_keys(c);
 }
 

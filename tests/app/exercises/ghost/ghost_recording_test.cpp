@@ -71,8 +71,17 @@ class GhostRecording : public ::testing::Test {
 TEST_F(GhostRecording, ShowsTheWayAndTheExpertIsRecordedOnce) {
   const fs::path file = dir_ / "expert.osr";
   record(file, "expert");
-  const auto track = ghost_of_recording(file, wanted_);
+  std::vector<GhostTrack> parts;
+  const auto track =
+      ghost_of_recording(file, wanted_, [&](const GhostTrack& part) { parts.push_back(part); });
   ASSERT_TRUE(track) << track.error().message();
+  ASSERT_EQ(parts.size(), track->stretches.size()) << "each step is shown as soon as it is known";
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    ASSERT_EQ(parts[i].stretches.size(), i + 1);
+    EXPECT_EQ(parts[i].stretches.back().to, track->stretches[i].to);
+    EXPECT_GT(parts[i].hands.front().size(), parts[i].stretches.back().to);
+    EXPECT_EQ(parts[i].tray, track->tray);
+  }
   EXPECT_EQ(track->hands.size(), wanted_.scenario.hands.size());
   EXPECT_EQ(track->stretches.back().stage, wanted_.scenario.stages.size() - 1);
   EXPECT_GE(track->stretches.size(), wanted_.scenario.stages.size());

@@ -131,6 +131,21 @@ TEST(GhostTrack, MovesAsTheExpertDidRestsAndBeginsAgain) {
   EXPECT_FALSE(ghost_at(lost, 0, 0, 0));
 }
 
+TEST(GhostTrack, TellsHowAnInstrumentIsHeldNearATip) {
+  GhostTrack track = sample_track();
+  const std::size_t of = 1;  // from 100 to 300 mm
+  for (auto& sample : track.hands[0])
+    sample.X_WT.q = Quat(Eigen::AngleAxisd(sample.X_WT.p.x(), Vec3::UnitY()));
+  const auto held = ghost_beside(track, of, 0, 1, Vec3(0.2, 0.05, 0));
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->p.x(), 0.2, 1e-9);
+  EXPECT_NEAR(held->q.angularDistance(Quat(Eigen::AngleAxisd(0.2, Vec3::UnitY()))), 0, 1e-9);
+  EXPECT_NEAR(ghost_beside(track, of, 0, 1, Vec3(0.9, 0, 0))->p.x(), 0.3, 1e-9) << "its end";
+  EXPECT_FALSE(ghost_beside(track, of, 0, 0, Vec3::Zero())) << "another instrument";
+  EXPECT_FALSE(ghost_beside(track, of, 1, 1, Vec3::Zero()));
+  EXPECT_FALSE(ghost_beside(track, 9, 0, 1, Vec3::Zero()));
+}
+
 TEST(GhostTrack, TurnsBetweenSamplesByTheShorterWay) {
   GhostTrack track;
   track.hands = {{{}, {}}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "osteon/base/random.h"
@@ -48,6 +49,39 @@ TEST(ProbeDrag, TheWheelMovesAlongTheViewOnly) {
   const Pose moved = drag_probe(X_WD, motion, camera, viewport, 0.016);
   const Vec3 step_C = camera.q_WC.conjugate() * (moved.p - X_WD.p);
   EXPECT_NEAR((step_C - Vec3(0, 0, -0.004)).norm(), 0, 1e-12);
+}
+
+TEST(ProbeDrag, AnInstrumentGoesAlongItsShaftHoweverItIsSeen) {
+  Random random(8);
+  const Viewport viewport{0, 0, 1000, 700};
+  for (int i = 0; i < 50; ++i) {
+    const Camera camera = some_camera(random);
+    const Pose X_WD{camera.target_W, random.rotation()};
+    ProbeMotion motion;
+    motion.along = 3;
+    const Pose moved = drag_probe(X_WD, motion, camera, viewport, 0.016);
+    EXPECT_NEAR((moved.p - X_WD.p + 0.006 * (X_WD.q * Vec3::UnitZ())).norm(), 0, 1e-12);
+    EXPECT_NEAR(moved.q.angularDistance(X_WD.q), 0, 1e-7);
+  }
+}
+
+TEST(ProbeDrag, UprightTheTipPointsAtTheSurfaceAndStaysWhereItIs) {
+  Random random(9);
+  for (int i = 0; i < 50; ++i) {
+    const Pose X_WD{0.1 * random.direction(), random.rotation()};
+    const Vec3 out_W = random.direction();
+    for (const bool inside : {false, true}) {
+      const Vec3 p_W = X_WD.p - (inside ? -0.004 : 0.004) * out_W;
+      const Pose upright = upright_on(X_WD, p_W, inside);
+      EXPECT_EQ(upright.p, X_WD.p);
+      EXPECT_NEAR((upright.q * Vec3::UnitZ() - out_W).norm(), 0, 1e-9);
+      // No more turned than the shaft's directions are apart.
+      const double apart = std::acos(std::clamp(out_W.dot(X_WD.q * Vec3::UnitZ()), -1.0, 1.0));
+      EXPECT_NEAR(upright.q.angularDistance(X_WD.q), apart, 1e-6);
+    }
+  }
+  const Pose on_it{Vec3(1, 2, 3), Quat::Identity()};
+  EXPECT_EQ(upright_on(on_it, on_it.p, false).q.coeffs(), on_it.q.coeffs());
 }
 
 TEST(ProbeDrag, TurnsKeepTheTipAndAUnitQuaternion) {

@@ -61,6 +61,7 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     }
     if (requests.ghost) ghost_.toggle();
     if (requests.guide) ghost_.toggle_guide();
+    if (requests.as_expert) hold_as_expert();
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
@@ -71,6 +72,19 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     exercise_.toggle();
     cases_.open({{}, exercise_.recording(), nullptr});
   }
+}
+
+// The tip stays where it is.
+void ExerciseControl::hold_as_expert() {
+  LiveRun* const run = live_.run();
+  if (!run || !run->by_mouse()) return;
+  if (sight_.shown().tool.portal < scene_.portals.size())
+    return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
+  const auto expert = ghost_.beside_active_hand();
+  if (!expert)
+    return host_.note(ToastKind::kInfo,
+                      "No expert is shown who holds this instrument now with this hand.");
+  run->bring({run->hand(run->active()).X_WD_wanted.p, expert->q});
 }
 
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {

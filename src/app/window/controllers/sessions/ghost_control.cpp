@@ -45,16 +45,21 @@ void GhostControl::prepare() {
   if (!allowed_ || job_) return;
   const std::string& order = host_.order.ghost;
   const std::string recording = order == "off" ? std::string() : order;
+  early_ = std::make_shared<Early>();
   job_ = std::make_unique<SideJob<Prepared>>(
-      [wanted = wanted_, recording, track = track_,
+      [wanted = wanted_, recording, track = track_, early = early_,
        ordered = host_.order.ghost_strength](const Progress& progress) -> Result<Prepared> {
         Prepared prepared{track, 1};
         prepared.strength =
             ordered ? *ordered : ghost_strength_of(learner_here(), wanted.scenario.name);
         if (prepared.track || kFullOpacity * prepared.strength < kFaint) return prepared;
         const auto go_on = [&progress] { return progress(nullptr, 0); };
-        auto made = recording.empty() ? ghost_of_expert(wanted, go_on)
-                                      : ghost_of_recording(recording, wanted);
+        const auto see = [&](const GhostTrack& part) {
+          const std::scoped_lock lock(early->mutex);
+          early->newest = {std::make_shared<const GhostTrack>(part), prepared.strength};
+        };
+        auto made = recording.empty() ? ghost_of_expert(wanted, go_on, {}, see)
+                                      : ghost_of_recording(recording, wanted, see);
         if (!made) return tl::unexpected(made.error());
         prepared.track = std::make_shared<const GhostTrack>(std::move(*made));
         return prepared;
@@ -72,6 +77,7 @@ void GhostControl::toggle_guide() {
 }
 
 void GhostControl::end() {
+  if (job_) track_.reset();  // it may end in the middle
   job_.reset();
   allowed_ = false;
   sight_.set_ghosts({});
@@ -82,11 +88,23 @@ void GhostControl::lead_nobody() {
   for (std::size_t h = 0; live_.run() && h < live_.run()->hands(); ++h) live_.run()->guide(h, {});
 }
 
+// A long exercise takes minutes to repeat; its first steps are known long before.
+void GhostControl::take_early() {
+  const std::scoped_lock lock(early_->mutex);
+  if (!early_->newest) return;
+  track_ = early_->newest->track;
+  strength_ = early_->newest->strength;
+  early_->newest.reset();
+}
+
 void GhostControl::take_prepared() {
-  if (!job_ || !job_->done()) return;
+  if (!job_) return;
+  take_early();
+  if (!job_->done()) return;
   auto prepared = job_->take();
   job_.reset();
   if (!prepared) {
+    track_.reset();
     problem_ = "The expert is not shown: " + prepared.error().what;
     host_.note(ToastKind::kWarning, "The expert is not shown: " + prepared.error().message());
     return;
@@ -98,6 +116,17 @@ void GhostControl::take_prepared() {
 // The run's tray may have the same instruments in another order, or not all of them.
 std::optional<std::uint32_t> GhostControl::in_tray(std::uint32_t instrument) const {
   return live_.tray().find(name_in(track_->tray, instrument));
+}
+
+std::optional<Pose> GhostControl::beside_active_hand() const {
+  const LiveRun* const run = live_.run();
+  const auto stretch = follower_.stretch();
+  if (!run || !track_ || !allowed_ || !on_ || !stretch) return std::nullopt;
+  const ToolState& tool = run->hand(run->active()).snapshot.tool;
+  for (std::uint32_t i = 0; i < std::max<std::size_t>(track_->tray.size(), 1); ++i)
+    if (in_tray(i) == tool.instrument)
+      return ghost_beside(*track_, *stretch, run->active(), i, tool.X_WP.p);
+  return std::nullopt;
 }
 
 void GhostControl::poll(const ExerciseRun& exercise) {

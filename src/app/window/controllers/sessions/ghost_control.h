@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,15 +32,24 @@ class GhostControl {
   /// Once a picture, while an exercise runs.
   void poll(const ExerciseRun& exercise);
   GhostModel model() const;
-  /// Of the exercise that was begun last; null: not known.
-  const GhostTrack* track() const { return track_.get(); }
+  /// How the expert holds what the active hand holds, near its tip, in the step that comes next;
+  /// none: he does not, or is not shown.
+  std::optional<Pose> beside_active_hand() const;
+  /// Of the exercise that was begun last; null: not known, or not to its end yet.
+  const GhostTrack* track() const { return job_ ? nullptr : track_.get(); }
 
  private:
   struct Prepared {
     std::shared_ptr<const GhostTrack> track;
     double strength = 1;
   };
+  /// What a preparation knows before it is done.
+  struct Early {
+    std::mutex mutex;
+    std::optional<Prepared> newest;
+  };
   void prepare();
+  void take_early();
   void take_prepared();
   void guide(const ExerciseRun& exercise);
   void lead_nobody();
@@ -52,6 +62,7 @@ class GhostControl {
   bool allowed_ = false, restart_ = false;
   GhostWanted wanted_;
   std::shared_ptr<const GhostTrack> track_;
+  std::shared_ptr<Early> early_;  ///< of the job
   std::unique_ptr<SideJob<Prepared>> job_;
   double strength_ = 1;
   std::string problem_;

@@ -43,6 +43,7 @@ bool HandsControl::apply(const HandsRequests& requests, bool free) {
   if (requests.change) change_hands();
   exchange(requests);
   if (requests.portal) bring_to(*requests.portal);
+  if (requests.upright) stand_upright();
   if (requests.mark) {
     run->mark();
     host_.note(ToastKind::kInfo, "This moment is marked. U goes back to it.");
@@ -110,6 +111,18 @@ void HandsControl::bring_to(std::size_t way) {
   live_.run()->bring(
       {to.p_W - kBefore_m * to.inwards_W, turn_between(Vec3::UnitZ(), -to.inwards_W).normalized()});
   aimed_ = to;
+}
+
+// A shaft that goes through a portal cannot be turned at will.
+void HandsControl::stand_upright() {
+  const ToolState& tool = sight_.shown().tool;
+  LiveRun& run = *live_.run();
+  if (!run.by_mouse()) return;
+  if (tool.portal < scene_.portals.size())
+    return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
+  const auto nearest = tip_.nearest(sight_.shown(), sight_.view());
+  if (!nearest) return host_.note(ToastKind::kInfo, "No surface is near the tip.");
+  run.bring(upright_on(run.hand(run.active()).X_WD_wanted, nearest->p_W, nearest->distance_m < 0));
 }
 
 // The one that the shaft is in, else the one that the hand was brought to and is still near.

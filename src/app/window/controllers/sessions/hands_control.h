@@ -48,6 +48,7 @@ class HandsControl {
     Vec3 p_W = Vec3::Zero(), inwards_W = Vec3::UnitZ();
   };
   std::vector<WayIn> ways_in() const;
+  void stand_upright();
   void bring_to(std::size_t way);
   std::vector<HandRow> rows() const;
   TrayModel tray_model(const std::vector<std::string>& used) const;

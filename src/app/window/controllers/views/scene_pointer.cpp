@@ -24,6 +24,8 @@ void ScenePointer::poll(double dt_s, double wheel) {
   GLFWwindow* const window = host_.window->handle();
   const bool keys_free = !io.WantTextInput && !io.KeyCtrl && !(io.NavActive && io.NavVisible);
   input_ = poll_.read(window, wheel, keys_free, host_.window->pixel_ratio(), dt_s);
+  input_.ctrl = io.KeyCtrl && !io.WantTextInput;
+  input_.shift = input_.shift || (input_.ctrl && io.KeyShift);
   // ImGui remembers a click that was shorter than a picture.
   input_.left = input_.left || io.MouseDown[0];
   input_.right = input_.right || io.MouseDown[1];

@@ -54,7 +54,7 @@ ProbeMotion probe_motion(const SceneInput& input) {
   ProbeMotion motion;
   motion.right_px = input.dx;
   motion.up_px = -input.dy;
-  motion.wheel = input.shift ? kFine * input.wheel : input.wheel;
+  (input.ctrl ? motion.along : motion.wheel) = input.shift ? kFine * input.wheel : input.wheel;
   motion.pitch = input.pitch;
   motion.yaw = input.yaw;
   (input.shift ? motion.twist : motion.roll) = input.roll;
