@@ -15,6 +15,7 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/record/recording_note.h"
 #include "ui/label.h"
+#include "window/controllers/sessions/exercise_facts.h"
 
 namespace osteon {
 namespace {
@@ -501,7 +502,8 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   model.elapsed_s = now_s_;
   model.paused = paused_;
   describe_asked(model);
-  describe_graft(model);
+  model.told = facts_of(watch_->graft());
+  for (auto& fact : facts_of(watch_->placing())) model.told.push_back(std::move(fact));
   if (const auto cleared = watch_->cleared_percent(); cleared && asks_now("stumps_cleared"))
     model.told.push_back({"Torn ends cleared", std::to_string(*cleared) + " %",
                           "Of what the torn ligament has left; what lies on the bone stays"});
@@ -520,31 +522,6 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
           state.goals[g].met || (i < state.goals[g].done.size() && state.goals[g].done[i] != 0);
       if (!done) model.left.push_back(subject_of(goals[g], i, *case_));
     }
-}
-
-// What a loop and a drill are chosen by.
-void ExerciseRun::describe_graft(ExerciseModel& model) const {
-  const GraftWatch& graft = watch_->graft();
-  if (!graft.plan()) return;
-  const auto mm = [](double m) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f mm", 1e3 * m);
-    return std::string(text);
-  };
-  const GraftBenchState& bench = graft.state();
-  if (bench.passed_m > 0)
-    model.told.push_back(
-        {"Graft's cylinder", mm(bench.passed_m),
-         "The smallest one that went over the graft: so wide the tunnels should be"});
-  if (bench.tension_n > 0)
-    model.told.push_back({"Graft stretched",
-                          std::to_string(std::lround(bench.creep_s / 60)) + " min",
-                          "As if by 80 N; 10 minutes are right"});
-  if (!(graft.plan()->channel_m > 0)) return;
-  model.told.push_back({"Femoral channel", mm(graft.plan()->channel_m),
-                        "From the joint to the far cortex: the loop and the graft in the socket"});
-  model.told.push_back({"Femoral socket", mm(graft.plan()->socket_m),
-                        "6 mm longer than the graft in it, for the button to turn"});
 }
 
 void ExerciseRun::describe_asked(ExerciseModel& model) const {

@@ -133,7 +133,6 @@ class ExerciseRun {
   /// Whether the live stage has a goal of that kind.
   bool asks_now(std::string_view kind) const;
   void describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const;
-  void describe_graft(ExerciseModel& model) const;
   void take_exercises(ExerciseList set);
   void keep();
   Result<void> note_what_was_said() const;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "osteon/procedure/graft_watch.h"
+#include "osteon/procedure/placing_watch.h"
+#include "window/exercise_model.h"
+
+namespace osteon {
+
+/// What was found out at a bench and is needed later, and how far work has come that no picture
+/// shows: a stripper on its tendon, thread and muscle of each. Nothing of a case without a bench.
+std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft);
+/// The same of a graft that is placed: the pin in the femur, the thread, how far the graft is drawn
+/// in, a screw. Nothing before there are tunnels.
+std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing);
+
+}  // namespace osteon

@@ -1,0 +1,97 @@
+#include "window/controllers/sessions/exercise_facts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "cases/open_case.h"
+
+namespace osteon {
+namespace {
+
+using Facts = std::vector<ExerciseModel::Told>;
+
+std::string value_of(const Facts& facts, const std::string& name) {
+  for (const auto& fact : facts)
+    if (fact.name == name) return fact.value;
+  return {};
+}
+
+Facts facts_seen(const Case& the_case, const GraftBenchState& bench) {
+  GraftWatch watch(the_case);
+  BoneSnapshot bones;
+  bones.bench = bench;
+  std::vector<Event> out;
+  watch.add(1, bones, out);
+  return facts_of(watch);
+}
+
+Facts facts_seen(const GraftPlacingState& placing) {
+  PlacingWatch watch;
+  BoneSnapshot bones;
+  bones.placing = placing;
+  std::vector<Event> out;
+  watch.add(1, bones, out);
+  return facts_of(watch);
+}
+
+TEST(ExerciseFacts, ABenchTellsHowFarEachTendonHasCome) {
+  const auto bench_case = open_case("builtin:graft_bench");
+  ASSERT_TRUE(bench_case) << bench_case.error().message();
+  GraftBenchState bench;
+  bench.on = true;
+  const Facts before = facts_seen(**bench_case, bench);
+  EXPECT_EQ(value_of(before, "Semitendinosus"), "");
+  EXPECT_EQ(value_of(before, "Graft's cylinder"), "");
+  bench.tendons[0].front_m = 0.1204;
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "120 mm stripped");
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Gracilis"), "");
+  bench.tendons[0].stripped = true;
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "");
+  bench.tendons[0].stitches = 0b1011;
+  bench.tendons[0].folds = 3;
+  bench.tendons[1].amputated = true;
+  bench.passed_m = 0.0085;
+  bench.tension_n = 79.6;
+  bench.creep_s = 300;
+  const Facts then = facts_seen(**bench_case, bench);
+  EXPECT_EQ(value_of(then, "Semitendinosus, thread"), "3 passes");
+  EXPECT_EQ(value_of(then, "Semitendinosus"), "3 strands");
+  EXPECT_EQ(value_of(then, "Gracilis"), "cut off");
+  EXPECT_EQ(value_of(then, "Graft's cylinder"), "8.5 mm");
+  EXPECT_EQ(value_of(then, "Board's pull"), "80 N");
+  EXPECT_EQ(value_of(then, "Graft stretched"), "5 min");
+  bench.loop_m = 0.02;  // it is made
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "");
+}
+
+TEST(ExerciseFacts, PlacingTellsWhatBoneHides) {
+  EXPECT_TRUE(facts_seen(GraftPlacingState{}).empty()) << "there are no tunnels";
+  GraftPlacingState state;
+  state.on = true;
+  state.plan.femur.outer_B = Vec3(0.04, 0, 0);
+  EXPECT_TRUE(facts_seen(state).empty());
+  state.pin_m = 0.0234;
+  EXPECT_EQ(value_of(facts_seen(state), "Passing pin"), "23 of 50 mm") << "10 mm beyond";
+  state.phase = PlacingPhase::kThreadInside;
+  EXPECT_EQ(value_of(facts_seen(state), "Passing pin"), "");
+  EXPECT_EQ(value_of(facts_seen(state), "Thread"), "through the femur");
+  state.phase = PlacingPhase::kThreadHeld;
+  EXPECT_EQ(value_of(facts_seen(state), "Thread"), "in the jaws");
+  state.phase = PlacingPhase::kThreadOut;
+  state.drawn_m = 0.060;
+  const auto out_mm = std::to_string(std::lround(1e3 * state.plan.button_out_m()));
+  EXPECT_EQ(value_of(facts_seen(state), "Graft drawn in"), "60 of " + out_mm + " mm");
+  state.phase = PlacingPhase::kTurned;
+  EXPECT_TRUE(facts_seen(state).empty());
+  state.screw.in_m = 0.012;
+  EXPECT_EQ(value_of(facts_seen(state), "Screw"), "12 mm deep");
+  state.phase = PlacingPhase::kEmpty;
+  state.pin_m = 0;
+  state.lost = 1;
+  EXPECT_EQ(value_of(facts_seen(state), "Thread"), "lost");
+}
+
+}  // namespace
+}  // namespace osteon
