@@ -135,6 +135,7 @@ struct ExerciseRequests {
   bool ghost = false;                                   ///< switched on or off
   bool guide = false;                                   ///< likewise: leads the hands
   bool as_expert = false;  ///< the active hand holds its instrument as the expert does
+  bool to_expert = false;  ///< and comes to where he has it, if that is near
   bool pause = false;      ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print

@@ -141,7 +141,10 @@ void read_hand_keys(const PanelContext& c) {
   if (pressed('K')) requests.mark = true;
   if (pressed('U')) requests.undo = true;
   if (pressed('Z')) requests.upright = true;
-  if (pressed('Y')) c.requests.exercise.as_expert = true;
+  if (pressed('Y')) {
+    c.requests.exercise.as_expert = true;
+    c.requests.exercise.to_expert = io.KeyShift;
+  }
   read_paging_keys(c);
 }
 

@@ -28,14 +28,15 @@ constexpr std::array<KeyLine, 13> kLook = {{
     {"Tab", "fold the panels away"},
 }};
 
-constexpr std::array<KeyLine, 17> kProbe = {{
+constexpr std::array<KeyLine, 18> kProbe = {{
     {"M", "take or release the instrument"},
     {"Space", "hold it while the key is down"},
     {"Mouse, wheel", "move it; deeper, nearer"},
     {"W S, A D, Q E", "tilt, turn, roll"},
     {"Shift + Q E, + wheel", "turn about its shaft; finer steps"},
     {"Ctrl + wheel", "push it on along its shaft, draw it back"},
-    {"Z, Y", "upright on what is nearest; as the expert holds it"},
+    {"Z", "upright on what its tip is nearest to"},
+    {"Y, Shift + Y", "as the expert holds it; and to where he has it"},
     {"X", "the other hand"},
     {"G", "move it to the next portal; the wheel goes in"},
     {"Alt + wheel, Q E, W S A D", "the resting hand: along, about, tilt"},

@@ -58,6 +58,16 @@ TEST(HandsPanel, TheHandsHaveButtonsToo) {
   EXPECT_FALSE(ui.click("##hand", {"Undo  (U)"}).hands.undo);
 }
 
+TEST(HandsPanel, KeysTurnWhatAMouseHolds) {
+  UiFrame ui;
+  fill_hands(ui);
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_Z).hands.upright);
+  const UiRequests turned = ui.press_key(GLFW_KEY_Y);
+  EXPECT_TRUE(turned.exercise.as_expert);
+  EXPECT_FALSE(turned.exercise.to_expert) << "only with Shift";
+  EXPECT_FALSE(turned.hands.upright);
+}
+
 TEST(TrayPanel, AnInstrumentIsTakenByAClickAndFoundByItsName) {
   UiFrame ui;
   fill_hands(ui);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "cases/xdg.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr double kHandsApart_m = 0.025;
 constexpr int kOrdersAtOnce = 8;  // about as many as the physics takes until the next picture
 constexpr double kBeforePortal_m = 0.012;
+constexpr double kNearExpert_m = 0.05;  // to where he has an instrument, by a key
 constexpr double kArrived_m = 0.005, kHighOver_m = 0.2;
 constexpr std::array<std::pair<DebriefView, DamageKind>, 3> kDamageViews{
     {{DebriefView::kForce, DamageKind::kForce},
@@ -61,7 +63,7 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     }
     if (requests.ghost) ghost_.toggle();
     if (requests.guide) ghost_.toggle_guide();
-    if (requests.as_expert) hold_as_expert();
+    if (requests.as_expert) hold_as_expert(requests.to_expert);
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) end();
@@ -74,8 +76,8 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   }
 }
 
-// The tip stays where it is.
-void ExerciseControl::hold_as_expert() {
+// The tip stays where it is, or comes to the expert's way: that is a hint.
+void ExerciseControl::hold_as_expert(bool comes_to_him) {
   LiveRun* const run = live_.run();
   if (!run || !run->by_mouse()) return;
   if (sight_.shown().tool.portal < scene_.portals.size())
@@ -84,7 +86,14 @@ void ExerciseControl::hold_as_expert() {
   if (!expert)
     return host_.note(ToastKind::kInfo,
                       "No expert is shown who holds this instrument now with this hand.");
-  run->bring({run->hand(run->active()).X_WD_wanted.p, expert->q});
+  const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
+  if (!comes_to_him) return run->bring({X_WD.p, expert->q});
+  const double away_m = (expert->p - X_WD.p).norm();
+  if (away_m > kNearExpert_m)
+    return host_.note(ToastKind::kInfo, "The tip is " + std::to_string(std::lround(1e3 * away_m)) +
+                                            " mm from the expert's way: bring it within 50 first.");
+  exercise_.count_hint();
+  run->bring(*expert);
 }
 
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {

@@ -46,7 +46,7 @@ class ExerciseControl {
 
  private:
   void open_patient();
-  void hold_as_expert();
+  void hold_as_expert(bool comes_to_him);
   void take_made_before();
   bool places_portals();
   bool want_instruments(const Scenario& scenario);

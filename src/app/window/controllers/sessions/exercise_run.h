@@ -90,6 +90,7 @@ class ExerciseRun {
   double now_s() const { return now_s_; }
   bool over() const { return watch_ && watch_->over(); }
   void show_cue();
+  void count_hint() { ++hints_; }
   /// While it is paused the clock stands and nothing that the hands do is judged.
   void pause(bool paused);
   bool paused() const { return paused_; }

@@ -22,7 +22,8 @@ void ScenePointer::poll(double dt_s, double wheel) {
   hold_probe();
   const ImGuiIO& io = ImGui::GetIO();
   GLFWwindow* const window = host_.window->handle();
-  const bool keys_free = !io.WantTextInput && !io.KeyCtrl && !(io.NavActive && io.NavVisible);
+  const bool nobody_types = !io.WantTextInput && !(io.NavActive && io.NavVisible);
+  const bool keys_free = nobody_types && !io.KeyCtrl;
   input_ = poll_.read(window, wheel, keys_free, host_.window->pixel_ratio(), dt_s);
   input_.ctrl = io.KeyCtrl && !io.WantTextInput;
   input_.shift = input_.shift || (input_.ctrl && io.KeyShift);
@@ -34,7 +35,8 @@ void ScenePointer::poll(double dt_s, double wheel) {
   input_.over_panels = (io.WantCaptureMouse || !over_outside) && !live_.probe_held();
   move(input_);
   if (!live_.run()) return;
-  live_.update(keys_free && glfwGetKey(window, GLFW_KEY_V) == GLFW_PRESS, dt_s);
+  // With Ctrl too, which moves what is held along its shaft: jaws must not open by that.
+  live_.update(nobody_types && glfwGetKey(window, GLFW_KEY_V) == GLFW_PRESS, dt_s);
   hands_.poll_buttons();
 }
 
