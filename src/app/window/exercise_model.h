@@ -113,7 +113,7 @@ struct ExerciseModel {
   DebriefView shown = DebriefView::kNothing;  ///< on the bones, of the result
   std::vector<DebriefView> can_show;
   bool shows_expert = false;  ///< the expert's ways are known
-  std::string verdict;
+  std::string verdict, why;   ///< in a sentence; empty: passed
   std::optional<double> score, score_lo, score_hi;
   bool repeats = true;  ///< the recording repeats exactly
   std::string file, problem;

@@ -3,6 +3,7 @@
 #include <string>
 #include "commands/support/parser.h"
 
+#include "cases/felt_choice.h"
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
@@ -82,6 +83,9 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     leave_out_bench_stages(*scenario);
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
+  // Of a case whose name says where they were made.
+  if (const auto choice = parse_felt_choice(run.case_spec); choice && !choice->portals.empty())
+    leave_out_puncture_stages(*scenario);
   if (!command.portals.empty()) {
     leave_out_puncture_stages(*scenario);
     const auto text = read_file(command.portals, 16u << 20);

@@ -95,14 +95,20 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
   if (ec) return fail("the folder could not be made: " + ec.message(), file.parent_path().string());
   // Two windows may record the same expert at a time; the name is only given to a whole recording.
   const std::string part = file.string() + "." + std::to_string(::getpid()) + ".part";
-  const std::string exercise = part + ".toml";
+  const std::string exercise = part + ".toml", graft = part + ".json";
   const auto remove_parts = [&] {
-    for (const char* end : {"", "-wal", "-shm", ".toml"}) fs::remove(part + end, ec);
+    for (const char* end : {"", "-wal", "-shm", ".toml", ".json"}) fs::remove(part + end, ec);
   };
   remove_parts();
   if (auto ok = write_file_atomic(exercise, wanted.scenario.source_text); !ok) return ok;
-  const auto child = start_quietly({program.string(), "run", exercise, "--case", wanted.case_spec,
-                                    "--surgeon", "expert", "--no-store", "--record", part});
+  std::vector<std::string> words{program.string(), "run",       exercise, "--case",
+                                 wanted.case_spec, "--surgeon", "expert", "--no-store"};
+  if (!wanted.graft_json.empty()) {
+    if (auto ok = write_file_atomic(graft, wanted.graft_json); !ok) return ok;
+    words.insert(words.end(), {"--graft", graft});
+  }
+  words.insert(words.end(), {"--record", part});
+  const auto child = start_quietly(std::move(words));
   if (!child) {
     remove_parts();
     return tl::unexpected(child.error());
@@ -176,6 +182,7 @@ fs::path expert_recording(const GhostWanted& wanted) {
   hash.add(std::string_view(wanted.scenario.source_text));
   hash.add(std::string_view(wanted.case_spec));
   hash.add(wanted.case_hash);
+  if (!wanted.graft_json.empty()) hash.add(std::string_view(wanted.graft_json));
   char name[24];
   std::snprintf(name, sizeof name, "-%016llx.osr", static_cast<unsigned long long>(hash.value()));
   return cache_dir() / "experts" / (wanted.scenario.name + name);

@@ -16,6 +16,7 @@ struct GhostWanted {
   Scenario scenario;
   std::string case_spec;
   std::uint64_t case_hash = 0;
+  std::string graft_json = {};  ///< a report of making one, which is placed; empty: none
 };
 
 /// Is shown a way as far as it is known, each time that another step of the exercise has been

@@ -160,9 +160,7 @@ void draw_exercise_verdict(const PanelContext& c) {
     wrapped_text(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
                                    ui::number(*model.score_lo, 1) + " and " +
                                    ui::number(*model.score_hi, 1) + ". Experts average 100.");
-  if (model.verdict == "undecided")
-    wrapped_text(color::kTextQuiet,
-                 "The interval of your score includes the pass mark: try again.");
+  if (!model.why.empty()) wrapped_text(color::kTextQuiet, model.why);
 }
 
 // On the bones beside the result.

@@ -22,7 +22,8 @@ namespace osteon {
 namespace {
 
 constexpr double kHandsApart_m = 0.025;
-constexpr int kOrdersAtOnce = 8;  // about as many as the physics takes until the next picture
+constexpr double kAside_m = 0.12;  // of hands that wait while two work
+constexpr int kOrdersAtOnce = 8;   // about as many as the physics takes until the next picture
 constexpr double kBeforePortal_m = 0.012;
 constexpr double kNearExpert_m = 0.05;  // to where he has an instrument, by a key
 constexpr double kArrived_m = 0.005, kHighOver_m = 0.2;
@@ -231,15 +232,17 @@ bool ExerciseControl::want_instruments(const Scenario& scenario) {
   return all;
 }
 
-// Before their portals where they have one, else side by side.
+// Before their portals where they have one, else side by side. From the third on they wait farther
+// aside: instruments meet, and what rests before the knee is in the way of those that go in.
 std::vector<LiveControl::PlacedHand> ExerciseControl::placed(
     const std::vector<PlannedHand>& hands) const {
   std::vector<LiveControl::PlacedHand> placed;
   const Camera& camera = sight_.view().camera;
   const Pose offered = offered_probe(camera, scene_.the_case->bounds_W());
-  const double middle = 0.5 * static_cast<double>(hands.size() - 1);
+  const double middle = 0.5 * static_cast<double>(std::min<std::size_t>(hands.size(), 2) - 1);
   for (std::size_t i = 0; i < hands.size(); ++i) {
-    const double right_m = kHandsApart_m * (static_cast<double>(i) - middle);
+    const double right_m =
+        kHandsApart_m * (static_cast<double>(i) - middle) + (i < 2 ? 0.0 : kAside_m);
     Pose X{offered.p + right_m * (camera.q_WC * Vec3::UnitX()), offered.q};
     for (const Portal& portal : find_portals(*scene_.the_case))
       if (hands[i].portal_W && (portal.p_W - *hands[i].portal_W).norm() < 1e-6)
@@ -283,10 +286,8 @@ void ExerciseControl::begin() {
   exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
                   live_.run()->tray().names);
   if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
-  // An expert would make anew what was made before.
-  ghost_.end();
-  if (!exercise_.is_shortened())
-    ghost_.begin(exercise_.scenario(), exercise_.case_spec(), *scene_.the_case);
+  ghost_.begin({exercise_.scenario(), exercise_.case_spec(), scene_.the_case->hash,
+                exercise_.graft_report()});
   const bool looks = std::any_of(hands->begin(), hands->end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   const auto& felt = live_.run()->softs();

@@ -46,7 +46,8 @@ class ExerciseRun {
   /// may be done on another thread. Empty: nothing has.
   std::function<Result<std::string>()> portals_to_place() const;
   void set_placed(std::string case_spec) { placed_spec_ = std::move(case_spec); }
-  bool is_shortened() const { return shortened_.has_value(); }
+  /// Of the graft that was made before; empty: none.
+  const std::string& graft_report() const { return graft_report_; }
   void back();
 
   const Scenario& scenario() const { return shortened_ ? *shortened_ : scenarios_[chosen_]; }

@@ -26,14 +26,15 @@ GhostControl::GhostControl(WindowHost& host, SceneSight& sight, LiveControl& liv
       on_(host.order.ghost != "off"),
       guides_(host.order.guide) {}
 
-void GhostControl::begin(const Scenario& scenario, const std::string& case_spec,
-                         const Case& the_case) {
+void GhostControl::begin(GhostWanted wanted) {
   end();
-  const bool same = scenario.source_text == wanted_.scenario.source_text &&
-                    case_spec == wanted_.case_spec && the_case.hash == wanted_.case_hash;
+  const bool same = wanted.scenario.source_text == wanted_.scenario.source_text &&
+                    wanted.case_spec == wanted_.case_spec &&
+                    wanted.case_hash == wanted_.case_hash &&
+                    wanted.graft_json == wanted_.graft_json;
   if (!same) track_.reset();
-  wanted_ = {scenario, case_spec, the_case.hash};
-  allowed_ = scenario.ghost;
+  wanted_ = std::move(wanted);
+  allowed_ = wanted_.scenario.ghost;
   follower_ = {};
   problem_.clear();
   if (on_ || guides_) prepare();

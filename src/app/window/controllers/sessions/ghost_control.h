@@ -22,7 +22,7 @@ class GhostControl {
   GhostControl(WindowHost& host, SceneSight& sight, LiveControl& live);
 
   /// An exercise has begun on the case on show.
-  void begin(const Scenario& scenario, const std::string& case_spec, const Case& the_case);
+  void begin(GhostWanted wanted);
   void end();
   void toggle();
   /// Whether hands are led along the expert's way, by devices with motors. Off at first.

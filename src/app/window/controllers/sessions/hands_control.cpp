@@ -194,16 +194,30 @@ HandsModel HandsControl::model(bool can_add, const std::vector<std::string>& use
   const LiveRun* const run = live_.run();
   if (!run) return model;
   model.rows = rows();
-  for (const WayIn& way : ways_in()) {
+  const std::vector<WayIn> ways = ways_in();
+  for (const WayIn& way : ways) {
     model.portals.push_back(scene_.portals[way.portal].title);
     if (aimed_ && way.portal == aimed_->portal) model.next_portal = model.portals.size();
   }
-  if (model.next_portal >= model.portals.size()) model.next_portal = 0;
+  model.next_portal = free_way(ways, model.next_portal);
   model.can_bring = run->by_mouse();
   model.can_add = can_add && run->hands() == 1 && !run->recording();
   model.restore_points = 1;
   if (tray_open_) model.tray = tray_model(used);
   return model;
+}
+
+// The first from `from` on, round, through which no other hand works; `from` where each has one.
+std::size_t HandsControl::free_way(std::span<const WayIn> ways, std::size_t from) const {
+  if (ways.empty()) return 0;
+  const std::vector<ToolState> others = live_.run()->others();
+  const auto is_free = [&](const WayIn& way) {
+    return std::none_of(others.begin(), others.end(),
+                        [&](const ToolState& tool) { return tool.portal == way.portal; });
+  };
+  for (std::size_t n = 0; n < ways.size(); ++n)
+    if (is_free(ways[(from + n) % ways.size()])) return (from + n) % ways.size();
+  return from % ways.size();
 }
 
 TrayModel HandsControl::tray_model(const std::vector<std::string>& used) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ class HandsControl {
     Vec3 p_W = Vec3::Zero(), inwards_W = Vec3::UnitZ();
   };
   std::vector<WayIn> ways_in() const;
+  std::size_t free_way(std::span<const WayIn> ways, std::size_t from) const;
   void stand_upright();
   void bring_to(std::size_t way);
   std::vector<HandRow> rows() const;

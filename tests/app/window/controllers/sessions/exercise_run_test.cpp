@@ -106,10 +106,12 @@ TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
   const std::string spec = run_.case_spec();
   EXPECT_FALSE(run_.use_graft("{}", "graft.json"));
   EXPECT_FALSE(run_.use_portals("{}", "puncture.json"));
-  EXPECT_FALSE(run_.is_shortened());
+  EXPECT_EQ(run_.model().stages.size(), whole);
+  EXPECT_TRUE(run_.graft_report().empty());
   ASSERT_TRUE(run_.use_graft(
       R"({"length_mm": 103, "diameter_mm": 9, "loop_mm": 15, "pretension_s": 600})", "graft.json"));
   EXPECT_EQ(run_.model().stages.size(), whole - 6) << "harvest to pretension, and the button";
+  EXPECT_NE(run_.graft_report().find("\"loop_mm\": 15"), std::string::npos) << "for an expert";
   EXPECT_FALSE(run_.portals_to_place());
   const std::string portal =
       R"({"off": {"in_mm": 0, "up_mm": 1, "middle_mm": 2}, "shaft": {"in": 1, "up": 0, "middle": 0}})";
