@@ -118,6 +118,7 @@ ExerciseModel ExerciseControl::model() const {
       if (shows_damage(debrief->damage, kind)) model.can_show.push_back(view);
   }
   model.knee = exercise_.knee(sight_.shown().bones);
+  for (auto& sight : exercise_.sights(sight_.shown().bones)) model.told.push_back(std::move(sight));
   return model;
 }
 

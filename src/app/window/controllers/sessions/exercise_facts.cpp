@@ -1,10 +1,14 @@
 #include "window/controllers/sessions/exercise_facts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "osteon/physics/graft_placing.h"
+#include "osteon/procedure/scope_watch.h"
+#include "osteon/scene/marks_now.h"
+#include "ui/label.h"
 
 namespace osteon {
 namespace {
@@ -42,7 +46,53 @@ void add_tendon(const std::string& title, const TendonOnBench& tendon, Facts& fa
     facts.push_back({title, std::to_string(tendon.folds) + " strands", "At its post"});
 }
 
+// What a rule that wants a place seen still misses; empty: the place is not in the picture.
+std::string missing_of(const Rule& rule, const ScopeOptics& optics, const Pose& X_WT,
+                       const Case& the_case, const BoneSnapshot& bones, const Vec3& p_W) {
+  constexpr double kSpare_m = 0.0008;  // as the rule has it
+  const ScopeView view = view_through(optics, X_WT);
+  const Vec3 way_W = p_W - view.eye_W;
+  const double away_m = way_W.norm(), mm = 1e3 * away_m;
+  if (!(away_m > 0)) return {};
+  const double cosine = std::clamp(way_W.dot(view.along_W) / away_m, -1.0, 1.0);
+  const double share = std::acos(cosine) / optics.half_field_rad;
+  if (share > 1) return {};
+  const auto& number = rule.numbers;
+  if (is_hidden(the_case, bones, view.eye_W, p_W, kSpare_m)) return "behind bone";
+  if (mm > number.at("far_mm")) return whole_mm(away_m) + ", too far";
+  if (mm < number.at("near_mm")) return whole_mm(away_m) + ", too near";
+  return share > number.at("central") ? "not central enough" : "hold it";
+}
+
 }  // namespace
+
+std::vector<ExerciseModel::Told> sights_of(const ScenarioPlan& plan, const ScenarioState& state,
+                                           const Case& the_case, std::span<const PlannedHand> hands,
+                                           std::span<const ToolState> tools,
+                                           const BoneSnapshot& bones) {
+  Facts facts;
+  if (state.stage >= plan.goals.size()) return facts;
+  const auto& goals = plan.goals[state.stage];
+  for (std::size_t g = 0; g < std::min(goals.size(), state.goals.size()); ++g) {
+    const PlannedRule& goal = goals[g];
+    if (goal.rule.kind != "seen" || state.goals[g].met) continue;
+    for (std::size_t h = 0; h < std::min(hands.size(), tools.size()); ++h) {
+      if (!hands[h].optics || (goal.hand != kNoHand && goal.hand != h)) continue;
+      for (std::size_t i = 0; i < goal.bones.size(); ++i) {
+        const auto& done = state.goals[g].done;
+        if ((i < done.size() && done[i] != 0) || goal.bones[i] >= the_case.landmarks.size())
+          continue;
+        const Vec3 p_W = place_now(the_case, goal.bones[i], bones);
+        const std::string missing =
+            missing_of(goal.rule, *hands[h].optics, tools[h].X_WP, the_case, bones, p_W);
+        if (!missing.empty())
+          facts.push_back({label_of(the_case.landmarks[goal.bones[i]].name), missing,
+                           "In the middle of the picture, near enough and not hidden, it counts"});
+      }
+    }
+  }
+  return facts;
+}
 
 std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft) {
   Facts facts;

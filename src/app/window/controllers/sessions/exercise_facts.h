@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "exercises/attempt_watch.h"
 #include "osteon/procedure/graft_watch.h"
 #include "osteon/procedure/placing_watch.h"
 #include "window/exercise_model.h"
@@ -14,5 +16,12 @@ std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft);
 /// The same of a graft that is placed: the pin in the femur, the thread, how far the graft is drawn
 /// in, a screw. Nothing before there are tunnels.
 std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing);
+
+/// Of landmarks that the live stage wants seen and that are in a scope's picture, not counted yet:
+/// what is still missing, or that it is right. `tools` as `hands`.
+std::vector<ExerciseModel::Told> sights_of(const ScenarioPlan& plan, const ScenarioState& state,
+                                           const Case& the_case, std::span<const PlannedHand> hands,
+                                           std::span<const ToolState> tools,
+                                           const BoneSnapshot& bones);
 
 }  // namespace osteon

@@ -15,7 +15,6 @@
 #include "osteon/procedure/attempt.h"
 #include "osteon/record/recording_note.h"
 #include "ui/label.h"
-#include "window/controllers/sessions/exercise_facts.h"
 
 namespace osteon {
 namespace {

@@ -18,6 +18,7 @@
 #include "exercises/skin_order.h"
 #include "runs/reports/portal_report.h"
 #include "ui/side_job.h"
+#include "window/controllers/sessions/exercise_facts.h"
 #include "window/exercise_model.h"
 
 namespace osteon {
@@ -86,6 +87,11 @@ class ExerciseRun {
   std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
   /// The knee, where a graft lies in it; `bones`: as they are shown.
   BentKneeModel knee(const BoneSnapshot& bones) const;
+  /// What its landmarks that shall be seen miss, `bones` as they are shown.
+  std::vector<ExerciseModel::Told> sights(const BoneSnapshot& bones) const {
+    if (!watch_ || !case_ || page_ != ExercisePage::kRunning) return {};
+    return sights_of(*plan_, watch_->state(), *case_, hands_, last_, bones);
+  }
   /// How far it is; null: none has begun. `now_s`: pauses left out.
   const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
   double now_s() const { return now_s_; }

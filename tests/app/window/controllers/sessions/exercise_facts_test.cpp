@@ -6,6 +6,9 @@
 #include <string>
 
 #include "cases/open_case.h"
+#include "exercises/scenario_files.h"
+#include "osteon/base/turn.h"
+#include "osteon/scene/marks_now.h"
 
 namespace osteon {
 namespace {
@@ -91,6 +94,47 @@ TEST(ExerciseFacts, PlacingTellsWhatBoneHides) {
   state.pin_m = 0;
   state.lost = 1;
   EXPECT_EQ(value_of(facts_seen(state), "Thread"), "lost");
+}
+
+// A scope that looks straight ahead, towards a footprint from the side of its portal.
+TEST(ExerciseFacts, ASightTellsWhatIsMissing) {
+  const auto knee = open_case(
+      "builtin:knee:0:right:acl_tear=midsubstance"
+      "#femur=field,tibia=field,fibula=hull,patella=hull,flexion=120,near=100");
+  ASSERT_TRUE(knee) << knee.error().message();
+  const auto scenario = open_scenario("acl");
+  ASSERT_TRUE(scenario) << scenario.error().message();
+  const auto plan = plan_scenario(*scenario, **knee);
+  ASSERT_TRUE(plan) << plan.error().message();
+  ScenarioState state = begin_scenario(*plan);
+  while (scenario->stages[state.stage].name != "inspection") ++state.stage;
+  state.goals.assign(plan->goals[state.stage].size(), {});
+  const BoneSnapshot bones = rest_snapshot(**knee);
+  const auto at = [&](const char* name) {
+    return place_now(**knee, *find_landmark(**knee, name), bones);
+  };
+  PlannedHand scope;
+  scope.optics = ScopeOptics{0, 0.9};
+  const Vec3 mark_W = at("acl_tibia"), back_W = (at("portal_al") - mark_W).normalized();
+  const auto told = [&](double away_m, double aside_rad) {
+    ToolState tool;
+    tool.X_WP.p = mark_W + away_m * back_W;
+    const Vec3 across_W = back_W.cross(Vec3::UnitX()).normalized();
+    tool.X_WP.q =
+        (Quat(Eigen::AngleAxisd(aside_rad, across_W)) * turn_between(Vec3::UnitZ(), back_W))
+            .normalized();
+    return value_of(
+        sights_of(*plan, state, **knee, std::span(&scope, 1), std::span(&tool, 1), bones),
+        "ACL tibia");
+  };
+  EXPECT_EQ(told(0.015, 0), "hold it");
+  EXPECT_EQ(told(0.015, 0.6), "not central enough");
+  EXPECT_EQ(told(0.015, 1.0), "") << "out of the picture";
+  EXPECT_EQ(told(0.002, 0), "2 mm, too near");
+  EXPECT_EQ(told(0.035, 0), "35 mm, too far");
+  EXPECT_EQ(told(-0.03, 3.14159), "behind bone");
+  for (auto& goal : state.goals) goal.met = true;
+  EXPECT_EQ(told(0.015, 0), "") << "it has been seen";
 }
 
 }  // namespace
