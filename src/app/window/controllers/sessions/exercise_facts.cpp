@@ -59,8 +59,8 @@ std::string missing_of(const Rule& rule, const ScopeOptics& optics, const Pose& 
   if (share > 1) return {};
   const auto& number = rule.numbers;
   if (is_hidden(the_case, bones, view.eye_W, p_W, kSpare_m)) return "behind bone";
-  if (mm > number.at("far_mm")) return whole_mm(away_m) + ", too far";
-  if (mm < number.at("near_mm")) return whole_mm(away_m) + ", too near";
+  if (mm > number.at("far_mm")) return in_mm_to_tenths(away_m) + ", too far";
+  if (mm < number.at("near_mm")) return in_mm_to_tenths(away_m) + ", too near";
   return share > number.at("central") ? "not central enough" : "hold it";
 }
 

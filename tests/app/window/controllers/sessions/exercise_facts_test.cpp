@@ -130,8 +130,8 @@ TEST(ExerciseFacts, ASightTellsWhatIsMissing) {
   EXPECT_EQ(told(0.015, 0), "hold it");
   EXPECT_EQ(told(0.015, 0.6), "not central enough");
   EXPECT_EQ(told(0.015, 1.0), "") << "out of the picture";
-  EXPECT_EQ(told(0.002, 0), "2 mm, too near");
-  EXPECT_EQ(told(0.035, 0), "35 mm, too far");
+  EXPECT_EQ(told(0.002, 0), "2.0 mm, too near");
+  EXPECT_EQ(told(0.035, 0), "35.0 mm, too far");
   EXPECT_EQ(told(-0.03, 3.14159), "behind bone");
   for (auto& goal : state.goals) goal.met = true;
   EXPECT_EQ(told(0.015, 0), "") << "it has been seen";
