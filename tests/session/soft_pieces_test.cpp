@@ -22,7 +22,7 @@ using testing::go_on_as;
 using testing::kMeniscusHalf;
 using testing::posed;
 
-enum : std::uint32_t { kBall, kBlade, kPieceGrasper, kSuction };
+enum : std::uint32_t { kPieceBall, kPieceBlade, kPieceGrasper, kPieceSuction };
 
 // What falls off the block lands on the bone.
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
@@ -69,9 +69,9 @@ const PiecesRun& tearing_run() {
   return run;
 }
 
-const Quat kUpright = posed({-1, 0, 0}, {0, 0, 1});  // the blade is drawn along y
-const Quat kFromEnd = posed({0, 0, 1}, {1, 0, 0});   // jaws that come from +x
-const Quat kFlat = posed({0, 0, 1}, {0, 1, 0});      // the blade is drawn along x
+const Quat kPieceUpright = posed({-1, 0, 0}, {0, 0, 1});  // the blade is drawn along y
+const Quat kPieceFromEnd = posed({0, 0, 1}, {1, 0, 0});   // jaws that come from +x
+const Quat kPieceFlat = posed({0, 0, 1}, {0, 1, 0});      // the blade is drawn along x
 constexpr double kCut_m = 0.007, kLow_m = -0.003;
 constexpr double kAway_m = 0.05;  // along x: no piece is near there
 
@@ -94,9 +94,9 @@ struct PieceHand : DrivenHand {
   // A flat slit from the end, then one down to it.
   void until_it_comes_off() {
     const double flat = 0.0005;
-    take(kBlade, kFlat, {0.022, -0.010, flat});
+    take(kPieceBlade, kPieceFlat, {0.022, -0.010, flat});
     move({kCut_m - 0.006, -0.010, flat}, 2000);
-    take(kBlade, kUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
+    take(kPieceBlade, kPieceUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
     move({kCut_m, -0.012, kLow_m}, 300);
     for (int n = 1; n <= 2000 && count(kSoftPiece) == 0; ++n)
       move({kCut_m, -0.012 + 0.024 * n / 2000, kLow_m}, 1);
@@ -190,7 +190,7 @@ TEST(SoftPieces, AStateKeepsOneThatLiesOnASoftPartAndAReplayIsTheSame) {
 TEST(SoftPieces, WhatTheRimHoldsDoesNotComeOff) {
   Session session = pieces_run().session();
   PieceHand hand(session);
-  hand.take(kBlade, kUpright, {0.004, -0.012, kMeniscusHalf.z() + 0.002});
+  hand.take(kPieceBlade, kPieceUpright, {0.004, -0.012, kMeniscusHalf.z() + 0.002});
   hand.move({0.004, -0.012, kMeniscusHalf.z() - 0.009}, 300);
   hand.move({0.004, 0.012, kMeniscusHalf.z() - 0.009}, 2000);
   hand.rest(100);
@@ -222,7 +222,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
     Session cutting = run.session();
     PieceHand blade(cutting);
     const double low = kMeniscusHalf.z() - 0.009;
-    blade.take(kBlade, kUpright, {0.006, -0.012, kMeniscusHalf.z() + 0.002});
+    blade.take(kPieceBlade, kPieceUpright, {0.006, -0.012, kMeniscusHalf.z() + 0.002});
     blade.move({0.006, -0.012, low}, 300);
     for (int n = 1; n <= 2000 && cutting.softs()->pieces(0) == 0; ++n) {
       cuts = cutting.save().world.softs.cut;
@@ -232,7 +232,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
   }
   Session session = run.session();
   PieceHand hand(session);
-  hand.take(kPieceGrasper, kFromEnd, {0.030, 0, 0});
+  hand.take(kPieceGrasper, kPieceFromEnd, {0.030, 0, 0});
   hand.jaws(1);
   hand.move({0.0075, 0, 0}, 300);
   hand.jaws(0);
@@ -286,7 +286,7 @@ TEST(SoftPieces, ItSticksToSuctionThatIsNarrowerThanItIs) {
   PieceHand hand(session);
   const Vec3 at = where_it_comes_to_rest(hand);
   ASSERT_EQ(lying(session).size(), 1u);
-  hand.take(kSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
+  hand.take(kPieceSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
   hand.tick({CommandKind::kPower, 1});
   hand.move({at.x(), at.y(), at.z() + 0.0035}, 400);
   hand.rest(100);
@@ -366,17 +366,17 @@ constexpr double kNarrow_m = 0.0007;
 // that end.
 void hold_flap(PieceHand& hand, double left_m) {
   const double flat = 0.0005;
-  hand.take(kBlade, kFlat, {0.022, -0.010, flat});
+  hand.take(kPieceBlade, kPieceFlat, {0.022, -0.010, flat});
   hand.move({kCut_m - 0.006, -0.010, flat}, 2000);
   // The blade widens upwards: over the slit its edge is 1.45 mm ahead of its tip, in the mean.
   const double end = kMeniscusHalf.y() - left_m - 0.00145;
-  hand.take(kBlade, kUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
+  hand.take(kPieceBlade, kPieceUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
   hand.move({kCut_m, -0.012, kLow_m}, 300);
   hand.move({kCut_m, end, kLow_m}, 2000);
   hand.move({kCut_m, end, kMeniscusHalf.z() + 0.010}, 300);
   hand.rest(1500);                                 // the stiffness follows
   const double over = kMeniscusHalf.z() + 0.0055;  // no more than the flap is in their mouth
-  hand.take(kPieceGrasper, kFromEnd, {kAway_m, 0, over});
+  hand.take(kPieceGrasper, kPieceFromEnd, {kAway_m, 0, over});
   hand.jaws(1);
   hand.move({0.009, 0, over}, 300);
   hand.jaws(0);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "osteon/base/result.h"
@@ -36,6 +37,7 @@ struct SoftSetup {
   bool pieces_meet_softs = false;  ///< they rest on what is soft, too
   bool by_strands = false;         ///< bands are cut and torn strand by strand
   bool bridges_tear = false;       ///< what jaws pull off a solid tears where it is narrow
+  bool wounds_open = false;        ///< what retracts holds the lips of cut skin apart
   SoftFriction friction;           ///< of instruments on it; none unless told
   std::uint64_t hash = 0;          ///< over all of it
 };
@@ -57,6 +59,11 @@ void let_bands_part_by_strands(SoftSetup& setup);
 /// What jaws pull tears off a cut solid then, where too little of it is left. Nothing changes where
 /// nothing cuts solids, or no jaws hold them.
 void let_bridges_tear(SoftSetup& setup);
+/// What retracts holds the lips of cut skin apart then. Nothing changes where there is no patch of
+/// skin, or nothing in the tray retracts.
+void let_wounds_be_held_open(SoftSetup& setup);
+/// What a set-up does more than those from before it.
+void tell_hash(SoftSetup& setup, std::string_view does);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

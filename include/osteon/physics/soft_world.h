@@ -45,6 +45,7 @@ struct SkinReadout {
   double cut_m = 0;           ///< length that is open
   std::uint32_t holes = 0;    ///< that trocars have made
   std::uint32_t portals = 0;  ///< that have been made in it
+  double open_m = 0;          ///< so far its lips stand apart where a tool holds them
 };
 
 /// The soft parts of a session at the physics' rate: it follows from which side each tool has come

@@ -99,15 +99,14 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   return out;
 }
 
-// What a set-up does more than those from before it.
+}  // namespace
+
 void tell_hash(SoftSetup& setup, std::string_view does) {
   Hasher h;
   h.add(setup.hash);
   h.add(does);
   setup.hash = h.value();
 }
-
-}  // namespace
 
 bool names_solids(const Case& the_case, const std::string& name) {
   const auto is_it = [&](const SoftPart& part) {
