@@ -51,8 +51,8 @@ struct SkinPatchState {
   bool has_lips = false;     ///< the lips of `lips_of` can be held open
   SkinCuts lips_of;
   std::uint64_t lips_worked = 0;  ///< pieces that are done of those of `felt`
-  double cut_m = 0;          ///< length that is open
-  std::uint32_t holes = 0;   ///< that trocars have made
+  double cut_m = 0;               ///< length that is open
+  std::uint32_t holes = 0;        ///< that trocars have made
   std::uint32_t made_count = 0;
   std::array<SkinPortal, kMadePerPatch> made{};
 };

@@ -189,6 +189,23 @@ void let_pieces_meet_softs(SoftSetup& setup) {
   tell_hash(setup, "pieces meet soft parts");
 }
 
+void let_pieces_be_stopped(SoftSetup& setup) {
+  if (setup.bands.empty() && setup.solids.empty()) return;
+  setup.pieces_are_stopped = true;
+  tell_hash(setup, "pieces are stopped");
+}
+
+void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
+  const auto bites = [](const std::optional<SolidCutter>& cutter) {
+    return cutter && cutter->way == SolidCutter::Way::kBite;
+  };
+  setup.hooks_tear = setup.bridges_tear;
+  setup.punches_bite =
+      setup.by_strands && std::any_of(setup.biters.begin(), setup.biters.end(), bites);
+  if (setup.hooks_tear) tell_hash(setup, "hooks tear");
+  if (setup.punches_bite) tell_hash(setup, "punches bite");
+}
+
 void let_bands_part_by_strands(SoftSetup& setup) {
   if (setup.bands.empty()) return;
   setup.by_strands = true;
