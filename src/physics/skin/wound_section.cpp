@@ -10,13 +10,13 @@ constexpr double kStandsUp = 0.3;    // of its length: what is flatter lies on t
 constexpr double kBroad_m = 0.0015;  // half of a blade that counts as five discs, not three
 constexpr double kNarrow_m = 0.0004;
 
-struct Axis {
+struct ToolAxis {
   Vec3 middle, way;  // unit
   double half_m = 0, round_m = 0;
 };
 
 // The place of the axis on the skin, whose height there is met in a second look.
-std::optional<double> place_on(const SkinPatch& patch, const Axis& axis) {
+std::optional<double> place_on(const SkinPatch& patch, const ToolAxis& axis) {
   if (!(std::abs(axis.way.z()) > kStandsUp)) return {};
   double at = -axis.middle.z() / axis.way.z();
   for (int look = 0; look < 2; ++look) {
@@ -31,8 +31,8 @@ std::optional<WoundSection> section_of_rod(const SkinPatch& patch, const RoundBo
   const Vec3 way = rod_S.rod.p1 - rod_S.rod.p0;
   const double length = way.norm();
   if (!(length > 1e-9)) return {};
-  const Axis axis{0.5 * (rod_S.rod.p0 + rod_S.rod.p1), way / length, 0.5 * length,
-                  rod_S.rod.radius};
+  const ToolAxis axis{0.5 * (rod_S.rod.p0 + rod_S.rod.p1), way / length, 0.5 * length,
+                      rod_S.rod.radius};
   const auto at = place_on(patch, axis);
   if (!at) return {};
   WoundSection out;
@@ -49,8 +49,8 @@ std::optional<WoundSection> section_of_box(const SkinPatch& patch, const RoundBo
   const Eigen::Index one = (longest + 1) % 3, two = (longest + 2) % 3;
   const Eigen::Index broad = box_S.half[one] >= box_S.half[two] ? one : two;
   const Eigen::Index thin = broad == one ? two : one;
-  const Axis axis{box_S.X.p, box_S.X.rotate(Vec3::Unit(longest)), box_S.half[longest],
-                  box_S.rod.radius};
+  const ToolAxis axis{box_S.X.p, box_S.X.rotate(Vec3::Unit(longest)), box_S.half[longest],
+                      box_S.rod.radius};
   const auto at = place_on(patch, axis);
   if (!at) return {};
   WoundSection out;

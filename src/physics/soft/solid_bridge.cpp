@@ -261,7 +261,7 @@ SolidBridge BridgeSearch::bridge() const {
   const auto reached = [&](std::int32_t p) { return level_[static_cast<std::size_t>(p)] >= 0; };
   for (int z = 0; z < n_[2]; ++z)
     for (int y = 0; y < n_[1]; ++y)
-      for (int x = 0; x < n_[0]; ++x) {
+      for (int x = row_at(y, z).from; x < row_at(y, z).to; ++x) {
         const std::int32_t a = part_[at(x, y, z)];
         if (a < 0) continue;
         const std::array<int, 3> p = {x, y, z};
