@@ -56,7 +56,7 @@ void Carving::tell(std::size_t hand, const Push& push, EventKind kind,
 }
 
 void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
-                   double step_s) {
+                   double step_s, const PieceSoftGround* softs) {
   changed_.clear();
   fallen_.clear();
   events_.clear();
@@ -65,7 +65,7 @@ void Carving::step(std::span<const ToolState* const> tools, const BoneSnapshot& 
   for (std::size_t h = 0; h < std::min(tools.size(), count_); ++h)
     step_hand(h, *tools[h], bones, step_s);
   if (steps_ % kLookEvery == 0) drop_pieces(tools, bones);
-  if (pieces_) step_pieces(tools, bones, step_s);
+  if (pieces_) step_pieces(tools, bones, step_s, softs);
 }
 
 void Carving::step_hand(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,

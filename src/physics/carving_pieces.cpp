@@ -81,8 +81,8 @@ void Carving::let_go_of(const LoosePiece& piece, std::uint32_t bone,
 
 // What rests on bone falls on when bone is cut or moves.
 void Carving::step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
-                          double step_s) {
-  pieces_->step(tools, bones, carved_fields_, !changed_.empty(), step_s);
+                          double step_s, const PieceSoftGround* softs) {
+  pieces_->step(tools, bones, carved_fields_, !changed_.empty(), step_s, softs);
   for (const PieceNews& news : pieces_->news()) {
     using Is = PieceNews::Is;
     const EventKind kind = news.is == Is::kHeld     ? kPieceHeld

@@ -68,7 +68,9 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
                                     const Command& command) {
   obey(command);
   if (carving_) {
-    carving_->step(tools, world_.snapshot(), step_s_);
+    const bool meets = softs_ && carving_->any_pieces();
+    carving_->step(tools, world_.snapshot(), step_s_,
+                   meets ? softs_->world().ground(world_.snapshot()) : nullptr);
     if (!world_.held()) lighten();
     show_loose();
   }
@@ -110,6 +112,12 @@ const BoneSnapshot& WorldHalf::step(std::span<const ToolState* const> tools,
 void WorldHalf::step_softs(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
   softs_->step(tools, bones, carving_ ? carving_->fields() : std::span<const CarvedField* const>());
   world_.set_cleared(softs_->world().all_cleared_percent());
+  if (carving_ && softs_->world().setup().pieces_are_stopped) {
+    if (softs_->world().ground_parts())
+      carving_->stir_pieces();
+    else if (softs_->world().ground_is_cut())
+      carving_->stir_pieces_by(tools, bones);
+  }
   show_loose();
 }
 

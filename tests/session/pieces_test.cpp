@@ -6,6 +6,7 @@
 
 #include "drilling.h"
 #include "osteon/carve/removed.h"
+#include "osteon/physics/soft_setup.h"
 #include "osteon/scene/carve_events.h"
 
 namespace osteon {
@@ -170,6 +171,63 @@ TEST(CarvedPieces, ABoneLosesTheMassOfWhatIsGone) {
   const double xx = loss.mass_kg * 0.01 * 0.01 / 12, zz = loss.mass_kg * 0.004 * 0.004 / 3;
   EXPECT_NEAR(loss.second_B(0, 0), xx, 0.06 * xx);
   EXPECT_NEAR(loss.second_B(2, 2), zz, 0.15 * zz);
+}
+
+// Beside the block a ligament lies under its overhang: the plate that is sawn off falls onto it.
+struct OverBand : Drilling {
+  double z_m = -0.002;  ///< of the ligament's middle, under the plate's place
+  explicit OverBand(bool stopped) {
+    auto softs = std::make_shared<SoftSetup>();
+    SoftBand band;
+    band.name = "band";
+    band.from = band.to = BoneId{0};
+    band.from_B = {0.012, -0.030, z_m};
+    band.to_B = {0.012, 0.030, z_m};
+    band.radius_m = 0.002;
+    softs->bands.push_back(band);
+    band.from_B.x() = band.to_B.x() = 0.018;
+    softs->bands.push_back(band);
+    softs->hash = hash_of(softs->bands);
+    if (stopped) let_pieces_be_stopped(*softs);
+    settings.soft = {"ligaments"};
+    settings.soft_hash = softs->hash;
+    on = std::move(softs);
+  }
+  std::shared_ptr<const SoftSetup> on;
+  Session soft_session() const { return Session(the_case, settings, tray, setup, on); }
+};
+
+// The plate, put over the two ligaments beside the block, falls: onto them where pieces meet soft
+// parts, past them where not.
+TEST(CarvedPieces, APieceOfBoneComesToRestOnSoftParts) {
+  for (const bool stopped : {true, false}) {
+    const OverBand with(stopped);
+    Session session = with.soft_session();
+    put_carved(session, sawn_through(with, 0.002));
+    (void)rest_above(session, 100);
+    ASSERT_EQ(session.carving()->pieces().size(), 1u);
+    SessionState state = session.save();
+    auto carved = std::make_shared<CarvingState>(*state.world.carved);
+    FallenPiece& piece = carved->pieces.pieces[0];
+    piece.X_WB.p += Vec3(0.015, 0, 0.001);
+    piece.is = FallenPiece::Is::kMoving;
+    state.world.carved = carved;
+    ASSERT_TRUE(session.restore(state));
+    (void)rest_above(session, 1000);
+    ASSERT_EQ(session.carving()->pieces().size(), stopped ? 1u : 0u);  // else it fell out of sight
+    if (!stopped) continue;
+    const FallenPiece& lies = session.carving()->pieces()[0];
+    EXPECT_EQ(lies.is, FallenPiece::Is::kResting);
+    double lowest = 1;
+    for (const Vec3& p_B : lies.shape->points_B()) lowest = std::min(lowest, (lies.X_WB * p_B).z());
+    EXPECT_NEAR(lowest, with.z_m + 0.002, 5e-4);
+    // Cut away, they hold it no more; and a state of it goes on the same.
+    Session other = with.soft_session();
+    ASSERT_TRUE(other.restore(session.save()));
+    (void)rest_above(session, 100);
+    (void)rest_above(other, 100);
+    EXPECT_EQ(other.state_hash(), session.state_hash());
+  }
 }
 
 }  // namespace

@@ -138,7 +138,8 @@ SessionState with_hand(const SessionState& state, const SkinHand& hand) {
 }
 
 // Version 28 of the state's bytes knew neither the place on a box nor how much of it presses, and
-// no portals that were made in skin: the word that counts them, nor skin that is felt no more.
+// no portals that were made in skin: the word that counts them, nor skin that is felt no more, nor
+// cuts that are held open.
 TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   Session session = skin_run().session();
   SkinHandAt hand(session);
@@ -147,15 +148,17 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   const SessionState state = session.save();
   const SkinHand now = state.world.softs.skin->hands[0][0];
   ASSERT_TRUE(now.near);
-  SkinHand other_core = now, other_radius = now, without = now;
+  SkinHand other_core = now, other_radius = now, in_wound = now, without = now;
+  in_wound.in_wound = true;
   other_core.contact.core = Vec3(11, 12, 13);
   other_radius.radius_m = 14;
   without.contact.core = Vec3::Zero();
   without.radius_m = 0;
   std::string bytes = to_bytes(state);
-  ASSERT_EQ(bytes[0], 36);
+  ASSERT_EQ(bytes[0], 37);
   const std::size_t core = first_other(bytes, with_hand(state, other_core));
   const std::size_t radius = first_other(bytes, with_hand(state, other_radius));
+  const std::size_t wound = first_other(bytes, with_hand(state, in_wound));
   SkinState skin = *state.world.softs.skin;
   skin.patches[0].made_count = 1;
   SessionState with_portal = state;
@@ -166,12 +169,21 @@ TEST(SkinPlate, AStateFromBeforeBoxesIsReadWithoutThem) {
   SessionState bares = state;
   bares.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
   const std::size_t bare = first_other(bytes, bares);
-  ASSERT_LT(portals, bare);
+  skin = *state.world.softs.skin;
+  skin.patches[0].has_lips = true;
+  SessionState lips = state;
+  lips.world.softs.skin = std::make_shared<const SkinState>(std::move(skin));
+  const std::size_t held = first_other(bytes, lips);
+  ASSERT_LT(portals, held);
+  ASSERT_LT(held, bare);
   ASSERT_LT(bare, core);
   ASSERT_LT(core, radius);
+  ASSERT_LT(radius, wound);
+  bytes.erase(wound, 8);
   bytes.erase(radius, 8);
   bytes.erase(core, 24);
   bytes.erase(bare, 8);
+  bytes.erase(held, 16);
   bytes.erase(portals, 8);
   testing::erase_more_bands(bytes, state);
   bytes[0] = 28;

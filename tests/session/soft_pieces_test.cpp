@@ -22,13 +22,13 @@ using testing::go_on_as;
 using testing::kMeniscusHalf;
 using testing::posed;
 
-enum : std::uint32_t { kBall, kBlade, kPieceGrasper, kSuction };
+enum : std::uint32_t { kPieceBall, kPieceBlade, kPieceGrasper, kPieceSuction };
 
 // What falls off the block lands on the bone.
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
 
 struct PiecesRun : testing::MeniscusRun {
-  explicit PiecesRun(bool lie = true, bool meet = false, bool tear = false)
+  explicit PiecesRun(bool lie = true, bool meet = false, bool tear = false, bool hook = false)
       : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
     const auto instruments = load_instruments();
     EXPECT_TRUE(instruments);
@@ -47,6 +47,7 @@ struct PiecesRun : testing::MeniscusRun {
     if (pieces && lie) add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
     if (meet) let_pieces_meet_softs(setup);
     if (tear) let_bridges_tear(setup);
+    if (hook) let_hooks_tear_and_punches_bite(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -69,9 +70,9 @@ const PiecesRun& tearing_run() {
   return run;
 }
 
-const Quat kUpright = posed({-1, 0, 0}, {0, 0, 1});  // the blade is drawn along y
-const Quat kFromEnd = posed({0, 0, 1}, {1, 0, 0});   // jaws that come from +x
-const Quat kFlat = posed({0, 0, 1}, {0, 1, 0});      // the blade is drawn along x
+const Quat kPieceUpright = posed({-1, 0, 0}, {0, 0, 1});  // the blade is drawn along y
+const Quat kPieceFromEnd = posed({0, 0, 1}, {1, 0, 0});   // jaws that come from +x
+const Quat kPieceFlat = posed({0, 0, 1}, {0, 1, 0});      // the blade is drawn along x
 constexpr double kCut_m = 0.007, kLow_m = -0.003;
 constexpr double kAway_m = 0.05;  // along x: no piece is near there
 
@@ -94,9 +95,9 @@ struct PieceHand : DrivenHand {
   // A flat slit from the end, then one down to it.
   void until_it_comes_off() {
     const double flat = 0.0005;
-    take(kBlade, kFlat, {0.022, -0.010, flat});
+    take(kPieceBlade, kPieceFlat, {0.022, -0.010, flat});
     move({kCut_m - 0.006, -0.010, flat}, 2000);
-    take(kBlade, kUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
+    take(kPieceBlade, kPieceUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
     move({kCut_m, -0.012, kLow_m}, 300);
     for (int n = 1; n <= 2000 && count(kSoftPiece) == 0; ++n)
       move({kCut_m, -0.012 + 0.024 * n / 2000, kLow_m}, 1);
@@ -190,7 +191,7 @@ TEST(SoftPieces, AStateKeepsOneThatLiesOnASoftPartAndAReplayIsTheSame) {
 TEST(SoftPieces, WhatTheRimHoldsDoesNotComeOff) {
   Session session = pieces_run().session();
   PieceHand hand(session);
-  hand.take(kBlade, kUpright, {0.004, -0.012, kMeniscusHalf.z() + 0.002});
+  hand.take(kPieceBlade, kPieceUpright, {0.004, -0.012, kMeniscusHalf.z() + 0.002});
   hand.move({0.004, -0.012, kMeniscusHalf.z() - 0.009}, 300);
   hand.move({0.004, 0.012, kMeniscusHalf.z() - 0.009}, 2000);
   hand.rest(100);
@@ -222,7 +223,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
     Session cutting = run.session();
     PieceHand blade(cutting);
     const double low = kMeniscusHalf.z() - 0.009;
-    blade.take(kBlade, kUpright, {0.006, -0.012, kMeniscusHalf.z() + 0.002});
+    blade.take(kPieceBlade, kPieceUpright, {0.006, -0.012, kMeniscusHalf.z() + 0.002});
     blade.move({0.006, -0.012, low}, 300);
     for (int n = 1; n <= 2000 && cutting.softs()->pieces(0) == 0; ++n) {
       cuts = cutting.save().world.softs.cut;
@@ -232,7 +233,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
   }
   Session session = run.session();
   PieceHand hand(session);
-  hand.take(kPieceGrasper, kFromEnd, {0.030, 0, 0});
+  hand.take(kPieceGrasper, kPieceFromEnd, {0.030, 0, 0});
   hand.jaws(1);
   hand.move({0.0075, 0, 0}, 300);
   hand.jaws(0);
@@ -286,7 +287,7 @@ TEST(SoftPieces, ItSticksToSuctionThatIsNarrowerThanItIs) {
   PieceHand hand(session);
   const Vec3 at = where_it_comes_to_rest(hand);
   ASSERT_EQ(lying(session).size(), 1u);
-  hand.take(kSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
+  hand.take(kPieceSuction, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
   hand.tick({CommandKind::kPower, 1});
   hand.move({at.x(), at.y(), at.z() + 0.0035}, 400);
   hand.rest(100);
@@ -362,21 +363,25 @@ TEST(SoftPieces, StatesThatCannotBeAreRefused) {
 
 constexpr double kNarrow_m = 0.0007;
 
-// The top of the block's end hangs by what the blade has left, `left_m` wide; the jaws come from
-// that end.
-void hold_flap(PieceHand& hand, double left_m) {
+// The top of the block's end hangs by what the blade has left, `left_m` wide.
+void cut_flap(PieceHand& hand, double left_m) {
   const double flat = 0.0005;
-  hand.take(kBlade, kFlat, {0.022, -0.010, flat});
+  hand.take(kPieceBlade, kPieceFlat, {0.022, -0.010, flat});
   hand.move({kCut_m - 0.006, -0.010, flat}, 2000);
   // The blade widens upwards: over the slit its edge is 1.45 mm ahead of its tip, in the mean.
   const double end = kMeniscusHalf.y() - left_m - 0.00145;
-  hand.take(kBlade, kUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
+  hand.take(kPieceBlade, kPieceUpright, {kCut_m, -0.012, kMeniscusHalf.z() + 0.002});
   hand.move({kCut_m, -0.012, kLow_m}, 300);
   hand.move({kCut_m, end, kLow_m}, 2000);
   hand.move({kCut_m, end, kMeniscusHalf.z() + 0.010}, 300);
-  hand.rest(1500);                                 // the stiffness follows
+  hand.rest(1500);  // the stiffness follows
+}
+
+// And jaws that come from the end hold it.
+void hold_flap(PieceHand& hand, double left_m) {
+  cut_flap(hand, left_m);
   const double over = kMeniscusHalf.z() + 0.0055;  // no more than the flap is in their mouth
-  hand.take(kPieceGrasper, kFromEnd, {kAway_m, 0, over});
+  hand.take(kPieceGrasper, kPieceFromEnd, {kAway_m, 0, over});
   hand.jaws(1);
   hand.move({0.009, 0, over}, 300);
   hand.jaws(0);
@@ -424,6 +429,82 @@ TEST(SoftPieces, AFlapThatHangsByMoreIsNotTornOff) {
     EXPECT_EQ(hand.count(kSoftTorn), 0u) << wide;
     EXPECT_EQ(hand.count(kSoftPiece), 0u) << wide;
   }
+}
+
+/// And so does a hook.
+const PiecesRun& hooking_run() {
+  static const PiecesRun run(true, true, true, true);
+  return run;
+}
+
+// A ball that pushes the flap's free side along y, where no bone is behind it, until it tears off
+// or the ball is `far_m` on.
+void push_flap_aside(PieceHand& hand, double far_m) {
+  const Vec3 beside(kCut_m + 0.0025, -kMeniscusHalf.y() - 0.003, 0.0019);
+  hand.take(kPieceBall, Quat::Identity(), beside + Vec3(0, -0.010, 0.020));
+  hand.move(beside, 200);
+  for (int n = 0; n < far_m / 5e-6 && hand.count(kSoftTorn) == 0; ++n)
+    hand.move(hand.at + Vec3(0, 5e-6, 0), 1);
+}
+
+// As jaws do: at its bridge's section times what tissue bears; what comes off lies loose.
+TEST(SoftPieces, AHookTearsAFlapOffWhereLittleOfItIsLeft) {
+  EXPECT_NE(hooking_run().softs->hash, tearing_run().softs->hash);
+  Session session = hooking_run().session();
+  PieceHand hand(session);
+  cut_flap(hand, kNarrow_m);
+  push_flap_aside(hand, 0.018);
+  ASSERT_EQ(hand.count(kSoftTorn), 1u);
+  const Event torn = hand.first(kSoftTorn);
+  EXPECT_EQ(torn.hand, 0);
+  EXPECT_NEAR(torn.values[0], 2e6 * kNarrow_m * 0.0025, 2e6 * 0.0003 * 0.0025);
+  EXPECT_GE(torn.values[1], torn.values[0]);
+  EXPECT_LT(torn.values[1], torn.values[0] + 1);
+  hand.rest(100);
+  EXPECT_EQ(hand.count(kSoftPiece), 1u);
+  EXPECT_EQ(hand.count(kSoftPieceHeld), 0u);
+  ASSERT_EQ(lying(session).size(), 1u);
+}
+
+// One that hangs by more gives way and stays; so does the narrow one where hooks tear nothing.
+TEST(SoftPieces, AHookTearsNoFlapThatHangsByMore) {
+  for (const bool wide : {true, false}) {
+    Session session = wide ? hooking_run().session() : tearing_run().session();
+    PieceHand hand(session);
+    cut_flap(hand, wide ? 0.009 : kNarrow_m);
+    push_flap_aside(hand, 0.010);
+    EXPECT_EQ(hand.count(kSoftTorn), 0u) << wide;
+    EXPECT_EQ(hand.count(kSoftPiece), 0u) << wide;
+    EXPECT_GT(hand.count(kSoftBegin), 0u) << wide;
+  }
+}
+
+// Pressed onto what is left of the block it is not pulled, however hard.
+TEST(SoftPieces, AFlapThatIsPressedOnWhatLiesUnderItIsNotTornOff) {
+  Session session = hooking_run().session();
+  PieceHand hand(session);
+  cut_flap(hand, kNarrow_m);
+  hand.take(kPieceBall, Quat::Identity(), {kCut_m + 0.0025, 0, 0.030});
+  hand.move({kCut_m + 0.0025, 0, 0.006}, 200);
+  double most_n = 0;
+  for (int n = 0; n < 4000; ++n) {
+    hand.move(hand.at - Vec3(0, 0, 5e-6), 1);
+    most_n = std::max(most_n, session.softs()->solid_readout(0).force_n[0]);
+  }
+  EXPECT_GT(most_n, 1.2 * 2e6 * kNarrow_m * 0.0025);
+  EXPECT_EQ(hand.count(kSoftTorn), 0u);
+}
+
+TEST(SoftPieces, AFlapThatAHookTearsOffReplaysTheSame) {
+  Session session = hooking_run().session();
+  Recording recording = begin_recording(hooking_run());
+  PieceHand hand(session);
+  hand.into = &recording;
+  cut_flap(hand, kNarrow_m);
+  push_flap_aside(hand, 0.018);
+  hand.rest(100);
+  ASSERT_EQ(hand.count(kSoftTorn), 1u);
+  expect_same_replays(recording, hooking_run(), session, {0.0, 5.0, 7.0});
 }
 
 TEST(SoftPieces, AFlapTornOffReplaysTheSameFromTheStartAndFromTheMiddle) {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "count_allocations.h"
 #include "driven_hand.h"
 #include "osteon/base/random.h"
 #include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
+#include "osteon/scene/instrument.h"
 #include "osteon/scene/soft_events.h"
 #include "recorded_run.h"
 #include "soft_fixtures.h"
@@ -19,6 +21,7 @@ namespace {
 using testing::band_table;
 using testing::BandRun;
 using testing::begin_recording;
+using testing::DrivenHand;
 using testing::expect_same_replays;
 using testing::kBandGap_m;
 using testing::kBandStiffness_n;
@@ -243,6 +246,98 @@ TEST(SoftStrands, ACutComesBackFromAStateAndInAReplayAndARestorePointMakesItWhol
   SessionState odd = back;
   odd.world.softs.bands[0].gone = ~std::uint64_t{0};
   EXPECT_FALSE(again.restore(odd));
+}
+
+/// A basket punch, which bites where it is let.
+BandRun punch_run(bool bites) {
+  BandRun run;
+  const auto instruments = load_instruments();
+  EXPECT_TRUE(instruments);
+  const Instrument* found = find_instrument(*instruments, "basket_punch");
+  run.settings.tray.emplace_back("basket_punch");
+  run.tray.push_back(std::make_shared<const Tool>(make_tool(*found, found->usual_size)));
+  SoftSetup setup = *run.softs;
+  auto grippers = make_soft_grippers(run.settings.tray);
+  auto biters = make_solid_cutters(run.settings.tray);
+  EXPECT_TRUE(grippers && biters);
+  add_grippers(setup, std::move(*grippers));
+  setup.biters = std::move(*biters);
+  let_bands_part_by_strands(setup);
+  const std::uint64_t holds = setup.hash;
+  if (bites) let_hooks_tear_and_punches_bite(setup);
+  EXPECT_EQ(setup.hash != holds, bites);
+  run.settings.soft_hash = setup.hash;
+  run.softs = std::make_shared<const SoftSetup>(std::move(setup));
+  return run;
+}
+
+// The punch stands upright, its mouth open to y; the band lies in it, its middle so far over the
+// tool's own.
+void bite_at(DrivenHand& hand, double over_m) {
+  const Vec3 at = testing::kBandMiddle - Vec3(0, over_m, 0.003);
+  hand.take(1);
+  hand.tick({CommandKind::kJaw, 1});
+  hand.move(at - Vec3(0, 0.010, 0), 100);
+  hand.move(at, 200);
+  hand.tick({CommandKind::kJaw, 0});
+  hand.rest(20);
+}
+
+// What of the round section lies between the jaws: a segment of the circle is left under the foot's
+// face, 0.3 mm under the tool's middle.
+TEST(SoftStrands, APunchTakesTheStrandsBetweenItsJaws) {
+  const BandRun run = punch_run(true);
+  const double r = testing::kBandRadius_m;
+  for (const double over_m : {0.0005, 0.0020}) {
+    Session session = run.session();
+    DrivenHand hand(session, testing::kBandMiddle + Vec3(0, -0.030, 0));
+    bite_at(hand, over_m);
+    const double angle = std::acos((over_m + 0.0003) / r);
+    const double left = (angle - std::sin(angle) * std::cos(angle)) / std::numbers::pi;
+    const BandState& band = session.softs()->state().bands[0];
+    EXPECT_NEAR(strands_left(band.gone), left, 0.07) << over_m;
+    EXPECT_FALSE(band.torn);
+    EXPECT_NEAR(band.torn_share, 0.5, 0.01);
+    EXPECT_GT(hand.count(kSoftStrandsCut), 5u);
+    EXPECT_EQ(hand.count(kSoftHeld), 0u);
+    // Shut jaws bite nothing more; opened and shut again at the same place neither.
+    const std::uint64_t gone = band.gone;
+    hand.tick({CommandKind::kJaw, 1});
+    hand.rest(20);
+    hand.tick({CommandKind::kJaw, 0});
+    hand.rest(20);
+    EXPECT_EQ(session.softs()->state().bands[0].gone, gone);
+  }
+}
+
+// Before punches bit ligaments they held them; and one beside the mouth is whole.
+TEST(SoftStrands, APunchBitesNothingBesideItsMouthAndHoldsWhereItDoesNotBite) {
+  {
+    const BandRun run = punch_run(false);
+    Session session = run.session();
+    DrivenHand hand(session, testing::kBandMiddle + Vec3(0, -0.030, 0));
+    bite_at(hand, 0.0005);
+    EXPECT_EQ(session.softs()->state().bands[0].gone, 0u);
+    EXPECT_EQ(hand.count(kSoftHeld), 1u);
+  }
+  const BandRun run = punch_run(true);
+  Session session = run.session();
+  DrivenHand hand(session, testing::kBandMiddle + Vec3(0, -0.030, 0));
+  bite_at(hand, -0.0040);
+  EXPECT_EQ(session.softs()->state().bands[0].gone, 0u);
+}
+
+TEST(SoftStrands, WhatAPunchBitesReplaysTheSame) {
+  const BandRun run = punch_run(true);
+  Session session = run.session();
+  Recording recording = begin_recording(run);
+  DrivenHand hand(session, testing::kBandMiddle + Vec3(0, -0.030, 0));
+  hand.into = &recording;
+  hand.store_every = 100;
+  bite_at(hand, 0.0010);
+  hand.rest(100);
+  ASSERT_GT(hand.count(kSoftStrandsCut), 0u);
+  expect_same_replays(recording, run, session, {0.0, 0.2, 0.4});
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ double hollow_m(const SoftBand& band, std::uint64_t gone, const StrandAxes& sect
 /// The strand that an edge meets first that comes from where `nhat_W` points. Some must be left.
 int strand_under(std::uint64_t gone, const StrandAxes& section, const Vec3& nhat_W);
 
+/// From the band's middle line to a strand.
+Vec3 off_strand(const SoftBand& band, int strand, const StrandAxes& section);
+
 /// The weakest that is left, and how much more than the mean load of the whole band at its failure
 /// each one bears: the weakest none, the strongest a quarter more (D). So the load is highest as
 /// the first one tears, and the others follow as the band is stretched further.

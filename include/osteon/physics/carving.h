@@ -173,7 +173,17 @@ class Carving {
   Carving(std::shared_ptr<const CarvingSetup> setup, std::size_t hands, double coupling_n_per_m);
 
   /// `bones`: where they are while the tools touch them.
-  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones, double step_s);
+  /// `softs`: soft parts that loose pieces meet; null: none.
+  void step(std::span<const ToolState* const> tools, const BoneSnapshot& bones, double step_s,
+            const PieceSoftGround* softs = nullptr);
+  bool any_pieces() const { return pieces_ && !pieces_->empty(); }
+  /// What rests on soft parts may rest no more: any of it, or what an instrument comes near.
+  void stir_pieces() {
+    if (pieces_) pieces_->stir();
+  }
+  void stir_pieces_by(std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+    if (pieces_) pieces_->stir_by(tools, bones);
+  }
 
   struct Changed {
     std::uint32_t bone = 0, block = 0;
@@ -239,7 +249,7 @@ class Carving {
                       const Pose& X_WB);
   bool drop_piece(std::uint32_t bone, const LoosePiece& piece, const Pose& X_WB);
   void step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
-                   double step_s);
+                   double step_s, const PieceSoftGround* softs);
   void let_go_of(const LoosePiece& piece, std::uint32_t bone,
                  std::span<const ToolState* const> tools);
   void end_hole(std::size_t hand, const ToolState& tool);

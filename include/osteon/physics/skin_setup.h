@@ -68,6 +68,7 @@ struct SkinTool {
   Vec3 flat_T = Vec3::Zero();  ///< across the blade
   double through_m = 0;        ///< radius of the shaft that goes through a hole; 0: none
   bool pierces = false;        ///< it makes the hole itself
+  bool retracts = false;       ///< it holds the lips of a cut apart
   bool makes_portal = true;  ///< else its hole is too small for a portal: the patch alone holds it
 };
 /// `pierces`: it is a trocar or a needle.

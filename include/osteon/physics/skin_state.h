@@ -48,8 +48,11 @@ struct SkinPatchState {
   bool working = false;  ///< the stiffness of `next` is being made
   SkinCuts next;
   std::uint64_t worked = 0;  ///< pieces of that work that are done
-  double cut_m = 0;          ///< length that is open
-  std::uint32_t holes = 0;   ///< that trocars have made
+  bool has_lips = false;     ///< the lips of `lips_of` can be held open
+  SkinCuts lips_of;
+  std::uint64_t lips_worked = 0;  ///< pieces that are done of those of `felt`
+  double cut_m = 0;               ///< length that is open
+  std::uint32_t holes = 0;        ///< that trocars have made
   std::uint32_t made_count = 0;
   std::array<SkinPortal, kMadePerPatch> made{};
 };
@@ -72,6 +75,7 @@ struct SkinHand {
   double slit_m = 0;                   ///< in which it was set
   SheetPoint hole = SheetPoint::Zero();
   double pull_n = 0;             ///< most that the hole has held it back with
+  bool in_wound = false;         ///< it stands between the lips of a cut that is held open
   std::uint32_t held_steps = 0;  ///< in which a portal has held it since it went through
   BandTouch touch;
 };

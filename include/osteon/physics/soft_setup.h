@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "osteon/base/result.h"
@@ -34,10 +35,17 @@ struct SoftSetup {
   /// What pieces of solids that were cut off meet; null: they are gone at once.
   std::shared_ptr<const PiecesSetup> pieces;
   bool pieces_meet_softs = false;  ///< they rest on what is soft, too
-  bool by_strands = false;         ///< bands are cut and torn strand by strand
-  bool bridges_tear = false;       ///< what jaws pull off a solid tears where it is narrow
-  SoftFriction friction;           ///< of instruments on it; none unless told
-  std::uint64_t hash = 0;          ///< over all of it
+  /// Pieces of bone rest on what is soft, too, and what jaws carry slips from them where it stands
+  /// in it.
+  bool pieces_are_stopped = false;
+  bool by_strands = false;    ///< bands are cut and torn strand by strand
+  bool bridges_tear = false;  ///< what jaws pull off a solid tears where it is narrow
+  bool hooks_tear = false;    ///< off a solid, as jaws do
+  bool punches_bite = false;  ///< strands off bands
+  std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
+  bool wounds_open = false;  ///< what retracts holds the lips of cut skin apart
+  SoftFriction friction;     ///< of instruments on it; none unless told
+  std::uint64_t hash = 0;    ///< over all of it
 };
 /// Lets instruments cut bands, by their places in the tray. Nothing changes where there are none.
 void add_blades(SoftSetup& setup, std::vector<std::uint32_t> blades, double cutting_n);
@@ -52,11 +60,22 @@ void add_cutters(SoftSetup& setup, std::vector<std::optional<SolidCutter>> cutte
 void add_pieces(SoftSetup& setup, std::shared_ptr<const PiecesSetup> pieces);
 /// Those pieces meet bands and solids then, as these are at rest. Nothing changes where none lies.
 void let_pieces_meet_softs(SoftSetup& setup);
+/// So do pieces of bone then, and what jaws and suction carry. Nothing changes where nothing is
+/// soft but skin.
+void let_pieces_be_stopped(SoftSetup& setup);
+/// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
+/// Nothing changes where neither bands nor solids are cut.
+void let_hooks_tear_and_punches_bite(SoftSetup& setup);
 /// Bands are cut and torn strand by strand then. Nothing changes where there are none.
 void let_bands_part_by_strands(SoftSetup& setup);
 /// What jaws pull tears off a cut solid then, where too little of it is left. Nothing changes where
 /// nothing cuts solids, or no jaws hold them.
 void let_bridges_tear(SoftSetup& setup);
+/// What retracts holds the lips of cut skin apart then. Nothing changes where there is no patch of
+/// skin, or nothing in the tray retracts.
+void let_wounds_be_held_open(SoftSetup& setup);
+/// What a set-up does more than those from before it.
+void tell_hash(SoftSetup& setup, std::string_view does);
 /// Lets jaws hold what is soft, by their places in the tray. Nothing changes where none does.
 void add_grippers(SoftSetup& setup, std::vector<std::optional<SoftGripper>> grippers);
 /// Adds patches of skin, and what instruments do to them, by their places in the tray.

@@ -22,6 +22,8 @@ struct BandReadout {
 
 class CarvedField;
 class FallenPieces;
+class PieceSoftGround;
+class RestingSofts;
 class PieceShape;
 class SkinWorld;
 struct FallenPiece;
@@ -45,6 +47,7 @@ struct SkinReadout {
   double cut_m = 0;           ///< length that is open
   std::uint32_t holes = 0;    ///< that trocars have made
   std::uint32_t portals = 0;  ///< that have been made in it
+  double open_m = 0;          ///< so far its lips stand apart where a tool holds them
 };
 
 /// The soft parts of a session at the physics' rate: it follows from which side each tool has come
@@ -82,6 +85,11 @@ class SoftWorld {
   const BandReadout& readout(std::size_t band) const { return readouts_[band]; }
   const SolidReadout& solid_readout(std::size_t solid) const { return solid_readouts_[solid]; }
   SkinReadout skin_readout(std::size_t patch) const;
+  /// What loose pieces of bone meet of it, with the bones there; null: they meet nothing. Until it
+  /// is asked for again.
+  const PieceSoftGround* ground(const BoneSnapshot& bones) const;
+  bool ground_parts() const;   ///< in the last step some of it was cut off or has torn
+  bool ground_is_cut() const;  ///< or was cut by an instrument
   /// No patch of skin is felt from when on each has a portal; those are open to every shaft.
   void bare_skin();
   /// No tool is near it: nothing is done for it.
@@ -126,7 +134,10 @@ class SoftWorld {
   double share_of(std::size_t band, const Vec3& p_W) const;
   void step_solids(std::span<const Hand> hands, const BoneSnapshot& bones);
   void tell_solid_touches(const SolidHand& solid_hand, const Hand& hand, std::uint64_t step);
-  void cut_solids(std::span<const SolidHand> hands, std::uint64_t step);
+  void cut_solids(std::span<const SolidHand> hands, const BoneSnapshot& bones);
+  void hook_solids(std::size_t hand, const SolidHand& with, const BoneSnapshot& bones);
+  bool lies_on_something(const SolidNear& near, const BoneSnapshot& bones) const;
+  void bite_bands(Hand& hand);
   void lay_down(std::uint32_t solid, std::shared_ptr<const PieceShape> shape,
                 std::span<const SolidHand> hands);
   void step_pieces(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
@@ -174,7 +185,8 @@ class SoftWorld {
   std::unique_ptr<SolidPresses> solids_;   ///< null: there are none
   std::unique_ptr<SolidCutting> cutting_;  ///< null: nothing cuts them
   std::unique_ptr<FallenPieces> pieces_;   ///< null: what is cut off is gone
-  std::unique_ptr<SkinWorld> skins_;       ///< null: no patch of skin is felt
+  std::unique_ptr<RestingSofts> resting_;
+  std::unique_ptr<SkinWorld> skins_;  ///< null: no patch of skin is felt
   std::array<SolidReadout, kMaxSolids> solid_readouts_{};
   std::uint32_t bend_count_ = 0;  ///< for pictures: no part of the state
   std::array<StringBend, SoftPushes::kMostBends> bends_{};

@@ -26,6 +26,15 @@ struct SkinDent {
   bool operator==(const SkinDent&) const = default;
 };
 
+/// How a tool draws a lip of cut skin aside.
+struct SkinLipPull {
+  std::uint32_t patch = 0;
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();    ///< on the cut, in the sheet at rest
+  Eigen::Vector2d out = Eigen::Vector2d::Zero();  ///< unit, from the groove into the skin
+  double force_n = 0;
+  bool operator==(const SkinLipPull&) const = default;
+};
+
 /// How a part of a tool bends a band now. The string goes in two straight legs from its ends to the
 /// place that is pressed.
 struct StringBend {
@@ -94,6 +103,9 @@ struct SoftPushes {
   MadePortals made{};  ///< holes in skin that hold shafts
   std::uint32_t skin_count = 0;
   std::array<SkinDent, 4 * kMaxSkins> skin_dents{};
+  static constexpr std::size_t kMostLipPulls = 64;
+  std::uint32_t lip_count = 0;
+  std::array<SkinLipPull, kMostLipPulls> lip_pulls{};
   bool operator==(const SoftPushes&) const = default;
 };
 

@@ -16,6 +16,14 @@ struct SheetScratch {
   std::vector<std::uint32_t> near;
 };
 
+class ProfileMatrix;
+
+/// A force on a copy of a vertex, in the plane of the sheet.
+struct SheetPull {
+  std::uint32_t copy = 0;
+  SheetPoint force_n = SheetPoint::Zero();
+};
+
 /// How a cut sheet gives way to slight pushes: as SheetBalance has it, made by SheetWork.
 class SheetYield {
  public:
@@ -27,6 +35,13 @@ class SheetYield {
   double stiffness(const SheetDisc& disc, SheetScratch& scratch) const;
   /// The dent's shape: how far each copy goes down for each newton.
   std::vector<double> dent(const SheetDisc& disc) const;
+  /// Way of each copy in the plane under those forces, over that by which the lips stand apart;
+  /// zero of a sheet without a lip.
+  std::vector<SheetPoint> pulled(std::span<const SheetPull> pulls) const;
+  /// The way of `copies` under one newton on `copy` along x or y (`axis` 0 or 1). Allocates nothing
+  /// once `scratch` has been used.
+  void pull_one(std::uint32_t copy, int axis, std::span<const std::uint32_t> copies,
+                SheetScratch& scratch, std::span<SheetPoint> out) const;
 
  private:
   friend class SheetWork;
@@ -38,6 +53,7 @@ class SheetYield {
   std::vector<int> at_;                       ///< of each copy: its unknown; -1: held
   std::vector<std::uint32_t> first_, start_;  ///< of each row: its first column, and where it lies
   std::vector<double> rows_, pivots_;
+  std::shared_ptr<const ProfileMatrix> plane_;  ///< factored; null: no lip is open
 };
 
 /// Finds the balance of a cut sheet in pieces of bounded work: one a call, so that a loop with a

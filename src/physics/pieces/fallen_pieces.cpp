@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kOpenForPiece = 0.5, kShutOnPiece = 0.15;  // of their way
 constexpr double kPieceSlips_m = 0.002;    // what is held slips out where it stands so deep in bone
+constexpr double kPieceInSoft_m = 0.003;   // and where a soft part is to yield by so much
 constexpr double kPieceTaken_m = 0.001;    // and suction takes none that stands deeper than that
 constexpr double kHeldNear_m = 0.003;      // what jaws held, they have
 constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
@@ -35,12 +36,20 @@ bool any_moves(const BoneSnapshot& bones) {
   return std::any_of(bones.bones.begin(), bones.bones.begin() + bones.count, moves);
 }
 
-double deepest_in_bone_m(const FallenPiece& piece, const PieceSurroundings& around) {
+/// How deep the deepest of a piece's points stands in bone and in soft parts.
+struct StandsIn {
+  double bone_m = 0, soft_m = 0;
+};
+
+StandsIn stands_in(const FallenPiece& piece, const PieceSurroundings& around) {
   const PieceNeighbours near(around, piece.X_WB * piece.shape->middle_B(), piece.shape->reach_m());
-  double deepest = 0;
-  for (const Vec3& p_B : piece.shape->points_B())
-    deepest = std::max(deepest, near.in_bone(piece.X_WB * p_B).depth_m);
-  return deepest;
+  const bool softs = around.softs && around.softs->stops_carried();
+  StandsIn out;
+  for (const Vec3& p_B : piece.shape->points_B()) {
+    out.bone_m = std::max(out.bone_m, near.in_bone(piece.X_WB * p_B).depth_m);
+    if (softs) out.soft_m = std::max(out.soft_m, near.in_soft(piece.X_WB * p_B).depth_m);
+  }
+  return out;
 }
 
 }  // namespace
@@ -188,7 +197,8 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool,
       gone_[i] = 1;
     } else if (!fits && nearest_point_m(piece, bore_W) < 0.5 * with->bore_m) {
       // What would soon slip off lies where bone has it.
-      if (deepest_in_bone_m(piece, around) <= kPieceTaken_m) hold(piece, hand, tool, true);
+      const StandsIn in = stands_in(piece, around);
+      if (in.bone_m <= kPieceTaken_m && in.soft_m <= kPieceTaken_m) hold(piece, hand, tool, true);
     } else if (to_bore.norm() > 1e-9) {
       const double share = 1 - std::max(gap, 0.0) / kSuctionReach_m;
       piece.v_W += step_s * kPull_m_per_s2 * tool.power * share * to_bore.normalized();
@@ -201,7 +211,8 @@ void FallenPieces::heed_suction(std::uint8_t hand, const ToolState& tool,
 void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
                          const PieceSurroundings& around) {
   piece.X_WB = tool.X_WP * piece.X_PB;
-  if (!(deepest_in_bone_m(piece, around) > kPieceSlips_m)) return;
+  const StandsIn in = stands_in(piece, around);
+  if (!(in.bone_m > kPieceSlips_m) && !(in.soft_m > kPieceInSoft_m)) return;
   tell(PieceNews::Is::kLetGo, piece, piece.hand);
   begin_to_fall(piece);
 }

@@ -59,17 +59,6 @@ bool in_box(const Aabb& box, const Vec3& p) {
   return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
 }
 
-PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B) {
-  PiecePush out;
-  if (!in_box(bone.box_B, p_B)) return out;
-  for (const PieceObstacle::Part& part : bone.parts) {
-    if (!in_box(part.box_B, p_B)) continue;
-    const PiecePush push = push_of_hull(part, p_B);
-    if (push.depth_m > out.depth_m) out = push;
-  }
-  return out;
-}
-
 Aabb box_of(const BlockGrid& grid) {
   Aabb box;
   box.include(grid.lo);
@@ -84,6 +73,17 @@ bool is_lifted(const PieceTool& tool, std::size_t part, double jaw) {
 }
 
 }  // namespace
+
+PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B) {
+  PiecePush out;
+  if (!in_box(bone.box_B, p_B)) return out;
+  for (const PieceObstacle::Part& part : bone.parts) {
+    if (!in_box(part.box_B, p_B)) continue;
+    const PiecePush push = push_of_hull(part, p_B);
+    if (push.depth_m > out.depth_m) out = push;
+  }
+  return out;
+}
 
 PiecePush push_of(const Primitive& part, const Vec3& p_T) {
   return part.kind == Primitive::Kind::kRod ? push_of_rod(part.rod, p_T) : push_of_box(part, p_T);

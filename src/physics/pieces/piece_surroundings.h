@@ -20,6 +20,8 @@ class PieceSoftGround {
   virtual ~PieceSoftGround() = default;
   /// The deepest of all; allocates nothing.
   virtual PiecePush at(const Vec3& p_W) const = 0;
+  /// Whether what jaws and suction carry is stopped by them, too.
+  virtual bool stops_carried() const { return false; }
   /// False: no point of that ball is in one.
   virtual bool may_meet(const Vec3& center_W, double radius_m) const = 0;
 };
@@ -73,6 +75,8 @@ class PieceNeighbours {
   std::array<NearBone, kMaxBones> near_;
 };
 
+/// How far a point in Bone lies in a bone that was not carved; `out_W` is in Bone.
+PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B);
 /// How far a point in Tool lies in a part of an instrument; `out_W` is in Tool.
 PiecePush push_of(const Primitive& part, const Vec3& p_T);
 /// The same of what is left of a carved bone, in Bone.

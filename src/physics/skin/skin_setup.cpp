@@ -266,6 +266,7 @@ Result<std::vector<SkinTool>> make_skin_tools(std::span<const std::string> tray)
     const bool needle = name == kSpinalNeedle;
     out[i] = skin_tool(make_tool(*found, *size), needle || name.starts_with("trocar"));
     out[i].makes_portal = !needle;
+    out[i].retracts = found->can(InstrumentFunction::kRetract);
   }
   return out;
 }
@@ -284,6 +285,14 @@ void add_skins(SoftSetup& setup, std::vector<SkinPatch> patches, std::vector<Ski
     h.add(tool.pierces);
   }
   setup.hash = h.value();
+}
+
+void let_wounds_be_held_open(SoftSetup& setup) {
+  const auto retracts = [](const SkinTool& tool) { return tool.retracts; };
+  const auto& tools = setup.skin_tools;
+  if (setup.skins.empty() || std::none_of(tools.begin(), tools.end(), retracts)) return;
+  setup.wounds_open = true;
+  tell_hash(setup, "wounds are held open");
 }
 
 std::vector<Portal> portals_to_make(const Case& the_case, std::span<const std::string> names,

@@ -11,6 +11,7 @@ namespace {
 // So much less a dent looks as before.
 constexpr double kSkinStill_m = 5e-5;
 constexpr double kDentAlike_m = 2e-4;  // the same of its radius
+constexpr double kPullAlike_n = 0.02;  // and of a lip's pull
 // The wall of a groove begins so far under the lip: it has a colour of its own there.
 constexpr double kUnderLip_m = 1e-5;
 // The skin about a patch goes so far under it, both sides together: light comes through a joint.
@@ -31,6 +32,40 @@ std::shared_ptr<const SheetYield> yields_of(const SkinPatch& patch,
   while (!work.step()) {
   }
   return work.take();
+}
+
+bool looks_pulled_alike(const SkinLipPull& a, const SkinLipPull& b) {
+  return (a.p - b.p).norm() < kSkinStill_m && a.out.dot(b.out) > 0.999 &&
+         std::abs(a.force_n - b.force_n) < kPullAlike_n;
+}
+
+// On the ends of the side of a cut that is nearest and looks that way.
+void add_pull(const SplitSheet& split, const SkinLipPull& pull, std::vector<SheetPull>& to) {
+  const SheetWall* best = nullptr;
+  double nearest = 1e300, at = 0;
+  for (const SheetWall& wall : split.walls) {
+    const SheetPoint a = split.point[wall.from], way = split.point[wall.to] - a;
+    if (!(SheetPoint(-way.y(), way.x()).dot(pull.out) > 0)) continue;
+    const double t = std::clamp((pull.p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double far = (pull.p - a - t * way).squaredNorm();
+    if (!(far < nearest)) continue;
+    nearest = far;
+    best = &wall;
+    at = t;
+  }
+  if (!best) return;
+  to.push_back({best->from, (1 - at) * pull.force_n * pull.out});
+  to.push_back({best->to, at * pull.force_n * pull.out});
+}
+
+std::vector<SheetPoint> ways_of(const SheetYield& yields, std::span<const SkinLipPull> pulls) {
+  std::vector<SheetPoint> out(yields.ways().begin(), yields.ways().end());
+  if (pulls.empty()) return out;
+  std::vector<SheetPull> forces;
+  for (const SkinLipPull& pull : pulls) add_pull(yields.split(), pull, forces);
+  const std::vector<SheetPoint> more = yields.pulled(forces);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += more[i];
+  return out;
 }
 
 // The shape of a slight dent, as deep as the tip is.
@@ -66,7 +101,7 @@ void SkinShape::add(std::size_t s, SoftShapes::Changed& to) const {
   std::vector<double> down(split.vertex.size(), 0);
   for (const SkinDent& dent : mine.dents)
     add_dent(*mine.yields, dent, patch.sheet->material().fat_m, down);
-  const TriMesh sheet = sheet_surface(split, mine.yields->ways(), down);
+  const TriMesh sheet = sheet_surface(split, ways_of(*mine.yields, mine.pulls), down);
   const std::size_t walls = split.triangles.size();
   const auto place = [&](const Vec3& p) {
     const double height_m = patch.relief.at(p.head<2>()).height_m;
@@ -106,6 +141,14 @@ std::optional<SoftShapes::Changed> SkinShape::change(const SoftPushes& pushes) {
     if (!std::equal(dents.begin(), dents.end(), mine.dents.begin(), mine.dents.end(),
                     looks_pressed_alike)) {
       mine.dents = std::move(dents);
+      other = true;
+    }
+    std::vector<SkinLipPull> pulls;
+    for (std::uint32_t i = 0; i < pushes.lip_count; ++i)
+      if (pushes.lip_pulls[i].patch == s) pulls.push_back(pushes.lip_pulls[i]);
+    if (!std::equal(pulls.begin(), pulls.end(), mine.pulls.begin(), mine.pulls.end(),
+                    looks_pulled_alike)) {
+      mine.pulls = std::move(pulls);
       other = true;
     }
     if (pushes.skin_cuts[s] != mine.cuts) {

@@ -28,6 +28,7 @@ class SkinShape {
     std::shared_ptr<const SkinCuts> cuts;
     std::shared_ptr<const SheetYield> yields;
     std::vector<SkinDent> dents;
+    std::vector<SkinLipPull> pulls;
   };
   void add(std::size_t patch, SoftShapes::Changed& to) const;
 

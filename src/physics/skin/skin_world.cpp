@@ -43,13 +43,6 @@ struct SkinWorld::Place {
   Vec3 n_S = Vec3::UnitZ();
 };
 
-/// One hand on one patch in a step.
-struct SkinWorld::At {
-  std::size_t hand = 0, patch = 0;
-  const SkinToolNow* now = nullptr;
-  SkinHand* state = nullptr;
-};
-
 SkinWorld::SkinWorld(const SoftSetup& setup, double coupling_n_per_m, double limit_n, double step_s,
                      std::uint32_t first_made)
     : setup_(setup),
@@ -199,6 +192,7 @@ void SkinWorld::follow(const At& at) {
   c.p_B = patch.X_BS * place->p_S;
   c.nhat_B = patch.X_BS.rotate(place->n_S);
   hand.p = place->p_S.head<2>();
+  if (setup_.wounds_open && follow_wound(at, begins)) return;
   const SkinTool& use = use_of(tool->instrument);
   const double radius_m =
       use.pierces ? std::clamp(use.through_m, kSkinThinnest_m, kSkinThickest_m) : place->radius_m;
@@ -243,7 +237,7 @@ void SkinWorld::press(const At& at) {
   const SheetPush usual{hand.yields_n_per_m, patch.share.at(hand.radius_m, hand.yields_n_per_m),
                         patch.sheet->material().fat_m, coupling_n_per_m_};
   const SheetPush push = over_cover(usual, patch.cover.at(hand.p).height_m);
-  if (use.through_m > 0)
+  if (use.through_m > 0 && !(setup_.wounds_open && use.retracts))
     pass(at, push);
   else
     slice(at, push);
@@ -456,7 +450,7 @@ void SkinWorld::follow_stiffness(std::size_t s) {
   Patch& mine = patches_[s];
   const SkinSheet& sheet = *setup_.skins[s].sheet;
   if (!mine.work) {
-    if (mine.cuts_hash == mine.felt_hash) return;
+    if (mine.cuts_hash == mine.felt_hash) return follow_lips(s);
     mine.next = cuts_to_keep(sheet, mine.cuts);
     mine.next_hash = mine.cuts_hash;
     mine.worked = 0;
@@ -472,13 +466,15 @@ void SkinWorld::follow_stiffness(std::size_t s) {
   mine.next = {};
   mine.next_hash = kSkinStill;
   mine.worked = 0;
+  mine.lip_work = nullptr;
+  mine.lips_worked = 0;
 }
 
 void SkinWorld::tell_touch(const At& at, std::uint64_t step) {
   SkinHand& hand = *at.state;
   const bool felt = hand.near && !hand.barred && hand.contact.deep_m > 0;
   const double force_n = felt ? std::abs(hand.contact.force_n) : 0;
-  const double deep_m = felt ? hand.contact.deep_m : 0;
+  const double deep_m = !felt ? 0 : hand.in_wound ? drawn_aside_m(at) : hand.contact.deep_m;
   readouts_[at.patch].force_n[at.hand] = force_n;
   readouts_[at.patch].deep_m[at.hand] = deep_m;
   const TouchNews news = follow_touch(hand.touch, {true, force_n, deep_m}, limit_n_, step, step_s_);
@@ -519,13 +515,16 @@ void SkinWorld::step(std::span<const SkinToolNow> hands, const BoneSnapshot& bon
     const bool lies = is_finite(X_WB);
     if (lies) patches_[s].X_WS = X_WB * setup_.skins[s].X_BS;
     readouts_[s] = {};
+    std::copy(hands.begin(), hands.end(), now_.begin());
+    tools_ = std::span(now_).first(hands.size());
     for (std::size_t h = 0; h < hands.size(); ++h) {
-      SkinToolNow now = hands[h];
+      SkinToolNow& now = now_[h];
       if (now.tool && (bare || !lies || !usable_tool(*now.tool))) now.tool = nullptr;
       const At at{h, s, &now, &hands_[h][s]};
       follow(at);
-      tell_touch(at, bones.step);
+      if (!at.state->in_wound) tell_touch(at, bones.step);
     }
+    if (setup_.wounds_open) hold_open(s, bones.step);
     follow_stiffness(s);
   }
 }
@@ -561,10 +560,15 @@ void SkinWorld::show(SoftPushes& pushes) const {
     for (std::size_t h = 0; h < kMaxHands; ++h) {
       const SkinHand& hand = hands_[h][s];
       const double dent_m = hand.contact.deep_m - hand.entered_m;
-      if (!hand.near || hand.barred || hand.contact.through || !(dent_m > 0)) continue;
+      if (!hand.near || hand.barred || hand.contact.through || hand.in_wound || !(dent_m > 0))
+        continue;
       pushes.skin_dents[pushes.skin_count++] = {static_cast<std::uint32_t>(s), hand.p, dent_m,
                                                 hand.radius_m};
     }
+    for (const LipPush& push : patches_[s].pushes.list())
+      if (push.force_n > 0 && pushes.lip_count < SoftPushes::kMostLipPulls)
+        pushes.lip_pulls[pushes.lip_count++] = {static_cast<std::uint32_t>(s), push.at, push.out,
+                                                push.force_n};
   }
 }
 

@@ -13,6 +13,7 @@
 #include "osteon/scene/soft_band.h"
 #include "osteon/scene/soft_pushes.h"
 #include "osteon/scene/tool.h"
+#include "osteon/tissue/sheet_lips.h"
 #include "skin/skin_slits.h"
 
 namespace osteon {
@@ -22,6 +23,8 @@ struct SkinToolNow {
   const ToolState* tool = nullptr;  ///< null: it touches nothing
   std::span<const RoundBox> parts;  ///< of the tool
 };
+
+std::uint64_t hash_of_cuts(const SheetCuts& cuts);
 
 /// The patches of skin of a session at the physics' rate. Of each tool the part that is deepest in
 /// a patch presses it: a ball or rod as a round tip of its radius presses the sheet where it is, a
@@ -65,6 +68,11 @@ class SkinWorld {
     std::shared_ptr<const SheetYield> yields;
     std::unique_ptr<SheetWork> work;
     std::uint64_t worked = 0;
+    std::unique_ptr<const SheetLips> lips;  ///< of `lips_of`; null: none can be held open
+    std::unique_ptr<LipWork> lip_work;      ///< of `felt`
+    SkinCuts lips_of;
+    std::uint64_t lips_hash = 0, lips_worked = 0;
+    LipPushes pushes;  ///< of the last step: no part of the state
     SkinSlits slits;
     double cut_m = 0;
     std::uint32_t holes = 0;
@@ -74,7 +82,12 @@ class SkinWorld {
     std::shared_ptr<const SkinCuts> shown;  ///< for pictures: no part of the state
   };
   struct Place;
-  struct At;
+  /// One hand on one patch in a step.
+  struct At {
+    std::size_t hand = 0, patch = 0;
+    const SkinToolNow* now = nullptr;
+    SkinHand* state = nullptr;
+  };
 
   const SkinTool& use_of(std::uint32_t instrument) const;
   std::optional<Place> deepest(std::size_t patch, const SkinToolNow& now, double most_m) const;
@@ -95,6 +108,20 @@ class SkinWorld {
   bool is_taken(std::size_t patch, std::uint32_t portal, std::size_t but) const;
   void changed(std::size_t patch);
   void follow_stiffness(std::size_t patch);
+  void follow_lips(std::size_t patch);
+  void put_lips(std::size_t patch, const SkinPatchState& from);
+  bool follow_wound(const At& at, bool begins);
+  bool may_enter(const At& at, bool begins) const;
+  /// What stands in a wound, of all hands.
+  struct DiscsInWound {
+    std::uint32_t count = 0;
+    std::array<LipDisc, 5 * (kMaxHands + 1)> all{};
+    std::span<const LipDisc> list() const { return {all.data(), count}; }
+  };
+  DiscsInWound discs_in_wound(std::size_t patch) const;
+  void hold_open(std::size_t patch, std::uint64_t step);
+  double drawn_aside_m(const At& at) const;
+  void feel_lips(const At& at, const DiscsInWound& in);
   void tell_touch(const At& at, std::uint64_t step);
   void tell_event(const At& at, EventKind kind, const std::array<double, 3>& values);
   void put(std::size_t patch, const SkinPatchState& from);
@@ -108,6 +135,9 @@ class SkinWorld {
   std::array<std::array<SkinHand, kMaxSkins>, kMaxHands> hands_{};
   std::array<SkinReadout, kMaxSkins> readouts_{};
   mutable SheetScratch scratch_;
+  LipPushes tried_;
+  std::array<SkinToolNow, kMaxHands> now_{};
+  std::span<const SkinToolNow> tools_;  ///< of the step
   std::vector<Event> events_;
 };
 

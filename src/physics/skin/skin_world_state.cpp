@@ -13,13 +13,6 @@ void add_to(Hasher& h, const SheetPoint& p) {
   h.add(p.y());
 }
 
-std::uint64_t hash_of_cuts(const SheetCuts& cuts) {
-  Hasher h;
-  for (const SheetPoint& p : cuts.points) add_to(h, p);
-  for (const double depth : cuts.depth_m) h.add(depth);
-  return h.value();
-}
-
 void add_to(Hasher& h, const SkinHand& hand) {
   h.add(hand.near);
   if (hand.near) {
@@ -34,6 +27,7 @@ void add_to(Hasher& h, const SkinHand& hand) {
           hand.pierce.excess_n, hand.pierce.depth_m, hand.slit_m, hand.pull_n})
       h.add(x);
     for (const bool x : {c.through, hand.cutting, hand.pierce.through}) h.add(x);
+    if (hand.in_wound) h.add(hand.in_wound);
     add_to(h, hand.p);
     add_to(h, hand.hole);
     h.add(hand.since_step);
@@ -63,6 +57,13 @@ bool is_made(std::uint32_t number, std::size_t s, const SkinPatchState& patch) {
 
 }  // namespace
 
+std::uint64_t hash_of_cuts(const SheetCuts& cuts) {
+  Hasher h;
+  for (const SheetPoint& p : cuts.points) add_to(h, p);
+  for (const double depth : cuts.depth_m) h.add(depth);
+  return h.value();
+}
+
 void SkinWorld::changed(std::size_t s) {
   Patch& mine = patches_[s];
   mine.cuts_hash = hash_of_cuts(mine.cuts);
@@ -79,6 +80,8 @@ std::uint64_t SkinWorld::hash() const {
     h.add(patch.felt_hash);
     h.add(patch.next_hash);
     h.add(patch.worked);
+    if (patch.lips) h.add(patch.lips_hash);
+    if (patch.lips_worked > 0) h.add(patch.lips_worked);
     h.add(patch.cut_m);
     h.add(patch.holes);
     for (std::uint32_t i = 0; i < patch.made_count; ++i) {
@@ -98,8 +101,9 @@ std::shared_ptr<const SkinState> SkinWorld::save() const {
   for (std::size_t s = 0; s < patches_.size(); ++s) {
     const Patch& from = patches_[s];
     out->patches.push_back({cuts_to_keep(*setup_.skins[s].sheet, from.cuts), from.felt,
-                            from.work != nullptr, from.next, from.worked, from.cut_m, from.holes,
-                            from.made_count, from.made});
+                            from.work != nullptr, from.next, from.worked, from.lips != nullptr,
+                            from.lips_of, from.lips_worked, from.cut_m, from.holes, from.made_count,
+                            from.made});
   }
   out->hands = hands_;
   out->bares = bares_;
@@ -111,7 +115,7 @@ bool SkinWorld::fits(const SkinState& state, std::span<const std::vector<Capsule
   for (std::size_t s = 0; s < patches_.size(); ++s) {
     const SkinSheet& sheet = *setup_.skins[s].sheet;
     const SkinPatchState& patch = state.patches[s];
-    for (const SkinCuts* cuts : {&patch.cuts, &patch.felt, &patch.next})
+    for (const SkinCuts* cuts : {&patch.cuts, &patch.felt, &patch.next, &patch.lips_of})
       if (!osteon::fits(sheet, *cuts)) return false;
     if (!sound(patch)) return false;
     for (const auto& hands : state.hands)
@@ -148,6 +152,7 @@ void SkinWorld::put(std::size_t s, const SkinPatchState& from) {
   mine.next = {};
   mine.next_hash = kSkinStill;
   mine.worked = 0;
+  put_lips(s, from);
   if (from.working) {
     const SheetCuts next = kept_cuts(sheet, from.next);
     mine.next = from.next;
@@ -178,6 +183,7 @@ void SkinWorld::go_back(const SkinState& state) {
     changed(s);
   }
   hands_ = {};
+  for (Patch& mine : patches_) mine.pushes.count = 0;
   events_.clear();
 }
 

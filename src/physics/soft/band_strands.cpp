@@ -73,6 +73,11 @@ double hollow_m(const SoftBand& band, std::uint64_t gone, const StrandAxes& sect
   return (whole - left) * band.radius_m / kPerRadius;
 }
 
+Vec3 off_strand(const SoftBand& band, int strand, const StrandAxes& section) {
+  const StrandPlace& at = kPlaces[static_cast<std::size_t>(strand)];
+  return band.radius_m / kPerRadius * (at.x * section.u_W + at.y * section.v_W);
+}
+
 int weakest_strand(std::uint64_t gone) {
   int best = -1;
   for (int i = 0; i < kStrands; ++i)

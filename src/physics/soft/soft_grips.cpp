@@ -16,7 +16,8 @@ constexpr int kSideways = 3, kTurns = 9, kOutwards = 8;  // places of the mouth 
 constexpr double kFollows = 0.05;  // of the way that a solid's stiffness goes in a step
 constexpr double kDirection_m = 1e-4;
 
-// What of the straight way from a (0) to b (1) is inside of all planes; empty: first > second.
+}  // namespace
+
 std::array<double, 2> inside_of(std::span<const Plane> planes, const Vec3& a, const Vec3& b) {
   std::array<double, 2> in{0, 1};
   for (const Plane& plane : planes) {
@@ -27,8 +28,6 @@ std::array<double, 2> inside_of(std::span<const Plane> planes, const Vec3& a, co
   }
   return in;
 }
-
-}  // namespace
 
 Vec3 across(const BandSpan& span, const Vec3& p_W) {
   const Vec3 way = span.b_W - span.a_W, off = p_W - span.a_W;
@@ -65,6 +64,12 @@ std::uint64_t SoftGrips::lifted(const ToolState& tool) const {
 bool SoftGrips::bites(std::uint32_t instrument) const {
   const auto& all = setup_.cutters;
   return instrument < all.size() && all[instrument] &&
+         all[instrument]->way == SolidCutter::Way::kBite;
+}
+
+bool SoftGrips::bites_bands(std::uint32_t instrument) const {
+  const auto& all = setup_.biters;
+  return setup_.punches_bite && instrument < all.size() && all[instrument] &&
          all[instrument]->way == SolidCutter::Way::kBite;
 }
 
@@ -225,7 +230,8 @@ GripNews SoftGrips::step(SoftState& state, std::size_t h, const ToolState* tool,
     news.freed = true;
   }
   grip.jaw_open = open;
-  if (shuts &&
+  news.bit = shuts && bites_bands(tool->instrument);
+  if (shuts && !news.bit &&
       (take_band(state, *jaws, tool->X_WP, parts, grip.hold) ||
        (!bites(tool->instrument) && take_solid(state, *jaws, tool->X_WP, parts, grip.hold)))) {
     grip.first_step = step;

@@ -15,7 +15,8 @@ namespace osteon {
 /// What has become of a hand's grip in a step.
 struct GripNews {
   bool held = false, freed = false, slipped = false;
-  SoftHold hold;  ///< which one
+  bool bit = false;  ///< a punch that bites bands has shut
+  SoftHold hold;     ///< which one
   double force_n = 0, holds_n = 0, pulled_mm = 0;
   double since_s = 0, peak_n = 0;
   Vec3 p_W = Vec3::Zero();
@@ -62,6 +63,7 @@ class SoftGrips {
   const SoftGripper* gripper(std::uint32_t instrument) const;
   bool is_felt(const SoftState& state, const SoftHold& hold, const Parts& parts) const;
   bool bites(std::uint32_t instrument) const;
+  bool bites_bands(std::uint32_t instrument) const;
   bool take_band(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
                  const Parts& parts, SoftHold& hold) const;
   bool take_solid(const SoftState& state, const SoftGripper& jaws, const Pose& X_WT,
@@ -94,6 +96,8 @@ class SoftGrips {
   double spring_n_per_m_, step_s_;
 };
 
+/// What of the straight way from a (0) to b (1) is inside of all planes; empty: first > second.
+std::array<double, 2> inside_of(std::span<const Plane> planes, const Vec3& a, const Vec3& b);
 /// From a band's straight way to a place, across it.
 Vec3 across(const BandSpan& span, const Vec3& p_W);
 /// How far along a band's straight way a place is: 0 to 1.

@@ -99,15 +99,14 @@ Result<SoftSolid> solid_of(const Case& the_case, std::uint32_t soft, double stif
   return out;
 }
 
-// What a set-up does more than those from before it.
+}  // namespace
+
 void tell_hash(SoftSetup& setup, std::string_view does) {
   Hasher h;
   h.add(setup.hash);
   h.add(does);
   setup.hash = h.value();
 }
-
-}  // namespace
 
 bool names_solids(const Case& the_case, const std::string& name) {
   const auto is_it = [&](const SoftPart& part) {
@@ -188,6 +187,23 @@ void let_pieces_meet_softs(SoftSetup& setup) {
   if (!setup.pieces) return;
   setup.pieces_meet_softs = true;
   tell_hash(setup, "pieces meet soft parts");
+}
+
+void let_pieces_be_stopped(SoftSetup& setup) {
+  if (setup.bands.empty() && setup.solids.empty()) return;
+  setup.pieces_are_stopped = true;
+  tell_hash(setup, "pieces are stopped");
+}
+
+void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
+  const auto bites = [](const std::optional<SolidCutter>& cutter) {
+    return cutter && cutter->way == SolidCutter::Way::kBite;
+  };
+  setup.hooks_tear = setup.bridges_tear;
+  setup.punches_bite =
+      setup.by_strands && std::any_of(setup.biters.begin(), setup.biters.end(), bites);
+  if (setup.hooks_tear) tell_hash(setup, "hooks tear");
+  if (setup.punches_bite) tell_hash(setup, "punches bite");
 }
 
 void let_bands_part_by_strands(SoftSetup& setup) {

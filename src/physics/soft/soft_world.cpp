@@ -10,6 +10,7 @@
 #include "osteon/scene/tool_rods.h"
 #include "skin/skin_world.h"
 #include "soft/band_side.h"
+#include "soft/resting_softs.h"
 #include "soft/soft_grips.h"
 #include "soft/soft_touch.h"
 #include "soft/solid_cutting.h"
@@ -69,6 +70,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   if (solids_ && !setup_->cutters.empty())
     cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_, step_s_);
   if (cutting_ && setup_->pieces) pieces_ = std::make_unique<FallenPieces>(setup_->pieces);
+  resting_ = std::make_unique<RestingSofts>(*setup_, state_, solids_.get());
   if (!setup_->grippers.empty())
     grips_ = std::make_unique<SoftGrips>(*setup_, coupling_n_per_m_, step_s_);
   if (!setup_->skins.empty())
@@ -351,15 +353,17 @@ void SoftWorld::step_solids(std::span<const Hand> hands, const BoneSnapshot& bon
     tell_solid_touches(with, hand, bones.step);
     wound_solids(hand, bones);
   }
-  if (cutting_) cut_solids(all, bones.step);
+  if (cutting_) cut_solids(all, bones);
 }
 
-void SoftWorld::cut_solids(std::span<const SolidHand> hands, std::uint64_t step) {
+void SoftWorld::cut_solids(std::span<const SolidHand> hands, const BoneSnapshot& bones) {
+  const std::uint64_t step = bones.step;
   cutting_->step(state_, hands, step);
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const SoftHold& hold = state_.grips[h].hold;
     if (hands[h].tool && hold.of == SoftHold::Of::kSolid && hold.most_n == 0)
       cutting_->pull(hold.part, h, hold.p_B, state_.grips[h].force_n, step);
+    if (hands[h].tool && setup_->hooks_tear) hook_solids(h, hands[h], bones);
   }
   for (const SolidCutting::News& news : cutting_->news()) {
     constexpr double kMm3 = 1e9;
@@ -441,6 +445,7 @@ void SoftWorld::grip(Hand& hand, const BoneSnapshot& bones) {
   const GripNews news =
       grips_->step(state_, hand.index, hand.tool, {spans, solids_.get()}, bones.step, pull);
   tell_grip(hand, news);
+  if (news.bit) bite_bands(hand);
   if (pull.of == SoftHold::Of::kSolid) {
     hand.pull_n[pull.part] = pull.force_n;
     hand.pull_m[pull.part] = pull.pulled_m;

@@ -71,6 +71,27 @@ void SoftWorld::lose_strand(std::size_t b, int strand, const Hand& by, bool by_e
     tell(by, by_edge ? kSoftStrandsCut : kSoftStrandsTorn, b, {100 * left, force_n, tension_n});
 }
 
+// A punch takes the strands that lead through what it bites. A band that another hand holds aside
+// is bitten only where its straight way is.
+void SoftWorld::bite_bands(Hand& hand) {
+  const SolidCutter& with = *setup_->biters[hand.tool->instrument];
+  const Pose X_TW = hand.tool->X_WP.inverse();
+  for (std::size_t b = 0; b < setup_->bands.size(); ++b) {
+    for (int strand = 0; strand < kStrands && is_felt(b); ++strand) {
+      if ((state_.bands[b].gone >> strand & 1) != 0) continue;
+      const Vec3 off = off_strand(setup_->bands[b], strand, sections_[b]);
+      const Vec3 from_T = X_TW * Vec3(spans_[b].a_W + off), to_T = X_TW * Vec3(spans_[b].b_W + off);
+      for (const CutterPart& part : with.cutter.parts) {
+        const auto in = inside_of(part.planes, from_T, to_T);
+        if (!(in[0] < in[1])) continue;
+        hand.p_W[b] = hand.tool->X_WP * Vec3(from_T + 0.5 * (in[0] + in[1]) * (to_T - from_T));
+        lose_strand(b, strand, hand, true);
+        break;
+      }
+    }
+  }
+}
+
 // What is left bears its share of the failure load. One strand tears in a step: those that are left
 // are stretched as much, and the next one follows if that is too much for it.
 void SoftWorld::tear_when_overloaded(std::size_t b, const Hand& by, double force_n) {

@@ -137,6 +137,7 @@ void SolidCutting::step(SoftState& state, std::span<const SolidHand> hands, std:
     }
     follow_stiffness(solids_[s], s);
     Solid& solid = solids_[s];
+    look_ahead(solid);
     if (step % kShowEvery == 0 && solid.field.step() != solid.told) {
       solid.told = solid.field.step();
       solid.shown = std::make_shared<const CarveState>(solid.field.save());
@@ -500,7 +501,8 @@ void SolidCutting::put_cuts(std::uint32_t s, const SolidCutState& from) {
   solid.told_percent = from.told_percent;
   solid.cells->update_all(solid.field);
   solid.seen = solid.told = solid.celled = solid.field.step();
-  solid.bridged = Solid::kNever;
+  solid.bridged = solid.ahead_of = Solid::kNever;
+  if (solid.bridges) solid.bridges->forget();
   solid.followed = Solid::kNever;
   solid.pieces = from.pieces;
   solid.looked = from.looked;

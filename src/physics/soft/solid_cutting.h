@@ -64,6 +64,7 @@ class SolidCutting {
   /// once in kSolidLookEvery steps, since the search takes some milliseconds.
   void pull(std::uint32_t solid, std::size_t hand, const Vec3& p_B, double force_n,
             std::uint64_t step);
+  bool is_cut(std::size_t solid) const { return solids_[solid].field.block_count() > 0; }
   /// Something was cut in the last step.
   bool cuts_now() const;
   double removed_m3(std::size_t solid) const;
@@ -108,6 +109,8 @@ class SolidCutting {
     std::optional<SolidBridge> bridge;
     std::uint64_t bridged = kNever;
     Vec3 bridged_B = Vec3::Zero();
+    double bridged_n = 0;                        ///< it looked for what this force tears
+    std::uint64_t ahead_of = kNever, ahead = 0;  ///< the field's step, and steps since
   };
   struct Stroke;
 
@@ -128,7 +131,8 @@ class SolidCutting {
   void drop_pieces(std::uint32_t solid);
   void follow_stiffness(Solid& solid, std::uint32_t index);
   void put_cuts(std::uint32_t solid, const SolidCutState& from);
-  const std::optional<SolidBridge>& bridge_at(std::uint32_t solid, const Vec3& p_B);
+  const std::optional<SolidBridge>& bridge_at(std::uint32_t solid, const Vec3& p_B, double force_n);
+  static void look_ahead(Solid& solid);
   void feel(std::uint32_t solid);
   static void set(std::vector<CutCell>& cells, std::uint64_t& hash, std::vector<CutCell> now);
 

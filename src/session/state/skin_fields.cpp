@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint64_t kBoxOnSkin = 29;         // the version before which a box was a rod on skin
 constexpr std::uint64_t kPortalsInSkin = 31;     // and before which no hole was a portal
 constexpr std::uint64_t kBareSkin = 35;          // and before which it was always felt
+constexpr std::uint64_t kOpenWounds = 37;        // and before which none was held open
 constexpr std::uint64_t kMostOfSkin = 1u << 20;  // vertices or edges of a sheet, more than it has
 
 }  // namespace
@@ -80,6 +81,7 @@ void field(A& a, SkinHand& h) {
     field(a, h.hole);
     if (since(a, kBoxOnSkin)) field(a, h.radius_m);
     if (h.contact.through && since(a, kPortalsInSkin)) field(a, h.held_steps);
+    if (since(a, kOpenWounds)) field(a, h.in_wound);
   }
   BandTouch& t = h.touch;
   field(a, t.on);
@@ -108,6 +110,11 @@ void field(A& a, std::shared_ptr<const SkinState>& skin) {
     field(a, patch.cut_m);
     field(a, patch.holes);
     if (since(a, kPortalsInSkin)) first_of(a, patch.made_count, patch.made);
+    if (since(a, kOpenWounds)) {
+      field(a, patch.has_lips);
+      if (patch.has_lips) field(a, patch.lips_of);
+      field(a, patch.lips_worked);
+    }
     if (!a.ok) return;
   }
   if (since(a, kBareSkin)) field(a, state.bares);

@@ -198,6 +198,8 @@ std::unique_ptr<const SheetYield> SheetWork::take() {
   y.start_ = std::move(impl_->across.start_);
   y.rows_ = std::move(impl_->across.rows_);
   y.pivots_ = std::move(impl_->across.pivots_);
+  if (!y.split_.walls.empty())
+    y.plane_ = std::make_shared<const ProfileMatrix>(std::move(impl_->plane));
   return std::move(impl_->out);
 }
 
@@ -261,6 +263,36 @@ std::vector<double> SheetYield::dent(const SheetDisc& disc) const {
   for (std::size_t i = 0; i < out.size(); ++i)
     if (at_[i] >= 0) out[i] = scratch.load[static_cast<std::size_t>(at_[i])];
   return out;
+}
+
+std::vector<SheetPoint> SheetYield::pulled(std::span<const SheetPull> pulls) const {
+  std::vector<SheetPoint> out(split_.vertex.size(), SheetPoint::Zero());
+  if (!plane_ || pulls.empty()) return out;
+  std::vector<double> load(plane_->pivots_.size(), 0);
+  for (const SheetPull& pull : pulls)
+    if (pull.copy < at_.size() && at_[pull.copy] >= 0)
+      for (int d = 0; d < 2; ++d)
+        load[static_cast<std::size_t>(2 * at_[pull.copy] + d)] += pull.force_n[d];
+  plane_->solve(load);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (at_[i] >= 0) {
+      const auto u = 2 * static_cast<std::size_t>(at_[i]);
+      out[i] = {load[u], load[u + 1]};
+    }
+  return out;
+}
+
+void SheetYield::pull_one(std::uint32_t copy, int axis, std::span<const std::uint32_t> copies,
+                          SheetScratch& scratch, std::span<SheetPoint> out) const {
+  std::fill(out.begin(), out.end(), SheetPoint::Zero());
+  if (!plane_ || at_[copy] < 0) return;
+  scratch.load.assign(plane_->pivots_.size(), 0);
+  scratch.load[static_cast<std::size_t>(2 * at_[copy] + axis)] = 1;
+  plane_->solve(scratch.load);
+  for (std::size_t i = 0; i < copies.size(); ++i)
+    if (const int u = at_[copies[i]]; u >= 0)
+      out[i] = {scratch.load[static_cast<std::size_t>(2 * u)],
+                scratch.load[static_cast<std::size_t>(2 * u + 1)]};
 }
 
 }  // namespace osteon

@@ -27,13 +27,14 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
   const auto notches = first_of(pushes.notches, pushes.notch_count);
   const auto loads = first_of(pushes.loads, pushes.load_count);
   const auto dents = first_of(pushes.skin_dents, pushes.skin_count);
+  const auto lips = first_of(pushes.lip_pulls, pushes.lip_count);
   const auto pieces = first_of(pushes.pieces, pushes.piece_count);
   const Kept nothing;
   const Kept& last = kept_.empty() ? nothing : kept_.back();
   if (are_same(all, last.all) && are_same(bends, last.bends) && are_same(breaks, last.breaks) &&
       are_same(notches, last.notches) && are_same(loads, last.loads) && pushes.cuts == last.cuts &&
       are_same(dents, last.dents) && pushes.skin_cuts == last.skin_cuts &&
-      are_same(pieces, last.pieces))
+      are_same(pieces, last.pieces) && are_same(lips, last.lips))
     return;
   kept_.push_back({time_s,
                    {all.begin(), all.end()},
@@ -44,7 +45,8 @@ void PushHistory::add(const SoftPushes& pushes, double time_s) {
                    pushes.cuts,
                    {dents.begin(), dents.end()},
                    {pieces.begin(), pieces.end()},
-                   pushes.skin_cuts});
+                   pushes.skin_cuts,
+                   {lips.begin(), lips.end()}});
 }
 
 SoftPushes PushHistory::at(double time_s) const {
@@ -60,6 +62,8 @@ SoftPushes PushHistory::at(double time_s) const {
   std::copy(kept.loads.begin(), kept.loads.end(), out.loads.begin());
   std::copy(kept.dents.begin(), kept.dents.end(), out.skin_dents.begin());
   std::copy(kept.pieces.begin(), kept.pieces.end(), out.pieces.begin());
+  std::copy(kept.lips.begin(), kept.lips.end(), out.lip_pulls.begin());
+  out.lip_count = static_cast<std::uint32_t>(kept.lips.size());
   out.piece_count = static_cast<std::uint32_t>(kept.pieces.size());
   out.cuts = kept.cuts;
   out.skin_cuts = kept.skin_cuts;

@@ -31,6 +31,7 @@ class PushHistory {
     std::vector<SkinDent> dents;
     std::vector<std::shared_ptr<const PieceShape>> pieces;
     std::array<std::shared_ptr<const SkinCuts>, kMaxSkins> skin_cuts;
+    std::vector<SkinLipPull> lips;
   };
   std::vector<Kept> kept_;
   double due_s_ = 0;  ///< of the next that is looked at

@@ -149,6 +149,9 @@ Result<void> add_ligaments(const Case& the_case, std::span<const std::string> na
   auto blades = blades_in(tray);
   if (!blades) return tl::unexpected(blades.error());
   add_blades(setup, std::move(*blades), (*ligament)->cutting_n.value);
+  auto biters = make_solid_cutters(tray);
+  if (!biters) return tl::unexpected(biters.error());
+  setup.biters = std::move(*biters);
   setup.friction.band = ratios_of(**ligament);
   return {};
 }
@@ -248,7 +251,9 @@ Result<std::shared_ptr<const SoftSetup>> softs_for(const Case& the_case,
     if (!pieces) return tl::unexpected(pieces.error());
     add_pieces(setup, std::make_shared<const PiecesSetup>(std::move(*pieces)));
   }
-  for (auto* let : {let_pieces_meet_softs, let_bands_part_by_strands, let_bridges_tear})
+  for (auto* let :
+       {let_pieces_meet_softs, let_bands_part_by_strands, let_bridges_tear, let_wounds_be_held_open,
+        let_pieces_be_stopped, let_hooks_tear_and_punches_bite})
     if (lacks_something()) let(setup);
   if (settings.soft_hash != 0 && settings.soft_hash != setup.hash)
     return fail("the soft parts of the case are not those of the recording", "recording",

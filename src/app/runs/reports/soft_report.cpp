@@ -44,6 +44,7 @@ SoftJson soft_part_json(const SoftReport::Part& part) {
     out["cut_mm"] = part.cut_mm;
     out["holes"] = part.holes;
     out["portals"] = part.portals;
+    out["held_open_mm"] = part.held_open_mm;
   } else if (part.is_solid) {
     out["deepest_mm"] = part.deepest_mm;
     out["removed_mm3"] = part.removed_mm3;
@@ -145,6 +146,7 @@ void SoftWatch::see_step(const Session& session) {
     if (!(force_n > 0)) continue;
     part.contact_s += step_s;
     part.deepest_mm = std::max(part.deepest_mm, 1e3 * most_of(readout.deep_m));
+    part.held_open_mm = std::max(part.held_open_mm, 1e3 * readout.open_m);
   }
   for (std::size_t b = 0; b < bands; ++b) {
     SoftReport::Part& part = report_.parts[b];

@@ -21,6 +21,7 @@ struct SoftReport {
     bool is_solid = false;       ///< it has no tension
     bool is_skin = false;        ///< a patch; nor has this
     double deepest_mm = 0;       ///< of a solid: how far it gave way
+    double held_open_mm = 0;     ///< of skin: how far lips stood apart at a tool that held them
     double removed_mm3 = 0;      ///< of a solid: by cuts
     std::uint32_t pieces = 0;    ///< that came off
     bool is_stump = false;       ///< a solid of which something is to be cleared

@@ -54,6 +54,17 @@ TEST(PushHistory, KeepsHowLigamentsBendToo) {
   EXPECT_EQ(history.kept(), 2u);
 }
 
+TEST(PushHistory, KeepsWhereLipsAreHeldApart) {
+  PushHistory history;
+  SoftPushes held;
+  held.lip_count = 1;
+  held.lip_pulls[0].force_n = 2;
+  for (int tick = 1; tick <= 300; ++tick)
+    history.add(tick <= 100 || tick > 200 ? SoftPushes{} : held, tick * 0.001);
+  EXPECT_EQ(history.at(0.19), held);
+  EXPECT_EQ(history.at(0.29), SoftPushes{});
+}
+
 TEST(PushHistory, KeepsWhichLigamentsAreInTwo) {
   PushHistory history;
   SoftPushes cut;
