@@ -61,6 +61,8 @@ void ScopePrograms::begin(const Program& program, const TissuePart& part,
   program.set("u_fibre", part.fibre);
   program.set("u_fineness", part.fineness);
   program.set("u_center", part.center);
+  program.set("u_to_end", part.to_end);
+  program.set("u_to_side", part.to_side);
 }
 
 }  // namespace osteon

@@ -32,7 +32,7 @@ class ScopePrograms {
                     const Eigen::Matrix4f& clip_from_view, const Pose& X_CM);
 
  private:
-  static constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kSteel) + 1;
+  static constexpr std::size_t kPatterns = static_cast<std::size_t>(TissuePattern::kDisc) + 1;
   std::array<Program, kPatterns> tissues_;  ///< by TissuePattern
   Program depth_, changed_bone_, changed_cartilage_, nothing_;
   GlVertexArray no_vertices_;

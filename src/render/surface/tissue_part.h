@@ -12,7 +12,16 @@
 namespace osteon {
 
 /// As tissue.frag knows them.
-enum class TissuePattern : int { kBone, kCartilage, kMeniscus, kFibres, kSynovium, kFat, kSteel };
+enum class TissuePattern : int {
+  kBone,
+  kCartilage,
+  kMeniscus,
+  kFibres,
+  kSynovium,
+  kFat,
+  kSteel,
+  kDisc
+};
 
 inline constexpr std::size_t kNoModel = std::numeric_limits<std::size_t>::max();
 
@@ -30,6 +39,9 @@ struct TissuePart {
   Vec3 middle = Vec3::Zero();             ///< at rest, of a soft part
   float fineness = 1;                     ///< of a ligament's fibres
   Eigen::Vector3f fibre = Eigen::Vector3f::UnitX(), center = Eigen::Vector3f::Zero();
+  /// Of a disc: along its longest and its next axis, 1 / metres: its product with the way from the
+  /// centre is 1 at the rim.
+  Eigen::Vector3f to_end = Eigen::Vector3f::Zero(), to_side = Eigen::Vector3f::Zero();
 };
 
 }  // namespace osteon
