@@ -392,7 +392,7 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     const auto& meshes = soft ? prepared.softs : prepared.bones;
     const std::size_t at = soft ? part.model - bones : part.model;
     if (at < meshes.size()) part.surface = GpuMesh(meshes[at]);
-    if (soft && at < meshes.size()) part.shades = meshes[at].shades;
+    if (soft && at < meshes.size()) part.light = {meshes[at].shades, meshes[at].roots};
   }
   static const ShadedMesh nothing;
   for (std::size_t k = 0; k < bones + the_case.softs.size(); ++k) {
@@ -468,7 +468,7 @@ void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMe
   if (impl_->scene) return;
   for (TissuePart& own : impl_->parts) {
     if (own.model != part.index) continue;
-    const ShadedMesh lit = moved_light(rest_W, own.shades, moved_W);
+    const ShadedMesh lit = moved_light(rest_W, own.light, moved_W);
     own.surface = lit.positions.empty() ? GpuMesh(plain_shaded(moved_W)) : GpuMesh(lit);
   }
   ++impl_->cubes;
