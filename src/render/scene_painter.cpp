@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "osteon/scene/soft_motion.h"
+#include "surface/cut_light.h"
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
 
@@ -136,9 +137,9 @@ void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
 void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W,
                                 std::span<const float> depth_m) {
   if (k >= shared_->bones.size()) return;
-  const RestLight& baked = shared_->bones[k].light;
-  const ShadedMesh lit = depth_m.empty() ? moved_light(rest_W, baked, moved_W)
-                                         : opened_light(rest_W, baked.shades, moved_W, depth_m);
+  RestLight& light = shared_->bones[k].light;
+  const ShadedMesh lit = depth_m.empty() ? shown_light(rest_W, light, moved_W)
+                                         : opened_light(rest_W, light.shades, moved_W, depth_m);
   if (lit.positions.empty()) return set_surface(k, moved_W);
   ++shared_->version;
   BoneModel& model = shared_->bones[k];

@@ -24,8 +24,8 @@
 #include "scope_parts.h"
 #include "scope_programs.h"
 #include "surface/changed_cubes.h"
+#include "surface/cut_light.h"
 #include "surface/loose_surface.h"
-#include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/tissue_part.h"
 #include "view/scope_field.h"
@@ -468,7 +468,7 @@ void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMe
   if (impl_->scene) return;
   for (TissuePart& own : impl_->parts) {
     if (own.model != part.index) continue;
-    const ShadedMesh lit = moved_light(rest_W, own.light, moved_W);
+    const ShadedMesh lit = shown_light(rest_W, own.light, moved_W);
     own.surface = lit.positions.empty() ? GpuMesh(plain_shaded(moved_W)) : GpuMesh(lit);
   }
   ++impl_->cubes;

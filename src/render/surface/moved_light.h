@@ -9,6 +9,13 @@
 
 namespace osteon {
 
+/// The light of a surface that was cut, by its vertices.
+struct CutLight {
+  std::vector<Triangle> triangles;
+  std::vector<ShadedMesh::Shade> of_vertices;
+  bool closed = false;
+};
+
 /// What prepare_case found of a soft surface at rest, by its points.
 struct RestLight {
   RestLight() = default;
@@ -16,6 +23,7 @@ struct RestLight {
       : shades(std::move(of_points)), roots(std::move(in_bone)) {}
   std::vector<ShadedMesh::Shade> shades;
   std::vector<ShadedMesh::Root> roots;
+  CutLight cut;  ///< as cut_light last found it
 };
 
 /// A soft surface that has given way, with the light that was worked out for it at rest: each
