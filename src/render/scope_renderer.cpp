@@ -35,15 +35,7 @@ namespace {
 
 constexpr double kNear_m = 0.0003, kFar_m = 0.15;
 
-/// A square picture as a pinhole sees it, `half` the tangent of half its width.
-Eigen::Matrix4f flat_projection(double half) {
-  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
-  m(0, 0) = m(1, 1) = 1 / half;
-  m(2, 2) = -(kFar_m + kNear_m) / (kFar_m - kNear_m);
-  m(2, 3) = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
-  m(3, 2) = -1;
-  return m.cast<float>();
-}
+Eigen::Matrix4f flat_projection(double half) { return pinhole(half, kNear_m, kFar_m); }
 
 /// How far a coarser surface may lie off in a moving picture of a window, in pixels of the flat
 /// picture, which has 0.7 of the window's.
@@ -194,6 +186,12 @@ struct ScopeRenderer::Impl {
     glDisable(GL_CULL_FACE);
   }
 
+  /// While nothing moves, what later pictures may need is compiled, one program in place of each
+  /// picture. Returns true: the one before stands.
+  bool rest() const {
+    (void)(lens.ready_one() || bits.ready_one() || programs.ready_one());
+    return true;
+  }
   /// With the context current.
   void make_corners() {
     if (corners_px == flat.side()) return;
@@ -560,7 +558,7 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   ScopePainted now = impl_->as_it_is(camera, size);
   const bool first = !impl_->painted;
   impl_->calm = !first && impl_->painted->still(now) ? impl_->calm + 1 : 0;
-  if (impl_->calm > kSettled) return true;
+  if (impl_->calm > kSettled) return impl_->rest();
   const int side = Impl::flat_side(camera, viewport, impl_->software ? kOfProcessor : 1);
   const double half = Impl::flat_half(camera);
   GLint bound = 0;
