@@ -139,7 +139,7 @@ void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriM
   if (k >= shared_->bones.size()) return;
   RestLight& light = shared_->bones[k].light;
   const ShadedMesh lit = depth_m.empty() ? shown_light(rest_W, light, moved_W)
-                                         : opened_light(rest_W, light.shades, moved_W, depth_m);
+                                         : opened_light(rest_W, light, moved_W, depth_m);
   if (lit.positions.empty()) return set_surface(k, moved_W);
   ++shared_->version;
   BoneModel& model = shared_->bones[k];

@@ -96,14 +96,16 @@ ShadedMesh moved_light(const TriMesh& rest, const RestLight& light, const TriMes
   return out;
 }
 
-ShadedMesh opened_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
-                        const TriMesh& opened, std::span<const float> depth_m) {
+ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMesh& opened,
+                        std::span<const float> depth_m) {
+  const std::vector<ShadedMesh::Shade>& baked = light.shades;
   ShadedMesh out;
   std::vector<std::uint32_t> rest_place, place;
   if (opened.vertices.size() != depth_m.size() || opened.vertices.size() < rest.vertices.size())
     return out;
   if (make_surface(rest, &rest_place).points.size() != baked.size()) return out;
-  const Surface s = make_surface(opened, &place);
+  Surface s = make_surface(opened, &place);
+  draw_in(moved_roots(light.roots, rest_place, place, baked.size()), s);
   out.closed = false;
   out.triangles = s.triangles;
   out.shades.assign(s.points.size(), {255, 128, 128, 128});

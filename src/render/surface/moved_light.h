@@ -32,9 +32,10 @@ struct RestLight {
 /// surface.
 ShadedMesh moved_light(const TriMesh& rest, const RestLight& baked, const TriMesh& moved);
 /// A soft surface that was cut open: its first vertices are those of `rest` and keep their light;
-/// others take it from near them, and are the darker the deeper they lie in a cut. `depth_m`: of
+/// others take it from near them, and are the darker the deeper they lie in a cut. The fold of skin
+/// stays. `depth_m`: of
 /// each vertex of `opened`, 0 outside of cuts.
-ShadedMesh opened_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
-                        const TriMesh& opened, std::span<const float> depth_m);
+ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMesh& opened,
+                        std::span<const float> depth_m);
 
 }  // namespace osteon

@@ -12,6 +12,7 @@
 #include "surface/creases.h"
 #include "surface/occlusion.h"
 #include "surface/rooted.h"
+#include "surface/skin_fold.h"
 #include "surface/surface.h"
 
 namespace osteon {
@@ -60,6 +61,14 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
 /// The skin hides nothing: it is looked through.
 bool is_skin(const SoftPart& soft) { return soft.kind == "skin"; }
 
+ShadedMesh prepare_skin(const Case& the_case, const SoftPart& skin, std::size_t soft) {
+  Surface surface = make_surface(skin.mesh_W);
+  Roots fold = find_fold(the_case, surface);
+  draw_in(fold, surface);
+  const std::vector<float> open = fold_openness(fold, surface);
+  return shaded(surface, open, soft, std::move(fold));
+}
+
 std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<PlacedSurface>& bones,
                                       const PrepareProgress& go_on) {
   std::vector<PlacedSurface> surfaces;
@@ -75,12 +84,13 @@ std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<Pl
   std::size_t next = 0;
   for (const SoftPart& soft : the_case.softs) {
     const bool skin = is_skin(soft);
-    const Surface own = skin ? make_surface(soft.mesh_W) : Surface{};
-    const Surface& surface = skin ? own : surfaces[next].surface;
-    const std::vector<float> open(skin ? surface.points.size() : 0, 1.0f);
-    if (!skin) fill_buried(roots[next], surface, openness[next]);
-    out.push_back(shaded(surface, skin ? open : openness[next], out.size(),
-                         skin ? Roots{} : std::move(roots[next])));
+    if (skin) {
+      out.push_back(prepare_skin(the_case, soft, out.size()));
+    } else {
+      const Surface& surface = surfaces[next].surface;
+      fill_buried(roots[next], surface, openness[next]);
+      out.push_back(shaded(surface, openness[next], out.size(), std::move(roots[next])));
+    }
     if (go_on(1)) out.back().coarser = coarser_levels(out.back());
     if (!skin) ++next;
   }
@@ -120,6 +130,7 @@ ShadedMesh unlit_bone(const Case& the_case, std::size_t bone) {
 }
 
 ShadedMesh unlit_soft(const Case& the_case, std::size_t soft) {
+  if (is_skin(the_case.softs[soft])) return prepare_skin(the_case, the_case.softs[soft], soft);
   Surface surface = make_surface(the_case.softs[soft].mesh_W);
   Roots roots = find_roots(the_case, the_case.softs[soft], surface);
   draw_in(roots, surface);
