@@ -11,7 +11,8 @@ namespace {
 constexpr double kFrom_rad = 0.7, kFull_rad = 2.0;  // bent so far
 constexpr double kDeep_m = 0.016, kHalf_m = 0.0085;
 constexpr double kSwell_m = 0.004, kSwellAt_m = 0.019, kSwellHalf_m = 0.011;
-constexpr double kBehind_m = 0.015;  // the middle of the joint
+constexpr double kBehind_m = 0.025;  // the middle of the joint: nearer there is no flesh to fold
+constexpr double kWholly_m = 0.035;
 constexpr double kMiddle_m = 0.010, kHollow_m = 0.045;
 constexpr double kLeastOpen = 0.35;
 
@@ -85,21 +86,22 @@ class Hollow {
  public:
   Hollow(const BentKnee& knee, const Surface& skin)
       : knee_(knee), side_(knee.towards_lower.cross(knee.forwards)) {
-    double deepest = -1;
+    double deepest = -1;  // nearest to the joint, of what lies behind it
     for (const Vec3& p : skin.points) {
       const Vec3 at = place(p);
       const bool in_middle = std::abs(at.z()) < kMiddle_m && std::abs(at.x()) < kHollow_m;
-      if (!in_middle || at.y() > -kBehind_m || at.y() <= deepest) continue;
+      if (!in_middle || at.y() > 0 || at.y() <= deepest) continue;
       deepest = at.y();
       fold_at_ = at.x();
     }
+    if (deepest > -kBehind_m) fold_at_.reset();
   }
   bool found() const { return fold_at_.has_value(); }
   /// How far skin moves there: forwards into the fold, and out along its normal beside it.
   Vec3 shift(const Vec3& p, const Vec3& normal) const {
     const Vec3 at = place(p);
     const double strength = eased(kFrom_rad, kFull_rad, knee_.bent_rad) *
-                            eased(0, kBehind_m, -at.y() - kBehind_m) *
+                            eased(kBehind_m, kWholly_m, -at.y()) *
                             eased(-0.15, 0.45, -normal.dot(knee_.forwards));
     const double away = (at.x() - *fold_at_) / kHalf_m;
     const double beside = (std::abs(at.x() - *fold_at_) - kSwellAt_m) / kSwellHalf_m;
