@@ -13,6 +13,7 @@ constexpr double kDeep_m = 0.016, kHalf_m = 0.0085;
 constexpr double kSwell_m = 0.004, kSwellAt_m = 0.019, kSwellHalf_m = 0.011;
 constexpr double kBehind_m = 0.025;  // the middle of the joint: nearer there is no flesh to fold
 constexpr double kWholly_m = 0.035;
+constexpr double kFacesBack = 0.5;  // cosine
 constexpr double kMiddle_m = 0.010, kHollow_m = 0.045;
 constexpr double kLeastOpen = 0.35;
 
@@ -87,8 +88,9 @@ class Hollow {
   Hollow(const BentKnee& knee, const Surface& skin)
       : knee_(knee), side_(knee.towards_lower.cross(knee.forwards)) {
     double deepest = -1;  // nearest to the joint, of what lies behind it
-    for (const Vec3& p : skin.points) {
-      const Vec3 at = place(p);
+    for (std::size_t k = 0; k < skin.points.size(); ++k) {
+      const Vec3 at = place(skin.points[k]);
+      if (skin.normals[k].dot(knee.forwards) > -kFacesBack) continue;
       const bool in_middle = std::abs(at.z()) < kMiddle_m && std::abs(at.x()) < kHollow_m;
       if (!in_middle || at.y() > 0 || at.y() <= deepest) continue;
       deepest = at.y();
