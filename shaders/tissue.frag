@@ -6,11 +6,12 @@ in vec3 v_normal;
 in vec3 v_place;
 in vec4 v_shade;  // openness, cavity, mottle
 
-// KIND: 0 bone, 1 cartilage, 2 meniscus and disc, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel
+// KIND: 0 bone, 1 cartilage, 2 meniscus, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel, 7 disc
 uniform vec3 u_tint;      // what its own colour makes of the pattern's
 uniform vec3 u_fibre;     // unit, along the fibres, in the part's frame; of a meniscus: its axis
 uniform float u_fineness;  // of a ligament's fibres: 1 for thick ones
 uniform vec3 u_center;    // of the part, in its frame
+uniform vec3 u_to_end, u_to_side;  // of a disc: 1 at its rim, along its longest and its next axis
 uniform float u_light;    // strength at 10 mm
 
 out vec4 o_light;
@@ -122,8 +123,8 @@ float fibres(vec3 p, vec3 along, float per_m) {
 Look bone_look(vec3 p) {
   float m = layers(p * 350.0);
   float pink = smoothstep(0.35, 0.68, layers(p * 130.0 + 4.0));
-  vec3 c = mix(vec3(0.77, 0.57, 0.43), vec3(0.88, 0.78, 0.64), m);
-  c = mix(c, vec3(0.80, 0.52, 0.43), 0.45 * pink);
+  vec3 c = mix(vec3(0.77, 0.59, 0.48), vec3(0.89, 0.80, 0.69), m);
+  c = mix(c, vec3(0.80, 0.52, 0.45), 0.55 * pink);
   float ragged = near_cell(p * 560.0) + 0.09 * noise(p * 4200.0);
   float hole = (1.0 - smoothstep(0.06, 0.13, ragged)) * smoothstep(0.45, 0.65, noise(p * 140.0 + 61.0));
   c = mix(c, vec3(0.50, 0.26, 0.20), 0.55 * hole);
@@ -149,12 +150,35 @@ Look meniscus_look(vec3 p) {
   // on both sides of a plane through the axis: where it leapt by a turn there would be a seam.
   float r = length(from_axis), h = dot(p - u_center, u_fibre);
   float a = abs(atan(dot(round, u_fibre.yzx), dot(round, u_fibre.zxy)));
-  // A disc has its axis within it, where streaks of all angles would meet in a star.
-  a *= smoothstep(0.0, 0.004, r);
   float f = noise(vec3(r * 2600.0, h * 2600.0, a * 3.0));
+  float bundle = noise(vec3(r * 800.0, h * 800.0, a * 2.0 + 5.0));
   float m = layers(p * 260.0);
-  vec3 c = mix(vec3(0.80, 0.72, 0.56), vec3(0.91, 0.86, 0.74), 0.6 * m + 0.4 * f);
-  return Look(c, 2.5e-5 * f + 5e-5 * m, 0.40, 0.35);
+  vec3 c = mix(vec3(0.76, 0.66, 0.50), vec3(0.92, 0.88, 0.77), 0.45 * m + 0.3 * f + 0.25 * bundle);
+  return Look(c, 3.5e-5 * f + 9e-5 * bundle + 4e-5 * m, 0.40, 0.35);
+}
+
+// A disc between bones is smooth and pale in the middle, where no vessels go, with faint fibres from
+// end to end. Thick bundles run around it as its rim, with vessels, and end under synovium.
+Look disc_look(vec3 p) {
+  vec3 d = p - u_center;
+  float s = dot(d, u_to_end), t = dot(d, u_to_side), h = dot(d, u_fibre);
+  float m = layers(p * 330.0), wave = noise(p * 190.0 + 3.0);
+  float r = pow(s * s * s * s + t * t * t * t, 0.25) + 0.10 * (wave - 0.5);
+  float rim = smoothstep(0.46, 0.66, r);
+  // The angle is the same on both sides of the middle: where it leapt by a turn there would be a seam.
+  float around = abs(atan(t, s + 1e-4)), up = h * 900.0;
+  float bundle = noise(vec3(15.0 * r, up, 2.2 * around));
+  float thread = layers(vec3(38.0 * r, 2.6 * up, 3.5 * around + 9.0));
+  float faint = noise(vec3(31.0 * t + 9.0 * wave, up, 5.0 * s));
+  vec3 pale = mix(vec3(0.77, 0.70, 0.56), vec3(0.89, 0.85, 0.74), 0.75 * m + 0.25 * faint);
+  vec3 tough = mix(vec3(0.63, 0.47, 0.35), vec3(0.92, 0.83, 0.69), 0.5 * thread + 0.5 * bundle);
+  vec3 c = mix(pale, tough, rim);
+  vec3 way = normalize(cross(u_fibre, s * s * s * u_to_end + t * t * t * u_to_side) + vec3(1e-6));
+  float fed = smoothstep(0.60, 0.80, r);
+  c = mix(c, vec3(0.64, 0.20, 0.15), 0.6 * fed * vessels(p, way, 5.0, 560.0, 1.1e-4));
+  c = mix(c, vec3(0.82, 0.47, 0.38), 0.6 * smoothstep(0.84, 0.98, r + 0.16 * (m - 0.5)));
+  float strands = (1.8e-4 * bundle + 6e-5 * thread) * rim + 8e-6 * faint * (1.0 - rim);
+  return Look(c, strands + 3.2e-4 * rim + 6e-5 * m, 0.40, 0.30);
 }
 
 Look ligament_look(vec3 p) {
@@ -193,6 +217,7 @@ Look steel_look(vec3 p) {
 }
 
 Look look_at(vec3 p) {
+  if (KIND == 7) return disc_look(p);
   if (KIND == 6) return steel_look(p);
   if (KIND == 1) return cartilage_look(p);
   if (KIND == 2) return meniscus_look(p);
@@ -202,13 +227,13 @@ Look look_at(vec3 p) {
   return bone_look(p);
 }
 
-// The power of the highlight, as products: steel 70, cartilage 80, meniscus 55, ligament 45, synovium
-// 38, fat 40, bone 30.
+// The power of the highlight, as products: steel 70, cartilage 80, meniscus and disc 55, ligament 45,
+// synovium 38, fat 40, bone 30.
 float glossy(float x) {
   float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8, x32 = x16 * x16, x64 = x32 * x32;
   if (KIND == 6) return x64 * x4 * x2;
   if (KIND == 1) return x64 * x16;
-  if (KIND == 2) return x32 * x16 * x4 * x2 * x;
+  if (KIND == 2 || KIND == 7) return x32 * x16 * x4 * x2 * x;
   if (KIND == 3) return x32 * x8 * x4 * x;
   if (KIND == 4) return x32 * x4 * x2;
   if (KIND == 5) return x32 * x8;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "osteon/scene/soft_motion.h"
+#include "surface/cut_light.h"
 #include "surface/moved_light.h"
 #include "surface/shapes.h"
 
@@ -84,7 +85,7 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
     const ShadedMesh& mesh = at < meshes.size() ? meshes[at] : nothing;
     shared_->bones[k].closed = mesh.closed;
     if (k < bones || !prepared.softs.empty()) shared_->bones[k].changed.set_base(mesh);
-    if (k >= bones) shared_->bones[k].shades = mesh.shades;
+    if (k >= bones) shared_->bones[k].light = {mesh.shades, mesh.roots};
     shared_->bones[k].levels.clear();
     shared_->bones[k].levels.push_back({GpuMesh(mesh), 0});
     for (const ShadedMesh::Level& level : mesh.coarser)
@@ -136,9 +137,9 @@ void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
 void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W,
                                 std::span<const float> depth_m) {
   if (k >= shared_->bones.size()) return;
-  const std::vector<ShadedMesh::Shade>& baked = shared_->bones[k].shades;
-  const ShadedMesh lit = depth_m.empty() ? moved_light(rest_W, baked, moved_W)
-                                         : opened_light(rest_W, baked, moved_W, depth_m);
+  RestLight& light = shared_->bones[k].light;
+  const ShadedMesh lit = depth_m.empty() ? shown_light(rest_W, light, moved_W)
+                                         : opened_light(rest_W, light, moved_W, depth_m);
   if (lit.positions.empty()) return set_surface(k, moved_W);
   ++shared_->version;
   BoneModel& model = shared_->bones[k];

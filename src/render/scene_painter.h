@@ -16,6 +16,7 @@
 #include "osteon/scene/limb_cover.h"
 #include "surface/changed_cubes.h"
 #include "surface/heat_texture.h"
+#include "surface/moved_light.h"
 
 namespace osteon {
 
@@ -152,10 +153,10 @@ class ScenePainter {
     Capsule around;
     bool closed = false;
     float line_opacity = 0;
-    bool outermost = false;                 ///< the skin: drawn over all else that is seen through
-    std::vector<std::size_t> rides_on;      ///< bones; of a soft part
-    std::optional<LimbCover> cover;         ///< of skin that bends with a knee
-    std::vector<ShadedMesh::Shade> shades;  ///< of a soft part's vertices
+    bool outermost = false;             ///< the skin: drawn over all else that is seen through
+    std::vector<std::size_t> rides_on;  ///< bones; of a soft part
+    std::optional<LimbCover> cover;     ///< of skin that bends with a knee
+    RestLight light;                    ///< of a soft part
   };
   /// Models are the bones and after them the soft parts; what follows takes both.
   Pose pose(const RenderSnapshot& snapshot, std::size_t k) const;

@@ -50,9 +50,8 @@ const void* offset_of(std::size_t bytes) { return reinterpret_cast<const void*>(
 
 Result<ScopeBits> ScopeBits::load(const std::filesystem::path& shaders) {
   ScopeBits out;
-  auto program = Program::load(shaders, "water_bit");
-  if (!program) return tl::unexpected(program.error());
-  out.program_ = std::move(*program);
+  out.program_ = {shaders, "water_bit", "water_bit"};
+  if (const auto there = out.program_.check(); !there) return tl::unexpected(there.error());
   out.array_ = make_vertex_array();
   out.vertices_ = make_buffer();
   constexpr GLsizei stride = sizeof(BitVertex);
@@ -64,6 +63,12 @@ Result<ScopeBits> ScopeBits::load(const std::filesystem::path& shaders) {
   glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, stride, offset_of(offsetof(BitVertex, look)));
   glBindVertexArray(0);
   return out;
+}
+
+bool ScopeBits::ready_one() const {
+  if (program_.ready()) return false;
+  (void)program_.get();
+  return true;
 }
 
 void ScopeBits::set(std::span<const WaterBit> bits) {
@@ -94,9 +99,10 @@ void ScopeBits::paint_some(WaterBit::Is is, const Pose& X_CW) const {
 }
 
 void ScopeBits::paint(const Pose& X_CW, const Eigen::Matrix4f& clip_from_view) const {
-  if (bits_.empty()) return;
-  program_.use();
-  program_.set("u_clip_from_view", clip_from_view);
+  const Program* const program = bits_.empty() ? nullptr : program_.get();
+  if (!program) return;
+  program->use();
+  program->set("u_clip_from_view", clip_from_view);
   paint_some(WaterBit::Is::kFlake, X_CW);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);

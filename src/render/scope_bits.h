@@ -16,6 +16,8 @@ class ScopeBits {
  public:
   static Result<ScopeBits> load(const std::filesystem::path& shaders);
 
+  /// Compiles its program, if no picture has asked for it yet; false: it is there.
+  bool ready_one() const;
   /// What is out of range or not finite is left out.
   void set(std::span<const WaterBit> bits);
   const std::vector<WaterBit>& bits() const { return bits_; }
@@ -26,7 +28,7 @@ class ScopeBits {
  private:
   void paint_some(WaterBit::Is is, const Pose& X_CW) const;
 
-  Program program_;
+  LateProgram program_;
   GlVertexArray array_;
   GlBuffer vertices_;
   std::vector<WaterBit> bits_;

@@ -84,25 +84,33 @@ Result<ScopeLens> ScopeLens::load(const std::filesystem::path& shaders) {
   for (std::size_t k = 0; k < out.softer_.size(); ++k) {
     constexpr std::array<const char*, 3> kTaps = {"4", "8", "64"};
     const std::string taps = std::string("#define TAPS ") + kTaps[k] + "\n";
-    auto softer =
-        Program::load_with(shaders, "screen", "softer", taps + (k == 2 ? "#define ROUND\n" : ""));
-    if (!softer) return tl::unexpected(softer.error());
-    out.softer_[k] = std::move(*softer);
+    out.softer_[k] = {shaders, "screen", "softer", taps + (k == 2 ? "#define ROUND\n" : "")};
   }
   for (std::size_t k = 0; k < out.lenses_.size(); ++k) {
     std::string defines = (k & kSeesWater) != 0 ? "#define WATER\n" : "";
     if ((k & kSeesFog) != 0) defines += "#define FOG\n";
     if ((k & kSeesSoft) != 0) defines += "#define SOFT\n";
-    auto lens = Program::load_with(shaders, "disc", "scope", defines);
-    if (!lens) return tl::unexpected(lens.error());
-    out.lenses_[k] = std::move(*lens);
+    out.lenses_[k] = {shaders, "disc", "scope", defines};
   }
-  auto water = Program::load(shaders, "screen", "scope_water");
-  if (!water) return tl::unexpected(water.error());
-  out.water_ = std::move(*water);
+  out.water_ = {shaders, "screen", "scope_water"};
+  for (const LateProgram* late : {&out.softer_[0], &out.water_})
+    if (const auto there = late->check(); !there) return tl::unexpected(there.error());
+  auto clear = Program::load_with(shaders, "disc", "scope", {});
+  if (!clear) return tl::unexpected(clear.error());
+  out.clear_ = std::move(*clear);
   out.no_vertices_ = make_vertex_array();
   out.clouds_ = cloud_texture();
   return out;
+}
+
+bool ScopeLens::ready_one() const {
+  const auto ready = [](const LateProgram& late) {
+    if (late.ready()) return false;
+    (void)late.get();
+    return true;
+  };
+  if (std::any_of(softer_.begin(), softer_.end(), ready) || ready(water_)) return true;
+  return std::any_of(lenses_.begin() + 1, lenses_.end(), ready);
 }
 
 bool ScopeLens::is_soft(double nearest_m, int side_px) {
@@ -132,24 +140,26 @@ void ScopeLens::paint(const LightTarget& flat, const RenderTarget& picture, cons
   for (const GLenum test : {GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE})
     glDisable(test);
   glActiveTexture(GL_TEXTURE0);
-  const bool soft = is_soft(view.nearest_m, side) && half_.ensure((side + 1) / 2) &&
-                    quarter_.ensure((side + 3) / 4);
+  const bool soft = is_soft(view.nearest_m, side) && softer_[0].get() && softer_[1].get() &&
+                    half_.ensure((side + 1) / 2) && quarter_.ensure((side + 3) / 4);
   if (soft) {
-    soften(softer_[0], flat.texture(), half_, kHalfSpread_px / side);
-    soften(softer_[1], half_.texture.get(), quarter_, kQuarterSpread_px / side);
+    soften(*softer_[0].get(), flat.texture(), half_, kHalfSpread_px / side);
+    soften(*softer_[1].get(), half_.texture.get(), quarter_, kQuarterSpread_px / side);
   }
   // An eighth of the picture cannot tell where the taps lie: its pixels are as wide as their steps.
   constexpr double kFogSpread = 0.17;  // of the flat picture
-  const bool milky = water.fog > 0 && milky_.ensure((side + 7) / 8);
-  if (milky) soften(softer_[2], flat.texture(), milky_, kFogSpread);
-  const bool cloudy = !water.clear() && on_the_way_.ensure((side + 1) / 2);
+  const bool milky = water.fog > 0 && softer_[2].get() && milky_.ensure((side + 7) / 8);
+  if (milky) soften(*softer_[2].get(), flat.texture(), milky_, kFogSpread);
+  const bool cloudy = !water.clear() && water_.get() && on_the_way_.ensure((side + 1) / 2);
   if (cloudy) measure_water(flat, view, water);
   glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer());
   glViewport(0, 0, view.viewport.width, view.viewport.height);
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  const Program& lens =
-      lenses_[(cloudy ? kSeesWater : 0) + (milky ? kSeesFog : 0) + (soft ? kSeesSoft : 0)];
+  const std::size_t sees =
+      (cloudy ? kSeesWater : 0) + (milky ? kSeesFog : 0) + (soft ? kSeesSoft : 0);
+  const Program* const seeing = sees == 0 ? nullptr : lenses_[sees].get();
+  const Program& lens = seeing ? *seeing : clear_;
   lens.use();
   const std::array<GLuint, 5> levels = {flat.texture(), soft ? half_.texture.get() : flat.texture(),
                                         soft ? quarter_.texture.get() : flat.texture(),
@@ -195,19 +205,20 @@ void ScopeLens::measure_water(const LightTarget& flat, const LensView& view,
   glBindTexture(GL_TEXTURE_3D, clouds_.get());
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, flat.texture());
-  water_.use();
-  water_.set("u_screen_depth", 0.0f);
-  water_.set("u_flat", 0);
-  water_.set("u_flat_half", static_cast<float>(view.half));
-  water_.set("u_world_from_view", to_matrix(view.camera.X_WC()));
-  water_.set("u_clouds", 1);
-  water_.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
-  water_.set("u_plumes", static_cast<int>(water.plume_count));
+  const Program& thickness = *water_.get();
+  thickness.use();
+  thickness.set("u_screen_depth", 0.0f);
+  thickness.set("u_flat", 0);
+  thickness.set("u_flat_half", static_cast<float>(view.half));
+  thickness.set("u_world_from_view", to_matrix(view.camera.X_WC()));
+  thickness.set("u_clouds", 1);
+  thickness.set("u_clouds_per_m", static_cast<float>(1 / kCloudTile_m));
+  thickness.set("u_plumes", static_cast<int>(water.plume_count));
   for (std::uint32_t k = 0; k < water.plume_count; ++k) {
     const std::string at = "[" + std::to_string(k) + "]";
     const BloodPlume& plume = water.plumes[k];
-    water_.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
-    water_.set(
+    thickness.set(("u_plume_at" + at).c_str(), Eigen::Vector3f(plume.p_W.cast<float>()));
+    thickness.set(
         ("u_plume_size" + at).c_str(),
         Eigen::Vector2f(static_cast<float>(plume.radius_m), static_cast<float>(plume.taken_per_m)));
   }

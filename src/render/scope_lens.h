@@ -29,7 +29,10 @@ class ScopeLens {
   /// Whether anything at that distance or beyond is out of focus in a flat picture of so many
   /// pixels.
   static bool is_soft(double nearest_m, int side_px);
-  /// Binds `picture`'s framebuffer and draws into it.
+  /// Compiles one of the programs that no picture has asked for yet; false: there is none.
+  bool ready_one() const;
+  /// Binds `picture`'s framebuffer and draws into it. What a picture needs is compiled for the
+  /// first that needs it; what does not compile is left out.
   void paint(const LightTarget& flat, const RenderTarget& picture, const LensView& view,
              const ScopeWater& water);
 
@@ -45,12 +48,13 @@ class ScopeLens {
   /// How much light the water takes on the way, over the flat picture.
   void measure_water(const LightTarget& flat, const LensView& view, const ScopeWater& water) const;
 
-  std::array<Program, 3> softer_;  ///< to half_, to quarter_, and to milky_
-  Soft half_, quarter_;            ///< as wide as their names say
-  Program water_;
-  Soft on_the_way_;                ///< half as wide: thickness of the water, and plumes
-  Soft milky_;                     ///< an eighth as wide: light that fog spreads
-  std::array<Program, 8> lenses_;  ///< kSeesWater, kSeesFog and kSeesSoft, added
+  std::array<LateProgram, 3> softer_;  ///< to half_, to quarter_, and to milky_
+  Soft half_, quarter_;                ///< as wide as their names say
+  LateProgram water_;
+  Soft on_the_way_;  ///< half as wide: thickness of the water, and plumes
+  Soft milky_;       ///< an eighth as wide: light that fog spreads
+  Program clear_;
+  std::array<LateProgram, 8> lenses_;  ///< kSeesWater, kSeesFog and kSeesSoft, added
   GlVertexArray no_vertices_;
   GlTexture clouds_;  ///< of water
 };

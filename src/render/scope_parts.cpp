@@ -40,11 +40,23 @@ std::optional<Vec3> between_footprints(const SoftPart& soft) {
   return way.normalized();
 }
 
+// Returns the middle between its rims: the mean of its points lies nearer to a crowded one.
+Vec3 measure_disc(const std::vector<Vec3>& vertices, const Mat3& axes, TissuePart& tissue) {
+  constexpr double kLeastHalf_m = 1e-4;
+  Aabb box;  // in the frame of its axes
+  for (const Vec3& v : vertices) box.include(axes.transpose() * v);
+  const Vec3 half = (0.5 * box.extent()).cwiseMax(kLeastHalf_m);
+  tissue.to_end = (axes.col(2) / half[2]).cast<float>();
+  tissue.to_side = (axes.col(1) / half[1]).cast<float>();
+  return axes * box.center();
+}
+
 }  // namespace
 
 TissuePattern pattern_of(std::string_view kind) {
   if (kind == "cartilage") return TissuePattern::kCartilage;
-  if (kind == "meniscus" || kind == "disc") return TissuePattern::kMeniscus;
+  if (kind == "meniscus") return TissuePattern::kMeniscus;
+  if (kind == "disc") return TissuePattern::kDisc;
   if (kind == "ligament" || kind == "tendon") return TissuePattern::kFibres;
   return kind == "fat" ? TissuePattern::kFat : TissuePattern::kBone;
 }
@@ -59,9 +71,11 @@ void find_fibres(const SoftPart& soft, TissuePart& tissue) {
   for (const Vec3& v : vertices) spread += share * (v - center) * (v - center).transpose();
   if (!spread.allFinite()) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
-  const bool meniscus = tissue.pattern == TissuePattern::kMeniscus;
-  Vec3 fibre = axes.eigenvectors().col(meniscus ? 0 : 2);
-  if (!meniscus)
+  const bool disc = tissue.pattern == TissuePattern::kDisc;
+  const bool flat = disc || tissue.pattern == TissuePattern::kMeniscus;
+  Vec3 fibre = axes.eigenvectors().col(flat ? 0 : 2);
+  if (disc) center = measure_disc(vertices, axes.eigenvectors(), tissue);
+  if (!flat)
     if (const auto way = between_footprints(soft)) fibre = *way;
   tissue.fibre = fibre.cast<float>();
   tissue.center = center.cast<float>();
@@ -115,6 +129,8 @@ TissuePart loose_part_of(const TissuePart& soft, const Pose& X_WB) {
   const Pose X_BW = X_WB.inverse();
   part.fibre = X_BW.rotate(soft.fibre.cast<double>()).cast<float>();
   part.center = (X_BW * soft.center.cast<double>()).cast<float>();
+  part.to_end = X_BW.rotate(soft.to_end.cast<double>()).cast<float>();
+  part.to_side = X_BW.rotate(soft.to_side.cast<double>()).cast<float>();
   return part;
 }
 

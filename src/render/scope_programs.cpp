@@ -20,26 +20,31 @@ Eigen::Vector3f tint_of(const TissuePart& part) {
 
 Result<ScopePrograms> ScopePrograms::load(const std::filesystem::path& shaders) {
   ScopePrograms out;
-  for (std::size_t k = 0; k < kPatterns; ++k) {
-    const std::string kind = "#define KIND " + std::to_string(k) + "\n";
-    auto tissue = Program::load_with(shaders, "tissue", "tissue", kind);
-    if (!tissue) return tl::unexpected(tissue.error());
-    out.tissues_[k] = std::move(*tissue);
-  }
+  const auto kind = [](std::size_t k) { return "#define KIND " + std::to_string(k) + "\n"; };
+  auto bone = Program::load_with(shaders, "tissue", "tissue", kind(0));
+  if (!bone) return tl::unexpected(bone.error());
+  out.bone_ = std::move(*bone);
+  for (std::size_t k = 0; k < kPatterns; ++k)
+    out.tissues_[k] = LateProgram(shaders, "tissue", "tissue", kind(k));
+  out.changed_bone_ = LateProgram(shaders, "tissue", "tissue", kind(0), true);
+  out.changed_cartilage_ = LateProgram(shaders, "tissue", "tissue", kind(1), true);
   auto depth = Program::load(shaders, "tissue", "depth");
   if (!depth) return tl::unexpected(depth.error());
   out.depth_ = std::move(*depth);
-  auto changed = Program::load_with(shaders, "tissue", "tissue", "#define KIND 0\n", true);
-  if (!changed) return tl::unexpected(changed.error());
-  out.changed_bone_ = std::move(*changed);
-  auto layer = Program::load_with(shaders, "tissue", "tissue", "#define KIND 1\n", true);
-  if (!layer) return tl::unexpected(layer.error());
-  out.changed_cartilage_ = std::move(*layer);
   auto nothing = Program::load(shaders, "screen", "nothing");
   if (!nothing) return tl::unexpected(nothing.error());
   out.nothing_ = std::move(*nothing);
   out.no_vertices_ = make_vertex_array();
   return out;
+}
+
+bool ScopePrograms::ready_one() const {
+  for (const LateProgram* late : {&changed_bone_, &changed_cartilage_}) {
+    if (late->ready()) continue;
+    (void)late->get();
+    return true;
+  }
+  return false;
 }
 
 void ScopePrograms::paint_nothing() const {
@@ -61,6 +66,8 @@ void ScopePrograms::begin(const Program& program, const TissuePart& part,
   program.set("u_fibre", part.fibre);
   program.set("u_fineness", part.fineness);
   program.set("u_center", part.center);
+  program.set("u_to_end", part.to_end);
+  program.set("u_to_side", part.to_side);
 }
 
 }  // namespace osteon

@@ -24,8 +24,8 @@
 #include "scope_parts.h"
 #include "scope_programs.h"
 #include "surface/changed_cubes.h"
+#include "surface/cut_light.h"
 #include "surface/loose_surface.h"
-#include "surface/moved_light.h"
 #include "surface/shapes.h"
 #include "surface/tissue_part.h"
 #include "view/scope_field.h"
@@ -35,15 +35,7 @@ namespace {
 
 constexpr double kNear_m = 0.0003, kFar_m = 0.15;
 
-/// A square picture as a pinhole sees it, `half` the tangent of half its width.
-Eigen::Matrix4f flat_projection(double half) {
-  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
-  m(0, 0) = m(1, 1) = 1 / half;
-  m(2, 2) = -(kFar_m + kNear_m) / (kFar_m - kNear_m);
-  m(2, 3) = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
-  m(3, 2) = -1;
-  return m.cast<float>();
-}
+Eigen::Matrix4f flat_projection(double half) { return pinhole(half, kNear_m, kFar_m); }
 
 /// How far a coarser surface may lie off in a moving picture of a window, in pixels of the flat
 /// picture, which has 0.7 of the window's.
@@ -194,6 +186,12 @@ struct ScopeRenderer::Impl {
     glDisable(GL_CULL_FACE);
   }
 
+  /// While nothing moves, what later pictures may need is compiled, one program in place of each
+  /// picture. Returns true: the one before stands.
+  bool rest() const {
+    (void)(lens.ready_one() || bits.ready_one() || programs.ready_one());
+    return true;
+  }
   /// With the context current.
   void make_corners() {
     if (corners_px == flat.side()) return;
@@ -392,7 +390,7 @@ Result<ScopeRenderer> ScopeRenderer::create(const Case& the_case,
     const auto& meshes = soft ? prepared.softs : prepared.bones;
     const std::size_t at = soft ? part.model - bones : part.model;
     if (at < meshes.size()) part.surface = GpuMesh(meshes[at]);
-    if (soft && at < meshes.size()) part.shades = meshes[at].shades;
+    if (soft && at < meshes.size()) part.light = {meshes[at].shades, meshes[at].roots};
   }
   static const ShadedMesh nothing;
   for (std::size_t k = 0; k < bones + the_case.softs.size(); ++k) {
@@ -468,7 +466,7 @@ void ScopeRenderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMe
   if (impl_->scene) return;
   for (TissuePart& own : impl_->parts) {
     if (own.model != part.index) continue;
-    const ShadedMesh lit = moved_light(rest_W, own.shades, moved_W);
+    const ShadedMesh lit = shown_light(rest_W, own.light, moved_W);
     own.surface = lit.positions.empty() ? GpuMesh(plain_shaded(moved_W)) : GpuMesh(lit);
   }
   ++impl_->cubes;
@@ -560,7 +558,7 @@ bool ScopeRenderer::paint(const ScopeCamera& camera, int side_px) {
   ScopePainted now = impl_->as_it_is(camera, size);
   const bool first = !impl_->painted;
   impl_->calm = !first && impl_->painted->still(now) ? impl_->calm + 1 : 0;
-  if (impl_->calm > kSettled) return true;
+  if (impl_->calm > kSettled) return impl_->rest();
   const int side = Impl::flat_side(camera, viewport, impl_->software ? kOfProcessor : 1);
   const double half = Impl::flat_half(camera);
   GLint bound = 0;

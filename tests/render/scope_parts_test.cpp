@@ -93,6 +93,27 @@ TEST(FibresOfAPart, RunFromOneBoneToTheOtherHoweverWideItIs) {
   EXPECT_NEAR(std::abs(found(soft).fibre.y()), 1, 1e-6);
 }
 
+// The shader draws the rim where the product with one of these is 1.
+TEST(FibresOfAPart, OfADiscAreMeasuredFromTheMiddleBetweenItsRims) {
+  SoftPart soft = band({0.006, 0.001, 0.009});
+  for (int k = 0; k < 40; ++k) soft.mesh_W.vertices.emplace_back(0, 0, 0.0085 + 1e-5 * k);
+  const Vec3 off(0.01, -0.02, 0.03);
+  for (Vec3& v : soft.mesh_W.vertices) v += off;
+  const TissuePart disc = found(soft, pattern_of("disc"));
+  EXPECT_NEAR(std::abs(disc.fibre.y()), 1, 1e-3);
+  EXPECT_NEAR((disc.center.cast<double>() - off).norm(), 0, 5e-4);
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 end = off + Vec3(0, 0, side * 0.009) - disc.center.cast<double>();
+    EXPECT_NEAR(std::abs(disc.to_end.cast<double>().dot(end)), 1, 0.05);
+    const Vec3 edge = off + Vec3(side * 0.006, 0, 0) - disc.center.cast<double>();
+    EXPECT_NEAR(std::abs(disc.to_side.cast<double>().dot(edge)), 1, 0.05);
+  }
+  const Pose X_WB{{0, 0, 1}, Quat(Eigen::AngleAxisd(1.2, Vec3::UnitX()))};
+  const TissuePart loose = loose_part_of(disc, X_WB);
+  EXPECT_LT((X_WB.rotate(loose.to_end.cast<double>()) - disc.to_end.cast<double>()).norm(), 1e-3);
+  EXPECT_LT((X_WB.rotate(loose.to_side.cast<double>()) - disc.to_side.cast<double>()).norm(), 1e-3);
+}
+
 TEST(FibresOfAPart, OfAThickOneAreNotCoarser) {
   EXPECT_EQ(found(band({0.005, 0.016, 0.0035})).fineness, 1);
 }

@@ -372,6 +372,46 @@ TEST_F(ScopePictures, WhatGivesWayIsSeenAndComesBack) {
   EXPECT_EQ(renderer.draw_image(camera, 200, 200).rgb, rest.rgb);
 }
 
+/// Share of red less that of blue in all pixels whose place on a disc has so large a share of its
+/// half axes.
+double warmth(const Image& image, const ScopeCamera& camera, const Vec3& half, double depth_m,
+              double least, double most) {
+  double sum = 0;
+  int count = 0;
+  for (double s = -1; s <= 1; s += 0.02)
+    for (double t = -1; t <= 1; t += 0.02) {
+      const double r = std::hypot(s, t);
+      const auto at = camera.project({0, 0, image.width, image.height},
+                                     Vec3(s * half.x(), t * half.y(), -depth_m));
+      if (r < least || r > most || !at) continue;
+      const auto k = 3 * (static_cast<std::size_t>(at->y) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(at->x));
+      const double red = image.rgb[k], blue = image.rgb[k + 2];
+      sum += (red - blue) / (red + image.rgb[k + 1] + blue + 1);
+      ++count;
+    }
+  return sum / count;
+}
+
+TEST_F(ScopePictures, ADiscHasAWarmRimAroundAPaleMiddleMoreThanAMeniscusHas) {
+  const Vec3 half(0.008, 0.006, 0.0008);
+  constexpr double kDepth_m = 0.013;
+  const ScopeCamera camera(wide_scope(0, 0.6), {});
+  const auto warmer_rim = [&](const std::string& kind) {
+    Case the_case = lone_ball(Vec3(0, 0, -0.04), 0.002);
+    SoftPart soft;
+    soft.name = soft.kind = kind;
+    soft.mesh_W = sphere_mesh(1);
+    for (Vec3& v : soft.mesh_W.vertices) v = half.cwiseProduct(v) - Vec3(0, 0, kDepth_m);
+    the_case.softs.push_back(soft);
+    ScopeRenderer renderer = make_scope(the_case);
+    const Image image = renderer.draw_image(camera, 300, 300);
+    return warmth(image, camera, half, kDepth_m, 0.70, 0.92) -
+           warmth(image, camera, half, kDepth_m, 0, 0.4);
+  };
+  EXPECT_GT(warmer_rim("disc"), 1.8 * warmer_rim("meniscus")) << "slopes are warmer on both";
+}
+
 TEST(JointRoom, ATipInBoneIsRefusedByName) {
   const Case the_case = lone_ball(Vec3(0.02, 0, 0), 0.01);
   const JointRoom room(the_case);
@@ -396,6 +436,22 @@ TEST(JointWall, EnclosesTheTipAndKeepsOffTheBone) {
     EXPECT_LT(to_wall.closest(tip).signed_distance, -0.004);
     for (const Vec3& v : wall->vertices) EXPECT_GT(v.norm(), 0.0185);
   }
+}
+
+TEST(JointWall, IsNearerWhereABoneIsSmall) {
+  const MeshDistance ball(sphere_mesh(0.01)), pea(sphere_mesh(0.004));
+  const std::string name = "ball";
+  const WalledBone bones[] = {{&ball, {}, &name}, {&pea, {{0, 0, 0.02}, {}}, &name}};
+  const auto farthest = [&](std::size_t count) {
+    const auto wall = joint_wall({bones, count}, Vec3(0.011, 0, 0));
+    double most = 0;
+    if (wall)
+      for (const Vec3& v : wall->vertices)
+        if (v.z() < -0.01) most = std::max(most, v.norm());
+    return most;
+  };
+  EXPECT_NEAR(farthest(1), 0.020, 0.001);
+  EXPECT_NEAR(farthest(2), 0.0155, 0.001);
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ class JointRoom {
   JointRoom(JointRoom&&) noexcept;
   JointRoom& operator=(JointRoom&&) noexcept;
 
-  /// The wall in World: within 60 mm of the tip, some 10 mm off the bones as they stand there, and
-  /// farther where the tip is. Takes about a second. Fails when the tip lies in a bone, which it
-  /// names, or at a place that is not finite. Empty in a box for exercises (a case "fast_..."),
-  /// which is open.
+  /// The wall in World: within 60 mm of the tip, some 10 mm off the bones as they stand there, less
+  /// where they are small, and farther where the tip is. Takes about a second. Fails when the tip
+  /// lies in a bone, which it names, or at a place that is not finite. Empty in a box for exercises
+  /// (a case "fast_..."), which is open.
   Result<TriMesh> wall(const BoneSnapshot& bones, const Vec3& tip_W) const;
 
  private:

@@ -31,6 +31,14 @@ struct ShadedMesh {
     double error_m = 0;  ///< how far the surface may lie from the full one, about
   };
   std::vector<Level> coarser;  ///< the finest first; none where leaving out saves little
+  /// A vertex of a soft part that was drawn into the bone that it grows into.
+  struct Root {
+    std::uint32_t vertex = 0;
+    std::array<float, 3> shift{}, out{};  ///< metres; the bone's normal there
+    float share = 0;                      ///< of that normal
+    bool buried = false;                  ///< it lies in bone
+  };
+  std::vector<Root> roots;
 };
 
 /// What is worked out once per case before it can be drawn; needs no OpenGL, so that a loading

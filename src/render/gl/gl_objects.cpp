@@ -41,11 +41,11 @@ std::string program_log(GLuint program) {
   return text.data();
 }
 
+constexpr std::uint64_t kLargestShader = 1 << 20;
 constexpr const char* kReinstall = "install Osteon's shaders folder again";
 
 Result<GlShader> compile(GLenum stage, const std::filesystem::path& dir, const std::string& file,
                          const std::string& defines = {}, bool changed = false) {
-  constexpr std::uint64_t kLargestShader = 1 << 20;
   const auto shared = read_file(dir / "light.glsl", kLargestShader);
   if (!shared) return tl::unexpected(shared.error());
   const auto own = read_file(dir / file, kLargestShader);
@@ -135,6 +135,30 @@ void Program::set(const char* name, const Eigen::Vector4f& value) const {
 }
 void Program::set(const char* name, const Eigen::Matrix4f& value) const {
   glUniformMatrix4fv(location(name_.get(), name), 1, GL_FALSE, value.data());
+}
+
+LateProgram::LateProgram(std::filesystem::path shader_dir, std::string vert, std::string frag,
+                         std::string defines, bool changed)
+    : shader_dir_(std::move(shader_dir)),
+      vert_(std::move(vert)),
+      frag_(std::move(frag)),
+      defines_(std::move(defines)),
+      changed_(changed) {}
+
+Result<void> LateProgram::check() const {
+  for (const std::string& file : {vert_ + ".vert", frag_ + ".frag"})
+    if (const auto text = read_file(shader_dir_ / file, kLargestShader); !text)
+      return tl::unexpected(text.error());
+  return {};
+}
+
+const Program* LateProgram::get() const {
+  if (!asked_) {
+    asked_ = true;
+    auto made = Program::load_with(shader_dir_, vert_, frag_, defines_, changed_);
+    if (made) program_.emplace(std::move(*made));
+  }
+  return program_ ? &*program_ : nullptr;
 }
 
 }  // namespace osteon

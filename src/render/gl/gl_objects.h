@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -87,6 +88,28 @@ class Program {
                               const std::string& frag, const std::string& defines, bool changed);
 
   GlProgramName name_;
+};
+
+/// A program that is compiled when it is first asked for, with the context current.
+class LateProgram {
+ public:
+  LateProgram() = default;
+  /// As Program::load_with takes them.
+  LateProgram(std::filesystem::path shader_dir, std::string vert, std::string frag,
+              std::string defines = {}, bool changed = false);
+  /// Whether its texts are there.
+  Result<void> check() const;
+  /// Null: it does not compile.
+  const Program* get() const;
+  /// True where it need not be compiled any more.
+  bool ready() const { return asked_; }
+
+ private:
+  std::filesystem::path shader_dir_;
+  std::string vert_, frag_, defines_;
+  bool changed_ = false;
+  mutable bool asked_ = false;
+  mutable std::optional<Program> program_;
 };
 
 }  // namespace osteon

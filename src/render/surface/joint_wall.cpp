@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "osteon/mesh/isosurface.h"
+#include "osteon/mesh/measure.h"
 
 namespace osteon {
 namespace {
 
-constexpr double kWallOff_m = 0.010;  ///< of the wall from bone
-constexpr double kRoom_m = 0.006;     ///< around the tip
+/// Of the wall from bone: half as wide as the slenderest bone of the joint, within these.
+constexpr double kWallOff_m = 0.010, kLeastWallOff_m = 0.0055;
+constexpr double kRoom = 0.6;  ///< of that, around the tip
 constexpr double kBlend_m = 0.012;
 constexpr double kWallReach_m = 0.060;
 constexpr double kWallCell_m = 0.0025;
@@ -25,6 +27,14 @@ double smooth_min(double a, double b) {
 
 double to_bone_m(const WalledBone& bone, const Vec3& p_W) {
   return bone.surface->closest(bone.X_WB.inverse() * p_W).signed_distance;
+}
+
+/// Small bones have a narrow joint.
+double wall_off_m(const std::vector<const WalledBone*>& bones) {
+  double slenderest = 2 * kWallOff_m;
+  for (const WalledBone* bone : bones)
+    slenderest = std::min(slenderest, bounds(bone->surface->mesh()).extent().minCoeff());
+  return std::clamp(0.5 * slenderest, kLeastWallOff_m, kWallOff_m);
 }
 
 /// Negative inside the room: nearer than `off_m` to bone, and than kWallReach_m to the tip. Its
@@ -85,7 +95,8 @@ Result<TriMesh> joint_wall(std::span<const WalledBone> bones, const Vec3& tip_W)
     nearest = std::min(nearest, d);
   }
   // Negative inside the room. Where the tip is far from bone the wall keeps clear of it.
-  const double off = std::max(kWallOff_m, nearest + kRoom_m);
+  const double usual = wall_off_m(near);
+  const double off = std::max(usual, nearest + kRoom * usual);
   const RoomField room(std::move(near), tip_W, off);
   const Vec3 half = Vec3::Constant(kWallReach_m + 4 * kWallCell_m);
   IsosurfaceOptions options;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "surface/rooted.h"
 #include "surface/surface.h"
 
 namespace osteon {
@@ -53,17 +54,35 @@ class LightNear {
   std::vector<std::uint32_t> near_;
 };
 
+// The roots of the points that stand where those of the rest did.
+std::vector<ShadedMesh::Root> moved_roots(const std::vector<ShadedMesh::Root>& roots,
+                                          const std::vector<std::uint32_t>& rest_place,
+                                          const std::vector<std::uint32_t>& moved_place,
+                                          std::size_t rest_points) {
+  constexpr std::uint32_t kNowhere = 0xffffffffu;
+  std::vector<std::uint32_t> to(rest_points, kNowhere);
+  for (std::size_t v = 0; v < moved_place.size() && v < rest_place.size(); ++v)
+    if (rest_place[v] < to.size()) to[rest_place[v]] = moved_place[v];
+  std::vector<ShadedMesh::Root> out;
+  for (ShadedMesh::Root root : roots) {
+    root.vertex = root.vertex < to.size() ? to[root.vertex] : kNowhere;
+    if (root.vertex != kNowhere) out.push_back(root);
+  }
+  return out;
+}
+
 }  // namespace
 
 // Both surfaces are welded as prepare_case welds them. Points that lie on one another in one of the
 // two alone give and take the light of any of them.
-ShadedMesh moved_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
-                       const TriMesh& moved) {
+ShadedMesh moved_light(const TriMesh& rest, const RestLight& light, const TriMesh& moved) {
+  const std::vector<ShadedMesh::Shade>& baked = light.shades;
   ShadedMesh out;
   std::vector<std::uint32_t> rest_place, moved_place;
   if (rest.vertices.size() != moved.vertices.size()) return out;
   if (make_surface(rest, &rest_place).points.size() != baked.size()) return out;
-  const Surface s = make_surface(moved, &moved_place);
+  Surface s = make_surface(moved, &moved_place);
+  draw_in(moved_roots(light.roots, rest_place, moved_place, baked.size()), s);
   out.closed = encloses_volume(s);
   out.triangles = s.triangles;
   out.shades.assign(s.points.size(), {255, 128, 128, 128});
@@ -77,14 +96,16 @@ ShadedMesh moved_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>
   return out;
 }
 
-ShadedMesh opened_light(const TriMesh& rest, const std::vector<ShadedMesh::Shade>& baked,
-                        const TriMesh& opened, std::span<const float> depth_m) {
+ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMesh& opened,
+                        std::span<const float> depth_m) {
+  const std::vector<ShadedMesh::Shade>& baked = light.shades;
   ShadedMesh out;
   std::vector<std::uint32_t> rest_place, place;
   if (opened.vertices.size() != depth_m.size() || opened.vertices.size() < rest.vertices.size())
     return out;
   if (make_surface(rest, &rest_place).points.size() != baked.size()) return out;
-  const Surface s = make_surface(opened, &place);
+  Surface s = make_surface(opened, &place);
+  draw_in(moved_roots(light.roots, rest_place, place, baked.size()), s);
   out.closed = false;
   out.triangles = s.triangles;
   out.shades.assign(s.points.size(), {255, 128, 128, 128});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "osteon/render/felt_colors.h"
 #include "osteon/render/prepare_unlit.h"
@@ -10,6 +11,8 @@
 #include "surface/coarser_levels.h"
 #include "surface/creases.h"
 #include "surface/occlusion.h"
+#include "surface/rooted.h"
+#include "surface/skin_fold.h"
 #include "surface/surface.h"
 
 namespace osteon {
@@ -34,10 +37,15 @@ std::uint8_t felt_byte(double height_m) {
   return static_cast<std::uint8_t>(128 + std::lround(127 * share));
 }
 
-ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::size_t bone) {
+using Roots = std::vector<ShadedMesh::Root>;
+
+ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::size_t bone,
+                  Roots roots = {}) {
   std::vector<float> curvature = mean_curvature(s);
+  fill_buried(roots, s, curvature);
   smooth(s, 2, curvature);
   ShadedMesh out;
+  out.roots = std::move(roots);
   out.triangles = s.triangles;
   out.closed = encloses_volume(s);
   for (std::size_t k = 0; k < s.points.size(); ++k) {
@@ -53,20 +61,36 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
 /// The skin hides nothing: it is looked through.
 bool is_skin(const SoftPart& soft) { return soft.kind == "skin"; }
 
+ShadedMesh prepare_skin(const Case& the_case, const SoftPart& skin, std::size_t soft) {
+  Surface surface = make_surface(skin.mesh_W);
+  Roots fold = find_fold(the_case, surface);
+  draw_in(fold, surface);
+  const std::vector<float> open = fold_openness(fold, surface);
+  return shaded(surface, open, soft, std::move(fold));
+}
+
 std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<PlacedSurface>& bones,
                                       const PrepareProgress& go_on) {
   std::vector<PlacedSurface> surfaces;
-  for (const SoftPart& soft : the_case.softs)
-    if (!is_skin(soft)) surfaces.push_back({make_surface(soft.mesh_W), Pose{}});
-  const auto openness = sky_openness(surfaces, bones, kOcclusionReach_m, kSoftRays, go_on);
+  std::vector<Roots> roots;
+  for (const SoftPart& soft : the_case.softs) {
+    if (is_skin(soft)) continue;
+    surfaces.push_back({make_surface(soft.mesh_W), Pose{}});
+    roots.push_back(find_roots(the_case, soft, surfaces.back().surface));
+    draw_in(roots.back(), surfaces.back().surface);
+  }
+  auto openness = sky_openness(surfaces, bones, kOcclusionReach_m, kSoftRays, go_on);
   std::vector<ShadedMesh> out;
   std::size_t next = 0;
   for (const SoftPart& soft : the_case.softs) {
     const bool skin = is_skin(soft);
-    const Surface own = skin ? make_surface(soft.mesh_W) : Surface{};
-    const Surface& surface = skin ? own : surfaces[next].surface;
-    const std::vector<float> open(skin ? surface.points.size() : 0, 1.0f);
-    out.push_back(shaded(surface, skin ? open : openness[next], out.size()));
+    if (skin) {
+      out.push_back(prepare_skin(the_case, soft, out.size()));
+    } else {
+      const Surface& surface = surfaces[next].surface;
+      fill_buried(roots[next], surface, openness[next]);
+      out.push_back(shaded(surface, openness[next], out.size(), std::move(roots[next])));
+    }
     if (go_on(1)) out.back().coarser = coarser_levels(out.back());
     if (!skin) ++next;
   }
@@ -106,8 +130,11 @@ ShadedMesh unlit_bone(const Case& the_case, std::size_t bone) {
 }
 
 ShadedMesh unlit_soft(const Case& the_case, std::size_t soft) {
-  const Surface surface = make_surface(the_case.softs[soft].mesh_W);
-  return shaded(surface, std::vector<float>(surface.points.size(), 1.0f), soft);
+  if (is_skin(the_case.softs[soft])) return prepare_skin(the_case, the_case.softs[soft], soft);
+  Surface surface = make_surface(the_case.softs[soft].mesh_W);
+  Roots roots = find_roots(the_case, the_case.softs[soft], surface);
+  draw_in(roots, surface);
+  return shaded(surface, std::vector<float>(surface.points.size(), 1.0f), soft, std::move(roots));
 }
 
 PreparedCase prepare_unlit(const Case& the_case) {

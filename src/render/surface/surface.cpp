@@ -108,6 +108,8 @@ Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
   return s;
 }
 
+void make_normals(Surface& surface) { surface.normals = angle_weighted_normals(surface); }
+
 bool encloses_volume(const Surface& s) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> there, back;
   double six_volumes = 0;

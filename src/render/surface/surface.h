@@ -23,6 +23,9 @@ Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place = nu
 /// Its points and triangles alone, without normals and neighbours.
 Surface welded(const TriMesh& mesh, std::vector<std::uint32_t>* place = nullptr);
 
+/// Makes the normals anew, of points that have moved.
+void make_normals(Surface& surface);
+
 /// True when every edge runs once each way and the volume inside is positive.
 bool encloses_volume(const Surface& surface);
 

@@ -24,4 +24,13 @@ bool ScopeField::shows(const Vec3& center_C, double radius_m, double near_m) con
   return std::abs(center_C.x()) - edge_m <= reach_m && std::abs(center_C.y()) - edge_m <= reach_m;
 }
 
+Eigen::Matrix4f pinhole(double half, double near_m, double far_m) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m(0, 0) = m(1, 1) = 1 / half;
+  m(2, 2) = -(far_m + near_m) / (far_m - near_m);
+  m(2, 3) = -2 * far_m * near_m / (far_m - near_m);
+  m(3, 2) = -1;
+  return m.cast<float>();
+}
+
 }  // namespace osteon

@@ -4,6 +4,9 @@
 
 namespace osteon {
 
+/// The projection of a square picture as a pinhole sees it, `half` the tangent of half its width.
+Eigen::Matrix4f pinhole(double half, double near_m, double far_m);
+
 /// What a scope's flat picture can show, in view space: its square, or the round field in it.
 class ScopeField {
  public:
