@@ -16,10 +16,10 @@ bool no_program(const std::string& name) {
   return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) != 0;
 }
 
-// G brings the hand before the next portal (3-4, 4-5, 6R, MCR, MCU), M takes it, the wheel goes in
-// (4) and out (5). The dorsal rim of the radius lies straight under 4-5: the probe goes in a little
-// farther distal and ulnar, and swings about the portal on to the lunate. It is withdrawn and put
-// into MCU.
+// G brings the hand before the next portal (3-4, 4-5, 6R, MCR, MCU) that no other hand is in, M
+// takes it, the wheel goes in (4) and out (5). The dorsal rim of the radius lies straight under
+// 4-5: the probe goes in a little farther distal and ulnar, and swings about the portal on to the
+// lunate. It is withdrawn and put into MCU.
 constexpr const char* kScript = R"sh(
 "$OSTEON" window --case builtin:wrist --size 800x600 \
   --device mouse:left=wrist_arthroscope_1_9 --device mouse:right=wrist_hook_probe \
@@ -32,7 +32,7 @@ wheel() { for i in $(seq "$2"); do xdotool click "$1"; sleep 0.03; done; sleep 0
 move() { for i in $(seq "$3"); do xdotool mousemove_relative -- "$1" "$2"; sleep 0.03; done; sleep 0.5; }
 xdotool mousemove 400 300
 k g m; move 0 -1 8; wheel 4 12; k m
-k x g g m; move 0 -1 6; move 1 0 4; wheel 4 9; move 1 0 6; wheel 4 3; wheel 5 20; k m
+k x g m; move 0 -1 6; move 1 0 4; wheel 4 9; move 1 0 6; wheel 4 3; wheel 5 20; k m
 k g g g m; move 0 1 6; wheel 4 16; k m
 k k Next; k u
 xdotool key ctrl+q
