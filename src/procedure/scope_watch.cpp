@@ -74,6 +74,18 @@ bool is_hidden(const Case& the_case, const BoneSnapshot& bones, const Vec3& from
   return false;
 }
 
+std::optional<PlaceInPicture> place_in_picture(const ScopeOptics& optics, const ScopeView& view,
+                                               const Case& the_case, const BoneSnapshot& bones,
+                                               const Vec3& p_W, double spare_m) {
+  const Vec3 way = p_W - view.eye_W;
+  const double distance = way.norm();
+  if (!(distance > 1e-9)) return std::nullopt;
+  const double cosine = std::clamp(way.dot(view.along_W) / distance, -1.0, 1.0);
+  const double share = std::acos(cosine) / optics.half_field_rad;
+  if (share > 1) return std::nullopt;
+  return PlaceInPicture{share, distance, is_hidden(the_case, bones, view.eye_W, p_W, spare_m)};
+}
+
 ScopeWatch::ScopeWatch(const Case& the_case, Settings settings)
     : case_(&the_case),
       settings_(std::move(settings)),
@@ -93,13 +105,9 @@ Event ScopeWatch::event(const ToolState& tool, EventKind kind, std::array<double
 std::optional<std::array<double, 2>> ScopeWatch::seen(const ScopeView& view,
                                                       const BoneSnapshot& bones, const Vec3& p_W,
                                                       double spare_m) const {
-  const Vec3 way = p_W - view.eye_W;
-  const double distance = way.norm();
-  if (!(distance > 1e-9)) return std::nullopt;
-  const double cosine = std::clamp(way.dot(view.along_W) / distance, -1.0, 1.0);
-  const double share = std::acos(cosine) / settings_.optics->half_field_rad;
-  if (share > 1 || is_hidden(*case_, bones, view.eye_W, p_W, spare_m)) return std::nullopt;
-  return std::array<double, 2>{share, distance * 1000};
+  const auto at = place_in_picture(*settings_.optics, view, *case_, bones, p_W, spare_m);
+  if (!at || at->hidden) return std::nullopt;
+  return std::array<double, 2>{at->share, at->distance_m * 1000};
 }
 
 void ScopeWatch::look(const ToolState& tool, const ToolState* other, const BoneSnapshot& bones,
@@ -108,7 +116,7 @@ void ScopeWatch::look(const ToolState& tool, const ToolState* other, const BoneS
   const double turned = turn_deg(view);
   int in_view = 0;
   for (const std::uint32_t mark : settings_.marks) {
-    const auto at = seen(view, bones, place_now(*case_, mark, bones), 0.0008);
+    const auto at = seen(view, bones, place_now(*case_, mark, bones), kMarkSpare_m);
     if (!at) continue;
     ++in_view;
     out.push_back(event(tool, kMarkSeen, {(*at)[0], (*at)[1], turned}));

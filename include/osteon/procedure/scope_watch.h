@@ -44,8 +44,20 @@ double turn_deg(const ScopeView& view);
 
 /// Whether a bone stands between two points. The last `spare_m` before `to_W` do not count: what
 /// lies on a bone is not hidden by that bone's skin.
+inline constexpr double kMarkSpare_m = 0.0008;
 bool is_hidden(const Case& the_case, const BoneSnapshot& bones, const Vec3& from_W,
-               const Vec3& to_W, double spare_m = 0.0008);
+               const Vec3& to_W, double spare_m = kMarkSpare_m);
+
+/// Where a place is in a scope's picture.
+struct PlaceInPicture {
+  double share = 0;  ///< how far off the middle, of half the field
+  double distance_m = 0;
+  bool hidden = false;  ///< by bone
+};
+/// None: outside of the picture.
+std::optional<PlaceInPicture> place_in_picture(const ScopeOptics& optics, const ScopeView& view,
+                                               const Case& the_case, const BoneSnapshot& bones,
+                                               const Vec3& p_W, double spare_m = kMarkSpare_m);
 
 /// Makes events of what one hand's scope shows, 100 a second. A function of the states: a replay
 /// makes the same ones. Keeps pointers to nothing but the case, which must outlive it.

@@ -4,13 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cases/felt_choice.h"
 #include "cases/open_case.h"
 #include "exercises/attempt_watch.h"
 #include "exercises/graft_order.h"
 #include "exercises/guided_time.h"
+#include "exercises/portal_choice.h"
 #include "exercises/seat_files.h"
-#include "exercises/skin_order.h"
 #include "exercises/surface_heat.h"
 #include "osteon/procedure/hand_reports.h"
 #include "osteon/record/recording.h"
@@ -176,8 +175,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     const auto graft = graft_in(order.recording);
     if (!graft) return tl::unexpected(graft.error());
     if (*graft) leave_out_bench_stages(**scenario);
-    if (const auto choice = parse_felt_choice(*spec); choice && !choice->portals.empty())
-      leave_out_puncture_stages(**scenario);
+    leave_out_what_case_has(**scenario, *spec);
     sources.graft = *graft;
     if (auto begun =
             again.begin(**scenario, **the_case, tick_s, hands, std::move(sources), settings->tray);
@@ -227,6 +225,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
+  if (*standard) debrief.pass_score = (*standard)->pass_score;
   if (debrief.guided_s > 0) debrief.outcome->metrics["guided_s"] = debrief.guided_s;
   if (const TunnelWatch* tunnels = again.watch->tunnels()) {
     debrief.acl = tunnels->report();

@@ -41,6 +41,7 @@ struct Debrief {
   bool identical = true;             ///< repeated bit by bit
   std::optional<Scenario> scenario;  ///< none: the recording contains no exercise
   std::optional<Outcome> outcome;
+  std::optional<double> pass_score = {};      ///< that its standard wants
   std::optional<AclReport> acl;               ///< of an exercise that asks for tunnels
   std::optional<GraftReport> graft = {};      ///< of a graft that was made at a bench
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed

@@ -2,6 +2,7 @@
 
 #include "cases/felt_choice.h"
 #include "cases/open_case.h"
+#include "exercises/skin_order.h"
 #include "osteon/procedure/judge.h"
 
 namespace osteon {
@@ -27,6 +28,11 @@ Result<std::string> with_made_portals(const std::string& case_spec, const Report
     choice->portals[name] = {frame->p_W + in_world(portal.off_F), in_world(portal.shaft_F)};
   }
   return to_text(*choice);
+}
+
+void leave_out_what_case_has(Scenario& scenario, const std::string& case_spec) {
+  const auto choice = parse_felt_choice(case_spec);
+  if (choice && !choice->portals.empty()) leave_out_puncture_stages(scenario);
 }
 
 }  // namespace osteon

@@ -55,10 +55,6 @@ PiecePush push_of_hull(const PieceObstacle::Part& part, const Vec3& p_B) {
   return part.planes_B.empty() ? PiecePush{} : out;
 }
 
-bool in_box(const Aabb& box, const Vec3& p) {
-  return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
-}
-
 Aabb box_of(const BlockGrid& grid) {
   Aabb box;
   box.include(grid.lo);
@@ -73,6 +69,10 @@ bool is_lifted(const PieceTool& tool, std::size_t part, double jaw) {
 }
 
 }  // namespace
+
+bool in_box(const Aabb& box, const Vec3& p) {
+  return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
+}
 
 PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B) {
   PiecePush out;

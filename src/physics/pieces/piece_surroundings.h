@@ -75,6 +75,7 @@ class PieceNeighbours {
   std::array<NearBone, kMaxBones> near_;
 };
 
+bool in_box(const Aabb& box, const Vec3& p);
 /// How far a point in Bone lies in a bone that was not carved; `out_W` is in Bone.
 PiecePush push_of(const PieceObstacle& bone, const Vec3& p_B);
 /// How far a point in Tool lies in a part of an instrument; `out_W` is in Tool.

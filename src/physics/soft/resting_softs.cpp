@@ -5,13 +5,6 @@
 #include "soft/solid_presses.h"
 
 namespace osteon {
-namespace {
-
-bool is_in_box(const Aabb& box, const Vec3& p) {
-  return (p - box.lo).minCoeff() >= 0 && (box.hi - p).minCoeff() >= 0;
-}
-
-}  // namespace
 
 void RestingSofts::place(const BoneSnapshot& bones) {
   for (std::size_t b = 0; b < setup_.bands.size(); ++b) {
@@ -27,7 +20,7 @@ void RestingSofts::place(const BoneSnapshot& bones) {
 
 bool RestingSofts::may_meet(const Vec3& center_W, double radius_m) const {
   for (std::size_t s = 0; solids_ && s < setup_.solids.size(); ++s)
-    if (is_there(s) && is_in_box(solids_->view(s).box().grown(radius_m), X_BW_[s] * center_W))
+    if (is_there(s) && in_box(solids_->view(s).box().grown(radius_m), X_BW_[s] * center_W))
       return true;
   for (std::size_t b = 0; b < setup_.bands.size(); ++b)
     if (is_whole(b) && off_band(b, center_W).norm() <= setup_.bands[b].radius_m + radius_m)
@@ -54,7 +47,7 @@ void RestingSofts::in_solid(std::size_t s, const Vec3& p_W, PiecePush& out) cons
   if (!is_there(s)) return;
   const FieldView field = solids_->view(s);
   const Vec3 p_B = X_BW_[s] * p_W;
-  if (!is_in_box(field.box(), p_B)) return;
+  if (!in_box(field.box(), p_B)) return;
   const FieldSample at = field.at(p_B);
   const double slope = at.gradient.norm();
   if (!(-at.distance > out.depth_m) || !(slope > 0)) return;

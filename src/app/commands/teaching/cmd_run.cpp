@@ -3,7 +3,6 @@
 #include <string>
 #include "commands/support/parser.h"
 
-#include "cases/felt_choice.h"
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
@@ -12,7 +11,6 @@
 #include "exercises/result_files.h"
 #include "exercises/result_sender.h"
 #include "exercises/seat_files.h"
-#include "exercises/skin_order.h"
 #include "loops/stop_signal.h"
 #include "osteon/base/file.h"
 #include "osteon/device/drivers.h"
@@ -83,11 +81,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     leave_out_bench_stages(*scenario);
   }
   run.case_spec = case_spec_of(*scenario, command.case_spec, command.seed);
-  // Of a case whose name says where they were made.
-  if (const auto choice = parse_felt_choice(run.case_spec); choice && !choice->portals.empty())
-    leave_out_puncture_stages(*scenario);
   if (!command.portals.empty()) {
-    leave_out_puncture_stages(*scenario);
     const auto text = read_file(command.portals, 16u << 20);
     if (!text) return tl::unexpected(text.error());
     const auto made = read_portals(*text, command.portals);
@@ -96,6 +90,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
     if (!spec) return tl::unexpected(spec.error());
     run.case_spec = std::move(*spec);
   }
+  leave_out_what_case_has(*scenario, run.case_spec);
   run.scenario = std::move(*scenario);
   run.standard = std::move(*standard);
   run.skill = std::move(*skill);

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cases/xdg.h"
@@ -104,7 +105,10 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
   std::vector<std::string> words{program.string(), "run",       exercise, "--case",
                                  wanted.case_spec, "--surgeon", "expert", "--no-store"};
   if (!wanted.graft_json.empty()) {
-    if (auto ok = write_file_atomic(graft, wanted.graft_json); !ok) return ok;
+    if (auto ok = write_file_atomic(graft, wanted.graft_json); !ok) {
+      remove_parts();
+      return ok;
+    }
     words.insert(words.end(), {"--graft", graft});
   }
   words.insert(words.end(), {"--record", part});
@@ -144,7 +148,7 @@ Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWan
     if (!see || maker.so_far().stretches.size() == known) return;
     GhostTrack part = maker.so_far();
     part.tray = settings->tray;
-    see(part);
+    see(std::move(part));
   };
   const auto debrief = make_debrief(order);
   if (!debrief) return tl::unexpected(debrief.error());

@@ -21,7 +21,7 @@ struct GhostWanted {
 
 /// Is shown a way as far as it is known, each time that another step of the exercise has been
 /// repeated, and before it is known whether its maker passes. May be empty.
-using SeeGhost = std::function<void(const GhostTrack&)>;
+using SeeGhost = std::function<void(GhostTrack)>;
 
 /// The way through an exercise that a recording shows. Repeats and judges it. Fails where it is of
 /// another exercise or another patient, where it does not repeat, and where nothing was done in it.

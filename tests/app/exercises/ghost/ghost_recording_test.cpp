@@ -73,7 +73,7 @@ TEST_F(GhostRecording, ShowsTheWayAndTheExpertIsRecordedOnce) {
   record(file, "expert");
   std::vector<GhostTrack> parts;
   const auto track =
-      ghost_of_recording(file, wanted_, [&](const GhostTrack& part) { parts.push_back(part); });
+      ghost_of_recording(file, wanted_, [&](GhostTrack part) { parts.push_back(std::move(part)); });
   ASSERT_TRUE(track) << track.error().message();
   ASSERT_EQ(parts.size(), track->stretches.size()) << "each step is shown as soon as it is known";
   for (std::size_t i = 0; i < parts.size(); ++i) {

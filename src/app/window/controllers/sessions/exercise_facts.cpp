@@ -49,19 +49,16 @@ void add_tendon(const std::string& title, const TendonOnBench& tendon, Facts& fa
 // What a rule that wants a place seen still misses; empty: the place is not in the picture.
 std::string missing_of(const Rule& rule, const ScopeOptics& optics, const Pose& X_WT,
                        const Case& the_case, const BoneSnapshot& bones, const Vec3& p_W) {
-  constexpr double kSpare_m = 0.0008;  // as the rule has it
   const ScopeView view = view_through(optics, X_WT);
-  const Vec3 way_W = p_W - view.eye_W;
-  const double away_m = way_W.norm(), mm = 1e3 * away_m;
-  if (!(away_m > 0)) return {};
-  const double cosine = std::clamp(way_W.dot(view.along_W) / away_m, -1.0, 1.0);
-  const double share = std::acos(cosine) / optics.half_field_rad;
-  if (share > 1) return {};
+  const auto at = place_in_picture(optics, view, the_case, bones, p_W);
+  if (!at) return {};
   const auto& number = rule.numbers;
-  if (is_hidden(the_case, bones, view.eye_W, p_W, kSpare_m)) return "behind bone";
-  if (mm > number.at("far_mm")) return in_mm_to_tenths(away_m) + ", too far";
-  if (mm < number.at("near_mm")) return in_mm_to_tenths(away_m) + ", too near";
-  return share > number.at("central") ? "not central enough" : "hold it";
+  const double mm = 1e3 * at->distance_m;
+  if (at->hidden) return "behind bone";
+  if (mm > number.at("far_mm")) return in_mm_to_tenths(at->distance_m) + ", too far";
+  if (mm < number.at("near_mm")) return in_mm_to_tenths(at->distance_m) + ", too near";
+  if (at->share > number.at("central")) return "not central enough";
+  return std::abs(turn_deg(view)) > number.at("level_deg") ? "tilted" : "hold it";
 }
 
 }  // namespace
@@ -147,6 +144,23 @@ std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing) {
       break;
   }
   return facts;
+}
+
+std::string why_of(const Outcome& outcome, const std::optional<double>& pass_score) {
+  if (outcome.verdict == Verdict::kPassed) return {};
+  const auto is_open = [](const Outcome::Stage& stage) { return !stage.completed_s; };
+  if (std::any_of(outcome.stages.begin(), outcome.stages.end(), is_open))
+    return "Not every stage was done.";
+  const auto is_grave = [](const Outcome::Error& made) {
+    return made.severity != Severity::kMinor;
+  };
+  if (std::any_of(outcome.errors.begin(), outcome.errors.end(), is_grave))
+    return "An error was made that does not let an attempt pass.";
+  if (!outcome.score || !pass_score) return {};
+  const std::string mark = std::to_string(std::lround(*pass_score));
+  return outcome.verdict == Verdict::kNotPassed
+             ? "All was done without a grave error; " + mark + " points are needed."
+             : "The interval of your score includes the " + mark + " that are needed: try again.";
 }
 
 }  // namespace osteon

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "exercises/attempt_watch.h"
@@ -23,5 +25,9 @@ std::vector<ExerciseModel::Told> sights_of(const ScenarioPlan& plan, const Scena
                                            const Case& the_case, std::span<const PlannedHand> hands,
                                            std::span<const ToolState> tools,
                                            const BoneSnapshot& bones);
+
+/// Why an attempt is not passed, in the order in which it is judged. Empty: it is, or there is no
+/// standard that says it. `pass_score`: what that standard wants.
+std::string why_of(const Outcome& outcome, const std::optional<double>& pass_score);
 
 }  // namespace osteon

@@ -60,30 +60,6 @@ std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_c
   return at < the_case.bones.size() ? label_of(the_case.bones[at].name) : "";
 }
 
-// What a score must reach, as the shipped standard has it; none: there is none.
-std::optional<double> pass_score_of(const std::string& scenario) {
-  const auto standard = shipped_standard(scenario);
-  return standard && *standard ? std::optional((*standard)->pass_score) : std::nullopt;
-}
-
-// Why an attempt is not passed, in the order in which it is judged.
-std::string why_of(const Outcome& outcome, const std::optional<double>& pass_score) {
-  if (outcome.verdict == Verdict::kPassed) return {};
-  const auto is_open = [](const Outcome::Stage& stage) { return !stage.completed_s; };
-  if (std::any_of(outcome.stages.begin(), outcome.stages.end(), is_open))
-    return "Not every stage was done.";
-  const auto is_grave = [](const Outcome::Error& made) {
-    return made.severity != Severity::kMinor;
-  };
-  if (std::any_of(outcome.errors.begin(), outcome.errors.end(), is_grave))
-    return "An error was made that does not let an attempt pass.";
-  if (!outcome.score || !pass_score) return {};
-  const std::string mark = std::to_string(std::lround(*pass_score));
-  return outcome.verdict == Verdict::kNotPassed
-             ? "All was done without a grave error; " + mark + " points are needed."
-             : "The interval of your score includes the " + mark + " that are needed: try again.";
-}
-
 // A case that is a bench and nothing else is on show as it is.
 bool is_practice_bench(const Case& the_case) {
   return std::none_of(the_case.bones.begin(), the_case.bones.end(),
@@ -580,7 +556,7 @@ void ExerciseRun::describe_result(ExerciseModel& model) const {
   for (const GradedFinding& graded : outcome.findings)
     model.asked.push_back({graded.name, graded.title, {}, graded.stated, graded.truth});
   model.verdict = std::string(to_text(outcome.verdict));
-  model.why = why_of(outcome, pass_score_of(scenario().name));
+  model.why = why_of(outcome, debrief_->pass_score);
   if (outcome.score) {
     model.score = outcome.score->value;
     model.score_lo = outcome.score->lo;

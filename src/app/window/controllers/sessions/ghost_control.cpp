@@ -55,9 +55,10 @@ void GhostControl::prepare() {
             ordered ? *ordered : ghost_strength_of(learner_here(), wanted.scenario.name);
         if (prepared.track || kFullOpacity * prepared.strength < kFaint) return prepared;
         const auto go_on = [&progress] { return progress(nullptr, 0); };
-        const auto see = [&](const GhostTrack& part) {
+        const auto see = [&](GhostTrack part) {
+          auto known = std::make_shared<const GhostTrack>(std::move(part));
           const std::scoped_lock lock(early->mutex);
-          early->newest = {std::make_shared<const GhostTrack>(part), prepared.strength};
+          early->newest = {std::move(known), prepared.strength};
         };
         auto made = recording.empty() ? ghost_of_expert(wanted, go_on, {}, see)
                                       : ghost_of_recording(recording, wanted, see);

@@ -137,5 +137,25 @@ TEST(ExerciseFacts, ASightTellsWhatIsMissing) {
   EXPECT_EQ(told(0.015, 0), "") << "it has been seen";
 }
 
+TEST(ExerciseFacts, AVerdictSaysWhy) {
+  Outcome outcome;
+  outcome.verdict = Verdict::kPassed;
+  EXPECT_EQ(why_of(outcome, 70), "");
+  outcome.verdict = Verdict::kNotPassed;
+  outcome.score = Score{40, 31, 49};
+  EXPECT_NE(why_of(outcome, 70).find("70 points are needed"), std::string::npos);
+  EXPECT_EQ(why_of(outcome, {}), "") << "there is no standard";
+  outcome.verdict = Verdict::kUndecided;
+  EXPECT_NE(why_of(outcome, 70).find("includes the 70"), std::string::npos);
+  outcome.verdict = Verdict::kNotPassed;
+  outcome.errors = {{"slip", Severity::kMinor, 0, 0, ""}};
+  EXPECT_NE(why_of(outcome, 70).find("points"), std::string::npos) << "a minor error lets pass";
+  outcome.errors.push_back({"plunged", Severity::kMajor, 0, 0, ""});
+  EXPECT_NE(why_of(outcome, 70).find("error"), std::string::npos);
+  EXPECT_EQ(why_of(outcome, 70).find("points"), std::string::npos);
+  outcome.stages = {{"first", 3.0}, {"second", std::nullopt}};
+  EXPECT_EQ(why_of(outcome, 70), "Not every stage was done.");
+}
+
 }  // namespace
 }  // namespace osteon
