@@ -64,7 +64,8 @@ Result<SessionSettings> settings_of(const RecordingHeader& header, const Case& t
 // What the ticks of each hand add up to.
 class Tally {
  public:
-  Tally(const Session& session, double tick_s) : tick_ns_(tick_s * 1e9) {
+  Tally(const Session& session, double tick_s, std::uint64_t reported_after)
+      : tick_ns_(tick_s * 1e9), reported_after_(reported_after) {
     for (std::size_t h = 0; h < session.hands(); ++h)
       hands_.push_back({ReportBuilder(session.the_case(), tick_s, session.portals())});
   }
@@ -78,8 +79,10 @@ class Tally {
       outcome.first_different_hand = replayer.hand();
       outcome.first_different_tick = record.tick;
     }
-    hand.report.add(session.tool_state(replayer.hand()));
-    for (const Event& event : session.last_events(replayer.hand())) hand.report.add(event);
+    if (record.tick > reported_after_) {
+      hand.report.add(session.tool_state(replayer.hand()));
+      for (const Event& event : session.last_events(replayer.hand())) hand.report.add(event);
+    }
     hand.durations.add_ns(replayer.last_tick_ns());
     if (static_cast<double>(replayer.last_tick_ns()) > tick_ns_) ++hand.missed_ticks;
     if (++hand.ticks == 1 && replayer.hand() == 0) outcome.first_tick = record.tick;
@@ -109,13 +112,22 @@ class Tally {
   };
   std::vector<Hand> hands_;
   double tick_ns_;
+  std::uint64_t reported_after_;
+};
+
+// A session and who repeats the recording in it.
+struct Repeated {
+  Session session;
+  Replayer replayer;
+  Repeated(const RecordSource& source, Session begun)
+      : session(std::move(begun)), replayer(source, session) {}
 };
 
 // The last stored state from which a replay can begin, or the start.
 Result<void> begin(const RecordSource& source, double from_s, double tick_s,
-                   std::unique_ptr<Replayer>& replayer,
-                   const std::function<std::unique_ptr<Replayer>()>& make) {
-  replayer = make();
+                   std::unique_ptr<Repeated>& repeated,
+                   const std::function<std::unique_ptr<Repeated>()>& make) {
+  repeated = make();
   if (!(from_s > 0)) return {};
   auto states = source.states();
   if (!states) return tl::unexpected(states.error());
@@ -123,10 +135,10 @@ Result<void> begin(const RecordSource& source, double from_s, double tick_s,
   for (std::size_t i = states->size(); i-- > 0;) {
     const StoredState& state = (*states)[i];
     if (static_cast<double>(state.ticks[0]) > last) continue;
-    const auto begun = replayer->begin_at(state);
+    const auto begun = repeated->replayer.begin_at(state);
     if (!begun) return tl::unexpected(begun.error());
     if (*begun) return {};
-    replayer = make();
+    repeated = make();
   }
   return {};
 }
@@ -142,14 +154,15 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
   if (settings->soft.empty() == static_cast<bool>(options.softs))
     return fail("soft parts are felt in the recording, which this kind of replay cannot do",
                 "recording", "Use 'osteon replay'");
-  std::unique_ptr<Replayer> replayer;
-  const auto begun = begin(source, options.from_s, settings->haptic.tick_s, replayer, [&] {
-    return std::make_unique<Replayer>(source, the_case, *settings, options.tray, options.carving,
-                                      options.softs);
+  std::unique_ptr<Repeated> repeated;
+  const auto begun = begin(source, options.from_s, settings->haptic.tick_s, repeated, [&] {
+    return std::make_unique<Repeated>(
+        source, Session(the_case, *settings, options.tray, options.carving, options.softs));
   });
   if (!begun) return tl::unexpected(begun.error());
+  Replayer* const replayer = &repeated->replayer;
   if (options.at_begin) options.at_begin(replayer->session());
-  Tally tally(replayer->session(), settings->haptic.tick_s);
+  Tally tally(replayer->session(), settings->haptic.tick_s, options.reported_after);
   ReplayOutcome outcome;
   Replayer::Outcome last = Replayer::Outcome::kEnd;
   const double to_tick = options.to_s / settings->haptic.tick_s + 1e-6;
@@ -183,6 +196,23 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
 }
 
 }  // namespace
+
+Result<void> repeat(RecordingReader& recording, Session& session, const RepeatOptions& options) {
+  if (recording.header().case_hash != session.the_case().hash ||
+      recording.header().hands != session.hands())
+    return fail("the recording is of another patient or of other hands", "recording",
+                "Record it again");
+  const RecordSource source = source_of(recording);
+  Replayer replayer(source, session);
+  replayer.tell_steps(options.on_step);
+  replayer.change_commands(options.change);
+  for (;;) {
+    const Replayer::Outcome last = replayer.next();
+    if (last == Replayer::Outcome::kError) return tl::unexpected(replayer.error());
+    if (last != Replayer::Outcome::kTick) return {};
+    if (!options.on_tick(replayer.hand(), replayer.bones())) return {};
+  }
+}
 
 Result<ReplayOutcome> replay(const Recording& recording, std::shared_ptr<const Case> the_case,
                              const ReplayOptions& options) {

@@ -17,14 +17,8 @@ RecordStream<TickRecord> ticks_from(const RecordSource& source, std::size_t hand
 
 }  // namespace
 
-Replayer::Replayer(const RecordSource& source, std::shared_ptr<const Case> the_case,
-                   const SessionSettings& settings, Tray tray,
-                   std::shared_ptr<const CarvingSetup> carving,
-                   std::shared_ptr<const SoftSetup> softs)
-    : source_(source),
-      session_(std::move(the_case), settings, std::move(tray), std::move(carving),
-               std::move(softs)),
-      steps_(source.steps, 1) {
+Replayer::Replayer(const RecordSource& source, Session& session)
+    : source_(source), session_(session), steps_(source.steps, 1) {
   for (std::size_t h = 0; h < session_.hands(); ++h)
     hands_.push_back({ticks_from(source, h, 1), 0, {}, {}, {}, 0});
   snapshots_.push_back(session_.bones());
@@ -115,6 +109,7 @@ bool Replayer::run_next_step() {
   elapsed_ns_ += steady_now_ns() - begin_ns;
   used_by_steps_ = record->tool_ticks;
   steps_.pop();
+  if (on_step_) on_step_();
   return true;
 }
 
@@ -138,6 +133,7 @@ void Replayer::run_tick(std::size_t hand) {
   HandTrack& track = hands_[hand];
   hand_ = hand;
   record_ = *track.records.peek();
+  if (change_) change_(record_.command);
   bones_ = kept_bones(record_.bone_step);
   OtherTools others{};
   for (std::size_t k = 0; k < hands_.size(); ++k)

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <deque>
-#include <memory>
+#include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "osteon/base/percentiles.h"
 #include "osteon/session/session.h"
@@ -14,10 +16,8 @@ namespace osteon {
 /// there. Of tools and bones it keeps what a later tick or step may still consume.
 class Replayer {
  public:
-  Replayer(const RecordSource& source, std::shared_ptr<const Case> the_case,
-           const SessionSettings& settings, Tray tray,
-           std::shared_ptr<const CarvingSetup> carving = nullptr,
-           std::shared_ptr<const SoftSetup> softs = nullptr);
+  /// `session` has done nothing yet. Both must outlive the replayer.
+  Replayer(const RecordSource& source, Session& session);
 
   /// Begins after a stored state instead of at the start. False: what was on its way at that moment
   /// is not in the state, so that a replay cannot begin there.
@@ -38,6 +38,10 @@ class Replayer {
   CutsFeed* cuts_feed() { return session_.cuts_feed(); }
   /// Of the newest step.
   double bones_time_s() const { return snapshots_.back().time_s; }
+  /// Is told of each step after it has run. May be empty.
+  void tell_steps(std::function<void()> on_step) { on_step_ = std::move(on_step); }
+  /// Changes each tick's command before it runs. May be empty.
+  void change_commands(std::function<void(Command&)> change) { change_ = std::move(change); }
   std::int64_t last_tick_ns() const { return last_tick_ns_; }
   /// Of the physics steps so far.
   const Percentiles& step_times() const { return step_times_; }
@@ -66,7 +70,7 @@ class Replayer {
   bool failed();
 
   const RecordSource& source_;
-  Session session_;
+  Session& session_;
   std::vector<HandTrack> hands_;
   RecordStream<StepRecord> steps_;
   std::deque<BoneSnapshot> snapshots_;
@@ -80,6 +84,8 @@ class Replayer {
   Percentiles step_times_;
   std::int64_t elapsed_ns_ = 0;
   std::optional<Error> error_;
+  std::function<void()> on_step_;
+  std::function<void(Command&)> change_;
 };
 
 }  // namespace osteon

@@ -216,9 +216,23 @@ struct ReplayOptions {
   /// Sees what presses soft solids, before each tick that on_tick sees; none: nobody looks.
   std::function<void(const SoftPushes&)> on_pushes = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
+  /// The reports are about the ticks after this one.
+  std::uint64_t reported_after = 0;
   std::function<void(const Session&)> at_begin;  ///< sees the session, which lasts to the end
   std::function<void(const Session&)> at_end;    ///< sees the session after its last tick
 };
+
+struct RepeatOptions {
+  /// After each tick of a hand, with the bones that it consumed. False: nothing follows.
+  std::function<bool(std::size_t hand, const BoneSnapshot&)> on_tick;
+  std::function<void()> on_step;         ///< after each physics step; may be empty
+  std::function<void(Command&)> change;  ///< of each tick's command, before it; may be empty
+};
+/// Lets a session that has done nothing yet do what a recording's did, until `on_tick` has enough
+/// or the recording ends: a live run may go on from there. The session's settings and tray may
+/// differ from the recording's; then what comes of it differs too. Fails when the case or the
+/// number of hands is another one, or when the recording cannot be read.
+Result<void> repeat(RecordingReader& recording, Session& session, const RepeatOptions& options);
 
 /// Repeats a recording in one thread. Compares every tick's force, proxy position and status, and
 /// every state hash, bit by bit; goes on to the end after a difference. Fails when the case, the

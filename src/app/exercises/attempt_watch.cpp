@@ -199,8 +199,15 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
   judge_fresh();
-  if (!tools.empty()) meter_.add(*tools[0]);
+  if (now_s() >= plan_->scenario.time_limit_s) state_.over = true;
+  if (!tools.empty() && (!part_ || tools[0]->tick > part_->from_tick)) meter_.add(*tools[0]);
 }
+
+void AttemptWatch::set_part(const AttemptPart& part, PartStages stages) {
+  part_ = Part{stages, part.from_tick, static_cast<double>(part.from_tick) * tick_s_};
+}
+
+double AttemptWatch::now_s() const { return std::max(0.0, now_s_ - part_from_s()); }
 
 std::optional<KneeExam> AttemptWatch::exam() const {
   return asks_for_exam(*plan_) ? std::optional(exam_.exam()) : std::nullopt;
@@ -228,13 +235,24 @@ Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindi
   auto metrics = meter_.finish();
   if (!metrics) return tl::unexpected(metrics.error());
   if (water_) (*metrics)[kObscuredPercent] = water_->sight().percent();
-  auto outcome = outcome_of(*plan_, *case_, state_, std::move(*metrics), standard, stated);
+  auto outcome = outcome_of_all(std::move(*metrics), standard, stated);
   if (outcome && water_) outcome->sight = water_->sight();
   return outcome;
 }
 
+// Standards are set for whole exercises.
+Result<Outcome> AttemptWatch::outcome_of_all(Metrics metrics, const Standard* standard,
+                                             const StatedFindings& stated) const {
+  if (!part_) return outcome_of(*plan_, *case_, state_, std::move(metrics), standard, stated);
+  const PartOfAttempt part = part_of(*plan_, state_, part_->stages, part_->from_s);
+  return outcome_of(part.plan, *case_, part.state, std::move(metrics), nullptr, stated);
+}
+
 void AttemptWatch::judge_fresh() {
-  for (const Event& event : fresh_) judge(*plan_, event, tick_s_, state_);
+  for (const Event& event : fresh_) {
+    judge(*plan_, event, tick_s_, state_);
+    if (part_ && state_.stage > part_->stages.last) state_.over = true;
+  }
 }
 
 }  // namespace osteon

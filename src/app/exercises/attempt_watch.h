@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "exercises/attempt_part.h"
 #include "exercises/attempt_pause.h"
 #include "exercises/tunnel_watch.h"
 #include "exercises/water_watch.h"
@@ -52,10 +56,21 @@ class AttemptWatch {
   /// Ticks that do not count: the clock stands, nothing is judged. Those of the future as well, so
   /// that a pause may be told as it begins.
   void set_pauses(std::vector<AttemptPause> pauses) { pauses_ = std::move(pauses); }
-  /// Of the attempt: pauses left out.
-  double now_s() const { return now_s_; }
+  /// The attempt is over with the part's last stage, and its outcome tells of the part alone. Until
+  /// the part begins everything is judged, but nothing is measured. `part`: of the scenario;
+  /// before the first tick, and again once its first tick is known.
+  void set_part(const AttemptPart& part, PartStages stages);
+  /// Of the attempt, or its part: pauses left out.
+  double now_s() const;
+  /// When the part began; 0: there is none.
+  double part_from_s() const { return part_ ? part_->from_s : 0; }
   /// Measures tunnels, where the scenario asks for it; once, before the first tick.
   void watch_tunnels(TunnelSources sources);
+  /// From now on tunnels are measured on another thread, with what is left of the bones as `carved`
+  /// tells.
+  void go_on_live(std::function<std::optional<CarvedField>(std::uint32_t)> carved) {
+    if (tunnels_) tunnels_->go_on_live(std::move(carved));
+  }
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
   /// Follows the water in the joint, where the tray has a scope, and its needles; once, before the
@@ -72,11 +87,18 @@ class AttemptWatch {
   std::optional<int> cleared_percent() const { return stumps_.percent(); }
 
  private:
+  struct Part {
+    PartStages stages;
+    std::uint64_t from_tick = 0;
+    double from_s = 0;
+  };
   struct HandCut {
     std::size_t hand = 0;
     CutWatch watch;
   };
   void judge_fresh();
+  Result<Outcome> outcome_of_all(Metrics metrics, const Standard* standard,
+                                 const StatedFindings& stated) const;
   void add_counted(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
 
   const ScenarioPlan* plan_;
@@ -98,6 +120,7 @@ class AttemptWatch {
   KneeExamWatch exam_;
   std::optional<PortalWatch> portals_;
   std::vector<AttemptPause> pauses_;
+  std::optional<Part> part_;
   std::vector<ToolState> shifted_;
   std::vector<const ToolState*> shifted_tools_;
   std::vector<Event> fresh_;

@@ -77,15 +77,26 @@ Result<std::optional<MadeGraft>> graft_in(const std::filesystem::path& recording
   return std::optional<MadeGraft>(*made);
 }
 
-// Gathers one hand's values.
+// The part of the exercise that was played; none: all of it was.
+Result<std::optional<AttemptPart>> part_in(const std::filesystem::path& recording) {
+  const auto note = read_note(recording, "part");
+  if (!note) return tl::unexpected(note.error());
+  if (!*note) return std::optional<AttemptPart>{};
+  auto part = parse_part(**note, recording.string());
+  if (!part) return tl::unexpected(part.error());
+  return std::optional<AttemptPart>(std::move(*part));
+}
+
+// Gathers one hand's values, from a tick on.
 class TraceMaker {
  public:
-  explicit TraceMaker(double tick_s)
-      : stride_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(1 / (kTraceHz * tick_s)))) {}
+  TraceMaker(double tick_s, std::uint64_t from_tick)
+      : stride_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(1 / (kTraceHz * tick_s)))),
+        from_s_(static_cast<double>(from_tick) * tick_s) {}
   void add(const ToolState& tool) {
     peak_n_ = std::max(peak_n_, is_finite(tool.force_W) ? tool.force_W.norm() : 0.0);
     if (tool.tick % stride_ != 0 || !is_finite(tool.X_WP)) return;
-    trace_.time_s.push_back(tool.time_s);
+    trace_.time_s.push_back(tool.time_s - from_s_);
     trace_.force_n.push_back(peak_n_);
     trace_.tip_W.push_back(tool.X_WP.p);
     peak_n_ = 0;
@@ -101,6 +112,7 @@ class TraceMaker {
 
  private:
   std::uint64_t stride_;
+  double from_s_;
   double peak_n_ = 0;
   HandTrace trace_;
 };
@@ -189,15 +201,26 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   if (!guided) return tl::unexpected(guided.error());
   const auto guided_s = parse_guided(*guided ? **guided : "", order.recording.string());
   if (!guided_s) return tl::unexpected(guided_s.error());
-  std::vector<TraceMaker> traces(hands, TraceMaker(tick_s));
+  auto part = part_in(order.recording);
+  if (!part) return tl::unexpected(part.error());
+  if (*part && again.watch) {
+    const auto stages = stages_of(**part, **scenario);
+    if (!stages) return tl::unexpected(stages.error());
+    again.watch->set_part(**part, *stages);
+  }
+  const std::uint64_t from_tick = *part ? (*part)->from_tick : 0;
+  how.reported_after = from_tick;
+  std::vector<TraceMaker> traces(hands, TraceMaker(tick_s, from_tick));
   DamageMaker damage(**the_case, hands);
   SurfaceHeat heat(**the_case);
   const Session* session = nullptr;
   how.at_begin = [&](const Session& begun) { session = &begun; };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
-    traces[hand].add(tool);
-    damage.touch(hand, tool, bones);
+    if (tool.tick > from_tick) {
+      traces[hand].add(tool);
+      damage.touch(hand, tool, bones);
+    }
     heat.see(*session);
     again.add(hand, tool, bones);
   };
@@ -225,7 +248,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   auto outcome = again.watch->finish(*standard ? &**standard : nullptr, *stated);
   if (!outcome) return tl::unexpected(outcome.error());
   debrief.outcome = std::move(*outcome);
-  if (*standard) debrief.pass_score = (*standard)->pass_score;
+  if (*standard && !*part) debrief.pass_score = (*standard)->pass_score;
   if (debrief.guided_s > 0) debrief.outcome->metrics["guided_s"] = debrief.guided_s;
   if (const TunnelWatch* tunnels = again.watch->tunnels()) {
     debrief.acl = tunnels->report();
@@ -238,6 +261,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     debrief.placing = PlacingReport{*plan, placing.state(), placing.bent()};
   debrief.exam = again.watch->exam();
   debrief.made_portals = again.watch->made_portals();
+  debrief.part = std::move(*part);
   debrief.scenario = std::move(**scenario);
   return debrief;
 }
@@ -261,9 +285,11 @@ std::string report_of(const Debrief& debrief) {
   for (const HandTrace& hand : debrief.hands) names.push_back(hand.name);
   const std::string text = with_tunnels(to_json(debrief.reports, names, *debrief.outcome),
                                         debrief.acl, debrief.not_measured);
-  if (!debrief.acl && !debrief.graft && !debrief.placing && debrief.made_portals.empty())
+  if (!debrief.acl && !debrief.graft && !debrief.placing && debrief.made_portals.empty() &&
+      !debrief.part)
     return text;
   auto json = nlohmann::ordered_json::parse(text);
+  if (debrief.part) json["part"] = {{"from", debrief.part->from}, {"to", debrief.part->to}};
   // In the report of a whole reconstruction `acl.graft` is what holds it.
   if (debrief.graft) json["acl"][debrief.acl ? "made" : "graft"] = to_json(*debrief.graft);
   if (debrief.the_case)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "exercises/attempt_part.h"
 #include "exercises/damage_map.h"
 #include "exercises/ghost/ghost_track.h"
 #include "osteon/base/result.h"
@@ -47,8 +48,9 @@ struct Debrief {
   std::optional<PlacingReport> placing = {};  ///< of a graft that was placed
   std::optional<KneeExam> exam = {};          ///< of a knee that was to be examined by hand
   std::vector<MadePortalFound> made_portals = {};
-  std::string not_measured;     ///< why they could not be measured
-  std::vector<Report> reports;  ///< of each of `hands`
+  std::optional<AttemptPart> part = {};  ///< that was played; none: all. Times are since its begin
+  std::string not_measured;              ///< why they could not be measured
+  std::vector<Report> reports;           ///< of each of `hands`
   std::vector<HandTrace> hands;
   std::string case_spec;  ///< of the case that it was repeated on
   std::shared_ptr<const Case> the_case;

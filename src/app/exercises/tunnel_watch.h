@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "exercises/drill_watch.h"
@@ -60,6 +61,11 @@ class TunnelWatch {
            std::vector<Event>& out);
   /// The attempt is over: what was not measured yet is.
   void finish(std::vector<Event>& out);
+  /// See AttemptWatch::go_on_live.
+  void go_on_live(std::function<std::optional<CarvedField>(std::uint32_t)> carved) {
+    sources_.carved = std::move(carved);
+    sources_.in_background = true;
+  }
   /// What was measured.
   const AclReport& report() const { return work_.report; }
   /// A graft for both tunnels as they were measured last; none: there are no two, or what was

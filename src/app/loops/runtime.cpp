@@ -50,7 +50,12 @@ Runtime::Runtime(const RunPlan& plan, std::unique_ptr<HapticDevice> device,
 
 Runtime::Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_ptr<RecordFeed> feed,
                  Tray tray)
-    : session_(plan.the_case, plan.settings, std::move(tray), plan.carving, plan.softs),
+    : Runtime(plan, std::move(hands), std::move(feed),
+              Session(plan.the_case, plan.settings, std::move(tray), plan.carving, plan.softs)) {}
+
+Runtime::Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_ptr<RecordFeed> feed,
+                 Session begun)
+    : session_(std::move(begun)),
       feed_(std::move(feed)),
       keeper_(feed_ ? std::make_unique<StateKeeper>(session_) : nullptr),
       haptic_period_s_(plan.settings.haptic.tick_s),
@@ -58,7 +63,21 @@ Runtime::Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_p
       exchanges_(make_exchanges(session_)),
       physics_(session_, pointers(exchanges_), feed_.get(), keeper_.get()) {
   demand(hands.size() == session_.hands(), "a run needs one device for each hand in its settings");
+  tell_begun();
   make_hands(plan, std::move(hands));
+}
+
+// What each loop would have told of the ticks and steps that were done before.
+void Runtime::tell_begun() {
+  for (std::size_t h = 0; h < session_.hands(); ++h) {
+    const ToolState& tool = session_.tool_state(h);
+    if (tool.tick == 0) continue;
+    LoopExchange& own = *exchanges_[h];
+    own.tool_to_physics.publish(tool);
+    own.to_window.publish(RenderSnapshot{session_.bones(), tool});
+    for (std::size_t other = 0; other < session_.hands(); ++other)
+      if (other != h) own.tool_to_hands[other].publish(seen_from_outside(tool));
+  }
 }
 
 void Runtime::make_hands(const RunPlan& plan, std::vector<HandPlan>&& hands) {

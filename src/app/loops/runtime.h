@@ -59,6 +59,10 @@ class Runtime {
   /// a device is not read.
   Runtime(const RunPlan& plan, std::vector<HandPlan> hands,
           std::unique_ptr<RecordFeed> feed = nullptr, Tray tray = {});
+  /// Goes on from where a session is, which was made of the plan's case and settings and has done
+  /// ticks of all hands already.
+  Runtime(const RunPlan& plan, std::vector<HandPlan> hands, std::unique_ptr<RecordFeed> feed,
+          Session begun);
   ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
@@ -127,6 +131,7 @@ class Runtime {
     std::atomic<int> grant{-1};  ///< bits of kPriority and kMemory; -1 until the loop has asked
     std::thread thread;
   };
+  void tell_begun();
   void make_hands(const RunPlan& plan, std::vector<HandPlan>&& hands);
   LoopExchange& exchange(std::size_t hand) { return *exchanges_[hand]; }
   void run_haptic(Hand& hand);

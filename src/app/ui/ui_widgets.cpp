@@ -41,6 +41,14 @@ std::string shortened(const std::string& text, float width) {
   return out + "...";
 }
 
+void wrapped_text(ImU32 color, const std::string& words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(words.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
 void text_within(ImU32 color, const std::string& whole, float width) {
   const std::string shown = shortened(whole, width);
   text(color, shown.c_str());

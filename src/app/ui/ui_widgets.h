@@ -21,6 +21,8 @@ class WithFont {
 /// Shown when the pointer rests on the item just drawn; wrapped.
 void tooltip(const char* text);
 void text(ImU32 color, const char* text);
+/// In as many lines as the window's width asks for.
+void wrapped_text(ImU32 color, const std::string& words);
 /// As much of it as fits into `width`, ended by dots where some is left out.
 std::string shortened(const std::string& text, float width);
 /// The same, drawn; a tooltip tells the whole where some is left out.

@@ -67,6 +67,9 @@ struct ExerciseModel {
     bool done = false, live = false;
     double at_s = 0;
     std::string restore_title = {};  ///< its start can be come back to; empty: it cannot
+    std::string name = {};           ///< in the exercise's file
+    bool can_begin = false;          ///< the attempt may begin with it
+    bool in_part = true;             ///< it is of the part that was chosen
   };
   struct Fault {
     std::string title, severity, consequence;
@@ -93,6 +96,9 @@ struct ExerciseModel {
   std::vector<Fault> faults;      ///< briefing: what must not happen; later: what did
   std::vector<Measure> measures;  ///< briefing: aims; result: values
   std::optional<std::uint64_t> seed;
+  bool parted = false;  ///< a part of the stages was chosen
+  std::string opening;  ///< what is done before it begins; empty: the patient is opened
+  double opened = 0;    ///< 0..1, of that
   double elapsed_s = 0, limit_s = 0;
   std::vector<std::string> left;  ///< what the live stage still asks for
   std::size_t goals = 0;          ///< of the live stage, those left counted
@@ -125,7 +131,10 @@ struct ExerciseRequests {
   std::optional<std::size_t> choose = {};
   std::optional<std::optional<std::uint64_t>> seed = {};
   bool back = false;
+  /// Names of the first and the last stage; empty: of all.
+  std::optional<std::pair<std::string, std::string>> part = {};
   bool begin = false;
+  bool stop_opening = false;
   bool end = false;  ///< judge what was done
   bool hint = false;
   bool undo = false;

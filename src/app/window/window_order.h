@@ -42,6 +42,7 @@ struct WindowOrder {
   bool new_patient = false;              ///< opens the panel that makes one
   std::string exercise;                  ///< whose briefing is opened; empty: none
   std::filesystem::path graft, portals;  ///< reports of what was made before; empty: none
+  std::string from_stage, to_stage;      ///< the part that is played; empty: from, to the end
   std::string ghost;  ///< beside an exercise: a recording's file, "off", or empty: an expert's
   std::optional<double> ghost_strength;  ///< 0..1; none: by the learner's results
   bool guide = false;                    ///< an exercise begins with the hands led

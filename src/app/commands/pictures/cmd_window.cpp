@@ -87,6 +87,10 @@ void add_window_command(cli::App& app, int& exit_code) {
   command->add_option("--portals", order->portals,
                       "with --exercise acl: a report of acl_puncture on the same patient; the "
                       "portals are where they were made");
+  command->add_option("--from-stage", order->from_stage,
+                      "with --exercise: the virtual expert does the stages before this one");
+  command->add_option("--to-stage", order->to_stage,
+                      "with --exercise: the attempt is over once this stage is done");
   command->add_option(
       "--ghost", order->ghost,
       "what an exercise shows as the expert's movement: FILE.osr (a recording of it on the same "
@@ -132,6 +136,9 @@ void add_window_command(cli::App& app, int& exit_code) {
       if (!std::filesystem::exists(file))
         cli::refuse(option, "there is no report '" + file.string() + "'");
     }
+    for (const auto& [option, stage] :
+         {std::pair{"--from-stage", order->from_stage}, std::pair{"--to-stage", order->to_stage}})
+      if (!stage.empty() && order->exercise.empty()) cli::refuse(option, "give --exercise, too");
     if (!order->screenshot.empty() && order->frames == 0) order->frames = 30;
     // A measured run shall give the same picture for everyone.
     order->fresh = order->frames > 0;

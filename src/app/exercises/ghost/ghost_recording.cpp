@@ -192,6 +192,15 @@ fs::path expert_recording(const GhostWanted& wanted) {
   return cache_dir() / "experts" / (wanted.scenario.name + name);
 }
 
+Result<fs::path> recorded_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
+                                 const fs::path& program) {
+  const fs::path file = expert_recording(wanted);
+  std::error_code ec;
+  if (fs::exists(file, ec)) return file;
+  if (auto ok = record_expert(wanted, file, go_on, program); !ok) return tl::unexpected(ok.error());
+  return file;
+}
+
 Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
                                    const fs::path& program, const SeeGhost& see) {
   const fs::path file = expert_recording(wanted);

@@ -37,6 +37,10 @@ Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::functio
                                    const SeeGhost& see = {});
 /// Where that recording is kept.
 std::filesystem::path expert_recording(const GhostWanted& wanted);
+/// Makes that recording where it is not kept yet, as ghost_of_expert does.
+Result<std::filesystem::path> recorded_expert(const GhostWanted& wanted,
+                                              const std::function<bool()>& go_on,
+                                              const std::filesystem::path& program = {});
 
 /// ghost_strength() of a learner's attempts at an exercise, as they are stored. 1 where the store
 /// cannot be read.

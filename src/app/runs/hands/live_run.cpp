@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "osteon/physics/soft_setup.h"
+#include "runs/hands/begun_run.h"
 #include "runs/hands/tray.h"
 
 namespace osteon {
@@ -131,21 +132,29 @@ SessionSettings LiveRun::settings_now() const {
   return settings;
 }
 
-Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
-                                std::unique_ptr<RecordFeed> feed) {
-  end_run();
-  auto plans = shares() ? make_shared_hands(X_WD_start) : make_hands(X_WD_start);
-  if (!plans) return tl::unexpected(plans.error());
-  settings_ = settings_now();
-  recording_ = feed != nullptr;
+std::unique_ptr<Runtime> LiveRun::make_runtime(std::vector<HandPlan> hands,
+                                               std::unique_ptr<RecordFeed> feed, BegunRun* begun) {
   RunPlan plan;
   plan.the_case = case_;
   plan.settings = settings_;
   plan.carving = tray_.carving;
   plan.softs = tray_.softs.setup;
-  carved_ = std::make_unique<CarvedPicture>(tray_.carving);
+  if (begun)
+    return std::make_unique<Runtime>(plan, std::move(hands), std::move(feed),
+                                     std::move(*begun->session));
+  return std::make_unique<Runtime>(plan, std::move(hands), std::move(feed), tray_.tools);
+}
+
+Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
+                                std::unique_ptr<RecordFeed> feed, BegunRun* begun) {
+  end_run();
+  auto plans = shares() ? make_shared_hands(X_WD_start) : make_hands(X_WD_start);
+  if (!plans) return tl::unexpected(plans.error());
+  settings_ = begun ? begun->settings : settings_now();
+  recording_ = feed != nullptr;
+  carved_ = begun ? std::move(begun->carved) : std::make_unique<CarvedPicture>(tray_.carving);
   ++run_number_;
-  runtime_ = std::make_unique<Runtime>(plan, std::move(*plans), std::move(feed), tray_.tools);
+  runtime_ = make_runtime(std::move(*plans), std::move(feed), begun);
   for (LiveHand& hand : hands_) {
     hand.force.clear();
     hand.contacts.clear();
@@ -226,6 +235,31 @@ Result<void> LiveRun::start_judged_recording(const std::filesystem::path& file) 
   Result<void> started = start_recording(file);
   judged_next_ = false;
   return started;
+}
+
+// A device with motors holds its instrument another way than the hand before it: as after a way
+// back, forces fade until all is free. How stiff bone may feel is for the device to say.
+Result<void> LiveRun::go_on(BegunRun begun) {
+  if (recording_) return fail("a recording is already running");
+  if (begun.tools.size() != hands_.size())
+    return fail("the run was begun by " + std::to_string(begun.tools.size()) + " hands, not by " +
+                std::to_string(hands_.size()));
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    poses.push_back(begun.tools[i].X_WD);
+    hands_[i].instrument = begun.tools[i].instrument;
+    hands_[i].snapshot.tool = begun.tools[i];
+  }
+  recording_file_ = begun.file;
+  judged_next_ = true;
+  auto started = start_run(poses, std::move(begun.feed), &begun);
+  judged_next_ = false;
+  if (!started) return started;
+  const SessionSettings wanted = settings_now();
+  for (std::size_t i = 0; i < hands_.size(); ++i)
+    runtime_->send({CommandKind::kSetStiffness, wanted.haptic.stiffness_n_per_m}, i);
+  if (std::any_of(hands_.begin(), hands_.end(), has_motors)) go_back(marks_.back());
+  return {};
 }
 
 Result<void> LiveRun::stop_recording() {

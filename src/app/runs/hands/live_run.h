@@ -17,6 +17,8 @@
 
 namespace osteon {
 
+struct BegunRun;
+
 /// How a run shall feel.
 struct FeelSettings {
   double stiffness_n_per_m = 2000;
@@ -92,6 +94,9 @@ class LiveRun {
   Result<void> start_recording(const std::filesystem::path& file);
   /// The same, with every tick for who judges it: see Runtime::judge_ticks.
   Result<void> start_judged_recording(const std::filesystem::path& file);
+  /// Goes on with a run that was begun with the same tray, where its hands are then; they are as
+  /// many as this one's. Its recording goes on, and every tick is for who judges it.
+  Result<void> go_on(BegunRun begun);
   bool pop_judged(ToolState& tool, std::size_t hand) {
     return runtime_ && runtime_->pop_judged(tool, hand);
   }
@@ -202,7 +207,10 @@ class LiveRun {
   LiveHand& now() { return hands_[active_]; }
   bool shares() const { return shared_ && hands_.size() > 1; }
   std::vector<Pose> poses_now() const;
-  Result<void> start_run(const std::vector<Pose>& X_WD_start, std::unique_ptr<RecordFeed> feed);
+  Result<void> start_run(const std::vector<Pose>& X_WD_start, std::unique_ptr<RecordFeed> feed,
+                         BegunRun* begun = nullptr);
+  std::unique_ptr<Runtime> make_runtime(std::vector<HandPlan> hands,
+                                        std::unique_ptr<RecordFeed> feed, BegunRun* begun);
   Result<std::unique_ptr<HapticDevice>> open_device(LiveHand& hand);
   Result<std::vector<HandPlan>> make_hands(const std::vector<Pose>& X_WD_start);
   Result<std::vector<HandPlan>> make_shared_hands(const std::vector<Pose>& X_WD_start);

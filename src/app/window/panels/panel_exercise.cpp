@@ -4,6 +4,7 @@
 
 #include "ui/label.h"
 #include "ui/ui_widgets.h"
+#include "window/panels/panel_exercise_knee.h"
 #include "window/panels/panels.h"
 
 namespace osteon {
@@ -12,17 +13,9 @@ namespace {
 constexpr ImGuiWindowFlags kExerciseWindow =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
-void wrapped_text(ImU32 color, const std::string& words) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(words.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
-
 void strong(const PanelContext& c, const std::string& words) {
   const ui::WithFont font(c.fonts.strong);
-  wrapped_text(color::kText, words);
+  ui::wrapped_text(color::kText, words);
 }
 
 void quiet_heading(const PanelContext& c, const char* words) {
@@ -49,10 +42,11 @@ std::string amount(double value, const std::string& unit) {
 
 void draw_course(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
-  wrapped_text(color::kTextQuiet,
-               "Each judges what you touch, how hard and for how long. Your attempts stay on this "
-               "computer.");
-  if (!model.problem.empty()) wrapped_text(color::kAmber, model.problem);
+  ui::wrapped_text(
+      color::kTextQuiet,
+      "Each judges what you touch, how hard and for how long. Your attempts stay on this "
+      "computer.");
+  if (!model.problem.empty()) ui::wrapped_text(color::kAmber, model.problem);
   ImGui::BeginChild("cards", {0, -ImGui::GetFrameHeightWithSpacing()});
   for (std::size_t i = 0; i < model.cards.size(); ++i) {
     const ExerciseModel::Card& card = model.cards[i];
@@ -80,8 +74,9 @@ void draw_course(const PanelContext& c) {
 
 void draw_stage_rows(const PanelContext& c) {
   for (const ExerciseModel::Stage& stage : c.model.exercise.stages) {
+    if (!stage.in_part) continue;
     strong(c, stage.title);
-    wrapped_text(color::kTextQuiet, stage.instruction);
+    ui::wrapped_text(color::kTextQuiet, stage.instruction);
   }
 }
 
@@ -90,8 +85,8 @@ void draw_faults(const PanelContext& c, bool with_time) {
     std::string line = fault.title + " (" + fault.severity + ")";
     if (!fault.where.empty()) line += ", " + fault.where;
     if (with_time) line = ui::clock_time(fault.at_s, false) + "  " + line;
-    wrapped_text(with_time ? color::kAmber : color::kText, line);
-    wrapped_text(color::kTextQuiet, fault.consequence);
+    ui::wrapped_text(with_time ? color::kAmber : color::kText, line);
+    ui::wrapped_text(color::kTextQuiet, fault.consequence);
   }
 }
 
@@ -111,12 +106,63 @@ void draw_patient_choice(const PanelContext& c) {
   if (ImGui::Button("Next")) c.requests.exercise.seed = *seed + 1;
 }
 
+// The first or the last stage of the part that is played.
+void draw_stage_choice(const PanelContext& c, const char* words, const char* help, bool first) {
+  const auto& stages = c.model.exercise.stages;
+  const auto is_in = [](const ExerciseModel::Stage& stage) { return stage.in_part; };
+  const auto from = std::find_if(stages.begin(), stages.end(), is_in);
+  const auto to = std::find_if(stages.rbegin(), stages.rend(), is_in);
+  if (from == stages.end()) return;
+  const ExerciseModel::Stage& chosen = first ? *from : *to;
+  ui::text(color::kTextQuiet, words);
+  ImGui::PushID(words);
+  ImGui::SetNextItemWidth(-1);
+  const bool chooses = ImGui::BeginCombo("##stage", chosen.title.c_str());
+  ui::tooltip(help);
+  for (auto stage = stages.begin(); chooses && stage != stages.end(); ++stage) {
+    const bool fits = first ? stage->can_begin : stage >= from;
+    if (!fits || !ImGui::Selectable(stage->title.c_str(), stage->name == chosen.name)) continue;
+    const bool ends_before = first && stage > to.base() - 1;
+    c.requests.exercise.part = {first ? stage->name : from->name,
+                                first && !ends_before ? to->name : stage->name};
+  }
+  if (chooses) ImGui::EndCombo();
+  ImGui::PopID();
+}
+
+void draw_part_choice(const PanelContext& c) {
+  const auto& stages = c.model.exercise.stages;
+  const auto can = [](const ExerciseModel::Stage& stage) { return stage.can_begin; };
+  if (std::count_if(stages.begin(), stages.end(), can) < 2) return;
+  draw_stage_choice(c, "Begin with",
+                    "A virtual expert does the stages before it on this patient. The first time "
+                    "that takes a minute or more.",
+                    true);
+  draw_stage_choice(c, "End after", "The attempt is over once this stage is done", false);
+  if (c.model.exercise.parted)
+    ui::wrapped_text(color::kTextQuiet,
+                     "A part is judged by its errors; only a whole attempt is "
+                     "scored.");
+}
+
+void draw_opening(const PanelContext& c) {
+  const ExerciseModel& model = c.model.exercise;
+  if (model.opening.empty()) return ui::text(color::kTextQuiet, "Opening the patient ...");
+  ui::text_within(color::kTextQuiet, model.opening + " ...", ImGui::GetContentRegionAvail().x);
+  ImGui::ProgressBar(static_cast<float>(model.opened), {-1, c.px(6)}, "");
+}
+
 void draw_briefing(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   const bool opening = model.page == ExercisePage::kOpening;
   ImGui::BeginChild("briefing", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
-  wrapped_text(color::kText, model.text);
-  for (const std::string& hand : model.hands) wrapped_text(color::kTextQuiet, hand);
+  ui::wrapped_text(color::kText, model.text);
+  for (const std::string& hand : model.hands) ui::wrapped_text(color::kTextQuiet, hand);
+  ImGui::Dummy({0, c.px(4)});
+  ImGui::BeginDisabled(opening);
+  draw_patient_choice(c);
+  draw_part_choice(c);
+  ImGui::EndDisabled();
   quiet_heading(c, "What to do");
   draw_stage_rows(c);
   quiet_heading(c, "What to avoid");
@@ -127,17 +173,18 @@ void draw_briefing(const PanelContext& c) {
              (m.lower_is_better ? "up to " : "from ") + amount(m.aim, m.unit),
              "The aim; the score compares you with experts");
   ui::stat("Time limit", ui::clock_time(model.limit_s, false), "The attempt ends then");
-  ImGui::Dummy({0, c.px(4)});
-  ImGui::BeginDisabled(opening);
-  draw_patient_choice(c);
-  ImGui::EndDisabled();
   ImGui::EndChild();
-  if (model.problem.empty())
-    ui::text(color::kTextQuiet,
-             opening ? "Opening the patient ..." : "The time starts with Begin.");
+  if (opening && model.problem.empty())
+    draw_opening(c);
+  else if (model.problem.empty())
+    ui::text(color::kTextQuiet, "The time starts with Begin.");
   else
     ui::text_within(color::kAmber, model.problem, ImGui::GetContentRegionAvail().x);
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
+  if (!model.opening.empty()) {
+    if (ImGui::Button("Cancel", {-1, 0})) c.requests.exercise.stop_opening = true;
+    return;
+  }
   ImGui::BeginDisabled(opening);
   if (ui::accent_button("Begin  (Enter)", {w, 0})) c.requests.exercise.begin = true;
   ImGui::SameLine(0, c.px(8));
@@ -147,20 +194,20 @@ void draw_briefing(const PanelContext& c) {
 
 void draw_exercise_verdict(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
-  if (model.verdict.empty()) return wrapped_text(color::kAmber, model.problem);
+  if (model.verdict.empty()) return ui::wrapped_text(color::kAmber, model.problem);
   const bool passed = model.verdict == "passed";
   {
     const ui::WithFont font(c.fonts.strong);
-    ui::text(passed ? color::kAccent : color::kAmber, passed ? "Passed"
-                                                      : model.verdict == "not_passed"
-                                                          ? "Not passed"
-                                                          : "Undecided");
+    ui::text(passed ? color::kAccent : color::kAmber, passed                          ? "Passed"
+                                                      : model.verdict == "not_passed" ? "Not passed"
+                                                      : model.parted                  ? "Done"
+                                                                     : "Undecided");
   }
   if (model.score)
-    wrapped_text(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
-                                   ui::number(*model.score_lo, 1) + " and " +
-                                   ui::number(*model.score_hi, 1) + ". Experts average 100.");
-  if (!model.why.empty()) wrapped_text(color::kTextQuiet, model.why);
+    ui::wrapped_text(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
+                                       ui::number(*model.score_lo, 1) + " and " +
+                                       ui::number(*model.score_hi, 1) + ". Experts average 100.");
+  if (!model.why.empty()) ui::wrapped_text(color::kTextQuiet, model.why);
 }
 
 // On the bones beside the result.
@@ -229,9 +276,9 @@ void draw_result(const PanelContext& c) {
         "How long your hand was guided; such an attempt does not count for the learning curve");
   if (model.hints > 0) ui::stat("Hints", std::to_string(model.hints), "How many you asked for");
   if (!model.repeats)
-    wrapped_text(color::kAmber,
-                 "The replay differs from the recording; the verdict is that of the replay.");
-  if (!model.problem.empty()) wrapped_text(color::kAmber, model.problem);
+    ui::wrapped_text(color::kAmber,
+                     "The replay differs from the recording; the verdict is that of the replay.");
+  if (!model.problem.empty()) ui::wrapped_text(color::kAmber, model.problem);
   ImGui::EndChild();
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
   if (ImGui::Button("Watch it again", {w, 0})) c.requests.exercise.watch = true;
@@ -283,16 +330,16 @@ void draw_live_stage(const PanelContext& c) {
              "The briefing and the list below name them all");
   for (std::ptrdiff_t n = first; n < end; ++n) {
     const ExerciseModel::Stage& stage = model.stages[static_cast<std::size_t>(n)];
-    wrapped_text(stage.live ? color::kText : color::kTextQuiet,
-                 (stage.done ? "Done: " : "") + stage.title);
+    ui::wrapped_text(stage.live ? color::kText : color::kTextQuiet,
+                     (stage.done ? "Done: " : "") + stage.title);
     if (!stage.live) continue;
-    wrapped_text(color::kTextQuiet, stage.instruction);
+    ui::wrapped_text(color::kTextQuiet, stage.instruction);
     std::string left;
     for (std::size_t i = 0; i < std::min<std::size_t>(8, model.left.size()); ++i)
       left += (left.empty() ? "" : ", ") + model.left[i];
     if (model.goals > 1)
-      wrapped_text(color::kAccent, std::to_string(model.goals - model.left.size()) + " of " +
-                                       std::to_string(model.goals) + ". Left: " + left);
+      ui::wrapped_text(color::kAccent, std::to_string(model.goals - model.left.size()) + " of " +
+                                           std::to_string(model.goals) + ". Left: " + left);
   }
 }
 
@@ -303,7 +350,7 @@ void draw_asked(const PanelContext& c) {
   ImGui::Separator();
   ui::text(color::kTextQuiet, "What do you find?");
   for (const ExerciseModel::Asked& asked : model.asked) {
-    wrapped_text(color::kText, asked.title);
+    ui::wrapped_text(color::kText, asked.title);
     ImGui::PushID(asked.name.c_str());
     if (ImGui::BeginCombo("##stated", asked.stated.empty() ? "not stated" : asked.stated.c_str())) {
       const auto choice = [&](const std::string& grade) {
@@ -328,12 +375,13 @@ void draw_ghost_switch(const PanelContext& c) {
     c.requests.exercise.ghost = true;
   if (!ghost.on) return;
   if (!ghost.problem.empty())
-    wrapped_text(color::kTextQuiet, ghost.problem);
+    ui::wrapped_text(color::kTextQuiet, ghost.problem);
   else if (ghost.preparing)
-    wrapped_text(color::kTextQuiet,
-                 "The expert plays it in the background. Of a long exercise that takes minutes.");
+    ui::wrapped_text(
+        color::kTextQuiet,
+        "The expert plays it in the background. Of a long exercise that takes minutes.");
   else if (ghost.strength <= 0)
-    wrapped_text(color::kTextQuiet, "Not shown: your results say that you can do without.");
+    ui::wrapped_text(color::kTextQuiet, "Not shown: your results say that you can do without.");
 }
 
 void draw_guide_switch(const PanelContext& c) {
@@ -346,81 +394,7 @@ void draw_guide_switch(const PanelContext& c) {
     c.requests.exercise.guide = true;
   if (!ghost.guides) return;
   if (ghost.strength <= 0)
-    wrapped_text(color::kTextQuiet, "Not led: your results say that you can do without.");
-}
-
-void draw_loads(const PanelContext& c, const ExaminedKneeModel& exam) {
-  double pull_n = exam.pull_n, pivot = 100 * exam.pivot_share;
-  const std::string pivot_help =
-      "Of " + ui::number(exam.full_valgus_nm, 0) + " Nm valgus and " +
-      ui::number(exam.full_internal_nm, 0) +
-      " Nm inwards. Load it below 15 degrees, then bend it to 30 or more";
-  ImGui::BeginDisabled(!exam.may);
-  if (ui::slider("Lachman", &pull_n, 0, exam.full_n, "%.0f N",
-                 "Your pull on the tibia to the front. Pull with all of it at 20 to 40 degrees"))
-    c.requests.exercise.pull_n = pull_n;
-  if (ui::slider("Pivot shift", &pivot, 0, 100, "%.0f %%", pivot_help.c_str()))
-    c.requests.exercise.pivot_share = pivot / 100;
-  ImGui::EndDisabled();
-  if (!exam.may)
-    wrapped_text(color::kTextQuiet,
-                 "Bend it to " + ui::number(exam.most_deg, 0) + " degrees or less to test it.");
-}
-
-// What the hands do to the tibia, and how far it goes.
-void draw_exam(const PanelContext& c) {
-  const ExaminedKneeModel& exam = c.model.exercise.knee.exam;
-  if (!exam.shown) return;
-  if (!exam.problem.empty()) return wrapped_text(color::kAmber, exam.problem);
-  if (exam.computing)
-    return ui::text(color::kTextQuiet, "How the knee gives is being computed ...");
-  draw_loads(c, exam);
-  const std::string load = exam.now_share > 0 ? ui::number(100 * exam.now_share, 0) + " %"
-                                              : ui::number(exam.now_n, 0) + " N";
-  ui::stat("Tibia forward", ui::number(exam.front_mm, 1) + " mm at " + load,
-           exam.grafted ? "From where it rests, held by the graft as it was fixed"
-                        : "From where it rests; no ligament or graft holds it");
-  ui::stat("Intact knee", ui::number(exam.other_mm, 1) + " mm", "The same load on the other side");
-  const auto found = [](const char* name, const std::optional<double>& mm) {
-    ui::stat(name, mm ? ui::number(*mm, 1) + " mm more" : "not done",
-             "Side difference where the tibia went farthest; 3 mm or less is a good graft");
-  };
-  found("Lachman found", exam.lachman_mm);
-  found("Pivot found", exam.pivot_mm);
-}
-
-void draw_isometry(const PanelContext& c, const BentKneeModel& knee) {
-  if (knee.between_mm.size() < 2) return;
-  const auto [least, most] = std::minmax_element(knee.between_mm.begin(), knee.between_mm.end());
-  std::vector<float> lengths(knee.between_mm.begin(), knee.between_mm.end());
-  const auto low = static_cast<float>(*least - 1), high = static_cast<float>(*most + 1);
-  ImGui::PlotLines("##isometry", lengths.data(), static_cast<int>(lengths.size()), 0, nullptr, low,
-                   high, {-1, c.px(56)});
-  const std::string change = ui::number(*most - *least, 1) + " mm from " +
-                             ui::number(knee.flexion_deg.front(), 0) + " to " +
-                             ui::number(knee.flexion_deg.back(), 0) + " degrees";
-  ui::text(color::kTextQuiet, ("Graft's length changes by " + change).c_str());
-}
-
-// The knee: how far it is bent; with the graft in it how the tail is pulled, and what the bending
-// showed; and how it is examined.
-void draw_knee(const PanelContext& c) {
-  const BentKneeModel& knee = c.model.exercise.knee;
-  if (!knee.shown) return;
-  ImGui::Separator();
-  double flexion_deg = knee.wanted_deg, tension_n = knee.tension_n;
-  if (ui::slider("Knee", &flexion_deg, knee.least_deg, knee.most_deg, "%.0f degrees",
-                 "How far the knee is bent. From straight to bent and back is a cycle"))
-    c.requests.exercise.bend_deg = flexion_deg;
-  if (knee.placed) {
-    if (ui::slider("Graft's tail", &tension_n, 0, 150, "%.0f N",
-                   "The pull on the graft below the tibia, while the knee is bent and the screw "
-                   "goes in"))
-      c.requests.exercise.tension_n = tension_n;
-    ui::stat("Cycles", std::to_string(knee.cycles), "How often it was stretched out and bent");
-    draw_isometry(c, knee);
-  }
-  draw_exam(c);
+    ui::wrapped_text(color::kTextQuiet, "Not led: your results say that you can do without.");
 }
 
 bool can_return(const ExerciseModel& model) {
@@ -469,9 +443,9 @@ void draw_made_errors(const PanelContext& c) {
   ImGui::Separator();
   const std::size_t shown = std::min<std::size_t>(3, model.faults.size());
   for (std::size_t i = model.faults.size() - shown; i < model.faults.size(); ++i)
-    wrapped_text(color::kAmber,
-                 ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
-                     (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
+    ui::wrapped_text(color::kAmber,
+                     ui::clock_time(model.faults[i].at_s, false) + "  " + model.faults[i].title +
+                         (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
 }
 
 void draw_scrolled_part(const PanelContext& c) {
@@ -479,10 +453,10 @@ void draw_scrolled_part(const PanelContext& c) {
   draw_live_stage(c);
   for (const ExerciseModel::Told& told : model.told)
     ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
-  if (!model.cue.empty()) wrapped_text(color::kText, "Hint: " + model.cue);
+  if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
   draw_made_errors(c);
   draw_asked(c);
-  draw_knee(c);
+  draw_exercise_knee(c);
   if (!model.ghost.allowed) return;
   ImGui::Separator();
   draw_ghost_switch(c);
@@ -521,14 +495,15 @@ float draw_running(const PanelContext& c) {
   ImGui::PushItemWidth(-1);
   strong(c, model.title);
   if (model.page == ExercisePage::kJudging) {
-    wrapped_text(color::kTextQuiet, "Replaying and judging your attempt ...");
+    ui::wrapped_text(color::kTextQuiet, "Replaying and judging your attempt ...");
     return end_card();
   }
   ui::stat("Time",
            ui::clock_time(model.elapsed_s, false) + " of " + ui::clock_time(model.limit_s, false),
            "The attempt ends at the limit");
   if (model.paused)
-    wrapped_text(color::kAmber, "Paused: the time has stopped, the force is off, nothing counts.");
+    ui::wrapped_text(color::kAmber,
+                     "Paused: the time has stopped, the force is off, nothing counts.");
   ImGui::Separator();
   // What does not fit scrolls; the buttons below it stay in sight.
   const float below = ImGui::GetFrameHeightWithSpacing() * (can_return(model) ? 3.0f : 2.0f);

@@ -10,6 +10,7 @@
 #include "../../loops/fake_device.h"
 #include "osteon/base/file.h"
 #include "osteon/record/recording.h"
+#include "runs/hands/begun_run.h"
 
 namespace osteon {
 namespace {
@@ -361,6 +362,73 @@ TEST(LiveRunCarves, ARecordingSaysHowItsBonesWereRemoved) {
   EXPECT_TRUE(settings->carve.on);
   EXPECT_EQ(settings->carve.cortex_m, 0.003);
   EXPECT_EQ(settings->carve.irrigation_ml_per_min, 60);
+}
+
+// Another hand goes on where a recorded one has come: what that has drilled is there, and the whole
+// repeats from the new recording.
+TEST(LiveRunCarves, ItGoesOnWithARunThatWasBegun) {
+  const testing::Drilling with("drill:3.2");
+  ProbePath path;
+  path.with_instruments = true;
+  for (const auto& [time_s, z] : {std::pair{0.0, 0.001}, {0.2, -0.003}, {60.0, -0.003}}) {
+    PathSample sample;
+    sample.time_s = time_s;
+    sample.X_WD.p = Vec3(0.0003, 0.0002, testing::kTop_m + z);
+    sample.instrument = "drill";
+    sample.size_mm = 3.2;
+    sample.power = 1;
+    path.samples.push_back(sample);
+  }
+  const RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
+  const auto named = [](const char* name) {
+    return std::filesystem::path(::testing::TempDir()) /
+           (name + std::to_string(::getpid()) + ".osr");
+  };
+  const auto first = named("begin_"), second = named("go_on_");
+  {
+    LiveRun live(with.the_case, "block", path, {}, tray);
+    ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+    ASSERT_TRUE(live.start_recording(first));
+    run_until(live, [&] { return live.snapshot().tool.tick > 900; });
+    ASSERT_TRUE(live.end());
+  }
+  BegunOrder order{first, second, with.the_case, "block", tray, {}, {}, {}};
+  order.place = [](const std::string&) { return 0u; };
+  order.on_tick = [](std::span<const ToolState* const> tools, const BoneSnapshot&) {
+    return tools[0]->tick < 800;
+  };
+  auto begun = begin_run(order);
+  ASSERT_TRUE(begun) << begun.error().message();
+  EXPECT_EQ(begun->tools[0].tick, 800u);
+  const std::size_t cut = begun->carved->cut_bones().size();
+  EXPECT_GT(cut, 0u);
+  const Vec3 tip_W = begun->tools[0].X_WD.p;
+  LiveRun live(with.the_case, "block", {}, {}, tray);
+  ASSERT_TRUE(live.start(choice_named("mouse"), Pose{Vec3(0, 0, 0.1), Quat::Identity()}));
+  ASSERT_TRUE(live.go_on(std::move(*begun)));
+  EXPECT_TRUE(live.recording());
+  EXPECT_EQ(live.carved().cut_bones().size(), cut);
+  run_until(live, [&] { return live.snapshot().tool.tick > 1000; });
+  EXPECT_LT((live.snapshot().tool.X_WD.p - tip_W).norm(), 1e-9) << "where the hand before it was";
+  ToolState judged;
+  ASSERT_TRUE(live.pop_judged(judged, 0));
+  EXPECT_EQ(judged.tick, 801u);
+  ASSERT_TRUE(live.end());
+  auto recording = RecordingReader::open(second);
+  ASSERT_TRUE(recording) << recording.error().message();
+  ReplayOptions options;
+  options.tray = with.tray;
+  options.carving = with.setup;
+  options.reported_after = 800;
+  const auto replayed = replay(*recording, with.the_case, options);
+  ASSERT_TRUE(replayed) << replayed.error().message();
+  EXPECT_TRUE(replayed->identical) << replayed->first_different_tick;
+  EXPECT_TRUE(replayed->complete);
+  EXPECT_GT(replayed->ticks, 1000u);
+  EXPECT_NEAR(replayed->report.duration_s, 0.001 * static_cast<double>(replayed->ticks - 800),
+              1e-9);
+  std::filesystem::remove(first);
+  std::filesystem::remove(second);
 }
 
 }  // namespace

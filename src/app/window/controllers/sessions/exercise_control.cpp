@@ -48,6 +48,11 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   if (requests.toggle) exercise_.toggle();
   if (requests.choose) exercise_.choose(*requests.choose);
   if (requests.seed) exercise_.set_seed(*requests.seed);
+  if (requests.part)
+    if (const auto chosen = exercise_.choose_part(requests.part->first, requests.part->second);
+        !chosen)
+      host_.note(ToastKind::kWarning, chosen.error().message());
+  if (requests.stop_opening && beginning_) stop_begin("");
   if (requests.back) exercise_.back();
   if (requests.begin && !cases_.loading()) open_patient();
   if (running()) {
@@ -177,6 +182,9 @@ void ExerciseControl::take_made_before() {
   use(host_.order.portals, [&](const std::string& report, const std::string& where) {
     return exercise_.use_portals(report, where);
   });
+  if (host_.order.from_stage.empty() && host_.order.to_stage.empty()) return;
+  const auto chosen = exercise_.choose_part(host_.order.from_stage, host_.order.to_stage);
+  if (!chosen) host_.note(ToastKind::kWarning, chosen.error().message());
 }
 
 // True: it goes on, or it has failed. The patient is opened once the places are known.
@@ -273,29 +281,77 @@ void ExerciseControl::begin() {
   if (!hands) return;
   Result<void> started = live_.start_placed(placed(*hands));
   const auto file = dated_file(data_home_dir() / "recordings", exercise_.scenario().name, ".osr");
+  auto later = started ? exercise_.order_of_begin(live_.run()->tray(), file) : std::nullopt;
+  if (later) {
+    exercise_.wait_for_case();
+    later->place = [tray = live_.tray()](const std::string& name) { return tray.find(name); };
+    begun_hands_ = *hands;
+    beginning_ = std::make_unique<SideJob<BegunAttempt>>(
+        [order = std::move(*later)](const Progress& progress) {
+          return begin_attempt(order, progress);
+        });
+    return;
+  }
   if (started) started = live_.run()->start_judged_recording(file);
   if (!started) {
     exercise_.fail_to_begin(started.error().message());
     return;
   }
-  const auto carved = [this](std::uint32_t bone) -> std::optional<CarvedField> {
+  exercise_.begin(SessionSettings{}.haptic.tick_s, file,
+                  {"", live_.run()->tray().names, carved_now()}, live_.run()->tray().names);
+  if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
+  begin_to_work(*hands);
+}
+
+std::function<std::optional<CarvedField>(std::uint32_t)> ExerciseControl::carved_now() const {
+  return [this](std::uint32_t bone) -> std::optional<CarvedField> {
     if (LiveRun* const run = live_.run())
       for (auto& [index, field] : run->carved().cut_bones())
         if (index == bone) return field;
     return std::nullopt;
   };
-  exercise_.begin(SessionSettings{}.haptic.tick_s, file, {"", live_.run()->tray().names, carved},
-                  live_.run()->tray().names);
-  if (exercise_.scenario().stages[0].restore_point) exercise_.keep_mark(live_.run()->mark());
+}
+
+// What the expert does before the part that is played.
+void ExerciseControl::poll_begin() {
+  const LoadProgress progress = beginning_->progress();
+  exercise_.tell_opening(&progress);
+  if (!beginning_->done()) return;
+  auto begun = beginning_->take();
+  beginning_.reset();
+  exercise_.tell_opening(nullptr);
+  if (!begun) return exercise_.fail_to_begin(begun.error().message());
+  LiveRun* const run = live_.run();
+  if (!run) return exercise_.fail_to_begin("The patient is no longer open.");
+  const BegunRun& state = begun->run;
+  const TunnelSources sources{"", state.settings.tray, carved_now()};
+  BegunRun going = std::move(begun->run);
+  begun->run.tools = going.tools;
+  begun->run.file = going.file;
+  const auto gone_on = run->go_on(std::move(going));
+  if (!gone_on) return exercise_.fail_to_begin(gone_on.error().message());
+  exercise_.go_on(SessionSettings{}.haptic.tick_s, std::move(*begun), sources);
+  exercise_.keep_mark(run->mark());
+  begin_to_work(std::exchange(begun_hands_, {}));
+}
+
+void ExerciseControl::stop_begin(const std::string& why) {
+  beginning_.reset();
+  exercise_.tell_opening(nullptr);
+  exercise_.fail_to_begin(why);
+}
+
+// The hands are in place and the time runs.
+void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   ghost_.begin({exercise_.scenario(), exercise_.case_spec(), scene_.the_case->hash,
                 exercise_.graft_report()});
-  const bool looks = std::any_of(hands->begin(), hands->end(),
+  const bool looks = std::any_of(hands.begin(), hands.end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   const auto& felt = live_.run()->softs();
   waits_for_portal_ = looks && felt && !felt->skins.empty();
   scene_.views.set_skin_felt(waits_for_portal_);
   if (looks && !waits_for_portal_) show_scope();
-  look_at_the_box(*hands);
+  look_at_the_box(hands);
   skin_clear_.reset();
   camera_before_bench_.reset();
   hand_before_bench_.reset();
@@ -374,6 +430,7 @@ void ExerciseControl::poll() {
   if (judging && exercise_.debrief() && ghost_.track()) exercise_.set_expert(*ghost_.track());
   show_debrief();
   if (placing_) return placing_->done() ? open_patient() : void();
+  if (beginning_) return poll_begin();
   if (opening() && !cases_.loading()) exercise_.fail_to_begin("The patient could not be opened.");
   LiveRun* const run = live_.run();
   if (!running() || !run) return;

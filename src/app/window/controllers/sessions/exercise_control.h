@@ -49,6 +49,10 @@ class ExerciseControl {
   void hold_as_expert(bool comes_to_him);
   void take_made_before();
   bool places_portals();
+  std::function<std::optional<CarvedField>(std::uint32_t)> carved_now() const;
+  void poll_begin();
+  void stop_begin(const std::string& why);
+  void begin_to_work(const std::vector<PlannedHand>& hands);
   bool want_instruments(const Scenario& scenario);
   std::vector<LiveControl::PlacedHand> placed(const std::vector<PlannedHand>& hands) const;
   void save_pages();
@@ -67,7 +71,9 @@ class ExerciseControl {
   CaseControl& cases_;
   ExerciseRun exercise_;
   GhostControl ghost_;
-  std::unique_ptr<SideJob<std::string>> placing_;  ///< of portals, before the patient is opened
+  std::unique_ptr<SideJob<std::string>> placing_;     ///< of portals, before the patient is opened
+  std::unique_ptr<SideJob<BegunAttempt>> beginning_;  ///< of a part, by the expert
+  std::vector<PlannedHand> begun_hands_;              ///< likewise: who goes on
   bool waits_for_portal_ = false;              ///< of the scope: till then one looks from outside
   std::optional<bool> skin_clear_;             ///< as it was shown last; none: as it was
   std::optional<Camera> camera_before_bench_;  ///< while a stage at a bench goes on

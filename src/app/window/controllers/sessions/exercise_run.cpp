@@ -43,23 +43,6 @@ std::vector<std::string> played_before(const std::vector<Scenario>& scenarios) {
   return words;
 }
 
-// What is to be done at a mark; a bone is to be touched.
-std::string verb_of(const PlannedRule& goal) {
-  const std::string& kind = goal.rule.kind;
-  return kind == "seen"      ? "see "
-         : kind == "through" ? "go through "
-         : kind == "felt"    ? "press "
-                             : "";
-}
-
-std::string subject_of(const PlannedRule& goal, std::size_t i, const Case& the_case) {
-  const std::uint32_t at = goal.bones[i];
-  if (goal.about == SubjectKind::kLandmark)
-    return at < the_case.landmarks.size() ? verb_of(goal) + label_of(the_case.landmarks[at].name)
-                                          : "";
-  return at < the_case.bones.size() ? label_of(the_case.bones[at].name) : "";
-}
-
 // A case that is a bench and nothing else is on show as it is.
 bool is_practice_bench(const Case& the_case) {
   return std::none_of(the_case.bones.begin(), the_case.bones.end(),
@@ -108,6 +91,7 @@ void ExerciseRun::choose(std::size_t exercise) {
   graft_report_.clear();
   graft_.reset();
   portals_.reset();
+  part_.reset();
   placed_spec_.clear();
   if (exercise < set_seeds_.size() && set_seeds_[exercise]) seed_ = set_seeds_[exercise];
   problem_.clear();
@@ -157,6 +141,23 @@ Result<void> ExerciseRun::use_portals(const std::string& report, const std::stri
   return {};
 }
 
+Result<void> ExerciseRun::choose_part(const std::string& from, const std::string& to) {
+  const auto& stages = scenario().stages;
+  AttemptPart part{from.empty() ? stages.front().name : from, to.empty() ? stages.back().name : to};
+  const auto found = stages_of(part, scenario());
+  if (!found) return tl::unexpected(found.error());
+  part_ = std::move(part);
+  if (found->first == 0 && found->last + 1 == stages.size()) part_.reset();
+  return {};
+}
+
+PartStages ExerciseRun::part_stages() const {
+  const auto all = PartStages{0, static_cast<std::uint32_t>(scenario().stages.size() - 1)};
+  if (!part_) return all;
+  const auto found = stages_of(*part_, scenario());
+  return found ? *found : all;
+}
+
 std::function<Result<std::string>()> ExerciseRun::portals_to_place() const {
   if (!portals_ || !placed_spec_.empty()) return {};
   return [spec = case_spec(), made = *portals_, where = portals_from_] {
@@ -195,14 +196,45 @@ std::vector<Vec3> ExerciseRun::places_W() const {
 
 void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
                         const std::vector<std::string>& tray) {
-  tick_s_ = tick_s;
-  file_ = std::move(file);
   watch_ = std::make_unique<AttemptWatch>(*plan_, *case_, hands_, tick_s);
   sources.case_spec = case_spec();
   sources.in_background = true;
   sources.graft = graft_;
   watch_->watch_tunnels(std::move(sources));
   watch_->watch_tray(tray);
+  if (part_) watch_->set_part(*part_, part_stages());
+  begin_anew(tick_s, std::move(file));
+}
+
+void ExerciseRun::go_on(double tick_s, BegunAttempt begun, TunnelSources sources) {
+  watch_ = std::move(begun.watch);
+  watch_->go_on_live(std::move(sources.carved));
+  part_ = std::move(begun.part);
+  begin_anew(tick_s, std::move(begun.run.file));
+  for (std::size_t h = 0; h < last_.size(); ++h) last_[h] = begun.run.tools[h];
+  stage_ = watch_->state().stage;
+}
+
+std::optional<BegunAttemptOrder> ExerciseRun::order_of_begin(RunTray tray, fs::path file) const {
+  if (!plan_ || !part_ || part_stages().first == 0) return std::nullopt;
+  return BegunAttemptOrder{{scenario(), case_spec(), case_->hash, graft_report_},
+                           *part_,
+                           plan_.get(),
+                           hands_,
+                           case_,
+                           graft_,
+                           std::move(tray),
+                           {},
+                           std::move(file)};
+}
+
+void ExerciseRun::tell_opening(const LoadProgress* progress) {
+  opening_ = progress ? *progress : LoadProgress();
+}
+
+void ExerciseRun::begin_anew(double tick_s, fs::path file) {
+  tick_s_ = tick_s;
+  file_ = std::move(file);
   ticks_.assign(hands_.size(), {});
   last_.assign(hands_.size(), {});
   order_ = {};
@@ -274,65 +306,6 @@ std::optional<std::uint32_t> ExerciseRun::mark_of_stage(std::size_t stage) const
   return found == stage_marks_.end() ? std::nullopt : std::optional(found->second);
 }
 
-BentKneeModel ExerciseRun::knee(const BoneSnapshot& bones) const {
-  BentKneeModel model;
-  const GraftPlacingState& placing = bones.placing;
-  if (!watch_ || !case_ || case_->joints.empty() || page_ != ExercisePage::kRunning) return model;
-  model.placed = placing.on && placing.phase == PlacingPhase::kTurned;
-  if (exam_ && asks_now("knee_examined")) describe_exam(bones, model.exam);
-  // Once it was bent it can be bent back.
-  model.shown =
-      model.placed || (exam_ && (model.exam.shown || asks_now("knee_bent") || bones.bend.on));
-  if (!model.shown) return model;
-  const CaseJoint& joint = case_->joints.front();
-  model.least_deg = joint.min_deg();
-  model.most_deg = joint.max_deg();
-  model.wanted_deg = bones.bend.on ? bones.bend.wanted_deg : joint.at_deg;
-  model.tension_n = placing.tension_n;
-  model.cycles = bones.bend.cycles;
-  const BentGraft& bent = watch_->placing().bent();
-  for (std::size_t i = 0; i < bent.lengths_m.size(); ++i) {
-    if (!(bent.lengths_m[i] > 0)) continue;
-    model.flexion_deg.push_back(10.0 * static_cast<double>(i));
-    model.between_mm.push_back(1e3 * bent.lengths_m[i]);
-  }
-  return model;
-}
-
-bool ExerciseRun::asks_now(std::string_view kind) const {
-  const std::uint32_t stage = watch_->state().stage;
-  if (stage >= plan_->goals.size()) return false;
-  const auto& goals = plan_->goals[stage];
-  return std::any_of(goals.begin(), goals.end(),
-                     [&](const PlannedRule& goal) { return goal.rule.kind == kind; });
-}
-
-void ExerciseRun::describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const {
-  const KneeExamState& exam = bones.exam;
-  const auto is_of = [](KneeTest test) { return static_cast<std::size_t>(test); };
-  model.shown = true;
-  model.problem = exam_->problem() ? exam_->problem()->message() : std::string();
-  model.computing = !exam.on || (bones.placing.screw.done && exam.knee == 0);
-  model.grafted = exam.knee == 1;
-  model.most_deg = KneeGiveTable::kMost_deg;
-  model.may = bones.bend.on ? bones.bend.now_deg <= KneeGiveTable::kMost_deg
-                            : case_->joints.front().at_deg <= KneeGiveTable::kMost_deg;
-  model.full_n = exam.front_n;
-  model.full_valgus_nm = exam.valgus_nm;
-  model.full_internal_nm = exam.internal_nm;
-  model.pull_n = exam.front_n * exam.wanted[is_of(KneeTest::kLachman)];
-  model.pivot_share = exam.wanted[is_of(KneeTest::kPivot)];
-  model.now_n = exam.front_n * exam.now[is_of(KneeTest::kLachman)];
-  model.now_share = exam.now[is_of(KneeTest::kPivot)];
-  model.front_mm = 1e3 * exam.give.front_m;
-  model.other_mm = 1e3 * exam.give.other_front_m;
-  const auto found = watch_->exam();
-  if (!found) return;
-  const auto& of_this = found->found[exam.knee];
-  if (of_this[0]) model.lachman_mm = 1e3 * of_this[0]->side_difference_m();
-  if (of_this[1]) model.pivot_mm = 1e3 * of_this[1]->side_difference_m();
-}
-
 bool ExerciseRun::follow(const BoneSnapshot& bones) {
   if (!watch_) return false;
   const auto all_have = [&] {
@@ -388,6 +361,8 @@ void ExerciseRun::state_finding(const std::string& name, const std::string& grad
 
 // The verdict is made from the recording alone: what was said goes with it.
 Result<void> ExerciseRun::note_what_was_said() const {
+  if (part_)
+    if (auto ok = write_note(file_, "part", to_text(*part_)); !ok) return ok;
   if (!pauses_.empty())
     if (auto ok = write_note(file_, "pauses", to_text(pauses_)); !ok) return ok;
   if (!graft_report_.empty())
@@ -441,133 +416,6 @@ std::optional<Error> ExerciseRun::save_pages(const fs::path& file) const {
   const auto saved =
       save_debrief(*debrief_, file, pictures ? *pictures : std::vector<DebriefPicture>());
   return saved ? std::optional<Error>{} : saved.error();
-}
-
-ExerciseModel ExerciseRun::model() const {
-  ExerciseModel model;
-  model.page = page_;
-  model.problem = problem_;
-  model.seed = seed_;
-  if (page_ == ExercisePage::kClosed) return model;
-  if (page_ == ExercisePage::kCourse) {
-    for (std::size_t i = 0; i < scenarios_.size(); ++i)
-      model.cards.push_back({scenarios_[i].title, scenarios_[i].text, played_[i]});
-    model.title = course_title_;
-    return model;
-  }
-  model.title = scenario().title;
-  model.text = scenario().text;
-  model.limit_s = scenario().time_limit_s;
-  if (page_ == ExercisePage::kRunning)
-    describe_run(model);
-  else if (page_ == ExercisePage::kResult && debrief_)
-    describe_result(model);
-  else
-    describe_briefing(model);
-  if (judging_) model.judged = judging_->progress().fraction;
-  return model;
-}
-
-void ExerciseRun::describe_briefing(ExerciseModel& model) const {
-  for (const ScenarioHand& hand : scenario().hands)
-    model.hands.push_back(label_of(hand.name) + ": " + label_of(hand.instrument) +
-                          (hand.portal.empty() ? "" : ", through " + label_of(hand.portal)));
-  for (const ScenarioStage& stage : scenario().stages)
-    model.stages.push_back({stage.title, stage.instruction});
-  for (const ScenarioError& error : scenario().errors)
-    model.faults.push_back(
-        {error.title, std::string(to_text(error.severity)), error.consequence, 0, {}});
-  for (const ScenarioMetric& metric : scenario().metrics)
-    model.measures.push_back(
-        {metric.name, metric.unit, 0, metric.threshold, metric.lower_is_better});
-}
-
-void ExerciseRun::describe_run(ExerciseModel& model) const {
-  const ScenarioState& state = watch_->state();
-  for (std::size_t i = 0; i < scenario().stages.size(); ++i) {
-    const ScenarioStage& stage = scenario().stages[i];
-    const double at_s = i < state.completed_s.size() ? state.completed_s[i] : -1;
-    model.stages.push_back({stage.title, stage.instruction, at_s >= 0, i == state.stage, at_s, {}});
-    if (mark_of_stage(i))
-      model.stages.back().restore_title =
-          stage.restore_title.empty() ? stage.title : stage.restore_title;
-  }
-  for (const MadeError& made : state.errors) {
-    const ScenarioError& error = scenario().errors[made.error];
-    model.faults.push_back(
-        {error.title, std::string(to_text(error.severity)), error.consequence, made.at_s,
-         made.bone < case_->bones.size() ? label_of(case_->bones[made.bone].name) : std::string()});
-  }
-  model.elapsed_s = now_s_;
-  model.paused = paused_;
-  describe_asked(model);
-  model.told = facts_of(watch_->graft());
-  for (auto& fact : facts_of(watch_->placing())) model.told.push_back(std::move(fact));
-  if (const auto cleared = watch_->cleared_percent(); cleared && asks_now("stumps_cleared"))
-    model.told.push_back({"Torn ends cleared", std::to_string(*cleared) + " %",
-                          "Of what the torn ligament has left; what lies on the bone stays"});
-  model.hints = hints_;
-  model.undone = undone_;
-  model.guided_s = guided_s_;
-  if (state.stage >= scenario().stages.size()) return;
-  const std::string& cue = scenario().stages[state.stage].cue;
-  model.has_cue = !cue.empty();
-  if (cue_shown_) model.cue = cue;
-  const auto& goals = plan_->goals[state.stage];
-  for (std::size_t g = 0; g < goals.size() && g < state.goals.size(); ++g)
-    for (std::size_t i = 0; i < goals[g].bones.size(); ++i) {
-      ++model.goals;
-      const bool done =
-          state.goals[g].met || (i < state.goals[g].done.size() && state.goals[g].done[i] != 0);
-      if (!done) model.left.push_back(subject_of(goals[g], i, *case_));
-    }
-}
-
-void ExerciseRun::describe_asked(ExerciseModel& model) const {
-  for (const AskedFinding& asked : scenario().asks) {
-    const auto said = stated_.find(asked.name);
-    model.asked.push_back({asked.name,
-                           asked.title,
-                           asked.grades,
-                           said == stated_.end() ? std::string() : said->second,
-                           {}});
-  }
-}
-
-void ExerciseRun::describe_result(ExerciseModel& model) const {
-  const Outcome& outcome = *debrief_->outcome;
-  for (std::size_t i = 0; i < outcome.stages.size() && i < scenario().stages.size(); ++i) {
-    const auto& done = outcome.stages[i].completed_s;
-    model.stages.push_back(
-        {scenario().stages[i].title, "", done.has_value(), false, done.value_or(0)});
-  }
-  for (const Outcome::Error& made : outcome.errors) {
-    const auto it =
-        std::find_if(scenario().errors.begin(), scenario().errors.end(),
-                     [&](const ScenarioError& error) { return error.name == made.name; });
-    if (it != scenario().errors.end())
-      model.faults.push_back({it->title, std::string(to_text(made.severity)), it->consequence,
-                              made.at_s, label_of(made.subject)});
-  }
-  for (const ScenarioMetric& metric : scenario().metrics)
-    if (const auto it = outcome.metrics.find(metric.name); it != outcome.metrics.end())
-      model.measures.push_back(
-          {metric.name, metric.unit, it->second, metric.threshold, metric.lower_is_better});
-  for (const GradedFinding& graded : outcome.findings)
-    model.asked.push_back({graded.name, graded.title, {}, graded.stated, graded.truth});
-  model.verdict = std::string(to_text(outcome.verdict));
-  model.why = why_of(outcome, debrief_->pass_score);
-  if (outcome.score) {
-    model.score = outcome.score->value;
-    model.score_lo = outcome.score->lo;
-    model.score_hi = outcome.score->hi;
-  }
-  model.repeats = debrief_->identical;
-  model.file = file_.string();
-  model.elapsed_s = debrief_->duration_s;
-  model.hints = hints_;
-  model.undone = undone_;
-  model.guided_s = guided_s_;
 }
 
 }  // namespace osteon

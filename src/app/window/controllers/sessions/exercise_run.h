@@ -10,9 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "exercises/attempt_part.h"
 #include "exercises/attempt_watch.h"
 #include "exercises/debrief.h"
 #include "exercises/exam_order.h"
+#include "exercises/ghost/begun_attempt.h"
 #include "exercises/graft_order.h"
 #include "exercises/seat_files.h"
 #include "exercises/skin_order.h"
@@ -49,6 +51,9 @@ class ExerciseRun {
   void set_placed(std::string case_spec) { placed_spec_ = std::move(case_spec); }
   /// Of the graft that was made before; empty: none.
   const std::string& graft_report() const { return graft_report_; }
+  /// The part of the exercise that is played: its first and last stage by name. Empty: the first
+  /// and the last one of all. Fails, and changes nothing, where there is no such part.
+  Result<void> choose_part(const std::string& from, const std::string& to);
   void back();
 
   const Scenario& scenario() const { return shortened_ ? *shortened_ : scenarios_[chosen_]; }
@@ -63,6 +68,13 @@ class ExerciseRun {
   void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {},
              const std::vector<std::string>& tray = {});
   void fail_to_begin(const std::string& why);
+  /// What makes the begin of the part that was chosen, once the exercise is planned. None: it has
+  /// no begin.
+  std::optional<BegunAttemptOrder> order_of_begin(RunTray tray, std::filesystem::path file) const;
+  /// As `begin`, from where the expert has come.
+  void go_on(double tick_s, BegunAttempt begun, TunnelSources sources);
+  /// What is done meanwhile; null: nothing is told.
+  void tell_opening(const LoadProgress* progress);
 
   /// One tick of one hand, in the order of that hand's ticks.
   void take(std::size_t hand, const ToolState& tool) { ticks_[hand].push_back(tool); }
@@ -134,6 +146,8 @@ class ExerciseRun {
   ExerciseModel model() const;
 
  private:
+  void begin_anew(double tick_s, std::filesystem::path file);
+  PartStages part_stages() const;
   void describe_briefing(ExerciseModel& model) const;
   void describe_run(ExerciseModel& model) const;
   void describe_result(ExerciseModel& model) const;
@@ -156,8 +170,10 @@ class ExerciseRun {
   std::optional<MadeGraft> graft_;
   std::optional<ReportedPortals> portals_;
   std::string portals_from_, placed_spec_;
+  std::optional<AttemptPart> part_;  ///< none: all
   std::optional<std::uint64_t> seed_;
   std::string problem_;
+  LoadProgress opening_;  ///< empty words: as usual
 
   std::shared_ptr<const Case> case_;
   std::unique_ptr<ScenarioPlan> plan_;

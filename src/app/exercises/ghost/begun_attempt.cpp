@@ -1,0 +1,116 @@
+#include "exercises/ghost/begun_attempt.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "osteon/record/recording.h"
+
+namespace osteon {
+namespace {
+
+constexpr std::uint64_t kAskTicks = 200;
+constexpr double kPlayedShare = 0.5;  // of the work, where the expert has to play first
+
+// What is left of a bone, while the begin is repeated.
+class CarvedSoFar {
+ public:
+  void follow(const CarvedPicture& picture) { picture_ = &picture; }
+  std::optional<CarvedField> of(std::uint32_t bone) const {
+    for (auto& [index, field] : picture_->cut_bones())
+      if (index == bone) return field;
+    return std::nullopt;
+  }
+
+ private:
+  const CarvedPicture* picture_ = nullptr;
+};
+
+std::unique_ptr<AttemptWatch> watch_begin(const BegunAttemptOrder& order, const CarvedSoFar& carved,
+                                          const AttemptPart& part, PartStages stages,
+                                          double tick_s) {
+  auto watch = std::make_unique<AttemptWatch>(*order.plan, *order.the_case, order.hands, tick_s);
+  TunnelSources sources;
+  sources.case_spec = order.wanted.case_spec;
+  sources.tray = order.tray.names;
+  sources.carved = [&carved](std::uint32_t bone) { return carved.of(bone); };
+  sources.graft = order.graft;
+  watch->watch_tunnels(std::move(sources));
+  watch->watch_tray(order.tray.names);
+  watch->set_part(part, stages);
+  return watch;
+}
+
+// How far on the way, of what the judge has seen.
+double share_of(const ScenarioState& state, PartStages stages) {
+  return stages.first == 0
+             ? 1.0
+             : static_cast<double>(std::min(state.stage, stages.first)) / stages.first;
+}
+
+Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
+                                  const std::filesystem::path& expert, PartStages stages,
+                                  double from_share, const Progress& progress) {
+  BegunAttempt begun;
+  begun.part = order.part;
+  begun.part.from_tick = std::numeric_limits<std::uint64_t>::max();
+  const double tick_s = SessionSettings{}.haptic.tick_s;
+  CarvedSoFar carved;
+  begun.watch = watch_begin(order, carved, begun.part, stages, tick_s);
+  bool stopped = false;
+  BegunOrder run{
+      expert, order.file, order.the_case, order.wanted.case_spec, order.tray, order.place, {}, {}};
+  run.at_begin = [&](const CarvedPicture& picture) { carved.follow(picture); };
+  run.on_tick = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
+    begun.watch->add(tools, bones);
+    begun.part.from_tick = tools[0]->tick;
+    const ScenarioState& state = begun.watch->state();
+    if (tools[0]->tick % kAskTicks == 0)
+      stopped = !progress("The expert does the stages before",
+                          from_share + (1 - from_share) * share_of(state, stages));
+    return !stopped && !state.over && state.stage < stages.first;
+  };
+  auto made = begin_run(run);
+  if (!made) return tl::unexpected(made.error());
+  const bool came = begun.watch->state().stage >= stages.first && !begun.watch->state().over;
+  if (stopped || !came) {
+    made->feed.reset();  // closes its file
+    std::error_code ec;
+    std::filesystem::remove(order.file, ec);
+    return fail(stopped ? "stopped" : "the virtual expert does not come to this stage",
+                order.wanted.case_spec);
+  }
+  begun.watch->set_part(begun.part, stages);
+  begun.watch->go_on_live({});  // `carved` ends here
+  begun.run = std::move(*made);
+  return begun;
+}
+
+// One of an older build, or a damaged one, is made anew.
+bool is_of_this_build(const std::filesystem::path& expert) {
+  const auto reader = RecordingReader::open(expert);
+  if (!reader || !reader->complete()) return false;
+  const auto settings = parse_settings(reader->header().settings_json);
+  return settings && reader->header().osteon_version == OSTEON_VERSION;
+}
+
+}  // namespace
+
+Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progress& progress) {
+  const auto stages = stages_of(order.part, order.wanted.scenario);
+  if (!stages) return tl::unexpected(stages.error());
+  const auto go_on = [&progress] { return progress(nullptr, 0); };
+  const std::filesystem::path kept = expert_recording(order.wanted);
+  std::error_code ec;
+  if (std::filesystem::exists(kept, ec) && !is_of_this_build(kept))
+    std::filesystem::remove(kept, ec);
+  const bool known = std::filesystem::exists(kept, ec);
+  if (!known) progress("The expert plays the exercise on this patient", 0);
+  const auto expert = recorded_expert(order.wanted, go_on, order.program);
+  if (!expert) return tl::unexpected(expert.error());
+  return repeat_begin(order, *expert, *stages, known ? 0 : kPlayedShare, progress);
+}
+
+}  // namespace osteon
