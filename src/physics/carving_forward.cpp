@@ -123,6 +123,13 @@ bool Carving::stand_before(std::size_t hand, const CarvingTool& with, const Push
   h.plunge_m = before.plunge_m;
   h.since = before.since;
   h.drill.depth_m += before.drill.depth_m;
+  // Held by the bone that it has gone through, it is in the same hole.
+  const Vec3 to_mouth = before.mouth_B - h.X_BC.p;
+  const Vec3 along = to_mouth.dot(back_of(h.X_BC)) * back_of(h.X_BC);
+  if (before.in_hole && (to_mouth - along).norm() < kSlid_m) {
+    h.mouth_B = before.mouth_B;
+    h.in_hole = true;
+  }
   return true;
 }
 

@@ -469,6 +469,27 @@ TEST(Guides, APinStaysWhenAnotherInstrumentIsTakenAndReplays) {
   EXPECT_EQ(outcome->state_hash, session.state_hash());
 }
 
+// Through nothing a pin may go on faster than its hole is looked for. It still stands in the bone
+// behind it, from its mouth on, and stays there when it is let go.
+TEST(Guides, APinThatHasGoneOnThroughNothingIsInTheSameHole) {
+  SlantedDrilling with({"guide_pin:2.4", "cannulated_drill:4.5"}, 0);
+  Session session = with.session();
+  drill_pin(with, session);
+  SessionState state = session.save();
+  auto carved = std::make_shared<CarvingState>(*state.world.carved);
+  carved->hands[0].X_BC.p += 0.002 * with.back_W;
+  state.world.carved = std::move(carved);
+  ASSERT_TRUE(session.restore(state));
+  with.order(session, -0.012, CommandKind::kPower, 1);
+  with.press(session, 0.009, 4000);
+  ASSERT_LT(with.height(session), -0.0085);
+  with.order(session, -0.009, CommandKind::kTake, 1);
+  for (int n = 0; n < 4; ++n) with.tick(session, with.hand(0.03));
+  EXPECT_TRUE(with.told(kPinLeft));
+  EXPECT_EQ(session.bones().rods[0].kind, GuideRod::Kind::kPin);
+  EXPECT_NEAR(session.bones().rods[0].in_bone_m, 0.009, 5e-4);
+}
+
 // Through the far side a drill falls on to the hand, which is told.
 TEST(Guides, ADrillThatComesOutPlunges) {
   testing::Drilling with("drill:3.2");

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "osteon/record/recording.h"
+#include "osteon/record/recording_note.h"
 
 namespace osteon {
 namespace {
@@ -43,11 +45,16 @@ std::unique_ptr<AttemptWatch> watch_begin(const BegunAttemptOrder& order, const 
   return watch;
 }
 
-// How far on the way, of what the judge has seen.
-double share_of(const ScenarioState& state, PartStages stages) {
-  return stages.first == 0
-             ? 1.0
-             : static_cast<double>(std::min(state.stage, stages.first)) / stages.first;
+// When the expert had done the stage before the part, as his report tells; 0: it does not.
+double begin_of_part_s(const std::filesystem::path& expert, const std::string& stage) {
+  const auto report = read_note(expert, "report");
+  if (!report || !*report) return 0;
+  const auto json = nlohmann::json::parse(**report, nullptr, false);
+  if (!json.is_object() || !json.contains("stages")) return 0;
+  for (const auto& done : json["stages"])
+    if (done.value("name", "") == stage && done["completed_s"].is_number())
+      return done["completed_s"].get<double>();
+  return 0;
 }
 
 Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
@@ -59,6 +66,8 @@ Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
   const double tick_s = SessionSettings{}.haptic.tick_s;
   CarvedSoFar carved;
   begun.watch = watch_begin(order, carved, begun.part, stages, tick_s);
+  const std::string& before = order.wanted.scenario.stages[stages.first - 1].name;
+  const double whole_s = begin_of_part_s(expert, before);
   bool stopped = false;
   BegunOrder run{
       expert, order.file, order.the_case, order.wanted.case_spec, order.tray, order.place, {}, {}};
@@ -67,9 +76,10 @@ Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
     begun.watch->add(tools, bones);
     begun.part.from_tick = tools[0]->tick;
     const ScenarioState& state = begun.watch->state();
+    const double share = whole_s > 0 ? std::min(1.0, tools[0]->time_s / whole_s) : 0.0;
     if (tools[0]->tick % kAskTicks == 0)
-      stopped = !progress("The expert does the stages before",
-                          from_share + (1 - from_share) * share_of(state, stages));
+      stopped =
+          !progress("The expert does the stages before", from_share + (1 - from_share) * share);
     return !stopped && !state.over && state.stage < stages.first;
   };
   auto made = begin_run(run);
@@ -101,6 +111,7 @@ bool is_of_this_build(const std::filesystem::path& expert) {
 Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progress& progress) {
   const auto stages = stages_of(order.part, order.wanted.scenario);
   if (!stages) return tl::unexpected(stages.error());
+  if (stages->first == 0) return fail("nothing comes before this stage", order.part.from);
   const auto go_on = [&progress] { return progress(nullptr, 0); };
   const std::filesystem::path kept = expert_recording(order.wanted);
   std::error_code ec;

@@ -16,6 +16,7 @@
 
 #include "cases/xdg.h"
 #include "exercises/debrief.h"
+#include "exercises/ghost/ghost_file.h"
 #include "exercises/result_files.h"
 #include "osteon/base/file.h"
 #include "osteon/base/hash.h"
@@ -161,6 +162,18 @@ Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWan
   return repeated;
 }
 
+fs::path kept_way(const fs::path& recording) { return recording.string() + ".way"; }
+
+// What was repeated once by this program need not be repeated again.
+std::optional<GhostTrack> known_example(const fs::path& recording) {
+  constexpr std::uintmax_t kMostBytes = 256u << 20;
+  const auto bytes = read_file(kept_way(recording), kMostBytes);
+  const std::uint64_t key = ghost_key(recording);
+  if (!bytes || key == 0) return std::nullopt;
+  auto track = ghost_from_bytes(*bytes, key);
+  return track ? std::optional(std::move(*track)) : std::nullopt;
+}
+
 // One who does not pass himself is no example.
 Result<GhostTrack> example_of(const fs::path& recording, const GhostWanted& wanted,
                               const SeeGhost& see) {
@@ -168,6 +181,9 @@ Result<GhostTrack> example_of(const fs::path& recording, const GhostWanted& want
   if (!repeated) return tl::unexpected(repeated.error());
   if (repeated->verdict == Verdict::kNotPassed)
     return fail("the virtual expert does not pass on this patient", wanted.case_spec);
+  // Where it cannot be kept it is repeated the next time.
+  if (const std::uint64_t key = ghost_key(recording); key != 0)
+    (void)write_file_atomic(kept_way(recording), to_bytes(repeated->track, key));
   return std::move(repeated->track);
 }
 
@@ -206,6 +222,7 @@ Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::functio
   const fs::path file = expert_recording(wanted);
   std::error_code ec;
   if (fs::exists(file, ec)) {
+    if (auto known = known_example(file)) return std::move(*known);
     auto kept = example_of(file, wanted, see);
     if (kept || !go_on()) return kept;
     fs::remove(file, ec);  // of an older build, or damaged

@@ -34,17 +34,20 @@ std::uint32_t place_of(const std::vector<std::uint32_t>& places, std::uint32_t r
   return recorded < places.size() ? places[recorded] : 0;
 }
 
-// As recorded, with the tray of the run.
+// As recorded, with the tray of the run and what was made for that.
 Result<SessionSettings> settings_for_begin(const BegunOrder& order, const RecordingHeader& header,
                                            const std::vector<std::uint32_t>& places) {
   auto settings = parse_settings(header.settings_json);
   if (!settings) return settings;
+  const bool carves = order.tray.carving != nullptr;
+  if (settings->carve.on != carves || settings->soft != order.tray.softs.names)
+    return fail("bones or soft parts of the recording were felt otherwise", order.begin.string(),
+                kRecordAgain);
   settings->tray = order.tray.names;
   for (auto& hand : settings->hands) hand.instrument = place_of(places, hand.instrument);
-  const std::uint64_t soft_hash = order.tray.softs.setup ? order.tray.softs.setup->hash : 0;
-  if (settings->carve.on != (order.tray.carving != nullptr) || settings->soft_hash != soft_hash)
-    return fail("bones or soft parts of the recording were prepared otherwise",
-                order.begin.string(), kRecordAgain);
+  settings->carve = order.tray.carve;
+  settings->carve.on = carves;
+  settings->soft_hash = order.tray.softs.setup ? order.tray.softs.setup->hash : 0;
   return settings;
 }
 

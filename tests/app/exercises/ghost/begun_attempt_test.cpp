@@ -108,6 +108,7 @@ TEST_F(BegunAttemptTest, WhoGoesOnIsJudgedByThePartAlone) {
   ASSERT_TRUE(begun) << begun.error().message();
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end())) << "progress only grows";
   ASSERT_FALSE(told.empty());
+  EXPECT_GT(told.back(), 0.9);
   const double from_s = *expert.stages[1].completed_s;
   EXPECT_NEAR(begun->watch->part_from_s(), from_s, 1e-9) << "as soon as the stage before is done";
   EXPECT_EQ(begun->watch->now_s(), 0);
@@ -153,6 +154,7 @@ TEST_F(BegunAttemptTest, WhatIsStoppedOrCannotBeLeavesNothing) {
   EXPECT_EQ(stopped.error().what, "stopped");
   EXPECT_FALSE(fs::exists(file));
   EXPECT_FALSE(begin_attempt(order_of({"forearm", "elbow"}), go_on)) << "no such stage";
+  EXPECT_FALSE(begin_attempt(order_of({"carpals", "carpals"}), go_on)) << "nothing is before it";
   BegunAttemptOrder bare = order_of({"forearm", "forearm"});
   bare.place = [](const std::string&) { return std::nullopt; };
   const auto without =

@@ -107,16 +107,25 @@ TEST_F(GhostRecording, ShowsTheWayAndTheExpertIsRecordedOnce) {
 
   const fs::path script = program(file);
   for (int time = 0; time < 2; ++time) {
-    const auto made = ghost_of_expert(wanted_, go_on, script);
+    std::size_t repeated = 0;
+    const auto made =
+        ghost_of_expert(wanted_, go_on, script, [&](const GhostTrack&) { ++repeated; });
     ASSERT_TRUE(made) << made.error().message();
     EXPECT_EQ(made->stretches.size(), track->stretches.size());
+    EXPECT_EQ(made->hands.front().size(), track->hands.front().size());
+    EXPECT_EQ(repeated > 0, time == 0) << "its way is kept, too";
   }
   EXPECT_EQ(runs(), 1u) << "the second time it was kept";
   std::ofstream(expert_recording(wanted_)) << "damaged";
   EXPECT_TRUE(ghost_of_expert(wanted_, go_on, script));
   EXPECT_EQ(runs(), 2u);
   for (const auto& entry : fs::directory_iterator(expert_recording(wanted_).parent_path()))
-    EXPECT_EQ(entry.path(), expert_recording(wanted_)) << "nothing else is left";
+    EXPECT_EQ(entry.path().string().rfind(expert_recording(wanted_).string(), 0), 0u);
+  const fs::path way = expert_recording(wanted_).string() + ".way";
+  ASSERT_TRUE(fs::exists(way));
+  std::ofstream(way) << "damaged";
+  EXPECT_TRUE(ghost_of_expert(wanted_, go_on, script)) << "repeated once more";
+  EXPECT_EQ(runs(), 2u);
 }
 
 TEST_F(GhostRecording, WhoDoesNotPassIsNoExample) {
