@@ -215,8 +215,11 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   SurfaceHeat heat(**the_case);
   const Session* session = nullptr;
   how.at_begin = [&](const Session& begun) { session = &begun; };
+  const std::uint64_t ticks = std::max<std::uint64_t>(100, recording->ticks(0));
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
+    if (order.on_share && hand == 0 && tool.tick % (ticks / 100) == 0)
+      order.on_share(static_cast<double>(tool.tick) / static_cast<double>(ticks));
     if (tool.tick > from_tick) {
       traces[hand].add(tool);
       damage.touch(hand, tool, bones);

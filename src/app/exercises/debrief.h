@@ -71,6 +71,8 @@ struct DebriefOrder {
   /// Of a recording of an exercise, after each tick: the hands' tools and how far the attempt is.
   /// Empty: nobody is told.
   std::function<void(std::span<const ToolState* const>, const ScenarioState&)> on_judged = {};
+  /// About a hundred times: which share of the recording has been repeated. May be empty.
+  std::function<void(double)> on_share = {};
 };
 Result<Debrief> make_debrief(const DebriefOrder& order);
 /// The report of the attempt as JSON, as `osteon run` writes it.

@@ -15,6 +15,7 @@ struct HandRow {
   std::string name;        ///< "Right"; empty: the only one
   std::string instrument;  ///< its title
   std::string portal;      ///< that its shaft passes through; empty: none
+  bool runs = false;       ///< its motor does
   bool active = false;
   bool rests = false;  ///< as if held by an assistant
 };

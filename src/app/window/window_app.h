@@ -11,7 +11,7 @@
 #include "window/controllers/cases/patient_control.h"
 #include "window/controllers/sessions/exercise_control.h"
 #include "window/controllers/sessions/run_marks.h"
-#include "window/controllers/sessions/soft_news.h"
+#include "window/controllers/sessions/run_news.h"
 #include "window/controllers/views/film_control.h"
 #include "window/controllers/views/scene_pointer.h"
 #include "window/controllers/views/sound_control.h"
@@ -81,7 +81,7 @@ class WindowApp {
   LiveControl live_{host_, scene_, sight_};
   ReplayControl replay_{host_, sight_};
   RunMarks marks_{scene_, live_, replay_};
-  SoftNews soft_news_{host_, scene_, live_};
+  RunNews run_news_{host_, scene_, live_};
   HandsControl hands_{host_, scene_, sight_, live_};
   ObserverControl observer_{host_, scene_};
   FilmControl film_{host_};

@@ -95,7 +95,7 @@ UiModel WindowApp::build_model() {
   replay_.describe(model);
   cases_.describe(model);
   marks_.update();
-  soft_news_.update();
+  run_news_.update();
   model.timeline.marks = marks_.all();
   model.contacts = contact_rows(sight_.shown().tool);
   model.soft_rows = live_.run() ? soft_rows(live_.run()->pushes(), live_.run()->active())

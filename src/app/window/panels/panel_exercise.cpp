@@ -496,6 +496,7 @@ float draw_running(const PanelContext& c) {
   strong(c, model.title);
   if (model.page == ExercisePage::kJudging) {
     ui::wrapped_text(color::kTextQuiet, "Replaying and judging your attempt ...");
+    ImGui::ProgressBar(static_cast<float>(model.judged), {-1, c.px(6)}, "");
     return end_card();
   }
   ui::stat("Time",

@@ -13,14 +13,18 @@ constexpr ImU32 kNameLine = IM_COL32(0x15, 0x18, 0x1c, 0xff);
 
 void draw_row(const HandRow& row) {
   const std::string name = row.name.empty() ? "Holds" : row.name;
-  std::string what = row.instrument;
-  if (!row.portal.empty()) what += ", in " + row.portal;
+  // What changes comes first: a long name is cut off.
+  std::string what = row.runs ? "Running: " : "";
+  if (!row.portal.empty()) what += "in " + row.portal + ": ";
+  what += row.instrument;
   ui::stat(name.c_str(), ui::shortened(what, ImGui::GetContentRegionAvail().x * 0.68f),
            row.rests ? "Rests as if an assistant held it. Alt + wheel moves it along its shaft, "
                        "Alt + Q, E turns it about its shaft (a scope's light post), Alt + W, A, S, "
                        "D tilts it. A gamepad's sticks, triggers and bumpers do the same."
                      : "The instrument that this hand holds",
-           row.active ? color::kText : color::kTextQuiet);
+           row.runs     ? color::kAccent
+           : row.active ? color::kText
+                        : color::kTextQuiet);
 }
 
 void draw_hand_buttons(const PanelContext& c) {

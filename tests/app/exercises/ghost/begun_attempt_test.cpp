@@ -83,7 +83,15 @@ class BegunAttemptTest : public ::testing::Test {
   Result<Debrief> judged(const AttemptPart& part) const {
     EXPECT_TRUE(note_attempt(file, wanted.scenario, std::nullopt, "a person", ""));
     EXPECT_TRUE(write_note(file, "part", to_text(part)));
-    return make_debrief({file, "", "", ""});
+    DebriefOrder order{file, "", "", ""};
+    double told = 0;
+    order.on_share = [&](double share) {
+      EXPECT_GE(share, told);
+      told = share;
+    };
+    auto debrief = make_debrief(order);
+    EXPECT_GT(told, 0.95);
+    return debrief;
   }
 
   inline static fs::path dir;

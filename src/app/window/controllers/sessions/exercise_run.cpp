@@ -378,8 +378,8 @@ void ExerciseRun::judge() {
   if (const auto noted = note_what_was_said(); !noted) problem_ = noted.error().message();
   page_ = ExercisePage::kJudging;
   judging_ = std::make_unique<SideJob<Debrief>>(
-      [order = DebriefOrder{file_, "", scenario().where, ""}](const Progress& progress) {
-        progress("Replaying your attempt", 0.1);
+      [order = DebriefOrder{file_, "", scenario().where, ""}](const Progress& progress) mutable {
+        order.on_share = [&](double share) { progress("Replaying your attempt", share); };
         return make_debrief(order);
       });
 }

@@ -176,7 +176,7 @@ std::vector<HandRow> HandsControl::rows() const {
     row.name = capital(hand.name);
     const bool ticks = hand.snapshot.tool.tick > 0;
     row.instrument = live_.tray().title(ticks ? hand.snapshot.tool.instrument : hand.instrument);
-    if (ticks && hand.snapshot.tool.power > 0) row.instrument += ", running";
+    row.runs = ticks && hand.snapshot.tool.power > 0;
     const std::uint32_t portal = hand.snapshot.tool.portal;
     if (ticks && portal < scene_.portals.size()) row.portal = scene_.portals[portal].title;
     row.active = i == run.active();

@@ -1,9 +1,11 @@
-// What the window tells of soft parts as it happens.
-#include "window/controllers/sessions/soft_news.h"
+// What the window tells of soft parts and of what leads drills as it happens.
+#include "window/controllers/sessions/run_news.h"
 
 #include <gtest/gtest.h>
 
+#include "osteon/scene/carve_events.h"
 #include "osteon/scene/soft_events.h"
+#include "session/drilling.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
 
@@ -45,6 +47,21 @@ TEST(SoftNews, SaysNothingElse) {
   event.subject = 0;
   event.subject_kind = SubjectKind::kBone;
   EXPECT_EQ(soft_news_of(event, *ligament), "");
+}
+
+TEST(GuideNews, SaysWhatLeadsADrillAndWhatSlidesOff) {
+  const auto the_case = testing::drilled_block();
+  const auto news = [&](EventKind kind, std::array<double, 3> values = {}) {
+    Event event = soft_event(kind, values);
+    event.subject_kind = SubjectKind::kBone;
+    return guide_news_of(event, *the_case);
+  };
+  EXPECT_EQ(news(kAimed), "Block: the aimer is fixed. Its sleeve leads a pin.");
+  EXPECT_EQ(news(kPinLeft, {33.8, 2.4, 0}),
+            "Block: the pin stays, 34 mm deep. It leads a drill that is hollow.");
+  EXPECT_NE(news(kSkives, {70, 8, 0}).find("slides off"), std::string::npos);
+  EXPECT_EQ(news(kPinTaken), "");
+  EXPECT_EQ(guide_news_of(soft_event(kAimed), *the_case), "") << "of a soft part";
 }
 
 }  // namespace
