@@ -88,7 +88,7 @@ void add_skins(SoftSetup& setup, std::vector<SkinPatch> patches, std::vector<Ski
 std::uint64_t hash_of(std::span<const SoftBand> bands);
 
 /// Makes bands of the case's ligaments. `names`: of the table's rows that have a soft part, or
-/// "ligaments": the first kMaxBands of those that the case has. Of each ligament the middle line between its
+/// "ligaments": kMaxBands that the case has, at most. Of each ligament the middle line between its
 /// footprints is felt, as thick as its volume; all its bundles lie on it, slack as the table says
 /// of the case's own bending; a finding leaves of it what the table says. `surface_n_per_m`: how a
 /// ligament's surface yields. Fails, and says what there is, where a ligament is not in the table
