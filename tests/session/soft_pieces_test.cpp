@@ -328,6 +328,7 @@ TEST(SoftPieces, WhatJawsCarrySlipsFromThemAtASoftPart) {
       share = share_in_block(lying(session)[0]);
       hand.move(hand.at + Vec3(3.5e-5, 0, 0), 1);
     }
+    hand.rest(10);
     EXPECT_EQ(hand.count(kSoftPieceLetGo), stopped ? 1u : 0u);
     if (stopped)
       EXPECT_NEAR(share, 0.5, 0.05);
