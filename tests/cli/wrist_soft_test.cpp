@@ -74,6 +74,17 @@ TEST_F(WristSoft, AHookPullsTheScapholunateLigamentUnlessItIsTorn) {
   EXPECT_EQ(part("scapholunate_dorsal")["peak_force_n"], 0);
 }
 
+TEST_F(WristSoft, LigamentsOfTheMidcarpalJointAreFeltByName) {
+  const Ran ran = simulate("whole", "wrist_scapholunate_hook",
+                           "--soft triquetrohamate,triquetrocapitate,scaphocapitate,"
+                           "scaphotrapezial,capitohamate_volar,capitohamate_dorsal,"
+                           "capitotrapezoid_dorsal,trapeziotrapezoid_dorsal");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_EQ(part("triquetrohamate")["first_tension_n"], 0) << "just not tight";
+  EXPECT_GT(part("capitohamate_volar")["first_tension_n"], 1);
+  EXPECT_TRUE(part("scaphotrapezial")["whole"]);
+}
+
 TEST_F(WristSoft, WhatAWristLacksExitsWithTwoAndSaysWhatThereIs) {
   const Ran ran = simulate("whole", "wrist_tfcc_press", "--soft acl");
   EXPECT_EQ(ran.exit_code, 2);

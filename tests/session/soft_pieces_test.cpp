@@ -28,7 +28,8 @@ enum : std::uint32_t { kPieceBall, kPieceBlade, kPieceGrasper, kPieceSuction };
 const Vec3 kFloorHalf(0.04, 0.04, 0.02);
 
 struct PiecesRun : testing::MeniscusRun {
-  explicit PiecesRun(bool lie = true, bool meet = false, bool tear = false, bool hook = false)
+  explicit PiecesRun(bool lie = true, bool meet = false, bool tear = false, bool hook = false,
+                     bool stop = false)
       : MeniscusRun(testing::meniscus_case(kFloorHalf)) {
     const auto instruments = load_instruments();
     EXPECT_TRUE(instruments);
@@ -48,6 +49,8 @@ struct PiecesRun : testing::MeniscusRun {
     if (meet) let_pieces_meet_softs(setup);
     if (tear) let_bridges_tear(setup);
     if (hook) let_hooks_tear_and_punches_bite(setup);
+    if (stop) let_pieces_be_stopped(setup);
+    if (stop) let_thin_parts_stop_pieces(setup);
     settings.soft_hash = setup.hash;
     softs = std::make_shared<const SoftSetup>(std::move(setup));
   }
@@ -61,6 +64,12 @@ const PiecesRun& pieces_run() {
 /// As sessions are made now: pieces lie on what is left of the block, too.
 const PiecesRun& meeting_run() {
   static const PiecesRun run(true, true);
+  return run;
+}
+
+/// And the block stops what jaws carry.
+const PiecesRun& stopping_run() {
+  static const PiecesRun run(true, true, false, false, true);
   return run;
 }
 
@@ -280,6 +289,52 @@ TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
   EXPECT_EQ(hand.count(kSoftPieceOut), 1u);
   EXPECT_TRUE(lying(session).empty());
   EXPECT_EQ(session.bones().loose.count, 0u);
+}
+
+// How much of a piece's surface lies in the whole end of the block.
+double share_in_block(const FallenPiece& piece) {
+  const auto& points = piece.shape->points_B();
+  const auto is_inside = [&](const Vec3& p_B) {
+    return ((piece.X_WB * p_B).cwiseAbs() - kMeniscusHalf).maxCoeff() < -3e-4;
+  };
+  return static_cast<double>(std::count_if(points.begin(), points.end(), is_inside)) /
+         static_cast<double>(points.size());
+}
+
+// Carried against the whole end of the block, too thin for anything to stand 3 mm deep in it, it
+// slips from the jaws as half of it is inside; where nothing stops it, it goes on into the block.
+TEST(SoftPieces, WhatJawsCarrySlipsFromThemAtASoftPart) {
+  for (const PiecesRun* const run : {&stopping_run(), &meeting_run()}) {
+    const bool stopped = run == &stopping_run();
+    Session session = run->session();
+    PieceHand hand(session);
+    const Vec3 at = where_it_comes_to_rest(hand);
+    ASSERT_EQ(lying(session).size(), 1u);
+    hand.take(kPieceGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
+    hand.jaws(1);
+    hand.move({at.x(), at.y(), at.z()}, 300);
+    hand.jaws(0);
+    hand.rest(20);
+    ASSERT_EQ(hand.count(kSoftPieceHeld), 1u) << stopped;
+    // Up, beside the whole end of the block, and down to its height.
+    hand.move(hand.at + Vec3(0, 0, 0.020), 300);
+    hand.move({hand.at.x() - 0.045, 0, hand.at.z()}, 500);
+    hand.move(hand.at - Vec3(0, 0, 0.020), 300);
+    hand.move({hand.at.x(), 0, hand.at.z() - middle_W(lying(session)[0]).z()}, 300);
+    ASSERT_EQ(lying(session)[0].is, FallenPiece::Is::kHeld) << stopped;
+    EXPECT_EQ(share_in_block(lying(session)[0]), 0);
+    double share = 0;
+    for (int n = 0; n < 1000 && lying(session)[0].is == FallenPiece::Is::kHeld; ++n) {
+      share = share_in_block(lying(session)[0]);
+      hand.move(hand.at + Vec3(3.5e-5, 0, 0), 1);
+    }
+    hand.rest(10);
+    EXPECT_EQ(hand.count(kSoftPieceLetGo), stopped ? 1u : 0u);
+    if (stopped)
+      EXPECT_NEAR(share, 0.5, 0.05);
+    else
+      EXPECT_GT(share, 0.7);
+  }
 }
 
 TEST(SoftPieces, ItSticksToSuctionThatIsNarrowerThanItIs) {

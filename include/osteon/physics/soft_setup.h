@@ -38,10 +38,11 @@ struct SoftSetup {
   /// Pieces of bone rest on what is soft, too, and what jaws carry slips from them where it stands
   /// in it.
   bool pieces_are_stopped = false;
-  bool by_strands = false;    ///< bands are cut and torn strand by strand
-  bool bridges_tear = false;  ///< what jaws pull off a solid tears where it is narrow
-  bool hooks_tear = false;    ///< off a solid, as jaws do
-  bool punches_bite = false;  ///< strands off bands
+  bool thin_ones_stop = false;  ///< by thin parts, too, in which nothing stands deep
+  bool by_strands = false;      ///< bands are cut and torn strand by strand
+  bool bridges_tear = false;    ///< what jaws pull off a solid tears where it is narrow
+  bool hooks_tear = false;      ///< off a solid, as jaws do
+  bool punches_bite = false;    ///< strands off bands
   std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
   bool wounds_open = false;  ///< what retracts holds the lips of cut skin apart
   SoftFriction friction;     ///< of instruments on it; none unless told
@@ -63,6 +64,9 @@ void let_pieces_meet_softs(SoftSetup& setup);
 /// So do pieces of bone then, and what jaws and suction carry. Nothing changes where nothing is
 /// soft but skin.
 void let_pieces_be_stopped(SoftSetup& setup);
+/// Parts too thin for anything to stand deep in them stop what is carried, too. Nothing changes
+/// where none is stopped.
+void let_thin_parts_stop_pieces(SoftSetup& setup);
 /// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
 /// Nothing changes where neither bands nor solids are cut.
 void let_hooks_tear_and_punches_bite(SoftSetup& setup);
@@ -84,7 +88,7 @@ void add_skins(SoftSetup& setup, std::vector<SkinPatch> patches, std::vector<Ski
 std::uint64_t hash_of(std::span<const SoftBand> bands);
 
 /// Makes bands of the case's ligaments. `names`: of the table's rows that have a soft part, or
-/// "ligaments": every one of those that the case has. Of each ligament the middle line between its
+/// "ligaments": kMaxBands that the case has, at most. Of each ligament the middle line between its
 /// footprints is felt, as thick as its volume; all its bundles lie on it, slack as the table says
 /// of the case's own bending; a finding leaves of it what the table says. `surface_n_per_m`: how a
 /// ligament's surface yields. Fails, and says what there is, where a ligament is not in the table

@@ -30,6 +30,7 @@ struct WindowOrder {
                                           ///< them; begins with these shown
   double turn_deg = 0;                    ///< of the camera, each picture that is counted
   bool close_up = false;                  ///< begins close up on the joint
+  std::vector<double> eye_mm, toward_mm;  ///< in World: where the view from outside begins; or none
   bool demo = false;                      ///< the virtual hand plays the case's path
   /// Hands to begin with, as parse_hand_order takes them: "phantom:left=hook_probe"; none: one
   /// hand with the device of last time.

@@ -13,6 +13,8 @@ namespace {
 constexpr double kOpenForPiece = 0.5, kShutOnPiece = 0.15;  // of their way
 constexpr double kPieceSlips_m = 0.002;    // what is held slips out where it stands so deep in bone
 constexpr double kPieceInSoft_m = 0.003;   // and where a soft part is to yield by so much
+constexpr double kPieceInThin = 0.8;       // of half a part's thickness: it is as good as through
+constexpr double kPieceInside_m = 3e-4;    // so deep a point counts as inside of a soft part
 constexpr double kPieceTaken_m = 0.001;    // and suction takes none that stands deeper than that
 constexpr double kHeldNear_m = 0.003;      // what jaws held, they have
 constexpr double kSuctionReach_m = 0.006;  // before a bore: how far it draws
@@ -36,9 +38,11 @@ bool any_moves(const BoneSnapshot& bones) {
   return std::any_of(bones.bones.begin(), bones.bones.begin() + bones.count, moves);
 }
 
-/// How deep the deepest of a piece's points stands in bone and in soft parts.
+/// How deep the deepest of a piece's points stands in bone and in soft parts; these by half of
+/// their thickness, too; and how many stand in them.
 struct StandsIn {
-  double bone_m = 0, soft_m = 0;
+  double bone_m = 0, soft_m = 0, of_half = 0;
+  std::size_t inside = 0;
 };
 
 StandsIn stands_in(const FallenPiece& piece, const PieceSurroundings& around) {
@@ -47,9 +51,21 @@ StandsIn stands_in(const FallenPiece& piece, const PieceSurroundings& around) {
   StandsIn out;
   for (const Vec3& p_B : piece.shape->points_B()) {
     out.bone_m = std::max(out.bone_m, near.in_bone(piece.X_WB * p_B).depth_m);
-    if (softs) out.soft_m = std::max(out.soft_m, near.in_soft(piece.X_WB * p_B).depth_m);
+    if (!softs) continue;
+    const PiecePush soft = near.in_soft(piece.X_WB * p_B);
+    out.soft_m = std::max(out.soft_m, soft.depth_m);
+    out.of_half = std::max(out.of_half, soft.of_half);
+    if (soft.depth_m > kPieceInside_m) ++out.inside;
   }
   return out;
+}
+
+// What is thin is left behind before anything stands deep in it: a piece that lies about its
+// middle, or whose greater half lies in it, does not go through.
+bool is_through_thin(const StandsIn& in, const FallenPiece& piece,
+                     const PieceSurroundings& around) {
+  if (!around.softs || !around.softs->thin_ones_stop()) return false;
+  return in.of_half > kPieceInThin || 2 * in.inside > piece.shape->points_B().size();
 }
 
 }  // namespace
@@ -212,7 +228,9 @@ void FallenPieces::carry(FallenPiece& piece, const ToolState& tool,
                          const PieceSurroundings& around) {
   piece.X_WB = tool.X_WP * piece.X_PB;
   const StandsIn in = stands_in(piece, around);
-  if (!(in.bone_m > kPieceSlips_m) && !(in.soft_m > kPieceInSoft_m)) return;
+  if (!(in.bone_m > kPieceSlips_m) && !(in.soft_m > kPieceInSoft_m) &&
+      !is_through_thin(in, piece, around))
+    return;
   tell(PieceNews::Is::kLetGo, piece, piece.hand);
   begin_to_fall(piece);
 }

@@ -12,6 +12,7 @@ namespace osteon {
 struct PiecePush {
   double depth_m = 0;  ///< not above 0: it lies in nothing
   Vec3 out_W = Vec3::UnitZ();
+  double of_half = 0;  ///< the depth by half of how thick the part is; 0: that is not known
 };
 
 /// The surfaces of soft parts, as loose pieces meet them.
@@ -22,6 +23,8 @@ class PieceSoftGround {
   virtual PiecePush at(const Vec3& p_W) const = 0;
   /// Whether what jaws and suction carry is stopped by them, too.
   virtual bool stops_carried() const { return false; }
+  /// And whether by those, too, that are too thin for anything to stand deep in them.
+  virtual bool thin_ones_stop() const { return false; }
   /// False: no point of that ball is in one.
   virtual bool may_meet(const Vec3& center_W, double radius_m) const = 0;
 };

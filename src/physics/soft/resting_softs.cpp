@@ -66,7 +66,8 @@ void RestingSofts::in_band(std::size_t b, const Vec3& p_W, PiecePush& out) const
   const double radius_m = setup_.bands[b].radius_m;
   const Vec3 off = off_band(b, p_W);
   const double away = off.norm();
-  if (radius_m - away > out.depth_m && away > 1e-9) out = {radius_m - away, off / away};
+  if (radius_m - away > out.depth_m && away > 1e-9)
+    out = {radius_m - away, off / away, 1 - away / radius_m};
 }
 
 }  // namespace osteon

@@ -24,6 +24,7 @@ class RestingSofts : public PieceSoftGround {
   bool may_meet(const Vec3& center_W, double radius_m) const override;
   PiecePush at(const Vec3& p_W) const override;
   bool stops_carried() const override { return setup_.pieces_are_stopped; }
+  bool thin_ones_stop() const override { return setup_.thin_ones_stop; }
 
  private:
   bool is_there(std::size_t solid) const;

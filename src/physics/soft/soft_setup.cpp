@@ -49,10 +49,14 @@ Result<std::vector<const LigamentRow*>> rows_asked(const Case& the_case, const L
   const std::string advice =
       there.empty() ? "Give a case with a knee or a wrist, such as builtin:knee"
                     : "Choose from " + listed(there) + ", " + kAllLigaments + " or menisci";
+  // All: as many of them as are felt at once, in the order of the table.
+  const std::vector<std::string> all(
+      there.begin(),
+      there.begin() + static_cast<std::ptrdiff_t>(std::min(there.size(), kMaxBands)));
   std::vector<std::string> wanted;
   for (const std::string& name : names) {
     const std::vector<std::string> more =
-        name == kAllLigaments ? there : std::vector<std::string>{name};
+        name == kAllLigaments ? all : std::vector<std::string>{name};
     for (const std::string& one : more)
       if (std::find(wanted.begin(), wanted.end(), one) == wanted.end()) wanted.push_back(one);
   }

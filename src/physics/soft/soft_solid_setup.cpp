@@ -195,6 +195,12 @@ void let_pieces_be_stopped(SoftSetup& setup) {
   tell_hash(setup, "pieces are stopped");
 }
 
+void let_thin_parts_stop_pieces(SoftSetup& setup) {
+  if (!setup.pieces_are_stopped) return;
+  setup.thin_ones_stop = true;
+  tell_hash(setup, "thin parts stop pieces");
+}
+
 void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
   const auto bites = [](const std::optional<SolidCutter>& cutter) {
     return cutter && cutter->way == SolidCutter::Way::kBite;

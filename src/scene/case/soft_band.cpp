@@ -53,6 +53,14 @@ double balance(const BentString& string, double deep, double k) {
   return 0.5 * (low + high);
 }
 
+// The string's force where it is in balance with k (deep - bent). A leg of next to no length has
+// any direction: there the force is what the surface bears.
+double balanced_n(const BentString& string, double bent, double deep, double k) {
+  constexpr double kRounded = 1.001;
+  const double force = string.force(bent);
+  return force > kRounded * k * deep ? k * (deep - bent) : force;
+}
+
 }  // namespace
 
 double tension_at(const SoftBand& band, double length_m, double left) {
@@ -99,7 +107,7 @@ BandPress press_band(const SoftBand& band, const BandSpan& span, const RoundBox&
   out.bent_m = balance(string, out.deep_m, k);
   out.taken_m = string.taken(out.bent_m);
   out.tension_n = string.tension(out.bent_m);
-  out.force_n = string.force(out.bent_m);
+  out.force_n = balanced_n(string, out.bent_m, out.deep_m, k);
   out.presses = true;
   return out;
 }
@@ -118,10 +126,11 @@ BandPress draw_band(const SoftBand& band, const BandSpan& span, const Vec3& to_W
   const double at_end = std::min(1.0, std::min(share, 1 - share) / kEndShare);
   if (!(out.deep_m > 0) || !(at_end > 0)) return out;
   const BentString string{band, share * length, (1 - share) * length, others_taken_m, left};
-  out.bent_m = balance(string, out.deep_m, at_end * spring_n_per_m);
+  const double k = at_end * spring_n_per_m;
+  out.bent_m = balance(string, out.deep_m, k);
   out.taken_m = string.taken(out.bent_m);
   out.tension_n = string.tension(out.bent_m);
-  out.force_n = string.force(out.bent_m);
+  out.force_n = balanced_n(string, out.bent_m, out.deep_m, k);
   out.p_W = on_W + out.bent_m / apart * (to_W - on_W);
   out.presses = true;
   return out;

@@ -412,9 +412,10 @@ TEST(Findings, ARandomPatientHasThemTooAndTheRestIsTheSameToTheBit) {
     expect_whole(checks::soft_named(ill, name).mesh_W, name);
   // The ligaments give way to the cartilage that is cut.
   const std::set<std::string> touched = {
-      "scapholunate_proximal",       "scapholunate_volar",        "radioscaphocapitate",
-      "dorsal_intercarpal",          "scaphoid_proximal",         "scaphoid_distal",
-      "scaphoid_proximal_cartilage", "scaphoid_distal_cartilage", "tfcc_disc"};
+      "scapholunate_proximal",     "scapholunate_volar", "radioscaphocapitate",
+      "dorsal_intercarpal",        "scaphocapitate",     "scaphotrapezial",
+      "scaphoid_proximal",         "scaphoid_distal",    "scaphoid_proximal_cartilage",
+      "scaphoid_distal_cartilage", "tfcc_disc"};
   std::size_t same = 0;
   for (const GeneratedBone& b : ill.bones)
     if (!touched.contains(b.name)) {

@@ -38,11 +38,30 @@ Vec3 landmark(const GeneratedAnatomy& anatomy, const std::string& name) {
 TEST(WristSoft, HasWhatAnArthroscopyLooksAt) {
   std::set<std::string> names;
   for (const GeneratedSoft& soft : soft_wrist().softs) names.insert(soft.name);
-  for (const char* name :
-       {"scaphoid_fossa", "lunate_fossa", "tfcc_disc", "scapholunate_dorsal",
-        "scapholunate_proximal", "scapholunate_volar", "lunotriquetral_dorsal",
-        "lunotriquetral_volar", "radioscaphocapitate", "long_radiolunate", "short_radiolunate",
-        "ulnolunate", "ulnotriquetral", "dorsal_radiocarpal", "dorsal_intercarpal", "skin"})
+  for (const char* name : {"scaphoid_fossa",
+                           "lunate_fossa",
+                           "tfcc_disc",
+                           "scapholunate_dorsal",
+                           "scapholunate_proximal",
+                           "scapholunate_volar",
+                           "lunotriquetral_dorsal",
+                           "lunotriquetral_volar",
+                           "radioscaphocapitate",
+                           "long_radiolunate",
+                           "short_radiolunate",
+                           "ulnolunate",
+                           "ulnotriquetral",
+                           "dorsal_radiocarpal",
+                           "dorsal_intercarpal",
+                           "triquetrohamate",
+                           "triquetrocapitate",
+                           "scaphocapitate",
+                           "scaphotrapezial",
+                           "capitohamate_volar",
+                           "capitohamate_dorsal",
+                           "capitotrapezoid_dorsal",
+                           "trapeziotrapezoid_dorsal",
+                           "skin"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 
@@ -77,7 +96,15 @@ TEST(WristSoft, BandsJoinTheBonesThatTheirNamesSay) {
       {"ulnolunate", "ulna", "lunate"},
       {"ulnotriquetral", "ulna", "triquetrum"},
       {"dorsal_radiocarpal", "radius", "triquetrum"},
-      {"dorsal_intercarpal", "triquetrum", "scaphoid"}};
+      {"dorsal_intercarpal", "triquetrum", "scaphoid"},
+      {"triquetrohamate", "triquetrum", "hamate"},
+      {"triquetrocapitate", "triquetrum", "capitate"},
+      {"scaphocapitate", "scaphoid", "capitate"},
+      {"scaphotrapezial", "scaphoid", "trapezium"},
+      {"capitohamate_volar", "capitate", "hamate"},
+      {"capitohamate_dorsal", "capitate", "hamate"},
+      {"capitotrapezoid_dorsal", "capitate", "trapezoid"},
+      {"trapeziotrapezoid_dorsal", "trapezoid", "trapezium"}};
   for (const auto& [name, from, to] : bands) {
     const GeneratedSoft& band = checks::soft_named(soft_wrist(), name);
     ASSERT_EQ(band.attachments.size(), 2u) << name;

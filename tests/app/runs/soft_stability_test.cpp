@@ -1,6 +1,7 @@
 // The closed loop of an emulated hand and soft parts, with friction: pressed, they come to rest.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "osteon/device/virtual_hand.h"
@@ -11,6 +12,7 @@
 #include "session/skin_fixtures.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
+#include "session/wound_fixtures.h"
 
 namespace osteon {
 namespace {
@@ -40,6 +42,32 @@ struct SoftOutcome {
   double last_swing_m = 0, last_force_n = 0;
 };
 
+/// Where a hand was in each tick.
+struct SoftSwing {
+  std::vector<Vec3> place, speed;
+
+  void add(const VirtualHand& hand) {
+    place.push_back(hand.pose().p);
+    speed.push_back(hand.velocity());
+  }
+  SoftOutcome outcome(const SoftLoop& loop, const Vec3& last_force_W) const {
+    SoftOutcome out;
+    out.last_force_n = last_force_W.norm();
+    for (std::size_t begin = 500; begin + 250 <= place.size(); begin += 250) {
+      double largest = 0;
+      out.last_swing_m = 0;
+      for (std::size_t i = begin; i < begin + 250; ++i) {
+        const double swing = (place[i] - place.back()).norm();
+        largest = std::max(largest, 0.5 * loop.mass_kg * speed[i].squaredNorm() +
+                                        0.5 * kSoftGrip_n_per_m * swing * swing);
+        out.last_swing_m = std::max(out.last_swing_m, swing);
+      }
+      out.window_energy.push_back(largest);
+    }
+    return out;
+  }
+};
+
 // From `from` at that speed to `to`, which the hand then aims at; the force comes a tick late.
 SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput& from,
                          const Vec3& to_W, double speed_m_per_s = 0.05, int ticks = 2500) {
@@ -49,7 +77,7 @@ SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput
   const Vec3 way = to_W - from.X_WD.p;
   const int moves = static_cast<int>(way.norm() / speed_m_per_s / 1e-3);
   Vec3 late = Vec3::Zero();
-  std::vector<Vec3> place, speed;
+  SoftSwing swing;
   for (int i = 0; i < ticks; ++i) {
     wanted.p = from.X_WD.p + std::min(1.0, static_cast<double>(i) / moves) * way;
     const Vec3 wanted_v = i < moves ? Vec3(speed_m_per_s * way.normalized()) : Vec3(Vec3::Zero());
@@ -59,23 +87,9 @@ SoftOutcome press_softly(Session& session, const SoftLoop& loop, const ToolInput
     (void)session.tick(input);
     hand.step(1e-3, wanted, wanted_v, late);
     late = session.tool_state().force_W;
-    place.push_back(hand.pose().p);
-    speed.push_back(hand.velocity());
+    swing.add(hand);
   }
-  SoftOutcome out;
-  out.last_force_n = late.norm();
-  for (std::size_t begin = 500; begin + 250 <= place.size(); begin += 250) {
-    double largest = 0;
-    out.last_swing_m = 0;
-    for (std::size_t i = begin; i < begin + 250; ++i) {
-      const double swing = (place[i] - place.back()).norm();
-      largest = std::max(largest, 0.5 * loop.mass_kg * speed[i].squaredNorm() +
-                                      0.5 * kSoftGrip_n_per_m * swing * swing);
-      out.last_swing_m = std::max(out.last_swing_m, swing);
-    }
-    out.window_energy.push_back(largest);
-  }
-  return out;
+  return swing.outcome(loop, late);
 }
 
 void expect_rest(const SoftOutcome& o, const SoftLoop& loop, double least_n = 0.5) {
@@ -240,6 +254,69 @@ TEST(SoftStability, SkinPressedOverATendonComesToRest) {
 TEST(SoftStability, SkinSlidOverATendonsEdgeComesToRest) {
   for (const SkinWay& way : {SkinWay{0.003, -0.004, 0.004}, SkinWay{0.003, 0.004, 0}})
     expect_skin_rests(way, 2000);
+}
+
+/// One that moves from where it is to where it aims at, in 0.15 s.
+struct WoundHand {
+  WoundHand(const SoftLoop& loop, const Vec3& begin_W, const Vec3& end_W)
+      : from_W(begin_W), to_W(end_W), hand({loop.mass_kg, kSoftGrip_n_per_m, loop.grip_n_s_per_m}) {
+    hand.reset({from_W, Quat::Identity()});
+  }
+  HandInput input() const {
+    HandInput in;
+    in.input.X_WD = hand.pose();
+    in.input.v_W = hand.velocity();
+    return in;
+  }
+  void step(int tick, const Vec3& force_W) {
+    constexpr int kMoves = 150;
+    const Vec3 way = to_W - from_W;
+    const Pose wanted{from_W + std::min(1.0, static_cast<double>(tick) / kMoves) * way,
+                      Quat::Identity()};
+    hand.step(1e-3, wanted, tick < kMoves ? Vec3(way / (1e-3 * kMoves)) : Vec3(Vec3::Zero()), late);
+    late = force_W;
+    swing.add(hand);
+  }
+  Vec3 from_W, to_W, late = Vec3::Zero();
+  VirtualHand hand;
+  SoftSwing swing;
+};
+
+// Both hands are emulated: the right one draws a lip aside with a retractor, the left one has a
+// shaft between the lips and presses the other lip, or stays clear of both.
+void expect_wound_rests(const SessionState& in_wound, const Vec3& left_to_W, double left_least_n) {
+  for (const SoftLoop& loop : soft_loops()) {
+    testing::WoundRun run = testing::wound_run();
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    Session session = run.session();
+    ASSERT_TRUE(session.restore(in_wound));
+    const auto at = [&](std::size_t hand) { return session.tool_state(hand).X_WP.p; };
+    WoundHand right(loop, at(0), at(0) + Vec3(0, 0.005, 0)), left(loop, at(1), left_to_W);
+    for (int i = 0; i < 3000; ++i) {
+      const std::array<HandInput, 2> in = {right.input(), left.input()};
+      (void)session.tick(in);
+      right.step(i, session.tool_state(0).force_W);
+      left.step(i, session.tool_state(1).force_W);
+    }
+    expect_rest(right.swing.outcome(loop, right.late), loop);
+    expect_rest(left.swing.outcome(loop, left.late), loop, left_least_n);
+    EXPECT_GT(session.softs()->pushes().lip_count, 2u) << "the wound must be held open";
+  }
+}
+
+TEST(SoftStability, HandsInAWoundThatOneHoldsOpenComeToRest) {
+  Session session = testing::wound_run().session();
+  testing::TwoInSkin hands(session);
+  hands.cut();
+  hands.take(1, testing::kSkinScope);
+  hands.set_in();
+  hands.move(0, {0, 0.005, -testing::kDeep_m}, 400);
+  hands.move(1, {0, 0.001, 0.010}, 200);
+  hands.move(1, {0, 0.001, -0.010}, 400);
+  hands.rest(50);
+  const SessionState in_wound = session.save();
+  expect_wound_rests(in_wound, {0, 0.001, -0.010}, -1);
+  expect_wound_rests(in_wound, {0, -0.006, -0.010}, 0.5);
 }
 
 // It is the last in the tray.

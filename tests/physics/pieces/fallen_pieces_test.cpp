@@ -262,6 +262,61 @@ TEST(FallenPieces, WhatIsDrawnIntoBoneSlipsOutOfTheJaws) {
   EXPECT_TRUE(rig.told(PieceNews::Is::kLetGo));
 }
 
+/// A soft floor that stops what jaws carry: thick, or so thin that nothing stands deep in it.
+struct StoppingFloor : SoftFloor {
+  double half_m = 1;  ///< of how thick it is
+  bool thin_ones = false, knows_half = false;
+  PiecePush at(const Vec3& p_W) const override {
+    const double depth_m = half_m - std::abs(p_W.z() - (top_m - half_m));
+    return {depth_m, Vec3::UnitZ(), knows_half ? depth_m / half_m : 0};
+  }
+  bool stops_carried() const override { return true; }
+  bool thin_ones_stop() const override { return thin_ones; }
+};
+
+// How far below the floor's top the lowest point of a cube of 6 mm was as it slipped; 0: it did
+// not.
+double slips_at_m(StoppingFloor floor) {
+  floor.top_m = -1;
+  PieceRig rig(table());
+  rig.add(cube_piece(0.003), Vec3(0, 0, 0.003));
+  rig.step(300);
+  const SoftGripper& jaws = *rig.setup->tray.front().jaws;
+  rig.tool.X_WP.p = rig.middle() - (jaws.hinge_T + 0.6 * jaws.length_m * jaws.along_T);
+  rig.set_jaw(1);
+  rig.set_jaw(0);
+  rig.tool.X_WP.p.z() += 0.020;
+  rig.step();
+  EXPECT_EQ(rig.piece().is, FallenPiece::Is::kHeld);
+  floor.top_m = rig.middle().z() - 0.0035;
+  const ToolState* const tools[] = {&rig.tool};
+  for (int n = 0; n < 150; ++n) {
+    const double deep_m = floor.top_m - (rig.middle().z() - 0.003);
+    rig.tool.X_WP.p.z() -= 0.00005;
+    rig.pieces.step(tools, rig.bones, {}, false, kPieceStep_s, &floor);
+    if (rig.piece().is != FallenPiece::Is::kHeld) return deep_m;
+  }
+  return 0;
+}
+
+TEST(FallenPieces, WhatJawsCarrySlipsWhereItStands3MillimetresDeepInASoftPart) {
+  EXPECT_NEAR(slips_at_m({}), 0.003, 2e-4);
+}
+
+// A floor of 2 mm: without its middle known the cube is half through, and with it near that.
+TEST(FallenPieces, WhatJawsCarrySlipsAtAThinSoftPartWhereThatStopsIt) {
+  StoppingFloor thin;
+  thin.half_m = 0.001;
+  EXPECT_EQ(slips_at_m(thin), 0) << "so it was before thin parts stopped anything";
+  thin.thin_ones = thin.knows_half = true;
+  EXPECT_NEAR(slips_at_m(thin), 0.0008, 2e-4);
+  StoppingFloor thicker;
+  thicker.half_m = 0.0028;
+  EXPECT_EQ(slips_at_m(thicker), 0);
+  thicker.thin_ones = true;
+  EXPECT_NEAR(slips_at_m(thicker), 0.0033, 3e-4);
+}
+
 TEST(FallenPieces, HandsThatAreElsewhereHoldNothing) {
   PieceRig rig(table());
   rig.add(cube_piece(0.001), Vec3(0, 0, 0.02));

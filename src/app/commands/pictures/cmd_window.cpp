@@ -66,6 +66,12 @@ void add_window_command(cli::App& app, int& exit_code) {
       "acl,pcl,mcl,lcl,medial_meniscus,lateral_meniscus; of a wrist tfcc, too");
   softs->expected(0, 1);
   command->add_flag("--close-up", order->close_up, "begin close up on the joint");
+  cli::Option* const eye = command->add_option(
+      "--eye", order->eye_mm, "begin with the view from this point outside: x,y,z in World, mm");
+  cli::Option* const toward = command->add_option(
+      "--toward", order->toward_mm, "point in the middle of that view: x,y,z in World, mm");
+  eye->delimiter(',')->expected(3)->needs(toward);
+  toward->delimiter(',')->expected(3)->needs(eye);
   command->add_flag("--demo", order->demo, "the virtual hand plays the case's path");
   command->add_option(
       "--device", order->devices,
@@ -126,6 +132,8 @@ void add_window_command(cli::App& app, int& exit_code) {
     order->softs = softs->count() > 0 && order->give_way.empty();
     if (!size->empty() && !parse_window_size(*size, order->width, order->height))
       cli::refuse("--size", "give it as WIDTHxHEIGHT, at least 640x400");
+    if (!order->eye_mm.empty() && order->eye_mm == order->toward_mm)
+      cli::refuse("--eye", "give a point other than --toward");
     if (!layout->empty()) order->layout = *parse_picture_layout(*layout);
     if (!observer->empty()) order->observer = *parse_picture_layout(*observer);
     for (const auto& [option, file] :

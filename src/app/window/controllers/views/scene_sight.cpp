@@ -20,6 +20,20 @@ const Pane* find_pane(const std::vector<Pane>& panes, PaneKind kind) {
   return at == panes.end() ? nullptr : &*at;
 }
 
+// Upright as the views of the buttons, or as near to it as the way there lets it be.
+Camera ordered_camera(const Camera& from, const WindowOrder& order, const Vec3& up_W) {
+  const auto point = [](const std::vector<double>& mm) {
+    return Vec3(0.001 * Vec3(mm[0], mm[1], mm[2]));
+  };
+  Camera camera = from;
+  camera.target_W = point(order.toward_mm);
+  const Vec3 back_W = point(order.eye_mm) - camera.target_W;
+  camera.distance_m = back_W.norm();
+  const bool along = back_W.normalized().cross(up_W).norm() < 0.01;
+  camera.q_WC = look_rotation(back_W, along ? back_W.unitOrthogonal() : up_W);
+  return camera;
+}
+
 }  // namespace
 
 void SceneSight::begin_case(bool same_case) {
@@ -56,7 +70,9 @@ void SceneSight::recall() {
   if (host_.order.close_up)
     view_.camera =
         close_up_camera(view_.camera, the_case, {}, viewport().aspect(), covered_edges());
-  control_ = CameraControl(anatomical_frame(the_case).distal_W);
+  const Vec3 up_W = anatomical_frame(the_case).distal_W;
+  if (!host_.order.eye_mm.empty()) view_.camera = ordered_camera(view_.camera, host_.order, up_W);
+  control_ = CameraControl(up_W);
   shown_ = {rest_snapshot(the_case), {}};
   hovered_ = picked_ = hovered_row_ = {};
 }
