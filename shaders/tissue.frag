@@ -4,7 +4,7 @@
 in vec3 v_position;
 in vec3 v_normal;
 in vec3 v_place;
-in vec4 v_shade;  // openness, cavity, mottle
+in vec4 v_shade;  // openness, cavity, mottle; of cartilage: a half of how thick it is, 1 at most
 
 // KIND: 0 bone, 1 cartilage, 2 meniscus, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel, 7 disc
 uniform vec3 u_tint;      // what its own colour makes of the pattern's
@@ -134,14 +134,17 @@ Look bone_look(vec3 p) {
 }
 
 // Cartilage is glass-like: bluish white where it is thin over the bone, creamy where it is thick,
-// with faint clouds and a surface that is never quite even.
-Look cartilage_look(vec3 p) {
+// with faint clouds and a surface that is never quite even. At its rim it thins out, and the synovium
+// that creeps over bone shows in fringes: `thick` is 0 at the rim, 1 where it is full.
+Look cartilage_look(vec3 p, float thick) {
   float m = layers(p * 120.0);
   float cloud = layers(p * 420.0 + 13.0);
   float fine = layers(p * 1400.0);
   vec3 c = mix(vec3(0.83, 0.85, 0.85), vec3(0.97, 0.93, 0.84), smoothstep(0.25, 0.75, m));
   c *= 0.95 + 0.09 * cloud;
-  return Look(c, 2.0e-5 * fine + 1.1e-4 * cloud + 2.2e-4 * m, 0.60, 0.30);
+  float full = smoothstep(0.0, 0.85, thick + 0.5 * (cloud - 0.5) + 0.25 * (fine - 0.5));
+  c = mix(vec3(0.83, 0.65, 0.55), c, full);
+  return Look(c, 2.0e-5 * fine + 1.1e-4 * cloud + 2.2e-4 * m, 0.30 + 0.30 * full, 0.30);
 }
 
 Look meniscus_look(vec3 p) {
@@ -220,7 +223,7 @@ Look steel_look(vec3 p) {
 Look look_at(vec3 p) {
   if (KIND == 7) return disc_look(p);
   if (KIND == 6) return steel_look(p);
-  if (KIND == 1) return cartilage_look(p);
+  if (KIND == 1) return cartilage_look(p, min(2.0 * v_shade.z, 1.0));
   if (KIND == 2) return meniscus_look(p);
   if (KIND == 3) return ligament_look(p);
   if (KIND == 4) return synovium_look(p);
