@@ -25,7 +25,7 @@ uniform float u_fog;           // share of the glass that is fogged
 
 out vec4 o_color;
 
-// Smooth values 0..1, one change a unit: as tissue.frag has them.
+// Smooth values 0..1, one change a unit.
 float noise(vec3 p) {
   vec3 i = floor(p), f = fract(p);
   f = f * f * (3.0 - 2.0 * f);

@@ -14,7 +14,7 @@ uniform mat4 u_world_from_view;
 
 out vec4 o_water;
 
-// Smooth values 0..1, one change a unit: as tissue.frag has them.
+// Smooth values 0..1, one change a unit.
 float noise(vec3 p) {
   vec3 i = floor(p), f = fract(p);
   f = f * f * (3.0 - 2.0 * f);

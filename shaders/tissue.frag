@@ -4,7 +4,7 @@
 in vec3 v_position;
 in vec3 v_normal;
 in vec3 v_place;
-in vec4 v_shade;  // openness, cavity, mottle
+in vec4 v_shade;  // openness, cavity, mottle; of cartilage: a half of how thick it is, 1 at most
 
 // KIND: 0 bone, 1 cartilage, 2 meniscus, 3 ligament, tendon, 4 synovium, 5 fat, 6 steel, 7 disc
 uniform vec3 u_tint;      // what its own colour makes of the pattern's
@@ -16,29 +16,28 @@ uniform float u_light;    // strength at 10 mm
 
 out vec4 o_light;
 
-float hash(vec3 p) {
-  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.x + p.y) * p.z);
+// Whole numbers strewn over all that an integer holds: a processor works with integers twice as fast
+// as with fractions.
+const ivec3 kStrew = ivec3(501125321, 1136930381, 1720413743);
+const float kOfAll = 2.3283064e-10;  // of what an integer holds, with its sign
+
+ivec4 strewn(ivec4 h) { return (h ^ (h >> 15)) * 668265261; }
+
+// Smooth values 0..1, one change a unit: those of the eight corners around are mixed.
+float noise(vec3 p) {
+  vec3 whole = floor(p), f = p - whole;
+  f = f * f * (3.0 - 2.0 * f);
+  ivec3 a = ivec3(whole) * kStrew, b = a + kStrew;
+  ivec4 xy = ivec4(a.x, b.x, a.x, b.x) ^ ivec4(a.y, a.y, b.y, b.y);
+  vec4 m = mix(vec4(strewn(xy ^ a.z)), vec4(strewn(xy ^ b.z)), f.z);
+  vec2 n = mix(m.xy, m.zw, f.y);
+  return 0.5 + kOfAll * mix(n.x, n.y, f.x);
 }
 
-// Smooth values 0..1, one change a unit: hash() of the eight corners around, whose products of two
-// are shared.
-float noise(vec3 p) {
-  vec3 i = floor(p), f = fract(p);
-  f = f * f * (3.0 - 2.0 * f);
-  vec3 u = fract(i * vec3(0.1031, 0.1030, 0.0973));
-  vec3 w = fract((i + 1.0) * vec3(0.1031, 0.1030, 0.0973));
-  // Of hash(): the dot product over x and y by corner, over z, and what stands beside them.
-  vec4 x = vec4(u.x, w.x, u.x, w.x), y = vec4(u.y, u.y, w.y, w.y);
-  vec4 s = x + y, d = 2.0 * x * y + 33.33 * s;
-  vec2 z = vec2(u.z, w.z), e = z * (z + 33.33);
-  vec4 t = s + 2.0 * d;
-  vec4 lo = fract((t + 2.0 * e.x) * (d + (z.x + e.x)));
-  vec4 hi = fract((t + 2.0 * e.y) * (d + (z.y + e.y)));
-  vec4 m = mix(lo, hi, f.z);
-  vec2 n = mix(m.xy, m.zw, f.y);
-  return mix(n.x, n.y, f.x);
+// Where in a cell of the grid its point lies, 0..1; `h` tells the cell.
+vec3 strewn_point(int h) {
+  h ^= h >> 15;
+  return 0.5 + kOfAll * vec3(h * ivec3(668265261, 374761393, 1274126177));
 }
 
 float layers(vec3 p) {
@@ -47,13 +46,14 @@ float layers(vec3 p) {
 
 // Distances to the nearest and the next of points strewn one a unit.
 vec2 cells(vec3 p) {
-  vec3 i = floor(p), f = fract(p);
+  vec3 whole = floor(p), f = p - whole;
+  ivec3 middle = ivec3(whole) * kStrew;
   vec2 near = vec2(9.0);
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
-        vec3 c = vec3(x, y, z);
-        vec3 at = c + vec3(hash(i + c), hash(i + c + 17.3), hash(i + c + 41.7)) - f;
+        ivec3 h = middle + ivec3(x, y, z) * kStrew;
+        vec3 at = vec3(x, y, z) + strewn_point(h.x ^ h.y ^ h.z) - f;
         float d = dot(at, at);
         near = d < near.x ? vec2(d, near.x) : vec2(near.x, min(near.y, d));
       }
@@ -63,13 +63,14 @@ vec2 cells(vec3 p) {
 // The distance to the nearest of them as far as it is less than a half; else half or more. Eight of
 // the 27 cells around tell it.
 float near_cell(vec3 p) {
-  vec3 i = floor(p), f = fract(p), lowest = step(0.5, f) - 1.0;
+  vec3 whole = floor(p), f = p - whole, lowest = step(0.5, f) - 1.0;
+  ivec3 first = ivec3(whole + lowest) * kStrew;
   float near = 9.0;
   for (int x = 0; x <= 1; ++x)
     for (int y = 0; y <= 1; ++y)
       for (int z = 0; z <= 1; ++z) {
-        vec3 c = lowest + vec3(x, y, z);
-        vec3 at = c + vec3(hash(i + c), hash(i + c + 17.3), hash(i + c + 41.7)) - f;
+        ivec3 h = first + ivec3(x, y, z) * kStrew;
+        vec3 at = lowest + vec3(x, y, z) + strewn_point(h.x ^ h.y ^ h.z) - f;
         near = min(near, dot(at, at));
       }
   return sqrt(near);
@@ -133,14 +134,17 @@ Look bone_look(vec3 p) {
 }
 
 // Cartilage is glass-like: bluish white where it is thin over the bone, creamy where it is thick,
-// with faint clouds and a surface that is never quite even.
-Look cartilage_look(vec3 p) {
+// with faint clouds and a surface that is never quite even. At its rim it thins out, and the synovium
+// that creeps over bone shows in fringes: `thick` is 0 at the rim, 1 where it is full.
+Look cartilage_look(vec3 p, float thick) {
   float m = layers(p * 120.0);
   float cloud = layers(p * 420.0 + 13.0);
   float fine = layers(p * 1400.0);
   vec3 c = mix(vec3(0.83, 0.85, 0.85), vec3(0.97, 0.93, 0.84), smoothstep(0.25, 0.75, m));
   c *= 0.95 + 0.09 * cloud;
-  return Look(c, 2.0e-5 * fine + 1.1e-4 * cloud + 2.2e-4 * m, 0.60, 0.30);
+  float full = smoothstep(0.0, 0.85, thick + 0.5 * (cloud - 0.5) + 0.25 * (fine - 0.5));
+  c = mix(vec3(0.83, 0.65, 0.55), c, full);
+  return Look(c, 2.0e-5 * fine + 1.1e-4 * cloud + 2.2e-4 * m, 0.30 + 0.30 * full, 0.30);
 }
 
 Look meniscus_look(vec3 p) {
@@ -219,7 +223,7 @@ Look steel_look(vec3 p) {
 Look look_at(vec3 p) {
   if (KIND == 7) return disc_look(p);
   if (KIND == 6) return steel_look(p);
-  if (KIND == 1) return cartilage_look(p);
+  if (KIND == 1) return cartilage_look(p, min(2.0 * v_shade.z, 1.0));
   if (KIND == 2) return meniscus_look(p);
   if (KIND == 3) return ligament_look(p);
   if (KIND == 4) return synovium_look(p);

@@ -103,14 +103,41 @@ Result<ScopeLens> ScopeLens::load(const std::filesystem::path& shaders) {
   return out;
 }
 
-bool ScopeLens::ready_one() const {
-  const auto ready = [](const LateProgram& late) {
+bool ScopeLens::ready_one(const LightTarget& flat, const RenderTarget& picture) {
+  constexpr int kSide = 16;
+  Soft scratch;
+  const auto ready = [&](const LateProgram& late, bool onto_picture) {
     if (late.ready()) return false;
-    (void)late.get();
+    const Program* const program = late.get();
+    if (program && flat.side() > 0 && (onto_picture || scratch.ensure(kSide)))
+      draw_nothing(*program, flat.texture(),
+                   onto_picture ? picture.framebuffer() : scratch.framebuffer.get());
     return true;
   };
-  if (std::any_of(softer_.begin(), softer_.end(), ready) || ready(water_)) return true;
-  return std::any_of(lenses_.begin() + 1, lenses_.end(), ready);
+  const auto light = [&](const LateProgram& late) { return ready(late, false); };
+  if (std::any_of(softer_.begin(), softer_.end(), light) || light(water_)) return true;
+  return std::any_of(lenses_.begin() + 1, lenses_.end(),
+                     [&](const LateProgram& late) { return ready(late, true); });
+}
+
+void ScopeLens::draw_nothing(const Program& program, GLuint from, GLuint framebuffer) const {
+  for (const GLenum test : {GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE}) glDisable(test);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glBindVertexArray(no_vertices_.get());
+  program.use();
+  program.set("u_flat", 0);
+  for (int unit = 5; unit >= 0; --unit) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(unit == 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D, unit == 1 ? clouds_.get() : from);
+  }
+  constexpr std::array<std::pair<const char*, int>, 5> kUnits = {
+      {{"u_clouds", 1}, {"u_half", 2}, {"u_quarter", 3}, {"u_milky", 4}, {"u_water", 5}}};
+  for (const auto& [name, unit] : kUnits) program.set(name, unit);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 0, 0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+  glBindVertexArray(0);
 }
 
 bool ScopeLens::is_soft(double nearest_m, int side_px) {

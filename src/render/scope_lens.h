@@ -29,8 +29,9 @@ class ScopeLens {
   /// Whether anything at that distance or beyond is out of focus in a flat picture of so many
   /// pixels.
   static bool is_soft(double nearest_m, int side_px);
-  /// Compiles one of the programs that no picture has asked for yet; false: there is none.
-  bool ready_one() const;
+  /// Compiles one of the programs that no picture has asked for yet, and draws nothing with it: a
+  /// driver does half of the work at the first drawing. False: there is none.
+  bool ready_one(const LightTarget& flat, const RenderTarget& picture);
   /// Binds `picture`'s framebuffer and draws into it. What a picture needs is compiled for the
   /// first that needs it; what does not compile is left out.
   void paint(const LightTarget& flat, const RenderTarget& picture, const LensView& view,
@@ -44,6 +45,8 @@ class ScopeLens {
     GlFramebuffer framebuffer;
     GlTexture texture;
   };
+  /// Draws into none of the pixels, with what a picture has bound.
+  void draw_nothing(const Program& program, GLuint from, GLuint framebuffer) const;
   static void soften(const Program& softer, GLuint from, const Soft& to, double spread);
   /// How much light the water takes on the way, over the flat picture.
   void measure_water(const LightTarget& flat, const LensView& view, const ScopeWater& water) const;

@@ -42,7 +42,6 @@ Eigen::Matrix4f flat_projection(double half) { return pinhole(half, kNear_m, kFa
 constexpr double kScopeLevelError_px = 1.4;
 
 constexpr float kScopeGhostSeen = 0.02f, kScopeGhostMost = 0.8f;  // opacity
-
 }  // namespace
 
 struct ScopeRenderer::Impl {
@@ -186,10 +185,13 @@ struct ScopeRenderer::Impl {
     glDisable(GL_CULL_FACE);
   }
 
-  /// While nothing moves, what later pictures may need is compiled, one program in place of each
-  /// picture. Returns true: the one before stands.
-  bool rest() const {
-    (void)(lens.ready_one() || bits.ready_one() || programs.ready_one());
+  /// While nothing moves, programs of later pictures are compiled, one in place of each picture.
+  /// Returns true: the one before stands.
+  bool rest() {
+    GLint bound = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    (void)(lens.ready_one(flat, picture) || bits.ready_one() || programs.ready_one());
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
     return true;
   }
   /// With the context current.

@@ -16,7 +16,8 @@ struct ShadedMesh {
   struct Shade {
     std::uint8_t openness;  ///< 255: sees the whole sky; lower: other bone is near (occlusion)
     std::uint8_t cavity;    ///< 128: flat; below: hollow; above: ridge
-    std::uint8_t mottle;    ///< 128: the bone's own colour; the rest is its slight variation
+    std::uint8_t mottle;    ///< 128: the bone's own colour; the rest is its slight variation. Of
+                            ///< cartilage: 0 at its rim, 128 where it is thick
     std::uint8_t felt;      ///< height of what is felt over it (prepare_felt): 128: none, or not
                             ///< worked out; 1 and 255: kFeltRange_m
   };

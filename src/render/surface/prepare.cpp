@@ -58,6 +58,17 @@ ShadedMesh shaded(const Surface& s, const std::vector<float>& openness, std::siz
   return out;
 }
 
+/// Where cartilage thins out to its rim it takes on the colour of what lies under it.
+void thin_out(const Case& the_case, const SoftPart& soft, const Surface& surface,
+              ShadedMesh& mesh) {
+  constexpr double kThick_m = 0.00045;
+  if (soft.kind != "cartilage") return;
+  const std::vector<double> heights = heights_over_bones(the_case, soft, surface);
+  for (std::size_t k = 0; k < heights.size(); ++k)
+    mesh.shades[k].mottle =
+        static_cast<std::uint8_t>(std::lround(128 * std::clamp(heights[k] / kThick_m, 0.0, 1.0)));
+}
+
 /// The skin hides nothing: it is looked through.
 bool is_skin(const SoftPart& soft) { return soft.kind == "skin"; }
 
@@ -90,6 +101,7 @@ std::vector<ShadedMesh> prepare_softs(const Case& the_case, const std::vector<Pl
       const Surface& surface = surfaces[next].surface;
       fill_buried(roots[next], surface, openness[next]);
       out.push_back(shaded(surface, openness[next], out.size(), std::move(roots[next])));
+      thin_out(the_case, soft, surface, out.back());
     }
     if (go_on(1)) out.back().coarser = coarser_levels(out.back());
     if (!skin) ++next;
@@ -134,7 +146,10 @@ ShadedMesh unlit_soft(const Case& the_case, std::size_t soft) {
   Surface surface = make_surface(the_case.softs[soft].mesh_W);
   Roots roots = find_roots(the_case, the_case.softs[soft], surface);
   draw_in(roots, surface);
-  return shaded(surface, std::vector<float>(surface.points.size(), 1.0f), soft, std::move(roots));
+  ShadedMesh mesh =
+      shaded(surface, std::vector<float>(surface.points.size(), 1.0f), soft, std::move(roots));
+  thin_out(the_case, the_case.softs[soft], surface, mesh);
+  return mesh;
 }
 
 PreparedCase prepare_unlit(const Case& the_case) {

@@ -154,6 +154,16 @@ std::vector<ShadedMesh::Root> find_roots(const Case& the_case, const SoftPart& s
   return roots;
 }
 
+std::vector<double> heights_over_bones(const Case& the_case, const SoftPart& soft,
+                                       const Surface& surface) {
+  constexpr double kMargin_m = 0.005;  // more than cartilage is thick
+  const NearBones bones(the_case, soft, box_of(surface.points).grown(kMargin_m));
+  std::vector<double> heights;
+  heights.reserve(surface.points.size());
+  for (const Vec3& p : surface.points) heights.push_back(bones.at(p).height);
+  return heights;
+}
+
 void draw_in(const std::vector<ShadedMesh::Root>& roots, Surface& surface) {
   if (roots.empty()) return;
   for (const ShadedMesh::Root& root : roots)

@@ -13,6 +13,10 @@ namespace osteon {
 /// Its own rim lies in steps of the cells that it was grown in. Empty for other kinds.
 std::vector<ShadedMesh::Root> find_roots(const Case& the_case, const SoftPart& soft,
                                          const Surface& surface);
+/// How high the surface lies over the bones that the soft part names, by its vertices; where
+/// cartilage ends that is nothing.
+std::vector<double> heights_over_bones(const Case& the_case, const SoftPart& soft,
+                                       const Surface& surface);
 /// Moves the points and makes their normals anew, near bone as the bone's.
 void draw_in(const std::vector<ShadedMesh::Root>& roots, Surface& surface);
 /// Vertices that lie in bone take the values of those beside them that do not: what a vertex in

@@ -112,6 +112,40 @@ TEST(PrepareCase, OcclusionFadesWithTheGap) {
   EXPECT_GE(last, 250);
 }
 
+TEST(PrepareCase, CartilageTellsWhereItThinsOut) {
+  constexpr double kBone_m = 0.010, kSag_m = 0.0001;
+  Case made;
+  made.bones.push_back(make_bone("ball", sphere_mesh(kBone_m), Vec3::Zero()));
+  SoftPart cap;
+  cap.name = cap.kind = "cartilage";
+  cap.bones = {BoneId{0}};
+  cap.mesh_W = sphere_mesh(0.006);
+  for (Vec3& v : cap.mesh_W.vertices) v.z() += 0.006;
+  made.softs.push_back(cap);
+  const ShadedMesh lit = prepare_case(made).softs[0], unlit = prepare_unlit(made).softs[0];
+  int rim = 0, thick = 0, between = 0;
+  for (std::size_t k = 0; k < cap.mesh_W.vertices.size(); ++k) {
+    const double height_m = cap.mesh_W.vertices[k].norm() - kBone_m;
+    const int told = lit.shades[k].mottle;
+    EXPECT_EQ(told, unlit.shades[k].mottle);
+    if (height_m < -kSag_m) {
+      EXPECT_EQ(told, 0);
+      ++rim;
+    }
+    if (height_m > 0.00045 + kSag_m) {
+      EXPECT_EQ(told, 128);
+      ++thick;
+    }
+    if (height_m > kSag_m && height_m < 0.00045 - kSag_m) {
+      EXPECT_NEAR(told, 128 * height_m / 0.00045, 128 * kSag_m / 0.00045);
+      ++between;
+    }
+  }
+  EXPECT_GT(rim, 10);
+  EXPECT_GT(thick, 10);
+  EXPECT_GT(between, 0);
+}
+
 TEST(PrepareCase, SameBytesEveryTime) {
   const PreparedCase a = prepare_case(pair_of_balls(0.001));
   const PreparedCase b = prepare_case(pair_of_balls(0.001));
