@@ -133,6 +133,41 @@ TEST_F(ExerciseRunTest, WhatWasMadeBeforeLeavesOutItsStages) {
   EXPECT_EQ(run_.case_spec(), spec);
 }
 
+TEST_F(ExerciseRunTest, APartOfItIsChosenByItsStages) {
+  run_.toggle();
+  ASSERT_TRUE(run_.choose("touch_bones"));
+  const auto in_part = [&] {
+    std::vector<bool> in;
+    for (const auto& stage : run_.model().stages) in.push_back(stage.in_part);
+    return in;
+  };
+  EXPECT_EQ(in_part(), (std::vector<bool>{true, true, true}));
+  EXPECT_FALSE(run_.model().parted);
+  EXPECT_TRUE(run_.model().stages[1].can_begin);
+  EXPECT_FALSE(run_.choose_part("forearm", "carpals"));
+  EXPECT_FALSE(run_.choose_part("elbow", ""));
+  EXPECT_FALSE(run_.model().parted) << "nothing changed";
+  ASSERT_TRUE(run_.choose_part("metacarpals", "metacarpals"));
+  EXPECT_EQ(in_part(), (std::vector<bool>{false, true, false}));
+  EXPECT_TRUE(run_.model().parted);
+  ASSERT_TRUE(run_.choose_part("", "metacarpals"));
+  EXPECT_EQ(in_part(), (std::vector<bool>{true, true, false}));
+  EXPECT_FALSE(run_.order_of_begin({}, {})) << "nothing comes before it";
+  ASSERT_TRUE(run_.choose_part("", ""));
+  EXPECT_FALSE(run_.model().parted);
+}
+
+TEST_F(ExerciseRunTest, ItIsOverAtItsTimeLimit) {
+  begin();
+  tick_ = 599990;
+  touch("lunate", 1, 4);
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_FALSE(run_.over());
+  touch("lunate", 1, 4);
+  run_.follow(rest_snapshot(*case_));
+  EXPECT_TRUE(run_.over());
+}
+
 TEST_F(ExerciseRunTest, StagesAndErrorsAreFollowedTickByTick) {
   begin();
   EXPECT_FALSE(run_.follow(rest_snapshot(*case_))) << "nothing happened yet";
