@@ -122,7 +122,7 @@ TEST_F(Anatomy, TheSameSeedGivesTheSameBytesAndACaseThatChecksSound) {
     ASSERT_EQ(ran.exit_code, 0) << ran.output;
   }
   const std::size_t files = same_files("a", "b");
-  EXPECT_EQ(files, 15u + 31u + 1u) << "fifteen bones, 31 soft parts and case.toml";
+  EXPECT_EQ(files, 15u + 39u + 1u) << "fifteen bones, 39 soft parts and case.toml";
   const std::string text = text_of("a/case.toml");
   EXPECT_NE(text.find("--seed 7 --set radial_inclination_deg=18"), std::string::npos);
   EXPECT_NE(text.find("# radial_inclination_deg = 18\n"), std::string::npos);

@@ -441,7 +441,7 @@ TEST(JointWall, EnclosesTheTipAndKeepsOffTheBone) {
 TEST(JointWall, IsNearerWhereABoneIsSmall) {
   const MeshDistance ball(sphere_mesh(0.01)), pea(sphere_mesh(0.004));
   const std::string name = "ball";
-  const WalledBone bones[] = {{&ball, {}, &name}, {&pea, {{0, 0, 0.02}, {}}, &name}};
+  const WalledBone bones[] = {{&ball, {}, &name}, {&pea, {{0, 0, 0.02}, Quat::Identity()}, &name}};
   const auto farthest = [&](std::size_t count) {
     const auto wall = joint_wall({bones, count}, Vec3(0.011, 0, 0));
     double most = 0;

@@ -87,7 +87,9 @@ TEST(GhostTrack, LeadsNobodyWhereThereIsNoWay) {
 TEST(GhostTrack, AStayOfTheExpertsHasNoLength) {
   GhostTrack track;
   track.hands.resize(1);
-  const auto add = [&](double x) { track.hands[0].push_back({{Vec3(x, 0, 0), {}}, 0}); };
+  const auto add = [&](double x) {
+    track.hands[0].push_back({{Vec3(x, 0, 0), Quat::Identity()}, 0});
+  };
   for (int i = 0; i < 10; ++i) add(0.001 * i);
   for (int i = 0; i < 500; ++i) add(0.009);
   for (int i = 0; i < 10; ++i) add(0.009 + 0.001 * i);
@@ -97,7 +99,7 @@ TEST(GhostTrack, AStayOfTheExpertsHasNoLength) {
   const GuideLine line = guide_along(track, 0, 0, Vec3(0.014, 0.001, 0), at);
   EXPECT_NEAR(line.p_W.x(), 0.014, 1e-12);
   // Where it only stays there is no direction: the place itself is the way.
-  track.hands[0].assign(50, {{Vec3(0.009, 0, 0), {}}, 0});
+  track.hands[0].assign(50, {{Vec3(0.009, 0, 0), Quat::Identity()}, 0});
   track.stretches = {{0, {}, 0, 49}};
   at = 0;
   EXPECT_EQ(guide_along(track, 0, 0, Vec3::Zero(), at).along_W, Vec3::Zero());
