@@ -47,6 +47,7 @@ struct TipModel {
   std::optional<std::uint32_t> soft;  ///< in Case::softs; none: the bone itself
   bool drawn = false;                 ///< as a line in the picture, between these points
   float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  std::optional<double> depth_mm = {};  ///< of a drill's tip in its hole
 };
 
 struct NameTag {

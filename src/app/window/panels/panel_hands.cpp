@@ -71,6 +71,10 @@ void draw_tip(const PanelContext& c) {
            "From the middle of the tip to the nearest surface of a bone, or of a ligament, "
            "meniscus, stump or patch of skin that is felt (before any cut), millimetres; negative "
            "inside");
+  if (tip.depth_mm)
+    ui::stat("In its hole", ui::number(*tip.depth_mm, 1) + " mm",
+             "From the mouth of the hole to the tip, along the hole, by the bone as it was before "
+             "any cut");
 }
 
 // From the middle of the bone to a name that had to give way.

@@ -245,6 +245,9 @@ TipModel HandsControl::tip_model() {
   if (!nearest || (live_.run() && tool.tick == 0)) return model;
   model.known = true;
   model.distance_mm = 1e3 * nearest->distance_m;
+  if (live_.run())
+    if (const auto deep = tip_.depth_m(sight_.shown(), live_.run()->active()))
+      model.depth_mm = 1e3 * *deep;
   model.bone = nearest->bone;
   model.soft = nearest->soft;
   const auto tip = sight_.on_screen(tool.X_WP.p), bone = sight_.on_screen(nearest->p_W);

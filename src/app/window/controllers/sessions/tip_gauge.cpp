@@ -41,6 +41,20 @@ std::optional<TipGauge::Nearest> on_band(const SoftBand& band, const BoneSnapsho
   return TipGauge::Nearest{band.from, band.soft, p_W, away - band.radius_m};
 }
 
+// From a place outwards to where a line leaves a surface: the place may lie beyond the far side,
+// and a groove on the way counts as inside. The signed distance never changes faster than the
+// place, so a step as long as that passes over no crossing. Each step is kLeastStep_m or longer.
+double way_out_m(const MeshDistance& surface, const Vec3& from_B, const Vec3& out_B) {
+  constexpr double kMost_m = 0.2, kBeyond_m = 0.03, kGroove_m = 0.004, kLeastStep_m = 5e-5;
+  double last_m = 0;
+  for (double s = 0; s < kMost_m && s - last_m < (last_m > 0 ? kGroove_m : kBeyond_m);) {
+    const double d = surface.closest(from_B + s * out_B).signed_distance;
+    s += std::max(std::abs(d), kLeastStep_m);
+    if (d < 0) last_m = s;
+  }
+  return last_m;
+}
+
 }  // namespace
 
 bool TipGauge::is_seen(const GaugedSurface& surface, const ViewState& view) {
@@ -128,6 +142,18 @@ void TipGauge::wait() const {
 void TipGauge::take_made() {
   take_from(bones_job_, bones_);
   take_from(softs_job_, softs_);
+}
+
+std::optional<double> TipGauge::depth_m(const RenderSnapshot& snapshot, std::size_t hand) {
+  take_made();
+  if (hand >= snapshot.bones.guides.size()) return std::nullopt;
+  const ToolGuide& guide = snapshot.bones.guides[hand];
+  if (!guide.on || !guide.in_hole || guide.instrument != snapshot.tool.instrument) return {};
+  if (guide.bone >= snapshot.bones.count || !is_finite(snapshot.tool.X_WP)) return std::nullopt;
+  const Vec3 tip_B = snapshot.bones.bones[guide.bone].X_WB.inverse() * snapshot.tool.X_WP.p;
+  for (const GaugedSurface& surface : bones_)
+    if (surface.bone.index == guide.bone) return way_out_m(surface.distance, tip_B, guide.nhat_B);
+  return std::nullopt;
 }
 
 // A surface whose box is farther away than the nearest one so far is not asked.

@@ -30,6 +30,9 @@ class TipGauge {
   void wait() const;
   /// Once a picture. None while the search is being made, and with no bone in sight.
   std::optional<Nearest> nearest(const RenderSnapshot& snapshot, const ViewState& view);
+  /// How far the tip of that hand's drill or pin has come from the mouth of its hole, along the
+  /// hole, by the bone as it was before any cut. None: it is in no hole.
+  std::optional<double> depth_m(const RenderSnapshot& snapshot, std::size_t hand);
 
  private:
   struct GaugedSurface {

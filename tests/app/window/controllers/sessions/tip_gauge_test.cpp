@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "session/skin_fixtures.h"
@@ -48,6 +49,30 @@ TEST(TipGauge, WhatIsNotFeltIsPassedOver) {
   ASSERT_TRUE(bone);
   EXPECT_FALSE(bone->soft);
   EXPECT_GT(bone->distance_m, 0.02);
+}
+
+// How deep a drill is in its hole, along the hole.
+TEST(TipGauge, ADrillsDepthIsTakenAlongItsHole) {
+  Gauge gauge;
+  const double top = 0.008 - gauge.at({0, 0, 0.008})->distance_m;
+  RenderSnapshot snapshot;
+  snapshot.bones = rest_snapshot(*gauge.the_case);
+  ToolGuide& guide = snapshot.bones.guides[1];
+  const auto depth_mm = [&](double under_top, std::size_t hand) {
+    snapshot.tool.X_WP = {Vec3(0, 0, top) - under_top * guide.nhat_B, Quat::Identity()};
+    const auto deep = gauge.tip.depth_m(snapshot, hand);
+    return deep ? 1e3 * *deep : -1.0;
+  };
+  EXPECT_EQ(depth_mm(0.005, 1), -1) << "in no hole";
+  guide.on = guide.in_hole = true;
+  EXPECT_NEAR(depth_mm(0.005, 1), 5, 0.1);
+  EXPECT_EQ(depth_mm(0.005, 0), -1) << "another hand's";
+  EXPECT_EQ(depth_mm(0.005, 99), -1);
+  guide.nhat_B = Vec3(0.5, 0, std::sqrt(0.75));
+  EXPECT_NEAR(depth_mm(0.004, 1), 4, 0.1) << "slanted";
+  EXPECT_EQ(depth_mm(-0.001, 1), 0) << "before its mouth";
+  snapshot.tool.instrument = 3;
+  EXPECT_EQ(depth_mm(0.005, 1), -1) << "another instrument";
 }
 
 TEST(TipGauge, AFeltMeniscusCountsUntilItIsFeltNoMore) {
