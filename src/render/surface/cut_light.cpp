@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,8 +13,9 @@
 namespace osteon {
 namespace {
 
-constexpr double kCell_m = 0.001;      // about as far apart as vertices are
-constexpr int kMostCells = 6;          // so deep a cut takes light from its surface
+constexpr double kCell_m = 0.001;             // about as far apart as vertices are
+constexpr std::size_t kMostInAll = 1u << 21;  // cells: of a larger surface they are wider
+constexpr int kMostCells = 6;                 // so deep a cut takes light from its surface
 constexpr double kEven_m = 0.0007;     // farther than the nearest: light is taken of those too
 constexpr double kAsItWas_m = 0.0003;  // less deep is the surface as it was
 constexpr double kDarkAt_m = 0.008;    // so deep a cut sees a quarter of the sky
@@ -23,24 +23,31 @@ constexpr std::uint8_t kOpened = 100;  // of the cavity of a cut face
 
 using CellAt = std::array<int, 3>;
 
-CellAt cell_at(const Vec3& p) {
-  const auto along = [](double x) { return static_cast<int>(std::floor(x / kCell_m)); };
-  return {along(p.x()), along(p.y()), along(p.z())};
-}
-
-std::uint64_t key_of(const CellAt& at) {
-  std::uint64_t key = 0;
-  for (const int a : at) key = key << 21 | (static_cast<std::uint64_t>(a) & 0x1fffff);
-  return key;
-}
-
 /// The surface at rest by cells of room.
 class LightByCell {
  public:
   LightByCell(const Surface& rest, const std::vector<ShadedMesh::Shade>& shades)
       : rest_(rest), shades_(shades) {
+    Vec3 hi = lo_;
+    if (!rest.points.empty()) lo_ = hi = rest.points.front();
+    for (const Vec3& p : rest.points) lo_ = lo_.cwiseMin(p), hi = hi.cwiseMax(p);
+    const auto cells = [&] {
+      std::size_t count = 1;
+      for (int a = 0; a < 3; ++a) {
+        count_[a] = static_cast<int>((hi[a] - lo_[a]) / cell_m_) + 1;
+        count *= static_cast<std::size_t>(count_[a]);
+      }
+      return count;
+    };
+    while (cells() > kMostInAll) cell_m_ *= 2;
+    // The points of a cell stand one after the other: first how many each has, then which.
+    first_.assign(cells() + 1, 0);
+    for (const Vec3& p : rest.points) ++first_[index_of(cell_at(p)) + 1];
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    points_.resize(rest.points.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::uint32_t k = 0; k < rest.points.size(); ++k)
-      cells_[key_of(cell_at(rest.points[k]))].push_back(k);
+      points_[next[index_of(cell_at(rest.points[k]))]++] = k;
   }
 
   ShadedMesh::Shade at(const Vec3& p) const {
@@ -89,9 +96,10 @@ class LightByCell {
       add_ring(p, middle, ring, near);
       if (last) break;
     }
-    std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
-      return std::pair(a.away_m, a.point) < std::pair(b.away_m, b.point);
-    });
+    const auto nearest = std::min_element(
+        near.begin(), near.end(),
+        [](const Near& one, const Near& other) { return one.away_m < other.away_m; });
+    if (nearest != near.end()) std::iter_swap(near.begin(), nearest);
     return near;
   }
 
@@ -100,16 +108,41 @@ class LightByCell {
       for (int y = -ring; y <= ring; ++y)
         for (int z = -ring; z <= ring; ++z) {
           if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != ring) continue;
-          const auto cell = cells_.find(key_of({middle[0] + x, middle[1] + y, middle[2] + z}));
-          if (cell == cells_.end()) continue;
-          for (const std::uint32_t k : cell->second)
-            near.push_back({(rest_.points[k] - p).norm(), k});
+          const CellAt at{middle[0] + x, middle[1] + y, middle[2] + z};
+          if (!has(at)) continue;
+          const std::size_t c = index_of(at);
+          for (std::uint32_t n = first_[c]; n < first_[c + 1]; ++n)
+            near.push_back({(rest_.points[points_[n]] - p).norm(), points_[n]});
         }
+  }
+
+  CellAt cell_at(const Vec3& p) const {
+    const auto along = [&](int a) {
+      return static_cast<int>(std::clamp(std::floor((p[a] - lo_[a]) / cell_m_), -1e6, 1e6));
+    };
+    return {along(0), along(1), along(2)};
+  }
+  bool has(const CellAt& at) const {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (at[a] < 0 || at[a] >= count_[a]) return false;
+    return true;
+  }
+  std::size_t index_of(const CellAt& at) const {
+    const auto of = [&](std::size_t a) {
+      return static_cast<std::size_t>(std::clamp(at[a], 0, count_[a] - 1));
+    };
+    return (of(0) * static_cast<std::size_t>(count_[1]) + of(1)) *
+               static_cast<std::size_t>(count_[2]) +
+           of(2);
   }
 
   const Surface& rest_;
   const std::vector<ShadedMesh::Shade>& shades_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  Vec3 lo_ = Vec3::Zero();
+  double cell_m_ = kCell_m;
+  CellAt count_{1, 1, 1};
+  std::vector<std::uint32_t> first_;   ///< by cell: where its points begin in `points_`
+  std::vector<std::uint32_t> points_;  ///< cell by cell
 };
 
 }  // namespace
