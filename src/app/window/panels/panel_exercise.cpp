@@ -196,12 +196,14 @@ void draw_exercise_verdict(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   if (model.verdict.empty()) return ui::wrapped_text(color::kAmber, model.problem);
   const bool passed = model.verdict == "passed";
+  const bool done = model.parted && model.verdict == "undecided";
   {
     const ui::WithFont font(c.fonts.strong);
-    ui::text(passed ? color::kAccent : color::kAmber, passed                          ? "Passed"
-                                                      : model.verdict == "not_passed" ? "Not passed"
-                                                      : model.parted                  ? "Done"
-                                                                     : "Undecided");
+    ui::text(passed || done ? color::kAccent : color::kAmber, passed ? "Passed"
+                                                              : model.verdict == "not_passed"
+                                                                  ? "Not passed"
+                                                              : model.parted ? "Done"
+                                                                             : "Undecided");
   }
   if (model.score)
     ui::wrapped_text(color::kText, "Score " + ui::number(*model.score, 1) + ", 95 % interval " +
