@@ -102,4 +102,12 @@ RecordingHeader recording_header(const Case& the_case, const SessionSettings& se
   return header;
 }
 
+StoredState stored_state(const Session& session) {
+  StoredState state;
+  for (std::size_t h = 0; h < session.hands(); ++h) state.ticks[h] = session.tool_state(h).tick;
+  state.step = session.bones().step;
+  state.bytes = to_bytes(session.save());
+  return state;
+}
+
 }  // namespace osteon

@@ -23,11 +23,7 @@ Recording begin_recording(const Run& run) {
 
 /// Keeps the state of a session of one hand: a replay may begin here.
 inline void keep_state(Recording& recording, const Session& session) {
-  StoredState state;
-  state.ticks[0] = session.tool_state().tick;
-  state.step = session.bones().step;
-  state.bytes = to_bytes(session.save());
-  recording.states.push_back(state);
+  recording.states.push_back(stored_state(session));
 }
 
 /// Keeps the last tick of a session of one hand and, every `store_every` ticks (0: never), its

@@ -269,10 +269,7 @@ TEST(SoftPieces, WhatJawsHoldAsItComesOffTheyHave) {
   EXPECT_NE(lying(session)[0].is, FallenPiece::Is::kHeld);
 }
 
-// Picked up from where it lies, carried off and let go beyond all bones: it is out.
-TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
-  Session session = pieces_run().session();
-  PieceHand hand(session);
+void pick_up_what_lies(PieceHand& hand, const Session& session) {
   const Vec3 at = where_it_comes_to_rest(hand);
   ASSERT_EQ(lying(session).size(), 1u);
   hand.take(kPieceGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
@@ -281,6 +278,13 @@ TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
   hand.jaws(0);
   hand.rest(20);
   ASSERT_EQ(hand.count(kSoftPieceHeld), 1u);
+}
+
+// Picked up from where it lies, carried off and let go beyond all bones: it is out.
+TEST(SoftPieces, JawsTakeOneThatLiesAndCarryItOut) {
+  Session session = pieces_run().session();
+  PieceHand hand(session);
+  ASSERT_NO_FATAL_FAILURE(pick_up_what_lies(hand, session));
   hand.move(hand.at + Vec3(0, 0, 0.060), 300);
   hand.move({0.3, 0, 0.06}, 600);
   EXPECT_EQ(lying(session)[0].is, FallenPiece::Is::kHeld);
@@ -308,14 +312,7 @@ TEST(SoftPieces, WhatJawsCarrySlipsFromThemAtASoftPart) {
     const bool stopped = run == &stopping_run();
     Session session = run->session();
     PieceHand hand(session);
-    const Vec3 at = where_it_comes_to_rest(hand);
-    ASSERT_EQ(lying(session).size(), 1u);
-    hand.take(kPieceGrasper, Quat::Identity(), {at.x(), at.y(), at.z() + 0.030});
-    hand.jaws(1);
-    hand.move({at.x(), at.y(), at.z()}, 300);
-    hand.jaws(0);
-    hand.rest(20);
-    ASSERT_EQ(hand.count(kSoftPieceHeld), 1u) << stopped;
+    ASSERT_NO_FATAL_FAILURE(pick_up_what_lies(hand, session)) << stopped;
     // Up, beside the whole end of the block, and down to its height.
     hand.move(hand.at + Vec3(0, 0, 0.020), 300);
     hand.move({hand.at.x() - 0.045, 0, hand.at.z()}, 500);

@@ -181,6 +181,9 @@ class Session {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The state of a session whose halves rest after a step, as a recording keeps it.
+StoredState stored_state(const Session& session);
+
 /// Header of a recording of a session with these settings and this tray, which a replay must be
 /// given again. Without a tray whose names the settings hold, its hash is not known.
 RecordingHeader recording_header(const Case& the_case, const SessionSettings& settings,

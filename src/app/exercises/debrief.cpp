@@ -177,11 +177,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
     return tl::unexpected(ready.error());
   CarvedPicture carved(how.carving);
   if (how.carving) how.on_cuts = [&](const CutsPatch& patch, double) { carved.take(patch); };
-  const auto carved_bone = [&](std::uint32_t bone) -> std::optional<CarvedField> {
-    for (auto& [index, field] : carved.cut_bones())
-      if (index == bone) return field;
-    return std::nullopt;
-  };
+  const auto carved_bone = [&](std::uint32_t bone) { return carved.cut_bone(bone); };
   if (*scenario) {
     TunnelSources sources{*spec, settings->tray, carved_bone};
     const auto graft = graft_in(order.recording);

@@ -26,14 +26,6 @@ Result<std::optional<RecordingWriter>> open_recording(const HeadlessRun& run,
   return std::optional<RecordingWriter>(std::move(*writer));
 }
 
-Result<void> record_state(RecordingWriter& writer, const Session& session) {
-  StoredState state;
-  for (std::size_t h = 0; h < session.hands(); ++h) state.ticks[h] = session.tool_state(h).tick;
-  state.step = session.bones().step;
-  state.bytes = to_bytes(session.save());
-  return writer.add(state);
-}
-
 Result<void> record(RecordingWriter& writer, const Session& session) {
   if (session.last_steps() > 0)
     if (auto ok = writer.add(session.last_step_record()); !ok) return ok;
@@ -43,7 +35,7 @@ Result<void> record(RecordingWriter& writer, const Session& session) {
       if (auto ok = writer.add(event); !ok) return ok;
   }
   const bool keep = session.last_steps() > 0 && session.bones().saved_step == session.bones().step;
-  return keep ? record_state(writer, session) : Result<void>{};
+  return keep ? writer.add(stored_state(session)) : Result<void>{};
 }
 
 void fill_timing(Report& report, const Percentiles& ticks, std::int64_t elapsed_ns) {

@@ -146,11 +146,7 @@ class LivePlayer {
   RunSight sight() {
     RunSight sight;
     sight.bones = [this] { return bones_; };
-    sight.carved = [this](std::uint32_t bone) -> std::optional<CarvedField> {
-      for (auto& [index, field] : carved_.cut_bones())
-        if (index == bone) return field;
-      return std::nullopt;
-    };
+    sight.carved = [this](std::uint32_t bone) { return carved_.cut_bone(bone); };
     return sight;
   }
 

@@ -16,28 +16,16 @@ namespace {
 constexpr std::uint64_t kAskTicks = 200;
 constexpr double kPlayedShare = 0.5;  // of the work, where the expert has to play first
 
-// What is left of a bone, while the begin is repeated.
-class CarvedSoFar {
- public:
-  void follow(const CarvedPicture& picture) { picture_ = &picture; }
-  std::optional<CarvedField> of(std::uint32_t bone) const {
-    for (auto& [index, field] : picture_->cut_bones())
-      if (index == bone) return field;
-    return std::nullopt;
-  }
-
- private:
-  const CarvedPicture* picture_ = nullptr;
-};
-
-std::unique_ptr<AttemptWatch> watch_begin(const BegunAttemptOrder& order, const CarvedSoFar& carved,
+// `carved`: what is left of the bones while the begin is repeated; known once that begins.
+std::unique_ptr<AttemptWatch> watch_begin(const BegunAttemptOrder& order,
+                                          const CarvedPicture* const& carved,
                                           const AttemptPart& part, PartStages stages,
                                           double tick_s) {
   auto watch = std::make_unique<AttemptWatch>(*order.plan, *order.the_case, order.hands, tick_s);
   TunnelSources sources;
   sources.case_spec = order.wanted.case_spec;
   sources.tray = order.tray.names;
-  sources.carved = [&carved](std::uint32_t bone) { return carved.of(bone); };
+  sources.carved = [&carved](std::uint32_t bone) { return carved->cut_bone(bone); };
   sources.graft = order.graft;
   watch->watch_tunnels(std::move(sources));
   watch->watch_tray(order.tray.names);
@@ -64,14 +52,14 @@ Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
   begun.part = order.part;
   begun.part.from_tick = std::numeric_limits<std::uint64_t>::max();
   const double tick_s = SessionSettings{}.haptic.tick_s;
-  CarvedSoFar carved;
+  const CarvedPicture* carved = nullptr;
   begun.watch = watch_begin(order, carved, begun.part, stages, tick_s);
   const std::string& before = order.wanted.scenario.stages[stages.first - 1].name;
   const double whole_s = begin_of_part_s(expert, before);
   bool stopped = false;
   BegunOrder run{
       expert, order.file, order.the_case, order.wanted.case_spec, order.tray, order.place, {}, {}};
-  run.at_begin = [&](const CarvedPicture& picture) { carved.follow(picture); };
+  run.at_begin = [&](const CarvedPicture& picture) { carved = &picture; };
   run.on_tick = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     begun.watch->add(tools, bones);
     begun.part.from_tick = tools[0]->tick;
@@ -101,9 +89,7 @@ Result<BegunAttempt> repeat_begin(const BegunAttemptOrder& order,
 // One of an older build, or a damaged one, is made anew.
 bool is_of_this_build(const std::filesystem::path& expert) {
   const auto reader = RecordingReader::open(expert);
-  if (!reader || !reader->complete()) return false;
-  const auto settings = parse_settings(reader->header().settings_json);
-  return settings && reader->header().osteon_version == OSTEON_VERSION;
+  return reader && reader->complete() && reader->header().osteon_version == OSTEON_VERSION;
 }
 
 }  // namespace

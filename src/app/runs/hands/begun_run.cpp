@@ -85,12 +85,8 @@ class Beginning {
     run_.feed->push(session.last_step_record());
     show_cuts();
     if (session.bones().saved_step != session.bones().step) return;
-    StoredState state;
-    for (std::size_t h = 0; h < session.hands(); ++h) state.ticks[h] = session.tool_state(h).tick;
-    state.step = session.bones().step;
-    state.bytes = to_bytes(session.save());
     run_.feed->drain();
-    run_.feed->add(state);
+    run_.feed->add(stored_state(session));
   }
 
   bool add_tick(std::size_t hand, const BoneSnapshot& bones) {

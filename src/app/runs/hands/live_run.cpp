@@ -238,7 +238,7 @@ Result<void> LiveRun::start_judged_recording(const std::filesystem::path& file) 
 }
 
 // A device with motors holds its instrument another way than the hand before it: as after a way
-// back, forces fade until all is free. How stiff bone may feel is for the device to say.
+// back, forces fade until all is free. How bone feels is for the device and its user to say.
 Result<void> LiveRun::go_on(BegunRun begun) {
   if (recording_) return fail("a recording is already running");
   if (begun.tools.size() != hands_.size())
@@ -255,9 +255,11 @@ Result<void> LiveRun::go_on(BegunRun begun) {
   auto started = start_run(poses, std::move(begun.feed), &begun);
   judged_next_ = false;
   if (!started) return started;
-  const SessionSettings wanted = settings_now();
-  for (std::size_t i = 0; i < hands_.size(); ++i)
-    runtime_->send({CommandKind::kSetStiffness, wanted.haptic.stiffness_n_per_m}, i);
+  const HapticParams wanted = settings_now().haptic;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    runtime_->send({CommandKind::kSetStiffness, wanted.stiffness_n_per_m}, i);
+    runtime_->send({CommandKind::kSetFrictionScale, wanted.friction_scale}, i);
+  }
   if (std::any_of(hands_.begin(), hands_.end(), has_motors)) go_back(marks_.back());
   return {};
 }

@@ -181,6 +181,11 @@ CutBones CarvedPicture::cut_bones() const {
   return out;
 }
 
+std::optional<CarvedField> CarvedPicture::cut_bone(std::uint32_t bone) const {
+  if (bone >= bones_.size() || !bones_[bone] || bones_[bone]->field.block_count() == 0) return {};
+  return bones_[bone]->field;
+}
+
 std::vector<std::shared_ptr<const PieceShape>> CarvedPicture::shapes_of_pieces() const {
   std::vector<std::shared_ptr<const PieceShape>> out;
   for (const auto& [hash, shape] : known_pieces_) out.push_back(shape);

@@ -57,6 +57,8 @@ class CarvedPicture {
   std::vector<Warmed> warmed();
   /// Copies of the bones that hold cuts.
   CutBones cut_bones() const;
+  /// A copy of one; none: it holds no cuts.
+  std::optional<CarvedField> cut_bone(std::uint32_t bone) const;
   /// The same with all pieces, for who looks through them.
   CutScene cut_scene() const { return {cut_bones(), shapes_of_pieces()}; }
 

@@ -310,10 +310,8 @@ TEST(LiveHands, ARecordingOfACaseInAFolderKnowsWhereThatStood) {
   EXPECT_EQ(recording->header.case_path, folder.string());
 }
 
-// What a path says of instruments and power is done, and what it drills is shown. A new run begins
-// with whole bones.
-TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
-  const testing::Drilling with("drill:3.2");
+// Down into the block with a drill that runs, and on for a minute.
+ProbePath drilling_path() {
   ProbePath path;
   path.with_instruments = true;
   for (const auto& [time_s, z] : {std::pair{0.0, 0.001}, {0.2, -0.003}, {60.0, -0.003}}) {
@@ -325,6 +323,14 @@ TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
     sample.power = 1;
     path.samples.push_back(sample);
   }
+  return path;
+}
+
+// What a path says of instruments and power is done, and what it drills is shown. A new run begins
+// with whole bones.
+TEST(LiveRunCarves, WhatAPathDrillsIsShown) {
+  const testing::Drilling with("drill:3.2");
+  const ProbePath path = drilling_path();
   RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
   LiveRun live(with.the_case, "block", path, {}, tray);
   ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
@@ -368,17 +374,7 @@ TEST(LiveRunCarves, ARecordingSaysHowItsBonesWereRemoved) {
 // repeats from the new recording.
 TEST(LiveRunCarves, ItGoesOnWithARunThatWasBegun) {
   const testing::Drilling with("drill:3.2");
-  ProbePath path;
-  path.with_instruments = true;
-  for (const auto& [time_s, z] : {std::pair{0.0, 0.001}, {0.2, -0.003}, {60.0, -0.003}}) {
-    PathSample sample;
-    sample.time_s = time_s;
-    sample.X_WD.p = Vec3(0.0003, 0.0002, testing::kTop_m + z);
-    sample.instrument = "drill";
-    sample.size_mm = 3.2;
-    sample.power = 1;
-    path.samples.push_back(sample);
-  }
+  const ProbePath path = drilling_path();
   const RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
   const auto named = [](const char* name) {
     return std::filesystem::path(::testing::TempDir()) /

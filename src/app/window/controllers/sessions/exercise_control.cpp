@@ -305,10 +305,8 @@ void ExerciseControl::begin() {
 
 std::function<std::optional<CarvedField>(std::uint32_t)> ExerciseControl::carved_now() const {
   return [this](std::uint32_t bone) -> std::optional<CarvedField> {
-    if (LiveRun* const run = live_.run())
-      for (auto& [index, field] : run->carved().cut_bones())
-        if (index == bone) return field;
-    return std::nullopt;
+    LiveRun* const run = live_.run();
+    return run ? run->carved().cut_bone(bone) : std::nullopt;
   };
 }
 
@@ -323,14 +321,9 @@ void ExerciseControl::poll_begin() {
   if (!begun) return exercise_.fail_to_begin(begun.error().message());
   LiveRun* const run = live_.run();
   if (!run) return exercise_.fail_to_begin("The patient is no longer open.");
-  const BegunRun& state = begun->run;
-  const TunnelSources sources{"", state.settings.tray, carved_now()};
-  BegunRun going = std::move(begun->run);
-  begun->run.tools = going.tools;
-  begun->run.file = going.file;
-  const auto gone_on = run->go_on(std::move(going));
+  exercise_.go_on(SessionSettings{}.haptic.tick_s, *begun, carved_now());
+  const auto gone_on = run->go_on(std::move(begun->run));
   if (!gone_on) return exercise_.fail_to_begin(gone_on.error().message());
-  exercise_.go_on(SessionSettings{}.haptic.tick_s, std::move(*begun), sources);
   exercise_.keep_mark(run->mark());
   begin_to_work(std::exchange(begun_hands_, {}));
 }

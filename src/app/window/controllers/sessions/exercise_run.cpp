@@ -206,11 +206,12 @@ void ExerciseRun::begin(double tick_s, fs::path file, TunnelSources sources,
   begin_anew(tick_s, std::move(file));
 }
 
-void ExerciseRun::go_on(double tick_s, BegunAttempt begun, TunnelSources sources) {
+void ExerciseRun::go_on(double tick_s, BegunAttempt& begun,
+                        std::function<std::optional<CarvedField>(std::uint32_t)> carved) {
   watch_ = std::move(begun.watch);
-  watch_->go_on_live(std::move(sources.carved));
-  part_ = std::move(begun.part);
-  begin_anew(tick_s, std::move(begun.run.file));
+  watch_->go_on_live(std::move(carved));
+  part_ = begun.part;
+  begin_anew(tick_s, begun.run.file);
   for (std::size_t h = 0; h < last_.size(); ++h) last_[h] = begun.run.tools[h];
   stage_ = watch_->state().stage;
 }

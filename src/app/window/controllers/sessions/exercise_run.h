@@ -71,8 +71,10 @@ class ExerciseRun {
   /// What makes the begin of the part that was chosen, once the exercise is planned. None: it has
   /// no begin.
   std::optional<BegunAttemptOrder> order_of_begin(RunTray tray, std::filesystem::path file) const;
-  /// As `begin`, from where the expert has come.
-  void go_on(double tick_s, BegunAttempt begun, TunnelSources sources);
+  /// As `begin`, from where the expert has come; takes the attempt's judge. `carved`: see
+  /// TunnelSources.
+  void go_on(double tick_s, BegunAttempt& begun,
+             std::function<std::optional<CarvedField>(std::uint32_t)> carved);
   /// What is done meanwhile; null: nothing is told.
   void tell_opening(const LoadProgress* progress);
 

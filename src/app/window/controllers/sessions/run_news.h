@@ -24,10 +24,11 @@ class RunNews {
   void update();
 
  private:
+  std::string news_of(const RunEvent& happened);
+
   WindowHost& host_;
   const ShownCase& scene_;
   const LiveControl& live_;
-  std::string news_of(const RunEvent& happened);
   std::size_t told_ = 0;     ///< events of the run that were looked at
   double slid_at_s_ = -100;  ///< when a drill was last told to slide off
 };
