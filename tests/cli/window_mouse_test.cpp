@@ -39,8 +39,8 @@ xdotool key ctrl+q
 wait $window
 )sh";
 
-// The window is told no size. The briefing is begun by Enter; M takes the probe, J ends the
-// attempt, which is judged then.
+// The window is told no size. The briefing is begun by Enter; M takes the probe, J, pressed twice,
+// ends the attempt, which is judged then.
 constexpr const char* kExercise = R"sh(
 "$OSTEON" window --case 'builtin:wrist#hull' --exercise touch_bones > out.txt 2>&1 &
 window=$!
@@ -54,7 +54,7 @@ xdotool mousemove 400 300
 xdotool key m; sleep 0.3
 for i in $(seq 15); do xdotool click 4; sleep 0.03; done
 sleep 0.5
-xdotool key m j
+xdotool key m j; sleep 0.5; xdotool key j
 for i in $(seq 300); do
   "$OSTEON" results list --json > list.json; grep -q touch_bones list.json && break; sleep 0.2
 done

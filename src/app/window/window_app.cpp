@@ -176,7 +176,8 @@ void WindowApp::begin_ordered() {
 }
 
 void WindowApp::move_scene(double dt_s, double wheel) {
-  pointer_.poll(dt_s, wheel);
+  // Who was still pushing an instrument as the attempt ended does not zoom.
+  pointer_.poll(dt_s, exercise_.judging() ? 0 : wheel);
   replay_.advance(dt_s);
   bend_.show();
   pointer_.pick();

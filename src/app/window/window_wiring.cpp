@@ -172,7 +172,7 @@ void WindowApp::apply_scene(const UiRequests& requests) {
   live_.apply_feel(requests, !bend_.on() && !exercise_.paused());
   if (!checkup_.running()) {  // it may have the device
     if (requests.toggle_record && exercise_.running())
-      exercise_.end();
+      exercise_.ask_to_end();
     else if (requests.toggle_record)
       live_.toggle_recording();
     live_.apply_device(requests);

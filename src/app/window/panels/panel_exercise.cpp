@@ -155,7 +155,16 @@ void draw_opening(const PanelContext& c) {
 void draw_briefing(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   const bool opening = model.page == ExercisePage::kOpening;
-  ImGui::BeginChild("briefing", {0, -2.2f * ImGui::GetFrameHeightWithSpacing()});
+  // What went wrong is told whole: its end says what to do.
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float told_h =
+      model.problem.empty()
+          ? line
+          : std::min(6 * line, ImGui::CalcTextSize(model.problem.c_str(), nullptr, false,
+                                                   ImGui::GetContentRegionAvail().x)
+                                       .y +
+                                   ImGui::GetStyle().ItemSpacing.y);
+  ImGui::BeginChild("briefing", {0, line - told_h - 2.2f * ImGui::GetFrameHeightWithSpacing()});
   ui::wrapped_text(color::kText, model.text);
   for (const std::string& hand : model.hands) ui::wrapped_text(color::kTextQuiet, hand);
   ImGui::Dummy({0, c.px(4)});
@@ -179,7 +188,7 @@ void draw_briefing(const PanelContext& c) {
   else if (model.problem.empty())
     ui::text(color::kTextQuiet, "The time starts with Begin.");
   else
-    ui::text_within(color::kAmber, model.problem, ImGui::GetContentRegionAvail().x);
+    ui::wrapped_text(color::kAmber, model.problem);
   const float w = (ImGui::GetContentRegionAvail().x - c.px(8)) / 2;
   if (!model.opening.empty()) {
     if (ImGui::Button("Cancel", {-1, 0})) c.requests.exercise.stop_opening = true;
@@ -453,12 +462,13 @@ void draw_made_errors(const PanelContext& c) {
 void draw_scrolled_part(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   draw_live_stage(c);
+  if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
+  // What one works with comes before what one reads, which may scroll.
+  draw_exercise_knee(c);
   for (const ExerciseModel::Told& told : model.told)
     ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
-  if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
   draw_made_errors(c);
   draw_asked(c);
-  draw_exercise_knee(c);
   if (!model.ghost.allowed) return;
   ImGui::Separator();
   draw_ghost_switch(c);

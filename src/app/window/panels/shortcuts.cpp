@@ -48,7 +48,8 @@ void read_run_keys(const PanelContext& c) {
   const bool briefing = c.model.exercise.page == ExercisePage::kBriefing;
   if (pressed(GLFW_KEY_ENTER) && briefing) c.requests.exercise.begin = true;
   if (pressed(GLFW_KEY_M) && c.model.hand.probe_by_mouse && !replay) c.requests.toggle_probe = true;
-  if (pressed(GLFW_KEY_R) && !replay) c.requests.toggle_record = true;
+  // An exercise records by itself, and would end.
+  if (pressed(GLFW_KEY_R) && !replay && !running) c.requests.toggle_record = true;
   if (pressed(GLFW_KEY_O)) c.requests.browser.toggle = true;
   if (pressed(GLFW_KEY_N)) c.requests.patient.toggle = true;
   if (pressed(GLFW_KEY_P) && replay) c.requests.toggle_play = true;
@@ -64,10 +65,11 @@ void read_run_keys(const PanelContext& c) {
 void read_shortcuts(const PanelContext& c) {
   // Off comes first and always works, whatever has the keyboard.
   if (pressed(GLFW_KEY_ESCAPE)) c.requests.force_off = true;
-  if (ImGui::GetIO().WantTextInput) {
-    if (c.model.phase == UiPhase::kReady && c.model.hands.tray.open) read_paging_keys(c);
-    return;
-  }
+  // From the moment that the tray opens: its field has the keyboard a picture or two later, and a
+  // word typed by then must not press keys.
+  const bool tray = c.model.phase == UiPhase::kReady && c.model.hands.tray.open;
+  if (tray) read_paging_keys(c);
+  if (tray || ImGui::GetIO().WantTextInput) return;
   read_window_keys(c);
   if (c.model.phase != UiPhase::kReady) return;
   if (ImGui::GetIO().KeyCtrl) {

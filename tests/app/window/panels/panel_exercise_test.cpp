@@ -107,6 +107,52 @@ TEST_F(ExercisePanel, WhileItRunsItCanBeEndedTakenBackAndAHintAskedFor) {
   EXPECT_FALSE(ui.click("##running", {"Hint (I)"}).exercise.hint) << "it is shown";
 }
 
+// It records by itself: the key that ends a recording of one's own would end an hour's work.
+TEST_F(ExercisePanel, TheKeyThatRecordsDoesNotEndIt) {
+  at(ExercisePage::kClosed);
+  settle();
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_R).toggle_record);
+  at(ExercisePage::kRunning);
+  settle();
+  EXPECT_FALSE(ui.press_key(GLFW_KEY_R).toggle_record);
+}
+
+// A word that is typed before the tray's field has the keyboard presses no keys.
+TEST_F(ExercisePanel, OnceTheTrayOpensLettersAreForItsSearchAlone) {
+  at(ExercisePage::kRunning);
+  settle();
+  EXPECT_TRUE(ui.press_key(GLFW_KEY_J).exercise.end);
+  ui.model.hands.tray.open = true;
+  const UiRequests typed = ui.press_key(GLFW_KEY_J);
+  EXPECT_FALSE(typed.exercise.end);
+}
+
+// What one works with comes before what one reads.
+TEST_F(ExercisePanel, TheSlidersOfAKneeAreInSightWhateverElseIsTold) {
+  ExerciseModel& model = at(ExercisePage::kRunning);
+  for (int i = 0; i < 40; ++i) model.told.push_back({"Channel", "32.7 mm", "measured"});
+  model.knee.shown = true;
+  model.knee.most_deg = 130;
+  settle();
+  const ImVec2 slider = ui.find(scrolled().c_str(), {"##Knee"});
+  ASSERT_GE(slider.x, 0);
+  EXPECT_LT(slider.y, ui.rect("##running").bottom());
+}
+
+// Its end says what to do: it is not cut off, and the button that begins stays in the window.
+TEST_F(ExercisePanel, WhatKeepsItFromBeginningIsToldWhole) {
+  const auto briefing_h = [&](const std::string& problem) {
+    at(ExercisePage::kBriefing).problem = problem;
+    settle();
+    return ui.rect(child("##exercise/briefing").c_str()).h;
+  };
+  const float of_one_line = briefing_h("Too late");
+  EXPECT_LT(briefing_h(std::string(40, 'x') + " " + std::string(40, 'y') + " " +
+                       std::string(40, 'z') + " " + std::string(40, 'w')),
+            of_one_line - 10);
+  EXPECT_TRUE(ui.click("##exercise", {"Begin  (Enter)"}).exercise.begin);
+}
+
 // The picture between the cards stays free; the card of the case has the room that is left.
 TEST_F(ExercisePanel, WhileItRunsItsCardIsAboveThatOfTheCase) {
   ExerciseModel& model = at(ExercisePage::kRunning);

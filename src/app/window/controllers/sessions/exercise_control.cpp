@@ -72,7 +72,7 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (requests.as_expert) hold_as_expert(requests.to_expert);
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
-    if (requests.end) end();
+    if (requests.end) ask_to_end();
   }
   if (requests.pages) save_pages();
   if (requests.show) wanted_ = *requests.show;
@@ -323,7 +323,12 @@ void ExerciseControl::poll_begin() {
   if (!run) return exercise_.fail_to_begin("The patient is no longer open.");
   exercise_.go_on(SessionSettings{}.haptic.tick_s, *begun, carved_now());
   const auto gone_on = run->go_on(std::move(begun->run));
-  if (!gone_on) return exercise_.fail_to_begin(gone_on.error().message());
+  if (!gone_on) {
+    // It holds the expert's part alone, and no attempt.
+    std::error_code ec;
+    std::filesystem::remove(exercise_.recording(), ec);
+    return exercise_.fail_to_begin(gone_on.error().message());
+  }
   exercise_.keep_mark(run->mark());
   begin_to_work(std::exchange(begun_hands_, {}));
 }
@@ -345,6 +350,8 @@ void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
   scene_.views.set_skin_felt(waits_for_portal_);
   if (looks && !waits_for_portal_) show_scope();
   look_at_the_box(hands);
+  // A cut of 10 mm is small in a picture of the whole leg.
+  if (waits_for_portal_) sight_.fly_close_up({});
   skin_clear_.reset();
   camera_before_bench_.reset();
   hand_before_bench_.reset();
@@ -444,6 +451,11 @@ void ExerciseControl::poll() {
   ghost_.poll(exercise_);
   exercise_.set_guided(run->guided_s());
   if (exercise_.over() || !run->recording()) end();
+}
+
+void ExerciseControl::ask_to_end() {
+  if (exercise_.wants_to_end()) return end();
+  host_.note(ToastKind::kWarning, "Once more (J) ends the attempt, and it is judged.");
 }
 
 void ExerciseControl::end() {

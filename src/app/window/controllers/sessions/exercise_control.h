@@ -29,9 +29,12 @@ class ExerciseControl {
   void show(const std::string& name);
   bool opening() const { return exercise_.page() == ExercisePage::kOpening; }
   bool running() const { return exercise_.page() == ExercisePage::kRunning; }
+  bool judging() const { return exercise_.page() == ExercisePage::kJudging; }
   /// Its patient is on show.
   void begin();
   void end();
+  /// By a key or a button: the first time the user is told that once more ends it.
+  void ask_to_end();
   void apply(const ExerciseRequests& requests);
   /// The user took the force off: the end of a pause does not bring it back.
   void close_page() { exercise_.close_page(); }

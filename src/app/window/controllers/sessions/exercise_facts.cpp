@@ -1,9 +1,11 @@
 #include "window/controllers/sessions/exercise_facts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "osteon/physics/graft_placing.h"
 #include "osteon/procedure/scope_watch.h"
@@ -146,11 +148,28 @@ std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing) {
   return facts;
 }
 
+std::string words_of_goal(std::string_view kind) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kWords{{
+      {"knee_examined", "test Lachman and pivot shift"},
+      {"knee_cycled", "stretch the knee out and bend it"},
+      {"screw_in", "turn the screw in"},
+      {"graft_tested", "a graft that holds"},
+      {"muscle_off", "scrape the muscle off"},
+      {"tendons_stitched", "thread through both ends"},
+  }};
+  for (const auto& [name, words] : kWords)
+    if (name == kind) return words;
+  return {};
+}
+
+bool is_whole(const Outcome& outcome) {
+  return std::all_of(outcome.stages.begin(), outcome.stages.end(),
+                     [](const Outcome::Stage& stage) { return stage.completed_s.has_value(); });
+}
+
 std::string why_of(const Outcome& outcome, const std::optional<double>& pass_score) {
   if (outcome.verdict == Verdict::kPassed) return {};
-  const auto is_open = [](const Outcome::Stage& stage) { return !stage.completed_s; };
-  if (std::any_of(outcome.stages.begin(), outcome.stages.end(), is_open))
-    return "Not every stage was done.";
+  if (!is_whole(outcome)) return "Not every stage was done.";
   const auto is_grave = [](const Outcome::Error& made) {
     return made.severity != Severity::kMinor;
   };

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "exercises/attempt_watch.h"
@@ -26,6 +27,12 @@ std::vector<ExerciseModel::Told> sights_of(const ScenarioPlan& plan, const Scena
                                            std::span<const ToolState> tools,
                                            const BoneSnapshot& bones);
 
+/// What a goal that names no mark asks for, by the kind of its rule, in a few words for the list of
+/// what is left. Empty: it has none.
+std::string words_of_goal(std::string_view kind);
+
+/// Every stage was done. The score of an attempt that was broken off says how little time it took.
+bool is_whole(const Outcome& outcome);
 /// Why an attempt is not passed, in the order in which it is judged. Empty: it is, or there is no
 /// standard that says it. `pass_score`: what that standard wants.
 std::string why_of(const Outcome& outcome, const std::optional<double>& pass_score);

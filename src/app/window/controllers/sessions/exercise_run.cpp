@@ -248,6 +248,7 @@ void ExerciseRun::begin_anew(double tick_s, fs::path file) {
   debrief_.reset();
   problem_.clear();
   now_s_ = 0;
+  end_asked_s_.reset();
   stage_ = 0;
   cue_shown_ = paused_ = false;
   pauses_.clear();
@@ -331,6 +332,13 @@ bool ExerciseRun::follow(const BoneSnapshot& bones) {
   stage_ = stage;
   cue_shown_ = false;
   return stage < scenario().stages.size() && scenario().stages[stage].restore_point;
+}
+
+bool ExerciseRun::wants_to_end() {
+  constexpr double kSoonAgain_s = 5;
+  const bool again = end_asked_s_ && now_s_ - *end_asked_s_ < kSoonAgain_s;
+  end_asked_s_ = now_s_;
+  return again;
 }
 
 void ExerciseRun::show_cue() {

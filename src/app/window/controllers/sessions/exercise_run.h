@@ -110,6 +110,8 @@ class ExerciseRun {
   const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
   double now_s() const { return now_s_; }
   bool over() const { return watch_ && watch_->over(); }
+  /// True the second time within some seconds of the attempt: one key must not end an hour's work.
+  bool wants_to_end();
   void show_cue();
   void count_hint() { ++hints_; }
   /// While it is paused the clock stands and nothing that the hands do is judged.
@@ -189,6 +191,7 @@ class ExerciseRun {
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;
+  std::optional<double> end_asked_s_;  ///< `now_s_` when the user wanted to end it
   std::uint32_t stage_ = 0;
   bool cue_shown_ = false, paused_ = false, force_was_wanted_ = true;
   std::vector<AttemptPause> pauses_;

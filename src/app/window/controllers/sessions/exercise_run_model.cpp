@@ -179,6 +179,12 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
           state.goals[g].met || (i < state.goals[g].done.size() && state.goals[g].done[i] != 0);
       if (!done) model.left.push_back(subject_of(goals[g], i, *case_));
     }
+  for (std::size_t g = 0; g < goals.size() && g < state.goals.size(); ++g) {
+    const std::string words = goals[g].bones.empty() ? words_of_goal(goals[g].rule.kind) : "";
+    if (words.empty()) continue;
+    ++model.goals;
+    if (!state.goals[g].met) model.left.push_back(words);
+  }
 }
 
 void ExerciseRun::describe_asked(ExerciseModel& model) const {
@@ -222,7 +228,7 @@ void ExerciseRun::describe_result(ExerciseModel& model) const {
     model.why =
         "Every stage of this part was done without a grave error. Only a whole attempt "
         "is scored.";
-  if (outcome.score) {
+  if (outcome.score && is_whole(outcome)) {
     model.score = outcome.score->value;
     model.score_lo = outcome.score->lo;
     model.score_hi = outcome.score->hi;

@@ -173,7 +173,8 @@ void LiveControl::update(bool power_key, double dt_s) {
   sight_.shown() = run_->snapshot();
   if (const std::string why = run_->take_recording_failure(); !why.empty())
     host_.note(ToastKind::kError, why);
-  if (const std::string why = run_->take_harmless_trip(); !why.empty())
+  // Who holds no instrument did nothing: a patient was being opened, or a key brought the hand.
+  if (const std::string why = run_->take_harmless_trip(); !why.empty() && probe_held())
     host_.note(ToastKind::kInfo, why);
 }
 

@@ -1,5 +1,6 @@
 #include "window/controllers/sessions/run_news.h"
 
+#include "osteon/mesh/measure.h"
 #include "osteon/scene/carve_events.h"
 #include "osteon/scene/soft_events.h"
 #include "ui/label.h"
@@ -15,7 +16,9 @@ std::string soft_news_of(const Event& event, const Case& the_case) {
   const auto force = [](double force_n) { return " " + ui::number(force_n, 0) + " N"; };
   if (event.kind == kSoftTorn && event.hand == kNoHand) return name + " has torn";
   if (event.kind == kSoftTorn) return name + " has torn, pulled with" + force(event.values[1]);
-  if (event.kind == kSoftCut && soft.kind == "ligament") return name + " is cut in two";
+  // What a torn one has left is pierced and shaved: it was in two before.
+  if (event.kind == kSoftCut && soft.kind == "ligament" && connected_parts(soft.mesh_W).size() < 2)
+    return name + " is cut in two";
   if (event.kind == kSoftSlipped)
     return name + " was pulled off the jaws, with" + force(event.values[0]);
   return {};

@@ -137,6 +137,29 @@ TEST(ExerciseFacts, ASightTellsWhatIsMissing) {
   EXPECT_EQ(told(0.015, 0), "") << "it has been seen";
 }
 
+// Goals without a mark are named in the list of what is left, too.
+TEST(ExerciseFacts, GoalsThatNameNoMarkHaveWords) {
+  const auto scenario = open_scenario("acl");
+  ASSERT_TRUE(scenario) << scenario.error().message();
+  std::size_t named = 0;
+  for (const ScenarioStage& stage : scenario->stages)
+    for (const Rule& goal : stage.goals)
+      if (stage.goals.size() > 1 && goal.marks.empty() && goal.subjects.empty()) {
+        EXPECT_NE(words_of_goal(goal.kind), "") << stage.name << ": " << goal.kind;
+        ++named;
+      }
+  EXPECT_GE(named, 7u);
+  EXPECT_EQ(words_of_goal("no_such_rule"), "");
+}
+
+TEST(ExerciseFacts, AnAttemptIsWholeOnceEveryStageIsDone) {
+  Outcome outcome;
+  outcome.stages = {{"first", 3.0}, {"second", std::nullopt}};
+  EXPECT_FALSE(is_whole(outcome));
+  outcome.stages[1].completed_s = 9;
+  EXPECT_TRUE(is_whole(outcome));
+}
+
 TEST(ExerciseFacts, AVerdictSaysWhy) {
   Outcome outcome;
   outcome.verdict = Verdict::kPassed;

@@ -157,6 +157,21 @@ TEST_F(ExerciseRunTest, APartOfItIsChosenByItsStages) {
   EXPECT_FALSE(run_.model().parted);
 }
 
+// One key does not end it: once more within some seconds does.
+TEST_F(ExerciseRunTest, ToEndItIsAskedForTwice) {
+  begin();
+  touch("capitate", 0, 100);
+  run_.follow({});
+  EXPECT_FALSE(run_.wants_to_end());
+  EXPECT_TRUE(run_.wants_to_end());
+  begin();
+  EXPECT_FALSE(run_.wants_to_end()) << "of another attempt";
+  touch("capitate", 0, 6000);
+  run_.follow({});
+  EXPECT_FALSE(run_.wants_to_end()) << "long ago";
+  EXPECT_TRUE(run_.wants_to_end());
+}
+
 TEST_F(ExerciseRunTest, ItIsOverAtItsTimeLimit) {
   begin();
   tick_ = 599990;

@@ -49,6 +49,23 @@ TEST(SoftNews, SaysNothingElse) {
   EXPECT_EQ(soft_news_of(event, *ligament), "");
 }
 
+// A pin or a shaver that goes through a stump cuts nothing in two.
+TEST(SoftNews, OfATornLigamentNothingIsCutInTwo) {
+  const auto whole = testing::band_case();
+  ASSERT_TRUE(whole);
+  Case torn = *whole;
+  TriMesh& mesh = torn.softs[0].mesh_W;
+  const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto triangles = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.vertices.push_back(mesh.vertices[v] + Vec3(1, 0, 0));
+  for (auto triangle : triangles) {
+    for (auto& v : triangle) v += count;
+    mesh.triangles.push_back(triangle);
+  }
+  EXPECT_EQ(soft_news_of(soft_event(kSoftCut, {0.5, 0, 12}), torn), "");
+}
+
 TEST(GuideNews, SaysWhatLeadsADrillAndWhatSlidesOff) {
   const auto the_case = testing::drilled_block();
   const auto news = [&](EventKind kind, std::array<double, 3> values = {}) {
