@@ -86,8 +86,20 @@ void LiveRun::take(std::uint32_t place) {
     runtime_->send({CommandKind::kTake, static_cast<double>(place)}, active_);
 }
 
+// A motor runs while somebody holds its key or pedal: not in a hand that was left, or that a
+// restore point or another run has given back running. Jaws keep what they hold.
+void LiveRun::stop_left_motors() {
+  for (std::size_t i = 0; runtime_ && i < hands_.size(); ++i) {
+    const ToolState& tool = hands_[i].snapshot.tool;
+    const bool left = i != active_ && !hands_[i].orders && tool.tick > 0 && tool.power > 0;
+    if (left && tool.instrument < tray_.driven.size() && tray_.driven[tool.instrument].power)
+      (void)runtime_->send({CommandKind::kPower, 0}, i);
+  }
+}
+
 // What differs from what the hand was last seen to have is sent again.
 void LiveRun::drive(double pedal) {
+  stop_left_motors();
   const ToolState& tool = now().snapshot.tool;
   if (!runtime_ || tool.tick == 0 || now().orders || tool.instrument >= tray_.driven.size()) return;
   constexpr double kSteps = 20;

@@ -217,6 +217,7 @@ class LiveRun {
   DeviceMapping mapping_at(const LiveHand& hand, const Pose& X_WD_start,
                            HapticDevice& device) const;
   SessionSettings settings_now() const;
+  void stop_left_motors();
   void send_orders(std::size_t hand);
   void see_cuts();
   void forgive_the_harmless(std::size_t hand);

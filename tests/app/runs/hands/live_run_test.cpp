@@ -326,6 +326,28 @@ ProbePath drilling_path() {
   return path;
 }
 
+// The hand that is left rests; its key or pedal is the other one's now.
+TEST(LiveRunCarves, AMotorStopsInAHandThatIsLeft) {
+  const testing::Drilling with("drill:3.2");
+  const RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
+  LiveRun live(with.the_case, "block", {}, {}, tray);
+  const Pose first{Vec3(0, 0, 0.1), Quat::Identity()}, second{Vec3(0.05, 0, 0.1), Quat::Identity()};
+  ASSERT_TRUE(live.start(choice_named("mouse"), first));
+  run_until(live, [&] { return live.snapshot().tool.tick > 4; });
+  ASSERT_TRUE(live.add_hand(second, 0));
+  run_until(live, [&] {
+    live.drive(1);
+    return live.snapshot().tool.power == 1;
+  });
+  ASSERT_TRUE(live.change_hands());
+  ASSERT_EQ(live.others()[0].power, 1);
+  run_until(live, [&] {
+    live.drive(0);
+    return live.others()[0].power == 0;
+  });
+  EXPECT_EQ(live.others()[0].power, 0);
+}
+
 // What a path says of instruments and power is done, and what it drills is shown. A new run begins
 // with whole bones.
 TEST(LiveRunCarves, WhatAPathDrillsIsShown) {

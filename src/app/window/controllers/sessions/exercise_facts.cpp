@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -113,6 +114,19 @@ std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft) {
                    "From the joint to the far cortex: the loop and the graft in the socket"});
   facts.push_back({"Femoral socket", in_mm_to_tenths(graft.plan()->socket_m),
                    "6 mm longer than the graft in it, for the button to turn"});
+  return facts;
+}
+
+std::vector<ExerciseModel::Told> bands_of(const GraftWatch& graft) {
+  Facts facts;
+  for (std::size_t k = 0; graft.plan() && k < kGraftTendons; ++k) {
+    const TendonOnBench& tendon = graft.state().tendons[k];
+    if (tendon.stripped || tendon.amputated) continue;
+    facts.push_back({std::string(kTendonTitles[k]) + ", bands",
+                     std::to_string(std::popcount(tendon.bands_cut)) + " of " +
+                         std::to_string(graft.plan()->tendons[k].bands_W.size()) + " cut",
+                     "A stripper that is pushed through a band cuts the tendon off"});
+  }
   return facts;
 }
 

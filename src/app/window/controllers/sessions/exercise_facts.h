@@ -16,6 +16,9 @@ namespace osteon {
 /// What was found out at a bench and is needed later, and how far work has come that no picture
 /// shows: a stripper on its tendon, thread and muscle of each. Nothing of a case without a bench.
 std::vector<ExerciseModel::Told> facts_of(const GraftWatch& graft);
+/// Of each tendon that lies in the thigh, while it is to be stripped: how many of its bands are
+/// cut. No picture shows a band.
+std::vector<ExerciseModel::Told> bands_of(const GraftWatch& graft);
 /// The same of a graft that is placed: the pin in the femur, the thread, how far the graft is drawn
 /// in, a screw. Nothing before there are tunnels.
 std::vector<ExerciseModel::Told> facts_of(const PlacingWatch& placing);

@@ -159,7 +159,8 @@ void ExerciseRun::describe_run(ExerciseModel& model) const {
   model.elapsed_s = now_s_;
   model.paused = paused_;
   describe_asked(model);
-  model.told = facts_of(watch_->graft());
+  if (asks_now("tendons_stripped")) model.told = bands_of(watch_->graft());
+  for (auto& fact : facts_of(watch_->graft())) model.told.push_back(std::move(fact));
   for (auto& fact : facts_of(watch_->placing())) model.told.push_back(std::move(fact));
   if (const auto cleared = watch_->cleared_percent(); cleared && asks_now("stumps_cleared"))
     model.told.push_back({"Torn ends cleared", std::to_string(*cleared) + " %",

@@ -69,6 +69,28 @@ TEST(ExerciseFacts, ABenchTellsHowFarEachTendonHasCome) {
   EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "");
 }
 
+TEST(ExerciseFacts, TendonsThatAreToBeStrippedTellHowManyOfTheirBandsAreCut) {
+  const auto bench_case = open_case("builtin:graft_bench");
+  ASSERT_TRUE(bench_case) << bench_case.error().message();
+  GraftBenchState bench;
+  bench.on = true;
+  bench.tendons[0].bands_cut = 0b10;
+  const auto bands = [&] {
+    BoneSnapshot bones;
+    bones.bench = bench;
+    GraftWatch watch(**bench_case);
+    std::vector<Event> out;
+    watch.add(1, bones, out);
+    return bands_of(watch);
+  };
+  EXPECT_EQ(value_of(bands(), "Semitendinosus, bands"), "1 of 2 cut");
+  EXPECT_EQ(value_of(bands(), "Gracilis, bands"), "0 of 1 cut");
+  bench.tendons[0].stripped = true;
+  EXPECT_EQ(value_of(bands(), "Semitendinosus, bands"), "");
+  bench.tendons[1].amputated = true;
+  EXPECT_TRUE(bands().empty());
+}
+
 TEST(ExerciseFacts, PlacingTellsWhatBoneHides) {
   EXPECT_TRUE(facts_seen(GraftPlacingState{}).empty()) << "there are no tunnels";
   GraftPlacingState state;
