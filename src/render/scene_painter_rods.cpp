@@ -15,10 +15,17 @@ struct DrawnRod {
   double radius_m = 0, length_m = 0;
 };
 
+// The sleeve of an aimer stays fixed until another takes its place. With a graft in the tunnels it
+// leads nothing any more, and its line would cross the picture to the end.
+bool is_drawn(const GuideRod& rod, const BoneSnapshot& bones) {
+  if (rod.kind == GuideRod::Kind::kNone || rod.bone >= bones.count) return false;
+  return rod.kind != GuideRod::Kind::kSleeve || !bones.placing.on;
+}
+
 std::vector<DrawnRod> drawn_rods(const BoneSnapshot& bones) {
   std::vector<DrawnRod> out;
   for (const GuideRod& rod : bones.rods) {
-    if (rod.kind == GuideRod::Kind::kNone || rod.bone >= bones.count) continue;
+    if (!is_drawn(rod, bones)) continue;
     const bool sleeve = rod.kind == GuideRod::Kind::kSleeve;
     // What of a sleeve is near the bone is not there: it ends where the bone begins.
     const double from = sleeve ? 0.5 * rod.length_m : 0;
@@ -34,7 +41,7 @@ std::vector<DrawnRod> drawn_rods(const BoneSnapshot& bones) {
 std::vector<DrawnRod> drawn_lines(const BoneSnapshot& bones) {
   std::vector<DrawnRod> out;
   for (const GuideRod& rod : bones.rods) {
-    if (rod.kind == GuideRod::Kind::kNone || rod.bone >= bones.count) continue;
+    if (!is_drawn(rod, bones)) continue;
     Pose X_WR = bones.bones[rod.bone].X_WB * rod.X_BR;
     X_WR.p -= X_WR.rotate(Vec3(0, 0, kLineBeyond_m));
     if (is_finite(X_WR)) out.push_back({X_WR, kLineRadius_m, kLineBeyond_m + rod.length_m});

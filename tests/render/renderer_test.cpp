@@ -86,6 +86,12 @@ TEST_F(RendererTest, APinAndItsLineAreDrawnInTheBone) {
   EXPECT_GT(changed(0.045), 60) << "steel before the bone";
   EXPECT_GT(changed(0.015), 30) << "the line is seen through the bone";
   EXPECT_GT(changed(-0.015), 30) << "and goes on";
+  // An aimer's sleeve is drawn likewise, until a graft lies in the tunnels.
+  pin.kind = GuideRod::Kind::kSleeve;
+  EXPECT_NE(renderer.draw_image(snapshot, front_view(), 200, 200).rgb, without.rgb);
+  snapshot.bones.placing.on = true;
+  EXPECT_EQ(renderer.draw_image(snapshot, front_view(), 200, 200).rgb, without.rgb);
+  snapshot.bones.placing.on = false;
   pin = {};
   EXPECT_EQ(renderer.draw_image(snapshot, front_view(), 200, 200).rgb, without.rgb);
 }

@@ -56,11 +56,11 @@ void draw_isometry(const PanelContext& c, const BentKneeModel& knee) {
   std::vector<float> lengths(knee.between_mm.begin(), knee.between_mm.end());
   const auto low = static_cast<float>(*least - 1), high = static_cast<float>(*most + 1);
   ImGui::PlotLines("##isometry", lengths.data(), static_cast<int>(lengths.size()), 0, nullptr, low,
-                   high, {-1, c.px(56)});
+                   high, {ImGui::GetContentRegionAvail().x, c.px(56)});
   const std::string change = ui::number(*most - *least, 1) + " mm from " +
                              ui::number(knee.flexion_deg.front(), 0) + " to " +
                              ui::number(knee.flexion_deg.back(), 0) + " degrees";
-  ui::text(color::kTextQuiet, ("Graft's length changes by " + change).c_str());
+  ui::wrapped_text(color::kTextQuiet, "Graft's length changes by " + change);
 }
 
 }  // namespace

@@ -304,5 +304,20 @@ TEST_F(ExercisePanel, AKneeIsExaminedBySliders) {
   EXPECT_FALSE(pressed("##Pivot shift").pivot_share);
 }
 
+// As wide as the card: a plot of no width shows nothing.
+TEST_F(ExercisePanel, TheGraftsLengthIsPlottedOverTheWholeCard) {
+  BentKneeModel& knee = at(ExercisePage::kRunning).knee;
+  knee.shown = knee.placed = true;
+  knee.most_deg = 130;
+  knee.flexion_deg = {0, 60, 120};
+  knee.between_mm = {24, 21, 23};
+  settle();
+  const ImVec2 slider = ui.find(scrolled().c_str(), {"##Graft's tail"});
+  ASSERT_GE(slider.x, 0);
+  const ImVec2 plot = ui.find(scrolled().c_str(), {"##isometry"});
+  ASSERT_GE(plot.x, 0);
+  EXPECT_GT(plot.y, slider.y);
+}
+
 }  // namespace
 }  // namespace osteon
