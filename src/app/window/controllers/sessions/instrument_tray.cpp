@@ -37,8 +37,12 @@ std::string what_it_does(const Instrument& instrument) {
 // What has no effect is not driven; jaws that remove nothing carry what lies loose.
 RunTray::Driven driven_of(const Instrument& instrument) {
   if (instrument.aims) return {false, true};
+  // A screw has no motor of its own: the key turns it.
+  const bool turned = has_effect(instrument, InstrumentFunction::kDrive);
+  const bool sucks = has_effect(instrument, InstrumentFunction::kSuck) ||
+                     has_effect(instrument, InstrumentFunction::kBurn);
   if (!instrument.removal)
-    return {false, instrument.can(InstrumentFunction::kGrasp) && !instrument.power};
+    return {turned || sucks, instrument.can(InstrumentFunction::kGrasp) && !instrument.power};
   return {instrument.power.has_value(), instrument.removal->way == RemovalWay::kBite};
 }
 

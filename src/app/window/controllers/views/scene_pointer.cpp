@@ -15,6 +15,8 @@ void ScenePointer::hold_probe() {
   const bool held =
       by_mouse && (live_.probe_toggled() || (space && !io.WantTextInput && !io.NavVisible));
   if (held != live_.probe_held()) poll_.jump();
+  // A card that keeps the keyboard would take End and the arrows, and V would run no motor.
+  if (held && !live_.probe_held()) ImGui::SetWindowFocus(nullptr);
   live_.hold_probe(held);
 }
 

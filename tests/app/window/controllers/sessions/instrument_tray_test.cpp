@@ -76,6 +76,15 @@ TEST(InstrumentTray, AClampsJawsAreDrivenAndABenchIsOfTheKnee) {
   ASSERT_TRUE(clamp && scalpel);
   EXPECT_TRUE(tray->run().driven[*clamp].jaws);
   EXPECT_FALSE(tray->run().driven[*scalpel].jaws);
+  // The same key turns a screw, and draws by suction.
+  for (const char* name : {"interference_screw:9", "shaver", "rf_ablator", "suction"}) {
+    const auto place = tray->find(name);
+    if (!place) continue;
+    EXPECT_TRUE(tray->run().driven[*place].power) << name;
+    EXPECT_FALSE(tray->run().driven[*place].jaws) << name;
+  }
+  EXPECT_TRUE(tray->find("interference_screw:9"));
+  EXPECT_FALSE(tray->run().driven[*scalpel].power);
   EXPECT_EQ(region_of(*testing::bench_case()), "knee");
   EXPECT_EQ(region_of(*testing::ring_box()), "wrist");
 }
