@@ -465,9 +465,9 @@ void draw_scrolled_part(const PanelContext& c) {
   if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
   // What one works with comes before what one reads, which may scroll.
   draw_exercise_knee(c);
+  draw_made_errors(c);
   for (const ExerciseModel::Told& told : model.told)
     ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
-  draw_made_errors(c);
   draw_asked(c);
   if (!model.ghost.allowed) return;
   ImGui::Separator();
