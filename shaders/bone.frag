@@ -9,6 +9,7 @@ in vec4 v_shade;  // openness, cavity, mottle, height of what is felt
 
 uniform vec4 u_color;      // display colour and opacity
 uniform int u_felt;         // 1: coloured by that height
+uniform int u_wound;        // 1: skin that was cut open; that height says how deep it lies in a cut
 uniform vec3 u_felt_low;    // display colours of its range
 uniform vec3 u_felt_none;
 uniform vec3 u_felt_high;
@@ -45,6 +46,16 @@ vec3 heated(vec3 albedo, vec3 model) {
   return mix(albedo, to_linear(color), shown);
 }
 #endif
+
+// In a cut of skin: its section, which blood reddens where it ends, and yellow fat under it, whose
+// floor is wet and redder.
+vec3 wound_color(float depth_mm) {
+  const vec3 kSection = vec3(0.90, 0.62, 0.56), kBlood = vec3(0.66, 0.16, 0.13);
+  const vec3 kFat = vec3(1.00, 0.82, 0.52), kFloor = vec3(0.97, 0.68, 0.42);
+  vec3 color = mix(kSection, kBlood, 0.75 * exp(-pow((depth_mm - 2.0) / 0.35, 2.0)));
+  color = mix(color, kFat, smoothstep(2.0, 2.5, depth_mm));
+  return mix(color, kFloor, smoothstep(3.5, 7.0, depth_mm));
+}
 
 // Share of the sky that a ball hides from a surface point: to_ball leads to its centre.
 float hidden_by_ball(vec3 to_ball, vec3 n, float radius) {
@@ -92,6 +103,8 @@ void main() {
     float height = clamp((v_shade.w * 255.0 - 128.0) / 127.0, -1.0, 1.0);
     albedo = to_linear(mix(u_felt_none, height < 0.0 ? u_felt_low : u_felt_high, abs(height)));
   }
+  float deep = (v_shade.w * 255.0 - 129.0) / 126.0;
+  if (u_wound == 1 && deep > -0.004) albedo = to_linear(wound_color(12.0 * max(deep, 0.0)));
 #ifdef HEATED
   albedo = heated(albedo, v_model);
 #endif

@@ -144,6 +144,7 @@ void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriM
   ++shared_->version;
   BoneModel& model = shared_->bones[k];
   model.closed = lit.closed;
+  model.wounded = !depth_m.empty();
   model.levels.clear();
   model.levels.push_back({GpuMesh(lit), 0});
   set_extent(model, moved_W);

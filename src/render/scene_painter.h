@@ -152,6 +152,7 @@ class ScenePainter {
     std::vector<ExtentBox> boxes;  ///< that hold it more closely
     Capsule around;
     bool closed = false;
+    bool wounded = false;  ///< skin that was cut open
     float line_opacity = 0;
     bool outermost = false;             ///< the skin: drawn over all else that is seen through
     std::vector<std::size_t> rides_on;  ///< bones; of a soft part

@@ -93,6 +93,7 @@ void ScenePainter::paint_bone(std::size_t k, const RenderSnapshot& snapshot, con
   const auto begin = [&](const Program& rigid) {
     const Program& program = begin_part(rigid, shared_->cover_bone, snapshot, k, frame);
     if (heated) heat.show(program);
+    program.set("u_wound", shared_->bones[k].wounded ? 1 : 0);
     program.set("u_color", Color(look.color[0], look.color[1], look.color[2],
                                  is_clear(look) ? look.opacity : 1.0f));
   };

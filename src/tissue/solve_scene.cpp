@@ -170,11 +170,17 @@ RodObstacle read_obstacle(SceneReader& in, const Table& entry) {
   return out;
 }
 
+RodCutPlace read_rod_cut(SceneReader& in, const Table& entry) {
+  in.only(entry, {"at_mm", "at_s"});
+  return {kMm * in.vec3(entry, "at_mm", kPlace_mm), in.number_or(entry, "at_s", kTime_s, 0)};
+}
+
 // Keys that only rods know.
 void check_rod_keys(SceneReader& in, const Table& root, const SolveScene& scene) {
   if (scene.model == TissueModel::kRod) return;
   constexpr const char* kTodo = "Remove it, or solve a rod";
-  if (SceneReader::has(root, "obstacle")) in.complain("is for rods", root, "obstacle", kTodo);
+  for (const char* key : {"obstacle", "cut"})
+    if (SceneReader::has(root, key)) in.complain("is for rods", root, key, kTodo);
   const Table material = in.table(root, "material");
   if (SceneReader::has(material, "friction"))
     in.complain("is for rods", material, "friction", kTodo);
@@ -203,8 +209,8 @@ void read_run(SceneReader& in, const Table& run, SolveScene& scene) {
 }
 
 SolveScene read_scene(SceneReader& in, const Table& root) {
-  in.only(root,
-          {"mesh", "material", "fixed", "moved", "load", "obstacle", "gravity_m_per_s2", "run"});
+  in.only(root, {"mesh", "material", "fixed", "moved", "load", "obstacle", "cut",
+                 "gravity_m_per_s2", "run"});
   SolveScene scene;
   scene.body = read_body(in, in.table(root, "mesh"));
   const Table material = in.table(root, "material");
@@ -225,6 +231,7 @@ SolveScene read_scene(SceneReader& in, const Table& root) {
   read_supports(in, root, scene);
   for (const Table& entry : in.tables(root, "obstacle"))
     scene.obstacles.push_back(read_obstacle(in, entry));
+  for (const Table& entry : in.tables(root, "cut")) scene.cuts.push_back(read_rod_cut(in, entry));
   check_rod_keys(in, root, scene);
   const bool rod_model = scene.model == TissueModel::kRod;
   if (scene.body.rod.has_value() != rod_model)

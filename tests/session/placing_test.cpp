@@ -2,9 +2,12 @@
 // and everything repeats.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "count_allocations.h"
 #include "osteon/base/turn.h"
 #include "osteon/physics/graft_placing.h"
+#include "osteon/scene/graft.h"
 #include "osteon/scene/instrument.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/session/session.h"
@@ -138,6 +141,45 @@ TEST(SessionPlacing, AClampThatDrawsFeelsTheGraftAndStopsWhenItIsHeldStill) {
   EXPECT_GT(most, 0.4);
   EXPECT_LT(most, 4);
   EXPECT_NEAR(placed(session).pull_n, GraftPlacing::kLever * -session.tool_state().force_W.x(), 2);
+}
+
+// Drawn on evenly, the graft is held back by the wall of the tibia's tunnel, 0.5 N for each
+// millimetre of tendon in it, and by the edge at the femur's mouth, about which the thread turns by
+// 90 degrees: T = (tail + q s) exp(mu theta). What the hand pulls over that moves it on, and stays.
+TEST(SessionPlacing, TheWallsOfTheTunnelsHoldTheGraftBackAsTheClosedForm) {
+  const PlacingSession rig;
+  const auto plan = find_placing(*felt_placing());
+  ASSERT_TRUE(plan);
+  Session session = rig.session();
+  SessionState state = session.save();
+  state.world.bones.placing.phase = PlacingPhase::kThreadOut;
+  ASSERT_TRUE(session.restore(state));
+  std::vector<double> pulls, drawn;
+  for (std::uint64_t n = 1; n <= 5500; ++n) {
+    const double t = static_cast<double>(n) * 0.001;
+    HandInput hand;
+    const double x = 0.070 + 0.012 * std::max(t - 1, 0.0);
+    hand.input.X_WD = {Vec3(x, 0, 0), turn_between(Vec3::UnitZ(), Vec3(Vec3::UnitX()))};
+    if (n == 1) hand.command = {CommandKind::kTake, 2};
+    if (n == 300) hand.command = {CommandKind::kJaw, 1};
+    if (n == 600) hand.command = {CommandKind::kJaw, 0};
+    (void)session.tick(std::span(&hand, 1));
+    if (n < 2000 || n % 500 != 0) continue;
+    pulls.push_back(placed(session).pull_n);
+    drawn.push_back(placed(session).drawn_m);
+  }
+  constexpr double kTail_n = 10, kDrag_n_per_m = 500, kThread = 0.2, kTurn_rad = 1.5707963;
+  constexpr double kBeforeTendon_m = 0.020 + kFlipRoom_m;  // the loop, and what hangs before it
+  ASSERT_EQ(plan->tail_n, kTail_n);
+  double over_n = 0;
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    const double in_wall_m = std::max(0.0, drawn[i] - kBeforeTendon_m);
+    const double form = (kTail_n + kDrag_n_per_m * in_wall_m) * std::exp(kThread * kTurn_rad);
+    if (i == 0) over_n = pulls[i] - form;
+    EXPECT_NEAR(pulls[i] - over_n, form, 0.01 * form) << drawn[i];
+  }
+  EXPECT_GT(over_n, 0);
+  EXPECT_GT(pulls.back(), 2 * pulls.front()) << "the wall must be felt";
 }
 
 // A case without tunnels of its own, to which a graft is handed over.

@@ -77,6 +77,33 @@ TEST(SoftSolid, HookedFromBelowItHoldsBackAndYieldsMore) {
   EXPECT_LT(session.tool_state().force_W.z(), pull);
 }
 
+// How far the middle of that side goes up: -1 the one on the tibia's cartilage, 1 the free one.
+double side_goes(const Session& session, double side) {
+  const SoftSolid& solid = the_run().softs->solids[0];
+  const Pose X_BW = the_run().the_case->bone(solid.bone).X_WB.inverse();
+  const SoftPushes now = session.softs()->pushes();
+  std::vector<SolidPush> pushes;
+  for (std::uint32_t i = 0; i < now.count; ++i)
+    pushes.push_back(solid.body->push_at(now.all[i].p_B, now.all[i].nhat_B, now.all[i].force_n));
+  const Vec3 at_W(0.004, 0.002, side * testing::kMeniscusHalf.z());
+  return PressedSolid::moved_at(solid.body->patch_at(X_BW * at_W), solid.body->moved(pushes)).z();
+}
+
+// A meniscus that is pressed by 5 mm does not go into the cartilage that it lies on; lifted as far
+// it comes off it.
+TEST(SoftSolid, PressedItStaysOnTheCartilageUnderItAndLiftedItComesOff) {
+  Session pressed = the_run().session();
+  bring(pressed, over_block(0.004, 0.002, -0.002), over_block(0.004, 0.002, 0.005));
+  EXPECT_GT(pressed.tool_state().force_W.z(), 1.5);
+  EXPECT_LT(side_goes(pressed, 1), -1e-3);
+  EXPECT_GT(side_goes(pressed, -1), -1e-4);
+  Session lifted = the_run().session();
+  const Vec3 under(0.004, 0.002, -kBlockTop_m);
+  bring(lifted, under - Vec3(0, 0, 0.002), under + Vec3(0, 0, 0.005));
+  EXPECT_LT(lifted.tool_state().force_W.z(), -0.5);
+  EXPECT_GT(side_goes(lifted, -1), 1e-3);
+}
+
 TEST(SoftSolid, WhatBeginsInsideIsNotFeltBeforeItHasBeenOut) {
   Session session = the_run().session();
   for (int n = 0; n < 100; ++n) (void)session.tick(ball_at({0, 0, 0}));

@@ -1,6 +1,7 @@
 # A hundred thousand cuts take minutes: by themselves, and only where asked.
 add_executable(osteon_tissue_long_tests
-  "${CMAKE_CURRENT_SOURCE_DIR}/tissue/sheet/skin_many_cuts.cpp")
+  "${CMAKE_CURRENT_SOURCE_DIR}/tissue/sheet/skin_many_cuts.cpp"
+  "${CMAKE_CURRENT_SOURCE_DIR}/tissue/rod/rod_many_cuts.cpp")
 target_link_libraries(osteon_tissue_long_tests PRIVATE osteon_flags osteon_tissue GTest::gtest_main)
 target_include_directories(osteon_tissue_long_tests PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
 osteon_use_test_headers(osteon_tissue_long_tests tissue)

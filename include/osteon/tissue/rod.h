@@ -111,8 +111,10 @@ class RodStepper {
   RodStepper(Rod rod, RodSupports supports, double step_s);
   ~RodStepper();
   RodStepper(RodStepper&&) noexcept;
+  RodStepper& operator=(RodStepper&&) noexcept;
 
   const Rod& rod() const;
+  const RodSupports& supports() const;
   double step_s() const;
   RodState start_state() const;
   /// A function of the state alone.

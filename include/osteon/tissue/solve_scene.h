@@ -58,6 +58,12 @@ struct LoadBox {
   double over_s = 0;
 };
 
+/// A cut across a rod, at the node nearest to a place of it at rest.
+struct RodCutPlace {
+  Vec3 at_m = Vec3::Zero();
+  double at_s = 0;
+};
+
 /// A body, what holds, moves and loads it, and for how long: the input of `osteon tissue solve`,
 /// see docs/tissue.md.
 struct SolveScene {
@@ -70,6 +76,7 @@ struct SolveScene {
   std::vector<MovedBox> moved;
   std::vector<LoadBox> loads;
   std::vector<RodObstacle> obstacles;  ///< rods only
+  std::vector<RodCutPlace> cuts;       ///< rods only
   double friction = 0.3;               ///< of a rod on itself
   Vec3 gravity_m_per_s2 = Vec3::Zero();
   double time_s = 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osteon/tissue/skin_place.h"
+#include "skin/skin_groove.h"
 
 namespace osteon {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 constexpr double kSkinStill_m = 5e-5;
 constexpr double kDentAlike_m = 2e-4;  // the same of its radius
 constexpr double kPullAlike_n = 0.02;  // and of a lip's pull
-// The wall of a groove begins so far under the lip: it has a colour of its own there.
-constexpr double kUnderLip_m = 1e-5;
 // The skin about a patch goes so far under it, both sides together: light comes through a joint.
 constexpr double kOverlap_m = 4e-4;
 constexpr double kDentRadius_m = 0.002;  // of a dent that is drawn, at least
@@ -93,7 +92,6 @@ SkinShape::SkinShape(const Case& the_case, const SoftSetup& setup)
   }
 }
 
-// Walls of grooves hang on vertices of their own, with how deep they lie.
 void SkinShape::add(std::size_t s, SoftShapes::Changed& to) const {
   const SkinPatch& patch = setup_.skins[s];
   const Patch& mine = patches_[s];
@@ -102,33 +100,23 @@ void SkinShape::add(std::size_t s, SoftShapes::Changed& to) const {
   for (const SkinDent& dent : mine.dents)
     add_dent(*mine.yields, dent, patch.sheet->material().fat_m, down);
   const TriMesh sheet = sheet_surface(split, ways_of(*mine.yields, mine.pulls), down);
-  const std::size_t walls = split.triangles.size();
   const auto place = [&](const Vec3& p) {
     const double height_m = patch.relief.at(p.head<2>()).height_m;
     return Vec3(mine.X_WS * Vec3(p.x(), p.y(), p.z() + height_m));
   };
-  const auto first = static_cast<std::uint32_t>(to.mesh_W.vertices.size());
-  to.depth_m.resize(first, 0.0f);
-  for (const Vec3& p : sheet.vertices) {
-    to.mesh_W.vertices.push_back(place(p));
-    to.depth_m.push_back(0);
-  }
-  for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
-    Triangle triangle = sheet.triangles[t];
-    for (std::uint32_t& v : triangle) {
-      if (t < walls) {
-        v += first;
-        continue;
-      }
-      const bool lip = v < split.vertex.size();
-      const Vec3 p = sheet.vertices[v] - (lip ? kUnderLip_m : 0) * Vec3::UnitZ();
-      to.mesh_W.vertices.push_back(place(p));
-      to.depth_m.push_back(
-          static_cast<float>(std::max(patch.sheet->material().thickness_m, lip ? 0.0 : -p.z())));
-      v = static_cast<std::uint32_t>(to.mesh_W.vertices.size() - 1);
-    }
-    to.mesh_W.triangles.push_back(triangle);
-  }
+  to.depth_m.resize(to.mesh_W.vertices.size(), 0.0f);
+  const auto add_part = [&](std::span<const Vec3> points, std::span<const Triangle> triangles) {
+    const auto first = static_cast<std::uint32_t>(to.mesh_W.vertices.size());
+    for (const Vec3& p : points) to.mesh_W.vertices.push_back(place(p));
+    for (const Triangle& t : triangles)
+      to.mesh_W.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  };
+  const auto copies = std::span(sheet.vertices).first(split.vertex.size());
+  add_part(copies, split.triangles);
+  to.depth_m.resize(to.mesh_W.vertices.size(), 0.0f);
+  const SkinGroove groove = skin_groove(split, copies, patch.sheet->material().thickness_m);
+  add_part(groove.points, groove.triangles);
+  for (const double depth : groove.depth_m) to.depth_m.push_back(static_cast<float>(depth));
 }
 
 std::optional<SoftShapes::Changed> SkinShape::change(const SoftPushes& pushes) {

@@ -16,7 +16,6 @@ std::array<float, 3> as_floats(const Vec3& v) {
 
 constexpr double kLightReach_m = 0.008;  // as far apart as vertices of skin are, and more
 constexpr double kDarkest_m = 0.006;     // so deep in a cut it is as dark as it gets
-constexpr std::uint8_t kRaw = 40;        // of the cavity in a cut: its colour is deeper
 
 // The mean of the light near a place, the nearer the more.
 class LightNear {
@@ -96,6 +95,11 @@ ShadedMesh moved_light(const TriMesh& rest, const RestLight& light, const TriMes
   return out;
 }
 
+std::uint8_t wound_depth(double depth_m) {
+  return static_cast<std::uint8_t>(
+      129 + std::lround(126 * std::clamp(depth_m / kDeepestWound_m, 0.0, 1.0)));
+}
+
 ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMesh& opened,
                         std::span<const float> depth_m) {
   const std::vector<ShadedMesh::Shade>& baked = light.shades;
@@ -128,8 +132,9 @@ ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMe
     const double depth = static_cast<double>(depth_m[v]);
     if (!(depth > 0)) continue;
     shade.openness = static_cast<std::uint8_t>(
-        std::lround(255 * std::clamp(0.75 - 0.45 * depth / kDarkest_m, 0.3, 0.75)));
-    shade.cavity = kRaw;
+        std::lround(255 * std::clamp(0.92 - 0.36 * depth / kDarkest_m, 0.5, 0.92)));
+    shade.cavity = 128;
+    shade.felt = wound_depth(depth);
   }
   return out;
 }

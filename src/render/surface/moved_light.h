@@ -31,10 +31,14 @@ struct RestLight {
 /// `rest`. Empty where `moved` has not as many vertices as `rest`, or the light is of another
 /// surface.
 ShadedMesh moved_light(const TriMesh& rest, const RestLight& baked, const TriMesh& moved);
+/// In a wound, by how deep it lies: 129 at its edge to 255 at kDeepestWound_m; 128 is outside.
+inline constexpr double kDeepestWound_m = 0.012;
+std::uint8_t wound_depth(double depth_m);
+
 /// A soft surface that was cut open: its first vertices are those of `rest` and keep their light;
 /// others take it from near them, and are the darker the deeper they lie in a cut. The fold of skin
-/// stays. `depth_m`: of
-/// each vertex of `opened`, 0 outside of cuts.
+/// stays. `depth_m`: of each vertex of `opened`, 0 outside of cuts; in cuts `felt` says it
+/// (wound_depth).
 ShadedMesh opened_light(const TriMesh& rest, const RestLight& light, const TriMesh& opened,
                         std::span<const float> depth_m);
 

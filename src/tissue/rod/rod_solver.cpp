@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
-#include "osteon/tissue/rod.h"
+#include "osteon/tissue/rod_cut.h"
 #include "solver.h"
 
 namespace osteon {
@@ -20,8 +21,7 @@ std::vector<BodyNode> nodes_of(const Rod& rod) {
   return out;
 }
 
-Result<RodProbe> find_rod_probe(const SolveScene& scene, const Rod& rod, std::size_t index) {
-  const Vec3& p = scene.probes_m[index];
+std::optional<RodProbe> find_rod_probe(const Rod& rod, const Vec3& p) {
   RodProbe best;
   double nearest = 1e300;
   for (std::size_t i = 0; i < rod.segments(); ++i) {
@@ -33,8 +33,7 @@ Result<RodProbe> find_rod_probe(const SolveScene& scene, const Rod& rod, std::si
     best = {i, share, rod.start_R_WS[i].conjugate() * aside};
   }
   if (nearest <= rod.radius_m * (1 + 1e-6)) return best;
-  return fail("'run.probe_mm[" + std::to_string(index) + "]' lies outside the body", scene.name,
-              "Move it into the rod, within its radius of the middle line");
+  return std::nullopt;
 }
 
 /// What grips the nodes of one entry, and which segments it holds by both ends.
@@ -95,60 +94,152 @@ Result<RodSupports> place_rod_supports(const SolveScene& scene, const Rod& rod) 
   return out;
 }
 
+/// A cut that is still to be made, at a node of the whole rod.
+struct DueCut {
+  std::uint64_t step = 0;
+  std::size_t node = 0;
+};
+
+/// A part of the rod; at first there is one.
+struct RodPiece {
+  RodPiece(RodPart part, double step_s, std::size_t first)
+      : stepper(std::move(part.rod), std::move(part.supports), step_s),
+        state(std::move(part.state)),
+        kept(state),
+        first_segment(first) {}
+  RodStepper stepper;
+  RodState state, kept;
+  std::size_t first_segment;  ///< of the whole rod
+};
+
 class RodSolver final : public Solver {
  public:
-  RodSolver(RodStepper stepper, std::vector<RodProbe> probes)
-      : stepper_(std::move(stepper)),
-        probes_(std::move(probes)),
-        state_(stepper_.start_state()),
-        kept_(state_) {}
+  RodSolver(RodPart whole, double step_s, std::vector<RodProbe> probes, std::vector<DueCut> cuts)
+      : supports_(whole.supports), probes_(std::move(probes)), cuts_(std::move(cuts)) {
+    segments_ = whole.rod.segments();
+    pieces_.emplace_back(std::move(whole), step_s, 0);
+    pieces_.back().state = pieces_.back().kept = pieces_.back().stepper.start_state();
+  }
 
-  std::size_t elements() const override { return stepper_.rod().segments(); }
-  double step_s() const override { return stepper_.step_s(); }
-  void step() override { stepper_.step(state_); }
-  double kinetic_j() const override { return stepper_.energy(state_).kinetic_j; }
-  SolidEnergy energy() override { return stepper_.energy(state_); }
-  std::vector<Vec3> reactions() override { return state_.grip_n; }
-  std::vector<Vec3> moments() override { return state_.grip_n_m; }
+  std::size_t elements() const override { return segments_; }
+  double step_s() const override { return pieces_.front().stepper.step_s(); }
+  void step() override;
+  double kinetic_j() const override { return sum().kinetic_j; }
+  SolidEnergy energy() override { return sum(); }
+  std::vector<Vec3> reactions() override { return of_grips(&RodState::grip_n); }
+  std::vector<Vec3> moments() override { return of_grips(&RodState::grip_n_m); }
   Vec3 probe_moved(std::size_t i) const override;
   SolveShape shape() const override;
   std::optional<LostPart> find_lost() const override;
-  void keep() override { kept_ = state_; }
-  void go_back() override { state_ = kept_; }
+  void keep() override {
+    for (RodPiece& piece : pieces_) piece.kept = piece.state;
+  }
+  void go_back() override {
+    for (RodPiece& piece : pieces_) piece.state = piece.kept;
+  }
 
  private:
-  RodStepper stepper_;
+  SolidEnergy sum() const;
+  std::vector<Vec3> of_grips(std::vector<Vec3> RodState::*force) const;
+  void cut(std::size_t node);
+
+  RodSupports supports_;
+  std::vector<RodPiece> pieces_;
+  std::size_t segments_ = 0;
   std::vector<RodProbe> probes_;
-  RodState state_, kept_;
+  std::vector<DueCut> cuts_;
 };
 
+void RodSolver::step() {
+  const std::uint64_t now = pieces_.front().state.tick;
+  for (const DueCut& due : cuts_)
+    if (due.step == now) cut(due.node);
+  for (RodPiece& piece : pieces_) piece.stepper.step(piece.state);
+}
+
+// Pieces stay in the order of their segments.
+void RodSolver::cut(std::size_t node) {
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const RodPiece& piece = pieces_[i];
+    const std::size_t first = piece.first_segment;
+    if (node <= first || node >= first + piece.stepper.rod().segments()) continue;
+    auto parts = cut_rod(piece.stepper.rod(), piece.stepper.supports(), piece.state, node - first);
+    if (!parts) return;
+    RodPiece after(std::move(parts->second), step_s(), node);
+    pieces_[i] = RodPiece(std::move(parts->first), step_s(), first);
+    pieces_.insert(pieces_.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(after));
+    return;
+  }
+}
+
+SolidEnergy RodSolver::sum() const {
+  SolidEnergy out;
+  for (const RodPiece& piece : pieces_) {
+    const SolidEnergy of = piece.stepper.energy(piece.state);
+    out.strain_j += of.strain_j;
+    out.kinetic_j += of.kinetic_j;
+  }
+  return out;
+}
+
+std::vector<Vec3> RodSolver::of_grips(std::vector<Vec3> RodState::*force) const {
+  std::vector<Vec3> out(supports_.grips.size(), Vec3::Zero());
+  for (const RodPiece& piece : pieces_)
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += (piece.state.*force)[i];
+  return out;
+}
+
 Vec3 RodSolver::probe_moved(std::size_t i) const {
-  const Rod& rod = stepper_.rod();
   const RodProbe& p = probes_[i];
+  const auto holder = std::find_if(pieces_.begin(), pieces_.end(), [&](const RodPiece& piece) {
+    return p.segment < piece.first_segment + piece.stepper.rod().segments();
+  });
+  const Rod& rod = holder->stepper.rod();
+  const std::size_t segment = p.segment - holder->first_segment;
   const auto at = [&](const std::vector<Vec3>& x, const std::vector<Quat>& q) {
-    return Vec3((1 - p.share) * x[p.segment] + p.share * x[p.segment + 1] +
-                q[p.segment] * p.aside_S);
+    return Vec3((1 - p.share) * x[segment] + p.share * x[segment + 1] + q[segment] * p.aside_S);
   };
-  return at(state_.at_W, state_.R_WS) - at(rod.start_W, rod.start_R_WS);
+  return at(holder->state.at_W, holder->state.R_WS) - at(rod.start_W, rod.start_R_WS);
 }
 
 SolveShape RodSolver::shape() const {
-  const Rod& rod = stepper_.rod();
-  const RodSurface before = rod_surface(rod, rod.start_W, rod.start_R_WS);
-  RodSurface now = rod_surface(rod, state_.at_W, state_.R_WS);
   SolveShape out;
   out.corners_a_cell = 3;
-  for (std::size_t i = 0; i < now.points_W.size(); ++i)
-    out.moved_m.push_back(now.points_W[i] - before.points_W[i]);
-  out.points_m = std::move(now.points_W);
-  out.corners = std::move(now.triangles);
+  for (const RodPiece& piece : pieces_) {
+    const Rod& rod = piece.stepper.rod();
+    const RodSurface before = rod_surface(rod, rod.start_W, rod.start_R_WS);
+    const RodSurface now = rod_surface(rod, piece.state.at_W, piece.state.R_WS);
+    const auto first = static_cast<std::uint32_t>(out.points_m.size());
+    for (std::size_t i = 0; i < now.points_W.size(); ++i) {
+      out.moved_m.push_back(now.points_W[i] - before.points_W[i]);
+      out.points_m.push_back(now.points_W[i]);
+    }
+    for (const std::uint32_t corner : now.triangles) out.corners.push_back(first + corner);
+  }
   return out;
 }
 
 std::optional<LostPart> RodSolver::find_lost() const {
-  const auto lost = osteon::find_lost(stepper_.rod(), state_);
-  if (!lost) return std::nullopt;
-  return LostPart{"segment " + std::to_string(*lost), stepper_.rod().start_W[*lost]};
+  for (const RodPiece& piece : pieces_)
+    if (const auto lost = osteon::find_lost(piece.stepper.rod(), piece.state))
+      return LostPart{"segment " + std::to_string(piece.first_segment + *lost),
+                      piece.stepper.rod().start_W[*lost]};
+  return std::nullopt;
+}
+
+// The inner node nearest to a place in the rod.
+Result<DueCut> find_cut(const SolveScene& scene, const Rod& rod, std::size_t index, double step_s) {
+  const RodCutPlace& cut = scene.cuts[index];
+  const std::string key = "'cut[" + std::to_string(index) + "].at_mm'";
+  const auto probe = find_rod_probe(rod, cut.at_m);
+  if (!probe)
+    return fail(key + " lies outside the rod", scene.name,
+                "Move it into the rod, within its radius of the middle line");
+  const std::size_t node = probe->segment + (probe->share > 0.5 ? 1 : 0);
+  if (node == 0 || node == rod.segments())
+    return fail(key + " is at the rod's end", scene.name,
+                "A cut goes through the nearest of the rod's nodes: move it, or use more segments");
+  return DueCut{static_cast<std::uint64_t>(std::llround(cut.at_s / step_s)), node};
 }
 
 }  // namespace
@@ -165,14 +256,22 @@ Result<std::unique_ptr<Solver>> make_rod_solver(const SolveScene& scene) {
   if (!supports) return tl::unexpected(supports.error());
   std::vector<RodProbe> probes;
   for (std::size_t i = 0; i < scene.probes_m.size(); ++i) {
-    const auto probe = find_rod_probe(scene, *rod, i);
-    if (!probe) return tl::unexpected(probe.error());
+    const auto probe = find_rod_probe(*rod, scene.probes_m[i]);
+    if (!probe)
+      return fail("'run.probe_mm[" + std::to_string(i) + "]' lies outside the body", scene.name,
+                  "Move it into the rod, within its radius of the middle line");
     probes.push_back(*probe);
   }
   const double longest = fitting_step_s(*rod, *supports, scene.time_s);
   const double step_s = scene.time_s / static_cast<double>(steps_for(scene.time_s, longest));
-  return std::make_unique<RodSolver>(RodStepper(std::move(*rod), std::move(*supports), step_s),
-                                     std::move(probes));
+  std::vector<DueCut> cuts;
+  for (std::size_t i = 0; i < scene.cuts.size(); ++i) {
+    const auto due = find_cut(scene, *rod, i, step_s);
+    if (!due) return tl::unexpected(due.error());
+    cuts.push_back(*due);
+  }
+  return std::make_unique<RodSolver>(RodPart{std::move(*rod), std::move(*supports), {}}, step_s,
+                                     std::move(probes), std::move(cuts));
 }
 
 }  // namespace osteon

@@ -14,8 +14,10 @@ RodStepper::RodStepper(Rod rod, RodSupports supports, double step_s)
     : impl_(std::make_unique<Impl>(std::move(rod), std::move(supports), step_s)) {}
 RodStepper::~RodStepper() = default;
 RodStepper::RodStepper(RodStepper&&) noexcept = default;
+RodStepper& RodStepper::operator=(RodStepper&&) noexcept = default;
 
 const Rod& RodStepper::rod() const { return impl_->rod; }
+const RodSupports& RodStepper::supports() const { return impl_->supports; }
 double RodStepper::step_s() const { return impl_->dt; }
 
 RodState RodStepper::start_state() const {

@@ -3,15 +3,20 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <span>
 
 #include "osteon/device/virtual_hand.h"
 #include "osteon/physics/band_strands.h"
 #include "osteon/physics/soft_world.h"
 #include "osteon/scene/instrument.h"
 #include "physics/disc_fixtures.h"
+#include "session/driven_hand.h"
 #include "session/skin_fixtures.h"
 #include "session/soft_fixtures.h"
 #include "session/soft_solid_fixtures.h"
+#include "session/stump_fixtures.h"
 #include "session/wound_fixtures.h"
 
 namespace osteon {
@@ -372,13 +377,104 @@ TEST(SoftStability, AHeldMeniscusLiftedComesToRest) {
   }
 }
 
+// The stump's fixture, with friction, and a ball that is the last in the tray.
+testing::StumpRun rough_stump() {
+  testing::StumpRun run = testing::stump_run();
+  Tool ball;
+  ball.name = "ball";
+  ball.parts.push_back(make_rod(Vec3::Zero(), Vec3::Zero(), testing::kBallRadius_m));
+  run.tray.push_back(std::make_shared<const Tool>(ball));
+  run.settings.tray.emplace_back("ball");
+  run.softs = rough(*run.softs);
+  run.settings.soft_hash = run.softs->hash;
+  return run;
+}
+
+// Of two plunges of a drill on each side a wall about 2 mm thick is left, which bends.
+SessionState drilled_to_a_wall(const testing::StumpRun& run) {
+  Session session = run.session();
+  testing::DrivenHand hand(session, {0, 0, 0.018}, testing::posed(Vec3::UnitY(), Vec3::UnitZ()));
+  hand.take(4);
+  hand.tick({CommandKind::kPower, 1});
+  for (const double x : {-0.00505, 0.00505})
+    for (const double y : {-0.0035, 0.0, 0.0035}) {
+      hand.move({x, y, 0.014}, 60);
+      hand.move({x, y, 0.004}, 700);
+      hand.move({x, y, 0.014}, 60);
+    }
+  hand.tick({CommandKind::kPower, 0});
+  hand.rest(1000);
+  EXPECT_GT(session.softs()->removed_m3(0), 100e-9);
+  return session.save();
+}
+
+struct StumpPress {
+  Vec3 from_W, to_W;
+  double least_n;
+};
+
+// Sessions are kept, by the coupling: the stiffness of what was cut takes a while to restore.
+void expect_stump_rests(testing::StumpRun run, const SessionState& state,
+                        std::span<const StumpPress> presses) {
+  const auto ball = static_cast<double>(run.tray.size() - 1);
+  std::map<double, std::unique_ptr<Session>> sessions;
+  for (const StumpPress& press : presses)
+    for (const SoftLoop& loop : soft_loops()) {
+      run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+      auto& kept = sessions[loop.stiffness_n_per_m];
+      if (!kept) kept = std::make_unique<Session>(run.session());
+      Session& session = *kept;
+      ASSERT_TRUE(session.restore(state));
+      ToolInput from;
+      from.X_WD.p = press.from_W;
+      (void)session.tick(from, {CommandKind::kTake, ball});
+      for (int n = 0; n < 20; ++n) (void)session.tick(from);
+      SCOPED_TRACE("from " + std::to_string(press.from_W.x()) + " " +
+                   std::to_string(press.from_W.z()));
+      expect_rest(press_softly(session, loop, from, press.to_W), loop, press.least_n);
+    }
+}
+
+// From above, from the side at half of its height, and of what a drill has left from both.
+TEST(SoftStability, AStumpPressedFromAboveOrBesideComesToRest) {
+  const testing::StumpRun run = rough_stump();
+  const double top = 2 * testing::kStumpHalf.z(), side = testing::kStumpHalf.x();
+  const std::array<StumpPress, 2> presses = {
+      StumpPress{{0.001, 0, top + 0.004}, {0.001, 0, top - 0.004}, 0.5},
+      StumpPress{{side + 0.005, 0.001, 0.008}, {side - 0.004, 0.001, 0.008}, 0.5}};
+  expect_stump_rests(run, run.session().save(), presses);
+}
+
+TEST(SoftStability, WhatADrillHasLeftOfAStumpComesToRest) {
+  const testing::StumpRun run = rough_stump();
+  const double top = 2 * testing::kStumpHalf.z();
+  const std::array<StumpPress, 2> presses = {
+      StumpPress{{0, 0, top + 0.004}, {0, 0, top - 0.004}, 0.2},
+      StumpPress{{0.007, 0.001, 0.009}, {-0.002, 0.001, 0.009}, 0.02}};
+  expect_stump_rests(run, drilled_to_a_wall(run), presses);
+}
+
+TEST(SoftStability, AHeldStumpDrawnAsideComesToRest) {
+  testing::StumpRun run = rough_stump();
+  add_gripper(run, "grasper");
+  const auto grasper = static_cast<std::uint32_t>(run.tray.size() - 1);
+  for (const SoftLoop& loop : soft_loops()) {
+    run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
+    ToolInput at;
+    at.X_WD.p = {0.003, 0, 0.009};
+    at.X_WD.q = Quat((Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished());  // z to +x, y to +z
+    expect_rest_of_held(run.session(), loop, at, {0.006, 0, 0.003}, grasper);
+  }
+}
+
 // Suction under full power at `from`, drawn away by a hand to `off`, where it still holds, or
 // farther than it can: in 0.4 s, so that its own swing does not pull it off.
 template <class Run>
 void expect_rest_under_suction(Run run, const Vec3& surface_W) {
   add_gripper(run, "suction");
-  const double mouth_m = run.softs->grippers[1]->bore_T.z();
-  const double full_n = suction_at(*run.softs->grippers[1], 0);
+  const std::size_t last = run.tray.size() - 1;
+  const double mouth_m = run.softs->grippers[last]->bore_T.z();
+  const double full_n = suction_at(*run.softs->grippers[last], 0);
   const auto over = [&](double gap_m) { return Vec3(surface_W + Vec3(0, 0, gap_m - mouth_m)); };
   for (const SoftLoop& loop : soft_loops()) {
     run.settings.haptic.stiffness_n_per_m = loop.stiffness_n_per_m;
@@ -386,7 +482,7 @@ void expect_rest_under_suction(Run run, const Vec3& surface_W) {
       Session session = run.session();
       ToolInput at;
       at.X_WD.p = over(0.00001);
-      (void)session.tick(at, {CommandKind::kTake, 1});
+      (void)session.tick(at, {CommandKind::kTake, static_cast<double>(last)});
       for (int n = 0; n < 50; ++n) (void)session.tick(at);
       (void)session.tick(at, {CommandKind::kPower, 1});
       for (int n = 0; n < 50; ++n) (void)session.tick(at);
@@ -403,6 +499,10 @@ void expect_rest_under_suction(Run run, const Vec3& surface_W) {
 TEST(SoftStability, ALigamentUnderSuctionComesToRest) {
   expect_rest_under_suction(testing::BandRun(testing::band_table(0.01)),
                             testing::kBandMiddle + Vec3(0, 0, testing::kBandRadius_m));
+}
+
+TEST(SoftStability, AStumpUnderSuctionComesToRest) {
+  expect_rest_under_suction(rough_stump(), Vec3(0.001, 0.001, 2 * testing::kStumpHalf.z()));
 }
 
 TEST(SoftStability, AMeniscusUnderSuctionComesToRest) {
