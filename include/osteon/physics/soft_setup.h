@@ -39,6 +39,8 @@ struct SoftSetup {
   /// in it.
   bool pieces_are_stopped = false;
   bool thin_ones_stop = false;  ///< by thin parts, too, in which nothing stands deep
+  /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
+  bool presses_are_bounded = false;
   bool by_strands = false;      ///< bands are cut and torn strand by strand
   bool bridges_tear = false;    ///< what jaws pull off a solid tears where it is narrow
   bool hooks_tear = false;      ///< off a solid, as jaws do
@@ -67,6 +69,9 @@ void let_pieces_be_stopped(SoftSetup& setup);
 /// Parts too thin for anything to stand deep in them stop what is carried, too. Nothing changes
 /// where none is stopped.
 void let_thin_parts_stop_pieces(SoftSetup& setup);
+/// Two hands that press a solid towards one another raise each other's forces no further than that
+/// (SoftSetup::presses_are_bounded). Nothing changes where there are no solids.
+void let_presses_be_bounded(SoftSetup& setup);
 /// A hook tears off what jaws would (let_bridges_tear), and a punch bites strands off bands.
 /// Nothing changes where neither bands nor solids are cut.
 void let_hooks_tear_and_punches_bite(SoftSetup& setup);

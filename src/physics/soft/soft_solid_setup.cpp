@@ -201,6 +201,12 @@ void let_thin_parts_stop_pieces(SoftSetup& setup) {
   tell_hash(setup, "thin parts stop pieces");
 }
 
+void let_presses_be_bounded(SoftSetup& setup) {
+  if (setup.solids.empty()) return;
+  setup.presses_are_bounded = true;
+  tell_hash(setup, "presses are bounded");
+}
+
 void let_hooks_tear_and_punches_bite(SoftSetup& setup) {
   const auto bites = [](const std::optional<SolidCutter>& cutter) {
     return cutter && cutter->way == SolidCutter::Way::kBite;

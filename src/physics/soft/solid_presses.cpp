@@ -160,11 +160,13 @@ std::optional<SoftPushes::One> SolidPresses::pull_on(std::size_t solid,
 
 // Where parts of one tool press from two sides, each sends the solid towards the other, and their
 // forces raise each other step by step. The other parts bring a place no nearer than the part is
-// deep in it: at most twice the force of the part alone.
+// deep in it: at most twice the force of the part alone. Parts of two hands do the same to each
+// other, without end where several press, or where what is left of a solid hangs on so little that
+// its own way is bounded: what the other hand presses brings a place no nearer than it is deep.
 double SolidPresses::others(const SolidNear& near, const SolidPush& push,
                             const SoftState& all) const {
   const PressedSolid& body = this->body(near.contact.solid);
-  double sum = 0, by_own = 0;
+  double sum = 0, by_own = 0, deepest_m = 0;
   for (const SolidHandState& hand : all.solid_hands) {
     const bool own = &near >= hand.near.data() && &near < hand.near.data() + hand.near.size();
     for (std::uint32_t i = 0; i < hand.count; ++i) {
@@ -174,15 +176,25 @@ double SolidPresses::others(const SolidNear& near, const SolidPush& push,
       const SolidPush by = body.push_at(other.contact.p_B, other.contact.nhat_B);
       const double away = other.force_n * body.compliance(push, by);
       (own ? by_own : sum) += away;
+      if (!own) deepest_m = std::max(deepest_m, other.deep_m);
     }
   }
+  if (bounded_) sum = std::max(sum, -deepest_m);
+  return with_pulls(sum, near, push, all) + std::max(by_own, std::min(0.0, -near.deep_m));
+}
+
+// What jaws pull comes no nearer than they have gone with it.
+double SolidPresses::with_pulls(double sum, const SolidNear& near, const SolidPush& push,
+                                const SoftState& all) const {
+  const PressedSolid& body = this->body(near.contact.solid);
   for (const SoftGrip& grip : all.grips) {
     const auto pull = pull_on(near.contact.solid, grip);
     if (!pull) continue;
-    const SolidPush by = body.push_at(pull->p_B, pull->nhat_B);
-    sum += pull->force_n * body.compliance(push, by);
+    const double away =
+        pull->force_n * body.compliance(push, body.push_at(pull->p_B, pull->nhat_B));
+    sum += bounded_ ? std::max(away, -grip.most_m) : away;
   }
-  return sum + std::max(by_own, std::min(0.0, -near.deep_m));
+  return sum;
 }
 
 void SolidPresses::press(SolidHandState& state, SolidHand& hand, const SoftState& all) const {

@@ -32,8 +32,10 @@ struct SolidHand {
 /// A step allocates, locks and logs nothing.
 class SolidPresses {
  public:
-  SolidPresses(const std::vector<SoftSolid>& solids, double coupling_n_per_m)
-      : solids_(solids), coupling_n_per_m_(coupling_n_per_m) {}
+  SolidPresses(const SoftSetup& setup, double coupling_n_per_m)
+      : solids_(setup.solids),
+        coupling_n_per_m_(coupling_n_per_m),
+        bounded_(setup.presses_are_bounded) {}
 
   /// What cuts have left of a solid: its holes, and what it is like now. Nulls: it is whole.
   void set_cut(std::size_t solid, const CutField* holes, std::shared_ptr<const PressedSolid> body) {
@@ -64,9 +66,12 @@ class SolidPresses {
   void seek(SolidHandState& state, const SolidHand& hand, std::size_t solid) const;
   std::optional<SoftPushes::One> pull_on(std::size_t solid, const SoftGrip& grip) const;
   double others(const SolidNear& near, const SolidPush& push, const SoftState& all) const;
+  double with_pulls(double sum, const SolidNear& near, const SolidPush& push,
+                    const SoftState& all) const;
 
   const std::vector<SoftSolid>& solids_;
   double coupling_n_per_m_;
+  bool bounded_;
   std::array<Pose, kMaxSolids> X_WB_{};
   std::array<const CutField*, kMaxSolids> holes_{};
   std::array<std::shared_ptr<const PressedSolid>, kMaxSolids> bodies_{};
