@@ -95,6 +95,9 @@ void ExamOrder::see(const std::optional<KneeGraft>& fixed, const BoneSnapshot& b
     work_ = job_.get();
     keep();
   }
+  // The last of it is on its way for a while yet, and where pictures are slow it left long after
+  // the first: told anew meanwhile, the knee would never be known.
+  if (!waiting_.empty()) sent_s_ = bones.time_s;
   if (!waiting_.empty() || is_loaded(bones.exam)) return;
   if (fixed && held_ && !(held_by_ && is_same_graft(*held_by_, *fixed))) held_.reset();
   const auto& told = fixed ? held_ : found_;

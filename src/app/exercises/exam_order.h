@@ -60,7 +60,7 @@ class ExamOrder {
   std::optional<Told> held_;   ///< and with the graft that is fixed
   std::optional<KneeGraft> held_by_;
   std::deque<Command> waiting_;
-  std::optional<double> sent_s_;  ///< when the last was begun
+  std::optional<double> sent_s_;  ///< when the last command was about to be told
 };
 
 }  // namespace osteon

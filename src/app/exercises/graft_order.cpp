@@ -39,6 +39,7 @@ void leave_out_bench_stages(Scenario& scenario) { std::erase_if(scenario.stages,
 
 void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {
   const GraftPlacingState& there = bones.placing;
+  if (!waiting_.empty()) sent_s_ = bones.time_s;  // the last of it is on its way for a while yet
   if (!waiting_.empty() || !wanted || has_come(*wanted, there) || in_use(there)) return;
   if (sent_s_ && bones.time_s - *sent_s_ < kOrderAgain_s) return;
   sent_s_ = bones.time_s;

@@ -30,7 +30,7 @@ class GraftOrder {
 
  private:
   std::deque<Command> waiting_;
-  std::optional<double> sent_s_;  ///< when the last was begun
+  std::optional<double> sent_s_;  ///< when the last command was about to be told
 };
 
 }  // namespace osteon

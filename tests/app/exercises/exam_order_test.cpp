@@ -116,6 +116,35 @@ TEST_P(ExamOrderOfKnees, TellsTheKneeTornAndWithItsGraft) {
   EXPECT_EQ(rig.numbers(order, graft), held);
 }
 
+// Eight numbers a picture, ten pictures a second, each of the state one picture before: what takes
+// longer to tell than the wait before it is told again is told once all the same.
+TEST(ExamOrder, ASlowPictureDoesNotMakeItTellTheKneeAnew) {
+  const std::string spec = "builtin:knee:1:acl_tear=midsubstance";
+  ToldExam rig(spec);
+  ExamOrder order(*rig.the_case, spec, false);
+  std::vector<double> come, shown;
+  int orders = 0;
+  for (int picture = 0; picture < 80; ++picture) {
+    rig.bones.time_s = 0.1 * picture;
+    rig.bones.exam.told = static_cast<std::uint32_t>(shown.size());
+    rig.bones.exam.digest = give_digest(shown);
+    shown = come;
+    for (int i = 0; i < 8; ++i) {
+      order.see(std::nullopt, rig.bones);
+      const auto said = order.take();
+      if (!said) continue;
+      if (said->kind == CommandKind::kKneeOrder) {
+        ++orders;
+        come.clear();
+      } else {
+        come.push_back(said->value);
+      }
+    }
+  }
+  EXPECT_EQ(orders, 1);
+  EXPECT_EQ(come.size(), kKneeGiveNumbers);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothSides, ExamOrderOfKnees, ::testing::Values("", "left:"),
                          [](const auto& side) {
                            return std::string(side.param).empty() ? "right" : "left";

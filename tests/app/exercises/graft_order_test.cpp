@@ -58,6 +58,27 @@ TEST(GraftOrder, TellsEveryNumberOnceAndAgainWhereItDoesNotCome) {
   EXPECT_EQ(all_of(order).size(), 1 + kPlacingNumbers);
 }
 
+// One number a picture, ten pictures a second, each of the state one picture before.
+TEST(GraftOrder, ASlowPictureDoesNotMakeItTellTheGraftAnew) {
+  GraftOrder order;
+  BoneSnapshot bones;
+  const PlacingPlan plan = ordered_plan();
+  std::size_t told = 0, orders = 0;
+  for (int picture = 0; picture < 100; ++picture) {
+    bones.time_s = 0.1 * picture;
+    bones.placing.on = told == kPlacingNumbers;
+    bones.placing.plan = plan;
+    order.see(plan, bones);
+    const auto said = order.take();
+    if (!said) continue;
+    const bool begins = said->kind == CommandKind::kGraftOrder;
+    orders += begins ? 1 : 0;
+    told = begins ? 0 : told + 1;
+  }
+  EXPECT_EQ(orders, 1u);
+  EXPECT_EQ(told, kPlacingNumbers);
+}
+
 TEST(GraftOrder, AGraftThatIsThereIsReplacedOnlyBeforeItIsUsed) {
   BoneSnapshot bones;
   const PlacingPlan plan = ordered_plan();
