@@ -90,8 +90,9 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
     return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
   const auto expert = ghost_.beside_active_hand();
   if (!expert)
-    return host_.note(ToastKind::kInfo,
-                      "No expert is shown who holds this instrument now with this hand.");
+    return host_.note(
+        ToastKind::kInfo,
+        "The expert who is shown does not hold this instrument, in this size, with this hand now.");
   const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
   if (!comes_to_him) return run->bring({X_WD.p, expert->q});
   const double away_m = (expert->p - X_WD.p).norm();
