@@ -6,6 +6,7 @@
 #include <string>
 
 #include "osteon/render/software_gl.h"
+#include "read_picture.h"
 #include "renderer_impl.h"
 
 namespace osteon {
@@ -234,6 +235,22 @@ Image Renderer::draw_image(const RenderSnapshot& snapshot, const ViewState& view
   }
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
   return whole ? image : Image{};
+}
+
+Image Renderer::draw_next_image(const RenderSnapshot& snapshot, const ViewState& view, int width,
+                                int height) {
+  width = std::clamp(width, 1, kMaxImageSide);
+  height = std::clamp(height, 1, kMaxImageSide);
+  GLint bound = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+  Image image;
+  if (impl_->still.ensure(width, height, 0)) {
+    glBindFramebuffer(GL_FRAMEBUFFER, impl_->still.framebuffer());
+    draw(snapshot, view, {0, 0, width, height});
+    image = read_back(width, height);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(bound));
+  return image;
 }
 
 BoneId Renderer::pick(const RenderSnapshot& snapshot, const ViewState& view,

@@ -195,6 +195,32 @@ TEST_F(DrawChanges, CoarseWhileAllMovesAndSharpAtRest) {
   EXPECT_EQ(last.rgb, whole.rgb);
 }
 
+// A film's pictures: as they are drawn on a screen, wider than what a still is drawn in at once;
+// what is bound stays bound.
+TEST_F(DrawChanges, PicturesInARowAreThoseOfTheScreen) {
+  const Case pair = two_balls();
+  Renderer renderer = make_renderer(pair, make_wrist_probe());
+  Renderer other = make_renderer(pair, make_wrist_probe());
+  const ViewState view = front_view();
+  RenderSnapshot snapshot = at_rest(pair);
+  Random random(43);
+  Image last;
+  for (int step = 0; step < 4; ++step) {
+    place_tool(random, snapshot);
+    const Image next = other.draw_next_image(snapshot, view, kWidth, kHeight);
+    GLint bound = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    EXPECT_EQ(bound, static_cast<GLint>(framebuffer_));
+    EXPECT_EQ(next.rgb, drawn(renderer, snapshot, view).rgb) << step;
+    EXPECT_NE(next.rgb, last.rgb);
+    last = next;
+  }
+  EXPECT_EQ(other.drew_all(), !renderer.software_driver()) << "nothing was kept";
+  const Image wide = other.draw_next_image(snapshot, view, 1100, 60);
+  EXPECT_EQ(wide.width, 1100);
+  EXPECT_LE(count_different(wide, renderer.draw_image(snapshot, view, 1100, 60), 24), 200);
+}
+
 TEST_F(DrawChanges, NoDetailIsTakenForWhole) {
   const Case pair = two_balls();
   Renderer renderer = make_renderer(pair, make_wrist_probe());

@@ -170,6 +170,10 @@ class Renderer {
   /// Draws off-screen and reads the pixels back. Sides are clamped to 1..kMaxImageSide. Empty when
   /// the driver has no memory for it.
   Image draw_image(const RenderSnapshot& snapshot, const ViewState& view, int width, int height);
+  /// The same for a picture that follows another of its size, as a film's do: of what stands still
+  /// from one call to the next nothing is drawn anew (see `draw`). The same pixels as `draw` has.
+  Image draw_next_image(const RenderSnapshot& snapshot, const ViewState& view, int width,
+                        int height);
   /// Bone under a pixel of the viewport (origin top left), none over the ground. Only visible
   /// bones; the force arrow and the probe are looked through. Needs no OpenGL.
   BoneId pick(const RenderSnapshot& snapshot, const ViewState& view, const Viewport& viewport,

@@ -15,6 +15,7 @@
 #include "osteon/media/film_writer.h"
 #include "osteon/media/wav_writer.h"
 #include "runs/hands/tray.h"
+#include "runs/pictures/film_queue.h"
 #include "runs/pictures/film_view.h"
 #include "runs/replays/recorded_case.h"
 #include "runs/replays/recorded_sound.h"
@@ -81,7 +82,7 @@ class FilmMaker {
   FilmMaker(FilmPainter painter, FilmWriter writer, RecordedSound sound, const FilmSpan& span,
             int fps, std::size_t hands)
       : painter_(std::move(painter)),
-        writer_(std::move(writer)),
+        queue_(std::make_unique<FilmQueue>(std::move(writer))),
         sound_(std::move(sound)),
         span_(span),
         fps_(fps) {
@@ -106,7 +107,7 @@ class FilmMaker {
     while (good() && made_ > 0 && made_ < span_.pictures(fps_)) add();
     if (made_ == 0 && good()) return fail("holds no ticks there", "the recording");
     if (!good()) return tl::unexpected(*failure_);
-    return writer_.finish();
+    return queue_->finish();
   }
   void take(const CutsPatch& cut) { painter_.take(cut); }
   void take(const SoftPushes& pushes) { moment_.pushes = pushes; }
@@ -125,17 +126,17 @@ class FilmMaker {
     const std::uint64_t begin = made_ * kSoundHz / fps, end = (made_ + 1) * kSoundHz / fps;
     std::vector<float> block(static_cast<std::size_t>(end - begin));
     Result<void> done = sound_.render(block);
-    if (done) done = writer_.add_sound(block);
     if (done) {
-      const auto image = painter_.draw(moment_);
-      done = image ? writer_.add_picture(image->rgb) : tl::unexpected(image.error());
+      auto image = painter_.draw(moment_);
+      done =
+          image ? queue_->add(std::move(block), std::move(*image)) : tl::unexpected(image.error());
     }
     if (!done) failure_ = done.error();
     ++made_;
   }
 
   FilmPainter painter_;
-  FilmWriter writer_;
+  std::unique_ptr<FilmQueue> queue_;
   RecordedSound sound_;
   FilmSpan span_;
   int fps_;

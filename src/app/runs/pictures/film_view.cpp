@@ -65,6 +65,7 @@ struct FilmPainter::Impl {
   // The context comes before what was made in it, so that it goes last.
   std::optional<OffscreenContext> context;
   std::optional<Renderer> renderer;
+  std::optional<Renderer> beside;  ///< of a layout's panorama: keeps a picture of its own
   std::optional<ScopeRenderer> scope;
   std::optional<FilmFluoro> fluoro;
   std::optional<JointRoom> room;
@@ -82,8 +83,12 @@ struct FilmPainter::Impl {
   Result<Image> through_scope(const FilmMoment& moment, int width, int height);
   Result<Image> through_beam(const FilmMoment& moment, int width, int height);
   Result<Image> layout(const FilmMoment& moment);
-  Result<Image> scene(const FilmMoment& moment, const ViewState& view, int width, int height);
+  Result<Image> scene(Renderer& by, const FilmMoment& moment, const ViewState& view, int width,
+                      int height);
   ViewState plain_view(double aspect) const;
+  ViewState with_felt(ViewState view) const;
+  const ViewState& outside_view(double aspect);
+  const ViewState& panorama_of(const std::string& side, double aspect);
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
   void set_loose(const CarvedPicture::Piece& piece);
@@ -97,8 +102,14 @@ struct FilmPainter::Impl {
   std::optional<double> flowed_s;  ///< to this time
   std::optional<SoftShapes> shapes;
   LooseSofts loose_softs;
-  std::vector<std::uint32_t> felt_softs;   ///< what gives way is seen
-  std::optional<std::uint32_t> felt_skin;  ///< seen from outside, and not through
+  struct Look {
+    std::string side;
+    double aspect = 0;
+    ViewState view;
+  };
+  std::optional<Look> looked_outside, looked_panorama;  ///< made once: they ask the whole case
+  std::vector<std::uint32_t> felt_softs;                ///< what gives way is seen
+  std::optional<std::uint32_t> felt_skin;               ///< seen from outside, and not through
 };
 
 std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
@@ -117,6 +128,7 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
     if (!drawn) return tl::unexpected(drawn.error());
     renderer.emplace(std::move(*drawn));
     renderer->set_tray(tray);
+    if (order.view == FilmView::kLayout) beside.emplace(renderer->another_view());
   }
   if (!uses(FilmView::kScope) || !has_scope) return {};
   auto looked = renderer ? ScopeRenderer::create(*the_case, *data_dir, *renderer)
@@ -160,33 +172,47 @@ ViewState FilmPainter::Impl::plain_view(double aspect) const {
   return view;
 }
 
-Result<Image> FilmPainter::Impl::scene(const FilmMoment& moment, const ViewState& view, int width,
-                                       int height) {
-  renderer->set_others({moment.tools.data() + 1, moment.hands - 1});
-  ViewState shown = view;
+/// What gives way is seen.
+ViewState FilmPainter::Impl::with_felt(ViewState view) const {
   for (const std::uint32_t soft : felt_softs)
-    if (soft < shown.softs.size()) shown.softs[soft].visible = true;
-  Image image = renderer->draw_image({moment.bones, moment.tools[0]}, shown, width, height);
+    if (soft < view.softs.size()) view.softs[soft].visible = true;
+  return view;
+}
+
+Result<Image> FilmPainter::Impl::scene(Renderer& by, const FilmMoment& moment,
+                                       const ViewState& view, int width, int height) {
+  by.set_others({moment.tools.data() + 1, moment.hands - 1});
+  Image image = by.draw_next_image({moment.bones, moment.tools[0]}, view, width, height);
   if (image.rgb.empty()) return no_memory();
   return image;
 }
 
-Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
-  renderer->set_marks({});
-  ViewState view = plain_view(static_cast<double>(width) / height);
+const ViewState& FilmPainter::Impl::outside_view(double aspect) {
+  if (looked_outside && looked_outside->aspect == aspect) return looked_outside->view;
+  ViewState view = plain_view(aspect);
   if (felt_skin) {
     view.softs[*felt_skin].visible = true;
     view.softs[*felt_skin].opacity = 1;
   }
-  return scene(moment, view, width, height);
+  return looked_outside.emplace(Look{"", aspect, with_felt(std::move(view))}).view;
+}
+
+const ViewState& FilmPainter::Impl::panorama_of(const std::string& side, double aspect) {
+  if (looked_panorama && looked_panorama->aspect == aspect && looked_panorama->side == side)
+    return looked_panorama->view;
+  ViewState view = panorama_view(*the_case, *panorama_camera(*the_case, side, aspect));
+  return looked_panorama.emplace(Look{side, aspect, with_felt(std::move(view))}).view;
+}
+
+Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
+  return scene(*renderer, moment, outside_view(static_cast<double>(width) / height), width, height);
 }
 
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
                                           int width, int height) {
-  const double aspect = static_cast<double>(width) / height;
-  renderer->set_marks(sight_marks(lenses, tools(moment)));
-  return scene(moment, panorama_view(*the_case, *panorama_camera(*the_case, side, aspect)), width,
-               height);
+  Renderer& by = beside ? *beside : *renderer;
+  by.set_marks(sight_marks(lenses, tools(moment)));
+  return scene(by, moment, panorama_of(side, static_cast<double>(width) / height), width, height);
 }
 
 // Where the tip stands in bone for a moment, the wall stays as it was.
@@ -286,6 +312,8 @@ void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
 }
 
 void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
+  impl_->looked_outside.reset();
+  impl_->looked_panorama.reset();
   impl_->felt_softs.clear();
   impl_->felt_skin.reset();
   if (setup) {
