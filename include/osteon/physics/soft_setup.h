@@ -41,10 +41,10 @@ struct SoftSetup {
   bool thin_ones_stop = false;  ///< by thin parts, too, in which nothing stands deep
   /// What one hand presses on a solid brings it no nearer to another than the first is deep in it.
   bool presses_are_bounded = false;
-  bool by_strands = false;      ///< bands are cut and torn strand by strand
-  bool bridges_tear = false;    ///< what jaws pull off a solid tears where it is narrow
-  bool hooks_tear = false;      ///< off a solid, as jaws do
-  bool punches_bite = false;    ///< strands off bands
+  bool by_strands = false;    ///< bands are cut and torn strand by strand
+  bool bridges_tear = false;  ///< what jaws pull off a solid tears where it is narrow
+  bool hooks_tear = false;    ///< off a solid, as jaws do
+  bool punches_bite = false;  ///< strands off bands
   std::vector<std::optional<SolidCutter>> biters;  ///< by the tray: what bites bands
   bool wounds_open = false;  ///< what retracts holds the lips of cut skin apart
   SoftFriction friction;     ///< of instruments on it; none unless told
