@@ -65,8 +65,7 @@ SoftWorld::SoftWorld(std::shared_ptr<const SoftSetup> setup,
   events_.reserve(kMaxHands * (kMaxBands + kMaxSolids) * 4 + 2 * kMaxHands +
                   (setup_->skins.empty() ? 0 : kMaxHands * kMaxSkins * 7) +
                   (setup_->pieces ? kMaxHands * kMaxLooseSofts : 0));
-  if (!setup_->solids.empty())
-    solids_ = std::make_unique<SolidPresses>(*setup_, coupling_n_per_m_);
+  if (!setup_->solids.empty()) solids_ = std::make_unique<SolidPresses>(*setup_, coupling_n_per_m_);
   if (solids_ && !setup_->cutters.empty())
     cutting_ = std::make_unique<SolidCutting>(*setup_, *solids_, step_s_);
   if (cutting_ && setup_->pieces) pieces_ = std::make_unique<FallenPieces>(setup_->pieces);
