@@ -11,8 +11,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kTellAgain_s = 1;
-
 bool is_same_graft(const KneeGraft& a, const KneeGraft& b) {
   return a.from_W == b.from_W && a.to_W == b.to_W && a.diameter_m == b.diameter_m &&
          a.tension_n == b.tension_n && a.flexion_deg == b.flexion_deg &&
@@ -95,25 +93,14 @@ void ExamOrder::see(const std::optional<KneeGraft>& fixed, const BoneSnapshot& b
     work_ = job_.get();
     keep();
   }
-  // The last of it is on its way for a while yet, and where pictures are slow it left long after
-  // the first: told anew meanwhile, the knee would never be known.
-  if (!waiting_.empty()) sent_s_ = bones.time_s;
-  if (!waiting_.empty() || is_loaded(bones.exam)) return;
+  teller_.look(bones.time_s);
+  if (teller_.telling() || is_loaded(bones.exam)) return;
   if (fixed && held_ && !(held_by_ && is_same_graft(*held_by_, *fixed))) held_.reset();
   const auto& told = fixed ? held_ : found_;
   if (!told) return compute(fixed);
   if (told->numbers.empty() || bones.exam.digest == told->digest) return;
-  if (sent_s_ && bones.time_s - *sent_s_ < kTellAgain_s && bones.exam.told > 0) return;
-  sent_s_ = bones.time_s;
-  waiting_.push_back({CommandKind::kKneeOrder, 0});
-  for (const double number : told->numbers) waiting_.push_back({CommandKind::kKneeNumber, number});
-}
-
-std::optional<Command> ExamOrder::take() {
-  if (waiting_.empty()) return std::nullopt;
-  const Command next = waiting_.front();
-  waiting_.pop_front();
-  return next;
+  if (bones.exam.told > 0 && teller_.under_way(bones.time_s)) return;
+  teller_.tell(told->numbers, bones.time_s);
 }
 
 }  // namespace osteon

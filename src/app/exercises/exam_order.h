@@ -1,12 +1,12 @@
 #pragma once
 
-#include <deque>
 #include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "exercises/number_teller.h"
 #include "osteon/physics/knee_give.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/command.h"
@@ -28,7 +28,7 @@ class ExamOrder {
   /// `fixed`: what holds the knee; none: nothing does. Not while hands load the knee.
   void see(const std::optional<KneeGraft>& fixed, const BoneSnapshot& bones);
   /// The next command for the physics; none: there is nothing to say. One a physics step.
-  std::optional<Command> take();
+  std::optional<Command> take() { return teller_.take(); }
   /// Why the knee cannot be examined.
   const std::optional<Error>& problem() const { return work_.problem; }
 
@@ -59,8 +59,7 @@ class ExamOrder {
   std::optional<Told> found_;  ///< of the knee as it was found
   std::optional<Told> held_;   ///< and with the graft that is fixed
   std::optional<KneeGraft> held_by_;
-  std::deque<Command> waiting_;
-  std::optional<double> sent_s_;  ///< when the last command was about to be told
+  NumberTeller teller_{CommandKind::kKneeOrder, CommandKind::kKneeNumber};
 };
 
 }  // namespace osteon

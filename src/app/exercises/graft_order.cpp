@@ -7,8 +7,6 @@
 namespace osteon {
 namespace {
 
-constexpr double kOrderAgain_s = 1;
-
 bool has_come(const PlacingPlan& wanted, const GraftPlacingState& there) {
   return there.on && placing_numbers(there.plan) == placing_numbers(wanted);
 }
@@ -39,20 +37,9 @@ void leave_out_bench_stages(Scenario& scenario) { std::erase_if(scenario.stages,
 
 void GraftOrder::see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones) {
   const GraftPlacingState& there = bones.placing;
-  if (!waiting_.empty()) sent_s_ = bones.time_s;  // the last of it is on its way for a while yet
-  if (!waiting_.empty() || !wanted || has_come(*wanted, there) || in_use(there)) return;
-  if (sent_s_ && bones.time_s - *sent_s_ < kOrderAgain_s) return;
-  sent_s_ = bones.time_s;
-  waiting_.push_back({CommandKind::kGraftOrder, 0});
-  for (const double number : placing_numbers(*wanted))
-    waiting_.push_back({CommandKind::kGraftNumber, number});
-}
-
-std::optional<Command> GraftOrder::take() {
-  if (waiting_.empty()) return std::nullopt;
-  const Command next = waiting_.front();
-  waiting_.pop_front();
-  return next;
+  teller_.look(bones.time_s);
+  if (teller_.telling() || !wanted || has_come(*wanted, there) || in_use(there)) return;
+  if (!teller_.under_way(bones.time_s)) teller_.tell(placing_numbers(*wanted), bones.time_s);
 }
 
 }  // namespace osteon

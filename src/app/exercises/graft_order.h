@@ -1,8 +1,8 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 
+#include "exercises/number_teller.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/command.h"
 #include "osteon/scene/placing.h"
@@ -26,11 +26,10 @@ class GraftOrder {
   /// `wanted`: what was measured; none: there are no two tunnels, or they are not known yet.
   void see(const std::optional<PlacingPlan>& wanted, const BoneSnapshot& bones);
   /// The next command for the physics; none: there is nothing to say. One a physics step.
-  std::optional<Command> take();
+  std::optional<Command> take() { return teller_.take(); }
 
  private:
-  std::deque<Command> waiting_;
-  std::optional<double> sent_s_;  ///< when the last command was about to be told
+  NumberTeller teller_{CommandKind::kGraftOrder, CommandKind::kGraftNumber};
 };
 
 }  // namespace osteon

@@ -6,7 +6,7 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kMostBehind = 2;  // pictures of 12 MB each at most
+constexpr std::size_t kMostBehind = 2;  // pictures; one has 50 MB at most
 
 }  // namespace
 
