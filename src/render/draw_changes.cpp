@@ -1,6 +1,7 @@
 // Where a processor draws, most of a picture is the one before: bones stand still and the camera
 // rests while the tool moves. What stands still is kept as a picture; the tiles that the tool
 // reaches are drawn anew over it, in full, so that the result is that of drawing everything.
+// The same goes for a surface that changes: the tiles where it does are drawn over it too.
 // While all moves (the camera, a joint) there is nothing to keep; then fewer pixels may be drawn.
 #include <algorithm>
 
@@ -13,6 +14,8 @@ constexpr double kTooMuch = 0.6;       // share of the picture beyond which keep
 constexpr int kSmoothingReach_px = 6;  // of the edge smoothing about a pixel
 // A camera that is dragged rests for a picture now and then; sharpening it each time would flicker.
 constexpr int kCoarseWhileResting = 4;
+// Where surfaces changed is drawn anew in each picture, until they have rested for so many.
+constexpr int kRestBeforeKept = 8;
 
 ViewState without_tool(ViewState view) {
   view.show_proxy = view.show_force = view.show_hand_ghost = view.show_loose = false;
@@ -59,7 +62,7 @@ Viewport inner(const Viewport& r, int width, int height) {
 bool Renderer::Impl::stands_still(const RenderSnapshot& snapshot, const ViewState& still_view,
                                   int width, int height) const {
   if (!kept || kept->width != width || kept->height != height) return false;
-  if (!(kept->view == still_view) || kept->surfaces != painter.version()) return false;
+  if (!(kept->view == still_view) || !painter.knows_changes_since(kept->surfaces)) return false;
   const double aspect = static_cast<double>(width) / height;
   const Frame frame =
       make_frame(still_view, aspect, painter.content(snapshot, still_view), {}, width, height);
@@ -80,6 +83,8 @@ bool Renderer::Impl::keep(const RenderSnapshot& snapshot, const ViewState& still
   changed = TileMask(width, height);
   changed.mark_all();
   composed.reset();
+  kept->bones = snapshot.bones;
+  kept->surfaces = painter.version();
   kept_ready = true;
   return true;
 }
@@ -123,6 +128,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
   const double aspect = static_cast<double>(width) / height;
   const Frame frame = make_frame(view, aspect, painter.content(snapshot, view), {}, width, height);
   TileMask tiles = painter.moving_tiles(snapshot, view, frame, width, height);
+  tiles.add(painter.changed_tiles(kept->surfaces, snapshot, view, frame, width, height));
   if (tiles.share() > kTooMuch) return false;
   restore_kept();
   if (!tiles.empty()) {
@@ -137,6 +143,7 @@ bool Renderer::Impl::compose(const RenderSnapshot& snapshot, const ViewState& vi
   changed = std::move(tiles);
   composed = snapshot.tool;
   composed_loose = snapshot.bones.loose;
+  composed_surfaces = painter.version();
   composed_others.assign(painter.others().begin(), painter.others().end());
   composed_ghosts.assign(painter.ghosts().begin(), painter.ghosts().end());
   return true;
@@ -166,16 +173,23 @@ void Renderer::Impl::draw_changes(const RenderSnapshot& snapshot, const ViewStat
     draw_coarse(snapshot, view, framebuffer, viewport);
     return;
   }
+  const bool overdrawn = kept_ready && kept->surfaces != painter.version();
+  surfaces_rest = overdrawn && composed_surfaces == painter.version() ? surfaces_rest + 1 : 0;
+  if (surfaces_rest >= kRestBeforeKept) kept_ready = false;
   if (!kept_ready && !keep(snapshot, still_view, width, height)) return draw_all();
   const auto alike = [](const auto& a, const auto& b) { return looks_the_same(a, b); };
   const auto all_alike = [&](const auto& before, const auto& now) {
     return std::equal(before.begin(), before.end(), now.begin(), now.end(), alike);
   };
-  const bool shown =
-      composed && composed_view == view && looks_the_same(*composed, snapshot.tool) &&
-      looks_the_same(composed_loose, snapshot.bones.loose) &&
-      all_alike(composed_others, painter.others()) && all_alike(composed_ghosts, painter.ghosts());
-  if (!shown && !compose(snapshot, view, width, height)) return draw_all();
+  const bool shown = composed && composed_surfaces == painter.version() && composed_view == view &&
+                     looks_the_same(*composed, snapshot.tool) &&
+                     looks_the_same(composed_loose, snapshot.bones.loose) &&
+                     all_alike(composed_others, painter.others()) &&
+                     all_alike(composed_ghosts, painter.ghosts());
+  if (!shown && !compose(snapshot, view, width, height)) {
+    if (overdrawn) kept_ready = false;  // surfaces may have changed over much of it
+    return draw_all();
+  }
   composed_view = view;
   drew_all = false;
   show(full.resolved, framebuffer, viewport);

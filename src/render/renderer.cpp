@@ -274,13 +274,11 @@ void Renderer::set_surface(BoneId bone, const TriMesh& mesh_B) {
 void Renderer::move_surface(BoneId part, const TriMesh& rest_W, const TriMesh& moved_W,
                             std::span<const float> depth_m) {
   impl_->painter.move_surface(part.index, rest_W, moved_W, depth_m);
-  impl_->kept.reset();
 }
 
 void Renderer::set_cubes(BoneId bone, const CubeGrid& grid, std::span<const SurfaceCube> cubes) {
   impl_->painter.set_cubes(bone.index, grid, cubes);
   impl_->picker->set_cubes(bone.index, grid, cubes);
-  impl_->kept.reset();
 }
 
 void Renderer::set_heat(BoneId bone, const HeatCells& heat) {
@@ -290,7 +288,6 @@ void Renderer::set_heat(BoneId bone, const HeatCells& heat) {
 
 void Renderer::set_loose(std::uint64_t shape, BoneId bone, const SurfaceCube& surface) {
   impl_->painter.set_loose(shape, bone.index, surface);
-  impl_->kept.reset();
 }
 
 void Renderer::clear_cubes() {

@@ -34,7 +34,8 @@ struct Renderer::Impl {
     ViewState view;
     BoneSnapshot bones;
     int width = 0, height = 0;
-    std::uint64_t surfaces = 0;  ///< ScenePainter::version
+    std::uint64_t surfaces = 0;  ///< ScenePainter::version; where they changed since, tiles are
+                                 ///< drawn over it
   };
   std::optional<Kept> kept{};
   RenderTarget kept_picture{};  ///< of `kept`, without the tool
@@ -45,6 +46,8 @@ struct Renderer::Impl {
   std::vector<ToolState> composed_others{};
   std::vector<GhostTool> composed_ghosts{};
   ViewState composed_view{};
+  std::uint64_t composed_surfaces = 0;  ///< ScenePainter::version
+  int surfaces_rest = 0;                ///< pictures in a row in which no surface changed
 
   /// Draws one tile of the picture into the viewport of `framebuffer`.
   bool draw_tile(const RenderSnapshot& snapshot, const ViewState& view, double aspect,

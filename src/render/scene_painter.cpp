@@ -77,7 +77,7 @@ const GpuMesh& ScenePainter::surface_within(std::size_t k, double error_m) const
 
 void ScenePainter::set_surfaces(const PreparedCase& prepared) {
   static const ShadedMesh nothing;
-  ++shared_->version;
+  shared_->changes.anywhere();
   for (std::size_t k = 0; k < shared_->bones.size(); ++k) {
     const std::size_t bones = shared_->rest_X_WB.size();
     const auto& meshes = k < bones ? prepared.bones : prepared.softs;
@@ -86,6 +86,7 @@ void ScenePainter::set_surfaces(const PreparedCase& prepared) {
     shared_->bones[k].closed = mesh.closed;
     if (k < bones || !prepared.softs.empty()) shared_->bones[k].changed.set_base(mesh);
     if (k >= bones) shared_->bones[k].light = {mesh.shades, mesh.roots};
+    shared_->bones[k].moved = {};
     shared_->bones[k].levels.clear();
     shared_->bones[k].levels.push_back({GpuMesh(mesh), 0});
     for (const ShadedMesh::Level& level : mesh.coarser)
@@ -127,35 +128,53 @@ void ScenePainter::set_extent(BoneModel& model, const TriMesh& mesh) {
 
 void ScenePainter::set_surface(std::size_t k, const TriMesh& mesh_B) {
   if (k >= shared_->bones.size()) return;
-  ++shared_->version;
+  shared_->changes.anywhere();
   BoneModel& model = shared_->bones[k];
+  model.moved = {};
   model.levels.clear();
   model.levels.push_back({GpuMesh(plain_shaded(mesh_B)), 0});
   set_extent(model, mesh_B);
+}
+
+Aabb ScenePainter::extent_of(const BoneModel& model) {
+  Aabb box;
+  for (const Vec3& end : {model.around.a, model.around.b}) box.include(end);
+  return model.radius_m > 0 ? box.grown(model.around.radius_m) : Aabb{};
 }
 
 void ScenePainter::move_surface(std::size_t k, const TriMesh& rest_W, const TriMesh& moved_W,
                                 std::span<const float> depth_m) {
   if (k >= shared_->bones.size()) return;
   RestLight& light = shared_->bones[k].light;
-  const ShadedMesh lit = depth_m.empty() ? shown_light(rest_W, light, moved_W)
-                                         : opened_light(rest_W, light, moved_W, depth_m);
+  ShadedMesh lit = depth_m.empty() ? shown_light(rest_W, light, moved_W)
+                                   : opened_light(rest_W, light, moved_W, depth_m);
   if (lit.positions.empty()) return set_surface(k, moved_W);
-  ++shared_->version;
   BoneModel& model = shared_->bones[k];
+  const bool alike = !model.moved.positions.empty() && model.closed == lit.closed &&
+                     model.wounded == !depth_m.empty();
+  Aabb box = alike ? changed_box(model.moved, lit) : extent_of(model);
   model.closed = lit.closed;
   model.wounded = !depth_m.empty();
   model.levels.clear();
   model.levels.push_back({GpuMesh(lit), 0});
   set_extent(model, moved_W);
+  if (!alike) {
+    for (const Vec3& p : moved_W.vertices)
+      if (is_finite(p)) box.include(p);
+  }
+  model.moved = std::move(lit);
+  shared_->changes.within(k, box);
 }
 
 void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
                              std::span<const SurfaceCube> cubes) {
   if (bone >= shared_->bones.size()) return;
   const bool soft = bone >= shared_->rest_X_WB.size();
-  shared_->bones[bone].changed.set(grid, cubes, soft ? ChangedCubes::kSoft : bone);
-  ++shared_->version;
+  ChangedCubes& changed = shared_->bones[bone].changed;
+  const bool first = !changed.is_on(grid);
+  changed.set(grid, cubes, soft ? ChangedCubes::kSoft : bone);
+  if (first) return shared_->changes.anywhere();
+  for (const SurfaceCube& cube : cubes) shared_->changes.within(bone, changed.box_of(cube.cube));
 }
 
 void ScenePainter::clear_cubes() {
@@ -163,13 +182,13 @@ void ScenePainter::clear_cubes() {
     bone.changed.clear();
     bone.heat.set({});
   }
-  ++shared_->version;
+  shared_->changes.anywhere();
 }
 
 void ScenePainter::set_heat(std::size_t bone, const HeatCells& heat) {
   if (bone >= shared_->rest_X_WB.size()) return;
   shared_->bones[bone].heat.set(heat);
-  ++shared_->version;
+  shared_->changes.anywhere();
 }
 
 bool ScenePainter::any_heat(const ViewState& view) const {
@@ -188,6 +207,7 @@ ScenePainter::BoneModel ScenePainter::make_soft(const Case& the_case, const Soft
   for (const BoneId bone : soft.bones) model.rides_on.push_back(bone.index);
   if (model.outermost) model.cover = LimbCover::over(the_case);
   set_extent(model, soft.mesh_W);
+  model.middle_B = model.center_B;
   return model;
 }
 
@@ -211,7 +231,7 @@ Pose ScenePainter::pose(const RenderSnapshot& snapshot, std::size_t k) const {
   if (const auto& cover = shared_->bones[k].cover)
     return cover->motion(snapshot.bones, shared_->rest_X_WB).upper;
   return mean_motion(snapshot.bones, shared_->rest_X_WB, shared_->bones[k].rides_on,
-                     shared_->bones[k].center_B);
+                     shared_->bones[k].middle_B);
 }
 
 Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool,
@@ -282,7 +302,7 @@ ScenePainter::ToolModel ScenePainter::make_tool_model(const TriMesh& mesh, doubl
 
 void ScenePainter::set_tray(std::span<const std::shared_ptr<const Tool>> tray) {
   if (tray.empty()) return;
-  ++shared_->version;
+  shared_->changes.anywhere();
   shared_->tools.clear();
   for (const auto& tool : tray) shared_->tools.push_back(make_tool_model(*tool));
 }

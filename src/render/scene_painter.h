@@ -17,6 +17,7 @@
 #include "surface/changed_cubes.h"
 #include "surface/heat_texture.h"
 #include "surface/moved_light.h"
+#include "surface/surface_changes.h"
 
 namespace osteon {
 
@@ -30,7 +31,11 @@ class ScenePainter {
   /// Shares all that is set of surfaces and tray, now and later.
   ScenePainter another() const;
   /// Grows whenever what is shared changes.
-  std::uint64_t version() const { return shared_->version; }
+  std::uint64_t version() const { return shared_->changes.version(); }
+  /// False: since then more has changed than changed_tiles() knows of.
+  bool knows_changes_since(std::uint64_t version) const {
+    return shared_->changes.known_since(version);
+  }
   /// The finest surface of a model: the bones, after them the soft parts.
   const GpuMesh& exact_surface(std::size_t k) const;
   /// The coarsest that lies within `error_m` of it.
@@ -80,6 +85,9 @@ class ScenePainter {
   /// `height` are the frame's output pixels.
   TileMask moving_tiles(const RenderSnapshot& snapshot, const ViewState& view, const Frame& frame,
                         int width, int height) const;
+  /// Tiles where surfaces have changed since then.
+  TileMask changed_tiles(std::uint64_t since, const RenderSnapshot& snapshot, const ViewState& view,
+                         const Frame& frame, int width, int height) const;
   /// True when no bone has moved by more than a twentieth of a pixel.
   bool bones_look_still(const BoneSnapshot& before, const BoneSnapshot& now,
                         const Frame& frame) const;
@@ -158,6 +166,8 @@ class ScenePainter {
     std::vector<std::size_t> rides_on;  ///< bones; of a soft part
     std::optional<LimbCover> cover;     ///< of skin that bends with a knee
     RestLight light;                    ///< of a soft part
+    Vec3 middle_B = Vec3::Zero();       ///< of a soft part at rest
+    ShadedMesh moved;                   ///< what was last drawn for one that gave way
   };
   /// Models are the bones and after them the soft parts; what follows takes both.
   Pose pose(const RenderSnapshot& snapshot, std::size_t k) const;
@@ -186,6 +196,7 @@ class ScenePainter {
   bool any_changed() const;
   bool any_heat(const ViewState& view) const;
   static void set_extent(BoneModel& model, const TriMesh& mesh);
+  static Aabb extent_of(const BoneModel& model);
   static BoneModel make_bone(const Bone& bone);
   static void make_pieces(BoneModel& model, const Bone& bone);
   /// The coarsest surface that cannot be told from the exact one at its size on the screen.
@@ -228,7 +239,7 @@ class ScenePainter {
     std::map<std::uint64_t, LooseModel> loose;
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;
-    std::uint64_t version = 1;
+    SurfaceChanges changes;
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::vector<ToolState> others_;

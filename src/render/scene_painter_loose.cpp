@@ -27,7 +27,7 @@ void ScenePainter::set_loose(std::uint64_t shape, std::size_t bone, const Surfac
   for (const Vec3& v : surface.vertices) box.include(v);
   if (!box.empty()) model.around = capsule_around(box);
   all.insert_or_assign(shape, std::move(model));
-  ++shared_->version;
+  shared_->changes.within(bone, {});  // drawn over what is kept
 }
 
 const GpuMesh* ScenePainter::loose_surface(std::uint64_t shape) const {

@@ -218,6 +218,24 @@ TileMask ScenePainter::bone_tiles(const RenderSnapshot& snapshot, const ViewStat
   return mask;
 }
 
+// What bends with a limb may stand anywhere between its ends' poses, so all of it counts.
+TileMask ScenePainter::changed_tiles(std::uint64_t since, const RenderSnapshot& snapshot,
+                                     const ViewState& view, const Frame& frame, int width,
+                                     int height) const {
+  TileMask mask(width, height);
+  Marker marker(frame, width, height, mask);
+  for (const SurfaceChanges::One& one : shared_->changes.since(since)) {
+    if (one.model >= shared_->bones.size() || !shows(snapshot, view, one.model)) continue;
+    const bool bends = cover_motion(snapshot, one.model).has_value();
+    const Capsule c = bends ? shared_->bones[one.model].around : capsule_around(one.box_M);
+    for (const Pose& X_WM : end_poses(snapshot, one.model)) {
+      const Pose X_CM = frame.X_CW * X_WM;
+      marker.capsule(X_CM * c.a, X_CM * c.b, c.radius_m);
+    }
+  }
+  return mask;
+}
+
 bool ScenePainter::bones_look_still(const BoneSnapshot& before, const BoneSnapshot& now,
                                     const Frame& frame) const {
   if (before.count != now.count) return false;

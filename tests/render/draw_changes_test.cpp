@@ -1,4 +1,5 @@
 // A picture of which only the changed parts were drawn must be the one that is drawn whole.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -169,6 +170,87 @@ TEST_F(DrawChanges, NewSurfacesAreShownThoughNothingMoved) {
   prepare_felt(pair, prepared);
   renderer.set_surfaces(prepared);
   EXPECT_NE(drawn(renderer, snapshot, view).rgb, before.rgb);
+}
+
+/// Two balls, and a soft one before them that is pressed and cut.
+Case balls_and_soft() {
+  Case the_case = two_balls();
+  SoftPart part;
+  part.name = "soft";
+  part.kind = "meniscus";
+  part.mesh_W = sphere_mesh(0.006);
+  part.bones = {BoneId{0}, BoneId{1}};
+  for (Vec3& p : part.mesh_W.vertices) p += Vec3(0.004, 0.002, 0.024);
+  the_case.softs.push_back(part);
+  return the_case;
+}
+
+/// A soft surface that is pressed in at one of its vertices.
+TriMesh pressed_at(const TriMesh& rest, std::size_t vertex, const Vec3& by) {
+  TriMesh out = rest;
+  const Vec3 at = rest.vertices[vertex];
+  for (Vec3& p : out.vertices) p += std::exp(-(p - at).norm() / 0.002) * by;
+  return out;
+}
+
+/// Pressed here and there, later cut as well.
+TriMesh given_way(const TriMesh& rest, Random& random, int step) {
+  const auto count = static_cast<double>(rest.vertices.size());
+  const auto vertex = static_cast<std::size_t>(random.uniform(0, 0.999 * count));
+  TriMesh out = pressed_at(rest, vertex, 0.002 * random.direction());
+  if (step > 6) out.triangles.resize(out.triangles.size() * 9 / 10);
+  return out;
+}
+
+TEST_F(DrawChanges, SurfacesThatGiveWayAreDrawnOverWhatWasKept) {
+  const Case the_case = balls_and_soft();
+  const TriMesh& rest = the_case.softs[0].mesh_W;
+  const Tool probe = make_wrist_probe();
+  Renderer renderer = make_renderer(the_case, probe), other = make_renderer(the_case, probe);
+  if (!renderer.software_driver()) GTEST_SKIP() << "only where a processor draws";
+  Random random(43);
+  for (int look = 0; look < 4; ++look) {
+    ViewState view = any_look(random);
+    view.softs.resize(1);
+    view.softs[0].opacity = look % 2 ? 0.6f : 1.0f;
+    RenderSnapshot snapshot = at_rest(the_case);
+    int drawn_over = 0;
+    for (int step = 0; step < 18; ++step) {
+      place_tool(random, snapshot);
+      if (step < 10) {
+        const TriMesh moved = given_way(rest, random, step);
+        for (Renderer* each : {&renderer, &other}) each->move_surface(BoneId{2}, rest, moved, {});
+      }
+      const Image kept = drawn(renderer, snapshot, view);
+      drawn_over += !renderer.drew_all();
+      const Image whole = drawn_whole(other, snapshot, view);
+      EXPECT_LE(count_different(kept, whole, 24), 3) << "look " << look << ", step " << step;
+    }
+    EXPECT_GE(drawn_over, 14) << "look " << look;
+  }
+}
+
+// Without a tool all rests: the picture is kept anew, and nothing is drawn over it any more.
+TEST_F(DrawChanges, ASurfaceThatChangedOnceIsKept) {
+  const Case the_case = balls_and_soft();
+  const TriMesh& rest = the_case.softs[0].mesh_W;
+  Renderer renderer = make_renderer(the_case, make_wrist_probe());
+  ViewState view = front_view();
+  view.softs.resize(1);
+  view.show_proxy = view.show_force = view.show_hand_ghost = false;
+  const RenderSnapshot snapshot = at_rest(the_case);
+  for (int k = 0; k < 3; ++k) drawn(renderer, snapshot, view);
+  const Image before = drawn(renderer, snapshot, view);
+  const auto nearest = std::max_element(rest.vertices.begin(), rest.vertices.end(),
+                                        [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+  const TriMesh moved = pressed_at(rest, static_cast<std::size_t>(nearest - rest.vertices.begin()),
+                                   Vec3(0.002, 0, -0.002));
+  renderer.move_surface(BoneId{2}, rest, moved, {});
+  const Image changed = drawn(renderer, snapshot, view);
+  EXPECT_GT(count_different(before, changed, 24), 20);
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(drawn(renderer, snapshot, view).rgb, changed.rgb) << k;
+  renderer.move_surface(BoneId{2}, rest, rest, {});
+  EXPECT_GT(count_different(changed, drawn(renderer, snapshot, view), 24), 20);
 }
 
 // While all moves the picture is coarse: near the whole one, but not the same. At rest it gets

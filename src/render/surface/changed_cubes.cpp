@@ -107,8 +107,7 @@ void ChangedCubes::begin(const CubeGrid& grid) {
 
 void ChangedCubes::set(const CubeGrid& grid, std::span<const SurfaceCube> cubes, std::size_t bone) {
   if (cubes.empty() || !fits(grid)) return;
-  const bool same = side_m_ == grid.side_m && lo_B_ == grid.lo_B && count_ == grid.count;
-  if (!same) begin(grid);
+  if (!is_on(grid)) begin(grid);
   const std::uint8_t changed = 255;
   glActiveTexture(GL_TEXTURE0 + kUnit);
   glBindTexture(GL_TEXTURE_3D, mask_.get());
@@ -122,6 +121,16 @@ void ChangedCubes::set(const CubeGrid& grid, std::span<const SurfaceCube> cubes,
   }
   glBindTexture(GL_TEXTURE_3D, 0);
   glActiveTexture(GL_TEXTURE0);
+}
+
+Aabb ChangedCubes::box_of(std::uint32_t cube) const {
+  const auto at = place_of(count_, cube);
+  const Pose X_MG = X_GM_.inverse();
+  const Vec3 lo_G = lo_B_ + side_m_ * Vec3(at[0], at[1], at[2]);
+  Aabb box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.include(X_MG * (lo_G + side_m_ * Vec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+  return box.grown(overlap_m_);
 }
 
 // Of the nearest vertex of the base in this cube and those about it.

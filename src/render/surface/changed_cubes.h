@@ -26,6 +26,12 @@ class ChangedCubes {
   void clear();
 
   bool empty() const { return side_m_ == 0; }
+  /// Cubes of this grid were given.
+  bool is_on(const CubeGrid& grid) const {
+    return !empty() && side_m_ == grid.side_m && lo_B_ == grid.lo_B && count_ == grid.count;
+  }
+  /// Holds all of what is drawn for one cube, in the frame of the surface.
+  Aabb box_of(std::uint32_t cube) const;
   /// Tells a program whose shader knows of it (in use) what to leave out.
   void hide(const Program& program) const;
   /// The new surfaces.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -23,14 +24,17 @@ constexpr std::uint8_t kOpened = 100;  // of the cavity of a cut face
 
 using CellAt = std::array<int, 3>;
 
+}  // namespace
+
 /// The surface at rest by cells of room.
 class LightByCell {
  public:
-  LightByCell(const Surface& rest, const std::vector<ShadedMesh::Shade>& shades)
-      : rest_(rest), shades_(shades) {
+  LightByCell(Surface rest, const std::vector<ShadedMesh::Shade>& shades)
+      : rest_(std::move(rest)), shades_(shades) {
+    const std::vector<Vec3>& points = rest_.points;
     Vec3 hi = lo_;
-    if (!rest.points.empty()) lo_ = hi = rest.points.front();
-    for (const Vec3& p : rest.points) lo_ = lo_.cwiseMin(p), hi = hi.cwiseMax(p);
+    if (!points.empty()) lo_ = hi = points.front();
+    for (const Vec3& p : points) lo_ = lo_.cwiseMin(p), hi = hi.cwiseMax(p);
     const auto cells = [&] {
       std::size_t count = 1;
       for (int a = 0; a < 3; ++a) {
@@ -42,17 +46,22 @@ class LightByCell {
     while (cells() > kMostInAll) cell_m_ *= 2;
     // The points of a cell stand one after the other: first how many each has, then which.
     first_.assign(cells() + 1, 0);
-    for (const Vec3& p : rest.points) ++first_[index_of(cell_at(p)) + 1];
+    for (const Vec3& p : points) ++first_[index_of(cell_at(p)) + 1];
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    points_.resize(rest.points.size());
+    points_.resize(points.size());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t k = 0; k < rest.points.size(); ++k)
-      points_[next[index_of(cell_at(rest.points[k]))]++] = k;
+    for (std::uint32_t k = 0; k < points.size(); ++k)
+      points_[next[index_of(cell_at(points[k]))]++] = k;
   }
 
-  ShadedMesh::Shade at(const Vec3& p) const {
+  struct Near {
+    double away_m;
+    std::uint32_t point;
+  };
+  /// `near` is room that calls one after the other share.
+  ShadedMesh::Shade at(const Vec3& p, std::vector<Near>& near) const {
     ShadedMesh::Shade out{255, 128, 128, 128};
-    const std::vector<Near> near = near_to(p);
+    find_near(p, near);
     if (near.empty()) return out;
     std::array<double, 3> sum{};
     double weights = 0, depth = 0;
@@ -71,11 +80,6 @@ class LightByCell {
   }
 
  private:
-  struct Near {
-    double away_m;
-    std::uint32_t point;
-  };
-
   static ShadedMesh::Shade shaded(const std::array<double, 3>& sum, double weights,
                                   double depth_m) {
     const auto byte = [&](double value) {
@@ -88,8 +92,8 @@ class LightByCell {
   }
 
   /// The nearest first.
-  std::vector<Near> near_to(const Vec3& p) const {
-    std::vector<Near> near;
+  void find_near(const Vec3& p, std::vector<Near>& near) const {
+    near.clear();
     const CellAt middle = cell_at(p);
     for (int ring = 0; ring <= kMostCells; ++ring) {
       const bool last = !near.empty();  // one more ring: what is in it may be nearer
@@ -100,7 +104,6 @@ class LightByCell {
         near.begin(), near.end(),
         [](const Near& one, const Near& other) { return one.away_m < other.away_m; });
     if (nearest != near.end()) std::iter_swap(near.begin(), nearest);
-    return near;
   }
 
   void add_ring(const Vec3& p, const CellAt& middle, int ring, std::vector<Near>& near) const {
@@ -136,8 +139,8 @@ class LightByCell {
            of(2);
   }
 
-  const Surface& rest_;
-  const std::vector<ShadedMesh::Shade>& shades_;
+  Surface rest_;
+  std::vector<ShadedMesh::Shade> shades_;
   Vec3 lo_ = Vec3::Zero();
   double cell_m_ = kCell_m;
   CellAt count_{1, 1, 1};
@@ -145,20 +148,23 @@ class LightByCell {
   std::vector<std::uint32_t> points_;  ///< cell by cell
 };
 
-}  // namespace
-
 ShadedMesh cut_light(const TriMesh& rest, const RestLight& light, const TriMesh& cut,
                      CutLight& known) {
   ShadedMesh out;
   const bool anew =
       known.triangles != cut.triangles || known.of_vertices.size() != cut.vertices.size();
   if (anew) {
-    const Surface at_rest = make_surface(rest);
-    if (light.shades.empty() || at_rest.points.size() != light.shades.size()) return out;
-    const LightByCell cells(at_rest, light.shades);
-    known = {cut.triangles, {}, false};
+    if (!known.near || known.rest_vertices != rest.vertices) {
+      Surface at_rest = make_surface(rest);
+      if (light.shades.empty() || at_rest.points.size() != light.shades.size()) return out;
+      known.near = std::make_shared<const LightByCell>(std::move(at_rest), light.shades);
+      known.rest_vertices = rest.vertices;
+    }
+    known.triangles = cut.triangles;
+    known.of_vertices.clear();
+    std::vector<LightByCell::Near> room;
     for (const Vec3& p : cut.vertices)
-      known.of_vertices.push_back(is_finite(p) ? cells.at(p)
+      known.of_vertices.push_back(is_finite(p) ? known.near->at(p, room)
                                                : ShadedMesh::Shade{255, 128, 128, 128});
   }
   std::vector<std::uint32_t> place;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,8 +10,12 @@
 
 namespace osteon {
 
+class LightByCell;
+
 /// The light of a surface that was cut, by its vertices.
 struct CutLight {
+  std::shared_ptr<const LightByCell> near;  ///< of the surface at rest
+  std::vector<Vec3> rest_vertices;          ///< that `near` was made of
   std::vector<Triangle> triangles;
   std::vector<ShadedMesh::Shade> of_vertices;
   bool closed = false;

@@ -1,6 +1,7 @@
 #include "surface/surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -8,36 +9,55 @@
 namespace osteon {
 namespace {
 
-bool comes_before(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
 constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Points by where they are.
+class PointTable {
+ public:
+  PointTable(const std::vector<Vec3>& points, std::size_t most) : points_(points) {
+    std::size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    slots_.assign(size, kNone);
+  }
+  /// The index of the one at `p`; kNone: `p` is taken for the next that `points` gets.
+  std::uint32_t find_or_add(const Vec3& p) {
+    // A table is never more than half full, so there is an empty slot to stop at.
+    for (std::size_t slot = hash(p);; ++slot) {
+      std::uint32_t& here = slots_[slot & (slots_.size() - 1)];
+      if (here == kNone) {
+        here = static_cast<std::uint32_t>(points_.size());
+        return kNone;
+      }
+      if (points_[here] == p) return here;
+    }
+  }
+
+ private:
+  static std::size_t hash(const Vec3& p) {
+    std::uint64_t mixed = 0;
+    for (const double value : {p.x(), p.y(), p.z()}) {
+      mixed ^= std::bit_cast<std::uint64_t>(value + 0.0);  // -0 and 0 are one place
+      mixed *= 0x9e3779b97f4a7c15u;
+      mixed ^= mixed >> 32;
+    }
+    return static_cast<std::size_t>(mixed);
+  }
+  const std::vector<Vec3>& points_;
+  std::vector<std::uint32_t> slots_;
+};
 
 /// Index of each vertex among the distinct finite ones (in the order of their first use); kNone for
 /// a vertex that is not finite.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, std::vector<Vec3>& points) {
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t k = 0; k < vertices.size(); ++k)
-    if (is_finite(vertices[k])) order.push_back(k);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (comes_before(vertices[a], vertices[b])) return true;
-    if (comes_before(vertices[b], vertices[a])) return false;
-    return a < b;
-  });
-  std::vector<std::uint32_t> lead(vertices.size(), kNone);  // first vertex at the same place
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool same = k > 0 && vertices[order[k]] == vertices[order[k - 1]];
-    lead[order[k]] = same ? lead[order[k - 1]] : order[k];
-  }
   std::vector<std::uint32_t> index(vertices.size(), kNone);
-  for (std::uint32_t k = 0; k < vertices.size(); ++k) {
-    if (lead[k] == kNone) continue;
-    if (lead[k] == k) {
-      index[k] = static_cast<std::uint32_t>(points.size());
-      points.push_back(vertices[k]);
-    }
-    index[k] = index[lead[k]];
+  points.reserve(vertices.size());
+  PointTable table(points, vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (!is_finite(vertices[k])) continue;
+    index[k] = table.find_or_add(vertices[k]);
+    if (index[k] != kNone) continue;
+    index[k] = static_cast<std::uint32_t>(points.size());
+    points.push_back(vertices[k]);
   }
   return index;
 }
@@ -110,20 +130,34 @@ Surface make_surface(const TriMesh& mesh, std::vector<std::uint32_t>* place) {
 
 void make_normals(Surface& surface) { surface.normals = angle_weighted_normals(surface); }
 
+// A triangle has one edge into each of its points and one out of it, so as many run in as out. The
+// edges are put by their point, where few stand: what one sort of all would find, in linear time.
 bool encloses_volume(const Surface& s) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> there, back;
+  std::vector<std::uint32_t> first(s.points.size() + 1, 0);
   double six_volumes = 0;
   for (const Triangle& t : s.triangles) {
     six_volumes += s.points[t[0]].dot(s.points[t[1]].cross(s.points[t[2]]));
-    for (std::size_t k = 0; k < 3; ++k) {
-      there.emplace_back(t[k], t[(k + 1) % 3]);
-      back.emplace_back(t[(k + 1) % 3], t[k]);
-    }
+    for (const std::uint32_t v : t) ++first[v + 1];
   }
-  std::sort(there.begin(), there.end());
-  std::sort(back.begin(), back.end());
-  const bool once = std::adjacent_find(there.begin(), there.end()) == there.end();
-  return once && there == back && six_volumes > 0;
+  if (!(six_volumes > 0)) return false;
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> to(first.back()), from(first.back());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (const Triangle& t : s.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t at = next[t[k]]++;
+      to[at] = t[(k + 1) % 3];
+      from[at] = t[(k + 2) % 3];
+    }
+  for (std::size_t v = 0; v < s.points.size(); ++v) {
+    const auto out_begin = to.begin() + first[v], out_end = to.begin() + first[v + 1];
+    const auto in_begin = from.begin() + first[v], in_end = from.begin() + first[v + 1];
+    std::sort(out_begin, out_end);
+    std::sort(in_begin, in_end);
+    if (std::adjacent_find(out_begin, out_end) != out_end) return false;
+    if (!std::equal(out_begin, out_end, in_begin)) return false;
+  }
+  return true;
 }
 
 void smooth(const Surface& surface, int passes, std::vector<float>& values) {

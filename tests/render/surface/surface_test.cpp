@@ -39,6 +39,16 @@ TEST(Surface, WeldsATriangleSoup) {
   EXPECT_EQ(s.triangles.size(), whole.triangles.size());
 }
 
+TEST(Surface, PointsKeepTheOrderOfTheirFirstUse) {
+  TriMesh mesh;
+  mesh.vertices = {Vec3(2, 0, 0), Vec3(0.0, 1, 0), Vec3(-0.0, 1, 0), Vec3(2, 0, 0), Vec3(1, 0, 0)};
+  std::vector<std::uint32_t> place;
+  const Surface s = welded(mesh, &place);
+  EXPECT_EQ(place, (std::vector<std::uint32_t>{0, 1, 1, 0, 2}));
+  ASSERT_EQ(s.points.size(), 3u);
+  EXPECT_EQ(s.points[2], Vec3(1, 0, 0));
+}
+
 TEST(Surface, SphereHasRadialNormalsAndCurvatureOneOverRadius) {
   const double radius = 0.02;
   const Surface s = make_surface(sphere_mesh(radius));
@@ -68,6 +78,12 @@ TEST(Surface, KnowsWhenItEnclosesAVolume) {
   std::swap(one_flipped.triangles[7][0], one_flipped.triangles[7][1]);
   EXPECT_FALSE(encloses_volume(make_surface(one_flipped)));
   EXPECT_FALSE(encloses_volume(make_surface({})));
+  TriMesh twice = mesh;
+  twice.triangles.insert(twice.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  EXPECT_FALSE(encloses_volume(make_surface(twice)));
+  TriMesh other_twice = mesh;  // its last triangle stands for the one before
+  other_twice.triangles.back() = other_twice.triangles[other_twice.triangles.size() - 2];
+  EXPECT_FALSE(encloses_volume(make_surface(other_twice)));
 }
 
 TEST(Surface, SmoothingKeepsConstantsAndShrinksSpikes) {
