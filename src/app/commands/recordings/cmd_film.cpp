@@ -15,7 +15,7 @@
 #include "osteon/media/film_writer.h"
 #include "osteon/media/wav_writer.h"
 #include "runs/hands/tray.h"
-#include "runs/pictures/film_queue.h"
+#include "runs/pictures/film_maker.h"
 #include "runs/pictures/film_view.h"
 #include "runs/replays/recorded_case.h"
 #include "runs/replays/recorded_sound.h"
@@ -76,75 +76,6 @@ Result<void> save_sound(RecordingReader& recording, const FilmSpan& span, const 
   return wav->finish();
 }
 
-/// Takes a replay's ticks and makes pictures and sound of them.
-class FilmMaker {
- public:
-  FilmMaker(FilmPainter painter, FilmWriter writer, RecordedSound sound, const FilmSpan& span,
-            int fps, std::size_t hands)
-      : painter_(std::move(painter)),
-        queue_(std::make_unique<FilmQueue>(std::move(writer))),
-        sound_(std::move(sound)),
-        span_(span),
-        fps_(fps) {
-    moment_.hands = std::clamp<std::size_t>(hands, 1, kMaxHands);
-    // A hand that has not been heard of yet is nowhere.
-    for (ToolState& tool : moment_.tools) tool.X_WP.p = Vec3::Constant(std::nan(""));
-  }
-
-  void see(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
-    if (hand < moment_.hands) moment_.tools[hand] = tool;
-    if (hand != 0) return;
-    // A replay that begins later tells of one hand after the other: wait for all, but not long.
-    const bool all = std::all_of(moment_.tools.begin(), moment_.tools.begin() + hands(),
-                                 [](const ToolState& t) { return t.tick > 0; });
-    if (!all && tool.time_s < next_s() + kWait_s) return;
-    moment_.bones = bones;
-    moment_.time_s = tool.time_s;
-    while (good() && made_ < span_.pictures(fps_) && tool.time_s + 1e-9 >= next_s()) add();
-  }
-  /// After the last tick: what was recorded may end a tick before the last picture.
-  Result<void> finish() {
-    while (good() && made_ > 0 && made_ < span_.pictures(fps_)) add();
-    if (made_ == 0 && good()) return fail("holds no ticks there", "the recording");
-    if (!good()) return tl::unexpected(*failure_);
-    return queue_->finish();
-  }
-  void take(const CutsPatch& cut) { painter_.take(cut); }
-  void take(const SoftPushes& pushes) { moment_.pushes = pushes; }
-  bool good() const { return !failure_; }
-  double obscured_s() const { return painter_.obscured_s(); }
-  double share() const {
-    return static_cast<double>(made_) / static_cast<double>(span_.pictures(fps_));
-  }
-
- private:
-  static constexpr double kWait_s = 0.05;
-  std::ptrdiff_t hands() const { return static_cast<std::ptrdiff_t>(moment_.hands); }
-  double next_s() const { return span_.from_s + static_cast<double>(made_) / fps_; }
-  void add() {
-    const auto fps = static_cast<std::uint64_t>(fps_);
-    const std::uint64_t begin = made_ * kSoundHz / fps, end = (made_ + 1) * kSoundHz / fps;
-    std::vector<float> block(static_cast<std::size_t>(end - begin));
-    Result<void> done = sound_.render(block);
-    if (done) {
-      auto image = painter_.draw(moment_);
-      done =
-          image ? queue_->add(std::move(block), std::move(*image)) : tl::unexpected(image.error());
-    }
-    if (!done) failure_ = done.error();
-    ++made_;
-  }
-
-  FilmPainter painter_;
-  std::unique_ptr<FilmQueue> queue_;
-  RecordedSound sound_;
-  FilmSpan span_;
-  int fps_;
-  FilmMoment moment_;
-  std::uint64_t made_ = 0;
-  std::optional<Error> failure_;
-};
-
 /// Ends a replay whose film cannot go on.
 struct FilmStopped {};
 
@@ -157,26 +88,42 @@ std::optional<WaterSettings> other_pump(const FilmCommand& command) {
   return water;
 }
 
-Result<FilmMaker> film_maker(const FilmCommand& command, RecordingReader& recording,
-                             const SessionSettings& settings, const FilmSpan& span,
-                             std::shared_ptr<const Case> the_case, const ReplayOptions& how) {
+Result<FilmPainter> film_painter(const FilmCommand& command, const SessionSettings& settings,
+                                 std::shared_ptr<const Case> the_case, const ReplayOptions& how,
+                                 bool scope_is_held) {
   const auto size = parse_picture_size(command.size);
   const auto view = parse_film_view(command.view);
-  const auto scope = holds_a_scope(recording, settings);
-  if (!scope) return tl::unexpected(scope.error());
   auto painter = FilmPainter::create(
-      std::move(the_case), settings, how.tray, *scope,
+      std::move(the_case), settings, how.tray, scope_is_held,
       {*view, size->width, size->height, command.side, other_pump(command), command.heat});
-  if (!painter) return tl::unexpected(painter.error());
+  if (!painter) return painter;
   painter->set_carving(how.carving);
   painter->set_softs(how.softs);
+  return painter;
+}
+
+Result<std::unique_ptr<FilmMaker>> film_maker(const FilmCommand& command,
+                                              RecordingReader& recording,
+                                              const SessionSettings& settings, const FilmSpan& span,
+                                              const std::shared_ptr<const Case>& the_case,
+                                              const ReplayOptions& how) {
+  const auto scope = holds_a_scope(recording, settings);
+  if (!scope) return tl::unexpected(scope.error());
   auto sound = RecordedSound::create(recording, span.from_s);
   if (!sound) return tl::unexpected(sound.error());
+  const auto size = parse_picture_size(command.size);
   auto writer =
       FilmWriter::create(command.out, {size->width, size->height, command.fps, !command.mute});
   if (!writer) return tl::unexpected(writer.error());
-  return FilmMaker(std::move(*painter), std::move(*writer), std::move(*sound), span, command.fps,
-                   recording.header().hands);
+  const bool shows_softs = *parse_film_view(command.view) != FilmView::kFluoro;
+  return FilmMaker::create(
+      [&, held = *scope] { return film_painter(command, settings, the_case, how, held); },
+      std::move(*writer),
+      [heard = std::make_shared<RecordedSound>(std::move(*sound))](std::span<float> block) {
+        return heard->render(block);
+      },
+      FilmSofts(*the_case, shows_softs ? how.softs : nullptr),
+      {span.from_s, span.pictures(command.fps), command.fps, recording.header().hands});
 }
 
 Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
@@ -238,13 +185,13 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
     return tl::unexpected(ok.error());
   auto maker = film_maker(command, *recording, *settings, *span, *the_case, how);
   if (!maker) return tl::unexpected(maker.error());
-  if (auto ok = replay_into(*maker, *recording, *the_case, std::move(how), *span, command.heat);
+  if (auto ok = replay_into(**maker, *recording, *the_case, std::move(how), *span, command.heat);
       !ok)
     return tl::unexpected(ok.error());
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)
       return tl::unexpected(ok.error());
-  return FilmSpan{span->from_s, span->to_s, maker->obscured_s()};
+  return FilmSpan{span->from_s, span->to_s, (*maker)->obscured_s()};
 }
 
 int run_film(const FilmCommand& command) {

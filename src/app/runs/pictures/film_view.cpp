@@ -6,7 +6,6 @@
 
 #include "cases/scoped_case.h"
 #include "osteon/base/file.h"
-#include "osteon/physics/soft_shape.h"
 #include "osteon/render/joint_roof.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
@@ -14,7 +13,6 @@
 #include "runs/pictures/carved_picture.h"
 #include "runs/pictures/film_fluoro.h"
 #include "runs/pictures/heat_picture.h"
-#include "runs/pictures/loose_softs.h"
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
 #include "water/water_drift.h"
@@ -92,7 +90,6 @@ struct FilmPainter::Impl {
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
   void set_loose(const CarvedPicture::Piece& piece);
-  void show_softs(const SoftPushes& pushes);
   void flow(const FilmMoment& moment);
   void drift_on(const FilmMoment& moment, const Vec3& tip_W);
   CarvedPicture carved{nullptr};
@@ -100,8 +97,6 @@ struct FilmPainter::Impl {
   std::optional<OtherPump> other_pump;  ///< none: the recorded one
   double obscured_s = 0;
   std::optional<double> flowed_s;  ///< to this time
-  std::optional<SoftShapes> shapes;
-  LooseSofts loose_softs;
   struct Look {
     std::string side;
     double aspect = 0;
@@ -311,7 +306,7 @@ void FilmPainter::set_carving(std::shared_ptr<const CarvingSetup> setup) {
   impl_->carved = CarvedPicture(std::move(setup));
 }
 
-void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
+void FilmPainter::set_softs(const std::shared_ptr<const SoftSetup>& setup) {
   impl_->looked_outside.reset();
   impl_->looked_panorama.reset();
   impl_->felt_softs.clear();
@@ -321,7 +316,6 @@ void FilmPainter::set_softs(std::shared_ptr<const SoftSetup> setup) {
     for (const SoftSolid& solid : setup->solids) impl_->felt_softs.push_back(solid.soft);
     if (!setup->skins.empty()) impl_->felt_skin = setup->skins[0].soft;
   }
-  impl_->shapes.emplace(*impl_->the_case, std::move(setup));
 }
 
 void FilmPainter::take(const CutsPatch& cut) { impl_->carved.take(cut); }
@@ -343,19 +337,20 @@ void FilmPainter::Impl::show_carved() {
     renderer->set_heat(warmed.bone, heat_cells(warmed.volume));
 }
 
-void FilmPainter::Impl::show_softs(const SoftPushes& pushes) {
-  if (!shapes || !(renderer || scope)) return;
-  for (const SoftShapes::Changed& changed : shapes->changes(pushes)) {
-    if (renderer)
-      set_soft_surface(*renderer, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
-    if (scope) set_soft_surface(*scope, *the_case, changed.soft, changed.mesh_W, changed.depth_m);
+void FilmPainter::take(const SoftLooks& looks) {
+  const Case& the_case = *impl_->the_case;
+  for (const SoftShapes::Changed& changed : looks.surfaces) {
+    const auto show = [&](auto& painter) {
+      set_soft_surface(painter, the_case, changed.soft, changed.mesh_W, changed.depth_m);
+    };
+    if (impl_->renderer) show(*impl_->renderer);
+    if (impl_->scope) show(*impl_->scope);
   }
-  for (const CarvedPicture::Piece& piece : loose_softs.new_pieces(pushes)) set_loose(piece);
+  for (const CarvedPicture::Piece& piece : looks.pieces) impl_->set_loose(piece);
 }
 
 Result<Image> FilmPainter::draw(const FilmMoment& moment) {
   impl_->show_carved();
-  impl_->show_softs(moment.pushes);
   const int width = impl_->order.width, height = impl_->order.height;
   switch (impl_->order.view) {
     case FilmView::kScope:

@@ -13,6 +13,7 @@
 #include "osteon/scene/case.h"
 #include "osteon/scene/state.h"
 #include "osteon/session/session.h"
+#include "runs/pictures/film_softs.h"
 #include "water/scope_water.h"
 
 namespace osteon {
@@ -27,7 +28,6 @@ struct FilmMoment {
   BoneSnapshot bones;
   std::array<ToolState, kMaxHands> tools;
   std::size_t hands = 1;
-  SoftPushes pushes;  ///< on what is soft
 };
 
 /// Draws a recorded session's pictures without a window, in one of the views. One thread, where it
@@ -54,9 +54,11 @@ class FilmPainter {
   /// What the recorded session removed bone with; before the first cut. Null: nothing.
   void set_carving(std::shared_ptr<const CarvingSetup> setup);
   /// What of the recorded session is soft: drawn as it gives way. Null: nothing.
-  void set_softs(std::shared_ptr<const SoftSetup> setup);
+  void set_softs(const std::shared_ptr<const SoftSetup>& setup);
   /// Bone is gone from the next picture on.
   void take(const CutsPatch& cut);
+  /// What is soft looks so from the next picture on.
+  void take(const SoftLooks& looks);
   /// For so long of what was drawn through a scope the water let nothing be seen.
   double obscured_s() const;
   /// Fails where the graphics driver has no memory for it.
