@@ -253,6 +253,44 @@ TEST_F(DrawChanges, ASurfaceThatChangedOnceIsKept) {
   EXPECT_GT(count_different(changed, drawn(renderer, snapshot, view), 24), 20);
 }
 
+// Bone is taken away cube by cube: a smaller ball stands in those that were reached.
+TEST_F(DrawChanges, CubesThatAreCarvedAreDrawnOverWhatWasKept) {
+  const Case balls = two_balls();
+  const Tool probe = make_wrist_probe();
+  Renderer renderer = make_renderer(balls, probe), other = make_renderer(balls, probe);
+  if (!renderer.software_driver()) GTEST_SKIP() << "only where a processor draws";
+  const CubeGrid grid{Vec3::Constant(-0.021), 0.014, {3, 3, 3}, 0.0005};
+  const TriMesh smaller = sphere_mesh(0.017);
+  const auto carved = [&](std::uint32_t number) {
+    SurfaceCube cube;
+    cube.cube = number;
+    const Vec3 lo = grid.lo_B + grid.side_m * Vec3(number % 3, number / 3 % 3, number / 9);
+    cube.vertices = smaller.vertices;
+    for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
+    cube.depth_m.assign(cube.vertices.size(), 0.003f);
+    for (const Triangle& t : smaller.triangles) {
+      const Vec3 at =
+          (smaller.vertices[t[0]] + smaller.vertices[t[1]] + smaller.vertices[t[2]]) / 3;
+      const Vec3 u = (at - lo) / grid.side_m;
+      if ((u.array() >= 0.1).all() && (u.array() < 0.9).all()) cube.triangles.push_back(t);
+    }
+    return cube;
+  };
+  Random random(45);
+  const ViewState view = any_look(random);
+  RenderSnapshot snapshot = at_rest(balls);
+  int drawn_over = 0;
+  for (std::uint32_t number = 0; number < 27; number += 4) {
+    place_tool(random, snapshot);
+    const SurfaceCube cube = carved(number);
+    for (Renderer* each : {&renderer, &other}) each->set_cubes(BoneId{1}, grid, {&cube, 1});
+    const Image kept = drawn(renderer, snapshot, view);
+    drawn_over += !renderer.drew_all();
+    EXPECT_LE(count_different(kept, drawn_whole(other, snapshot, view), 24), 3) << number;
+  }
+  EXPECT_GE(drawn_over, 4);
+}
+
 // While all moves the picture is coarse: near the whole one, but not the same. At rest it gets
 // sharp and is then the same, pixel by pixel.
 TEST_F(DrawChanges, CoarseWhileAllMovesAndSharpAtRest) {

@@ -47,6 +47,12 @@ inline Bone make_bone(std::string name, TriMesh mesh, const Vec3& p_WB) {
   return bone;
 }
 
+inline Case one_ball(double radius_m, const Vec3& p_WB = Vec3::Zero()) {
+  Case one;
+  one.bones.push_back(make_bone("ball", sphere_mesh(radius_m), p_WB));
+  return one;
+}
+
 /// Every bone where the case has it; the tool far outside the picture, so that nothing but bones
 /// shows.
 inline RenderSnapshot at_rest(const Case& the_case) {
