@@ -192,6 +192,11 @@ void Renderer::set_marks(std::span<const SolidMark> marks) {
   impl_->kept.reset();
 }
 
+void Renderer::set_moving_marks(std::span<const SolidMark> marks) {
+  impl_->painter.set_moving_marks(marks);
+  impl_->composed.reset();
+}
+
 void Renderer::draw(const RenderSnapshot& snapshot, const ViewState& view,
                     const Viewport& viewport) {
   if (viewport.empty()) return;

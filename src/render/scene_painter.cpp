@@ -339,11 +339,15 @@ Aabb ScenePainter::content(const RenderSnapshot& snapshot, const ViewState& view
   }
   if (const auto arrow = force_arrow(snapshot.tool); arrow && view.show_force)
     include(arrow->from_W + arrow->dir_W * arrow->length_m, 0.01);
-  for (const Solid& solid : solids_) {
-    if (solid.box_W.empty()) continue;
-    box.include(solid.box_W.lo);
-    box.include(solid.box_W.hi);
-  }
+  const auto include_solids = [&](const std::vector<Solid>& solids) {
+    for (const Solid& solid : solids) {
+      if (solid.box_W.empty()) continue;
+      box.include(solid.box_W.lo);
+      box.include(solid.box_W.hi);
+    }
+  };
+  include_solids(solids_);
+  if (view.show_proxy) include_solids(moving_solids_);
   if (box.empty()) box.include(view.camera.target_W);
   return box;
 }
@@ -420,7 +424,8 @@ void ScenePainter::paint(const RenderSnapshot& snapshot, const ViewState& wanted
   // Now that their depth stands, only the line around them is left of what is pushed outwards.
   paint_outlines(snapshot, view, frame, true);
   if (view.show_hulls) paint_hulls(snapshot, view, frame);
-  if (!solids_.empty()) paint_solid_marks(frame);
+  paint_solid_marks(solids_, frame);
+  if (view.show_proxy) paint_solid_marks(moving_solids_, frame);
   paint_lines(snapshot, frame);
   if (shows_hand(snapshot, view))
     paint_tool(model_of(snapshot.tool), snapshot.tool.X_WD, with_alpha(kSteel, 0.30f), frame);

@@ -74,6 +74,7 @@ class ScenePainter {
   void set_ghosts(std::span<const GhostTool> ghosts);
   std::span<const GhostTool> ghosts() const { return ghosts_; }
   void set_marks(std::span<const SolidMark> marks);
+  void set_moving_marks(std::span<const SolidMark> marks);
   /// Box around everything that the snapshot shows.
   Aabb content(const RenderSnapshot& snapshot, const ViewState& view) const;
   /// Fills the bound framebuffer's current viewport with what is behind everything.
@@ -224,7 +225,6 @@ class ScenePainter {
   void paint_marks(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_from_model,
                   float behind = 0.22f) const;
-  void paint_solid_marks(const Frame& frame) const;
   void paint_rods(const RenderSnapshot& snapshot, const Frame& frame) const;
   void paint_lines(const RenderSnapshot& snapshot, const Frame& frame) const;
 
@@ -249,7 +249,9 @@ class ScenePainter {
     Eigen::Vector4f color;
     Aabb box_W;
   };
-  std::vector<Solid> solids_;
+  static std::vector<Solid> solids_of(std::span<const SolidMark> marks);
+  void paint_solid_marks(const std::vector<Solid>& solids, const Frame& frame) const;
+  std::vector<Solid> solids_, moving_solids_;
 };
 
 /// Where bone k is, if it is to be drawn at all.

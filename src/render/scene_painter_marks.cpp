@@ -33,13 +33,20 @@ Quat z_towards(const Vec3& n) { return turn_between(Vec3::UnitZ(), n); }
 
 }  // namespace
 
-void ScenePainter::set_marks(std::span<const SolidMark> marks) {
-  solids_.clear();
+std::vector<ScenePainter::Solid> ScenePainter::solids_of(std::span<const SolidMark> marks) {
+  std::vector<Solid> out;
   for (const SolidMark& mark : marks) {
     const auto& c = mark.color_srgba;
-    solids_.push_back({GpuMesh(plain_shaded(mark.mesh_W)), Color(c[0], c[1], c[2], c[3]),
-                       finite_bounds(mark.mesh_W)});
+    out.push_back({GpuMesh(plain_shaded(mark.mesh_W)), Color(c[0], c[1], c[2], c[3]),
+                   finite_bounds(mark.mesh_W)});
   }
+  return out;
+}
+
+void ScenePainter::set_marks(std::span<const SolidMark> marks) { solids_ = solids_of(marks); }
+
+void ScenePainter::set_moving_marks(std::span<const SolidMark> marks) {
+  moving_solids_ = solids_of(marks);
 }
 
 void ScenePainter::set_ghosts(std::span<const GhostTool> ghosts) {
@@ -87,14 +94,15 @@ void ScenePainter::paint_mark(const GpuMesh& mesh, const Eigen::Matrix4f& view_f
 }
 
 /// The far side first, so that the inside of a cone is seen through its near side.
-void ScenePainter::paint_solid_marks(const Frame& frame) const {
+void ScenePainter::paint_solid_marks(const std::vector<Solid>& solids, const Frame& frame) const {
+  if (solids.empty()) return;
   shared_->mark.use();
   shared_->mark.set("u_form", 0.5f);
   shared_->mark.set("u_edge", 0.25f);
   shared_->mark.set("u_view_from_model", to_matrix(frame.X_CW));
   glEnable(GL_CULL_FACE);
   glDepthMask(GL_FALSE);
-  for (const Solid& solid : solids_) {
+  for (const Solid& solid : solids) {
     shared_->mark.set("u_color", solid.color);
     for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
       glCullFace(hidden);

@@ -143,6 +143,12 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
   };
   if (view.show_proxy)
     for (const GhostTool& ghost : ghosts_) mark_model(model_at(ghost.instrument), ghost.X_WT);
+  if (view.show_proxy)
+    for (const Solid& solid : moving_solids_) {
+      if (solid.box_W.empty()) continue;
+      const Capsule c = capsule_around(solid.box_W);
+      marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
+    }
   if (view.show_proxy) mark_tool(snapshot.tool, snapshot.tool.X_WP);
   if (view.show_proxy)
     for (const ToolState& other : others_) mark_tool(other, other.X_WP);

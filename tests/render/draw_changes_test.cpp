@@ -107,6 +107,11 @@ TEST_F(DrawChanges, TheResultIsThatOfDrawingAll) {
       // From the second step on something is shown beside it, seen through, that moves as well.
       const GhostTool ghost{Pose{-snapshot.tool.X_WP.p, snapshot.tool.X_WP.q}, 0, 0.5f};
       for (Renderer* each : {&renderer, &other}) each->set_ghosts({&ghost, step > 0 ? 1u : 0u});
+      // And a mark that moves, in the last ones.
+      SolidMark mark{sphere_mesh(0.008), {1.0f, 0.85f, 0.2f, 0.3f}};
+      for (Vec3& p : mark.mesh_W.vertices) p += Vec3(0, 0.01 * step - 0.02, 0.02);
+      for (Renderer* each : {&renderer, &other})
+        each->set_moving_marks({&mark, step > 2 ? 1u : 0u});
       const Image kept = drawn(renderer, snapshot, view);
       const Image whole = drawn_whole(other, snapshot, view);
       EXPECT_LE(count_different(kept, whole, 24), 3) << "look " << look << ", step " << step;

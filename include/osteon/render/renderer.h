@@ -161,6 +161,9 @@ class Renderer {
   bool drew_all() const;
   /// Drawn from now on, after the bones; those given before are gone.
   void set_marks(std::span<const SolidMark> marks);
+  /// The same for marks that move with instruments, and are drawn where those are
+  /// (ViewState::show_proxy): other ones in each picture cost little.
+  void set_moving_marks(std::span<const SolidMark> marks);
 
   /// Draws into the viewport of the framebuffer that is bound; touches nothing outside it. Leaves
   /// that framebuffer bound, depth test, blending, culling and scissor off. Where a processor

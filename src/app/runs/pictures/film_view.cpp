@@ -206,7 +206,7 @@ Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, in
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
                                           int width, int height) {
   Renderer& by = beside ? *beside : *renderer;
-  by.set_marks(sight_marks(lenses, tools(moment)));
+  by.set_moving_marks(sight_marks(lenses, tools(moment)));
   return scene(by, moment, panorama_of(side, static_cast<double>(width) / height), width, height);
 }
 

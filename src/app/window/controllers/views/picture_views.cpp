@@ -217,7 +217,7 @@ void PictureViews::update_cones(Panorama& panorama) const {
     if (lens_of_tool(lenses_, tool)) now.push_back(tool.X_WP);
   if (std::equal(now.begin(), now.end(), panorama.cones.begin(), panorama.cones.end(), looks_alike))
     return;
-  panorama.renderer->set_marks(sight_marks(lenses_, tools_of(moment_)));
+  panorama.renderer->set_moving_marks(sight_marks(lenses_, tools_of(moment_)));
   panorama.cones = std::move(now);
 }
 
