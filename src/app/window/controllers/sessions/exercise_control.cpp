@@ -90,9 +90,8 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
     return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
   const auto expert = ghost_.beside_active_hand();
   if (!expert)
-    return host_.note(
-        ToastKind::kInfo,
-        "The expert who is shown does not hold this instrument, in this size, with this hand now.");
+    return host_.note(ToastKind::kInfo,
+                      "The expert who is shown does not hold this instrument with this hand now.");
   const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
   if (!comes_to_him) return run->bring({X_WD.p, expert->q});
   const double away_m = (expert->p - X_WD.p).norm();
@@ -270,6 +269,10 @@ void ExerciseControl::look_at_the_box(const std::vector<PlannedHand>& hands) {
   std::vector<Vec3> portals;
   for (const PlannedHand& hand : hands)
     if (hand.portal_W) portals.push_back(*hand.portal_W);
+  if (portals.empty()) {
+    host_.exercise_runs = true;  // its card is wider than the one beside which the case was opened
+    return sight_.look_at_all();
+  }
   std::vector<Vec3> places = exercise_.places_W();
   for (const Bone& bone : scene_.the_case->bones)
     if (bone.name != "floor") places.push_back(bone.X_WB.p);
