@@ -78,8 +78,8 @@ void SceneSight::recall() {
 }
 
 void SceneSight::look_at_all() {
-  view_.camera = preset_camera(ViewPreset::kDorsal, *scene_.the_case, viewport().aspect(),
-                               covered_edges());
+  view_.camera =
+      preset_camera(ViewPreset::kDorsal, *scene_.the_case, viewport().aspect(), covered_edges());
 }
 
 void SceneSight::fly_close_up(BoneId bone) {
