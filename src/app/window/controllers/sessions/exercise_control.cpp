@@ -89,6 +89,8 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
   if (sight_.shown().tool.portal < scene_.portals.size())
     return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
   const auto expert = ghost_.beside_active_hand();
+  if (!expert && ghost_.model().preparing)
+    return host_.note(ToastKind::kInfo, "The expert's way is not known yet: he is still playing.");
   if (!expert)
     return host_.note(ToastKind::kInfo,
                       "The expert who is shown does not hold this instrument with this hand now.");
