@@ -61,7 +61,10 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (LiveRun* const run = live_.run()) {
       const auto mark =
           requests.return_to ? exercise_.mark_of_stage(*requests.return_to) : std::nullopt;
-      if (mark && run->go_back(*mark)) count_undo();
+      if (mark && run->go_back(*mark)) {
+        count_undo();
+        tell_what_is_undone(*requests.return_to);
+      }
       if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
       if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
       if (requests.pull_n) run->say({CommandKind::kLachman, *requests.pull_n});
@@ -107,6 +110,16 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {
   if (!running() || !live_.run()) return {};
   return exercise_.used_by(live_.run()->active());
+}
+
+// Stages that were done stay done for the judge, while what was made in them is gone.
+void ExerciseControl::tell_what_is_undone(std::size_t stage) {
+  const auto& stages = exercise_.scenario().stages;
+  const ScenarioState* const state = exercise_.state();
+  if (!state || stage >= std::min<std::size_t>(state->stage, stages.size())) return;
+  host_.note(ToastKind::kInfo, "As at the start of \"" + stages[stage].title +
+                                   "\": make again what was made since. Its stages still count "
+                                   "as done.");
 }
 
 void ExerciseControl::count_undo() {
