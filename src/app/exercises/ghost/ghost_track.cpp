@@ -112,6 +112,19 @@ std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, s
   return found;
 }
 
+std::optional<Pose> ghost_beside_in_any_size(const GhostTrack& track, std::size_t stretch,
+                                             std::size_t hand, std::string_view name,
+                                             const Vec3& tip_W) {
+  const auto plain = [](std::string_view of) { return of.substr(0, of.find(':')); };
+  std::optional<Pose> found;
+  for (std::uint32_t i = 0; i < track.tray.size(); ++i) {
+    if (plain(track.tray[i]) != plain(name)) continue;
+    const auto one = ghost_beside(track, stretch, hand, i, tip_W);
+    if (one && (!found || (one->p - tip_W).norm() < (found->p - tip_W).norm())) found = one;
+  }
+  return found;
+}
+
 namespace {
 
 using Samples = std::vector<GhostTrack::Sample>;

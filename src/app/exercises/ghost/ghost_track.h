@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "loops/hand_guide.h"
@@ -80,6 +81,10 @@ std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t 
 /// that is nearest to a tip. None: it does not hold it there.
 std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, std::size_t hand,
                                  std::uint32_t instrument, const Vec3& tip_W);
+/// The same of an instrument in whatever size he holds it: "graft_sizer:8.5" as "graft_sizer".
+std::optional<Pose> ghost_beside_in_any_size(const GhostTrack& track, std::size_t stretch,
+                                             std::size_t hand, std::string_view name,
+                                             const Vec3& tip_W);
 
 /// The piece of that hand's way in a stretch along which a tip at `tip_W` shall be led, with full
 /// strength. `at`: the sample at which it was led before, which moves on: to the place nearest to

@@ -40,7 +40,8 @@ Result<SessionSettings> settings_for_begin(const BegunOrder& order, const Record
   auto settings = parse_settings(header.settings_json);
   if (!settings) return settings;
   const bool carves = order.tray.carving != nullptr;
-  if (settings->carve.on != carves || settings->soft != order.tray.softs.names)
+  // Where nothing that the recording holds removes bone, a run that could repeats it all the same.
+  if ((settings->carve.on && !carves) || settings->soft != order.tray.softs.names)
     return fail("bones or soft parts of the recording were felt otherwise", order.begin.string(),
                 kRecordAgain);
   settings->tray = order.tray.names;

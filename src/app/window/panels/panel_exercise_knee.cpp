@@ -16,16 +16,17 @@ void draw_loads(const PanelContext& c, const ExaminedKneeModel& exam) {
       "Of " + ui::number(exam.full_valgus_nm, 0) + " Nm valgus and " +
       ui::number(exam.full_internal_nm, 0) +
       " Nm inwards. Load it below 15 degrees, then bend it to 30 or more";
-  ImGui::BeginDisabled(!exam.may);
   if (ui::slider("Lachman", &pull_n, 0, exam.full_n, "%.0f N",
                  "Your pull on the tibia to the front. Pull with all of it at 20 to 40 degrees"))
     c.requests.exercise.pull_n = pull_n;
   if (ui::slider("Pivot shift", &pivot, 0, 100, "%.0f %%", pivot_help.c_str()))
     c.requests.exercise.pivot_share = pivot / 100;
-  ImGui::EndDisabled();
-  if (!exam.may)
-    ui::wrapped_text(color::kTextQuiet,
-                     "Bend it to " + ui::number(exam.most_deg, 0) + " degrees or less to test it.");
+  const std::string load = exam.now_share > 0 ? ui::number(100 * exam.now_share, 0) + " %"
+                                              : ui::number(exam.now_n, 0) + " N";
+  ui::stat("Tibia forward", ui::number(exam.front_mm, 1) + " mm at " + load,
+           exam.grafted ? "From where it rests, held by the graft as it was fixed"
+                        : "From where it rests; no ligament or graft holds it");
+  ui::stat("Intact knee", ui::number(exam.other_mm, 1) + " mm", "The same load on the other side");
 }
 
 // What the hands do to the tibia, and how far it goes.
@@ -35,13 +36,12 @@ void draw_exam(const PanelContext& c) {
   if (!exam.problem.empty()) return ui::wrapped_text(color::kAmber, exam.problem);
   if (exam.computing)
     return ui::text(color::kTextQuiet, "How the knee gives is being computed ...");
-  draw_loads(c, exam);
-  const std::string load = exam.now_share > 0 ? ui::number(100 * exam.now_share, 0) + " %"
-                                              : ui::number(exam.now_n, 0) + " N";
-  ui::stat("Tibia forward", ui::number(exam.front_mm, 1) + " mm at " + load,
-           exam.grafted ? "From where it rests, held by the graft as it was fixed"
-                        : "From where it rests; no ligament or graft holds it");
-  ui::stat("Intact knee", ui::number(exam.other_mm, 1) + " mm", "The same load on the other side");
+  // Where the knee is not tested the place is left to what is.
+  if (exam.may)
+    draw_loads(c, exam);
+  else
+    ui::wrapped_text(color::kTextQuiet, "Bend it to " + ui::number(exam.most_deg, 0) +
+                                            " degrees or less to test Lachman and pivot shift.");
   const auto found = [](const char* name, const std::optional<double>& mm) {
     ui::stat(name, mm ? ui::number(*mm, 1) + " mm more" : "not done",
              "Side difference where the tibia went farthest; 3 mm or less is a good graft");

@@ -148,6 +148,18 @@ TEST(GhostTrack, TellsHowAnInstrumentIsHeldNearATip) {
   EXPECT_FALSE(ghost_beside(track, 9, 0, 1, Vec3::Zero()));
 }
 
+TEST(GhostTrack, TellsHowAnInstrumentIsHeldInAnotherSize) {
+  GhostTrack track = sample_track();
+  track.tray = {"graft_sizer:9", "graft_sizer:8.5", "graft_sizer_stand"};
+  const auto held = ghost_beside_in_any_size(track, 1, 0, "graft_sizer:8", Vec3(0.2, 0.05, 0));
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->p.x(), 0.2, 1e-9);
+  EXPECT_TRUE(ghost_beside_in_any_size(track, 1, 0, "graft_sizer", Vec3::Zero()))
+      << "a usual size may have no number";
+  EXPECT_FALSE(ghost_beside_in_any_size(track, 1, 0, "graft_sizer_stand", Vec3::Zero()));
+  EXPECT_FALSE(ghost_beside_in_any_size(track, 1, 0, "endobutton:8.5", Vec3::Zero()));
+}
+
 TEST(GhostTrack, TurnsBetweenSamplesByTheShorterWay) {
   GhostTrack track;
   track.hands = {{{}, {}}};

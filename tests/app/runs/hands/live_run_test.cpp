@@ -449,5 +449,46 @@ TEST(LiveRunCarves, ItGoesOnWithARunThatWasBegun) {
   std::filesystem::remove(second);
 }
 
+// An expert who holds nothing that removes bone recorded no carving; whoever goes on has tools that
+// could.
+TEST(LiveRunCarves, ItGoesOnWithARunThatRemovedNothing) {
+  const testing::Drilling with("drill:3.2");
+  ProbePath path = drilling_path();
+  for (PathSample& sample : path.samples) sample.power = 0;
+  const RunTray plain{{"drill:3.2"}, with.tray, {{true, false}}};
+  RunTray carving = plain;
+  carving.carving = with.setup;
+  const auto named = [](const char* name) {
+    return std::filesystem::path(::testing::TempDir()) /
+           (name + std::to_string(::getpid()) + ".osr");
+  };
+  const auto first = named("plain_"), second = named("after_plain_"), third = named("after_that_");
+  {
+    LiveRun live(with.the_case, "block", path, {}, plain);
+    ASSERT_TRUE(live.start(virtual_hand(), Pose{}));
+    ASSERT_TRUE(live.start_recording(first));
+    run_until(live, [&] { return live.snapshot().tool.tick > 900; });
+    ASSERT_TRUE(live.end());
+  }
+  BegunOrder order{first, second, with.the_case, "block", carving, {}, {}, {}};
+  order.place = [](const std::string&) { return 0u; };
+  order.on_tick = [](std::span<const ToolState* const> tools, const BoneSnapshot&) {
+    return tools[0]->tick < 800;
+  };
+  {
+    const auto begun = begin_run(order);
+    ASSERT_TRUE(begun) << begun.error().message();
+    EXPECT_TRUE(begun->settings.carve.on);
+    EXPECT_EQ(begun->tools[0].tick, 800u);
+    EXPECT_TRUE(begun->carved->cut_bones().empty());
+  }
+  // Bone that was removed would be whole again.
+  const BegunOrder back{second,      third, with.the_case, "block", plain,
+                        order.place, {},    order.on_tick};
+  EXPECT_FALSE(begin_run(back));
+  std::filesystem::remove(first);
+  std::filesystem::remove(second);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -299,9 +299,11 @@ TEST_F(ExercisePanel, AKneeIsExaminedBySliders) {
   EXPECT_LE(*pull, 134);
   EXPECT_GT(*load, 0.01);
   EXPECT_LE(*load, 1);
+  // Where the knee is not tested, what a stage asks to be seen has their place.
   knee.exam.may = false;
   EXPECT_FALSE(pressed("##Lachman").pull_n);
   EXPECT_FALSE(pressed("##Pivot shift").pivot_share);
+  EXPECT_LT(ui.find(scrolled().c_str(), {"##Lachman"}).x, 0);
 }
 
 // As wide as the card: a plot of no width shows nothing.

@@ -61,7 +61,10 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (LiveRun* const run = live_.run()) {
       const auto mark =
           requests.return_to ? exercise_.mark_of_stage(*requests.return_to) : std::nullopt;
-      if (mark && run->go_back(*mark)) count_undo();
+      if (mark && run->go_back(*mark)) {
+        count_undo();
+        tell_what_is_undone(*requests.return_to);
+      }
       if (requests.bend_deg) run->say({CommandKind::kBend, *requests.bend_deg});
       if (requests.tension_n) run->say({CommandKind::kTension, *requests.tension_n});
       if (requests.pull_n) run->say({CommandKind::kLachman, *requests.pull_n});
@@ -89,10 +92,11 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
   if (sight_.shown().tool.portal < scene_.portals.size())
     return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
   const auto expert = ghost_.beside_active_hand();
+  if (!expert && ghost_.model().preparing)
+    return host_.note(ToastKind::kInfo, "The expert's way is not known yet: he is still playing.");
   if (!expert)
-    return host_.note(
-        ToastKind::kInfo,
-        "The expert who is shown does not hold this instrument, in this size, with this hand now.");
+    return host_.note(ToastKind::kInfo,
+                      "The expert who is shown does not hold this instrument with this hand now.");
   const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
   if (!comes_to_him) return run->bring({X_WD.p, expert->q});
   const double away_m = (expert->p - X_WD.p).norm();
@@ -106,6 +110,16 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {
   if (!running() || !live_.run()) return {};
   return exercise_.used_by(live_.run()->active());
+}
+
+// Stages that were done stay done for the judge, while what was made in them is gone.
+void ExerciseControl::tell_what_is_undone(std::size_t stage) {
+  const auto& stages = exercise_.scenario().stages;
+  const ScenarioState* const state = exercise_.state();
+  if (!state || stage >= std::min<std::size_t>(state->stage, stages.size())) return;
+  host_.note(ToastKind::kInfo, "As at the start of \"" + stages[stage].title +
+                                   "\": make again what was made since. Its stages still count "
+                                   "as done.");
 }
 
 void ExerciseControl::count_undo() {
@@ -270,6 +284,10 @@ void ExerciseControl::look_at_the_box(const std::vector<PlannedHand>& hands) {
   std::vector<Vec3> portals;
   for (const PlannedHand& hand : hands)
     if (hand.portal_W) portals.push_back(*hand.portal_W);
+  if (portals.empty()) {
+    host_.exercise_runs = true;  // its card is wider than the one beside which the case was opened
+    return sight_.look_at_all();
+  }
   std::vector<Vec3> places = exercise_.places_W();
   for (const Bone& bone : scene_.the_case->bones)
     if (bone.name != "floor") places.push_back(bone.X_WB.p);

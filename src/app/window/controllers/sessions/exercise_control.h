@@ -42,6 +42,7 @@ class ExerciseControl {
   bool paused() const { return exercise_.paused(); }
   /// What the exercise has the active hand use; empty: none runs.
   std::vector<std::string> used_by_active_hand() const;
+  void tell_what_is_undone(std::size_t stage);
   void count_undo();
   /// Once a picture.
   void poll();

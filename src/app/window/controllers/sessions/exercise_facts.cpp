@@ -32,18 +32,25 @@ std::string so_far(double m, double of_m) {
   return std::to_string(std::lround(1e3 * m)) + " of " + whole_mm(of_m);
 }
 
+std::string counted(std::uint32_t count, const char* one, const char* more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
 void add_tendon(const std::string& title, const TendonOnBench& tendon, Facts& facts) {
   if (tendon.amputated)
     facts.push_back({title, "cut off", "At a band that the stripper was pushed through"});
   else if (tendon.front_m > 0 && !tendon.stripped)
     facts.push_back({title, whole_mm(tendon.front_m) + " stripped",
                      "How far the stripper has come from the insertion"});
+  else if (tendon.stripped && tendon.folds == 0)
+    facts.push_back({title, "out, " + whole_mm(tendon.front_m),
+                     "Its length; it lies on the table, its free end over its knob"});
   if (tendon.scraped_m > 0)
     facts.push_back({title + ", muscle",
                      std::to_string(std::lround(100 * tendon.muscle_left())) + " % left",
                      "10 % or less is right"});
   if (tendon.stitches != 0)
-    facts.push_back({title + ", thread", std::to_string(tendon.passes()) + " passes",
+    facts.push_back({title + ", thread", counted(tendon.passes(), "pass", "passes"),
                      "Each holds 25 N of the board's pull"});
   if (tendon.folds > 0)
     facts.push_back({title, std::to_string(tendon.folds) + " strands", "At its post"});

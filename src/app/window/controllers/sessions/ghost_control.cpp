@@ -125,10 +125,15 @@ std::optional<Pose> GhostControl::beside_active_hand() const {
   const auto stretch = follower_.stretch();
   if (!run || !track_ || !allowed_ || !on_ || !stretch) return std::nullopt;
   const ToolState& tool = run->hand(run->active()).snapshot.tool;
-  for (std::uint32_t i = 0; i < std::max<std::size_t>(track_->tray.size(), 1); ++i)
+  std::optional<Pose> held;
+  for (std::uint32_t i = 0; !held && i < std::max<std::size_t>(track_->tray.size(), 1); ++i)
     if (in_tray(i) == tool.instrument)
-      return ghost_beside(*track_, *stretch, run->active(), i, tool.X_WP.p);
-  return std::nullopt;
+      held = ghost_beside(*track_, *stretch, run->active(), i, tool.X_WP.p);
+  // Which size is right is what a learner finds out; all of them are held alike.
+  return held ? held
+              : ghost_beside_in_any_size(*track_, *stretch, run->active(),
+                                         name_in(live_.tray().run().names, tool.instrument),
+                                         tool.X_WP.p);
 }
 
 void GhostControl::poll(const ExerciseRun& exercise) {

@@ -25,6 +25,7 @@ class HandsControl {
   /// Something else is on show, of the same case perhaps.
   void begin_run() { aimed_.reset(); }
   void close_tray() { tray_open_ = false; }
+  bool tray_open() const { return tray_open_; }
 
   /// `free`: hands may take and move things. True: the user went back to a mark.
   bool apply(const HandsRequests& requests, bool free);

@@ -12,8 +12,9 @@ void ScenePointer::hold_probe() {
   const bool by_mouse = live_.run() && live_.run()->by_mouse();
   const bool space = glfwGetKey(host_.window->handle(), GLFW_KEY_SPACE) == GLFW_PRESS;
   if (!by_mouse) live_.let_probe_go();
-  const bool held =
-      by_mouse && (live_.probe_toggled() || (space && !io.WantTextInput && !io.NavVisible));
+  // While the tray is open the pointer is the tray's, and what is held waits where it is.
+  const bool held = by_mouse && !hands_.tray_open() &&
+                    (live_.probe_toggled() || (space && !io.WantTextInput && !io.NavVisible));
   if (held != live_.probe_held()) poll_.jump();
   // A card that keeps the keyboard would take End and the arrows, and V would run no motor.
   if (held && !live_.probe_held()) ImGui::SetWindowFocus(nullptr);

@@ -77,6 +77,11 @@ void SceneSight::recall() {
   hovered_ = picked_ = hovered_row_ = {};
 }
 
+void SceneSight::look_at_all() {
+  view_.camera =
+      preset_camera(ViewPreset::kDorsal, *scene_.the_case, viewport().aspect(), covered_edges());
+}
+
 void SceneSight::fly_close_up(BoneId bone) {
   fly_to(
       close_up_camera(view_.camera, *scene_.the_case, bone, viewport().aspect(), covered_edges()));

@@ -43,6 +43,8 @@ class SceneSight {
   void keep_outside(bool on) { outside_only_ = on; }
   PictureLayout layout() const { return outside_only_ ? PictureLayout::kOutside : layout_; }
   void fly_to(const Camera& camera) { control_.fly_to(view_.camera, camera); }
+  /// As a case is looked at when it is opened: all of it, between the cards.
+  void look_at_all();
   /// Close up on a bone; on none: on the joint.
   void fly_close_up(BoneId bone);
 

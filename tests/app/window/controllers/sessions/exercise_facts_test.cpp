@@ -50,8 +50,11 @@ TEST(ExerciseFacts, ABenchTellsHowFarEachTendonHasCome) {
   bench.tendons[0].front_m = 0.1204;
   EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "120 mm stripped");
   EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Gracilis"), "");
+  bench.tendons[0].front_m = 0.302;
   bench.tendons[0].stripped = true;
-  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "");
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus"), "out, 302 mm");
+  bench.tendons[0].stitches = 0b1;
+  EXPECT_EQ(value_of(facts_seen(**bench_case, bench), "Semitendinosus, thread"), "1 pass");
   bench.tendons[0].stitches = 0b1011;
   bench.tendons[0].folds = 3;
   bench.tendons[1].amputated = true;
