@@ -42,13 +42,13 @@ class ExerciseControl {
   bool paused() const { return exercise_.paused(); }
   /// What the exercise has the active hand use; empty: none runs.
   std::vector<std::string> used_by_active_hand() const;
-  void tell_what_is_undone(std::size_t stage);
   void count_undo();
   /// Once a picture.
   void poll();
   ExerciseModel model() const;
 
  private:
+  void tell_what_is_undone(std::size_t stage);
   void open_patient();
   void hold_as_expert(bool comes_to_him);
   void take_made_before();
