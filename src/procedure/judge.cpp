@@ -154,6 +154,13 @@ void judge(const ScenarioPlan& plan, const Event& event, double tick_s, Scenario
   enter_stage(plan, state);
 }
 
+void go_back_to(const ScenarioState& kept, ScenarioState& state) {
+  if (state.over) return;
+  state.stage = kept.stage;
+  state.goals = kept.goals;
+  state.completed_s = kept.completed_s;
+}
+
 void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state,
                      const std::vector<GradedFinding>& graded) {
   state.over = true;

@@ -158,6 +158,24 @@ TEST(Judge, InOrderMeansInOrder) {
   EXPECT_DOUBLE_EQ(state.completed_s[1], 5);
 }
 
+// What was done since a restore point is to be done again; an error stays.
+TEST(Judge, GoesBackToWhatWasDoneAtARestorePoint) {
+  const ScenarioState kept = judged({touch_end(1, 0)});
+  ScenarioState state = judged({touch_end(1, 0), touch_end(2, 1)});
+  state.errors.push_back({0, 1.5, 0, kNoSubject});
+  ASSERT_EQ(state.stage, 1u);
+  go_back_to(kept, state);
+  EXPECT_EQ(state.stage, 0u);
+  EXPECT_EQ(state.goals, kept.goals);
+  EXPECT_EQ(state.completed_s, (std::vector<double>{-1, -1}));
+  EXPECT_EQ(state.errors.size(), 1u);
+  // What was over stays over.
+  ScenarioState over = judged({touch_end(1, 0), touch_end(2, 1)});
+  over.over = true;
+  go_back_to(kept, over);
+  EXPECT_EQ(over.stage, 1u);
+}
+
 TEST(Judge, ErrorsKeepTheirTimeAndGoOn) {
   const ScenarioState state = judged({at(1, EventKind::kForceUnder, 0, {5, 4, 0.25}),
                                       at(2, EventKind::kForceUnder, 0, {5, 4, 0.05}),

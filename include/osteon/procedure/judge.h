@@ -73,6 +73,9 @@ struct ScenarioState {
 ScenarioState begin_scenario(const ScenarioPlan& plan);
 /// Takes one event into account. Events come in the order of their ticks.
 void judge(const ScenarioPlan& plan, const Event& event, double tick_s, ScenarioState& state);
+/// The session went back to a restore point at which the attempt was `kept`: what was done since is
+/// to be done again. Errors stay made, and so does what an error's rule waits for.
+void go_back_to(const ScenarioState& kept, ScenarioState& state);
 /// Ends the attempt at a time: what was left out becomes an error, and so does what was stated
 /// wrongly of the patient.
 void finish_scenario(const ScenarioPlan& plan, double at_s, ScenarioState& state,

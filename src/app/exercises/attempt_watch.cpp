@@ -207,6 +207,12 @@ void AttemptWatch::set_part(const AttemptPart& part, PartStages stages) {
   part_ = Part{stages, part.from_tick, static_cast<double>(part.from_tick) * tick_s_};
 }
 
+void AttemptWatch::go_back(std::uint32_t mark) {
+  const auto kept = marks_.find(mark);
+  if (kept == marks_.end() || (part_ && kept->second.stage < part_->stages.first)) return;
+  go_back_to(kept->second, state_);
+}
+
 double AttemptWatch::now_s() const { return std::max(0.0, now_s_ - part_from_s()); }
 
 std::optional<KneeExam> AttemptWatch::exam() const {

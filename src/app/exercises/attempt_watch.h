@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -49,6 +50,10 @@ class AttemptWatch {
   AttemptWatch(const ScenarioPlan& plan, const Case& the_case, std::span<const PlannedHand> hands,
                double tick_s);
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones);
+  /// A restore point was set, or the session went back to one: before the tick that comes next.
+  /// What was done since is to be done again; of a part not what was done before it.
+  void keep(std::uint32_t mark) { marks_[mark] = state_; }
+  void go_back(std::uint32_t mark);
   bool over() const { return state_.over; }
   const ScenarioState& state() const { return state_; }
   /// `stated`: what the learner says is wrong with the patient.
@@ -111,6 +116,7 @@ class AttemptWatch {
   std::optional<WaterWatch> water_;
   AttemptMeter meter_;  // of the first hand
   ScenarioState state_;
+  std::map<std::uint32_t, ScenarioState> marks_;  ///< by number
   bool tells_tips_ = false;
   std::vector<HandCut> cuts_;
   RingWatch rings_;

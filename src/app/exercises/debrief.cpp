@@ -144,8 +144,13 @@ struct JudgedAgain {
     tools.resize(hands.size());
     return {};
   }
-  void add(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
+  void add(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
+           std::span<const Event> events) {
     if (!watch || hand >= tools.size()) return;
+    for (const Event& event : events) {
+      if (event.kind == EventKind::kMark) watch->keep(event.subject);
+      if (event.kind == EventKind::kRestored) watch->go_back(event.subject);
+    }
     tools[hand] = tool;
     if (hand + 1 < tools.size()) return;
     std::vector<const ToolState*> all;
@@ -213,7 +218,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
   how.at_begin = [&](const Session& begun) { session = &begun; };
   const std::uint64_t ticks = std::max<std::uint64_t>(100, recording->ticks(0));
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
-                    std::span<const Event>) {
+                    std::span<const Event> events) {
     if (order.on_share && hand == 0 && tool.tick % (ticks / 100) == 0)
       order.on_share(static_cast<double>(tool.tick) / static_cast<double>(ticks));
     if (tool.tick > from_tick) {
@@ -221,7 +226,7 @@ Result<Debrief> make_debrief(const DebriefOrder& order) {
       damage.touch(hand, tool, bones);
     }
     heat.see(*session);
-    again.add(hand, tool, bones);
+    again.add(hand, tool, bones, events);
   };
   const auto replayed = replay(*recording, *the_case, how);
   if (!replayed) return tl::unexpected(replayed.error());

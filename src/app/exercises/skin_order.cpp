@@ -34,7 +34,8 @@ void leave_out_puncture_stages(Scenario& scenario) {
   std::erase_if(scenario.soft, [](const std::string& name) { return name.starts_with("skin"); });
 }
 
-void SkinOrder::see(const ScenarioPlan& plan, const ScenarioState& state) {
+void SkinOrder::see(const ScenarioPlan& plan, const ScenarioState& state, std::uint32_t epoch) {
+  if (std::exchange(epoch_, epoch) != epoch) told_ = false;
   if (told_) return;
   const auto from = stage_bent_after_portals(plan);
   told_ = waiting_ = from && state.stage >= *from;

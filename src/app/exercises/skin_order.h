@@ -21,13 +21,14 @@ void leave_out_puncture_stages(Scenario& scenario);
 /// bend alone.
 class SkinOrder {
  public:
-  /// Before it was told once.
-  void see(const ScenarioPlan& plan, const ScenarioState& state);
+  /// `epoch`: of the bones. After a restore point it is told again: skin may be felt again.
+  void see(const ScenarioPlan& plan, const ScenarioState& state, std::uint32_t epoch);
   /// The next command for the physics; none: there is nothing to say.
   std::optional<Command> take();
 
  private:
   bool told_ = false, waiting_ = false;
+  std::uint32_t epoch_ = 0;
 };
 
 }  // namespace osteon

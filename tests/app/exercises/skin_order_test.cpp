@@ -23,7 +23,7 @@ TEST(SkinOrder, SaysNothingWhereTheKneeIsNotBentAfterPortals) {
     SkinOrder order;
     ScenarioState state;
     state.stage = 9;
-    order.see(plan, state);
+    order.see(plan, state, 0);
     EXPECT_FALSE(order.take());
   }
 }
@@ -34,14 +34,32 @@ TEST(SkinOrder, SaysItOnceWhenThatStageBegins) {
   SkinOrder order;
   ScenarioState state;
   for (state.stage = 0; state.stage < 3; ++state.stage) {
-    order.see(plan, state);
+    order.see(plan, state, 0);
     EXPECT_FALSE(order.take());
   }
-  order.see(plan, state);
+  order.see(plan, state, 0);
   const auto said = order.take();
   ASSERT_TRUE(said);
   EXPECT_EQ(said->kind, CommandKind::kBareSkin);
-  order.see(plan, state);
+  order.see(plan, state, 0);
+  EXPECT_FALSE(order.take());
+}
+
+// Back where skin was still felt it is told once more, at the same stage as before.
+TEST(SkinOrder, SaysItAgainAfterARestorePoint) {
+  const ScenarioPlan plan = plan_of({"portal_made", "knee_bent"});
+  SkinOrder order;
+  ScenarioState state;
+  state.stage = 1;
+  order.see(plan, state, 4);
+  ASSERT_TRUE(order.take());
+  state.stage = 0;
+  order.see(plan, state, 5);
+  EXPECT_FALSE(order.take());
+  state.stage = 1;
+  order.see(plan, state, 5);
+  EXPECT_TRUE(order.take());
+  order.see(plan, state, 5);
   EXPECT_FALSE(order.take());
 }
 

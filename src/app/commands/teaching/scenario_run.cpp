@@ -294,7 +294,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   SkinOrder skin;
   if (watch.tunnels() && (asks_for_graft(*plan) || exam))
     headless.beside = [&]() -> std::optional<Command> {
-      skin.see(*plan, watch.state());
+      skin.see(*plan, watch.state(), sight.bones()->epoch);
       if (const auto said = skin.take()) return said;
       if (asks_for_graft(*plan)) order.see(watch.tunnels()->placing(), *sight.bones());
       if (const auto said = order.take()) return said;

@@ -117,12 +117,16 @@ std::uint32_t LiveRun::mark() {
   runtime_->send({CommandKind::kMark, static_cast<double>(number)});
   std::erase(marks_, number);
   marks_.push_back(number);
+  mark_news_.push_back({number, false});
   return number;
 }
 
 bool LiveRun::go_back(std::uint32_t number) {
   const bool kept = std::find(marks_.begin(), marks_.end(), number) != marks_.end();
-  return runtime_ && kept && runtime_->send({CommandKind::kRestore, static_cast<double>(number)});
+  if (!runtime_ || !kept) return false;
+  const bool sent = runtime_->send({CommandKind::kRestore, static_cast<double>(number)});
+  if (sent) mark_news_.push_back({number, true});
+  return sent;
 }
 
 bool LiveRun::undo() {
@@ -130,7 +134,7 @@ bool LiveRun::undo() {
   const double time_s = now().snapshot.tool.time_s;
   if (time_s - undone_at_s_ < kTwice_s && marks_.size() > 1) marks_.pop_back();
   undone_at_s_ = time_s;
-  return runtime_->send({CommandKind::kRestore, static_cast<double>(marks_.back())});
+  return go_back(marks_.back());
 }
 
 std::vector<ToolState> LiveRun::others() const {

@@ -163,6 +163,7 @@ Result<void> LiveRun::start_run(const std::vector<Pose>& X_WD_start,
   events_.clear();
   pushes_ = {};
   marks_.clear();
+  mark_news_.clear();
   next_mark_ = 0;
   undone_at_s_ = -10;
   if (std::exchange(judged_next_, false)) runtime_->judge_ticks();

@@ -139,6 +139,13 @@ class LiveRun {
   /// Back to the newest restore point; twice within two seconds of the run, to the one before it.
   /// False when there is none.
   bool undo();
+  /// A restore point that was set, or that the run goes back to.
+  struct MarkNews {
+    std::uint32_t number = 0;
+    bool goes_back = false;
+  };
+  /// Since it was last asked, in order.
+  std::vector<MarkNews> take_mark_news() { return std::exchange(mark_news_, {}); }
 
   /// Ends the run and hands its device out for a check-up, open and at zero force; null where none
   /// is held. The run stands still until `take_back`. Not while recording.
@@ -249,6 +256,7 @@ class LiveRun {
   SoftPushes pushes_;
   RunEvents events_;
   std::vector<std::uint32_t> marks_;  ///< numbers of the restore points, oldest first
+  std::vector<MarkNews> mark_news_;
   std::uint32_t next_mark_ = 0;
   double undone_at_s_ = -10;
 };

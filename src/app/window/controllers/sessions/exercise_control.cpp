@@ -112,14 +112,12 @@ std::vector<std::string> ExerciseControl::used_by_active_hand() const {
   return exercise_.used_by(live_.run()->active());
 }
 
-// Stages that were done stay done for the judge, while what was made in them is gone.
 void ExerciseControl::tell_what_is_undone(std::size_t stage) {
   const auto& stages = exercise_.scenario().stages;
   const ScenarioState* const state = exercise_.state();
   if (!state || stage >= std::min<std::size_t>(state->stage, stages.size())) return;
   host_.note(ToastKind::kInfo, "As at the start of \"" + stages[stage].title +
-                                   "\": make again what was made since. Its stages still count "
-                                   "as done.");
+                                   "\": what was done since is to be done again.");
 }
 
 void ExerciseControl::count_undo() {
@@ -442,6 +440,15 @@ void ExerciseControl::bring_to_bench(bool at_bench) {
   run.bring(high);
 }
 
+// Set by this control, or by a hand's mark.
+void ExerciseControl::follow_marks(LiveRun& run) {
+  for (const LiveRun::MarkNews& news : run.take_mark_news())
+    if (news.goes_back)
+      exercise_.go_back(news.number);
+    else
+      exercise_.see_mark(news.number);
+}
+
 void ExerciseControl::poll() {
   if (!cases_.ready() && exercise_.page() != ExercisePage::kJudging) return;
   const bool judging = exercise_.page() == ExercisePage::kJudging;
@@ -456,6 +463,7 @@ void ExerciseControl::poll() {
   ToolState tool;
   for (std::size_t h = 0; h < std::min(exercise_.hands(), run->hands()); ++h)
     while (run->pop_judged(tool, h)) exercise_.take(h, tool);
+  follow_marks(*run);
   if (exercise_.follow(sight_.shown().bones)) exercise_.keep_mark(run->mark());
   go_in_with_scope();
   show_skin();

@@ -49,6 +49,7 @@ class ExerciseControl {
 
  private:
   void tell_what_is_undone(std::size_t stage);
+  void follow_marks(LiveRun& run);
   void open_patient();
   void hold_as_expert(bool comes_to_him);
   void take_made_before();

@@ -245,6 +245,7 @@ void ExerciseRun::begin_anew(double tick_s, fs::path file) {
   if (watch_->tunnels() && asks_for_exam(*plan_))
     exam_.emplace(*case_, watch_->tunnels()->whole_spec(), true);
   stage_marks_.clear();
+  going_back_.clear();
   debrief_.reset();
   problem_.clear();
   now_s_ = 0;
@@ -261,7 +262,7 @@ void ExerciseRun::begin_anew(double tick_s, fs::path file) {
 std::optional<Command> ExerciseRun::next_order(const BoneSnapshot& bones) {
   if (!watch_ || !watch_->tunnels() || paused_) return std::nullopt;
   if (const auto refused = std::exchange(refused_, std::nullopt)) return refused;
-  skin_.see(*plan_, watch_->state());
+  skin_.see(*plan_, watch_->state(), bones.epoch);
   if (const auto said = skin_.take()) return said;
   if (asks_for_graft(*plan_)) order_.see(watch_->tunnels()->placing(), bones);
   if (const auto said = order_.take()) return said;
@@ -303,6 +304,10 @@ void ExerciseRun::keep_mark(std::uint32_t number) {
   if (watch_) stage_marks_[watch_->state().stage] = number;
 }
 
+void ExerciseRun::see_mark(std::uint32_t number) {
+  if (watch_) watch_->keep(number);
+}
+
 std::optional<std::uint32_t> ExerciseRun::mark_of_stage(std::size_t stage) const {
   const auto found = stage_marks_.find(stage);
   return found == stage_marks_.end() ? std::nullopt : std::optional(found->second);
@@ -319,11 +324,16 @@ bool ExerciseRun::follow(const BoneSnapshot& bones) {
     // Where one hand's ticks have a gap the others wait for it.
     std::uint64_t tick = 0;
     for (const auto& queue : ticks_) tick = std::max(tick, queue.front().tick);
+    const std::uint32_t epoch = last_[0].epoch;
     for (std::size_t h = 0; h < ticks_.size(); ++h)
       while (!ticks_[h].empty() && ticks_[h].front().tick <= tick) {
         last_[h] = ticks_[h].front();
         ticks_[h].pop_front();
       }
+    if (last_[0].epoch != epoch && !going_back_.empty()) {
+      watch_->go_back(going_back_.front());
+      going_back_.pop_front();
+    }
     watch_->add(tools, bones);
     now_s_ = watch_->now_s();
   }

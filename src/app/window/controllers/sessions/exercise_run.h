@@ -97,6 +97,10 @@ class ExerciseRun {
   std::vector<std::string> used_by(std::size_t hand) const;
   /// The live stage's start was kept as that restore point of the run.
   void keep_mark(std::uint32_t number);
+  /// The run set a restore point: the attempt is kept with it.
+  void see_mark(std::uint32_t number);
+  /// The run goes back to one: so does the attempt, with the hands' first tick after it.
+  void go_back(std::uint32_t number) { going_back_.push_back(number); }
   /// The restore point of a stage's start; none: it has none, or was not reached.
   std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
   /// The knee, where a graft lies in it; `bones`: as they are shown.
@@ -188,6 +192,7 @@ class ExerciseRun {
   std::optional<ExamOrder> exam_;  ///< none: the exercise does not have the knee examined
   std::optional<Command> refused_;
   std::map<std::size_t, std::uint32_t> stage_marks_;
+  std::deque<std::uint32_t> going_back_;      ///< restore points, the next one first
   std::vector<std::deque<ToolState>> ticks_;  ///< by hand, not judged yet
   std::vector<ToolState> last_;               ///< by hand
   double tick_s_ = 0.001, now_s_ = 0;

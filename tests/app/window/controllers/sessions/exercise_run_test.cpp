@@ -38,6 +38,7 @@ class ExerciseRunTest : public ::testing::Test {
       ToolState tool;
       tool.tick = ++tick_;
       tool.time_s = 0.001 * static_cast<double>(tick_);
+      tool.epoch = epoch_;
       if (i < ticks) {
         tool.contact_count = 1;
         tool.contacts[0].bone = case_->find(bone);
@@ -52,6 +53,7 @@ class ExerciseRunTest : public ::testing::Test {
   ExerciseRun run_;
   std::shared_ptr<const Case> case_;
   std::uint64_t tick_ = 0;
+  std::uint32_t epoch_ = 0;  ///< how often the hand went back to a restore point
 };
 
 TEST_F(ExerciseRunTest, TheCourseListsWhatIsShippedTheFirstExerciseFirst) {
@@ -209,6 +211,36 @@ TEST_F(ExerciseRunTest, StagesAndErrorsAreFollowedTickByTick) {
   run_.show_cue();
   EXPECT_EQ(run_.model().hints, 1);
   EXPECT_FALSE(run_.model().cue.empty());
+}
+
+// What was touched since a restore point is to be touched again, from the hand's first tick after
+// it on; what was touched before it is not.
+TEST_F(ExerciseRunTest, GoesBackWithTheRun) {
+  begin();
+  const BoneSnapshot rest = rest_snapshot(*case_);
+  touch("lunate", 1, 300);
+  run_.follow(rest);
+  ASSERT_EQ(run_.model().left.size(), 7u);
+  run_.see_mark(4);
+  for (const char* bone :
+       {"capitate", "scaphoid", "triquetrum", "pisiform", "trapezium", "trapezoid", "hamate"})
+    touch(bone, 1, 300);
+  ASSERT_TRUE(run_.follow(rest));
+  ASSERT_TRUE(run_.model().stages[0].done);
+  run_.go_back(9);  // nobody set it
+  ++epoch_;
+  touch("lunate", 1, 10);
+  run_.follow(rest);
+  EXPECT_TRUE(run_.model().stages[1].live);
+  run_.go_back(4);
+  run_.follow(rest);
+  EXPECT_TRUE(run_.model().stages[1].live) << "the hand has not gone back yet";
+  ++epoch_;
+  touch("capitate", 1, 300);
+  run_.follow(rest);
+  EXPECT_TRUE(run_.model().stages[0].live);
+  EXPECT_FALSE(run_.model().stages[0].done);
+  EXPECT_EQ(run_.model().left.size(), 6u) << "lunate before the mark, capitate after it";
 }
 
 TEST_F(ExerciseRunTest, InAPauseTheTimeStandsAndNothingIsJudged) {
