@@ -78,6 +78,7 @@ TEST(FilmLine, AnExceptionIsAFailure) {
 
 TEST(FilmLine, WhatMadeTheWorkGoesOnItsThread) {
   struct Owner {
+    explicit Owner(std::thread::id* at) : went(at) {}
     std::thread::id* went;
     ~Owner() { *went = std::this_thread::get_id(); }
   };
