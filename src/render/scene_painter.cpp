@@ -174,7 +174,13 @@ void ScenePainter::set_cubes(std::size_t bone, const CubeGrid& grid,
   const bool first = !changed.is_on(grid);
   changed.set(grid, cubes, soft ? ChangedCubes::kSoft : bone);
   if (first) return shared_->changes.anywhere();
-  for (const SurfaceCube& cube : cubes) shared_->changes.within(bone, changed.box_of(cube.cube));
+  Aabb box;
+  for (const SurfaceCube& cube : cubes) {
+    const Aabb one = changed.box_of(cube.cube);
+    box.include(one.lo);
+    box.include(one.hi);
+  }
+  shared_->changes.within(bone, box);
 }
 
 void ScenePainter::clear_cubes() {

@@ -26,11 +26,7 @@ TEST_F(ChangedSurfaces, ChangedCubesShowInPlaceOfTheSurface) {
   SurfaceCube cube;
   renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
   EXPECT_EQ(picture(view).rgb, ground.rgb);
-  const TriMesh smaller = sphere_mesh(0.015);
-  cube.vertices = smaller.vertices;
-  for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
-  cube.depth_m.assign(cube.vertices.size(), 0);
-  cube.triangles = smaller.triangles;
+  cube = cube_with_ball(0.015, 0);
   renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
   const int all = count_different(whole, ground, 40);
   EXPECT_NEAR(count_different(picture(view), ground, 40), 0.25 * all, 0.03 * all);
@@ -115,12 +111,7 @@ TEST_F(ChangedSurfaces, WarmBoneIsColouredByItsHottestTemperature) {
   EXPECT_GT(tint(picture()).second, tint(hot).second + 20);  // dead bone is violet
   // What was cut is coloured too, and the rest of the surface still left out.
   const CubeGrid grid{Vec3::Constant(-0.04), 0.08, {1, 1, 1}, 0};
-  SurfaceCube cube;
-  const TriMesh smaller = sphere_mesh(0.015);
-  cube.vertices = smaller.vertices;
-  for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
-  cube.depth_m.assign(cube.vertices.size(), 0);
-  cube.triangles = smaller.triangles;
+  const SurfaceCube cube = cube_with_ball(0.015, 0);
   renderer.set_cubes(BoneId{0}, grid, {&cube, 1});
   EXPECT_GT(tint(picture()).second, tint(hot).second + 20);
   view.show_heat = false;

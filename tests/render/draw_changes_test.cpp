@@ -265,14 +265,12 @@ TEST_F(DrawChanges, CubesThatAreCarvedAreDrawnOverWhatWasKept) {
   Renderer renderer = make_renderer(balls, probe), other = make_renderer(balls, probe);
   if (!renderer.software_driver()) GTEST_SKIP() << "only where a processor draws";
   const CubeGrid grid{Vec3::Constant(-0.021), 0.014, {3, 3, 3}, 0.0005};
-  const TriMesh smaller = sphere_mesh(0.017);
+  const SurfaceCube smaller = cube_with_ball(0.017, 0.003f);
   const auto carved = [&](std::uint32_t number) {
-    SurfaceCube cube;
+    SurfaceCube cube = smaller;
     cube.cube = number;
     const Vec3 lo = grid.lo_B + grid.side_m * Vec3(number % 3, number / 3 % 3, number / 9);
-    cube.vertices = smaller.vertices;
-    for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
-    cube.depth_m.assign(cube.vertices.size(), 0.003f);
+    cube.triangles.clear();
     for (const Triangle& t : smaller.triangles) {
       const Vec3 at =
           (smaller.vertices[t[0]] + smaller.vertices[t[1]] + smaller.vertices[t[2]]) / 3;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "osteon/base/types.h"
 #include "osteon/render/renderer.h"
@@ -45,6 +46,17 @@ inline Bone make_bone(std::string name, TriMesh mesh, const Vec3& p_WB) {
   bone.mesh = std::move(mesh);
   bone.X_WB.p = p_WB;
   return bone;
+}
+
+/// A cube of a surface in which a ball about the origin stands, `depth_m` under what was there.
+inline SurfaceCube cube_with_ball(double radius_m, float depth_m) {
+  SurfaceCube cube;
+  TriMesh ball_mesh = sphere_mesh(radius_m);
+  cube.vertices = std::move(ball_mesh.vertices);
+  for (const Vec3& v : cube.vertices) cube.normals.push_back(v.normalized());
+  cube.depth_m.assign(cube.vertices.size(), depth_m);
+  cube.triangles = std::move(ball_mesh.triangles);
+  return cube;
 }
 
 inline Case one_ball(double radius_m, const Vec3& p_WB = Vec3::Zero()) {

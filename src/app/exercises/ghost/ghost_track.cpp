@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "osteon/procedure/lc_cusum.h"
+#include "osteon/scene/tool_set.h"
 
 namespace osteon {
 namespace {
@@ -115,10 +116,11 @@ std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, s
 std::optional<Pose> ghost_beside_in_any_size(const GhostTrack& track, std::size_t stretch,
                                              std::size_t hand, std::string_view name,
                                              const Vec3& tip_W) {
-  const auto plain = [](std::string_view of) { return of.substr(0, of.find(':')); };
+  const auto held = parse_tool_name(name);
   std::optional<Pose> found;
-  for (std::uint32_t i = 0; i < track.tray.size(); ++i) {
-    if (plain(track.tray[i]) != plain(name)) continue;
+  for (std::uint32_t i = 0; held && i < track.tray.size(); ++i) {
+    const auto other = parse_tool_name(track.tray[i]);
+    if (!other || other->name != held->name) continue;
     const auto one = ghost_beside(track, stretch, hand, i, tip_W);
     if (one && (!found || (one->p - tip_W).norm() < (found->p - tip_W).norm())) found = one;
   }

@@ -392,16 +392,16 @@ TEST(LiveRunCarves, ARecordingSaysHowItsBonesWereRemoved) {
   EXPECT_EQ(settings->carve.irrigation_ml_per_min, 60);
 }
 
+std::filesystem::path named(const char* name) {
+  return std::filesystem::path(::testing::TempDir()) / (name + std::to_string(::getpid()) + ".osr");
+}
+
 // Another hand goes on where a recorded one has come: what that has drilled is there, and the whole
 // repeats from the new recording.
 TEST(LiveRunCarves, ItGoesOnWithARunThatWasBegun) {
   const testing::Drilling with("drill:3.2");
   const ProbePath path = drilling_path();
   const RunTray tray{{"drill:3.2"}, with.tray, {{true, false}}, with.setup};
-  const auto named = [](const char* name) {
-    return std::filesystem::path(::testing::TempDir()) /
-           (name + std::to_string(::getpid()) + ".osr");
-  };
   const auto first = named("begin_"), second = named("go_on_");
   {
     LiveRun live(with.the_case, "block", path, {}, tray);
@@ -458,10 +458,6 @@ TEST(LiveRunCarves, ItGoesOnWithARunThatRemovedNothing) {
   const RunTray plain{{"drill:3.2"}, with.tray, {{true, false}}};
   RunTray carving = plain;
   carving.carving = with.setup;
-  const auto named = [](const char* name) {
-    return std::filesystem::path(::testing::TempDir()) /
-           (name + std::to_string(::getpid()) + ".osr");
-  };
   const auto first = named("plain_"), second = named("after_plain_"), third = named("after_that_");
   {
     LiveRun live(with.the_case, "block", path, {}, plain);
