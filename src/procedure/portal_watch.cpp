@@ -8,15 +8,14 @@
 #include "osteon/procedure/judge.h"
 #include "osteon/scene/marks_now.h"
 #include "osteon/scene/portal.h"
+#include "tip_sight.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kSamePlace_m = 1e-6;
-constexpr double kSeenFrom_m = 0.08;
 // A needle counts from so deep under the skin, so near its landmark, and not along the skin.
 constexpr double kNeedleDeep_m = 0.008, kNeedleNear_m = 0.02, kNeedleSlope = 0.2;
-constexpr double kTipHides_m = 0.003;  // what is so near to the tip does not hide it
 
 std::optional<Vec3> place_of(const Case& the_case, std::string_view name) {
   const auto at = find_landmark(the_case, name);
@@ -76,18 +75,7 @@ bool PortalWatch::is_news(const ToolState& tool) {
 
 bool PortalWatch::is_seen(std::span<const ToolState* const> tools, std::size_t by_hand,
                           const BoneSnapshot& bones) const {
-  const Vec3& tip_W = tools[by_hand]->X_WP.p;
-  for (std::size_t h = 0; h < std::min(tools.size(), settings_.optics.size()); ++h) {
-    const auto& optics = settings_.optics[h];
-    if (h == by_hand || !optics || tools[h]->portal == kNoPortal) continue;
-    const ScopeView view = view_through(*optics, tools[h]->X_WP);
-    const Vec3 way = tip_W - view.eye_W;
-    const double far = way.norm();
-    if (!(far > 0) || far > kSeenFrom_m) continue;
-    if (way.dot(view.along_W) / far < std::cos(optics->half_field_rad)) continue;
-    if (!is_hidden(*case_, bones, view.eye_W, tip_W, kTipHides_m)) return true;
-  }
-  return false;
+  return is_tip_seen(*case_, settings_.optics, tools, by_hand, bones);
 }
 
 // Its hole is where its axis goes through the skin about the nearest landmark.

@@ -1,14 +1,38 @@
 #include "osteon/procedure/stump_watch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "tip_sight.h"
 
 namespace osteon {
 
-// Less than was told: a restore point has brought it back.
-void StumpWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<Event>& out) {
+StumpWatch::StumpWatch(const Case& the_case, std::vector<std::optional<ScopeOptics>> optics)
+    : case_(&the_case), optics_(std::move(optics)) {}
+
+// What clears is in the joint; of several instruments there it is enough to see one.
+bool StumpWatch::is_watched(std::span<const ToolState* const> tools,
+                            const BoneSnapshot& bones) const {
+  for (std::size_t h = 0; h < tools.size(); ++h) {
+    const bool scope = h < optics_.size() && optics_[h];
+    if (scope || tools[h]->portal == kNoPortal || !is_finite(tools[h]->X_WP)) continue;
+    if (is_tip_seen(*case_, optics_, tools, h, bones)) return true;
+  }
+  return false;
+}
+
+// Less than was known: a restore point has brought it back.
+void StumpWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
+                     bool obscured, std::vector<Event>& out) {
   felt_ = bones.cleared_percent >= 0;
-  if (!felt_) return;
-  const int now = static_cast<int>(std::floor(bones.cleared_percent));
+  if (!felt_ || tools.empty()) return;
+  const double more =
+      bones.cleared_percent - std::exchange(cleared_percent_, bones.cleared_percent);
+  if (more > 0 && (obscured || !is_watched(tools, bones))) blind_percent_ += more;
+  blind_percent_ = std::min(blind_percent_, cleared_percent_);
+  const int now = static_cast<int>(std::floor(cleared_percent_));
+  const std::uint64_t tick = tools[0]->tick;
   const bool again = now > 0 && tick % kTellStumps == 0;
   if (now == told_percent_ && !again) return;
   told_percent_ = now;
@@ -16,7 +40,7 @@ void StumpWatch::add(std::uint64_t tick, const BoneSnapshot& bones, std::vector<
   event.tick = tick;
   event.kind = kStumpsCleared;
   event.hand = 0;
-  event.values = {static_cast<double>(now), 0, 0};
+  event.values = {static_cast<double>(now), blind_percent_, 0};
   out.push_back(event);
 }
 

@@ -11,6 +11,7 @@
 #include "acl_knee.h"
 #include "acl_lines.h"
 #include "acl_way.h"
+#include "clearing_view.h"
 #include "osteon/base/random.h"
 #include "osteon/scene/stumps.h"
 #include "osteon/surgeon/scope_reach.h"
@@ -30,8 +31,10 @@ constexpr double kPress_s = 0.6;
 constexpr double kPinDeep_m = 0.0025, kPin_s = 1.8;  // how a pin is pressed on, and for how long
 constexpr double kTooHard_m = 0.012;
 constexpr double kShaverRadius_m = 0.0021;  // of the usual size
+// A shaver at full power sucks off more than the usual 60 mmHg bring in.
+constexpr double kShavingPump_pa = 100 * 133.322;
 
-constexpr std::array<std::string_view, 36> kFaults{"wrong_portal",
+constexpr std::array<std::string_view, 37> kFaults{"wrong_portal",
                                                    "skipped_inspection",
                                                    "scuffed",
                                                    "too_hard",
@@ -58,6 +61,7 @@ constexpr std::array<std::string_view, 36> kFaults{"wrong_portal",
                                                    "long_loop",
                                                    "wide_tunnel",
                                                    "stump_left",
+                                                   "cleared_blind",
                                                    "not_examined",
                                                    "fault_missed",
                                                    "sound_blamed",
@@ -93,6 +97,11 @@ AclHabits habits_of(const Skill& skill) {
   habits.tibia_miss_W = miss_m * random.direction();
   return habits;
 }
+
+// Through which portal each of both goes in.
+struct ScopePortals {
+  Vec3 scope_W = Vec3::Zero(), probe_W = Vec3::Zero();
+};
 
 Vec3 outwards(const AclKnee& knee, const Vec3& portal_W) {
   const Vec3 middle = 0.5 * (knee.mark("acl_femur") + knee.mark("acl_tibia"));
@@ -183,10 +192,16 @@ void leave(const AclKnee& knee, AclWay& way, const Vec3& portal_W) {
   way.go_at(held_by_shaft(portal_W + kAway_m * outer, outer), kAir_m_per_s);
 }
 
-// Through the portal, from mark to mark over it, and out again: a scope that stays would stand in
-// the pin's way.
-ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
-                    const AclHabits& habits, std::vector<std::string>& unreachable) {
+// From outside through the portal to where it looks.
+void enter(AclWay& way, const Pose& to, const Vec3& portal_W) {
+  way.go_at({portal_W + kOutside_m * to.rotate(Vec3::UnitZ()), to.q}, kAir_m_per_s);
+  way.go_at(to, kTravel_m_per_s);
+}
+
+// Through the portal, from mark to mark over it, and out again: in a joint that is bent a scope
+// would be pressed.
+AclWay scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
+                 const AclHabits& habits, std::vector<std::string>& unreachable) {
   std::vector<Gaze> gazes;
   for (const std::string& name : tools.tour) {
     const auto gaze = gaze_at(knee, tools, portal_W, knee.mark(name));
@@ -198,19 +213,15 @@ ProbePath scope_way(const AclKnee& knee, const AclTools& tools, const Vec3& port
   const Vec3 out = outwards(knee, portal_W);
   AclWay way(tools.scope, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
   way.wait_until(tools.begin_s + 0.1);
-  if (gazes.empty() || habits.fault == "skipped_inspection") return way.path();
-  const Pose first = *pose_for(gazes[0], portal_W, tools.optics);
-  const Vec3 back = first.rotate(Vec3::UnitZ());
-  const Pose outside{portal_W + kOutside_m * back, first.q};
-  way.go_at(outside, kAir_m_per_s);
-  way.go_at(first, kTravel_m_per_s);
+  if (gazes.empty() || habits.fault == "skipped_inspection") return way;
+  enter(way, *pose_for(gazes[0], portal_W, tools.optics), portal_W);
   for (std::size_t i = 0; i < gazes.size(); ++i) {
     if (i > 0) look_over(way, gazes[i - 1], gazes[i], portal_W, tools.optics);
     way.stay(kLook_s);
   }
   if (habits.fault == "scuffed") push_on(knee, way, gazes.back().at_W);
   leave(knee, way, portal_W);
-  return way.path();
+  return way;
 }
 
 // Where a rod that comes straight through the portal gets to the bone: at the mark, or where an
@@ -264,17 +275,53 @@ std::vector<std::string> feel_marks(const AclKnee& knee, const std::vector<std::
   return waiting;
 }
 
-// With the shaver, and out again. Who leaves a stump leaves the one on the tibia: on the femur it
-// would push the aimer aside.
-void clear(const AclKnee& knee, const std::string& shaver, bool leaves_one, const Vec3& portal_W,
-           AclWay& way) {
-  const Vec3 out = outwards(knee, portal_W);
+// What is to be cleared, and how somebody looks on.
+struct Clearing {
+  StumpClearing with;
+  double before_m = 0;
+  std::vector<ClearingView> views;  // empty: nobody looks
+  std::vector<ClearingPlace> places;
+};
+
+// Who leaves a stump leaves the one on the tibia: on the femur it would push the aimer aside.
+Clearing plan_clearing(const AclKnee& knee, const AclTools& tools, const AclHabits& habits,
+                       const ScopePortals& portals) {
   std::vector<TornStump> stumps = torn_stumps(knee.whole());
-  const BoneId tibia = knee.whole().find("tibia");
-  if (leaves_one)
+  const StumpsAsObstacles all(knee.whole(), stumps);
+  if (habits.fault == "stump_left") {
+    const BoneId tibia = knee.whole().find("tibia");
     std::erase_if(stumps, [&](const TornStump& stump) { return stump.bone == tibia; });
-  clear_stumps(knee, stumps, {shaver, 0, kShaverRadius_m, portal_W}, way);
-  way.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
+  }
+  Clearing out{{tools.shaver, 0, kShaverRadius_m, portals.probe_W}, 0, {}, {}};
+  out.before_m = before_stumps_m(knee, stumps, portals.probe_W);
+  out.places = clearing_places(knee, stumps, out.with);
+  if (habits.fault == "cleared_blind" || habits.fault == "skipped_inspection") return out;
+  ClearingWatcher who{tools.optics, portals.scope_W, {}};
+  for (const std::string& name : tools.felt) who.also_W.push_back(knee.mark(name));
+  out.views = clearing_views(knee, all, out.with, who, out.places);
+  return out;
+}
+
+// With the shaver, and out again. The scope looks on, and turns to what comes next before it is
+// cleared.
+void clear(const Clearing& plan, const ScopePortals& portals, const ScopeOptics& optics,
+           AclWay& scope, AclWay& way) {
+  if (plan.places.empty()) return;
+  const auto& first = plan.views.empty() ? plan.places : plan.views.front().places;
+  begin_clearing(plan.with, first.front(), plan.before_m, way);
+  if (plan.views.empty()) {
+    clear_places(plan.with, plan.places, plan.before_m, way);
+    return end_clearing(plan.with, plan.places.back(), way);
+  }
+  for (std::size_t v = 0; v < plan.views.size(); ++v) {
+    if (v > 0) {
+      scope.wait_until(way.now_s());
+      look_over(scope, plan.views[v - 1].gaze, plan.views[v].gaze, portals.scope_W, optics);
+      way.wait_until(scope.now_s());
+    }
+    clear_places(plan.with, plan.views[v].places, plan.before_m, way);
+  }
+  end_clearing(plan.with, plan.views.back().places.back(), way);
 }
 
 // Comes along its axis, is pressed on straight into the bone, and goes back.
@@ -337,26 +384,42 @@ Result<AclDrillPlan> plan_drilling(const AclKnee& knee, const AclTools& tools,
   return plan;
 }
 
-// The probe's hand, from when the scope is out; returns when it is done.
-ProbePath probe_way(const AclKnee& knee, const AclTools& tools, const Vec3& portal_W,
-                    const AclHabits& habits, double begin_s,
-                    std::vector<std::string>& unreachable) {
+// The probe's hand, from when the knee is bent again; the scope looks on where stumps are cleared.
+AclWay probe_way(const AclKnee& knee, const AclTools& tools, const ScopePortals& portals,
+                 const AclHabits& habits, double begin_s, AclWay& scope, AclWays& ways) {
   // Before the anterolateral portal the shank would come by as the knee is examined.
   const bool swapped = habits.fault == "wrong_portal";
+  const Vec3& portal_W = portals.probe_W;
   const Vec3 out = swapped ? knee.femoral(-Vec3::UnitY()) : outwards(knee, portal_W);
-  AclWay probe(tools.probe, 0, held_by_shaft(portal_W + kAway_m * out, out), habits.pace);
+  const Pose aside = held_by_shaft(portal_W + kAway_m * out, out);
+  AclWay probe(tools.probe, 0, aside, habits.pace);
   probe.wait_until(begin_s);
   const StumpsAsObstacles stumps(knee.whole(), torn_stumps(knee.whole()));
   const bool clears = !tools.shaver.empty();
-  const auto waiting = feel_marks(knee, tools.felt, &stumps, portal_W, habits, probe, unreachable);
-  probe.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
-  if (clears) clear(knee, tools.shaver, habits.fault == "stump_left", portal_W, probe);
+  const Clearing clearing = clears ? plan_clearing(knee, tools, habits, portals) : Clearing();
+  const bool watched = !clearing.views.empty();
+  if (watched) {
+    scope.wait_until(begin_s);
+    enter(scope, *pose_for(clearing.views[0].gaze, portals.scope_W, tools.optics), portals.scope_W);
+    probe.wait_until(scope.now_s());
+  }
+  const auto waiting =
+      feel_marks(knee, tools.felt, &stumps, portal_W, habits, probe, ways.unreachable);
+  probe.go_at(aside, kAir_m_per_s);
+  if (watched) ways.exam.push_back({probe.now_s(), {CommandKind::kPump, kShavingPump_pa}});
+  if (clears) clear(clearing, portals, tools.optics, scope, probe);
+  if (clears) probe.go_at(aside, kAir_m_per_s);
   if (!waiting.empty()) {
     if (clears) probe.take(tools.probe, 0);
-    feel_marks(knee, waiting, nullptr, portal_W, habits, probe, unreachable);
-    probe.go_at(held_by_shaft(portal_W + kAway_m * out, out), kAir_m_per_s);
+    feel_marks(knee, waiting, nullptr, portal_W, habits, probe, ways.unreachable);
+    probe.go_at(aside, kAir_m_per_s);
   }
-  return probe.path();
+  if (watched) {
+    scope.wait_until(probe.now_s());
+    leave(knee, scope, portals.scope_W);
+    probe.wait_until(scope.now_s());
+  }
+  return probe;
 }
 
 }  // namespace
@@ -371,12 +434,12 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
   const auto plan = plan_drilling(*knee, tools, habits);
   if (!plan) return tl::unexpected(plan.error());
   const bool swapped = habits.fault == "wrong_portal";
-  Vec3 al = tools.al_W.value_or(knee->mark("portal_al"));
-  Vec3 am = tools.am_W.value_or(knee->mark("portal_am"));
-  if (swapped) std::swap(al, am);
+  ScopePortals portals{tools.al_W.value_or(knee->mark("portal_al")),
+                       tools.am_W.value_or(knee->mark("portal_am"))};
+  if (swapped) std::swap(portals.scope_W, portals.probe_W);
   AclWays ways;
-  const ProbePath scope = scope_way(*knee, tools, al, habits, ways.unreachable);
-  double probe_s = scope.duration_s() + 0.5;
+  AclWay scope = scope_way(*knee, tools, portals.scope_W, habits, ways.unreachable);
+  double probe_s = scope.now_s() + 0.5;
   ways.examines = tools.drills && tools.examines && habits.fault != "not_examined";
   if (ways.examines) {
     const double at_deg = the_case.joints.empty() ? 0 : the_case.joints.front().at_deg;
@@ -384,16 +447,16 @@ Result<AclWays> plan_acl(const Case& the_case, const AclTools& tools, const Skil
     probe_s = exam.end_s;
     ways.exam = std::move(exam.orders);
   }
-  const ProbePath probe = probe_way(*knee, tools, am, habits, probe_s, ways.unreachable);
-  ways.third_begin_s = probe.duration_s() + 0.5;
+  const AclWay probe = probe_way(*knee, tools, portals, habits, probe_s, scope, ways);
+  ways.third_begin_s = probe.now_s() + 0.5;
   ways.after_graft = tools.drills && tools.after_graft;
   if (tools.drills)
-    ways.drilling =
-        drill_both(*knee, *plan, habits.fault,
-                   ways.after_graft || ways.examines || tools.begin_s > 0 ? 0 : ways.third_begin_s,
-                   habits.pace);
-  ways.scope = trembling(scope, skill.tremor_m, skill.seed);
-  ways.probe = trembling(probe, skill.tremor_m, skill.seed + 1);
+    ways.drilling = drill_both(
+        *knee, *plan, habits.fault,
+        ways.after_graft || !ways.exam.empty() || tools.begin_s > 0 ? 0 : ways.third_begin_s,
+        habits.pace);
+  ways.scope = trembling(scope.path(), skill.tremor_m, skill.seed);
+  ways.probe = trembling(probe.path(), skill.tremor_m, skill.seed + 1);
   if (tools.drills) return ways;
   const AclWay pin =
       pin_way(*knee, tools, plan->tibia, plan->femur, ways.third_begin_s, habits.pace);

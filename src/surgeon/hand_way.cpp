@@ -8,14 +8,14 @@
 namespace osteon {
 namespace {
 
-constexpr int kSteps = 6;  // of each part of a way round
+constexpr int kRoundSteps = 6;  // of each part of a way round
 // A command comes at the end of what was done before it.
 constexpr double kSaid_s = 0.02, kJaw_s = 0.4;
 
 // Over the great circle, the last of them `to`.
 void lead_on(const Vec3& from, const Vec3& to, std::vector<Vec3>& out) {
-  for (int i = 1; i <= kSteps; ++i) {
-    const double share = static_cast<double>(i) / kSteps;
+  for (int i = 1; i <= kRoundSteps; ++i) {
+    const double share = static_cast<double>(i) / kRoundSteps;
     out.push_back(((1 - share) * from + share * to).normalized());
   }
 }

@@ -57,6 +57,12 @@ Quat window_to(const Vec3& aside_W, const Vec3& back_W) {
   return Quat(Eigen::Quaterniond(R)).normalized();
 }
 
+// The tip so far from the portal on the way to a place, the window to the side that has more.
+Pose along(const StumpClearing& with, const ClearingPlace& place, double from_portal_m) {
+  const Vec3 back = (with.portal_W - place.to_W).normalized();
+  return {with.portal_W - from_portal_m * back, window_to(place.aside_W, back)};
+}
+
 }  // namespace
 
 StumpsAsObstacles::StumpsAsObstacles(const Case& the_case, std::vector<TornStump> stumps) {
@@ -112,45 +118,49 @@ std::vector<ClearingPlace> clearing_places(const AclKnee& knee,
   return chosen;
 }
 
-// Goes to each place with its window to where most is left.
-void clear_stumps(const AclKnee& knee, const std::vector<TornStump>& stumps,
-                  const StumpClearing& with, AclWay& way) {
-  const std::vector<ClearingPlace> places = clearing_places(knee, stumps, with);
-  if (places.empty()) return;
+double before_stumps_m(const AclKnee& knee, const std::vector<TornStump>& stumps,
+                       const Vec3& portal_W) {
   double nearest_m = 1;
   for (const TornStump& stump : stumps)
     for (const Vec3& p_B : stump.mesh_B.vertices)
-      nearest_m =
-          std::min(nearest_m, (knee.whole().bone(stump.bone).X_WB * p_B - with.portal_W).norm());
-  const double before_m = std::max(0.0, nearest_m - kBeforeStump_m);
-  // The tip so far from the portal on the way to a place, the window to the side that has more.
-  const auto along = [&](const ClearingPlace& place, double from_portal_m) {
-    const Vec3 back = (with.portal_W - place.to_W).normalized();
-    return Pose{with.portal_W - from_portal_m * back, window_to(place.aside_W, back)};
-  };
+      nearest_m = std::min(nearest_m, (knee.whole().bone(stump.bone).X_WB * p_B - portal_W).norm());
+  return std::max(0.0, nearest_m - kBeforeStump_m);
+}
+
+void begin_clearing(const StumpClearing& with, const ClearingPlace& first, double before_m,
+                    AclWay& way) {
   way.take(with.instrument, with.size_mm);
-  way.go_at(along(places.front(), -kBeforeSkin_m), kThrough_m_per_s);
-  way.go_at(along(places.front(), before_m), kThrough_m_per_s);
+  way.go_at(along(with, first, -kBeforeSkin_m), kThrough_m_per_s);
+  way.go_at(along(with, first, before_m), kThrough_m_per_s);
   way.power(1);
+}
+
+// Goes to each place with its window to where most is left, and once more over what has swayed
+// away, the window to the other side.
+void clear_places(const StumpClearing& with, const std::vector<ClearingPlace>& places,
+                  double before_m, AclWay& way) {
   for (const ClearingPlace& place : places) {
     const double to_m = (place.to_W - with.portal_W).norm();
     const double begins_m = to_m - place.way_m - with.radius_m - kSpare_m;
-    way.go_at(along(place, before_m), kThrough_m_per_s);
-    if (begins_m > before_m) way.go_at(along(place, begins_m), kThrough_m_per_s);
-    way.go_at(along(place, to_m + with.radius_m), kPlunge_m_per_s);
+    way.go_at(along(with, place, before_m), kThrough_m_per_s);
+    if (begins_m > before_m) way.go_at(along(with, place, begins_m), kThrough_m_per_s);
+    way.go_at(along(with, place, to_m + with.radius_m), kPlunge_m_per_s);
     way.stay(kStays_s);
-    way.go_at(along(place, before_m), kThrough_m_per_s);
+    way.go_at(along(with, place, before_m), kThrough_m_per_s);
   }
-  // Once more over what has swayed away, the window to the other side.
   for (ClearingPlace place : places) {
     place.aside_W *= -1;
-    way.go_at(along(place, before_m), kThrough_m_per_s);
-    way.go_at(along(place, (place.to_W - with.portal_W).norm() + with.radius_m), kAgain_m_per_s);
+    way.go_at(along(with, place, before_m), kThrough_m_per_s);
+    way.go_at(along(with, place, (place.to_W - with.portal_W).norm() + with.radius_m),
+              kAgain_m_per_s);
     way.stay(kStays_s);
-    way.go_at(along(place, before_m), kThrough_m_per_s);
+    way.go_at(along(with, place, before_m), kThrough_m_per_s);
   }
+}
+
+void end_clearing(const StumpClearing& with, const ClearingPlace& last, AclWay& way) {
   way.power(0);
-  way.go_at(along(places.back(), -kBeforeSkin_m), kThrough_m_per_s);
+  way.go_at(along(with, last, -kBeforeSkin_m), kThrough_m_per_s);
 }
 
 }  // namespace osteon

@@ -42,9 +42,18 @@ std::vector<ClearingPlace> clearing_places(const AclKnee& knee,
                                            const std::vector<TornStump>& stumps,
                                            const StumpClearing& with);
 
-/// Takes the instrument outside of the portal, goes to all of those places and comes back out. The
-/// hand must be outside. Nothing is done where no place is free.
-void clear_stumps(const AclKnee& knee, const std::vector<TornStump>& stumps,
-                  const StumpClearing& with, AclWay& way);
+/// So far before the stumps the tip is free of them; from the portal, m.
+double before_stumps_m(const AclKnee& knee, const std::vector<TornStump>& stumps,
+                       const Vec3& portal_W);
+
+/// Takes the instrument outside of the portal, comes in to `before_m` on the way to the place, and
+/// turns it on. The hand must be outside.
+void begin_clearing(const StumpClearing& with, const ClearingPlace& first, double before_m,
+                    AclWay& way);
+/// Goes to all of these places, then once more with its window to the other side.
+void clear_places(const StumpClearing& with, const std::vector<ClearingPlace>& places,
+                  double before_m, AclWay& way);
+/// Turns it off and comes back out, from the way to that place.
+void end_clearing(const StumpClearing& with, const ClearingPlace& last, AclWay& way);
 
 }  // namespace osteon

@@ -40,7 +40,7 @@ struct AclWays {
   double third_begin_s = 0;              ///< when that hand, or the pin's, begins
   bool after_graft = false;              ///< `drilling` begins when a graft has been made
   bool examines = false;                 ///< or when that time has come
-  std::vector<TimedCommand> exam;        ///< what is asked of the knee meanwhile
+  std::vector<TimedCommand> exam;        ///< of the knee and of the pump, meanwhile
   std::vector<std::string> unreachable;  ///< landmarks that no free way leads to
 };
 

@@ -145,6 +145,7 @@ AttemptWatch::AttemptWatch(const ScenarioPlan& plan, const Case& the_case,
   PortalWatch::Settings made;
   for (const Portal& portal : portals) made.marks.push_back(portal.landmark);
   for (const PlannedHand& hand : hands) made.optics.push_back(hand.optics);
+  stumps_.emplace(the_case, made.optics);
   portals_.emplace(the_case, std::move(made));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     const auto hand = static_cast<std::uint8_t>(h);
@@ -193,11 +194,11 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (tunnels_) graft_.set_room(tunnels_->room());
   if (!tools.empty()) graft_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) placing_.add(tools[0]->tick, bones, fresh_);
-  if (!tools.empty()) stumps_.add(tools[0]->tick, bones, fresh_);
   if (!tools.empty()) exam_.add(tools[0]->tick, bones, fresh_);
   if (portals_) portals_->add(tools, bones, fresh_);
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
+  if (stumps_) stumps_->add(tools, bones, water_ && water_->is_obscured_now(), fresh_);
   judge_fresh();
   if (now_s() >= plan_->scenario.time_limit_s) state_.over = true;
   if (!tools.empty() && (!part_ || tools[0]->tick > part_->from_tick)) meter_.add(*tools[0]);

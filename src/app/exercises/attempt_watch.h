@@ -89,7 +89,9 @@ class AttemptWatch {
   /// What was found of the knee by hand; none: the scenario does not ask for it.
   std::optional<KneeExam> exam() const;
   /// Of what torn ligaments have left; none: it is not felt.
-  std::optional<int> cleared_percent() const { return stumps_.percent(); }
+  std::optional<int> cleared_percent() const { return stumps_->percent(); }
+  /// Of that, while no scope saw the tip.
+  double cleared_blind_percent() const { return stumps_->blind_percent(); }
 
  private:
   struct Part {
@@ -122,7 +124,7 @@ class AttemptWatch {
   RingWatch rings_;
   GraftWatch graft_;
   PlacingWatch placing_;
-  StumpWatch stumps_;
+  std::optional<StumpWatch> stumps_;
   KneeExamWatch exam_;
   std::optional<PortalWatch> portals_;
   std::vector<AttemptPause> pauses_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "osteon/scene/instrument.h"
+#include "osteon/scene/portal.h"
 #include "osteon/scene/tool_set.h"
 
 namespace osteon {
@@ -33,10 +34,12 @@ SightLost cause_of(const FluidJoint& joint, const FluidState& state) {
 
 }  // namespace
 
-WaterWatch::WaterWatch(const FluidJoint& joint, std::vector<char> looks, double tick_s)
+WaterWatch::WaterWatch(const FluidJoint& joint, std::vector<char> looks, double tick_s,
+                       bool by_portal)
     : joint_(joint),
       looks_(std::move(looks)),
       tick_s_(tick_s),
+      by_portal_(by_portal),
       stride_(
           std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::lround(kStep_s / tick_s)))) {}
 
@@ -46,12 +49,14 @@ std::optional<WaterWatch> WaterWatch::of(const Case& the_case, const std::vector
   if (!joint) return std::nullopt;
   auto looks = lookers_of(tray);
   if (!looks || std::find(looks->begin(), looks->end(), 1) == looks->end()) return std::nullopt;
-  return WaterWatch(*joint, std::move(*looks), tick_s);
+  return WaterWatch(*joint, std::move(*looks), tick_s, !find_portals(the_case).empty());
 }
 
 std::optional<std::size_t> WaterWatch::looking(std::span<const ToolState* const> tools) const {
   for (std::size_t h = 0; h < tools.size(); ++h)
-    if (tools[h]->instrument < looks_.size() && looks_[tools[h]->instrument]) return h;
+    if (tools[h]->instrument < looks_.size() && looks_[tools[h]->instrument] &&
+        (!by_portal_ || tools[h]->portal != kNoPortal))
+      return h;
   return std::nullopt;
 }
 

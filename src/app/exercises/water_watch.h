@@ -19,8 +19,10 @@ namespace osteon {
 /// user has set it: a replay tells the same.
 class WaterWatch {
  public:
-  /// `looks`: of each instrument of the tray whether one looks through it.
-  WaterWatch(const FluidJoint& joint, std::vector<char> looks, double tick_s);
+  /// `looks`: of each instrument of the tray whether one looks through it. `by_portal`: one that is
+  /// in no portal shows nothing of the joint.
+  WaterWatch(const FluidJoint& joint, std::vector<char> looks, double tick_s,
+             bool by_portal = false);
   /// None where the case holds no water or no instrument of the tray looks.
   static std::optional<WaterWatch> of(const Case& the_case, const std::vector<std::string>& tray,
                                       double tick_s);
@@ -29,6 +31,8 @@ class WaterWatch {
   void add(std::span<const ToolState* const> tools, const BoneSnapshot& bones,
            std::vector<Event>& out);
   const ObscuredSight& sight() const { return sight_; }
+  /// At the last look, with a scope in the joint.
+  bool is_obscured_now() const { return was_obscured_; }
 
  private:
   static constexpr double kStep_s = 0.1;
@@ -39,6 +43,7 @@ class WaterWatch {
   FluidJoint joint_;
   std::vector<char> looks_;  // by place in the tray
   double tick_s_;
+  bool by_portal_;
   std::uint64_t stride_;
   ObscuredSight sight_;
   bool was_obscured_ = false;

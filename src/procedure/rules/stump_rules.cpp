@@ -13,6 +13,10 @@ bool is_enough(const PlannedRule& rule, double percent) {
   return percent >= std::floor(100 * number_of(rule, "share") + 1e-9);
 }
 
+bool is_too_much(const PlannedRule& rule, double percent) {
+  return percent > 100 * number_of(rule, "share");
+}
+
 }  // namespace
 
 const std::vector<RuleKind>& stump_rule_table() {
@@ -31,6 +35,13 @@ const std::vector<RuleKind>& stump_rule_table() {
        kStumpsCleared,
        false,
        kTunnelBegun},
+      {"stumps_unseen",
+       "more than this share of what torn ligaments have left is cleared while no scope in another "
+       "portal sees the tip",
+       false,
+       {{"share", 0.01, 1, 0.1}},
+       SubjectKind::kNothing,
+       kStumpsCleared},
   };
   return table;
 }
@@ -47,7 +58,12 @@ bool step_stump_rule(const PlannedRule& rule, const Event& event, double tick_s,
   if (event.kind == kStumpsCleared) hold.most = event.values[0];
   if (kind->is_goal) {
     state.met = is_enough(rule, hold.most);
-  } else if (event.kind == kTunnelBegun && !hold.told && !is_enough(rule, hold.most)) {
+    return true;
+  }
+  const bool wrong = kind->name == "stumps_unseen"
+                         ? event.kind == kStumpsCleared && is_too_much(rule, event.values[1])
+                         : event.kind == kTunnelBegun && !is_enough(rule, hold.most);
+  if (wrong && !hold.told) {
     hold.told = true;
     hit = RuleHit{time_of(event, tick_s)};
   }

@@ -124,5 +124,23 @@ TEST(WaterWatch, AStretchEndsWithTheLook) {
   EXPECT_NEAR(sucked.watch.sight().scope_s, 15, 1e-9);
 }
 
+// The joint may be empty meanwhile: nobody looks into it.
+TEST(WaterWatch, WhereThereArePortalsAScopeLooksFromInsideOneAlone) {
+  WaterWatch watch(knee_fluid(), {1}, kTick_s, true);
+  BoneSnapshot bones;
+  bones.water.on = true;
+  ToolState scope;
+  const ToolState* tools[] = {&scope};
+  std::vector<Event> events;
+  for (std::uint64_t tick = 1; tick <= 2000; ++tick) {
+    scope.tick = tick;
+    scope.portal = tick > 1000 ? 0 : kNoPortal;
+    watch.add(tools, bones, events);
+    EXPECT_EQ(watch.is_obscured_now(), tick > 1000 && tick >= 1100) << tick;
+  }
+  EXPECT_NEAR(watch.sight().scope_s, 1, 1e-9);
+  EXPECT_NEAR(watch.sight().obscured_s, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace osteon

@@ -20,12 +20,12 @@ struct StumpRuleRig {
     state.holds.resize(1);
   }
   // As the judge does.
-  bool hit(EventKind kind, double percent = 0) {
+  bool hit(EventKind kind, double percent = 0, double blind_percent = 0) {
     Event event;
     event.kind = kind;
     event.hand = 0;
     event.subject_kind = kind == kTunnelBegun ? SubjectKind::kLandmark : SubjectKind::kNothing;
-    event.values = {percent, 0, 0};
+    event.values = {percent, blind_percent, 0};
     return step_rule(rule, event, 0.001, state).has_value();
   }
   PlannedRule rule;
@@ -54,29 +54,13 @@ TEST(StumpRules, DrillingIsAnErrorWhileTooMuchIsLeftAndTheErrorIsMadeOnce) {
   EXPECT_TRUE(untouched.hit(kTunnelBegun));
 }
 
-TEST(StumpWatch, TellsWholePercentsOnceAndWhatARestorePointBringsBack) {
-  StumpWatch watch;
-  std::vector<Event> out;
-  BoneSnapshot bones;
-  watch.add(1, bones, out);  // there are no stumps
-  EXPECT_TRUE(out.empty());
-  for (const double percent : {0.0, 0.5, 1.2, 1.9, 40.0, 0.0}) {
-    bones.cleared_percent = percent;
-    watch.add(2, bones, out);
-  }
-  std::vector<double> told;
-  for (const Event& event : out) told.push_back(event.values[0]);
-  EXPECT_EQ(told, (std::vector<double>{1, 40, 0}));
-  // Again from time to time, where there is something to tell.
-  out.clear();
-  watch.add(kTellStumps, bones, out);
-  EXPECT_TRUE(out.empty());
-  bones.cleared_percent = 95;
-  watch.add(kTellStumps + 1, bones, out);
-  watch.add(kTellStumps + 2, bones, out);
-  watch.add(2 * kTellStumps, bones, out);
-  ASSERT_EQ(out.size(), 2u);
-  EXPECT_EQ(out[1].values[0], 95);
+TEST(StumpRules, ClearingWithoutALookIsAnErrorBeyondItsShareAndIsMadeOnce) {
+  StumpRuleRig rig("stumps_unseen");
+  rig.rule.rule.numbers["share"] = 0.1;
+  EXPECT_FALSE(rig.hit(kStumpsCleared, 50, 10));
+  EXPECT_FALSE(rig.hit(kTunnelBegun));
+  EXPECT_TRUE(rig.hit(kStumpsCleared, 60, 10.5));
+  EXPECT_FALSE(rig.hit(kStumpsCleared, 70, 20));
 }
 
 }  // namespace
