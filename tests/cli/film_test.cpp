@@ -111,6 +111,9 @@ TEST_F(FilmCli, WhatCannotBeMadeIsSaidAndLeavesNothing) {
     EXPECT_FALSE(ran.output.empty()) << wrong;
   }
   EXPECT_EQ(film("--out " + file("a.mp4")).exit_code, 2);
+  const Ran still = film("--from 1 --to 2 --out " + file("a.png"));
+  EXPECT_EQ(still.exit_code, 2);
+  EXPECT_NE(still.output.find("one picture, of the time --from"), std::string::npos);
   EXPECT_EQ(run_osteon("film /no/such.osr" + out).exit_code, 2);
   EXPECT_EQ(run_osteon("sound /no/such.osr --out " + file("a.wav")).exit_code, 2);
   EXPECT_TRUE(fs::is_empty(dir_));

@@ -14,8 +14,10 @@
 #include "commands/support/render_options.h"
 #include "osteon/media/film_writer.h"
 #include "osteon/media/wav_writer.h"
+#include "osteon/render/renderer.h"
 #include "runs/hands/tray.h"
 #include "runs/pictures/film_maker.h"
+#include "runs/pictures/film_still.h"
 #include "runs/pictures/film_view.h"
 #include "runs/replays/recorded_case.h"
 #include "runs/replays/recorded_sound.h"
@@ -102,6 +104,14 @@ Result<FilmPainter> film_painter(const FilmCommand& command, const SessionSettin
   return painter;
 }
 
+bool shows_softs(const FilmCommand& command) {
+  return *parse_film_view(command.view) != FilmView::kFluoro;
+}
+
+bool is_still(const FilmCommand& command) {
+  return std::filesystem::path(command.out).extension() == ".png";
+}
+
 Result<std::unique_ptr<FilmMaker>> film_maker(const FilmCommand& command,
                                               RecordingReader& recording,
                                               const SessionSettings& settings, const FilmSpan& span,
@@ -115,31 +125,33 @@ Result<std::unique_ptr<FilmMaker>> film_maker(const FilmCommand& command,
   auto writer =
       FilmWriter::create(command.out, {size->width, size->height, command.fps, !command.mute});
   if (!writer) return tl::unexpected(writer.error());
-  const bool shows_softs = *parse_film_view(command.view) != FilmView::kFluoro;
   return FilmMaker::create(
       [&, held = *scope] { return film_painter(command, settings, the_case, how, held); },
       std::move(*writer),
       [heard = std::make_shared<RecordedSound>(std::move(*sound))](std::span<float> block) {
         return heard->render(block);
       },
-      FilmSofts(*the_case, shows_softs ? how.softs : nullptr),
+      FilmSofts(*the_case, shows_softs(command) ? how.softs : nullptr),
       {span.from_s, span.pictures(command.fps), command.fps, recording.header().hands});
 }
 
-Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
+/// `sees`: a FilmMaker or a FilmStill; its finish() says why it could not go on.
+template <class Sees>
+Result<void> replay_into(Sees& sees, RecordingReader& recording,
                          std::shared_ptr<const Case> the_case, ReplayOptions how,
                          const FilmSpan& span, bool heat) {
   ProgressLine line;
   const auto tell = line.stopping();
   how.from_s = heat ? 0 : span.from_s;  // how warm it is now tells of all that was cut before
   how.to_s = span.to_s;
-  how.on_cuts = [&](const CutsPatch& cut, double) { maker.take(cut); };
-  how.on_pushes = [&](const SoftPushes& pushes) { maker.take(pushes); };
+  how.on_cuts = [&](const CutsPatch& cut, double) { sees.take(cut); };
+  how.on_pushes = [&](const SoftPushes& pushes) { sees.take(pushes); };
   how.on_tick = [&](std::size_t hand, const ToolState& tool, const BoneSnapshot& bones,
                     std::span<const Event>) {
-    maker.see(hand, tool, bones);
-    if (!maker.good()) throw FilmStopped();
-    if (hand == 0 && tool.tick % 16 == 0) tell("film", maker.share());
+    sees.see(hand, tool, bones);
+    if (!sees.good()) throw FilmStopped();
+    if (hand == 0 && tool.tick % 16 == 0)
+      tell("film", (tool.time_s - how.from_s) / (span.to_s - how.from_s));
   };
   try {
     if (const auto played = replay(recording, std::move(the_case), how); !played)
@@ -147,7 +159,25 @@ Result<void> replay_into(FilmMaker& maker, RecordingReader& recording,
   } catch (const FilmStopped&) {
     // The film knows why.
   }
-  return maker.finish();
+  return {};
+}
+
+/// The picture of the span's end.
+Result<void> save_still(const FilmCommand& command, RecordingReader& recording,
+                        const SessionSettings& settings, const FilmSpan& span,
+                        const std::shared_ptr<const Case>& the_case, ReplayOptions how) {
+  const auto scope = holds_a_scope(recording, settings);
+  if (!scope) return tl::unexpected(scope.error());
+  auto painter = film_painter(command, settings, the_case, how, *scope);
+  if (!painter) return tl::unexpected(painter.error());
+  FilmStill still(std::move(*painter),
+                  FilmSofts(*the_case, shows_softs(command) ? how.softs : nullptr),
+                  recording.header().hands);
+  if (auto ok = replay_into(still, recording, the_case, std::move(how), span, command.heat); !ok)
+    return ok;
+  const auto image = still.finish();
+  if (!image) return tl::unexpected(image.error());
+  return save_png(*image, command.out);
 }
 
 /// What can be seen to be wrong before anything long is begun.
@@ -158,8 +188,12 @@ Result<void> check_film(const FilmCommand& command, RecordingReader& recording,
   const auto view = parse_film_view(command.view);
   if (!view) return tl::unexpected(view.error());
   const std::filesystem::path out = command.out;
-  if (out.has_extension() && out.extension() != ".webm")
-    return fail("must end in .webm", command.out, "Films are WebM files");
+  if (out.has_extension() && out.extension() != ".webm" && !is_still(command))
+    return fail("must end in .webm, or in .png for one picture", command.out,
+                "Films are WebM files");
+  if (is_still(command) && (command.to_s || !command.sound.empty()))
+    return fail("is one picture, of the time --from", command.out,
+                "Leave out --to and --sound, or name a .webm file");
   const auto scope = holds_a_scope(recording, settings);
   if (!scope) return tl::unexpected(scope.error());
   if (*view == FilmView::kScope && !*scope)
@@ -183,11 +217,21 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
   ReplayOptions how;
   if (auto ok = take_instruments(recording->header(), **the_case, how); !ok)
     return tl::unexpected(ok.error());
+  if (is_still(command)) {
+    constexpr double kBefore_s = 0.4;
+    const FilmSpan before{std::max(0.0, span->from_s - kBefore_s),
+                          span->from_s + settings->haptic.tick_s, 0};
+    if (auto ok = save_still(command, *recording, *settings, before, *the_case, std::move(how));
+        !ok)
+      return tl::unexpected(ok.error());
+    return FilmSpan{span->from_s, span->from_s, 0};
+  }
   auto maker = film_maker(command, *recording, *settings, *span, *the_case, how);
   if (!maker) return tl::unexpected(maker.error());
   if (auto ok = replay_into(**maker, *recording, *the_case, std::move(how), *span, command.heat);
       !ok)
     return tl::unexpected(ok.error());
+  if (auto ok = (*maker)->finish(); !ok) return tl::unexpected(ok.error());
   if (!command.sound.empty())
     if (auto ok = save_sound(*recording, *span, command.sound); !ok)
       return tl::unexpected(ok.error());
@@ -197,6 +241,11 @@ Result<FilmSpan> make_film(const FilmCommand& command) {
 int run_film(const FilmCommand& command) {
   const auto span = make_film(command);
   if (!span) return report_error(span.error());
+  if (is_still(command)) {
+    std::printf("%s view of %s at %.2f s -> %s\n", command.view.c_str(), command.recording.c_str(),
+                span->from_s, command.out.c_str());
+    return kExitDone;
+  }
   std::printf("%s view of %s, %.2f to %.2f s, %d pictures a second -> %s\n", command.view.c_str(),
               command.recording.c_str(), span->from_s, span->to_s, command.fps,
               command.out.c_str());
@@ -267,7 +316,9 @@ void add_film_commands(cli::App& app, int& exit_code) {
   sub->add_flag("--heat", command->heat,
                 "colour carved bones by the hottest temperature that they had (outside, panorama)");
   sub->add_option("--sound", command->sound, "write the sound as a WAV file too");
-  sub->add_option("--out", command->out, "WebM file to write")->required();
+  sub->add_option("--out", command->out,
+                  "WebM file to write; or a PNG file: one picture, of the time --from")
+      ->required();
   sub->callback([command, &exit_code] { exit_code = run_film(*command); });
   add_sound_command(app, exit_code);
 }

@@ -44,7 +44,6 @@ class FilmMaker {
   bool good() const { return !failure_; }
   /// The water hid everything for so long; once it is finished.
   double obscured_s() const { return obscured_s_; }
-  double share() const { return static_cast<double>(made_) / static_cast<double>(pace_.pictures); }
 
  private:
   /// What is drawn next.
