@@ -6,15 +6,18 @@
 
 #include "cases/scoped_case.h"
 #include "osteon/base/file.h"
+#include "osteon/mesh/measure.h"
 #include "osteon/render/joint_roof.h"
 #include "osteon/render/joint_room.h"
 #include "osteon/render/scope_renderer.h"
 #include "osteon/render/soft_surface.h"
+#include "osteon/scene/graft_bench.h"
 #include "runs/pictures/carved_picture.h"
 #include "runs/pictures/film_fluoro.h"
 #include "runs/pictures/heat_picture.h"
 #include "runs/pictures/panorama.h"
 #include "runs/pictures/scope_lens.h"
+#include "runs/pictures/work_camera.h"
 #include "water/water_drift.h"
 
 namespace osteon {
@@ -85,7 +88,9 @@ struct FilmPainter::Impl {
                       int height);
   ViewState plain_view(double aspect) const;
   ViewState with_felt(ViewState view) const;
-  const ViewState& outside_view(double aspect);
+  bool looks_at_bench(const FilmMoment& moment);
+  bool looks_through_scope(const FilmMoment& moment) const;
+  const ViewState& outside_view(double aspect, bool at_bench);
   const ViewState& panorama_of(const std::string& side, double aspect);
   void shape_room(const BoneSnapshot& bones, const Vec3& tip_W);
   void show_carved();
@@ -103,8 +108,11 @@ struct FilmPainter::Impl {
     ViewState view;
   };
   std::optional<Look> looked_outside, looked_panorama;  ///< made once: they ask the whole case
-  std::vector<std::uint32_t> felt_softs;                ///< what gives way is seen
-  std::optional<std::uint32_t> felt_skin;               ///< seen from outside, and not through
+  std::optional<GraftBenchPlan> bench;                  ///< beside a limb
+  double at_bench_until_s = -1;
+  std::vector<Aabb> bone_boxes_B;
+  std::vector<std::uint32_t> felt_softs;   ///< what gives way is seen
+  std::optional<std::uint32_t> felt_skin;  ///< seen from outside, and not through
 };
 
 std::span<const ToolState> FilmPainter::Impl::tools(const FilmMoment& moment) {
@@ -117,6 +125,8 @@ Result<void> FilmPainter::Impl::open_pictures(const Tray& tray) {
   auto made = OffscreenContext::create();
   if (!made) return tl::unexpected(made.error());
   context.emplace(std::move(*made));
+  if (the_case->find("femur").valid()) bench = find_graft_bench(*the_case);
+  for (const Bone& bone : the_case->bones) bone_boxes_B.push_back(bounds(bone.mesh));
   const PreparedCase prepared = prepare_case(*the_case);
   if (order.view != FilmView::kScope) {
     auto drawn = Renderer::create(*the_case, *tray.front(), *data_dir, prepared);
@@ -182,14 +192,40 @@ Result<Image> FilmPainter::Impl::scene(Renderer& by, const FilmMoment& moment,
   return image;
 }
 
-const ViewState& FilmPainter::Impl::outside_view(double aspect) {
-  if (looked_outside && looked_outside->aspect == aspect) return looked_outside->view;
+// To the bench the picture goes with the hands that work there, and not back at once.
+bool FilmPainter::Impl::looks_at_bench(const FilmMoment& moment) {
+  constexpr double kStays_s = 1;
+  if (!bench) return false;
+  for (const ToolState& tool : tools(moment))
+    if (is_finite(tool.X_WP) && is_at_bench(*bench, tool.X_WP.p))
+      at_bench_until_s = moment.time_s + kStays_s;
+  return moment.time_s < at_bench_until_s;
+}
+
+// One that was put down beside the limb has no bone within its sight.
+bool FilmPainter::Impl::looks_through_scope(const FilmMoment& moment) const {
+  constexpr double kSight_m = 0.06;
+  const auto hand = first_looking(lenses, tools(moment));
+  if (!hand) return false;
+  for (std::size_t b = 0; b < std::min<std::size_t>(bone_boxes_B.size(), moment.bones.count); ++b) {
+    const Vec3 tip_B = moment.bones.bones[b].X_WB.inverse() * moment.tools[*hand].X_WP.p;
+    const Aabb& box = bone_boxes_B[b];
+    if ((box.lo - tip_B).cwiseMax(tip_B - box.hi).cwiseMax(0).norm() < kSight_m) return true;
+  }
+  return false;
+}
+
+const ViewState& FilmPainter::Impl::outside_view(double aspect, bool at_bench) {
+  const std::string place = at_bench ? "bench" : "";
+  if (looked_outside && looked_outside->aspect == aspect && looked_outside->side == place)
+    return looked_outside->view;
   ViewState view = plain_view(aspect);
+  if (at_bench) view.camera = bench_camera(view.camera, *bench, aspect);
   if (felt_skin) {
     view.softs[*felt_skin].visible = true;
     view.softs[*felt_skin].opacity = 1;
   }
-  return looked_outside.emplace(Look{"", aspect, with_felt(std::move(view))}).view;
+  return looked_outside.emplace(Look{place, aspect, with_felt(std::move(view))}).view;
 }
 
 const ViewState& FilmPainter::Impl::panorama_of(const std::string& side, double aspect) {
@@ -200,7 +236,8 @@ const ViewState& FilmPainter::Impl::panorama_of(const std::string& side, double 
 }
 
 Result<Image> FilmPainter::Impl::outside(const FilmMoment& moment, int width, int height) {
-  return scene(*renderer, moment, outside_view(static_cast<double>(width) / height), width, height);
+  const double aspect = static_cast<double>(width) / height;
+  return scene(*renderer, moment, outside_view(aspect, looks_at_bench(moment)), width, height);
 }
 
 Result<Image> FilmPainter::Impl::panorama(const FilmMoment& moment, const std::string& side,
@@ -260,21 +297,23 @@ Result<Image> FilmPainter::Impl::through_beam(const FilmMoment& moment, int widt
   return fluoro->draw(moment, width, height, [this] { return carved.cut_scene(); });
 }
 
-/// Large: the scope where there is one, else the outside. Beside it three small ones.
+/// Large: the scope while one is in the joint, else the outside. Beside it three small ones.
 Result<Image> FilmPainter::Impl::layout(const FilmMoment& moment) {
   constexpr int kGap = 2;
   const int main = std::max(2 * order.width / 3 - kGap, 1);
   const int small = std::max(order.width - main - kGap, 1), high = std::max(order.height / 3, 1);
   Image whole = black(order.width, order.height);
+  const bool in_joint = has_scope && looks_through_scope(moment);
   const auto large =
-      has_scope ? through_scope(moment, main, order.height) : outside(moment, main, order.height);
+      in_joint ? through_scope(moment, main, order.height) : outside(moment, main, order.height);
   if (!large) return large;
   put(*large, 0, 0, whole);
   for (int row = 0; row < 3; ++row) {
     const int tall = std::max(high - (row < 2 ? kGap : 0), 1);
     const auto part = row == 0    ? panorama(moment, order.side, small, tall)
                       : row == 2  ? through_beam(moment, small, tall)
-                      : has_scope ? outside(moment, small, tall)
+                      : in_joint  ? outside(moment, small, tall)
+                      : has_scope ? through_scope(moment, small, tall)
                                   : panorama(moment, "top", small, tall);
     if (!part) return part;
     put(*part, main + kGap, row * high, whole);

@@ -16,7 +16,7 @@
 #include "osteon/render/anatomical_view.h"
 #include "osteon/scene/graft_bench.h"
 #include "runs/hands/tray.h"
-#include "window/controllers/sessions/exercise_camera.h"
+#include "runs/pictures/work_camera.h"
 
 namespace osteon {
 namespace {

@@ -1,4 +1,4 @@
-#include "window/controllers/sessions/exercise_camera.h"
+#include "runs/pictures/work_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +53,9 @@ Camera side_camera(const Camera& from, std::span<const Vec3> portals_W,
   return look_from(from, view_from, points, aspect);
 }
 
-Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect) {
-  if (!(aspect > 0)) return from;
+namespace {
+
+std::vector<Vec3> points_on(const GraftBenchPlan& bench) {
   std::vector<Vec3> points{bench.graft_from_W, bench.graft_to_W, bench.board_from_W,
                            bench.board_to_W, bench.hook_W};
   points.insert(points.end(), bench.posts_W.begin(), bench.posts_W.end());
@@ -63,13 +64,32 @@ Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspe
     points.push_back(tendon.free_W);
     points.insert(points.end(), tendon.bands_W.begin(), tendon.bands_W.end());
   }
+  return points;
+}
+
+}  // namespace
+
+Camera bench_camera(const Camera& from, const GraftBenchPlan& bench, double aspect) {
+  if (!(aspect > 0)) return from;
   // Tendons run away from who works there.
   Vec3 back = -bench.tendons[0].along_W;
   back.z() = 0;
   if (!is_finite(back) || back.norm() < 1e-4) back = -Vec3::UnitX();
   const Vec3 view_from =
       std::cos(kBenchUp_rad) * back.normalized() + std::sin(kBenchUp_rad) * Vec3::UnitZ();
-  return look_from(from, view_from, points, aspect);
+  return look_from(from, view_from, points_on(bench), aspect);
+}
+
+bool is_at_bench(const GraftBenchPlan& bench, const Vec3& tip_W) {
+  constexpr double kNear_m = 0.1;
+  Aabb box;
+  for (const Vec3& p_W : points_on(bench)) box.include(p_W);
+  // A stripper goes along a tendon far out of the picture's middle.
+  for (std::uint32_t line = 0; line < GraftBenchPlan::kLines; ++line) {
+    box.include(bench.begin_W(line));
+    box.include(bench.end_W(line));
+  }
+  return (box.lo - tip_W).cwiseMax(tip_W - box.hi).cwiseMax(0).norm() < kNear_m;
 }
 
 Pose beside_bench(const GraftBenchPlan& bench) {

@@ -1,11 +1,11 @@
-#include "window/controllers/sessions/exercise_camera.h"
+#include "runs/pictures/work_camera.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "../../../../graft_bench_case.h"
+#include "../../../graft_bench_case.h"
 
 namespace osteon {
 namespace {
@@ -19,7 +19,7 @@ std::array<Vec3, 5> box_points(double turn_rad) {
           q * Vec3(0.02, 0, 0.01), q * Vec3(0.02, 0.016, 0.01)};
 }
 
-TEST(ExerciseCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
+TEST(WorkCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
   for (const double turn_rad : {0.0, 1.0, kPi, -2.0})
     for (const double aspect : {0.6, 1.0, 1.8}) {
       const auto points = box_points(turn_rad);
@@ -39,7 +39,7 @@ TEST(ExerciseCamera, AllThatMattersIsInThePictureHandsToTheLeftOfTheWork) {
     }
 }
 
-TEST(ExerciseCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
+TEST(WorkCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
   const auto bench = find_graft_bench(*testing::bench_case());
   ASSERT_TRUE(bench);
   for (const double aspect : {0.6, 1.0, 1.8}) {
@@ -63,7 +63,19 @@ TEST(ExerciseCamera, ABenchIsSeenFromAboveAndFromWhereTheOperatorIs) {
   EXPECT_EQ(bench_camera(camera, *bench, 0), camera);
 }
 
-TEST(ExerciseCamera, WithoutPortalsOrWorkItStays) {
+TEST(WorkCamera, WhoWorksAtTheBenchIsNearWhatLiesThere) {
+  const auto bench = find_graft_bench(*testing::bench_case());
+  ASSERT_TRUE(bench);
+  for (const Vec3& p_W :
+       {bench->hook_W, bench->board_to_W, bench->tendons[1].insertion_W, beside_bench(*bench).p})
+    EXPECT_TRUE(is_at_bench(*bench, p_W));
+  EXPECT_TRUE(is_at_bench(*bench, bench->end_W(GraftBenchPlan::kSemitendinosus)));
+  const Vec3 beyond_W = bench->tendons[0].insertion_W - 0.3 * bench->tendons[0].along_W;
+  EXPECT_FALSE(is_at_bench(*bench, beyond_W));
+  EXPECT_FALSE(is_at_bench(*bench, bench->hook_W + 0.3 * Vec3::UnitZ()));
+}
+
+TEST(WorkCamera, WithoutPortalsOrWorkItStays) {
   const auto points = box_points(0);
   Camera camera;
   camera.distance_m = 0.123;
