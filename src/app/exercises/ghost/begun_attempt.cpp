@@ -1,9 +1,12 @@
 #include "exercises/ghost/begun_attempt.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -92,21 +95,38 @@ bool is_of_this_build(const std::filesystem::path& expert) {
   return reader && reader->complete() && reader->header().osteon_version == OSTEON_VERSION;
 }
 
+// He plays once for a patient, in minutes.
+std::string expert_plays(int for_s) {
+  char time[16];
+  std::snprintf(time, sizeof time, "%d:%02d", for_s / 60, for_s % 60);
+  return std::string("The expert plays it on this patient, this once: ") + time + " so far";
+}
+
 }  // namespace
 
 Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progress& progress) {
   const auto stages = stages_of(order.part, order.wanted.scenario);
   if (!stages) return tl::unexpected(stages.error());
   if (stages->first == 0) return fail("nothing comes before this stage", order.part.from);
-  const auto go_on = [&progress] { return progress(nullptr, 0); };
   const std::filesystem::path kept = expert_recording(order.wanted);
   std::error_code ec;
   if (std::filesystem::exists(kept, ec) && !is_of_this_build(kept))
     std::filesystem::remove(kept, ec);
   const bool known = std::filesystem::exists(kept, ec);
-  if (!known) progress("The expert plays the exercise on this patient", 0);
+  // How long an expert will take is not known beforehand; that he is at it, is.
+  const auto begun = std::chrono::steady_clock::now();
+  int told_s = -1;
+  const auto go_on = [&] {
+    const auto lasted = std::chrono::steady_clock::now() - begun;
+    const auto now_s = static_cast<int>(std::chrono::duration<double>(lasted).count());
+    if (known || now_s == told_s) return progress(nullptr, 0);
+    told_s = now_s;
+    return progress(expert_plays(now_s).c_str(), 0);
+  };
   const auto expert = recorded_expert(order.wanted, go_on, order.program);
   if (!expert) return tl::unexpected(expert.error());
+  // Who has never recorded anything has no folder for it yet.
+  std::filesystem::create_directories(order.file.parent_path(), ec);
   return repeat_begin(order, *expert, *stages, known ? 0 : kPlayedShare, progress);
 }
 

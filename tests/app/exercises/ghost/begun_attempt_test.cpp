@@ -172,8 +172,25 @@ TEST_F(BegunAttemptTest, WhatIsStoppedOrCannotBeLeavesNothing) {
   EXPECT_FALSE(fs::exists(file));
   EXPECT_TRUE(fs::exists(expert_recording(wanted))) << "the expert's is not to blame";
   BegunAttemptOrder nowhere = order_of({"forearm", "forearm"});
-  nowhere.file = dir / "no" / "such" / "folder.osr";
+  const fs::path no_folder = dir / "no_folder";
+  std::ofstream(no_folder) << "a file";
+  nowhere.file = no_folder / "attempt.osr";
   EXPECT_FALSE(begin_attempt(nowhere, [](const char* what, double) { return what != nullptr; }));
+}
+
+// Who has just installed the program begins with a part.
+TEST_F(BegunAttemptTest, TheFirstRecordingOfAllMakesItsFolder) {
+  BegunAttemptOrder first = order_of({"forearm", "forearm"});
+  first.file = dir / "data" / "recordings" / "attempt.osr";
+  std::vector<std::string> told;
+  auto begun = begin_attempt(first, [&](const char* what, double) {
+    if (what) told.emplace_back(what);
+    return true;
+  });
+  ASSERT_TRUE(begun) << begun.error().message();
+  EXPECT_TRUE(fs::is_directory(first.file.parent_path()));
+  for (const std::string& what : told)
+    EXPECT_EQ(what.find("so far"), std::string::npos) << "he need not play again";
 }
 
 // What cannot be repeated is recorded anew, by a program that is not there.
