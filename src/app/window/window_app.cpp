@@ -24,7 +24,9 @@ namespace {
 // A display without a refresh to wait for would otherwise take all the processor.
 constexpr std::int64_t kShortestFrame_ns = 1'000'000'000 / 60;
 constexpr std::int64_t kShortestFrameOnDisplay_ns = 1'000'000'000 / 250;
-// Growing bones needs the processor more than the bar that shows how far it is.
+// Growing bones, or an expert who plays what comes before, needs the processor more than the bar
+// that shows how far it is: where the processor draws, an expert beside a picture that is drawn at
+// full rate takes several times as long.
 constexpr std::int64_t kShortestWait_ns = 1'000'000'000 / 15;
 
 double processor_now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -78,7 +80,7 @@ Result<void> WindowApp::run() {
     views_.picture_took(work_s);
     const bool paced = host_.order.frames == 0 && !software_driver();
     const std::int64_t shortest_ns = paced ? kShortestFrameOnDisplay_ns : kShortestFrame_ns;
-    const bool waits = !scene_.renderer && cases_.loading();
+    const bool waits = (!scene_.renderer && cases_.loading()) || exercise_.beginning();
     sleep_until_ns(begin_ns + (waits ? kShortestWait_ns : shortest_ns));
   }
   checkup_.drop();

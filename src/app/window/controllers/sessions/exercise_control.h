@@ -29,6 +29,8 @@ class ExerciseControl {
   void show(const std::string& name);
   bool opening() const { return exercise_.page() == ExercisePage::kOpening; }
   bool running() const { return exercise_.page() == ExercisePage::kRunning; }
+  /// The expert does what comes before the part that is played; nobody works meanwhile.
+  bool beginning() const { return beginning_ != nullptr; }
   bool judging() const { return exercise_.page() == ExercisePage::kJudging; }
   /// Its patient is on show.
   void begin();
