@@ -15,6 +15,7 @@ struct GlWindow::State {
   std::vector<std::string> dropped;
   std::vector<int> pressed;
   int x = 0, y = 0, width = 0, height = 0;  // before full screen
+  int framebuffer_w = 0, framebuffer_h = 0, window_w = 0, window_h = 0;
 };
 
 namespace {
@@ -84,7 +85,25 @@ Result<GlWindow> GlWindow::create(const WindowOptions& options) {
   glfwSetWindowSizeLimits(made.window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(made.window_);
   glfwSwapInterval(options.wait_for_display ? 1 : 0);
+  made.follow_size();
   return made;
+}
+
+// Asking a display server waits for it, on a busy computer for milliseconds; sizes are asked for
+// many times a picture.
+void GlWindow::follow_size() const {
+  glfwGetFramebufferSize(window_, &state_->framebuffer_w, &state_->framebuffer_h);
+  glfwGetWindowSize(window_, &state_->window_w, &state_->window_h);
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int width, int height) {
+    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+    state.framebuffer_w = width;
+    state.framebuffer_h = height;
+  });
+  glfwSetWindowSizeCallback(window_, [](GLFWwindow* window, int width, int height) {
+    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+    state.window_w = width;
+    state.window_h = height;
+  });
 }
 
 GlWindow::GlWindow(GlWindow&& other) noexcept
@@ -108,7 +127,8 @@ GlWindow::~GlWindow() {
 bool GlWindow::should_close() const { return glfwWindowShouldClose(window_) != 0; }
 
 void GlWindow::framebuffer_size(int& width, int& height) const {
-  glfwGetFramebufferSize(window_, &width, &height);
+  width = state_->framebuffer_w;
+  height = state_->framebuffer_h;
 }
 
 float GlWindow::content_scale() const {
@@ -118,10 +138,8 @@ float GlWindow::content_scale() const {
 }
 
 double GlWindow::pixel_ratio() const {
-  int framebuffer_w = 0, framebuffer_h = 0, window_w = 0, window_h = 0;
-  glfwGetFramebufferSize(window_, &framebuffer_w, &framebuffer_h);
-  glfwGetWindowSize(window_, &window_w, &window_h);
-  return window_w > 0 ? static_cast<double>(framebuffer_w) / window_w : 1.0;
+  const State& s = *state_;
+  return s.window_w > 0 ? static_cast<double>(s.framebuffer_w) / s.window_w : 1.0;
 }
 
 // GLFW for Wayland lacks the function.

@@ -32,10 +32,11 @@ class GlWindow {
 
   GLFWwindow* handle() const { return window_; }
   bool should_close() const;
+  /// As what the user did was last taken in.
   void framebuffer_size(int& width, int& height) const;
   /// Scale of the display that the window is on; 1 is 96 dots an inch.
   float content_scale() const;
-  /// Framebuffer pixels a screen coordinate.
+  /// Framebuffer pixels a screen coordinate, of that same moment.
   double pixel_ratio() const;
   /// Its name for other programs of the desktop, "x11:" and X11's number; empty: it has none.
   std::string name_for_desktop() const;
@@ -55,6 +56,7 @@ class GlWindow {
  private:
   struct State;
   GlWindow() = default;
+  void follow_size() const;
   GLFWwindow* window_ = nullptr;
   bool beside_ = false;  ///< another window's end is the display's
   std::unique_ptr<State> state_;
