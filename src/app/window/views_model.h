@@ -75,6 +75,7 @@ struct WaterModel {
   WaterSettings settings;
   double pressure_pa = 0;  ///< in the joint
   double turbidity = 0;    ///< 0 clear to 1 nothing is seen
+  bool collapsed = false;  ///< the pressure does not hold the joint open
   bool can_set = true;     ///< not in a replay: it shows the pump as it was
 };
 

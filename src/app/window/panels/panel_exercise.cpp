@@ -465,6 +465,8 @@ void draw_scrolled_part(const PanelContext& c) {
   if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
   // What one works with comes before what one reads, which may scroll.
   draw_exercise_knee(c);
+  if (c.model.views.water) ImGui::Separator();
+  draw_water_section(c);
   draw_made_errors(c);
   for (const ExerciseModel::Told& told : model.told)
     ui::stat(told.name.c_str(), told.value, told.meaning.c_str());

@@ -111,7 +111,8 @@ void draw_view_section(const PanelContext& c) {
   ImGui::Dummy({0, c.px(2)});
   draw_observer_section(c);
   draw_sound_section(c);
-  draw_water_section(c);
+  // In an exercise its card has it, where the eyes are when the picture closes in.
+  if (c.model.exercise.page != ExercisePage::kRunning) draw_water_section(c);
   draw_scope_camera_section(c);
 }
 

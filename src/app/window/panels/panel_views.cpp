@@ -135,7 +135,12 @@ void draw_water_section(const PanelContext& c) {
   ImGui::EndDisabled();
   const std::string joint = ui::number(water.pressure_pa / kPa_per_mmHg, 0) + " mmHg";
   const std::string lost = ui::number(100 * water.turbidity, 0) + " %";
-  ui::text(color::kTextQuiet, ("In the joint " + joint).c_str());
+  if (water.collapsed)
+    ui::wrapped_text(color::kAmber, "In the joint " + joint +
+                                        ": too little to hold it open, nothing is seen. Raise the "
+                                        "pump, close the outlet, or suck less.");
+  else
+    ui::text(color::kTextQuiet, ("In the joint " + joint).c_str());
   ui::text(color::kTextQuiet, ("Light lost " + lost).c_str());
   if (changed) c.requests.views.water = {kPa_per_mmHg * pump_mmhg, 0.01 * outlet_percent};
 }

@@ -56,7 +56,7 @@ void draw_layout_chooser(const PanelContext& c, bool wide);
 float layout_chooser_width(const PanelContext& c, bool wide);
 void draw_observer_section(const PanelContext& c);
 void draw_sound_section(const PanelContext& c);
-void draw_water_section(const PanelContext& c);  // of a scope's picture
+void draw_water_section(const PanelContext& c);  // of a scope's picture, if one is on show
 void draw_scope_camera_section(const PanelContext& c);
 std::string film_label(const ScreenFilmModel& film);
 void draw_film_button(const PanelContext& c);

@@ -269,6 +269,31 @@ TEST_F(ExercisePanel, TheResultCanBeWatchedPrintedAndTriedAgain) {
   EXPECT_TRUE(ui.click("##exercise", {"Exercises"}).exercise.back);
 }
 
+// Who has the picture close in looks here for what to do, and not below a list of bones.
+TEST_F(ExercisePanel, WhileAScopeIsOnShowTheCardHasThePump) {
+  at(ExercisePage::kRunning);
+  settle();
+  EXPECT_LT(ui.find(scrolled().c_str(), {"##Pump"}).x, 0);
+  const auto needed = [&] {
+    settle();
+    return ImGui::FindWindowByName(scrolled().c_str())->ContentSize.y;
+  };
+  ui.model.views.water = WaterModel{{8000, 0.5}, 6000, 0.1};
+  const float open = needed();
+  const ImVec2 at = ui.find(scrolled().c_str(), {"##Pump"});
+  ASSERT_GE(at.x, 0);
+  ImGui::GetIO().MousePos = {at.x + 20, at.y};
+  ui.draw();
+  ImGui::GetIO().MouseDown[0] = true;
+  const auto pumped = ui.draw().views.water;
+  ImGui::GetIO().MouseDown[0] = false;
+  ui.draw();
+  ASSERT_TRUE(pumped);
+  EXPECT_NE(pumped->pump_pa, 8000);
+  ui.model.views.water->collapsed = true;
+  EXPECT_GT(needed(), open + 10) << "it says why nothing is seen";
+}
+
 // Loads come with their sliders once the knee is known, and not where it is bent too far.
 TEST_F(ExercisePanel, AKneeIsExaminedBySliders) {
   const auto pressed = [&](const char* slider) {

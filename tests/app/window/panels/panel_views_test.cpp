@@ -113,6 +113,9 @@ TEST(ViewsPanel, TheWaterIsSetWhereAScopeIsOnShow) {
   ASSERT_TRUE(opened);
   EXPECT_NE(opened->outlet_open, 0.25);
   EXPECT_NEAR(opened->pump_pa, 8000, 1e-9);
+  ui.model.exercise.page = ExercisePage::kRunning;
+  ui.draw();
+  EXPECT_FALSE(press_water(ui, "##Pump")) << "the exercise's card has it";
 }
 
 TEST(ViewsPanel, TheCameraIsBalancedToItsLightAndKeepsStillsWhereAScopeIsOnShow) {

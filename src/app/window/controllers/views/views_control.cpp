@@ -180,7 +180,10 @@ std::optional<WaterModel> ViewsControl::water_model() const {
   WaterModel model;
   model.settings = live_.run() && pump_ ? *pump_ : WaterSettings{water.pump_pa, water.outlet_open};
   model.pressure_pa = water.pressure_pa;
-  model.turbidity = turbidity(*joint, fluid_of(water));
+  FluidState mixture = fluid_of(water);
+  model.turbidity = turbidity(*joint, mixture);
+  mixture.blood = mixture.debris = 0;
+  model.collapsed = is_obscured(*joint, mixture);
   model.can_set = live_.run() != nullptr;
   return model;
 }
