@@ -89,6 +89,8 @@ void draw_probe_hint(const PanelContext& c) {
   row.key("Mouse", "moves the instrument");
   row.key("Wheel", "deeper, nearer");
   row.key("W A S D Q E", "turn");
+  for (const HandRow& hand : c.model.hands.rows)
+    if (hand.active && !hand.key_does.empty()) row.key("V", hand.key_does.c_str());
   row.key("M", "release");
   ImGui::End();
 }

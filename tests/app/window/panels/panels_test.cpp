@@ -213,6 +213,23 @@ TEST(Panels, HintsStayBetweenTheCardsHoweverNarrowTheWindow) {
   }
 }
 
+TEST(Panels, WhatRunsInTheHandTellsItsKey) {
+  UiFrame ui;
+  fill(ui, small_model());
+  ui.model.hand.probe_in_hand = true;
+  HandRow other, active;
+  other.key_does = "shut (hold)";
+  active.active = true;
+  ui.model.hands.rows = {other, active};
+  const auto width = [&] {
+    for (int i = 0; i < 3; ++i) ui.draw();
+    return ui.rect("##probe").w;
+  };
+  const float without = width();
+  ui.model.hands.rows[1].key_does = "run (hold)";
+  EXPECT_GT(width(), without + 10);
+}
+
 // Their keys move the outside view; over another layout's small views they would be in the way.
 TEST(Panels, TheFirstHintIsShownOverTheOutsideViewAlone) {
   UiFrame ui;

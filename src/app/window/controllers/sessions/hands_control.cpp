@@ -181,6 +181,10 @@ std::vector<HandRow> HandsControl::rows() const {
     if (ticks && portal < scene_.portals.size()) row.portal = scene_.portals[portal].title;
     row.active = i == run.active();
     row.rests = run.rests(i);
+    const auto& driven = live_.tray().run().driven;
+    const std::uint32_t held = ticks ? hand.snapshot.tool.instrument : hand.instrument;
+    if (held < driven.size())
+      row.key_does = driven[held].jaws ? "shut (hold)" : driven[held].power ? "run (hold)" : "";
     rows.push_back(std::move(row));
   }
   return rows;
