@@ -12,14 +12,15 @@ StumpWatch::StumpWatch(const Case& the_case, std::vector<std::optional<ScopeOpti
     : case_(&the_case), optics_(std::move(optics)) {}
 
 // What clears is in the joint; of several instruments there it is enough to see one.
-bool StumpWatch::is_watched(std::span<const ToolState* const> tools,
-                            const BoneSnapshot& bones) const {
+std::optional<bool> StumpWatch::is_tip_watched(std::span<const ToolState* const> tools,
+                                               const BoneSnapshot& bones) const {
+  std::optional<bool> watched;
   for (std::size_t h = 0; h < tools.size(); ++h) {
     const bool scope = h < optics_.size() && optics_[h];
     if (scope || tools[h]->portal == kNoPortal || !is_finite(tools[h]->X_WP)) continue;
-    if (is_tip_seen(*case_, optics_, tools, h, bones)) return true;
+    watched = watched.value_or(false) || is_tip_seen(*case_, optics_, tools, h, bones);
   }
-  return false;
+  return watched;
 }
 
 // Less than was known: a restore point has brought it back.
@@ -29,7 +30,8 @@ void StumpWatch::add(std::span<const ToolState* const> tools, const BoneSnapshot
   if (!felt_ || tools.empty()) return;
   const double more =
       bones.cleared_percent - std::exchange(cleared_percent_, bones.cleared_percent);
-  if (more > 0 && (obscured || !is_watched(tools, bones))) blind_percent_ += more;
+  if (more > 0 && (obscured || !is_tip_watched(tools, bones).value_or(false)))
+    blind_percent_ += more;
   blind_percent_ = std::min(blind_percent_, cleared_percent_);
   const int now = static_cast<int>(std::floor(cleared_percent_));
   const std::uint64_t tick = tools[0]->tick;

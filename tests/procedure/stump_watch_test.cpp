@@ -98,5 +98,16 @@ TEST(StumpWatch, WhatGoesWhileNobodySeesTheTipIsCountedApart) {
   EXPECT_EQ(rig.add(8, 30)[0].values[1], 20);
 }
 
+TEST(StumpWatch, WhetherTheTipIsInThePictureIsKnownBeforeAnythingIsCleared) {
+  StumpWatchRig rig;
+  const std::vector<const ToolState*> tools{&rig.scope, &rig.shaver};
+  const BoneSnapshot bones = rest_snapshot(*rig.the_case);
+  EXPECT_EQ(rig.watch->is_tip_watched(tools, bones), true);
+  rig.scope.X_WP.q = Quat(Eigen::AngleAxisd(3, Vec3::UnitX()));
+  EXPECT_EQ(rig.watch->is_tip_watched(tools, bones), false);
+  rig.shaver.portal = kNoPortal;
+  EXPECT_FALSE(rig.watch->is_tip_watched(tools, bones)) << "nothing is in that could clear";
+}
+
 }  // namespace
 }  // namespace osteon

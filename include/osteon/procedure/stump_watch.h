@@ -34,10 +34,11 @@ class StumpWatch {
   }
   /// Of the whole, while nobody saw it.
   double blind_percent() const { return blind_percent_; }
+  /// Whether a scope has the tip of what is in another portal in its picture; none: nothing is.
+  std::optional<bool> is_tip_watched(std::span<const ToolState* const> tools,
+                                     const BoneSnapshot& bones) const;
 
  private:
-  bool is_watched(std::span<const ToolState* const> tools, const BoneSnapshot& bones) const;
-
   const Case* case_;
   std::vector<std::optional<ScopeOptics>> optics_;
   bool felt_ = false;

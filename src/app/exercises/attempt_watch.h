@@ -92,6 +92,12 @@ class AttemptWatch {
   std::optional<int> cleared_percent() const { return stumps_->percent(); }
   /// Of that, while no scope saw the tip.
   double cleared_blind_percent() const { return stumps_->blind_percent(); }
+  /// Whether what clears them would be watched now; none: nothing is in a portal that could.
+  std::optional<bool> clears_watched(std::span<const ToolState* const> tools,
+                                     const BoneSnapshot& bones) const {
+    const auto watched = stumps_->is_tip_watched(tools, bones);
+    return watched && water_ && water_->is_obscured_now() ? false : watched;
+  }
 
  private:
   struct Part {

@@ -58,7 +58,10 @@ class ExerciseRun {
 
   const Scenario& scenario() const { return shortened_ ? *shortened_ : scenarios_[chosen_]; }
   std::string case_spec() const;
-  void wait_for_case() { page_ = ExercisePage::kOpening; }
+  void wait_for_case() {
+    page_ = ExercisePage::kOpening;
+    problem_.clear();  // of the last try: how far this one is takes its place
+  }
   /// The patient is open: what the hands shall hold. An error is shown on the briefing.
   std::optional<std::vector<PlannedHand>> plan(std::shared_ptr<const Case> the_case);
   /// Where the goals' landmarks are, of the exercise that was planned last.
@@ -105,11 +108,9 @@ class ExerciseRun {
   std::optional<std::uint32_t> mark_of_stage(std::size_t stage) const;
   /// The knee, where a graft lies in it; `bones`: as they are shown.
   BentKneeModel knee(const BoneSnapshot& bones) const;
-  /// What its landmarks that shall be seen miss, `bones` as they are shown.
-  std::vector<ExerciseModel::Told> sights(const BoneSnapshot& bones) const {
-    if (!watch_ || !case_ || page_ != ExercisePage::kRunning) return {};
-    return sights_of(*plan_, watch_->state(), *case_, hands_, last_, bones);
-  }
+  /// What its landmarks that shall be seen miss, and whether the tip that clears stumps is seen;
+  /// `bones` as they are shown.
+  std::vector<ExerciseModel::Told> sights(const BoneSnapshot& bones) const;
   /// How far it is; null: none has begun. `now_s`: pauses left out.
   const ScenarioState* state() const { return watch_ ? &watch_->state() : nullptr; }
   double now_s() const { return now_s_; }

@@ -61,6 +61,19 @@ bool ExerciseRun::asks_now(std::string_view kind) const {
                      [&](const PlannedRule& goal) { return goal.rule.kind == kind; });
 }
 
+std::vector<ExerciseModel::Told> ExerciseRun::sights(const BoneSnapshot& bones) const {
+  if (!watch_ || !case_ || page_ != ExercisePage::kRunning) return {};
+  auto facts = sights_of(*plan_, watch_->state(), *case_, hands_, last_, bones);
+  if (!asks_now("stumps_cleared")) return facts;
+  std::vector<const ToolState*> tools;
+  for (const ToolState& tool : last_) tools.push_back(&tool);
+  if (const auto watched = watch_->clears_watched(tools, bones))
+    facts.push_back({"Tip in the scope's picture", *watched ? "yes" : "no: do not clear",
+                     "What is cleared while the scope does not see the tip is an error, and so is "
+                     "what the water hides"});
+  return facts;
+}
+
 void ExerciseRun::describe_exam(const BoneSnapshot& bones, ExaminedKneeModel& model) const {
   const KneeExamState& exam = bones.exam;
   const auto is_of = [](KneeTest test) { return static_cast<std::size_t>(test); };
