@@ -17,8 +17,8 @@ struct HandRow {
   std::string portal;      ///< that its shaft passes through; empty: none
   bool runs = false;       ///< its motor does
   bool active = false;
-  bool rests = false;    ///< as if held by an assistant
-  std::string key_does;  ///< the key V, while it is held: "run"; empty: nothing
+  bool rests = false;         ///< as if held by an assistant
+  std::string key_does = {};  ///< the key V, while it is held: "run"; empty: nothing
 };
 
 /// One line of the tray.
