@@ -296,8 +296,9 @@ Clearing plan_clearing(const AclKnee& knee, const AclTools& tools, const AclHabi
   out.before_m = before_stumps_m(knee, stumps, portals.probe_W);
   out.places = clearing_places(knee, stumps, out.with);
   if (habits.fault == "cleared_blind" || habits.fault == "skipped_inspection") return out;
-  ClearingWatcher who{tools.optics, portals.scope_W, {}};
+  ClearingWatcher who{tools.optics, portals.scope_W, {}, {}};
   for (const std::string& name : tools.felt) who.also_W.push_back(knee.mark(name));
+  for (const char* name : {"acl_femur", "acl_tibia"}) who.aims_W.push_back(knee.mark(name));
   out.views = clearing_views(knee, all, out.with, who, out.places);
   return out;
 }

@@ -28,18 +28,19 @@ constexpr double kOpen_m = 0.009, kOpenShare = 0.65;  // free of everything, of 
 constexpr int kOpenRays = 8;
 constexpr std::size_t kMostViews = 3, kMostAims = 6;
 constexpr int kTurns = 11;
-constexpr double kTurn_rad = 15 * std::numbers::pi / 180;
+constexpr double kGazeTurn_rad = 15 * std::numbers::pi / 180;
 
 // Soft parts that stand in a picture, but for what is to be cleared and the fat that moves aside.
 class SoftsInSight {
  public:
   explicit SoftsInSight(const Case& the_case) {
-    for (const TornStump& stump : torn_stumps(the_case)) torn_.push_back(stump.soft);
+    std::vector<std::uint32_t> torn;
+    for (const TornStump& stump : torn_stumps(the_case)) torn.push_back(stump.soft);
     for (std::uint32_t s = 0; s < the_case.softs.size(); ++s) {
       const SoftPart& part = the_case.softs[s];
       const bool hides =
           part.kind == "meniscus" || part.kind == "cartilage" || part.kind == "ligament";
-      if (hides && std::find(torn_.begin(), torn_.end(), s) == torn_.end())
+      if (hides && std::find(torn.begin(), torn.end(), s) == torn.end())
         parts_.emplace_back(part.mesh_W);
     }
   }
@@ -51,7 +52,6 @@ class SoftsInSight {
   }
 
  private:
-  std::vector<std::uint32_t> torn_;
   std::vector<MeshDistance> parts_;
 };
 
@@ -76,7 +76,7 @@ class ViewSearch {
       for (const double side : {1.0, -1.0})
         for (const Vec3& aim_W : aims)
           for (const double mm : {16.0, 20.0, 13.0, 24.0, 10.0}) {
-            Look look{{aim_W, 0.001 * mm, side * turn * kTurn_rad}, {}, 0};
+            Look look{{aim_W, 0.001 * mm, side * turn * kGazeTurn_rad}, {}, 0};
             if (!shows(places, most.count, look)) continue;
             most = std::move(look);
             if (most.count == places.size()) return most;
@@ -89,6 +89,7 @@ class ViewSearch {
     Vec3 middle = Vec3::Zero();
     for (const ClearingPlace& place : places) middle += place.to_W;
     std::vector<Vec3> aims{middle / static_cast<double>(places.size())};
+    aims.insert(aims.end(), who_.aims_W.begin(), who_.aims_W.end());
     const std::size_t stride = places.size() / kMostAims + 1;
     for (std::size_t i = 0; i < places.size(); i += stride) aims.push_back(places[i].to_W);
     return aims;

@@ -21,6 +21,7 @@ struct ClearingWatcher {
   ScopeOptics optics;
   Vec3 portal_W = Vec3::Zero();
   std::vector<Vec3> also_W;
+  std::vector<Vec3> aims_W;  ///< that the scope may look at beside what is cleared
 };
 
 /// The fewest gazes that were found from which the tip is seen at all places, each in the group of

@@ -37,7 +37,7 @@ const std::vector<RuleKind>& stump_rule_table() {
        kTunnelBegun},
       {"stumps_unseen",
        "more than this share of what torn ligaments have left is cleared while no scope in another "
-       "portal sees the tip",
+       "portal sees the tip, or the water hides everything",
        false,
        {{"share", 0.01, 1, 0.1}},
        SubjectKind::kNothing,
