@@ -91,7 +91,6 @@ TEST(StumpWatch, WhatGoesWhileNobodySeesTheTipIsCountedApart) {
   rig.scope.portal = 0;
   rig.shaver.portal = kNoPortal;
   EXPECT_EQ(rig.add(6, 10)[0].values[1], 10);
-  EXPECT_EQ(rig.watch->blind_percent(), 10);
   rig.shaver.portal = 1;
   EXPECT_EQ(rig.add(7, 20)[0].values[1], 10);
   rig.obscured = true;  // the joint has collapsed

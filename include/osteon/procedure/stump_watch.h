@@ -32,8 +32,6 @@ class StumpWatch {
   std::optional<int> percent() const {
     return felt_ ? std::optional<int>(told_percent_) : std::nullopt;
   }
-  /// Of the whole, while nobody saw it.
-  double blind_percent() const { return blind_percent_; }
   /// Whether a scope has the tip of what is in another portal in its picture; none: nothing is.
   std::optional<bool> is_tip_watched(std::span<const ToolState* const> tools,
                                      const BoneSnapshot& bones) const;

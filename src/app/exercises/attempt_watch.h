@@ -90,8 +90,6 @@ class AttemptWatch {
   std::optional<KneeExam> exam() const;
   /// Of what torn ligaments have left; none: it is not felt.
   std::optional<int> cleared_percent() const { return stumps_->percent(); }
-  /// Of that, while no scope saw the tip.
-  double cleared_blind_percent() const { return stumps_->blind_percent(); }
   /// Whether what clears them would be watched now; none: nothing is in a portal that could.
   std::optional<bool> clears_watched(std::span<const ToolState* const> tools,
                                      const BoneSnapshot& bones) const {

@@ -9,10 +9,6 @@ namespace {
 constexpr float kClearBone = 0.42f;
 constexpr std::array<float, 4> kYellow{1.0f, 0.86f, 0.16f, 0.30f};
 
-bool is_of_bench(const Case& the_case, const Bone& bone) {
-  return bone.fma_id == 0 && find_graft_bench(the_case).has_value();
-}
-
 // What is operated on. Of a knee that is cut off near the joint the long fibula would make it small
 // in the picture.
 Aabb seen_whole(const Case& the_case) {
@@ -56,9 +52,11 @@ ViewState panorama_view(const Case& the_case, const Camera& camera) {
   view.camera = camera;
   view.show_hand_ghost = false;
   view.show_force = false;
+  const bool has_bench = find_graft_bench(the_case).has_value();
   for (std::size_t k = 0; k < view.bones.size(); ++k) {
     view.bones[k].opacity = kClearBone;
-    if (is_of_bench(the_case, the_case.bones[k])) view.bones[k].visible = false;
+    // What lies on a bench is in no anatomy.
+    if (has_bench && the_case.bones[k].fma_id == 0) view.bones[k].visible = false;
   }
   for (std::size_t k = 0; k < the_case.softs.size(); ++k) {
     const std::string& kind = the_case.softs[k].kind;

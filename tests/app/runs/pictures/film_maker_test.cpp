@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
+#include "film_ball.h"
 #include "osteon/render/renderer.h"
-#include "xray/phantoms.h"
 
 namespace osteon {
 namespace {
@@ -20,16 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr FilmFormat kFilm{96, 64, 10, true};
 constexpr FilmPace kPace{0, 10, kFilm.fps, 1};
-
-std::shared_ptr<const Case> a_ball() {
-  auto made = std::make_shared<Case>();
-  made->name = "ball";
-  Bone bone;
-  bone.name = "ball";
-  bone.mesh = testing_xray::ball(Vec3::Zero(), 0.010, 24);
-  made->bones.push_back(std::move(bone));
-  return made;
-}
 
 class FilmMakerTest : public ::testing::Test {
  protected:
@@ -45,15 +35,6 @@ class FilmMakerTest : public ::testing::Test {
     return FilmPainter::create(case_, {}, {}, false,
                                {FilmView::kOutside, kFilm.width, kFilm.height});
   }
-  // A tool that goes across the ball in a second.
-  static ToolState tool_at(std::uint64_t tick) {
-    ToolState tool;
-    tool.tick = tick;
-    tool.time_s = 0.001 * static_cast<double>(tick);
-    tool.X_WP.p = Vec3(0.03 * tool.time_s - 0.015, 0, 0.012);
-    tool.X_WD = tool.X_WP;
-    return tool;
-  }
   static Result<void> beep(std::span<float> block) {
     for (std::size_t s = 0; s < block.size(); ++s) block[s] = static_cast<float>(s % 100) / 200;
     return {};
@@ -67,7 +48,7 @@ class FilmMakerTest : public ::testing::Test {
   }
   void play(FilmMaker& film) const {
     for (std::uint64_t tick = 1; tick <= 1000; ++tick)
-      film.see(0, tool_at(tick), rest_snapshot(*case_));
+      film.see(0, testing::tool_across_ball(tick), rest_snapshot(*case_));
   }
   std::string bytes(const char* name) const {
     std::ifstream in(dir_ / name, std::ios::binary);
@@ -78,7 +59,7 @@ class FilmMakerTest : public ::testing::Test {
   }
 
   fs::path dir_;
-  std::shared_ptr<const Case> case_ = a_ball();
+  std::shared_ptr<const Case> case_ = testing::a_ball();
 };
 
 // The film is the one that is drawn and written picture by picture on one thread.
@@ -94,7 +75,7 @@ TEST_F(FilmMakerTest, MakesTheFilmOfPainterAndWriter) {
   for (std::uint64_t k = 0; k < kPace.pictures; ++k) {
     FilmMoment moment;
     moment.bones = rest_snapshot(*case_);
-    moment.tools[0] = tool_at(std::max<std::uint64_t>(1, 100 * k));
+    moment.tools[0] = testing::tool_across_ball(std::max<std::uint64_t>(1, 100 * k));
     moment.time_s = moment.tools[0].time_s;
     std::vector<float> sound(kSoundHz / kFilm.fps);
     ASSERT_TRUE(beep(sound));

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "film_ball.h"
 #include "osteon/render/renderer.h"
-#include "xray/phantoms.h"
 
 namespace osteon {
 namespace {
@@ -16,26 +16,11 @@ class FilmStillTest : public ::testing::Test {
   void SetUp() override {
     if (auto context = OffscreenContext::create(); !context)
       GTEST_SKIP() << "no OpenGL without a window here: " << context.error().message();
-    auto made = std::make_shared<Case>();
-    made->name = "ball";
-    Bone bone;
-    bone.name = "ball";
-    bone.mesh = testing_xray::ball(Vec3::Zero(), 0.010, 24);
-    made->bones.push_back(std::move(bone));
-    case_ = std::move(made);
   }
   Result<FilmPainter> painter() const {
     return FilmPainter::create(case_, {}, {}, false, {FilmView::kOutside, 96, 64});
   }
-  static ToolState tool_at(std::uint64_t tick) {
-    ToolState tool;
-    tool.tick = tick;
-    tool.time_s = 0.001 * static_cast<double>(tick);
-    tool.X_WP.p = Vec3(0.03 * tool.time_s - 0.015, 0, 0.012);
-    tool.X_WD = tool.X_WP;
-    return tool;
-  }
-  std::shared_ptr<const Case> case_;
+  std::shared_ptr<const Case> case_ = testing::a_ball();
 };
 
 TEST_F(FilmStillTest, WithoutTicksItSaysSo) {
@@ -53,7 +38,7 @@ TEST_F(FilmStillTest, IsThePictureOfTheLastMoment) {
   ASSERT_TRUE(paints) << paints.error().message();
   FilmStill still(std::move(*paints), FilmSofts(*case_, nullptr), 1);
   for (std::uint64_t tick = 1; tick <= 400; ++tick)
-    still.see(0, tool_at(tick), rest_snapshot(*case_));
+    still.see(0, testing::tool_across_ball(tick), rest_snapshot(*case_));
   const auto image = still.finish();
   ASSERT_TRUE(image) << image.error().message();
   const auto drawn_at = [&](std::uint64_t tick) {
@@ -61,7 +46,7 @@ TEST_F(FilmStillTest, IsThePictureOfTheLastMoment) {
     EXPECT_TRUE(alone);
     FilmMoment moment;
     moment.bones = rest_snapshot(*case_);
-    moment.tools[0] = tool_at(tick);
+    moment.tools[0] = testing::tool_across_ball(tick);
     moment.time_s = moment.tools[0].time_s;
     return alone->draw(moment)->rgb;
   };

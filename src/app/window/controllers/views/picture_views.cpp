@@ -225,10 +225,14 @@ void PictureViews::draw_panorama(const Viewport& viewport, bool observer) {
   if (!main_ || viewport.empty()) return;
   Panorama& panorama = observer ? observer_panorama_ : panorama_;
   if (!panorama.renderer) panorama.renderer.emplace(main_->another_view());
-  const auto camera = panorama_camera(*case_, "front", viewport.aspect());
-  if (!camera) return;
-  if (!panorama_view_) panorama_view_ = panorama_view(*case_, *camera);
-  panorama_view_->camera = *camera;
+  if (!panorama.camera || panorama.aspect != viewport.aspect()) {
+    const auto camera = panorama_camera(*case_, "front", viewport.aspect());
+    if (!camera) return;
+    panorama.camera = *camera;
+    panorama.aspect = viewport.aspect();
+  }
+  if (!panorama_view_) panorama_view_ = panorama_view(*case_, *panorama.camera);
+  panorama_view_->camera = *panorama.camera;
   update_cones(panorama);
   panorama.renderer->set_others({moment_.tools.data() + 1, moment_.hands - 1});
   panorama.renderer->set_ghosts(ghosts_);

@@ -96,7 +96,9 @@ class PictureViews {
   /// A view of the scene with what it shows beside it.
   struct Panorama {
     std::optional<Renderer> renderer;
-    std::vector<Pose> cones;  ///< that it has
+    std::vector<Pose> cones;       ///< that it has
+    std::optional<Camera> camera;  ///< for `aspect`: finding it asks every vertex
+    double aspect = 0;
   };
   void update_cones(Panorama& panorama) const;
 
