@@ -24,7 +24,8 @@ Result<PartStages> stages_of(const AttemptPart& part, const Scenario& scenario) 
   if (*last < *first)
     return fail("the stage '" + part.to + "' comes before '" + part.from + "'", "",
                 "End with the same stage or a later one");
-  if (!scenario.stages[*first].restore_point)
+  // The first stage begins where the exercise does.
+  if (*first > 0 && !scenario.stages[*first].restore_point)
     return fail("the exercise '" + scenario.name + "' cannot begin at its stage '" + part.from +
                 "', which has no restore point");
   return PartStages{*first, *last};

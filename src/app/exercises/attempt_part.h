@@ -17,7 +17,8 @@ struct AttemptPart {
 };
 
 /// Its stages' places in a scenario. Fails where the scenario lacks one, where the part ends before
-/// it begins, and where nobody can come back to the start of its first one.
+/// it begins, and where its first one is neither the scenario's nor one to whose start one comes
+/// back.
 struct PartStages {
   std::uint32_t first = 0, last = 0;
 };

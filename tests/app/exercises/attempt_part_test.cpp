@@ -38,6 +38,10 @@ TEST_F(AttemptPartTest, StagesAreFoundByNameInTheirOrder) {
   EXPECT_FALSE(stages_of({"forearm", "carpals"}, scenario)) << "backwards";
   scenario.stages[1].restore_point = false;
   EXPECT_FALSE(stages_of({"metacarpals", "forearm"}, scenario));
+  scenario.stages[0].restore_point = false;
+  const auto from_the_start = stages_of({"carpals", "metacarpals"}, scenario);
+  ASSERT_TRUE(from_the_start) << "the exercise itself begins there";
+  EXPECT_EQ(from_the_start->last, 1u);
 }
 
 TEST_F(AttemptPartTest, WhatIsBeforeAndAfterItIsLeftOutAndTimesBeginWithIt) {

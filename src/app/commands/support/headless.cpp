@@ -251,6 +251,7 @@ Result<HeadlessOutcome> simulate_hands(const HeadlessRun& run) {
     if (*writer)
       if (auto ok = record(**writer, loop->session()); !ok) return tl::unexpected(ok.error());
     if (by_users && run.done && run.done()) break;
+    if (run.ends_when_over && run.over && run.over()) break;
   }
   if (*writer)
     if (auto ok = (*writer)->finish(); !ok) return tl::unexpected(ok.error());

@@ -61,7 +61,8 @@ struct HeadlessRun {
   std::function<bool()> done;  ///< of a run by users: asked after each tick whether it is over
   /// Whether what the run is for is over, whoever may still be at work. May be empty.
   std::function<bool()> over = {};
-  double longest_s = 0;  ///< of a run by users: it ends then at the latest
+  bool ends_when_over = false;  ///< also where the hands' paths go on
+  double longest_s = 0;         ///< of a run by users: it ends then at the latest
   std::optional<std::filesystem::path> record_to;
   /// Sees all hands' tools after every tick; may be empty.
   std::function<void(std::span<const ToolState* const>, const BoneSnapshot&)> on_hands;

@@ -23,7 +23,7 @@ namespace {
 
 struct RunCommand {
   std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft,
-                                   portals;
+                                   portals, to_stage;
   std::string learner = "local";
   std::vector<std::string> devices;
   bool no_store = false, live = false;
@@ -94,6 +94,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   run.scenario = std::move(*scenario);
   run.standard = std::move(*standard);
   run.skill = std::move(*skill);
+  run.to_stage = command.to_stage;
   if (!command.record.empty()) run.record_to = command.record;
   if (!command.live) return run;
   auto devices = open_devices(command);
@@ -179,6 +180,8 @@ void add_run_command(cli::App& app, int& exit_code) {
   command->add_option("--portals", options->portals,
                       "report of a run of acl_puncture on the same patient: the portals of acl are "
                       "where they were made");
+  command->add_option("--to-stage", options->to_stage,
+                      "end when this stage is done; judged up to it, without a score");
   command->add_flag("--live", options->live,
                     "play it in real time on the devices that --device names");
   command->add_option("--device", options->devices,

@@ -99,8 +99,10 @@ std::vector<std::unique_ptr<HandPlayer>> players_of(std::span<const PlannedHand>
 std::string to_json(const ScenarioOutcome& done) {
   const std::string text =
       with_tunnels(to_json(done.reports, done.hands, done.outcome), done.acl, done.not_measured);
-  if (!done.acl && !done.graft && !done.placing && done.made_portals.empty()) return text;
+  if (!done.acl && !done.graft && !done.placing && done.made_portals.empty() && !done.part)
+    return text;
   auto json = nlohmann::ordered_json::parse(text);
+  if (done.part) json["part"] = {{"from", done.part->from}, {"to", done.part->to}};
   if (done.graft) json["acl"][done.acl ? "made" : "graft"] = to_json(*done.graft);
   if (done.placing) json["acl"]["placing"] = to_json(*done.placing);
   if (done.exam) json["acl"]["examined"] = to_json(*done.exam);
@@ -155,9 +157,18 @@ Result<void> plan_puncture_work(const ScenarioRun& run, const Case& the_case,
   return {};
 }
 
+// None: all of it.
+std::optional<AttemptPart> part_of_run(const ScenarioRun& run) {
+  const auto& stages = run.scenario.stages;
+  if (run.to_stage.empty() || stages.empty()) return std::nullopt;
+  return AttemptPart{stages.front().name, run.to_stage, 0};
+}
+
 // What goes with the recording beside the hands.
 Result<void> note_beside(const ScenarioRun& run, const std::filesystem::path& recording,
                          const StatedFindings& stated) {
+  if (const auto part = part_of_run(run))
+    if (auto noted = write_note(recording, "part", to_text(*part)); !noted) return noted;
   if (!run.scenario.asks.empty())
     if (auto noted = write_note(recording, "findings", to_json(stated)); !noted) return noted;
   if (run.graft_json.empty()) return {};
@@ -211,6 +222,7 @@ Result<ScenarioOutcome> play_and_judge(const ScenarioRun& run, HeadlessRun headl
   done.made_portals = std::move(judged->made_portals);
   done.the_case = judged->the_case;
   done.case_spec = run.case_spec;
+  done.part = part_of_run(run);
   done.identical = judged->identical;
   done.live = std::move(*played);
   if (auto noted = note_attempt(file, run.scenario, run.standard, run.skill.name, to_json(done));
@@ -222,6 +234,9 @@ Result<ScenarioOutcome> play_and_judge(const ScenarioRun& run, HeadlessRun headl
 }  // namespace
 
 Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
+  const auto part = part_of_run(run);
+  const auto stages = part ? stages_of(*part, run.scenario) : Result<PartStages>(PartStages{});
+  if (!stages) return tl::unexpected(stages.error());
   const auto the_case =
       open_case(run.case_spec, {}, run.scenario.soft.empty() ? CaseParts::kFelt : CaseParts::kAll);
   if (!the_case) return tl::unexpected(the_case.error());
@@ -245,6 +260,8 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     return fail("no target of the scenario can be reached", run.case_spec,
                 "Check the case with: osteon case check");
   AttemptWatch watch(*plan, **the_case, *hands, headless.settings.haptic.tick_s);
+  if (part) watch.set_part(*part, *stages);
+  headless.ends_when_over = part.has_value();
   headless.the_case = *the_case;
   headless.case_source = run.case_spec;
   headless.settings.seed = run.skill.seed;
@@ -328,6 +345,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   done.made_portals = watch.made_portals();
   done.the_case = *the_case;
   done.case_spec = run.case_spec;
+  done.part = part;
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/teaching/live_play.h"
+#include "exercises/attempt_part.h"
 #include "exercises/scenario_files.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
@@ -31,6 +32,8 @@ struct ScenarioRun {
   std::optional<std::filesystem::path> record_to;
   std::string graft_json = {};                ///< a report of making one; empty: a graft that fits
   std::optional<StatedFindings> stated = {};  ///< none: as the surgeon's skill allows
+  std::string to_stage =
+      {};  ///< ends when this one is done, and is judged up to it; empty: the last
   /// Plays it in real time on these devices (play_live), and judges what was recorded; empty: as
   /// fast as it goes, without devices. They are used up.
   std::shared_ptr<std::vector<LedDevice>> live = {};
@@ -49,8 +52,9 @@ struct ScenarioOutcome {
   std::vector<MadePortalFound> made_portals = {};  ///< in skin
   std::shared_ptr<const Case> the_case = {};
   std::string case_spec = {};
-  std::optional<LivePlayed> live = {};  ///< of a live run
-  bool identical = true;                ///< of a live run: its recording repeats bit by bit
+  std::optional<LivePlayed> live = {};   ///< of a live run
+  bool identical = true;                 ///< of a live run: its recording repeats bit by bit
+  std::optional<AttemptPart> part = {};  ///< of a run that ended with an earlier stage
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
 /// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as

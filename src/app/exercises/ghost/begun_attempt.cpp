@@ -108,7 +108,7 @@ Result<BegunAttempt> begin_attempt(const BegunAttemptOrder& order, const Progres
   const auto stages = stages_of(order.part, order.wanted.scenario);
   if (!stages) return tl::unexpected(stages.error());
   if (stages->first == 0) return fail("nothing comes before this stage", order.part.from);
-  const std::filesystem::path kept = expert_recording(order.wanted);
+  const std::filesystem::path kept = kept_expert(order.wanted);
   std::error_code ec;
   if (std::filesystem::exists(kept, ec) && !is_of_this_build(kept))
     std::filesystem::remove(kept, ec);

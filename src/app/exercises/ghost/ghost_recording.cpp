@@ -112,6 +112,7 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
     }
     words.insert(words.end(), {"--graft", graft});
   }
+  if (!wanted.to_stage.empty()) words.insert(words.end(), {"--to-stage", wanted.to_stage});
   words.insert(words.end(), {"--record", part});
   const auto child = start_quietly(std::move(words));
   if (!child) {
@@ -203,14 +204,23 @@ fs::path expert_recording(const GhostWanted& wanted) {
   hash.add(std::string_view(wanted.case_spec));
   hash.add(wanted.case_hash);
   if (!wanted.graft_json.empty()) hash.add(std::string_view(wanted.graft_json));
+  if (!wanted.to_stage.empty()) hash.add(std::string_view(wanted.to_stage));
   char name[24];
   std::snprintf(name, sizeof name, "-%016llx.osr", static_cast<unsigned long long>(hash.value()));
   return cache_dir() / "experts" / (wanted.scenario.name + name);
 }
 
+fs::path kept_expert(const GhostWanted& wanted) {
+  GhostWanted whole = wanted;
+  whole.to_stage.clear();
+  std::error_code ec;
+  const fs::path file = expert_recording(whole);
+  return fs::exists(file, ec) ? file : expert_recording(wanted);
+}
+
 Result<fs::path> recorded_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
                                  const fs::path& program) {
-  const fs::path file = expert_recording(wanted);
+  const fs::path file = kept_expert(wanted);
   std::error_code ec;
   if (fs::exists(file, ec)) return file;
   if (auto ok = record_expert(wanted, file, go_on, program); !ok) return tl::unexpected(ok.error());
@@ -219,13 +229,13 @@ Result<fs::path> recorded_expert(const GhostWanted& wanted, const std::function<
 
 Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::function<bool()>& go_on,
                                    const fs::path& program, const SeeGhost& see) {
-  const fs::path file = expert_recording(wanted);
+  const fs::path kept_at = kept_expert(wanted), file = expert_recording(wanted);
   std::error_code ec;
-  if (fs::exists(file, ec)) {
-    if (auto known = known_example(file)) return std::move(*known);
-    auto kept = example_of(file, wanted, see);
+  if (fs::exists(kept_at, ec)) {
+    if (auto known = known_example(kept_at)) return std::move(*known);
+    auto kept = example_of(kept_at, wanted, see);
     if (kept || !go_on()) return kept;
-    fs::remove(file, ec);  // of an older build, or damaged
+    fs::remove(kept_at, ec);  // of an older build, or damaged
   }
   if (auto ok = record_expert(wanted, file, go_on, program); !ok) return tl::unexpected(ok.error());
   if (!go_on()) return fail("stopped");

@@ -17,6 +17,7 @@ struct GhostWanted {
   std::string case_spec;
   std::uint64_t case_hash = 0;
   std::string graft_json = {};  ///< a report of making one, which is placed; empty: none
+  std::string to_stage = {};    ///< no stage after this one matters; empty: all do
 };
 
 /// Is shown a way as far as it is known, each time that another step of the exercise has been
@@ -37,6 +38,8 @@ Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::functio
                                    const SeeGhost& see = {});
 /// Where that recording is kept.
 std::filesystem::path expert_recording(const GhostWanted& wanted);
+/// The same, or that of the whole exercise, where it is kept.
+std::filesystem::path kept_expert(const GhostWanted& wanted);
 /// Makes that recording where it is not kept yet, as ghost_of_expert does.
 Result<std::filesystem::path> recorded_expert(const GhostWanted& wanted,
                                               const std::function<bool()>& go_on,

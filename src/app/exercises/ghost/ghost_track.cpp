@@ -144,6 +144,38 @@ std::size_t farther(const Samples& samples, std::size_t at, std::size_t to, doub
 
 }  // namespace
 
+// Ends: each round goes one sample on. A stay has neither length nor turn and is passed at once,
+// but for a stretch's end, where the expert saw or touched what he came for.
+std::optional<Pose> ghost_onward(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                 const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
+                                 std::optional<std::size_t>& at) {
+  constexpr double kStillThere_m = 0.012;
+  if (stretch >= track.stretches.size() || hand >= track.hands.size()) return std::nullopt;
+  const GhostStretch& s = track.stretches[stretch];
+  const Samples& samples = track.hands[hand];
+  if (s.to >= samples.size() || s.from > s.to) return std::nullopt;
+  const auto is_held = [&](std::size_t i) {
+    return holds(samples[i].instrument) && is_finite(samples[i].X_WT);
+  };
+  const auto away_m = [&](std::size_t i) { return (samples[i].X_WT.p - tip_W).norm(); };
+  const bool goes_on =
+      at && *at >= s.from && *at <= s.to && is_held(*at) && away_m(*at) <= kStillThere_m;
+  if (!goes_on) {
+    at.reset();
+    for (std::size_t i = s.from; i <= s.to; ++i)
+      if (is_held(i) && (!at || away_m(i) < away_m(*at))) at = i;
+  }
+  if (!at) return std::nullopt;
+  const Quat begun_q = samples[*at].X_WT.q;
+  double length_m = 0;
+  while (*at < s.to && is_held(*at + 1) && length_m < kStepOn_m &&
+         begun_q.angularDistance(samples[*at].X_WT.q) < kTurnOn_rad) {
+    length_m += (samples[*at + 1].X_WT.p - samples[*at].X_WT.p).norm();
+    ++*at;
+  }
+  return samples[*at].X_WT;
+}
+
 // A place where the expert stayed has no length, so a stay does not hold up who is led.
 GuideLine guide_along(const GhostTrack& track, std::size_t stretch, std::size_t hand,
                       const Vec3& tip_W, std::size_t& at) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -85,6 +86,16 @@ std::optional<Pose> ghost_beside(const GhostTrack& track, std::size_t stretch, s
 std::optional<Pose> ghost_beside_in_any_size(const GhostTrack& track, std::size_t stretch,
                                              std::size_t hand, std::string_view name,
                                              const Vec3& tip_W);
+
+/// How that hand goes on along its way in a stretch, from a tip at `tip_W`: kStepOn_m farther, or
+/// less where it turns by kTurnOn_rad or its stretch ends. From sample `at`, where a hand was
+/// brought to before, while the tip is still near it, and else from the place that is nearest to
+/// the tip; `at` moves on. None: nowhere in the stretch does it hold an instrument that `holds`
+/// accepts.
+inline constexpr double kStepOn_m = 0.008, kTurnOn_rad = 0.35;
+std::optional<Pose> ghost_onward(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                 const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
+                                 std::optional<std::size_t>& at);
 
 /// The piece of that hand's way in a stretch along which a tip at `tip_W` shall be led, with full
 /// strength. `at`: the sample at which it was led before, which moves on: to the place nearest to

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 
 #include "cases/open_case.h"
 #include "commands/teaching/scenario_run.h"
@@ -22,7 +23,10 @@ class GhostRecording : public ::testing::Test {
     had_cache_ = cache != nullptr;
     cache_ = cache ? cache : "";
     ::setenv("XDG_CACHE_HOME", (dir_ / "cache").c_str(), 1);
-    const auto scenario = open_scenario("fast_telescoping");
+    want("fast_telescoping");
+  }
+  void want(const std::string& exercise) {
+    const auto scenario = open_scenario(exercise);
     ASSERT_TRUE(scenario) << scenario.error().message();
     wanted_.scenario = *scenario;
     wanted_.case_spec = case_spec_of(*scenario, "", std::nullopt);
@@ -37,22 +41,28 @@ class GhostRecording : public ::testing::Test {
       ::unsetenv("XDG_CACHE_HOME");
     fs::remove_all(dir_);
   }
-  void record(const fs::path& file, const std::string& surgeon) const {
+  void record(const fs::path& file, const std::string& surgeon,
+              const std::string& to_stage = "") const {
     ScenarioRun run;
     run.scenario = wanted_.scenario;
     run.case_spec = wanted_.case_spec;
     run.skill = *parse_skill(wanted_.scenario, surgeon);
     run.record_to = file;
+    run.to_stage = to_stage;
     const auto done = run_scenario(run);
     ASSERT_TRUE(done) << done.error().message();
   }
   // Stands for this program: leaves a recording where it is told to, and counts.
   fs::path program(const fs::path& recording) const {
     const fs::path script = dir_ / "program";
-    std::ofstream(script) << "#!/bin/sh\nfor last; do :; done\necho run >> '" << dir_.string()
+    std::ofstream(script) << "#!/bin/sh\nfor last; do :; done\necho \"$@\" >> '" << dir_.string()
                           << "/runs'\ncp '" << recording.string() << "' \"$last\"\n";
     fs::permissions(script, fs::perms::owner_all);
     return script;
+  }
+  std::string asked() const {
+    std::ifstream in(dir_ / "runs");
+    return {std::istreambuf_iterator<char>(in), {}};
   }
   std::size_t runs() const {
     std::ifstream in(dir_ / "runs");
@@ -126,6 +136,27 @@ TEST_F(GhostRecording, ShowsTheWayAndTheExpertIsRecordedOnce) {
   std::ofstream(way) << "damaged";
   EXPECT_TRUE(ghost_of_expert(wanted_, go_on, script)) << "repeated once more";
   EXPECT_EQ(runs(), 2u);
+}
+
+// Who practises an early stage does not wait for the whole exercise.
+TEST_F(GhostRecording, APartIsPlayedNoFartherThanItGoes) {
+  want("touch_bones");
+  GhostWanted part = wanted_;
+  part.to_stage = wanted_.scenario.stages.front().name;
+  const fs::path file = dir_ / "part.osr";
+  record(file, "expert", part.to_stage);
+  const auto way = ghost_of_expert(part, go_on, program(file));
+  ASSERT_TRUE(way) << way.error().message();
+  EXPECT_EQ(way->stretches.back().stage, 0u);
+  EXPECT_NE(asked().find("--to-stage " + part.to_stage), std::string::npos) << asked();
+  EXPECT_EQ(kept_expert(part), expert_recording(part));
+  EXPECT_NE(expert_recording(part), expert_recording(wanted_)) << "it is no whole one";
+  EXPECT_FALSE(fs::exists(expert_recording(wanted_)));
+  record(expert_recording(wanted_), "expert");
+  EXPECT_EQ(kept_expert(part), expert_recording(wanted_)) << "which serves a part as well";
+  const auto whole = ghost_of_expert(part, go_on, "/nowhere/osteon");
+  ASSERT_TRUE(whole) << whole.error().message();
+  EXPECT_GT(whole->stretches.size(), way->stretches.size());
 }
 
 TEST_F(GhostRecording, WhoDoesNotPassIsNoExample) {

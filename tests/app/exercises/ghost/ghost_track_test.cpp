@@ -160,6 +160,69 @@ TEST(GhostTrack, TellsHowAnInstrumentIsHeldInAnotherSize) {
   EXPECT_FALSE(ghost_beside_in_any_size(track, 1, 0, "endobutton:8.5", Vec3::Zero()));
 }
 
+// 1 mm a sample from 100 to 150 mm along x, a turn on the spot by 0.1 rad a sample, and a stay.
+GhostTrack winding_track() {
+  GhostTrack track;
+  track.tray = {"wrist_probe", "shaver"};
+  auto& samples = track.hands.emplace_back();
+  const auto add = [&](double x_mm, double turned_rad, std::uint32_t instrument) {
+    samples.push_back(
+        {{Vec3(1e-3 * x_mm, 0, 0), Quat(Eigen::AngleAxisd(turned_rad, Vec3::UnitZ()))},
+         instrument});
+  };
+  for (int i = 0; i < 5; ++i) add(0, 0, 0);
+  for (int i = 0; i <= 50; ++i) add(100 + i, 0, 1);
+  for (int i = 1; i <= 10; ++i) add(150, 0.1 * i, 1);
+  for (int i = 0; i < 20; ++i) add(150, 1, 1);
+  track.stretches.push_back({0, {}, 0, samples.size() - 1});
+  return track;
+}
+
+TEST(GhostTrack, AHandGoesOnAlongTheWayStepByStep) {
+  const GhostTrack track = winding_track();
+  const auto shaver = [](std::uint32_t instrument) { return instrument == 1; };
+  std::optional<std::size_t> at;
+  Vec3 tip_W(0.101, 0.03, 0);
+  std::vector<double> steps_mm;
+  std::optional<Pose> to;
+  for (int press = 0; press < 20; ++press) {
+    to = ghost_onward(track, 0, 0, shaver, tip_W, at);
+    ASSERT_TRUE(to);
+    steps_mm.push_back(1e3 * (to->p.x() - (press == 0 ? 0.101 : tip_W.x())));
+    tip_W = to->p;
+    if (*at == track.stretches[0].to) break;
+  }
+  EXPECT_NEAR(to->q.angularDistance(Quat(Eigen::AngleAxisd(1, Vec3::UnitZ()))), 0, 1e-9);
+  EXPECT_NEAR(to->p.x(), 0.150, 1e-12);
+  ASSERT_GE(steps_mm.size(), 8u) << "along x, and three turns";
+  ASSERT_LE(steps_mm.size(), 11u);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(steps_mm[i], 1e3 * kStepOn_m, 1.001) << i;
+  EXPECT_TRUE(ghost_onward(track, 0, 0, shaver, tip_W, at)) << "stays at its end";
+  EXPECT_EQ(*at, track.stretches[0].to);
+  // A tip that was led away begins again with the nearest place.
+  ASSERT_TRUE(ghost_onward(track, 0, 0, shaver, Vec3(0.12, 0.02, 0), at));
+  EXPECT_NEAR(track.hands[0][*at].X_WT.p.x(), 0.128, 1.001e-3);
+}
+
+TEST(GhostTrack, NobodyGoesOnWhereTheInstrumentIsNotHeld) {
+  GhostTrack track = winding_track();
+  std::optional<std::size_t> at;
+  const auto never = [](std::uint32_t) { return false; };
+  EXPECT_FALSE(ghost_onward(track, 0, 0, never, Vec3::Zero(), at));
+  EXPECT_FALSE(at);
+  const auto probe = [](std::uint32_t instrument) { return instrument == 0; };
+  ASSERT_TRUE(ghost_onward(track, 0, 0, probe, Vec3::Zero(), at));
+  EXPECT_EQ(*at, 4u) << "before the other instrument is taken";
+  EXPECT_FALSE(ghost_onward(track, 0, 1, probe, Vec3::Zero(), at)) << "no such hand";
+  EXPECT_FALSE(ghost_onward(track, 3, 0, probe, Vec3::Zero(), at)) << "no such stretch";
+  at = 1000;  // of another track
+  EXPECT_TRUE(ghost_onward(track, 0, 0, probe, Vec3::Zero(), at));
+  track.hands[0][2].X_WT.p.x() = std::nan("");
+  at.reset();
+  ASSERT_TRUE(ghost_onward(track, 0, 0, probe, Vec3::Zero(), at));
+  EXPECT_EQ(*at, 1u) << "the way ends where its place is not known";
+}
+
 TEST(GhostTrack, TurnsBetweenSamplesByTheShorterWay) {
   GhostTrack track;
   track.hands = {{{}, {}}};

@@ -85,26 +85,45 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
   }
 }
 
-// The tip stays where it is, or comes to the expert's way: that is a hint.
+// The tip stays where it is, or comes to the expert's way: that is a hint. A shaft in a portal,
+// which gives it its direction, is turned about itself alone, and goes on along his way: nobody can
+// see how to lead a scope or a shaver to him there.
 void ExerciseControl::hold_as_expert(bool comes_to_him) {
   LiveRun* const run = live_.run();
   if (!run || !run->by_mouse()) return;
-  if (sight_.shown().tool.portal < scene_.portals.size())
-    return host_.note(ToastKind::kInfo, "The shaft is in a portal, which gives its direction.");
+  const bool in_portal = sight_.shown().tool.portal < scene_.portals.size();
+  if (in_portal && comes_to_him) return go_on_as_expert(*run);
   const auto expert = ghost_.beside_active_hand();
-  if (!expert && ghost_.model().preparing)
-    return host_.note(ToastKind::kInfo, "The expert's way is not known yet: he is still playing.");
-  if (!expert)
-    return host_.note(ToastKind::kInfo,
-                      "The expert who is shown does not hold this instrument with this hand now.");
+  if (!expert) return tell_no_expert();
   const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
   if (!comes_to_him) return run->bring({X_WD.p, expert->q});
-  const double away_m = (expert->p - X_WD.p).norm();
-  if (away_m > kNearExpert_m)
-    return host_.note(ToastKind::kInfo, "The tip is " + std::to_string(std::lround(1e3 * away_m)) +
-                                            " mm from the expert's way: bring it within 50 first.");
+  if (!is_near_expert(X_WD.p, expert->p)) return;
   exercise_.count_hint();
   run->bring(*expert);
+}
+
+void ExerciseControl::go_on_as_expert(LiveRun& run) {
+  const auto onward = ghost_.onward_with_active_hand();
+  if (!onward) return tell_no_expert();
+  if (!is_near_expert(run.hand(run.active()).X_WD_wanted.p, onward->X_WT.p)) return;
+  exercise_.count_hint();
+  run.bring(onward->X_WT);
+  if (onward->ends) host_.note(ToastKind::kInfo, "The expert's way to this step ends here.");
+}
+
+void ExerciseControl::tell_no_expert() {
+  host_.note(ToastKind::kInfo,
+             ghost_.model().preparing
+                 ? "The expert's way is not known yet: he is still playing."
+                 : "The expert who is shown does not hold this instrument with this hand now.");
+}
+
+bool ExerciseControl::is_near_expert(const Vec3& tip_W, const Vec3& expert_W) {
+  const double away_m = (expert_W - tip_W).norm();
+  if (away_m <= kNearExpert_m) return true;
+  host_.note(ToastKind::kInfo, "The tip is " + std::to_string(std::lround(1e3 * away_m)) +
+                                   " mm from the expert's way: bring it within 50 first.");
+  return false;
 }
 
 std::vector<std::string> ExerciseControl::used_by_active_hand() const {
@@ -358,8 +377,7 @@ void ExerciseControl::stop_begin(const std::string& why) {
 
 // The hands are in place and the time runs.
 void ExerciseControl::begin_to_work(const std::vector<PlannedHand>& hands) {
-  ghost_.begin({exercise_.scenario(), exercise_.case_spec(), scene_.the_case->hash,
-                exercise_.graft_report()});
+  ghost_.begin(exercise_.wanted_expert(scene_.the_case->hash));
   const bool looks = std::any_of(hands.begin(), hands.end(),
                                  [](const PlannedHand& hand) { return hand.optics.has_value(); });
   const auto& felt = live_.run()->softs();

@@ -54,6 +54,9 @@ class ExerciseControl {
   void follow_marks(LiveRun& run);
   void open_patient();
   void hold_as_expert(bool comes_to_him);
+  void go_on_as_expert(LiveRun& run);
+  void tell_no_expert();
+  bool is_near_expert(const Vec3& tip_W, const Vec3& expert_W);
   void take_made_before();
   bool places_portals();
   std::function<std::optional<CarvedField>(std::uint32_t)> carved_now() const;

@@ -216,9 +216,14 @@ void ExerciseRun::go_on(double tick_s, BegunAttempt& begun,
   stage_ = watch_->state().stage;
 }
 
+GhostWanted ExerciseRun::wanted_expert(std::uint64_t case_hash) const {
+  const bool ends_early = part_ && part_stages().last + 1 < scenario().stages.size();
+  return {scenario(), case_spec(), case_hash, graft_report_, ends_early ? part_->to : ""};
+}
+
 std::optional<BegunAttemptOrder> ExerciseRun::order_of_begin(RunTray tray, fs::path file) const {
   if (!plan_ || !part_ || part_stages().first == 0) return std::nullopt;
-  return BegunAttemptOrder{{scenario(), case_spec(), case_->hash, graft_report_},
+  return BegunAttemptOrder{wanted_expert(case_->hash),
                            *part_,
                            plan_.get(),
                            hands_,

@@ -71,6 +71,8 @@ class ExerciseRun {
   void begin(double tick_s, std::filesystem::path file, TunnelSources sources = {},
              const std::vector<std::string>& tray = {});
   void fail_to_begin(const std::string& why);
+  /// What an expert shall show on that case, and do before the part that was chosen.
+  GhostWanted wanted_expert(std::uint64_t case_hash) const;
   /// What makes the begin of the part that was chosen, once the exercise is planned. None: it has
   /// no begin.
   std::optional<BegunAttemptOrder> order_of_begin(RunTray tray, std::filesystem::path file) const;

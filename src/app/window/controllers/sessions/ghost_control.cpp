@@ -31,7 +31,7 @@ void GhostControl::begin(GhostWanted wanted) {
   const bool same = wanted.scenario.source_text == wanted_.scenario.source_text &&
                     wanted.case_spec == wanted_.case_spec &&
                     wanted.case_hash == wanted_.case_hash &&
-                    wanted.graft_json == wanted_.graft_json;
+                    wanted.graft_json == wanted_.graft_json && wanted.to_stage == wanted_.to_stage;
   if (!same) track_.reset();
   wanted_ = std::move(wanted);
   allowed_ = wanted_.scenario.ghost;
@@ -134,6 +134,29 @@ std::optional<Pose> GhostControl::beside_active_hand() const {
               : ghost_beside_in_any_size(*track_, *stretch, run->active(),
                                          name_in(live_.tray().run().names, tool.instrument),
                                          tool.X_WP.p);
+}
+
+// Which size is right is what a learner finds out; all of them are held alike.
+bool GhostControl::is_held_alike(std::uint32_t ghosts, std::uint32_t held) const {
+  if (in_tray(ghosts) == held) return true;
+  const auto his = parse_tool_name(name_in(track_->tray, ghosts));
+  const auto mine = parse_tool_name(name_in(live_.tray().run().names, held));
+  return his && mine && his->name == mine->name;
+}
+
+std::optional<GhostControl::Onward> GhostControl::onward_with_active_hand() {
+  const LiveRun* const run = live_.run();
+  const auto stretch = follower_.stretch();
+  if (!run || !track_ || !allowed_ || !on_ || !stretch) return std::nullopt;
+  const std::size_t hand = run->active();
+  if (brought_.stretch != *stretch || brought_.hand != hand) brought_ = {*stretch, hand, {}};
+  const ToolState& tool = run->hand(hand).snapshot.tool;
+  const auto to = ghost_onward(
+      *track_, *stretch, hand,
+      [&](std::uint32_t ghosts) { return is_held_alike(ghosts, tool.instrument); }, tool.X_WP.p,
+      brought_.at);
+  if (!to) return std::nullopt;
+  return Onward{*to, *brought_.at == track_->stretches[*stretch].to};
 }
 
 void GhostControl::poll(const ExerciseRun& exercise) {

@@ -35,6 +35,13 @@ class GhostControl {
   /// How the expert holds what the active hand holds, near its tip, in the step that comes next;
   /// none: he does not, or is not shown.
   std::optional<Pose> beside_active_hand() const;
+  /// Where the active hand goes on along the expert's way, and whether that way ends there; none:
+  /// as above. The next time it goes on from there.
+  struct Onward {
+    Pose X_WT;
+    bool ends = false;
+  };
+  std::optional<Onward> onward_with_active_hand();
   /// Of the exercise that was begun last; null: not known, or not to its end yet.
   const GhostTrack* track() const { return job_ ? nullptr : track_.get(); }
 
@@ -53,6 +60,7 @@ class GhostControl {
   void take_prepared();
   void guide(const ExerciseRun& exercise);
   void lead_nobody();
+  bool is_held_alike(std::uint32_t ghosts, std::uint32_t held) const;
   std::optional<std::uint32_t> in_tray(std::uint32_t instrument) const;
 
   WindowHost& host_;
@@ -69,6 +77,12 @@ class GhostControl {
   GhostFollower follower_;
   std::optional<std::size_t> led_;   ///< the stretch along which hands are led
   std::vector<std::size_t> led_to_;  ///< by hand: the sample
+  /// Where a hand was brought to.
+  struct Brought {
+    std::size_t stretch = 0, hand = 0;
+    std::optional<std::size_t> at;
+  };
+  Brought brought_;
 };
 
 }  // namespace osteon
