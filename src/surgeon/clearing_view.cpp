@@ -9,9 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "open_sight.h"
 #include "osteon/collide/segments.h"
-#include "osteon/mesh/distance.h"
-#include "osteon/scene/stumps.h"
 
 namespace osteon {
 namespace {
@@ -21,39 +20,19 @@ constexpr double kBetween_m = 0.001;  // between both shafts
 constexpr double kBehind_m = 0.1;     // so much of a shaft stands before the skin
 constexpr double kNearest_m = 0.006;  // to the window
 constexpr double kFarthest_m = 0.045;
-constexpr double kInPicture = 0.85;                   // of half the field
-constexpr double kTipHides_m = 0.0035;                // what is so near to the tip does not hide it
-constexpr double kSight_m = 0.0004;                   // room about the line of sight
-constexpr double kOpen_m = 0.009, kOpenShare = 0.65;  // free of everything, of half the field
-constexpr int kOpenRays = 8;
+constexpr double kInPicture = 0.85;     // of half the field
+constexpr double kTipHides_m = 0.0035;  // what is so near to the tip does not hide it
 constexpr std::size_t kMostViews = 3, kMostAims = 6;
 constexpr int kTurns = 11;
 constexpr double kGazeTurn_rad = 15 * std::numbers::pi / 180;
 
-// Soft parts that stand in a picture, but for what is to be cleared and the fat that moves aside.
-class SoftsInSight {
- public:
-  explicit SoftsInSight(const Case& the_case) {
-    std::vector<std::uint32_t> torn;
-    for (const TornStump& stump : torn_stumps(the_case)) torn.push_back(stump.soft);
-    for (std::uint32_t s = 0; s < the_case.softs.size(); ++s) {
-      const SoftPart& part = the_case.softs[s];
-      const bool hides =
-          part.kind == "meniscus" || part.kind == "cartilage" || part.kind == "ligament";
-      if (hides && std::find(torn.begin(), torn.end(), s) == torn.end())
-        parts_.emplace_back(part.mesh_W);
-    }
-  }
-  double gap_m(const Vec3& p_W) const {
-    double least = 1;
-    for (const MeshDistance& part : parts_)
-      least = std::min(least, part.closest(p_W).signed_distance);
-    return least;
-  }
-
- private:
-  std::vector<MeshDistance> parts_;
-};
+BoneSnapshot bones_of(const Case& at_rest) {
+  BoneSnapshot bones;
+  bones.count = static_cast<std::uint32_t>(at_rest.bones.size());
+  for (std::size_t b = 0; b < at_rest.bones.size(); ++b)
+    bones.bones[b].X_WB = at_rest.bones[b].X_WB;
+  return bones;
+}
 
 // A pose of the scope and what its picture shows.
 struct Look {
@@ -66,7 +45,11 @@ class ViewSearch {
  public:
   ViewSearch(const AclKnee& knee, const StumpsAsObstacles& stumps, const StumpClearing& with,
              const ClearingWatcher& who)
-      : knee_(knee), stumps_(stumps), with_(with), who_(who), softs_(knee.whole()) {}
+      : knee_(knee),
+        stumps_(stumps),
+        with_(with),
+        who_(who),
+        sight_(knee, knee.whole(), bones_of(knee.whole())) {}
 
   // The first of those that show the most, upright ones first. Ends: all candidates are tried once.
   Look best(const std::vector<ClearingPlace>& places) const {
@@ -106,40 +89,12 @@ class ViewSearch {
     return (nearest.a - nearest.b).norm() > scope.radius + rod.radius + kBetween_m;
   }
 
-  double gap_m(const Vec3& p_W) const { return std::min(knee_.gap_m(p_W), softs_.gap_m(p_W)); }
-
-  // Strides are no longer than the room there is.
-  bool is_in_sight(const Vec3& eye_W, const Vec3& to_W) const {
-    constexpr double kSightStride_m = 0.0005;
-    const double length = (to_W - eye_W).norm();
-    for (double at = 0; at < length;) {
-      const double room = gap_m(eye_W + at / length * (to_W - eye_W)) - kSight_m;
-      if (room <= 0) return false;
-      at += std::max(room, kSightStride_m);
-    }
-    return true;
-  }
-
-  // What is close to the window is all that its light shows.
-  bool is_open(const ScopeView& view) const {
-    const Vec3 side = view.along_W.cross(view.up_W);
-    const double lean = std::tan(kOpenShare * who_.optics.half_field_rad);
-    for (int k = 0; k < kOpenRays; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kOpenRays;
-      const Vec3 ray =
-          (view.along_W + lean * (std::cos(angle) * side + std::sin(angle) * view.up_W))
-              .normalized();
-      if (!is_in_sight(view.eye_W, view.eye_W + kOpen_m * ray)) return false;
-    }
-    return is_in_sight(view.eye_W, view.eye_W + kOpen_m * view.along_W);
-  }
-
   bool is_seen(const ScopeView& view, const Vec3& p_W) const {
     const Vec3 way = p_W - view.eye_W;
     const double far = way.norm();
     return far > kNearest_m && far < kFarthest_m &&
            way.dot(view.along_W) > far * std::cos(kInPicture * who_.optics.half_field_rad) &&
-           is_in_sight(view.eye_W, p_W - kTipHides_m / far * way);
+           sight_.is_in_sight(view.eye_W, p_W - kTipHides_m / far * way);
   }
 
   // The tip where it begins to clear, and where it stops.
@@ -160,7 +115,7 @@ class ViewSearch {
     for (const Vec3& p_W : who_.also_W)
       if (!is_clear(scope, p_W)) return false;
     const ScopeView view = view_through(who_.optics, *pose);
-    if (!is_open(view)) return false;
+    if (!sight_.is_open(view, who_.optics)) return false;
     look.seen.assign(places.size(), 0);
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (look.count + (places.size() - i) <= than) return false;
@@ -174,7 +129,7 @@ class ViewSearch {
   const StumpsAsObstacles& stumps_;
   const StumpClearing& with_;
   const ClearingWatcher& who_;
-  SoftsInSight softs_;
+  OpenSight sight_;
 };
 
 }  // namespace

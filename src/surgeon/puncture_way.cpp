@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "acl_knee.h"
 #include "hand_way.h"
+#include "open_sight.h"
 #include "osteon/base/random.h"
 #include "osteon/base/turn.h"
 #include "osteon/mesh/distance.h"
@@ -214,12 +216,30 @@ std::optional<Pose> looks_across(const Puncture& at, const SkinWay& from, const 
   return std::nullopt;
 }
 
-// Straight in, then aside about the portal.
-void bring_scope(const SkinWay& in, const Pose& gaze, HandWay& way) {
+// Where the scope shows a landmark and what is about it: nothing close before the window, where
+// that can be, and nothing in the line of sight but what lies upon the landmark. Ends: all
+// candidates are tried once, or twice.
+std::optional<Pose> looks_at(const Puncture& at, const OpenSight& sight, const SkinWay& from,
+                             const Vec3& mark_W, const ScopeOptics& optics) {
+  constexpr double kTurn = std::numbers::pi / 12, kDeep_m = 0.008, kLiesUpon_m = 0.006;
+  for (const bool open : {true, false})
+    for (int turn = 0; turn <= 11; ++turn)
+      for (const double side : {1.0, -1.0})
+        for (const double mm : {22.0, 18.0, 26.0, 15.0, 30.0}) {
+          const auto pose = pose_for({mark_W, 1e-3 * mm, side * turn * kTurn}, from.p_W, optics);
+          if (!pose || from.n_W.dot(from.p_W - pose->p) < kDeep_m) continue;
+          if (!at.knee.is_free(pose->p, from.p_W, kLookScope_m + 0.0005)) continue;
+          const ScopeView view = view_through(optics, *pose);
+          if (open && !sight.is_open(view, optics)) continue;
+          const Vec3 back = (view.eye_W - mark_W).normalized();
+          if (sight.is_in_sight(view.eye_W, mark_W + kLiesUpon_m * back)) return pose;
+        }
+  return std::nullopt;
+}
+
+// From where the shaft stands straight in its portal aside about the portal.
+void turn_aside(const SkinWay& in, const Pose& gaze, HandWay& way) {
   constexpr int kSteps = 10;
-  way.go(in.along(-kOverSkin_m), kHandCarry_m_per_s);
-  way.go(in.along(-0.002), kHandCarry_m_per_s);
-  way.go(in.along(kScopeIn_m), kPuncture_m_per_s);
   const Pose from = way.pose();
   for (int k = 1; k <= kSteps; ++k) {
     const double f = static_cast<double>(k) / kSteps;
@@ -229,6 +249,13 @@ void bring_scope(const SkinWay& in, const Pose& gaze, HandWay& way) {
     q = (turn_between(q * Vec3::UnitZ(), back) * q).normalized();
     way.go({p, q}, kPuncture_m_per_s);
   }
+}
+
+void bring_scope(const SkinWay& in, const Pose& gaze, HandWay& way) {
+  way.go(in.along(-kOverSkin_m), kHandCarry_m_per_s);
+  way.go(in.along(-0.002), kHandCarry_m_per_s);
+  way.go(in.along(kScopeIn_m), kPuncture_m_per_s);
+  turn_aside(in, gaze, way);
 }
 
 // With the hook to the tibia's footprint.
@@ -244,6 +271,23 @@ void draw_scope_out(const Puncture& at, const SkinWay& al, HandWay& eye) {
   eye.go(al.along(kScopeIn_m), kHandNear_m_per_s);
   eye.go(al.along(-kOverSkin_m), kHandNear_m_per_s);
   eye.go(puncture_wait(at.al), kHandCarry_m_per_s);
+}
+
+// From one to the next by the middle, where the shaft stands straight.
+void look_at_marks(const Puncture& at, const std::vector<std::string>& marks, const SkinWay& al,
+                   const ScopeOptics& optics, const OpenSight& sight, HandWay& eye,
+                   std::vector<std::string>& unseen) {
+  for (const std::string& name : marks) {
+    const auto gaze =
+        at.knee.has_mark(name) ? looks_at(at, sight, al, at.knee.mark(name), optics) : std::nullopt;
+    if (!gaze) {
+      unseen.push_back(name);
+      continue;
+    }
+    eye.go(al.along(kScopeIn_m), kHandNear_m_per_s);
+    turn_aside(al, *gaze, eye);
+    eye.stay(kLooked_s);
+  }
 }
 
 }  // namespace
@@ -292,11 +336,17 @@ Result<PunctureWays> plan_puncture(const Case& the_case, const std::string& scop
   else
     end_hooked(*at, *am, worker);
   eye.stay(worker.now_s() - eye.now_s());
-  if (end.leaves && at->fault != "am_blind") draw_scope_out(*at, *al, eye);
+  std::vector<std::string> unseen;
+  const bool is_in = at->fault != "am_blind";
+  if (is_in && !end.looks_at.empty()) {
+    const OpenSight sight(at->knee, the_case, begun_bones(the_case));
+    look_at_marks(*at, end.looks_at, *al, optics, sight, eye, unseen);
+  }
+  if (end.leaves && is_in) draw_scope_out(*at, *al, eye);
   const Pose X_rest = at->X_moved.inverse();
   return PunctureWays{trembling(eye.path(), skill.tremor_m, skill.seed + 6),
                       trembling(worker.path(), skill.tremor_m, skill.seed + 7), X_rest * al->p_W,
-                      X_rest * am->p_W};
+                      X_rest * am->p_W, std::move(unseen)};
 }
 
 }  // namespace osteon

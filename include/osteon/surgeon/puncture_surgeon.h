@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "osteon/base/result.h"
 #include "osteon/procedure/scope_watch.h"
@@ -16,12 +17,14 @@ namespace osteon {
 struct PunctureWays {
   ProbePath scope, worker;
   Vec3 al_W = Vec3::Zero(), am_W = Vec3::Zero();  ///< where the portals will be, the knee at rest
+  std::vector<std::string> unseen = {};           ///< landmarks that the scope cannot show
 };
 
 /// What is done once both portals are there.
 struct PunctureEnd {
-  std::string held = "scalpel_11";  ///< by the worker as he begins
-  bool leaves = false;              ///< else he goes on to the footprint with the hook
+  std::string held = "scalpel_11";         ///< by the worker as he begins
+  bool leaves = false;                     ///< else he goes on to the footprint with the hook
+  std::vector<std::string> looks_at = {};  ///< landmarks that the scope shows before both leave
 };
 
 /// The worker cuts the skin at the anterolateral portal and goes in through the cut with the blunt

@@ -29,7 +29,10 @@ void leave_out_puncture_stages(Scenario& scenario) {
   const auto makes = [](const ScenarioStage& stage) { return has_goal_of(stage, "portal_made"); };
   const auto first = std::find_if(stages.begin(), stages.end(), makes);
   auto end = std::find_if(stages.rbegin(), stages.rend(), makes).base();
-  if (end != stages.end() && has_goal_of(*end, "knee_bent")) ++end;
+  const auto bent = std::find_if(end, stages.end(), [](const ScenarioStage& stage) {
+    return has_goal_of(stage, "knee_bent");
+  });
+  if (bent != stages.end()) end = bent + 1;
   if (first != stages.end()) stages.erase(first, end);
   std::erase_if(scenario.soft, [](const std::string& name) { return name.starts_with("skin"); });
 }

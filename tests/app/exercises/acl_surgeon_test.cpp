@@ -13,6 +13,8 @@
 #include "osteon/collide/segments.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/judge.h"
+#include "osteon/scene/marks_now.h"
+#include "osteon/surgeon/puncture_surgeon.h"
 
 namespace osteon {
 namespace {
@@ -139,6 +141,43 @@ TEST(AclSurgeon, WhileHeClearsTheStumpsTheScopeShowsTheTipAndIsInNothingsWay) {
   const Watched unseen = watch(**knee, tools, *blind);
   EXPECT_GT(unseen.runs_s, 20);
   EXPECT_EQ(unseen.seen_s, 0);
+}
+
+// For how long a scope's path shows a landmark near the middle of its picture, its bones as the
+// case begins.
+double shown_s(const Case& knee, const ProbePath& scope, const ScopeOptics& optics,
+               const char* mark, double from_s) {
+  constexpr double kStep_s = 0.05, kCentral = 0.5;
+  const BoneSnapshot bones = begun_bones(knee);
+  const Vec3 mark_W = place_now(knee, *find_landmark(knee, mark), bones);
+  double shown = 0;
+  for (double t = from_s; t < scope.duration_s(); t += kStep_s) {
+    const ScopeView view = view_through(optics, hand_at(scope, t).X_WT);
+    const auto at = place_in_picture(optics, view, knee, bones, mark_W, kMarkSpare_m);
+    if (at && !at->hidden && at->share < kCentral && at->distance_m < 0.03) shown += kStep_s;
+  }
+  return shown;
+}
+
+TEST(AclSurgeon, BeforeTheKneeIsBentTheScopeShowsTheInnerSide) {
+  const auto knee = open_case(
+      "builtin:knee:0:right:cartilage_lesion=small:acl_tear=midsubstance"
+      "#femur=field,tibia=field,fibula=hull,patella=hull,flexion=120,begin_flexion=80,near=100",
+      {}, CaseParts::kAll);
+  ASSERT_TRUE(knee) << knee.error().message();
+  const ScopeOptics optics{30 * kDegree, 52.5 * kDegree};
+  const char* const marks[] = {"medial_condyle", "medial_horn"};
+  const auto plain = plan_puncture(**knee, "arthroscope_30", optics, {}, {"hook_probe", true, {}});
+  ASSERT_TRUE(plain) << plain.error().message();
+  const auto ways = plan_puncture(**knee, "arthroscope_30", optics, {},
+                                  {"hook_probe", true, {marks[0], marks[1], "nowhere"}});
+  ASSERT_TRUE(ways) << ways.error().message();
+  EXPECT_EQ(ways->unseen, std::vector<std::string>{"nowhere"});
+  const double made_s = ways->worker.duration_s();
+  for (const char* mark : marks) {
+    EXPECT_GT(shown_s(**knee, ways->scope, optics, mark, made_s), 1.5) << mark;
+    EXPECT_LT(shown_s(**knee, plain->scope, optics, mark, made_s), 0.5) << mark;
+  }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "exercises/skin_order.h"
 #include "osteon/surgeon/puncture_surgeon.h"
 
 namespace osteon {
@@ -12,11 +14,14 @@ namespace {
 
 constexpr double kBendAfter_s = 0.3, kBent_deg_per_s = 90, kAnswered_s = 0.5;
 
+bool has_goal_of_kind(const std::vector<PlannedRule>& goals, std::string_view kind) {
+  return std::any_of(goals.begin(), goals.end(),
+                     [&](const PlannedRule& goal) { return goal.rule.kind == kind; });
+}
+
 bool wants_portals(const ScenarioPlan& plan) {
-  for (const auto& goals : plan.goals)
-    for (const PlannedRule& goal : goals)
-      if (goal.rule.kind == "portal_made") return true;
-  return false;
+  return std::any_of(plan.goals.begin(), plan.goals.end(),
+                     [](const auto& goals) { return has_goal_of_kind(goals, "portal_made"); });
 }
 
 bool errs_with_portals(const Skill& skill) {
@@ -27,6 +32,18 @@ bool errs_with_portals(const Skill& skill) {
 
 }  // namespace
 
+std::vector<std::string> seen_before_bending(const ScenarioPlan& plan) {
+  std::vector<std::string> marks;
+  const auto bent = stage_bent_after_portals(plan);
+  for (std::size_t s = bent.value_or(0); s-- > 0;) {
+    if (has_goal_of_kind(plan.goals[s], "portal_made")) break;
+    for (const PlannedRule& goal : plan.goals[s])
+      if (goal.rule.kind == "seen")
+        marks.insert(marks.end(), goal.rule.marks.begin(), goal.rule.marks.end());
+  }
+  return marks;
+}
+
 Result<std::optional<OpenedKnee>> plan_opening(const ScenarioPlan& plan, const Case& the_case,
                                                const Skill& skill, AclTools& tools) {
   if (!wants_portals(plan)) return std::optional<OpenedKnee>();
@@ -35,8 +52,10 @@ Result<std::optional<OpenedKnee>> plan_opening(const ScenarioPlan& plan, const C
   out.erred = errs_with_portals(skill) && skill.name != "bad:plunged";
   Skill at_skin = skill;
   if (!out.erred && at_skin.name.starts_with("bad:")) at_skin.name = "expert";
-  auto ways = plan_puncture(the_case, tools.scope, tools.optics, at_skin, {tools.probe, true});
+  auto ways = plan_puncture(the_case, tools.scope, tools.optics, at_skin,
+                            {tools.probe, true, seen_before_bending(plan)});
   if (!ways) return tl::unexpected(ways.error());
+  out.unseen = std::move(ways->unseen);
   out.scope = std::move(ways->scope);
   out.worker = std::move(ways->worker);
   out.end_s = std::max(out.scope.duration_s(), out.worker.duration_s());

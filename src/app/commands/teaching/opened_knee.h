@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "commands/teaching/scenario_run.h"
@@ -14,10 +15,14 @@ namespace osteon {
 /// How a virtual surgeon makes the portals of a knee before he does anything else in it.
 struct OpenedKnee {
   ProbePath scope, worker;
-  std::vector<TimedCommand> orders;  ///< then the knee is bent as it lies at rest
-  double end_s = 0;                  ///< when all of that is done
-  bool erred = false;                ///< he made an error with the portals: nothing follows
+  std::vector<TimedCommand> orders;      ///< then the knee is bent as it lies at rest
+  double end_s = 0;                      ///< when all of that is done
+  bool erred = false;                    ///< he made an error with the portals: nothing follows
+  std::vector<std::string> unseen = {};  ///< landmarks that his scope cannot show meanwhile
 };
+/// Landmarks that are to be seen when the portals are made and before the knee is bent.
+std::vector<std::string> seen_before_bending(const ScenarioPlan& plan);
+
 /// None: the scenario does not ask for portals. Puts into `tools` when what follows begins and
 /// where the portals are then.
 Result<std::optional<OpenedKnee>> plan_opening(const ScenarioPlan& plan, const Case& the_case,

@@ -9,6 +9,7 @@
 #include "commands/teaching/opened_knee.h"
 #include "commands/teaching/played_hand.h"
 #include "exercises/graft_order.h"
+#include "exercises/skin_order.h"
 #include "osteon/scene/tool_set.h"
 #include "osteon/surgeon/acl_surgeon.h"
 #include "osteon/surgeon/exam_surgeon.h"
@@ -187,8 +188,10 @@ Result<AclTools> tools_of(const ScenarioRun& run, const ScenarioPlan& plan, cons
     return fail("needs a hand with a scope and one with a guide pin", run.scenario.where);
   tools.examines = has_goal(plan, "knee_examined");
   choose_bones(plan, run.skill, tools);
-  for (const auto& goals : plan.goals)
-    for (const PlannedRule& goal : goals) {
+  // What comes before is a part of making the portals.
+  const auto bent = stage_bent_after_portals(plan);
+  for (std::size_t s = bent ? *bent + 1 : 0; s < plan.goals.size(); ++s)
+    for (const PlannedRule& goal : plan.goals[s]) {
       const auto& marks = goal.rule.marks;
       if (goal.rule.kind == "seen") tools.tour.insert(tools.tour.end(), marks.begin(), marks.end());
       if (goal.rule.kind == "felt") tools.felt.insert(tools.felt.end(), marks.begin(), marks.end());
@@ -245,6 +248,8 @@ Result<std::vector<std::string>> plan_reconstruction(
     ways->scope = joined(std::move((*opened)->scope), ways->scope);
     ways->probe = joined(std::move((*opened)->worker), ways->probe);
     ways->exam.insert(ways->exam.begin(), (*opened)->orders.begin(), (*opened)->orders.end());
+    ways->unreachable.insert(ways->unreachable.end(), (*opened)->unseen.begin(),
+                             (*opened)->unseen.end());
   }
   work.made = ways->after_graft;
   ThirdHand third;
