@@ -13,6 +13,7 @@
 #include "acl_way.h"
 #include "clearing_view.h"
 #include "osteon/base/random.h"
+#include "osteon/mesh/distance.h"
 #include "osteon/scene/stumps.h"
 #include "osteon/surgeon/scope_reach.h"
 #include "stump_way.h"
@@ -34,7 +35,7 @@ constexpr double kShaverRadius_m = 0.0021;  // of the usual size
 // A shaver at full power sucks off more than the usual 60 mmHg bring in.
 constexpr double kShavingPump_pa = 100 * 133.322;
 
-constexpr std::array<std::string_view, 37> kFaults{"wrong_portal",
+constexpr std::array<std::string_view, 38> kFaults{"wrong_portal",
                                                    "skipped_inspection",
                                                    "scuffed",
                                                    "too_hard",
@@ -62,6 +63,7 @@ constexpr std::array<std::string_view, 37> kFaults{"wrong_portal",
                                                    "wide_tunnel",
                                                    "stump_left",
                                                    "cleared_blind",
+                                                   "sound_part_cut",
                                                    "not_examined",
                                                    "fault_missed",
                                                    "sound_blamed",
@@ -283,6 +285,28 @@ struct Clearing {
   std::vector<ClearingPlace> places;
 };
 
+// Deepest in the other cruciate ligament of the places that a shaver gets to without touching bone.
+std::optional<ClearingPlace> place_in_pcl(const AclKnee& knee, const StumpClearing& with) {
+  constexpr std::size_t kStride = 5;
+  constexpr double kIn_m = 0.0025;
+  const Case& whole = knee.whole();
+  const auto pcl = std::find_if(whole.softs.begin(), whole.softs.end(),
+                                [](const SoftPart& part) { return part.name == "pcl"; });
+  if (pcl == whole.softs.end()) return std::nullopt;
+  const MeshDistance surface(pcl->mesh_W);
+  std::optional<ClearingPlace> best;
+  double deepest_m = 0;
+  for (std::size_t v = 0; v < pcl->mesh_W.vertices.size(); v += kStride) {
+    const Vec3& on_W = pcl->mesh_W.vertices[v];
+    const Vec3 in_W = on_W + kIn_m * (on_W - with.portal_W).normalized();
+    const double deep_m = -surface.closest(in_W).signed_distance;
+    if (deep_m <= deepest_m || !knee.is_free(in_W, with.portal_W, with.radius_m)) continue;
+    deepest_m = deep_m;
+    best = ClearingPlace{in_W, 0, Vec3::Zero()};
+  }
+  return best;
+}
+
 // Who leaves a stump leaves the one on the tibia: on the femur it would push the aimer aside.
 Clearing plan_clearing(const AclKnee& knee, const AclTools& tools, const AclHabits& habits,
                        const ScopePortals& portals) {
@@ -295,6 +319,8 @@ Clearing plan_clearing(const AclKnee& knee, const AclTools& tools, const AclHabi
   Clearing out{{tools.shaver, 0, kShaverRadius_m, portals.probe_W}, 0, {}, {}};
   out.before_m = before_stumps_m(knee, stumps, portals.probe_W);
   out.places = clearing_places(knee, stumps, out.with);
+  if (habits.fault == "sound_part_cut")
+    if (const auto place = place_in_pcl(knee, out.with)) out.places.push_back(*place);
   if (habits.fault == "cleared_blind" || habits.fault == "skipped_inspection") return out;
   ClearingWatcher who{tools.optics, portals.scope_W, {}, {}};
   for (const std::string& name : tools.felt) who.also_W.push_back(knee.mark(name));

@@ -63,6 +63,18 @@ std::vector<double> drilled_widths(std::span<const std::string> tray) {
   return widths_m;
 }
 
+// Which of a tray clear soft tissue.
+std::vector<char> clearing_tools(std::span<const std::string> tray) {
+  std::vector<char> clears(tray.size(), 0);
+  const auto instruments = load_instruments();
+  for (std::size_t i = 0; instruments && i < tray.size(); ++i) {
+    const auto named = parse_tool_name(tray[i]);
+    const Instrument* found = named ? find_instrument(*instruments, named->name) : nullptr;
+    clears[i] = found && found->clears ? 1 : 0;
+  }
+  return clears;
+}
+
 Result<PlannedHand> plan_hand(const ScenarioHand& hand, const Case& the_case,
                               std::span<const Instrument> instruments, const std::string& where) {
   PlannedHand planned;
@@ -199,6 +211,7 @@ void AttemptWatch::add_counted(std::span<const ToolState* const> tools, const Bo
   if (tunnels_) tunnels_->add(tools, bones, fresh_);
   if (water_) water_->add(tools, bones, fresh_);
   if (stumps_) stumps_->add(tools, bones, water_ && water_->is_obscured_now(), fresh_);
+  if (sound_parts_) sound_parts_->add(tools, bones, fresh_);
   judge_fresh();
   if (now_s() >= plan_->scenario.time_limit_s) state_.over = true;
   if (!tools.empty() && (!part_ || tools[0]->tick > part_->from_tick)) meter_.add(*tools[0]);
@@ -231,6 +244,7 @@ void AttemptWatch::watch_tray(const std::vector<std::string>& tray) {
   for (const std::string& name : tray) needles.push_back(name.starts_with(kSpinalNeedle));
   if (portals_) portals_->set_needles(std::move(needles));
   water_ = WaterWatch::of(*case_, tray, tick_s_);
+  sound_parts_.emplace(*case_, clearing_tools(tray), tick_s_);
 }
 
 Result<Outcome> AttemptWatch::finish(const Standard* standard, const StatedFindings& stated) {

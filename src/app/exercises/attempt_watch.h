@@ -21,6 +21,7 @@
 #include "osteon/procedure/portal_watch.h"
 #include "osteon/procedure/ring_watch.h"
 #include "osteon/procedure/scope_watch.h"
+#include "osteon/procedure/sound_part_watch.h"
 #include "osteon/procedure/stump_watch.h"
 #include "osteon/procedure/tool_events.h"
 #include "osteon/scene/instrument.h"
@@ -78,8 +79,8 @@ class AttemptWatch {
   }
   /// Null: the scenario does not ask for tunnels.
   const TunnelWatch* tunnels() const { return tunnels_ ? &*tunnels_ : nullptr; }
-  /// Follows the water in the joint, where the tray has a scope, and its needles; once, before the
-  /// first tick.
+  /// Follows the water in the joint, where the tray has a scope, its needles, and what clears soft
+  /// tissue; once, before the first tick.
   void watch_tray(const std::vector<std::string>& tray);
   /// Of a case with a bench.
   const GraftWatch& graft() const { return graft_; }
@@ -129,6 +130,7 @@ class AttemptWatch {
   GraftWatch graft_;
   PlacingWatch placing_;
   std::optional<StumpWatch> stumps_;
+  std::optional<SoundPartWatch> sound_parts_;
   KneeExamWatch exam_;
   std::optional<PortalWatch> portals_;
   std::vector<AttemptPause> pauses_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osteon/procedure/sound_part_watch.h"
 #include "osteon/procedure/stump_watch.h"
 #include "osteon/procedure/tunnel_events.h"
 
@@ -15,6 +16,20 @@ bool is_enough(const PlannedRule& rule, double percent) {
 
 bool is_too_much(const PlannedRule& rule, double percent) {
   return percent > 100 * number_of(rule, "share");
+}
+
+// One visit of a tip is one error.
+std::optional<RuleHit> cut_hit(const PlannedRule& rule, const Event& event, double tick_s,
+                               RuleHold& hold) {
+  if (event.kind != kSoundPartCleared) return std::nullopt;
+  const double for_s = event.values[0];
+  if (for_s < hold.last_s) hold.told = false;
+  hold.last_s = for_s;
+  const bool wrong =
+      for_s >= number_of(rule, "for_s") && event.values[1] >= number_of(rule, "deep_mm");
+  if (!wrong || hold.told) return std::nullopt;
+  hold.told = true;
+  return RuleHit{time_of(event, tick_s)};
 }
 
 }  // namespace
@@ -42,6 +57,13 @@ const std::vector<RuleKind>& stump_rule_table() {
        {{"share", 0.01, 1, 0.1}},
        SubjectKind::kNothing,
        kStumpsCleared},
+      {"sound_part_cut",
+       "what clears soft tissue runs for so long in a ligament or meniscus that is not to be "
+       "cleared, and so deep",
+       false,
+       {{"for_s", 0, 10, 0.3}, {"deep_mm", 0, 20, 1}},
+       SubjectKind::kNothing,
+       kSoundPartCleared},
   };
   return table;
 }
@@ -55,6 +77,10 @@ bool step_stump_rule(const PlannedRule& rule, const Event& event, double tick_s,
   if (kind == table.end()) return false;
   hit.reset();
   RuleHold& hold = state.holds[0];
+  if (kind->name == "sound_part_cut") {
+    hit = cut_hit(rule, event, tick_s, hold);
+    return true;
+  }
   if (event.kind == kStumpsCleared) hold.most = event.values[0];
   if (kind->is_goal) {
     state.met = is_enough(rule, hold.most);

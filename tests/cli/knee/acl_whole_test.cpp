@@ -27,7 +27,7 @@ class WholeAcl : public CliTest {
 TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   const Json json = report("--seed 0 --record " + file("w.osr"), 0);
   EXPECT_TRUE(json["errors"].empty()) << json["errors"];
-  ASSERT_EQ(json["stages"].size(), 19u);
+  ASSERT_EQ(json["stages"].size(), 20u);
   for (const Json& stage : json["stages"]) {
     ASSERT_TRUE(stage["completed_s"].is_number()) << stage;
     EXPECT_LT(stage["completed_s"], 1500);

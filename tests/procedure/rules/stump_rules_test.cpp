@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "osteon/procedure/sound_part_watch.h"
 #include "osteon/procedure/stump_watch.h"
 #include "osteon/procedure/tunnel_events.h"
 
@@ -61,6 +62,18 @@ TEST(StumpRules, ClearingWithoutALookIsAnErrorBeyondItsShareAndIsMadeOnce) {
   EXPECT_FALSE(rig.hit(kTunnelBegun));
   EXPECT_TRUE(rig.hit(kStumpsCleared, 60, 10.5));
   EXPECT_FALSE(rig.hit(kStumpsCleared, 70, 20));
+}
+
+TEST(StumpRules, EachVisitInASoundPartThatIsLongAndDeepEnoughIsOneError) {
+  StumpRuleRig rig("sound_part_cut");
+  rig.rule.rule.numbers = {{"for_s", 0.3}, {"deep_mm", 1}};
+  EXPECT_FALSE(rig.hit(kSoundPartCleared, 0.25, 4)) << "short";
+  EXPECT_FALSE(rig.hit(kSoundPartCleared, 0.35, 0.8)) << "shallow";
+  EXPECT_TRUE(rig.hit(kSoundPartCleared, 0.4, 1.2));
+  EXPECT_FALSE(rig.hit(kSoundPartCleared, 0.45, 2)) << "the same visit";
+  EXPECT_FALSE(rig.hit(kSoundPartCleared, 0.05, 3));
+  EXPECT_TRUE(rig.hit(kSoundPartCleared, 0.3, 3)) << "another";
+  EXPECT_FALSE(rig.hit(kStumpsCleared, 60, 50));
 }
 
 }  // namespace

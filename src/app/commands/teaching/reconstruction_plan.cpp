@@ -30,10 +30,10 @@ bool has_goal(const ScenarioPlan& plan, std::string_view kind) {
 
 // Whoever makes an error before the graft comes stops where it was made: his run is lost already.
 bool errs_before_the_graft(const Skill& skill) {
-  constexpr std::array<std::string_view, 13> kBefore{
-      "wrong_portal", "skipped_inspection", "scuffed",     "too_hard", "anterior_tibia",
-      "short_tibia",  "vertical_femur",     "blow_out",    "no_pin",   "plunged",
-      "short_socket", "stump_left",         "not_examined"};
+  constexpr std::array<std::string_view, 14> kBefore{
+      "wrong_portal", "skipped_inspection", "scuffed",      "too_hard",      "anterior_tibia",
+      "short_tibia",  "vertical_femur",     "blow_out",     "no_pin",        "plunged",
+      "short_socket", "stump_left",         "not_examined", "sound_part_cut"};
   return skill.name.starts_with("bad:") &&
          std::find(kBefore.begin(), kBefore.end(), skill.name.substr(4)) != kBefore.end();
 }
