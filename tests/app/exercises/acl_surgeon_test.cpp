@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/open_case.h"
+#include "commands/teaching/opened_knee.h"
 #include "osteon/collide/segments.h"
 #include "osteon/mesh/distance.h"
 #include "osteon/procedure/judge.h"
@@ -157,6 +159,27 @@ double shown_s(const Case& knee, const ProbePath& scope, const ScopeOptics& opti
     if (at && !at->hidden && at->share < kCentral && at->distance_m < 0.03) shown += kStep_s;
   }
   return shown;
+}
+
+TEST(AclSurgeon, WhatIsSeenBeforeTheKneeIsBentComesAfterThePortals) {
+  ScenarioPlan plan;
+  const auto stage = [&](const char* kind, std::vector<std::string> marks) {
+    plan.scenario.stages.emplace_back();
+    Rule rule;
+    rule.kind = kind;
+    rule.marks = std::move(marks);
+    plan.scenario.stages.back().goals.push_back(rule);
+    plan.goals.emplace_back();
+    plan.goals.back().emplace_back();
+    plan.goals.back().back().rule = rule;
+  };
+  stage("seen", {"portal_am"});
+  stage("portal_made", {"portal_am"});
+  stage("seen", {"medial_condyle", "medial_horn"});
+  EXPECT_TRUE(seen_before_bending(plan).empty()) << "the knee is not bent";
+  stage("knee_bent", {});
+  stage("seen", {"acl_femur"});
+  EXPECT_EQ(seen_before_bending(plan), (std::vector<std::string>{"medial_condyle", "medial_horn"}));
 }
 
 TEST(AclSurgeon, BeforeTheKneeIsBentTheScopeShowsTheInnerSide) {

@@ -74,6 +74,10 @@ TEST(SkinOrder, StagesOfPortalsThatWereMadeBeforeAreLeftOut) {
   EXPECT_EQ(scenario.soft, std::vector<std::string>{"stumps"});
   leave_out_puncture_stages(scenario);
   EXPECT_EQ(scenario.stages.size(), 2u);
+  Scenario looks = plan_of({"portal_made", "seen", "knee_bent", "felt"}).scenario;
+  leave_out_puncture_stages(looks);
+  ASSERT_EQ(looks.stages.size(), 1u) << "what is looked at before the knee is bent goes with them";
+  EXPECT_EQ(looks.stages[0].name, "felt");
 }
 
 }  // namespace

@@ -68,14 +68,21 @@ GhostTrack GhostTrackMaker::finish(std::vector<std::string> tray) {
   return std::move(track_);
 }
 
-std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioState& state) {
+std::vector<std::size_t> stretches_left(const GhostTrack& track, const ScenarioState& state) {
+  std::vector<std::size_t> left;
   for (std::size_t i = 0; i < track.stretches.size(); ++i) {
     const GhostStretch& stretch = track.stretches[i];
     const bool helps = std::any_of(stretch.done.begin(), stretch.done.end(),
                                    [&](const GoalPart& part) { return !is_done(state, part); });
-    if (stretch.stage == state.stage && state.stage < state.completed_s.size() && helps) return i;
+    if (stretch.stage == state.stage && state.stage < state.completed_s.size() && helps)
+      left.push_back(i);
   }
-  return std::nullopt;
+  return left;
+}
+
+std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioState& state) {
+  const auto left = stretches_left(track, state);
+  return left.empty() ? std::nullopt : std::optional(left.front());
 }
 
 std::optional<GhostTrack::Sample> ghost_at(const GhostTrack& track, std::size_t stretch,

@@ -72,6 +72,8 @@ bool is_done(const ScenarioState& state, const GoalPart& part);
 /// stage with a part that he has not done yet. None: the stages are over, or the expert did nothing
 /// that is left to do.
 std::optional<std::size_t> next_stretch(const GhostTrack& track, const ScenarioState& state);
+/// All of that stage with such a part, that one first: somebody may do them in another order.
+std::vector<std::size_t> stretches_left(const GhostTrack& track, const ScenarioState& state);
 
 /// One hand `since_s` seconds after its stretch began: it moves as the expert did, rests at the end
 /// and begins again. None: the track has no such hand or stretch, or the pose is not finite.

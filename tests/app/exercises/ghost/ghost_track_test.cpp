@@ -113,6 +113,9 @@ TEST(GhostTrack, TheNextStepIsTheExpertsFirstThatIsLeft) {
   EXPECT_EQ(next_stretch(track, state_at(1)), 2u);
   EXPECT_EQ(next_stretch(track, state_at(2)), std::nullopt);
   EXPECT_EQ(next_stretch(GhostTrack{}, state_at(0)), std::nullopt);
+  EXPECT_EQ(stretches_left(track, state_at(0)), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(stretches_left(track, state_at(0, 0, 1)), std::vector<std::size_t>{1});
+  EXPECT_TRUE(stretches_left(track, state_at(2)).empty());
 }
 
 TEST(GhostTrack, MovesAsTheExpertDidRestsAndBeginsAgain) {

@@ -36,6 +36,7 @@ void GhostControl::begin(GhostWanted wanted) {
   wanted_ = std::move(wanted);
   allowed_ = wanted_.scenario.ghost;
   follower_ = {};
+  left_.clear();
   problem_.clear();
   if (on_ || guides_) prepare();
 }
@@ -121,22 +122,27 @@ std::optional<std::uint32_t> GhostControl::in_tray(std::uint32_t instrument) con
 }
 
 std::optional<Pose> GhostControl::beside_active_hand() const {
-  const LiveRun* const run = live_.run();
-  const auto stretch = follower_.stretch();
-  if (!run || !track_ || !allowed_ || !on_ || !stretch) return std::nullopt;
-  const ToolState& tool = run->hand(run->active()).snapshot.tool;
+  if (!live_.run() || !track_ || !allowed_ || !on_) return std::nullopt;
+  for (const std::size_t stretch : left_)
+    if (const auto held = beside_in(stretch)) return held;
+  return std::nullopt;
+}
+
+std::optional<Pose> GhostControl::beside_in(std::size_t stretch) const {
+  const LiveRun& run = *live_.run();
+  const ToolState& tool = run.hand(run.active()).snapshot.tool;
   std::optional<Pose> held;
   for (std::uint32_t i = 0; !held && i < std::max<std::size_t>(track_->tray.size(), 1); ++i)
     if (in_tray(i) == tool.instrument)
-      held = ghost_beside(*track_, *stretch, run->active(), i, tool.X_WP.p);
+      held = ghost_beside(*track_, stretch, run.active(), i, tool.X_WP.p);
   // Which size is right is what a learner finds out; all of them are held alike.
   return held ? held
-              : ghost_beside_in_any_size(*track_, *stretch, run->active(),
+              : ghost_beside_in_any_size(*track_, stretch, run.active(),
                                          name_in(live_.tray().run().names, tool.instrument),
                                          tool.X_WP.p);
 }
 
-// Which size is right is what a learner finds out; all of them are held alike.
+// In whatever size.
 bool GhostControl::is_held_alike(std::uint32_t ghosts, std::uint32_t held) const {
   if (in_tray(ghosts) == held) return true;
   const auto his = parse_tool_name(name_in(track_->tray, ghosts));
@@ -146,17 +152,18 @@ bool GhostControl::is_held_alike(std::uint32_t ghosts, std::uint32_t held) const
 
 std::optional<GhostControl::Onward> GhostControl::onward_with_active_hand() {
   const LiveRun* const run = live_.run();
-  const auto stretch = follower_.stretch();
-  if (!run || !track_ || !allowed_ || !on_ || !stretch) return std::nullopt;
+  if (!run || !track_ || !allowed_ || !on_) return std::nullopt;
   const std::size_t hand = run->active();
-  if (brought_.stretch != *stretch || brought_.hand != hand) brought_ = {*stretch, hand, {}};
   const ToolState& tool = run->hand(hand).snapshot.tool;
-  const auto to = ghost_onward(
-      *track_, *stretch, hand,
-      [&](std::uint32_t ghosts) { return is_held_alike(ghosts, tool.instrument); }, tool.X_WP.p,
-      brought_.at);
-  if (!to) return std::nullopt;
-  return Onward{*to, *brought_.at == track_->stretches[*stretch].to};
+  const auto holds = [&](std::uint32_t ghosts) { return is_held_alike(ghosts, tool.instrument); };
+  for (const std::size_t stretch : left_) {
+    auto at = brought_.stretch == stretch && brought_.hand == hand ? brought_.at : std::nullopt;
+    const auto to = ghost_onward(*track_, stretch, hand, holds, tool.X_WP.p, at);
+    if (!to) continue;
+    brought_ = {stretch, hand, at};
+    return Onward{*to, *at == track_->stretches[stretch].to};
+  }
+  return std::nullopt;
 }
 
 void GhostControl::poll(const ExerciseRun& exercise) {
@@ -165,6 +172,7 @@ void GhostControl::poll(const ExerciseRun& exercise) {
   const ScenarioState* const state = exercise.state();
   if (track_ && state && live_.run()) {
     follower_.follow(*track_, *state, exercise.now_s());
+    left_ = stretches_left(*track_, *state);
     if (std::exchange(restart_, false)) follower_.restart(exercise.now_s());
     for (std::size_t h = 0; allowed_ && on_ && h < track_->hands.size(); ++h) {
       const auto sample = follower_.at(*track_, h, exercise.now_s());

@@ -32,8 +32,8 @@ class GhostControl {
   /// Once a picture, while an exercise runs.
   void poll(const ExerciseRun& exercise);
   GhostModel model() const;
-  /// How the expert holds what the active hand holds, near its tip, in the step that comes next;
-  /// none: he does not, or is not shown.
+  /// How the expert holds what the active hand holds, near its tip, in the next step of the stage
+  /// for which he does; none: for none, or he is not shown.
   std::optional<Pose> beside_active_hand() const;
   /// Where the active hand goes on along the expert's way, and whether that way ends there; none:
   /// as above. The next time it goes on from there.
@@ -60,6 +60,7 @@ class GhostControl {
   void take_prepared();
   void guide(const ExerciseRun& exercise);
   void lead_nobody();
+  std::optional<Pose> beside_in(std::size_t stretch) const;
   bool is_held_alike(std::uint32_t ghosts, std::uint32_t held) const;
   std::optional<std::uint32_t> in_tray(std::uint32_t instrument) const;
 
@@ -75,6 +76,7 @@ class GhostControl {
   double strength_ = 1;
   std::string problem_;
   GhostFollower follower_;
+  std::vector<std::size_t> left_;    ///< stretches of the stage that the learner has not done
   std::optional<std::size_t> led_;   ///< the stretch along which hands are led
   std::vector<std::size_t> led_to_;  ///< by hand: the sample
   /// Where a hand was brought to.

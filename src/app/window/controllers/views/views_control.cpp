@@ -167,9 +167,10 @@ std::string ViewsControl::message_on(PaneKind kind) const {
   if (views.scope_is_before_skin())
     return "The scope is not in the joint. It goes in by a portal that was made in the skin: G "
            "moves "
-           "the hand to one, the wheel moves it in.";
+           "the hand to one, the wheel turned forward moves it in.";
   if (views.scope_is_outside())
-    return "The scope is far from the joint. G moves the hand to a portal, the wheel moves it in.";
+    return "The scope is far from the joint. G moves the hand to a portal, the wheel turned "
+           "forward moves it in.";
   return {};
 }
 
