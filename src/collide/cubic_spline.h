@@ -1,9 +1,8 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 
-#include "four_lanes.h"
 #include "osteon/base/types.h"
 
 namespace osteon {
@@ -25,31 +24,24 @@ struct CubicSpline {
   }
 };
 
-/// Value and slope per cell of a tensor product of splines.
+/// Value and slope per cell of a tensor product of cubic B-splines.
 struct SplineSum {
   double value = 0;
   Vec3 slope = Vec3::Zero();
 };
 
-/// Sum over the 4 x 4 x 4 nodes about a place. `row(j, k)`: four neighbours along x. First over z
-/// and y for all four of x at once, then over x.
-template <class Row>
-SplineSum sum_splines(const Row& row, const CubicSpline& x, const CubicSpline& y,
-                      const CubicSpline& z) {
-  FourLanes v, along_y, along_z;
-  for (std::size_t k = 0; k < 4; ++k) {
-    FourLanes sum, sum_y;
-    for (std::size_t j = 0; j < 4; ++j) {
-      const FourLanes h = row(j, k);
-      sum.add(y.w[j], h);
-      sum_y.add(y.d[j], h);
-    }
-    v.add(z.w[k], sum);
-    along_y.add(z.w[k], sum_y);
-    along_z.add(z.d[k], sum);
-  }
-  const FourLanes w = FourLanes::load(x.w.data()), d = FourLanes::load(x.d.data());
-  return {v.dot(w), {v.dot(d), along_y.dot(w), along_z.dot(w)}};
-}
+/// The 4 x 4 x 4 heights about a place: where each four neighbours along x begin, y fastest.
+struct SplineRows {
+  std::array<const std::int16_t*, 16> row;
+  std::int16_t most = 32767;  ///< what is higher counts as this high
+};
+
+/// Sum over those heights at a place of the cell, each coordinate 0 to 1. First over z and y for
+/// all four of x at once, then over x. The processor's registers set the speed, and no bit of the
+/// result.
+SplineSum sum_splines(const SplineRows& rows, const Vec3& t);
+
+/// The same in registers that every processor has.
+SplineSum sum_splines_narrow(const SplineRows& rows, const Vec3& t);
 
 }  // namespace osteon

@@ -58,22 +58,25 @@ SplineSum sum_in_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, c
                       std::int16_t farthest) {
   static constexpr std::array<std::int16_t, 4> kNothing{CutField::kUncut, CutField::kUncut,
                                                         CutField::kUncut, CutField::kUncut};
-  const auto row = [&](std::size_t j, std::size_t k) {
-    const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j]];
-    const std::size_t first = 64u * z.node[k] + 8u * y.node[j] + x.node[0];
-    return FourLanes::load(from ? from + first : kNothing.data(), farthest);
-  };
-  return sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+  SplineRows rows;
+  rows.most = farthest;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j]];
+      const std::size_t first = 64u * z.node[k] + 8u * y.node[j] + x.node[0];
+      rows.row[4 * k + j] = from ? from + first : kNothing.data();
+    }
+  return sum_splines(rows, {x.t, y.t, z.t});
 }
 
 SplineSum sum_gathered(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
                        std::int16_t farthest) {
   Nodes64 um;
   gather(corner, x, y, z, um);
-  const auto row = [&](std::size_t j, std::size_t k) {
-    return FourLanes::load(um.data() + 16 * k + 4 * j, farthest);
-  };
-  return sum_splines(row, CubicSpline(x.t), CubicSpline(y.t), CubicSpline(z.t));
+  SplineRows rows;
+  rows.most = farthest;
+  for (std::size_t i = 0; i < rows.row.size(); ++i) rows.row[i] = um.data() + 4 * i;
+  return sum_splines(rows, {x.t, y.t, z.t});
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace {
 // Value and slope of a block at a place of one of its cells, in units of height and cells.
 SplineSum evaluate(const std::int16_t* first, const Vec3& t) {
   constexpr std::size_t kRow = FieldData::kSpan;
-  const auto row = [&](std::size_t j, std::size_t k) {
-    return FourLanes::load(first + (k * kRow + j) * kRow);
-  };
-  return sum_splines(row, CubicSpline(t.x()), CubicSpline(t.y()), CubicSpline(t.z()));
+  SplineRows rows;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j) rows.row[4 * k + j] = first + (k * kRow + j) * kRow;
+  return sum_splines(rows, t);
 }
 
 bool fits(const FieldData& d) {

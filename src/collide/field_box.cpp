@@ -16,10 +16,15 @@ constexpr int kPolishSteps = 40;
 constexpr double kPolished = 1e-9;  // m: a step so small ends the descent
 
 // Part of the box, in its own frame.
+// Not set to nothing at first: so many would take as long as dozens of looks at the field.
 struct Cell {
-  Vec3 middle = Vec3::Zero();
-  Vec3 half = Vec3::Zero();
-  double bound = 0;  // no point of it is lower
+  Vec3 middle, half;
+};
+
+// Of a cell: no point of it is lower. It stands for the cell in the heap, which moves it about.
+struct CellBound {
+  double bound;
+  std::size_t cell;
 };
 
 class BoxSearch {
@@ -40,11 +45,12 @@ class BoxSearch {
   BoxLowest find() {
     add(Vec3::Zero(), half_);
     while (looked_ + 2 <= most_) {
-      const Cell cell = cells_[0];
-      if (!(cell.bound < best_.field.distance - kCoarse)) break;
-      if (cell.bound > far_) return at_least(cell.bound);
-      std::pop_heap(cells_.begin(), cells_.begin() + count_, is_higher);
+      const CellBound lowest = heap_[0];
+      if (!(lowest.bound < best_.field.distance - kCoarse)) break;
+      if (lowest.bound > far_) return at_least(lowest.bound);
+      std::pop_heap(heap_.begin(), heap_.begin() + count_, is_higher);
       --count_;
+      const Cell& cell = cells_[lowest.cell];
       Eigen::Index axis = 0;
       cell.half.maxCoeff(&axis);
       Vec3 half = cell.half;
@@ -61,17 +67,18 @@ class BoxSearch {
 
   void add(const Vec3& middle, const Vec3& half) {
     const FieldSample sample = at(middle);
-    ++looked_;
+    const std::size_t cell = looked_++;
     if (sample.distance < best_.field.distance) {
       best_ = {middle, sample};
       size_ = half.norm();
     }
-    cells_[static_cast<std::size_t>(count_++)] = {middle, half,
-                                                  sample.distance - kSteepestRise * half.norm()};
-    std::push_heap(cells_.begin(), cells_.begin() + count_, is_higher);
+    cells_[cell] = {middle, half};
+    heap_[static_cast<std::size_t>(count_++)] = {sample.distance - kSteepestRise * half.norm(),
+                                                 cell};
+    std::push_heap(heap_.begin(), heap_.begin() + count_, is_higher);
   }
 
-  static bool is_higher(const Cell& a, const Cell& b) { return a.bound > b.bound; }
+  static bool is_higher(const CellBound& a, const CellBound& b) { return a.bound > b.bound; }
 
   BoxLowest at_least(double distance) const {
     BoxLowest out = best_;
@@ -103,9 +110,10 @@ class BoxSearch {
   const Pose& X_AB_;
   Vec3 half_;
   double far_;
-  std::size_t most_;                    // cells
-  int steps_;                           // of the descent
-  std::array<Cell, kMostCells> cells_;  // a heap, the lowest bound first
+  std::size_t most_;                        // cells
+  int steps_;                               // of the descent
+  std::array<Cell, kMostCells> cells_;      // in the order in which they were looked at
+  std::array<CellBound, kMostCells> heap_;  // the lowest bound first
   std::ptrdiff_t count_ = 0;
   std::size_t looked_ = 0;
   double size_ = 0;  // of the cell of the lowest height

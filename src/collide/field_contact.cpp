@@ -1,5 +1,6 @@
 #include "osteon/collide/field_contact.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,9 +44,8 @@ class LowestPoint {
       std::size_t widest = 0;
       double lowest = best_.field.distance - kEnough;
       for (std::size_t i = 0; i + 1 < count_; ++i) {
-        const double bound = lower_bound(places_[i], places_[i + 1]);
-        if (!(bound < lowest)) continue;
-        lowest = bound;
+        if (!(bounds_[i] < lowest)) continue;
+        lowest = bounds_[i];
         widest = i + 1;
       }
       if (widest == 0) break;
@@ -56,8 +56,9 @@ class LowestPoint {
   }
 
  private:
+  // Not set to nothing at first: so many would take as long as a few looks at the field.
   struct Height {
-    double s = 0, distance = 0;
+    double s, distance;
   };
   Vec3 at(double s) const { return c_.p0 + s * (c_.p1 - c_.p0); }
 
@@ -75,9 +76,16 @@ class LowestPoint {
   void add(double s, std::size_t before = kMostSamples) {
     const Place place{s, field_.at(at(s))};
     if (before > count_) before = count_;
-    for (std::size_t i = count_; i > before; --i) places_[i] = places_[i - 1];
+    const auto at_place = static_cast<std::ptrdiff_t>(before);
+    const auto end = static_cast<std::ptrdiff_t>(count_);
+    std::copy_backward(places_.begin() + at_place, places_.begin() + end,
+                       places_.begin() + end + 1);
+    std::copy_backward(bounds_.begin() + at_place, bounds_.begin() + end,
+                       bounds_.begin() + end + 1);
     places_[before] = {s, place.field.distance};
     ++count_;
+    if (before > 0) bounds_[before - 1] = lower_bound(places_[before - 1], places_[before]);
+    if (before + 1 < count_) bounds_[before] = lower_bound(places_[before], places_[before + 1]);
     if (place.field.distance < best_.field.distance) best_ = place;
   }
 
@@ -108,7 +116,8 @@ class LowestPoint {
   double length_;
   double far_;        // from the axis, m: what is farther may be told as a bound
   std::size_t most_;  // samples
-  std::array<Height, kMostSamples> places_{};
+  std::array<Height, kMostSamples> places_;
+  std::array<double, kMostSamples> bounds_;  // of each place and the next one
   std::size_t count_ = 0;
   Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
 };

@@ -68,18 +68,22 @@ void FeltCuts::apply(const CarvePatch& patch, std::uint64_t tick, EventList& eve
   }
 }
 
-bool FeltCuts::next() {
-  if (early_.empty()) return channel_.pop(next_);
-  next_ = early_.front();
-  early_.pop_front();
-  return true;
+const CarvePatch* FeltCuts::next() const {
+  return early_.empty() ? channel_.front() : &early_.front();
 }
 
+void FeltCuts::drop_next() {
+  if (early_.empty())
+    channel_.drop();
+  else
+    early_.pop_front();
+}
+
+// A patch is a kilobyte, and a step of a drill has dozens: each is copied once, from where it lies.
 void FeltCuts::take_until(std::uint64_t step, std::uint64_t tick, EventList& events) {
-  while (waiting_ || next()) {
-    waiting_ = next_.step > step;
-    if (waiting_) return;
-    apply(next_, tick, events);
+  for (const CarvePatch* patch = next(); patch && patch->step <= step; patch = next()) {
+    apply(*patch, tick, events);
+    drop_next();
   }
 }
 
@@ -104,10 +108,9 @@ void FeltCuts::catch_up() {
 void FeltCuts::copy(const Carving& carving) {
   late_.clear();
   early_.clear();
-  while (channel_.pop(next_)) {
-  }
-  waiting_ = false;
   CarvePatch patch;
+  while (channel_.pop(patch)) {
+  }
   for (std::uint32_t b = 0; b < bones_.size(); ++b) {
     const CarvedField* field = carving.field(b);
     if (!field || !bones_[b]) continue;

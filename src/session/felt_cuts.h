@@ -55,13 +55,12 @@ class FeltCuts {
   void copy(const Carving& carving);
 
  private:
-  bool next();
+  const CarvePatch* next() const;
+  void drop_next();
   void apply(const CarvePatch& patch, std::uint64_t tick, EventList& events);
 
   std::vector<std::unique_ptr<CutField>> bones_;
   std::deque<CarvePatch> early_;  ///< out of the channel before their time, see catch_up
-  CarvePatch next_;
-  bool waiting_ = false;  ///< `next_` belongs to a later step
   CarveChannel channel_;
   std::deque<CarvePatch> late_;  ///< physics' own
 };

@@ -28,6 +28,19 @@ TEST(BoundedQueue, HoldsItsCapacityAndRefusesMore) {
   EXPECT_FALSE(q.pop(v));
 }
 
+TEST(BoundedQueue, ShowsWhatIsNextWhereItLies) {
+  BoundedQueue<int> q(1);
+  EXPECT_EQ(q.front(), nullptr);
+  for (int round = 0; round < 5; ++round) {
+    EXPECT_TRUE(q.push(round));
+    ASSERT_NE(q.front(), nullptr);
+    EXPECT_EQ(*q.front(), round);
+    EXPECT_FALSE(q.push(99));  // it keeps its place until it is dropped
+    q.drop();
+    EXPECT_EQ(q.front(), nullptr);
+  }
+}
+
 TEST(BoundedQueue, KeepsOrderAcrossThreads) {
   BoundedQueue<int> q(16);
   constexpr int kCount = 20000;

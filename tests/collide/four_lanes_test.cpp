@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <random>
 
 #include "cubic_spline.h"
 
@@ -37,9 +39,9 @@ TEST(SplineSum, IsTheTensorProduct) {
   std::array<std::int16_t, 64> h{};
   for (std::size_t i = 0; i < h.size(); ++i)
     h[i] = static_cast<std::int16_t>(static_cast<int>(i * 7919 % 4001) - 2000);
-  const SplineSum found = sum_splines(
-      [&](std::size_t j, std::size_t k) { return FourLanes::load(h.data() + 16 * k + 4 * j); }, x,
-      y, z);
+  SplineRows rows;
+  for (std::size_t i = 0; i < rows.row.size(); ++i) rows.row[i] = h.data() + 4 * i;
+  const SplineSum found = sum_splines(rows, {0.3, 0.85, 0});
   double value = 0;
   Vec3 slope = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k)
@@ -52,6 +54,26 @@ TEST(SplineSum, IsTheTensorProduct) {
       }
   EXPECT_NEAR(found.value, value, 1e-9);
   EXPECT_LT((found.slope - slope).norm(), 1e-9);
+}
+
+// What a replay on another computer rests on.
+TEST(SplineSum, HasTheSameBitsInRegistersOfEveryWidth) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> height(-32768, 32767);
+  std::uniform_real_distribution<double> place(0, 1);
+  for (int round = 0; round < 2000; ++round) {
+    std::array<std::int16_t, 64> h{};
+    for (std::int16_t& one : h) one = static_cast<std::int16_t>(height(random));
+    SplineRows rows;
+    for (std::size_t i = 0; i < rows.row.size(); ++i) rows.row[i] = h.data() + 4 * i;
+    if (round % 2 == 1) rows.most = static_cast<std::int16_t>(height(random));
+    const Vec3 t(round % 5 == 0 ? 0 : place(random), place(random), place(random));
+    const SplineSum wide = sum_splines(rows, t), narrow = sum_splines_narrow(rows, t);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(wide.value), std::bit_cast<std::uint64_t>(narrow.value));
+    for (int i = 0; i < 3; ++i)
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(wide.slope[i]),
+                std::bit_cast<std::uint64_t>(narrow.slope[i]));
+  }
 }
 
 }  // namespace

@@ -32,6 +32,17 @@ class BoundedQueue {
     return true;
   }
 
+  /// The consumer's next value where it lies, null when there is none: a large one need not be
+  /// copied. It stays until `drop`.
+  const T* front() const {
+    const std::size_t head = head_.load(std::memory_order_relaxed);
+    return head == tail_.load(std::memory_order_acquire) ? nullptr : &slots_[head];
+  }
+  /// Takes what `front` has shown out of the queue.
+  void drop() {
+    head_.store(advance(head_.load(std::memory_order_relaxed)), std::memory_order_release);
+  }
+
  private:
   std::size_t advance(std::size_t i) const { return i + 1 == slots_.size() ? 0 : i + 1; }
 
