@@ -368,6 +368,22 @@ TEST(Findings, TheMeniscusIsTornWhereItsGradeSays) {
   expect({{"meniscal_tear", "bucket_handle"}}, 0, false, true);
 }
 
+TEST(Findings, ATearAcrossTheAnteriorHornPartsIt) {
+  const auto anatomy = grown("knee", {{"meniscal_tear", "anterior"}},
+                             {"femoral_cartilage", "medial_tibial_plateau", "medial_meniscus"});
+  const TriMesh& mesh = checks::soft_named(anatomy, "medial_meniscus").mesh_W;
+  expect_whole(mesh, "meniscus");
+  EXPECT_EQ(pieces_of(mesh), 2u);
+  const MeshDistance surface(mesh);
+  const auto free_mm = [&](const Vec3& p_mm) {
+    return 1e3 * surface.closest(1e-3 * p_mm).signed_distance;
+  };
+  // Half of the gap of 2 mm, in the middle of the horn; the body is whole.
+  EXPECT_NEAR(free_mm({7, 16.5, 11.4}), 1, 0.15);
+  EXPECT_NEAR(free_mm({7, 16.5, 12.5}), 1, 0.15);
+  EXPECT_LT(free_mm({7.5, 36.5, -3}), -0.5);
+}
+
 TEST(Findings, ALesionOfTheCartilageIsBareBoneAsWideAsItsGradeSays) {
   const auto whole = grown("knee", {}, {"femoral_cartilage"}, {"femur"});
   const TriMesh& layer = checks::soft_named(whole, "femoral_cartilage").mesh_W;
