@@ -16,6 +16,10 @@ constexpr double kAnswer_s = 0.15;    // how fast the force comes to what is wan
 constexpr double kSlowsAt_m = 0.004;  // before the end of a hole the hand presses less
 constexpr double kLeastPress_n = 0.35;
 constexpr double kThere_m = 0.0001;
+// Tissue that has wedged in front of a drill holds more than the hand presses. A running drill that
+// is drawn back and comes again takes it along.
+constexpr double kGoesOn_m = 0.0001, kStuck_s = 12, kDrawnBack_m = 0.015, kDrawn_m_per_s = 0.02;
+constexpr int kMostDrawnBack = 3;
 constexpr double kOnLine_m = 0.0001, kLeanSettles_s = 0.3;
 constexpr double kFastestTurn_rad_per_s = 1.5;
 constexpr double kTremble_Hz = 9.1;
@@ -62,6 +66,18 @@ void AclDriller::press(const AclMove& move, double dt_s) {
   const double felt_n = force_W_.dot(back);
   const double wanted_m = back.dot(p_W_ - move.X_WT.p);
   const double left_m = wanted_m + kGivesWay_m_per_n * felt_n;
+  if (in_move_s_ == 0) {
+    least_left_m_ = left_m;
+    stuck_s_ = back_m_ = 0;
+    drawn_back_ = 0;
+  }
+  if (back_m_ > 0 || is_stuck(left_m, dt_s)) {
+    back_m_ -= kDrawn_m_per_s * dt_s;
+    p_W_ = move.X_WT.p + (wanted_m + kDrawn_m_per_s * dt_s) * back;
+    q_ = move.X_WT.q;
+    in_move_s_ += dt_s;
+    return;
+  }
   const bool late = in_move_s_ > move.value;
   if (left_m < kThere_m || late) {
     if (late) ++given_up_;
@@ -75,6 +91,20 @@ void AclDriller::press(const AclMove& move, double dt_s) {
   p_W_ = move.X_WT.p + (wanted_m - m_per_s * dt_s) * back;
   q_ = move.X_WT.q;
   in_move_s_ += dt_s;
+}
+
+// Once it is, the way back is to be gone.
+bool AclDriller::is_stuck(double left_m, double dt_s) {
+  if (left_m < least_left_m_ - kGoesOn_m) {
+    least_left_m_ = left_m;
+    stuck_s_ = 0;
+  }
+  stuck_s_ += dt_s;
+  if (stuck_s_ < kStuck_s || drawn_back_ >= kMostDrawnBack) return false;
+  ++drawn_back_;
+  stuck_s_ = 0;
+  back_m_ = kDrawnBack_m;
+  return true;
 }
 
 // What stands on slanted bone slides down it as it is pressed: the hand goes against that until the

@@ -76,6 +76,26 @@ TEST(AclDriller, GivesUpWhereNothingLetsItThrough) {
   EXPECT_TRUE(is_finite(hand.step(0.001)));
 }
 
+// Something wedges before the tip and stays there until the drill has been drawn back.
+TEST(AclDriller, WhatGoesNoFartherIsDrawnBackAndPressedAgain) {
+  AclDriller hand(down_to(-0.02, 2, false), expert_skill());
+  SoftStuff stuff;
+  bool wedged = false, freed = false;
+  int ticks = 0;
+  while (!hand.done() && ++ticks < 60000) {
+    const Pose wanted = hand.step(0.001);
+    if (!freed && stuff.tip_m < -0.01) wedged = true;
+    if (wedged && wanted.p.z() > -0.001) freed = true;
+    stuff.m_per_s_n = wedged && !freed ? 0 : 0.002;
+    hand.feel(stuff.force(wanted, 0.001));
+  }
+  ASSERT_TRUE(hand.done());
+  EXPECT_TRUE(wedged && freed);
+  EXPECT_EQ(hand.given_up(), 0u);
+  EXPECT_NEAR(stuff.tip_m, -0.02, 0.0005);
+  EXPECT_LT(ticks, 40000) << "long before its time is over";
+}
+
 // Slippery bone: z = slope x. The tip slides down it as it is pressed along z.
 struct Slope {
   double slope = 0.6;

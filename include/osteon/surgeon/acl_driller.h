@@ -14,7 +14,8 @@ namespace osteon {
 struct AclMove {
   enum class Kind : std::uint8_t {
     kGo,     ///< to a pose, at a speed
-    kPress,  ///< along the tool's axis with a force until the tip is at the pose, or time is over
+    kPress,  ///< along the tool's axis with a force until the tip is at the pose, or time is over;
+             ///< where that goes no farther for long, drawn back and pressed again
     kLean,   ///< stand on bone with a force against `out_W`, until the tip is on the line through
              ///< the pose along it, or time is over
     kWait,   ///< until the attempt is so old
@@ -57,6 +58,7 @@ class AclDriller : public HandPlayer {
   void move(double dt_s);
   void go(const AclMove& move, double dt_s);
   void press(const AclMove& move, double dt_s);
+  bool is_stuck(double left_m, double dt_s);
   void lean(const AclMove& move, double dt_s);
   void next();
 
@@ -68,6 +70,10 @@ class AclDriller : public HandPlayer {
   Vec3 p_W_ = Vec3::Zero(), force_W_ = Vec3::Zero();
   Quat q_ = Quat::Identity(), q_from_ = Quat::Identity();
   double way_m_ = 0, turn_rad_ = 0;  ///< of the kGo that goes on
+  /// Of the kPress that goes on: what was left at its best, for how long it has been no better, how
+  /// far it is still to be drawn back, and how often it was.
+  double least_left_m_ = 0, stuck_s_ = 0, back_m_ = 0;
+  int drawn_back_ = 0;
   Command next_;
   std::array<double, 3> phases_{};
 };
