@@ -74,9 +74,9 @@ TEST_F(WholeAcl, TheExpertMakesDrillsPlacesAndFixesAndTheRecordingRepeats) {
   EXPECT_GT(made["pretension_s"], 600);
   // By hand, torn and with the graft, the knee gives as it does when it is tested by itself.
   const Json& hand = json["acl"]["examined"];
-  const Ran alone =
-      run_osteon("case laxity builtin:knee:0:right:cartilage_lesion=small:acl_tear=midsubstance "
-                 "--test lachman --json");
+  const Ran alone = run_osteon(
+      "case laxity builtin:knee:0:right:cartilage_lesion=small:acl_tear=midsubstance "
+      "--test lachman --json");
   ASSERT_EQ(alone.exit_code, 0) << alone.output;
   const Json torn = Json::parse(alone.output);
   const auto expect_same = [](const Json& found, const Json& tested) {
