@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -26,14 +25,6 @@ constexpr std::size_t kMostViews = 3, kMostAims = 6;
 constexpr int kTurns = 11;
 constexpr double kGazeTurn_rad = 15 * std::numbers::pi / 180;
 
-BoneSnapshot bones_of(const Case& at_rest) {
-  BoneSnapshot bones;
-  bones.count = static_cast<std::uint32_t>(at_rest.bones.size());
-  for (std::size_t b = 0; b < at_rest.bones.size(); ++b)
-    bones.bones[b].X_WB = at_rest.bones[b].X_WB;
-  return bones;
-}
-
 // A pose of the scope and what its picture shows.
 struct Look {
   Gaze gaze;
@@ -49,7 +40,7 @@ class ViewSearch {
         stumps_(stumps),
         with_(with),
         who_(who),
-        sight_(knee, knee.whole(), bones_of(knee.whole())) {}
+        sight_(knee, knee.whole(), rest_snapshot(knee.whole())) {}
 
   // The first of those that show the most, upright ones first. Ends: all candidates are tried once.
   Look best(const std::vector<ClearingPlace>& places) const {
