@@ -46,7 +46,15 @@ class SurfaceOfRod {
     const double length = along.norm();
     if (!(length > 0)) return look_over_end(x, Vec3::UnitZ());
     const auto [e, f] = both_across(along / length);
-    for (int k = 0; k < kRound; ++k) take(look(x, turned(e, f, k)));
+    double least = best_.gap;
+    int lowest = -1;
+    for (int k = 0; k < kRound; ++k) {
+      const double gap = gap_at(x, turned(e, f, k));
+      if (!(gap < least)) continue;
+      least = gap;
+      lowest = k;
+    }
+    if (lowest >= 0) best_ = look_again(x, turned(e, f, lowest));
     follow_slope();
   }
 
@@ -101,7 +109,7 @@ class SurfaceOfRod {
     int lowest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kRound; ++k) {
-      const double gap = field_.at(x - rod_.radius * tilted(inward, turned(e, f, k), 0.5)).distance;
+      const double gap = gap_at(x, tilted(inward, turned(e, f, k), 0.5));
       if (!(gap < least)) continue;
       least = gap;
       lowest = k;
@@ -125,13 +133,13 @@ class SurfaceOfRod {
     double at = 0.5;
     for (double step = 0.25; step > 0.02; step *= 0.5)
       for (const double way : {-step, step}) {
-        const Touch there = look(x, tilted(inward, side, at + way));
-        if (!(there.gap < least)) continue;
-        least = there.gap;
+        const double gap = gap_at(x, tilted(inward, side, at + way));
+        if (!(gap < least)) continue;
+        least = gap;
         at += way;
-        take(there);
         break;
       }
+    if (least < best_.gap) best_ = look_again(x, tilted(inward, side, at));
   }
 
   // `share` of a right angle from `inward` to `side`.
@@ -144,7 +152,16 @@ class SurfaceOfRod {
     return std::cos(angle) * e + std::sin(angle) * f;
   }
   Touch look(const Vec3& x, const Vec3& n) const {
-    const FieldSample there = field_.at(x - rod_.radius * n);
+    return touch(x, n, field_.at(x - rod_.radius * n));
+  }
+  // Many places are compared by their gaps alone, and only the lowest one's slope is asked for.
+  double gap_at(const Vec3& x, const Vec3& n) const {
+    return field_.distance_at(x - rod_.radius * n);
+  }
+  Touch look_again(const Vec3& x, const Vec3& n) const {
+    return touch(x, n, field_.again(x - rod_.radius * n));
+  }
+  static Touch touch(const Vec3& x, const Vec3& n, const FieldSample& there) {
     return {x, n, there.gradient, there.distance, there.near};
   }
   void take(const Touch& there) {
@@ -177,7 +194,7 @@ CapsuleContact carved_contact(const FieldView& coarse, const FieldView& fine, co
   for (const double side : {1.0, -1.0}) {
     if (surface.gap() < low_m) break;
     const Vec3& end = side > 0 ? rod_A.p0 : rod_A.p1;
-    if (fine.at(end).distance - rod_A.radius < surface.gap())
+    if (fine.distance_at(end) - rod_A.radius < surface.gap())
       surface.look_over_end(end, side / length * along);
   }
   return surface.contact();

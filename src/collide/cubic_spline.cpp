@@ -48,6 +48,25 @@ OSTEON_WIDE inline double wide_dot(__m256d a, __m256d b) {
   return two[0] + two[1];
 }
 
+OSTEON_WIDE inline __m256d row_of(const SplineRows& rows, std::size_t row, __m128i most) {
+  const auto* from = reinterpret_cast<const __m128i*>(rows.row[row]);
+  return _mm256_cvtepi32_pd(_mm_cvtepi16_epi32(_mm_min_epi16(_mm_loadl_epi64(from), most)));
+}
+
+OSTEON_WIDE double value_wide(const SplineRows& rows, const Vec3& t) {
+  ThreeSplines of;
+  find_splines(t, of);
+  const __m128i most = _mm_set1_epi16(rows.most);
+  __m256d v = _mm256_setzero_pd();
+  for (std::size_t k = 0; k < 4; ++k) {
+    __m256d sum = _mm256_setzero_pd();
+    for (std::size_t j = 0; j < 4; ++j)
+      sum = sum + _mm256_broadcast_sd(&of.w[j][1]) * row_of(rows, 4 * k + j, most);
+    v = v + _mm256_broadcast_sd(&of.w[k][2]) * sum;
+  }
+  return wide_dot(v, along_x(of.w));
+}
+
 OSTEON_WIDE SplineSum sum_splines_wide(const SplineRows& rows, const Vec3& t) {
   ThreeSplines of;
   find_splines(t, of);
@@ -56,9 +75,7 @@ OSTEON_WIDE SplineSum sum_splines_wide(const SplineRows& rows, const Vec3& t) {
   for (std::size_t k = 0; k < 4; ++k) {
     __m256d sum = _mm256_setzero_pd(), sum_y = sum;
     for (std::size_t j = 0; j < 4; ++j) {
-      const auto* from = reinterpret_cast<const __m128i*>(rows.row[4 * k + j]);
-      const __m128i four = _mm_min_epi16(_mm_loadl_epi64(from), most);
-      const __m256d h = _mm256_cvtepi32_pd(_mm_cvtepi16_epi32(four));
+      const __m256d h = row_of(rows, 4 * k + j, most);
       sum = sum + _mm256_broadcast_sd(&of.w[j][1]) * h;
       sum_y = sum_y + _mm256_broadcast_sd(&of.d[j][1]) * h;
     }
@@ -73,13 +90,22 @@ OSTEON_WIDE SplineSum sum_splines_wide(const SplineRows& rows, const Vec3& t) {
 
 #endif
 
-using SumSplines = SplineSum (*)(const SplineRows&, const Vec3&);
+// In the widest registers that this processor has.
+struct Sums {
+  SplineSum (*sum)(const SplineRows&, const Vec3&) = sum_splines_narrow;
+  double (*value)(const SplineRows&, const Vec3&) = value_of_splines_narrow;
+};
 
-SumSplines widest_sum() {
+Sums widest() {
 #if defined(OSTEON_WIDE_SPLINES)
-  if (__builtin_cpu_supports("avx2")) return sum_splines_wide;
+  if (__builtin_cpu_supports("avx2")) return {sum_splines_wide, value_wide};
 #endif
-  return sum_splines_narrow;
+  return {};
+}
+
+const Sums& sums() {
+  static const Sums kSums = widest();
+  return kSums;
 }
 
 }  // namespace
@@ -102,9 +128,20 @@ SplineSum sum_splines_narrow(const SplineRows& rows, const Vec3& t) {
   return {v.dot(w), {v.dot(d), along_y.dot(w), along_z.dot(w)}};
 }
 
-SplineSum sum_splines(const SplineRows& rows, const Vec3& t) {
-  static const SumSplines kSum = widest_sum();
-  return kSum(rows, t);
+double value_of_splines_narrow(const SplineRows& rows, const Vec3& t) {
+  const CubicSpline x(t.x()), y(t.y()), z(t.z());
+  FourLanes v;
+  for (std::size_t k = 0; k < 4; ++k) {
+    FourLanes sum;
+    for (std::size_t j = 0; j < 4; ++j)
+      sum.add(y.w[j], FourLanes::load(rows.row[4 * k + j], rows.most));
+    v.add(z.w[k], sum);
+  }
+  return v.dot(FourLanes::load(x.w.data()));
 }
+
+SplineSum sum_splines(const SplineRows& rows, const Vec3& t) { return sums().sum(rows, t); }
+
+double value_of_splines(const SplineRows& rows, const Vec3& t) { return sums().value(rows, t); }
 
 }  // namespace osteon

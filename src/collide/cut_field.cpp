@@ -54,29 +54,16 @@ void gather(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes
 }
 
 // Rows within blocks, or of nodes that nothing has cut.
-SplineSum sum_in_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
-                      std::int16_t farthest) {
+void find_rows(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
+               SplineRows& out) {
   static constexpr std::array<std::int16_t, 4> kNothing{CutField::kUncut, CutField::kUncut,
                                                         CutField::kUncut, CutField::kUncut};
-  SplineRows rows;
-  rows.most = farthest;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j) {
       const std::int16_t* from = corner[4u * z.side[k] + 2u * y.side[j]];
       const std::size_t first = 64u * z.node[k] + 8u * y.node[j] + x.node[0];
-      rows.row[4 * k + j] = from ? from + first : kNothing.data();
+      out.row[4 * k + j] = from ? from + first : kNothing.data();
     }
-  return sum_splines(rows, {x.t, y.t, z.t});
-}
-
-SplineSum sum_gathered(const Corners& corner, const Nodes4& x, const Nodes4& y, const Nodes4& z,
-                       std::int16_t farthest) {
-  Nodes64 um;
-  gather(corner, x, y, z, um);
-  SplineRows rows;
-  rows.most = farthest;
-  for (std::size_t i = 0; i < rows.row.size(); ++i) rows.row[i] = um.data() + 4 * i;
-  return sum_splines(rows, {x.t, y.t, z.t});
 }
 
 }  // namespace
@@ -91,6 +78,7 @@ CutField::CutField(const CutGrid& grid, std::size_t most_blocks, double slack_m)
 
 bool CutField::set(std::uint32_t block, Block cut) {
   if (block >= slot_.size() || (slot_[block] == kNone && used_ == nodes_.size())) return false;
+  ++changes_;
   if (slot_[block] == kNone) {
     slot_[block] = static_cast<std::uint32_t>(used_);
     block_of_[used_++] = block;
@@ -100,11 +88,19 @@ bool CutField::set(std::uint32_t block, Block cut) {
 }
 
 void CutField::clear() {
+  ++changes_;
   for (std::size_t n = 0; n < used_; ++n) slot_[block_of_[n]] = kNone;
   used_ = 0;
 }
 
-bool CutField::height(const Vec3& p_B, FieldSample& out) const {
+// The cuts about a place, and where it is in its cell.
+struct CutField::Around {
+  SplineRows rows;
+  Vec3 t;
+  Nodes64 um;  // what rows of more than one block are gathered in
+};
+
+bool CutField::find(const Vec3& p_B, Around& out) const {
   const Vec3 u = (p_B - grid_.lo) / grid_.cell_m;
   if (!is_finite(u)) return false;
   const Nodes4 x(u.x(), grid_.blocks[0]), y(u.y(), grid_.blocks[1]), z(u.z(), grid_.blocks[2]);
@@ -120,12 +116,31 @@ bool CutField::height(const Vec3& p_B, FieldSample& out) const {
     any = true;
   }
   if (!any) return false;
-  const auto farthest = static_cast<std::int16_t>(farthest_um_);
-  const SplineSum found = x.side[3] == 0 ? sum_in_rows(corner, x, y, z, farthest)
-                                         : sum_gathered(corner, x, y, z, farthest);
+  out.rows.most = static_cast<std::int16_t>(farthest_um_);
+  out.t = {x.t, y.t, z.t};
+  if (x.side[3] == 0) {
+    find_rows(corner, x, y, z, out.rows);
+    return true;
+  }
+  gather(corner, x, y, z, out.um);
+  for (std::size_t i = 0; i < out.rows.row.size(); ++i) out.rows.row[i] = out.um.data() + 4 * i;
+  return true;
+}
+
+bool CutField::height(const Vec3& p_B, FieldSample& out) const {
+  Around around;
+  if (!find(p_B, around)) return false;
+  const SplineSum found = sum_splines(around.rows, around.t);
   out.distance = slack_m_ - 1e-6 * found.value;
   out.gradient = -1e-6 / grid_.cell_m * found.slope;
   out.near = found.value < farthest_um_;
+  return true;
+}
+
+bool CutField::distance(const Vec3& p_B, double& out) const {
+  Around around;
+  if (!find(p_B, around)) return false;
+  out = slack_m_ - 1e-6 * value_of_splines(around.rows, around.t);
   return true;
 }
 

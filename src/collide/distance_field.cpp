@@ -11,13 +11,13 @@
 namespace osteon {
 namespace {
 
-// Value and slope of a block at a place of one of its cells, in units of height and cells.
-SplineSum evaluate(const std::int16_t* first, const Vec3& t) {
+// The heights about a cell of a block.
+SplineRows rows_from(const std::int16_t* first) {
   constexpr std::size_t kRow = FieldData::kSpan;
   SplineRows rows;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j) rows.row[4 * k + j] = first + (k * kRow + j) * kRow;
-  return sum_splines(rows, t);
+  return rows;
 }
 
 bool fits(const FieldData& d) {
@@ -73,29 +73,50 @@ std::size_t DistanceField::index_of(const std::array<int, 3>& block) const {
                                   block[0]);
 }
 
-FieldSample DistanceField::at(const Vec3& p_B) const {
-  if (!is_finite(p_B)) return {std::numeric_limits<double>::quiet_NaN(), Vec3::Zero(), false};
-  const Vec3 u = (p_B - data_.lo) / data_.cell_m;
+// A point in the grid: its block, the first height of its cell, and where it is in the cell.
+struct DistanceField::Spot {
   std::array<int, 3> block{};
-  std::array<std::size_t, 3> cell{};
+  const std::int16_t* first = nullptr;  // null: the block is not stored
   Vec3 t;
+};
+
+bool DistanceField::find(const Vec3& p_B, Spot& out) const {
+  const Vec3 u = (p_B - data_.lo) / data_.cell_m;
+  std::array<std::size_t, 3> cell{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
-    if (!(u[axis] >= 0 && u[axis] < FieldData::kSide * data_.blocks[k])) return beyond_grid(p_B);
+    if (!(u[axis] >= 0 && u[axis] < FieldData::kSide * data_.blocks[k])) return false;
     const int i = static_cast<int>(u[axis]);
-    t[axis] = u[axis] - i;
-    block[k] = i / FieldData::kSide;
+    out.t[axis] = u[axis] - i;
+    out.block[k] = i / FieldData::kSide;
     cell[k] = static_cast<std::size_t>(i % FieldData::kSide);
   }
-  const std::uint32_t stored = data_.stored[index_of(block)];
-  if (stored == FieldData::kNone) return in_far_block(block, p_B);
+  const std::uint32_t stored = data_.stored[index_of(out.block)];
+  if (stored == FieldData::kNone) return true;
   constexpr std::size_t kRow = FieldData::kSpan;
   const std::size_t first = (cell[2] * kRow + cell[1]) * kRow + cell[0];
-  const SplineSum local = evaluate(data_.height.data() + stored * FieldData::kBlock + first, t);
+  out.first = data_.height.data() + stored * FieldData::kBlock + first;
+  return true;
+}
+
+FieldSample DistanceField::at(const Vec3& p_B) const {
+  if (!is_finite(p_B)) return {std::numeric_limits<double>::quiet_NaN(), Vec3::Zero(), false};
+  Spot spot;
+  if (!find(p_B, spot)) return beyond_grid(p_B);
+  if (!spot.first) return in_far_block(spot.block, p_B);
+  const SplineSum local = sum_splines(rows_from(spot.first), spot.t);
   const double distance = data_.step_m * local.value;
   const bool near = distance <= data_.outside_m && distance >= -data_.inside_m;
   // A stored block reaches out of the band: there its heights are bounds too, being cut off.
   return {distance, (data_.step_m / data_.cell_m) * local.slope, near};
+}
+
+double DistanceField::distance_at(const Vec3& p_B) const {
+  if (!is_finite(p_B)) return std::numeric_limits<double>::quiet_NaN();
+  Spot spot;
+  if (!find(p_B, spot)) return beyond_grid(p_B).distance;
+  if (!spot.first) return bound_in(spot.block, p_B);
+  return data_.step_m * value_of_splines(rows_from(spot.first), spot.t);
 }
 
 FieldSample DistanceField::beyond_grid(const Vec3& p) const {
@@ -105,14 +126,18 @@ FieldSample DistanceField::beyond_grid(const Vec3& p) const {
 }
 
 // The exact height of the block's middle less the way to there; and no less than the band.
-FieldSample DistanceField::in_far_block(const std::array<int, 3>& block, const Vec3& p) const {
+double DistanceField::bound_in(const std::array<int, 3>& block, const Vec3& p) const {
   const double side = FieldData::kSide * data_.cell_m;
   const Vec3 middle = data_.lo + side * Vec3(block[0] + 0.5, block[1] + 0.5, block[2] + 0.5);
   const double height = static_cast<double>(data_.middle[index_of(block)]);
   const double way = (p - middle).norm();
+  return height > 0 ? std::max(data_.outside_m, height - way)
+                    : std::min(-data_.inside_m, height + way);
+}
+
+FieldSample DistanceField::in_far_block(const std::array<int, 3>& block, const Vec3& p) const {
   FieldSample out;
-  out.distance = height > 0 ? std::max(data_.outside_m, height - way)
-                            : std::min(-data_.inside_m, height + way);
+  out.distance = bound_in(block, p);
   for (std::size_t k = 0; k < 3; ++k) {
     std::array<int, 3> low = block, high = block;
     low[k] = std::max(0, block[k] - 1);

@@ -46,7 +46,7 @@ class BoxSearch {
     add(Vec3::Zero(), half_);
     while (looked_ + 2 <= most_) {
       const CellBound lowest = heap_[0];
-      if (!(lowest.bound < best_.field.distance - kCoarse)) break;
+      if (!(lowest.bound < best_.distance - kCoarse)) break;
       if (lowest.bound > far_) return at_least(lowest.bound);
       std::pop_heap(heap_.begin(), heap_.begin() + count_, is_higher);
       --count_;
@@ -63,25 +63,34 @@ class BoxSearch {
   }
 
  private:
-  FieldSample at(const Vec3& p_B) const { return field_.at(X_AB_ * p_B); }
+  struct Height {
+    Vec3 p;
+    double distance;
+  };
 
   void add(const Vec3& middle, const Vec3& half) {
-    const FieldSample sample = at(middle);
+    const double distance = field_.distance_at(X_AB_ * middle);
     const std::size_t cell = looked_++;
-    if (sample.distance < best_.field.distance) {
-      best_ = {middle, sample};
+    if (distance < best_.distance) {
+      best_ = {middle, distance};
       size_ = half.norm();
     }
     cells_[cell] = {middle, half};
-    heap_[static_cast<std::size_t>(count_++)] = {sample.distance - kSteepestRise * half.norm(),
-                                                 cell};
+    heap_[static_cast<std::size_t>(count_++)] = {distance - kSteepestRise * half.norm(), cell};
     std::push_heap(heap_.begin(), heap_.begin() + count_, is_higher);
   }
 
   static bool is_higher(const CellBound& a, const CellBound& b) { return a.bound > b.bound; }
 
+  // The search asks for distances alone, and for the slope of what it has found.
+  BoxLowest found() const {
+    BoxLowest out{best_.p, {best_.distance, Vec3::Zero(), false}};
+    if (std::isfinite(best_.distance)) out.field = field_.again(X_AB_ * best_.p);
+    return out;
+  }
+
   BoxLowest at_least(double distance) const {
-    BoxLowest out = best_;
+    BoxLowest out = found();
     out.field.distance = distance;
     out.p = X_AB_ * out.p;
     return out;
@@ -90,14 +99,14 @@ class BoxSearch {
   // Down the slope within the box, in steps that are halved where they lead up: the lowest points
   // are corners and edges more often than not, and clamping reaches them exactly.
   BoxLowest polished() const {
-    BoxLowest out = best_;
+    BoxLowest out = found();
     double step = std::max(size_, kPolished);
     for (int i = 0; i < steps_ && step > kPolished; ++i) {
       const Vec3 down_B = -(X_AB_.q.conjugate() * out.field.gradient);
       const Vec3 p = (out.p + step * down_B).cwiseMax(-half_).cwiseMin(half_);
-      const FieldSample sample = at(p);
-      if (sample.distance < out.field.distance) {
-        out = {p, sample};
+      const Vec3 p_A = X_AB_ * p;
+      if (field_.distance_at(p_A) < out.field.distance) {
+        out = {p, field_.again(p_A)};
       } else {
         step *= 0.4;
       }
@@ -117,7 +126,7 @@ class BoxSearch {
   std::ptrdiff_t count_ = 0;
   std::size_t looked_ = 0;
   double size_ = 0;  // of the cell of the lowest height
-  BoxLowest best_{Vec3::Zero(), {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
+  Height best_{Vec3::Zero(), std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace

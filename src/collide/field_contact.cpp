@@ -38,11 +38,11 @@ class LowestPoint {
 
   Place find() {
     add(0);
-    if (!(length_ > 0)) return best_;
+    if (!(length_ > 0)) return looked_at(best_);
     add(1);
     while (count_ < most_) {
       std::size_t widest = 0;
-      double lowest = best_.field.distance - kEnough;
+      double lowest = best_.distance - kEnough;
       for (std::size_t i = 0; i + 1 < count_; ++i) {
         if (!(bounds_[i] < lowest)) continue;
         lowest = bounds_[i];
@@ -62,9 +62,18 @@ class LowestPoint {
   };
   Vec3 at(double s) const { return c_.p0 + s * (c_.p1 - c_.p0); }
 
+  // The search asks for distances alone, and for the slope of what it has found.
+  Place looked_at(const Height& found) const {
+    Place out;
+    out.s = found.s;
+    out.field.distance = found.distance;
+    if (std::isfinite(found.distance)) out.field = field_.again(at(found.s));
+    return out;
+  }
+
   // All that is known is how far the whole axis is at least.
   Place at_least(double distance) const {
-    Place out = best_;
+    Place out = looked_at(best_);
     out.field.distance = distance;
     return out;
   }
@@ -74,7 +83,7 @@ class LowestPoint {
   }
 
   void add(double s, std::size_t before = kMostSamples) {
-    const Place place{s, field_.at(at(s))};
+    const Height place{s, field_.distance_at(at(s))};
     if (before > count_) before = count_;
     const auto at_place = static_cast<std::ptrdiff_t>(before);
     const auto end = static_cast<std::ptrdiff_t>(count_);
@@ -82,11 +91,11 @@ class LowestPoint {
                        places_.begin() + end + 1);
     std::copy_backward(bounds_.begin() + at_place, bounds_.begin() + end,
                        bounds_.begin() + end + 1);
-    places_[before] = {s, place.field.distance};
+    places_[before] = place;
     ++count_;
     if (before > 0) bounds_[before - 1] = lower_bound(places_[before - 1], places_[before]);
     if (before + 1 < count_) bounds_[before] = lower_bound(places_[before], places_[before + 1]);
-    if (place.field.distance < best_.field.distance) best_ = place;
+    if (place.distance < best_.distance) best_ = place;
   }
 
   // Halves the slope's sign change about the best sample: a flat minimum leaves its place, and so
@@ -94,12 +103,12 @@ class LowestPoint {
   Place settled() const {
     std::size_t i = 0;
     while (places_[i].s < best_.s) ++i;
-    const double slope = slope_of(best_);
+    Place out = looked_at(best_);
+    const double slope = slope_of(out);
     const bool rises = slope > 0;
-    if (slope == 0 || (rises && i == 0) || (!rises && i + 1 == count_)) return best_;
+    if (slope == 0 || (rises && i == 0) || (!rises && i + 1 == count_)) return out;
     double low = rises ? places_[i - 1].s : best_.s;
     double high = rises ? best_.s : places_[i + 1].s;
-    Place out = best_;
     const int halvings = field_.is_carved() ? 8 : 16;
     for (int n = 0; n < halvings; ++n) {
       const double s = 0.5 * (low + high);
@@ -119,7 +128,7 @@ class LowestPoint {
   std::array<Height, kMostSamples> places_;
   std::array<double, kMostSamples> bounds_;  // of each place and the next one
   std::size_t count_ = 0;
-  Place best_{0, {std::numeric_limits<double>::infinity(), Vec3::Zero(), false}};
+  Height best_{0, std::numeric_limits<double>::infinity()};
 };
 
 bool is_usable(const Capsule& c) {

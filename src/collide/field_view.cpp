@@ -23,7 +23,6 @@ Vec3 normal_of(const Vec3& slope) { return slope / std::max(slope.norm(), kSteep
 // In the middle of a hole the walls all round are as near as each other: there n goes to nothing,
 // so that c, and with it d, has no jump.
 FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
-  if (asked_) ++*asked_;
   FieldSample cut;
   if (!cuts_->height(p_B, cut)) return bone;
   const FieldSample& higher = cut.distance > bone.distance ? cut : bone;
@@ -37,6 +36,15 @@ FieldSample FieldView::carved(const FieldSample& bone, const Vec3& p_B) const {
   const double size = x.norm();
   if (!(size > 0)) return higher;
   return {std::sqrt((a * a + b * b - 2 * a * b * c) / apart), x / size, bone.near && cut.near};
+}
+
+// Of a place outside of both the edge counts, for which slopes are needed.
+double FieldView::carved_distance(const Vec3& p_B) const {
+  const double bone = bone_.distance_at(p_B);
+  double cut = 0;
+  if (!cuts_->distance(p_B, cut)) return bone;
+  if (bone > 0 && cut > 0) return again(p_B).distance;
+  return cut > bone ? cut : bone;
 }
 
 }  // namespace osteon

@@ -50,6 +50,7 @@ bool ContactField::can_be_cut() const {
 }
 
 void ContactField::set_cuts(std::span<const CutField* const> by_bone) {
+  ++cuts_given_;
   std::copy_n(by_bone.begin(), std::min(by_bone.size(), cuts_.size()), cuts_.begin());
 }
 
@@ -180,7 +181,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   const Pose X_BT = X_WB.inverse() * X_WT;
   if (ids.field) {
     Looks uncounted;
-    return part_field(ids, X_BT, uncounted, kFarGap_m, out);
+    return part_field(pair, X_BT, uncounted, kFarGap_m, out);
   }
   if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
@@ -200,7 +201,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
 
 bool ContactField::separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
                                   Looks& looks, PartingPlane& out, double far_m) const {
-  return part_field(pairs_[pair], X_WB.inverse() * X_WT, looks, far_m, out);
+  return part_field(pair, X_WB.inverse() * X_WT, looks, far_m, out);
 }
 
 bool ContactField::separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
@@ -242,16 +243,37 @@ double ContactField::support_against(const PiecePair& ids, const Vec3& n_T) cons
   return support(tool_.bodies[ids.tool_piece], -n_T);
 }
 
+PrimitiveContact ContactField::meet_hole_end(const PiecePair& ids, const Pose& X_BT) const {
+  const Vec3 n_T = X_BT.q.conjugate() * guide_->nhat_B;
+  double tool_m = -std::numeric_limits<double>::infinity();
+  for (const Primitive& part : to_field_) tool_m = std::max(tool_m, support(part, -n_T));
+  return hole_end(*guide_, X_BT, support_against(ids, n_T), tool_m, kFarGap_m);
+}
+
+// What was kept counts as many looks as asking again would: a tick ends its search at the same
+// place, whatever is kept.
+PrimitiveContact ContactField::meet_field(std::uint32_t pair, const Pose& X_BT, Looks& looks,
+                                          const Wanted& wanted) const {
+  const PiecePair& ids = pairs_[pair];
+  if (guide_ && guide_->bone == ids.bone) return meet_hole_end(ids, X_BT);
+  if (!looks.before) return ask_field(ids, X_BT, looks, wanted);
+  const CutField* cuts = cuts_[ids.bone];
+  const std::uint64_t lost = (cuts_given_ << 48) + (cuts ? cuts->changes() : 0);
+  const MetBefore::Question question{pair, lost, X_BT, wanted.far_m, wanted.low_m};
+  if (const MetBefore::Answer* kept = looks.before->find(question)) {
+    looks.asked += kept->looks;
+    return kept->contact;
+  }
+  const std::uint32_t asked = looks.asked;
+  const PrimitiveContact contact = ask_field(ids, X_BT, looks, wanted);
+  looks.before->keep(question, {contact, looks.asked - asked});
+  return contact;
+}
+
 // What is thicker than the fine field's band is looked for in the wide one, whose cells are large;
 // the fine one then tells how far the surface is.
-PrimitiveContact ContactField::meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
-                                          const Wanted& wanted) const {
-  if (guide_ && guide_->bone == ids.bone) {
-    const Vec3 n_T = X_BT.q.conjugate() * guide_->nhat_B;
-    double tool_m = -std::numeric_limits<double>::infinity();
-    for (const Primitive& part : to_field_) tool_m = std::max(tool_m, support(part, -n_T));
-    return hole_end(*guide_, X_BT, support_against(ids, n_T), tool_m, kFarGap_m);
-  }
+PrimitiveContact ContactField::ask_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+                                         const Wanted& wanted) const {
   const DistanceField& uncut = *case_.bones[ids.bone].field;
   const CutField* cuts = cuts_[ids.bone];
   const FieldView fine(uncut, cuts, &looks.asked);
@@ -279,9 +301,9 @@ PrimitiveContact ContactField::corrected(PrimitiveContact found, const FieldView
   return found;
 }
 
-bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, double far_m,
+bool ContactField::part_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, double far_m,
                               PartingPlane& out) const {
-  const PrimitiveContact contact = meet_field(ids, X_BT, looks, {.far_m = far_m});
+  const PrimitiveContact contact = meet_field(pair, X_BT, looks, {.far_m = far_m});
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
@@ -292,7 +314,7 @@ bool ContactField::part_field(const PiecePair& ids, const Pose& X_BT, Looks& loo
 
 double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
                          const Wanted& wanted) const {
-  const PrimitiveContact contact = meet_field(pairs_[pair], X_WB.inverse() * X_WT, looks, wanted);
+  const PrimitiveContact contact = meet_field(pair, X_WB.inverse() * X_WT, looks, wanted);
   return contact.status == LpStatus::kOptimal ? contact.gap
                                               : std::numeric_limits<double>::quiet_NaN();
 }

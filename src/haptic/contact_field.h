@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "met_before.h"
 #include "nearest_point.h"
 #include "osteon/collide/broad_phase.h"
 #include "osteon/collide/lp_contact.h"
@@ -84,6 +85,7 @@ class ContactField {
   /// Counts looks at carved bones: each costs so much that a tick has only so many.
   struct Looks {
     std::uint32_t asked = 0;
+    MetBefore* before = nullptr;  ///< null: nothing is kept
   };
 
   /// Parts one pair at a pose. False when the contact programme could not be solved and
@@ -130,10 +132,13 @@ class ContactField {
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
   bool separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
                      PartingPlane& out) const;
-  bool part_field(const PiecePair& ids, const Pose& X_BT, Looks& looks, double far_m,
+  bool part_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, double far_m,
                   PartingPlane& out) const;
-  PrimitiveContact meet_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+  PrimitiveContact meet_field(std::uint32_t pair, const Pose& X_BT, Looks& looks,
                               const Wanted& wanted) const;
+  PrimitiveContact ask_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,
+                             const Wanted& wanted) const;
+  PrimitiveContact meet_hole_end(const PiecePair& ids, const Pose& X_BT) const;
   PrimitiveContact corrected(PrimitiveContact found, const FieldView& fine) const;
   double support_against(const PiecePair& ids, const Vec3& n_T) const;
   Vec3 middle_of(const PiecePair& ids) const;
@@ -146,6 +151,7 @@ class ContactField {
   /// Of each bone felt as a field: of a wide band, for what is thicker than the fine one's.
   std::vector<std::shared_ptr<const DistanceField>> wide_;
   std::vector<const CutField*> cuts_;  ///< of each bone
+  std::uint64_t cuts_given_ = 0;       ///< how often set_cuts was called
   const ToolGuide* guide_ = nullptr;
   BroadPhase broad_phase_;
   std::vector<PiecePair> pairs_;           ///< bone by bone, piece by piece

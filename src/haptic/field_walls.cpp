@@ -24,7 +24,7 @@ void FieldWalls::start(const CandidateList& near) {
   fields_ = near.field;
   field_count_ = near.field_count;
   count_ = 0;
-  looks_ = {};
+  looks_ = {0, &before_};
   known_.set = false;
 }
 
@@ -137,7 +137,10 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
   const Vec3 along = (to_W - from_W) / length;
   double gap = nearest(X_WB, {from_W, q_WT}).gap;
   const double limit = std::min(kSkin, gap);
-  const auto look_at = [&](double s) { return nearest(X_WB, {from_W + s * along, q_WT}, limit); };
+  // The end is asked for as the next look will: then it is known.
+  const auto look_at = [&](double s) {
+    return nearest(X_WB, {s == length ? to_W : Vec3(from_W + s * along), q_WT}, limit);
+  };
   double free = 0;
   for (int i = 0; i < kMostStrides && (i == 0 || !spent()); ++i) {
     const double next = std::min(length, free + std::max(kStride, kSafeShare * gap));

@@ -101,6 +101,7 @@ class FieldWalls {
   std::array<Wall, kMostPlanes> walls_{};
   std::array<Wall, kMostPlanes> next_{};  ///< for look
   std::uint32_t count_ = 0;
+  MetBefore before_;
   ContactField::Looks looks_;  ///< of this tick
   Known known_;
   Blocked blocked_;  ///< of the last way

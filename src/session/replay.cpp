@@ -179,6 +179,7 @@ Result<ReplayOutcome> replay_source(const RecordSource& source,
     show_cuts();
     tally.add(*replayer, outcome);
     const std::size_t hand = replayer->hand();
+    if (options.on_tick_time) options.on_tick_time(hand, replayer->last_tick_ns());
     if (options.on_pushes && replayer->session().softs())
       options.on_pushes(replayer->session().softs()->pushes());
     if (options.on_tick)

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "mesh/shapes.h"
@@ -35,6 +37,27 @@ const Bored& bored() {
 // A rod along the hole's axis, moved aside.
 Capsule rod_beside(double radius, const Vec3& offset, double tip_z = 0.0035) {
   return {offset + Vec3(0, 0, tip_z + radius), offset + Vec3(0, 0, 0.02), radius};
+}
+
+// In the hole, over its rims, in what is left, and far from the cuts.
+TEST(FieldView, TheDistanceAloneHasTheSameBitsAndCountsAsALook) {
+  std::uint32_t asked = 0, other = 0;
+  const FieldView view(bored().bone, &bored().cuts, &asked);
+  const FieldView full(bored().bone, &bored().cuts, &other);
+  Random random(13);
+  for (std::uint32_t i = 1; i <= 3000; ++i) {
+    const double far = random.uniform(0, i % 5 == 0 ? 0.03 : 0.004);
+    const double height = random.uniform(-0.01, 0.01);
+    const Vec3 p = far * random.direction() + Vec3(0, 0, height);
+    const FieldSample sample = full.at(p);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(view.distance_at(p)),
+              std::bit_cast<std::uint64_t>(sample.distance))
+        << p.transpose();
+    ASSERT_EQ(asked, i);
+    const FieldSample again = view.again(p);
+    EXPECT_EQ(asked, i);
+    EXPECT_EQ(again.gradient, sample.gradient);
+  }
 }
 
 TEST(CarvedContact, WhatIsNotFiniteHasNone) {

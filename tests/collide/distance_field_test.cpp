@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -68,6 +70,20 @@ TEST(DistanceField, APlaceThatIsNotANumberHasNoDistance) {
   const FieldSample s = ball_field().at(Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0));
   EXPECT_TRUE(std::isnan(s.distance));
   EXPECT_FALSE(s.near);
+}
+
+// Within the band, far from it and beyond the grid.
+TEST(DistanceField, TheDistanceAloneHasTheSameBits) {
+  const DistanceField& field = ball_field();
+  EXPECT_TRUE(std::isnan(field.distance_at(Vec3(0, std::numeric_limits<double>::infinity(), 0))));
+  Random random(11);
+  for (int i = 0; i < 3000; ++i) {
+    const double height = random.uniform(0, i % 3 == 0 ? 4 : 1.2);
+    const Vec3 p = kRadius * height * random.direction();
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(field.distance_at(p)),
+              std::bit_cast<std::uint64_t>(field.at(p).distance))
+        << p.transpose();
+  }
 }
 
 TEST(DistanceField, OnTheSurfaceTheDistanceIsNothing) {

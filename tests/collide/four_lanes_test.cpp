@@ -70,6 +70,8 @@ TEST(SplineSum, HasTheSameBitsInRegistersOfEveryWidth) {
     const Vec3 t(round % 5 == 0 ? 0 : place(random), place(random), place(random));
     const SplineSum wide = sum_splines(rows, t), narrow = sum_splines_narrow(rows, t);
     ASSERT_EQ(std::bit_cast<std::uint64_t>(wide.value), std::bit_cast<std::uint64_t>(narrow.value));
+    for (const double value : {value_of_splines(rows, t), value_of_splines_narrow(rows, t)})
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(wide.value));
     for (int i = 0; i < 3; ++i)
       ASSERT_EQ(std::bit_cast<std::uint64_t>(wide.slope[i]),
                 std::bit_cast<std::uint64_t>(narrow.slope[i]));

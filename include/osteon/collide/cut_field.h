@@ -43,14 +43,20 @@ class CutField {
   void clear();
   bool empty() const { return used_ == 0; }
   std::size_t used() const { return used_; }
+  /// How often anything was set or cleared: the cuts are as they were while this is.
+  std::uint64_t changes() const { return changes_; }
   const CutGrid& grid() const { return grid_; }
 
   /// Height of a point over what the cuts have left: positive in a hole. False: no cut is near.
   bool height(const Vec3& p_B, FieldSample& out) const;
+  /// Its distance alone, the same bits in half the time.
+  bool distance(const Vec3& p_B, double& out) const;
 
  private:
   using Nodes = std::array<std::int16_t, kNodes>;
   static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Around;
+  bool find(const Vec3& p_B, Around& out) const;
 
   CutGrid grid_;
   double slack_m_;
@@ -59,6 +65,7 @@ class CutField {
   std::vector<std::uint32_t> block_of_;  ///< of each slot
   std::vector<Nodes> nodes_;
   std::size_t used_ = 0;
+  std::uint64_t changes_ = 0;
 };
 
 }  // namespace osteon

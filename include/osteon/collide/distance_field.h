@@ -63,6 +63,8 @@ class DistanceField {
 
   /// At a point of the bone's frame. Not finite: a distance that is not a number.
   FieldSample at(const Vec3& p_B) const;
+  /// Its distance alone, the same bits in half the time.
+  double distance_at(const Vec3& p_B) const;
 
   const FieldData& data() const { return data_; }
   double cell_m() const { return data_.cell_m; }
@@ -72,7 +74,10 @@ class DistanceField {
 
  private:
   explicit DistanceField(FieldData data);
+  struct Spot;
+  bool find(const Vec3& p_B, Spot& out) const;
   FieldSample beyond_grid(const Vec3& p) const;
+  double bound_in(const std::array<int, 3>& block, const Vec3& p) const;
   FieldSample in_far_block(const std::array<int, 3>& block, const Vec3& p) const;
   std::size_t index_of(const std::array<int, 3>& block) const;
 

@@ -19,8 +19,19 @@ class FieldView {
             std::uint32_t* asked = nullptr)
       : bone_(bone), cuts_(cuts && !cuts->empty() ? cuts : nullptr), asked_(asked) {}
   FieldSample at(const Vec3& p_B) const {
+    if (cuts_ && asked_) ++*asked_;
+    return again(p_B);
+  }
+  /// The same of a place whose distance was asked for just now: not counted again.
+  FieldSample again(const Vec3& p_B) const {
     const FieldSample bone = bone_.at(p_B);
     return cuts_ ? carved(bone, p_B) : bone;
+  }
+  /// Its distance alone, the same bits in half the time.
+  double distance_at(const Vec3& p_B) const {
+    if (!cuts_) return bone_.distance_at(p_B);
+    if (asked_) ++*asked_;
+    return carved_distance(p_B);
   }
   /// Whether anything was cut out of it: then looks cost twice as much.
   bool is_carved() const { return cuts_ != nullptr; }
@@ -28,6 +39,7 @@ class FieldView {
 
  private:
   FieldSample carved(const FieldSample& bone, const Vec3& p_B) const;
+  double carved_distance(const Vec3& p_B) const;
 
   const DistanceField& bone_;
   const CutField* cuts_;  ///< null: nothing was cut

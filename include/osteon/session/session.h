@@ -218,6 +218,8 @@ struct ReplayOptions {
   std::function<void(const CutsPatch&, double time_s)> on_cuts = {};
   /// Sees what presses soft solids, before each tick that on_tick sees; none: nobody looks.
   std::function<void(const SoftPushes&)> on_pushes = {};
+  /// Sees how long each tick took, before on_tick.
+  std::function<void(std::size_t hand, std::int64_t ns)> on_tick_time = {};
   double to_s = 0;  ///< ends before the first hand's tick after this time; 0: at the end
   /// The reports are about the ticks after this one.
   std::uint64_t reported_after = 0;

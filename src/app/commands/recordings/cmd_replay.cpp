@@ -15,6 +15,7 @@
 #include "osteon/procedure/hand_reports.h"
 #include "runs/hands/tray.h"
 #include "runs/replays/recorded_case.h"
+#include "runs/replays/tick_work.h"
 #include "runs/reports/torque_report.h"
 
 namespace osteon {
@@ -31,6 +32,7 @@ struct ReplayArguments {
   std::string report;
   std::string frames;
   double from_s = 0;
+  int runs = 1;
   bool allow_incomplete = false;
   SessionOptions session;
 };
@@ -120,6 +122,22 @@ Result<TorqueWatch> torque_of(const RecordingHeader& header, const Case& the_cas
   return TorqueWatch(tray, std::move(*portals), header.hands);
 }
 
+// Again and again, for the times alone; what differs from the recording is judged in the last run.
+Result<void> repeat_for_times(const ReplayArguments& options,
+                              const std::shared_ptr<const Case>& the_case, ReplayOptions how,
+                              TickWork& work) {
+  how.on_tick = {};
+  for (int run = 1; run < options.runs; ++run) {
+    work.begin_run();
+    auto recording = RecordingReader::open(options.file);
+    if (!recording) return tl::unexpected(recording.error());
+    const auto outcome = replay(*recording, the_case, how);
+    if (!outcome) return tl::unexpected(outcome.error());
+  }
+  work.begin_run();
+  return {};
+}
+
 int replay_recording(const ReplayArguments& options) {
   auto recording = RecordingReader::open(options.file);
   if (!recording) return report_error(recording.error());
@@ -140,6 +158,12 @@ int replay_recording(const ReplayArguments& options) {
     torque->see(hand, tool);
     if (*frames && hand == 0) (*frames)->add(tool, bones);
   };
+  TickWork work;
+  if (options.runs > 1) {
+    how.on_tick_time = [&](std::size_t hand, std::int64_t ns) { work.see(hand, ns); };
+    if (auto done = repeat_for_times(options, *the_case, how, work); !done)
+      return report_error(done.error());
+  }
   const auto outcome = replay(*recording, *the_case, how);
   if (!outcome) return report_error(outcome.error());
   if (*frames && (*frames)->failure()) return report_error(*(*frames)->failure());
@@ -148,6 +172,7 @@ int replay_recording(const ReplayArguments& options) {
   if (auto ok = save_reports(*outcome, torques, recording->header(), options.report); !ok)
     return report_error(ok.error());
   print_reports(*outcome, torques, recording->header());
+  if (options.runs > 1) std::fputs(to_text(work, hand_names(recording->header())).c_str(), stdout);
   return judge(options, *outcome);
 }
 
@@ -188,6 +213,9 @@ int run_replay(const ReplayArguments& options) {
     if (const auto expectation = read_file(options.expect, kLargestExpectation); !expectation)
       return report_error(expectation.error());
   const bool is_path = fs::path(options.file).extension() == ".csv";
+  if (is_path && options.runs > 1)
+    return report_error({"only a recording can be replayed several times", options.file,
+                         "Leave --runs out, or record the path first"});
   return is_path ? replay_path(options) : replay_recording(options);
 }
 
@@ -211,6 +239,12 @@ void add_replay_command(cli::App& app, int& exit_code) {
       ->add_option("--from", options->from_s,
                    "begin at the last state stored at or before this time, s")
       ->check(cli::Range(0.0, 4 * 3600.0));
+  command
+      ->add_option("--runs", options->runs,
+                   "replay a recording so many times and print each hand's work of a tick, the "
+                   "fastest run of each tick counting: without most of what other programs took")
+      ->check(cli::Range(1, 50))
+      ->capture_default_str();
   command->add_flag("--allow-incomplete", options->allow_incomplete,
                     "exit with 0 for a truncated recording too, when the saved part is identical");
   options->session.add_to(*command);
