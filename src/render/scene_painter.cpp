@@ -226,6 +226,9 @@ const BoneAppearance& ScenePainter::look_of(const ViewState& view, std::size_t k
 
 bool ScenePainter::shows(const RenderSnapshot& snapshot, const ViewState& view,
                          std::size_t k) const {
+  // What stands for a graft on a bench is felt where it will be; what is made is drawn there.
+  const std::optional<GraftBenchPlan>& bench = shared_->bench;
+  if (bench && snapshot.bones.bench.on && k == bench->bones[GraftBenchPlan::kGraft]) return false;
   if (k < shared_->rest_X_WB.size()) return is_shown(snapshot, view, k);
   const BoneAppearance& look = look_of(view, k);
   return look.visible && look.opacity >= kSeenThrough && is_finite(pose(snapshot, k));
@@ -280,6 +283,7 @@ Result<ScenePainter> ScenePainter::create(const Case& the_case, const Tool& tool
   }
   for (const SoftPart& soft : the_case.softs)
     painter.shared_->bones.push_back(make_soft(the_case, soft));
+  painter.shared_->bench = find_graft_bench(the_case);
   painter.set_surfaces(prepared);
   painter.shared_->tools.push_back(make_tool_model(tool));
   painter.shared_->shaft = GpuMesh(plain_shaded(cylinder(20)));

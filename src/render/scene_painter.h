@@ -13,6 +13,7 @@
 #include "gl/gpu_mesh.h"
 #include "gl/tile_mask.h"
 #include "osteon/render/renderer.h"
+#include "osteon/scene/bench_rods.h"
 #include "osteon/scene/limb_cover.h"
 #include "surface/changed_cubes.h"
 #include "surface/heat_texture.h"
@@ -128,6 +129,10 @@ class ScenePainter {
   static std::vector<Capsule> mark_capsules(const RenderSnapshot& snapshot);
   static std::vector<Capsule> rod_capsules(const RenderSnapshot& snapshot);
   std::vector<Capsule> placing_capsules(const RenderSnapshot& snapshot) const;
+  std::vector<BenchRod> rods_at_bench(const RenderSnapshot& snapshot) const;
+  std::vector<Capsule> bench_capsules(const RenderSnapshot& snapshot) const;
+  /// With the program of metal in use.
+  void paint_rod(const Capsule& rod, const Eigen::Vector4f& color, const Frame& frame) const;
   void paint_placing(const RenderSnapshot& snapshot, const Frame& frame) const;
   struct LooseModel {
     GpuMesh mesh;
@@ -237,6 +242,7 @@ class ScenePainter {
     std::vector<Pose> rest_X_WB;                  ///< of the bones
     std::vector<ToolModel> tools;                 ///< by ToolState::instrument; not empty
     std::map<std::uint64_t, LooseModel> loose;
+    std::optional<GraftBenchPlan> bench;  ///< of a case that has one
     GpuMesh shaft, head, ball;
     GlVertexArray no_vertices;
     SurfaceChanges changes;

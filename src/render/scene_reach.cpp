@@ -158,6 +158,8 @@ TileMask ScenePainter::moving_tiles(const RenderSnapshot& snapshot, const ViewSt
       marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   for (const Capsule& c : placing_capsules(snapshot))
     marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
+  for (const Capsule& c : bench_capsules(snapshot))
+    marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   for (const Capsule& c : loose_capsules(snapshot, view))
     marker.capsule(frame.X_CW * c.a, frame.X_CW * c.b, c.radius_m);
   for (const Capsule& c : rod_capsules(snapshot))

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "gl_fixture.h"
+#include "graft_bench_case.h"
 
 #include "osteon/base/turn.h"
 
@@ -88,6 +89,28 @@ TEST_F(RendererTest, APinAndItsLineAreDrawnInTheBone) {
   snapshot.bones.placing.on = false;
   pin = {};
   EXPECT_EQ(renderer.draw_image(snapshot, front_view(), 200, 200).rgb, without.rgb);
+}
+
+// What stands for the graft gives way to what was made of the tendons.
+TEST_F(RendererTest, TendonsAndGraftAreDrawnAtTheirBench) {
+  const auto bench = testing::bench_case();
+  ASSERT_TRUE(bench);
+  Renderer renderer = make_renderer(*bench);
+  RenderSnapshot snapshot = at_rest(*bench);
+  ViewState view = front_view();
+  view.camera.distance_m = 0.9;
+  const auto picture = [&] { return renderer.draw_image(snapshot, view, 200, 200); };
+  const Image as_built = picture();
+  snapshot.bones.bench.on = true;
+  const Image begun = picture();
+  EXPECT_GT(count_different(as_built, begun, 30), 20) << "no graft yet, and tendons on the thigh";
+  snapshot.bones.bench.tendons[0].stripped = true;
+  const Image stripped = picture();
+  EXPECT_GT(count_different(begun, stripped, 30), 20);
+  snapshot.bones.bench = testing::folded_bench(2, 2);
+  EXPECT_GT(count_different(stripped, picture(), 30), 20);
+  snapshot.bones.bench = {};
+  EXPECT_EQ(picture().rgb, as_built.rgb);
 }
 
 TEST_F(RendererTest, EmptyCaseGivesGroundThatIsDarkAndLighterAbove) {
