@@ -18,9 +18,9 @@ Eigen::Vector4f placing_color(PlacingRod::Is is) {
 Eigen::Vector4f bench_color(BenchRod::Is is) {
   using Is = BenchRod::Is;
   if (is == Is::kTendon) return {0.93f, 0.90f, 0.84f, 1.0f};
-  if (is == Is::kUnderSkin) return {0.80f, 0.72f, 0.62f, 1.0f};
+  if (is == Is::kUnderSkin) return {0.66f, 0.46f, 0.40f, 1.0f};
   if (is == Is::kMuscle) return {0.58f, 0.20f, 0.18f, 1.0f};
-  if (is == Is::kBand) return {0.84f, 0.78f, 0.68f, 1.0f};
+  if (is == Is::kBand) return {0.72f, 0.42f, 0.36f, 1.0f};
   if (is == Is::kThread) return placing_color(PlacingRod::Is::kThread);
   if (is == Is::kLoop) return placing_color(PlacingRod::Is::kLoop);
   return placing_color(PlacingRod::Is::kButton);
