@@ -74,26 +74,32 @@ class Laid {
       : free_(free), along_(along), aside_(outward) {}
   // At `s` along it from the free end.
   Vec3 at(double s) const {
-    const double turn = 0.5 * std::numbers::pi * kBetweenRows_m, each = kRow_m + turn;
-    const double row = std::floor(std::max(0.0, s) / each), in_row = s - row * each;
+    const double row = std::floor(std::max(0.0, s) / kEach_m), in_row = s - row * kEach_m;
     const bool back = std::fmod(row, 2) != 0;
     const Vec3 begin = free_ + (back ? kRow_m : 0) * along_ + row * kBetweenRows_m * aside_;
     const Vec3 way = back ? Vec3(-along_) : along_;
     if (in_row <= kRow_m) return begin + in_row * way;
-    const double angle = (in_row - kRow_m) / turn * std::numbers::pi;
+    const double angle = (in_row - kRow_m) / kTurn_m * std::numbers::pi;
     const double radius = 0.5 * kBetweenRows_m;
     return begin + (kRow_m + radius * std::sin(angle)) * way +
            radius * (1 - std::cos(angle)) * aside_;
   }
+  // A row is one rod; a half circle is several.
   void add(Rod is, double from, double to, double radius_m, Rods& out) const {
-    constexpr double kStep_m = 0.003;
-    const int n = std::max(1, static_cast<int>(std::ceil((to - from) / kStep_m)));
-    std::vector<Vec3> points;
-    for (int i = 0; i <= n; ++i) points.push_back(at(from + (to - from) * i / n));
+    std::vector<Vec3> points{at(from)};
+    for (double s = from; s < to;) {
+      const double in_row = std::fmod(s, kEach_m), row = s - in_row;
+      const bool straight = in_row < kRow_m - kLeast_m;
+      s = std::min(to, straight ? row + kRow_m : s + kTurn_m / kTurnPieces);
+      points.push_back(at(s));
+    }
     add_line(is, points, radius_m, out);
   }
 
  private:
+  static constexpr double kTurn_m = 0.5 * std::numbers::pi * kBetweenRows_m;
+  static constexpr double kEach_m = kRow_m + kTurn_m, kLeast_m = 1e-6;
+  static constexpr int kTurnPieces = 8;
   Vec3 free_, along_, aside_;
 };
 
