@@ -41,7 +41,7 @@ struct SplineRows {
 /// result.
 SplineSum sum_splines(const SplineRows& rows, const Vec3& t);
 
-/// Its value alone, the same bits in half the time.
+/// Its value alone, the same bits in less time.
 double value_of_splines(const SplineRows& rows, const Vec3& t);
 
 /// The same in registers that every processor has.

@@ -74,6 +74,19 @@ TEST_F(BadInput, QuietSaysErrorsAlone) {
             std::string::npos);
 }
 
+TEST_F(BadInput, ARecordingAloneIsReplayedSeveralTimesAndItsTicksWorkIsTold) {
+  const std::string path = std::string(OSTEON_SOURCE_DIR) + "/assets/paths/wrist_tap.csv";
+  expect_refused("replay --runs 0 " + path, "--runs");
+  expect_refused("replay --runs 2 " + path, "several times");
+  ASSERT_EQ(run_osteon("simulate --path " + path + " --record " + file("r.osr")).exit_code, 0);
+  const Ran once = run_osteon("replay " + file("r.osr"));
+  EXPECT_EQ(once.output.find("work of a tick"), std::string::npos) << once.output;
+  const Ran twice = run_osteon("replay --runs 2 " + file("r.osr"));
+  EXPECT_EQ(twice.exit_code, 0) << twice.output;
+  EXPECT_NE(twice.output.find("fastest of 2 runs"), std::string::npos) << twice.output;
+  EXPECT_NE(twice.output.find("identical"), std::string::npos) << twice.output;
+}
+
 TEST_F(BadInput, MissingFilesAreNamed) {
   expect_refused("replay " + file("no.osr"), "no.osr");
   expect_refused("replay " + file("no.csv"), "no.csv");

@@ -49,7 +49,7 @@ class CutField {
 
   /// Height of a point over what the cuts have left: positive in a hole. False: no cut is near.
   bool height(const Vec3& p_B, FieldSample& out) const;
-  /// Its distance alone, the same bits in half the time.
+  /// Its distance alone, the same bits in less time.
   bool distance(const Vec3& p_B, double& out) const;
 
  private:

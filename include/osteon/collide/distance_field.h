@@ -63,7 +63,7 @@ class DistanceField {
 
   /// At a point of the bone's frame. Not finite: a distance that is not a number.
   FieldSample at(const Vec3& p_B) const;
-  /// Its distance alone, the same bits in half the time.
+  /// Its distance alone, the same bits in less time.
   double distance_at(const Vec3& p_B) const;
 
   const FieldData& data() const { return data_; }

@@ -27,7 +27,7 @@ class FieldView {
     const FieldSample bone = bone_.at(p_B);
     return cuts_ ? carved(bone, p_B) : bone;
   }
-  /// Its distance alone, the same bits in half the time.
+  /// Its distance alone, the same bits in less time.
   double distance_at(const Vec3& p_B) const {
     if (!cuts_) return bone_.distance_at(p_B);
     if (asked_) ++*asked_;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "graft_form.h"
+
 namespace osteon {
 namespace {
 
@@ -19,10 +21,8 @@ constexpr double kRidge_m = 0.0008;
 constexpr double kMuscle_m = 0.030;                       // of the free end, that a blade scrapes
 constexpr double kRow_m = 0.105, kBetweenRows_m = 0.012;  // of a tendon that is laid to and fro
 constexpr double kBandLong_m = 0.010, kBandRadius_m = 0.0012, kBandGap_m = 0.004;
-constexpr double kStitchRadius_m = 0.0004, kHungLoop_m = 0.0008, kHungButton_m = 0.0015;
 constexpr double kTail_m = 0.030;      // of thread, out of the strands
 constexpr double kFromLine_m = 0.004;  // the graft begins so far after its line
-constexpr double kBundleFilled = 0.9;  // of a bundle's circle, by its strands: see fold_graft
 constexpr int kRingPieces = 8;
 
 const Vec3 kUp = Vec3::UnitZ();
@@ -111,8 +111,8 @@ void add_stitches(const GraftBenchPlan& plan, std::size_t t, const TendonOnBench
   for (std::uint32_t k = 0; k < kMostStitches; ++k) {
     if ((is.stitches >> k & 1u) == 0) continue;
     const Vec3 at = stitch_W(plan, t, k) + (lift_m + 0.9 * radius) * kUp;
-    out.push_back({Rod::kThread, at - half, at + half, kStitchRadius_m});
-    if (any) out.push_back({Rod::kThread, last + half, at - half, kStitchRadius_m});
+    out.push_back({Rod::kThread, at - half, at + half, kThreadRadius_m});
+    if (any) out.push_back({Rod::kThread, last + half, at - half, kThreadRadius_m});
     last = at;
     any = true;
   }
@@ -182,12 +182,12 @@ void add_whipstitch(const Bundle& is, double length_m, std::uint32_t passes, Rod
       ring.push_back(end - back * is.axis +
                      is.radius_m * (std::cos(angle) * is.across + std::sin(angle) * is.up));
     }
-    add_line(Rod::kThread, ring, kStitchRadius_m, out);
+    add_line(Rod::kThread, ring, kThreadRadius_m, out);
   }
   if (passes == 0) return;
   for (const double side : {-0.5, 0.5}) {
     const Vec3 from = end + side * is.radius_m * is.across;
-    out.push_back({Rod::kThread, from, from + kTail_m * (is.axis - 0.15 * is.up), kStitchRadius_m});
+    out.push_back({Rod::kThread, from, from + kTail_m * (is.axis - 0.15 * is.up), kThreadRadius_m});
   }
 }
 
@@ -195,9 +195,9 @@ void add_button(const Bundle& is, double loop_m, Rods& out) {
   if (!(loop_m > 0)) return;
   const Vec3 end = is.begin - loop_m * is.axis, half = 0.4 * is.radius_m * is.across;
   for (const double side : {-1.0, 1.0})
-    out.push_back({Rod::kLoop, is.begin + side * half, end + 0.5 * side * half, kHungLoop_m});
-  out.push_back(
-      {Rod::kButton, end - kFlipRoom_m * is.across, end + kFlipRoom_m * is.across, kHungButton_m});
+    out.push_back({Rod::kLoop, is.begin + side * half, end + 0.5 * side * half, kLoopRadius_m});
+  out.push_back({Rod::kButton, end - kFlipRoom_m * is.across, end + kFlipRoom_m * is.across,
+                 kButtonRadius_m});
 }
 
 bool hangs_in_knee(const BoneSnapshot& bones) {

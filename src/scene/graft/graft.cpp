@@ -5,25 +5,27 @@
 #include <numbers>
 #include <string>
 
+#include "graft_form.h"
 #include "osteon/base/random.h"
 
 namespace osteon {
 namespace {
 
 constexpr double kMuscleEnd_m = 0.010;  // trimmed off
-constexpr double kFilled = 0.9;         // of the bundle's circle is tendon
 constexpr std::uint32_t kMostFolds = 4;
 constexpr double kMeanHeight_m = 1.75;
 constexpr double kLeastTendon_m = 0.15, kMostTendon_m = 0.42;
 // Within rounding of a sizer's bore.
 constexpr double kSameBore_m = 1e-7;
 
-double bundle_m(double area_m2) { return std::sqrt(4 * area_m2 / (std::numbers::pi * kFilled)); }
+double bundle_m(double area_m2) {
+  return std::sqrt(4 * area_m2 / (std::numbers::pi * kBundleFilled));
+}
 
 // A share of all that four strands of both make.
 constexpr double kSemitendinosusShare = 0.62;
 double strand_area(double four_strands_m, double share) {
-  return share * 0.5 * kFilled * 0.25 * std::numbers::pi * four_strands_m * four_strands_m;
+  return share * 0.5 * kBundleFilled * 0.25 * std::numbers::pi * four_strands_m * four_strands_m;
 }
 
 void put_bands(Random& random, std::uint32_t least, std::uint32_t most, TendonMeasures& tendon) {

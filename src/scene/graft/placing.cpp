@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "graft_form.h"
 #include "osteon/scene/case.h"
 #include "osteon/scene/graft.h"
 #include "osteon/scene/state.h"
@@ -14,7 +15,6 @@ namespace osteon {
 namespace {
 
 constexpr double kBesideWall_m = 0.001;
-constexpr double kThreadRadius_m = 0.0005, kLoopRadius_m = 0.0012, kButtonRadius_m = 0.002;
 constexpr double kThreadOut_m = 0.120;  // so much of the thread is seen beyond the femur
 
 // Eight directions and their opposites, of equal steps: cos and sin by halves of the right angle.
