@@ -143,14 +143,14 @@ PrimitiveContact primitive_contact(const ConvexBody& a, const Primitive& b, cons
 }
 
 PrimitiveContact primitive_contact(const FieldView& a, const Primitive& b, const Pose& X_AB,
-                                   double far_m) {
+                                   double far_m, LowPlaces* places) {
   if (is_rod(b)) {
     const Capsule rod_A = moved(X_AB, b.rod);
     return from_capsule(field_contact(a, rod_A, far_m), rod_A);
   }
   PrimitiveContact out;
   if (!is_finite(X_AB)) return out;
-  const BoxLowest lowest = lowest_of_box(a, X_AB * b.X_TB, b.half, far_m);
+  const BoxLowest lowest = lowest_of_box(a, X_AB * b.X_TB, b.half, far_m, places);
   const double slope = lowest.field.gradient.norm();
   if (!(slope > 1e-6) || !std::isfinite(slope)) return out;
   out.status = LpStatus::kOptimal;

@@ -181,7 +181,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   const Pose X_BT = X_WB.inverse() * X_WT;
   if (ids.field) {
     Looks uncounted;
-    return part_field(pair, X_BT, uncounted, kFarGap_m, out);
+    return separate_field(pair, X_BT, uncounted, out);
   }
   if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
@@ -197,11 +197,6 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   out.p_B = depth.p_A;
   out.bone_support = depth.top_A;
   return true;
-}
-
-bool ContactField::separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT,
-                                  Looks& looks, PartingPlane& out, double far_m) const {
-  return part_field(pair, X_WB.inverse() * X_WT, looks, far_m, out);
 }
 
 bool ContactField::separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
@@ -262,11 +257,14 @@ PrimitiveContact ContactField::meet_field(std::uint32_t pair, const Pose& X_BT, 
   const MetBefore::Question question{pair, lost, X_BT, wanted.far_m, wanted.low_m};
   if (const MetBefore::Answer* kept = looks.before->find(question)) {
     looks.asked += kept->looks;
+    if (wanted.places && kept->places.count > 0) *wanted.places = kept->places;
     return kept->contact;
   }
   const std::uint32_t asked = looks.asked;
+  if (wanted.places) wanted.places->looked_about = false;
   const PrimitiveContact contact = ask_field(ids, X_BT, looks, wanted);
-  looks.before->keep(question, {contact, looks.asked - asked});
+  const LowPlaces places = wanted.places ? *wanted.places : LowPlaces();
+  looks.before->keep(question, {contact, looks.asked - asked, places});
   return contact;
 }
 
@@ -281,9 +279,11 @@ PrimitiveContact ContactField::ask_field(const PiecePair& ids, const Pose& X_BT,
   const double far = whole() ? wanted.far_m : std::numeric_limits<double>::infinity();
   const bool thin = !(part.rod.radius > thickest(uncut));
   const bool rod = part.kind == Primitive::Kind::kRod;
-  if (thin && !(rod && fine.is_carved())) return primitive_contact(fine, part, X_BT, far);
+  if (thin && !(rod && fine.is_carved()))
+    return primitive_contact(fine, part, X_BT, far, wanted.places);
   const FieldView coarse = thin ? fine : FieldView(*wide_[ids.bone], cuts, &looks.asked);
-  if (!fine.is_carved()) return corrected(primitive_contact(coarse, part, X_BT, far), fine);
+  if (!fine.is_carved())
+    return corrected(primitive_contact(coarse, part, X_BT, far, wanted.places), fine);
   const Capsule rod_B{X_BT * part.rod.p0, X_BT * part.rod.p1, part.rod.radius};
   const CapsuleContact met = carved_contact(coarse, fine, rod_B, wanted.far_m, wanted.low_m);
   return {met.status, met.gap, met.nhat_AB_A, met.p_A, 0};
@@ -301,9 +301,9 @@ PrimitiveContact ContactField::corrected(PrimitiveContact found, const FieldView
   return found;
 }
 
-bool ContactField::part_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, double far_m,
-                              PartingPlane& out) const {
-  const PrimitiveContact contact = meet_field(pair, X_BT, looks, {.far_m = far_m});
+bool ContactField::separate_field(std::uint32_t pair, const Pose& X_BT, Looks& looks,
+                                  PartingPlane& out, LowPlaces* places) const {
+  const PrimitiveContact contact = meet_field(pair, X_BT, looks, {.places = places});
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);
@@ -312,9 +312,9 @@ bool ContactField::part_field(std::uint32_t pair, const Pose& X_BT, Looks& looks
   return true;
 }
 
-double ContactField::gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
+double ContactField::gap(std::uint32_t pair, const Pose& X_BT, Looks& looks,
                          const Wanted& wanted) const {
-  const PrimitiveContact contact = meet_field(pair, X_WB.inverse() * X_WT, looks, wanted);
+  const PrimitiveContact contact = meet_field(pair, X_BT, looks, wanted);
   return contact.status == LpStatus::kOptimal ? contact.gap
                                               : std::numeric_limits<double>::quiet_NaN();
 }

@@ -100,16 +100,16 @@ class ContactField {
   struct Wanted {
     double far_m = kFarGap_m;
     double low_m = -std::numeric_limits<double>::infinity();
+    LowPlaces* places = nullptr;  ///< of this tick and pair; null: none are kept
   };
 
   /// The same of a pair of a field, whose looks are counted.
-  bool separate_field(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
-                      PartingPlane& out, double far_m = kFarGap_m) const;
+  bool separate_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, PartingPlane& out,
+                      LowPlaces* places = nullptr) const;
 
   /// Gap of a pair of a field, m: what `separate` finds, without a plane. Not a number when
   /// unknown.
-  double gap(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, Looks& looks,
-             const Wanted& wanted) const;
+  double gap(std::uint32_t pair, const Pose& X_BT, Looks& looks, const Wanted& wanted) const;
 
   /// Where the tool's origin may be when the tool is turned as q_WT: beyond the separation's plane
   /// by its skin. Any x in it keeps a pair of convex pieces apart, wherever it is; of a field only
@@ -132,8 +132,6 @@ class ContactField {
   bool guess(const PiecePair& ids, const Pose& X_BT, PartingPlane& out) const;
   bool separate_part(const PiecePair& ids, const Pose& X_BT, LpBasis& basis,
                      PartingPlane& out) const;
-  bool part_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, double far_m,
-                  PartingPlane& out) const;
   PrimitiveContact meet_field(std::uint32_t pair, const Pose& X_BT, Looks& looks,
                               const Wanted& wanted) const;
   PrimitiveContact ask_field(const PiecePair& ids, const Pose& X_BT, Looks& looks,

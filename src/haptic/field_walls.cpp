@@ -17,6 +17,13 @@ constexpr int kMostStrides = 64;
 constexpr int kHalvings = 8;
 // Share of a gap that a stride may take: a spline's slope may exceed 1 a little.
 constexpr double kSafeShare = 0.8;
+// A field's height rises by no more than this a metre, and a gap is told to within kRough, m: in a
+// hole walls are looked for at some places of the rod's surface only.
+constexpr double kSteepest = 1.25;
+constexpr double kRough = 5e-5;
+// A bone farther than kNotClose_m has the plane that it had while the tool moves by kHardly_m.
+constexpr double kNotClose_m = 1e-4;
+constexpr double kHardly_m = 5e-5;
 
 }  // namespace
 
@@ -25,7 +32,23 @@ void FieldWalls::start(const CandidateList& near) {
   field_count_ = near.field_count;
   count_ = 0;
   looks_ = {0, &before_};
+  before_.begin_tick();
   known_.set = false;
+  for (Seen& seen : std::span(seen_).first(field_count_)) {
+    seen.gap = -std::numeric_limits<double>::infinity();
+    seen.places.count = 0;
+  }
+}
+
+// Each point of the tool has come no farther than its origin has, and its own turn.
+double FieldWalls::moved_m(std::size_t field, const Pose& X_BT) const {
+  const Pose& before = seen_[field].X_BT;
+  const double turn = 2 * (before.q.conjugate() * X_BT.q).vec().norm();
+  return (X_BT.p - before.p).norm() + turn * field_.tool_radius();
+}
+
+double FieldWalls::least_gap(std::size_t field, double moved_m) const {
+  return seen_[field].gap - kSteepest * moved_m - kRough;
 }
 
 bool FieldWalls::has_wall(std::uint32_t pair) const {
@@ -61,16 +84,26 @@ void FieldWalls::lay_back(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT
 bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   if (field_count_ == 0) return true;
   std::uint32_t count = 0;
-  double least = std::numeric_limits<double>::infinity();
-  std::uint32_t nearest = kNoPair;
-  for (const std::uint32_t pair : fields()) {
+  Nearest least;
+  for (std::size_t field = 0; field < field_count_; ++field) {
+    const std::uint32_t pair = fields_[field];
     const Pose& bone = bone_pose(pair, X_WB);
+    const Pose X_BT = bone.inverse() * X_WT;
+    // What is neither near nor the nearest has no plane. What this tick has found hardly moved from
+    // here, and not close, has the planes that it had.
+    const double moved = moved_m(field, X_BT), known = least_gap(field, moved);
+    const bool far = known >= std::clamp(least.gap, kNearGap_m, kFarGap_m) && !has_wall(pair);
+    const bool as_it_was = known >= kNotClose_m && moved <= kHardly_m;
+    if (far || as_it_was) {
+      if (known < least.gap) least = {known, pair};
+      for (std::uint32_t i = 0; i < count_ && count < kMostPlanes; ++i)
+        if (walls_[i].pair == pair) next_[count++] = walls_[i];
+      continue;
+    }
     PartingPlane now;
-    // What is neither near nor the nearest needs a bound alone, but where it has walls to judge.
-    const double enough = has_wall(pair) ? kFarGap_m : std::clamp(least, kNearGap_m, kFarGap_m);
-    if (!field_.separate_field(pair, bone, X_WT, looks_, now, enough)) return false;
-    if (now.gap < least) nearest = pair;
-    least = std::min(least, now.gap);
+    if (!field_.separate_field(pair, X_BT, looks_, now, &seen_[field].places)) return false;
+    note_gap(field, X_BT, now.gap);
+    if (now.gap < least.gap) least = {now.gap, pair};
     lay_back(pair, bone, X_WT, now);
     std::size_t room = kPlanesEach;
     if (now.gap < kNearGap_m) {
@@ -87,7 +120,7 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
   }
   std::copy_n(next_.begin(), count, walls_.begin());
   count_ = count;
-  keep(X_WB, X_WT, {least, nearest});
+  keep(X_WB, X_WT, least);
   return true;
 }
 
@@ -106,20 +139,27 @@ void FieldWalls::keep(std::span<const Pose> X_WB, const Pose& X_WT, const Neares
 }
 
 // The one that was nearest at the last place comes first: of the others it is enough to know that
-// they are farther.
+// they are farther, and most are by what is known of them.
 FieldWalls::Nearest FieldWalls::nearest(std::span<const Pose> X_WB, const Pose& X_WT,
                                         double low_m) {
   if (knows(X_WB, X_WT)) return known_.found;
   Nearest least;
-  const auto look_at = [&](std::uint32_t pair) {
+  const auto look_at = [&](std::size_t field) {
+    const std::uint32_t pair = fields_[field];
     const double enough = least.gap < kFarGap_m ? least.gap : kFarGap_m;
-    const double gap = field_.gap(pair, bone_pose(pair, X_WB), X_WT, looks_, {enough, low_m});
+    const Pose X_BT = bone_pose(pair, X_WB).inverse() * X_WT;
+    double gap = least_gap(field, moved_m(field, X_BT));
+    if (!(gap >= enough)) {
+      gap = field_.gap(pair, X_BT, looks_, {enough, low_m, &seen_[field].places});
+      if (gap >= low_m) note_gap(field, X_BT, gap);
+    }
     if (!(gap >= least.gap)) least = {gap, pair};  // takes what is not a number as well
   };
   const std::uint32_t first = known_.set ? known_.found.pair : kNoPair;
-  if (first != kNoPair) look_at(first);
-  for (const std::uint32_t pair : fields())
-    if (pair != first && !(least.gap < low_m)) look_at(pair);
+  for (std::size_t field = 0; field < field_count_; ++field)
+    if (fields_[field] == first) look_at(field);
+  for (std::size_t field = 0; field < field_count_; ++field)
+    if (fields_[field] != first && !(least.gap < low_m)) look_at(field);
   if (least.gap < low_m) return least;
   keep(X_WB, X_WT, least);
   return least;
@@ -169,8 +209,9 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
 }
 
 bool FieldWalls::blocking(std::span<const Pose> X_WB, const Quat& q_WT, PartingPlane& out) {
-  return is_blocked() && field_.separate_field(blocked_.by, bone_pose(blocked_.by, X_WB),
-                                               {blocked_.p_W, q_WT}, looks_, out);
+  if (!is_blocked()) return false;
+  const Pose X_BT = bone_pose(blocked_.by, X_WB).inverse() * Pose{blocked_.p_W, q_WT};
+  return field_.separate_field(blocked_.by, X_BT, looks_, out);
 }
 
 void FieldWalls::raise(std::span<const Pose> X_WB, const Quat& q_WT,

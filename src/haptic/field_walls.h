@@ -78,6 +78,12 @@ class FieldWalls {
     std::array<Pose, kMaxFields> X_WB;  ///< of each field
     Nearest found;
   };
+  /// What this tick has found of a field: its gap, or a bound below it.
+  struct Seen {
+    Pose X_BT;
+    double gap = -std::numeric_limits<double>::infinity();
+    LowPlaces places;  ///< of a box
+  };
   struct Blocked {
     std::uint32_t by = kNoPair;
     Vec3 p_W = Vec3::Zero();  ///< of the tool: the first place found without room
@@ -89,6 +95,15 @@ class FieldWalls {
   bool knows(std::span<const Pose> X_WB, const Pose& X_WT) const;
   void keep(std::span<const Pose> X_WB, const Pose& X_WT, const Nearest& found);
   bool is_carved() const { return looks_.asked > 0; }
+  /// By how much any point of the tool has moved beside a field's bone since it was asked, at most.
+  double moved_m(std::size_t field, const Pose& X_BT) const;
+  /// A field's gap is no less than this after such a way, by what this tick has found of it; minus
+  /// infinity where it has found nothing.
+  double least_gap(std::size_t field, double moved_m) const;
+  void note_gap(std::size_t field, const Pose& X_BT, double gap) {
+    seen_[field].X_BT = X_BT;
+    seen_[field].gap = gap;
+  }
   /// Takes a plane that is nearer to the tool than the bone is back to its gap.
   void lay_back(std::uint32_t pair, const Pose& X_WB, const Pose& X_WT, PartingPlane& plane) const;
   bool has_wall(std::uint32_t pair) const;
@@ -102,7 +117,8 @@ class FieldWalls {
   std::array<Wall, kMostPlanes> next_{};  ///< for look
   std::uint32_t count_ = 0;
   MetBefore before_;
-  ContactField::Looks looks_;  ///< of this tick
+  std::array<Seen, kMaxFields> seen_;  ///< of each field
+  ContactField::Looks looks_;          ///< of this tick
   Known known_;
   Blocked blocked_;  ///< of the last way
 };

@@ -25,19 +25,29 @@ class MetBefore {
   struct Answer {
     PrimitiveContact contact;
     std::uint32_t looks = 0;  ///< at carved bone, that asking took
+    LowPlaces places = {};    ///< of a box; what looked about them is right in this tick alone
   };
 
+  /// The next answer of each pair is kept until another tick's first: an instrument that is held
+  /// fast begins each tick at one pose, whatever the tick tries from there.
+  void begin_tick() { ++tick_; }
+
   /// Null: not kept.
-  const Answer* find(const Question& question) const {
-    const Kept& newer = kept_[first(question.pair)];
-    const Kept& older = kept_[first(question.pair) + 1];
-    if (answers(newer, question)) return &newer.answer;
-    return answers(older, question) ? &older.answer : nullptr;
+  const Answer* find(const Question& question) {
+    OfPair& of = kept_[question.pair % kPairs];
+    for (Kept* kept : {&of.newer, &of.older, &of.first}) {
+      if (!answers(*kept, question)) continue;
+      if (kept->answer.places.looked_about && kept->tick != tick_) continue;
+      if (of.tick != tick_) keep_as_first(*kept, of);
+      return &kept->answer;
+    }
+    return nullptr;
   }
   void keep(const Question& question, const Answer& answer) {
-    Kept& newer = kept_[first(question.pair)];
-    kept_[first(question.pair) + 1] = newer;
-    newer = {question, answer};
+    OfPair& of = kept_[question.pair % kPairs];
+    of.older = of.newer;
+    of.newer = {question, answer, tick_};
+    if (of.tick != tick_) keep_as_first(of.newer, of);
   }
 
  private:
@@ -45,8 +55,16 @@ class MetBefore {
   struct Kept {
     Question question;
     Answer answer;
+    std::uint64_t tick = 0;
   };
-  static std::size_t first(std::uint32_t pair) { return 2 * (pair % kPairs); }
+  struct OfPair {
+    Kept newer, older, first;
+    std::uint64_t tick = 0;  ///< of `first`
+  };
+  void keep_as_first(const Kept& kept, OfPair& of) const {
+    if (&kept != &of.first) of.first = kept;
+    of.tick = tick_;
+  }
   // A gap above both lower limits was found in full, whichever of them was asked with.
   static bool answers(const Kept& kept, const Question& b) {
     const Question& a = kept.question;
@@ -56,7 +74,8 @@ class MetBefore {
     return a.low_m == b.low_m || kept.answer.contact.gap >= std::max(a.low_m, b.low_m);
   }
 
-  std::array<Kept, 2 * kPairs> kept_;
+  std::array<OfPair, kPairs> kept_;
+  std::uint64_t tick_ = 0;
 };
 
 }  // namespace osteon

@@ -16,6 +16,8 @@ Quat turned_towards(const Quat& from, const Quat& to, double limit_rad) {
   Quat d = to * from.conjugate();
   if (d.w() < 0) d.coeffs() = -d.coeffs();
   const double sine = d.vec().norm();  // of half the angle
+  // What no longer turns keeps its bits: then what is known of bone beside it stays known.
+  if (sine < 1e-13) return from;
   const double limit_sine = std::sin(0.5 * std::min(limit_rad, 3.14));
   if (sine <= limit_sine) return to;
   const Vec3 v = d.vec() * (limit_sine / sine);

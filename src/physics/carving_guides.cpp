@@ -5,6 +5,7 @@
 
 #include "cutter_front.h"
 #include "osteon/physics/carving.h"
+#include "osteon/physics/guide_line.h"
 #include "osteon/scene/carve_events.h"
 
 namespace osteon {
@@ -163,11 +164,6 @@ void Carving::end_hole(std::size_t hand, const ToolState& tool) {
   h = anew(h);
 }
 
-bool Carving::leads(const GuideRod& rod, const CarvingTool& with) const {
-  if (rod.kind == GuideRod::Kind::kPin) return with.pilot_m + kFits_m >= 2 * rod.radius_m;
-  return rod.kind == GuideRod::Kind::kSleeve && with.cutter.size_m <= 2 * rod.radius_m + kFits_m;
-}
-
 // An instrument is slipped on where it is brought to a rod, from the side as well: no device
 // reaches round the end of a long pin. It is off where it is pulled beyond the rod's end, or far
 // aside outside of the bone.
@@ -181,13 +177,14 @@ void Carving::follow_rods(std::size_t hand, const CarvingTool& with, const ToolS
     const GuideRod& rod = rods_[h.rod - 1];
     const Pose X_BD = bones.bones[rod.bone].X_WB.inverse() * tool.X_WD;
     const bool off = beside(rod, pose_on(rod)).along_m > rod.length_m ||
-                     (!h.in_hole && beside(rod, X_BD).across_m > kDragged_m) || !leads(rod, with);
+                     (!h.in_hole && beside(rod, X_BD).across_m > kDragged_m) ||
+                     !rod_leads(rod, with);
     if (off) h.rod = 0;
     h.grip = off ? 0 : std::min(1.0, h.grip + kGripPerStep);
     return;
   }
   for (std::uint32_t r = 0; r < rods_.size() && !h.in_hole; ++r) {
-    if (!leads(rods_[r], with) || rods_[r].bone >= bones.count) continue;
+    if (!rod_leads(rods_[r], with) || rods_[r].bone >= bones.count) continue;
     const Beside at = beside(rods_[r], pose_on(rods_[r]));
     const double least = rods_[r].kind == GuideRod::Kind::kPin ? rods_[r].in_bone_m : kBesidePin_m;
     if (at.across_m > kCapture_m || at.turn_rad > kCaptureTurn_rad || at.along_m < least ||

@@ -27,7 +27,7 @@ constexpr int kStrokes = 2;  // and back
 constexpr std::uint32_t kPasses = 5, kTooFewPasses = 2;
 constexpr double kHang_s = 1.5, kTooWide_m = 0.001;
 const Vec3 kHandBegins(-0.03, 0.16, 0.06);  // from where the graft begins
-const Vec3 kComes(-0.03, 0.16, 0.25);       // high over all that lies there
+const Vec3 kComes(-0.03, 0.16, 0.45);       // high over all that lies there, with a long pin too
 const Vec3 kUpright = Vec3(-0.4, 0, 0.9).normalized();
 constexpr double kBoardClock = 20, kPretensionFor_s = 640, kTooShortFor_s = 100;
 

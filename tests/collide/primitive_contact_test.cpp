@@ -243,6 +243,40 @@ TEST(PrimitiveContact, ABoxOverAFieldOfABallIsAsFarAsItsNearestPoint) {
   EXPECT_EQ(looked, 150);
 }
 
+// Moved a little, a box is as far as a whole search finds; moved more, it is searched anew.
+TEST(PrimitiveContact, ABoxIsFoundFromItsLowPlacesAsFromAnew) {
+  Random random(9);
+  int looked = 0, about = 0;
+  for (int i = 0; i < 3000 && looked < 100; ++i) {
+    const Primitive box = random_box(random);
+    Pose X_AB = shapes::random_pose(random, 0.02);
+    LowPlaces places;
+    const PrimitiveContact first = primitive_contact(round_field(), box, X_AB, 0.003, &places);
+    if (first.status != LpStatus::kOptimal || first.gap < 1e-5 || first.gap > 0.002) continue;
+    ++looked;
+    EXPECT_FALSE(places.looked_about);
+    ASSERT_GE(places.count, 1u);
+    for (int step = 0; step < 8; ++step) {
+      X_AB.p += 3e-5 * random.direction();
+      const Quat turn(Eigen::AngleAxisd(1e-4, random.direction()));
+      X_AB.q = (turn * X_AB.q).normalized();
+      const PrimitiveContact moved = primitive_contact(round_field(), box, X_AB, 0.003, &places);
+      const PrimitiveContact whole = primitive_contact(round_field(), box, X_AB, 0.003);
+      about += places.looked_about ? 1 : 0;
+      EXPECT_NEAR(moved.gap, whole.gap, 2e-7) << i << ", " << step;
+      EXPECT_GT(moved.nhat_AB_A.dot(whole.nhat_AB_A), 0.9999);
+    }
+    X_AB.p.x() += 0.001;
+    (void)primitive_contact(round_field(), box, X_AB, 0.003, &places);
+    EXPECT_FALSE(places.looked_about);
+    X_AB.p.x() += 1;
+    (void)primitive_contact(round_field(), box, X_AB, 0.003, &places);
+    EXPECT_EQ(places.count, 0u) << "what is beyond has no lowest place";
+  }
+  EXPECT_EQ(looked, 100);
+  EXPECT_GT(about, 200);
+}
+
 // On a cube's flat field every part of a face that lies on it is as low as the next.
 TEST(PrimitiveContact, ABoxFlatOnAFieldIsFoundAsLow) {
   FieldOptions options;

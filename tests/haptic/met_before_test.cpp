@@ -29,7 +29,7 @@ PrimitiveContact contact(double gap) {
 }
 
 TEST(MetBefore, KnowsNothingAtFirst) {
-  const MetBefore before;
+  MetBefore before;
   EXPECT_EQ(before.find(question()), nullptr);
   EXPECT_EQ(before.find({}), nullptr);
 }
@@ -83,6 +83,31 @@ TEST(MetBefore, KeepsTheLastTwoOfAPair) {
   }
 }
 
+// A tool that is held fast begins each tick at one pose, and tries many from there.
+TEST(MetBefore, KeepsTheFirstOfATickForTheNext) {
+  MetBefore before;
+  for (int tick = 0; tick < 3; ++tick) {
+    before.begin_tick();
+    for (int i = 0; i < 5; ++i) {
+      MetBefore::Question at = question();
+      at.X_BT.p.y() = i == 0 ? 0 : tick * 10 + i;
+      EXPECT_EQ(before.find(at) != nullptr, i == 0 && tick > 0) << tick << ", " << i;
+      if (!before.find(at)) before.keep(at, {contact(i), 0});
+    }
+  }
+}
+
+TEST(MetBefore, WhatLookedAboutPlacesIsRightInItsTickAlone) {
+  MetBefore before;
+  before.begin_tick();
+  MetBefore::Answer about{contact(1), 0};
+  about.places.looked_about = true;
+  before.keep(question(), about);
+  EXPECT_NE(before.find(question()), nullptr);
+  before.begin_tick();
+  EXPECT_EQ(before.find(question()), nullptr);
+}
+
 Tool drill() {
   Tool tool;
   tool.name = "drill";
@@ -120,8 +145,8 @@ TEST(ContactField, WhatIsKeptHasTheBitsAndLooksOfAskingAnew) {
     const ContactField::Wanted wanted{(choice >> 16 & 1u) ? 0.003 : 0.0005,
                                       (choice >> 24 & 1u) ? kNone : 1e-6};
     ContactField::Looks with{0, &before}, anew;
-    const double a = field.gap(pair, {}, at, with, wanted);
-    const double b = field.gap(pair, {}, at, anew, wanted);
+    const double a = field.gap(pair, at, with, wanted);
+    const double b = field.gap(pair, at, anew, wanted);
     ASSERT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << i;
     ASSERT_EQ(with.asked, anew.asked) << i;
     kept += with.asked;

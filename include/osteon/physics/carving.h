@@ -280,7 +280,6 @@ class Carving {
                     const BoneSnapshot& bones);
   void follow_aimer(std::size_t hand, const AimingTool& with, const ToolState& tool,
                     const BoneSnapshot& bones);
-  bool leads(const GuideRod& rod, const CarvingTool& with) const;
   void slide_on_pin(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones);
   void keep_hole(const CarvingHand& h, const CarvingTool& with);
   void come_back(std::size_t hand, const CarvingTool& with, const ToolState& tool,

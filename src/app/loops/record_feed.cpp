@@ -26,8 +26,8 @@ std::size_t RecordFeed::drain() {
   }
   if (overflowed_.load(std::memory_order_relaxed) && failure_.empty())
     fail_with(
-        "The recording ended because the disk was too slow. The part saved until then is valid. "
-        "Record to a local disk.");
+        "The recording ended because the disk or this computer was too busy to write it. The part "
+        "saved until then is valid. Record to a local disk, and close other programs.");
   return written;
 }
 

@@ -23,7 +23,7 @@ namespace osteon {
 class RecordFeed {
  public:
   /// Room for `seconds` of ticks while the disk is busy.
-  explicit RecordFeed(RecordingWriter writer, double seconds = 8.0, std::size_t hands = 1);
+  explicit RecordFeed(RecordingWriter writer, double seconds = 30.0, std::size_t hands = 1);
 
   /// From a hand's loop, from the physics loop: no lock, no allocation. Of events, those that find
   /// no room are left out: a replay makes them again.

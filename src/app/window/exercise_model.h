@@ -143,9 +143,10 @@ struct ExerciseRequests {
   std::optional<double> pull_n = {}, pivot_share = {};  ///< on the tibia that is examined
   bool ghost = false;                                   ///< switched on or off
   bool guide = false;                                   ///< likewise: leads the hands
-  bool as_expert = false;  ///< the active hand holds its instrument as the expert does
-  bool to_expert = false;  ///< and comes to where he has it, if that is near
-  bool pause = false;      ///< or go on
+  bool as_expert = false;     ///< the active hand holds its instrument as the expert does
+  bool to_expert = false;     ///< and comes to where he has it, if that is near
+  double along_expert_s = 0;  ///< it goes on along his way, in his own time, for so long
+  bool pause = false;         ///< or go on
   std::optional<std::pair<std::string, std::string>> state = {};  ///< finding and grade
   bool pages = false;                                             ///< to print
   bool watch = false;

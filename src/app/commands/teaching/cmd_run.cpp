@@ -6,6 +6,7 @@
 #include "commands/support/cli_support.h"
 #include "commands/support/commands.h"
 #include "commands/teaching/scenario_run.h"
+#include "exercises/ghost/ghost_file.h"
 #include "exercises/graft_order.h"
 #include "exercises/portal_choice.h"
 #include "exercises/result_files.h"
@@ -23,7 +24,7 @@ namespace {
 
 struct RunCommand {
   std::string scenario, case_spec, surgeon = "expert", record, report, standard, findings, graft,
-                                   portals, to_stage;
+                                   portals, to_stage, way;
   std::string learner = "local";
   std::vector<std::string> devices;
   bool no_store = false, live = false;
@@ -95,6 +96,7 @@ Result<ScenarioRun> ordered_run(const RunCommand& command) {
   run.standard = std::move(*standard);
   run.skill = std::move(*skill);
   run.to_stage = command.to_stage;
+  run.keeps_way = !command.way.empty();
   if (!command.record.empty()) run.record_to = command.record;
   if (!command.live) return run;
   auto devices = open_devices(command);
@@ -114,6 +116,15 @@ int exit_code_of(const ScenarioOutcome& done) {
                          "Report this with the "
                          "recording"});
   return done.outcome.verdict == Verdict::kPassed ? kExitDone : kExitNo;
+}
+
+// Beside a recording, so that who shows this surgeon need not repeat it first. One who does not
+// pass is no example.
+Result<void> keep_way(const RunCommand& command, const ScenarioOutcome& done) {
+  const std::uint64_t key = ghost_key(command.record);
+  const bool example = done.way && !done.way->stretches.empty() && key != 0 &&
+                       done.outcome.verdict != Verdict::kNotPassed;
+  return example ? write_file_atomic(command.way, to_bytes(*done.way, key)) : Result<void>();
 }
 
 int run_command(const RunCommand& command) {
@@ -142,6 +153,8 @@ int run_command(const RunCommand& command) {
   const std::string report = to_json(*done);
   if (!command.report.empty())
     if (auto ok = write_file_atomic(command.report, report); !ok) return report_error(ok.error());
+  if (!command.way.empty())
+    if (auto ok = keep_way(command, *done); !ok) return report_error(ok.error());
   if (!command.no_store) {
     const auto kept = keep_report(report, command.learner, command.record);
     if (!kept) return report_error(kept.error());
@@ -192,6 +205,9 @@ void add_run_command(cli::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--no-store", options->no_store, "do not store the attempt");
   command->add_option("--record", options->record, "write a recording (.osr)");
+  command->add_option("--way", options->way,
+                      "with --record: write the surgeon's way, which the window shows beside a "
+                      "learner without repeating the recording first");
   command->add_option("--report", options->report, "write the report as JSON");
   command->callback([options, &exit_code] { exit_code = run_command(*options); });
 }

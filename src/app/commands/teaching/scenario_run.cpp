@@ -321,8 +321,11 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
     };
   headless.done = [&] { return watch.over() || all_done(); };
   headless.over = [&] { return watch.over(); };
+  std::optional<GhostTrackMaker> way;
+  if (run.keeps_way) way.emplace(headless.settings.haptic.tick_s);
   headless.on_hands = [&](std::span<const ToolState* const> tools, const BoneSnapshot& bones) {
     watch.add(tools, bones);
+    if (way) way->add(tools, watch.state());
   };
   const StatedFindings stated =
       run.stated ? *run.stated : stated_by(run.skill, run.scenario, **the_case);
@@ -346,6 +349,7 @@ Result<ScenarioOutcome> run_scenario(const ScenarioRun& run) {
   done.the_case = *the_case;
   done.case_spec = run.case_spec;
   done.part = part;
+  if (way) done.way = way->finish(tray_of_hands(headless.hands));
   if (watch.tunnels()) done.acl = watch.tunnels()->report();
   if (watch.tunnels() && watch.tunnels()->problem())
     done.not_measured = watch.tunnels()->problem()->message();

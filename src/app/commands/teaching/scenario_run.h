@@ -9,6 +9,7 @@
 
 #include "commands/teaching/live_play.h"
 #include "exercises/attempt_part.h"
+#include "exercises/ghost/ghost_track.h"
 #include "exercises/scenario_files.h"
 #include "osteon/base/result.h"
 #include "osteon/procedure/attempt.h"
@@ -38,6 +39,7 @@ struct ScenarioRun {
   /// fast as it goes, without devices. They are used up.
   std::shared_ptr<std::vector<LedDevice>> live = {};
   std::function<void()> step_devices = {};  ///< of a live run without threads, as play_live has it
+  bool keeps_way = false;                   ///< the outcome has the surgeon's way; not a live run's
 };
 struct ScenarioOutcome {
   std::vector<Report> reports;  ///< of each hand
@@ -55,6 +57,7 @@ struct ScenarioOutcome {
   std::optional<LivePlayed> live = {};   ///< of a live run
   bool identical = true;                 ///< of a live run: its recording repeats bit by bit
   std::optional<AttemptPart> part = {};  ///< of a run that ended with an earlier stage
+  std::optional<GhostTrack> way = {};    ///< as ghost_of_recording has it of the run's recording
 };
 /// The report as JSON, with what was measured of its tunnels as `acl`, of a graft that was made as
 /// `acl.made` (in an exercise without tunnels `acl.graft`), and how one was placed as

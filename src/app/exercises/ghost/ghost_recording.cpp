@@ -86,6 +86,8 @@ std::optional<int> wait_for_program(pid_t child, const std::function<bool()>& go
   }
 }
 
+fs::path kept_way(const fs::path& recording) { return recording.string() + ".way"; }
+
 constexpr int kNotPassed = 1;  // exit codes up to this one: the exercise was played to its end
 
 Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
@@ -97,9 +99,10 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
   if (ec) return fail("the folder could not be made: " + ec.message(), file.parent_path().string());
   // Two windows may record the same expert at a time; the name is only given to a whole recording.
   const std::string part = file.string() + "." + std::to_string(::getpid()) + ".part";
-  const std::string exercise = part + ".toml", graft = part + ".json";
+  const std::string exercise = part + ".toml", graft = part + ".json", way = kept_way(part);
   const auto remove_parts = [&] {
-    for (const char* end : {"", "-wal", "-shm", ".toml", ".json"}) fs::remove(part + end, ec);
+    for (const char* end : {"", "-wal", "-shm", ".toml", ".json", ".way"})
+      fs::remove(part + end, ec);
   };
   remove_parts();
   if (auto ok = write_file_atomic(exercise, wanted.scenario.source_text); !ok) return ok;
@@ -113,7 +116,7 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
     words.insert(words.end(), {"--graft", graft});
   }
   if (!wanted.to_stage.empty()) words.insert(words.end(), {"--to-stage", wanted.to_stage});
-  words.insert(words.end(), {"--record", part});
+  words.insert(words.end(), {"--way", way, "--record", part});
   const auto child = start_quietly(std::move(words));
   if (!child) {
     remove_parts();
@@ -123,6 +126,9 @@ Result<void> record_expert(const GhostWanted& wanted, const fs::path& file,
   const bool played = code && *code <= kNotPassed;
   if (played) fs::rename(part, file, ec);
   const bool kept = played && !ec;
+  // Whose way could not be kept is repeated.
+  std::error_code no_way;
+  if (kept) fs::rename(way, kept_way(file), no_way);
   remove_parts();
   if (kept) return {};
   return fail("the virtual expert could not perform the exercise on this patient", wanted.case_spec,
@@ -162,8 +168,6 @@ Result<RepeatedGhost> repeat_for_ghost(const fs::path& recording, const GhostWan
     return fail("nothing that the exercise asks for is done in the recording", recording.string());
   return repeated;
 }
-
-fs::path kept_way(const fs::path& recording) { return recording.string() + ".way"; }
 
 // What was repeated once by this program need not be repeated again.
 std::optional<GhostTrack> known_example(const fs::path& recording) {
@@ -239,6 +243,7 @@ Result<GhostTrack> ghost_of_expert(const GhostWanted& wanted, const std::functio
   }
   if (auto ok = record_expert(wanted, file, go_on, program); !ok) return tl::unexpected(ok.error());
   if (!go_on()) return fail("stopped");
+  if (auto known = known_example(file)) return std::move(*known);
   return example_of(file, wanted, see);
 }
 

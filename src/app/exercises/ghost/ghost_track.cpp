@@ -149,14 +149,23 @@ std::size_t farther(const Samples& samples, std::size_t at, std::size_t to, doub
   return at;
 }
 
+// A tip that is farther from where it was brought to is held up by something.
+constexpr double kStillThere_m = 0.012;
+
+// No farther in this stretch with that instrument.
+template <class IsHeld>
+bool is_way_end(const GhostStretch& stretch, std::size_t at, const IsHeld& is_held) {
+  return at >= stretch.to || !is_held(at + 1);
+}
+
 }  // namespace
 
 // Ends: each round goes one sample on. A stay has neither length nor turn and is passed at once,
-// but for a stretch's end, where the expert saw or touched what he came for.
+// but for a stretch's end, where the expert saw or touched what he came for. From the end it begins
+// once more where the way first came by there: what is to be cleared is not cleared at one go.
 std::optional<Pose> ghost_onward(const GhostTrack& track, std::size_t stretch, std::size_t hand,
                                  const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
                                  std::optional<std::size_t>& at) {
-  constexpr double kStillThere_m = 0.012;
   if (stretch >= track.stretches.size() || hand >= track.hands.size()) return std::nullopt;
   const GhostStretch& s = track.stretches[stretch];
   const Samples& samples = track.hands[hand];
@@ -171,16 +180,46 @@ std::optional<Pose> ghost_onward(const GhostTrack& track, std::size_t stretch, s
     at.reset();
     for (std::size_t i = s.from; i <= s.to; ++i)
       if (is_held(i) && (!at || away_m(i) < away_m(*at))) at = i;
+  } else if (is_way_end(s, *at, is_held)) {
+    std::size_t first = s.from;
+    while (first < *at && !(is_held(first) && away_m(first) <= kStillThere_m)) ++first;
+    at = first;
   }
   if (!at) return std::nullopt;
   const Quat begun_q = samples[*at].X_WT.q;
   double length_m = 0;
-  while (*at < s.to && is_held(*at + 1) && length_m < kStepOn_m &&
+  while (!is_way_end(s, *at, is_held) && length_m < kStepOn_m &&
          begun_q.angularDistance(samples[*at].X_WT.q) < kTurnOn_rad) {
     length_m += (samples[*at + 1].X_WT.p - samples[*at].X_WT.p).norm();
     ++*at;
   }
   return samples[*at].X_WT;
+}
+
+std::optional<Pose> ghost_along(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
+                                double for_s, GhostPlace& place) {
+  if (stretch >= track.stretches.size() || hand >= track.hands.size()) return std::nullopt;
+  const GhostStretch& s = track.stretches[stretch];
+  const Samples& samples = track.hands[hand];
+  if (s.to >= samples.size() || place.at < s.from || place.at > s.to) return std::nullopt;
+  const auto is_held = [&](std::size_t i) {
+    return holds(samples[i].instrument) && is_finite(samples[i].X_WT);
+  };
+  if (!is_held(place.at)) return std::nullopt;
+  if (!((samples[place.at].X_WT.p - tip_W).norm() <= kStillThere_m)) return std::nullopt;
+  place.beyond += std::isfinite(for_s) ? std::max(for_s, 0.0) * kGhostHz : 0.0;
+  for (; place.beyond >= 1 && !is_way_end(s, place.at, is_held); place.beyond -= 1) ++place.at;
+  place.beyond = std::min(place.beyond, 1.0);
+  return samples[place.at].X_WT;
+}
+
+bool ghost_ends(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                const std::function<bool(std::uint32_t)>& holds, std::size_t at) {
+  const Samples& samples = track.hands[hand];
+  return is_way_end(track.stretches[stretch], at, [&](std::size_t i) {
+    return i < samples.size() && holds(samples[i].instrument) && is_finite(samples[i].X_WT);
+  });
 }
 
 // A place where the expert stayed has no length, so a stay does not hold up who is led.

@@ -92,12 +92,27 @@ std::optional<Pose> ghost_beside_in_any_size(const GhostTrack& track, std::size_
 /// How that hand goes on along its way in a stretch, from a tip at `tip_W`: kStepOn_m farther, or
 /// less where it turns by kTurnOn_rad or its stretch ends. From sample `at`, where a hand was
 /// brought to before, while the tip is still near it, and else from the place that is nearest to
-/// the tip; `at` moves on. None: nowhere in the stretch does it hold an instrument that `holds`
-/// accepts.
+/// the tip; `at` moves on. From the end of its way it begins once more, where that first came by
+/// the tip. None: nowhere in the stretch does it hold an instrument that `holds` accepts.
 inline constexpr double kStepOn_m = 0.008, kTurnOn_rad = 0.35;
 std::optional<Pose> ghost_onward(const GhostTrack& track, std::size_t stretch, std::size_t hand,
                                  const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
                                  std::optional<std::size_t>& at);
+
+/// A place of a way: a sample, and the share of the time to the next one.
+struct GhostPlace {
+  std::size_t at = 0;
+  double beyond = 0;
+};
+/// How that hand moves on from `place` in its own time, up to where its stretch ends or it takes
+/// another instrument; `place` moves on. None: it does not hold what `holds` accepts there, or a
+/// tip at `tip_W` has not come there.
+std::optional<Pose> ghost_along(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                                const std::function<bool(std::uint32_t)>& holds, const Vec3& tip_W,
+                                double for_s, GhostPlace& place);
+/// Whether its way in a stretch that the track has goes no farther than sample `at`.
+bool ghost_ends(const GhostTrack& track, std::size_t stretch, std::size_t hand,
+                const std::function<bool(std::uint32_t)>& holds, std::size_t at);
 
 /// The piece of that hand's way in a stretch along which a tip at `tip_W` shall be led, with full
 /// strength. `at`: the sample at which it was led before, which moves on: to the place nearest to

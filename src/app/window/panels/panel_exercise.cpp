@@ -463,13 +463,14 @@ void draw_scrolled_part(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   draw_live_stage(c);
   if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
-  // What one works with comes before what one reads, which may scroll.
+  // What changes while one works comes first: a hand that holds the mouse cannot scroll. Then what
+  // one works with, before what has been.
+  for (const ExerciseModel::Told& told : model.told)
+    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
   draw_exercise_knee(c);
   if (c.model.views.water) ImGui::Separator();
   draw_water_section(c);
   draw_made_errors(c);
-  for (const ExerciseModel::Told& told : model.told)
-    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
   draw_asked(c);
   if (!model.ghost.allowed) return;
   ImGui::Separator();

@@ -103,7 +103,10 @@ void draw_contacts(const PanelContext& c) {
     ui::text(color::kTextQuiet, "Nothing touched");
     return;
   }
+  // An instrument that is taken in bone has no force until it has been free once.
+  bool felt = false;
   for (const ContactRow& row : c.model.contacts) {
+    felt = felt || row.force_n > 0;
     const bool known = row.bone.index < c.model.bone_labels.size();
     const std::string label = known ? c.model.bone_labels[row.bone.index] : "Bone";
     ui::stat(label.c_str(), ui::number(row.force_n, 2) + " N",
@@ -111,6 +114,7 @@ void draw_contacts(const PanelContext& c) {
                  ? "Force between instrument and this bone, newtons; static friction holds it"
                  : "Force between instrument and this bone, newtons; it slides");
   }
+  if (!felt) ui::text(color::kAmber, "Not felt: draw it clear first");
 }
 
 void draw_feel(const PanelContext& c) {

@@ -152,6 +152,9 @@ void read_hand_keys(const PanelContext& c) {
   if (pressed('Y')) {
     c.requests.exercise.as_expert = true;
     c.requests.exercise.to_expert = io.KeyShift;
+  } else if (io.KeyShift && ImGui::IsKeyDown('Y')) {
+    constexpr double kLongest_s = 0.25;  // of a picture: no leap after a slow one
+    c.requests.exercise.along_expert_s = std::min(static_cast<double>(io.DeltaTime), kLongest_s);
   }
   read_paging_keys(c);
 }

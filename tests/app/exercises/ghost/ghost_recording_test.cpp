@@ -8,6 +8,7 @@
 
 #include "cases/open_case.h"
 #include "commands/teaching/scenario_run.h"
+#include "exercises/ghost/ghost_file.h"
 
 namespace osteon {
 namespace {
@@ -138,6 +139,25 @@ TEST_F(GhostRecording, ShowsTheWayAndTheExpertIsRecordedOnce) {
   EXPECT_EQ(runs(), 2u);
 }
 
+TEST_F(GhostRecording, WhoPlaysCanKeepHisWayHimself) {
+  ScenarioRun run;
+  run.scenario = wanted_.scenario;
+  run.case_spec = wanted_.case_spec;
+  run.skill = *parse_skill(wanted_.scenario, "expert");
+  run.record_to = dir_ / "expert.osr";
+  const auto without = run_scenario(run);
+  ASSERT_TRUE(without) << without.error().message();
+  EXPECT_FALSE(without->way);
+  fs::remove(*run.record_to);
+  run.keeps_way = true;
+  const auto done = run_scenario(run);
+  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_TRUE(done->way);
+  const auto repeated = ghost_of_recording(*run.record_to, wanted_);
+  ASSERT_TRUE(repeated) << repeated.error().message();
+  EXPECT_EQ(to_bytes(*done->way, 1), to_bytes(*repeated, 1)) << "bit by bit";
+}
+
 // Who practises an early stage does not wait for the whole exercise.
 TEST_F(GhostRecording, APartIsPlayedNoFartherThanItGoes) {
   want("touch_bones");
@@ -149,6 +169,7 @@ TEST_F(GhostRecording, APartIsPlayedNoFartherThanItGoes) {
   ASSERT_TRUE(way) << way.error().message();
   EXPECT_EQ(way->stretches.back().stage, 0u);
   EXPECT_NE(asked().find("--to-stage " + part.to_stage), std::string::npos) << asked();
+  EXPECT_NE(asked().find("--way "), std::string::npos) << asked();
   EXPECT_EQ(kept_expert(part), expert_recording(part));
   EXPECT_NE(expert_recording(part), expert_recording(wanted_)) << "it is no whole one";
   EXPECT_FALSE(fs::exists(expert_recording(wanted_)));

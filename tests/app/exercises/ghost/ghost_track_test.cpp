@@ -200,7 +200,13 @@ TEST(GhostTrack, AHandGoesOnAlongTheWayStepByStep) {
   ASSERT_GE(steps_mm.size(), 8u) << "along x, and three turns";
   ASSERT_LE(steps_mm.size(), 11u);
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(steps_mm[i], 1e3 * kStepOn_m, 1.001) << i;
-  EXPECT_TRUE(ghost_onward(track, 0, 0, shaver, tip_W, at)) << "stays at its end";
+  // At its end, once more: from where it first came so near.
+  const auto again = ghost_onward(track, 0, 0, shaver, tip_W, at);
+  ASSERT_TRUE(again);
+  EXPECT_LT(*at, track.stretches[0].to);
+  EXPECT_LT((again->p - tip_W).norm(), 0.012);
+  for (int press = 0; press < 20 && *at != track.stretches[0].to; ++press)
+    tip_W = ghost_onward(track, 0, 0, shaver, tip_W, at)->p;
   EXPECT_EQ(*at, track.stretches[0].to);
   // A tip that was led away begins again with the nearest place.
   ASSERT_TRUE(ghost_onward(track, 0, 0, shaver, Vec3(0.12, 0.02, 0), at));
@@ -224,6 +230,33 @@ TEST(GhostTrack, NobodyGoesOnWhereTheInstrumentIsNotHeld) {
   at.reset();
   ASSERT_TRUE(ghost_onward(track, 0, 0, probe, Vec3::Zero(), at));
   EXPECT_EQ(*at, 1u) << "the way ends where its place is not known";
+}
+
+TEST(GhostTrack, AHeldKeyGoesAlongInHisOwnTime) {
+  const GhostTrack track = winding_track();
+  const auto any = [](std::uint32_t instrument) { return instrument < 2; };
+  const auto& samples = track.hands[0];
+  GhostPlace place{10, 0};
+  Vec3 tip_W = samples[10].X_WT.p;
+  for (int picture = 0; picture < 30; ++picture) {
+    const auto to = ghost_along(track, 0, 0, any, tip_W, 0.1 / kGhostHz, place);
+    ASSERT_TRUE(to);
+    tip_W = to->p;
+  }
+  EXPECT_NEAR(static_cast<double>(place.at) + place.beyond, 13, 1e-9);
+  EXPECT_FALSE(ghost_along(track, 0, 0, any, tip_W + Vec3(0, 0.013, 0), 1, place)) << "held up";
+  EXPECT_FALSE(ghost_along(
+      track, 0, 0, [](auto) { return false; }, tip_W, 1, place));
+  EXPECT_FALSE(ghost_along(track, 0, 5, any, tip_W, 1, place)) << "no such hand";
+  EXPECT_FALSE(ghost_along(track, 9, 0, any, tip_W, 1, place)) << "no such stretch";
+  GhostPlace beyond{samples.size(), 0};
+  EXPECT_FALSE(ghost_along(track, 0, 0, any, tip_W, 1, beyond));
+  ASSERT_TRUE(ghost_along(track, 0, 0, any, tip_W, std::nan(""), place));
+  EXPECT_EQ(place.at, 13u) << "a time that is no number";
+  EXPECT_FALSE(ghost_ends(track, 0, 0, any, place.at));
+  ASSERT_TRUE(ghost_along(track, 0, 0, any, tip_W, 1e6, place));
+  EXPECT_EQ(place.at, track.stretches[0].to);
+  EXPECT_TRUE(ghost_ends(track, 0, 0, any, place.at));
 }
 
 TEST(GhostTrack, TurnsBetweenSamplesByTheShorterWay) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "cases/xdg.h"
@@ -11,6 +12,7 @@
 #include "exercises/pause_force.h"
 #include "osteon/base/file.h"
 #include "osteon/base/turn.h"
+#include "osteon/physics/guide_line.h"
 #include "osteon/physics/soft_setup.h"
 #include "osteon/procedure/judge.h"
 #include "osteon/render/anatomical_view.h"
@@ -73,6 +75,7 @@ void ExerciseControl::apply(const ExerciseRequests& requests) {
     if (requests.ghost) ghost_.toggle();
     if (requests.guide) ghost_.toggle_guide();
     if (requests.as_expert) hold_as_expert(requests.to_expert);
+    if (requests.along_expert_s > 0) follow_expert(requests.along_expert_s);
     if (requests.state) exercise_.state_finding(requests.state->first, requests.state->second);
     if (requests.pause) switch_pause(exercise_, live_.run());
     if (requests.end) ask_to_end();
@@ -96,25 +99,59 @@ void ExerciseControl::hold_as_expert(bool comes_to_him) {
   const auto expert = ghost_.beside_active_hand();
   if (!expert) return tell_no_expert();
   const Pose& X_WD = run->hand(run->active()).X_WD_wanted;
-  if (!comes_to_him) return run->bring({X_WD.p, expert->q});
-  if (!is_near_expert(X_WD.p, expert->p)) return;
+  const Pose held = on_own_line(*run, *expert);
+  if (!comes_to_him) return run->bring({X_WD.p, held.q});
+  if (!is_near_expert(X_WD.p, held.p)) return;
+  constexpr double kSame_m = 0.0005, kSame_rad = 0.01;
+  if ((held.p - X_WD.p).norm() < kSame_m && held.q.angularDistance(X_WD.q) < kSame_rad)
+    host_.note(ToastKind::kInfo, "Here the expert has it so, too: go on with the wheel.");
   exercise_.count_hint();
-  run->bring(*expert);
+  run->bring(held);
+}
+
+// What a pin or a sleeve leads is held in its line, which need not be the expert's: until it has
+// been slipped on.
+Pose ExerciseControl::on_own_line(const LiveRun& run, const Pose& expert) const {
+  const BoneSnapshot& bones = sight_.shown().bones;
+  const std::uint32_t held = run.hand(run.active()).snapshot.tool.instrument;
+  const auto& carving = run.tray().carving;
+  if (!carving || held >= carving->tray.size() || !carving->tray[held]) return expert;
+  if (run.active() < bones.guides.size() && bones.guides[run.active()].on) return expert;
+  const auto on_rod = held_on_rod(bones.rods, std::span(bones.bones).first(bones.count),
+                                  *carving->tray[held], expert);
+  return on_rod && (on_rod->p - expert.p).norm() < kNearExpert_m ? *on_rod : expert;
 }
 
 void ExerciseControl::go_on_as_expert(LiveRun& run) {
   const auto onward = ghost_.onward_with_active_hand();
   if (!onward) return tell_no_expert();
-  if (!is_near_expert(run.hand(run.active()).X_WD_wanted.p, onward->X_WT.p)) return;
+  const Pose held = on_own_line(run, onward->X_WT);
+  if (!is_near_expert(run.hand(run.active()).X_WD_wanted.p, held.p)) return;
   exercise_.count_hint();
-  run.bring(onward->X_WT);
-  if (onward->ends) host_.note(ToastKind::kInfo, "The expert's way to this step ends here.");
+  run.bring(held);
+  if (onward->ends) tell_end_of_way();
+}
+
+// While the key is held. Each press of it was counted as a hint.
+void ExerciseControl::follow_expert(double for_s) {
+  LiveRun* const run = live_.run();
+  const bool in_portal = sight_.shown().tool.portal < scene_.portals.size();
+  if (!run || !run->by_mouse() || !in_portal) return;
+  const auto along = ghost_.along_with_active_hand(for_s);
+  if (!along) return;
+  run->bring(on_own_line(*run, along->X_WT));
+  if (along->ends) tell_end_of_way();
+}
+
+void ExerciseControl::tell_end_of_way() {
+  host_.note(ToastKind::kInfo,
+             "The expert's way to this step ends here. Press again to go along it once more.");
 }
 
 void ExerciseControl::tell_no_expert() {
   host_.note(ToastKind::kInfo,
              ghost_.model().preparing
-                 ? "The expert's way is not known yet: he is still playing."
+                 ? "The expert's way is not known yet: his run is still being computed."
                  : "The expert who is shown does not hold this instrument with this hand now.");
 }
 

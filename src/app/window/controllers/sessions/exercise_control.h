@@ -55,6 +55,9 @@ class ExerciseControl {
   void open_patient();
   void hold_as_expert(bool comes_to_him);
   void go_on_as_expert(LiveRun& run);
+  Pose on_own_line(const LiveRun& run, const Pose& expert) const;
+  void follow_expert(double for_s);
+  void tell_end_of_way();
   void tell_no_expert();
   bool is_near_expert(const Vec3& tip_W, const Vec3& expert_W);
   void take_made_before();

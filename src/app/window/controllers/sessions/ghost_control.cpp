@@ -160,10 +160,27 @@ std::optional<GhostControl::Onward> GhostControl::onward_with_active_hand() {
     auto at = brought_.stretch == stretch && brought_.hand == hand ? brought_.at : std::nullopt;
     const auto to = ghost_onward(*track_, stretch, hand, holds, tool.X_WP.p, at);
     if (!to) continue;
-    brought_ = {stretch, hand, at};
-    return Onward{*to, *at == track_->stretches[stretch].to};
+    brought_ = {stretch, hand, at, 0};
+    return Onward{*to, ghost_ends(*track_, stretch, hand, holds, *at)};
   }
   return std::nullopt;
+}
+
+std::optional<GhostControl::Onward> GhostControl::along_with_active_hand(double for_s) {
+  const LiveRun* const run = live_.run();
+  const bool goes_on = run && track_ && allowed_ && on_ && brought_.at &&
+                       brought_.hand == run->active() &&
+                       std::count(left_.begin(), left_.end(), brought_.stretch) > 0;
+  if (!goes_on) return std::nullopt;
+  const auto [stretch, hand, at, beyond] = brought_;
+  const ToolState& tool = run->hand(hand).snapshot.tool;
+  const auto holds = [&](std::uint32_t ghosts) { return is_held_alike(ghosts, tool.instrument); };
+  if (ghost_ends(*track_, stretch, hand, holds, *at)) return std::nullopt;
+  GhostPlace place{*at, beyond};
+  const auto to = ghost_along(*track_, stretch, hand, holds, tool.X_WP.p, for_s, place);
+  if (!to) return std::nullopt;
+  brought_ = {stretch, hand, place.at, place.beyond};
+  return Onward{*to, ghost_ends(*track_, stretch, hand, holds, place.at)};
 }
 
 void GhostControl::poll(const ExerciseRun& exercise) {

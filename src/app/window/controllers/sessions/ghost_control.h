@@ -42,6 +42,9 @@ class GhostControl {
     bool ends = false;
   };
   std::optional<Onward> onward_with_active_hand();
+  /// From where it was brought to last, on along his way in his own time. None: it was brought
+  /// nowhere, has gone to the way's end, or is held up.
+  std::optional<Onward> along_with_active_hand(double for_s);
   /// Of the exercise that was begun last; null: not known, or not to its end yet.
   const GhostTrack* track() const { return job_ ? nullptr : track_.get(); }
 
@@ -83,6 +86,7 @@ class GhostControl {
   struct Brought {
     std::size_t stretch = 0, hand = 0;
     std::optional<std::size_t> at;
+    double beyond = 0;  ///< share of the time to the next sample
   };
   Brought brought_;
 };
