@@ -9,12 +9,12 @@
 namespace osteon {
 namespace {
 
-constexpr std::size_t kMostCells = 160;
+constexpr std::size_t kMostCells = 120;
 constexpr std::size_t kMostCellsInHole = 64;  // of a carved bone, see field_contact
 constexpr double kCoarse = 5e-6;        // m: how well the search over cells knows the lowest height
 constexpr double kSteepestRise = 1.25;  // of a field, see field_contact
 constexpr int kPolishSteps = 40;
-constexpr double kPolished = 1e-9;  // m: a step so small ends the descent
+constexpr double kPolished = 1e-8;  // m: a step so small ends the descent
 constexpr double kApart = 0.5;      // share of the half diagonal: low places nearer are one
 
 // Part of the box, in its own frame.

@@ -11,7 +11,7 @@ namespace osteon {
 namespace {
 
 // The proxy stands still when a round moves it less than this, m.
-constexpr double kStill = 1e-7;
+constexpr double kStill = 4e-7;
 // A plane with a larger gap, m, does not start a contact: it is only a bound that the next round or
 // tick will refine. It does not end one either: on its way over an edge the proxy may be so far.
 constexpr double kTouch = 2e-5;
