@@ -181,7 +181,7 @@ bool ContactField::separate(std::uint32_t pair, const Pose& X_WB, const Pose& X_
   const Pose X_BT = X_WB.inverse() * X_WT;
   if (ids.field) {
     Looks uncounted;
-    return separate_field(pair, X_BT, uncounted, out);
+    return separate_field(pair, X_BT, uncounted, {}, out);
   }
   if (whole()) return separate_part(ids, X_BT, basis, out);
   const ConvexBody& bone_body = case_.bones[ids.bone].bodies[ids.piece];
@@ -302,8 +302,8 @@ PrimitiveContact ContactField::corrected(PrimitiveContact found, const FieldView
 }
 
 bool ContactField::separate_field(std::uint32_t pair, const Pose& X_BT, Looks& looks,
-                                  PartingPlane& out, LowPlaces* places) const {
-  const PrimitiveContact contact = meet_field(pair, X_BT, looks, {.places = places});
+                                  const Wanted& wanted, PartingPlane& out) const {
+  const PrimitiveContact contact = meet_field(pair, X_BT, looks, wanted);
   if (contact.status != LpStatus::kOptimal) return false;
   out.nhat_BT_B = contact.nhat_AB_A;
   out.bone_support = contact.nhat_AB_A.dot(contact.p_A);

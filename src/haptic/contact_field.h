@@ -104,8 +104,8 @@ class ContactField {
   };
 
   /// The same of a pair of a field, whose looks are counted.
-  bool separate_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, PartingPlane& out,
-                      LowPlaces* places = nullptr) const;
+  bool separate_field(std::uint32_t pair, const Pose& X_BT, Looks& looks, const Wanted& wanted,
+                      PartingPlane& out) const;
 
   /// Gap of a pair of a field, m: what `separate` finds, without a plane. Not a number when
   /// unknown.

@@ -22,7 +22,7 @@ constexpr double kSafeShare = 0.8;
 constexpr double kSteepest = 1.25;
 constexpr double kRough = 5e-5;
 // A bone farther than kNotClose_m has the plane that it had while the tool moves by kHardly_m.
-constexpr double kNotClose_m = 1e-4;
+constexpr double kNotClose_m = 1e-5;
 constexpr double kHardly_m = 5e-5;
 
 }  // namespace
@@ -92,7 +92,8 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
     // What is neither near nor the nearest has no plane. What this tick has found hardly moved from
     // here, and not close, has the planes that it had.
     const double moved = moved_m(field, X_BT), known = least_gap(field, moved);
-    const bool far = known >= std::clamp(least.gap, kNearGap_m, kFarGap_m) && !has_wall(pair);
+    const double enough = has_wall(pair) ? kFarGap_m : std::clamp(least.gap, kNearGap_m, kFarGap_m);
+    const bool far = known >= enough;
     const bool as_it_was = known >= kNotClose_m && moved <= kHardly_m;
     if (far || as_it_was) {
       if (known < least.gap) least = {known, pair};
@@ -101,7 +102,8 @@ bool FieldWalls::look(std::span<const Pose> X_WB, const Pose& X_WT) {
       continue;
     }
     PartingPlane now;
-    if (!field_.separate_field(pair, X_BT, looks_, now, &seen_[field].places)) return false;
+    const ContactField::Wanted wanted{.far_m = enough, .places = &seen_[field].places};
+    if (!field_.separate_field(pair, X_BT, looks_, wanted, now)) return false;
     note_gap(field, X_BT, now.gap);
     if (now.gap < least.gap) least = {now.gap, pair};
     lay_back(pair, bone, X_WT, now);
@@ -211,7 +213,7 @@ Vec3 FieldWalls::way(std::span<const Pose> X_WB, const Quat& q_WT, const Vec3& f
 bool FieldWalls::blocking(std::span<const Pose> X_WB, const Quat& q_WT, PartingPlane& out) {
   if (!is_blocked()) return false;
   const Pose X_BT = bone_pose(blocked_.by, X_WB).inverse() * Pose{blocked_.p_W, q_WT};
-  return field_.separate_field(blocked_.by, X_BT, looks_, out);
+  return field_.separate_field(blocked_.by, X_BT, looks_, {}, out);
 }
 
 void FieldWalls::raise(std::span<const Pose> X_WB, const Quat& q_WT,

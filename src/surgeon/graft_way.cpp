@@ -27,7 +27,8 @@ constexpr int kStrokes = 2;  // and back
 constexpr std::uint32_t kPasses = 5, kTooFewPasses = 2;
 constexpr double kHang_s = 1.5, kTooWide_m = 0.001;
 const Vec3 kHandBegins(-0.03, 0.16, 0.06);  // from where the graft begins
-const Vec3 kComes(-0.03, 0.16, 0.45);       // high over all that lies there, with a long pin too
+const Vec3 kComes(-0.03, 0.16, 0.25);       // high over all that lies there
+const Vec3 kOverKnee(0, 0, 0.45);           // from the joint's middle
 const Vec3 kUpright = Vec3(-0.4, 0, 0.9).normalized();
 constexpr double kBoardClock = 20, kPretensionFor_s = 640, kTooShortFor_s = 100;
 
@@ -237,11 +238,13 @@ Result<GraftBenchPlan> bench_in(const Case& the_case) {
   return *plan;
 }
 
-// Up, and back to the knee with what was held there.
+// Up, and back over the knee with what was held there: a long pin that came to it from the side
+// would sweep over the bench.
 void leave_bench(HandWay& way, const GraftBenchPlan& plan, const RoundJoint& knee, const Pose& to,
                  const std::string& held) {
   over(way, plan, plan.graft_from_W + kHandBegins, kUpright);
   way.go(held_by_shaft(plan.graft_from_W + kComes, kUpright), kHandCarry_m_per_s);
+  way.go(held_by_shaft(knee.middle_W + kOverKnee, Vec3::UnitZ()), kHandCarry_m_per_s);
   change_round(way, knee, held, to.p, to.rotate(Vec3::UnitZ()));
 }
 

@@ -459,18 +459,25 @@ void draw_made_errors(const PanelContext& c) {
                          (model.faults[i].where.empty() ? "" : ", " + model.faults[i].where));
 }
 
+void draw_told(const ExerciseModel& model) {
+  for (const ExerciseModel::Told& told : model.told)
+    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
+}
+
 void draw_scrolled_part(const PanelContext& c) {
   const ExerciseModel& model = c.model.exercise;
   draw_live_stage(c);
   if (!model.cue.empty()) ui::wrapped_text(color::kText, "Hint: " + model.cue);
-  // What changes while one works comes first: a hand that holds the mouse cannot scroll. Then what
-  // one works with, before what has been.
-  for (const ExerciseModel::Told& told : model.told)
-    ui::stat(told.name.c_str(), told.value, told.meaning.c_str());
+  // What one works with comes before what one reads, which may scroll; but a hand that holds the
+  // mouse cannot scroll to the few lines that change while it works.
+  constexpr std::size_t kFew = 3;
+  const bool few = model.told.size() <= kFew;
+  if (few) draw_told(model);
   draw_exercise_knee(c);
   if (c.model.views.water) ImGui::Separator();
   draw_water_section(c);
   draw_made_errors(c);
+  if (!few) draw_told(model);
   draw_asked(c);
   if (!model.ghost.allowed) return;
   ImGui::Separator();

@@ -238,12 +238,12 @@ TEST(GhostTrack, AHeldKeyGoesAlongInHisOwnTime) {
   const auto& samples = track.hands[0];
   GhostPlace place{10, 0};
   Vec3 tip_W = samples[10].X_WT.p;
-  for (int picture = 0; picture < 30; ++picture) {
-    const auto to = ghost_along(track, 0, 0, any, tip_W, 0.1 / kGhostHz, place);
+  for (int picture = 0; picture < 24; ++picture) {
+    const auto to = ghost_along(track, 0, 0, any, tip_W, 0.13 / kGhostHz, place);
     ASSERT_TRUE(to);
     tip_W = to->p;
   }
-  EXPECT_NEAR(static_cast<double>(place.at) + place.beyond, 13, 1e-9);
+  EXPECT_NEAR(static_cast<double>(place.at) + place.beyond, 13.12, 1e-9);
   EXPECT_FALSE(ghost_along(track, 0, 0, any, tip_W + Vec3(0, 0.013, 0), 1, place)) << "held up";
   EXPECT_FALSE(ghost_along(
       track, 0, 0, [](auto) { return false; }, tip_W, 1, place));

@@ -139,6 +139,22 @@ TEST_F(ExercisePanel, TheSlidersOfAKneeAreInSightWhateverElseIsTold) {
   EXPECT_LT(slider.y, ui.rect("##running").bottom());
 }
 
+// A hand that holds the mouse cannot scroll to them.
+TEST_F(ExercisePanel, TheFewLinesThatChangeWhileOneWorksComeBeforeErrors) {
+  const auto slider_y = [&](std::size_t lines) {
+    ExerciseModel& model = at(ExercisePage::kRunning);
+    model.told.assign(lines, {"Torn ends cleared", "61 %", "of both"});
+    model.faults.assign(2, {});
+    model.knee.shown = true;
+    model.knee.most_deg = 130;
+    settle();
+    return ui.find(scrolled().c_str(), {"##Knee"}).y;
+  };
+  const float without = slider_y(0);
+  EXPECT_GT(slider_y(2), without + 20);
+  EXPECT_EQ(slider_y(9), without) << "so many scroll";
+}
+
 // Its end says what to do: it is not cut off, and the button that begins stays in the window.
 TEST_F(ExercisePanel, WhatKeepsItFromBeginningIsToldWhole) {
   const auto briefing_h = [&](const std::string& problem) {
