@@ -238,14 +238,23 @@ Result<GraftBenchPlan> bench_in(const Case& the_case) {
   return *plan;
 }
 
-// Up, and back over the knee with what was held there: a long pin that came to it from the side
-// would sweep over the bench.
+// A long pin whose shaft points away from the joint would sweep over the bench beside it.
+RoundJoint beside_bench(const RoundJoint& knee, const GraftBenchPlan& plan) {
+  RoundJoint round = knee;
+  std::vector<Vec3> places{plan.graft_from_W, plan.graft_to_W, plan.board_from_W, plan.board_to_W,
+                           plan.hook_W};
+  places.insert(places.end(), plan.posts_W.begin(), plan.posts_W.end());
+  for (const Vec3& p_W : places) round.bones.push_back((p_W - knee.middle_W).normalized());
+  return round;
+}
+
+// Up, over the knee, and to it with what was held there.
 void leave_bench(HandWay& way, const GraftBenchPlan& plan, const RoundJoint& knee, const Pose& to,
                  const std::string& held) {
   over(way, plan, plan.graft_from_W + kHandBegins, kUpright);
   way.go(held_by_shaft(plan.graft_from_W + kComes, kUpright), kHandCarry_m_per_s);
   way.go(held_by_shaft(knee.middle_W + kOverKnee, Vec3::UnitZ()), kHandCarry_m_per_s);
-  change_round(way, knee, held, to.p, to.rotate(Vec3::UnitZ()));
+  change_round(way, beside_bench(knee, plan), held, to.p, to.rotate(Vec3::UnitZ()));
 }
 
 RoundJoint round_knee(const Case& the_case) {
