@@ -454,8 +454,11 @@ void ExerciseControl::show_skin() {
     if (scene_.the_case->softs[i].kind == "skin") softs[i].opacity = clear ? kClearSkin : 1;
 }
 
-// The bench is another place than the joint: the picture goes there with the stage, and back.
+// The bench is another place than the joint: the picture goes there with the stage, and back. Where
+// a part ends before a stage at the bench it stays.
 void ExerciseControl::go_with_stage() {
+  const ScenarioState* const state = exercise_.state();
+  if (state && state->over) return;
   const bool at_bench = exercise_.at_bench();
   bring_to_bench(at_bench);
   if (at_bench == camera_before_bench_.has_value()) return;
