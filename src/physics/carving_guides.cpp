@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "carving_push.h"
 #include "cutter_front.h"
 #include "osteon/physics/carving.h"
 #include "osteon/physics/guide_line.h"
@@ -305,7 +306,7 @@ double Carving::shaken_m(const CarvingHand& h) const {
 // Of the hole that a drill makes: it goes on smoothly with the drill's feed. Bone goes in bites,
 // and an end that went with them would strike a loose hand once a bite.
 Vec3 Carving::end_of(const CarvingHand& h) const {
-  return h.X_BC.p - std::max(0.0, h.due_m - h.lag_m) * back_of(h.X_BC);
+  return h.X_BC.p - std::max(0.0, h.due_m - h.lag_m) * carving::back_of(h.X_BC);
 }
 
 void Carving::publish(std::size_t hand, const ToolState& tool, const BoneSnapshot& bones) {
