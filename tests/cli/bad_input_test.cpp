@@ -1,4 +1,5 @@
 // Each kind of bad input ends with exit code 2 and a message that names the file and what to do.
+#include <filesystem>
 #include <fstream>
 #include <utility>
 #include <vector>
@@ -85,6 +86,14 @@ TEST_F(BadInput, ARecordingAloneIsReplayedSeveralTimesAndItsTicksWorkIsTold) {
   EXPECT_EQ(twice.exit_code, 0) << twice.output;
   EXPECT_NE(twice.output.find("fastest of 2 runs"), std::string::npos) << twice.output;
   EXPECT_NE(twice.output.find("identical"), std::string::npos) << twice.output;
+}
+
+TEST_F(BadInput, AWayIsKeptBesideARecording) {
+  expect_refused("run fast_telescoping --no-store --way " + file("x.way"), "Add --record");
+  EXPECT_FALSE(std::filesystem::exists(file("x.way")));
+  const std::string run = "run fast_telescoping --no-store --way " + file("x.way") + " --record ";
+  EXPECT_EQ(run_osteon(run + file("x.osr")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(file("x.way")));
 }
 
 TEST_F(BadInput, MissingFilesAreNamed) {

@@ -132,6 +132,9 @@ int run_command(const RunCommand& command) {
   if (command.live) signals.emplace();
   if (!command.live && !command.devices.empty())
     return report_error({"a device is for a live run", "--device", "Add --live"});
+  if (!command.way.empty() && (command.record.empty() || command.live))
+    return report_error({"a way is kept beside a recording, not of a live run", "--way",
+                         "Add --record, without --live"});
   if (!is_learner_id(command.learner))
     return report_error({"'" + command.learner + "' is not a valid learner's id", "--learner",
                          "Use 1 to 64 letters, digits, '.', '_' and '-'"});
