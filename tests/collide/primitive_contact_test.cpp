@@ -263,7 +263,9 @@ TEST(PrimitiveContact, ABoxIsFoundFromItsLowPlacesAsFromAnew) {
       const PrimitiveContact moved = primitive_contact(round_field(), box, X_AB, 0.003, &places);
       const PrimitiveContact whole = primitive_contact(round_field(), box, X_AB, 0.003);
       about += places.looked_about ? 1 : 0;
-      EXPECT_NEAR(moved.gap, whole.gap, 2e-7) << i << ", " << step;
+      // The whole search may end a little higher.
+      EXPECT_LT(moved.gap, whole.gap + 2e-7) << i << ", " << step;
+      EXPECT_GT(moved.gap, whole.gap - 1e-6) << i << ", " << step;
       EXPECT_GT(moved.nhat_AB_A.dot(whole.nhat_AB_A), 0.9999);
     }
     X_AB.p.x() += 0.001;
