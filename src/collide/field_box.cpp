@@ -11,8 +11,7 @@ namespace {
 
 constexpr std::size_t kMostCells = 120;
 constexpr std::size_t kMostCellsInHole = 64;  // of a carved bone, see field_contact
-constexpr double kCoarse = 5e-6;        // m: how well the search over cells knows the lowest height
-constexpr double kSteepestRise = 1.25;  // of a field, see field_contact
+constexpr double kCoarse = 5e-6;  // m: how well the search over cells knows the lowest height
 constexpr int kPolishSteps = 40;
 constexpr double kPolished = 1e-8;  // m: a step so small ends the descent
 constexpr double kApart = 0.5;      // share of the half diagonal: low places nearer are one
@@ -41,11 +40,11 @@ class BoxSearch {
         most_(field.is_carved() ? kMostCellsInHole : kMostCells),
         steps_(field.is_carved() ? kPolishSteps / 2 : kPolishSteps) {}
 
-  // Branch and bound (Land and Doig, 1960): a field rises by no more than kSteepestRise a metre, so
-  // that the height of a cell's middle bounds the whole cell. The cell of the lowest bound is
-  // halved across its longest side until no bound lies below the lowest height by more than
-  // kCoarse, or `most_` are looked at: then flat lies on flat, and every place is as low as its
-  // neighbour.
+  // Branch and bound (Land and Doig, 1960): a field rises by no more than FieldView::kSteepest a
+  // metre, so that the height of a cell's middle bounds the whole cell. The cell of the lowest
+  // bound is halved across its longest side until no bound lies below the lowest height by more
+  // than kCoarse, or `most_` are looked at: then flat lies on flat, and every place is as low as
+  // its neighbour.
   BoxLowest find() {
     add(Vec3::Zero(), half_);
     while (looked_ + 2 <= most_) {
@@ -113,7 +112,8 @@ class BoxSearch {
       size_ = half.norm();
     }
     cells_[cell] = {middle, half, distance};
-    heap_[static_cast<std::size_t>(count_++)] = {distance - kSteepestRise * half.norm(), cell};
+    heap_[static_cast<std::size_t>(count_++)] = {distance - FieldView::kSteepest * half.norm(),
+                                                 cell};
     std::push_heap(heap_.begin(), heap_.begin() + count_, is_higher);
   }
 

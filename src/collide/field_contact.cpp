@@ -15,8 +15,6 @@ constexpr std::size_t kMostSamples = 64;
 // than the proxy's skin between so many.
 constexpr std::size_t kMostInHole = 20;
 constexpr double kEnough = 1e-7;  // m: how well the lowest height is known
-constexpr double kSteepest =
-    1.25;  // of a field: a distance rises by 1, a spline overshoots a little
 
 struct Place {
   double s = 0;  ///< along the axis, 0 to 1
@@ -79,7 +77,7 @@ class LowestPoint {
   }
 
   double lower_bound(const Height& a, const Height& b) const {
-    return 0.5 * (a.distance + b.distance - kSteepest * (b.s - a.s) * length_);
+    return 0.5 * (a.distance + b.distance - FieldView::kSteepest * (b.s - a.s) * length_);
   }
 
   void add(double s, std::size_t before = kMostSamples) {

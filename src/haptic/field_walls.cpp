@@ -17,9 +17,8 @@ constexpr int kMostStrides = 64;
 constexpr int kHalvings = 8;
 // Share of a gap that a stride may take: a spline's slope may exceed 1 a little.
 constexpr double kSafeShare = 0.8;
-// A field's height rises by no more than this a metre, and a gap is told to within kRough, m: in a
-// hole walls are looked for at some places of the rod's surface only.
-constexpr double kSteepest = 1.25;
+// A gap is told to within this, m: in a hole walls are looked for at some places of the rod's
+// surface only.
 constexpr double kRough = 5e-5;
 // A bone farther than kNotClose_m has the plane that it had while the tool moves by kHardly_m.
 constexpr double kNotClose_m = 1e-5;
@@ -48,7 +47,7 @@ double FieldWalls::moved_m(std::size_t field, const Pose& X_BT) const {
 }
 
 double FieldWalls::least_gap(std::size_t field, double moved_m) const {
-  return seen_[field].gap - kSteepest * moved_m - kRough;
+  return seen_[field].gap - FieldView::kSteepest * moved_m - kRough;
 }
 
 bool FieldWalls::has_wall(std::uint32_t pair) const {

@@ -49,6 +49,16 @@ TEST(RigidMotion, TurnsByTheLimitOnTheShortWayThenArrivesExactly) {
   }
 }
 
+// Rounding of a hand that stands still is no turn.
+TEST(RigidMotion, WhatNoLongerTurnsKeepsItsBits) {
+  const Quat from(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  Quat to = from;
+  to.y() = std::nextafter(from.y(), 1.0);
+  EXPECT_EQ(turned_towards(from, to, 0.05).coeffs(), from.coeffs());
+  to = Quat(Eigen::AngleAxisd(1e-9, Vec3::UnitX())) * from;
+  EXPECT_EQ(turned_towards(from, to, 0.05).coeffs(), to.coeffs());
+}
+
 TEST(RigidMotion, VelocityAndTravelOfAPoint) {
   BoneMotion m;
   m.X_WB.p = Vec3(1, 0, 0);

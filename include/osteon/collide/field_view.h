@@ -14,6 +14,9 @@ namespace osteon {
 /// the two planes meet: a rim is round to a ball that rolls over it, not pointed.
 class FieldView {
  public:
+  /// A height rises by no more than this a metre: a distance rises by 1, a spline overshoots a
+  /// little.
+  static constexpr double kSteepest = 1.25;
   /// `asked`: counts how often a carved bone is looked at, for who has so many looks and no more.
   FieldView(const DistanceField& bone, const CutField* cuts = nullptr,
             std::uint32_t* asked = nullptr)

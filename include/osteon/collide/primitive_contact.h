@@ -23,7 +23,7 @@ struct PrimitiveContact {
 
 /// The lowest places of a box over a field, found with the box elsewhere. With the box moved by no
 /// more than kNearby_m, a search may look about these alone: where bone has another place as low,
-/// it misses that by no more than what the box was moved by.
+/// it misses that by no more than 2.5 times what the box was moved by.
 struct LowPlaces {
   static constexpr double kNearby_m = 1e-4;
   Pose X_AB;                  ///< of the box that was searched as a whole

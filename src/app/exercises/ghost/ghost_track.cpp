@@ -218,7 +218,7 @@ bool ghost_ends(const GhostTrack& track, std::size_t stretch, std::size_t hand,
                 const std::function<bool(std::uint32_t)>& holds, std::size_t at) {
   const Samples& samples = track.hands[hand];
   return is_way_end(track.stretches[stretch], at, [&](std::size_t i) {
-    return i < samples.size() && holds(samples[i].instrument) && is_finite(samples[i].X_WT);
+    return holds(samples[i].instrument) && is_finite(samples[i].X_WT);
   });
 }
 
